@@ -1,0 +1,94 @@
+"""Refusals: every public function checks its arguments here, before any work."""
+
+import math
+
+import numpy as np
+
+
+class InputError(ValueError):
+    """An argument outside what the model admits; names it, its value and what is allowed."""
+
+
+def checked(name, value, allowed, low=-math.inf, high=math.inf, open_low=False):
+    """Return `value` as float64, or refuse it.
+
+    Parameters
+    ----------
+    name : str
+        The argument's name, for the message.
+    value : array_like of real numbers, any shape
+        What the caller gave. Booleans, strings and complex numbers are refused.
+    allowed : str
+        What is allowed, in words, for the message.
+    low, high : float
+        Bounds, inclusive (`low` exclusive with `open_low`). Infinities and NaN never pass.
+
+    Returns
+    -------
+    ndarray of float64, same shape
+
+    Raises
+    ------
+    InputError
+        Naming the field, the first offending value (with its index in an array) and the rule.
+
+    Examples
+    --------
+    >>> float(checked("restitution", 1, "0 to 1", 0, 1))
+    1.0
+    >>> checked("restitution", [0.5, 1.5], "numbers from 0 to 1", 0, 1)
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: restitution[1] = 1.5: allowed are numbers from 0 to 1
+    """
+    try:
+        given = np.asarray(value)
+    except ValueError:
+        raise InputError(f"{name} = {value!r}: not a regular array of numbers") from None
+    if given.dtype.kind not in "iuf":
+        raise InputError(f"{name} = {value!r}: allowed are {allowed}, as real numbers")
+    numbers = given.astype(np.float64)
+    with np.errstate(invalid="ignore"):
+        good = (numbers > low if open_low else numbers >= low) & (numbers <= high)
+    good &= np.isfinite(numbers)
+    if not good.all():
+        index = tuple(int(i) for i in np.argwhere(~good)[0])
+        where = f"[{', '.join(map(str, index))}]" if index else ""
+        raise InputError(f"{name}{where} = {float(numbers[index])!r}: allowed are {allowed}")
+    return numbers
+
+
+def incidence(value):
+    """Check an incidence x = v1(0)/(mu v2(0)): any finite number."""
+    return checked("incidence", value, "finite numbers")
+
+
+def mass_ratio(value):
+    """Check beta = m2/m1 >= 1: a free rigid body has beta = 1 + (x2/k)^2."""
+    return checked("mass_ratio", value, "finite numbers from 1 (a free body has 1 + (x2/k)^2)", 1)
+
+
+def stiffness_ratio(value):
+    """Check zeta^2 > 0; its limit 0, no tangential compliance, is `planarimpact.rigid`."""
+    rule = "finite numbers above 0 (for no tangential compliance use planarimpact.rigid)"
+    return checked("stiffness_ratio", value, rule, 0, open_low=True)
+
+
+def restitution(value):
+    """Check the energetic coefficient of restitution, 0 <= e <= 1."""
+    return checked("restitution", value, "numbers from 0 to 1", 0, 1)
+
+
+def broadcast(**arguments):
+    """Broadcast checked arguments against each other, or say which shapes do not fit.
+
+    Examples
+    --------
+    >>> [a.shape for a in broadcast(incidence=np.zeros(3), restitution=np.ones(()))]
+    [(3,), (3,)]
+    """
+    try:
+        return np.broadcast_arrays(*arguments.values())
+    except ValueError:
+        shapes = ", ".join(f"{name} {np.shape(value)}" for name, value in arguments.items())
+        raise InputError(f"shapes do not broadcast: {shapes}") from None

@@ -1,0 +1,250 @@
+"""The paper's collinear lumped model, solved exactly (Stronge 1994, Eqs 4-27).
+
+A linear normal element (stiffness kappa, kappa/e^2 in restitution) and a linear tangential
+element (kappa/zeta^2) join the body to a massless particle that sticks to the surface or slips
+on it with Coulomb friction. `planarimpact.stick_slip` holds the phases.
+"""
+
+import numpy as np
+
+from planarimpact import checks, normal, stick_slip
+from planarimpact.results import Event, EventKind, History, Rebound, Regime
+
+# Impacts solved together: few enough for the cache, enough to hide Python's overhead.
+CHUNK = 16384
+
+
+def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
+    """State at separation; all arguments broadcast.
+
+    Parameters
+    ----------
+    incidence : array_like
+        x = v1(0)/(mu v2(0)), tangential over normal speed and friction. Any finite number;
+        a negative one gives the mirror image.
+    mass_ratio : array_like
+        beta = m2/m1 >= 1 (Eqs 1, 2); 3.5 for a solid sphere on a half-space.
+    stiffness_ratio : array_like
+        zeta^2 > 0, normal over tangential stiffness; (2 - nu)/(2 (1 - nu)) for elastic spheres.
+    restitution : array_like
+        Energetic coefficient e, 0 to 1 (Eq. 5).
+
+    Returns
+    -------
+    Rebound
+        velocity, peak_friction, dissipation, regime, in the broadcast shape (scalars for
+        scalars); velocity has the sign of `incidence` where the direction is kept.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a finite real number in its range, or shapes do not broadcast.
+
+    Notes
+    -----
+    Velocity and peak friction are exact to rounding in every regime, thresholds included.
+    Stronge's printed equations differ in two places: the limit of slip throughout (see
+    `slip_throughout_limit`) and the direction of the last slip, which at small e is the
+    incident one.
+
+    Examples
+    --------
+    >>> result = rebound([0.5, 2.0, 8.0])
+    >>> [Regime(code).name for code in result.regime]
+    ['STICK_SLIP', 'SLIP_STICK_SLIP', 'SLIP_THROUGHOUT']
+    >>> float(result.velocity[2])  # x - (1 + e) beta
+    1.0
+    """
+    x, beta, zeta2, e = _checked(incidence, mass_ratio, stiffness_ratio, restitution)
+    velocity, peak, dissipation = (np.empty(x.shape) for _ in range(3))
+    regime = np.empty(x.shape, np.uint8)
+    arrays = [a.reshape(-1) for a in (x, beta, zeta2, e)]
+    flat = [a.reshape(-1) for a in (velocity, peak, dissipation, regime)]
+    for start in range(0, x.size, CHUNK):
+        part = slice(start, start + CHUNK)
+        signed, *groups = (a[part] for a in arrays)
+        w, flat[1][part], impulse, flat[3][part] = stick_slip.solve(np.abs(signed), *groups)
+        flat[0][part] = np.copysign(1.0, signed) * w
+        # Stronge's theorem (the paper's footnote): work = impulse times the mean velocity.
+        flat[2][part] = impulse * (np.abs(signed) / 2 + w / 2)
+    if x.ndim == 0:
+        return Rebound(velocity[()], peak[()], dissipation[()], Regime(int(regime)))
+    return Rebound(velocity, peak, dissipation, regime)
+
+
+def slip_throughout_limit(mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
+    """Smallest incidence that slides through the whole contact; all arguments broadcast.
+
+    x = beta + max(0, e beta - zeta^2/e), or zeta^2 where that is larger. The paper prints
+    (1 + e) beta (heading of Eq. 26), but its own condition for the end of the first slip,
+    Eq. 21, has no root above the value given here.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio, restitution : array_like
+        As in `rebound`.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        Incidence v1(0)/(mu v2(0)).
+
+    Raises
+    ------
+    InputError
+        As `rebound`.
+
+    Examples
+    --------
+    >>> float(slip_throughout_limit(3.5, 1.21, 1.0))
+    5.79
+    """
+    _, *groups = _checked(0.0, mass_ratio, stiffness_ratio, restitution)
+    return stick_slip.slip_throughout_limit(*groups)[()]
+
+
+def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, samples=400):
+    """Forces and velocity over one contact (Figs 3 and 4).
+
+    Parameters
+    ----------
+    incidence, mass_ratio, stiffness_ratio, restitution : float
+        As in `rebound`; scalars.
+    samples : int
+        At least 2: instants evenly spread over the contact. Events come on top, so that every
+        one is a vertex.
+
+    Returns
+    -------
+    History
+        time in t_c, normal, friction, velocity, spring, events.
+
+    Raises
+    ------
+    InputError
+        As `rebound`; also if an argument is not scalar or `samples` is no integer above 1.
+
+    Examples
+    --------
+    >>> contact = history(1.0, restitution=0.5, samples=5)
+    >>> [str(event.kind) for event in contact.events]
+    ['contact', 'stick', 'maximum compression', 'slip', 'separation']
+    >>> float(contact.time[-1])
+    1.5
+    """
+    if not isinstance(samples, (int, np.integer)) or isinstance(samples, bool) or samples < 2:
+        raise checks.InputError(f"samples = {samples!r}: allowed are integers from 2")
+    mirror, groups, phases = _phases(incidence, mass_ratio, stiffness_ratio, restitution)
+    zeta2, e = groups[1:]
+    grid = np.linspace(0.0, 1.0 + e, samples)
+    columns, events = [], []
+    for phase, eta_end in phases:
+        start, end = (normal.time(eta, e, phase.in_restitution) for eta in (phase.eta, eta_end))
+        inside = grid[(grid > start) & (grid < end)]
+        time = np.concatenate([[start], inside, [end]])
+        eta = np.concatenate([[phase.eta], _angle(inside, e, phase.in_restitution), [eta_end]])
+        friction, velocity = stick_slip.state(phase, eta, *groups)
+        columns.append(np.stack([time, normal.force(eta), mirror * friction, mirror * velocity]))
+        events += [_event(kind, columns[-1][:, 0], zeta2) for kind in _kinds(phase, events)]
+    if e == 0:
+        events.append(_event(EventKind.MAXIMUM_COMPRESSION, columns[-1][:, -1], zeta2))
+    events.append(_event(EventKind.SEPARATION, columns[-1][:, -1], zeta2))
+    joined = [piece[:, :-1] for piece in columns[:-1]] + columns[-1:]
+    time, force, friction, velocity = np.concatenate(joined, axis=1)
+    return History(time, force, friction, velocity, zeta2 * friction, tuple(events))
+
+
+def friction_work(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
+    """Work of friction, integrated over the phases of slip: |F1| times the slip velocity.
+
+    A second way to `rebound(...).dissipation`, which comes from the balance of energy; the two
+    differ by what the tangential spring loses when e = 0.
+
+    Parameters
+    ----------
+    incidence, mass_ratio, stiffness_ratio, restitution : float
+        As in `rebound`; scalars.
+
+    Returns
+    -------
+    float
+        In mu^2 m2 v2(0)^2.
+
+    Raises
+    ------
+    InputError
+        As `rebound`; also if an argument is not scalar.
+
+    Examples
+    --------
+    >>> balance = rebound(2.0).dissipation
+    >>> bool(abs(friction_work(2.0) - balance) < 1e-14)
+    True
+    """
+    _, groups, phases = _phases(incidence, mass_ratio, stiffness_ratio, restitution)
+    _, zeta2, e = groups
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    work = 0.0
+    for phase, eta_end in phases:
+        if phase.sticks:
+            continue
+        half = (eta_end - phase.eta) / 2
+        eta = phase.eta + half * (1 + nodes)
+        friction, velocity = stick_slip.state(phase, eta, *groups)
+        # Slip velocity w - s' times dt, in the angle of either half.
+        pace = -e if phase.in_restitution else 1.0
+        slip = pace * velocity - phase.side * zeta2 * np.cos(eta)
+        work += half * float(weights @ (friction * slip))
+    return work
+
+
+def _phases(incidence, mass_ratio, stiffness_ratio, restitution):
+    """One impact: its mirror sign, (beta, zeta^2, e), and its phases, each with its last eta."""
+    checked = _checked(incidence, mass_ratio, stiffness_ratio, restitution)
+    if checked[0].ndim:
+        raise checks.InputError(f"shape = {checked[0].shape}: one contact takes scalars")
+    x, *groups = (a.reshape(1) for a in checked)
+    trace = []
+    stick_slip.solve(np.abs(x), *groups, trace)
+    beta, zeta2, e = (float(a[0]) for a in groups)
+    if e == 0:  # separation at maximum compression
+        trace = [phase for phase in trace if not phase.in_restitution]
+    trace = [stick_slip.Phase(*(np.ravel(field)[0] for field in phase)) for phase in trace]
+    # A phase ends where the next one starts, or with its half of the contact.
+    ends = [
+        after.eta if after.in_restitution == phase.in_restitution else np.pi / 2
+        for phase, after in zip(trace, trace[1:], strict=False)
+    ]
+    ends.append(0.0 if trace[-1].in_restitution else np.pi / 2)
+    mirror = float(np.copysign(1.0, x[0]))
+    return mirror, (beta, zeta2, e), list(zip(trace, ends, strict=True))
+
+
+def _angle(time, e, in_restitution):
+    """The angle `eta` of `planarimpact.normal` at a time within one half."""
+    return np.pi / 2 * np.clip((1 + e - time) / e if in_restitution else time, 0.0, 1.0)
+
+
+def _event(kind, column, zeta2):
+    time, force, friction, velocity = (float(value) for value in column)
+    return Event(kind, time, force, friction, velocity, float(zeta2 * friction))
+
+
+def _kinds(phase, earlier):
+    """Events where a phase starts; one that goes on through maximum compression is not new."""
+    kinds = [EventKind.STICK if phase.sticks else EventKind.SLIP]
+    if not earlier:
+        return [EventKind.CONTACT, *kinds]
+    so_far = [event.kind for event in earlier]
+    if phase.in_restitution and EventKind.MAXIMUM_COMPRESSION not in so_far:
+        return [EventKind.MAXIMUM_COMPRESSION, *(kind for kind in kinds if kind != so_far[-1])]
+    return kinds
+
+
+def _checked(incidence, mass_ratio, stiffness_ratio, restitution):
+    return checks.broadcast(
+        incidence=checks.incidence(incidence),
+        mass_ratio=checks.mass_ratio(mass_ratio),
+        stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
+        restitution=checks.restitution(restitution),
+    )

@@ -1,0 +1,104 @@
+"""What every model returns, and the names of the contact regimes."""
+
+from enum import IntEnum, StrEnum
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Regime(IntEnum):
+    """The order of stick and slip during one contact.
+
+    The paper's three regimes are STICK_SLIP, SLIP_STICK_SLIP and SLIP_THROUGHOUT. The others
+    complete them: a contact that ends in stick (e = 0, or no tangential compliance), and
+    MULTIPLE, where stick comes back a second time.
+
+    Examples
+    --------
+    >>> Regime(2).name
+    'STICK_SLIP'
+    """
+
+    STICK = 0
+    SLIP_STICK = 1
+    STICK_SLIP = 2
+    SLIP_STICK_SLIP = 3
+    SLIP_THROUGHOUT = 4
+    MULTIPLE = 5
+
+
+class Rebound(NamedTuple):
+    """The state at separation, one entry an impact; scalars where all arguments were scalars.
+
+    Attributes
+    ----------
+    velocity : ndarray of float64 or float
+        w(tf) = v1(tf)/(mu v2(0)), tangential velocity of the contact point; positive in the
+        direction of a positive incidence, negative when it has turned round.
+    peak_friction : ndarray of float64 or float
+        Largest |F1| over the contact, in mu m2 Omega |v2(0)|; between 0 and 1.
+    dissipation : ndarray of float64 or float
+        Work of friction in mu^2 m2 v2(0)^2, from the exact balance of tangential energy. For
+        e = 0 it includes the tangential strain energy that is lost at separation.
+    regime : ndarray of uint8 or Regime
+        Codes of `Regime`.
+    """
+
+    velocity: np.ndarray
+    peak_friction: np.ndarray
+    dissipation: np.ndarray
+    regime: np.ndarray
+
+
+class EventKind(StrEnum):
+    """What happens at an event of a contact's history.
+
+    Examples
+    --------
+    >>> print(EventKind.STICK)
+    stick
+    """
+
+    CONTACT = "contact"
+    STICK = "stick"
+    SLIP = "slip"
+    MAXIMUM_COMPRESSION = "maximum compression"
+    SEPARATION = "separation"
+
+
+class Event(NamedTuple):
+    """One event: its kind, its time in t_c, and the state there (units as in `History`)."""
+
+    kind: EventKind
+    time: float
+    normal: float
+    friction: float
+    velocity: float
+    spring: float
+
+
+class History(NamedTuple):
+    """Forces and velocity over one contact; every event is a vertex.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        t/t_c, from 0 to 1 + e.
+    normal : ndarray, shape (n,)
+        Normal force F2 in m2 Omega |v2(0)|.
+    friction : ndarray, shape (n,)
+        Tangential force F1 in mu m2 Omega |v2(0)|; positive opposes a positive incidence.
+    velocity : ndarray, shape (n,)
+        w = v1/(mu v2(0)).
+    spring : ndarray, shape (n,)
+        Deflection of the tangential element in mu |v2(0)|/Omega; friction = spring/zeta^2.
+    events : tuple of Event
+        In order of time, from contact to separation; STICK and SLIP mark where a phase starts.
+    """
+
+    time: np.ndarray
+    normal: np.ndarray
+    friction: np.ndarray
+    velocity: np.ndarray
+    spring: np.ndarray
+    events: tuple
