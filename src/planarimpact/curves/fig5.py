@@ -1,0 +1,117 @@
+"""Fig. 5: tangential velocity at separation against incidence, e = 1."""
+
+import numpy as np
+
+from planarimpact import lumped, rigid
+from planarimpact.curves.sampling import regime_names, vertices
+
+
+def curves(
+    mass_ratio, stiffness_ratio, incidence, restitution, samples, rubber, experiment, nodes=()
+):
+    """The lumped model, its limits, and the curves of the rubber sphere and of an experiment.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio, restitution : float
+        beta, zeta^2 and e of the figure.
+    incidence : (float, float)
+        Range of x = v1(0)/(mu v2(0)).
+    samples : int
+        Evenly spread vertices; thresholds come on top.
+    rubber : dict
+        `stiffness_ratio` of Johnson's rubber sphere.
+    experiment : dict
+        An elastic sphere shot at a plane without spin: `mass_ratio`, `stiffness_ratio`,
+        `restitution`, `friction`, `speed` (m/s), `radius` (m).
+    nodes : array_like
+        More incidences at which `lumped` has a vertex.
+
+    Returns
+    -------
+    dict
+        `lumped`, `no tangential compliance`, `rubber`, `experiment`. `lumped` adds the regime
+        and the spin after impact, R spin/(mu v2(0)) in the direction of incidence negative;
+        `experiment` the quantities that are measured against the angle of incidence.
+
+    Examples
+    --------
+    >>> sphere = dict(mass_ratio=3.5, stiffness_ratio=1.164, restitution=0.98, friction=0.092,
+    ...               speed=3.9, radius=0.0025)
+    >>> named = curves(3.5, 1.21, (0, 8), 1.0, 9, {"stiffness_ratio": 1.5}, sphere)
+    >>> float(named["lumped"]["velocity [mu v2(0)]"][-1])
+    1.0
+    """
+    limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution)
+    x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, nodes)
+    rebound = lumped.rebound(x, mass_ratio, stiffness_ratio, restitution)
+    rough = rigid.rebound(x, mass_ratio, restitution)
+    elastic = lumped.rebound(x, mass_ratio, rubber["stiffness_ratio"], restitution)
+    return {
+        "lumped": {
+            **_velocity(x, rebound),
+            "regime": regime_names(rebound.regime),
+            "spin [mu v2(0)/R]": -(mass_ratio - 1) / mass_ratio * (x - rebound.velocity),
+        },
+        "no tangential compliance": _velocity(x, rough),
+        "rubber": _velocity(x, elastic),
+        "experiment": _experiment(samples, **experiment),
+    }
+
+
+def _velocity(x, rebound):
+    return {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": rebound.velocity}
+
+
+def _experiment(samples, mass_ratio, stiffness_ratio, restitution, friction, speed, radius):
+    """What a free sphere without spin shows against its angle of incidence."""
+    limits = [
+        stiffness_ratio,
+        mass_ratio,
+        lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution),
+    ]
+    # The ratio of velocities has no value at normal incidence.
+    angle = vertices((0.01, 89.9), samples, np.degrees(np.arctan(friction * np.array(limits))))
+    slope = np.tan(np.radians(angle))
+    x = slope / friction
+    rebound = lumped.rebound(x, mass_ratio, stiffness_ratio, restitution)
+    change = x - rebound.velocity
+    centre = 1 - change / (mass_ratio * x)
+    unit = friction * speed * np.cos(np.radians(angle))
+    return {
+        **_velocity(x, rebound),
+        "angle [deg]": angle,
+        "centre_restitution [1]": centre,
+        "spin [rad/s]": (mass_ratio - 1) / mass_ratio * change * unit / radius,
+        "centre_rebound_angle [deg]": np.degrees(np.arctan(centre * slope / restitution)),
+        "contact_rebound_angle [deg]": np.degrees(
+            np.arctan(friction * rebound.velocity / restitution)
+        ),
+    }
+
+
+def contact_velocities(angle, centre_restitution, mass_ratio, friction):
+    """Measured points of a sphere without spin in the axes of the figure.
+
+    Parameters
+    ----------
+    angle : array_like
+        Angle of incidence in degrees.
+    centre_restitution : array_like
+        Tangential velocity of the centre, after over before.
+    mass_ratio, friction : float
+        beta and mu.
+
+    Returns
+    -------
+    incidence, velocity : ndarray
+        x = tan(theta)/mu and w = x (beta e_t - (beta - 1)).
+
+    Examples
+    --------
+    >>> x, w = contact_velocities(45.0, 1.0, 3.5, 0.5)
+    >>> round(float(x), 9), round(float(w), 9)
+    (2.0, 2.0)
+    """
+    x = np.tan(np.radians(angle)) / friction
+    return x, x * (mass_ratio * np.asarray(centre_restitution) - (mass_ratio - 1))

@@ -1,0 +1,46 @@
+"""Fig. 6: tangential velocity at separation against incidence, for several restitutions."""
+
+from planarimpact import lumped
+from planarimpact.curves.sampling import name, regime_names, vertices
+
+
+def curves(mass_ratio, stiffness_ratio, incidence, restitution, samples, nodes=()):
+    """One curve for each coefficient of restitution.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio : float
+        beta and zeta^2.
+    incidence : (float, float)
+        Range of x = v1(0)/(mu v2(0)).
+    restitution : sequence of float
+        Coefficients e, one curve each, named `e = ...`.
+    samples : int
+        Evenly spread vertices; thresholds come on top.
+    nodes : array_like
+        More incidences that are vertices.
+
+    Returns
+    -------
+    dict
+        Columns incidence, velocity, peak friction, dissipation, regime.
+
+    Examples
+    --------
+    >>> named = curves(3.5, 1.21, (0, 8), [0, 1], 9)
+    >>> [float(curve["velocity [mu v2(0)]"][-1]) for curve in named.values()]
+    [4.5, 1.0]
+    """
+    named = {}
+    for e in restitution:
+        limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
+        x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, nodes)
+        rebound = lumped.rebound(x, mass_ratio, stiffness_ratio, e)
+        named[name("e", e)] = {
+            "incidence [mu v2(0)]": x,
+            "velocity [mu v2(0)]": rebound.velocity,
+            "peak_friction_force [mu m2 Omega v2(0)]": rebound.peak_friction,
+            "dissipation [mu^2 m2 v2(0)^2]": rebound.dissipation,
+            "regime": regime_names(rebound.regime),
+        }
+    return named

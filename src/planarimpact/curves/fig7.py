@@ -1,0 +1,55 @@
+"""Fig. 7: largest normal and tangential force against the angle of incidence."""
+
+import numpy as np
+
+from planarimpact import lumped, rigid
+from planarimpact.curves.sampling import name, vertices
+
+
+def curves(mass_ratio, stiffness_ratio, angle, friction, samples):
+    """Peak forces over m2 Omega S; they do not depend on restitution when omega > Omega.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio : float
+        beta and zeta^2.
+    angle : (float, float)
+        Range of the angle of incidence in degrees.
+    friction : sequence of float
+        Coefficients mu.
+    samples : int
+        Evenly spread vertices; thresholds come on top.
+
+    Returns
+    -------
+    dict
+        `normal`; `mu = ...` and `no tangential compliance, mu = ...` for each mu;
+        `slip throughout`, below which the contact slides throughout.
+
+    Examples
+    --------
+    >>> named = curves(3.5, 1.21, (0, 90), [0.5], 91)
+    >>> column = "peak_force [m2 Omega S]"
+    >>> float(named["mu = 0.5"]["angle [deg]"][named["mu = 0.5"][column].argmax()])
+    45.0
+    """
+    limit = float(lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, 1.0))
+    thresholds = np.array([stiffness_ratio, mass_ratio, limit])
+    theta = vertices(angle, samples)
+    named = {
+        "normal": _force(theta, np.cos(np.radians(theta))),
+        "slip throughout": _force(theta, np.sin(np.radians(theta)) / limit),
+    }
+    for mu in friction:
+        theta = vertices(angle, samples, np.degrees(np.arctan(mu * thresholds)))
+        x = np.tan(np.radians(theta)) / mu
+        scale = mu * np.cos(np.radians(theta))
+        compliant = lumped.rebound(x, mass_ratio, stiffness_ratio).peak_friction
+        rough = rigid.rebound(x, mass_ratio).peak_friction
+        named[name("mu", mu)] = _force(theta, scale * compliant)
+        named[f"no tangential compliance, {name('mu', mu)}"] = _force(theta, scale * rough)
+    return named
+
+
+def _force(theta, force):
+    return {"angle [deg]": theta, "peak_force [m2 Omega S]": force}
