@@ -1,19 +1,42 @@
 """Solve the curves of one figure. A crash becomes a table that says so: a failed verdict."""
 
+import csv
 import importlib
 import traceback
 
-import tables
+import csv_tables
+import logs
 
 
-def solve(figure, settings, output, node_files=(), node_column=None):
-    """Write the curves of `figure`; reference tables give points that curves must pass through."""
+def solve(figure, settings, nodes, output):
+    """Write the curves of `figure`.
+
+    `nodes`, `{CSV of a reference table: its column}`, are points that curves must pass through.
+    """
     try:
-        if node_files:
-            settings = {**settings, "nodes": _nodes(node_files, node_column)}
+        if nodes:
+            settings = {**settings, "nodes": _read_nodes(nodes)}
         named = importlib.import_module(f"planarimpact.curves.{figure}").curves(**settings)
     except Exception as error:
         traceback.print_exc()
-        tables.write_rows(output, ["error"], [[f"{type(error).__name__}: {error}"]])
+        csv_tables.write_rows(output, ["error"], [[f"{type(error).__name__}: {error}"]])
         return
-    tables.write(output, named)
+    csv_tables.write(output, named)
+
+
+def _read_nodes(nodes):
+    points = set()
+    for path, column in nodes.items():
+        with open(path, newline="", encoding="utf-8") as file:
+            points |= {float(row[column]) for row in csv.DictReader(file)}
+    return sorted(points)
+
+
+if "snakemake" in globals():
+    with logs.to(snakemake.log[0]):  # noqa: F821
+        solve(
+            snakemake.wildcards.figure,  # noqa: F821
+            snakemake.params.settings,  # noqa: F821
+            snakemake.params.nodes,  # noqa: F821
+            snakemake.output[0],  # noqa: F821
+        )

@@ -6,7 +6,7 @@ from planarimpact import lumped, rigid
 from planarimpact.curves.sampling import name, vertices
 
 
-def curves(mass_ratio, stiffness_ratio, angle, friction, restitution, samples):
+def curves(mass_ratio, stiffness_ratio, angle, friction, restitution, samples, nodes=()):
     """Dissipation by friction over m2 S^2/2, from two independent calculations.
 
     Parameters
@@ -19,6 +19,8 @@ def curves(mass_ratio, stiffness_ratio, angle, friction, restitution, samples):
         Coefficients mu and e, a curve for each pair.
     samples : int
         Evenly spread vertices; thresholds come on top.
+    nodes : array_like
+        More angles that are vertices.
 
     Returns
     -------
@@ -37,7 +39,7 @@ def curves(mass_ratio, stiffness_ratio, angle, friction, restitution, samples):
         for e in restitution:
             limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
             thresholds = np.array([stiffness_ratio, mass_ratio, limit])
-            theta = vertices(angle, samples, np.degrees(np.arctan(mu * thresholds)))
+            theta = vertices(angle, samples, np.degrees(np.arctan(mu * thresholds)), nodes)
             x = np.tan(np.radians(theta)) / mu
             share = 2 * (mu * np.cos(np.radians(theta))) ** 2
             lost = lumped.rebound(x, mass_ratio, stiffness_ratio, e).dissipation

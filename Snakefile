@@ -1,0 +1,37 @@
+# Planar impact of rough compliant bodies: solve, draw, compare, judge.
+#   snakemake --cores 2            everything, up to the verdict
+#   snakemake --cores 2 figures    pictures only, without judging
+from snakemake.utils import min_version
+
+min_version("9.0")
+
+
+configfile: "workflow/config.yaml"
+
+
+include: "workflow/rules/common.smk"
+
+
+rule all:
+    input:
+        "results/PASSED",
+
+
+rule figures:
+    input:
+        expand("figures/{figure}.{kind}", figure=run_plan.FIGURES, kind=["svg", "png"]),
+
+
+include: "workflow/rules/curves.smk"
+include: "workflow/rules/reference.smk"
+include: "workflow/rules/drawing.smk"
+include: "workflow/rules/judgement.smk"
+
+
+# A table of an earlier run would mislead after `figures` or a crash: print only a new one.
+onsuccess:
+    print(closing_words())
+
+
+onerror:
+    print(closing_words())

@@ -1,0 +1,84 @@
+# Checked config and data before any work, and what the rules ask of them.
+import os
+import sys
+import time
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+
+sys.path.insert(0, str(Path(workflow.basedir) / "workflow" / "scripts"))
+import reference_data
+import run_plan
+import verdict_table
+
+STARTED = time.time()
+# The jobs use the sources of this checkout, the ones that the rules track.
+os.environ["PYTHONPATH"] = str(Path(workflow.basedir) / "src")
+
+try:
+    SOURCES = reference_data.load_all("data", run_plan.load("workflow/schemas/source.schema.yaml"))
+    run_plan.check_config(config, run_plan.load("workflow/schemas/config.schema.yaml"), SOURCES)
+except (reference_data.SourceError, run_plan.ConfigError) as error:
+    raise WorkflowError(str(error))
+
+
+wildcard_constraints:
+    figure="fig[2-9]",
+    source="[a-z0-9_]+",
+
+
+def closing_words():
+    """Verdicts of this run, if it came so far, else where the pictures are."""
+    ran = [Path(f"results/logs/{rule}.log") for rule in ("verdicts", "gate")]
+    if any(log.exists() and log.stat().st_mtime >= STARTED for log in ran):
+        return verdict_table.closing("results/verdicts.csv")
+    return "\nNo verdict in this run. Pictures: figures/\n"
+
+
+def settings(wildcards):
+    return run_plan.settings(config, SOURCES, wildcards.figure)
+
+
+def nodes(wildcards):
+    return run_plan.nodes_of(config, SOURCES, wildcards.figure)
+
+
+def node_tables(wildcards):
+    return list(nodes(wildcards))
+
+
+def comparisons(wildcards):
+    return run_plan.comparisons(config, wildcards.figure)
+
+
+def references(wildcards):
+    return run_plan.references(config, SOURCES, wildcards.figure)
+
+
+def overlays(wildcards):
+    return run_plan.overlays(config, SOURCES, wildcards.figure)
+
+
+def compared_sources(wildcards):
+    return run_plan.sources_of(config, SOURCES, wildcards.figure)
+
+
+def compared_series(wildcards):
+    return [f"results/series/{source}.csv" for source in compared_sources(wildcards)]
+
+
+def solver_modules(wildcards):
+    return run_plan.modules("solve", f"planarimpact.curves.{wildcards.figure}")
+
+
+def drawing_modules(wildcards):
+    return run_plan.modules("draw", f"draw_{wildcards.figure}")
+
+
+def source_of(wildcards):
+    return SOURCES[wildcards.source]
+
+
+def files_of_source(wildcards):
+    series = SOURCES[wildcards.source]["series"].values()
+    return [f"data/{wildcards.source}/source.yaml", *(s["path"] for s in series if s["path"])]

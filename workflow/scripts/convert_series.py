@@ -1,0 +1,22 @@
+"""Bring the series of one source into one table with its own column names."""
+
+import csv_tables
+import logs
+import reference_data
+
+
+def convert(source, output):
+    """Write every series at hand of a loaded `source`."""
+    found = {
+        name: reference_data.read_series(name, series)
+        for name, series in source["series"].items()
+        if series["path"]
+    }
+    csv_tables.write(output, found, first="series")
+    for name, columns in found.items():
+        print(f"{name}: {len(next(iter(columns.values())))} points")
+
+
+if "snakemake" in globals():
+    with logs.to(snakemake.log[0]):  # noqa: F821
+        convert(snakemake.params.source, snakemake.output[0])  # noqa: F821

@@ -1,0 +1,15 @@
+"""Gather the verdicts of all figures into one table."""
+
+import csv_tables
+import logs
+import verdict_table
+
+if "snakemake" in globals():
+    with logs.to(snakemake.log[0]):  # noqa: F821
+        rows = verdict_table.gather(snakemake.input.verdicts)  # noqa: F821
+        csv_tables.write_rows(
+            snakemake.output[0],  # noqa: F821
+            list(rows[0]),
+            [list(row.values()) for row in rows],
+        )
+        print(verdict_table.text(rows))

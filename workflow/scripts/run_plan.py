@@ -1,0 +1,169 @@
+"""What the rules need to know before they run: checked config and data, settings, modules."""
+
+import ast
+from pathlib import Path
+
+import reference_data
+import yaml
+
+SCRIPTS = Path(__file__).parent
+SRC = SCRIPTS.parents[1] / "src"
+FIGURES = [f"fig{number}" for number in range(2, 10)]
+
+
+class ConfigError(Exception):
+    """workflow/config.yaml or a --config value is not admissible."""
+
+
+def check_config(config, schema, inventory):
+    """Refuse an inadmissible config, naming the field, its value and what is allowed."""
+    try:
+        reference_data.refuse_invalid(config, schema, "config")
+    except reference_data.SourceError as error:
+        raise ConfigError(str(error)) from None
+    for figure, settings in config["figures"].items():
+        for key in ("incidence", "angle"):
+            _ascending(f"config: figures.{figure}.{key}", settings.get(key))
+    experiment = config["figures"]["fig5"]["experiment"]
+    if experiment not in inventory:
+        raise ConfigError(
+            f"config: figures.fig5.experiment: '{experiment}' is not in data/; allowed are "
+            + ", ".join(inventory)
+        )
+    for name, comparison in config["comparisons"].items():
+        _check_comparison(f"config: comparisons.{name}", comparison, inventory)
+
+
+def _ascending(where, span):
+    if isinstance(span, list) and not span[0] < span[1]:
+        raise ConfigError(f"{where} = {span}: the first number must be the smaller")
+
+
+def _check_comparison(where, comparison, inventory):
+    metric = comparison["metric"]
+    if metric == "balance":
+        if "balance" not in comparison:
+            raise ConfigError(f"{where}: metric balance needs `balance`, two columns")
+        return
+    if "reference" not in comparison:
+        raise ConfigError(f"{where}: metric {metric} needs `reference`")
+    kind, _ = reference(inventory, comparison["reference"], where)
+    if (kind == "facts") != (metric == "landmark"):
+        raise ConfigError(f"{where}: metric {metric} does not go with one of the {kind}")
+    if metric == "landmark" and "landmark" not in comparison:
+        raise ConfigError(f"{where}: metric landmark needs `landmark`")
+    if metric in ("distance", "landmark") and "curve" not in comparison:
+        raise ConfigError(f"{where}: metric {metric} needs `curve`")
+    spans = {"window": comparison.get("window"), **comparison.get("documented", {})}
+    for key, span in spans.items():
+        _ascending(f"{where}.{key}", span)
+
+
+def reference(inventory, name, where="reference"):
+    """The series or fact `source/entry`: ("series" or "facts", its entry)."""
+    source, entry = name.split("/")
+    for kind in ("series", "facts"):
+        if entry in inventory.get(source, {}).get(kind, {}):
+            return kind, inventory[source][kind][entry]
+    raise ConfigError(f"{where}: '{name}' is neither a series nor a fact in data/")
+
+
+def settings(config, inventory, figure):
+    """Settings of one figure: shared physics and its own, an experiment by its parameters."""
+    chosen = {
+        "mass_ratio": config["mass_ratio"],
+        "stiffness_ratio": config["stiffness_ratio"],
+        **config["figures"][figure],
+    }
+    if figure == "fig2":  # mass plays no part in force against deflection
+        del chosen["mass_ratio"]
+    if "experiment" in chosen:
+        keys = ("mass_ratio", "stiffness_ratio", "restitution", "friction", "speed", "radius")
+        stated = inventory[chosen["experiment"]]["parameters"]
+        chosen["experiment"] = {key: stated[key]["value"] for key in keys}
+    return chosen
+
+
+def comparisons(config, figure):
+    """Comparisons of one figure, `{name: entry}`."""
+    chosen = config["comparisons"].items()
+    return {name: dict(entry) for name, entry in chosen if entry["figure"] == figure}
+
+
+def references(config, inventory, figure):
+    """Series and facts that the comparisons of one figure name: `{source/entry: entry}`."""
+    named = [c["reference"] for c in comparisons(config, figure).values() if "reference" in c]
+    return {name: reference(inventory, name)[1] for name in named}
+
+
+def series_of(config, inventory, figure):
+    """Series at hand for one figure: `{source/series: entry}`, awaited ones left out."""
+    chosen = references(config, inventory, figure).items()
+    return {name: entry for name, entry in chosen if entry.get("path")}
+
+
+def sources_of(config, inventory, figure):
+    """Sources with series at hand for one figure, in order."""
+    return sorted({name.split("/")[0] for name in series_of(config, inventory, figure)})
+
+
+def overlays(config, inventory, figure):
+    """Measured series to draw over one figure, with the parameters of their source."""
+    chosen = {}
+    for name, entry in series_of(config, inventory, figure).items():
+        if entry["kind"] != "computed":
+            stated = inventory[name.split("/")[0]]["parameters"]
+            parameters = {key: parameter["value"] for key, parameter in stated.items()}
+            chosen[name] = {**entry, "parameters": parameters}
+    return chosen
+
+
+def nodes_of(config, inventory, figure):
+    """Reference tables whose points the curves must pass through: `{path: column of x}`."""
+    exact = {c.get("reference") for c in comparisons(config, figure).values()
+             if c["metric"] == "vertices"}
+    return {
+        entry["path"]: reference_data.column_name(entry["x"])
+        for name, entry in series_of(config, inventory, figure).items()
+        if name in exact and "event" not in entry.get("labels", [])
+    }
+
+
+def modules(*names):
+    """Files of some modules and of all they import: scripts beside this one, and planarimpact.
+
+    Inputs of the rules, so that an edit reruns what it must and nothing more.
+    """
+    found, todo = set(), [file for name in names for file in _files(name)]
+    while todo:
+        file = todo.pop()
+        if file not in found:
+            found.add(file)
+            todo += _imported(file)
+    return sorted(str(file.relative_to(SRC.parent)) for file in found)
+
+
+def _imported(file):
+    names = []
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names += [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
+    return [path for name in names for path in _files(name)]
+
+
+def _files(name):
+    """Files that an import of `name` reads: its packages and itself, if they are ours."""
+    sibling = SCRIPTS / f"{name}.py"
+    if sibling.is_file():
+        return [sibling]
+    parts = name.split(".")
+    paths = [SRC.joinpath(*parts[: i + 1]) for i in range(len(parts))]
+    candidates = [p for path in paths for p in (path / "__init__.py", path.with_suffix(".py"))]
+    return [path for path in candidates if path.is_file()]
+
+
+def load(path):
+    """Read a YAML file."""
+    return yaml.safe_load(Path(path).read_text(encoding="utf-8"))
