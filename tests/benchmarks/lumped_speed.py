@@ -1,0 +1,53 @@
+"""Time of one impact in a batch of a million, e = 0.9, on one core.
+
+    python tests/benchmarks/lumped_speed.py
+
+Prints nanoseconds an impact, and for comparison between machines the ratio to the time of one
+sine and one cosine of the same million numbers in the same run.
+"""
+
+import time
+
+import numpy as np
+
+from planarimpact import lumped, rigid
+
+COUNT = 1_000_000
+REPEATS = 7
+
+
+def nanoseconds(work):
+    """Median time of `work`, an element of the batch."""
+    work()
+    times = []
+    for _ in range(REPEATS):
+        start = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - start)
+    return float(np.median(times)) / COUNT * 1e9
+
+
+def main():
+    rng = np.random.default_rng(1)
+    x = rng.uniform(0, 10, COUNT)
+    slow = rng.uniform(0, 5.3, COUNT)
+    beta, zeta2 = rng.uniform(1, 8, COUNT), 10 ** rng.uniform(-1, 1, COUNT)
+    unit = nanoseconds(lambda: np.sin(x) + np.cos(x))
+    print(f"one sine and one cosine: {unit:.1f} ns")
+    cases = {
+        "solid sphere, incidence 0 to 10 (mixed regimes)": lambda: lumped.rebound(x, 3.5, 1.21, 0.9),
+        "solid sphere, incidence 0 to 5.3 (every impact sticks)": lambda: lumped.rebound(
+            slow, 3.5, 1.21, 0.9
+        ),
+        "mass ratio 1 to 8, stiffness ratio 0.1 to 10, incidence 0 to 10": lambda: lumped.rebound(
+            x, beta, zeta2, 0.9
+        ),
+        "no tangential compliance": lambda: rigid.rebound(x, 3.5, 0.9),
+    }
+    for name, work in cases.items():
+        found = nanoseconds(work)
+        print(f"{found:7.1f} ns  {found / unit:5.1f} x  {name}")
+
+
+if __name__ == "__main__":
+    main()
