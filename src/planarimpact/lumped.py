@@ -2,7 +2,8 @@
 
 A linear normal element (stiffness kappa, kappa/e^2 in restitution) and a linear tangential
 element (kappa/zeta^2) join the body to a massless particle that sticks to the surface or slips
-on it with Coulomb friction. `planarimpact.stick_slip` holds the phases.
+on it with Coulomb friction. `planarimpact.stick_slip` holds the phases,
+`planarimpact.slip_onset` the search for the start of slip.
 """
 
 import numpy as np
@@ -63,10 +64,13 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
     for start in range(0, x.size, CHUNK):
         part = slice(start, start + CHUNK)
         signed, *groups = (a[part] for a in arrays)
-        w, flat[1][part], impulse, flat[3][part] = stick_slip.solve(np.abs(signed), *groups)
-        flat[0][part] = np.copysign(1.0, signed) * w
+        size = np.abs(signed)
+        outcome, impulse = stick_slip.solve(stick_slip.Impacts(size, *groups))
+        flat[0][part] = np.copysign(1.0, signed) * outcome.velocity
+        flat[1][part] = outcome.peak_friction
         # Stronge's theorem (the paper's footnote): work = impulse times the mean velocity.
-        flat[2][part] = impulse * (np.abs(signed) / 2 + w / 2)
+        flat[2][part] = impulse * (size / 2 + outcome.velocity / 2)
+        flat[3][part] = outcome.regime
     if x.ndim == 0:
         return Rebound(velocity[()], peak[()], dissipation[()], Regime(int(regime)))
     return Rebound(velocity, peak, dissipation, regime)
@@ -205,7 +209,7 @@ def _phases(incidence, mass_ratio, stiffness_ratio, restitution):
         raise checks.InputError(f"shape = {checked[0].shape}: one contact takes scalars")
     x, *groups = (a.reshape(1) for a in checked)
     trace = []
-    stick_slip.solve(np.abs(x), *groups, trace)
+    stick_slip.solve(stick_slip.Impacts(np.abs(x), *groups), trace)
     beta, zeta2, e = (float(a[0]) for a in groups)
     if e == 0:  # separation at maximum compression
         trace = [phase for phase in trace if not phase.in_restitution]

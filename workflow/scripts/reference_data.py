@@ -68,6 +68,18 @@ def refuse_invalid(document, schema, name):
     if errors:
         where = ".".join(map(str, errors[0].path)) or "top level"
         raise SourceError(f"{name}: {where}: {errors[0].message}")
+    for where, value in _leaves(document):
+        if isinstance(value, float) and not math.isfinite(value):
+            raise SourceError(f"{name}: {where}: {value} is not a finite number")
+
+
+def _leaves(node, where=""):
+    """Every value of a document with its dotted path."""
+    if isinstance(node, (dict, list)):
+        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
+            yield from _leaves(value, f"{where}.{key}" if where else f"{key}")
+    else:
+        yield where, node
 
 
 def column_name(axis):

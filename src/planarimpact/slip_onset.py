@@ -1,0 +1,169 @@
+"""Where slip starts: the first instant of stick at which |T| reaches N.
+
+T = A sin(theta) with theta' = rate, N = sin(eta) in the angle `eta` of `planarimpact.normal`.
+The root is searched only where it is alone:
+
+* While T and N have one sign, (T'N - TN')' = (1 - rate^2) T N. So for rate > 1 the ratio T/N has
+  at most one extremum in each half-wave of T, a maximum; for rate <= 1 at most one, a minimum.
+* At slip -> stick T'N - TN' = 0. For rate > 1 the ratio then falls to the end of its half-wave:
+  the double zero of |T| - N, where a root finder would chatter, is never searched. For
+  rate <= 1 slip never turns into stick.
+* In compression with rate > 1, T^2 + (T'/rate)^2 is constant in stick while N^2 + (N'/rate)^2
+  grows, so slip cannot start there.
+* Slip cannot start while N exceeds A.
+"""
+
+import numpy as np
+
+HALF_PI = np.pi / 2
+# The root finder is cubic: after a step of this size the root is at rounding.
+LAST_STEP = 1e-6
+
+
+def sin_cos(angle):
+    """Sine and cosine from one tangent, the cheapest function of the three.
+
+    Examples
+    --------
+    >>> [round(float(value), 12) for value in sin_cos(np.pi / 6)]
+    [0.5, 0.866025403784]
+    """
+    tangent = np.tan(angle / 2)
+    double = 2 / (1 + tangent * tangent)
+    return tangent * double, double - 1
+
+
+def in_restitution(eta, theta, amplitude, rate):
+    """First eta' <= eta, falling, with sin(eta') = |amplitude sin(theta + rate (eta - eta'))|.
+
+    For rate > 1 and theta < pi the ratio |T|/N must be past its maximum, as it is at every start
+    of stick in this model and after compression: that half-wave is not searched.
+
+    Returns
+    -------
+    eta : ndarray
+        Angle at the onset.
+    rho : ndarray
+        theta there, from the start of its half-wave.
+    wave : ndarray
+        Number of the half-wave: T has the sign of sin(theta) = (-1)^wave.
+    """
+    rate = np.maximum(rate, np.finfo(float).tiny)
+    reached = np.minimum(eta, np.arcsin(np.minimum(amplitude, 1.0)))  # N = A: no slip before
+    theta_reached = theta + rate * (eta - reached)
+    wave = np.floor(theta_reached / np.pi)
+    rho = theta_reached - wave * np.pi
+    fast = rate > 1
+    # rate <= 1: one crossing, in the half-wave in which stick would end.
+    last = np.maximum(wave, np.ceil((theta + rate * eta) / np.pi) - 1)
+    (force, fall), (friction, swing) = sin_cos(reached), sin_cos(rho)
+    falling = rate * swing * force + friction * fall <= 0
+    passed = (wave == 0) | (falling & (rho > HALF_PI))
+    dip = np.flatnonzero(fast & ~passed & (rho > HALF_PI))
+    if dip.size:
+        found, slid = _onset_behind_crest(reached[dip], rho[dip], amplitude[dip], rate[dip])
+        passed[dip] = ~found
+        reached[dip] -= slid
+        theta_reached[dip] += rate[dip] * slid
+    wave = np.where(fast, wave + passed, last)
+
+    start = np.maximum(theta_reached, wave * np.pi)
+    eta = np.maximum(reached - (start - theta_reached) / rate, 0.0)
+    rho = start - wave * np.pi
+    widest = np.where(fast, np.minimum(eta, (HALF_PI - rho) / rate), eta)
+    advance = _crossing(eta, rho, amplitude, rate, np.maximum(widest, 0.0))
+    return eta - advance, rho + rate * advance, wave
+
+
+def _crossing(eta, rho, amplitude, rate, widest):
+    """Single zero in [0, widest] of sin(eta - a) - amplitude sin(rho + rate a), guarded."""
+    advance = np.zeros_like(eta)
+    lane, low, high, trial = np.arange(eta.size), advance, widest, advance
+    for _ in range(100):
+        before = trial
+        force, fall = sin_cos(eta - before)
+        friction, swing = sin_cos(rho + rate * before)
+        friction, swing = friction * amplitude, swing * amplitude * rate
+        excess, descent = force - friction, fall + swing
+        above = excess > 0
+        low, high = np.where(above, before, low), np.where(above, high, before)
+        # The nearer root of the Taylor parabola; good also where the descent vanishes.
+        root = descent * descent - 2 * excess * (rate * rate * friction - force)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            trial = before + 2 * excess / (descent + np.sqrt(np.maximum(root, 0.0)))
+        inside = (trial >= low) & (trial <= high)
+        trial = np.where(inside, trial, (low + high) / 2)
+        moving = ~inside | (np.abs(trial - before) > LAST_STEP)
+        moving &= high - low > LAST_STEP**2
+        if moving.all():
+            continue
+        advance[lane] = trial
+        lane = lane[moving]
+        if not lane.size:
+            break
+        trial, low, high = trial[moving], low[moving], high[moving]
+        eta, rho, amplitude, rate = eta[moving], rho[moving], amplitude[moving], rate[moving]
+    return advance
+
+
+def _onset_behind_crest(eta, rho, amplitude, rate):
+    """Search a falling |T| whose ratio to N still rises: found or not, and the advance.
+
+    Steps that provably jump no root: the second derivative of N - |T| is at least -N, and N
+    falls. They stay in the half-wave of T, whose end the ratio cannot reach while it rises.
+    """
+    found = np.zeros(eta.shape, bool)
+    advance = np.zeros_like(eta)
+    for _ in range(200):
+        force, fall = sin_cos(eta - advance)
+        friction, swing = sin_cos(rho + rate * advance)
+        friction, swing = friction * amplitude, swing * amplitude * rate
+        rises = swing * force + friction * fall > 0
+        excess = np.maximum(force - friction, 0.0)
+        slope = fall + swing
+        step = 2 * excess / (np.sqrt(slope * slope + 2 * force * excess) + slope)
+        step = np.minimum(step, (np.pi - rho - rate * advance) / (2 * rate))
+        small = step <= LAST_STEP**2 * eta
+        found |= rises & small
+        step = np.where(rises & ~small, step, 0.0)
+        if not step.any():
+            break
+        advance += step
+    return found, advance
+
+
+def in_compression(x, zeta2, rate):
+    """First eta > 0 with x/(zeta^2 rate) sin(rate eta) = sin(eta), for rate < 1.
+
+    The caller knows that T exceeds N at maximum compression. With u = eta^2, (T - N)/eta is
+    increasing and concave in u, so Newton's iterates from the left rise to the root.
+
+    Parameters
+    ----------
+    x, zeta2, rate : ndarray
+        Incidence up to zeta^2, stiffness ratio, omega/Omega below 1.
+
+    Returns
+    -------
+    ndarray
+        Angle at the onset, 0 for x = zeta^2.
+
+    Examples
+    --------
+    >>> eta = in_compression(np.array([1.9]), np.array([2.0]), np.array([0.5]))
+    >>> bool(abs(1.9 * np.sin(eta / 2) - np.sin(eta))[0] < 1e-14)
+    True
+    """
+    amplitude, ratio = x / (zeta2 * rate), x / zeta2
+    u = 6 * (1 - ratio) / (1 - ratio * rate * rate)
+    for _ in range(60):
+        eta = np.sqrt(u)
+        (friction, swing), (force, fall) = sin_cos(rate * eta), sin_cos(eta)
+        excess = amplitude * friction - force
+        slope = amplitude * (rate * eta * swing - friction) - eta * fall + force
+        with np.errstate(divide="ignore", invalid="ignore"):
+            step = np.where(slope > 0, -2 * u * excess / slope, 0.0)
+        u = np.clip(u + step, 0.0, HALF_PI**2)
+        if np.abs(step).max() <= LAST_STEP**2:
+            break
+    return np.sqrt(u)

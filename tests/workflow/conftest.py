@@ -1,0 +1,80 @@
+"""A copy of the project in a temporary folder, and one run of it that all tests share."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PARTS = ["Snakefile", "workflow", "src", "data", "figures/README.md", ".gitignore"]
+
+
+class Project:
+    """A copy of the project in which snakemake can be run."""
+
+    def __init__(self, folder):
+        self.folder = folder
+
+    def run(self, *arguments):
+        """Run snakemake here; output and errors come back as one text in `stdout`."""
+        return subprocess.run(
+            [sys.executable, "-m", "snakemake", "--cores", "2", *arguments],
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=300,
+        )
+
+    def jobs(self, *arguments):
+        """Jobs that a run would do: (rule, first output)."""
+        result = self.run("--dry-run", "--quiet", "host", *arguments)
+        assert result.returncode == 0, result.stdout
+        lines = [line.strip() for line in result.stdout.splitlines()]
+        rules = [line[5:-1] for line in lines if line.startswith("rule ") and line.endswith(":")]
+        return rules, result.stdout
+
+    def edit(self, path, old, new):
+        """Replace a text that must be there."""
+        file = self.folder / path
+        text = file.read_text()
+        assert old in text, (path, old)
+        file.write_text(text.replace(old, new))
+
+    def __truediv__(self, path):
+        return self.folder / path
+
+
+def copy_of(source, folder):
+    """Copy the parts of a project that a run reads; with them what an earlier run has left."""
+    leftovers = ["results", "figures", ".snakemake"]
+    for part in dict.fromkeys(PARTS + (leftovers if source != ROOT else [])):
+        origin = source / part
+        if origin.is_dir():
+            ignore = shutil.ignore_patterns("__pycache__", "*.egg-info")
+            shutil.copytree(origin, folder / part, ignore=ignore, dirs_exist_ok=True)
+        elif origin.exists():
+            (folder / part).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(origin, folder / part)
+    return Project(folder)
+
+
+@pytest.fixture
+def fresh(tmp_path):
+    """A copy in which nothing has run."""
+    return copy_of(ROOT, tmp_path)
+
+
+@pytest.fixture(scope="session")
+def first_run(tmp_path_factory):
+    """The project after a full run, and what that run printed. Do not change it."""
+    project = copy_of(ROOT, tmp_path_factory.mktemp("finished"))
+    return project, project.run()
+
+
+@pytest.fixture
+def finished(first_run, tmp_path):
+    """A copy of the project after a full run, free to change."""
+    return copy_of(first_run[0].folder, tmp_path)

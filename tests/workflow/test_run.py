@@ -1,0 +1,222 @@
+"""The workflow as a user meets it: what runs, what reruns, what fails and with which words."""
+
+import csv
+import re
+import subprocess
+
+import pytest
+
+FIGURES = [f"fig{number}" for number in range(2, 10)]
+
+
+def verdicts(project):
+    with open(project / "results/verdicts.csv", newline="") as file:
+        return {row["comparison"]: row["verdict"] for row in csv.DictReader(file)}
+
+
+def test_a_good_run_passes_and_leaves_everything(first_run):
+    project, result = first_run
+    assert result.returncode == 0, result.stdout
+    assert (project / "results/PASSED").exists()
+    for figure in FIGURES:
+        for path in (f"figures/{figure}.svg", f"figures/{figure}.png", f"results/curves/{figure}.csv"):
+            assert (project / path).stat().st_size > 100
+        assert (project / f"results/benchmarks/draw_{figure}.tsv").exists()
+    found = verdicts(project)
+    assert "diverges" not in found.values()
+    assert list(found.values()).count("awaited") == 4
+    table = result.stdout[result.stdout.index("verdict  ") :]
+    assert "differs as documented fig5-lumped-fem-small-incidence" in table
+    assert "PASSED" in table
+
+
+def test_headers_carry_units(first_run):
+    for figure in FIGURES:
+        header = (first_run[0] / f"results/curves/{figure}.csv").read_text().splitlines()[0]
+        words = {"curve", "event", "regime"}
+        assert all("[" in name for name in header.split(",") if name not in words), header
+
+
+def test_a_second_run_has_nothing_to_do(finished):
+    rules, words = finished.jobs()
+    assert not rules and "Nothing to be done" in words
+
+
+def test_lint_is_clean(fresh):
+    result = fresh.run("--lint")
+    assert result.returncode == 0, result.stdout
+
+
+def test_dry_run_is_clean(fresh):
+    rules, words = fresh.jobs()
+    assert len(rules) > 20 and "warning" not in words.lower()
+
+
+def test_every_rule_has_log_benchmark_and_message(fresh):
+    for file in (fresh / "workflow/rules").glob("*.smk"):
+        for rule in re.split(r"^rule ", file.read_text(), flags=re.M)[1:]:
+            for part in ("input:", "log:", "benchmark:", "message:", "modules="):
+                assert part in rule, (file.name, rule.split(":")[0], part)
+
+
+@pytest.mark.parametrize(
+    ("path", "expected"),
+    [
+        ("workflow/scripts/draw_fig7.py", {"draw": {"fig7"}}),
+        ("src/planarimpact/curves/fig6.py", {"curves": {"fig6"}}),
+        ("src/planarimpact/rigid.py", {"curves": {"fig5", "fig7", "fig9"}}),
+        ("src/planarimpact/bodies.py", {"curves": {"fig8"}}),
+        ("src/planarimpact/landmarks.py", {"compare": set(FIGURES)}),
+        ("src/planarimpact/stick_slip.py", {"curves": set(FIGURES) - {"fig2"}}),
+        ("data/chung_ooi2011/rebound.csv", {"series": {"chung_ooi2011"}}),
+    ],
+)
+def test_an_edit_reruns_what_it_must(finished, path, expected):
+    """Of the rules that read sources, only these; what follows from them follows."""
+    text = (finished / path).read_text()
+    end = "" if path.endswith(".csv") else "\n# edited\n"
+    (finished / path).write_text(text.replace("0.071", "0.070") + end)
+    _, words = finished.jobs()
+    blocks = re.findall(r"rule (\w+):\n(.*?)(?=\n\n|\nrule |\Z)", words, flags=re.S)
+    updated = {}
+    for rule, block in blocks:
+        if f"Updated input files: {path}" in block or f", {path}" in block:
+            wildcard = re.search(r"wildcards: \w+=(\w+)", block)
+            updated.setdefault(rule, set()).add(wildcard.group(1))
+    assert updated == expected, words
+    drawn = {block for rule, block in blocks if rule == "draw"}
+    if path == "workflow/scripts/draw_fig7.py":
+        assert len(drawn) == 1 and not [rule for rule, _ in blocks if rule == "compare"]
+
+
+def test_touching_a_file_reruns_nothing(finished):
+    (finished / "src/planarimpact/lumped.py").touch()
+    assert not finished.jobs()[0]
+
+
+def test_a_changed_tolerance_compares_again(finished):
+    finished.edit("workflow/config.yaml", "rms: 1.55, max: 3.0", "rms: 1.5, max: 3.0")
+    rules, _ = finished.jobs()
+    assert sorted(set(rules)) == ["all", "compare", "gate", "verdicts"]
+    assert rules.count("compare") == 1
+
+
+def test_wrong_physics_fails_after_everything_is_written(finished):
+    """Also a second time, also with --keep-going; and passes again once mended."""
+    wrong = ["--config", "stiffness_ratio=2.5"]
+    first = finished.run(*wrong)
+    assert first.returncode != 0
+    found = verdicts(finished)
+    assert found["fig5-lumped-fem"] == found["fig6-e1"] == "diverges"
+    assert not (finished / "results/PASSED").exists()
+    assert all((finished / f"figures/{figure}.png").exists() for figure in FIGURES)
+    table = first.stdout[first.stdout.index("verdict  ") :].splitlines()
+    assert table[2].startswith("diverges")
+    assert any("FAILED" in line for line in table)
+    assert len(table) - next(i for i, line in enumerate(table) if "FAILED" in line) < 15
+
+    again = finished.run("--keep-going", *wrong)
+    assert again.returncode != 0 and "FAILED" in again.stdout
+    assert "Drawing" not in again.stdout
+
+    mended = finished.run()
+    assert mended.returncode == 0 and "PASSED" in mended.stdout, mended.stdout
+
+
+def test_figures_are_drawn_without_judgement(finished):
+    result = finished.run("figures", "--config", "stiffness_ratio=1.5")
+    assert result.returncode == 0, result.stdout
+    assert "Drawing fig5" in result.stdout
+    assert "No verdict in this run" in result.stdout and "agrees" not in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("change", "comparison"),
+    [
+        ("figures={fig5: {restitution: 0.9}}", "fig5-lumped-fem"),
+        ("figures={fig6: {restitution: [0, 0.6, 1]}}", "fig6-e0.5"),
+        ("figures={fig3: {restitution: [1.0, 0.4]}}", "fig3-events"),
+    ],
+)
+def test_wrong_restitution_fails(finished, change, comparison):
+    result = finished.run("--config", change)
+    assert result.returncode != 0
+    assert verdicts(finished)[comparison] == "diverges"
+
+
+def test_a_crash_of_one_solver_is_a_failed_verdict_of_its_figure(finished):
+    finished.edit(
+        "src/planarimpact/curves/fig7.py", "    named = {", "    raise ArithmeticError('oh')\n    {"
+    )
+    result = finished.run()
+    assert result.returncode != 0
+    found = verdicts(finished)
+    bad = {name for name, verdict in found.items() if verdict == "diverges"}
+    assert bad == {name for name in found if name.startswith("fig7")}
+    assert "no curves: ArithmeticError: oh" in result.stdout
+    assert (finished / "figures/fig7.svg").exists()
+
+
+BAD_CONFIG = [
+    ("stifness_ratio=1.5", "'stifness_ratio' was unexpected"),
+    ("figures={fig5: {sample: 3}}", "figures.fig5: .*'sample' was unexpected"),
+    ("figures={fig8: {ball: {colour: 1}}}", "figures.fig8.ball: .*'colour' was unexpected"),
+    ("stiffness_ratio=-1", "stiffness_ratio: -1 is less than"),
+    ("stiffness_ratio=.nan", "stiffness_ratio: nan is not a finite number"),
+    ("stiffness_ratio=stiff", "stiffness_ratio: 'stiff' is not of type 'number'"),
+    ("mass_ratio=0.5", "mass_ratio: 0.5 is less than the minimum of 1"),
+    ("figures={fig6: {restitution: [1.5]}}", "figures.fig6.restitution.0: 1.5 is greater"),
+    ("figures={fig5: {incidence: [8, 0]}}", r"figures.fig5.incidence = \[8, 0\]"),
+    ("figures={fig5: {experiment: nobody}}", "'nobody' is not in data/; allowed are"),
+    ("comparisons={fig5-maw-curve: {reference: maw1976/no}}", "'maw1976/no' is neither"),
+    ("comparisons={fig5-maw-curve: {tolerance: 3}}", "'tolerance' was unexpected"),
+]
+
+
+@pytest.mark.parametrize(("change", "words"), BAD_CONFIG, ids=[c for c, _ in BAD_CONFIG])
+def test_bad_config_is_refused_before_any_work(fresh, change, words):
+    result = fresh.run("--config", change)
+    assert result.returncode != 0
+    assert re.search(words, result.stdout), result.stdout
+    assert "Traceback" not in result.stdout
+    assert not (fresh / "results").exists()
+
+
+BAD_DATA = [
+    ("0.586,-0.027", "0.586,-O.027", "rebound.csv, line 4, column 'velocity .*': '-O.027' is not a"),
+    ("0.586,-0.027", "0.586,-99", "rebound.csv, line 4, .*: -99 is outside -5 to 20"),
+    ("0.586,-0.027", "0.586,nan", "rebound.csv, line 4, .*: nan is outside"),
+    ("0.586,-0.027", "0.586", "rebound.csv, line 4: 1 cells where 2 belong"),
+    ("incidence [mu v2(0)]", "x", r"column 'incidence \[mu v2\(0\)\]' is missing; found x"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "words"), BAD_DATA, ids=[c[1] for c in BAD_DATA])
+def test_bad_data_is_refused_before_any_work(fresh, old, new, words):
+    fresh.edit("data/chung_ooi2011/rebound.csv", old, new)
+    result = fresh.run()
+    assert result.returncode != 0
+    assert re.search(words, result.stdout), result.stdout
+    assert not (fresh / "results").exists()
+
+
+def test_missing_and_stray_series_are_refused(fresh):
+    (fresh / "data/chung_ooi2011/rebound.csv").rename(fresh / "data/chung_ooi2011/rebounds.csv")
+    assert "rebound.csv: missing" in fresh.run().stdout
+    fresh.edit("data/chung_ooi2011/source.yaml", "  rebound:", "  rebounds:")
+    assert "'chung_ooi2011/rebound' is neither" in fresh.run().stdout
+    (fresh / "data/kharaz2001/more.csv").write_text("a\n")
+    assert "more.csv: no series of that name" in fresh.run().stdout
+
+
+def test_source_without_provenance_is_refused(fresh):
+    fresh.edit("data/chung_ooi2011/source.yaml", "citation:", "quotation:")
+    assert re.search("source.yaml: top level: .*quotation", fresh.run().stdout)
+
+
+def test_everything_built_is_ignored_by_git(first_run):
+    folder = str(first_run[0].folder)
+    subprocess.run(["git", "init", "-q", folder], check=True)
+    status = ["git", "-C", folder, "status", "--porcelain", "-uall"]
+    found = subprocess.run(status, capture_output=True, text=True, check=True).stdout
+    assert not re.search(r"results|figures/fig|[.]snakemake", found), found
