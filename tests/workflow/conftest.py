@@ -1,5 +1,6 @@
 """A copy of the project in a temporary folder, and one run of it that all tests share."""
 
+import re
 import shutil
 import subprocess
 import sys
@@ -28,13 +29,12 @@ class Project:
             timeout=300,
         )
 
-    def jobs(self, *arguments):
-        """Jobs that a run would do: (rule, first output)."""
-        result = self.run("--dry-run", "--quiet", "host", *arguments)
-        assert result.returncode == 0, result.stdout
-        lines = [line.strip() for line in result.stdout.splitlines()]
-        rules = [line[5:-1] for line in lines if line.startswith("rule ") and line.endswith(":")]
-        return rules, result.stdout
+    def planned(self, *arguments):
+        """Jobs that a run would do: `{message: reason}`, and how often each rule runs."""
+        words = self.run("--dry-run", *arguments).stdout
+        jobs = dict(re.findall(r"^Job \d+: (.*)\nReason: (.*)$", words, flags=re.M))
+        table = words.split("Job stats:")[-1].split("total")[0]
+        return jobs, {rule: int(n) for rule, n in re.findall(r"^(\w+) +(\d+)$", table, flags=re.M)}
 
     def edit(self, path, old, new):
         """Replace a text that must be there."""

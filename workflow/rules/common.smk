@@ -1,5 +1,4 @@
 # Checked config and data before any work, and what the rules ask of them.
-import os
 import sys
 import time
 from pathlib import Path
@@ -12,10 +11,8 @@ import run_plan
 import verdict_table
 
 STARTED = time.time()
-# The jobs use the sources of this checkout, the ones that the rules track.
-os.environ["PYTHONPATH"] = str(Path(workflow.basedir) / "src")
-
 try:
+    config = run_plan.with_numbers(config)
     SOURCES = reference_data.load_all("data", run_plan.load("workflow/schemas/source.schema.yaml"))
     run_plan.check_config(config, run_plan.load("workflow/schemas/config.schema.yaml"), SOURCES)
 except (reference_data.SourceError, run_plan.ConfigError) as error:

@@ -4,7 +4,7 @@ Always succeeds: what cannot be compared diverges, with the reason in `note`.
 """
 
 import csv_tables
-import logs
+import job
 import numpy as np
 import reference_data
 
@@ -172,7 +172,7 @@ def _row(figure, name, verdict, **cells):
 
 
 if "snakemake" in globals():
-    with logs.to(snakemake.log[0]):  # noqa: F821
+    with job.log_to(snakemake.log[0]):  # noqa: F821
         found = compare(
             snakemake.wildcards.figure,  # noqa: F821
             snakemake.params.comparisons,  # noqa: F821

@@ -1,7 +1,7 @@
 """Bring the series of one source into one table with its own column names."""
 
 import csv_tables
-import logs
+import job
 import reference_data
 
 
@@ -18,5 +18,5 @@ def convert(source, output):
 
 
 if "snakemake" in globals():
-    with logs.to(snakemake.log[0]):  # noqa: F821
+    with job.log_to(snakemake.log[0]):  # noqa: F821
         convert(snakemake.params.source, snakemake.output[0])  # noqa: F821

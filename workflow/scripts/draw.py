@@ -4,7 +4,7 @@ import importlib
 
 import csv_tables
 import drawing
-import logs
+import job
 import reference_data
 
 
@@ -36,7 +36,7 @@ def _points(name, entry, path):
 
 
 if "snakemake" in globals():
-    with logs.to(snakemake.log[0]):  # noqa: F821
+    with job.log_to(snakemake.log[0]):  # noqa: F821
         draw(
             snakemake.wildcards.figure,  # noqa: F821
             snakemake.params.settings,  # noqa: F821

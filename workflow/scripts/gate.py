@@ -2,7 +2,7 @@
 
 import sys
 
-import logs
+import job
 import verdict_table
 
 
@@ -18,6 +18,6 @@ def gate(verdicts, passed):
 
 
 if "snakemake" in globals():
-    with logs.to(snakemake.log[0]):  # noqa: F821
+    with job.log_to(snakemake.log[0]):  # noqa: F821
         count = gate(snakemake.input.verdicts, snakemake.output[0])  # noqa: F821
     sys.exit(min(count, 1))

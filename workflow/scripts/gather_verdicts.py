@@ -1,11 +1,11 @@
 """Gather the verdicts of all figures into one table."""
 
 import csv_tables
-import logs
+import job
 import verdict_table
 
 if "snakemake" in globals():
-    with logs.to(snakemake.log[0]):  # noqa: F821
+    with job.log_to(snakemake.log[0]):  # noqa: F821
         rows = verdict_table.gather(snakemake.input.verdicts)  # noqa: F821
         csv_tables.write_rows(
             snakemake.output[0],  # noqa: F821

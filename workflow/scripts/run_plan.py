@@ -15,6 +15,18 @@ class ConfigError(Exception):
     """workflow/config.yaml or a --config value is not admissible."""
 
 
+def with_numbers(node):
+    """Numbers for the texts that snakemake makes of numbers inside braces on the command line."""
+    if isinstance(node, dict):
+        return {key: with_numbers(value) for key, value in node.items()}
+    if isinstance(node, list):
+        return [with_numbers(value) for value in node]
+    try:
+        return float(node) if isinstance(node, str) else node
+    except ValueError:
+        return node
+
+
 def check_config(config, schema, inventory):
     """Refuse an inadmissible config, naming the field, its value and what is allowed."""
     try:

@@ -5,7 +5,7 @@ import importlib
 import traceback
 
 import csv_tables
-import logs
+import job
 
 
 def solve(figure, settings, nodes, output):
@@ -33,7 +33,7 @@ def _read_nodes(nodes):
 
 
 if "snakemake" in globals():
-    with logs.to(snakemake.log[0]):  # noqa: F821
+    with job.log_to(snakemake.log[0]):  # noqa: F821
         solve(
             snakemake.wildcards.figure,  # noqa: F821
             snakemake.params.settings,  # noqa: F821

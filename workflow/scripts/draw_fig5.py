@@ -1,0 +1,134 @@
+"""Fig. 5: tangential velocity at separation against incidence, with what has been measured."""
+
+import math
+
+import drawing
+import numpy as np
+
+from planarimpact.curves.fig5 import contact_velocities
+
+X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
+REGIMES = {
+    "STICK": "stick",
+    "SLIP_STICK": "slip - stick",
+    "STICK_SLIP": "initial stick, terminal slip",
+    "SLIP_STICK_SLIP": "slip - stick - slip",
+    "SLIP_THROUGHOUT": "slip throughout",
+    "MULTIPLE": "repeated stick",
+}
+RUBBER = {"color": drawing.GREEN, "linestyle": drawing.DASHES[2], "linewidth": 1.0}
+EXPERIMENT = {"color": drawing.BLUE, "linestyle": "-", "linewidth": 0.7}
+RUBBER_POINTS = {"color": drawing.BLACK, "marker": "o", "markerfacecolor": "white"}
+ELEMENT_POINTS = {"color": drawing.VERMILLION, "marker": "s", "markerfacecolor": "white"}
+GLASS_POINTS = {"color": drawing.BLUE, "marker": "o", "markersize": 3}
+MEASURED_ANGLES = "kharaz2001/tangential_restitution"  # not in the axes of the figure
+
+
+def draw(curves, settings, points):
+    """The paper's curves and series, and additions in a legend of their own."""
+    figure = drawing.new(5.0)
+    axes = figure.subplots()
+    printed = (1 + settings["restitution"]) * settings["mass_ratio"]
+    # As wide as in the paper, whose limit stands at 7 of 8, or wider by as much as the limit is.
+    left, end = settings["incidence"]
+    wide = max(8.0, printed * 8 / 7)
+    right = wide if left < wide < end else end
+    paper = _draw_paper(axes, curves, points, settings)
+    added = _draw_added(axes, curves, points, settings)
+    _set_axes(axes, curves["lumped"], left, right)
+    _draw_regimes(axes, curves["lumped"], right)
+    _draw_printed_limit(axes, printed)
+    frequency = math.sqrt(settings["mass_ratio"] / settings["stiffness_ratio"])
+    state = rf"$e = {settings['restitution']:g}$,  $\omega/\Omega = {frequency:.2f}$"
+    axes.text(0.97, 0.05, state, ha="right", transform=axes.transAxes)
+    drawing.legend_below(figure, paper, added, titles=("in the paper", "added here"))
+    return figure
+
+
+def _draw_paper(axes, curves, points, settings):
+    """Draw what the paper's figure holds; its entries of the legend."""
+    lumped = rf"lumped model, $\zeta^2 = {settings['stiffness_ratio']:g}$"
+    rough = curves["no tangential compliance"]
+    entries = [
+        _draw_curve(axes, curves["lumped"], lumped, drawing.LUMPED),
+        _draw_curve(axes, rough, "no tangential compliance", drawing.RIGID),
+    ]
+    series = {
+        "maw1976/rebound_nu_0.3": ("elastic continuum (Maw et al.)", drawing.CONTINUUM),
+        "johnson1983/rubber_sphere": ("rubber sphere (Johnson)", RUBBER_POINTS),
+    }
+    return entries + _draw_series(axes, points, series)
+
+
+def _draw_added(axes, curves, points, settings):
+    """Draw what this repository adds; its entries of the legend."""
+    sphere, rubber = settings["experiment"], settings["rubber"]["stiffness_ratio"]
+    groups = rf"$\zeta^2 = {sphere['stiffness_ratio']:g}$, $e = {sphere['restitution']:g}$"
+    entries = [
+        _draw_curve(axes, curves["rubber"], rf"lumped, rubber, $\zeta^2 = {rubber:g}$", RUBBER),
+        _draw_curve(axes, curves["experiment"], f"lumped, {groups}", EXPERIMENT),
+    ]
+    series = {
+        MEASURED_ANGLES: ("alumina on glass (Kharaz et al.)", GLASS_POINTS),
+        "chung_ooi2011/rebound": ("finite elements (Chung & Ooi)", ELEMENT_POINTS),
+    }
+    if MEASURED_ANGLES in points:
+        points = points | {MEASURED_ANGLES: _contact_series(points[MEASURED_ANGLES])}
+    return entries + _draw_series(axes, points, series)
+
+
+def _draw_curve(axes, curve, label, style):
+    return axes.plot(curve[X], curve[Y], label=label, **style)[0]
+
+
+def _draw_series(axes, points, series):
+    """Draw those of the series that are at hand; their entries of the legend."""
+    return [
+        drawing.measured(axes, points[name], label=label, **style)
+        for name, (label, style) in series.items()
+        if name in points
+    ]
+
+
+def _contact_series(series):
+    """Measurements against the angle in the axes of the figure, errors to first order."""
+    groups = [series["parameters"][key] for key in ("mass_ratio", "friction")]
+    angle, ratio = series["x"], series["y"]
+    angle_error, ratio_error = series["sigma"]
+    x, y = contact_velocities(angle, ratio, *groups)
+    by_angle = np.subtract(contact_velocities(angle + angle_error, ratio, *groups), (x, y))
+    by_ratio = np.subtract(contact_velocities(angle, ratio + ratio_error, *groups), (x, y))
+    return {"x": x, "y": y, "sigma": np.hypot(by_angle, by_ratio), "line": False}
+
+
+def _set_axes(axes, curve, left, right):
+    drawn = curve[Y][curve[X] <= right]
+    low, high = min(-3.0, math.floor(drawn.min())), max(2.0, math.ceil(drawn[-1]))
+    axes.set(xlim=(left, right), ylim=(low, high), xlabel=drawing.INCIDENCE)
+    axes.set_ylabel(drawing.REBOUND)
+
+
+def _draw_regimes(axes, curve, right):
+    """Brackets and boundaries where the regime of the solver changes."""
+    x, regime = (curve[column][curve[X] <= right] for column in (X, "regime"))
+    starts = [0, *(np.flatnonzero(regime[1:] != regime[:-1]) + 1)]
+    bounds = [*x[starts], right]
+    # Normal impact alone may stick throughout: a point has no bracket.
+    spans = [
+        (start, end, REGIMES[regime[index]])
+        for start, end, index in zip(bounds[:-1], bounds[1:], starts, strict=True)
+        if end - start > 0.02 * right
+    ]
+    drawing.brackets(axes, spans)
+    for start, _, _ in spans[1:]:
+        axes.axvline(start, **drawing.GUIDE)
+
+
+def _draw_printed_limit(axes, limit):
+    """The paper's limit of slip throughout, (1 + e) m2/m1, that its Eq. 21 contradicts."""
+    left, right = axes.get_xlim()
+    if left < limit < right:
+        place = {"transform": axes.get_xaxis_transform()}
+        axes.plot([limit, limit], [0.955, 1], **place, **drawing.PRINTED)
+        style = {"color": drawing.GREY, "fontsize": drawing.NOTE, "ha": "center", "va": "top"}
+        axes.text(limit, 0.945, "limit as printed", **place, **style)

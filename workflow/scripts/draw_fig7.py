@@ -1,0 +1,74 @@
+"""Fig. 7: largest normal and tangential force against the angle of incidence."""
+
+import drawing
+import numpy as np
+from matplotlib.patches import Patch
+
+from planarimpact.curves.sampling import name
+
+X, Y = "angle [deg]", "peak_force [m2 Omega S]"
+TANGENTIAL = {"color": drawing.BLUE, "linestyle": drawing.DASHES[1]}
+SLIDING = {"facecolor": "none", "edgecolor": "0.75", "linewidth": 0, "hatch": "////"}
+APART = 0.05  # coefficients of friction nearer than this are too close to name each
+
+
+def draw(curves, settings, points):
+    """Both peak forces; light without tangential compliance; hatched where slip never stops."""
+    figure = drawing.new(4.4)
+    axes = figure.subplots()
+    _draw_curve(axes, curves["normal"], drawing.LUMPED)
+    sliding = curves["slip throughout"]
+    axes.fill_between(sliding[X], sliding[Y], **SLIDING)
+    shown = _shown(settings["friction"])
+    lines = []
+    for mu in settings["friction"]:
+        curve = curves[name("mu", mu)]
+        if mu not in shown:
+            _draw_curve(axes, curve, TANGENTIAL | {"linewidth": 0.4})
+            continue
+        rough = curves[f"no tangential compliance, {name('mu', mu)}"]
+        drawing.rigid(axes, rough[X], rough[Y], curve[Y])
+        _draw_curve(axes, curve, TANGENTIAL)
+        lines.append((f"{mu:g}", curve))
+    drawing.angle_axes(axes, settings["angle"])
+    _label_lines(axes, lines)
+    top = max(1.0, *(curve[Y].max() for curve in curves.values()))
+    axes.set(ylim=(0, top), ylabel=r"largest force over $m_2\Omega S$")
+    forces = [
+        drawing.key(r"normal, $F_2^{max}$", **drawing.LUMPED),
+        drawing.key(r"tangential, $F_1^{max}$, $\mu$ at the line", **TANGENTIAL),
+    ]
+    others = [
+        drawing.key(r"$F_1^{max}$, no tangential compliance", **drawing.RIGID),
+        Patch(label="slip throughout", **SLIDING),
+    ]
+    drawing.legend_below(figure, forces, others)
+    return figure
+
+
+def _shown(friction):
+    """Coefficients to name, the roundest first; between them the others are thin lines."""
+    shown = []
+    for mu in sorted(friction, key=lambda mu: (len(f"{mu:g}"), mu)):
+        if all(abs(mu - other) > APART for other in shown):
+            shown.append(mu)
+    return shown
+
+
+def _draw_curve(axes, curve, style):
+    axes.plot(curve[X], curve[Y], **style)
+
+
+def _label_lines(axes, lines):
+    """Labels in the lines themselves, all where the lines lie furthest apart."""
+    # Inside the axes, where a label does not cross the frame.
+    angle = np.linspace(*axes.get_xlim(), 361)[20:-20]
+    forces = np.array([np.interp(angle, curve[X], curve[Y]) for _, curve in lines])
+    normal = np.cos(np.radians(angle))
+    # The axis and the normal force count as neighbours of the lines.
+    gaps = np.diff(np.sort(np.vstack([0 * angle, forces, normal]), axis=0), axis=0)
+    at = int(gaps.min(axis=0).argmax())
+    box = {"facecolor": "white", "edgecolor": "none", "pad": 0.8}
+    style = {"color": drawing.BLUE, "fontsize": drawing.NOTE, "bbox": box}
+    for (label, _), force in zip(lines, forces[:, at], strict=True):
+        axes.text(angle[at], force, label, ha="center", va="center", **style)

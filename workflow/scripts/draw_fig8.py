@@ -1,0 +1,95 @@
+"""Fig. 8: largest forces in newtons on the ball of Lewis & Rogers, and what is said of them."""
+
+import math
+
+import drawing
+
+X, Y = "angle [deg]", "peak_force [N]"
+TANGENTIAL = {"color": drawing.BLUE, "linestyle": drawing.DASHES[1], "linewidth": 1.4}
+LARGEST = {"color": drawing.VERMILLION, "marker": "o", "linestyle": "none"}
+# The paper enlarges tangential forces on an axis of their own.
+ENLARGED = 2
+# Angles of the largest tangential force that the paper states (p. 447) for this friction.
+STATED_FRICTION = 0.18
+STATEMENTS = {35: r"model, 35$\degree$", 40: r"measured, $\approx 40\degree$"}
+
+
+def draw(curves, settings, points):
+    """Normal force on the left axis, tangential on the right one, measurements if at hand."""
+    figure = drawing.new(5.0)
+    axes = figure.subplots()
+    enlarged = axes.twinx()
+    normal, friction = curves["normal"], curves["friction"]
+    paper = [
+        *axes.plot(normal[X], normal[Y], label=r"normal, $F_2^{max}$", **drawing.LUMPED),
+        *enlarged.plot(friction[X], friction[Y], label=r"tangential, $F_1^{max}$", **TANGENTIAL),
+        *_draw_measured(axes, enlarged, points),
+    ]
+    _set_axes(axes, enlarged, settings["angle"])
+    if math.isclose(settings["friction"], STATED_FRICTION):
+        paper.append(_draw_statements(enlarged, friction))
+    added = [_draw_largest(enlarged, friction)]
+    _draw_note(axes, settings)
+    drawing.legend_below(figure, paper, added, titles=("in the paper", "added here"))
+    return figure
+
+
+def _draw_measured(axes, enlarged, points):
+    """Draw the measurements of Lewis & Rogers; their entries of the legend."""
+    series = {
+        "lewis_rogers1988/normal_force": (axes, "normal, Lewis & Rogers", drawing.BLACK, "o"),
+        "lewis_rogers1988/friction_force": (
+            enlarged,
+            "tangential, Lewis & Rogers",
+            drawing.BLUE,
+            "s",
+        ),
+    }
+    for name, (part, label, colour, marker) in series.items():
+        if name in points:
+            style = {"color": colour, "marker": marker, "markerfacecolor": "white"}
+            yield drawing.measured(part, points[name], label=label, **style)
+
+
+def _set_axes(axes, enlarged, span):
+    top = 20 * math.ceil(max(axes.get_ylim()[1], ENLARGED * enlarged.get_ylim()[1]) / 20)
+    axes.set(ylim=(0, top), ylabel="largest normal force, N")
+    enlarged.set_ylim(0, top / ENLARGED)
+    enlarged.set_ylabel("largest tangential force, N", color=drawing.BLUE)
+    enlarged.tick_params(axis="y", colors=drawing.BLUE)
+    drawing.angle_axes(axes, span)
+
+
+def _draw_largest(axes, curve):
+    """Mark the largest tangential force and its angle."""
+    top = int(curve[Y].argmax())
+    angle, force = curve[X][top], curve[Y][top]
+    # Left of the point, away from the angles stated.
+    place = {"textcoords": "offset points", "ha": "right", "va": "bottom"}
+    text = rf"{angle:.1f}$\degree$"
+    axes.annotate(text, (angle, force), (2, 4), color=drawing.VERMILLION, **place)
+    return axes.plot(angle, force, label=r"largest $F_1^{max}$", **LARGEST)[0]
+
+
+def _draw_statements(axes, curve):
+    """Thin lines at the angles stated, from the axis to above the curve."""
+    height = 1.15 * curve[Y].max()
+    place = {"rotation": 90, "ha": "center", "va": "bottom", "fontsize": drawing.NOTE}
+    left, right = axes.get_xlim()
+    inside = {angle: text for angle, text in STATEMENTS.items() if left < angle < right}
+    for angle, text in inside.items():
+        axes.text(angle, 1.04 * height, text, color=drawing.GREY, **place)
+    label = "angles stated: the paper's model; Lewis & Rogers"
+    return axes.vlines(list(inside), 0, height, label=label, **drawing.PRINTED)
+
+
+def _draw_note(axes, settings):
+    lines = [
+        rf"$\mu = {settings['friction']:g}$",
+        rf"$S = {settings['speed']:g}$ m/s",
+        f"{settings['mass']:g} kg",
+        "scale of force assumed:",
+        "Hertz at normal incidence",
+    ]
+    place = {"ha": "right", "va": "top", "transform": axes.transAxes}
+    axes.text(0.97, 0.96, "\n".join(lines), fontsize=drawing.NOTE, **place)
