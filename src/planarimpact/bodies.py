@@ -57,11 +57,16 @@ _finite = partial(checked, allowed="finite numbers")
 _not_negative = partial(checked, allowed="finite numbers from 0", low=0)
 _positive = partial(checked, allowed="finite numbers above 0", low=0, open_low=True)
 _poisson = partial(checked, allowed="numbers above -1, up to 0.5", low=-1, high=0.5, open_low=True)
-_angle = partial(checked, allowed="degrees between -90 and 90, exclusive",
-                 low=np.nextafter(-90, 0), high=np.nextafter(90, 0))
+_angle = partial(
+    checked,
+    allowed="degrees between -90 and 90, exclusive",
+    low=np.nextafter(-90, 0),
+    high=np.nextafter(90, 0),
+)
 # The groups scale tangential velocities by mu: at mu = 0 they no longer hold v1.
-_friction = partial(_positive, "friction",
-                    allowed="finite numbers above 0 (without friction v1 stays as it is)")
+_friction = partial(
+    _positive, "friction", allowed="finite numbers above 0 (without friction v1 stays as it is)"
+)
 
 
 def _positive_or_infinite(name, value):
@@ -206,8 +211,10 @@ def contact_velocity(tangential, normal, spin, radius):
     [0.0, 1.0]
     """
     tangential, normal, spin, radius = checks.broadcast(
-        tangential=_finite("tangential", tangential), normal=_finite("normal", normal),
-        spin=_finite("spin", spin), radius=_not_negative("radius", radius),
+        tangential=_finite("tangential", tangential),
+        normal=_finite("normal", normal),
+        spin=_finite("spin", spin),
+        radius=_not_negative("radius", radius),
     )
     return tangential + radius * spin, normal.copy()[()]
 
@@ -294,8 +301,10 @@ def hertz_peak_force(mass, speed, effective_modulus, effective_radius):
     77.2
     """
     m2, v2, modulus, radius = _all_positive(
-        mass=mass, speed=speed,
-        effective_modulus=effective_modulus, effective_radius=effective_radius,
+        mass=mass,
+        speed=speed,
+        effective_modulus=effective_modulus,
+        effective_radius=effective_radius,
     )
     # v2^1.2, since v2^2 would overflow first.
     return (4 / 3 * modulus * np.sqrt(radius)) ** 0.4 * (1.25 * m2) ** 0.6 * v2**1.2

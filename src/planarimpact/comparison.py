@@ -109,9 +109,7 @@ def curve_distance(points, curve, sigma, both_ways=False):
     if both_ways:
         order = np.argsort(x)
         inside = (line_x >= x.min()) & (line_x <= x.max())
-        back = distances_to_polyline(
-            line_x[inside], line_y[inside], x[order], y[order], *sigma
-        )
+        back = distances_to_polyline(line_x[inside], line_y[inside], x[order], y[order], *sigma)
         found = np.concatenate([found, back])
     order = np.argsort(line_x, kind="stable")
     vertical = y - np.interp(x, line_x[order], line_y[order])
@@ -151,7 +149,9 @@ def vertex_distance(points, vertices, sigma):
     for px, py, label in zip(x, y, labels, strict=True):
         if label not in of_label:
             raise ValueError(f"the curves have no vertex '{label}'")
-        dx, dy = (np.asarray(v, float)[of_label[label]] - p for v, p in ((vertex_x, px), (vertex_y, py)))
+        dx, dy = (
+            np.asarray(v, float)[of_label[label]] - p for v, p in ((vertex_x, px), (vertex_y, py))
+        )
         distance = np.hypot(dx / sigma[0], dy / sigma[1])
         found.append(distance.min())
         vertical.append(dy[distance.argmin()])

@@ -183,9 +183,7 @@ def _from_compression(lanes, impacts, outcome, trace):
     if trace is not None and last[0] and not broken[0]:
         trace.append(Phase(True, True, HALF_PI, 1.0, 0.0, amplitude, theta))
     on = np.flatnonzero(~(broken | last))
-    return Stick(
-        lanes[on], np.full(on.size, HALF_PI), theta[on], amplitude[on], np.ones(on.size)
-    )
+    return Stick(lanes[on], np.full(on.size, HALF_PI), theta[on], amplitude[on], np.ones(on.size))
 
 
 def _break_in_compression(lanes, impacts, outcome, trace):

@@ -35,7 +35,9 @@ def main():
     unit = nanoseconds(lambda: np.sin(x) + np.cos(x))
     print(f"one sine and one cosine: {unit:.1f} ns")
     cases = {
-        "solid sphere, incidence 0 to 10 (mixed regimes)": lambda: lumped.rebound(x, 3.5, 1.21, 0.9),
+        "solid sphere, incidence 0 to 10 (mixed regimes)": lambda: lumped.rebound(
+            x, 3.5, 1.21, 0.9
+        ),
         "solid sphere, incidence 0 to 5.3 (every impact sticks)": lambda: lumped.rebound(
             slow, 3.5, 1.21, 0.9
         ),

@@ -1,6 +1,6 @@
 """Write the tables of data/lumped_40_digits from the independent 40-digit reference.
 
-    python tests/reference/exact_tables.py data/lumped_40_digits
+python tests/reference/exact_tables.py data/lumped_40_digits
 """
 
 import csv
@@ -8,10 +8,8 @@ import math
 import sys
 from pathlib import Path
 
-from mpmath import mp
-
-sys.path.insert(0, str(Path(__file__).parent))
 import high_precision
+from mpmath import mp
 
 BETA, ZETA2 = 3.5, 1.21
 # The kinds of event as the package names them.

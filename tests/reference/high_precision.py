@@ -120,13 +120,15 @@ class _Impact:
             self._traverse(last)
         self._log("separation", last)
         loss = (self.x - self.velocity) * (self.x + self.velocity) / (2 * self.beta)
-        events = tuple(v._replace(friction=mirror * v.friction, velocity=mirror * v.velocity)
-                       for v in self.events)
+        events = tuple(
+            v._replace(friction=mirror * v.friction, velocity=mirror * v.velocity)
+            for v in self.events
+        )
         return Answer(mirror * self.velocity, self.peak, loss, self.work, events)
 
     def _half(self, sense, rate, end):
         nu = rate * mp.sqrt(self.beta / self.zeta2)
-        return _Half(sense, rate, nu, rate ** 2 * self.beta - self.zeta2, end)
+        return _Half(sense, rate, nu, rate**2 * self.beta - self.zeta2, end)
 
     def _log(self, kind, half):
         time = 2 * self.y / mp.pi
@@ -230,10 +232,10 @@ class _Impact:
         normal, cosine, (friction, velocity) = state
         gap = normal - g * friction
         slope = half.sense * cosine / half.nu - g * velocity  # df/dpsi
-        weight = half.excess / (self.zeta2 * half.nu ** 2)  # (nu^2 - 1)/nu^2
+        weight = half.excess / (self.zeta2 * half.nu**2)  # (nu^2 - 1)/nu^2
         bend = max(weight * normal, self.tiny)
         sliding = abs(slope) * half.nu * self.zeta2  # what _slip_end compares with `tiny`
-        flat = sliding <= self.tiny or slope ** 2 <= 2 * bend * self.tiny
+        flat = sliding <= self.tiny or slope**2 <= 2 * bend * self.tiny
         if gap <= self.tiny and flat:
             # Double zero: the start of stick after slip, x = zeta2 at first contact, a graze,
             # or f = 0 throughout (nu = 1). What follows has the sign of nu^2 - 1, because only
@@ -263,7 +265,7 @@ def _first_zero(gap, slope, load):
     and is positive wherever `slope` is not.
     """
     leading = gap - 2 * load
-    discriminant = slope ** 2 + gap * leading
+    discriminant = slope**2 + gap * leading
     if discriminant < 0:
         return None
     root = mp.sqrt(discriminant)

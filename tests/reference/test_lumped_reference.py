@@ -2,17 +2,14 @@
 
 import csv
 import math
-import sys
 from pathlib import Path
 
+import exact_tables
+import high_precision
 import numpy as np
 import pytest
 
 from planarimpact import bodies, lumped
-
-sys.path.insert(0, str(Path(__file__).parent))
-import high_precision
-import exact_tables
 
 ROOT = Path(__file__).parents[2]
 PROMISED = 1e-12
@@ -33,8 +30,11 @@ def thresholds(beta, zeta2, e):
     if zeta2 > beta:  # stick may break before maximum compression from here on
         omega = math.sqrt(beta / zeta2)
         places.append(zeta2 * omega / math.sin(omega * math.pi / 2))
-    near = [f(v) for v in places for f in (lambda v: v, lambda v: np.nextafter(v, -1),
-                                           lambda v: np.nextafter(v, 99))]
+    near = [
+        f(v)
+        for v in places
+        for f in (lambda v: v, lambda v: np.nextafter(v, -1), lambda v: np.nextafter(v, 99))
+    ]
     return [float(x) for x in near if 0 <= x <= 20]
 
 
@@ -59,7 +59,7 @@ def test_thresholds_against_40_digits(beta, zeta2, e):
 @pytest.mark.parametrize("beta", [1.5, 3.5, 8.0])
 @pytest.mark.parametrize("zeta2", [0.3, 1.21])
 def test_onset_of_sticking_again_against_40_digits(beta, zeta2):
-    """Around e^2 beta = zeta^2 the end of the first slip appears and the last slip stops lasting."""
+    """Around e^2 beta = zeta^2, from where on slip can end in restitution."""
     e = math.sqrt(zeta2 / beta)
     for near in (e, np.nextafter(e, 0), np.nextafter(e, 1), e * (1 + 1e-9), e * (1 - 1e-9)):
         for x in (*thresholds(beta, zeta2, float(near)), 0.3, 0.9 * beta, 1.01 * beta):
@@ -85,7 +85,9 @@ def test_history_has_the_events_of_the_reference():
     for case in [(1.0, 3.5, 1.21, 1.0), (2.5, 3.5, 1.21, 0.5), (2.0, 8.0, 0.05, 1.0)]:
         exact = high_precision.rebound(*case).events
         found = lumped.history(*case).events
-        assert [exact_tables.KINDS.get(e.kind, e.kind) for e in exact] == [str(e.kind) for e in found]
+        assert [exact_tables.KINDS.get(e.kind, e.kind) for e in exact] == [
+            str(e.kind) for e in found
+        ]
         for one, other in zip(exact, found, strict=True):
             for field in ("time", "normal", "friction", "velocity"):
                 assert abs(float(getattr(one, field)) - getattr(other, field)) < 1e-11

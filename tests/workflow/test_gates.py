@@ -1,19 +1,16 @@
 """Each comparison passes with the exact solver, and a wrong solver trips it."""
 
 import importlib
-import sys
 from pathlib import Path
 
-import pytest
-
-ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "workflow/scripts"))
 import compare
 import convert_series
+import pytest
 import reference_data
 import run_plan
 import solve
 
+ROOT = Path(__file__).parents[2]
 SCHEMAS = ROOT / "workflow/schemas"
 
 # Faults of a solver. Each is a change of what it is told, so that no part of it is trusted.
@@ -41,7 +38,9 @@ def inventory():
 @pytest.fixture(scope="module")
 def series(inventory, tmp_path_factory):
     folder = tmp_path_factory.mktemp("series")
-    found = [n for n, s in inventory.items() if any(e["path"] for e in s.get("series", {}).values())]
+    found = [
+        n for n, s in inventory.items() if any(e["path"] for e in s.get("series", {}).values())
+    ]
     for name in found:
         convert_series.convert(inventory[name], folder / f"{name}.csv")
     return {name: str(folder / f"{name}.csv") for name in found}
@@ -141,6 +140,8 @@ def test_energy_that_does_not_balance_trips_the_gate(config, inventory, series, 
 
 def test_curves_that_are_not_finite_diverge(config, inventory, series, tmp_path):
     path = tmp_path / "fig6.csv"
-    path.write_text("curve,incidence [mu v2(0)],velocity [mu v2(0)]\ne = 1,0.0,0.0\ne = 1,1.0,nan\n")
+    path.write_text(
+        "curve,incidence [mu v2(0)],velocity [mu v2(0)]\ne = 1,0.0,0.0\ne = 1,1.0,nan\n"
+    )
     rows = compare.compare("fig6", {}, {}, path, series)
     assert rows[0]["verdict"] == "diverges" and "not finite" in rows[0]["note"]

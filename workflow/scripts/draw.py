@@ -9,14 +9,14 @@ import reference_data
 
 
 def draw(figure, settings, overlays, curves_path, series_paths, svg, png):
-    """Draw `figure`; `overlays` are the series at hand, `{source/series: entry and parameters}`."""
+    """Draw `figure`; `overlays` are its reference series at hand, and facts, by name."""
     try:
         curves = csv_tables.read(curves_path)
     except csv_tables.Failed as error:
         drawing.save(drawing.failure(f"{figure}: the solver failed: {error}"), svg, png)
         return
     points = {
-        name: _points(name, entry, series_paths[name.split("/")[0]])
+        name: _points(name, entry, series_paths[name.split("/")[0]]) if "kind" in entry else entry
         for name, entry in overlays.items()
     }
     module = importlib.import_module(f"draw_{figure}")

@@ -57,7 +57,7 @@ def _draw_paper(axes, curves, points, settings):
         "maw1976/rebound_nu_0.3": ("elastic continuum (Maw et al.)", drawing.CONTINUUM),
         "johnson1983/rubber_sphere": ("rubber sphere (Johnson)", RUBBER_POINTS),
     }
-    return entries + _draw_series(axes, points, series)
+    return entries + drawing.references(axes, points, series)
 
 
 def _draw_added(axes, curves, points, settings):
@@ -74,20 +74,11 @@ def _draw_added(axes, curves, points, settings):
     }
     if MEASURED_ANGLES in points:
         points = points | {MEASURED_ANGLES: _contact_series(points[MEASURED_ANGLES])}
-    return entries + _draw_series(axes, points, series)
+    return entries + drawing.references(axes, points, series)
 
 
 def _draw_curve(axes, curve, label, style):
     return axes.plot(curve[X], curve[Y], label=label, **style)[0]
-
-
-def _draw_series(axes, points, series):
-    """Draw those of the series that are at hand; their entries of the legend."""
-    return [
-        drawing.measured(axes, points[name], label=label, **style)
-        for name, (label, style) in series.items()
-        if name in points
-    ]
 
 
 def _contact_series(series):

@@ -9,7 +9,6 @@ from planarimpact.curves.sampling import name
 X, Y = "angle [deg]", "peak_force [m2 Omega S]"
 TANGENTIAL = {"color": drawing.BLUE, "linestyle": drawing.DASHES[1]}
 SLIDING = {"facecolor": "none", "edgecolor": "0.75", "linewidth": 0, "hatch": "////"}
-APART = 0.05  # coefficients of friction nearer than this are too close to name each
 
 
 def draw(curves, settings, points):
@@ -19,13 +18,9 @@ def draw(curves, settings, points):
     _draw_curve(axes, curves["normal"], drawing.LUMPED)
     sliding = curves["slip throughout"]
     axes.fill_between(sliding[X], sliding[Y], **SLIDING)
-    shown = _shown(settings["friction"])
     lines = []
     for mu in settings["friction"]:
         curve = curves[name("mu", mu)]
-        if mu not in shown:
-            _draw_curve(axes, curve, TANGENTIAL | {"linewidth": 0.4})
-            continue
         rough = curves[f"no tangential compliance, {name('mu', mu)}"]
         drawing.rigid(axes, rough[X], rough[Y], curve[Y])
         _draw_curve(axes, curve, TANGENTIAL)
@@ -44,15 +39,6 @@ def draw(curves, settings, points):
     ]
     drawing.legend_below(figure, forces, others)
     return figure
-
-
-def _shown(friction):
-    """Coefficients to name, the roundest first; between them the others are thin lines."""
-    shown = []
-    for mu in sorted(friction, key=lambda mu: (len(f"{mu:g}"), mu)):
-        if all(abs(mu - other) > APART for other in shown):
-            shown.append(mu)
-    return shown
 
 
 def _draw_curve(axes, curve, style):

@@ -9,9 +9,11 @@ TANGENTIAL = {"color": drawing.BLUE, "linestyle": drawing.DASHES[1], "linewidth"
 LARGEST = {"color": drawing.VERMILLION, "marker": "o", "linestyle": "none"}
 # The paper enlarges tangential forces on an axis of their own.
 ENLARGED = 2
-# Angles of the largest tangential force that the paper states (p. 447) for this friction.
-STATED_FRICTION = 0.18
-STATEMENTS = {35: r"model, 35$\degree$", 40: r"measured, $\approx 40\degree$"}
+# Angles of the largest tangential force: name of the fact, whose it is.
+STATED = {
+    "stronge1994/peak_angle_mu_0.18": r"model, {:g}$\degree$",
+    "lewis_rogers1988/peak_angle": r"measured, $\approx {:g}\degree$",
+}
 
 
 def draw(curves, settings, points):
@@ -26,8 +28,7 @@ def draw(curves, settings, points):
         *_draw_measured(axes, enlarged, points),
     ]
     _set_axes(axes, enlarged, settings["angle"])
-    if math.isclose(settings["friction"], STATED_FRICTION):
-        paper.append(_draw_statements(enlarged, friction))
+    paper.append(_draw_statements(enlarged, friction, points))
     added = [_draw_largest(enlarged, friction)]
     _draw_note(axes, settings)
     drawing.legend_below(figure, paper, added, titles=("in the paper", "added here"))
@@ -36,19 +37,14 @@ def draw(curves, settings, points):
 
 def _draw_measured(axes, enlarged, points):
     """Draw the measurements of Lewis & Rogers; their entries of the legend."""
-    series = {
-        "lewis_rogers1988/normal_force": (axes, "normal, Lewis & Rogers", drawing.BLACK, "o"),
-        "lewis_rogers1988/friction_force": (
-            enlarged,
-            "tangential, Lewis & Rogers",
-            drawing.BLUE,
-            "s",
-        ),
-    }
-    for name, (part, label, colour, marker) in series.items():
-        if name in points:
-            style = {"color": colour, "marker": marker, "markerfacecolor": "white"}
-            yield drawing.measured(part, points[name], label=label, **style)
+    forces = {"normal": (axes, drawing.BLACK, "o"), "friction": (enlarged, drawing.BLUE, "s")}
+    entries = []
+    for force, (part, colour, marker) in forces.items():
+        style = {"color": colour, "marker": marker, "markerfacecolor": "white"}
+        label = f"{'tangential' if force == 'friction' else force}, Lewis & Rogers"
+        wanted = {f"lewis_rogers1988/{force}_force": (label, style)}
+        entries += drawing.references(part, points, wanted)
+    return entries
 
 
 def _set_axes(axes, enlarged, span):
@@ -71,15 +67,16 @@ def _draw_largest(axes, curve):
     return axes.plot(angle, force, label=r"largest $F_1^{max}$", **LARGEST)[0]
 
 
-def _draw_statements(axes, curve):
+def _draw_statements(axes, curve, points):
     """Thin lines at the angles stated, from the axis to above the curve."""
     height = 1.15 * curve[Y].max()
     place = {"rotation": 90, "ha": "center", "va": "bottom", "fontsize": drawing.NOTE}
     left, right = axes.get_xlim()
-    inside = {angle: text for angle, text in STATEMENTS.items() if left < angle < right}
+    stated = {points[name]["value"]: text for name, text in STATED.items() if name in points}
+    inside = {angle: text for angle, text in stated.items() if left < angle < right}
     for angle, text in inside.items():
-        axes.text(angle, 1.04 * height, text, color=drawing.GREY, **place)
-    label = "angles stated: the paper's model; Lewis & Rogers"
+        axes.text(angle, 1.04 * height, text.format(angle), color=drawing.GREY, **place)
+    label = r"angles stated for $\mu = 0.18$: the paper; Lewis & Rogers"
     return axes.vlines(list(inside), 0, height, label=label, **drawing.PRINTED)
 
 

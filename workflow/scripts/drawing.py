@@ -5,7 +5,7 @@ Each draw_figN.py has one public function, `draw(curves, settings, points)`, tha
 - `curves`, what planarimpact.curves.figN returns: `{curve: {column: array}}`;
 - `settings`, the keywords it was called with, from which labels take their numbers;
 - `points`, the reference series at hand, `{"source/series": {...}}` with arrays `x` and `y`, their
-  `sigma`, `line` and the source's `parameters`; a series that is missing is left out.
+  `sigma`, `line` and the source's `parameters`, and stated facts, as in source.yaml.
 
 Importing this module sets matplotlib's defaults, once and for all figures: ticks are made late,
 at the drawing, so a style that holds only while a figure is put together would not reach them.
@@ -149,6 +149,29 @@ def measured(axes, series, **style):
     x_error, y_error = series["sigma"]
     bars = {"linestyle": "none", "elinewidth": 0.7, "markeredgewidth": 0.9, "zorder": 3}
     return axes.errorbar(series["x"], series["y"], yerr=y_error, xerr=x_error, **(bars | style))
+
+
+def references(axes, points, wanted):
+    """Draw reference series on their axes; an entry of the legend each, also for awaited ones.
+
+    Parameters
+    ----------
+    axes : Axes
+    points : dict
+        As `draw` gets it.
+    wanted : dict
+        `{"source/series": (label, style)}`.
+
+    Returns
+    -------
+    list of artists
+    """
+    return [
+        measured(axes, points[name], label=label, **style)
+        if name in points
+        else key(f"{label}: awaited", linestyle="none")
+        for name, (label, style) in wanted.items()
+    ]
 
 
 def angle_axes(axes, span):

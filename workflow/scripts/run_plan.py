@@ -120,8 +120,9 @@ def sources_of(config, inventory, figure):
 
 
 def overlays(config, inventory, figure):
-    """Measured series to draw over one figure, with the parameters of their source."""
-    chosen = {}
+    """What to draw over one figure: measured series, with the parameters of their source, facts."""
+    named = references(config, inventory, figure).items()
+    chosen = {name: entry for name, entry in named if "statement" in entry}
     for name, entry in series_of(config, inventory, figure).items():
         if entry["kind"] != "computed":
             stated = inventory[name.split("/")[0]]["parameters"]
@@ -132,8 +133,11 @@ def overlays(config, inventory, figure):
 
 def nodes_of(config, inventory, figure):
     """Reference tables whose points the curves must pass through: `{path: column of x}`."""
-    exact = {c.get("reference") for c in comparisons(config, figure).values()
-             if c["metric"] == "vertices"}
+    exact = {
+        c.get("reference")
+        for c in comparisons(config, figure).values()
+        if c["metric"] == "vertices"
+    }
     return {
         entry["path"]: reference_data.column_name(entry["x"])
         for name, entry in series_of(config, inventory, figure).items()
