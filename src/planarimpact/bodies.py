@@ -109,13 +109,21 @@ def solid_sphere(radius, density):
 
 
 def thin_shell(radius, mass):
-    """Body of a thin spherical shell (table-tennis ball), k^2 = 2 r^2/3; radius [m], mass [kg]."""
+    """Body of a thin spherical shell (table-tennis ball), k^2 = 2 r^2/3; radius [m], mass [kg].
+
+    >>> round(float(mass_ratio(thin_shell(0.02, 0.0027))), 12)
+    2.5
+    """
     r, m = _all_positive(radius=radius, mass=mass)
     return Body(m[()], r * np.sqrt(2 / 3), r[()])
 
 
 def disc(radius, mass):
-    """Body of a disc or cylinder that strikes with its rim, k^2 = r^2/2; radius [m], mass [kg]."""
+    """Body of a disc or cylinder that strikes with its rim, k^2 = r^2/2; radius [m], mass [kg].
+
+    >>> round(float(mass_ratio(disc(0.05, 0.2))), 12)
+    3.0
+    """
     r, m = _all_positive(radius=radius, mass=mass)
     return Body(m[()], r * np.sqrt(1 / 2), r[()])
 
@@ -194,7 +202,11 @@ def stiffness_ratio(material, other=None):
 
 
 def effective_radius(radius, other=np.inf):
-    """Effective radius R [m] of two convex surfaces, 1/R = sum 1/radius; a flat `other` is inf."""
+    """Effective radius R [m] of two convex surfaces, 1/R = sum 1/radius; a flat `other` is inf.
+
+    >>> float(effective_radius(0.02, 0.02))
+    0.01
+    """
     first, second = checks.broadcast(
         radius=_positive("radius", radius), other=_positive_or_infinite("other", other)
     )
@@ -244,7 +256,11 @@ def angle_of_incidence(incidence, friction):
 
 
 def incidence_from_angle(theta_deg, friction):
-    """Incidence x = tan(theta)/mu of an angle |theta| < 90 in degrees; see `angle_of_incidence`."""
+    """Incidence x = tan(theta)/mu of an angle |theta| < 90 in degrees; see `angle_of_incidence`.
+
+    >>> round(float(incidence_from_angle(45.0, 0.5)), 12)
+    2.0
+    """
     theta = _angle("theta_deg", theta_deg)
     theta, mu = checks.broadcast(theta_deg=theta, friction=_friction(friction))
     with np.errstate(over="ignore"):  # refused below
