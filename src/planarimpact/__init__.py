@@ -1,10 +1,29 @@
 """Planar impact of rough compliant bodies, after W. J. Stronge (1994).
 
-`lumped` is the paper's model, solved exactly; `rigid` its limit without tangential compliance;
-`bodies` turns physical bodies into the groups that they take.
+`lumped` is the paper's model, solved exactly; `rigid` its limit without tangential compliance.
+`continuum` and `annuli` solve the elastic contact with micro-slip by two independent methods.
+`bodies` turns physical bodies into the groups that they all take.
 """
 
-from planarimpact.checks import InputError
-from planarimpact.results import Event, EventKind, History, Rebound, Regime
+from planarimpact.checks import ConvergenceError, InputError
+from planarimpact.results import (
+    ContinuumHistory,
+    ContinuumRebound,
+    Event,
+    EventKind,
+    History,
+    Rebound,
+    Regime,
+)
 
-__all__ = ["Event", "EventKind", "History", "InputError", "Rebound", "Regime"]
+__all__ = [
+    "ContinuumHistory",
+    "ContinuumRebound",
+    "ConvergenceError",
+    "Event",
+    "EventKind",
+    "History",
+    "InputError",
+    "Rebound",
+    "Regime",
+]

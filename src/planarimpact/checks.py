@@ -1,4 +1,4 @@
-"""Refusals: every public function checks its arguments here, before any work."""
+"""Refusals: what the package raises, and the checks of arguments before any work."""
 
 import math
 
@@ -7,6 +7,10 @@ import numpy as np
 
 class InputError(ValueError):
     """An argument outside what the model admits; names it, its value and what is allowed."""
+
+
+class ConvergenceError(ArithmeticError):
+    """A numerical method that did not reach what was asked of it; says how far it came."""
 
 
 def checked(name, value, allowed, low=-math.inf, high=math.inf, open_low=False):
@@ -77,6 +81,20 @@ def stiffness_ratio(value):
 def restitution(value):
     """Check the energetic coefficient of restitution, 0 <= e <= 1."""
     return checked("restitution", value, "numbers from 0 to 1", 0, 1)
+
+
+def count(name, value, least):
+    """Check a number of steps, circles or samples: an integer from `least`.
+
+    Examples
+    --------
+    >>> count("steps", 2.5, 1)
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: steps = 2.5: allowed are integers from 1
+    """
+    if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
+        raise InputError(f"{name} = {value!r}: allowed are integers from {least}")
 
 
 def broadcast(**arguments):

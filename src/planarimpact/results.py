@@ -36,7 +36,8 @@ class Rebound(NamedTuple):
         w(tf) = v1(tf)/(mu v2(0)), tangential velocity of the contact point; positive in the
         direction of a positive incidence, negative when it has turned round.
     peak_friction : ndarray of float64 or float
-        Largest |F1| over the contact, in mu m2 Omega |v2(0)|; between 0 and 1.
+        Largest |F1| over the contact, in mu times the largest normal force, m2 Omega |v2(0)|;
+        between 0 and 1.
     dissipation : ndarray of float64 or float
         Work of friction in mu^2 m2 v2(0)^2, from the exact balance of tangential energy. For
         e = 0 it includes the tangential strain energy that is lost at separation.
@@ -48,6 +49,27 @@ class Rebound(NamedTuple):
     peak_friction: np.ndarray
     dissipation: np.ndarray
     regime: np.ndarray
+
+
+class ContinuumRebound(NamedTuple):
+    """The state at separation of an elastic continuum (e = 1); entries as in `Rebound`.
+
+    Attributes
+    ----------
+    velocity, peak_friction, dissipation : ndarray of float64 or float
+        As in `Rebound`.
+    regime : ndarray of uint8 or Regime
+        Codes of `Regime`, where slip means gross slip, of the whole contact, and stick that
+        some of it sticks.
+    reversals : ndarray of int64 or int
+        How often the tangential force changes its sign.
+    """
+
+    velocity: np.ndarray
+    peak_friction: np.ndarray
+    dissipation: np.ndarray
+    regime: np.ndarray
+    reversals: np.ndarray
 
 
 class EventKind(StrEnum):
@@ -102,3 +124,32 @@ class History(NamedTuple):
     velocity: np.ndarray
     spring: np.ndarray
     events: tuple
+
+
+class ContinuumHistory(NamedTuple):
+    """Forces, velocity and the edge of stick over one contact of an elastic continuum.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        t/t_c, from 0 to 2; t_c is the time to maximum compression.
+    normal : ndarray, shape (n,)
+        Normal force F2 over its largest value.
+    friction : ndarray, shape (n,)
+        Tangential force F1 over mu times the largest normal force; positive opposes a positive
+        incidence.
+    velocity : ndarray, shape (n,)
+        w = v1/(mu v2(0)).
+    contact_radius : ndarray, shape (n,)
+        Radius of contact over its largest value.
+    stick_radius : ndarray, shape (n,)
+        Radius inside which the contact sticks, in the same unit: the radius of contact while
+        nothing slips, 0 in gross slip.
+    """
+
+    time: np.ndarray
+    normal: np.ndarray
+    friction: np.ndarray
+    velocity: np.ndarray
+    contact_radius: np.ndarray
+    stick_radius: np.ndarray

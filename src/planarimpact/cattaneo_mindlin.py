@@ -1,0 +1,109 @@
+"""Closed forms of partial slip under a constant normal force (Cattaneo 1938, Mindlin 1949).
+
+A Hertz contact is pushed sideways, back and forth, by less than it takes to slip. Yardstick for
+`planarimpact.micro_slip` and `planarimpact.annuli`. Units: force mu times the normal force,
+radius that of the contact, displacement the one at which the contact slips as a whole, zeta^2 mu
+times the approach.
+"""
+
+import numpy as np
+
+from planarimpact import checks
+
+
+def friction(displacement):
+    """Tangential force of a contact that is pushed sideways for the first time.
+
+    Parameters
+    ----------
+    displacement : array_like
+        Any finite numbers; beyond 1 the contact slips as a whole. Odd in its argument.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        1 - (1 - |u|)^(3/2) with the sign of u.
+
+    Raises
+    ------
+    InputError
+        If an argument is not finite.
+
+    Examples
+    --------
+    >>> float(friction(0.75))
+    0.875
+    """
+    u = checks.checked("displacement", displacement, "finite numbers")
+    return np.copysign(_complement(1 - np.minimum(np.abs(u), 1.0)), u)[()]
+
+
+def unloading(displacement, turned_at):
+    """Tangential force on the way back (Mindlin & Deresiewicz 1953).
+
+    Parameters
+    ----------
+    displacement : array_like
+        At most `turned_at` and not beyond -`turned_at`, where the first loading is met again.
+    turned_at : array_like
+        Displacement of the first loading at which the motion turned round, 0 to 1.
+
+    Returns
+    -------
+    ndarray of float64 or float
+
+    Raises
+    ------
+    InputError
+        If an argument is not finite or out of its range.
+
+    Notes
+    -----
+    Slip starts anew at the edge with twice the strength, as the traction there must change its
+    sign: the force falls by 2 f(change/2), with f of `friction`.
+
+    Examples
+    --------
+    >>> float(unloading(-0.75, 0.75))
+    -0.875
+    """
+    u, top = checks.broadcast(
+        displacement=checks.checked("displacement", displacement, "finite numbers"),
+        turned_at=checks.checked("turned_at", turned_at, "numbers from 0 to 1", 0, 1),
+    )
+    if not (np.abs(u) <= top).all():
+        raise checks.InputError(
+            f"displacement = {displacement!r}: allowed are numbers from -turned_at to turned_at"
+        )
+    return (_complement(1 - top) - 2 * _complement(1 - (top - u) / 2))[()]
+
+
+def stick_radius(force):
+    """Radius inside which the contact sticks, at a force of first loading.
+
+    Parameters
+    ----------
+    force : array_like
+        -1 to 1.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        (1 - |T|)^(1/3).
+
+    Raises
+    ------
+    InputError
+        If an argument is not finite or out of its range.
+
+    Examples
+    --------
+    >>> float(stick_radius(0.875))
+    0.5
+    """
+    force = checks.checked("force", force, "numbers from -1 to 1", -1, 1)
+    return np.cbrt(1 - np.abs(force))[()]
+
+
+def _complement(share):
+    return 1 - share * np.sqrt(share)

@@ -1,0 +1,92 @@
+"""The elastic continuum: exact limits, shapes, refusals."""
+
+import numpy as np
+import pytest
+
+from planarimpact import ConvergenceError, InputError, Regime, annuli, continuum, lumped
+
+
+def test_slip_throughout_is_exact():
+    limit = lumped.slip_throughout_limit(3.5, 1.21)
+    x = np.array([limit, 6.0, 8.0, 1e6])
+    result = continuum.rebound(x)
+    np.testing.assert_array_equal(result.velocity, x - 7)
+    assert (result.regime == Regime.SLIP_THROUGHOUT).all() and (result.peak_friction == 1).all()
+
+
+def test_nothing_happens_at_normal_incidence():
+    assert continuum.rebound(0.0) == (0.0, 0.0, 0.0, Regime.STICK, 0)
+    assert annuli.rebound(0.0, circles=4, steps=8) == (0.0, 0.0, 0.0, Regime.STICK, 0)
+
+
+def test_gross_slip_to_maximum_compression_has_full_friction():
+    assert (continuum.rebound([3.5, 4.5, 5.5]).peak_friction == 1).all()
+
+
+def test_the_limit_of_slip_throughout_is_crossed_without_a_jump():
+    below = continuum.rebound(np.nextafter(5.79, 0), tolerance=1e-8)
+    assert below.regime == Regime.SLIP_STICK_SLIP
+    assert abs(below.velocity - (5.79 - 7)) < 1e-8
+
+
+@pytest.mark.parametrize("solver", [continuum.rebound, annuli.rebound])
+def test_results_have_the_shape_of_the_arguments(solver):
+    result = solver([[0.5], [2.0], [-2.0]], 3.5, [1.21, 1.5])
+    assert all(field.shape == (3, 2) for field in result)
+    np.testing.assert_allclose(result.velocity[1], -result.velocity[2], atol=1e-12)
+    np.testing.assert_allclose(result.dissipation[1], result.dissipation[2], atol=1e-12)
+    alone = solver(2.0, 3.5, 1.5)
+    assert isinstance(alone.regime, Regime) and isinstance(alone.reversals, int)
+    assert alone.velocity == pytest.approx(result.velocity[1, 1], abs=1e-12)
+
+
+@pytest.mark.parametrize("solver", [continuum.rebound, annuli.rebound])
+def test_many_impacts_are_solved_in_parts(solver, monkeypatch):
+    x = np.linspace(0.1, 5.0, 7)
+    whole = solver(x)
+    monkeypatch.setattr(continuum, "CELLS", 100)
+    monkeypatch.setattr(annuli, "IMPACTS_TOGETHER", 2)
+    np.testing.assert_allclose(solver(x).velocity, whole.velocity, atol=1e-14)
+
+
+def test_history_ends_where_rebound_does():
+    for x in (0.0, 0.7, 2.5, -2.5, 7.0):
+        contact = continuum.history(x)
+        assert abs(contact.velocity[-1] - continuum.rebound(x).velocity) <= 1e-4
+        assert contact.velocity[0] == x and contact.time[0] == 0 and contact.time[-1] == 2
+        assert (np.diff(contact.time) > 0).all() and len(contact.time) >= 129
+        assert (contact.stick_radius <= contact.contact_radius).all()
+        assert contact.normal[-1] == contact.friction[-1] == 0
+
+
+def test_a_tolerance_out_of_reach_is_refused():
+    with pytest.raises(ConvergenceError, match="tolerance = 1e-15: not met with 32768 steps"):
+        continuum.rebound(2.0, tolerance=1e-15)
+    with pytest.raises(ConvergenceError, match="at incidence = 2, mass_ratio = 3.5"):
+        continuum.history(2.0, tolerance=1e-15)
+
+
+def test_annuli_without_an_answer_say_so(monkeypatch):
+    monkeypatch.setattr(annuli, "MOST_TRIALS", 1)
+    with pytest.raises(ConvergenceError, match="no distribution of stick and slip over"):
+        annuli.rebound(2.0)
+
+
+BAD = [
+    (lambda: continuum.rebound(np.nan), "incidence = nan"),
+    (lambda: continuum.rebound(1.0, 0.5), "mass_ratio = 0.5"),
+    (lambda: continuum.rebound(1.0, 3.5, 0.0), "stiffness_ratio = 0.0"),
+    (lambda: continuum.rebound(1.0, tolerance=0.0), "tolerance = 0.0: allowed are numbers above 0"),
+    (lambda: continuum.rebound(1.0, tolerance=[1e-3, 1e-4]), r"tolerance, shape \(2,\)"),
+    (lambda: continuum.rebound([1.0, 2.0], [3.0, 3.5, 4.0]), "shapes do not broadcast"),
+    (lambda: continuum.history([1.0, 2.0]), r"shape = \(2,\): one contact takes scalars"),
+    (lambda: annuli.rebound("fast"), "incidence = 'fast'"),
+    (lambda: annuli.rebound(1.0, circles=2.5), "circles = 2.5: allowed are integers from 1"),
+    (lambda: annuli.rebound(1.0, steps=1), "steps = 1: allowed are integers from 2"),
+]
+
+
+@pytest.mark.parametrize(("call", "words"), BAD, ids=[words for _, words in BAD])
+def test_bad_input_is_named(call, words):
+    with pytest.raises(InputError, match=words):
+        call()

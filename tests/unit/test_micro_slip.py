@@ -1,0 +1,89 @@
+"""Hertz contact under tangential load: motion, closed forms, and the row of springs."""
+
+import numpy as np
+import pytest
+import scipy.special
+
+from planarimpact import InputError, annuli, cattaneo_mindlin, hertz, micro_slip
+
+PHASE = np.linspace(0.0, np.pi, 201)
+
+
+def test_hertz_motion_conserves_energy():
+    depth = np.sin(PHASE) ** 2
+    np.testing.assert_allclose(hertz.velocity(PHASE) ** 2, 1 - depth**2.5, atol=4e-16)
+
+
+def test_hertz_velocity_and_phase_are_inverse():
+    np.testing.assert_allclose(hertz.phase_at(hertz.velocity(PHASE)), PHASE, atol=2e-15)
+
+
+def test_hertz_pace_is_that_of_depth_and_time():
+    """v dt = dd, and the time of a whole contact."""
+    np.testing.assert_allclose(
+        hertz.velocity(PHASE) * hertz.pace(PHASE), np.sin(2 * PHASE), atol=1e-15
+    )
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    to_maximum = weights @ hertz.pace(np.pi / 4 * (1 + nodes)) * np.pi / 4
+    assert abs(to_maximum - 0.4 * scipy.special.beta(0.4, 0.5)) < 1e-14
+    for phase in (0.3, 1.5, 1.6, 3.0):
+        passed = weights @ hertz.pace(phase / 2 * (1 + nodes)) * phase / 2
+        assert abs(passed / to_maximum - hertz.time(phase)) < 1e-13
+
+
+def test_first_loading_and_way_back_are_the_closed_forms():
+    """Cattaneo, Mindlin and Deresiewicz, exactly: pressed down, pushed, pulled back, pushed."""
+    out = np.linspace(0.0, 0.9, 10)
+    back = np.linspace(0.8, -0.9, 18)
+    force, stick = micro_slip.friction(np.ones(28), np.concatenate([out, back]))
+    np.testing.assert_allclose(force[:10], cattaneo_mindlin.friction(out), atol=1e-14)
+    np.testing.assert_allclose(force[10:], cattaneo_mindlin.unloading(back, 0.9), atol=1e-14)
+    np.testing.assert_allclose(stick[1:10], cattaneo_mindlin.stick_radius(force[1:10]), atol=1e-14)
+
+
+def test_a_closed_loop_of_smaller_amplitude_is_forgotten():
+    path = [0.0, 0.7, 0.3, 0.7]
+    force, _ = micro_slip.friction(np.ones(4), path)
+    assert abs(force[3] - force[1]) < 1e-15
+
+
+def test_pushed_further_than_friction_the_whole_contact_slips():
+    force, stick = micro_slip.friction([1.0, 1.0, 1.0, 1.0], [0.0, 5.0, 4.5, 3.0])
+    assert force[1] == pytest.approx(1.0, abs=1e-15) and stick[1] == 0
+    assert force[3] == pytest.approx(cattaneo_mindlin.unloading(-1.0, 1.0), abs=1e-15)
+
+
+def test_straight_oblique_loading_does_not_slip():
+    """Where approach grows faster than displacement every new spring sticks at once."""
+    growth = np.linspace(0.1, 1.0, 10)
+    force, stick = micro_slip.friction(np.sqrt(growth), 0.6 * growth)
+    np.testing.assert_allclose(stick, np.sqrt(growth))
+    np.testing.assert_allclose(force, 0.6 * growth**1.5, atol=1e-15)
+
+
+def test_closed_forms_saturate_and_are_odd():
+    u = np.linspace(0, 2, 21)
+    force = cattaneo_mindlin.friction(u)
+    np.testing.assert_array_equal(cattaneo_mindlin.friction(-u), -force)
+    assert (force[10:] == 1).all() and (np.diff(force[:11]) > 0).all()
+    assert cattaneo_mindlin.unloading(0.6, 0.6) == pytest.approx(cattaneo_mindlin.friction(0.6))
+    assert cattaneo_mindlin.unloading(-0.6, 0.6) == pytest.approx(cattaneo_mindlin.friction(-0.6))
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: micro_slip.friction([-1.0], [0.0]), r"radius\[0\] = -1.0: allowed are"),
+        (lambda: micro_slip.friction([1.0, 1.0], [0.0, np.nan]), r"displacement\[1\] = nan"),
+        (lambda: micro_slip.friction(1.0, 0.0), r"shape = \(\): a path has one dimension"),
+        (lambda: annuli.friction([0.0], [0.0]), r"radius\[0\] = 0.0: allowed are"),
+        (lambda: annuli.friction([1.0], [0.0], circles=0), "circles = 0: allowed are integers"),
+        (lambda: cattaneo_mindlin.friction(np.inf), "displacement = inf"),
+        (lambda: cattaneo_mindlin.unloading(0.5, 1.5), "turned_at = 1.5"),
+        (lambda: cattaneo_mindlin.unloading(0.5, 0.4), "displacement = 0.5"),
+        (lambda: cattaneo_mindlin.stick_radius(1.1), "force = 1.1"),
+    ],
+)
+def test_bad_input_is_named(call, words):
+    with pytest.raises(InputError, match=words):
+        call()
