@@ -35,7 +35,7 @@ def friction(displacement):
     0.875
     """
     u = checks.checked("displacement", displacement, "finite numbers")
-    return np.copysign(_complement(1 - np.minimum(np.abs(u), 1.0)), u)[()]
+    return np.copysign(_loading(np.minimum(np.abs(u), 1.0)), u)[()]
 
 
 def unloading(displacement, turned_at):
@@ -71,11 +71,13 @@ def unloading(displacement, turned_at):
         displacement=checks.checked("displacement", displacement, "finite numbers"),
         turned_at=checks.checked("turned_at", turned_at, "numbers from 0 to 1", 0, 1),
     )
-    if not (np.abs(u) <= top).all():
+    beyond = np.abs(u) > top
+    if beyond.any():
         raise checks.InputError(
-            f"displacement = {displacement!r}: allowed are numbers from -turned_at to turned_at"
+            f"displacement = {u[beyond][0]}: allowed are numbers from -turned_at to turned_at, "
+            f"{top[beyond][0]}"
         )
-    return (_complement(1 - top) - 2 * _complement(1 - (top - u) / 2))[()]
+    return (_loading(top) - 2 * _loading((top - u) / 2))[()]
 
 
 def stick_radius(force):
@@ -105,5 +107,7 @@ def stick_radius(force):
     return np.cbrt(1 - np.abs(force))[()]
 
 
-def _complement(share):
-    return 1 - share * np.sqrt(share)
+def _loading(displacement):
+    """1 - (1 - u)^(3/2) without cancellation at small u."""
+    with np.errstate(divide="ignore"):  # the logarithm of 0 where all of the contact slips
+        return -np.expm1(1.5 * np.log1p(-displacement))

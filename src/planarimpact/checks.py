@@ -51,8 +51,8 @@ def checked(name, value, allowed, low=-math.inf, high=math.inf, open_low=False):
         raise InputError(f"{name} = {value!r}: not a regular array of numbers") from None
     if given.dtype.kind not in "iuf":
         raise InputError(f"{name} = {value!r}: allowed are {allowed}, as real numbers")
-    numbers = given.astype(np.float64)
-    with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore", over="ignore"):
+        numbers = given.astype(np.float64)
         good = (numbers > low if open_low else numbers >= low) & (numbers <= high)
     good &= np.isfinite(numbers)
     if not good.all():
@@ -84,7 +84,7 @@ def restitution(value):
 
 
 def count(name, value, least):
-    """Check a number of steps, circles or samples: an integer from `least`.
+    """Return a number of steps, circles or samples as int: an integer from `least`.
 
     Examples
     --------
@@ -95,6 +95,24 @@ def count(name, value, least):
     """
     if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
         raise InputError(f"{name} = {value!r}: allowed are integers from {least}")
+    return int(value)
+
+
+def path(radius, displacement):
+    """Check a path of contact: radii in a_max and displacements, as many of one as of the other.
+
+    Examples
+    --------
+    >>> [points.tolist() for points in path([0.5, 1.0], 0.25)]
+    [[0.5, 1.0], [0.25, 0.25]]
+    """
+    points = broadcast(
+        radius=checked("radius", radius, "numbers from 1e-6 to 1", 1e-6, 1),
+        displacement=checked("displacement", displacement, "numbers from -1e6 to 1e6", -1e6, 1e6),
+    )
+    if points[0].ndim != 1:
+        raise InputError(f"shape = {points[0].shape}: a path has one dimension")
+    return points
 
 
 def broadcast(**arguments):

@@ -20,7 +20,7 @@ FIRST_STEPS = 16
 MOST_STEPS = 2**15
 SAFETY = 3  # error over what its estimate rests on: 2.8 was the largest among 30 000
 STEPS_A_RADIAN = 4  # of the tangential oscillation, before an error estimate is believed
-CELLS = 2**22  # steps times impacts solved together: bounds the memory to some 100 MB
+CELLS = 2**20  # steps times impacts solved together: bounds the memory to some 100 MB
 
 
 def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-6):
@@ -55,9 +55,10 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-6):
     Notes
     -----
     The error of the steps falls with their square, the extrapolated one with their power 2.5 on
-    average: where the direction of micro-slip changes, the force has a kink in its second
-    derivative. What is asked to meet the tolerance is the change of the extrapolated answer by
-    the last doubling, three to six times its error.
+    average, as gross slip sets in with a root of time. The error is estimated from the changes of
+    the extrapolated answer by the last two doublings and from the correction itself, three times
+    the largest: among 30 000 random impacts no error was larger than 0.6 of the estimate. A
+    reversal of friction shorter than a step, just below slip throughout, is not counted.
 
     References
     ----------
@@ -74,61 +75,56 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-6):
     """
     signed, beta, zeta2, tolerance = _checked(incidence, mass_ratio, stiffness_ratio, tolerance)
     size, beta, zeta2 = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2))
-    velocity, peak, regime, reversals = _at_limits(size, beta, zeta2)
-    rest = np.flatnonzero(regime == _UNSOLVED)
-    fine = _refine(size[rest], beta[rest], zeta2[rest], tolerance)
-    for array, values in zip((velocity, peak, regime, reversals), fine, strict=True):
+    velocity, impulse, *found = _at_limits(size, beta, zeta2)
+    rest = np.flatnonzero(found[1] == _UNSOLVED)
+    groups = size[rest], beta[rest], zeta2[rest]
+    _refuse_unresolved(*groups)
+    velocity[rest], *fine = _refine(*groups, tolerance)
+    impulse[rest] = (size - velocity)[rest] / beta[rest]
+    for array, values in zip(found, fine, strict=True):
         array[rest] = values
-    dissipation = (size - velocity) / beta * (size / 2 + velocity / 2)
-    velocity *= np.copysign(1.0, signed.reshape(-1))
-    fields = (velocity, peak, dissipation, regime, reversals)
-    if signed.ndim == 0:
-        return ContinuumRebound(
-            velocity[0], peak[0], dissipation[0], Regime(int(regime[0])), int(reversals[0])
-        )
-    return ContinuumRebound(*(field.reshape(signed.shape) for field in fields))
+    return ContinuumRebound.of(signed, velocity, impulse, *found)
 
 
-def fixed_steps(incidence, mass_ratio=3.5, stiffness_ratio=1.21, steps=128):
-    """Velocity at separation with a given number of steps, for studies of convergence.
+def fixed_steps(incidence, mass_ratio=3.5, stiffness_ratio=1.21, steps=128, extrapolate=False):
+    """Velocity at separation with a given number of steps, whatever its error.
 
     Parameters
     ----------
     incidence, mass_ratio, stiffness_ratio : array_like
         As in `rebound`.
     steps : int
-        At least 2, and even.
+        At least 2; even where extrapolated.
+    extrapolate : bool
+        Solve with half the steps too, and take away the part of the error that falls with their
+        square.
 
     Returns
     -------
-    plain : ndarray of float64 or float
-        As integrated; its error falls with the square of the steps.
-    extrapolated : ndarray of float64 or float
-        With half the steps taken into account; the better one.
+    ndarray of float64 or float
 
     Raises
     ------
     InputError
-        As `rebound`; also if `steps` is not an even integer from 2.
+        As `rebound`; also if `steps` is no such number.
 
     Examples
     --------
-    >>> plain, extrapolated = fixed_steps(2.0, steps=64)
-    >>> round(float(plain), 5), round(float(extrapolated), 5)
-    (-0.66537, -0.66594)
+    >>> [round(float(fixed_steps(2.0, steps=64, extrapolate=e)), 5) for e in (False, True)]
+    [-0.66537, -0.66594]
     """
     signed, beta, zeta2, _ = _checked(incidence, mass_ratio, stiffness_ratio, 1.0)
-    checks.count("steps", steps, 2)
-    if steps % 2:
-        raise checks.InputError(f"steps = {steps}: allowed are even integers")
-    flat = [a.reshape(-1) for a in (np.abs(signed), beta, zeta2)]
-    fine, _, regime, _ = _at_limits(*flat)
-    coarse, rest = fine.copy(), np.flatnonzero(regime == _UNSOLVED)
-    for array, number in ((fine, steps), (coarse, steps // 2)):
-        array[rest] = _integrate_in_parts(*(a[rest] for a in flat), number)[0][0]
-    mirror = np.copysign(1.0, signed)
-    better = fine + (fine - coarse) / 3
-    return (mirror * fine.reshape(signed.shape))[()], (mirror * better.reshape(signed.shape))[()]
+    steps = checks.count("steps", steps, 2)
+    if extrapolate and steps % 2:
+        raise checks.InputError(f"steps = {steps}: allowed are even integers where extrapolated")
+    size, beta, zeta2 = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2))
+    velocity, _, _, regime, _ = _at_limits(size, beta, zeta2)
+    rest = np.flatnonzero(regime == _UNSOLVED)
+    groups = size[rest], beta[rest], zeta2[rest]
+    velocity[rest] = _integrate_in_parts(*groups, steps)[0][0]
+    if extrapolate:
+        velocity[rest] += (velocity[rest] - _integrate_in_parts(*groups, steps // 2)[0][0]) / 3
+    return (np.copysign(1.0, signed) * velocity.reshape(signed.shape))[()]
 
 
 def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-4):
@@ -140,7 +136,7 @@ def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-4):
         As in `rebound`; scalars.
     tolerance : float
         Largest error allowed in friction and velocity at every instant, above 0. It also
-        decides how many instants there are, at least 256.
+        decides how many instants there are, at least 128.
 
     Returns
     -------
@@ -152,6 +148,11 @@ def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-4):
         As `rebound`; also if an argument is not scalar.
     ConvergenceError
         As `rebound`.
+
+    Notes
+    -----
+    Gross slip from the start is exact. At its threshold, x = zeta^2, every spring is at the limit
+    of friction while the contact begins to grow, and rounding decides the radius of stick there.
 
     Examples
     --------
@@ -180,12 +181,31 @@ _UNSOLVED = 255
 
 
 def _at_limits(x, beta, zeta2):
-    """Impacts with a closed form, and `_UNSOLVED` in place of the regime of all others."""
+    """Impacts with a closed form, and `_UNSOLVED` in place of the regime of all others.
+
+    Velocity, impulse of friction, peak friction, regime, reversals.
+    """
     slides = x >= lumped.slip_throughout_limit(beta, zeta2)
     velocity = np.where(slides, x - 2 * beta, 0.0)
     regime = np.where(x > 0, _UNSOLVED, Regime.STICK).astype(np.uint8)
     regime[slides] = Regime.SLIP_THROUGHOUT
-    return velocity, np.where(slides, 1.0, 0.0), regime, np.zeros(x.shape, dtype=np.int64)
+    full = np.where(slides, 1.0, 0.0)
+    return velocity, 2 * full, full, regime, np.zeros(x.shape, dtype=np.int64)
+
+
+def _steps_needed(beta, zeta2):
+    """Steps that resolve the tangential oscillation, which a phase of pi passes sqrt(...) times."""
+    return STEPS_A_RADIAN * np.pi * np.sqrt(beta / zeta2)
+
+
+def _refuse_unresolved(x, beta, zeta2):
+    needed = _steps_needed(beta, zeta2)
+    if (needed > MOST_STEPS).any():
+        worst = needed.argmax()
+        raise checks.ConvergenceError(
+            f"stiffness_ratio = {zeta2[worst]:g} at mass_ratio = {beta[worst]:g}: the tangential "
+            f"oscillation needs {needed[worst]:.0f} steps, allowed are {MOST_STEPS}"
+        )
 
 
 def _refine(x, beta, zeta2, tolerance):
@@ -206,7 +226,7 @@ def _refine(x, beta, zeta2, tolerance):
         chances = change[:, todo] / 4, np.abs(correction) / 16
         estimate[:, todo] = SAFETY * np.maximum(changed, np.maximum(*chances))
         coarse[:, todo], values[:, todo], change[:, todo] = fine, better, changed
-        resolved = steps >= STEPS_A_RADIAN * np.pi * np.sqrt(beta[todo] / zeta2[todo])
+        resolved = steps >= _steps_needed(beta[todo], zeta2[todo])
         settled = resolved & (estimate[:, todo] <= tolerance).all(axis=0)
         todo, steps = todo[~settled], 2 * steps
     # Rounding may carry an extrapolated value over the bounds that hold for the exact one.
@@ -288,15 +308,15 @@ def _gross_slip(x, beta, zeta2):
 
 def _settled_path(x, beta, zeta2, tolerance):
     """Path of one contact after gross slip, as fine as the tolerance asks."""
+    _refuse_unresolved(x, beta, zeta2)
     steps = 128
     coarse = _path(x, beta, zeta2, steps)
-    needed = STEPS_A_RADIAN * np.pi * np.sqrt(beta / zeta2)
     while steps < MOST_STEPS:
         steps *= 2
         fine = _path(x, beta, zeta2, steps)
         # The error is a third of the change where it falls with the square of the steps.
         change = [np.max(np.abs(fine[i][::2] - coarse[i])) / 3 for i in (1, 2)]
-        if max(change) <= tolerance and steps >= needed[0]:
+        if max(change) <= tolerance and steps >= _steps_needed(beta, zeta2)[0]:
             return [a[:, 0] for a in fine]
         coarse = fine
     _give_up(x[0], beta[0], zeta2[0], tolerance, change)

@@ -136,7 +136,7 @@ def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, sa
     >>> float(contact.time[-1])
     1.5
     """
-    checks.count("samples", samples, 2)
+    samples = checks.count("samples", samples, 2)
     mirror, groups, phases = _phases(incidence, mass_ratio, stiffness_ratio, restitution)
     zeta2, e = groups[1:]
     grid = np.linspace(0.0, 1.0 + e, samples)

@@ -116,14 +116,13 @@ class SpringRow:
 def _crossing(r, c, outer_r, outer_c, highest, lowest):
     """Where the piece from a vertex inside the cone to one outside leaves it: radius and c."""
     q, outer_q = r * r, outer_r * outer_r
-    with np.errstate(divide="ignore", invalid="ignore"):
-        above = (highest - c - q) / (outer_c + outer_q - c - q)
-        below = (c - q - lowest) / (c - q - outer_c + outer_q)
-    # An edge that the piece does not cross yields no share from 0 to 1.
-    shares = [np.where((s >= 0) & (s <= 1), s, 1.0) for s in (above, below)]
-    share = np.minimum(*shares)
-    q = q + share * (outer_q - q)
-    return np.sqrt(q), np.where(shares[0] <= shares[1], highest - q, lowest + q)
+    with np.errstate(divide="ignore", invalid="ignore"):  # where there is no vertex inside
+        above = np.maximum(highest - (c + q), 0) / (outer_c + outer_q - (c + q))
+        below = np.maximum(c - q - lowest, 0) / (c - q - (outer_c - outer_q))
+    above = np.where(outer_c + outer_q > highest, above, 1.0)
+    below = np.where(outer_c - outer_q < lowest, below, 1.0)
+    q = q + np.minimum(above, below) * (outer_q - q)
+    return np.sqrt(q), np.where(above <= below, highest - q, lowest + q)
 
 
 def _integral(r, c, outer_r, outer_c):
@@ -139,7 +138,7 @@ def friction(radius, displacement):
     Parameters
     ----------
     radius : array_like, shape (steps,)
-        Radius of contact after each step, in a_max. Before the first step there is no contact.
+        Radius of contact after each step, in a_max; 1e-6 to 1. No contact before the first step.
     displacement : array_like, shape (steps,)
         Tangential displacement of the body in zeta^2 mu d_max, counted from first contact.
 
@@ -154,7 +153,7 @@ def friction(radius, displacement):
     Raises
     ------
     InputError
-        If an argument is not finite, a radius is negative, or the shapes differ.
+        If an argument is not finite or out of its range, or the shapes do not fit.
 
     Notes
     -----
@@ -168,12 +167,7 @@ def friction(radius, displacement):
     >>> float(force[1]), float(stick[1])
     (0.875, 0.5)
     """
-    radius, displacement = checks.broadcast(
-        radius=checks.checked("radius", radius, "finite numbers from 0", 0),
-        displacement=checks.checked("displacement", displacement, "finite numbers"),
-    )
-    if radius.ndim != 1:
-        raise checks.InputError(f"shape = {radius.shape}: a path has one dimension")
+    radius, displacement = checks.path(radius, displacement)
     row = SpringRow(np.zeros(1), radius.size)
     force, stick = np.empty((2, radius.size))
     for step, point in enumerate(zip(radius[:, None], displacement[:, None], strict=True)):

@@ -11,7 +11,7 @@ class Regime(IntEnum):
 
     The paper's three regimes are STICK_SLIP, SLIP_STICK_SLIP and SLIP_THROUGHOUT. The others
     complete them: a contact that ends in stick (e = 0, or no tangential compliance), and
-    MULTIPLE, where stick comes back a second time.
+    MULTIPLE, where stick comes back a second time. A normal impact, x = 0, is STICK.
 
     Examples
     --------
@@ -56,13 +56,15 @@ class ContinuumRebound(NamedTuple):
 
     Attributes
     ----------
-    velocity, peak_friction, dissipation : ndarray of float64 or float
+    velocity, dissipation : ndarray of float64 or float
         As in `Rebound`.
+    peak_friction : ndarray of float64 or float
+        Largest |F1| over the contact, in mu times the largest normal force; between 0 and 1.
     regime : ndarray of uint8 or Regime
         Codes of `Regime`, where slip means gross slip, of the whole contact, and stick that
         some of it sticks.
     reversals : ndarray of int64 or int
-        How often the tangential force changes its sign.
+        How often the tangential force changes its sign, as far as the steps of the solver tell.
     """
 
     velocity: np.ndarray
@@ -70,6 +72,21 @@ class ContinuumRebound(NamedTuple):
     dissipation: np.ndarray
     regime: np.ndarray
     reversals: np.ndarray
+
+    @classmethod
+    def of(cls, incidence, velocity, impulse, peak_friction, regime, reversals):
+        """Put together what a solver found for |x|, flat, in the shape and sign of `incidence`.
+
+        `impulse` is that of friction, in mu m2 |v2(0)|; with the mean velocity it gives the work.
+        """
+        size = np.abs(incidence).reshape(-1)
+        work = impulse * (size / 2 + velocity / 2)
+        velocity = velocity * np.copysign(1.0, incidence.reshape(-1))
+        fields = velocity, peak_friction, work, regime, reversals
+        if incidence.ndim == 0:
+            *numbers, code, count = (field[0] for field in fields)
+            return cls(*numbers, Regime(int(code)), int(count))
+        return cls(*(field.reshape(incidence.shape) for field in fields))
 
 
 class EventKind(StrEnum):

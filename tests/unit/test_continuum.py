@@ -59,8 +59,9 @@ def test_history_ends_where_rebound_does():
         assert contact.normal[-1] == contact.friction[-1] == 0
 
 
-def test_a_tolerance_out_of_reach_is_refused():
-    with pytest.raises(ConvergenceError, match="tolerance = 1e-15: not met with 32768 steps"):
+def test_a_tolerance_out_of_reach_is_refused(monkeypatch):
+    monkeypatch.setattr(continuum, "MOST_STEPS", 1024)
+    with pytest.raises(ConvergenceError, match="tolerance = 1e-15: not met with 1024 steps"):
         continuum.rebound(2.0, tolerance=1e-15)
     with pytest.raises(ConvergenceError, match="at incidence = 2, mass_ratio = 3.5"):
         continuum.history(2.0, tolerance=1e-15)
@@ -82,7 +83,8 @@ BAD = [
     (lambda: continuum.history([1.0, 2.0]), r"shape = \(2,\): one contact takes scalars"),
     (lambda: annuli.rebound("fast"), "incidence = 'fast'"),
     (lambda: annuli.rebound(1.0, circles=2.5), "circles = 2.5: allowed are integers from 1"),
-    (lambda: annuli.rebound(1.0, steps=1), "steps = 1: allowed are integers from 2"),
+    (lambda: annuli.rebound(1.0, steps=1), "steps = 1: allowed are integers from 6"),
+    (lambda: annuli.rebound(1.0, 3.5, 1e-5), "steps = 512: allowed are integers from 1859"),
 ]
 
 
@@ -90,3 +92,19 @@ BAD = [
 def test_bad_input_is_named(call, words):
     with pytest.raises(InputError, match=words):
         call()
+
+
+def test_groups_that_no_steps_resolve_are_refused_at_once():
+    for solve in (continuum.rebound, continuum.history):
+        with pytest.raises(ConvergenceError, match="stiffness_ratio = 1e-08 at mass_ratio = 3.5"):
+            solve(1e-9, 3.5, 1e-8)
+
+
+def test_dissipation_keeps_its_digits_at_huge_incidence():
+    for solver in (continuum.rebound, annuli.rebound):
+        assert solver(1e17).dissipation == pytest.approx(2e17)
+
+
+@pytest.mark.parametrize("x", [1.21, 1.2100001, 2.0, 5.7899999])
+def test_time_of_a_history_never_stands_still(x):
+    assert (np.diff(continuum.history(x, tolerance=1e-6).time) > 0).all()

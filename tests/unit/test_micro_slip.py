@@ -73,7 +73,10 @@ def test_closed_forms_saturate_and_are_odd():
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: micro_slip.friction([-1.0], [0.0]), r"radius\[0\] = -1.0: allowed are"),
+        (
+            lambda: micro_slip.friction([-1.0], [0.0]),
+            r"radius\[0\] = -1.0: allowed are numbers from 1e-6 to 1",
+        ),
         (lambda: micro_slip.friction([1.0, 1.0], [0.0, np.nan]), r"displacement\[1\] = nan"),
         (lambda: micro_slip.friction(1.0, 0.0), r"shape = \(\): a path has one dimension"),
         (lambda: annuli.friction([0.0], [0.0]), r"radius\[0\] = 0.0: allowed are"),
@@ -87,3 +90,25 @@ def test_closed_forms_saturate_and_are_odd():
 def test_bad_input_is_named(call, words):
     with pytest.raises(InputError, match=words):
         call()
+
+
+def test_hertz_time_has_all_digits_near_both_ends():
+    """Near an end time is that of constant velocity: t = d_max sin(phase)^2/v2(0)."""
+    phase = np.array([1e-4, 1e-6])
+    early = phase**2 / (0.4 * scipy.special.beta(0.4, 0.5))
+    np.testing.assert_allclose(hertz.time(phase), early, rtol=1e-8)
+    np.testing.assert_allclose(2 - hertz.time(np.pi - phase), early, atol=4e-16)
+
+
+def test_small_displacements_keep_their_digits():
+    assert cattaneo_mindlin.friction(1e-17) == pytest.approx(1.5e-17, rel=1e-14)
+
+
+def test_a_vertex_on_the_edge_of_the_cone_does_not_mislead():
+    """Turning points met again exactly, where rounding decides on which side a vertex lies."""
+    rng = np.random.default_rng(2)
+    for _ in range(200):
+        top = np.round(rng.uniform(0.1, 0.9), 2)
+        path = np.round(np.concatenate([[0, top], rng.uniform(-top, top, 6), [-top]]), 2)
+        force, _ = micro_slip.friction(np.ones(path.size), path)
+        assert abs(force[-1] + cattaneo_mindlin.friction(top)) < 1e-13, path

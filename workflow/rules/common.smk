@@ -20,7 +20,7 @@ except (reference_data.SourceError, run_plan.ConfigError) as error:
 
 
 wildcard_constraints:
-    figure="fig[2-9]",
+    figure="|".join(run_plan.FIGURES),
     source="[a-z0-9_]+",
 
 

@@ -84,9 +84,11 @@ def _distance(entry, known, curves, series_paths):
         points = series[x][chosen], series[y][chosen]
         curve = _curve(curves, entry["curve"], x, y)
         return comparison.curve_distance(points, curve, sigma, known.get("line", False))
+    labels = known.get("labels", [])
     if "curve" in entry:
-        chosen &= series["curve"] == entry["curve"]
-    labels = known["labels"]
+        curves = {entry["curve"]: _named(curves, entry["curve"])}
+        if "curve" in labels:
+            chosen &= series["curve"] == entry["curve"]
     points = series[x][chosen], series[y][chosen], _labels(series, labels, chosen)
     return comparison.vertex_distance(points, _vertices(curves, x, y, labels), sigma)
 
@@ -104,6 +106,8 @@ def _vertices(curves, x, y, labels):
 
 
 def _labels(columns, labels, chosen=slice(None)):
+    if not labels:
+        return [""] * len(next(iter(columns.values()))[chosen])
     return [", ".join(words) for words in zip(*(columns[k][chosen] for k in labels), strict=True)]
 
 
@@ -133,13 +137,18 @@ def _balance(entry, curves):
     return comparison.difference_distance(left, right, BALANCE_SIGMA)
 
 
-def _curve(curves, name, *columns):
+def _named(curves, name):
     if name not in curves:
         raise ValueError(f"no curve '{name}'; the figure has {', '.join(curves)}")
-    missing = [column for column in columns if column not in curves[name]]
+    return curves[name]
+
+
+def _curve(curves, name, *columns):
+    curve = _named(curves, name)
+    missing = [column for column in columns if column not in curve]
     if missing:
         raise ValueError(f"curve '{name}' has no column '{missing[0]}'")
-    return [curves[name][column] for column in columns]
+    return [curve[column] for column in columns]
 
 
 def _refuse_not_finite(curves):

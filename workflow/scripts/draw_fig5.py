@@ -16,7 +16,8 @@ REGIMES = {
     "SLIP_THROUGHOUT": "slip throughout",
     "MULTIPLE": "repeated stick",
 }
-RUBBER = {"color": drawing.GREEN, "linestyle": drawing.DASHES[2], "linewidth": 1.0}
+RUBBER = {"color": drawing.GREEN, "linestyle": "-", "linewidth": 1.0}
+SOFT_CONTINUUM = {"color": drawing.GREEN, "linestyle": drawing.DASHES[1], "linewidth": 1.0}
 EXPERIMENT = {"color": drawing.BLUE, "linestyle": "-", "linewidth": 0.7}
 RUBBER_POINTS = {"color": drawing.BLACK, "marker": "o", "markerfacecolor": "white"}
 ELEMENT_POINTS = {"color": drawing.VERMILLION, "marker": "s", "markerfacecolor": "white"}
@@ -51,12 +52,10 @@ def _draw_paper(axes, curves, points, settings):
     rough = curves["no tangential compliance"]
     entries = [
         _draw_curve(axes, curves["lumped"], lumped, drawing.LUMPED),
+        _draw_curve(axes, curves["continuum"], "elastic continuum (Maw et al.)", drawing.CONTINUUM),
         _draw_curve(axes, rough, "no tangential compliance", drawing.RIGID),
     ]
-    series = {
-        "maw1976/rebound_nu_0.3": ("elastic continuum (Maw et al.)", drawing.CONTINUUM),
-        "johnson1983/rubber_sphere": ("rubber sphere (Johnson)", RUBBER_POINTS),
-    }
+    series = {"johnson1983/rubber_sphere": ("rubber sphere (Johnson)", RUBBER_POINTS)}
     return entries + drawing.references(axes, points, series)
 
 
@@ -64,9 +63,11 @@ def _draw_added(axes, curves, points, settings):
     """Draw what this repository adds; its entries of the legend."""
     sphere, rubber = settings["experiment"], settings["rubber"]["stiffness_ratio"]
     groups = rf"$\zeta^2 = {sphere['stiffness_ratio']:g}$, $e = {sphere['restitution']:g}$"
+    soft = rf"rubber, $\zeta^2 = {rubber:g}$"
     entries = [
-        _draw_curve(axes, curves["rubber"], rf"lumped, rubber, $\zeta^2 = {rubber:g}$", RUBBER),
-        _draw_curve(axes, curves["experiment"], f"lumped, {groups}", EXPERIMENT),
+        _draw_curve(axes, curves["lumped, rubber"], f"lumped, {soft}", RUBBER),
+        _draw_curve(axes, curves["continuum, rubber"], f"continuum, {soft}", SOFT_CONTINUUM),
+        _draw_curve(axes, curves["lumped, experiment"], f"lumped, {groups}", EXPERIMENT),
     ]
     series = {
         MEASURED_ANGLES: ("alumina on glass (Kharaz et al.)", GLASS_POINTS),

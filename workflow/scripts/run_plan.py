@@ -8,7 +8,7 @@ import yaml
 
 SCRIPTS = Path(__file__).parent
 SRC = SCRIPTS.parents[1] / "src"
-FIGURES = [f"fig{number}" for number in range(2, 10)]
+FIGURES = [*(f"fig{number}" for number in range(2, 10)), "micro_slip", "convergence"]
 
 
 class ConfigError(Exception):

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from planarimpact import lumped, rigid
+from planarimpact import continuum, lumped, rigid
 from planarimpact.curves.sampling import regime_names, vertices
 
 
 def curves(
-    mass_ratio, stiffness_ratio, incidence, restitution, samples, rubber, experiment, nodes=()
+    mass_ratio, stiffness_ratio, incidence, restitution, samples, tolerance, rubber, experiment
 ):
-    """The lumped model, its limits, and the curves of the rubber sphere and of an experiment.
+    """The lumped model, its limit, the elastic continuum; the same for rubber, an experiment.
 
     Parameters
     ----------
@@ -19,43 +19,44 @@ def curves(
         Range of x = v1(0)/(mu v2(0)).
     samples : int
         Evenly spread vertices; thresholds come on top.
+    tolerance : float
+        Largest error of the elastic continuum, which has e = 1 whatever the restitution.
     rubber : dict
         `stiffness_ratio` of Johnson's rubber sphere.
     experiment : dict
         An elastic sphere shot at a plane without spin: `mass_ratio`, `stiffness_ratio`,
         `restitution`, `friction`, `speed` (m/s), `radius` (m).
-    nodes : array_like
-        More incidences at which `lumped` has a vertex.
 
     Returns
     -------
     dict
-        `lumped`, `no tangential compliance`, `rubber`, `experiment`. `lumped` adds the regime
-        and the spin after impact, R spin/(mu v2(0)) in the direction of incidence negative;
-        `experiment` the quantities that are measured against the angle of incidence.
+        `lumped`, `no tangential compliance`, `continuum`; `lumped, rubber` and `continuum,
+        rubber`; `lumped, experiment` and `continuum, experiment`. The first and third add the
+        regime and the spin after impact, R spin/(mu v2(0)) in the direction of incidence
+        negative; the last two the quantities that are measured against the angle of incidence.
 
     Examples
     --------
     >>> sphere = dict(mass_ratio=3.5, stiffness_ratio=1.164, restitution=0.98, friction=0.092,
     ...               speed=3.9, radius=0.0025)
-    >>> named = curves(3.5, 1.21, (0, 8), 1.0, 9, {"stiffness_ratio": 1.5}, sphere)
+    >>> named = curves(3.5, 1.21, (0, 8), 1.0, 9, 1e-4, {"stiffness_ratio": 1.5}, sphere)
     >>> float(named["lumped"]["velocity [mu v2(0)]"][-1])
     1.0
     """
     limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution)
-    x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, nodes)
-    rebound = lumped.rebound(x, mass_ratio, stiffness_ratio, restitution)
-    rough = rigid.rebound(x, mass_ratio, restitution)
-    elastic = lumped.rebound(x, mass_ratio, rubber["stiffness_ratio"], restitution)
+    x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit)
+    spring, elastic = rubber["stiffness_ratio"], continuum.rebound
+    groups = mass_ratio, stiffness_ratio
     return {
-        "lumped": {
-            **_velocity(x, rebound),
-            "regime": regime_names(rebound.regime),
-            "spin [mu v2(0)/R]": -(mass_ratio - 1) / mass_ratio * (x - rebound.velocity),
-        },
-        "no tangential compliance": _velocity(x, rough),
-        "rubber": _velocity(x, elastic),
-        "experiment": _experiment(samples, **experiment),
+        "lumped": _sphere(x, lumped.rebound(x, *groups, restitution), mass_ratio),
+        "no tangential compliance": _velocity(x, rigid.rebound(x, mass_ratio, restitution)),
+        "continuum": _sphere(x, elastic(x, *groups, tolerance), mass_ratio),
+        "lumped, rubber": _velocity(x, lumped.rebound(x, mass_ratio, spring, restitution)),
+        "continuum, rubber": _velocity(x, elastic(x, mass_ratio, spring, tolerance)),
+        "lumped, experiment": _experiment(samples, lumped.rebound, **experiment),
+        "continuum, experiment": _experiment(
+            samples, lambda x, beta, zeta2, e: elastic(x, beta, zeta2, tolerance), **experiment
+        ),
     }
 
 
@@ -63,18 +64,23 @@ def _velocity(x, rebound):
     return {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": rebound.velocity}
 
 
-def _experiment(samples, mass_ratio, stiffness_ratio, restitution, friction, speed, radius):
+def _sphere(x, rebound, mass_ratio):
+    return {
+        **_velocity(x, rebound),
+        "regime": regime_names(rebound.regime),
+        "spin [mu v2(0)/R]": -(mass_ratio - 1) / mass_ratio * (x - rebound.velocity),
+    }
+
+
+def _experiment(samples, model, mass_ratio, stiffness_ratio, restitution, friction, speed, radius):
     """What a free sphere without spin shows against its angle of incidence."""
-    limits = [
-        stiffness_ratio,
-        mass_ratio,
-        lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution),
-    ]
+    groups = mass_ratio, stiffness_ratio, restitution
+    limits = [stiffness_ratio, mass_ratio, lumped.slip_throughout_limit(*groups)]
     # The ratio of velocities has no value at normal incidence.
     angle = vertices((0.01, 89.9), samples, np.degrees(np.arctan(friction * np.array(limits))))
     slope = np.tan(np.radians(angle))
     x = slope / friction
-    rebound = lumped.rebound(x, mass_ratio, stiffness_ratio, restitution)
+    rebound = model(x, *groups)
     change = x - rebound.velocity
     centre = 1 - change / (mass_ratio * x)
     unit = friction * speed * np.cos(np.radians(angle))

@@ -1,0 +1,50 @@
+"""Write data/maw1976: the rebound curve by annuli, checked by the continuum solver.
+
+    python tests/reference/annuli_tables.py data/maw1976
+
+Takes some minutes. Refuses to write where the two methods differ by more than the sigma that the
+source states.
+"""
+
+import csv
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from planarimpact import annuli, continuum
+
+CIRCLES, STEPS = 128, 8192
+INCIDENCE = np.round(np.linspace(0.0, 10.0, 101), 1)
+MASS_RATIO = 3.5
+STIFFNESS_RATIO = {"rebound_nu_0.3": 17 / 14, "rebound_nu_0.5": 1.5}
+SIGMA = 1e-4
+
+
+def table(stiffness_ratio, circles=CIRCLES, steps=STEPS, incidence=INCIDENCE):
+    """Velocity at separation by annuli, after `continuum` has agreed."""
+    found = annuli.rebound(incidence, MASS_RATIO, stiffness_ratio, circles, steps).velocity
+    check = continuum.rebound(incidence, MASS_RATIO, stiffness_ratio).velocity
+    difference = float(np.max(np.abs(found - check)))
+    if difference > SIGMA:
+        raise SystemExit(f"the two methods differ by {difference:.1e}, more than {SIGMA:g}")
+    print(f"zeta^2 = {stiffness_ratio:.6g}: the two methods differ by {difference:.1e} at most")
+    return found
+
+
+def write(folder):
+    """Write one CSV a stiffness ratio, all or none of them."""
+    tables = {name: table(ratio) for name, ratio in STIFFNESS_RATIO.items()}
+    for name, velocity in tables.items():
+        with open(Path(folder) / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
+            rows = csv.writer(file, lineterminator="\n")
+            rows.writerow(["incidence [mu v2(0)]", "velocity [mu v2(0)]"])
+            # No "-0.00000".
+            rows.writerows(
+                [f"{x:.1f}", f"{w + 0.0:.5f}"]
+                for x, w in zip(INCIDENCE, np.round(velocity, 5), strict=True)
+            )
+
+
+if __name__ == "__main__":
+    write(sys.argv[1])

@@ -1,0 +1,236 @@
+"""The elastic continuum against independent methods, and the facts known about it."""
+
+import csv
+from pathlib import Path
+
+import annuli_tables
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from planarimpact import Regime, annuli, cattaneo_mindlin, continuum, lumped
+
+ROOT = Path(__file__).parents[2]
+STEEL, RUBBER = 17 / 14, 1.5
+FINE = 1e-7
+
+
+def divided_row(x, beta, zeta2, springs, steps):
+    """A row of springs at given radii, each clipped to its friction: the method as published.
+
+    Semi-implicit Euler in time from first contact, normal motion integrated with it.
+    """
+    r = (np.arange(springs) + 0.5) / springs
+    depth, approach, w = 0.0, 1.0, float(x)
+    spring = np.zeros(springs)
+    step = 2.9432752 / steps
+    while True:
+        approach -= step * 1.25 * max(depth, 0.0) ** 1.5
+        depth += step * approach
+        if depth <= 0:
+            return w
+        bound = np.maximum(depth - r * r, 0.0)
+        spring = np.clip(spring + step * w / zeta2, -bound, bound)
+        w -= step * beta * 1.25 * 1.5 * spring.sum() / springs
+
+
+def no_slip(ratio):
+    """Velocity over incidence with infinite friction, from its linear equations of motion.
+
+    Lyashenko & Popov 2015: only mass ratio over stiffness ratio matters. A spring that comes
+    into contact has no deflection; one that leaves takes its own away.
+    """
+    to_maximum = 1.4716375921623508
+
+    def motion(t, state, entered=None):
+        depth, approach, travel, w, force = state
+        radius = np.sqrt(max(depth, 0.0))
+        rate = radius * w
+        if entered is not None and radius > 0:
+            lost = travel - entered(2 * to_maximum - t)[2]
+            rate += approach / (2 * radius) * lost
+        return [approach, -1.25 * radius**3, w, -ratio * 1.25 * force, 1.5 * rate]
+
+    settings = {"rtol": 1e-10, "atol": 1e-12, "max_step": 0.01}
+    half = solve_ivp(motion, (0, to_maximum), [0, 1, 0, 1, 0], dense_output=True, **settings)
+    end = 2 * to_maximum - 1e-6
+    rest = solve_ivp(motion, (to_maximum, end), half.y[:, -1], args=(half.sol,), **settings)
+    return rest.y[3, -1]
+
+
+def read(path):
+    with open(ROOT / "data" / path, newline="", encoding="utf-8") as file:
+        return np.array([[float(cell) for cell in row] for row in list(csv.reader(file))[1:]])
+
+
+@pytest.mark.parametrize("name", annuli_tables.STIFFNESS_RATIO)
+def test_the_two_methods_agree(name):
+    """The table of data/maw1976, by annuli, against the continuum solver at 1e-7."""
+    x, w = read(f"maw1976/{name}.csv").T
+    ratio = annuli_tables.STIFFNESS_RATIO[name]
+    assert x[0] == 0 and x[-1] == 10 and len(x) == 101
+    found = continuum.rebound(x, 3.5, ratio, tolerance=FINE).velocity
+    assert np.max(np.abs(found - w)) <= 1e-4
+
+
+def test_the_table_is_what_its_command_writes():
+    """Two rows, computed anew with the same circles and steps."""
+    x = np.array([1.0, 4.0])
+    again = annuli_tables.table(STEEL, incidence=x)
+    rows = read("maw1976/rebound_nu_0.3.csv")
+    np.testing.assert_allclose(again, rows[np.isin(rows[:, 0], x), 1], atol=5.1e-6)
+
+
+def test_the_table_is_not_written_where_the_methods_differ(monkeypatch, tmp_path):
+    monkeypatch.setattr(annuli_tables, "STEPS", 64)
+    monkeypatch.setattr(annuli_tables.table, "__defaults__", (16, 64, np.array([1.0])))
+    with pytest.raises(SystemExit, match="the two methods differ by"):
+        annuli_tables.write(tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("beta", [1.0, 2.5, 8.0])
+@pytest.mark.parametrize("zeta2", [0.3, 1.5, 5.0])
+def test_the_two_methods_agree_elsewhere(beta, zeta2):
+    limit = float(lumped.slip_throughout_limit(beta, zeta2))
+    x = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 1.05]) * limit
+    exact = continuum.rebound(x, beta, zeta2)
+    scheme = annuli.rebound(x, beta, zeta2, circles=40, steps=2000)
+    # Error of the scheme: 0.2 of the square of a ring's share, and 20 of a step's to the 1.5.
+    np.testing.assert_allclose(scheme.velocity, exact.velocity, atol=3e-4 * max(1, limit / 6))
+    np.testing.assert_allclose(scheme.peak_friction, exact.peak_friction, atol=1e-3)
+    np.testing.assert_array_equal(scheme.regime, exact.regime)
+    np.testing.assert_array_equal(scheme.reversals, exact.reversals)
+
+
+@pytest.mark.parametrize("x", [0.4, 1.5, 3.0, 5.0])
+def test_a_divided_row_of_springs_converges_to_it(x):
+    """First order in the steps: halving them halves the error, which extrapolation removes."""
+    exact = continuum.rebound(x, 3.5, STEEL, tolerance=FINE).velocity
+    coarse, fine = (divided_row(x, 3.5, STEEL, 2000, steps) for steps in (2000, 4000))
+    assert abs(fine - exact) < 4e-3
+    assert abs(2 * fine - coarse - exact) < 2e-4
+
+
+def test_error_falls_with_the_square_of_the_steps_and_better_extrapolated():
+    x = np.linspace(0.1, 5.7, 60)
+    exact = continuum.rebound(x, 3.5, STEEL, tolerance=1e-8).velocity
+    errors = []
+    for steps in (64, 128, 256, 512, 1024):
+        answers = [continuum.fixed_steps(x, 3.5, STEEL, steps, better) for better in (0, 1)]
+        errors.append(np.sqrt(np.mean(np.square(answers - exact), axis=1)))
+    plain, extrapolated = np.log2(np.array(errors)[:-1] / np.array(errors)[1:]).T
+    assert (np.abs(plain - 2) < 0.1).all(), plain
+    assert np.mean(extrapolated) > 2.2, extrapolated
+
+
+def test_annuli_converge_with_the_square_of_the_circles():
+    x = np.array([2.0, 3.0, 4.0])  # where the steps matter least
+    exact = continuum.rebound(x, 3.5, STEEL).velocity
+    error = [
+        np.max(np.abs(annuli.rebound(x, 3.5, STEEL, n, 4096).velocity - exact)) for n in (8, 16, 32)
+    ]
+    assert all(3.0 < a / b < 5.5 for a, b in zip(error, error[1:], strict=False)), error
+
+
+def test_annuli_converge_with_the_steps():
+    x = np.array([0.5, 0.9, 1.2])  # where the steps matter most
+    finest = annuli.rebound(x, 3.5, STEEL, 24, 8192).velocity
+    error = [
+        np.max(np.abs(annuli.rebound(x, 3.5, STEEL, 24, n).velocity - finest))
+        for n in (256, 512, 1024)
+    ]
+    assert all(2.0 < a / b < 4.5 for a, b in zip(error, error[1:], strict=False)), error
+
+
+def test_annuli_under_constant_normal_force_are_cattaneo_and_mindlin():
+    path = [0.0, 0.3, 0.6, 0.9, 0.5, 0.1, -0.4, -0.9]
+    force = annuli.friction(np.ones(8), path, circles=80)
+    np.testing.assert_allclose(force[:4], cattaneo_mindlin.friction(path[:4]), atol=3e-4)
+    np.testing.assert_allclose(force[3:], cattaneo_mindlin.unloading(path[3:], 0.9), atol=3e-4)
+
+
+@pytest.mark.parametrize("zeta2", [STEEL, RUBBER, 0.4])
+def test_thresholds_of_the_regimes(zeta2):
+    """Gross slip at the start from psi1 = 1 on, throughout from psi1 = 4 chi - 1 on."""
+    chi = 3.5 / (2 * zeta2)
+    near = 1 + np.array([-1e-6, 1e-6])
+    start = continuum.rebound(zeta2 * near, 3.5, zeta2).regime
+    assert list(start) == [Regime.STICK_SLIP, Regime.SLIP_STICK_SLIP]
+    end = continuum.rebound(zeta2 * (4 * chi - 1) * near, 3.5, zeta2).regime
+    assert list(end) == [Regime.SLIP_STICK_SLIP, Regime.SLIP_THROUGHOUT]
+    # The scheme that knows no threshold finds them too.
+    apart = 1 + np.array([-0.02, 0.02])
+    start = annuli.rebound(zeta2 * apart, 3.5, zeta2, 16, 4096).regime
+    assert list(start) == [Regime.STICK_SLIP, Regime.SLIP_STICK_SLIP]
+    end = annuli.rebound(zeta2 * (4 * chi - 1) * apart, 3.5, zeta2, 16, 4096).regime
+    assert list(end) == [Regime.SLIP_STICK_SLIP, Regime.SLIP_THROUGHOUT]
+
+
+def test_reversals_of_the_tangential_force_grow_with_chi():
+    chi = np.array([0.75, 1.44, 3.0, 6.0, 12.0, 20.0, 40.0])
+    found = continuum.rebound(1.2 * STEEL, 2 * STEEL * chi, STEEL, tolerance=1e-4).reversals
+    assert found[0] == 1 and (np.diff(found) >= 0).all() and found[-1] >= 8
+
+
+def test_rebound_at_psi1_of_1_2_changes_its_sign_with_chi():
+    chi = np.array([1.0, 1.44, 2.0, 3.0, 4.0, 5.0])
+    found = continuum.rebound(1.2 * STEEL, 2 * STEEL * chi, STEEL, tolerance=1e-4).velocity
+    assert list(np.sign(found)) == [-1, -1, 1, 1, -1, -1]
+
+
+@pytest.mark.parametrize("ratio", [0.5, 3.5 / STEEL, 8.0, 30.0])
+def test_infinite_friction_is_the_contact_without_slip(ratio):
+    """Only mass ratio over stiffness ratio matters (Lyashenko & Popov 2015)."""
+    x = 1e-5
+    zeta2 = np.array([0.2, 1.2, 5.0])
+    zeta2 = zeta2[ratio * zeta2 >= 1]
+    found = continuum.rebound(x, ratio * zeta2, zeta2, tolerance=1e-10).velocity / x
+    np.testing.assert_allclose(found, no_slip(ratio), atol=1e-4)
+
+
+def test_without_friction_the_tangential_velocity_stays():
+    """mu -> 0 at a fixed angle: v1(tf)/v1(0) = w/x -> 1."""
+    mu = np.array([1e-2, 1e-4, 1e-6])
+    result = continuum.rebound(1 / mu)
+    np.testing.assert_allclose(result.velocity * mu, 1 - 7 * mu, rtol=1e-15)
+
+
+def test_the_finite_elements_agree_within_their_error():
+    """Sigma 0.031 on both axes, and what Maw et al. leave out of the surface displacement.
+
+    Elliptic traction displaces the surface like 4 (2 - nu) a^2 - (4 - 3 nu) x^2 - (4 - nu) y^2;
+    the mean over the angle is kept, and nu/(4 - 2 nu) = 9 % of its curvature left out either way.
+    So the elements may lie between the curves with so much more and less compliance.
+    """
+    series = read("chung_ooi2011/rebound.csv").T
+    left_out = 0.3 / 3.4
+    x = np.linspace(0, 14, 2801)
+    bounds = [
+        continuum.rebound(x, 3.5, STEEL * share, tolerance=1e-4).velocity
+        for share in (1 - left_out, 1, 1 + left_out)
+    ]
+    low, high = np.min(bounds, axis=0), np.max(bounds, axis=0)
+    inside = (np.interp(series[0], x, low) <= series[1]) & (
+        series[1] <= np.interp(series[0], x, high)
+    )
+    gap = [
+        min(np.min(np.hypot(x - px, edge - py)) for edge in (low, high)) / 0.031
+        for px, py in series.T
+    ]
+    gap = np.where(inside, 0.0, gap)
+    assert np.sqrt(np.mean(gap**2)) < 1.0 and gap.max() < 2.0, gap
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_tolerance_is_met_over_the_box(seed):
+    """Against twice-extrapolated fine steps, whose own error is two orders smaller."""
+    rng = np.random.default_rng(seed)
+    beta, zeta2 = rng.uniform(1, 8, 150), 10 ** rng.uniform(-1, 1, 150)
+    x = rng.uniform(0, 1, 150) * lumped.slip_throughout_limit(beta, zeta2)
+    exact = continuum.rebound(x, beta, zeta2, tolerance=2e-6)
+    for tolerance in (1e-2, 1e-3, 1e-4):
+        found = continuum.rebound(x, beta, zeta2, tolerance=tolerance)
+        for field in ("velocity", "peak_friction"):
+            error = np.abs(getattr(found, field) - getattr(exact, field))
+            assert np.max(error) <= tolerance, (tolerance, field)
