@@ -1,10 +1,10 @@
 """Oblique impact of elastic spheres with micro-slip: the elastic continuum, e = 1.
 
 Hertz contact that slips in an outer annulus and sticks inside, as Maw, Barber & Fawcett (1976)
-describe it, by the method of dimensionality reduction. `planarimpact.micro_slip` keeps the row of
-springs without dividing it, `planarimpact.hertz` gives the normal motion, and the tangential
-motion is integrated here by the Stoermer-Verlet scheme in equal steps of the phase of
-`planarimpact.hertz`. Steps are doubled until the answer, extrapolated once, meets the tolerance.
+describe it, by the method of dimensionality reduction. `planarimpact.hertz` gives the normal
+motion, `planarimpact.micro_slip` keeps the row of springs without dividing it, and
+`planarimpact.tangential_motion` integrates in steps. Here they are doubled until the answer,
+extrapolated once, meets the tolerance.
 
 Exact, and left to no integration: gross slip from the start of contact, if there is any, and with
 it impacts that slide throughout.
@@ -12,8 +12,7 @@ it impacts that slide throughout.
 
 import numpy as np
 
-from planarimpact import checks, hertz, lumped
-from planarimpact.micro_slip import SpringRow
+from planarimpact import checks, hertz, lumped, tangential_motion
 from planarimpact.results import ContinuumHistory, ContinuumRebound, Regime
 
 FIRST_STEPS = 16
@@ -34,7 +33,7 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-6):
     mass_ratio : array_like
         beta = m2/m1 >= 1; 3.5 for a solid sphere on a half-space.
     stiffness_ratio : array_like
-        zeta^2 > 0, normal over tangential compliance; (2 - nu)/(2 (1 - nu)) for equal materials.
+        zeta^2 > 0, normal over tangential stiffness; (2 - nu)/(2 (1 - nu)) for equal materials.
         In the variables of Maw et al. psi1 = x/zeta^2, chi = beta/(2 zeta^2).
     tolerance : float
         Largest error allowed in velocity (mu v2(0)) and peak friction (mu F2max), above 0.
@@ -164,7 +163,7 @@ def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-4):
     if signed.ndim:
         raise checks.InputError(f"shape = {signed.shape}: one contact takes scalars")
     x, beta, zeta2 = (a.reshape(1) for a in (np.abs(signed), beta, zeta2))
-    slid = _gross_slip(x, beta, zeta2)
+    slid = tangential_motion.gross_slip(x, beta, zeta2)
     if x[0] < lumped.slip_throughout_limit(beta[0], zeta2[0]):
         stuck = _settled_path(x, beta, zeta2, tolerance)
         slid = [np.concatenate([a[:-1], b]) for a, b in zip(slid, stuck, strict=True)]
@@ -194,7 +193,7 @@ def _at_limits(x, beta, zeta2):
 
 
 def _steps_needed(beta, zeta2):
-    """Steps that resolve the tangential oscillation, which a phase of pi passes sqrt(...) times."""
+    """Steps that resolve the tangential oscillation: a contact has sqrt(beta/zeta^2)/2 of it."""
     return STEPS_A_RADIAN * np.pi * np.sqrt(beta / zeta2)
 
 
@@ -244,10 +243,11 @@ def _give_up(x, beta, zeta2, tolerance, change):
 
 def _integrate_in_parts(x, beta, zeta2, steps):
     """Raw velocity and peak, and counts of gross slips after stick and of reversals, in parts."""
-    part = max(1, CELLS // steps)
-    cuts = range(part, x.size, part)
+    together = max(1, CELLS // steps)
+    cuts = range(together, x.size, together)
     groups = zip(*(np.split(a, cuts) for a in (x, beta, zeta2)), strict=True)
-    values, counts = zip(*(_summary(*_path(*part, steps)[1:]) for part in groups), strict=True)
+    found = [_summary(*tangential_motion.path(*part, steps)[1:]) for part in groups]
+    values, counts = zip(*found, strict=True)
     return np.concatenate(values, axis=1), np.concatenate(counts, axis=1)
 
 
@@ -284,98 +284,20 @@ def _regime(x, zeta2, gross_slips):
     return np.where(gross_slips > 1, Regime.MULTIPLE, usual)
 
 
-def _first_stick(x, beta, zeta2):
-    """Phase and velocity where gross slip from the start of contact ends.
-
-    It lasts while the body outruns the spring at the middle, w > zeta^2 v; with friction mu F2,
-    w = x - beta (1 - v), which yields v.
-    """
-    slips = x > zeta2
-    normal = np.where(slips, (beta - x) / np.where(slips, beta - zeta2, 1.0), 1.0)
-    return hertz.phase_at(normal), np.where(slips, zeta2 * normal, x)
-
-
-def _gross_slip(x, beta, zeta2):
-    """Path of one contact from its start to the end of gross slip, which may be separation."""
-    end = np.full(1, np.pi)
-    if x[0] < lumped.slip_throughout_limit(beta[0], zeta2[0]):
-        end, _ = _first_stick(x, beta, zeta2)
-    phase = np.linspace(0.0, end[0], 129 if end[0] > 0 else 1)
-    friction = np.sin(phase) ** 3 * (x[0] > 0)
-    velocity = x - beta * (1 - hertz.velocity(phase))
-    return [phase, friction, velocity, np.zeros(phase.size)]
-
-
 def _settled_path(x, beta, zeta2, tolerance):
     """Path of one contact after gross slip, as fine as the tolerance asks."""
     _refuse_unresolved(x, beta, zeta2)
     steps = 128
-    coarse = _path(x, beta, zeta2, steps)
+    coarse = tangential_motion.path(x, beta, zeta2, steps)
     while steps < MOST_STEPS:
         steps *= 2
-        fine = _path(x, beta, zeta2, steps)
+        fine = tangential_motion.path(x, beta, zeta2, steps)
         # The error is a third of the change where it falls with the square of the steps.
         change = [np.max(np.abs(fine[i][::2] - coarse[i])) / 3 for i in (1, 2)]
         if max(change) <= tolerance and steps >= _steps_needed(beta, zeta2)[0]:
             return [a[:, 0] for a in fine]
         coarse = fine
     _give_up(x[0], beta[0], zeta2[0], tolerance, change)
-
-
-def _path(x, beta, zeta2, steps):
-    """Integrate from the end of gross slip to separation.
-
-    Parameters
-    ----------
-    x, beta, zeta2 : ndarray, shape (n,)
-        Impacts that do not slide throughout.
-    steps : int
-
-    Returns
-    -------
-    phase, friction, velocity, stick_radius : ndarray, shape (steps + 1, n)
-    """
-    start, velocity = _first_stick(x, beta, zeta2)
-    step = (np.pi - start) / steps
-    radius, friction, displacement = np.sin(start), np.sin(start) ** 3, np.zeros(x.size)
-    row = SpringRow(radius, 2 * steps)
-    path = np.empty((4, steps + 1, x.size))
-    path[:, 0] = start, friction, velocity, row.stick_radius
-    kick = beta * hertz.PEAK_FORCE * step / 2
-    pace = hertz.pace(start)
-    for n in range(1, steps + 1):
-        # Tangential speeds in the unit of the spring row, by phase.
-        early = pace * velocity / zeta2
-        velocity = velocity - kick * pace * friction
-        half = start + (n - 0.5) * step
-        middle = hertz.pace(half) * velocity / zeta2
-        _turn(row, half - step / 2, step, displacement, early, middle)
-        displacement = displacement + step * middle
-        phase = half + step / 2
-        radius, pace = (np.sin(phase), hertz.pace(phase)) if n < steps else np.zeros((2, x.size))
-        friction = row.move(radius, displacement)
-        velocity = velocity - kick * pace * friction
-        path[:, n] = phase, friction, velocity, row.stick_radius
-    return path
-
-
-def _turn(row, phase, step, displacement, early, middle):
-    """Move the row to where slip ends within a step, if it does.
-
-    Slip in the direction g goes on while g u - d grows. Where that has its top is remembered by
-    all that has slipped: to miss it between two steps would cost an error of their square that
-    depends on chance, which no extrapolation takes away.
-    """
-    grows = np.sin(2 * phase), np.sin(2 * phase + step)  # d'(phase), at the start and the middle
-    for direction in (1, -1):
-        at_start = direction * early - grows[0]
-        at_end = 2 * (direction * middle - grows[1]) - at_start
-        turns = np.flatnonzero((at_start > 0) & (at_end < 0))
-        if turns.size:
-            share = at_start[turns] / (at_start - at_end)[turns]
-            travel = share * (early[turns] + (middle - early)[turns] * share)
-            moved = displacement[turns] + step[turns] * travel
-            row.move(np.sin(phase[turns] + share * step[turns]), moved, turns)
 
 
 def _checked(incidence, mass_ratio, stiffness_ratio, tolerance):

@@ -163,6 +163,15 @@ def test_a_crash_of_one_solver_is_a_failed_verdict_of_its_figure(finished):
     assert (finished / "figures/fig7.svg").exists()
 
 
+def test_whole_numbers_of_the_command_line_stay_whole(finished):
+    few = "{steps: [16, 32], circles: [4, 8], fixed: {steps: 64, circles: 4}, tolerance: 0.01}"
+    table = "results/curves/convergence.csv"
+    result = finished.run(table, "--config", f"figures={{convergence: {few}}}")
+    assert result.returncode == 0, result.stdout
+    rows = (finished / table).read_text().splitlines()
+    assert rows[0].startswith("curve,steps [1]") and rows[1].startswith("row of springs,16,")
+
+
 BAD_CONFIG = [
     ("stifness_ratio=1.5", "'stifness_ratio' was unexpected"),
     ("figures={fig5: {sample: 3}}", "figures.fig5: .*'sample' was unexpected"),
@@ -172,7 +181,7 @@ BAD_CONFIG = [
     ("stiffness_ratio=stiff", "stiffness_ratio: 'stiff' is not of type 'number'"),
     ("mass_ratio=0.5", "mass_ratio: 0.5 is less than the minimum of 1"),
     ("figures={fig6: {restitution: [1.5]}}", "figures.fig6.restitution.0: 1.5 is greater"),
-    ("figures={fig5: {incidence: [8, 0]}}", r"figures.fig5.incidence = \[8.0, 0.0\]"),
+    ("figures={fig5: {incidence: [8, 0]}}", r"figures.fig5.incidence = \[8, 0\]"),
     ("figures={fig5: {experiment: nobody}}", "'nobody' is not in data/; allowed are"),
     ("figures={fig5: {tolerance: 0}}", "figures.fig5.tolerance: 0 is less than the minimum"),
     ("figures={convergence: {steps: [32, 33]}}", "figures.convergence.steps.1: 33 is not a mult"),
@@ -231,4 +240,6 @@ def test_everything_built_is_ignored_by_git(first_run):
     subprocess.run(["git", "init", "-q", folder], check=True)
     status = ["git", "-C", folder, "status", "--porcelain", "-uall"]
     found = subprocess.run(status, capture_output=True, text=True, check=True).stdout
-    assert not re.search(r"^\?\? (results|figures/fig|[.]snakemake)", found, flags=re.M), found
+    assert not re.search(r"^\?\? (results|figures/(?!README)|[.]snakemake)", found, flags=re.M), (
+        found
+    )

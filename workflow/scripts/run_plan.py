@@ -21,10 +21,12 @@ def with_numbers(node):
         return {key: with_numbers(value) for key, value in node.items()}
     if isinstance(node, list):
         return [with_numbers(value) for value in node]
-    try:
-        return float(node) if isinstance(node, str) else node
-    except ValueError:
-        return node
+    for number in (int, float) if isinstance(node, str) else ():
+        try:
+            return number(node)
+        except ValueError:
+            continue
+    return node
 
 
 def check_config(config, schema, inventory):

@@ -1,0 +1,127 @@
+"""Tangential motion over a Hertz contact: gross slip first, which has a closed form, then steps.
+
+Stoermer-Verlet in equal steps of the phase of `planarimpact.hertz`, with the force of the row of
+springs of `planarimpact.micro_slip`. Arguments have been checked by `planarimpact.continuum`, whose
+units these are: velocity mu |v2(0)|, force mu times the largest normal force, radius a_max.
+"""
+
+import numpy as np
+
+from planarimpact import hertz, lumped
+from planarimpact.micro_slip import SpringRow
+
+
+def first_stick(x, beta, zeta2):
+    """Where gross slip from the start of contact ends: at once for x <= zeta^2.
+
+    Parameters
+    ----------
+    x, beta, zeta2 : ndarray, shape (n,)
+        Impacts that do not slide throughout, x >= 0.
+
+    Returns
+    -------
+    phase, velocity : ndarray, shape (n,)
+
+    Notes
+    -----
+    Slip lasts while the body outruns the spring in the middle, w > zeta^2 v. With friction mu F2,
+    w = x - beta (1 - v), which yields v.
+
+    Examples
+    --------
+    >>> phase, velocity = first_stick(np.array([3.5]), np.array([3.5]), np.array([1.21]))
+    >>> round(float(phase[0] / np.pi), 9), float(velocity[0])  # maximum compression
+    (0.5, 0.0)
+    """
+    slips = x > zeta2
+    normal = np.where(slips, (beta - x) / np.where(slips, beta - zeta2, 1.0), 1.0)
+    return hertz.phase_at(normal), np.where(slips, zeta2 * normal, x)
+
+
+def gross_slip(x, beta, zeta2):
+    """Path of one contact from its start to the end of gross slip, which may be separation.
+
+    Parameters
+    ----------
+    x, beta, zeta2 : ndarray, shape (1,)
+
+    Returns
+    -------
+    list of ndarray, shape (m,)
+        Phase, friction, velocity and radius of stick (zeros); one point where nothing slips.
+
+    Examples
+    --------
+    >>> phase, friction, velocity, _ = gross_slip(*np.array([[8.0], [3.5], [1.21]]))
+    >>> float(velocity[-1])
+    1.0
+    """
+    end = np.full(1, np.pi)
+    if x[0] < lumped.slip_throughout_limit(beta[0], zeta2[0]):
+        end, _ = first_stick(x, beta, zeta2)
+    phase = np.linspace(0.0, end[0], 129 if end[0] > 0 else 1)
+    friction = np.sin(phase) ** 3 * (x[0] > 0)
+    velocity = x - beta * (1 - hertz.velocity(phase))
+    return [phase, friction, velocity, np.zeros(phase.size)]
+
+
+def path(x, beta, zeta2, steps):
+    """Integrate from the end of gross slip to separation.
+
+    Parameters
+    ----------
+    x, beta, zeta2 : ndarray, shape (n,)
+        Impacts that do not slide throughout, x >= 0.
+    steps : int
+
+    Returns
+    -------
+    phase, friction, velocity, stick_radius : ndarray, shape (steps + 1, n)
+
+    Examples
+    --------
+    >>> path(*np.array([[2.0], [3.5], [1.21]]), steps=64)[2, -1].round(3)
+    array([-0.665])
+    """
+    start, velocity = first_stick(x, beta, zeta2)
+    step = (np.pi - start) / steps
+    radius, friction, displacement = np.sin(start), np.sin(start) ** 3, np.zeros(x.size)
+    row = SpringRow(radius, 2 * steps)
+    found = np.empty((4, steps + 1, x.size))
+    found[:, 0] = start, friction, velocity, row.stick_radius
+    kick = beta * hertz.PEAK_FORCE * step / 2
+    pace = hertz.pace(start)
+    for n in range(1, steps + 1):
+        # Tangential speeds in the unit of the spring row, by phase.
+        early = pace * velocity / zeta2
+        velocity = velocity - kick * pace * friction
+        half = start + (n - 0.5) * step
+        middle = hertz.pace(half) * velocity / zeta2
+        _turn(row, half - step / 2, step, displacement, early, middle)
+        displacement = displacement + step * middle
+        phase = half + step / 2
+        radius, pace = (np.sin(phase), hertz.pace(phase)) if n < steps else np.zeros((2, x.size))
+        friction = row.move(radius, displacement)
+        velocity = velocity - kick * pace * friction
+        found[:, n] = phase, friction, velocity, row.stick_radius
+    return found
+
+
+def _turn(row, phase, step, displacement, early, middle):
+    """Move the row to where slip ends within a step, if it does.
+
+    Slip in the direction g goes on while g u - d grows. Where that has its top is remembered by
+    all that has slipped: to miss it between two steps would cost an error of their square that
+    depends on chance, which no extrapolation takes away.
+    """
+    grows = np.sin(2 * phase), np.sin(2 * phase + step)  # d'(phase), at the start and the middle
+    for direction in (1, -1):
+        at_start = direction * early - grows[0]
+        at_end = 2 * (direction * middle - grows[1]) - at_start
+        turns = np.flatnonzero((at_start > 0) & (at_end < 0))
+        if turns.size:
+            share = at_start[turns] / (at_start - at_end)[turns]
+            travel = share * (early[turns] + (middle - early)[turns] * share)
+            moved = displacement[turns] + step[turns] * travel
+            row.move(np.sin(phase[turns] + share * step[turns]), moved, turns)
