@@ -234,3 +234,12 @@ def test_the_tolerance_is_met_over_the_box(seed):
         for field in ("velocity", "peak_friction"):
             error = np.abs(getattr(found, field) - getattr(exact, field))
             assert np.max(error) <= tolerance, (tolerance, field)
+
+
+def test_the_end_of_slip_within_a_step_is_not_missed():
+    """Repeated stick and slip, where a missed turning point would cost 1e-4 by chance."""
+    groups = 3.0721553278340115, 2.916339839549625, 0.19124359805672045
+    exact = continuum.rebound(*groups, tolerance=FINE)
+    assert exact.regime == Regime.MULTIPLE
+    for steps in (128, 256, 512):
+        assert abs(continuum.fixed_steps(*groups, steps, True) - exact.velocity) < 1e-5
