@@ -24,7 +24,7 @@ from planarimpact.results import ContinuumRebound, Regime
 
 IMPACTS_TOGETHER = 256  # bounds the memory of their systems of equations
 MOST_TRIALS = 100
-STEPS_A_RADIAN = 1  # of the tangential oscillation; below half of it the steps are unstable
+STEPS_A_RADIAN = 1  # of the tangential oscillation; explicit steps are unstable below some 0.6
 ROUNDING = 1e-12
 
 
@@ -39,7 +39,7 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, circles=32, steps=5
         At least 1: circles over the largest contact, equally spaced.
     steps : int
         Equal steps in time over the contact, at least pi times the square root of beta/zeta^2:
-        fewer do not resolve the tangential oscillation.
+        with fewer the tangential oscillation may grow. Accuracy takes many times more.
 
     Returns
     -------
@@ -56,8 +56,8 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, circles=32, steps=5
     Notes
     -----
     The error falls with the square of the number of circles and with the power 1.2 of the steps,
-    as a ring that comes into contact within a step is late; with the default numbers it is below
-    0.001 for a solid sphere.
+    as a ring that comes into contact within a step is late; with the default numbers it is about
+    0.001 at most for a solid sphere.
 
     References
     ----------

@@ -17,7 +17,7 @@ from planarimpact.results import ContinuumHistory, ContinuumRebound, Regime
 
 FIRST_STEPS = 16
 MOST_STEPS = 2**15
-SAFETY = 3  # error over what its estimate rests on: 2.8 was the largest among 30 000
+SAFETY = 3  # no error among 48 000 random impacts was larger than 0.31 of the tolerance
 STEPS_A_RADIAN = 4  # of the tangential oscillation, before an error estimate is believed
 CELLS = 2**20  # steps times impacts solved together: bounds the memory to some 100 MB
 
@@ -36,7 +36,8 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-6):
         zeta^2 > 0, normal over tangential stiffness; (2 - nu)/(2 (1 - nu)) for equal materials.
         In the variables of Maw et al. psi1 = x/zeta^2, chi = beta/(2 zeta^2).
     tolerance : float
-        Largest error allowed in velocity (mu v2(0)) and peak friction (mu F2max), above 0.
+        Largest error allowed in velocity (mu v2(0)) and peak friction (mu F2max), by the
+        solver's own estimate; above 0.
 
     Returns
     -------
@@ -54,10 +55,10 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-6):
     Notes
     -----
     The error of the steps falls with their square, the extrapolated one with their power 2.5 on
-    average, as gross slip sets in with a root of time. The error is estimated from the changes of
-    the extrapolated answer by the last two doublings and from the correction itself, three times
-    the largest: among 30 000 random impacts no error was larger than 0.6 of the estimate. A
-    reversal of friction shorter than a step, just below slip throughout, is not counted.
+    average, as gross slip sets in with a root of time. The error is estimated, not bounded: three
+    times the largest of the last change of the extrapolated answer, a quarter of the change
+    before it and a quarter of what extrapolation corrects. A reversal of friction shorter than a
+    step, just below slip throughout, is not counted.
 
     References
     ----------
@@ -220,9 +221,9 @@ def _refine(x, beta, zeta2, tolerance):
         correction = (fine - coarse[:, todo]) / 3
         better = fine + correction
         changed = np.abs(better - values[:, todo])
-        # A change may vanish by chance: the one before it, less what a doubling gains, counts
-        # too, and a share of the correction.
-        chances = change[:, todo] / 4, np.abs(correction) / 16
+        # A change may vanish by chance, where an event of the contact is resolved late: the one
+        # before it, less what a doubling gains, counts too, and a share of the correction.
+        chances = change[:, todo] / 4, np.abs(correction) / 4
         estimate[:, todo] = SAFETY * np.maximum(changed, np.maximum(*chances))
         coarse[:, todo], values[:, todo], change[:, todo] = fine, better, changed
         resolved = steps >= _steps_needed(beta[todo], zeta2[todo])

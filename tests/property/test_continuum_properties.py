@@ -34,7 +34,7 @@ def test_history_keeps_coulombs_law_and_the_balance_of_momentum(share, beta, zet
     np.testing.assert_allclose(np.abs(contact.friction[gross]), contact.normal[gross] * (x > 0))
     # F1 = -m1 dv1/dt; a contact lasts 2 t_c = 2.943 d_max/v2(0), and F2max = 1.25.
     impulse = np.trapezoid(contact.friction, contact.time * 1.4716375921623508) * 1.25
-    assert abs(x - contact.velocity[-1] - beta * impulse) <= 0.02 * beta
+    assert abs(x - contact.velocity[-1] - beta * impulse) <= 1e-3 * beta
 
 
 @given(PATH)

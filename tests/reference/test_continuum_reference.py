@@ -96,7 +96,6 @@ def test_the_two_methods_agree_elsewhere(beta, zeta2):
     x = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 1.05]) * limit
     exact = continuum.rebound(x, beta, zeta2)
     scheme = annuli.rebound(x, beta, zeta2, circles=40, steps=2000)
-    # Error of the scheme: 0.2 of the square of a ring's share, and 20 of a step's to the 1.5.
     np.testing.assert_allclose(scheme.velocity, exact.velocity, atol=3e-4 * max(1, limit / 6))
     np.testing.assert_allclose(scheme.peak_friction, exact.peak_friction, atol=1e-3)
     np.testing.assert_array_equal(scheme.regime, exact.regime)
@@ -105,11 +104,11 @@ def test_the_two_methods_agree_elsewhere(beta, zeta2):
 
 @pytest.mark.parametrize("x", [0.4, 1.5, 3.0, 5.0])
 def test_a_divided_row_of_springs_converges_to_it(x):
-    """First order in the steps: halving them halves the error, which extrapolation removes."""
+    """Nearly, with 4000 steps, and better where the error of first order is taken away."""
     exact = continuum.rebound(x, 3.5, STEEL, tolerance=FINE).velocity
     coarse, fine = (divided_row(x, 3.5, STEEL, 2000, steps) for steps in (2000, 4000))
-    assert abs(fine - exact) < 4e-3
-    assert abs(2 * fine - coarse - exact) < 2e-4
+    assert abs(fine - exact) < 4e-4
+    assert abs(2 * fine - coarse - exact) < 2e-5
 
 
 def test_error_falls_with_the_square_of_the_steps_and_better_extrapolated():
@@ -146,8 +145,8 @@ def test_annuli_converge_with_the_steps():
 def test_annuli_under_constant_normal_force_are_cattaneo_and_mindlin():
     path = [0.0, 0.3, 0.6, 0.9, 0.5, 0.1, -0.4, -0.9]
     force = annuli.friction(np.ones(8), path, circles=80)
-    np.testing.assert_allclose(force[:4], cattaneo_mindlin.friction(path[:4]), atol=3e-4)
-    np.testing.assert_allclose(force[3:], cattaneo_mindlin.unloading(path[3:], 0.9), atol=3e-4)
+    np.testing.assert_allclose(force[:4], cattaneo_mindlin.friction(path[:4]), atol=1e-4)
+    np.testing.assert_allclose(force[3:], cattaneo_mindlin.unloading(path[3:], 0.9), atol=1e-4)
 
 
 @pytest.mark.parametrize("zeta2", [STEEL, RUBBER, 0.4])
@@ -186,7 +185,7 @@ def test_infinite_friction_is_the_contact_without_slip(ratio):
     zeta2 = np.array([0.2, 1.2, 5.0])
     zeta2 = zeta2[ratio * zeta2 >= 1]
     found = continuum.rebound(x, ratio * zeta2, zeta2, tolerance=1e-10).velocity / x
-    np.testing.assert_allclose(found, no_slip(ratio), atol=1e-4)
+    np.testing.assert_allclose(found, no_slip(ratio), atol=2e-5)
 
 
 def test_without_friction_the_tangential_velocity_stays():
@@ -196,8 +195,8 @@ def test_without_friction_the_tangential_velocity_stays():
     np.testing.assert_allclose(result.velocity * mu, 1 - 7 * mu, rtol=1e-15)
 
 
-def test_the_finite_elements_agree_within_their_error():
-    """Sigma 0.031 on both axes, and what Maw et al. leave out of the surface displacement.
+def test_the_finite_elements_lie_between_bounds_of_compliance():
+    """Within 2 sigmas of 0.031, and of what Maw et al. leave out of the surface displacement.
 
     Elliptic traction displaces the surface like 4 (2 - nu) a^2 - (4 - 3 nu) x^2 - (4 - nu) y^2;
     the mean over the angle is kept, and nu/(4 - 2 nu) = 9 % of its curvature left out either way.
@@ -224,9 +223,9 @@ def test_the_finite_elements_agree_within_their_error():
 
 @pytest.mark.parametrize("seed", range(3))
 def test_the_tolerance_is_met_over_the_box(seed):
-    """Against twice-extrapolated fine steps, whose own error is two orders smaller."""
+    """Against an answer whose own error is fifty times smaller at least."""
     rng = np.random.default_rng(seed)
-    beta, zeta2 = rng.uniform(1, 8, 150), 10 ** rng.uniform(-1, 1, 150)
+    beta, zeta2 = rng.uniform(1, 20, 150), 10 ** rng.uniform(-1, 1, 150)
     x = rng.uniform(0, 1, 150) * lumped.slip_throughout_limit(beta, zeta2)
     exact = continuum.rebound(x, beta, zeta2, tolerance=2e-6)
     for tolerance in (1e-2, 1e-3, 1e-4):
@@ -243,3 +242,11 @@ def test_the_end_of_slip_within_a_step_is_not_missed():
     assert exact.regime == Regime.MULTIPLE
     for steps in (128, 256, 512):
         assert abs(continuum.fixed_steps(*groups, steps, True) - exact.velocity) < 1e-5
+
+
+def test_the_estimate_survives_a_change_that_vanishes_by_chance():
+    """From 256 to 512 steps the extrapolated answer moves by 1e-6, and is wrong by 3.4e-4."""
+    groups = 8.823256960990886, 18.56038953662075, 0.3168530116148592
+    exact = continuum.rebound(*groups, tolerance=1e-6).velocity
+    for tolerance in (1e-3, 5e-4, 3e-4, 1e-4):
+        assert abs(continuum.rebound(*groups, tolerance=tolerance).velocity - exact) <= tolerance

@@ -3,6 +3,10 @@
 import re
 from pathlib import Path
 
+import numpy as np
+
+from planarimpact import continuum, lumped
+
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -45,6 +49,21 @@ def test_paths_and_sources_named_exist():
     assert named and not missing
     sources = {path.parent.name for path in (ROOT / "data").glob("*/source.yaml")}
     assert all(f"`{source}`" in README for source in sources)
+
+
+def test_distance_of_lumped_model_and_continuum_is_as_printed():
+    rows = re.findall(
+        r"^\| .* \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$", README, flags=re.M
+    )
+    assert len(rows) == 4
+    for column, zeta2 in ((0, 17 / 14), (2, 1.5)):
+        edges = [0.0, zeta2, 3.5, 7 - zeta2, 10.0]
+        for row, low, high in zip(rows, edges, edges[1:], strict=False):
+            x = np.linspace(low, high, 500)
+            exact = continuum.rebound(x, 3.5, zeta2, 1e-5).velocity
+            gap = lumped.rebound(x, 3.5, zeta2).velocity - exact
+            found = np.sqrt(np.mean(gap**2)), np.max(np.abs(gap))
+            assert [f"{g:.3f}" for g in found] == [f"{float(c):.3f}" for c in row[column:][:2]]
 
 
 def test_documented_differences_are_counted(first_run):
