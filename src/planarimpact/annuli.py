@@ -69,10 +69,8 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, circles=32, steps=5
     >>> round(float(rebound(2.0).velocity), 3)
     -0.666
     """
-    signed, beta, zeta2 = checks.broadcast(
-        incidence=checks.incidence(incidence),
-        mass_ratio=checks.mass_ratio(mass_ratio),
-        stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
+    signed, beta, zeta2 = checks.groups(
+        incidence=incidence, mass_ratio=mass_ratio, stiffness_ratio=stiffness_ratio
     )
     circles = checks.count("circles", circles, 1)
     needed = STEPS_A_RADIAN * np.pi * np.sqrt(np.max(beta / zeta2, initial=1.0))
@@ -139,11 +137,11 @@ def _impacts(x, beta, zeta2, circles, steps):
         last_sign = sign
         slips = (contact.slip != 0).all(axis=0)
         # The first few annuli are too coarse to tell how the contact starts.
-        if slipped is not None:
+        if starts_in_slip is not None:
             gross_slips += slips & ~slipped
         elif len(contact.slip) > circles / 8:
             starts_in_slip = slips
-        slipped = slips if starts_in_slip is not None else None
+        slipped = slips
     impulse += kick / 2 * force  # of the last step, at whose end there is no force any more
     usual = np.where(starts_in_slip, Regime.SLIP_STICK_SLIP, Regime.STICK_SLIP)
     usual = np.where(starts_in_slip & (gross_slips == 0), Regime.SLIP_THROUGHOUT, usual)

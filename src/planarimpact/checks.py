@@ -83,6 +83,41 @@ def restitution(value):
     return checked("restitution", value, "numbers from 0 to 1", 0, 1)
 
 
+def groups(**given):
+    """Check groups of an impact, each by the rule of its name, and broadcast them.
+
+    Parameters
+    ----------
+    **given : array_like
+        Any of incidence, mass_ratio, stiffness_ratio, restitution.
+
+    Returns
+    -------
+    tuple of ndarray of float64
+        In the order given, of one shape.
+
+    Raises
+    ------
+    InputError
+        If a group is out of its range, or shapes do not broadcast.
+
+    Examples
+    --------
+    >>> x, beta = groups(incidence=[0.5, 2.0], mass_ratio=3.5)
+    >>> beta.tolist()
+    [3.5, 3.5]
+    """
+    return broadcast(**{name: RULES[name](value) for name, value in given.items()})
+
+
+RULES = {
+    "incidence": incidence,
+    "mass_ratio": mass_ratio,
+    "stiffness_ratio": stiffness_ratio,
+    "restitution": restitution,
+}
+
+
 def count(name, value, least):
     """Return a number of steps, circles or samples as int: an integer from `least`.
 

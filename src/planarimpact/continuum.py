@@ -302,10 +302,8 @@ def _settled_path(x, beta, zeta2, tolerance):
 
 
 def _checked(incidence, mass_ratio, stiffness_ratio, tolerance):
-    groups = checks.broadcast(
-        incidence=checks.incidence(incidence),
-        mass_ratio=checks.mass_ratio(mass_ratio),
-        stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
+    groups = checks.groups(
+        incidence=incidence, mass_ratio=mass_ratio, stiffness_ratio=stiffness_ratio
     )
     tolerance = checks.checked("tolerance", tolerance, "numbers above 0", 0, open_low=True)
     if tolerance.ndim:

@@ -245,9 +245,9 @@ def _kinds(phase, earlier):
 
 
 def _checked(incidence, mass_ratio, stiffness_ratio, restitution):
-    return checks.broadcast(
-        incidence=checks.incidence(incidence),
-        mass_ratio=checks.mass_ratio(mass_ratio),
-        stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
-        restitution=checks.restitution(restitution),
+    return checks.groups(
+        incidence=incidence,
+        mass_ratio=mass_ratio,
+        stiffness_ratio=stiffness_ratio,
+        restitution=restitution,
     )

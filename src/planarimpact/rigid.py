@@ -39,10 +39,8 @@ def rebound(incidence, mass_ratio=3.5, restitution=1.0):
     >>> [float(w) for w in rebound([2.0, 8.0]).velocity]
     [0.0, 1.0]
     """
-    signed, beta, e = checks.broadcast(
-        incidence=checks.incidence(incidence),
-        mass_ratio=checks.mass_ratio(mass_ratio),
-        restitution=checks.restitution(restitution),
+    signed, beta, e = checks.groups(
+        incidence=incidence, mass_ratio=mass_ratio, restitution=restitution
     )
     x = np.abs(signed)
     impulse_to_halt = x / beta

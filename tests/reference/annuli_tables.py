@@ -21,9 +21,9 @@ STIFFNESS_RATIO = {"rebound_nu_0.3": 17 / 14, "rebound_nu_0.5": 1.5}
 SIGMA = 1e-4
 
 
-def table(stiffness_ratio, circles=CIRCLES, steps=STEPS, incidence=INCIDENCE):
+def table(stiffness_ratio, incidence=INCIDENCE):
     """Velocity at separation by annuli, after `continuum` has agreed."""
-    found = annuli.rebound(incidence, MASS_RATIO, stiffness_ratio, circles, steps).velocity
+    found = annuli.rebound(incidence, MASS_RATIO, stiffness_ratio, CIRCLES, STEPS).velocity
     check = continuum.rebound(incidence, MASS_RATIO, stiffness_ratio).velocity
     difference = float(np.max(np.abs(found - check)))
     if difference > SIGMA:

@@ -82,8 +82,8 @@ def test_the_table_is_what_its_command_writes():
 
 
 def test_the_table_is_not_written_where_the_methods_differ(monkeypatch, tmp_path):
+    monkeypatch.setattr(annuli_tables, "CIRCLES", 16)
     monkeypatch.setattr(annuli_tables, "STEPS", 64)
-    monkeypatch.setattr(annuli_tables.table, "__defaults__", (16, 64, np.array([1.0])))
     with pytest.raises(SystemExit, match="the two methods differ by"):
         annuli_tables.write(tmp_path)
     assert not list(tmp_path.iterdir())

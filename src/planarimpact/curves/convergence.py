@@ -66,7 +66,7 @@ def curves(mass_ratio, stiffness_ratio, samples, tolerance, steps, circles, fixe
         "annuli, steps": _errors(by_steps, "steps [1]", steps, exact),
     }
     for ratio in stiffness_ratio:
-        at = vertices((0.0, 10.0), 101, nodes)
+        at = vertices((0.0, 10.0), 2, nodes)
         velocity = continuum.rebound(at, mass_ratio, ratio).velocity
         columns = {"incidence [mu v2(0)]": at, "velocity [mu v2(0)]": velocity}
         named[f"continuum, zeta2 = {ratio:.4f}"] = columns
