@@ -3,11 +3,22 @@
 import numpy as np
 
 from planarimpact import continuum, lumped, rigid
+from planarimpact.curves import as_printed as printed_curves
 from planarimpact.curves.sampling import regime_names, vertices
+from planarimpact.printed import impact
+from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
 
 def curves(
-    mass_ratio, stiffness_ratio, incidence, restitution, samples, tolerance, rubber, experiment
+    mass_ratio,
+    stiffness_ratio,
+    incidence,
+    restitution,
+    samples,
+    tolerance,
+    rubber,
+    experiment,
+    as_printed=False,
 ):
     """The lumped model, its limit, the elastic continuum; the same for rubber, an experiment.
 
@@ -26,6 +37,8 @@ def curves(
     experiment : dict
         An elastic sphere shot at a plane without spin: `mass_ratio`, `stiffness_ratio`,
         `restitution`, `friction`, `speed` (m/s), `radius` (m).
+    as_printed : bool
+        Add what the printed equations give, see `planarimpact.curves.as_printed`.
 
     Returns
     -------
@@ -44,11 +57,13 @@ def curves(
     1.0
     """
     limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution)
-    x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit)
+    limits = limit, printed_limit(mass_ratio, restitution)
+    x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limits)
     spring, elastic = rubber["stiffness_ratio"], continuum.rebound
     groups = mass_ratio, stiffness_ratio
-    return {
-        "lumped": _sphere(x, lumped.rebound(x, *groups, restitution), mass_ratio),
+    exact = lumped.rebound(x, *groups, restitution)
+    named = {
+        "lumped": _sphere(x, exact, mass_ratio),
         "no tangential compliance": _velocity(x, rigid.rebound(x, mass_ratio, restitution)),
         "continuum": _sphere(x, elastic(x, *groups, tolerance), mass_ratio),
         "lumped, rubber": _velocity(x, lumped.rebound(x, mass_ratio, spring, restitution)),
@@ -58,6 +73,12 @@ def curves(
             samples, lambda x, beta, zeta2, e: elastic(x, beta, zeta2, tolerance), **experiment
         ),
     }
+    if as_printed:
+        velocity, _, _ = impact.rebound(x, *groups, restitution)
+        columns = _velocity(x, exact)
+        (axis, _), (column, given) = columns.items()
+        named |= printed_curves.beside("", axis, x, column, given, velocity)
+    return named
 
 
 def _velocity(x, rebound):

@@ -1,10 +1,15 @@
 """Fig. 6: tangential velocity at separation against incidence, for several restitutions."""
 
 from planarimpact import lumped
+from planarimpact.curves import as_printed as printed_curves
 from planarimpact.curves.sampling import name, regime_names, vertices
+from planarimpact.printed import impact
+from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
 
-def curves(mass_ratio, stiffness_ratio, incidence, restitution, samples, nodes=()):
+def curves(
+    mass_ratio, stiffness_ratio, incidence, restitution, samples, nodes=(), as_printed=False
+):
     """One curve for each coefficient of restitution.
 
     Parameters
@@ -19,6 +24,8 @@ def curves(mass_ratio, stiffness_ratio, incidence, restitution, samples, nodes=(
         Evenly spread vertices; thresholds come on top.
     nodes : array_like
         More incidences that are vertices.
+    as_printed : bool
+        Add what the printed equations give, see `planarimpact.curves.as_printed`.
 
     Returns
     -------
@@ -33,8 +40,9 @@ def curves(mass_ratio, stiffness_ratio, incidence, restitution, samples, nodes=(
     """
     named = {}
     for e in restitution:
-        limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
-        x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, nodes)
+        limits = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
+        limits = limits, printed_limit(mass_ratio, e)
+        x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limits, nodes)
         rebound = lumped.rebound(x, mass_ratio, stiffness_ratio, e)
         named[name("e", e)] = {
             "incidence [mu v2(0)]": x,
@@ -43,4 +51,14 @@ def curves(mass_ratio, stiffness_ratio, incidence, restitution, samples, nodes=(
             "dissipation [mu^2 m2 v2(0)^2]": rebound.dissipation,
             "regime": regime_names(rebound.regime),
         }
+        if as_printed:
+            velocity, _, _ = impact.rebound(x, mass_ratio, stiffness_ratio, e)
+            named |= printed_curves.beside(
+                name("e", e),
+                "incidence [mu v2(0)]",
+                x,
+                "velocity [mu v2(0)]",
+                rebound.velocity,
+                velocity,
+            )
     return named

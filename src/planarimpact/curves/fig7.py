@@ -3,10 +3,13 @@
 import numpy as np
 
 from planarimpact import lumped, rigid
+from planarimpact.curves import as_printed as printed_curves
 from planarimpact.curves.sampling import name, vertices
+from planarimpact.printed import impact
+from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
 
-def curves(mass_ratio, stiffness_ratio, angle, friction, samples):
+def curves(mass_ratio, stiffness_ratio, angle, friction, samples, as_printed=False):
     """Peak forces over m2 Omega S; they do not depend on restitution when omega > Omega.
 
     Parameters
@@ -19,6 +22,8 @@ def curves(mass_ratio, stiffness_ratio, angle, friction, samples):
         Coefficients mu.
     samples : int
         Evenly spread vertices; thresholds come on top.
+    as_printed : bool
+        Add what the printed equations give, see `planarimpact.curves.as_printed`.
 
     Returns
     -------
@@ -48,7 +53,22 @@ def curves(mass_ratio, stiffness_ratio, angle, friction, samples):
         rough = rigid.rebound(x, mass_ratio).peak_friction
         named[name("mu", mu)] = _force(theta, scale * compliant)
         named[f"no tangential compliance, {name('mu', mu)}"] = _force(theta, scale * rough)
+        if as_printed:
+            named |= _as_printed(mu, mass_ratio, stiffness_ratio, samples)
     return named
+
+
+def _as_printed(mu, mass_ratio, stiffness_ratio, samples):
+    """Eqs 30 to 33 where they differ: from x = beta, where slip lasts to t_c, to (1 + e) beta."""
+    limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, 1.0)
+    end = printed_limit(mass_ratio, 1.0)
+    x = vertices((mass_ratio, end), samples // 20 + 2, limit)
+    theta = np.degrees(np.arctan(mu * x))
+    scale = mu * np.cos(np.radians(theta))
+    exact = scale * lumped.rebound(x, mass_ratio, stiffness_ratio).peak_friction
+    _, peak, _ = impact.rebound(x, mass_ratio, stiffness_ratio, 1.0)
+    (axis, _), (column, _) = _force(theta, exact).items()
+    return printed_curves.beside(name("mu", mu), axis, theta, column, exact, scale * peak)
 
 
 def _force(theta, force):

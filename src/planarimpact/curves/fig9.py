@@ -3,10 +3,22 @@
 import numpy as np
 
 from planarimpact import lumped, rigid
+from planarimpact.curves import as_printed as printed_curves
 from planarimpact.curves.sampling import name, vertices
+from planarimpact.printed import impact
+from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
 
-def curves(mass_ratio, stiffness_ratio, angle, friction, restitution, samples, nodes=()):
+def curves(
+    mass_ratio,
+    stiffness_ratio,
+    angle,
+    friction,
+    restitution,
+    samples,
+    nodes=(),
+    as_printed=False,
+):
     """Dissipation by friction over m2 S^2/2, from two independent calculations.
 
     Parameters
@@ -21,6 +33,8 @@ def curves(mass_ratio, stiffness_ratio, angle, friction, restitution, samples, n
         Evenly spread vertices; thresholds come on top.
     nodes : array_like
         More angles that are vertices.
+    as_printed : bool
+        Add what the printed equations give, see `planarimpact.curves.as_printed`.
 
     Returns
     -------
@@ -38,7 +52,8 @@ def curves(mass_ratio, stiffness_ratio, angle, friction, restitution, samples, n
     for mu in friction:
         for e in restitution:
             limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
-            thresholds = np.array([stiffness_ratio, mass_ratio, limit])
+            printed = printed_limit(mass_ratio, e)
+            thresholds = np.array([stiffness_ratio, mass_ratio, limit, printed])
             theta = vertices(angle, samples, np.degrees(np.arctan(mu * thresholds)), nodes)
             x = np.tan(np.radians(theta)) / mu
             share = 2 * (mu * np.cos(np.radians(theta))) ** 2
@@ -55,4 +70,14 @@ def curves(mass_ratio, stiffness_ratio, angle, friction, restitution, samples, n
                 "angle [deg]": theta,
                 "friction_dissipation [m2 S^2/2]": share * rough,
             }
+            if as_printed:
+                _, _, printed = impact.rebound(x, mass_ratio, stiffness_ratio, e)
+                named |= printed_curves.beside(
+                    pair,
+                    "angle [deg]",
+                    theta,
+                    "friction_dissipation [m2 S^2/2]",
+                    share * lost,
+                    share * printed,
+                )
     return named

@@ -1,0 +1,111 @@
+"""What a check of the ledger returns, and the judgement of an entry on it."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+# Numbers nearer than this are equal: rounding of a few hundred operations, and of quadrature.
+EXACT = 1e-9
+
+CONFIRMED, ROUNDED, WRONG = "confirmed", "confirmed within rounding", "wrong"
+
+
+class Finding(NamedTuple):
+    """What a check found.
+
+    Attributes
+    ----------
+    found : float
+        For an equation the largest distance of the printed formula from the exact solver, in
+        the unit that the entry names; for a sentence the number that decides it.
+    corrected : float or None
+        The same for the corrected formula, where the printed one is wrong.
+    """
+
+    found: float
+    corrected: float | None = None
+
+
+class Judgement(NamedTuple):
+    """The verdict that a finding supports, whether the entry holds, and if not why."""
+
+    verdict: str
+    holds: bool
+    why: str
+
+
+def largest(values: Iterable):
+    """Largest absolute value of numbers and arrays; nan stays nan.
+
+    Examples
+    --------
+    >>> largest([np.array([1.0, -3.0]), 2.0])
+    3.0
+    """
+    return float(np.max([np.max(np.abs(value), initial=0) for value in values]))
+
+
+def verdict(found, confirms):
+    """Verdict that a number supports.
+
+    Parameters
+    ----------
+    found : float
+    confirms : dict
+        When the statement counts as true: `at_most`, `at_least`, or `value` with `rounding`,
+        half a unit of its last figure or what its words leave open.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> verdict(1.7007, {"value": 1.7, "rounding": 0.05})
+    'confirmed within rounding'
+    >>> verdict(0.2, {"at_most": 0.05})
+    'wrong'
+    """
+    if "value" in confirms:
+        gap = abs(found - confirms["value"])
+        if gap <= EXACT:
+            return CONFIRMED
+        return ROUNDED if gap <= confirms["rounding"] else WRONG
+    above = "at_least" in confirms
+    good = found >= confirms["at_least"] if above else found <= confirms["at_most"]
+    return CONFIRMED if good else WRONG
+
+
+def judge(finding, entry):
+    """Judge whether an entry of the ledger still holds.
+
+    Parameters
+    ----------
+    finding : Finding
+    entry : dict
+        `verdict`, `confirms`, and where the verdict is wrong `between`, bounds of `found` on
+        both sides. Where there is a corrected formula it must be exact.
+
+    Returns
+    -------
+    Judgement
+
+    Examples
+    --------
+    >>> entry = {"verdict": "wrong", "confirms": {"at_most": 1e-9}, "between": [1.1, 1.3]}
+    >>> judge(Finding(1.2, 1e-14), entry).holds
+    True
+    >>> print(judge(Finding(0.0, 1e-14), entry).why)
+    recorded as wrong, found confirmed
+    """
+    supported = verdict(finding.found, entry["confirms"])
+    complaints = []
+    if supported != entry["verdict"]:
+        complaints.append(f"recorded as {entry['verdict']}, found {supported}")
+    low, high = entry.get("between", (-np.inf, np.inf))
+    if not complaints and not low <= finding.found <= high:
+        complaints.append(f"{finding.found:.4g} lies outside {low:g} to {high:g}")
+    if finding.corrected is not None and not finding.corrected <= EXACT:
+        complaints.append(f"the corrected formula is off by {finding.corrected:.2g}")
+    return Judgement(supported, not complaints, "; ".join(complaints))

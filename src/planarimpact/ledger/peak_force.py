@@ -1,0 +1,337 @@
+"""Checks of Eqs 28 to 35, and of what pp. 435 and 444 to 449 say of the largest forces."""
+
+import numpy as np
+from scipy.interpolate import CubicHermiteSpline
+
+from planarimpact import bodies, continuum, landmarks, lumped, rigid
+from planarimpact.ledger import contact
+from planarimpact.ledger.finding import Finding, largest
+from planarimpact.ledger.slip import boundary
+from planarimpact.printed import peak_force
+from planarimpact.results import EventKind
+
+FRICTIONS = (0.1, 0.2, 0.4, 0.6, 0.8, 1.0)
+ANGLES = np.linspace(0.0, 89.9, 1799)[1:]  # degrees, 0.05 apart
+
+
+def _incidence(friction):
+    """Incidence of each of ANGLES."""
+    return np.tan(np.radians(ANGLES)) / friction
+
+
+def _forces(model, friction):
+    """F1max/(m2 Omega S) at each of ANGLES; `model` takes incidences."""
+    return friction * np.cos(np.radians(ANGLES)) * model(_incidence(friction)).peak_friction
+
+
+def _lumped(x):
+    return lumped.rebound(x, *contact.SPHERE)
+
+
+def _rigid(x):
+    return rigid.rebound(x, contact.SPHERE[0])
+
+
+def _speed(found):
+    """S(0) of a contact, and v1(0)/v2(0)."""
+    return np.hypot(found.v1, found.v2), found.v1 / found.v2
+
+
+def _against(contacts, printed, force=lambda found: np.abs(found.path.force_1).max()):
+    """Largest distance of a printed force over m2 Omega S from that of exact contacts, in mu."""
+    gaps = []
+    for found in contacts:
+        speed, slope = _speed(found)
+        scale = found.m2 * found.normal_frequency * speed
+        gaps.append((printed(found, slope) - force(found) / scale) / found.friction)
+    return largest(gaps)
+
+
+def normal():
+    """Eq. 28 against the exact normal force, which is largest at t_c."""
+
+    def at_compression(found):
+        top = found.first(EventKind.MAXIMUM_COMPRESSION).force_2
+        return top if top == found.path.force_2.max() else np.nan
+
+    contacts = [*contact.initial_stick(), *contact.slip_throughout()]
+    return Finding(
+        _against(contacts, lambda _, slope: peak_force.eq_28_normal(slope), at_compression)
+    )
+
+
+def _peak(found):
+    groups = found.mass_ratio, found.stiffness_ratio, found.restitution
+    exact = lumped.rebound(found.incidence, *groups).peak_friction
+    return exact * found.friction * found.force_scale
+
+
+def stick():
+    """Eq. 29 against the exact peak of friction, initial stick."""
+    gaps = []
+    for found in contact.initial_stick():
+        printed = peak_force.eq_29_friction(found.v1, found.m1, found.tangential_frequency)
+        gaps.append(printed / _peak(found) - 1)
+    return Finding(largest(gaps))
+
+
+def stick_over_speed():
+    """Eq. 30 against the exact peak of friction, initial stick."""
+    return Finding(
+        _against(
+            contact.initial_stick(),
+            lambda found, slope: peak_force.eq_30_friction(
+                slope, found.mass_ratio, found.stiffness_ratio
+            ),
+            _peak,
+        )
+    )
+
+
+def stick_velocity():
+    """v1 at t = pi/(2 omega), where friction is largest in initial stick, over v1(0)."""
+    gaps = []
+    for beta, zeta2 in contact.PAIRS:
+        found = contact.contact(zeta2 / 2, beta, zeta2, samples=2001)
+        path = found.path
+        # dv1/dt is known at the samples too: F1/m1.
+        velocity = CubicHermiteSpline(path.t, path.v1, path.force_1 / found.m1)
+        gaps.append(velocity(np.pi / 2 / found.tangential_frequency) / found.v1)
+    return Finding(largest(gaps))
+
+
+def _start(found):
+    """Both values of Eq. 32 at the exact start of stick, and that start."""
+    start = found.first(EventKind.STICK)
+    angle = found.normal_frequency * start.t
+    groups = found.incidence, found.mass_ratio, found.stiffness_ratio
+    return start, peak_force.eq_32_start(angle, *groups)
+
+
+def stick_after_slip():
+    """Eq. 31 with Eq. 32 along the stick that begins in compression."""
+    gaps = []
+    for found in contact.slip_stick_slip(late=False):
+        start, (stretch, velocity) = _start(found)
+        path = found.between(start.t, found.last(EventKind.SLIP).t)
+        speed, slope = _speed(found)
+        ratio = found.tangential_frequency / found.normal_frequency
+        elapsed = found.normal_frequency * (path.t - start.t)
+        groups = slope, found.friction, found.stiffness_ratio, ratio
+        printed = peak_force.eq_31_friction(elapsed, stretch, velocity, *groups)
+        exact = path.force_1 / (found.m2 * found.normal_frequency * speed)
+        gaps.append((printed - exact) / found.friction)
+    return Finding(largest(gaps))
+
+
+def start_of_stick():
+    """Eq. 32 at the exact start of stick in compression; corrected: u1 with a minus."""
+    printed, corrected = [], []
+    for found in contact.slip_stick_slip(late=False):
+        start, (stretch, velocity) = _start(found)
+        scale = found.friction * found.v2
+        exact = found.normal_frequency * start.u1 / scale
+        printed += [stretch - exact, velocity - start.v1 / scale]
+        corrected += [-stretch - exact, velocity - start.v1 / scale]
+    return Finding(largest(printed), largest(corrected))
+
+
+def peak_after_late_stick():
+    """The peak of Eqs 31 and 32 where stick begins in restitution, against the exact mu F2max.
+
+    e = 1, where both formulas of Table 1 coincide; corrected by Eq. 33.
+    """
+    printed, corrected = [], []
+    for found in contact.slip_stick_slip((1.0,), late=True):
+        _, (stretch, velocity) = _start(found)
+        ratio = found.tangential_frequency / found.normal_frequency
+        exact = _peak(found) / (found.friction * found.force_scale)
+        printed.append(np.hypot(stretch, velocity / ratio) / found.stiffness_ratio - exact)
+        corrected.append(peak_force.eq_33_friction(0.0, 1.0) - exact)
+    return Finding(largest(printed), largest(corrected))
+
+
+def slip_throughout():
+    """Eq. 33 against the exact peak of friction above the printed limit, and from beta on."""
+    contacts = [*contact.slip_throughout(), *contact.slip_stick_slip(late=True)]
+    return Finding(
+        _against(
+            contacts, lambda found, slope: peak_force.eq_33_friction(slope, found.friction), _peak
+        )
+    )
+
+
+def _rigid_gap(formula, shares):
+    """Distance of a formula of the rigid limit from `rigid`, at x = shares of beta, in mu."""
+    gaps = []
+    for beta, _ in contact.PAIRS:
+        x = beta * np.array(shares)
+        slope = contact.FRICTION * x
+        exact = contact.FRICTION * peak_force.eq_28_normal(slope)
+        exact = exact * rigid.rebound(x, beta).peak_friction
+        gaps.append((formula(slope, beta) - exact) / contact.FRICTION)
+    return Finding(largest(gaps))
+
+
+def rigid_halted():
+    """Eq. 34 against `rigid` where slip halts in compression."""
+    return _rigid_gap(
+        lambda slope, beta: peak_force.eq_34_friction(slope, contact.FRICTION, beta),
+        (0.05, 0.4, 0.9, 0.99),
+    )
+
+
+def rigid_sliding():
+    """Eq. 35 against `rigid` where slip goes through compression."""
+    return _rigid_gap(
+        lambda slope, _: peak_force.eq_35_friction(slope, contact.FRICTION), (1.0, 1.7, 2.5)
+    )
+
+
+def compliance_reduces():
+    """Smallest excess of the peak without tangential compliance over the compliant one, in mu."""
+    x = np.linspace(0, 8, 2001)
+    return Finding(float(np.min(_rigid(x).peak_friction - _lumped(x).peak_friction)))
+
+
+def restitution_immaterial():
+    """Change of the peak of friction with e, omega > Omega."""
+    x = np.linspace(0, 8, 401)
+    e = np.linspace(0, 1, 21)[:, None]
+    gaps = [np.ptp(lumped.rebound(x, *pair, e).peak_friction, axis=0) for pair in contact.PAIRS]
+    return Finding(largest(gaps))
+
+
+def in_compression():
+    """Largest excess of the peak of friction over that of compression alone, e = 0."""
+    x = np.linspace(0, 8, 401)
+    e = np.linspace(0, 1, 21)[:, None]
+    gaps = [
+        lumped.rebound(x, *pair, e).peak_friction - lumped.rebound(x, *pair, 0.0).peak_friction
+        for pair in contact.PAIRS
+    ]
+    return Finding(float(np.max(gaps)))
+
+
+def late_stick():
+    """Share of the incidences of slip - stick - slip (e = 1) whose stick begins after t_c."""
+    beta, zeta2 = contact.SPHERE
+    limit = float(lumped.slip_throughout_limit(beta, zeta2, 1.0))
+    x = np.linspace(zeta2, limit, 202)[1:-1]
+    found = [contact.contact(value, samples=2).first(EventKind.STICK) for value in x]
+    top = contact.contact(1.0, samples=2).compression_time
+    return Finding(float(np.mean([state.t > top for state in found])))
+
+
+def velocity_at_stick():
+    """Lowest v1(t2)/(mu v2(0)) over slip - stick - slip, e = 1; negative: turned round."""
+    lowest = min(
+        found.first(EventKind.STICK).v1 / (found.friction * found.v2)
+        for found in contact.slip_stick_slip((1.0,))
+        if (found.mass_ratio, found.stiffness_ratio) == contact.SPHERE
+    )
+    return Finding(float(lowest))
+
+
+def peak_after_stick():
+    """Share of the incidences of slip - stick - slip (e = 1) with the peak before stick."""
+    beta, zeta2 = contact.SPHERE
+    limit = float(lumped.slip_throughout_limit(beta, zeta2, 1.0))
+    shares = []
+    for x in np.linspace(zeta2, limit, 102)[1:-1]:
+        found = contact.contact(x, samples=401)
+        largest_at = found.path.t[np.argmax(np.abs(found.path.force_1))]
+        shares.append(largest_at < found.first(EventKind.STICK).t)
+    return Finding(float(np.mean(shares)))
+
+
+def simultaneous():
+    """Distance of the instants of both peaks in slip throughout, in t_c."""
+    gaps = []
+    for found in contact.slip_throughout():
+        path = found.path
+        instants = path.t[path.force_1.argmax()], path.t[path.force_2.argmax()]
+        gaps.append((instants[1] - instants[0]) / found.compression_time)
+    return Finding(largest(gaps))
+
+
+def _angle_of_peak(friction):
+    return landmarks.peak(ANGLES, _forces(_lumped, friction))
+
+
+def peak_angle_small_friction():
+    """Angle of the largest peak of friction, mu = 0.1, in degrees."""
+    return Finding(_angle_of_peak(0.1))
+
+
+def peak_angle_large_friction():
+    """The same for mu = 1."""
+    return Finding(_angle_of_peak(1.0))
+
+
+def peak_angle_lewis_rogers():
+    """The same for mu = 0.18."""
+    return Finding(_angle_of_peak(0.18))
+
+
+def peak_angle_rises():
+    """Smallest rise of that angle from one mu of Fig. 7 to the next, in degrees."""
+    return Finding(float(np.min(np.diff([_angle_of_peak(mu) for mu in FRICTIONS]))))
+
+
+def peak_at_intermediate_incidence():
+    """Smallest distance of the incidence of the largest peak from zeta^2 and (1 + e) beta."""
+    beta, zeta2 = contact.SPHERE
+    x = np.array([np.tan(np.radians(_angle_of_peak(mu))) / mu for mu in FRICTIONS])
+    return Finding(float(min((x - zeta2).min(), (2 * beta - x).min())))
+
+
+def _reductions():
+    """How much less the largest peak of each mu is than without tangential compliance."""
+    return [1 - _forces(_lumped, mu).max() / _forces(_rigid, mu).max() for mu in FRICTIONS]
+
+
+def reduction():
+    """Smallest reduction of the largest peak over the frictions of Fig. 7."""
+    return Finding(float(min(_reductions())))
+
+
+def compliance_immaterial():
+    """Difference of both peaks from x = beta on, in mu."""
+    x = np.linspace(contact.SPHERE[0], 20, 200)
+    return Finding(largest([_lumped(x).peak_friction - _rigid(x).peak_friction]))
+
+
+def full_friction_angle():
+    """Angle from which peak friction is mu times the peak normal force, mu = 0.18, degrees."""
+
+    def below(angle):
+        return _lumped(np.tan(np.radians(angle)) / 0.18).peak_friction < 1 - 1e-15
+
+    return Finding(boundary(below, 0.0, 80.0))
+
+
+def ball_mass():
+    """Mass of a steel ball of 25.4 mm and half as much for its holder, kg."""
+    return Finding(1.5 * float(bodies.solid_sphere(0.0127, 7850.0).mass))
+
+
+def _effect(model, friction):
+    """Relative change that another model makes to the largest peak of one mu."""
+    return abs(_forces(model, friction).max() / _forces(_lumped, friction).max() - 1)
+
+
+def _continuum(x):
+    # In slip throughout the peak is the same for any incidence.
+    return continuum.rebound(np.minimum(x, 8.0), *contact.SPHERE, 1e-4)
+
+
+def normal_details():
+    """Largest relative difference of lumped model and continuum in the largest peak of a mu."""
+    return Finding(float(max(_effect(_continuum, mu) for mu in (0.1, 0.4, 1.0))))
+
+
+def stiffness_matters_more():
+    """Effect on the largest peak of zeta^2 = 1.5 for 1.21, over that of the continuum; mu = 1."""
+    softer = _effect(lambda x: lumped.rebound(x, 3.5, 1.5), 1.0)
+    return Finding(float(softer / _effect(_continuum, 1.0)))

@@ -1,0 +1,335 @@
+"""Checks of Eqs 10 to 27: when stick and slip begin, and the velocity at separation."""
+
+import numpy as np
+
+from planarimpact import lumped
+from planarimpact.ledger import contact
+from planarimpact.ledger.finding import Finding, largest
+from planarimpact.printed import dynamics, slip
+from planarimpact.results import EventKind, Regime
+
+
+def boundary(holds, low, high):
+    """Where a property that holds at `low` and not at `high` is lost, by bisection.
+
+    Examples
+    --------
+    >>> round(boundary(lambda x: x < 2, 0.0, 8.0), 12)
+    2.0
+    """
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return low
+
+
+def slips_throughout_from(mass_ratio, stiffness_ratio, restitution):
+    """Incidence from which the exact solver never sticks, by bisection of its regimes.
+
+    Examples
+    --------
+    >>> round(slips_throughout_from(3.5, 1.21, 1.0), 9)
+    5.79
+    """
+
+    def sticks(x):
+        found = lumped.rebound(x, mass_ratio, stiffness_ratio, restitution)
+        return found.regime != Regime.SLIP_THROUGHOUT
+
+    return boundary(sticks, 0.0, 4 * mass_ratio)
+
+
+def force_ratio():
+    """Eqs 10a and 10b at the exact onset of slip: |F1| = mu F2, and less before."""
+    gaps = []
+    for found in contact.initial_stick():
+        onset = found.last(EventKind.SLIP)
+        groups = found.incidence, found.stiffness_ratio, found.normal_frequency
+        omega, e = found.tangential_frequency, found.restitution
+        t = found.between(0.0, onset.t).t[1:-1]
+        early = t <= found.compression_time
+        gaps += [
+            np.maximum(slip.eq_10a_force_ratio(t[early], *groups, omega) - 1, 0),
+            np.maximum(slip.eq_10b_force_ratio(t[~early], *groups, omega, e) - 1, 0),
+        ]
+        reached = np.abs(onset.force_1) / (found.friction * onset.force_2)
+        gaps.append(slip.eq_10b_force_ratio(onset.t, *groups, omega, e) / reached - 1)
+    return Finding(largest(gaps))
+
+
+def initial_stick_limit():
+    """Eq. 11 against the incidence at which the regime of the exact solver changes."""
+    gaps = []
+    for beta, zeta2 in contact.PAIRS:
+        limit = boundary(
+            lambda x, b=beta, z=zeta2: lumped.rebound(x, b, z).regime == Regime.STICK_SLIP,
+            1e-3 * zeta2,
+            2 * zeta2,
+        )
+        printed = slip.eq_11_stick_limit(contact.FRICTION, zeta2)
+        gaps.append(limit * contact.FRICTION / printed - 1)
+    return Finding(largest(gaps))
+
+
+def velocity_at_slip():
+    """Eq. 12 at the exact onset of slip."""
+    gaps = []
+    for found in contact.initial_stick():
+        onset = found.last(EventKind.SLIP)
+        printed = slip.eq_12_velocity_at_slip(found.v1, found.tangential_frequency, onset.t)
+        gaps.append((printed - onset.v1) / (found.friction * found.v2))
+    return Finding(largest(gaps))
+
+
+def _impulse(found, t):
+    groups = found.v2, found.m2, found.normal_frequency, found.restitution
+    return float(dynamics.table_1_impulse(t, *groups))
+
+
+def _impulse_left(found, t):
+    return (1 + found.restitution) * -found.m2 * found.v2 - _impulse(found, t)
+
+
+def final_velocity():
+    """Eq. 13 after initial stick, with s as it is at the onset of slip."""
+    gaps = []
+    for found in contact.initial_stick():
+        onset = found.last(EventKind.SLIP)
+        left, direction = _impulse_left(found, onset.t), found.last_slip_direction
+        groups = left, found.friction, found.m1
+        printed = slip.eq_13_final_velocity(onset.v1, direction, *groups)
+        gaps.append((printed - found.final_velocity) / (found.friction * found.v2))
+    return Finding(largest(gaps))
+
+
+def _share_left(found, t):
+    return slip.impulse_ratio(t, found.normal_frequency, found.restitution)
+
+
+def impulse_left():
+    """Eq. 14 and g1: the impulse after t1 from the momentum at separation."""
+    gaps = []
+    for found in contact.initial_stick():
+        onset = found.last(EventKind.SLIP)
+        printed = slip.eq_14_impulse_left(_share_left(found, onset.t), found.m2, found.v2)
+        change = abs(found.final_velocity - onset.v1) * found.m1 / found.friction
+        gaps.append((printed - change) / (found.m2 * found.v2))
+    return Finding(largest(gaps))
+
+
+def rebound_after_stick():
+    """Eq. 15 against the exact rebound; corrected with s at the onset of slip."""
+    printed, corrected = [], []
+    for found in contact.initial_stick():
+        onset, scale = found.last(EventKind.SLIP), found.friction * found.v2
+        g1, beta = _share_left(found, onset.t), found.mass_ratio
+        exact = found.final_velocity / scale
+        printed.append(slip.eq_15_rebound(onset.v1 / scale, g1, beta) - exact)
+        signed = found.last_slip_direction * g1
+        corrected.append(slip.eq_15_rebound(onset.v1 / scale, signed, beta) - exact)
+    return Finding(largest(printed), largest(corrected))
+
+
+def velocity_in_slip():
+    """Eq. 16 along the first slip."""
+    gaps = []
+    for found in contact.slip_stick_slip():
+        path = found.between(0.0, found.first(EventKind.STICK).t)
+        impulse = dynamics.table_1_impulse(
+            path.t, found.v2, found.m2, found.normal_frequency, found.restitution
+        )
+        printed = slip.eq_16_velocity_in_slip(found.v1, -1, impulse, found.friction, found.m1)
+        gaps.append((printed - path.v1) / (found.friction * found.v2))
+    return Finding(largest(gaps))
+
+
+def _normal_rate(found, t):
+    groups = found.v2, found.m2, found.normal_frequency, found.restitution
+    return slip.eq_20_normal_force_rate(t, *groups)
+
+
+def transition():
+    """Eq. 17 where the exact contact starts to stick: both forces have one rate."""
+    gaps = []
+    for found in contact.slip_stick_slip():
+        start = found.first(EventKind.STICK)
+        rate_1 = slip.stick_force_rate(
+            0.0, start.u1, start.v1, found.m1, found.tangential_frequency
+        )
+        rate_2 = _normal_rate(found, start.t)
+        scale = found.friction * found.force_scale * found.normal_frequency
+        gaps.append(slip.eq_17_excess_rate(rate_1, rate_2, found.friction) / scale)
+    return Finding(largest(gaps))
+
+
+def stick_force_rate():
+    """Formula after Eq. 17: its integral over the stick is the change of the exact force."""
+    gaps = []
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    for found in contact.slip_stick_slip():
+        start, end = found.first(EventKind.STICK), found.last(EventKind.SLIP)
+        half = (end.t - start.t) / 2
+        rate = slip.stick_force_rate(
+            half * (1 + nodes), start.u1, start.v1, found.m1, found.tangential_frequency
+        )
+        change = half * float(weights @ rate)
+        gaps.append((change - (end.force_1 - start.force_1)) / found.force_scale)
+    return Finding(largest(gaps))
+
+
+def _transition_states(formula_a, formula_b, exact, scale):
+    """Distances of two formulas at t2, each in its half, from the exact state there."""
+    gaps = []
+    for found in contact.slip_stick_slip():
+        start = found.first(EventKind.STICK)
+        late = start.t > found.compression_time
+        printed = (formula_b if late else formula_a)(found, start.t)
+        gaps.append((printed - exact(start)) / scale(found))
+    return Finding(largest(gaps))
+
+
+def deflection_at_stick():
+    """Eqs 18a and 18b at the exact start of stick."""
+
+    def groups(found):
+        frequencies = found.normal_frequency, found.tangential_frequency
+        return found.v2, found.friction, found.m1, found.m2, *frequencies
+
+    return _transition_states(
+        lambda found, t2: slip.eq_18a_deflection(t2, *groups(found)),
+        lambda found, t2: slip.eq_18b_deflection(t2, *groups(found), found.restitution),
+        lambda start: start.u1,
+        lambda found: found.friction * found.v2 / found.normal_frequency,
+    )
+
+
+def velocity_at_stick():
+    """Eqs 19a and 19b at the exact start of stick."""
+
+    def groups(found):
+        return found.v1, found.v2, found.friction, found.mass_ratio, found.normal_frequency
+
+    return _transition_states(
+        lambda found, t2: slip.eq_19a_velocity(t2, *groups(found)),
+        lambda found, t2: slip.eq_19b_velocity(t2, *groups(found), found.restitution),
+        lambda start: start.v1,
+        lambda found: found.friction * found.v2,
+    )
+
+
+def normal_force_rate():
+    """Eq. 20: its integral from t2 to either end is the change of the exact normal force."""
+    gaps = []
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    for found in contact.slip_stick_slip():
+        kinks = [0.0, found.compression_time, (1 + found.restitution) * found.compression_time]
+        forces = [found.first(kind).force_2 for kind in (EventKind.CONTACT,)]
+        forces += [found.first(EventKind.MAXIMUM_COMPRESSION).force_2, 0.0]
+        for start, end, before, after in zip(kinks, kinks[1:], forces, forces[1:], strict=False):
+            half = (end - start) / 2
+            change = half * float(weights @ _normal_rate(found, start + half * (1 + nodes)))
+            gaps.append((change - (after - before)) / found.force_scale)
+    return Finding(largest(gaps))
+
+
+def end_of_first_slip():
+    """Eq. 21 at the exact start of stick gives the incidence back."""
+    gaps = []
+    for found in contact.slip_stick_slip():
+        groups = found.mass_ratio, found.stiffness_ratio
+        rates = found.normal_frequency, found.restitution
+        t2 = found.first(EventKind.STICK).t
+        gaps.append(slip.eq_21_incidence(t2, *groups, *rates) / found.incidence - 1)
+    return Finding(largest(gaps))
+
+
+def second_stick():
+    """Eqs 22a and 22b along the stick of the exact contact."""
+    gaps = []
+    for found in contact.slip_stick_slip():
+        start, end = found.first(EventKind.STICK), found.last(EventKind.SLIP)
+        path, omega = found.between(start.t, end.t), found.tangential_frequency
+        elapsed, given = path.t - start.t, (start.u1, start.v1)
+        velocity = slip.eq_22a_velocity(elapsed, *given, omega)
+        force = slip.eq_22b_force(elapsed, *given, found.m1, omega)
+        gaps.append((velocity - path.v1) / (found.friction * found.v2))
+        gaps.append((force - path.force_1) / (found.friction * found.force_scale))
+    return Finding(largest(gaps))
+
+
+def onset_of_second_slip():
+    """Eq. 23 at the exact onset of the last slip; corrected with s times its right side."""
+    printed, corrected = [], []
+    for found in contact.slip_stick_slip():
+        start, onset = found.first(EventKind.STICK), found.last(EventKind.SLIP)
+        left, right = slip.eq_23_sides(
+            onset.t,
+            start.t,
+            start.u1,
+            start.v1,
+            found.v2,
+            found.friction,
+            found.stiffness_ratio,
+            found.normal_frequency,
+            found.tangential_frequency,
+            found.restitution,
+        )
+        printed.append(left - right)
+        corrected.append(left - found.last_slip_direction * right)
+    return Finding(largest(printed), largest(corrected))
+
+
+def final_velocity_after_second_slip():
+    """Eq. 24 against the exact rebound; corrected with s at the onset of slip."""
+    printed, corrected = [], []
+    for found in contact.slip_stick_slip():
+        onset, scale = found.last(EventKind.SLIP), found.friction * found.v2
+        left, groups = _impulse_left(found, onset.t), (found.friction, found.m1)
+        final = slip.eq_24_final_velocity(onset.v1, left, *groups)
+        printed.append((final - found.final_velocity) / scale)
+        signed = found.last_slip_direction * left
+        final = slip.eq_24_final_velocity(onset.v1, signed, *groups)
+        corrected.append((final - found.final_velocity) / scale)
+    return Finding(largest(printed), largest(corrected))
+
+
+def rebound_after_second_slip():
+    """Eq. 25 against the exact rebound; corrected with s at the onset of slip."""
+    printed, corrected = [], []
+    for found in contact.slip_stick_slip():
+        onset, scale = found.last(EventKind.SLIP), found.friction * found.v2
+        share = _impulse(found, onset.t) / (-found.m2 * found.v2)
+        exact, e, beta = found.final_velocity / scale, found.restitution, found.mass_ratio
+        printed.append(slip.eq_25_rebound(onset.v1 / scale, share, beta, e) - exact)
+        right = onset.v1 / scale + found.last_slip_direction * beta * (1 + e - share)
+        corrected.append(right - exact)
+    return Finding(largest(printed), largest(corrected))
+
+
+def rebound_after_slip_throughout():
+    """Eqs 26 and 27 against the exact rebound above the printed limit."""
+    gaps = []
+    for found in contact.slip_throughout():
+        scale, e = found.friction * found.v2, found.restitution
+        compression = -found.m2 * found.v2
+        groups = compression, found.friction, found.m1, e
+        final = slip.eq_26_final_velocity(found.v1, *groups)
+        gaps.append((final - found.final_velocity) / scale)
+        ratio = slip.eq_27_rebound(found.incidence, found.mass_ratio, e)
+        gaps.append(ratio - found.final_velocity / scale)
+    return Finding(largest(gaps))
+
+
+def slip_throughout_limit():
+    """The printed limit (1 + e) beta against bisection of regimes; corrected by Eq. 21.
+
+    Corrected: beta + max(0, e beta - zeta^2/e).
+    """
+    printed, corrected = [], []
+    for beta, zeta2 in contact.PAIRS:
+        for e in (0.0, *contact.RESTITUTIONS):
+            exact = slips_throughout_from(beta, zeta2, e)
+            printed.append(slip.slip_throughout_limit(beta, e) - exact)
+            later = e * beta - zeta2 / e if e else 0.0
+            corrected.append(beta + max(0.0, later) - exact)
+    return Finding(largest(printed), largest(corrected))

@@ -1,0 +1,103 @@
+"""The printed formulas put together as the paper does, against the exact solver where they hold."""
+
+import re
+
+import numpy as np
+import pytest
+
+from planarimpact import lumped, printed
+from planarimpact.checks import InputError
+from planarimpact.curves import fig5, fig6, fig7, fig9
+from planarimpact.printed import dissipation, dynamics, impact, peak_force, slip
+
+BETA, ZETA2 = 3.5, 1.21
+
+
+def test_every_number_has_its_function():
+    names = [name for part in (dynamics, slip, peak_force, dissipation) for name in vars(part)]
+    numbers = {int(found[1]) for name in names if (found := re.match(r"eq_(\d+)", name))}
+    assert numbers == set(range(1, 42))
+    assert sum(name.startswith("table_1_") for name in vars(dynamics)) == 4
+    assert "no range is" in " ".join(printed.__doc__.split())
+
+
+@pytest.mark.parametrize("e", [0.6, 0.8, 1.0])
+def test_velocity_is_exact_below_both_limits_and_above(e):
+    limit = float(lumped.slip_throughout_limit(BETA, ZETA2, e))
+    end = (1 + e) * BETA
+    x = np.concatenate([np.linspace(0, limit - 1e-9, 60), np.linspace(end, 3 * end, 10)])
+    velocity, _, _ = impact.rebound(x, BETA, ZETA2, e)
+    assert np.abs(velocity - lumped.rebound(x, BETA, ZETA2, e).velocity).max() < 1e-12
+
+
+@pytest.mark.parametrize("e", [0.2, 0.5, 1.0])
+def test_no_solution_between_the_limits(e):
+    limit, end = float(lumped.slip_throughout_limit(BETA, ZETA2, e)), (1 + e) * BETA
+    x = np.linspace(limit, end, 12)[:-1]
+    assert np.isnan(impact.rebound(x, BETA, ZETA2, e)).all()
+
+
+def test_the_kept_direction_costs_twice_the_impulse_left():
+    """Just below x = beta at e = 0.5 the print is 2 e beta too high (ledger: eq-25)."""
+    x = BETA - 1e-6
+    velocity, _, _ = impact.rebound([x], BETA, ZETA2, 0.5)
+    excess = velocity[0] - lumped.rebound(x, BETA, ZETA2, 0.5).velocity
+    assert excess == pytest.approx(2 * 0.5 * BETA, abs=1e-2)
+
+
+def test_dissipation_as_printed_is_negative_at_small_incidence():
+    assert impact.rebound([0.5], BETA, ZETA2, 1.0)[2][0] < 0
+    assert lumped.rebound(0.5, BETA, ZETA2, 1.0).dissipation > 0.02
+
+
+def test_peaks_hold_up_to_beta_only():
+    x = np.array([0.5, 1.2, 2.0, 3.49, 4.0, 5.0])
+    _, peak, _ = impact.rebound(x, BETA, ZETA2, 1.0)
+    gap = np.abs(peak - lumped.rebound(x, BETA, ZETA2, 1.0).peak_friction)
+    assert (gap[:4] < 1e-12).all() and (gap[4:] > 0.01).all()
+
+
+def test_mirror_image_and_inelastic_limit():
+    x = np.linspace(0, 3.4, 30)
+    velocity, _, _ = impact.rebound(-x, BETA, ZETA2, 0.0)
+    assert np.abs(velocity + lumped.rebound(x, BETA, ZETA2, 0.0).velocity).max() < 1e-12
+
+
+def test_a_slow_tangential_oscillation_is_not_in_the_print():
+    assert np.isnan(impact.rebound([0.5], 1.0, 2.0, 1.0)[0][0])
+
+
+def test_bad_groups_are_refused():
+    with pytest.raises(InputError, match="restitution = 1.5"):
+        impact.rebound([1.0], BETA, ZETA2, 1.5)
+
+
+CURVES = {
+    fig5: dict(
+        incidence=(0, 14),
+        restitution=0.5,
+        tolerance=1e-2,
+        rubber={"stiffness_ratio": 1.5},
+        experiment=dict(
+            mass_ratio=3.5, stiffness_ratio=1.164, restitution=0.98, friction=0.092, speed=3.9,
+            radius=0.0025,
+        ),
+    ),
+    fig6: dict(incidence=(0, 8), restitution=[0.5]),
+    fig7: dict(angle=(0, 90), friction=[0.5]),
+    fig9: dict(angle=(0, 90), friction=[0.5], restitution=[0.5]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("figure", CURVES, ids=lambda figure: figure.__name__.split(".")[-1])
+def test_as_printed_curves_are_added_on_request_and_change_no_other(figure):
+    settings = dict(mass_ratio=BETA, stiffness_ratio=ZETA2, samples=41, **CURVES[figure])
+    plain = figure.curves(**settings)
+    both = figure.curves(**settings, as_printed=True)
+    added = [name for name in both if name not in plain]
+    assert {name.split(",")[0] for name in added} == {"as printed", "no solution as printed"}
+    for name, columns in plain.items():
+        for column, values in columns.items():
+            assert np.array_equal(both[name][column], values)
+    for name in added:
+        assert all(np.isfinite(values).all() for values in both[name].values())
