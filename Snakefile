@@ -25,6 +25,7 @@ rule figures:
 include: "workflow/rules/curves.smk"
 include: "workflow/rules/reference.smk"
 include: "workflow/rules/drawing.smk"
+include: "workflow/rules/ledger.smk"
 include: "workflow/rules/judgement.smk"
 
 

@@ -66,6 +66,8 @@ def test_every_rule_has_log_benchmark_and_message(fresh):
 
 
 ALL = [f"Solving {figure}" for figure in FIGURES]
+LEDGER = "Verifying the paper"
+AS_PRINTED = [f"Solving fig{number}" for number in (5, 6, 7, 9)]
 
 
 @pytest.mark.parametrize(
@@ -73,12 +75,19 @@ ALL = [f"Solving {figure}" for figure in FIGURES]
     [
         ("workflow/scripts/draw_fig7.py", ["Drawing fig7"]),
         ("src/planarimpact/curves/fig6.py", ["Solving fig6"]),
-        ("src/planarimpact/rigid.py", ["Solving fig5", "Solving fig7", "Solving fig9"]),
-        ("src/planarimpact/bodies.py", ["Solving fig8"]),
+        ("src/planarimpact/rigid.py", ["Solving fig5", "Solving fig7", "Solving fig9", LEDGER]),
+        ("src/planarimpact/bodies.py", ["Solving fig8", LEDGER]),
         ("src/planarimpact/annuli.py", ["Solving convergence"]),
-        ("src/planarimpact/hertz.py", [f"Solving {f}" for f in ("fig5", *FIGURES[-2:])]),
-        ("src/planarimpact/landmarks.py", [f"Comparing {f} with its references" for f in FIGURES]),
-        ("src/planarimpact/slip_onset.py", ALL[1:]),
+        ("src/planarimpact/hertz.py", [f"Solving {f}" for f in ("fig5", *FIGURES[-2:])] + [LEDGER]),
+        (
+            "src/planarimpact/landmarks.py",
+            [f"Comparing {f} with its references" for f in FIGURES] + [LEDGER],
+        ),
+        ("src/planarimpact/slip_onset.py", [*ALL[1:], LEDGER]),
+        ("src/planarimpact/printed/dissipation.py", [*AS_PRINTED, LEDGER]),
+        ("src/planarimpact/ledger/slip.py", [LEDGER]),
+        ("data/stronge1994/ledger.yaml", [LEDGER]),
+        ("workflow/report/ledger.html", ["Writing the ledger's page"]),
         ("data/chung_ooi2011/rebound.csv", ["Reading the series of chung_ooi2011"]),
     ],
 )
@@ -89,7 +98,7 @@ def test_an_edit_reruns_what_it_must_and_nothing_more(finished, path, expected):
     jobs, counts = finished.planned()
     direct = [job for job, reason in jobs.items() if path in reason]
     assert sorted(direct) == sorted(expected), jobs
-    follow = {"Judging", "Gathering the verdicts"}
+    follow = {"Judging", "Gathering the verdicts", "Writing the ledger's page"}
     figures = {word for job in direct for word in job.split() if word in FIGURES} or {"fig5"}
     rest = set(jobs) - set(direct) - follow
     assert all(any(figure in job.split() for figure in figures) for job in rest), jobs

@@ -42,10 +42,15 @@ rule verdicts:
 
 
 rule gate:
-    """Fail the run if a comparison diverges, after everything else is written."""
+    """Fail the run if a comparison diverges or an entry of the ledger no longer holds.
+
+    Runs after everything else is written.
+    """
     input:
         modules=run_plan.modules("gate"),
         verdicts="results/verdicts.csv",
+        ledger="results/ledger.csv",
+        page="figures/ledger.html",
         figures=rules.figures.input,
     output:
         "results/PASSED",

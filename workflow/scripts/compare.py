@@ -63,11 +63,15 @@ def compare(figure, comparisons, references, curves_path, series_paths):
             documented = entry.get("documented")
             verdict = comparison.judge(distance, entry.get("agreement"), documented, gap)
             facts |= _numbers(distance, entry)
-            note = documented["entry"] if documented else ""
+            note = _name(documented) if documented else ""
         except Exception as error:
             verdict, note = Verdict.DIVERGES, f"{error}"
         rows.append(_row(figure, name, verdict, note=note, **facts))
     return rows
+
+
+def _name(documented):
+    return f"ledger: {documented['entry']}" if "entry" in documented else documented["note"]
 
 
 def _distance(entry, known, curves, series_paths):
@@ -171,7 +175,7 @@ def _numbers(distance, entry):
 def _allowed(entry):
     if "agreement" in entry:
         return ", ".join(f"{key} <= {limit:g}" for key, limit in entry["agreement"].items())
-    bounds = {k: v for k, v in entry["documented"].items() if k != "entry"}
+    bounds = {k: v for k, v in entry["documented"].items() if k not in ("entry", "note")}
     return ", ".join(f"{low:g} <= {key} <= {high:g}" for key, (low, high) in bounds.items())
 
 

@@ -73,6 +73,7 @@ def _draw_added(axes, curves, points, settings):
         MEASURED_ANGLES: ("alumina on glass (Kharaz et al.)", GLASS_POINTS),
         "chung_ooi2011/rebound": ("finite elements (Chung & Ooi)", ELEMENT_POINTS),
     }
+    entries += drawing.as_printed(axes, curves, X, Y, "Eqs 15, 25")
     if MEASURED_ANGLES in points:
         points = points | {MEASURED_ANGLES: _contact_series(points[MEASURED_ANGLES])}
     return entries + drawing.references(axes, points, series)

@@ -37,7 +37,8 @@ def draw(curves, settings, points):
         drawing.key(r"$F_1^{max}$, no tangential compliance", **drawing.RIGID),
         Patch(label="slip throughout", **SLIDING),
     ]
-    drawing.legend_below(figure, forces, others)
+    printed = drawing.as_printed(axes, curves, X, Y, "Eqs 31, 32")
+    drawing.legend_below(figure, forces + printed[:1], others + printed[1:])
     return figure
 
 

@@ -5,7 +5,7 @@ import drawing
 from planarimpact.curves.sampling import name
 
 X, Y = "angle [deg]", "friction_dissipation [m2 S^2/2]"
-NOTE = "exact balance of energy;\nEqs 39 and 40 as printed\ndo not balance"
+NOTE = "black, blue: exact balance of energy\n(correction of the printed figure)"
 
 
 def draw(curves, settings, points):
@@ -18,10 +18,14 @@ def draw(curves, settings, points):
             axes.plot(curve[X], curve[Y], linestyle=dashes, **style)
     _draw_rigid(axes, curves, settings)
     drawing.angle_axes(axes, settings["angle"])
-    axes.set_ylim(bottom=0)
     axes.set_ylabel(r"dissipated by friction, $2D_1/m_2S^2$")
-    axes.text(0.03, 0.96, NOTE, va="top", transform=axes.transAxes, fontsize=drawing.NOTE)
-    drawing.legend_below(figure, *_legend(settings))
+    patterns = {name("e", e): dashes for e, dashes in drawing.patterned(settings["restitution"])}
+    printed = drawing.as_printed(axes, curves, X, Y, "Eqs 39, 40", patterns)
+    if not printed:
+        axes.set_ylim(bottom=0)
+    else:
+        axes.text(0.03, 0.96, NOTE, va="top", transform=axes.transAxes, fontsize=drawing.NOTE)
+    drawing.legend_below(figure, *_legend(settings, printed))
     return figure
 
 
@@ -39,7 +43,7 @@ def _draw_rigid(axes, curves, settings):
     drawing.rigid(axes, rough[X], rough[Y], curves[pair][Y])
 
 
-def _legend(settings):
+def _legend(settings, printed):
     frictions = [
         drawing.key(drawing.symbols(name("mu", mu)), **style)
         for mu, style in _strokes(settings["friction"])
@@ -48,4 +52,5 @@ def _legend(settings):
         drawing.key(drawing.symbols(name("e", e)), color=drawing.BLACK, linestyle=dashes)
         for e, dashes in drawing.patterned(settings["restitution"])
     ]
-    return frictions, restitutions, [drawing.key("no tangential compliance", **drawing.RIGID)]
+    others = [drawing.key("no tangential compliance", **drawing.RIGID), *printed]
+    return frictions, restitutions, others

@@ -37,6 +37,8 @@ CONTINUUM = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
 RIGID = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zorder": 1.8}
 GUIDE = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9}
 PRINTED = {"color": GREY, "linewidth": 0.8}
+AS_PRINTED = {"color": PURPLE, "linestyle": "-", "linewidth": 0.9, "zorder": 2.2}
+UNSOLVED = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
 
 INCIDENCE = r"$v_1(0)/\mu v_2(0)$"
 REBOUND = r"$v_1(t_f)/\mu v_2(0)$"
@@ -140,6 +142,41 @@ def legend_below(figure, *groups, titles=()):
 def rigid(axes, x, y, compliant):
     """Line of negligible tangential compliance, left out where the compliant curve is the same."""
     axes.plot(x, np.where(np.isclose(y, compliant), np.nan, y), **RIGID)
+
+
+def as_printed(axes, curves, x, y, equations, patterns=None):
+    """Draw what the printed equations give, where they differ; entries of the legend.
+
+    Parameters
+    ----------
+    axes : Axes
+    curves : dict
+        All curves of a figure; those of `planarimpact.curves.as_printed` are known by their names.
+    x, y : str
+        Their columns.
+    equations : str
+        Which equations, for the legend.
+    patterns : dict, optional
+        Pattern of the line for names that end in a key.
+
+    Returns
+    -------
+    list of artists
+    """
+    kinds = {
+        "as printed": (f"{equations} as printed", AS_PRINTED),
+        "no solution as printed": ("no solution as printed", UNSOLVED),
+    }
+    entries = []
+    for kind, (label, style) in kinds.items():
+        chosen = {name: curve for name, curve in curves.items() if name.split(",")[0] == kind}
+        for name, curve in chosen.items():
+            ours = [dashes for end, dashes in (patterns or {}).items() if name.endswith(end)]
+            pattern = {"linestyle": ours[0]} if ours and kind == "as printed" else {}
+            axes.plot(curve[x], curve[y], **(style | pattern))
+        if chosen:
+            entries.append(key(label, **style))
+    return entries
 
 
 def measured(axes, series, **style):

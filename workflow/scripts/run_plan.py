@@ -29,7 +29,7 @@ def with_numbers(node):
     return node
 
 
-def check_config(config, schema, inventory):
+def check_config(config, schema, inventory, ledger):
     """Refuse an inadmissible config, naming the field, its value and what is allowed."""
     try:
         reference_data.refuse_invalid(config, schema, "config")
@@ -46,6 +46,12 @@ def check_config(config, schema, inventory):
         )
     for name, comparison in config["comparisons"].items():
         _check_comparison(f"config: comparisons.{name}", comparison, inventory)
+        entry = comparison.get("documented", {}).get("entry")
+        if entry is not None and entry not in ledger:
+            raise ConfigError(
+                f"config: comparisons.{name}.documented.entry: '{entry}' is not in the ledger; a "
+                "difference that does not concern the paper has a `note` instead"
+            )
 
 
 def _ascending(where, span):

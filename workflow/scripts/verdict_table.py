@@ -3,6 +3,8 @@
 import csv
 from collections import Counter
 
+import ledger_table
+
 ORDER = ["diverges", "differs as documented", "awaited", "agrees"]
 
 
@@ -47,13 +49,15 @@ def _measured(row):
     return f"rms {row['rms [sigma]']}, max {row['max [sigma]']}" if row["points"] else ""
 
 
-def closing(path):
+def closing(verdicts, ledger):
     """What a run prints last."""
-    rows = read(path)
-    bad = failing(rows)
-    end = (
-        f"FAILED: {len(bad)} comparison(s) diverge, listed first. All columns: {path}"
-        if bad
-        else f"PASSED. All columns: {path}; pictures: figures/"
-    )
-    return f"\n{text(rows)}\n{end}\n"
+    rows, entries = read(verdicts), read(ledger)
+    diverging, lapsed = failing(rows), ledger_table.failing(entries)
+    counts = {
+        f"{len(diverging)} comparison(s) diverge, listed first": diverging,
+        f"{len(lapsed)} entries of the ledger no longer hold": lapsed,
+    }
+    bad = " and ".join(words for words, failed in counts.items() if failed)
+    where = f"All columns: {verdicts}, {ledger}"
+    end = f"FAILED: {bad}. {where}" if bad else f"PASSED. {where}; pictures: figures/"
+    return f"\n{text(rows)}\n{ledger_table.summary(entries)}\n{end}\n"

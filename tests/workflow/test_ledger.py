@@ -1,0 +1,351 @@
+"""The ledger of the paper: complete, executed, and tripped by a wrong solver in every entry."""
+
+import csv
+import inspect
+import re
+from pathlib import Path
+
+import check_ledger
+import ledger_table
+import numpy as np
+import pytest
+import run_plan
+import write_ledger_page
+
+from planarimpact import bodies, continuum, ledger, lumped, rigid
+from planarimpact.printed import dissipation, dynamics, peak_force
+
+ROOT = Path(__file__).parents[2]
+FILE = "data/stronge1994/ledger.yaml"
+SCHEMA = run_plan.load(ROOT / "workflow/schemas/ledger.schema.yaml")
+ENTRIES = ledger_table.load(ROOT / FILE, SCHEMA)
+EXECUTED = {name: entry for name, entry in ENTRIES.items() if "check" in entry}
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return {row["entry"]: row for row in check_ledger.check(ENTRIES)}
+
+
+def test_every_numbered_equation_has_an_executed_entry():
+    numbers = set()
+    for entry in EXECUTED.values():
+        if entry["kind"] == "equation":
+            numbers |= {int(n) for n in re.findall(r"Eqs?[.]? (\d+)", entry["where"])}
+    assert numbers == set(range(1, 42))
+    assert "check" in ENTRIES["table-1"]
+
+
+def test_every_check_is_used():
+    assert {entry["check"] for entry in EXECUTED.values()} == set(ledger_table.checks())
+    assert all(words.endswith(".") for words in ledger_table.checks().values())
+
+
+@pytest.mark.parametrize("name", EXECUTED)
+def test_an_entry_holds_with_the_exact_solver(name, rows):
+    assert rows[name]["holds"] == "yes", rows[name]
+
+
+@pytest.mark.parametrize(
+    "name", [name for name, e in ENTRIES.items() if e["kind"] == "equation" and "between" in e]
+)
+def test_a_wrong_equation_has_an_exact_correction(name, rows):
+    assert float(rows[name]["corrected"]) < 1e-12
+
+
+def altered(model, **changes):
+    """A model whose arguments are changed: functions of them, by name."""
+    signature = inspect.signature(model)
+
+    def wrong(*args, **kwargs):
+        bound = signature.bind(*args, **kwargs)
+        bound.apply_defaults()
+        for name, change in changes.items():
+            if name in bound.arguments:
+                bound.arguments[name] = change(np.asarray(bound.arguments[name]))
+        return model(*bound.args, **bound.kwargs)
+
+    return wrong
+
+
+def distorted(model, **changes):
+    """A model whose results are changed: functions of a field and of the arguments, by name."""
+    signature = inspect.signature(model)
+
+    def wrong(*args, **kwargs):
+        bound = signature.bind(*args, **kwargs)
+        bound.apply_defaults()
+        found = model(*args, **kwargs)
+        new = {k: change(getattr(found, k), bound.arguments) for k, change in changes.items()}
+        if hasattr(found, "events"):
+            new["events"] = tuple(event_of(event, bound.arguments) for event in found.events)
+        return found._replace(**new)
+
+    def event_of(event, given):
+        return event._replace(**{k: f(getattr(event, k), given) for k, f in changes.items()})
+
+    return wrong
+
+
+def groups(**changes):
+    """The lumped model with other groups."""
+    names = ("rebound", "history", "friction_work", "slip_throughout_limit")
+    return {(lumped, name): altered(getattr(lumped, name), **changes) for name in names}
+
+
+def scaled(factor):
+    return lambda value, _: value * factor
+
+
+# Faults of the solvers, each a set of replacements.
+FAULTS = {
+    "stiffness ratio 30 % up": groups(stiffness_ratio=lambda z: 1.3 * z),
+    "stiffness ratio a quarter": groups(stiffness_ratio=lambda z: z / 4),
+    "mass ratio 30 % up": groups(mass_ratio=lambda b: 1.3 * b),
+    "restitution 10 % down": groups(restitution=lambda e: 0.9 * e),
+    "normal force 1 % up": {
+        (lumped, "history"): distorted(lumped.history, normal=scaled(1.01)),
+    },
+    "friction outside its cone": {
+        (lumped, "history"): distorted(lumped.history, friction=scaled(1.01)),
+    },
+    "time short": {(lumped, "history"): distorted(lumped.history, time=scaled(0.9))},
+    "velocity with e": {
+        (lumped, "history"): distorted(
+            lumped.history, velocity=lambda v, a: v * (1 + 0.01 * a["restitution"])
+        ),
+    },
+    "normal force with x": {
+        (lumped, "history"): distorted(
+            lumped.history, normal=lambda n, a: n * (1 + 0.01 * a["incidence"])
+        ),
+    },
+    "spring never empty": {
+        (lumped, "history"): distorted(lumped.history, spring=lambda s, _: s + 0.1),
+    },
+    "work of friction 1 % up": {
+        (lumped, "friction_work"): lambda *args: 1.01 * FRICTION_WORK(*args),
+    },
+    "rebound off": {
+        (lumped, "rebound"): distorted(
+            lumped.rebound,
+            velocity=lambda v, _: v + 1.5,
+            peak_friction=scaled(1.2),
+            dissipation=scaled(1.01),
+        ),
+    },
+    "peak with e": {
+        (lumped, "rebound"): distorted(
+            lumped.rebound,
+            peak_friction=lambda p, a: p * (0.9 + 0.01 * np.asarray(a["restitution"])),
+        ),
+    },
+    "peak always full": {
+        (lumped, "rebound"): distorted(lumped.rebound, peak_friction=lambda p, _: p * 0 + 1),
+    },
+    "dissipation falls with e": {
+        (lumped, "rebound"): distorted(
+            lumped.rebound, dissipation=lambda d, a: d * (2 - np.asarray(a["restitution"]))
+        ),
+    },
+    "no tangential compliance": {
+        (lumped, "rebound"): lambda x, b=3.5, z=1.21, e=1.0: rigid.rebound(x, b, e),
+    },
+    "rigid limit off": {
+        (rigid, "rebound"): distorted(
+            rigid.rebound,
+            velocity=lambda v, _: v - 0.1,
+            peak_friction=scaled(0.9),
+            dissipation=scaled(1.01),
+        ),
+    },
+    "no micro-slip": {
+        (continuum, "history"): lambda *args: HISTORY(*args)._replace(
+            stick_radius=HISTORY(*args).contact_radius
+        ),
+    },
+    "micro-slip always": {
+        (continuum, "history"): lambda *args: HISTORY(*args)._replace(
+            stick_radius=0.9 * HISTORY(*args).contact_radius
+        ),
+    },
+    "bodies off": {
+        (bodies, "effective_masses"): lambda *args: (
+            1.1 * MASSES(*args)[0],
+            MASSES(*args)[1],
+        ),
+        (bodies, "stiffness_ratio"): lambda *args: 1.1 * STIFFNESS_RATIO(*args),
+        (bodies, "solid_sphere"): lambda *args: SPHERE(*args)._replace(mass=1.1),
+    },
+}
+FRICTION_WORK, HISTORY = lumped.friction_work, continuum.history
+MASSES, STIFFNESS_RATIO, SPHERE = (
+    bodies.effective_masses,
+    bodies.stiffness_ratio,
+    bodies.solid_sphere,
+)
+
+# These compare a formula with the mechanics of a rigid body, and use no solver.
+OF_RIGID_BODIES = {
+    "formula-natural-frequencies": (dynamics, "natural_frequencies"),
+    "formula-kinetic-energy": (dissipation, "kinetic_energy"),
+}
+
+
+def remembering(model):
+    """A slow model that remembers its answers."""
+    known = {}
+
+    def answer(x, *args, **kwargs):
+        key = np.asarray(x).tobytes(), args, tuple(kwargs.items())
+        if key not in known:
+            known[key] = model(x, *args, **kwargs)
+        return known[key]
+
+    return answer
+
+
+@pytest.fixture(scope="module")
+def tripped():
+    """The first fault that trips each entry."""
+    found, open_entries = {}, dict(EXECUTED)
+    slow = {(continuum, n): remembering(getattr(continuum, n)) for n in ("rebound", "history")}
+    for fault, replacements in FAULTS.items():
+        with pytest.MonkeyPatch.context() as patch:
+            for (module, name), wrong in (slow | replacements).items():
+                patch.setattr(module, name, wrong)
+            with np.errstate(all="ignore"):
+                rows = check_ledger.check(open_entries)
+        for row in rows:
+            if row["holds"] == "no":
+                found[row["entry"]] = fault
+                del open_entries[row["entry"]]
+    return found
+
+
+@pytest.mark.parametrize("name", [name for name in EXECUTED if name not in OF_RIGID_BODIES])
+def test_a_wrong_solver_trips_the_entry(name, tripped):
+    assert name in tripped, f"{name} holds with every fault: a check that cannot fail"
+
+
+@pytest.mark.parametrize("name", OF_RIGID_BODIES)
+def test_a_wrong_formula_trips_the_entry(name, monkeypatch):
+    module, function = OF_RIGID_BODIES[name]
+    formula = getattr(module, function)
+    monkeypatch.setattr(module, function, lambda *a, **k: 1.1 * np.asarray(formula(*a, **k)))
+    assert check_ledger.check({name: ENTRIES[name]})[0]["holds"] == "no"
+
+
+def test_a_formula_put_right_trips_its_entry(monkeypatch):
+    """A verdict of wrong fails too, once the printed formula is right."""
+
+    def right(angle, incidence, mass_ratio, stiffness_ratio):
+        return -stiffness_ratio * np.sin(angle), incidence - mass_ratio * (1 - np.cos(angle))
+
+    monkeypatch.setattr(peak_force, "eq_32_start", right)
+    row = check_ledger.check({"eq-32": ENTRIES["eq-32"]})[0]
+    assert row["holds"] == "no" and "recorded as wrong, found confirmed" in row["problem"]
+
+
+def test_a_check_that_crashes_no_longer_holds(monkeypatch):
+    def crash(*args, **kwargs):
+        raise ArithmeticError("oh")
+
+    monkeypatch.setattr(lumped, "history", crash)
+    row = check_ledger.check({"eq-12": ENTRIES["eq-12"]})[0]
+    assert row["holds"] == "no" and row["problem"] == "ArithmeticError: oh"
+
+
+def test_a_broken_solver_fails_the_run_and_says_where(finished):
+    """The last slip pushed the wrong way."""
+    finished.edit(
+        "src/planarimpact/stick_slip.py",
+        "final = onset - beta * e * normal.impulse(eta)",
+        "final = onset + beta * e * normal.impulse(eta)",
+    )
+    result = finished.run("results/ledger.csv", "figures/ledger.html")
+    assert result.returncode == 0, result.stdout
+    with open(finished / "results/ledger.csv", newline="") as file:
+        rows = {row["entry"]: row for row in csv.DictReader(file)}
+    assert rows["eq-13"]["holds"] == rows["eq-25"]["holds"] == "no"
+    assert rows["table-1"]["holds"] == "yes"
+    assert "no longer holds" in (finished / "figures/ledger.html").read_text()
+
+
+def test_a_changed_verdict_fails_the_run(finished):
+    """With everything else left as it was; and the message names the entry."""
+    text = (finished / FILE).read_text()
+    start = text.index("  eq-41:")
+    wrong = "\n    ".join(
+        ["verdict: wrong", "between: [1, 2]", "correction: none at all", "derivation: none"]
+    )
+    changed = text[:start] + text[start:].replace("verdict: confirmed", wrong, 1)
+    (finished / FILE).write_text(changed)
+    jobs, counts = finished.planned()
+    assert counts == {"ledger": 1, "ledger_page": 1, "gate": 1, "all": 1}
+    result = finished.run()
+    assert result.returncode != 0
+    assert "no longer holds: eq-41" in result.stdout
+    assert "recorded as wrong, found confirmed" in result.stdout
+    assert "FAILED: 1 entries of the ledger no longer hold" in result.stdout
+    assert not (finished / "results/PASSED").exists()
+
+
+BAD_LEDGER = [
+    (
+        "check: slip.velocity_at_slip",
+        "check: slip.speed",
+        "eq-12.check: 'slip.speed' is no",
+    ),
+    ("    verdict: confirmed\n", "    verdict: true enough\n", "'true enough' is not one of"),
+    ("    where: p. 440, Eq. 12\n", "    place: p. 440\n", "eq-12: .*'place' was unexpected"),
+    ("    between: [0.81, 0.83]\n", "", "hysteresis-caption: 'between' is a required property"),
+    ("between: [0.81, 0.83]", "between: [0.83, 0.81]", "the first number must be the smaller"),
+    ("confirms: {at_most: 0.1}", "confirms: {at_most: .nan}", "at_most: nan is not a finite"),
+    ("  duration:\n", "  eq-12:\n", "sentences.eq-12: the name is taken"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "words"), BAD_LEDGER, ids=[c[2] for c in BAD_LEDGER])
+def test_a_bad_ledger_is_refused_before_any_work(fresh, old, new, words):
+    fresh.edit(FILE, old, new)
+    result = fresh.run()
+    assert result.returncode != 0
+    assert re.search(words, result.stdout), result.stdout
+    assert "Traceback" not in result.stdout
+    assert not (fresh / "results").exists()
+
+
+def test_the_page_has_every_entry_and_needs_nothing_else(first_run):
+    page = (first_run[0] / "figures/ledger.html").read_text()
+    assert all(f'<article id="{name}">' in page for name in ENTRIES)
+    assert not re.search(r"(src|href)=\"(?!#)", page)
+    for name in re.findall(r'href="#([^"]+)"', page):
+        assert f'id="{name}"' in page
+    for name, entry in ENTRIES.items():
+        if "derivation" in entry:
+            article = page[page.index(f'<article id="{name}">') :].split("</article>")[0]
+            assert "Instead:" in article
+
+
+def test_formulas_become_readable():
+    html = write_ledger_page.mathematical
+    assert str(html("-zeta^2 < s, m/s")) == "−ζ<sup>2</sup> &lt; <i>s</i>, m/s"
+    assert str(html("F2max of psi1 -> 0")) == (
+        "<i>F</i><sub>2</sub><sup>max</sup> of ψ<sub>1</sub> → 0"
+    )
+
+
+def test_documented_differences_point_to_the_ledger(first_run):
+    with open(first_run[0] / "results/verdicts.csv", newline="") as file:
+        notes = [r["note"] for r in csv.DictReader(file) if r["verdict"] == "differs as documented"]
+    pointers = [note.removeprefix("ledger: ") for note in notes if note.startswith("ledger: ")]
+    assert len(pointers) == 9 and all(name in ENTRIES for name in pointers)
+
+
+def test_every_run_prints_the_ledger(first_run):
+    assert re.search(r"ledger of the paper: .*; 0 no longer hold", first_run[1].stdout)
+
+
+def test_ledger_run_is_importable_by_name():
+    assert ledger.run("slip.end_of_first_slip").found < 1e-12

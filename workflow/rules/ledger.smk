@@ -1,0 +1,44 @@
+rule ledger:
+    """Run every entry of the paper's ledger against the exact solver; always succeeds."""
+    input:
+        modules=run_plan.modules("check_ledger", *LEDGER_MODULES),
+        entries=LEDGER,
+    output:
+        "results/ledger.csv",
+    params:
+        schema=LEDGER_SCHEMA,
+    log:
+        "results/logs/ledger.log",
+    benchmark:
+        "results/benchmarks/ledger.tsv"
+    message:
+        "Verifying the paper"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/check_ledger.py"
+
+
+rule ledger_page:
+    """The ledger as a page to read, with corrections and their derivations."""
+    input:
+        modules=run_plan.modules("write_ledger_page"),
+        template="workflow/report/ledger.html",
+        table="results/ledger.csv",
+    output:
+        report(
+            "figures/ledger.html",
+            caption="../report/ledger.rst",
+            category="Ledger",
+            labels={"page": "the paper verified"},
+        ),
+    log:
+        "results/logs/ledger_page.log",
+    benchmark:
+        "results/benchmarks/ledger_page.tsv"
+    message:
+        "Writing the ledger's page"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/write_ledger_page.py"

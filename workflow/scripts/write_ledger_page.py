@@ -1,0 +1,91 @@
+"""Write the ledger's table as a page to read: one HTML file that needs nothing else."""
+
+import os
+import re
+from collections import Counter
+from pathlib import Path
+
+import jinja2
+import job
+import ledger_table
+import verdict_table
+from markupsafe import Markup, escape
+
+STYLE = {
+    "confirmed": "confirmed",
+    "confirmed within rounding": "rounding",
+    "wrong": "wrong",
+    "not testable": "not",
+}
+MEANING = {
+    "confirmed": "true as it stands, in the range that the entry names",
+    "confirmed within rounding": "the stated number is the right one, rounded",
+    "wrong": "false as it stands; the entry says what is right, and why",
+    "not testable": "outside what is modelled here, or no data",
+}
+GREEK = {
+    "mu": "µ", "zeta": "ζ", "beta": "β", "Omega": "Ω", "omega": "ω", "kappa": "κ", "pi": "π",
+    "phi": "φ", "psi": "ψ", "chi": "χ", "theta": "θ", "tau": "τ", "nu": "ν",
+}  # fmt: skip
+# A letter with an index: v1, F2, t_c, tf, F2max, psi1.
+INDEXED = re.compile(r"\b([vuFDKmxtgVpc]|psi)(\d|_c|f|b|a)(max)?(?![A-Za-z0-9])")
+
+
+def mathematical(text):
+    """The plain formulas of the ledger as HTML: Greek letters, indices, powers.
+
+    >>> print(mathematical("zeta^2 F1(t2) < mu"))
+    ζ<sup>2</sup> <i>F</i><sub>1</sub>(<i>t</i><sub>2</sub>) &lt; µ
+    """
+    html = str(escape(text))
+    html = INDEXED.sub(_indexed, html)
+    html = re.sub(r"(?<![/<\w])([eskMSp])(?![\w>])", r"<i>\1</i>", html)
+    html = re.sub(r"\^(\d)", r"<sup>\1</sup>", html)
+    html = re.sub(r"\b(" + "|".join(GREEK) + r")\b", lambda m: GREEK[m[1]], html)
+    html = html.replace("+-", "±").replace("-&gt;", "→")
+    html = re.sub(r"(?:(?<=[ (=,])|^)-(?=[\dA-Za-zµζκΩω(<])", "−", html)
+    return Markup(re.sub(r"(\d) deg\b", r"\1°", html.replace(" - ", " − ")))
+
+
+def _indexed(match):
+    letter, index, largest = match.groups()
+    name = GREEK.get(letter, f"<i>{letter}</i>")
+    top = f"<sup>{largest}</sup>" if largest else ""
+    return f"{name}<sub>{index.strip('_')}</sub>{top}"
+
+
+def page(rows, template):
+    """The page of the ledger's rows."""
+    names = {row["entry"] for row in rows}
+    alternatives = "|".join(sorted(map(re.escape, names), key=len, reverse=True))
+    link = re.compile(rf"(?:(?<=see )|(?<=and ))({alternatives})\b")
+
+    def maths(text):
+        # References to other entries, "see NAME and NAME", become links.
+        parts = link.split(text)
+        return Markup("").join(
+            Markup('<a href="#{0}">{0}</a>').format(part) if part in names else mathematical(part)
+            for part in parts
+        )
+
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment.filters["maths"] = maths
+    counts = Counter(row["verdict"] for row in rows)
+    return environment.from_string(template).render(
+        rows=rows,
+        failing=ledger_table.failing(rows),
+        counts={verdict: counts[verdict] for verdict in STYLE if counts[verdict]},
+        style=STYLE,
+        meaning=MEANING,
+    )
+
+
+if "snakemake" in globals():
+    with job.log_to(snakemake.log[0]):  # noqa: F821
+        text = page(
+            verdict_table.read(snakemake.input.table),  # noqa: F821
+            Path(snakemake.input.template).read_text(encoding="utf-8"),  # noqa: F821
+        )
+        partial = Path(f"{snakemake.output[0]}.partial")  # noqa: F821
+        partial.write_text(text, encoding="utf-8")
+        os.replace(partial, snakemake.output[0])  # noqa: F821
