@@ -2,7 +2,8 @@
 
 `lumped` is the paper's model, solved exactly; `rigid` its limit without tangential compliance.
 `continuum` and `annuli` solve the elastic contact with micro-slip by two independent methods.
-`bodies` turns physical bodies into the groups that they all take.
+`bodies` turns physical bodies into the groups that they all take. `printed` holds the paper's
+formulas as printed, for verification, and `ledger` checks what is right and wrong in them.
 """
 
 from planarimpact.checks import ConvergenceError, InputError

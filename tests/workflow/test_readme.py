@@ -1,9 +1,11 @@
 """What the README says is so."""
 
 import re
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
+import verdict_table
 
 from planarimpact import continuum, lumped
 
@@ -70,3 +72,13 @@ def test_documented_differences_are_counted(first_run):
     words = {5: "Five", 8: "Eight", 9: "Nine", 10: "Ten", 11: "Eleven", 12: "Twelve"}
     count = (first_run[0] / "results/verdicts.csv").read_text().count("differs as documented")
     assert f"{words[count]} rows differ as documented" in README
+
+
+def test_ledger_is_counted(first_run):
+    rows = verdict_table.read(first_run[0] / "results/ledger.csv")
+    count = Counter(row["verdict"] for row in rows)
+    assert (
+        f"Of {len(rows)} entries {count['confirmed']} are confirmed, "
+        f"{count['confirmed within rounding']} confirmed within rounding, {count['wrong']} wrong, "
+        f"{count['not testable']} not testable here"
+    ) in " ".join(README.split())

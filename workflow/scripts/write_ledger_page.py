@@ -27,8 +27,9 @@ GREEK = {
     "mu": "µ", "zeta": "ζ", "beta": "β", "Omega": "Ω", "omega": "ω", "kappa": "κ", "pi": "π",
     "phi": "φ", "psi": "ψ", "chi": "χ", "theta": "θ", "tau": "τ", "nu": "ν",
 }  # fmt: skip
-# A letter with an index: v1, F2, t_c, tf, F2max, psi1.
-INDEXED = re.compile(r"\b([vuFDKmxtgVpc]|psi)(\d|_c|f|b|a)(max)?(?![A-Za-z0-9])")
+# A letter with an index: v1, F2, t_c, tf, F2max, psi1, du1.
+INDEXED = re.compile(r"\b(d?)([vuFDKmxtgV]|psi)(\d|_c|f|b|a)(max)?(?![A-Za-z0-9])")
+SYMBOL = re.compile(r"(?<![/<\w])([eskMS]|p(?=\())(?![\w>])")
 
 
 def mathematical(text):
@@ -39,7 +40,8 @@ def mathematical(text):
     """
     html = str(escape(text))
     html = INDEXED.sub(_indexed, html)
-    html = re.sub(r"(?<![/<\w])([eskMSp])(?![\w>])", r"<i>\1</i>", html)
+    html = SYMBOL.sub(r"<i>\1</i>", html)
+    html = re.sub(r"`([^`]+)`", r"<code>\1</code>", html)
     html = re.sub(r"\^(\d)", r"<sup>\1</sup>", html)
     html = re.sub(r"\b(" + "|".join(GREEK) + r")\b", lambda m: GREEK[m[1]], html)
     html = html.replace("+-", "±").replace("-&gt;", "→")
@@ -48,10 +50,10 @@ def mathematical(text):
 
 
 def _indexed(match):
-    letter, index, largest = match.groups()
+    change, letter, index, largest = match.groups()
     name = GREEK.get(letter, f"<i>{letter}</i>")
     top = f"<sup>{largest}</sup>" if largest else ""
-    return f"{name}<sub>{index.strip('_')}</sub>{top}"
+    return f"{change}{name}<sub>{index.strip('_')}</sub>{top}"
 
 
 def page(rows, template):
