@@ -41,6 +41,17 @@ def test_headers_carry_units(first_run):
         assert all("[" in name for name in header.split(",") if name not in words), header
 
 
+def test_report_has_every_picture_with_its_caption(finished):
+    result = finished.run("--report", "report.html")
+    assert result.returncode == 0, result.stdout
+    page = (finished / "report.html").read_text()
+    captions = (finished / "workflow/report/figures.rst").read_text()
+    for figure in FIGURES:
+        first = re.search(rf'"{figure}":\n  "(.{{20}})', captions)[1]
+        assert first in page and f"{figure}.svg" in page
+    assert "The paper verified" in page
+
+
 def test_a_second_run_has_nothing_to_do(finished):
     assert finished.planned() == ({}, {})
     assert "Nothing to be done" in finished.run().stdout

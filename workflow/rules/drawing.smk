@@ -7,7 +7,7 @@ rule draw:
     output:
         svg=report(
             "figures/{figure}.svg",
-            caption="../report/{figure}.rst",
+            caption="../report/figures.rst",
             category="Figures",
             labels={"figure": "{figure}"},
         ),
