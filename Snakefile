@@ -29,10 +29,9 @@ include: "workflow/rules/ledger.smk"
 include: "workflow/rules/judgement.smk"
 
 
-# A table of an earlier run would mislead after `figures` or a crash: print only a new one.
 onsuccess:
-    print(closing_words())
+    print(closing.words(STARTED))
 
 
 onerror:
-    print(closing_words())
+    print(closing.words(STARTED))

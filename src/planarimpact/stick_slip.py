@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact import normal, slip_onset
+from planarimpact.checks import ConvergenceError
 from planarimpact.results import Regime
 from planarimpact.slip_onset import HALF_PI, sin_cos
 
@@ -213,7 +214,11 @@ def _after_late_slip(lanes, impacts):
 def _alternate(stick, impacts, outcome, trace):
     """Slip and stick in turn until every impact slides to separation; fills the outcome."""
     first = True
+    sticks_left = _most_sticks(stick, impacts)
     while stick.lanes.size:
+        if not sticks_left:
+            raise ConvergenceError(f"{stick.lanes.size} impacts stick more often than they can")
+        sticks_left -= 1
         lanes, amplitude = stick.lanes, stick.amplitude
         _, beta, zeta2, e = impacts.take(lanes)
         rate = e * np.sqrt(beta / zeta2)
@@ -236,6 +241,12 @@ def _alternate(stick, impacts, outcome, trace):
         again = np.flatnonzero((rate > 1) & (e * final < -zeta2))
         stick = _stick_again(stick, again, side, final, beta, zeta2, e, rate)
         outcome.regime[stick.lanes] = Regime.MULTIPLE
+
+
+def _most_sticks(stick, impacts):
+    """Each stick in restitution has a half-wave of T of its own, a part of it at the ends."""
+    _, beta, zeta2, e = impacts.take(stick.lanes)
+    return int(np.max(e * np.sqrt(beta / zeta2), initial=0.0)) + 3
 
 
 def _stick_again(stick, again, side, final, beta, zeta2, e, rate):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planarimpact import EventKind, InputError, Regime, lumped, rigid
+from planarimpact import ConvergenceError, EventKind, InputError, Regime, lumped, rigid, stick_slip
 
 GROUPS = [(3.5, 1.21, 1.0), (3.5, 1.21, 0.5), (2.5, 1.5, 0.0), (1.0, 10.0, 0.9), (8.0, 0.1, 0.7)]
 
@@ -151,3 +151,11 @@ def test_bad_samples_are_named(samples):
 def test_a_history_takes_scalars():
     with pytest.raises(InputError, match="scalars"):
         lumped.history([1.0, 2.0])
+
+
+def test_a_solver_gone_wrong_does_not_run_for_ever(monkeypatch):
+    """More phases than half-waves of the tangential oscillation cannot be."""
+    assert lumped.rebound(2.0, 3.5, 0.1).regime == Regime.MULTIPLE
+    monkeypatch.setattr(stick_slip, "_most_sticks", lambda *_: 1)
+    with pytest.raises(ConvergenceError, match="1 impacts stick more often"):
+        lumped.rebound(2.0, 3.5, 0.1)

@@ -4,8 +4,8 @@ import re
 from collections import Counter
 from pathlib import Path
 
+import csv_tables
 import numpy as np
-import verdict_table
 
 from planarimpact import continuum, lumped
 
@@ -75,7 +75,7 @@ def test_documented_differences_are_counted(first_run):
 
 
 def test_ledger_is_counted(first_run):
-    rows = verdict_table.read(first_run[0] / "results/ledger.csv")
+    rows = csv_tables.read_rows(first_run[0] / "results/ledger.csv")
     count = Counter(row["verdict"] for row in rows)
     assert (
         f"Of {len(rows)} entries {count['confirmed']} are confirmed, "

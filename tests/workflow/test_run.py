@@ -77,7 +77,7 @@ def test_every_rule_has_log_benchmark_and_message(fresh):
 
 
 ALL = [f"Solving {figure}" for figure in FIGURES]
-LEDGER = "Verifying the paper"
+LEDGER, PAGE = "Verifying the paper", "Writing the ledger's page"
 AS_PRINTED = [f"Solving fig{number}" for number in (5, 6, 7, 9)]
 
 
@@ -98,7 +98,9 @@ AS_PRINTED = [f"Solving fig{number}" for number in (5, 6, 7, 9)]
         ("src/planarimpact/printed/dissipation.py", [*AS_PRINTED, LEDGER]),
         ("src/planarimpact/ledger/slip.py", [LEDGER]),
         ("data/stronge1994/ledger.yaml", [LEDGER]),
-        ("workflow/report/ledger.html", ["Writing the ledger's page"]),
+        ("workflow/report/ledger.html", [PAGE]),
+        ("workflow/scripts/ledger_entries.py", [LEDGER]),
+        ("workflow/scripts/closing.py", []),
         ("data/chung_ooi2011/rebound.csv", ["Reading the series of chung_ooi2011"]),
     ],
 )
@@ -109,12 +111,22 @@ def test_an_edit_reruns_what_it_must_and_nothing_more(finished, path, expected):
     jobs, counts = finished.planned()
     direct = [job for job, reason in jobs.items() if path in reason]
     assert sorted(direct) == sorted(expected), jobs
-    follow = {"Judging", "Gathering the verdicts", "Writing the ledger's page"}
+    follow = {"Judging", "Gathering the verdicts", PAGE}
     figures = {word for job in direct for word in job.split() if word in FIGURES} or {"fig5"}
     rest = set(jobs) - set(direct) - follow
     assert all(any(figure in job.split() for figure in figures) for job in rest), jobs
     if path == "workflow/scripts/draw_fig7.py":
         assert counts == {"draw": 1, "gate": 1, "all": 1}
+
+
+def test_a_run_that_stops_before_the_gate_has_not_passed(finished):
+    """Older tables are not printed, new ones without a verdict on the whole."""
+    finished.edit("workflow/scripts/draw_fig7.py", "def draw(", "def draw_(")
+    finished.edit("data/stronge1994/ledger.yaml", "\nequations:", "\n# edited\nequations:")
+    result = finished.run("--keep-going")
+    assert result.returncode != 0
+    assert "ledger of the paper" in result.stdout and "No verdict in this run" in result.stdout
+    assert "PASSED" not in result.stdout and "comparison " not in result.stdout
 
 
 def test_touching_a_file_reruns_nothing(finished):
@@ -192,7 +204,16 @@ def test_whole_numbers_of_the_command_line_stay_whole(finished):
     assert rows[0].startswith("curve,steps [1]") and rows[1].startswith("row of springs,16,")
 
 
+def test_truths_of_the_command_line_are_truths(finished):
+    table = "results/curves/fig6.csv"
+    for text, shown in (("false", False), ("True", True)):
+        change = f"figures={{fig6: {{as_printed: {text}}}}}"
+        assert finished.run(table, "--config", change).returncode == 0
+        assert ("as printed" in (finished / table).read_text()) is shown
+
+
 BAD_CONFIG = [
+    ("figures={fig6: {as_printed: perhaps}}", "as_printed: 'perhaps' is not of type 'boolean'"),
     ("stifness_ratio=1.5", "'stifness_ratio' was unexpected"),
     ("figures={fig5: {sample: 3}}", "figures.fig5: .*'sample' was unexpected"),
     ("figures={fig8: {ball: {colour: 1}}}", "figures.fig8.ball: .*'colour' was unexpected"),

@@ -6,18 +6,18 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 sys.path.insert(0, str(Path(workflow.basedir) / "workflow" / "scripts"))
-import ledger_table
+import closing
+import ledger_entries
 import reference_data
 import run_plan
-import verdict_table
 
 STARTED = time.time()
 LEDGER = "data/stronge1994/ledger.yaml"
 LEDGER_SCHEMA = run_plan.load("workflow/schemas/ledger.schema.yaml")
 try:
-    config = run_plan.with_numbers(config)
+    config = run_plan.with_values(config)
     SOURCES = reference_data.load_all("data", run_plan.load("workflow/schemas/source.schema.yaml"))
-    ENTRIES = ledger_table.load(LEDGER, LEDGER_SCHEMA)
+    ENTRIES = ledger_entries.load(LEDGER, LEDGER_SCHEMA)
     schema = run_plan.load("workflow/schemas/config.schema.yaml")
     run_plan.check_config(config, schema, SOURCES, ENTRIES)
 except (reference_data.SourceError, run_plan.ConfigError) as error:
@@ -27,16 +27,6 @@ except (reference_data.SourceError, run_plan.ConfigError) as error:
 wildcard_constraints:
     figure="|".join(run_plan.FIGURES),
     source="[a-z0-9_]+",
-
-
-def closing_words():
-    """Verdicts of this run, if it came so far, else where the pictures are."""
-    tables = Path("results/verdicts.csv"), Path("results/ledger.csv")
-    ran = [Path(f"results/logs/{rule}.log") for rule in ("verdicts", "ledger", "gate")]
-    now = any(log.exists() and log.stat().st_mtime >= STARTED for log in ran)
-    if now and all(table.exists() for table in tables):
-        return verdict_table.closing(*tables)
-    return "\nNo verdict in this run. Pictures: figures/\n"
 
 
 def settings(wildcards):
@@ -80,7 +70,7 @@ def drawing_modules(wildcards):
 
 
 # Checks are found by name: every module that holds some is an input.
-LEDGER_MODULES = sorted({f"planarimpact.ledger.{name.split('.')[0]}" for name in ledger_table.checks()})
+LEDGER_MODULES = sorted({f"planarimpact.ledger.{name.split('.')[0]}" for name in ledger_entries.checks()})
 
 
 def source_of(wildcards):

@@ -3,8 +3,11 @@
 Always succeeds: an entry whose check crashes no longer holds, with the reason in `problem`.
 """
 
+import traceback
+
 import csv_tables
 import job
+import ledger_entries
 import ledger_table
 
 from planarimpact import ledger
@@ -12,7 +15,7 @@ from planarimpact import ledger
 
 def check(entries):
     """Rows of the ledger's table, in its order."""
-    tests = ledger_table.checks()
+    tests = ledger_entries.checks()
     return [_row(name, entry, tests.get(entry.get("check"), "")) for name, entry in entries.items()]
 
 
@@ -28,6 +31,7 @@ def _row(name, entry, test):
         finding = ledger.run(entry["check"])
         judgement = ledger.judge(finding, entry)
     except Exception as error:
+        traceback.print_exc()
         return row | {"holds": "no", "problem": f"{type(error).__name__}: {error}"}
     corrected = "" if finding.corrected is None else f"{finding.corrected:.2g}"
     return row | {
@@ -47,7 +51,7 @@ def _words(confirms):
 
 if "snakemake" in globals():
     with job.log_to(snakemake.log[0]):  # noqa: F821
-        rows = check(ledger_table.load(snakemake.input.entries, snakemake.params.schema))  # noqa: F821
+        rows = check(ledger_entries.load(snakemake.input.entries, snakemake.params.schema))  # noqa: F821
         csv_tables.write_rows(
             snakemake.output[0],  # noqa: F821
             ledger_table.COLUMNS,

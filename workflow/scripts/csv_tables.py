@@ -57,6 +57,12 @@ def read(path):
     return named
 
 
+def read_rows(path):
+    """Rows of a table as dicts of text."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
 def _values(column):
     try:
         return np.array([float(cell) for cell in column])

@@ -5,6 +5,7 @@ Runs last, so nothing else is lost.
 
 import sys
 
+import csv_tables
 import job
 import ledger_table
 import verdict_table
@@ -12,8 +13,8 @@ import verdict_table
 
 def gate(verdicts, ledger, passed):
     """Write `passed` if no row of either table fails; the number of failing rows."""
-    diverging = verdict_table.failing(verdict_table.read(verdicts))
-    lapsed = ledger_table.failing(verdict_table.read(ledger))
+    diverging = verdict_table.failing(csv_tables.read_rows(verdicts))
+    lapsed = ledger_table.failing(csv_tables.read_rows(ledger))
     for row in diverging:
         print(f"diverges: {row['comparison']}: {row['note']}")
     for row in lapsed:

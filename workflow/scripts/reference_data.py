@@ -38,10 +38,7 @@ def load(folder, schema):
         Naming file, line, column and value.
     """
     path = folder / "source.yaml"
-    try:
-        source = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (OSError, yaml.YAMLError) as error:
-        raise SourceError(f"{path}: {error}") from None
+    source = load_yaml(path)
     refuse_invalid(source, schema, path)
     for name, series in source.get("series", {}).items():
         series["path"] = _file_of(folder, name, series)
@@ -53,6 +50,38 @@ def load(folder, schema):
         names = ", ".join(source.get("series", {})) or "none"
         raise SourceError(f"{folder / strays[0]}: no series of that name; source.yaml has {names}")
     return source
+
+
+class _UniqueKeys(yaml.SafeLoader):
+    """Refuses what YAML lets pass: of two equal keys the first is lost without a word."""
+
+    def construct_mapping(self, node, deep=False):
+        names = [key.value for key, _ in node.value]
+        for key, _ in node.value:
+            if names.count(key.value) > 1:
+                self._refuse(key, "stands twice")
+            if key.tag not in ("tag:yaml.org,2002:str", "tag:yaml.org,2002:merge"):
+                self._refuse(key, "is no text")
+        return super().construct_mapping(node, deep)
+
+    @staticmethod
+    def _refuse(key, what):
+        message = f"the key '{key.value}' {what}"
+        raise yaml.constructor.ConstructorError(None, None, message, key.start_mark)
+
+
+def load_yaml(path):
+    """Read a YAML file whose keys are texts, each once.
+
+    Raises
+    ------
+    SourceError
+        Naming the file, and the line where there is one.
+    """
+    try:
+        return yaml.load(Path(path).read_text(encoding="utf-8"), Loader=_UniqueKeys)
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise SourceError(f"{path}: {error}") from None
 
 
 def load_all(data, schema):

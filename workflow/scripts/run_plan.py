@@ -15,12 +15,14 @@ class ConfigError(Exception):
     """workflow/config.yaml or a --config value is not admissible."""
 
 
-def with_numbers(node):
-    """Numbers for the texts that snakemake makes of numbers inside braces on the command line."""
+def with_values(node):
+    """Numbers and truths for the texts that snakemake makes of them inside braces of --config."""
     if isinstance(node, dict):
-        return {key: with_numbers(value) for key, value in node.items()}
+        return {key: with_values(value) for key, value in node.items()}
     if isinstance(node, list):
-        return [with_numbers(value) for value in node]
+        return [with_values(value) for value in node]
+    if isinstance(node, str) and node.lower() in ("true", "false"):
+        return node.lower() == "true"
     for number in (int, float) if isinstance(node, str) else ():
         try:
             return number(node)

@@ -1,22 +1,15 @@
 """The verdicts of a run as one table, worst first, for files and for the terminal."""
 
-import csv
 from collections import Counter
 
-import ledger_table
+import csv_tables
 
 ORDER = ["diverges", "differs as documented", "awaited", "agrees"]
 
 
-def read(path):
-    """Rows of a verdict table as dicts."""
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
 def gather(paths):
     """Rows of several tables, worst verdict first, else in the order of the figures."""
-    rows = [row for path in paths for row in read(path)]
+    rows = [row for path in paths for row in csv_tables.read_rows(path)]
     return sorted(rows, key=lambda row: ORDER.index(row["verdict"]))
 
 
@@ -47,17 +40,3 @@ def _measured(row):
     if row["found"]:
         return f"{row['found']} (stated {row['stated']})"
     return f"rms {row['rms [sigma]']}, max {row['max [sigma]']}" if row["points"] else ""
-
-
-def closing(verdicts, ledger):
-    """What a run prints last."""
-    rows, entries = read(verdicts), read(ledger)
-    diverging, lapsed = failing(rows), ledger_table.failing(entries)
-    counts = {
-        f"{len(diverging)} comparison(s) diverge, listed first": diverging,
-        f"{len(lapsed)} entries of the ledger no longer hold": lapsed,
-    }
-    bad = " and ".join(words for words, failed in counts.items() if failed)
-    where = f"All columns: {verdicts}, {ledger}"
-    end = f"FAILED: {bad}. {where}" if bad else f"PASSED. {where}; pictures: figures/"
-    return f"\n{text(rows)}\n{ledger_table.summary(entries)}\n{end}\n"

@@ -5,10 +5,11 @@ import re
 from collections import Counter
 from pathlib import Path
 
+import csv_tables
 import jinja2
 import job
 import ledger_table
-import verdict_table
+import yaml
 from markupsafe import Markup, escape
 
 STYLE = {
@@ -44,7 +45,7 @@ def mathematical(text):
     html = re.sub(r"`([^`]+)`", r"<code>\1</code>", html)
     html = re.sub(r"\^(\d)", r"<sup>\1</sup>", html)
     html = re.sub(r"\b(" + "|".join(GREEK) + r")\b", lambda m: GREEK[m[1]], html)
-    html = html.replace("+-", "±").replace("-&gt;", "→")
+    html = html.replace("+-", "±").replace("-&gt;", "→").replace("sqrt(", "√(")
     html = re.sub(r"(?:(?<=[ (=,])|^)-(?=[\dA-Za-zµζκΩω(<])", "−", html)
     return Markup(re.sub(r"(\d) deg\b", r"\1°", html.replace(" - ", " − ")))
 
@@ -56,8 +57,8 @@ def _indexed(match):
     return f"{change}{name}<sub>{index.strip('_')}</sub>{top}"
 
 
-def page(rows, template):
-    """The page of the ledger's rows."""
+def page(rows, symbols, template):
+    """The page of the ledger's rows; `symbols` explains what stands in their formulas."""
     names = {row["entry"] for row in rows}
     alternatives = "|".join(sorted(map(re.escape, names), key=len, reverse=True))
     link = re.compile(rf"(?:(?<=see )|(?<=and ))({alternatives})\b")
@@ -75,6 +76,7 @@ def page(rows, template):
     counts = Counter(row["verdict"] for row in rows)
     return environment.from_string(template).render(
         rows=rows,
+        symbols=symbols,
         failing=ledger_table.failing(rows),
         counts={verdict: counts[verdict] for verdict in STYLE if counts[verdict]},
         style=STYLE,
@@ -84,8 +86,10 @@ def page(rows, template):
 
 if "snakemake" in globals():
     with job.log_to(snakemake.log[0]):  # noqa: F821
+        entries = Path(snakemake.input.entries).read_text(encoding="utf-8")  # noqa: F821
         text = page(
-            verdict_table.read(snakemake.input.table),  # noqa: F821
+            csv_tables.read_rows(snakemake.input.table),  # noqa: F821
+            yaml.safe_load(entries)["symbols"],
             Path(snakemake.input.template).read_text(encoding="utf-8"),  # noqa: F821
         )
         partial = Path(f"{snakemake.output[0]}.partial")  # noqa: F821

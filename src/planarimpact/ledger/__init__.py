@@ -10,6 +10,7 @@ Entries need no example of their own: running them is what they are for.
 """
 
 from importlib import import_module
+from importlib.util import find_spec
 
 from planarimpact.ledger.finding import Finding, Judgement, judge
 
@@ -30,8 +31,8 @@ def run(check):
     1.5
     """
     module, _, function = check.partition(".")
-    try:
-        found = getattr(import_module(f"planarimpact.ledger.{module}"), function)
-    except (ImportError, AttributeError):
-        raise LookupError(f"there is no check {check}") from None
+    path = f"planarimpact.ledger.{module}"
+    found = getattr(import_module(path), function, None) if find_spec(path) else None
+    if found is None:
+        raise LookupError(f"there is no check {check}")
     return found()

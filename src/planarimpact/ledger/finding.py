@@ -18,7 +18,7 @@ class Finding(NamedTuple):
     ----------
     found : float
         For an equation the largest distance of the printed formula from the exact solver, in
-        the unit that the entry names; for a sentence the number that decides it.
+        the unit that the check names; for a sentence the number that decides it.
     corrected : float or None
         The same for the corrected formula, where the printed one is wrong.
     """

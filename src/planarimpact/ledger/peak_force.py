@@ -1,14 +1,14 @@
 """Checks of Eqs 28 to 35, and of what pp. 435 and 444 to 449 say of the largest forces."""
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
+from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
-from planarimpact import bodies, continuum, landmarks, lumped, rigid
-from planarimpact.ledger import contact
+from planarimpact import bodies, landmarks, lumped, rigid
+from planarimpact.ledger import contact, hertz_contact
 from planarimpact.ledger.finding import Finding, largest
 from planarimpact.ledger.slip import boundary
 from planarimpact.printed import peak_force
-from planarimpact.results import EventKind
+from planarimpact.results import ContinuumRebound, EventKind
 
 FRICTIONS = (0.1, 0.2, 0.4, 0.6, 0.8, 1.0)
 ANGLES = np.linspace(0.0, 89.9, 1799)[1:]  # degrees, 0.05 apart
@@ -137,16 +137,22 @@ def start_of_stick():
 
 
 def peak_after_late_stick():
-    """The peak of Eqs 31 and 32 where stick begins in restitution, against the exact mu F2max.
+    """Largest value of Eq. 31 over the stick that begins in restitution, less the exact peak.
 
-    e = 1, where both formulas of Table 1 coincide; corrected by Eq. 33.
+    In mu F2max, at e = 1, where both formulas of Table 1 coincide; corrected by Eq. 33.
     """
     printed, corrected = [], []
     for found in contact.slip_stick_slip((1.0,), late=True):
-        _, (stretch, velocity) = _start(found)
+        start, (stretch, velocity) = _start(found)
+        speed, slope = _speed(found)
         ratio = found.tangential_frequency / found.normal_frequency
+        path = found.between(start.t, found.last(EventKind.SLIP).t)
+        elapsed = found.normal_frequency * (path.t - start.t)
+        groups = slope, found.friction, found.stiffness_ratio, ratio
+        force = peak_force.eq_31_friction(elapsed, stretch, velocity, *groups)
+        largest_force = np.abs(force).max() * speed / -found.v2 / found.friction
         exact = _peak(found) / (found.friction * found.force_scale)
-        printed.append(np.hypot(stretch, velocity / ratio) / found.stiffness_ratio - exact)
+        printed.append(largest_force - exact)
         corrected.append(peak_force.eq_33_friction(0.0, 1.0) - exact)
     return Finding(largest(printed), largest(corrected))
 
@@ -162,19 +168,32 @@ def slip_throughout():
 
 
 def _rigid_gap(formula, shares):
-    """Distance of a formula of the rigid limit from `rigid`, at x = shares of beta, in mu."""
+    """Distance of a formula of the rigid limit from mu F2 where slip halts or F2 is largest, in mu.
+
+    The instant from the exact normal impulse by quadrature, and `rigid` with it; x = shares of
+    beta.
+    """
+    motion = contact.normal_motion(1.0)
+    found, top = motion.found, motion.top + 1
+    force = found.path.force_2[:top] / found.force_scale
+    share = motion.impulse[:top] / (-found.m2 * found.v2)
+    # F2 rises with p in compression; dp/dF2 is 0 at t_c, so F2^2 is smooth there.
+    at_impulse = CubicSpline(share, force**2)
     gaps = []
     for beta, _ in contact.PAIRS:
         x = beta * np.array(shares)
         slope = contact.FRICTION * x
-        exact = contact.FRICTION * peak_force.eq_28_normal(slope)
-        exact = exact * rigid.rebound(x, beta).peak_friction
-        gaps.append((formula(slope, beta) - exact) / contact.FRICTION)
+        cosine = peak_force.eq_28_normal(slope)
+        for exact in (
+            np.sqrt(at_impulse(np.minimum(x / beta, 1.0))),
+            rigid.rebound(x, beta).peak_friction,
+        ):
+            gaps.append(formula(slope, beta) / contact.FRICTION - exact * cosine)
     return Finding(largest(gaps))
 
 
 def rigid_halted():
-    """Eq. 34 against `rigid` where slip halts in compression."""
+    """Eq. 34 where slip halts in compression, against quadrature and `rigid`."""
     return _rigid_gap(
         lambda slope, beta: peak_force.eq_34_friction(slope, contact.FRICTION, beta),
         (0.05, 0.4, 0.9, 0.99),
@@ -182,7 +201,7 @@ def rigid_halted():
 
 
 def rigid_sliding():
-    """Eq. 35 against `rigid` where slip goes through compression."""
+    """Eq. 35 where slip goes through compression, against quadrature and `rigid`."""
     return _rigid_gap(
         lambda slope, _: peak_force.eq_35_friction(slope, contact.FRICTION), (1.0, 1.7, 2.5)
     )
@@ -296,6 +315,16 @@ def reduction():
     return Finding(float(min(_reductions())))
 
 
+def peak_below_gross_slip():
+    """Largest incidence of the largest peak, with tangential compliance and without."""
+    incidences = [
+        np.tan(np.radians(landmarks.peak(ANGLES, _forces(model, mu)))) / mu
+        for model in (_lumped, _rigid)
+        for mu in FRICTIONS
+    ]
+    return Finding(float(max(incidences)))
+
+
 def compliance_immaterial():
     """Difference of both peaks from x = beta on, in mu."""
     x = np.linspace(contact.SPHERE[0], 20, 200)
@@ -321,17 +350,25 @@ def _effect(model, friction):
     return abs(_forces(model, friction).max() / _forces(_lumped, friction).max() - 1)
 
 
-def _continuum(x):
-    # In slip throughout the peak is the same for any incidence.
-    return continuum.rebound(np.minimum(x, 8.0), *contact.SPHERE, 1e-4)
+def _hertz(x):
+    """Rebound of a Hertz contact; beyond 8 it slides throughout, where the peak is the same."""
+    x = np.minimum(x, 8.0)
+    velocity, peak = hertz_contact.rebound(x, *contact.SPHERE)
+    return ContinuumRebound(velocity, peak, None, None, None)
 
 
 def normal_details():
-    """Largest relative difference of lumped model and continuum in the largest peak of a mu."""
-    return Finding(float(max(_effect(_continuum, mu) for mu in (0.1, 0.4, 1.0))))
+    """Largest relative change of the largest peak of a mu, Hertz' normal compliance for linear."""
+    return Finding(float(max(_effect(_hertz, mu) for mu in (0.1, 0.4, 1.0))))
 
 
 def stiffness_matters_more():
-    """Effect on the largest peak of zeta^2 = 1.5 for 1.21, over that of the continuum; mu = 1."""
-    softer = _effect(lambda x: lumped.rebound(x, 3.5, 1.5), 1.0)
-    return Finding(float(softer / _effect(_continuum, 1.0)))
+    """Change of the largest peak by zeta^2 = 1.5 for 1.21, over that by Hertz' compliance.
+
+    The smallest ratio for mu = 0.1, 0.4 and 1.
+    """
+    ratios = [
+        _effect(lambda x: lumped.rebound(x, 3.5, 1.5), mu) / _effect(_hertz, mu)
+        for mu in (0.1, 0.4, 1.0)
+    ]
+    return Finding(float(min(ratios)))

@@ -2,12 +2,14 @@
 
 
 def kinetic_energy(mass, gyration, x2, v1, v2, spin):
-    """Formula after Eq. 35 (p. 447): initial kinetic energy K0 of a collinear impact, as scanned.
+    """Formula before Eq. 36 (p. 447): initial kinetic energy K0; spin is positive clockwise.
+
+    With the factor 1/2 that the scan does not show.
 
     >>> kinetic_energy(2.0, 1.0, 0.0, 3.0, 4.0, 0.0)
-    50.0
+    25.0
     """
-    return mass * (v1**2 + v2**2 - 2 * x2 * v1 * spin + (x2**2 + gyration**2) * spin**2)
+    return mass / 2 * (v1**2 + v2**2 - 2 * x2 * v1 * spin + (x2**2 + gyration**2) * spin**2)
 
 
 def eq_36_hysteresis(m2, v2, restitution):
@@ -70,9 +72,11 @@ def eq_41_friction(incidence, mass_ratio, friction, restitution):
 
 
 def footnote_theorem(v1_before, v1_after, impulse):
-    """Footnote of p. 448: D1 of slip in one direction, [v1(tb) + v1(ta)] [p1(tb) - p1(ta)]/2.
+    """Footnote of p. 448: D1 of slip in one direction, -[v1(tb) + v1(ta)] [p1(tb) - p1(ta)]/2.
+
+    With the minus that Eq. 36 asks for and the scan does not show.
 
     >>> footnote_theorem(-2.0, -1.0, 1.0)
-    -1.5
+    1.5
     """
-    return (v1_after + v1_before) * impulse / 2
+    return -(v1_after + v1_before) * impulse / 2

@@ -108,7 +108,13 @@ def _slip_first(x, beta, zeta2, e, t2, t3):
     w3 = slip.eq_22a_velocity(t3 - t2, -zeta2 * normal, w2, omega)
     share = dynamics.table_1_impulse(t3, -1.0, 1.0, 1.0, e)
     final = slip.eq_25_rebound(w3, share, beta, e)
-    # Eq. 31 has its largest value where it is the hypotenuse of its two amplitudes.
-    stretch, swing = peak_force.eq_32_start(t2, x, beta, zeta2)
-    peak = np.hypot(stretch, swing / omega) / zeta2
+    stretch, velocity = peak_force.eq_32_start(t2, x, beta, zeta2)
+    peak = _largest(stretch, velocity / omega, omega * (t3 - t2)) / zeta2
     return final, peak, dissipation.eq_40_friction(x, w2, w3, final, beta, 1.0) / 2
+
+
+def _largest(cosine, sine, end):
+    """Largest |cosine cos(a) + sine sin(a)| for a from 0 to `end`: a crest, or an end."""
+    crests = np.arctan2(sine, cosine) + np.pi * np.arange(-1, 3)
+    angles = np.array([0.0, end, *crests[(crests > 0) & (crests < end)]])
+    return float(np.abs(cosine * np.cos(angles) + sine * np.sin(angles)).max())
