@@ -30,7 +30,8 @@ GREEK = {
 }  # fmt: skip
 # A letter with an index: v1, F2, t_c, tf, F2max, psi1, du1.
 INDEXED = re.compile(r"\b(d?)([vuFDKmxtgV]|psi)(\d|_c|f|b|a)(max)?(?![A-Za-z0-9])")
-SYMBOL = re.compile(r"(?<![/<\w])([eskMS]|p(?=\())(?![\w>])")
+# Symbols of one letter; those behind a slash are units, or tags.
+SYMBOL = re.compile(r"(?<![/<\w])([eskMS])(?![\w>])|(?<!\w)(p)(?=\()")
 
 
 def mathematical(text):
@@ -41,7 +42,7 @@ def mathematical(text):
     """
     html = str(escape(text))
     html = INDEXED.sub(_indexed, html)
-    html = SYMBOL.sub(r"<i>\1</i>", html)
+    html = SYMBOL.sub(lambda match: f"<i>{match[0]}</i>", html)
     html = re.sub(r"`([^`]+)`", r"<code>\1</code>", html)
     html = re.sub(r"\^(\d)", r"<sup>\1</sup>", html)
     html = re.sub(r"\b(" + "|".join(GREEK) + r")\b", lambda m: GREEK[m[1]], html)
