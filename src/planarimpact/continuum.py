@@ -218,6 +218,9 @@ def _refine(x, beta, zeta2, tolerance):
         if steps > MOST_STEPS:
             _give_up(x[todo[0]], beta[todo[0]], zeta2[todo[0]], tolerance, estimate[:, todo[0]])
         fine, counts[:, todo] = _integrate_in_parts(x[todo], beta[todo], zeta2[todo], steps)
+        if not np.isfinite(fine).all():  # no refinement would mend that
+            lost = todo[~np.isfinite(fine).all(axis=0)][0]
+            _give_up(x[lost], beta[lost], zeta2[lost], tolerance, np.full(2, np.nan))
         correction = (fine - coarse[:, todo]) / 3
         better = fine + correction
         changed = np.abs(better - values[:, todo])

@@ -108,3 +108,17 @@ def test_dissipation_keeps_its_digits_at_huge_incidence():
 @pytest.mark.parametrize("x", [1.21, 1.2100001, 2.0, 5.7899999])
 def test_time_of_a_history_never_stands_still(x):
     assert (np.diff(continuum.history(x, tolerance=1e-6).time) > 0).all()
+
+
+def test_a_solver_gone_wrong_gives_up_at_once(monkeypatch):
+    """Values that are not finite are not refined to the last step."""
+    calls = []
+
+    def lost(x, *_):
+        calls.append(x)
+        return np.full((2, x.size), np.nan), np.zeros((2, x.size), dtype=int)
+
+    monkeypatch.setattr(continuum, "_integrate_in_parts", lost)
+    with pytest.raises(ConvergenceError, match="incidence = 2.*estimated error nan"):
+        continuum.rebound(2.0)
+    assert len(calls) == 1
