@@ -15,8 +15,8 @@ from planarimpact.results import Event, EventKind, History
 FRICTION, NORMAL_MASS, NORMAL_VELOCITY, STIFFNESS = 0.3, 1.7, -2.3, 5.9
 # The sphere of the paper's examples (p. 444), and others, all with omega > Omega as it assumes,
 # and omega < 2 Omega, beyond which stick can come back (`slip.three_sequences`).
-SPHERE = (3.5, 1.21)
-PAIRS = (SPHERE, (3.5, 1.5), (2.5, 1.1), (4.0, 1.2))
+SPHERE = MASS_RATIO, STIFFNESS_RATIO = 3.5, 1.21
+PAIRS = (SPHERE, (MASS_RATIO, 1.5), (2.5, 1.1), (4.0, 1.2))
 RESTITUTIONS = (0.05, 0.15, 0.3, 0.6, 0.9, 1.0)
 
 
@@ -123,7 +123,13 @@ class Contact:
         )
 
 
-def contact(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, samples=65):
+def contact(
+    incidence,
+    mass_ratio=MASS_RATIO,
+    stiffness_ratio=STIFFNESS_RATIO,
+    restitution=1.0,
+    samples=65,
+):
     """Solve one contact.
 
     Examples

@@ -171,7 +171,7 @@ def body_velocity_alone():
     """
     ratios = []
     for share in (0.02, 0.2, 0.4, 0.6, 0.8, 0.99):
-        found = contact.contact(share * contact.SPHERE[1])
+        found = contact.contact(share * contact.STIFFNESS_RATIO)
         onset = found.last(EventKind.SLIP)
         change = found.m1 * (onset.v1**2 - found.final_velocity**2) / 2
         ratios.append(change / _exact(found))
@@ -209,8 +209,8 @@ def compliance_immaterial():
     """Difference that tangential compliance makes to the dissipation above the printed limit."""
     gaps = []
     for e in contact.RESTITUTIONS:
-        x = slip.slip_throughout_limit(3.5, e) * np.array([1.0, 1.1, 3.0])
-        hard = rigid.rebound(x, 3.5, e).dissipation
+        x = slip.slip_throughout_limit(contact.MASS_RATIO, e) * np.array([1.0, 1.1, 3.0])
+        hard = rigid.rebound(x, contact.MASS_RATIO, e).dissipation
         gaps.append(lumped.rebound(x, *contact.SPHERE, e).dissipation / hard - 1)
     return Finding(largest(gaps))
 
@@ -249,9 +249,12 @@ def rigid_independence():
 
     Of the rigid limit and of the lumped model with zeta^2 = 1e-4, in units where mu cancels.
     """
-    gaps = []
+    gaps, beta = [], contact.MASS_RATIO
     for e in contact.RESTITUTIONS:
-        x = (1 + e) * 3.5 * np.array([0.1, 0.5, 0.98])
-        for lost in (rigid.rebound(x, 3.5, e), lumped.rebound(x, 3.5, 1e-4, e)):
-            gaps.append(lost.dissipation / (x**2 / 7) - 1)
+        x = (1 + e) * beta * np.array([0.1, 0.5, 0.98])
+        for lost in (
+            rigid.rebound(x, contact.MASS_RATIO, e),
+            lumped.rebound(x, contact.MASS_RATIO, 1e-4, e),
+        ):
+            gaps.append(lost.dissipation / (x**2 / (2 * beta)) - 1)
     return Finding(largest(gaps))

@@ -200,7 +200,7 @@ def normal_independence():
     for e in contact.RESTITUTIONS:
         base = lumped.history(0.7, restitution=e)
         for x, zeta2 in ((2.0, 1.21), (8.0, 1.21), (2.0, 0.3)):
-            other = lumped.history(x, 3.5, zeta2, e)
+            other = lumped.history(x, contact.MASS_RATIO, zeta2, e)
             _, ours, theirs = np.intersect1d(base.time, other.time, return_indices=True)
             gaps.append(other.normal[theirs] - base.normal[ours])
     return Finding(largest(gaps))

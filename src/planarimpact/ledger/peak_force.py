@@ -29,7 +29,7 @@ def _lumped(x):
 
 
 def _rigid(x):
-    return rigid.rebound(x, contact.SPHERE[0])
+    return rigid.rebound(x, contact.MASS_RATIO)
 
 
 def _speed(found):
@@ -327,7 +327,7 @@ def peak_below_gross_slip():
 
 def compliance_immaterial():
     """Difference of both peaks from x = beta on, in mu."""
-    x = np.linspace(contact.SPHERE[0], 20, 200)
+    x = np.linspace(contact.MASS_RATIO, 20, 200)
     return Finding(largest([_lumped(x).peak_friction - _rigid(x).peak_friction]))
 
 
@@ -368,7 +368,7 @@ def stiffness_matters_more():
     The smallest ratio for mu = 0.1, 0.4 and 1.
     """
     ratios = [
-        _effect(lambda x: lumped.rebound(x, 3.5, 1.5), mu) / _effect(_hertz, mu)
+        _effect(lambda x: lumped.rebound(x, contact.MASS_RATIO, 1.5), mu) / _effect(_hertz, mu)
         for mu in (0.1, 0.4, 1.0)
     ]
     return Finding(float(min(ratios)))

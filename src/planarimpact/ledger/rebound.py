@@ -12,7 +12,7 @@ from planarimpact.results import EventKind, Regime
 # Incidences of Figs 5 and 6, 0 left out.
 INCIDENCE = np.linspace(0, 8, 2001)[1:]
 # Solid spheres of nu = 0, 0.3 and 0.5.
-SPHERES = ((3.5, 1.0), contact.SPHERE, (3.5, 1.5))
+SPHERES = tuple((contact.MASS_RATIO, zeta2) for zeta2 in (1.0, contact.STIFFNESS_RATIO, 1.5))
 
 
 def first_slip_in_restitution():
@@ -64,7 +64,7 @@ def three_sequences():
     """
     ratio = np.linspace(1.02, 6, 60)[:, None]
     x = np.linspace(0.01, 1, 60)
-    beta = contact.SPHERE[0]
+    beta = contact.MASS_RATIO
     found = lumped.rebound(2 * beta * x, beta, beta / ratio**2, 1.0)
     return Finding(float(np.mean(found.regime == Regime.MULTIPLE)))
 
@@ -119,7 +119,7 @@ def smallest_frequency_ratio():
 def vanishing_compliance():
     """Distance of velocity and peak friction at zeta^2 = 1e-4 from the rigid limit."""
     x = INCIDENCE[::50]
-    soft, hard = lumped.rebound(x, 3.5, 1e-4), rigid.rebound(x, 3.5)
+    soft, hard = lumped.rebound(x, contact.MASS_RATIO, 1e-4), rigid.rebound(x, contact.MASS_RATIO)
     gaps = soft.velocity - hard.velocity, soft.peak_friction - hard.peak_friction
     return Finding(largest(gaps))
 
@@ -154,7 +154,7 @@ def reversal_without_compliance():
     The lower one of the rigid limit and of the lumped model with zeta^2 = 1e-4.
     """
     x, e = INCIDENCE[::10], np.linspace(0, 1, 6)[:, None]
-    models = rigid.rebound(x, 3.5, e), lumped.rebound(x, 3.5, 1e-4, e)
+    models = rigid.rebound(x, contact.MASS_RATIO, e), lumped.rebound(x, contact.MASS_RATIO, 1e-4, e)
     return Finding(float(min(found.velocity.min() for found in models)))
 
 
@@ -163,31 +163,31 @@ def rigid_rebound_limit():
 
     That is m2/m1 times the exact normal impulse by quadrature, which Eq. 26 has as (1 + e) p(t_c).
     """
-    gaps = []
+    gaps, beta = [], contact.MASS_RATIO
     for e in contact.RESTITUTIONS:
-        limit = boundary(lambda x, e=e: rigid.rebound(x, 3.5, e).velocity == 0, 0.0, 20.0)
+        limit = boundary(lambda x, e=e: rigid.rebound(x, beta, e).velocity == 0, 0.0, 20.0)
         motion = contact.normal_motion(e)
         impulse = motion.impulse[-1] / (-motion.found.m2 * motion.found.v2)
         gaps += [
-            limit / (3.5 * impulse) - 1,
-            limit / slip.slip_throughout_limit(3.5, e) - 1,
+            limit / (beta * impulse) - 1,
+            limit / slip.slip_throughout_limit(beta, e) - 1,
         ]
     return Finding(largest(gaps))
 
 
 def rigid_sequence():
     """Share of rigid contacts below (1 + e) beta that do not slip first and then stick."""
-    e = np.linspace(0, 1, 11)[:, None]
-    x = slip.slip_throughout_limit(3.5, e) * np.linspace(0.001, 0.999, 50)
-    return Finding(float(np.mean(rigid.rebound(x, 3.5, e).regime != Regime.SLIP_STICK)))
+    e, beta = np.linspace(0, 1, 11)[:, None], contact.MASS_RATIO
+    x = slip.slip_throughout_limit(beta, e) * np.linspace(0.001, 0.999, 50)
+    return Finding(float(np.mean(rigid.rebound(x, beta, e).regime != Regime.SLIP_STICK)))
 
 
 def unaffected_velocity():
     """Difference that tangential compliance makes to the velocity above the printed limit."""
-    gaps = []
+    gaps, beta = [], contact.MASS_RATIO
     for e in (0.0, *contact.RESTITUTIONS):
-        x = slip.slip_throughout_limit(3.5, e) * np.array([1.0, 1.1, 3.0])
-        gap = lumped.rebound(x, *contact.SPHERE, e).velocity - rigid.rebound(x, 3.5, e).velocity
+        x = slip.slip_throughout_limit(beta, e) * np.array([1.0, 1.1, 3.0])
+        gap = lumped.rebound(x, *contact.SPHERE, e).velocity - rigid.rebound(x, beta, e).velocity
         gaps.append(gap)
     return Finding(largest(gaps))
 
@@ -201,7 +201,7 @@ def _models_apart():
 def models_differ_most():
     """Largest distance of lumped model and continuum above 2 beta - zeta^2, over that below."""
     x, gap = _models_apart()
-    limit = 2 * contact.SPHERE[0] - contact.SPHERE[1]
+    limit = 2 * contact.MASS_RATIO - contact.STIFFNESS_RATIO
     return Finding(float(gap[x > limit].max() / gap[x <= limit].max()))
 
 
@@ -254,7 +254,7 @@ def mostly_reversed():
 
     Up to the limit of slip throughout, 2 beta - zeta^2.
     """
-    limit = 2 * contact.SPHERE[0] - contact.SPHERE[1]
+    limit = 2 * contact.MASS_RATIO - contact.STIFFNESS_RATIO
     x = INCIDENCE[limit >= INCIDENCE]
     models = lumped.rebound(x, *contact.SPHERE), continuum.rebound(x, *contact.SPHERE, 1e-4)
     return Finding(float(min(np.mean(found.velocity < 0) for found in models)))
