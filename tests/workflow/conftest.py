@@ -43,6 +43,14 @@ class Project:
         assert old in text, (path, old)
         file.write_text(text.replace(old, new))
 
+    def refuses(self, words, *arguments):
+        """Check that a run is refused before any work, with these words (a pattern)."""
+        result = self.run(*arguments)
+        assert result.returncode != 0
+        assert re.search(words, result.stdout), result.stdout
+        assert "Traceback" not in result.stdout
+        assert not (self / "results").exists()
+
     def __truediv__(self, path):
         return self.folder / path
 

@@ -30,12 +30,12 @@ FEW = {"steps": 16, "circles": 4}
 
 @pytest.fixture(scope="module")
 def config():
-    return run_plan.load(ROOT / "workflow/config.yaml")
+    return reference_data.load_yaml(ROOT / "workflow/config.yaml")
 
 
 @pytest.fixture(scope="module")
 def inventory():
-    schema = run_plan.load(SCHEMAS / "source.schema.yaml")
+    schema = reference_data.load_yaml(SCHEMAS / "source.schema.yaml")
     return reference_data.load_all(ROOT / "data", schema)
 
 
@@ -105,7 +105,7 @@ def _changed(settings, change):
 
 
 def _names():
-    comparisons = run_plan.load(ROOT / "workflow/config.yaml")["comparisons"]
+    comparisons = reference_data.load_yaml(ROOT / "workflow/config.yaml")["comparisons"]
     return sorted(comparisons)
 
 

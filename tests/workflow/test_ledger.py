@@ -9,7 +9,7 @@ import check_ledger
 import ledger_entries
 import numpy as np
 import pytest
-import run_plan
+import reference_data
 import write_ledger_page
 
 from planarimpact import bodies, continuum, ledger, lumped, rigid
@@ -17,7 +17,7 @@ from planarimpact.printed import dissipation, dynamics, peak_force
 
 ROOT = Path(__file__).parents[2]
 FILE = "data/stronge1994/ledger.yaml"
-SCHEMA = run_plan.load(ROOT / "workflow/schemas/ledger.schema.yaml")
+SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
 ENTRIES = ledger_entries.load(ROOT / FILE, SCHEMA)
 EXECUTED = {name: entry for name, entry in ENTRIES.items() if "check" in entry}
 
@@ -97,6 +97,10 @@ def scaled(factor):
     return lambda value, _: value * factor
 
 
+FRICTION_WORK = lumped.friction_work
+MASSES, STIFFNESS_RATIO = bodies.effective_masses, bodies.stiffness_ratio
+SPHERE = bodies.solid_sphere
+
 # Faults of the solvers, each a set of replacements.
 FAULTS = {
     "stiffness ratio 30 % up": groups(stiffness_ratio=lambda z: 1.3 * z),
@@ -165,13 +169,11 @@ FAULTS = {
         ),
     },
     "no micro-slip": {
-        (continuum, "history"): lambda *args: HISTORY(*args)._replace(
-            stick_radius=HISTORY(*args).contact_radius
-        ),
+        (continuum, "history"): distorted(continuum.history, stick_radius=scaled(0.0)),
     },
     "micro-slip always": {
-        (continuum, "history"): lambda *args: HISTORY(*args)._replace(
-            stick_radius=0.9 * HISTORY(*args).contact_radius
+        (continuum, "history"): distorted(
+            continuum.history, stick_radius=lambda r, _: np.full_like(r, 1e-3)
         ),
     },
     "bodies off": {
@@ -183,13 +185,6 @@ FAULTS = {
         (bodies, "solid_sphere"): lambda *args: SPHERE(*args)._replace(mass=1.1),
     },
 }
-FRICTION_WORK, HISTORY = lumped.friction_work, continuum.history
-MASSES, STIFFNESS_RATIO, SPHERE = (
-    bodies.effective_masses,
-    bodies.stiffness_ratio,
-    bodies.solid_sphere,
-)
-
 # These compare a formula with the mechanics of a rigid body, and use no solver.
 OF_RIGID_BODIES = {
     "formula-natural-frequencies": (dynamics, "natural_frequencies"),
@@ -320,11 +315,7 @@ BAD_LEDGER = [
 @pytest.mark.parametrize(("old", "new", "words"), BAD_LEDGER, ids=[c[2] for c in BAD_LEDGER])
 def test_a_bad_ledger_is_refused_before_any_work(fresh, old, new, words):
     fresh.edit(FILE, old, new)
-    result = fresh.run()
-    assert result.returncode != 0
-    assert re.search(words, result.stdout), result.stdout
-    assert "Traceback" not in result.stdout
-    assert not (fresh / "results").exists()
+    fresh.refuses(words)
 
 
 def test_a_ledger_that_is_no_text_is_refused(fresh):

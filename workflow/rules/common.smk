@@ -13,12 +13,13 @@ import run_plan
 
 STARTED = time.time()
 LEDGER = "data/stronge1994/ledger.yaml"
-LEDGER_SCHEMA = run_plan.load("workflow/schemas/ledger.schema.yaml")
+LEDGER_SCHEMA = reference_data.load_yaml("workflow/schemas/ledger.schema.yaml")
 try:
     config = run_plan.with_values(config)
-    SOURCES = reference_data.load_all("data", run_plan.load("workflow/schemas/source.schema.yaml"))
+    SOURCES = reference_data.load_all("data", reference_data.load_yaml("workflow/schemas/source.schema.yaml"))
     ENTRIES = ledger_entries.load(LEDGER, LEDGER_SCHEMA)
-    schema = run_plan.load("workflow/schemas/config.schema.yaml")
+    SYMBOLS = reference_data.load_yaml(LEDGER)["symbols"]
+    schema = reference_data.load_yaml("workflow/schemas/config.schema.yaml")
     run_plan.check_config(config, schema, SOURCES, ENTRIES)
 except (reference_data.SourceError, run_plan.ConfigError) as error:
     raise WorkflowError(str(error))
@@ -70,7 +71,7 @@ def drawing_modules(wildcards):
 
 
 # Checks are found by name: every module that holds some is an input.
-LEDGER_MODULES = sorted({f"planarimpact.ledger.{name.split('.')[0]}" for name in ledger_entries.checks()})
+LEDGER_MODULES = [f"planarimpact.ledger.{module}" for module in ledger_entries.MODULES]
 
 
 def source_of(wildcards):

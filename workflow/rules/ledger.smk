@@ -24,7 +24,6 @@ rule ledger_page:
     input:
         modules=run_plan.modules("write_ledger_page"),
         template="workflow/report/ledger.html",
-        entries=LEDGER,
         table="results/ledger.csv",
     output:
         report(
@@ -33,6 +32,8 @@ rule ledger_page:
             category="Ledger",
             labels={"page": "the paper verified"},
         ),
+    params:
+        symbols=SYMBOLS,
     log:
         "results/logs/ledger_page.log",
     benchmark:

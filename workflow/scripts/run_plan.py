@@ -4,7 +4,6 @@ import ast
 from pathlib import Path
 
 import reference_data
-import yaml
 
 SCRIPTS = Path(__file__).parent
 SRC = SCRIPTS.parents[1] / "src"
@@ -188,8 +187,3 @@ def _files(name):
     paths = [SRC.joinpath(*parts[: i + 1]) for i in range(len(parts))]
     candidates = [p for path in paths for p in (path / "__init__.py", path.with_suffix(".py"))]
     return [path for path in candidates if path.is_file()]
-
-
-def load(path):
-    """Read a YAML file."""
-    return yaml.safe_load(Path(path).read_text(encoding="utf-8"))

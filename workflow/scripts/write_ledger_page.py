@@ -9,7 +9,6 @@ import csv_tables
 import jinja2
 import job
 import ledger_table
-import yaml
 from markupsafe import Markup, escape
 
 STYLE = {
@@ -87,10 +86,9 @@ def page(rows, symbols, template):
 
 if "snakemake" in globals():
     with job.log_to(snakemake.log[0]):  # noqa: F821
-        entries = Path(snakemake.input.entries).read_text(encoding="utf-8")  # noqa: F821
         text = page(
             csv_tables.read_rows(snakemake.input.table),  # noqa: F821
-            yaml.safe_load(entries)["symbols"],
+            snakemake.params.symbols,  # noqa: F821
             Path(snakemake.input.template).read_text(encoding="utf-8"),  # noqa: F821
         )
         partial = Path(f"{snakemake.output[0]}.partial")  # noqa: F821

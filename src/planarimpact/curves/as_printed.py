@@ -6,17 +6,17 @@ import numpy as np
 SAME = 1e-9
 
 
-def beside(name, axis, x, column, exact, printed):
+def beside(name, curve, printed):
     """Curves of the printed equations beside one exact curve.
 
     Parameters
     ----------
     name : str
         Of the exact curve, for instance `e = 0.5`; empty for the only one.
-    axis, column : str
-        Headers of x and of the quantity, with units.
-    x, exact, printed : array_like, shape (n,)
-        `printed` is nan where the printed equations have no solution.
+    curve : dict
+        Its columns, `{header: array}`, shape (n,): first the axis, then the quantity.
+    printed : array_like, shape (n,)
+        The quantity as printed; nan where the printed equations have no solution.
 
     Returns
     -------
@@ -26,11 +26,13 @@ def beside(name, axis, x, column, exact, printed):
 
     Examples
     --------
-    >>> found = beside("e = 1", "x", [0, 1, 2, 3], "w", [0, 1, 2, 3], [0, 1, 5, np.nan])
-    >>> {curve: columns["x"].tolist() for curve, columns in found.items()}
+    >>> exact = {"x": np.arange(4), "w": np.arange(4)}
+    >>> found = beside("e = 1", exact, [0, 1, 5, np.nan])
+    >>> {name: columns["x"].tolist() for name, columns in found.items()}
     {'as printed, e = 1': [1, 2], 'no solution as printed, e = 1': [2, 3]}
     """
-    x, exact, printed = (np.asarray(values) for values in (x, exact, printed))
+    (axis, x), (column, exact) = list(curve.items())[:2]
+    printed = np.asarray(printed)
     missing = np.isnan(printed)
     differs = ~missing & (np.abs(printed - exact) > SAME)
     ending = f", {name}" if name else ""

@@ -75,9 +75,7 @@ def curves(
     }
     if as_printed:
         velocity, _, _ = impact.rebound(x, *groups, restitution)
-        columns = _velocity(x, exact)
-        (axis, _), (column, given) = columns.items()
-        named |= printed_curves.beside("", axis, x, column, given, velocity)
+        named |= printed_curves.beside("", named["lumped"], velocity)
     return named
 
 

@@ -40,8 +40,8 @@ def curves(
     """
     named = {}
     for e in restitution:
-        limits = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
-        limits = limits, printed_limit(mass_ratio, e)
+        limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
+        limits = limit, printed_limit(mass_ratio, e)
         x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limits, nodes)
         rebound = lumped.rebound(x, mass_ratio, stiffness_ratio, e)
         named[name("e", e)] = {
@@ -53,12 +53,5 @@ def curves(
         }
         if as_printed:
             velocity, _, _ = impact.rebound(x, mass_ratio, stiffness_ratio, e)
-            named |= printed_curves.beside(
-                name("e", e),
-                "incidence [mu v2(0)]",
-                x,
-                "velocity [mu v2(0)]",
-                rebound.velocity,
-                velocity,
-            )
+            named |= printed_curves.beside(name("e", e), named[name("e", e)], velocity)
     return named

@@ -67,8 +67,7 @@ def _as_printed(mu, mass_ratio, stiffness_ratio, samples):
     scale = mu * np.cos(np.radians(theta))
     exact = scale * lumped.rebound(x, mass_ratio, stiffness_ratio).peak_friction
     _, peak, _ = impact.rebound(x, mass_ratio, stiffness_ratio, 1.0)
-    (axis, _), (column, _) = _force(theta, exact).items()
-    return printed_curves.beside(name("mu", mu), axis, theta, column, exact, scale * peak)
+    return printed_curves.beside(name("mu", mu), _force(theta, exact), scale * peak)
 
 
 def _force(theta, force):

@@ -52,8 +52,8 @@ def curves(
     for mu in friction:
         for e in restitution:
             limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
-            printed = printed_limit(mass_ratio, e)
-            thresholds = np.array([stiffness_ratio, mass_ratio, limit, printed])
+            limits = limit, printed_limit(mass_ratio, e)
+            thresholds = np.array([stiffness_ratio, mass_ratio, *limits])
             theta = vertices(angle, samples, np.degrees(np.arctan(mu * thresholds)), nodes)
             x = np.tan(np.radians(theta)) / mu
             share = 2 * (mu * np.cos(np.radians(theta))) ** 2
@@ -72,12 +72,5 @@ def curves(
             }
             if as_printed:
                 _, _, printed = impact.rebound(x, mass_ratio, stiffness_ratio, e)
-                named |= printed_curves.beside(
-                    pair,
-                    "angle [deg]",
-                    theta,
-                    "friction_dissipation [m2 S^2/2]",
-                    share * lost,
-                    share * printed,
-                )
+                named |= printed_curves.beside(pair, named[pair], share * printed)
     return named

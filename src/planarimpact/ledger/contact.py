@@ -10,11 +10,12 @@ import numpy as np
 from scipy.integrate import cumulative_simpson
 
 from planarimpact import lumped
+from planarimpact.printed import dynamics
 from planarimpact.results import Event, EventKind, History
 
 FRICTION, NORMAL_MASS, NORMAL_VELOCITY, STIFFNESS = 0.3, 1.7, -2.3, 5.9
 # The sphere of the paper's examples (p. 444), and others, all with omega > Omega as it assumes,
-# and omega < 2 Omega, beyond which stick can come back (`slip.three_sequences`).
+# and omega < 2 Omega, beyond which stick can come back (`rebound.three_sequences`).
 SPHERE = MASS_RATIO, STIFFNESS_RATIO = 3.5, 1.21
 PAIRS = (SPHERE, (MASS_RATIO, 1.5), (2.5, 1.1), (4.0, 1.2))
 RESTITUTIONS = (0.05, 0.15, 0.3, 0.6, 0.9, 1.0)
@@ -54,7 +55,7 @@ class Contact:
     @property
     def v1(self):
         """Tangential velocity at t = 0."""
-        return self.incidence * self.friction * self.v2
+        return self.incidence * self.velocity_scale
 
     @property
     def normal_frequency(self):
@@ -75,6 +76,16 @@ class Contact:
     def force_scale(self):
         """m2 Omega |v2(0)|."""
         return -self.m2 * self.normal_frequency * self.v2
+
+    @property
+    def friction_scale(self):
+        """mu times the scale of normal forces."""
+        return self.friction * self.force_scale
+
+    @property
+    def velocity_scale(self):
+        """mu v2(0), negative."""
+        return self.friction * self.v2
 
     @property
     def path(self):
@@ -102,11 +113,24 @@ class Contact:
         return State(*(column[inside] for column in columns))
 
     @property
-    def final_velocity(self):
-        """v1(tf), of `lumped.rebound`: another way than the path's."""
+    def rebound(self):
+        """What `lumped.rebound` finds: another way than the path's."""
         groups = self.mass_ratio, self.stiffness_ratio, self.restitution
-        found = lumped.rebound(self.incidence, *groups)
-        return float(found.velocity) * self.friction * self.v2
+        return lumped.rebound(self.incidence, *groups)
+
+    @property
+    def final_velocity(self):
+        """v1(tf), of `rebound`."""
+        return float(self.rebound.velocity) * self.velocity_scale
+
+    def impulse(self, t):
+        """p(t) by Table 1."""
+        groups = self.v2, self.m2, self.normal_frequency, self.restitution
+        return dynamics.table_1_impulse(t, *groups)
+
+    def impulse_left(self, t):
+        """p(tf) - p(t), by Table 1."""
+        return -(1 + self.restitution) * self.m2 * self.v2 - self.impulse(t)
 
     @property
     def last_slip_direction(self):
@@ -117,9 +141,9 @@ class Contact:
         return State(
             np.asarray(found.time) * self.compression_time,
             np.asarray(found.normal) * self.force_scale,
-            np.asarray(found.friction) * self.friction * self.force_scale,
-            np.asarray(found.velocity) * self.friction * self.v2,
-            np.asarray(found.spring) * self.friction * abs(self.v2) / self.normal_frequency,
+            np.asarray(found.friction) * self.friction_scale,
+            np.asarray(found.velocity) * self.velocity_scale,
+            np.asarray(found.spring) * -self.velocity_scale / self.normal_frequency,
         )
 
 
@@ -179,6 +203,12 @@ class NormalMotion:
         return int(np.flatnonzero(self.found.path.t == self.found.compression_time)[0])
 
 
+def normal_motions():
+    """Normal motions for all restitutions of the checks: (e, NormalMotion)."""
+    for e in RESTITUTIONS:
+        yield e, normal_motion(e)
+
+
 def normal_motion(restitution):
     """Normal motion of a contact of the paper's sphere, good to 1e-9."""
     found = contact(0.7, restitution=restitution, samples=4001)
@@ -189,10 +219,10 @@ def normal_motion(restitution):
     return NormalMotion(found, impulse, velocity, integral(found, velocity), work)
 
 
-def initial_stick(restitutions=RESTITUTIONS):
+def initial_stick():
     """Contacts over the paper's range of initial stick, 0 < x < zeta^2."""
     for beta, zeta2 in PAIRS:
-        for e in restitutions:
+        for e in RESTITUTIONS:
             for share in (0.02, 0.4, 0.8, 0.99):
                 yield contact(share * zeta2, beta, zeta2, e)
 
@@ -210,9 +240,15 @@ def slip_stick_slip(restitutions=RESTITUTIONS, late=None):
                 yield from (contact(x, beta, zeta2, e) for x in later)
 
 
-def slip_throughout(restitutions=RESTITUTIONS):
+def with_stick():
+    """Contacts that stick, at first or after slip, and slip to the end."""
+    yield from initial_stick()
+    yield from slip_stick_slip()
+
+
+def slip_throughout():
     """Contacts over the paper's range of slip throughout, x > (1 + e) beta."""
     for beta, zeta2 in PAIRS:
-        for e in restitutions:
+        for e in RESTITUTIONS:
             for factor in (1.001, 1.3, 4.0):
                 yield contact(factor * (1 + e) * beta, beta, zeta2, e)

@@ -6,7 +6,7 @@ from planarimpact import lumped, rigid
 from planarimpact.ledger import contact
 from planarimpact.ledger.dynamics import PLATE
 from planarimpact.ledger.finding import Finding, largest
-from planarimpact.printed import dissipation, dynamics, slip
+from planarimpact.printed import dissipation, slip
 from planarimpact.results import EventKind
 
 # Of Fig. 9.
@@ -30,8 +30,7 @@ def kinetic_energy():
 def hysteresis():
     """Eqs 36 and 37 against the normal kinetic energy that the exact contact loses."""
     gaps = []
-    for e in contact.RESTITUTIONS:
-        motion = contact.normal_motion(e)
+    for e, motion in contact.normal_motions():
         found = motion.found
         kinetic = found.m2 * found.v2**2 / 2
         lost = kinetic - found.m2 * motion.velocity[-1] ** 2 / 2
@@ -47,20 +46,12 @@ def _unit(found):
 
 def _exact(found):
     """Exact dissipation by friction, in the paper's units."""
-    groups = found.mass_ratio, found.stiffness_ratio, found.restitution
-    scale = found.m2 * (found.friction * found.v2) ** 2
-    return float(lumped.rebound(found.incidence, *groups).dissipation) * scale
+    return float(found.rebound.dissipation) * found.m2 * found.velocity_scale**2
 
 
 def _spring(found, state):
     """Tangential strain energy in a state."""
     return found.stiffness / found.stiffness_ratio * state.u1**2 / 2
-
-
-def _share(found, state):
-    """p(t)/p(t_c) by Table 1."""
-    groups = found.normal_frequency, found.restitution
-    return float(dynamics.table_1_impulse(state.t, -1.0, 1.0, *groups))
 
 
 def friction_after_stick():
@@ -71,8 +62,7 @@ def friction_after_stick():
     printed, corrected = [], []
     for found in contact.initial_stick():
         onset, s = found.last(EventKind.SLIP), found.last_slip_direction
-        left = (1 + found.restitution - _share(found, onset)) * -found.m2 * found.v2
-        groups = found.friction, found.m1
+        left, groups = found.impulse_left(onset.t), (found.friction, found.m1)
         lost = dissipation.eq_38_friction(onset.v1, left, *groups)
         printed.append((lost - _exact(found)) / _unit(found))
         lost = dissipation.eq_38_friction(onset.v1, s * left, *groups) + _spring(found, onset)
@@ -109,7 +99,7 @@ def friction_of_two_slips():
     """
     printed, corrected = [], []
     for found in contact.slip_stick_slip():
-        scale, normal = found.friction * found.v2, found.m2 * found.v2**2
+        scale, normal = found.velocity_scale, found.m2 * found.v2**2
         start, onset = found.first(EventKind.STICK), found.last(EventKind.SLIP)
         velocities = [v / scale for v in (start.v1, onset.v1, found.final_velocity)]
         lost = dissipation.eq_40_friction(
@@ -157,9 +147,9 @@ def theorem():
 def only_in_slip():
     """Work of friction over the phases of slip against the exact balance of energy."""
     gaps = []
-    for found in (*contact.initial_stick(), *contact.slip_stick_slip()):
+    for found in contact.with_stick():
         groups = found.incidence, found.mass_ratio, found.stiffness_ratio, found.restitution
-        gap = lumped.friction_work(*groups) - lumped.rebound(*groups).dissipation
+        gap = lumped.friction_work(*groups) - found.rebound.dissipation
         gaps.append(gap / (found.incidence**2 / (2 * found.mass_ratio)))
     return Finding(largest(gaps))
 
@@ -184,7 +174,7 @@ def strain_recovered():
     The largest over the contacts of the checks; what the body does not get, friction takes.
     """
     shares = []
-    for found in (*contact.initial_stick(), *contact.slip_stick_slip()):
+    for found in contact.with_stick():
         onset = found.last(EventKind.SLIP)
         gained = found.m1 * (found.final_velocity**2 - onset.v1**2) / 2
         shares.append(gained / _spring(found, onset))
@@ -253,8 +243,8 @@ def rigid_independence():
     for e in contact.RESTITUTIONS:
         x = (1 + e) * beta * np.array([0.1, 0.5, 0.98])
         for lost in (
-            rigid.rebound(x, contact.MASS_RATIO, e),
-            lumped.rebound(x, contact.MASS_RATIO, 1e-4, e),
+            rigid.rebound(x, beta, e),
+            lumped.rebound(x, beta, 1e-4, e),
         ):
             gaps.append(lost.dissipation / (x**2 / (2 * beta)) - 1)
     return Finding(largest(gaps))

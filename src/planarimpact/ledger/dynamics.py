@@ -47,7 +47,7 @@ def velocity_change():
         found = contact.contact(x, restitution=0.6, samples=2001)
         impulse = contact.integral(found, found.path.force_1)
         change = dynamics.eq_3_velocity_change(np.array([[1 / found.m1]]), [impulse])[0]
-        gaps.append((found.v1 + change - found.path.v1) / (found.friction * found.v2))
+        gaps.append((found.v1 + change - found.path.v1) / found.velocity_scale)
     return Finding(largest(gaps))
 
 
@@ -97,8 +97,7 @@ def frequencies():
 def restitution():
     """Eq. 5: works of the normal force along exact contacts give e back."""
     gaps = []
-    for e in contact.RESTITUTIONS:
-        motion = contact.normal_motion(e)
+    for e, motion in contact.normal_motions():
         absorbed = motion.work[motion.top]
         gaps.append(dynamics.eq_5_restitution(absorbed, motion.work[-1] - absorbed) - e)
     return Finding(largest(gaps))
@@ -107,8 +106,7 @@ def restitution():
 def normal_velocity():
     """Eqs 6a and 6b against the momentum that the exact normal force has brought."""
     gaps = []
-    for e in contact.RESTITUTIONS:
-        motion = contact.normal_motion(e)
+    for e, motion in contact.normal_motions():
         found, t = motion.found, motion.found.path.t
         groups = found.v2, found.normal_frequency
         early = dynamics.eq_6a_normal_velocity(t, *groups)
@@ -121,8 +119,7 @@ def normal_velocity():
 def table_1():
     """All rows of Table 1 against the exact normal force and its integrals."""
     gaps = []
-    for e in contact.RESTITUTIONS:
-        motion = contact.normal_motion(e)
+    for e, motion in contact.normal_motions():
         found, t, force = motion.found, motion.found.path.t, motion.found.path.force_2
         v2, m2, omega = found.v2, found.m2, found.normal_frequency
         displacement = dynamics.table_1_displacement(t, v2, omega, e)
@@ -148,8 +145,7 @@ def duration():
 def final_indentation():
     """u2(tf) over u2(t_c) by quadrature of the exact force, against 1 - e^2."""
     gaps = []
-    for e in contact.RESTITUTIONS:
-        motion = contact.normal_motion(e)
+    for e, motion in contact.normal_motions():
         left = motion.displacement[-1] / motion.displacement[motion.top]
         gaps.append(left - (1 - e**2))
     return Finding(largest(gaps))
@@ -158,8 +154,7 @@ def final_indentation():
 def stored_work():
     """Work at t_c over F2(t_c) u2(t_c)/2, and slope of unloading over kappa/e^2, less 1."""
     gaps = []
-    for e in contact.RESTITUTIONS:
-        motion = contact.normal_motion(e)
+    for e, motion in contact.normal_motions():
         found, force = motion.found, motion.found.path.force_2
         top, depth = motion.top, motion.displacement
         gaps.append(motion.work[top] / (force[top] * depth[top] / 2) - 1)
@@ -171,8 +166,7 @@ def stored_work():
 def velocity_continuous():
     """Eqs 6a and 6b at t_c, over v2(0), and the momentum brought till then."""
     gaps = []
-    for e in contact.RESTITUTIONS:
-        motion = contact.normal_motion(e)
+    for e, motion in contact.normal_motions():
         found = motion.found
         groups = found.compression_time, found.v2, found.normal_frequency
         gaps += [
@@ -209,12 +203,11 @@ def normal_independence():
 def stick():
     """Eqs 7a to 7c along the first stick of exact contacts, and against numerical integration."""
     gaps = _integrated_stick()
-    contacts = [*contact.initial_stick(), *contact.slip_stick_slip()]
-    for found in contacts:
+    for found in contact.with_stick():
         start, end = found.first(EventKind.STICK), found.last(EventKind.SLIP)
         path = found.between(start.t, end.t)
         elapsed, omega = path.t - start.t, found.tangential_frequency
-        speed, force = -found.friction * found.v2, found.friction * found.force_scale
+        speed, force = -found.velocity_scale, found.friction_scale
         given = start.u1, start.v1
         gaps += [
             (dynamics.eq_7a_deflection(elapsed, *given, omega) - path.u1) * omega / speed,
@@ -227,7 +220,7 @@ def stick():
 def _integrated_stick():
     """Distance of Eqs 7a and 7b from du1/dt = -v1, m1 dv1/dt = (kappa/zeta^2) u1, integrated."""
     start = np.array([0.3, -0.8])
-    stiffness, m1 = contact.STIFFNESS / 1.21, 0.6
+    stiffness, m1 = contact.STIFFNESS / contact.STIFFNESS_RATIO, 0.6
     omega, end = np.sqrt(stiffness / m1), 2.0
     found = solve_ivp(
         lambda _, state: [-state[1], stiffness / m1 * state[0]],
@@ -249,15 +242,14 @@ def friction_cone():
     """Largest excess of |F1| over mu F2 along exact contacts, over the largest mu F2."""
     excess = [
         np.max(np.abs(found.path.force_1) - found.friction * found.path.force_2)
-        / (found.friction * found.force_scale)
-        for found in (*contact.initial_stick(), *contact.slip_stick_slip())
+        / found.friction_scale
+        for found in contact.with_stick()
     ]
     return Finding(max(0.0, float(np.max(excess))))
 
 
 def _last_slips():
-    contacts = (*contact.initial_stick(), *contact.slip_stick_slip())
-    for found in contacts:
+    for found in contact.with_stick():
         start, end = found.last(EventKind.SLIP), found.last(EventKind.SEPARATION)
         yield found, found.between(start.t, end.t), found.last_slip_direction
 
@@ -267,7 +259,7 @@ def slip_force():
     gaps = []
     for found, path, direction in _last_slips():
         tangential, normal = dynamics.eq_8_impulse(path.force_2, found.friction, direction)
-        gaps.append((tangential - path.force_1) / (found.friction * found.force_scale))
+        gaps.append((tangential - path.force_1) / found.friction_scale)
         gaps.append(normal / path.force_2.max() - path.force_2 / path.force_2.max())
         slipped = path.v1[:-1] * np.diff(path.t) + np.diff(path.u1)
         gaps.append(np.minimum(direction * np.sum(slipped), 0.0))
@@ -278,12 +270,11 @@ def velocity_slope():
     """Eq. 9 along the last slip: dv1/dp, p of Table 1."""
     gaps = []
     for found, path, direction in _last_slips():
-        groups = found.v2, found.m2, found.normal_frequency, found.restitution
-        impulse = dynamics.table_1_impulse(path.t, *groups)
+        impulse = found.impulse(path.t)
         inverse = np.diag([1 / found.m1, 1 / found.m2])
         slope = dynamics.eq_9_velocity_slope(inverse, found.friction, direction)
         change = slope[0] * (impulse - impulse[0])
-        gaps.append((path.v1[0] + change - path.v1) / (found.friction * found.v2))
+        gaps.append((path.v1[0] + change - path.v1) / found.velocity_scale)
         gaps.append(slope[1] * (impulse[-1] - impulse[0]) / found.v2 + _restored(found, path))
     return Finding(largest(gaps))
 

@@ -5,11 +5,20 @@ stiffness goes with the radius of contact (Mindlin); where the contact shrinks, 
 leaves it takes its share of the force along.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from planarimpact import hertz
 
 STEPS = 4000
+
+
+class HertzRebound(NamedTuple):
+    """State at separation, arrays; units as in `planarimpact.ContinuumRebound`."""
+
+    velocity: np.ndarray
+    peak_friction: np.ndarray
 
 
 def rebound(incidence, mass_ratio, stiffness_ratio):
@@ -24,8 +33,7 @@ def rebound(incidence, mass_ratio, stiffness_ratio):
 
     Returns
     -------
-    velocity, peak_friction : ndarray, shape (n,)
-        Units as in `planarimpact.ContinuumRebound`.
+    HertzRebound
 
     Examples
     --------
@@ -46,4 +54,4 @@ def rebound(incidence, mass_ratio, stiffness_ratio):
         force = np.clip(force + rate * step * w, -limit, limit)
         w = w - mass_ratio * force * step
         peak = np.maximum(peak, np.abs(force))
-    return w, peak / hertz.PEAK_FORCE
+    return HertzRebound(w, peak / hertz.PEAK_FORCE)

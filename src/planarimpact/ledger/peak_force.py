@@ -8,20 +8,16 @@ from planarimpact.ledger import contact, hertz_contact
 from planarimpact.ledger.finding import Finding, largest
 from planarimpact.ledger.slip import boundary
 from planarimpact.printed import peak_force
-from planarimpact.results import ContinuumRebound, EventKind
+from planarimpact.results import EventKind
 
 FRICTIONS = (0.1, 0.2, 0.4, 0.6, 0.8, 1.0)
 ANGLES = np.linspace(0.0, 89.9, 1799)[1:]  # degrees, 0.05 apart
 
 
-def _incidence(friction):
-    """Incidence of each of ANGLES."""
-    return np.tan(np.radians(ANGLES)) / friction
-
-
 def _forces(model, friction):
     """F1max/(m2 Omega S) at each of ANGLES; `model` takes incidences."""
-    return friction * np.cos(np.radians(ANGLES)) * model(_incidence(friction)).peak_friction
+    theta = np.radians(ANGLES)
+    return friction * np.cos(theta) * model(np.tan(theta) / friction).peak_friction
 
 
 def _lumped(x):
@@ -61,9 +57,8 @@ def normal():
 
 
 def _peak(found):
-    groups = found.mass_ratio, found.stiffness_ratio, found.restitution
-    exact = lumped.rebound(found.incidence, *groups).peak_friction
-    return exact * found.friction * found.force_scale
+    """Exact peak of friction."""
+    return found.rebound.peak_friction * found.friction_scale
 
 
 def stick():
@@ -108,19 +103,24 @@ def _start(found):
     return start, peak_force.eq_32_start(angle, *groups)
 
 
+def _along_stick(found):
+    """States of the stick after the first slip, and Eqs 31 and 32 there, as a force."""
+    start, values = _start(found)
+    path = found.between(start.t, found.last(EventKind.SLIP).t)
+    speed, slope = _speed(found)
+    elapsed = found.normal_frequency * (path.t - start.t)
+    ratio = found.tangential_frequency / found.normal_frequency
+    groups = slope, found.friction, found.stiffness_ratio, ratio
+    force = peak_force.eq_31_friction(elapsed, *values, *groups)
+    return path, force * found.m2 * found.normal_frequency * speed
+
+
 def stick_after_slip():
-    """Eq. 31 with Eq. 32 along the stick that begins in compression."""
+    """Eq. 31 with Eq. 32 along the stick that begins in compression, over mu F2max."""
     gaps = []
     for found in contact.slip_stick_slip(late=False):
-        start, (stretch, velocity) = _start(found)
-        path = found.between(start.t, found.last(EventKind.SLIP).t)
-        speed, slope = _speed(found)
-        ratio = found.tangential_frequency / found.normal_frequency
-        elapsed = found.normal_frequency * (path.t - start.t)
-        groups = slope, found.friction, found.stiffness_ratio, ratio
-        printed = peak_force.eq_31_friction(elapsed, stretch, velocity, *groups)
-        exact = path.force_1 / (found.m2 * found.normal_frequency * speed)
-        gaps.append((printed - exact) / found.friction)
+        path, printed = _along_stick(found)
+        gaps.append((printed - path.force_1) / found.friction_scale)
     return Finding(largest(gaps))
 
 
@@ -129,7 +129,7 @@ def start_of_stick():
     printed, corrected = [], []
     for found in contact.slip_stick_slip(late=False):
         start, (stretch, velocity) = _start(found)
-        scale = found.friction * found.v2
+        scale = found.velocity_scale
         exact = found.normal_frequency * start.u1 / scale
         printed += [stretch - exact, velocity - start.v1 / scale]
         corrected += [-stretch - exact, velocity - start.v1 / scale]
@@ -143,16 +143,9 @@ def peak_after_late_stick():
     """
     printed, corrected = [], []
     for found in contact.slip_stick_slip((1.0,), late=True):
-        start, (stretch, velocity) = _start(found)
-        speed, slope = _speed(found)
-        ratio = found.tangential_frequency / found.normal_frequency
-        path = found.between(start.t, found.last(EventKind.SLIP).t)
-        elapsed = found.normal_frequency * (path.t - start.t)
-        groups = slope, found.friction, found.stiffness_ratio, ratio
-        force = peak_force.eq_31_friction(elapsed, stretch, velocity, *groups)
-        largest_force = np.abs(force).max() * speed / -found.v2 / found.friction
-        exact = _peak(found) / (found.friction * found.force_scale)
-        printed.append(largest_force - exact)
+        _, force = _along_stick(found)
+        exact = _peak(found) / found.friction_scale
+        printed.append(np.abs(force).max() / found.friction_scale - exact)
         corrected.append(peak_force.eq_33_friction(0.0, 1.0) - exact)
     return Finding(largest(printed), largest(corrected))
 
@@ -245,7 +238,7 @@ def late_stick():
 def velocity_at_stick():
     """Lowest v1(t2)/(mu v2(0)) over slip - stick - slip, e = 1; negative: turned round."""
     lowest = min(
-        found.first(EventKind.STICK).v1 / (found.friction * found.v2)
+        found.first(EventKind.STICK).v1 / found.velocity_scale
         for found in contact.slip_stick_slip((1.0,))
         if (found.mass_ratio, found.stiffness_ratio) == contact.SPHERE
     )
@@ -274,8 +267,8 @@ def simultaneous():
     return Finding(largest(gaps))
 
 
-def _angle_of_peak(friction):
-    return landmarks.peak(ANGLES, _forces(_lumped, friction))
+def _angle_of_peak(friction, model=_lumped):
+    return landmarks.peak(ANGLES, _forces(model, friction))
 
 
 def peak_angle_small_friction():
@@ -305,20 +298,19 @@ def peak_at_intermediate_incidence():
     return Finding(float(min((x - zeta2).min(), (2 * beta - x).min())))
 
 
-def _reductions():
-    """How much less the largest peak of each mu is than without tangential compliance."""
-    return [1 - _forces(_lumped, mu).max() / _forces(_rigid, mu).max() for mu in FRICTIONS]
-
-
 def reduction():
-    """Smallest reduction of the largest peak over the frictions of Fig. 7."""
-    return Finding(float(min(_reductions())))
+    """How much less the largest peak is than without tangential compliance.
+
+    The smallest such share over the frictions of Fig. 7.
+    """
+    shares = [1 - _forces(_lumped, mu).max() / _forces(_rigid, mu).max() for mu in FRICTIONS]
+    return Finding(float(min(shares)))
 
 
 def peak_below_gross_slip():
     """Largest incidence of the largest peak, with tangential compliance and without."""
     incidences = [
-        np.tan(np.radians(landmarks.peak(ANGLES, _forces(model, mu)))) / mu
+        np.tan(np.radians(_angle_of_peak(mu, model))) / mu
         for model in (_lumped, _rigid)
         for mu in FRICTIONS
     ]
@@ -352,9 +344,7 @@ def _effect(model, friction):
 
 def _hertz(x):
     """Rebound of a Hertz contact; beyond 8 it slides throughout, where the peak is the same."""
-    x = np.minimum(x, 8.0)
-    velocity, peak = hertz_contact.rebound(x, *contact.SPHERE)
-    return ContinuumRebound(velocity, peak, None, None, None)
+    return hertz_contact.rebound(np.minimum(x, 8.0), *contact.SPHERE)
 
 
 def normal_details():

@@ -145,7 +145,7 @@ def sliding_slows():
     particle = found.friction * rate * found.stiffness_ratio / found.stiffness
     before = found.first(EventKind.MAXIMUM_COMPRESSION).v1
     after = found.final_velocity + particle
-    return Finding(float((after - before) / (found.friction * found.v2)))
+    return Finding(float((after - before) / found.velocity_scale))
 
 
 def reversal_without_compliance():

@@ -5,7 +5,7 @@ import numpy as np
 from planarimpact import lumped
 from planarimpact.ledger import contact
 from planarimpact.ledger.finding import Finding, largest
-from planarimpact.printed import dynamics, slip
+from planarimpact.printed import slip
 from planarimpact.results import EventKind, Regime
 
 
@@ -77,17 +77,8 @@ def velocity_at_slip():
     for found in contact.initial_stick():
         onset = found.last(EventKind.SLIP)
         printed = slip.eq_12_velocity_at_slip(found.v1, found.tangential_frequency, onset.t)
-        gaps.append((printed - onset.v1) / (found.friction * found.v2))
+        gaps.append((printed - onset.v1) / found.velocity_scale)
     return Finding(largest(gaps))
-
-
-def _impulse(found, t):
-    groups = found.v2, found.m2, found.normal_frequency, found.restitution
-    return float(dynamics.table_1_impulse(t, *groups))
-
-
-def _impulse_left(found, t):
-    return (1 + found.restitution) * -found.m2 * found.v2 - _impulse(found, t)
 
 
 def final_velocity():
@@ -95,10 +86,10 @@ def final_velocity():
     gaps = []
     for found in contact.initial_stick():
         onset = found.last(EventKind.SLIP)
-        left, direction = _impulse_left(found, onset.t), found.last_slip_direction
+        left, direction = found.impulse_left(onset.t), found.last_slip_direction
         groups = left, found.friction, found.m1
         printed = slip.eq_13_final_velocity(onset.v1, direction, *groups)
-        gaps.append((printed - found.final_velocity) / (found.friction * found.v2))
+        gaps.append((printed - found.final_velocity) / found.velocity_scale)
     return Finding(largest(gaps))
 
 
@@ -121,7 +112,7 @@ def rebound_after_stick():
     """Eq. 15 against the exact rebound; corrected with s at the onset of slip."""
     printed, corrected = [], []
     for found in contact.initial_stick():
-        onset, scale = found.last(EventKind.SLIP), found.friction * found.v2
+        onset, scale = found.last(EventKind.SLIP), found.velocity_scale
         g1, beta = _share_left(found, onset.t), found.mass_ratio
         exact = found.final_velocity / scale
         printed.append(slip.eq_15_rebound(onset.v1 / scale, g1, beta) - exact)
@@ -135,11 +126,9 @@ def velocity_in_slip():
     gaps = []
     for found in contact.slip_stick_slip():
         path = found.between(0.0, found.first(EventKind.STICK).t)
-        impulse = dynamics.table_1_impulse(
-            path.t, found.v2, found.m2, found.normal_frequency, found.restitution
-        )
-        printed = slip.eq_16_velocity_in_slip(found.v1, -1, impulse, found.friction, found.m1)
-        gaps.append((printed - path.v1) / (found.friction * found.v2))
+        groups = found.impulse(path.t), found.friction, found.m1
+        printed = slip.eq_16_velocity_in_slip(found.v1, -1, *groups)
+        gaps.append((printed - path.v1) / found.velocity_scale)
     return Finding(largest(gaps))
 
 
@@ -157,7 +146,7 @@ def transition():
             0.0, start.u1, start.v1, found.m1, found.tangential_frequency
         )
         rate_2 = _normal_rate(found, start.t)
-        scale = found.friction * found.force_scale * found.normal_frequency
+        scale = found.friction_scale * found.normal_frequency
         gaps.append(slip.eq_17_excess_rate(rate_1, rate_2, found.friction) / scale)
     return Finding(largest(gaps))
 
@@ -199,7 +188,7 @@ def deflection_at_stick():
         lambda found, t2: slip.eq_18a_deflection(t2, *groups(found)),
         lambda found, t2: slip.eq_18b_deflection(t2, *groups(found), found.restitution),
         lambda start: start.u1,
-        lambda found: found.friction * found.v2 / found.normal_frequency,
+        lambda found: found.velocity_scale / found.normal_frequency,
     )
 
 
@@ -213,18 +202,18 @@ def velocity_at_stick():
         lambda found, t2: slip.eq_19a_velocity(t2, *groups(found)),
         lambda found, t2: slip.eq_19b_velocity(t2, *groups(found), found.restitution),
         lambda start: start.v1,
-        lambda found: found.friction * found.v2,
+        lambda found: found.velocity_scale,
     )
 
 
 def normal_force_rate():
-    """Eq. 20: its integral from t2 to either end is the change of the exact normal force."""
+    """Eq. 20: its integral over each half is the change of the exact normal force."""
     gaps = []
     nodes, weights = np.polynomial.legendre.leggauss(20)
     for found in contact.slip_stick_slip():
         kinks = [0.0, found.compression_time, (1 + found.restitution) * found.compression_time]
-        forces = [found.first(kind).force_2 for kind in (EventKind.CONTACT,)]
-        forces += [found.first(EventKind.MAXIMUM_COMPRESSION).force_2, 0.0]
+        ends = EventKind.CONTACT, EventKind.MAXIMUM_COMPRESSION, EventKind.SEPARATION
+        forces = [found.first(kind).force_2 for kind in ends]
         for start, end, before, after in zip(kinks, kinks[1:], forces, forces[1:], strict=False):
             half = (end - start) / 2
             change = half * float(weights @ _normal_rate(found, start + half * (1 + nodes)))
@@ -252,8 +241,8 @@ def second_stick():
         elapsed, given = path.t - start.t, (start.u1, start.v1)
         velocity = slip.eq_22a_velocity(elapsed, *given, omega)
         force = slip.eq_22b_force(elapsed, *given, found.m1, omega)
-        gaps.append((velocity - path.v1) / (found.friction * found.v2))
-        gaps.append((force - path.force_1) / (found.friction * found.force_scale))
+        gaps.append((velocity - path.v1) / found.velocity_scale)
+        gaps.append((force - path.force_1) / found.friction_scale)
     return Finding(largest(gaps))
 
 
@@ -283,8 +272,8 @@ def final_velocity_after_second_slip():
     """Eq. 24 against the exact rebound; corrected with s at the onset of slip."""
     printed, corrected = [], []
     for found in contact.slip_stick_slip():
-        onset, scale = found.last(EventKind.SLIP), found.friction * found.v2
-        left, groups = _impulse_left(found, onset.t), (found.friction, found.m1)
+        onset, scale = found.last(EventKind.SLIP), found.velocity_scale
+        left, groups = found.impulse_left(onset.t), (found.friction, found.m1)
         final = slip.eq_24_final_velocity(onset.v1, left, *groups)
         printed.append((final - found.final_velocity) / scale)
         signed = found.last_slip_direction * left
@@ -297,8 +286,8 @@ def rebound_after_second_slip():
     """Eq. 25 against the exact rebound; corrected with s at the onset of slip."""
     printed, corrected = [], []
     for found in contact.slip_stick_slip():
-        onset, scale = found.last(EventKind.SLIP), found.friction * found.v2
-        share = _impulse(found, onset.t) / (-found.m2 * found.v2)
+        onset, scale = found.last(EventKind.SLIP), found.velocity_scale
+        share = found.impulse(onset.t) / (-found.m2 * found.v2)
         exact, e, beta = found.final_velocity / scale, found.restitution, found.mass_ratio
         printed.append(slip.eq_25_rebound(onset.v1 / scale, share, beta, e) - exact)
         right = onset.v1 / scale + found.last_slip_direction * beta * (1 + e - share)
@@ -310,7 +299,7 @@ def rebound_after_slip_throughout():
     """Eqs 26 and 27 against the exact rebound above the printed limit."""
     gaps = []
     for found in contact.slip_throughout():
-        scale, e = found.friction * found.v2, found.restitution
+        scale, e = found.velocity_scale, found.restitution
         compression = -found.m2 * found.v2
         groups = compression, found.friction, found.m1, e
         final = slip.eq_26_final_velocity(found.v1, *groups)

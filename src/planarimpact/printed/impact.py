@@ -12,7 +12,7 @@ import numpy as np
 
 from planarimpact import checks, lumped
 from planarimpact.printed import dissipation, dynamics, peak_force, slip
-from planarimpact.results import EventKind, Regime
+from planarimpact.results import EventKind
 
 
 class Instants(NamedTuple):
@@ -75,10 +75,10 @@ def _solved(x, beta, zeta2, e, limit):
 
 def _instants(x, beta, zeta2, e):
     """Instants of the exact contact, None where its first slip never ends."""
-    if lumped.rebound(x, beta, zeta2, e).regime == Regime.SLIP_THROUGHOUT:
-        return None
     events = lumped.history(x, beta, zeta2, e, samples=2).events
-    stick = [event.time for event in events if event.kind == EventKind.STICK][0]
+    stick = next((event.time for event in events if event.kind == EventKind.STICK), None)
+    if stick is None:
+        return None
     slips = [event.time for event in events if event.kind == EventKind.SLIP]
     # The paper has no third slip.
     after = next((time for time in slips if time > stick), 1 + e)

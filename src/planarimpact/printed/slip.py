@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from planarimpact.printed.dynamics import restitution_angle
+from planarimpact.printed.dynamics import eq_7b_velocity, eq_7c_force, restitution_angle
 
 
 def eq_10a_force_ratio(t1, incidence, stiffness_ratio, normal_frequency, tangential_frequency):
@@ -114,8 +114,7 @@ def stick_force_rate(elapsed, u1_t2, v1_t2, m1, tangential_frequency):
     >>> float(stick_force_rate(0.0, 0.0, -1.0, 2.0, 3.0))
     18.0
     """
-    angle = tangential_frequency * elapsed
-    turned = tangential_frequency * u1_t2 * np.sin(angle) + v1_t2 * np.cos(angle)
+    turned = eq_7b_velocity(elapsed, u1_t2, v1_t2, tangential_frequency)
     return -m1 * tangential_frequency**2 * turned
 
 
@@ -188,24 +187,21 @@ def eq_21_incidence(t2, mass_ratio, stiffness_ratio, normal_frequency, restituti
 
 
 def eq_22a_velocity(elapsed, u1_t2, v1_t2, tangential_frequency):
-    """Eq. 22a: v1 in the stick that begins at t2; `elapsed` is t - t2.
+    """Eq. 22a: v1 in the stick that begins at t2, Eq. 7b from there; `elapsed` is t - t2.
 
     >>> float(eq_22a_velocity(0.0, 0.3, -1.0, 2.0))
     -1.0
     """
-    angle = tangential_frequency * elapsed
-    return tangential_frequency * u1_t2 * np.sin(angle) + v1_t2 * np.cos(angle)
+    return eq_7b_velocity(elapsed, u1_t2, v1_t2, tangential_frequency)
 
 
 def eq_22b_force(elapsed, u1_t2, v1_t2, m1, tangential_frequency):
-    """Eq. 22b: F1 in the stick that begins at t2.
+    """Eq. 22b: F1 in the stick that begins at t2, Eq. 7c from there.
 
     >>> float(eq_22b_force(0.0, 0.5, -1.0, 1.0, 2.0))
     2.0
     """
-    angle = tangential_frequency * elapsed
-    stretch = tangential_frequency * u1_t2 * np.cos(angle) - v1_t2 * np.sin(angle)
-    return m1 * tangential_frequency * stretch
+    return eq_7c_force(elapsed, u1_t2, v1_t2, m1, tangential_frequency)
 
 
 def eq_23_sides(
