@@ -9,7 +9,6 @@ formulas as printed, for verification, and `ledger` checks what is right and wro
 from planarimpact.checks import ConvergenceError, InputError
 from planarimpact.results import (
     ContinuumHistory,
-    ContinuumRebound,
     Event,
     EventKind,
     History,
@@ -19,7 +18,6 @@ from planarimpact.results import (
 
 __all__ = [
     "ContinuumHistory",
-    "ContinuumRebound",
     "ConvergenceError",
     "Event",
     "EventKind",

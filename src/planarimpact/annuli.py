@@ -20,7 +20,7 @@ from scipy.special import beta as beta_function
 from scipy.special import betaincinv
 
 from planarimpact import checks
-from planarimpact.results import ContinuumRebound, Regime
+from planarimpact.results import Rebound, Regime
 
 IMPACTS_TOGETHER = 256  # bounds the memory of their systems of equations
 MOST_TRIALS = 100
@@ -28,13 +28,15 @@ STEPS_A_RADIAN = 1  # of the tangential oscillation; explicit steps are unstable
 ROUNDING = 1e-12
 
 
-def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, circles=32, steps=512):
-    """State at separation; the three groups broadcast.
+def rebound(
+    incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, circles=32, steps=512
+):
+    """State at separation; the groups broadcast.
 
     Parameters
     ----------
-    incidence, mass_ratio, stiffness_ratio : array_like
-        x, beta and zeta^2, as in `planarimpact.continuum.rebound`.
+    incidence, mass_ratio, stiffness_ratio, restitution : array_like
+        x, beta, zeta^2 and e = 1, as in `planarimpact.continuum.rebound`.
     circles : int
         At least 1: circles over the largest contact, equally spaced.
     steps : int
@@ -43,7 +45,7 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, circles=32, steps=5
 
     Returns
     -------
-    ContinuumRebound
+    Rebound
         As `planarimpact.continuum.rebound`; peak_friction is the largest at a step.
 
     Raises
@@ -69,8 +71,11 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, circles=32, steps=5
     >>> round(float(rebound(2.0).velocity), 3)
     -0.666
     """
-    signed, beta, zeta2 = checks.groups(
-        incidence=incidence, mass_ratio=mass_ratio, stiffness_ratio=stiffness_ratio
+    signed, beta, zeta2 = checks.elastic_groups(
+        incidence=incidence,
+        mass_ratio=mass_ratio,
+        stiffness_ratio=stiffness_ratio,
+        restitution=restitution,
     )
     circles = checks.count("circles", circles, 1)
     needed = STEPS_A_RADIAN * np.pi * np.sqrt(np.max(beta / zeta2, initial=1.0))
@@ -81,7 +86,7 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, circles=32, steps=5
         _impacts(*groups, circles, steps)
         for groups in zip(*(np.split(a, cuts) for a in (x, beta, zeta2)), strict=True)
     ]
-    return ContinuumRebound.of(signed, *map(np.concatenate, zip(*parts, strict=True)))
+    return Rebound.of(signed, *map(np.concatenate, zip(*parts, strict=True)))
 
 
 def friction(radius, displacement, circles=32):

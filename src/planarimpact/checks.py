@@ -83,6 +83,11 @@ def restitution(value):
     return checked("restitution", value, "numbers from 0 to 1", 0, 1)
 
 
+def elastic(value):
+    """Check the restitution of a contact that is elastic whatever happens: e = 1."""
+    return checked("restitution", value, "the number 1: this contact is elastic", 1, 1)
+
+
 def groups(**given):
     """Check groups of an impact, each by the rule of its name, and broadcast them.
 
@@ -108,6 +113,18 @@ def groups(**given):
     [3.5, 3.5]
     """
     return broadcast(**{name: RULES[name](value) for name, value in given.items()})
+
+
+def elastic_groups(*, restitution, **given):
+    """Check groups of an elastic contact as `groups` does; e must be 1 and is left out.
+
+    Examples
+    --------
+    >>> [x.tolist() for x in elastic_groups(incidence=2.0, restitution=[1, 1])]
+    [[2.0, 2.0]]
+    """
+    checked_groups = {name: RULES[name](value) for name, value in given.items()}
+    return broadcast(**checked_groups, restitution=elastic(restitution))[:-1]
 
 
 RULES = {

@@ -13,7 +13,7 @@ it impacts that slide throughout.
 import numpy as np
 
 from planarimpact import checks, hertz, lumped, tangential_motion
-from planarimpact.results import ContinuumHistory, ContinuumRebound, Regime
+from planarimpact.results import ContinuumHistory, Rebound, Regime
 
 FIRST_STEPS = 16
 MOST_STEPS = 2**15
@@ -22,8 +22,8 @@ STEPS_A_RADIAN = 4  # of the tangential oscillation, before an error estimate is
 CELLS = 2**20  # steps times impacts solved together: bounds the memory to some 100 MB
 
 
-def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-6):
-    """State at separation; the three groups broadcast.
+def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, tolerance=1e-6):
+    """State at separation; the groups broadcast.
 
     Parameters
     ----------
@@ -35,13 +35,15 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-6):
     stiffness_ratio : array_like
         zeta^2 > 0, normal over tangential stiffness; (2 - nu)/(2 (1 - nu)) for equal materials.
         In the variables of Maw et al. psi1 = x/zeta^2, chi = beta/(2 zeta^2).
+    restitution : array_like
+        1: the contact is elastic.
     tolerance : float
         Largest error allowed in velocity (mu v2(0)) and peak friction (mu F2max), by the
         solver's own estimate; above 0.
 
     Returns
     -------
-    ContinuumRebound
+    Rebound
         velocity, peak_friction, dissipation, regime, reversals, in the broadcast shape (scalars
         for scalars).
 
@@ -73,7 +75,13 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-6):
     >>> [round(float(w), 5) for w in result.velocity]
     [0.06343, -0.66592, 1.0]
     """
-    signed, beta, zeta2, tolerance = _checked(incidence, mass_ratio, stiffness_ratio, tolerance)
+    groups = checks.elastic_groups(
+        incidence=incidence,
+        mass_ratio=mass_ratio,
+        stiffness_ratio=stiffness_ratio,
+        restitution=restitution,
+    )
+    signed, beta, zeta2, tolerance = _checked(*groups, tolerance)
     size, beta, zeta2 = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2))
     velocity, impulse, *found = _at_limits(size, beta, zeta2)
     rest = np.flatnonzero(found[1] == _UNSOLVED)
@@ -83,7 +91,7 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-6):
     impulse[rest] = (size - velocity)[rest] / beta[rest]
     for array, values in zip(found, fine, strict=True):
         array[rest] = values
-    return ContinuumRebound.of(signed, velocity, impulse, *found)
+    return Rebound.of(signed, velocity, impulse, *found)
 
 
 def fixed_steps(incidence, mass_ratio=3.5, stiffness_ratio=1.21, steps=128, extrapolate=False):

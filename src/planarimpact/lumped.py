@@ -9,7 +9,7 @@ on it with Coulomb friction. `planarimpact.stick_slip` holds the phases,
 import numpy as np
 
 from planarimpact import checks, normal, stick_slip
-from planarimpact.results import Event, EventKind, History, Rebound, Regime
+from planarimpact.results import Event, EventKind, History, Rebound
 
 # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
 CHUNK = 16384
@@ -50,30 +50,22 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
 
     Examples
     --------
+    >>> from planarimpact import Regime
     >>> result = rebound([0.5, 2.0, 8.0])
     >>> [Regime(code).name for code in result.regime]
     ['STICK_SLIP', 'SLIP_STICK_SLIP', 'SLIP_THROUGHOUT']
     >>> float(result.velocity[2])  # x - (1 + e) beta
     1.0
     """
-    x, beta, zeta2, e = _checked(incidence, mass_ratio, stiffness_ratio, restitution)
-    velocity, peak, dissipation = (np.empty(x.shape) for _ in range(3))
-    regime = np.empty(x.shape, np.uint8)
-    arrays = [a.reshape(-1) for a in (x, beta, zeta2, e)]
-    flat = [a.reshape(-1) for a in (velocity, peak, dissipation, regime)]
+    x, *groups = _checked(incidence, mass_ratio, stiffness_ratio, restitution)
+    groups = [np.abs(x).reshape(-1), *(group.reshape(-1) for group in groups)]
+    velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
+    regime = np.empty(x.size, np.uint8)
     for start in range(0, x.size, CHUNK):
         part = slice(start, start + CHUNK)
-        signed, *groups = (a[part] for a in arrays)
-        size = np.abs(signed)
-        outcome, impulse = stick_slip.solve(stick_slip.Impacts(size, *groups))
-        flat[0][part] = np.copysign(1.0, signed) * outcome.velocity
-        flat[1][part] = outcome.peak_friction
-        # Stronge's theorem (the paper's footnote): work = impulse times the mean velocity.
-        flat[2][part] = impulse * (size / 2 + outcome.velocity / 2)
-        flat[3][part] = outcome.regime
-    if x.ndim == 0:
-        return Rebound(velocity[()], peak[()], dissipation[()], Regime(int(regime)))
-    return Rebound(velocity, peak, dissipation, regime)
+        outcome, impulse[part] = stick_slip.solve(stick_slip.Impacts(*(a[part] for a in groups)))
+        velocity[part], peak[part], regime[part] = outcome
+    return Rebound.of(x, velocity, impulse, peak, regime)
 
 
 def slip_throughout_limit(mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):

@@ -11,7 +11,8 @@ class Regime(IntEnum):
 
     The paper's three regimes are STICK_SLIP, SLIP_STICK_SLIP and SLIP_THROUGHOUT. The others
     complete them: a contact that ends in stick (e = 0, or no tangential compliance), and
-    MULTIPLE, where stick comes back a second time. A normal impact, x = 0, is STICK.
+    MULTIPLE, where stick comes back a second time. A normal impact, x = 0, is STICK. A law of
+    impulses alone leaves the order UNRESOLVED.
 
     Examples
     --------
@@ -25,6 +26,7 @@ class Regime(IntEnum):
     SLIP_STICK_SLIP = 3
     SLIP_THROUGHOUT = 4
     MULTIPLE = 5
+    UNRESOLVED = 6
 
 
 class Rebound(NamedTuple):
@@ -36,57 +38,43 @@ class Rebound(NamedTuple):
         w(tf) = v1(tf)/(mu v2(0)), tangential velocity of the contact point; positive in the
         direction of a positive incidence, negative when it has turned round.
     peak_friction : ndarray of float64 or float
-        Largest |F1| over the contact, in mu times the largest normal force, m2 Omega |v2(0)|;
-        between 0 and 1.
+        Largest |F1| over the contact, in mu times the largest normal force (m2 Omega |v2(0)| where
+        the normal contact is linear); between 0 and 1. NaN where a law of impulses alone leaves
+        it open.
     dissipation : ndarray of float64 or float
         Work of friction in mu^2 m2 v2(0)^2, from the exact balance of tangential energy. For
         e = 0 it includes the tangential strain energy that is lost at separation.
     regime : ndarray of uint8 or Regime
-        Codes of `Regime`.
+        Codes of `Regime`. In a contact with micro-slip, slip means gross slip, of the whole
+        contact, and stick that some of it sticks.
+    reversals : ndarray of int64, int or None
+        How often the tangential force changes its sign, as far as the steps of the solver tell;
+        None where the model does not count.
     """
 
     velocity: np.ndarray
     peak_friction: np.ndarray
     dissipation: np.ndarray
     regime: np.ndarray
-
-
-class ContinuumRebound(NamedTuple):
-    """The state at separation of an elastic continuum (e = 1); entries as in `Rebound`.
-
-    Attributes
-    ----------
-    velocity, dissipation : ndarray of float64 or float
-        As in `Rebound`.
-    peak_friction : ndarray of float64 or float
-        Largest |F1| over the contact, in mu times the largest normal force; between 0 and 1.
-    regime : ndarray of uint8 or Regime
-        Codes of `Regime`, where slip means gross slip, of the whole contact, and stick that
-        some of it sticks.
-    reversals : ndarray of int64 or int
-        How often the tangential force changes its sign, as far as the steps of the solver tell.
-    """
-
-    velocity: np.ndarray
-    peak_friction: np.ndarray
-    dissipation: np.ndarray
-    regime: np.ndarray
-    reversals: np.ndarray
+    reversals: np.ndarray | None = None
 
     @classmethod
-    def of(cls, incidence, velocity, impulse, peak_friction, regime, reversals):
+    def of(cls, incidence, velocity, impulse, peak_friction, regime, reversals=None):
         """Put together what a solver found for |x|, flat, in the shape and sign of `incidence`.
 
-        `impulse` is that of friction, in mu m2 |v2(0)|; with the mean velocity it gives the work.
+        `impulse` is that of friction, in mu m2 |v2(0)|. Times the mean velocity it is the work:
+        Stronge's theorem (the paper's footnote).
         """
         size = np.abs(incidence).reshape(-1)
         work = impulse * (size / 2 + velocity / 2)
         velocity = velocity * np.copysign(1.0, incidence.reshape(-1))
-        fields = velocity, peak_friction, work, regime, reversals
+        fields = velocity, peak_friction, work, regime
         if incidence.ndim == 0:
-            *numbers, code, count = (field[0] for field in fields)
-            return cls(*numbers, Regime(int(code)), int(count))
-        return cls(*(field.reshape(incidence.shape) for field in fields))
+            *numbers, code = (field[0] for field in fields)
+            count = None if reversals is None else int(reversals[0])
+            return cls(*numbers, Regime(int(code)), count)
+        count = None if reversals is None else reversals.reshape(incidence.shape)
+        return cls(*(field.reshape(incidence.shape) for field in fields), count)
 
 
 class EventKind(StrEnum):

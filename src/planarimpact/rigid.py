@@ -10,7 +10,7 @@ from planarimpact import checks
 from planarimpact.results import Rebound, Regime
 
 
-def rebound(incidence, mass_ratio=3.5, restitution=1.0):
+def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
     """State at separation; all arguments broadcast.
 
     Parameters
@@ -19,6 +19,9 @@ def rebound(incidence, mass_ratio=3.5, restitution=1.0):
         x = v1(0)/(mu v2(0)); any finite number, negative for the mirror image.
     mass_ratio : array_like
         beta = m2/m1 >= 1.
+    stiffness_ratio : array_like
+        zeta^2 > 0; it plays no part, its limit being 0, and is there for the sake of one
+        calling convention.
     restitution : array_like
         Energetic coefficient e, 0 to 1.
 
@@ -39,19 +42,18 @@ def rebound(incidence, mass_ratio=3.5, restitution=1.0):
     >>> [float(w) for w in rebound([2.0, 8.0]).velocity]
     [0.0, 1.0]
     """
-    signed, beta, e = checks.groups(
-        incidence=incidence, mass_ratio=mass_ratio, restitution=restitution
+    signed, beta, _, e = checks.groups(
+        incidence=incidence,
+        mass_ratio=mass_ratio,
+        stiffness_ratio=stiffness_ratio,
+        restitution=restitution,
     )
-    x = np.abs(signed)
+    x, beta, e = (a.reshape(-1) for a in (np.abs(signed), beta, e))
     impulse_to_halt = x / beta
     slides = impulse_to_halt >= 1 + e
     final = np.where(slides, x - (1 + e) * beta, 0.0)
     compressed = np.minimum(impulse_to_halt, 1.0)
     peak = np.sqrt(compressed * (2 - compressed))
-    dissipation = np.minimum(impulse_to_halt, 1 + e) * (x / 2 + final / 2)
     halted = np.where(x > 0, Regime.SLIP_STICK, Regime.STICK)
     regime = np.where(slides, Regime.SLIP_THROUGHOUT, halted).astype(np.uint8)
-    velocity = np.copysign(1.0, signed) * final
-    if x.ndim == 0:
-        return Rebound(velocity[()], peak[()], dissipation[()], Regime(int(regime)))
-    return Rebound(velocity, peak, dissipation, regime)
+    return Rebound.of(signed, final, np.minimum(impulse_to_halt, 1 + e), peak, regime)

@@ -28,14 +28,16 @@ def seconds(work):
 
 
 def main():
-    exact = continuum.rebound(*GROUPS, 1e-8).velocity
+    exact = continuum.rebound(*GROUPS, tolerance=1e-8).velocity
     unit, simple = seconds(lambda: lumped.rebound(*GROUPS).velocity)
     _print("lumped model", unit, unit, simple - exact)
     for tolerance in (1e-2, 1e-4, 1e-6):
-        taken, found = seconds(lambda t=tolerance: continuum.rebound(*GROUPS, t).velocity)
+        taken, found = seconds(lambda t=tolerance: continuum.rebound(*GROUPS, tolerance=t).velocity)
         _print(f"continuum, tolerance {tolerance:g}", taken, unit, found - exact)
     for circles, steps in ((16, 256), (32, 1024)):
-        taken, found = seconds(lambda c=circles, s=steps: annuli.rebound(*GROUPS, c, s).velocity)
+        taken, found = seconds(
+            lambda c=circles, s=steps: annuli.rebound(*GROUPS, circles=c, steps=s).velocity
+        )
         _print(f"annuli, {circles} circles, {steps} steps", taken, unit, found - exact)
 
 

@@ -23,7 +23,9 @@ SIGMA = 1e-4
 
 def table(stiffness_ratio, incidence=INCIDENCE):
     """Velocity at separation by annuli, after `continuum` has agreed."""
-    found = annuli.rebound(incidence, MASS_RATIO, stiffness_ratio, CIRCLES, STEPS).velocity
+    found = annuli.rebound(
+        incidence, MASS_RATIO, stiffness_ratio, circles=CIRCLES, steps=STEPS
+    ).velocity
     check = continuum.rebound(incidence, MASS_RATIO, stiffness_ratio).velocity
     difference = float(np.max(np.abs(found - check)))
     if difference > SIGMA:

@@ -127,16 +127,17 @@ def test_annuli_converge_with_the_square_of_the_circles():
     x = np.array([2.0, 3.0, 4.0])  # where the steps matter least
     exact = continuum.rebound(x, 3.5, STEEL).velocity
     error = [
-        np.max(np.abs(annuli.rebound(x, 3.5, STEEL, n, 4096).velocity - exact)) for n in (8, 16, 32)
+        np.max(np.abs(annuli.rebound(x, 3.5, STEEL, circles=n, steps=4096).velocity - exact))
+        for n in (8, 16, 32)
     ]
     assert all(3.0 < a / b < 5.5 for a, b in zip(error, error[1:], strict=False)), error
 
 
 def test_annuli_converge_with_the_steps():
     x = np.array([0.5, 0.9, 1.2])  # where the steps matter most
-    finest = annuli.rebound(x, 3.5, STEEL, 24, 8192).velocity
+    finest = annuli.rebound(x, 3.5, STEEL, circles=24, steps=8192).velocity
     error = [
-        np.max(np.abs(annuli.rebound(x, 3.5, STEEL, 24, n).velocity - finest))
+        np.max(np.abs(annuli.rebound(x, 3.5, STEEL, circles=24, steps=n).velocity - finest))
         for n in (256, 512, 1024)
     ]
     assert all(2.0 < a / b < 4.5 for a, b in zip(error, error[1:], strict=False)), error
@@ -160,9 +161,9 @@ def test_thresholds_of_the_regimes(zeta2):
     assert list(end) == [Regime.SLIP_STICK_SLIP, Regime.SLIP_THROUGHOUT]
     # The scheme that knows no threshold finds them too.
     apart = 1 + np.array([-0.02, 0.02])
-    start = annuli.rebound(zeta2 * apart, 3.5, zeta2, 16, 4096).regime
+    start = annuli.rebound(zeta2 * apart, 3.5, zeta2, circles=16, steps=4096).regime
     assert list(start) == [Regime.STICK_SLIP, Regime.SLIP_STICK_SLIP]
-    end = annuli.rebound(zeta2 * (4 * chi - 1) * apart, 3.5, zeta2, 16, 4096).regime
+    end = annuli.rebound(zeta2 * (4 * chi - 1) * apart, 3.5, zeta2, circles=16, steps=4096).regime
     assert list(end) == [Regime.SLIP_STICK_SLIP, Regime.SLIP_THROUGHOUT]
 
 

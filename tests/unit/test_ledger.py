@@ -53,7 +53,7 @@ def test_hertz_contact_without_micro_slip():
     """Its limits, and the two effects that README and ledger quote: 0.39 and 0.52."""
     x = np.linspace(0, 8, 161)
     velocity, peak = hertz_contact.rebound(x, 3.5, 1.21)
-    exact = continuum.rebound(x, 3.5, 1.21, 1e-5)
+    exact = continuum.rebound(x, 3.5, 1.21, tolerance=1e-5)
     assert np.abs(velocity - x + 7)[x >= 7].max() < 1e-3  # slip throughout
     assert velocity[0] == peak[0] == 0
     assert np.abs(peak - exact.peak_friction).max() < 1e-3

@@ -62,7 +62,7 @@ def test_distance_of_lumped_model_and_continuum_is_as_printed():
         edges = [0.0, zeta2, 3.5, 7 - zeta2, 10.0]
         for row, low, high in zip(rows, edges, edges[1:], strict=False):
             x = np.linspace(low, high, 500)
-            exact = continuum.rebound(x, 3.5, zeta2, 1e-5).velocity
+            exact = continuum.rebound(x, 3.5, zeta2, tolerance=1e-5).velocity
             gap = lumped.rebound(x, 3.5, zeta2).velocity - exact
             found = np.sqrt(np.mean(gap**2)), np.max(np.abs(gap))
             assert [f"{g:.3f}" for g in found] == [f"{float(c):.3f}" for c in row[column:][:2]]

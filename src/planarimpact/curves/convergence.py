@@ -45,7 +45,7 @@ def curves(mass_ratio, stiffness_ratio, samples, tolerance, steps, circles, fixe
     limit = float(lumped.slip_throughout_limit(mass_ratio, zeta2))
     x = np.linspace(0, limit, samples + 2)[1:-1]
     groups = x, mass_ratio, zeta2
-    exact = continuum.rebound(*groups, tolerance).velocity
+    exact = continuum.rebound(*groups, tolerance=tolerance).velocity
 
     def plain(n):
         return continuum.fixed_steps(*groups, n)
@@ -54,10 +54,10 @@ def curves(mass_ratio, stiffness_ratio, samples, tolerance, steps, circles, fixe
         return continuum.fixed_steps(*groups, n, extrapolate=True)
 
     def by_circles(n):
-        return annuli.rebound(*groups, n, fixed["steps"]).velocity
+        return annuli.rebound(*groups, circles=n, steps=fixed["steps"]).velocity
 
     def by_steps(n):
-        return annuli.rebound(*groups, fixed["circles"], n).velocity
+        return annuli.rebound(*groups, circles=fixed["circles"], steps=n).velocity
 
     named = {
         "row of springs": _errors(plain, "steps [1]", steps, exact),

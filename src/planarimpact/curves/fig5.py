@@ -1,5 +1,7 @@
 """Fig. 5: tangential velocity at separation against incidence, e = 1."""
 
+from functools import partial
+
 import numpy as np
 
 from planarimpact import continuum, lumped, rigid
@@ -59,18 +61,23 @@ def curves(
     limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution)
     limits = limit, printed_limit(mass_ratio, restitution)
     x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limits)
-    spring, elastic = rubber["stiffness_ratio"], continuum.rebound
+    spring = rubber["stiffness_ratio"]
+    elastic = partial(continuum.rebound, tolerance=tolerance)
     groups = mass_ratio, stiffness_ratio
     exact = lumped.rebound(x, *groups, restitution)
     named = {
         "lumped": _sphere(x, exact, mass_ratio),
-        "no tangential compliance": _velocity(x, rigid.rebound(x, mass_ratio, restitution)),
-        "continuum": _sphere(x, elastic(x, *groups, tolerance), mass_ratio),
+        "no tangential compliance": _velocity(
+            x, rigid.rebound(x, mass_ratio, restitution=restitution)
+        ),
+        "continuum": _sphere(x, elastic(x, *groups), mass_ratio),
         "lumped, rubber": _velocity(x, lumped.rebound(x, mass_ratio, spring, restitution)),
-        "continuum, rubber": _velocity(x, elastic(x, mass_ratio, spring, tolerance)),
+        "continuum, rubber": _velocity(x, elastic(x, mass_ratio, spring)),
         "lumped, experiment": _experiment(samples, lumped.rebound, **experiment),
         "continuum, experiment": _experiment(
-            samples, lambda x, beta, zeta2, e: elastic(x, beta, zeta2, tolerance), **experiment
+            samples,
+            lambda x, beta, zeta2, e: elastic(x, beta, zeta2, tolerance=tolerance),
+            **experiment,
         ),
     }
     if as_printed:

@@ -59,7 +59,7 @@ def curves(
             share = 2 * (mu * np.cos(np.radians(theta))) ** 2
             lost = lumped.rebound(x, mass_ratio, stiffness_ratio, e).dissipation
             work = [lumped.friction_work(value, mass_ratio, stiffness_ratio, e) for value in x]
-            rough = rigid.rebound(x, mass_ratio, e).dissipation
+            rough = rigid.rebound(x, mass_ratio, restitution=e).dissipation
             pair = f"{name('mu', mu)}, {name('e', e)}"
             named[pair] = {
                 "angle [deg]": theta,

@@ -189,7 +189,8 @@ def small_incidence():
     beta, zeta2 = contact.SPHERE
     x = np.linspace(0, zeta2, 201)[1:]
     ratios = [
-        lumped.rebound(x, beta, zeta2, e).dissipation / rigid.rebound(x, beta, e).dissipation
+        lumped.rebound(x, beta, zeta2, e).dissipation
+        / rigid.rebound(x, beta, restitution=e).dissipation
         for e in RESTITUTIONS
     ]
     return Finding(float(np.min(ratios)))
@@ -200,7 +201,7 @@ def compliance_immaterial():
     gaps = []
     for e in contact.RESTITUTIONS:
         x = slip.slip_throughout_limit(contact.MASS_RATIO, e) * np.array([1.0, 1.1, 3.0])
-        hard = rigid.rebound(x, contact.MASS_RATIO, e).dissipation
+        hard = rigid.rebound(x, contact.MASS_RATIO, restitution=e).dissipation
         gaps.append(lumped.rebound(x, *contact.SPHERE, e).dissipation / hard - 1)
     return Finding(largest(gaps))
 
@@ -243,7 +244,7 @@ def rigid_independence():
     for e in contact.RESTITUTIONS:
         x = (1 + e) * beta * np.array([0.1, 0.5, 0.98])
         for lost in (
-            rigid.rebound(x, beta, e),
+            rigid.rebound(x, beta, restitution=e),
             lumped.rebound(x, beta, 1e-4, e),
         ):
             gaps.append(lost.dissipation / (x**2 / (2 * beta)) - 1)

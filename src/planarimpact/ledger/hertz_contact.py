@@ -15,7 +15,7 @@ STEPS = 4000
 
 
 class HertzRebound(NamedTuple):
-    """State at separation, arrays; units as in `planarimpact.ContinuumRebound`."""
+    """State at separation, arrays; units as in `planarimpact.Rebound`."""
 
     velocity: np.ndarray
     peak_friction: np.ndarray

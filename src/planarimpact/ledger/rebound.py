@@ -154,7 +154,10 @@ def reversal_without_compliance():
     The lower one of the rigid limit and of the lumped model with zeta^2 = 1e-4.
     """
     x, e = INCIDENCE[::10], np.linspace(0, 1, 6)[:, None]
-    models = rigid.rebound(x, contact.MASS_RATIO, e), lumped.rebound(x, contact.MASS_RATIO, 1e-4, e)
+    models = (
+        rigid.rebound(x, contact.MASS_RATIO, restitution=e),
+        lumped.rebound(x, contact.MASS_RATIO, 1e-4, e),
+    )
     return Finding(float(min(found.velocity.min() for found in models)))
 
 
@@ -165,7 +168,9 @@ def rigid_rebound_limit():
     """
     gaps, beta = [], contact.MASS_RATIO
     for e in contact.RESTITUTIONS:
-        limit = boundary(lambda x, e=e: rigid.rebound(x, beta, e).velocity == 0, 0.0, 20.0)
+        limit = boundary(
+            lambda x, e=e: rigid.rebound(x, beta, restitution=e).velocity == 0, 0.0, 20.0
+        )
         motion = contact.normal_motion(e)
         impulse = motion.impulse[-1] / (-motion.found.m2 * motion.found.v2)
         gaps += [
@@ -179,7 +184,9 @@ def rigid_sequence():
     """Share of rigid contacts below (1 + e) beta that do not slip first and then stick."""
     e, beta = np.linspace(0, 1, 11)[:, None], contact.MASS_RATIO
     x = slip.slip_throughout_limit(beta, e) * np.linspace(0.001, 0.999, 50)
-    return Finding(float(np.mean(rigid.rebound(x, beta, e).regime != Regime.SLIP_STICK)))
+    return Finding(
+        float(np.mean(rigid.rebound(x, beta, restitution=e).regime != Regime.SLIP_STICK))
+    )
 
 
 def unaffected_velocity():
@@ -187,14 +194,17 @@ def unaffected_velocity():
     gaps, beta = [], contact.MASS_RATIO
     for e in (0.0, *contact.RESTITUTIONS):
         x = slip.slip_throughout_limit(beta, e) * np.array([1.0, 1.1, 3.0])
-        gap = lumped.rebound(x, *contact.SPHERE, e).velocity - rigid.rebound(x, beta, e).velocity
+        gap = (
+            lumped.rebound(x, *contact.SPHERE, e).velocity
+            - rigid.rebound(x, beta, restitution=e).velocity
+        )
         gaps.append(gap)
     return Finding(largest(gaps))
 
 
 def _models_apart():
     """Incidences of Fig. 5, and distance of lumped model and continuum there."""
-    exact = continuum.rebound(INCIDENCE, *contact.SPHERE, 1e-5).velocity
+    exact = continuum.rebound(INCIDENCE, *contact.SPHERE, tolerance=1e-5).velocity
     return INCIDENCE, np.abs(lumped.rebound(INCIDENCE, *contact.SPHERE).velocity - exact)
 
 
@@ -232,7 +242,9 @@ def micro_slip_matters():
     """
     x = INCIDENCE[::10]
     whole, _ = hertz_contact.rebound(x, *contact.SPHERE)
-    return Finding(largest([whole - continuum.rebound(x, *contact.SPHERE, 1e-4).velocity]))
+    return Finding(
+        largest([whole - continuum.rebound(x, *contact.SPHERE, tolerance=1e-4).velocity])
+    )
 
 
 def last_slip_prolonged():
@@ -256,7 +268,10 @@ def mostly_reversed():
     """
     limit = 2 * contact.MASS_RATIO - contact.STIFFNESS_RATIO
     x = INCIDENCE[limit >= INCIDENCE]
-    models = lumped.rebound(x, *contact.SPHERE), continuum.rebound(x, *contact.SPHERE, 1e-4)
+    models = (
+        lumped.rebound(x, *contact.SPHERE),
+        continuum.rebound(x, *contact.SPHERE, tolerance=1e-4),
+    )
     return Finding(float(min(np.mean(found.velocity < 0) for found in models)))
 
 
@@ -288,7 +303,7 @@ def continuum_reverses():
     """Lowest rebound velocity of the continuum and the lumped model, the higher of the two."""
     models = (
         lumped.rebound(INCIDENCE, *contact.SPHERE),
-        continuum.rebound(INCIDENCE, *contact.SPHERE, 1e-4),
+        continuum.rebound(INCIDENCE, *contact.SPHERE, tolerance=1e-4),
     )
     return Finding(float(max(found.velocity.min() for found in models)))
 
