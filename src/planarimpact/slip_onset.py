@@ -121,7 +121,9 @@ def _onset_behind_crest(eta, rho, amplitude, rate):
         rises = swing * force + friction * fall > 0
         excess = np.maximum(force - friction, 0.0)
         slope = fall + swing
-        step = 2 * excess / (np.sqrt(slope * slope + 2 * force * excess) + slope)
+        reach = np.sqrt(slope * slope + 2 * force * excess) + slope
+        # Both vanish together where |T| meets N tangentially, or at separation.
+        step = 2 * excess / np.maximum(reach, np.finfo(float).tiny)
         step = np.minimum(step, (np.pi - rho - rate * advance) / (2 * rate))
         small = step <= LAST_STEP**2 * eta
         found |= rises & small

@@ -1,0 +1,282 @@
+"""The ladder of models, from one formula to the elastic continuum, under one calling convention.
+
+Every rung is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)`,
+the four groups by position or name, its own settings by name, and returns a `Rebound`. What a
+rung costs and how far it is off is measured by the workflow (`results/trade.csv`), not promised
+here.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact import annuli, checks, continuum, laws, lumped, rigid, timestep
+
+
+class Model(NamedTuple):
+    """One rung.
+
+    Attributes
+    ----------
+    name : str
+        Module, and function where a module holds several.
+    rebound : callable
+        Its solver.
+    settings : dict
+        Its own settings and their defaults: what its accuracy and cost depend on.
+    cost : str
+        Class of cost: "formula", "phases" (a few phases in closed form), "steps", or "steps and
+        circles"; the last two grow with their settings.
+    restitution : (float, float)
+        Range of restitution that it admits.
+    valid : str
+        What it describes, and what it leaves out.
+    source : str
+        Where it comes from.
+    sliding_limit : callable or None
+        Incidence from which it slides throughout, w = x - (1 + e) beta, as a function of mass
+        ratio, stiffness ratio, restitution and settings; None where it never does so exactly.
+    kinks : callable
+        Incidences, by the same arguments, between which its answer is known to be smooth.
+    """
+
+    name: str
+    rebound: Callable
+    settings: dict
+    cost: str
+    restitution: tuple
+    valid: str
+    source: str
+    sliding_limit: Callable | None
+    kinks: Callable
+
+
+def get(name):
+    """The model of a name.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name.
+
+    Examples
+    --------
+    >>> get("lumped").cost
+    'phases'
+    >>> get("magic")
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, \
+laws.bilbao, lumped, timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, annuli
+    """
+    if name not in MODELS:
+        raise checks.InputError(f"model = {name!r}: allowed are {', '.join(MODELS)}")
+    return MODELS[name]
+
+
+def rebound(model, incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, **settings):
+    """State at separation by the model of a name.
+
+    Parameters
+    ----------
+    model : str
+        One of `MODELS`.
+    incidence, mass_ratio, stiffness_ratio, restitution : array_like
+        The four groups; they broadcast.
+    **settings
+        Those of the model; what is left out has its default.
+
+    Returns
+    -------
+    Rebound
+
+    Raises
+    ------
+    InputError
+        If there is no such model or setting, or as the model does.
+
+    Examples
+    --------
+    >>> float(rebound("rigid", 8.0).velocity)
+    1.0
+    >>> rebound("lumped", 8.0, steps=4)
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: steps = 4: lumped has no settings
+    """
+    chosen = get(model)
+    refuse_unknown(chosen, settings)
+    return chosen.rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
+
+
+def refuse_unknown(model, settings):
+    """Refuse settings that a model does not have."""
+    for key, value in settings.items():
+        if key not in model.settings:
+            known = f"the settings {', '.join(model.settings)}" if model.settings else "no settings"
+            raise checks.InputError(f"{key} = {value!r}: {model.name} has {known}")
+
+
+def _all_impulse(beta, zeta2, e, **settings):
+    """All of the normal impulse turns into friction: that of a contact without compliance."""
+    return (1 + e) * beta
+
+
+def _brach_limit(beta, zeta2, e, tangential_restitution=laws.BRACH_TANGENTIAL_RESTITUTION):
+    return (1 + e) * beta / (1 + tangential_restitution)
+
+
+def _compliant_limit(beta, zeta2, e, **settings):
+    return float(lumped.slip_throughout_limit(beta, zeta2, e))
+
+
+def _compliant_kinks(beta, zeta2, e, **settings):
+    return zeta2, beta, _compliant_limit(beta, zeta2, e)
+
+
+def _no_kinks(beta, zeta2, e, **settings):
+    return ()
+
+
+def _rigid_kinks(beta, zeta2, e, **settings):
+    return beta, (1 + e) * beta
+
+
+def _limit_alone(limit):
+    return lambda *groups, **settings: (limit(*groups, **settings),)
+
+
+_ANY, _ELASTIC = (0.0, 1.0), (1.0, 1.0)
+_STEPPED = "fixed time step, as discrete-element codes have it"
+_IMPULSES = "impulses alone: no forces, no order of stick and slip"
+
+MODELS = {
+    model.name: model
+    for model in (
+        Model(
+            "rigid",
+            rigid.rebound,
+            {},
+            "formula",
+            _ANY,
+            "no tangential compliance: the contact never turns round",
+            "Stronge 1994, Eqs 34, 35, 41",
+            _all_impulse,
+            _rigid_kinks,
+        ),
+        Model(
+            "laws.smith",
+            laws.smith,
+            {},
+            "formula",
+            _ANY,
+            _IMPULSES + "; tends to a perfect bounce, w = -x, at small incidence",
+            "C. E. Smith, J. Appl. Mech. 58 (1991) 754-758",
+            _all_impulse,
+            _limit_alone(_all_impulse),
+        ),
+        Model(
+            "laws.brach",
+            laws.brach,
+            {"tangential_restitution": laws.BRACH_TANGENTIAL_RESTITUTION},
+            "formula",
+            _ANY,
+            _IMPULSES + "; two straight lines, the first with a constant to be fitted",
+            "R. M. Brach, J. Appl. Mech. 56 (1989) 133-138; O. R. Walton 1993",
+            _brach_limit,
+            _limit_alone(_brach_limit),
+        ),
+        Model(
+            "laws.bilbao",
+            laws.bilbao,
+            {"tangential_restitution": laws.BILBAO_TANGENTIAL_RESTITUTION},
+            "formula",
+            _ANY,
+            _IMPULSES + "; an exponential with a constant to be fitted, our reconstruction",
+            "Bilbao et al. 1989, cited by Stronge 1994 without its formula",
+            None,
+            _no_kinks,
+        ),
+        Model(
+            "lumped",
+            lumped.rebound,
+            {},
+            "phases",
+            _ANY,
+            "linear springs, contact sticks and slips as a whole; exact to rounding",
+            "Stronge 1994",
+            _compliant_limit,
+            _compliant_kinks,
+        ),
+        Model(
+            "timestep.linear",
+            timestep.linear,
+            {"steps": timestep.STEPS},
+            "steps",
+            _ANY,
+            f"linear spring and slider, {_STEPPED}; tends to the lumped model",
+            "P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65",
+            None,
+            _compliant_kinks,
+        ),
+        Model(
+            "timestep.mindlin",
+            timestep.mindlin,
+            {"steps": timestep.STEPS},
+            "steps",
+            _ANY,
+            f"Hertz contact, friction in increments by Mindlin's stiffness, {_STEPPED}",
+            "R. D. Mindlin, J. Appl. Mech. 16 (1949) 259-268; as in LAMMPS, mindlin/force",
+            None,
+            _compliant_kinks,
+        ),
+        Model(
+            "timestep.mindlin_rescaled",
+            timestep.mindlin_rescaled,
+            {"steps": timestep.STEPS},
+            "steps",
+            _ANY,
+            "the same, the force rescaled with the radius of contact on unloading",
+            "C. Thornton et al., Powder Technology 233 (2013) 30-46; LAMMPS, mindlin_rescale/force",
+            None,
+            _compliant_kinks,
+        ),
+        Model(
+            "continuum",
+            continuum.rebound,
+            {"tolerance": 1e-6},
+            "steps",
+            _ELASTIC,
+            "elastic spheres with micro-slip, to a tolerance; no hysteresis",
+            "N. Maw et al., Wear 38 (1976) 101-114; V. L. Popov, M. Hess 2015",
+            _compliant_limit,
+            _compliant_kinks,
+        ),
+        Model(
+            "annuli",
+            annuli.rebound,
+            {"circles": 32, "steps": 512},
+            "steps and circles",
+            _ELASTIC,
+            "the same by the scheme of 1976, which shares no code: a check",
+            "N. Maw et al., Wear 38 (1976) 101-114",
+            None,
+            _compliant_kinks,
+        ),
+    )
+}
+
+
+def reference(restitution):
+    """Name of the model that others are measured against at a restitution.
+
+    The continuum where the contact is elastic; there is no theory of it with hysteresis, so for
+    e < 1 the lumped model, whose own distance from the continuum at e = 1 is up to 0.2.
+
+    Examples
+    --------
+    >>> reference(1.0), reference(0.9)
+    ('continuum', 'lumped')
+    """
+    return "continuum" if np.all(checks.restitution(restitution) == 1) else "lumped"

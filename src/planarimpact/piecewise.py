@@ -1,0 +1,262 @@
+"""Functions of one variable by polynomials between kinks, to a tolerance that is checked.
+
+Right of a kink the rebound of a compliant contact often bends like (x - kink)^(3/2): a phase of
+slip grows from nothing there. In the root of the distance from the kink on its left it is smooth,
+so each piece is a polynomial in sqrt(x - kink). Kinks that are not known in advance show as pieces
+that must be halved again and again; they are located, and the fit is made anew between them.
+"""
+
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from planarimpact.checks import ConvergenceError
+
+DEGREE = 7
+FIRST = 4  # parts of every span to begin with: few large batches cost less than many small
+NARROW = 1e-3  # of the whole: a span that is not divided at first
+DEEP = 7  # halvings of a part after which a kink is looked for in it
+DEEPEST = 40  # halvings that locate one
+ROUNDS = 8  # of locating kinks
+MOST_PIECES = 4096
+SAFETY = 2  # of the bound over the largest error found
+CELLS = 4096, 8192, 16384, 32768  # of the table that finds the piece of a point
+
+_NODES = np.cos(np.pi * (2 * np.arange(DEGREE + 1) + 1) / (2 * DEGREE + 2))
+_BETWEEN = np.cos(np.pi * np.arange(DEGREE + 2) / (DEGREE + 1))
+_INDEPENDENT = np.array([-0.983, -0.614, -0.127, 0.352, 0.791])
+_POINTS = np.concatenate([_NODES, _BETWEEN, _INDEPENDENT])
+_INSIDE = np.argsort(_POINTS)[1:-1]  # without the ends, where a label may be that of a neighbour
+_FROM_VALUES = np.linalg.inv(chebyshev.chebvander(_NODES, DEGREE))
+_ELSEWHERE = chebyshev.chebvander(_POINTS[DEGREE + 1 :], DEGREE)
+_POWERS = np.stack(
+    [
+        np.pad(chebyshev.cheb2poly(one[: i + 1]), (0, DEGREE - i))
+        for i, one in enumerate(np.eye(DEGREE + 1))
+    ]
+)
+
+
+class Pieces(NamedTuple):
+    """Polynomials over pieces of [0, end], in the variable sqrt(x - kink) - centre.
+
+    Attributes
+    ----------
+    start : ndarray, shape (pieces,)
+        Left ends, ascending from 0.
+    kink, centre : ndarray, shape (pieces,)
+        The kink nearest on the left, or 0, and the middle of the piece in sqrt(x - kink).
+    coefficients : ndarray, shape (functions, DEGREE + 1, pieces)
+        Of ascending powers.
+    label : ndarray of int, shape (pieces,)
+        What the function calls the points of the piece.
+    end : float
+    """
+
+    start: np.ndarray
+    kink: np.ndarray
+    centre: np.ndarray
+    coefficients: np.ndarray
+    label: np.ndarray
+    end: float
+
+
+class _Halves(NamedTuple):
+    """Parts of spans between kinks while they are fitted: ends in the root variable, and a fit."""
+
+    kink: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    depth: np.ndarray
+    coefficients: np.ndarray  # (parts, functions, DEGREE + 1), of Chebyshev polynomials
+    error: np.ndarray  # (parts, functions), largest at points that are no nodes
+    labels: np.ndarray  # (parts, points)
+
+    def points(self, at):
+        """Points x of every part, shape (parts, points), at places `at` in -1 to 1."""
+        middle, half = (self.low + self.high) / 2, (self.high - self.low) / 2
+        return self.kink[:, None] + (middle[:, None] + half[:, None] * at) ** 2
+
+    def take(self, chosen):
+        return _Halves(*(field[chosen] for field in self))
+
+
+def fit(function, kinks, tolerance, resolution=1e-13):
+    """Fit functions on a span by polynomials between kinks.
+
+    Parameters
+    ----------
+    function : callable
+        Takes x, shape (n,), ascending or not; returns values, shape (functions, n), and labels of
+        integer, shape (n,), which change at kinks.
+    kinks : sequence of float
+        Known ones, the ends of the span among them; the first is 0.
+    tolerance : float
+        Largest error allowed.
+    resolution : float
+        Precision, relative to the span, to which a change of label is located.
+
+    Returns
+    -------
+    pieces : Pieces
+    bound : ndarray, shape (functions,)
+        `SAFETY` times the largest error between the nodes of a piece; at five points of each, which
+        played no part in its acceptance either.
+
+    Raises
+    ------
+    ConvergenceError
+        If the function is too rough for the tolerance.
+
+    Examples
+    --------
+    >>> def bent(x):
+    ...     return np.abs(x - 1 / 3)[None] ** 1.5, np.zeros(x.size, int)
+    >>> pieces, bound = fit(bent, [0.0, 1.0], 1e-9)
+    >>> bool(bound[0] <= 2e-9), len(pieces.start) < 40
+    (True, True)
+    """
+    kinks, settled = sorted(set(map(float, kinks))), {}
+    span = kinks[-1]
+    for attempt in range(ROUNDS):
+        spans = [ends for ends in pairwise(kinks) if ends not in settled]
+        if not spans:
+            break
+        parts = _halve(function, spans, tolerance)
+        found = [*_changes_of_label(function, parts, resolution * span), *_located(parts)]
+        for left, right in spans:
+            inside = [x for x in found if left + resolution * span < x < right]
+            if attempt < ROUNDS - 1 and inside:
+                kinks += inside
+            else:
+                settled[left, right] = parts.take(parts.kink == left)
+        kinks = sorted(set(kinks))
+    parts = _Halves(*map(np.concatenate, zip(*settled.values(), strict=True)))
+    parts = parts.take(np.argsort(parts.kink + parts.low**2))
+    return _pieces(parts, span), SAFETY * parts.error.max(axis=0)
+
+
+def _halve(function, spans, tolerance):
+    """Parts of the spans, halved until their fits agree with the function between its nodes."""
+    left, right = np.array(spans).T
+    shares = np.where(right - left > NARROW * right[-1], FIRST, 1)
+    low = np.concatenate([np.arange(share) for share in shares])
+    left, width = np.repeat([left, np.sqrt(right - left) / shares], shares, axis=1)
+    low, count = low * width, left.size
+    blank = np.zeros((count, 0, DEGREE + 1)), np.zeros((count, 0)), np.zeros((count, 0))
+    todo = _Halves(left, low, low + width, np.zeros(count, int), *blank)
+    done, number = [], 0
+    while todo.low.size:
+        number += todo.low.size
+        if number > MOST_PIECES:
+            raise ConvergenceError(
+                f"tolerance = {tolerance:g}: not met with {MOST_PIECES} polynomials; the function "
+                "is too rough for it"
+            )
+        x = todo.points(_POINTS)
+        values, labels = function(x.reshape(-1))
+        values = values.reshape(len(values), *x.shape).swapaxes(0, 1)
+        coefficients = values[..., : DEGREE + 1] @ _FROM_VALUES.T
+        error = np.abs(coefficients @ _ELSEWHERE.T - values[..., DEGREE + 1 :])
+        todo = todo._replace(
+            coefficients=coefficients,
+            error=error.max(axis=2),
+            labels=labels.reshape(x.shape)[:, _INSIDE],
+        )
+        good = (error[..., : _BETWEEN.size].max(axis=(1, 2)) <= tolerance) | (todo.depth >= DEEPEST)
+        done.append(todo.take(good))
+        todo = _halved(todo.take(~good))
+    return _Halves(*map(np.concatenate, zip(*done, strict=True)))
+
+
+def _halved(parts):
+    middle, depth = (parts.low + parts.high) / 2, parts.depth + 1
+    below = parts._replace(high=middle, depth=depth)
+    above = parts._replace(low=middle, depth=depth)
+    return _Halves(*map(np.concatenate, zip(below, above, strict=True)))
+
+
+def _changes_of_label(function, parts, resolution):
+    """Where labels change within parts, by bisection."""
+    x, labels = parts.points(_POINTS[_INSIDE]), parts.labels
+    part, place = np.nonzero(labels[:, 1:] != labels[:, :-1])
+    low, high, label = x[part, place], x[part, place + 1], labels[part, place]
+    while (high - low > resolution).any():
+        middle = (low + high) / 2
+        same = function(middle)[1] == label
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return high.tolist()
+
+
+def _located(parts):
+    """Where parts had to be halved too often: both ends of the deepest of such neighbours."""
+    parts = parts.take(np.argsort(parts.kink + parts.low**2))
+    deep = np.flatnonzero(parts.depth > DEEP)
+    rows = np.split(deep, np.flatnonzero(np.diff(deep) > 1) + 1) if deep.size else []
+    deepest = parts.take(np.array([row[np.argmax(parts.depth[row])] for row in rows], dtype=int))
+    ends = deepest.kink + np.stack([deepest.low, deepest.high]) ** 2
+    return ends.ravel().tolist()
+
+
+def _pieces(parts, end):
+    half = (parts.high - parts.low) / 2
+    powers = (parts.coefficients @ _POWERS) / half[:, None, None] ** np.arange(DEGREE + 1)
+    return Pieces(
+        start=parts.kink + parts.low**2,
+        kink=parts.kink,
+        centre=(parts.low + parts.high) / 2,
+        coefficients=np.ascontiguousarray(powers.transpose(1, 2, 0)),
+        label=parts.labels[:, _INSIDE.size // 2],
+        end=end,
+    )
+
+
+class Piecewise:
+    """Evaluates `Pieces`: which piece, its variable, and one function there.
+
+    Examples
+    --------
+    >>> pieces, _ = fit(lambda x: (np.sqrt(x)[None], x.astype(int)), [0.0, 1.0, 2.0], 1e-12)
+    >>> found = Piecewise(pieces)
+    >>> x = np.array([0.25, 1.44])
+    >>> piece, root = found.find(x)
+    >>> found.value(0, piece, root).round(12).tolist(), pieces.label[piece].tolist()
+    ([0.5, 1.2], [0, 1])
+    """
+
+    def __init__(self, pieces):
+        self.pieces = pieces
+        self._following = np.append(pieces.start[1:], np.inf)
+        tables = [self._starts(cells) for cells in CELLS]
+        moves = [int(np.max(np.diff(table), initial=0)) for table in tables]
+        self._moves = min(moves)
+        self._table = tables[moves.index(self._moves)]
+        self._scale = (self._table.size - 2) / pieces.end
+
+    def _starts(self, cells):
+        """Piece at the left of each cell, and after the last one: where the search begins."""
+        left = np.arange(cells + 1) * (self.pieces.end / cells)
+        # A hair to the left: rounding must not skip a piece, only begin one too early.
+        first = np.searchsorted(self.pieces.start, left * (1 - 1e-14), side="right") - 1
+        return np.append(np.maximum(first, 0), len(self.pieces.start) - 1)
+
+    def find(self, x):
+        """Piece of each x in [0, end], and its variable there."""
+        piece = self._table.take((x * self._scale).astype(np.intp), mode="clip")
+        for _ in range(self._moves):
+            piece += x >= self._following.take(piece, mode="clip")
+        root = x - self.pieces.kink.take(piece, mode="clip")
+        np.sqrt(root, out=root)
+        root -= self.pieces.centre.take(piece, mode="clip")
+        return piece, root
+
+    def value(self, function, piece, root):
+        """One function there, by Horner's rule."""
+        rows = self.pieces.coefficients[function]
+        value = rows[-1].take(piece, mode="clip")
+        for row in rows[-2::-1]:
+            value *= root
+            value += row.take(piece, mode="clip")
+        return value

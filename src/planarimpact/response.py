@@ -1,0 +1,354 @@
+"""Compiled responses: the rebound of one pair of bodies as a table of polynomials.
+
+For given groups the rebound is a function of the incidence alone, smooth between a few kinks. A
+response holds it to a tolerance that is checked, and evaluates it in tens of nanoseconds an
+impact, whichever model it was made from. Slip throughout, where the model has it exactly, stays
+the formula that it is.
+"""
+
+import hashlib
+import json
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact import checks, ladder, piecewise
+from planarimpact.results import Rebound, Regime
+
+FORMAT, VERSION = "planarimpact response", 1
+CHUNK = 16384  # impacts evaluated together: they stay in the cache
+SHARE = 4  # of the tolerance for the model's own error, and for the fit at its first try
+
+
+class Bound(NamedTuple):
+    """Largest errors of a response against its model, as verified when it was built."""
+
+    velocity: float
+    peak_friction: float
+
+
+class Response:
+    """The rebound of one pair of bodies as a function of incidence; made by `compile` or `load`.
+
+    Attributes
+    ----------
+    model : str
+        Name of the model that it stands for.
+    parameters : dict
+        mass_ratio, stiffness_ratio, restitution, and the model's settings.
+    incidence_max : float
+        Largest |incidence| that it answers; infinite where the model slides throughout beyond.
+    tolerance : float
+        What was asked for.
+    error_bound : Bound
+        What was found: twice the largest difference from the model at points between those of
+        the fit, and the model's own tolerance where it has one.
+    """
+
+    def __init__(self, model, parameters, incidence_max, tolerance, error_bound, slides, pieces):
+        self.model = model
+        self.parameters = parameters
+        self.incidence_max = incidence_max
+        self.tolerance = tolerance
+        self.error_bound = error_bound
+        self._slides = slides  # incidence from which the formula of slip throughout holds, or inf
+        self._piecewise = piecewise.Piecewise(pieces)
+
+    def __repr__(self):
+        groups = ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
+        return f"<Response of {self.model}: {groups}; error {max(self.error_bound):.1e}>"
+
+    def __call__(self, incidence):
+        """State at separation, as the model's own `rebound` gives it.
+
+        Parameters
+        ----------
+        incidence : array_like
+            x = v1(0)/(mu v2(0)), any sign, |x| up to `incidence_max`.
+
+        Returns
+        -------
+        Rebound
+
+        Raises
+        ------
+        InputError
+            If an incidence is no finite number, or beyond `incidence_max`.
+
+        Examples
+        --------
+        >>> response = compile("lumped", incidence_max=20, tolerance=1e-9)
+        >>> result = response([0.0, 2.0, -2.0, 8.0])
+        >>> result.velocity.round(6).tolist()
+        [0.0, -0.577942, 0.577942, 1.0]
+        >>> [Regime(code).name for code in result.regime][1:]
+        ['SLIP_STICK_SLIP', 'SLIP_STICK_SLIP', 'SLIP_THROUGHOUT']
+        """
+        x = checks.incidence(incidence)
+        velocity, peak, regime = (np.empty(x.size) for _ in range(3))
+        for part, size, slides, piece, root in self._parts(x.reshape(-1)):
+            found = self._velocity(size, slides, piece, root)
+            velocity[part] = found
+            peak[part] = np.where(slides, 1.0, np.clip(self._fitted(1, piece, root), 0.0, 1.0))
+            labels = self._piecewise.pieces.label.take(piece)
+            regime[part] = np.where(slides, Regime.SLIP_THROUGHOUT, labels)
+            regime[part][size == 0] = Regime.STICK
+        impulse = (np.abs(x).reshape(-1) - velocity) / self.parameters["mass_ratio"]
+        return Rebound.of(x, velocity, impulse, peak, regime.astype(np.uint8))
+
+    def velocity(self, incidence):
+        """Velocity at separation alone: the fastest way to it.
+
+        Parameters, refusals and sign as for a call.
+
+        Returns
+        -------
+        ndarray of float64 or float
+            w(tf) = v1(tf)/(mu v2(0)).
+
+        Examples
+        --------
+        >>> float(compile("rigid", incidence_max=9, tolerance=1e-9).velocity(-8.0))
+        -1.0
+        """
+        given = np.asarray(incidence)
+        x = given if given.dtype == np.float64 else checks.incidence(incidence)
+        flat = x.reshape(-1)
+        velocity = np.empty(flat.size)
+        for part, size, slides, piece, root in self._parts(flat):
+            found = self._velocity(size, slides, piece, root)
+            np.multiply(found, np.copysign(1.0, flat[part]), out=velocity[part])
+        return velocity.reshape(x.shape)[()]
+
+    def peak_friction(self, incidence):
+        """Peak friction alone, in mu times the largest normal force.
+
+        Examples
+        --------
+        >>> float(compile("lumped", incidence_max=9, tolerance=1e-9).peak_friction(4.0))
+        1.0
+        """
+        return self(incidence).peak_friction
+
+    def dissipation(self, incidence):
+        """Work of friction alone, in mu^2 m2 v2(0)^2: it follows from the velocity.
+
+        Examples
+        --------
+        >>> float(compile("lumped", incidence_max=9, tolerance=1e-9).dissipation(8.0))
+        9.0
+        """
+        x = checks.incidence(incidence)
+        w = self.velocity(x)
+        return ((x - w) * (x + w) / (2 * self.parameters["mass_ratio"]))[()]
+
+    def _parts(self, flat):
+        """Parts of the impacts: slice, |x|, whether it slides, piece and its variable."""
+        limit = min(self.incidence_max, np.finfo(float).max)
+        for start in range(0, flat.size, CHUNK):
+            part = slice(start, start + CHUNK)
+            size = np.abs(flat[part])
+            if not (size <= limit).all():
+                rule = f"finite numbers from {-limit:g} to {limit:g}"
+                checks.checked("incidence", flat, rule, -limit, limit)
+            slides = size >= self._slides
+            piece, root = self._piecewise.find(np.minimum(size, self._piecewise.pieces.end))
+            yield part, size, slides, piece, root
+
+    def _velocity(self, size, slides, piece, root):
+        """Velocity at separation for |x|."""
+        found = self._fitted(0, piece, root)
+        # Rounding and the fit must not create energy.
+        np.clip(found, -size, size, out=found)
+        if slides.any():
+            e, beta = self.parameters["restitution"], self.parameters["mass_ratio"]
+            np.copyto(found, size - (1 + e) * beta, where=slides)
+        return found
+
+    def _fitted(self, function, piece, root):
+        return self._piecewise.value(function, piece, root)
+
+    def save(self, path):
+        """Write the response to a file, whole or not at all.
+
+        The file is JSON: `format` and `version`; `content` with model, parameters, incidence_max,
+        tolerance, error_bound, slides_from and pieces (start, kink, centre, label, end and
+        coefficients by function, power and piece, of the variable sqrt(x - kink) - centre); and
+        the SHA-256 of the content as `json.dumps(content, sort_keys=True)` writes it. Infinity
+        is null.
+
+        Parameters
+        ----------
+        path : str or Path
+        """
+        pieces = self._piecewise.pieces
+        arrays = {key: np.asarray(value).tolist() for key, value in pieces._asdict().items()}
+        content = {
+            "model": self.model,
+            "parameters": self.parameters,
+            "incidence_max": _finite(self.incidence_max),
+            "tolerance": self.tolerance,
+            "error_bound": self.error_bound._asdict(),
+            "slides_from": _finite(self._slides),
+            "pieces": arrays,
+        }
+        text = json.dumps({"format": FORMAT, "version": VERSION, "sha256": _digest(content)})
+        whole = f'{text[:-1]}, "content": {json.dumps(content)}}}\n'
+        partial = Path(f"{path}.partial")
+        partial.write_text(whole, encoding="utf-8")
+        partial.replace(path)
+
+
+def compile(model, *, incidence_max, tolerance, **parameters):
+    """Compile the response of one pair of bodies by any model of the ladder.
+
+    Parameters
+    ----------
+    model : str
+        Name of a model, `planarimpact.ladder.MODELS`.
+    incidence_max : float
+        Largest |x| = |v1(0)|/(mu v2(0)) that it must answer, above 0. Where the model slides
+        throughout from a smaller one on, all larger ones are answered.
+    tolerance : float
+        Largest error of velocity (mu v2(0)) and peak friction (mu F2max), 1e-11 to 1.
+    **parameters
+        mass_ratio, stiffness_ratio and restitution (defaults 3.5, 1.21, 1), numbers; and the
+        model's settings, but not a tolerance of its own, which is chosen here.
+
+    Returns
+    -------
+    Response
+
+    Raises
+    ------
+    InputError
+        If an argument is not admissible, or the model has no such setting.
+    ConvergenceError
+        If the model is too rough for the tolerance (one in time steps has a kink for each), or
+        does not reach it itself.
+
+    Examples
+    --------
+    >>> response = compile("lumped", incidence_max=10, tolerance=1e-10, restitution=0.5)
+    >>> max(response.error_bound) <= 1e-10
+    True
+    >>> response.incidence_max  # slides throughout from 3.5 on
+    inf
+    """
+    chosen = ladder.get(model)
+    largest = _number("incidence_max", incidence_max, "finite numbers above 0", 0, 1e300)
+    tolerance = _number("tolerance", tolerance, "numbers from 1e-11 to 1", 1e-11, 1)
+    groups, settings = _parameters(chosen, parameters)
+    if "tolerance" in chosen.settings:
+        settings["tolerance"] = tolerance / SHARE
+    slides = np.inf
+    if chosen.sliding_limit is not None:
+        slides = float(chosen.sliding_limit(*groups.values(), **settings))
+    end = min(largest, slides)
+
+    silent = np.isnan(chosen.rebound(end / 2, *groups.values(), **settings).peak_friction)
+
+    def function(x):
+        found = chosen.rebound(x, *groups.values(), **settings)
+        peak = np.zeros(x.size) if silent else found.peak_friction
+        return np.stack([found.velocity, peak]), found.regime
+
+    kinks = [x for x in chosen.kinks(*groups.values(), **settings) if 0 < x < end]
+    for share in (SHARE, SHARE**2):
+        # A change of regime bends the answer: a hundredth of the tolerance is near enough.
+        pieces, error = piecewise.fit(
+            function, [0.0, *kinks, end], tolerance / share, tolerance / 100
+        )
+        bound = Bound(*(error + settings.get("tolerance", 0.0)).tolist())
+        if max(bound) <= tolerance:
+            break
+    else:
+        raise checks.ConvergenceError(
+            f"tolerance = {tolerance:g}: {model} was fitted to {max(bound):.1e} only"
+        )
+    if silent:  # a law of impulses
+        pieces.coefficients[1] = np.nan
+    reach = np.inf if slides <= largest else largest
+    return Response(model, groups | settings, reach, tolerance, bound, slides, pieces)
+
+
+def load(path):
+    """Read a response that `Response.save` wrote.
+
+    Raises
+    ------
+    InputError
+        If the file is none, is of another version, or is damaged.
+
+    Examples
+    --------
+    >>> import tempfile, pathlib
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "ball.json"
+    >>> compile("rigid", incidence_max=9, tolerance=1e-9).save(path)
+    >>> load(path)
+    <Response of rigid: mass_ratio = 3.5, restitution = 1, stiffness_ratio = 1.21; error 2.0e-10>
+    """
+    try:
+        file = json.loads(Path(path).read_text(encoding="utf-8"))
+        kind, version = file["format"], file["version"]
+    except (ValueError, TypeError, KeyError):
+        raise checks.InputError(f"{path}: no {FORMAT} file, or a damaged one") from None
+    if (kind, version) != (FORMAT, VERSION):
+        raise checks.InputError(
+            f"{path}: format {kind!r}, version {version!r}: allowed is {FORMAT!r}, {VERSION}; "
+            "compile it again"
+        )
+    content = file.get("content")
+    if file.get("sha256") != _digest(content):
+        raise checks.InputError(f"{path}: damaged: its content is not what was written")
+    rows = content["pieces"]
+    pieces = piecewise.Pieces(
+        *(np.array(rows[key]) if key != "end" else rows[key] for key in piecewise.Pieces._fields)
+    )
+    return Response(
+        content["model"],
+        content["parameters"],
+        _infinite(content["incidence_max"]),
+        content["tolerance"],
+        Bound(**content["error_bound"]),
+        _infinite(content["slides_from"]),
+        pieces,
+    )
+
+
+def _digest(content):
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def _finite(number):
+    return None if np.isinf(number) else number
+
+
+def _infinite(number):
+    return np.inf if number is None else number
+
+
+def _number(name, value, allowed, low, high):
+    number = checks.checked(name, value, allowed, low, high, open_low=low == 0)
+    if number.ndim:
+        raise checks.InputError(f"{name}, shape {number.shape}: allowed is one number")
+    return float(number)
+
+
+def _parameters(model, given):
+    """The three groups, and the settings of a model with their defaults; scalars."""
+    groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 1.0}
+    settings = {key: value for key, value in given.items() if key not in groups}
+    ladder.refuse_unknown(model, settings)
+    if "tolerance" in settings:
+        raise checks.InputError(
+            "tolerance: the model's own follows from that of the response; it is given once"
+        )
+    groups |= {key: value for key, value in given.items() if key in groups}
+    for key, value in groups.items():
+        number = checks.RULES[key](value)
+        if number.ndim:
+            raise checks.InputError(f"{key}, shape {number.shape}: allowed is one number")
+        groups[key] = float(number)
+    return groups, dict(model.settings) | settings

@@ -1,0 +1,327 @@
+"""Contact laws of discrete-element codes, integrated as they do it: in few equal steps in time.
+
+Velocity Verlet (leapfrog): half a kick of the velocities, a drift, forces from positions at the
+new time and velocities half a step old, half a kick. Tangential force is carried from step to
+step, grows by stiffness times displacement, and is cut back to mu times the normal force.
+Normal and tangential motion both have the error of the steps; there is no search for events.
+
+The contact starts at a step. Where e < 1 all three laws lose normal energy in the paper's
+hysteretic spring (Walton & Braun's with latching): below the largest depth reached the normal
+force follows a line, or a Hertz curve, that is steeper by 1/e^2, so that restitution takes e times
+as long as compression. The step does not follow: restitution has e/(1 + e) of the steps, and where
+that is less than one the tangential impulse is wrong by up to half a step. For e = 0 the contact
+ends with the step nearest to maximum compression. Codes often damp by a dashpot instead, which is
+another law.
+
+`Regime` is what the steps show. A last slip shorter than a step is not seen, and the contact is
+said to end in stick. Hertz contact starts in slip from x = 2 zeta^2/3, not zeta^2, however many
+steps there are: the first one already has the stiffness of its end.
+
+Units: m2 and |v2(0)|, times mu in tangential direction; time 1/Omega where the contact is linear,
+d_max/|v2(0)| where it is Hertzian.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact import checks, hertz
+from planarimpact.results import Rebound, Regime
+
+STEPS = 64
+
+# Impacts solved together, as in `planarimpact.lumped`.
+CHUNK = 16384
+
+# Explicit steps are stable while an oscillation turns by no larger angle a step.
+STABLE_ANGLE = 2.0
+
+
+def linear(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, steps=STEPS):
+    """Linear springs with a slider, after Cundall & Strack: the lumped model in steps.
+
+    Parameters
+    ----------
+    incidence : array_like
+        x = v1(0)/(mu v2(0)); any finite number, negative for the mirror image.
+    mass_ratio : array_like
+        beta = m2/m1 >= 1.
+    stiffness_ratio : array_like
+        zeta^2 > 0, normal stiffness in compression over tangential stiffness.
+    restitution : array_like
+        Energetic coefficient e, 0 to 1.
+    steps : int
+        Over the exact duration of contact; at least 2 and (1 + e) pi/4 times the root of
+        beta/zeta^2, since the tangential oscillation grows with fewer.
+
+    Returns
+    -------
+    Rebound
+        The same fields and units as `planarimpact.lumped.rebound`; peak_friction and regime are
+        what the steps show.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a finite real number in its range, if shapes do not broadcast, or if
+        there are too few steps for one of the impacts.
+
+    Notes
+    -----
+    The error falls with the square of the steps, unevenly, as events fall between them. For a
+    solid sphere at e = 1 and 64 steps it is 0.0008 (root mean square over x from 0 to 8) and 0.0023
+    at most.
+
+    References
+    ----------
+    P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65. O. R. Walton, R. L. Braun,
+    J. Rheol. 30 (1986) 949-980.
+
+    Examples
+    --------
+    >>> from planarimpact import lumped
+    >>> exact = lumped.rebound(2.0).velocity
+    >>> bool(abs(linear(2.0).velocity - exact) < 1e-3)
+    True
+    """
+    return _rebound(LINEAR, incidence, mass_ratio, stiffness_ratio, restitution, steps)
+
+
+def mindlin(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, steps=STEPS):
+    """Hertz contact; friction grows with the full tangential stiffness.
+
+    Parameters
+    ----------
+    incidence : array_like
+        x = v1(0)/(mu v2(0)); any finite number, negative for the mirror image.
+    mass_ratio : array_like
+        beta = m2/m1 >= 1.
+    stiffness_ratio : array_like
+        zeta^2 > 0, normal stiffness dF2/d(depth) of an elastic contact over Mindlin's tangential
+        stiffness 8 a G*; (2 - nu)/(2 (1 - nu)) for equal materials.
+    restitution : array_like
+        Energetic coefficient e, 0 to 1.
+    steps : int
+        Over the exact duration of contact; at least 2 and 1.0076 (1 + e) times the root
+        of beta/zeta^2, since the tangential oscillation grows with fewer.
+
+    Returns
+    -------
+    Rebound
+        The same fields and units as `planarimpact.continuum.rebound`, but no reversals;
+        peak_friction and regime are what the steps show.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a finite real number in its range, if shapes do not broadcast, or if
+        there are too few steps for one of the impacts.
+
+    Notes
+    -----
+    Its limit of many steps is not the elastic continuum: at beta = 3.5, zeta^2 = 17/14 the root
+    mean square of the difference in velocity is 0.29 over x from 0 to 8, with 16 steps as with
+    4096. The error of the steps falls with their first power, since friction grows with the
+    radius at the end of each step. Nor does the law conserve energy: friction that is kept while
+    its spring softens gains some (Elata & Berryman 1996), and where beta/zeta^2 is small enough
+    for stick to last, a solid sphere may leave up to 5 % faster than it came.
+
+    References
+    ----------
+    A. Di Renzo, F. P. Di Maio, Chem. Eng. Sci. 59 (2004) 525-541. LAMMPS, pair_style granular,
+    tangential model mindlin/force. D. Elata, J. G. Berryman, Mech. Mater. 24 (1996) 229-240.
+
+    Examples
+    --------
+    >>> [round(float(w), 2) for w in mindlin([1.0, 2.0, 8.0], 3.5, 17 / 14).velocity]
+    [0.54, -0.18, 1.0]
+    """
+    return _rebound(MINDLIN, incidence, mass_ratio, stiffness_ratio, restitution, steps)
+
+
+def mindlin_rescaled(
+    incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, steps=STEPS
+):
+    """Hertz contact as `mindlin`, where a contact that shrinks gives up its share of friction.
+
+    Parameters
+    ----------
+    incidence, mass_ratio, stiffness_ratio, restitution : array_like
+        As in `mindlin`.
+    steps : int
+        As in `mindlin`.
+
+    Returns
+    -------
+    Rebound
+        As `mindlin`.
+
+    Raises
+    ------
+    InputError
+        As `mindlin`.
+
+    Notes
+    -----
+    The same contact as `planarimpact.ledger.hertz_contact`, the elastic continuum without
+    micro-slip, and no nearer to the continuum than `mindlin`: the root mean square of the
+    difference is 0.31. It creates no energy. Friction that shrinks with the radius sticks more
+    easily in restitution: at e = 1 the contact slides throughout from x = 2 beta - 2 zeta^2/3 on,
+    where the continuum does from 2 beta - zeta^2. The error of the steps falls with their first
+    power where the contact starts in stick.
+
+    References
+    ----------
+    C. Thornton, S. J. Cummins, P. W. Cleary, Powder Technol. 233 (2013) 30-46. LAMMPS, pair_style
+    granular, tangential model mindlin_rescale/force.
+
+    Examples
+    --------
+    >>> [round(float(w), 2) for w in mindlin_rescaled([1.0, 2.0, 8.0], 3.5, 17 / 14).velocity]
+    [0.45, -0.19, 1.0]
+    """
+    return _rebound(MINDLIN_RESCALED, incidence, mass_ratio, stiffness_ratio, restitution, steps)
+
+
+class _Law(NamedTuple):
+    """A law of contact; depth means the elastic depth."""
+
+    to_maximum: float  # time to maximum compression
+    peak_force: float  # largest normal force, at depth 1
+    stiffness: float  # largest normal stiffness, at depth 1
+    hertzian: bool
+    rescales: bool
+
+
+LINEAR = _Law(math.pi / 2, 1.0, 1.0, hertzian=False, rescales=False)
+MINDLIN = _Law(
+    # The integral of dd/sqrt(1 - d^(5/2)) from 0 to 1.
+    math.sqrt(math.pi) * math.gamma(1.4) / math.gamma(0.9),
+    hertz.PEAK_FORCE,
+    1.5 * hertz.PEAK_FORCE,
+    hertzian=True,
+    rescales=False,
+)
+MINDLIN_RESCALED = MINDLIN._replace(rescales=True)
+
+
+def _rebound(law, incidence, mass_ratio, stiffness_ratio, restitution, steps):
+    signed, *groups = checks.groups(
+        incidence=incidence,
+        mass_ratio=mass_ratio,
+        stiffness_ratio=stiffness_ratio,
+        restitution=restitution,
+    )
+    beta, zeta2, e = (a.reshape(-1) for a in groups)
+    steps = checks.count("steps", steps, max(2, _steps_needed(law, beta, zeta2, e)))
+    x = np.abs(signed).reshape(-1)
+    velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
+    regime = np.empty(x.size, np.uint8)
+    for start in range(0, x.size, CHUNK):
+        part = slice(start, start + CHUNK)
+        outcome = _impacts(law, x[part], beta[part], zeta2[part], e[part], steps)
+        velocity[part], impulse[part], peak[part], regime[part] = outcome
+    return Rebound.of(signed, velocity, impulse, peak, regime)
+
+
+def _steps_needed(law, beta, zeta2, e):
+    """Least number of steps that keeps the tangential oscillation stable in every impact."""
+    with np.errstate(over="ignore"):
+        frequency = np.sqrt(law.stiffness) * (np.sqrt(beta) / np.sqrt(zeta2))
+        needed = (1 + e) * law.to_maximum * frequency / STABLE_ANGLE
+    return math.ceil(min(np.max(needed, initial=0.0), np.finfo(float).max))
+
+
+class _Instant(NamedTuple):
+    """Normal motion at one step, arrays of one entry or of one for each impact."""
+
+    force: np.ndarray
+    touches: np.ndarray  # bool: whether there is any force
+    rate: np.ndarray  # growth of tangential force, for a unit of tangential velocity/zeta^2
+    kept: np.ndarray | None  # share of the tangential force that is carried over; None for all
+    kick: np.ndarray  # time over which the force at this step acts
+
+
+def _normal_motion(law, e, steps):
+    """Yield every `_Instant` of contact but the first and the last, where there is no force."""
+    step = (1 + e) * (law.to_maximum / steps)
+    # For e = 0, which never touches again below the largest depth, any tiny number will do.
+    compliance = np.maximum(e * e, 1e-300)
+    depth, deepest, radius = np.zeros((3, e.size))
+    velocity = np.ones(e.size)  # of approach, half a step ahead; no force yet slows it
+    ended = np.zeros(e.size, bool)
+    while True:
+        depth = depth + step * velocity
+        deepest = np.maximum(deepest, depth)
+        elastic = np.maximum(deepest - (deepest - depth) / compliance, 0.0)
+        elastic[ended] = 0.0
+        touches = elastic > 0
+        if not touches.any():
+            return
+        before, radius = radius, np.sqrt(elastic) if law.hertzian else 1.0
+        force = law.peak_force * elastic * radius
+        velocity = velocity - step * force
+        # Velocity never increases: once negative, it brings every contact to its end.
+        ended = ended | ((e == 0) & (velocity <= 0))
+        kept = _share_kept(before, radius) if law.rescales else None
+        rate = step * law.stiffness * radius * touches
+        yield _Instant(force, touches, rate, kept, np.where(ended, step / 2, step))
+
+
+def _share_kept(before, after):
+    """Radius of contact over that a step before, where it shrinks."""
+    return np.divide(after, before, out=np.ones_like(after), where=after < before)
+
+
+def _impacts(law, x, beta, zeta2, e, steps):
+    """Velocity, impulse, peak friction and regime of impacts solved together, x >= 0."""
+    # Normal motion knows e alone: it is integrated once where all impacts share it.
+    if (e == e[0]).all():
+        e = e[:1]
+    # Tangential velocity over zeta^2, half a step ahead. Where that is beyond all numbers the
+    # contact slides throughout, with any that is large.
+    with np.errstate(over="ignore"):
+        velocity = np.minimum(x / zeta2, 1e300)
+    slowing = beta / zeta2
+    friction, work, peak = np.zeros((3, x.size))
+    slips, slipped, starts_in_slip = np.zeros((3, x.size), bool)
+    sticks = None  # phases of stick so far
+    normal_impulse = 0.0
+    for normal in _normal_motion(law, e, steps):
+        np.multiply(velocity, normal.rate, out=work)
+        if normal.kept is not None:
+            friction *= normal.kept
+        work += friction
+        np.abs(work, out=friction)
+        np.greater(friction, normal.force, out=slips, where=normal.touches)
+        if sticks is None:
+            starts_in_slip[:] = slips
+            sticks = (~slips).astype(np.int64)
+        else:
+            sticks += slipped > slips
+        slipped[:] = slips
+        np.minimum(friction, normal.force, out=friction)
+        np.maximum(peak, friction, out=peak)
+        np.copysign(friction, work, out=friction)
+        np.multiply(friction, slowing, out=work)
+        work *= normal.kick
+        velocity -= work
+        normal_impulse = normal_impulse + normal.kick * normal.force
+    # Where it slides throughout, no digit of a large x may be lost from the impulse.
+    slides = sticks == 0
+    impulse = np.where(slides, normal_impulse, 0.0)
+    final = x - beta * impulse
+    final[~slides] = zeta2[~slides] * velocity[~slides]
+    impulse = np.where(slides, impulse, (x - final) / beta)
+    regime = _regime(sticks, starts_in_slip, slips)
+    return final, impulse, np.minimum(peak / law.peak_force, 1.0), regime
+
+
+def _regime(sticks, starts_in_slip, ends_in_slip):
+    """Regime by the number of phases of stick and by what was seen first and last."""
+    after_stick = np.where(ends_in_slip, Regime.STICK_SLIP, Regime.STICK)
+    after_slip = np.where(ends_in_slip, Regime.SLIP_STICK_SLIP, Regime.SLIP_STICK)
+    once = np.where(starts_in_slip, after_slip, after_stick)
+    often = np.where(sticks > 1, Regime.MULTIPLE, once)
+    return np.where(sticks == 0, Regime.SLIP_THROUGHOUT, often)

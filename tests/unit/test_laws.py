@@ -1,0 +1,130 @@
+"""Laws of impulses: their equations, limits, fitted constants, refusals."""
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize_scalar
+
+from planarimpact import InputError, Regime, continuum, laws
+
+LAWS = [laws.brach, laws.smith, laws.bilbao]
+X = np.linspace(0, 8, 161)
+
+
+@pytest.fixture(scope="module")
+def elastic():
+    return continuum.rebound(X, 3.5, 17 / 14, tolerance=1e-5).velocity
+
+
+@pytest.mark.parametrize(
+    ("law", "default", "error"),
+    [
+        (laws.brach, laws.BRACH_TANGENTIAL_RESTITUTION, 0.183),
+        (laws.bilbao, laws.BILBAO_TANGENTIAL_RESTITUTION, 1.193),
+    ],
+)
+def test_default_is_the_least_squares_fit(law, default, error, elastic):
+    def mean_square(b):
+        return np.mean((law(X, 3.5, tangential_restitution=b).velocity - elastic) ** 2)
+
+    fit = minimize_scalar(mean_square, bounds=(0, 1), method="bounded", options={"xatol": 1e-6})
+    assert round(fit.x, 2) == default
+    assert np.sqrt(mean_square(default)) == pytest.approx(error, abs=1e-3)
+    np.testing.assert_array_equal(
+        law(X, 3.5).velocity, law(X, 3.5, tangential_restitution=default).velocity
+    )
+
+
+def test_smith_without_any_setting(elastic):
+    error = np.sqrt(np.mean((laws.smith(X, 3.5).velocity - elastic) ** 2))
+    assert error == pytest.approx(0.405, abs=1e-3)
+
+
+@pytest.mark.parametrize("e", [0.0, 0.4, 1.0])
+@pytest.mark.parametrize("beta", [1.0, 3.5, 20.0])
+def test_smith_fulfils_his_implicit_equation(beta, e):
+    x = np.concatenate([np.geomspace(1e-12, 1e4, 400), [beta * (1 + e)]])
+    w = laws.smith(x, beta, restitution=e).velocity
+    implied = (1 + e) * (x * np.abs(x) + w * np.abs(w)) / (x**2 + w**2)
+    np.testing.assert_allclose(w, x - beta * implied, rtol=0, atol=2e-15 * np.max(x))
+    # Near normal incidence the equation itself loses digits: 1 - u^2 by those of u.
+    small = x < beta
+    np.testing.assert_allclose(w[small], (x - beta * implied)[small], rtol=0, atol=1e-14 * beta)
+
+
+def test_brach_joins_its_lines():
+    at = 7 / 1.4
+    around = np.array([np.nextafter(at, 0), at, np.nextafter(at, 9)])
+    result = laws.brach(around, tangential_restitution=0.4)
+    np.testing.assert_allclose(result.velocity, -2.0, atol=1e-14)
+    assert result.regime[0] == Regime.UNRESOLVED and result.regime[2] == Regime.SLIP_THROUGHOUT
+    assert np.isnan(result.peak_friction[0]) and result.peak_friction[2] == 1
+
+
+@pytest.mark.parametrize("b", [0.0, 0.3, 1.0])
+def test_bilbao_has_both_limits(b):
+    tiny = np.array([0.0, 5e-324, 1e-300, 1e-3])
+    result = laws.bilbao(tiny, tangential_restitution=b)
+    np.testing.assert_allclose(result.velocity, -b * tiny, rtol=1e-15)
+    huge = np.array([1e9, 1e12, 1e15, 1e300])
+    result = laws.bilbao(huge, tangential_restitution=b)
+    rest = 7**2 / (2 * (1 + b) * huge)
+    assert (np.abs(result.velocity - (huge - 7 + rest)) <= 4e-16 * huge).all()
+    np.testing.assert_allclose(result.dissipation, 2 * huge, rtol=1e-7)
+    assert (result.regime == Regime.UNRESOLVED).all() and np.isnan(result.peak_friction).all()
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_what_every_law_has_in_common(law):
+    x = np.concatenate([X, [1e12, 1e300]])
+    result = law(x[:, None], 3.5, 1.21, [0.0, 0.5, 1.0])
+    assert all(field.shape == (163, 3) for field in result[:4])
+    assert (np.abs(result.velocity) <= x[:, None]).all()
+    assert (result.dissipation >= 0).all() and np.isfinite(result.dissipation).all()
+    assert (result.velocity[0] == 0).all() and (result.regime[0] == Regime.STICK).all()
+    np.testing.assert_allclose(result.velocity[-1], 1e300)
+    slides = result.regime == Regime.SLIP_THROUGHOUT
+    assert slides[160:].all() == (law is not laws.bilbao)
+    np.testing.assert_array_equal(result.peak_friction == 1, slides)
+    np.testing.assert_array_equal(np.isnan(result.peak_friction), ~slides)
+    mirrored = law(-x[:, None], 3.5, 1.21, [0.0, 0.5, 1.0])
+    np.testing.assert_array_equal(mirrored.velocity, -result.velocity)
+    np.testing.assert_array_equal(mirrored.dissipation, result.dissipation)
+    softer = law(x[:, None], 3.5, 9.0, [0.0, 0.5, 1.0])
+    np.testing.assert_array_equal(softer.velocity, result.velocity)
+
+
+@pytest.mark.parametrize("law", [laws.brach, laws.bilbao])
+def test_no_admissible_tangential_restitution_creates_energy(law):
+    b = np.linspace(0, 1, 21)[:, None]
+    result = law(X, 3.5, 1.21, 0.7, tangential_restitution=b)
+    assert result.velocity.shape == (21, 161)
+    assert (result.dissipation >= 0).all()
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_a_scalar_gives_scalars(law):
+    result = law(2.0)
+    assert np.ndim(result.velocity) == 0 and result.regime is Regime.UNRESOLVED
+    assert law(0.0).regime is Regime.STICK
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_bad_groups_are_named(law):
+    with pytest.raises(InputError, match="incidence = nan"):
+        law(np.nan)
+    with pytest.raises(InputError, match="mass_ratio = 0.5"):
+        law(1.0, 0.5)
+    with pytest.raises(InputError, match="stiffness_ratio = 0.0"):
+        law(1.0, 3.5, 0.0)
+    with pytest.raises(InputError, match="restitution = 1.1"):
+        law(1.0, restitution=1.1)
+    with pytest.raises(InputError, match="shapes do not broadcast"):
+        law([1.0, 2.0], [1.0, 2.0, 3.0])
+
+
+@pytest.mark.parametrize("law", [laws.brach, laws.bilbao])
+def test_bad_tangential_restitution_is_named(law):
+    with pytest.raises(InputError, match="tangential_restitution = -0.1: allowed are numbers"):
+        law(1.0, tangential_restitution=-0.1)
+    with pytest.raises(InputError, match="shapes do not broadcast"):
+        law([1.0, 2.0], tangential_restitution=[0.1, 0.2, 0.3])
