@@ -286,8 +286,8 @@ def load(path):
     >>> import tempfile, pathlib
     >>> path = pathlib.Path(tempfile.mkdtemp()) / "ball.json"
     >>> compile("rigid", incidence_max=9, tolerance=1e-9).save(path)
-    >>> load(path)
-    <Response of rigid: mass_ratio = 3.5, restitution = 1, stiffness_ratio = 1.21; error 2.0e-10>
+    >>> load(path).velocity([2.0, 8.0]).tolist()
+    [0.0, 1.0]
     """
     try:
         file = json.loads(Path(path).read_text(encoding="utf-8"))
