@@ -15,7 +15,7 @@ from numpy.polynomial import chebyshev
 from planarimpact.checks import ConvergenceError
 
 DEGREE = 7
-FIRST = 4  # parts of every span to begin with: few large batches cost less than many small
+FIRST = 2  # parts of every span to begin with: few large batches cost less than many small
 NARROW = 1e-3  # of the whole: a span that is not divided at first
 DEEP = 7  # halvings of a part after which a kink is looked for in it
 DEEPEST = 40  # halvings that locate one

@@ -18,7 +18,8 @@ from planarimpact.results import Rebound, Regime
 
 FORMAT, VERSION = "planarimpact response", 1
 CHUNK = 16384  # impacts evaluated together: they stay in the cache
-SHARE = 4  # of the tolerance for the model's own error, and for the fit at its first try
+MODEL_SHARE = 1 / 2  # of the tolerance: the larger part is for what costs more
+FIT_SHARES = 1 / 8, 1 / 64  # of the tolerance, at the first try and the second
 
 
 class Bound(NamedTuple):
@@ -241,7 +242,7 @@ def compile(model, *, incidence_max, tolerance, **parameters):
     tolerance = _number("tolerance", tolerance, "numbers from 1e-11 to 1", 1e-11, 1)
     groups, settings = _parameters(chosen, parameters)
     if "tolerance" in chosen.settings:
-        settings["tolerance"] = tolerance / SHARE
+        settings["tolerance"] = tolerance * MODEL_SHARE
     slides = np.inf
     if chosen.sliding_limit is not None:
         slides = float(chosen.sliding_limit(*groups.values(), **settings))
@@ -255,10 +256,10 @@ def compile(model, *, incidence_max, tolerance, **parameters):
         return np.stack([found.velocity, peak]), found.regime
 
     kinks = [x for x in chosen.kinks(*groups.values(), **settings) if 0 < x < end]
-    for share in (SHARE, SHARE**2):
+    for share in FIT_SHARES:
         # A change of regime bends the answer: a hundredth of the tolerance is near enough.
         pieces, error = piecewise.fit(
-            function, [0.0, *kinks, end], tolerance / share, tolerance / 100
+            function, [0.0, *kinks, end], tolerance * share, tolerance / 100
         )
         bound = Bound(*(error + settings.get("tolerance", 0.0)).tolist())
         if max(bound) <= tolerance:

@@ -164,10 +164,10 @@ def mindlin_rescaled(
 
     Notes
     -----
-    The same contact as `planarimpact.ledger.hertz_contact`, the elastic continuum without
-    micro-slip, and no nearer to the continuum than `mindlin`: the root mean square of the
-    difference is 0.31. It creates no energy. Friction that shrinks with the radius sticks more
-    easily in restitution: at e = 1 the contact slides throughout from x = 2 beta - 2 zeta^2/3 on,
+    The elastic continuum without micro-slip: a Hertz contact that sticks and slips as a whole. It
+    is no nearer to the continuum than `mindlin`: the root mean square of the difference is 0.31.
+    It creates no energy. Friction that shrinks with the radius sticks more easily in
+    restitution: at e = 1 the contact slides throughout from x = 2 beta - 2 zeta^2/3 on,
     where the continuum does from 2 beta - zeta^2. The error of the steps falls with their first
     power where the contact starts in stick.
 

@@ -2,11 +2,10 @@
 
 import math
 
-import numpy as np
 import pytest
 
-from planarimpact import continuum, ledger, lumped
-from planarimpact.ledger import finding, hertz_contact
+from planarimpact import ledger
+from planarimpact.ledger import finding
 from planarimpact.ledger.finding import Finding
 
 RIGHT = {"verdict": "confirmed", "confirms": {"at_most": 1e-9}}
@@ -47,18 +46,3 @@ def test_at_least_is_a_bound_from_below():
 def test_an_unknown_check_is_refused(name):
     with pytest.raises(LookupError, match=name):
         ledger.run(name)
-
-
-def test_hertz_contact_without_micro_slip():
-    """Its limits, and the two effects that README and ledger quote: 0.39 and 0.52."""
-    x = np.linspace(0, 8, 161)
-    velocity, peak = hertz_contact.rebound(x, 3.5, 1.21)
-    exact = continuum.rebound(x, 3.5, 1.21, tolerance=1e-5)
-    assert np.abs(velocity - x + 7)[x >= 7].max() < 1e-3  # slip throughout
-    assert velocity[0] == peak[0] == 0
-    assert np.abs(peak - exact.peak_friction).max() < 1e-3
-    assert np.abs(velocity - exact.velocity).max() == pytest.approx(0.525, abs=0.005)
-    lifted = velocity - lumped.rebound(x, 3.5, 1.21).velocity
-    assert lifted.max() == pytest.approx(0.39, abs=0.005) and lifted.min() > -0.01
-    energy = (x**2 - velocity**2) / 7
-    assert energy.min() > -1e-3

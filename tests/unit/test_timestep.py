@@ -7,7 +7,6 @@ import pytest
 import scipy.integrate
 
 from planarimpact import InputError, Regime, continuum, lumped, timestep
-from planarimpact.ledger import hertz_contact
 
 LAWS = [timestep.linear, timestep.mindlin, timestep.mindlin_rescaled]
 HERTZIAN = LAWS[1:]
@@ -59,11 +58,19 @@ def test_hertzian_laws_converge_with_the_steps(law, e):
     assert errors[0] < 0.02 and order(errors, 8) > 0.9
 
 
-def test_rescaled_is_the_hertz_contact_of_the_ledger():
-    velocity, peak = hertz_contact.rebound(X, BETA, ZETA2)
-    result = timestep.mindlin_rescaled(X, BETA, ZETA2, steps=4096)
-    assert np.abs(result.velocity - velocity).max() < 2e-3
-    assert np.abs(result.peak_friction - peak).max() < 2e-3
+def test_hertz_contact_without_micro_slip():
+    """Its limits, and the two effects that README and ledger quote: 0.39 and 0.52."""
+    x = np.linspace(0, 8, 161)
+    velocity, peak = timestep.mindlin_rescaled(x, 3.5, 1.21, steps=4096)[:2]
+    exact = continuum.rebound(x, 3.5, 1.21, tolerance=1e-5)
+    assert np.abs(velocity - x + 7)[x >= 7].max() < 1e-3  # slip throughout
+    assert velocity[0] == peak[0] == 0
+    assert np.abs(peak - exact.peak_friction).max() < 1e-3
+    assert np.abs(velocity - exact.velocity).max() == pytest.approx(0.525, abs=0.005)
+    lifted = velocity - lumped.rebound(x, 3.5, 1.21).velocity
+    assert lifted.max() == pytest.approx(0.39, abs=0.005) and lifted.min() > -0.01
+    energy = (x**2 - velocity**2) / 7
+    assert energy.min() > -1e-3
 
 
 @pytest.mark.parametrize(("law", "measured"), list(zip(LAWS, [0.080, 0.291, 0.312], strict=True)))

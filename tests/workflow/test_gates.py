@@ -57,6 +57,8 @@ def verdicts(config, inventory, series, tmp_path_factory):
     for fault, change in {"none": {}, **FAULTS}.items():
         folder = tmp_path_factory.mktemp("curves")
         for figure in run_plan.FIGURES:
+            if not run_plan.comparisons(config, figure):
+                continue
             path = str(folder / f"{figure}.csv")
             faulty = _faulty_solver(figure, change, names)
             settings = run_plan.settings(config, inventory, figure)

@@ -6,7 +6,14 @@ import subprocess
 
 import pytest
 
-FIGURES = [*(f"fig{number}" for number in range(2, 10)), "micro_slip", "convergence"]
+FIGURES = [*(f"fig{number}" for number in range(2, 10)), "micro_slip", "convergence", "trade"]
+
+
+# The figure that takes longest, of which tests of something else need not see everything.
+SHORT = (
+    "figures={trade: {samples: 10, tolerance: 0.001, batches: [1, 10],"
+    " tolerances: [0.01], circles: [4, 5]}}"
+)
 
 
 def verdicts(project):
@@ -26,6 +33,8 @@ def test_a_good_run_passes_and_leaves_everything(first_run):
         ):
             assert (project / path).stat().st_size > 100
         assert (project / f"results/benchmarks/draw_{figure}.tsv").exists()
+    for table in ("trade", "which_model"):
+        assert (project / f"results/{table}.csv").stat().st_size > 100
     found = verdicts(project)
     assert "diverges" not in found.values()
     assert list(found.values()).count("awaited") == 3
@@ -37,7 +46,7 @@ def test_a_good_run_passes_and_leaves_everything(first_run):
 def test_headers_carry_units(first_run):
     for figure in FIGURES:
         header = (first_run[0] / f"results/curves/{figure}.csv").read_text().splitlines()[0]
-        words = {"curve", "event", "regime"}
+        words = {"curve", "event", "regime", "model"}
         assert all("[" in name for name in header.split(",") if name not in words), header
 
 
@@ -50,6 +59,7 @@ def test_report_has_every_picture_with_its_caption(finished):
         first = re.search(rf'"{figure}":\n  "(.{{20}})', captions)[1]
         assert first in page and f"{figure}.svg" in page
     assert "The paper verified" in page
+    assert "which_model.csv" in page and "Which model for which tolerance" in page
 
 
 def test_a_second_run_has_nothing_to_do(finished):
@@ -78,6 +88,8 @@ def test_every_rule_has_log_benchmark_and_message(fresh):
 
 ALL = [f"Solving {figure}" for figure in FIGURES]
 LEDGER, PAGE = "Verifying the paper", "Writing the ledger's page"
+TRADE, TABLES = "Solving trade", "Tabulating error against time"
+ONLY_OF_TRADE = ("ladder", "laws", "timestep", "response", "piecewise")
 AS_PRINTED = [f"Solving fig{number}" for number in (5, 6, 7, 9)]
 
 
@@ -86,10 +98,16 @@ AS_PRINTED = [f"Solving fig{number}" for number in (5, 6, 7, 9)]
     [
         ("workflow/scripts/draw_fig7.py", ["Drawing fig7"]),
         ("src/planarimpact/curves/fig6.py", ["Solving fig6"]),
-        ("src/planarimpact/rigid.py", ["Solving fig5", "Solving fig7", "Solving fig9", LEDGER]),
+        (
+            "src/planarimpact/rigid.py",
+            [*(f"Solving fig{number}" for number in (5, 7, 9)), TRADE, LEDGER],
+        ),
         ("src/planarimpact/bodies.py", ["Solving fig8", LEDGER]),
-        ("src/planarimpact/annuli.py", ["Solving convergence"]),
-        ("src/planarimpact/hertz.py", [f"Solving {f}" for f in ("fig5", *FIGURES[-2:])] + [LEDGER]),
+        ("src/planarimpact/annuli.py", ["Solving convergence", TRADE]),
+        *((f"src/planarimpact/{name}.py", [TRADE]) for name in ONLY_OF_TRADE),
+        ("workflow/scripts/trade_table.py", ["Drawing trade", TABLES]),
+        ("workflow/scripts/one_thread.py", ALL),
+        ("src/planarimpact/hertz.py", [f"Solving {f}" for f in ("fig5", *FIGURES[-3:])] + [LEDGER]),
         (
             "src/planarimpact/landmarks.py",
             [f"Comparing {f} with its references" for f in FIGURES] + [LEDGER],
@@ -111,7 +129,7 @@ def test_an_edit_reruns_what_it_must_and_nothing_more(finished, path, expected):
     jobs, counts = finished.planned()
     direct = [job for job, reason in jobs.items() if path in reason]
     assert sorted(direct) == sorted(expected), jobs
-    follow = {"Judging", "Gathering the verdicts", PAGE}
+    follow = {"Judging", "Gathering the verdicts", PAGE, TABLES}
     figures = {word for job in direct for word in job.split() if word in FIGURES} or {"fig5"}
     rest = set(jobs) - set(direct) - follow
     assert all(any(figure in job.split() for figure in figures) for job in rest), jobs
@@ -141,7 +159,7 @@ def test_a_changed_tolerance_compares_again(finished):
 
 def test_wrong_physics_fails_after_everything_is_written(finished):
     """Also a second time, also with --keep-going; and passes again once mended."""
-    wrong = ["--config", "stiffness_ratio=2.5"]
+    wrong = ["--config", "stiffness_ratio=2.5", SHORT]
     first = finished.run(*wrong)
     assert first.returncode != 0
     found = verdicts(finished)
@@ -157,12 +175,12 @@ def test_wrong_physics_fails_after_everything_is_written(finished):
     assert again.returncode != 0 and "FAILED" in again.stdout
     assert "Drawing" not in again.stdout
 
-    mended = finished.run()
+    mended = finished.run("--config", SHORT)
     assert mended.returncode == 0 and "PASSED" in mended.stdout, mended.stdout
 
 
 def test_figures_are_drawn_without_judgement(finished):
-    result = finished.run("figures", "--config", "stiffness_ratio=1.5")
+    result = finished.run("figures", "--config", "stiffness_ratio=1.5", SHORT)
     assert result.returncode == 0, result.stdout
     assert "Drawing fig5" in result.stdout
     assert "No verdict in this run" in result.stdout and "agrees" not in result.stdout

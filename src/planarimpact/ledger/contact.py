@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import cumulative_simpson
 
-from planarimpact import lumped
+from planarimpact import lumped, timestep
 from planarimpact.printed import dynamics
 from planarimpact.results import Event, EventKind, History
 
@@ -201,6 +201,11 @@ class NormalMotion:
     def top(self):
         """Index of maximum compression."""
         return int(np.flatnonzero(self.found.path.t == self.found.compression_time)[0])
+
+
+def without_micro_slip(incidence):
+    """Rebound of the paper's sphere, e = 1, by a Hertz contact that slips as a whole; to 1e-3."""
+    return timestep.mindlin_rescaled(incidence, *SPHERE, steps=4096)
 
 
 def normal_motions():

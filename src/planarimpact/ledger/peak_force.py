@@ -4,7 +4,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from planarimpact import bodies, landmarks, lumped, rigid
-from planarimpact.ledger import contact, hertz_contact
+from planarimpact.ledger import contact
 from planarimpact.ledger.finding import Finding, largest
 from planarimpact.ledger.slip import boundary
 from planarimpact.printed import peak_force
@@ -344,7 +344,7 @@ def _effect(model, friction):
 
 def _hertz(x):
     """Rebound of a Hertz contact; beyond 8 it slides throughout, where the peak is the same."""
-    return hertz_contact.rebound(np.minimum(x, 8.0), *contact.SPHERE)
+    return contact.without_micro_slip(np.minimum(x, 8.0))
 
 
 def normal_details():

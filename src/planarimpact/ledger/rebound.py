@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from planarimpact import bodies, continuum, lumped, rigid
-from planarimpact.ledger import contact, hertz_contact
+from planarimpact import bodies, continuum, laws, lumped, rigid
+from planarimpact.ledger import contact
 from planarimpact.ledger.finding import Finding, largest
 from planarimpact.ledger.slip import boundary
 from planarimpact.printed import slip
@@ -238,10 +238,10 @@ def identical_at_almost_all():
 def micro_slip_matters():
     """Largest effect of micro-slip on v1(tf)/(mu v2(0)): the continuum with it and without.
 
-    Without: a Hertz contact that sticks and slips as a whole (`hertz_contact`).
+    Without: a Hertz contact that sticks and slips as a whole.
     """
     x = INCIDENCE[::10]
-    whole, _ = hertz_contact.rebound(x, *contact.SPHERE)
+    whole = contact.without_micro_slip(x).velocity
     return Finding(
         largest([whole - continuum.rebound(x, *contact.SPHERE, tolerance=1e-4).velocity])
     )
@@ -334,3 +334,13 @@ def restitution_change_falls():
     change = np.abs(velocity - velocity[0])
     # Largest change at any smaller e, less that at each e.
     return Finding(float(np.max(np.maximum.accumulate(change, axis=0) - change)))
+
+
+def other_laws():
+    """Largest part of full friction that the laws of Bilbao, Smith and Brach lack at x = 1e4."""
+    gaps = []
+    for law in (laws.bilbao, laws.smith, laws.brach):
+        for e in contact.RESTITUTIONS:
+            velocity = law(1e4, *contact.SPHERE, e).velocity
+            gaps.append((1e4 - velocity) / contact.MASS_RATIO / (1 + e) - 1)
+    return Finding(largest(gaps))

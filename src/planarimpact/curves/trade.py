@@ -1,0 +1,252 @@
+"""Beyond the paper: how far off each model of the ladder is, and what it costs on this machine."""
+
+import time
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact import ladder, response
+
+FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
+SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
+LUMPED_ACCURACY = 1e-12  # promised by `planarimpact.lumped`
+LUMPED_RESPONSE_TOLERANCE = 1e-10
+
+SEED = 1994
+REPEATS, ENOUGH = 25, 0.3  # medians are of so many calls, or of those begun in so many seconds
+# One impact costs little less than so many solved together: the overhead of arrays.
+TOGETHER = 300
+
+
+def curves(
+    mass_ratio,
+    stiffness_ratio,
+    incidence,
+    samples,
+    restitution,
+    tolerance,
+    steps,
+    circles,
+    tolerances,
+    batches,
+    budget,
+):
+    """Errors and times of every model that admits a restitution, a curve of one point each.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio : float
+        beta and zeta^2.
+    incidence : (float, float)
+        Range of x = v1(0)/(mu v2(0)).
+    samples : int
+        Incidences at which errors are taken, evenly spread over the range.
+    restitution : sequence of float
+        Energetic coefficients; `planarimpact.ladder.reference` says what errors are measured
+        against.
+    tolerance : float
+        Of that reference where it is the continuum.
+    steps, circles, tolerances : sequence
+        Settings that are tried. Of a model with two, annuli, the second keeps its default.
+    batches : sequence of int
+        Numbers of impacts that are solved together; times are for one of them.
+    budget : float
+        Seconds that a batch may take as predicted from the smaller one before; beyond, it is
+        left out.
+
+    Returns
+    -------
+    dict
+        `{"<model>, <settings>, e = <restitution>": {column: array of one}}`: model and settings;
+        errors, root mean square and largest, in velocity, peak friction (laws of impulses leave
+        it open) and dissipation; the error of the reference itself; times. "response of ..." is
+        compiled once, in `build_time`, and then evaluated.
+
+    Examples
+    --------
+    >>> named = curves(3.5, 1.21, [0, 8], 9, [0.5], 1e-3, [16], [4], [1e-2], [1], 1.0)
+    >>> list(named)[3:6]
+    ['laws.bilbao, e = 0.5', 'lumped, e = 0.5', 'timestep.linear, 16 steps, e = 0.5']
+    >>> float(named["lumped, e = 0.5"]["max_velocity [mu v2(0)]"][0])
+    0.0
+    """
+    tried = {"steps": steps, "circles": circles, "tolerance": tolerances}
+    x = np.linspace(*incidence, samples)
+    named = {}
+    for e in restitution:
+        groups = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio, "restitution": e}
+        exact, accuracy = reference(x, groups, tolerance)
+        contenders = [*_solved(groups, tried), *_compiled(groups, tolerances, incidence[1])]
+        for contender in contenders:
+            row = {
+                "model": contender.model,
+                "restitution [1]": e,
+                **{SETTINGS[key]: value for key, value in contender.settings.items()},
+                **errors(contender.rebound(x), exact),
+                "reference_error [mu v2(0)]": accuracy,
+                **contender.build_time,
+                **times(_stopwatch(contender.rebound), incidence, batches, budget),
+            }
+            named[_name(contender, e)] = {key: np.array([value]) for key, value in row.items()}
+    return named
+
+
+class _Contender(NamedTuple):
+    """One model with its settings, as a function of the incidence alone."""
+
+    model: str
+    settings: dict
+    rebound: Callable
+    build_time: dict = {}
+
+
+def _solved(groups, tried):
+    """Every model that admits the restitution, with each setting that is tried."""
+    for model in ladder.MODELS.values():
+        if _admits(model, groups["restitution"]):
+            for settings in _variants(model, tried):
+                yield _Contender(model.name, settings, _solver(model, groups, settings))
+
+
+def _admits(model, restitution):
+    low, high = model.restitution
+    return low <= restitution <= high
+
+
+def _variants(model, tried):
+    """Settings of a model: the first that is tried is varied, the others keep their defaults."""
+    known = {key: value for key, value in model.settings.items() if key in tried}
+    varied = next(iter(known), None)
+    return [known | {varied: value} for value in tried[varied]] if varied else [{}]
+
+
+def _solver(model, groups, settings):
+    def rebound(x):
+        return model.rebound(x, **groups, **settings)
+
+    return rebound
+
+
+def _compiled(groups, tolerances, incidence_max):
+    """Responses of the exact models, compiled here."""
+    wanted = [("lumped", LUMPED_RESPONSE_TOLERANCE)]
+    if _admits(ladder.get("continuum"), groups["restitution"]):
+        wanted += [("continuum", tolerance) for tolerance in tolerances]
+    for model, tolerance in wanted:
+        start = time.perf_counter()
+        made = response.compile(model, incidence_max=incidence_max, tolerance=tolerance, **groups)
+        seconds = time.perf_counter() - start
+        settings, build_time = {"tolerance": tolerance}, {"build_time [s]": seconds}
+        yield _Contender(f"response of {model}", settings, made, build_time)
+
+
+def _name(contender, e):
+    words = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
+    settings = [words[key].format(value) for key, value in contender.settings.items()]
+    return ", ".join([contender.model, *settings, f"e = {e:g}"])
+
+
+def reference(x, groups, tolerance):
+    """What errors are measured against, and its own error in velocity.
+
+    Parameters
+    ----------
+    x : ndarray
+        Incidences.
+    groups : dict
+        mass_ratio, stiffness_ratio, restitution.
+    tolerance : float
+        Of the continuum, the reference where the contact is elastic.
+
+    Returns
+    -------
+    Rebound, float
+
+    Examples
+    --------
+    >>> groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 0.5}
+    >>> reference(np.array([8.0]), groups, 1e-3)[1]
+    1e-12
+    """
+    model = ladder.get(ladder.reference(groups["restitution"]))
+    if "tolerance" in model.settings:
+        return model.rebound(x, **groups, tolerance=tolerance), tolerance
+    return model.rebound(x, **groups), LUMPED_ACCURACY
+
+
+def errors(found, exact):
+    """Root mean square and largest error of each field that a model answers.
+
+    Parameters
+    ----------
+    found, exact : Rebound
+        Arrays of one length; NaN in a field that `found` leaves open.
+
+    Returns
+    -------
+    dict
+        Columns of one number.
+
+    Examples
+    --------
+    >>> from planarimpact import laws, rigid
+    >>> x = np.array([1.0, 8.0])
+    >>> list(errors(laws.brach(x), rigid.rebound(x)))[:3]
+    ['rms_velocity [mu v2(0)]', 'max_velocity [mu v2(0)]', \
+'rms_dissipation [mu^2 m2 v2(0)^2]']
+    """
+    columns = {}
+    for field, unit in FIELDS.items():
+        gap = np.abs(getattr(found, field) - getattr(exact, field))
+        if np.isfinite(gap).all():
+            columns[f"rms_{field} [{unit}]"] = np.sqrt(np.mean(gap**2))
+            columns[f"max_{field} [{unit}]"] = np.max(gap)
+    return columns
+
+
+def times(seconds, incidence, batches, budget):
+    """Time of an impact in each batch, as far as the budget goes.
+
+    Parameters
+    ----------
+    seconds : callable
+        Solves incidences and returns how long that took.
+    incidence : (float, float)
+        Range of the incidences, which are random; the same ones in every run.
+    batches : sequence of int
+        Smaller ones are solved first, and left in.
+    budget : float
+        As in `curves`.
+
+    Returns
+    -------
+    dict
+        A column for each batch that was solved: the median time, over the batch.
+
+    Examples
+    --------
+    >>> times(lambda x: 0.5 * x.size, (0, 8), [1, 10, 10000], 60)
+    {'time_1 [s]': 0.5, 'time_10 [s]': 0.5}
+    """
+    random = np.random.default_rng(SEED)
+    seconds(random.uniform(*incidence, 1))  # the first call pays for what is kept
+    columns, before, median = {}, 1, 0.0
+    for batch in sorted(batches):
+        if median * batch / max(before, TOGETHER) > budget:
+            break
+        taken = []
+        while len(taken) < REPEATS and sum(taken) < ENOUGH:
+            taken.append(seconds(random.uniform(*incidence, batch)))
+        before, median = batch, float(np.median(taken))
+        columns[f"time_{batch} [s]"] = median / batch
+    return columns
+
+
+def _stopwatch(rebound):
+    def seconds(x):
+        start = time.perf_counter()
+        rebound(x)
+        return time.perf_counter() - start
+
+    return seconds

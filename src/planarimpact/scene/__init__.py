@@ -1,0 +1,69 @@
+"""Scenes: a table of impacts in, a table after them out, each solved no better than asked.
+
+A table is a pandas DataFrame, one impact a row; `planarimpact.scene.columns` lists the columns it
+may have, with the unit of each in its header. A body is a solid sphere (radius and density), or
+anything with a mass, a radius of gyration and a centre of mass on the contact normal; the other
+one is the same, or a half-space at rest where it has no mass. States have two dimensions, or three
+for bodies whose radius of gyration is the same about every axis: they move in their plane of
+incidence.
+"""
+
+from planarimpact.scene.solver import Solver
+
+__all__ = ["Solver", "solve"]
+
+
+def solve(table, tolerance=1e-3):
+    """Solve every impact of a table by the cheapest rung of the ladder that is good enough.
+
+    Parameters
+    ----------
+    table : DataFrame
+        One impact a row. Columns: `radius [m]`; `density [kg/m^3]` of a solid sphere, or
+        `mass [kg]` and `gyration [m]`; `young_modulus [Pa]`, `poisson_ratio`; the same with
+        `other_` in front for the other body; `friction`, `restitution`; the state before, in
+        a plane (`velocity_tangential [m/s]`, `velocity_normal [m/s]`, positive towards the
+        other body, `spin [rad/s]`, positive where it moves the contact point in the tangential
+        direction) or in space (`velocity_x [m/s]` ..., `spin_z [rad/s]`, and the unit normal
+        `normal_x` ... from the other body, z if left out), the other body's with `other_` in
+        front, at rest if left out. An `id` is carried over. A material of the other body that is
+        left out is rigid.
+    tolerance : float
+        Largest error of the tangential velocity of contact at separation, in mu v2(0), and of
+        the peak friction, in mu times the peak normal force; 1e-10 to 1. It is measured against
+        the elastic continuum where restitution = 1, else against the lumped model: its own
+        distance from nature is not in it.
+
+    Returns
+    -------
+    DataFrame
+        With the index of `table`: `id`; the state after, named as before with `_after`; `model`;
+        `error` of the tangential velocity [m/s]; `regime`; `incidence` v1(0)/(mu v2(0)); largest
+        normal force (Hertz) and friction [N]; `energy_lost [J]`.
+
+    Raises
+    ------
+    InputError
+        For columns that are missing, unknown or do not go together, or a bad row, by its number.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> table = pd.DataFrame(
+    ...     {
+    ...         "radius [m]": [0.01, 0.01],
+    ...         "density [kg/m^3]": 7800.0,
+    ...         "young_modulus [Pa]": 207e9,
+    ...         "poisson_ratio": 0.3,
+    ...         "friction": 0.2,
+    ...         "restitution": 0.8,
+    ...         "velocity_tangential [m/s]": [0.5, 3.0],
+    ...         "velocity_normal [m/s]": 1.0,
+    ...         "spin [rad/s]": 0.0,
+    ...     }
+    ... )
+    >>> after = solve(table)
+    >>> after[["velocity_tangential_after [m/s]", "regime"]].values.tolist()[1]
+    [2.64, 'SLIP_THROUGHOUT']
+    """
+    return Solver(tolerance).solve(table)

@@ -1,0 +1,202 @@
+"""Which rung of the ladder solves the impacts of a pair: the cheapest whose error is small enough.
+
+The reference is `planarimpact.ladder.reference`: the continuum where the pair is elastic, else the
+lumped model. An error is the largest one of velocity (mu v2(0)) and peak friction (mu F2max); that
+of a cheaper model is measured, `planarimpact.scene.gaps`.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from planarimpact import continuum, ladder, lumped, response, rigid
+from planarimpact.scene import gaps
+
+# Seconds for the first impact of a pair and for each further one, by tests/benchmarks/
+# scene_speed.py. They decide between equally good ways, so that only their ratios matter, and
+# only for speed.
+COST = {
+    ("rigid", "formula"): (1e-4, 5e-8),
+    ("lumped", "solved"): (5e-4, 2.5e-7),
+    ("lumped", "compiled"): (2e-2, 6e-8),
+    ("continuum", "solved"): (3e-2, 2e-4),
+    ("continuum", "compiled"): (1e-1, 6e-8),
+}
+FEW = 64  # impacts of a pair that are solved together with those of other pairs
+MOST = 0.99  # of the tolerance may be that of a cheaper model
+EXACT = 1e-11  # of the lumped model, most of it by groups taken to 12 digits
+FINE = 1e-9  # of a compiled lumped response, which costs little more than a coarse one
+
+
+class Rung(NamedTuple):
+    """A model, the way to its answer, its error against the reference, and why it was taken.
+
+    `way` is "formula", "solved" or "compiled"; what that adds to the error, `solve` tells.
+    """
+
+    model: str
+    way: str
+    error: float
+    why: str
+
+
+class Job(NamedTuple):
+    """Impacts of a table, by row, that one rung solves together; groups are numbers or arrays."""
+
+    rung: Rung
+    rows: np.ndarray
+    groups: tuple
+    pair: str
+
+
+MODELS = ("rigid", "lumped", "continuum")
+SLIDING = Rung("slip throughout", "formula", 0.0, "exact in every model")
+
+
+def jobs(mass_ratio, stiffness_ratio, restitution, rows, tolerance, responses=()):
+    """Divide impacts that do not slide throughout among the rungs, pair by pair.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio, restitution : ndarray, shape (n,)
+    rows : ndarray of int
+        Those of them that are to be solved.
+    tolerance : float
+    responses : dict
+        Those compiled so far, as `solve` keeps them.
+
+    Returns
+    -------
+    list of Job
+    """
+    groups = _rounded(np.stack([mass_ratio, stiffness_ratio, restitution])[:, rows])
+    code = np.zeros(rows.size, dtype=np.int64)
+    for group in groups:
+        own, values = pd.factorize(group)
+        code, _ = pd.factorize(code * len(values) + own)
+    order = np.argsort(code, kind="stable")
+    counts = np.bincount(code)
+    found, few = [], []
+    for member in np.split(order, np.cumsum(counts)[:-1]) if rows.size else []:
+        if member.size < FEW:
+            few.append(member)
+            continue
+        pair = tuple(groups[:, member[0]].tolist())
+        name = "m2/m1 = {:.4g}, zeta^2 = {:.4g}, e = {:.4g}".format(*pair)
+        found.append(Job(rung(*pair, tolerance, member.size, responses), rows[member], pair, name))
+    if few:
+        found += _together(groups, rows, np.concatenate(few), tolerance)
+    return found
+
+
+def _rounded(groups):
+    """Groups to 12 digits: what differs by rounding alone is one pair."""
+    bits = groups.view(np.int64)
+    return ((bits + 2**11) & -(2**12)).view(np.float64)
+
+
+def _together(groups, rows, members, tolerance):
+    """Jobs for impacts of pairs that have few each."""
+    elastic = groups[2][members] == 1
+    gap = np.where(elastic, gaps.elastic("lumped", *groups[:2, members]), 0.0)
+    coarse = elastic & (gap <= MOST * tolerance)
+    largest = float(np.max(gap[coarse], initial=0.0))
+    kinds = (
+        (~elastic, Rung("lumped", "solved", 0.0, "the reference")),
+        (coarse, Rung("lumped", "solved", largest, "differs by less than allowed, as measured")),
+        (elastic & ~coarse, Rung("continuum", "solved", 0.0, "the reference")),
+    )
+    return [
+        Job(rung, rows[members[chosen]], tuple(groups[:, members[chosen]]), "pairs of few impacts")
+        for chosen, rung in kinds
+        if chosen.any()
+    ]
+
+
+def rung(mass_ratio, stiffness_ratio, restitution, tolerance, count, responses=()):
+    """The cheapest rung for impacts of one pair that do not slide throughout.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio, restitution : float
+    tolerance : float
+    count : int
+        How many: compiling pays for many.
+    responses : dict
+        Those compiled so far, as `solve` keeps them.
+
+    Returns
+    -------
+    Rung
+
+    Examples
+    --------
+    >>> rung(3.5, 1.21, 0.9, 1e-3, 10**3)[:2], rung(3.5, 1.21, 0.9, 1e-3, 10**6)[:2]
+    (('lumped', 'solved'), ('lumped', 'compiled'))
+    >>> rung(3.5, 1.21, 1.0, 0.3, 100)[:2], rung(3.5, 1.21, 1.0, 1e-3, 1000)[:2]
+    (('lumped', 'solved'), ('continuum', 'compiled'))
+    """
+    groups = mass_ratio, stiffness_ratio, restitution
+    gap = {ladder.reference(restitution): 0.0}
+    for model in ("rigid", "lumped"):
+        if model not in gap:
+            gap[model] = _gap(model, *groups, tolerance)
+    costs = []
+    for (model, way), (first, each) in COST.items():
+        if gap.get(model, np.inf) <= MOST * tolerance:
+            ready = way == "compiled" and (model, *groups) in responses
+            costs.append(((0.0 if ready else first) + count * each, model, way))
+    _, model, way = min(costs)
+    why = f"differs by {gap[model]:.2g} at most, as measured" if gap[model] else "the reference"
+    return Rung(model, way, gap[model], why)
+
+
+def _gap(model, mass_ratio, stiffness_ratio, restitution, tolerance):
+    if restitution == 1:
+        return float(gaps.elastic(model, mass_ratio, stiffness_ratio))
+    # The rigid limit turns no velocity round; it is not worth asking for less than that.
+    return gaps.inelastic(mass_ratio, stiffness_ratio, restitution) if tolerance > 1e-4 else np.inf
+
+
+def solve(rung, incidence, mass_ratio, stiffness_ratio, restitution, tolerance, responses):
+    """Impacts by a rung.
+
+    Parameters
+    ----------
+    rung : Rung
+    incidence : ndarray, shape (n,)
+        At least 0.
+    mass_ratio, stiffness_ratio, restitution : float or ndarray, shape (n,)
+        Numbers where the rung is compiled.
+    tolerance : float
+    responses : dict
+        Those compiled so far, by model and groups; a new one is added.
+
+    Returns
+    -------
+    rebound : Rebound
+    error : float
+        Of velocity (mu v2(0)) and peak friction (mu F2max), against the reference.
+    """
+    groups = mass_ratio, stiffness_ratio, restitution
+    if rung.way == "compiled":
+        key = rung.model, *groups
+        if key not in responses:
+            responses[key] = _compiled(rung.model, *groups, tolerance)
+        return responses[key](incidence), rung.error + max(responses[key].error_bound)
+    if rung.model == "continuum":
+        return continuum.rebound(incidence, *groups, tolerance=tolerance), tolerance
+    model = {"lumped": lumped, "rigid": rigid}[rung.model]
+    return model.rebound(incidence, *groups), rung.error + EXACT
+
+
+def _compiled(model, mass_ratio, stiffness_ratio, restitution, tolerance):
+    return response.compile(
+        model,
+        incidence_max=lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution),
+        tolerance=tolerance if model == "continuum" else min(tolerance, FINE),
+        mass_ratio=mass_ratio,
+        stiffness_ratio=stiffness_ratio,
+        restitution=restitution,
+    )

@@ -1,0 +1,214 @@
+"""The columns of a scene's table: which there are, what they admit, and what is missing."""
+
+import difflib
+import re
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact.checks import InputError
+
+HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
+
+
+class Column(NamedTuple):
+    """A column: its unit, what it admits in words, and between which numbers."""
+
+    unit: str
+    allowed: str
+    low: float = -np.inf
+    high: float = np.inf
+    open_low: bool = False
+    infinite: bool = False
+
+
+_FINITE = "finite numbers"
+_ABOVE = dict(allowed="finite numbers above 0", low=0, open_low=True)
+_LARGE = dict(allowed="numbers above 0, or inf", low=0, open_low=True, infinite=True)
+_RATIO = dict(allowed="numbers above -1, up to 0.5", low=-1, high=0.5, open_low=True)
+_AXES = "xyz"
+
+BODY = {
+    "radius": Column("m", **_ABOVE),
+    "density": Column("kg/m^3", **_ABOVE),
+    "mass": Column("kg", **_ABOVE),
+    "gyration": Column("m", **_ABOVE),
+    "young_modulus": Column("Pa", **_ABOVE),
+    "poisson_ratio": Column("", **_RATIO),
+}
+OTHER = {
+    "other_radius": Column("m", **_LARGE),
+    "other_density": Column("kg/m^3", **_ABOVE),
+    "other_mass": Column("kg", **_LARGE),
+    "other_gyration": Column("m", **_LARGE),
+    "other_young_modulus": Column("Pa", **_LARGE),
+    "other_poisson_ratio": Column("", **_RATIO),
+}
+PAIR = {
+    "friction": Column("", "finite numbers from 0", low=0),
+    "restitution": Column("", "numbers from 0 to 1", low=0, high=1),
+}
+PLANE = {
+    "velocity_tangential": Column("m/s", _FINITE),
+    "velocity_normal": Column("m/s", _FINITE),
+    "spin": Column("rad/s", _FINITE),
+}
+SPACE = {f"velocity_{axis}": Column("m/s", _FINITE) for axis in _AXES}
+SPACE |= {f"spin_{axis}": Column("rad/s", _FINITE) for axis in _AXES}
+NORMAL = {f"normal_{axis}": Column("", "numbers from -1 to 1", low=-1, high=1) for axis in _AXES}
+OTHER_PLANE = {f"other_{name}": column for name, column in PLANE.items()}
+OTHER_SPACE = {f"other_{name}": column for name, column in SPACE.items()}
+
+KNOWN = BODY | OTHER | PAIR | PLANE | SPACE | NORMAL | OTHER_PLANE | OTHER_SPACE
+LABEL = "id"
+
+
+def header(name, ending=""):
+    """Header of a column: its name, and an ending, with the unit in brackets if it has one.
+
+    Examples
+    --------
+    >>> header("radius"), header("friction")
+    ('radius [m]', 'friction')
+    """
+    unit = KNOWN[name].unit
+    return f"{name}{ending} [{unit}]" if unit else name + ending
+
+
+def named(headers):
+    """Names of the columns of a table, by header; refused if a set of them is incomplete.
+
+    Parameters
+    ----------
+    headers : iterable of str
+
+    Returns
+    -------
+    dict
+        `{name: header}`, with `id` where it is there.
+
+    Raises
+    ------
+    InputError
+        For an unknown or repeated column, a wrong unit, or columns that do not go together.
+
+    Examples
+    --------
+    >>> named(["radius [mm]"])
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: column 'radius [mm]': the unit of radius is [m]
+    """
+    found = {}
+    for text in map(str, headers):
+        parts = HEADER.fullmatch(text.strip())
+        name, unit = (parts["name"], parts["unit"]) if parts else (text, None)
+        if name != LABEL and name not in KNOWN:
+            close = difflib.get_close_matches(name, KNOWN, n=1)
+            hint = f"; did you mean '{header(close[0])}'?" if close else ""
+            raise InputError(f"column {text!r}: unknown{hint}")
+        if name != LABEL and (unit or "") not in (KNOWN[name].unit, "1" * (not KNOWN[name].unit)):
+            wanted = f"is [{KNOWN[name].unit}]" if KNOWN[name].unit else "is none: it is a number"
+            raise InputError(f"column {text!r}: the unit of {name} {wanted}")
+        if name in found:
+            raise InputError(f"column {text!r}: it is there twice")
+        found[name] = text
+    _refuse_incomplete(set(found))
+    return found
+
+
+def _refuse_incomplete(names):
+    """Refuse a table whose columns do not make up bodies and a state."""
+    _need(names, ["radius", "young_modulus", "poisson_ratio", "friction", "restitution"])
+    _need_one_of(names, "density", ("mass", "gyration"))
+    if names & (set(OTHER) - {"other_young_modulus", "other_poisson_ratio", "other_radius"}):
+        _need(names, ["other_radius"])
+        _need_one_of(names, "other_density", ("other_mass", "other_gyration"))
+    _all_or_none(names, ["other_young_modulus", "other_poisson_ratio"])
+    space = names & set(SPACE)
+    if space and names & set(PLANE):
+        raise InputError(
+            f"columns {_listed(names & set(PLANE))} and {_listed(space)}: a state has two "
+            "dimensions or three"
+        )
+    _need(names, list(SPACE if space else PLANE))
+    _all_or_none(names, list(NORMAL))
+    states = (OTHER_SPACE, OTHER_PLANE) if space else (OTHER_PLANE, OTHER_SPACE)
+    _all_or_none(names, list(states[0]))
+    wrong = names & set(states[1]) | (set() if space else names & set(NORMAL))
+    if wrong:
+        dimensions = "three" if space else "two"
+        raise InputError(f"columns {_listed(wrong)}: the state has {dimensions} dimensions")
+
+
+def _need(names, wanted):
+    missing = [name for name in wanted if name not in names]
+    if missing:
+        raise InputError(f"columns {_listed(missing)}: missing")
+
+
+def _need_one_of(names, single, several):
+    if (single in names) == bool(names & set(several)):
+        raise InputError(f"columns: needed are either {header(single)} or {_listed(several)}")
+    if single not in names:
+        _need(names, several)
+
+
+def _all_or_none(names, wanted):
+    if names & set(wanted):
+        _need(names, wanted)
+
+
+def _listed(names):
+    return ", ".join(header(name) for name in KNOWN if name in names)
+
+
+def numbers(table, names):
+    """Columns of a table as float64, and what is wrong in which row.
+
+    Parameters
+    ----------
+    table : DataFrame
+    names : dict
+        As `named` returns them.
+
+    Returns
+    -------
+    values : dict of ndarray
+        By name.
+    problems : dict
+        `{position: words}`, the first problem of every bad row, positions from 0.
+    """
+    values, problems = {}, {}
+    for name, text in names.items():
+        if name == LABEL:
+            continue
+        column = KNOWN[name]
+        values[name], bad = _checked(table[text], column)
+        for position in np.flatnonzero(bad).tolist():
+            shown = table[text].iloc[position]
+            shown = repr(shown) if isinstance(shown, str) else f"{shown}"
+            problems.setdefault(position, f"{text} = {shown}: allowed are {column.allowed}")
+    return values, problems
+
+
+def _checked(series, column):
+    """Numbers of one column, and which are not admissible."""
+    try:
+        values = series.to_numpy(dtype=float, na_value=np.nan)
+    except (TypeError, ValueError):  # words among them: they become NaN, and are bad
+        values = np.array([_number(cell) for cell in series])
+    if series.dtype == bool:
+        values = np.full(values.shape, np.nan)
+    good = values > column.low if column.open_low else values >= column.low
+    good &= values <= column.high
+    if not column.infinite:
+        good &= np.isfinite(values)
+    return values, ~good
+
+
+def _number(cell):
+    try:
+        return np.nan if isinstance(cell, bool) else float(cell)
+    except (TypeError, ValueError):
+        return np.nan

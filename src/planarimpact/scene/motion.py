@@ -1,0 +1,227 @@
+"""From the state of two bodies before an impact to its groups, and on to the state after it.
+
+Vectors are arrays of shape (3, n) in the axes of the table. The unit normal n points from the
+other body, or the surface, to the body; contact points lie at -radius n from the body's centre and
+at +radius n from the other's. A plane state stands in the plane of x (tangential) and z (normal):
+its normal velocity is positive towards the surface and its spin, positive where it moves the
+contact point in the tangential direction, turns about -y.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact import bodies
+from planarimpact.bodies import Body, Material
+
+AXES = "xyz"
+UNIT = 1e-6  # largest error of the length of a normal
+
+
+class State(NamedTuple):
+    """Velocity of a centre [m/s] and spin [rad/s], arrays of shape (3, n) or (3, 1)."""
+
+    velocity: np.ndarray
+    spin: np.ndarray
+
+
+class Impacts(NamedTuple):
+    """Impacts of a table: bodies, the direction of contact, states, and what follows from them.
+
+    Arrays of shape (n,), except vectors, (3, n); `other` bodies at infinity have infinite mass.
+    """
+
+    body: Body
+    other: Body
+    normal: np.ndarray
+    before: State
+    other_before: State
+    tangent: np.ndarray  # unit vector of v1(0), 0 where there is none
+    v1: np.ndarray  # tangential velocity of contact, at least 0 [m/s]
+    v2: np.ndarray  # normal velocity of approach [m/s]
+    friction: np.ndarray
+    restitution: np.ndarray
+    m2: np.ndarray  # normal effective mass [kg]
+    mass_ratio: np.ndarray
+    stiffness_ratio: np.ndarray
+    peak_normal: np.ndarray  # largest normal force by Hertz [N]
+
+
+def impacts(values):
+    """Impacts of checked columns.
+
+    Parameters
+    ----------
+    values : dict of ndarray, shape (n,)
+        As `planarimpact.scene.columns.numbers` returns them, without bad rows.
+
+    Returns
+    -------
+    Impacts
+        v2 may be 0 or negative, where nothing approaches: the caller refuses that.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):  # `problems` finds what is not finite
+        body, other = _body(values, ""), _body(values, "other_")
+        normal = _normal(values)
+        before, other_before = _state(values, ""), _state(values, "other_")
+        relative = _contact_velocity(before, body, -normal)
+        relative = relative - _contact_velocity(other_before, other, normal)
+        along = np.sum(relative * normal, axis=0)
+        sideways = relative - along * normal
+        v1, v2 = np.hypot(np.hypot(*sideways[:2]), sideways[2]), -along
+        _, m2 = bodies.effective_masses(body, other)
+        return Impacts(
+            body,
+            other,
+            normal,
+            before,
+            other_before,
+            sideways / np.where(v1 > 0, v1, 1.0),
+            v1,
+            v2,
+            values["friction"],
+            values["restitution"],
+            m2,
+            bodies.mass_ratio(body, other),
+            bodies.stiffness_ratio(*_materials(values)),
+            _peak_normal(values, m2, v2),
+        )
+
+
+def problems(impacts):
+    """What is wrong with an impact as a whole: `{index: words}`.
+
+    Examples
+    --------
+    >>> steel = {"young_modulus": 207e9, "poisson_ratio": 0.3, "radius": 0.01, "density": 7800.0}
+    >>> state = {"velocity_tangential": 1.0, "velocity_normal": -1.0, "spin": 0.0}
+    >>> row = steel | state | {"friction": 0.1, "restitution": 0.5}
+    >>> problems(impacts({name: np.array([value]) for name, value in row.items()}))
+    {0: 'normal velocity of approach = -1: the bodies must approach each other'}
+    """
+    length = np.sqrt(np.sum(impacts.normal**2, axis=0))
+    numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.peak_normal, impacts.v1
+    finite = np.isfinite(numbers).all(axis=0) & np.isfinite(impacts.v2)
+    found = {}
+    for i in np.flatnonzero(~finite):
+        found[int(i)] = "its numbers are too large or too small to compute with"
+    for i in np.flatnonzero(~(impacts.v2 > 0) & finite):
+        words = f"normal velocity of approach = {impacts.v2[i]:g}: the bodies must approach"
+        found[int(i)] = f"{words} each other"
+    for i in np.flatnonzero(np.abs(length - 1) > UNIT):
+        found[int(i)] = f"normal_x, y, z have the length {length[i]:g}: allowed is 1"
+    return found
+
+
+def after(impacts, tangential_velocity):
+    """State after the impact.
+
+    Parameters
+    ----------
+    impacts : Impacts
+    tangential_velocity : ndarray, shape (n,)
+        v1(tf) [m/s] in the direction of `impacts.tangent`.
+
+    Returns
+    -------
+    body, other : State
+    """
+    change = (tangential_velocity - impacts.v1) / impacts.mass_ratio
+    # P1 = m1 (v1(tf) - v1(0)), m1 = m2/beta; P2 = (1 + e) m2 v2(0).
+    sideways = impacts.m2 * change * impacts.tangent
+    impulse = sideways + impacts.m2 * (1 + impacts.restitution) * impacts.v2 * impacts.normal
+    return (
+        _kicked(impacts.before, impacts.body, impulse, -impacts.normal),
+        _kicked(impacts.other_before, impacts.other, -impulse, impacts.normal),
+    )
+
+
+def energy_lost(impacts, tangential_velocity):
+    """Kinetic energy lost by both bodies [J]: in the normal element, and tangentially."""
+    e, v1, after = impacts.restitution, impacts.v1, tangential_velocity
+    normal = (1 - e) * (1 + e) * impacts.v2**2
+    return impacts.m2 / 2 * (normal + (v1 - after) * (v1 + after) / impacts.mass_ratio)
+
+
+def energy(body, state):
+    """Kinetic energy [J]; that of a body of infinite mass is taken as 0."""
+    turning = body.gyration**2 * np.sum(state.spin**2, axis=0)
+    whole = body.mass / 2 * (np.sum(state.velocity**2, axis=0) + turning)
+    return np.where(np.isinf(body.mass), 0.0, whole)
+
+
+def columns_of(state, plane):
+    """Columns of a state, by name: those of a plane state, or of three axes."""
+    if plane:
+        return {
+            "velocity_tangential": state.velocity[0],
+            "velocity_normal": -state.velocity[2],
+            "spin": -state.spin[1],
+        }
+    named = {f"velocity_{axis}": row for axis, row in zip(AXES, state.velocity, strict=True)}
+    return named | {f"spin_{axis}": row for axis, row in zip(AXES, state.spin, strict=True)}
+
+
+def _body(values, prefix):
+    """A body; the other one is a half-space where it has no mass."""
+    count = values["radius"].size
+    radius = values.get(f"{prefix}radius", np.zeros(count))
+    if f"{prefix}density" in values:
+        return bodies.solid_sphere(radius, values[f"{prefix}density"])
+    if f"{prefix}mass" not in values:
+        return Body(np.full(count, np.inf), np.full(count, np.inf), np.zeros(count))
+    mass, gyration = values[f"{prefix}mass"], values[f"{prefix}gyration"]
+    # What cannot move needs no arm, which may be infinite.
+    radius = np.where(np.isinf(mass) & np.isinf(gyration), 0.0, radius)
+    return Body(mass, gyration, radius)
+
+
+def _materials(values):
+    material = Material(values["young_modulus"], values["poisson_ratio"])
+    if "other_young_modulus" not in values:
+        return material, None
+    young, poisson = values["other_young_modulus"], values["other_poisson_ratio"]
+    # A rigid counterbody adds no compliance: Young's modulus out of proportion does the same.
+    young = np.where(np.isinf(young), np.finfo(float).max, young)
+    return material, Material(young, poisson)
+
+
+def _normal(values):
+    if "normal_x" in values:
+        return np.stack([values[f"normal_{axis}"] for axis in AXES])
+    return np.broadcast_to(np.array([[0.0], [0.0], [1.0]]), (3, values["radius"].size))
+
+
+def _state(values, prefix):
+    if f"{prefix}velocity_x" in values:
+        return State(
+            np.stack([values[f"{prefix}velocity_{axis}"] for axis in AXES]),
+            np.stack([values[f"{prefix}spin_{axis}"] for axis in AXES]),
+        )
+    if f"{prefix}velocity_normal" not in values:
+        return State(np.zeros((3, 1)), np.zeros((3, 1)))
+    still = np.zeros(values[f"{prefix}spin"].size)
+    return State(
+        np.stack(
+            [values[f"{prefix}velocity_tangential"], still, -values[f"{prefix}velocity_normal"]]
+        ),
+        np.stack([still, -values[f"{prefix}spin"], still]),
+    )
+
+
+def _contact_velocity(state, body, towards):
+    """Velocity of the contact point, at the body's radius in the direction `towards`."""
+    return state.velocity + body.radius * np.cross(state.spin, towards, axis=0)
+
+
+def _kicked(state, body, impulse, towards):
+    """State after an impulse at the contact point."""
+    turn = np.cross(towards, impulse, axis=0) * (body.radius / body.gyration) / body.gyration
+    return State(state.velocity + impulse / body.mass, state.spin + turn / body.mass)
+
+
+def _peak_normal(values, m2, v2):
+    radius = bodies.effective_radius(values["radius"], values.get("other_radius", np.inf))
+    modulus = bodies.effective_modulus(*_materials(values))
+    approaching = np.where((v2 > 0) & np.isfinite(v2), v2, 1.0)  # others are refused later
+    return bodies.hertz_peak_force(m2, approaching, modulus, radius)

@@ -1,0 +1,143 @@
+"""Solves tables of impacts, block by block, and remembers what it did."""
+
+from collections import Counter
+
+import numpy as np
+import pandas as pd
+
+from planarimpact import checks, lumped
+from planarimpact.checks import InputError
+from planarimpact.results import Regime
+from planarimpact.scene import choice, columns, motion
+
+BLOCK = 2**17  # rows solved together: bounds the memory
+_REGIMES = [regime.name for regime in Regime]
+
+
+class Solver:
+    """Solves one table after another, and remembers compiled responses and what it did.
+
+    Parameters
+    ----------
+    tolerance : float
+        As in `solve`.
+
+    Attributes
+    ----------
+    bad : list of (int, str)
+        Rows left out with `skip_bad`, by number from 1 over all tables, and why.
+    rows : int
+        Rows read so far.
+    """
+
+    def __init__(self, tolerance=1e-3):
+        number = checks.checked("tolerance", tolerance, "numbers from 1e-10 to 1", 1e-10, 1)
+        if number.ndim:
+            raise InputError(f"tolerance, shape {number.shape}: allowed is one number")
+        self.tolerance = float(number)
+        self.bad, self.rows = [], 0
+        self._responses, self._taken = {}, Counter()
+
+    def solve(self, table, skip_bad=False):
+        """State after each impact of a table, as the function `solve`; bad rows may be left out.
+
+        Parameters
+        ----------
+        table : DataFrame
+        skip_bad : bool
+            Leave bad rows out, and keep them in `bad`.
+
+        Returns
+        -------
+        DataFrame
+        """
+        names = columns.named(table.columns)
+        blocks = [
+            self._block(table.iloc[start : start + BLOCK], names, skip_bad)
+            for start in range(0, max(len(table), 1), BLOCK)
+        ]
+        return pd.concat(blocks) if len(blocks) > 1 else blocks[0]
+
+    def explain(self):
+        """How many impacts went to which rung and why, in words, a line each.
+
+        Returns
+        -------
+        str
+        """
+        lines = [f"{self.rows - len(self.bad)} impacts, tolerance {self.tolerance:g}"]
+        for (rung, pair), count in self._taken.most_common():
+            way = rung.model if rung.way == "formula" else f"{rung.model}, {rung.way}"
+            lines.append(f"{count:>10}  {way:<20}  {pair}: {rung.why}")
+        return "\n".join(lines)
+
+    def _block(self, table, names, skip_bad):
+        values, problems = columns.numbers(table, names)
+        good = np.ones(len(table), dtype=bool)
+        good[list(problems)] = False
+        impacts = motion.impacts({name: column[good] for name, column in values.items()})
+        positions = np.flatnonzero(good)
+        wrong = motion.problems(impacts)
+        problems |= {int(positions[i]): words for i, words in wrong.items()}
+        self._note(problems, skip_bad)
+        if wrong:
+            good[list(problems)] = False
+            impacts = motion.impacts({name: column[good] for name, column in values.items()})
+        self.rows += len(table)
+        result = self._after(impacts, names)
+        chosen = table[good]
+        if columns.LABEL in names:
+            result = {columns.LABEL: chosen[names[columns.LABEL]].to_numpy(), **result}
+        return pd.DataFrame(result, index=chosen.index)
+
+    def _note(self, problems, skip_bad):
+        """Refuse the first bad row, or note them all."""
+        numbered = [(self.rows + position + 1, problems[position]) for position in sorted(problems)]
+        if skip_bad:
+            self.bad += numbered
+        elif numbered:
+            more = f"; {len(numbered) - 1} more rows are bad" if len(numbered) > 1 else ""
+            raise InputError(f"row {numbered[0][0]}: {numbered[0][1]}{more}")
+
+    def _after(self, impacts, names):
+        """Columns of the result."""
+        unit = impacts.friction * impacts.v2
+        groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
+        slides = impacts.v1 >= lumped.slip_throughout_limit(*groups) * unit
+        lost = (1 + impacts.restitution) * impacts.mass_ratio * unit
+        velocity = impacts.v1 - np.where(slides, lost, 0.0)
+        peak, error = np.ones(unit.size), np.zeros(unit.size)
+        regime = np.full(unit.size, Regime.SLIP_THROUGHOUT, np.uint8)
+        model = np.zeros(unit.size, np.intp)
+        if slides.any():
+            self._taken[choice.SLIDING, "all pairs"] += int(np.sum(slides))
+        for job in choice.jobs(*groups, np.flatnonzero(~slides), self.tolerance, self._responses):
+            rows, rung = job.rows, job.rung
+            x = impacts.v1[rows] / unit[rows]
+            found, known = choice.solve(rung, x, *job.groups, self.tolerance, self._responses)
+            velocity[rows] = found.velocity * unit[rows]
+            peak[rows], regime[rows] = found.peak_friction, found.regime
+            error[rows] = known * unit[rows]
+            model[rows] = 1 + choice.MODELS.index(rung.model)
+            self._taken[rung, job.pair] += rows.size
+        return self._columns(impacts, names, velocity, peak, error, regime, model)
+
+    def _columns(self, impacts, names, velocity, peak, error, regime, model):
+        body, other = motion.after(impacts, velocity)
+        plane = "spin" in names
+        states = motion.columns_of(body, plane)
+        if np.isfinite(impacts.other.mass).any():
+            states |= {f"other_{k}": v for k, v in motion.columns_of(other, plane).items()}
+        after = {columns.header(name, "_after"): values for name, values in states.items()}
+        with np.errstate(divide="ignore", invalid="ignore"):  # no friction, no incidence
+            incidence = impacts.v1 / (impacts.friction * impacts.v2)
+        models = [choice.SLIDING.model, *choice.MODELS]
+        return after | {
+            "model": pd.Categorical.from_codes(model, models),
+            "error [m/s]": error,
+            "regime": pd.Categorical.from_codes(regime, _REGIMES),
+            "incidence": incidence,
+            "peak_normal_force [N]": impacts.peak_normal,
+            "peak_friction_force [N]": impacts.friction * peak * impacts.peak_normal,
+            "energy_lost [J]": motion.energy_lost(impacts, velocity),
+        }

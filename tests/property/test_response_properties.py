@@ -1,0 +1,97 @@
+"""Compiled responses of the lumped model over its whole box of parameters."""
+
+import warnings
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from planarimpact import lumped, response
+
+SEED = st.integers(0, 2**32 - 1)
+MASS_RATIO = st.floats(1.0, 8.0)
+STIFFNESS_RATIO = st.floats(-1.0, 1.0).map(lambda power: 10.0**power)
+RESTITUTION = st.one_of(
+    st.sampled_from([0.0, 1.0, 1e-300]),
+    st.floats(0.0, 1.0),
+    st.floats(-12, 0).map(lambda p: 10.0**p),
+)
+GROUPS = st.tuples(MASS_RATIO, STIFFNESS_RATIO, RESTITUTION)
+
+settings.register_profile("house", max_examples=150, deadline=None, derandomize=True)
+settings.load_profile("house")
+
+TOLERANCE, LARGEST = 1e-10, 20.0
+ROUNDING = 1e-14  # of x - (1 + e) beta and of the model
+NEAR = 1e-4  # of a change of regime
+
+
+def compiled(groups, tolerance=TOLERANCE):
+    names = "mass_ratio", "stiffness_ratio", "restitution"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        return response.compile(
+            "lumped",
+            incidence_max=LARGEST,
+            tolerance=tolerance,
+            **dict(zip(names, groups, strict=True)),
+        )
+
+
+def incidences(groups, seed):
+    """Random ones of either sign, most where it does not slide, and tiny ones."""
+    limit = float(lumped.slip_throughout_limit(*groups))
+    rng = np.random.default_rng(seed)
+    some = [rng.uniform(0, min(limit, LARGEST), 300), rng.uniform(0, LARGEST, 50)]
+    x = np.concatenate([*some, 10 ** rng.uniform(-12, 0, 30)])
+    return x * rng.choice([-1.0, 1.0], x.size)
+
+
+def thresholds(groups):
+    """Every threshold of the model with the numbers next to it."""
+    beta, zeta2, e = groups
+    limit = float(lumped.slip_throughout_limit(*groups))
+    places = np.array([zeta2, beta, limit, (1 + e) * beta])
+    x = np.concatenate([places, np.nextafter(places, 0), np.nextafter(places, 99)])
+    return x[x <= LARGEST]
+
+
+def assert_within_the_bound(found, x, groups):
+    result, exact = found(x), lumped.rebound(x, *groups)
+    for field, bound in found.error_bound._asdict().items():
+        error = np.abs(getattr(result, field) - getattr(exact, field))
+        allowed = bound + ROUNDING * np.maximum(1, np.abs(x))
+        assert (error <= allowed).all(), (field, x[error.argmax()], error.max(), bound)
+    np.testing.assert_array_equal(found.velocity(x), result.velocity)
+
+
+@given(GROUPS, SEED)
+def test_the_error_bound_holds_everywhere(groups, seed):
+    found = compiled(groups)
+    assert max(found.error_bound) <= TOLERANCE
+    assert_within_the_bound(found, incidences(groups, seed), groups)
+    assert_within_the_bound(found, thresholds(groups), groups)
+    pieces = found._piecewise.pieces  # where one polynomial follows another
+    starts = pieces.start[1:]
+    assert_within_the_bound(found, np.concatenate([starts, np.nextafter(starts, 0)]), groups)
+
+
+@given(GROUPS, SEED)
+def test_the_regime_is_that_of_the_model_or_a_neighbour(groups, seed):
+    found, x = compiled(groups), incidences(groups, seed)
+    wrong = x[found(x).regime != lumped.rebound(x, *groups).regime]
+    assert wrong.size <= 4
+    for one in np.abs(wrong):
+        near = np.abs(one + NEAR * np.linspace(-1, 1, 2001))
+        assert found(one).regime in lumped.rebound(near, *groups).regime, one
+
+
+@given(GROUPS, SEED, st.sampled_from([1e-10, 1e-3, 1e-1]))
+def test_friction_never_creates_energy(groups, seed, tolerance):
+    """However coarse the response."""
+    found = compiled(groups, tolerance)
+    x = np.concatenate([incidences(groups, seed), thresholds(groups)])
+    result = found(x)
+    assert (np.abs(result.velocity) <= np.abs(x)).all()
+    assert (result.dissipation >= 0).all() and (found.dissipation(x) >= 0).all()
+    assert ((result.peak_friction >= 0) & (result.peak_friction <= 1)).all()

@@ -1,0 +1,146 @@
+"""Every model of the ladder keeps the one convention, and what its entry says of it."""
+
+import inspect
+
+import numpy as np
+import pytest
+
+from planarimpact import InputError, Rebound, Regime, ladder
+
+COARSE = {
+    "continuum": {"tolerance": 1e-3},
+    "annuli": {"circles": 6, "steps": 48},
+}
+MODELS = list(ladder.MODELS.values())
+ELASTIC = [model for model in MODELS if model.restitution == (1.0, 1.0)]
+SLIDING = [model for model in MODELS if model.sliding_limit is not None]
+X = np.array([[0.0, 0.5, 2.0], [3.4, 6.5, 9.0]])
+
+every_model = pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
+
+
+def solve(model, x, *groups):
+    return model.rebound(x, *groups, **COARSE.get(model.name, {}))
+
+
+def admissible(model):
+    return [1.0] if model in ELASTIC else [0.0, 0.3, 1.0]
+
+
+@every_model
+def test_the_four_groups_go_by_position_or_name(model):
+    result = solve(model, X, 3.0, 1.3, 1.0)
+    named = model.rebound(
+        incidence=X,
+        mass_ratio=3.0,
+        stiffness_ratio=1.3,
+        restitution=1.0,
+        **COARSE.get(model.name, {}),
+    )
+    by_name = ladder.rebound(model.name, X, 3.0, 1.3, 1.0, **COARSE.get(model.name, {}))
+    for other in (named, by_name):
+        for one, two in zip(result[:4], other[:4], strict=True):
+            np.testing.assert_array_equal(one, two)
+
+
+@every_model
+def test_the_result_has_the_shape_of_the_groups(model):
+    result = solve(model, X, 3.0, 1.3, 1.0)
+    assert isinstance(result, Rebound)
+    assert {np.shape(field) for field in result[:4]} == {X.shape}
+    assert result.regime.dtype == np.uint8
+    assert solve(model, X[:, :1], np.array([3.0, 4.0, 5.0]), 1.3, 1.0).velocity.shape == (2, 3)
+    assert solve(model, np.zeros((0, 2)), 3.0, 1.3, 1.0).velocity.shape == (0, 2)
+    alone = solve(model, 2.0, 3.0, 1.3, 1.0)
+    assert isinstance(alone.velocity, float) and isinstance(alone.regime, Regime)
+
+
+@every_model
+def test_the_mirror_image_only_turns_the_velocity(model):
+    for e in admissible(model):
+        right, left = solve(model, X, 3.0, 1.3, e), solve(model, -X, 3.0, 1.3, e)
+        np.testing.assert_array_equal(left.velocity, -right.velocity)
+        for field in ("peak_friction", "dissipation", "regime"):
+            np.testing.assert_array_equal(getattr(left, field), getattr(right, field))
+
+
+@every_model
+def test_the_defaults_are_those_of_the_solver(model):
+    found = inspect.signature(model.rebound).parameters
+    names = ["incidence", "mass_ratio", "stiffness_ratio", "restitution"]
+    assert list(found)[:4] == names
+    own = {key: value.default for key, value in found.items() if value.kind == value.KEYWORD_ONLY}
+    assert own == model.settings
+    assert [found[name].default for name in names[1:]] == [3.5, 1.21, 1.0]
+
+
+@every_model
+def test_the_range_of_restitution_is_enforced(model):
+    low, high = model.restitution
+    for e in (low, high):
+        assert np.isfinite(solve(model, 2.0, 3.0, 1.3, e).velocity)
+    for e in (low - 0.1, high + 0.1, float(np.nextafter(high, 2))):
+        with pytest.raises(InputError, match=f"restitution = {e!r}: allowed"):
+            solve(model, 2.0, 3.0, 1.3, e)
+
+
+@pytest.mark.parametrize("model", ELASTIC, ids=lambda model: model.name)
+def test_an_elastic_model_refuses_hysteresis(model):
+    with pytest.raises(InputError, match="restitution = 0.5: .* elastic"):
+        solve(model, 2.0, 3.0, 1.3, 0.5)
+
+
+@pytest.mark.parametrize("model", SLIDING, ids=lambda model: model.name)
+@pytest.mark.parametrize("groups", [(3.5, 1.21), (1.0, 0.4), (8.0, 9.5), (2.7, 2.7)])
+def test_it_slides_throughout_from_its_limit_on_and_not_below(model, groups):
+    beta, zeta2 = groups
+    for e in admissible(model):
+        limit = float(model.sliding_limit(beta, zeta2, e))
+        x = np.array([limit, limit * (1 + 1e-12), limit + 1, 1e300])
+        result = solve(model, x, beta, zeta2, e)
+        np.testing.assert_array_equal(result.velocity, x - (1 + e) * beta)
+        assert (result.regime[1:] == Regime.SLIP_THROUGHOUT).all()
+        assert solve(model, limit - 1e-6, beta, zeta2, e).regime != Regime.SLIP_THROUGHOUT
+
+
+def test_the_limit_knows_the_settings():
+    limit = ladder.get("laws.brach").sliding_limit(3.5, 1.21, 1.0, tangential_restitution=0.75)
+    assert limit == 4.0
+    settings = {"tangential_restitution": 0.75}
+    near = ladder.rebound("laws.brach", [limit, limit - 1e-6], **settings)
+    assert near.regime.tolist() == [Regime.SLIP_THROUGHOUT, Regime.UNRESOLVED]
+
+
+@every_model
+def test_kinks_are_incidences(model):
+    for e in admissible(model):
+        kinks = np.array(model.kinks(3.0, 1.3, e, **model.settings), float)
+        assert np.isfinite(kinks).all() and (kinks >= 0).all()
+
+
+@every_model
+def test_unknown_settings_are_refused(model):
+    with pytest.raises(InputError, match=rf"magic = 1: {model.name} has (no|the) settings"):
+        ladder.rebound(model.name, 2.0, magic=1)
+
+
+@every_model
+def test_the_entry_says_what_the_model_is(model):
+    assert ladder.get(model.name) is model
+    assert model.valid and model.source and model.rebound.__doc__
+    assert model.cost in ("formula", "phases", "steps", "steps and circles")
+    assert model.name.split(".")[0] == model.rebound.__module__.split(".")[-1]
+
+
+@pytest.mark.parametrize("name", ["magic", "", "Lumped", None])
+def test_an_unknown_name_is_refused(name):
+    with pytest.raises(InputError, match=f"model = {name!r}: allowed are rigid, .*annuli"):
+        ladder.get(name)
+
+
+def test_the_reference_is_the_continuum_where_the_contact_is_elastic():
+    assert ladder.reference(1) == ladder.reference([1.0, 1.0]) == "continuum"
+    assert ladder.reference(0.5) == ladder.reference([1.0, 0.5]) == "lumped"
+    assert {ladder.reference(0), ladder.reference(1)} <= set(ladder.MODELS)
+    with pytest.raises(InputError, match="restitution = 1.5"):
+        ladder.reference(1.5)

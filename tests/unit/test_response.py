@@ -1,0 +1,412 @@
+"""Compiled responses against their models; what they refuse; their files."""
+
+import json
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from planarimpact import ConvergenceError, InputError, Rebound, Regime, ladder, response
+
+X = np.linspace(-9.5, 9.5, 2003)
+FINE, COARSE = 1e-9, 1e-3
+CASES = [
+    ("rigid", FINE, {}),
+    ("rigid", FINE, {"restitution": 0.3, "mass_ratio": 2.7}),
+    ("laws.smith", FINE, {"restitution": 0.5}),
+    ("laws.brach", FINE, {"tangential_restitution": 0.7}),
+    ("laws.bilbao", FINE, {"restitution": 0.5}),
+    ("lumped", FINE, {}),
+    ("lumped", FINE, {"mass_ratio": 8.0, "stiffness_ratio": 0.1}),
+    ("lumped", FINE, {"restitution": 0.5}),
+    ("lumped", FINE, {"restitution": 0.0}),
+    ("timestep.linear", COARSE, {"restitution": 0.5}),
+    ("timestep.linear", 1e-6, {"steps": 16}),
+    ("timestep.mindlin", COARSE, {}),
+    ("timestep.mindlin_rescaled", COARSE, {"stiffness_ratio": 3.0}),
+    ("continuum", COARSE, {}),
+    ("annuli", 5e-2, {"circles": 4, "steps": 16}),
+]
+SLIDING = ["rigid", "laws.smith", "laws.brach", "lumped", "continuum"]
+NEVER_SLIDING = ["laws.bilbao", "timestep.linear", "timestep.mindlin", "timestep.mindlin_rescaled"]
+
+
+def compiled(model="lumped", tolerance=COARSE, **parameters):
+    return response.compile(model, incidence_max=10, tolerance=tolerance, **parameters)
+
+
+def assert_same(one, other):
+    """Equal to the bit, NaN and all."""
+    for a, b in zip(one[:4], other[:4], strict=True):
+        np.testing.assert_array_equal(a, b)
+
+
+@pytest.fixture(scope="module")
+def ball():
+    return compiled("lumped", 1e-10)
+
+
+@pytest.mark.parametrize(("model", "tolerance", "parameters"), CASES)
+def test_it_agrees_with_its_model_to_the_tolerance(model, tolerance, parameters):
+    found = compiled(model, tolerance, **parameters)
+    assert max(found.error_bound) <= tolerance == found.tolerance
+    result, exact = found(X), ladder.rebound(model, X, **found.parameters)
+    for field in ("velocity", "peak_friction"):
+        error = np.abs(getattr(result, field) - getattr(exact, field))
+        assert (np.isnan(getattr(exact, field)) == np.isnan(error)).all()
+        assert np.nanmax(error, initial=0.0) <= tolerance, field
+    work = np.abs(result.dissipation - exact.dissipation)
+    speed = np.maximum(np.abs(X), 1)
+    assert (work <= speed * tolerance / found.parameters["mass_ratio"] + 1e-13).all()
+    assert np.mean(result.regime == exact.regime) > 0.995
+    np.testing.assert_array_equal(found.velocity(X), result.velocity)
+    np.testing.assert_array_equal(found.peak_friction(X), result.peak_friction)
+    np.testing.assert_allclose(found.dissipation(X), result.dissipation, rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("restitution", [1.0, 0.5, 0.0])
+def test_regimes_are_those_of_the_lumped_model(restitution):
+    found = compiled("lumped", 1e-10, restitution=restitution)
+    exact = ladder.rebound("lumped", X, restitution=restitution)
+    np.testing.assert_array_equal(found(X).regime, exact.regime)
+
+
+@pytest.mark.parametrize("model", SLIDING)
+@pytest.mark.parametrize("beta", [1.0, 3.5, 7.3])
+def test_sliding_is_exact_to_the_bit_for_any_incidence(model, beta):
+    e = 1.0 if model == "continuum" else 0.3
+    found = compiled(model, mass_ratio=beta, stiffness_ratio=0.9, restitution=e)
+    limit = float(ladder.get(model).sliding_limit(beta, 0.9, e))
+    assert (found.incidence_max == np.inf) == (limit <= 10)
+    largest = min(found.incidence_max, 1e300)
+    x = np.array([limit, np.nextafter(limit, 99), limit + 1, 1e9, 1e300])
+    x = x[x <= largest]
+    result = found(np.concatenate([x, -x]))
+    np.testing.assert_array_equal(result.velocity[: x.size], x - (1 + e) * beta)
+    np.testing.assert_array_equal(result.velocity[x.size :], -(x - (1 + e) * beta))
+    assert (result.regime == Regime.SLIP_THROUGHOUT).all() and (result.peak_friction == 1).all()
+    if x.size:
+        below = found(np.nextafter(limit, 0))
+        assert below.regime != Regime.SLIP_THROUGHOUT
+        assert abs(below.velocity - (limit - (1 + e) * beta)) <= COARSE
+
+
+def test_a_smaller_incidence_max_ends_before_it_slides():
+    found = response.compile("lumped", incidence_max=2.5, tolerance=COARSE)
+    assert found.incidence_max == 2.5
+    assert found.velocity(-2.5) == -found.velocity(2.5)
+    with pytest.raises(InputError, match="from -2.5 to 2.5"):
+        found(np.nextafter(2.5, 3))
+
+
+def test_the_mirror_image_only_turns_the_velocity(ball):
+    right, left = ball(np.abs(X)), ball(-np.abs(X))
+    assert_same(right, left._replace(velocity=-left.velocity))
+
+
+def test_normal_impact_leaves_no_tangential_velocity(ball):
+    result = ball(0.0)
+    assert result == (0.0, 0.0, 0.0, Regime.STICK, None)
+    assert ball(-0.0).velocity == ball(5e-324).peak_friction == 0
+
+
+def test_scalars_in_scalars_out(ball):
+    result = ball(2)
+    assert isinstance(result, Rebound)
+    assert all(isinstance(number, float) for number in result[:3])
+    assert result.regime is Regime.SLIP_STICK_SLIP and result.reversals is None
+    for answer in (ball.velocity, ball.peak_friction, ball.dissipation):
+        assert isinstance(answer(2.0), float) and np.ndim(answer(np.array(2.0))) == 0
+
+
+@pytest.mark.parametrize("shape", [(0,), (0, 2), (1,), (3, 2), (2, 1, 4)])
+def test_shapes_are_kept(ball, shape):
+    result = ball(np.full(shape, 2.0))
+    assert {np.shape(field) for field in result[:4]} == {shape}
+    assert result.regime.dtype == np.uint8
+    for answer in (ball.velocity, ball.peak_friction, ball.dissipation):
+        assert answer(np.full(shape, 2.0)).shape == shape
+
+
+def test_numbers_of_any_kind_and_layout_will_do(ball):
+    whole = np.arange(-8, 9)
+    assert_same(ball(whole), ball(whole.astype(float)))
+    assert_same(ball(whole.tolist()), ball(whole.astype(float)))
+    grid = np.arange(12.0).reshape(3, 4)
+    for view in (grid.T, grid[::-1, ::2], whole[::-1], whole.astype(np.float32)):
+        np.testing.assert_array_equal(ball.velocity(view), ball.velocity(np.array(view, float)))
+        np.testing.assert_array_equal(ball(view).velocity, ball.velocity(view))
+
+
+def test_the_argument_is_left_alone(ball):
+    x = X.copy()
+    x.flags.writeable = False
+    ball(x), ball.velocity(x)
+    np.testing.assert_array_equal(x, X)
+
+
+def test_batches_do_not_depend_on_their_size(ball):
+    x = np.linspace(-9, 9, 2 * response.CHUNK + 3)
+    whole = ball(x)
+    assert_same([field[::977] for field in whole[:4]], ball(x[::977]))
+    assert [ball.velocity(v) for v in x[::3001]] == whole.velocity[::3001].tolist()
+
+
+def test_it_is_deterministic(ball):
+    assert_same(compiled("lumped", 1e-10)(X), ball(X))
+
+
+def test_it_is_pickled(ball):
+    again = pickle.loads(pickle.dumps(ball))
+    assert_same(again(X), ball(X))
+    assert repr(again) == repr(ball) and "lumped" in repr(ball)
+
+
+def test_laws_of_impulses_know_a_peak_in_sliding_alone():
+    found = compiled("laws.smith", restitution=0.5)
+    result = found([0.0, 2.0, 5.24, 5.25, -9.0])
+    np.testing.assert_array_equal(result.peak_friction, [np.nan] * 3 + [1.0, 1.0])
+    names = ["STICK", "UNRESOLVED", "UNRESOLVED", "SLIP_THROUGHOUT", "SLIP_THROUGHOUT"]
+    assert [Regime(code).name for code in result.regime] == names
+
+
+@pytest.mark.parametrize("model", NEVER_SLIDING)
+def test_an_incidence_beyond_the_largest_is_refused(model):
+    found = compiled(model)
+    assert found.incidence_max == 10
+    for answer in (found, found.velocity, found.peak_friction, found.dissipation):
+        answer([10.0, -10.0])
+        for x in (np.nextafter(10, 11), -11.0, [1.0, 1e300]):
+            with pytest.raises(InputError, match=r"incidence.* from -10 to 10"):
+                answer(x)
+
+
+@pytest.mark.parametrize(
+    ("x", "words"),
+    [
+        (np.nan, "incidence.* = nan"),
+        ([0.0, np.inf], r"incidence\[1\] = inf"),
+        ([0.0, 1.0, -np.inf], r"incidence\[2\] = -inf"),
+        ("1", "incidence = '1'"),
+        (["a", "b"], "incidence = "),
+        (True, "incidence = True"),
+        (1j, "as real numbers"),
+        (None, "incidence = None"),
+    ],
+)
+def test_what_is_no_finite_number_is_named(ball, x, words):
+    for answer in (ball, ball.velocity, ball.peak_friction, ball.dissipation):
+        with pytest.raises(InputError, match=words):
+            answer(x)
+
+
+def test_a_bad_incidence_late_in_a_batch_is_named(ball):
+    x = np.ones(2 * response.CHUNK)
+    x[-5] = np.nan
+    with pytest.raises(InputError, match=rf"incidence\[{x.size - 5}\] = nan"):
+        ball.velocity(x)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"model": "magic"}, "model = 'magic': allowed are rigid, "),
+        ({"steps": 64}, "steps = 64: lumped has no settings"),
+        ({"model": "continuum", "circles": 4}, "circles = 4: continuum has the settings"),
+        ({"tolerance": 0}, "tolerance = 0.0: allowed are numbers from 1e-11 to 1"),
+        ({"tolerance": 1e-13}, "tolerance = 1e-13"),
+        ({"tolerance": 1.5}, "tolerance = 1.5"),
+        ({"tolerance": np.nan}, "tolerance = nan"),
+        ({"tolerance": "fine"}, "tolerance = 'fine'"),
+        ({"tolerance": [1e-3, 1e-6]}, r"tolerance, shape \(2,\): allowed is one number"),
+        ({"incidence_max": 0}, "incidence_max = 0.0: allowed are finite numbers above 0"),
+        ({"incidence_max": -1}, "incidence_max = -1.0"),
+        ({"incidence_max": np.inf}, "incidence_max = inf"),
+        ({"incidence_max": [9.0]}, r"incidence_max, shape \(1,\)"),
+        ({"mass_ratio": [3.5, 2.0]}, r"mass_ratio, shape \(2,\): allowed is one number"),
+        ({"stiffness_ratio": np.ones((1, 1))}, r"stiffness_ratio, shape \(1, 1\)"),
+        ({"restitution": [1.0]}, r"restitution, shape \(1,\)"),
+        ({"mass_ratio": 0.9}, "mass_ratio = 0.9"),
+        ({"stiffness_ratio": 0.0}, "stiffness_ratio = 0.0"),
+        ({"restitution": 1.1}, "restitution = 1.1"),
+        ({"restitution": np.nan}, "restitution = nan"),
+        ({"restitution": "1"}, "restitution = '1'"),
+        ({"model": "continuum", "restitution": 0.5}, "restitution = 0.5: .* elastic"),
+        ({"model": "timestep.linear", "steps": 2.5}, "steps = 2.5"),
+        ({"model": "laws.brach", "tangential_restitution": 2.0}, "tangential_restitution = 2.0"),
+    ],
+)
+def test_bad_parameters_are_named(arguments, words):
+    given = {"model": "lumped", "incidence_max": 10, "tolerance": COARSE} | arguments
+    with pytest.raises(InputError, match=words):
+        response.compile(given.pop("model"), **given)
+
+
+def test_the_tolerance_is_given_once():
+    """Python refuses the name twice; the model's own follows from it."""
+    with pytest.raises(TypeError, match="tolerance"):
+        response.compile("continuum", incidence_max=9, tolerance=1e-3, **{"tolerance": 1e-3})
+    assert compiled("continuum").parameters["tolerance"] < COARSE
+
+
+def test_a_wrong_model_does_not_pass(monkeypatch):
+    """Noise a ten-thousandth of what it would be taken for at a coarser tolerance."""
+    rng = np.random.default_rng(5)
+    lumped = ladder.MODELS["lumped"]
+
+    def noisy(incidence, *groups):
+        result = lumped.rebound(incidence, *groups)
+        noise = 1e-6 * rng.standard_normal(np.shape(incidence))
+        return result._replace(velocity=result.velocity + noise)
+
+    monkeypatch.setitem(ladder.MODELS, "lumped", lumped._replace(rebound=noisy))
+    with pytest.raises(ConvergenceError, match="too rough"):
+        compiled("lumped", 1e-10)
+    assert max(compiled("lumped", 1e-3).error_bound) <= 1e-3
+
+
+def test_the_bound_shows_an_error_that_the_fit_does_not_meet(monkeypatch):
+    """Were nodes and tests the same points, any function would fit."""
+    lumped = ladder.MODELS["lumped"]
+
+    def jumping(incidence, *groups):
+        result = lumped.rebound(incidence, *groups)
+        return result._replace(velocity=result.velocity + 1e-5 * (np.asarray(incidence) > 2.2))
+
+    monkeypatch.setitem(ladder.MODELS, "lumped", lumped._replace(rebound=jumping))
+    with pytest.raises(ConvergenceError):
+        compiled("lumped", 1e-8)
+
+
+# Files ------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def file(ball, tmp_path):
+    ball.save(tmp_path / "ball.json")
+    return tmp_path / "ball.json"
+
+
+@pytest.mark.parametrize(("model", "tolerance", "parameters"), CASES[:-2])
+def test_a_file_gives_the_same_answers_to_the_bit(tmp_path, model, tolerance, parameters):
+    found = compiled(model, tolerance, **parameters)
+    found.save(tmp_path / "it")
+    again = response.load(tmp_path / "it")
+    x = np.concatenate([X, [0.0, -0.0, 10.0, -10.0]])
+    assert_same(again(x), found(x))
+    np.testing.assert_array_equal(again.velocity(x), found.velocity(x))
+    for name in ("model", "parameters", "incidence_max", "tolerance", "error_bound"):
+        assert getattr(again, name) == getattr(found, name)
+    assert [path.name for path in tmp_path.iterdir()] == ["it"]
+
+
+def test_a_file_may_be_named_by_text_and_written_again(file, ball):
+    compiled("rigid").save(str(file))
+    assert response.load(str(file)).model == "rigid"
+    ball.save(file)
+    first = file.read_bytes()
+    response.load(file).save(file)
+    assert file.read_bytes() == first
+
+
+def test_a_file_is_as_documented(file):
+    written = json.loads(file.read_text())
+    assert (written["format"], written["version"]) == (response.FORMAT, response.VERSION)
+    assert set(written["content"]) == {
+        "model",
+        "parameters",
+        "incidence_max",
+        "tolerance",
+        "error_bound",
+        "slides_from",
+        "pieces",
+    }
+    assert written["content"]["incidence_max"] is None  # infinity
+    assert set(written["content"]["pieces"]) == set(response.piecewise.Pieces._fields)
+
+
+def refused(path, *words):
+    with pytest.raises(InputError) as refusal:
+        response.load(path)
+    for word in (str(path), *words):
+        assert word in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"version": 1', '"version": 2', ["version 2", "compile it again"]),
+        ('"version": 1', '"version": "1"', ["version '1'"]),
+        (response.FORMAT, "another", ["format 'another'"]),
+    ],
+)
+def test_another_version_or_format_is_refused(file, old, new, words):
+    file.write_text(file.read_text().replace(old, new, 1))
+    refused(file, *words)
+
+
+def test_one_digit_changed_is_seen_wherever_it_is(file):
+    text = file.read_text()
+    digits = [i for i, sign in enumerate(text) if sign in "12345678"]
+    start = text.index('"sha256"')
+    for i in [i for i in digits if i > start][::601]:
+        file.write_text(f"{text[:i]}{int(text[i]) + 1}{text[i + 1 :]}")
+        refused(file, "damaged")
+
+
+@pytest.mark.parametrize("share", [0.0, 0.001, 0.1, 0.5, 0.99, 0.99999])
+def test_a_file_cut_short_is_refused(file, share):
+    whole = file.read_bytes()
+    file.write_bytes(whole[: int(share * (len(whole) - 2))])
+    refused(file, "damaged")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"\n",
+        b"\x00\xff\xfe\x80" * 99,
+        b"{}",
+        b"[]",
+        b"null",
+        b"3",
+        b'"text"',
+        b"{'format': 1}",
+    ],
+)
+def test_what_is_no_such_file_is_refused(tmp_path, content):
+    path = tmp_path / "other"
+    path.write_bytes(content)
+    refused(path, "damaged")
+
+
+def test_content_that_is_missing_is_refused(file):
+    written = json.loads(file.read_text())
+    for key in ("content", "sha256"):
+        file.write_text(json.dumps({k: v for k, v in written.items() if k != key}))
+        refused(file, "damaged")
+
+
+def test_an_error_while_writing_leaves_the_old_file_whole(file, monkeypatch):
+    before = file.read_bytes()
+
+    def full(path, text, **_):
+        with open(path, "w") as stream:
+            stream.write(text[: len(text) // 2])
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_text", full)
+    with pytest.raises(OSError, match="No space"):
+        compiled("rigid").save(file)
+    assert file.read_bytes() == before
+    with pytest.raises(OSError, match="No space"):
+        compiled("rigid").save(file.with_name("new.json"))
+    assert not file.with_name("new.json").exists()
+
+
+def test_no_folder_no_file(tmp_path, ball):
+    with pytest.raises(FileNotFoundError):
+        ball.save(tmp_path / "nowhere" / "ball.json")
+    assert not list(tmp_path.iterdir())

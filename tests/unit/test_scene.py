@@ -1,0 +1,253 @@
+"""Scenes: columns, plane and space, energy, blocks, and the choice of a rung."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from planarimpact import InputError, bodies, lumped, scene
+from planarimpact.scene import choice, columns, gaps, solver
+
+STEEL = {
+    "radius [m]": 0.01,
+    "density [kg/m^3]": 7800.0,
+    "young_modulus [Pa]": 207e9,
+    "poisson_ratio": 0.3,
+    "friction": 0.3,
+    "restitution": 0.8,
+}
+PLANE = {"velocity_tangential [m/s]": 1.0, "velocity_normal [m/s]": 2.0, "spin [rad/s]": 30.0}
+SPACE = {
+    **{f"velocity_{axis} [m/s]": v for axis, v in zip("xyz", (0.7, -0.4, -2.0), strict=True)},
+    **{f"spin_{axis} [rad/s]": w for axis, w in zip("xyz", (20.0, -60.0, 15.0), strict=True)},
+}
+OTHER = {
+    "other_radius [m]": 0.02,
+    "other_mass [kg]": 0.05,
+    "other_gyration [m]": 0.013,
+    "other_young_modulus [Pa]": 70e9,
+    "other_poisson_ratio": 0.2,
+}
+OTHER_SPACE = {
+    **{f"other_velocity_{axis} [m/s]": v for axis, v in zip("xyz", (0.1, 0.2, 0.5), strict=True)},
+    **{f"other_spin_{axis} [rad/s]": w for axis, w in zip("xyz", (-9.0, 5.0, 3.0), strict=True)},
+}
+NORMAL = {"normal_x": 0.6, "normal_y": 0.0, "normal_z": 0.8}
+
+
+def table(*parts, **columns_):
+    return pd.DataFrame([{key: value for part in parts for key, value in part.items()} | columns_])
+
+
+def without(row, *names):
+    return {key: value for key, value in row.items() if key not in names}
+
+
+def vectors(frame, ending="", who=""):
+    """Velocity and spin of one row."""
+    row = frame.iloc[0]
+    return [
+        np.array([row[f"{who}{name}_{axis}{ending} [{unit}]"] for axis in "xyz"])
+        for name, unit in (("velocity", "m/s"), ("spin", "rad/s"))
+    ]
+
+
+def test_plane_scene_is_the_solver_with_bodies():
+    after = scene.solve(table(STEEL, PLANE)).iloc[0]
+    ball = bodies.solid_sphere(0.01, 7800.0)
+    zeta2 = bodies.stiffness_ratio(bodies.Material(207e9, 0.3))
+    motion = bodies.Motion(1.0, 2.0, 30.0)
+    x = bodies.incidence(1.0 + 0.01 * 30.0, 2.0, 0.3)
+    found = lumped.rebound(x, bodies.mass_ratio(ball), zeta2, 0.8)
+    wanted = bodies.rebound_motion(ball, motion, 0.3, found.velocity, 0.8)
+    names = ["velocity_tangential_after [m/s]", "velocity_normal_after [m/s]", "spin_after [rad/s]"]
+    np.testing.assert_allclose([after[name] for name in names], wanted, rtol=1e-11)
+    force = bodies.hertz_peak_force(
+        ball.mass, 2.0, bodies.effective_modulus(bodies.Material(207e9, 0.3)), 0.01
+    )
+    assert after["peak_normal_force [N]"] == pytest.approx(force, rel=1e-13)
+    share = 0.3 * found.peak_friction
+    assert after["peak_friction_force [N]"] == pytest.approx(share * force, rel=1e-11)
+    assert after["regime"] == "SLIP_STICK_SLIP" and after["model"] == "lumped"
+    assert after["incidence"] == pytest.approx(x)
+
+
+def test_a_plane_state_is_one_in_space():
+    flat = scene.solve(table(STEEL, PLANE)).iloc[0]
+    state = {"velocity_x [m/s]": 1.0, "velocity_y [m/s]": 0.0, "velocity_z [m/s]": -2.0}
+    spin = {"spin_x [rad/s]": 0.0, "spin_y [rad/s]": -30.0, "spin_z [rad/s]": 0.0}
+    velocity, turning = vectors(scene.solve(table(STEEL, state, spin)), "_after")
+    assert velocity[0] == pytest.approx(flat["velocity_tangential_after [m/s]"])
+    assert velocity[2] == pytest.approx(-flat["velocity_normal_after [m/s]"])
+    assert turning[1] == pytest.approx(-flat["spin_after [rad/s]"])
+    assert velocity[1] == turning[0] == turning[2] == 0
+
+
+def rotation():
+    """A rotation about an axis that is none of the three."""
+    axis, angle = np.array([1.0, 2.0, 2.0]) / 3, 0.7
+    cross = np.cross(np.eye(3), -axis)
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+@pytest.mark.parametrize("restitution", [0.8, 1.0])
+def test_rotated_axes_rotate_the_result(restitution):
+    plain = table(STEEL, SPACE, OTHER, OTHER_SPACE, NORMAL, restitution=restitution)
+    turned = plain.copy()
+    turn = rotation()
+    for who in ("", "other_"):
+        for name, unit in (("velocity", "m/s"), ("spin", "rad/s")):
+            keys = [f"{who}{name}_{axis} [{unit}]" for axis in "xyz"]
+            turned[keys] = plain[keys].to_numpy() @ turn.T
+    keys = [f"normal_{axis}" for axis in "xyz"]
+    turned[keys] = plain[keys].to_numpy() @ turn.T
+    first, second = scene.solve(plain), scene.solve(turned)
+    for who in ("", "other_"):
+        pairs = zip(vectors(first, "_after", who), vectors(second, "_after", who), strict=True)
+        for before, after in pairs:
+            np.testing.assert_allclose(turn @ before, after, rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.02, 0.3, 2.0])
+@pytest.mark.parametrize("restitution", [0.0, 0.6, 1.0])
+def test_momentum_and_energy_of_two_bodies(friction, restitution):
+    rows = table(
+        STEEL, SPACE, OTHER, OTHER_SPACE, NORMAL, friction=friction, restitution=restitution
+    )
+    after = scene.solve(rows)
+    normal = np.array([0.6, 0.0, 0.8])
+    first = 4 / 3 * np.pi * 7800 * 0.01**3, 0.01 * np.sqrt(0.4), -0.01
+    second = 0.05, 0.013, 0.02
+    energy = momentum = angular = 0
+    for sign, ending, frame in ((1, "", rows), (-1, "_after", after)):
+        for who, (mass, gyration, arm) in (("", first), ("other_", second)):
+            velocity, spin = vectors(frame, ending, who)
+            energy += sign * mass / 2 * (velocity @ velocity + gyration**2 * spin @ spin)
+            momentum += sign * mass * velocity
+            about_contact = np.cross(-arm * normal, velocity)
+            angular += sign * mass * (gyration**2 * spin + about_contact)
+    assert np.abs(momentum).max() < 1e-15 and np.abs(angular).max() < 1e-16
+    assert energy == pytest.approx(after["energy_lost [J]"].iloc[0], rel=1e-9)
+    assert energy >= 0
+
+
+def test_without_friction_only_the_normal_velocity_changes():
+    after = scene.solve(table(STEEL, PLANE, friction=0.0)).iloc[0]
+    assert after["velocity_tangential_after [m/s]"] == 1.0 and after["spin_after [rad/s]"] == 30.0
+    assert after["velocity_normal_after [m/s]"] == -1.6 and after["model"] == "slip throughout"
+
+
+def test_index_and_id_are_kept_and_blocks_do_not_show(monkeypatch):
+    rng = np.random.default_rng(5)
+    count = 500
+    rows = pd.DataFrame({**STEEL, **PLANE}, index=rng.permutation(count) + 7)
+    rows["velocity_tangential [m/s]"] = rng.normal(0, 3, count)
+    rows["restitution"] = rng.choice([0.3, 0.8], count)
+    rows["id"] = [f"shot {i}" for i in range(count)]
+    whole = scene.solve(rows)
+    monkeypatch.setattr(solver, "BLOCK", 64)
+    pieces = scene.solve(rows)
+    pd.testing.assert_frame_equal(whole, pieces, rtol=1e-12, check_categorical=False)
+    assert list(whole.index) == list(rows.index) and list(whole["id"]) == list(rows["id"])
+
+
+def test_an_empty_table_gives_an_empty_table():
+    after = scene.solve(table(STEEL, PLANE).iloc[:0])
+    assert len(after) == 0 and "energy_lost [J]" in after
+
+
+BAD_COLUMNS = [
+    (without(STEEL, "radius [m]") | PLANE, r"columns radius \[m\]: missing"),
+    (STEEL | {"radius [mm]": 10} | PLANE, r"'radius \[mm\]': the unit of radius is \[m\]"),
+    (STEEL | {"friction [m]": 1} | PLANE, "the unit of friction is none"),
+    (STEEL | {"colour": 1} | PLANE, "column 'colour': unknown"),
+    (STEEL | {"densty [kg/m^3]": 1} | PLANE, r"did you mean 'density \[kg/m\^3\]'"),
+    (STEEL | {"mass [kg]": 1.0} | PLANE, "either density"),
+    (without(STEEL, "density [kg/m^3]") | {"mass [kg]": 1.0} | PLANE, r"gyration \[m\]: missing"),
+    (STEEL, "velocity_tangential .*: missing"),
+    (STEEL | PLANE | SPACE, "two dimensions or three"),
+    (STEEL | PLANE | NORMAL, "normal_x, normal_y, normal_z: the state has two dimensions"),
+    (STEEL | PLANE | OTHER_SPACE, "the state has two dimensions"),
+    (STEEL | SPACE | without(NORMAL, "normal_y"), "normal_y: missing"),
+    (STEEL | PLANE | {"other_mass [kg]": 1.0}, r"other_radius \[m\]: missing"),
+    (STEEL | PLANE | {"other_poisson_ratio": 0.3}, r"other_young_modulus \[Pa\]: missing"),
+]
+
+
+@pytest.mark.parametrize(("row", "words"), BAD_COLUMNS, ids=[words for _, words in BAD_COLUMNS])
+def test_bad_columns_are_refused(row, words):
+    with pytest.raises(InputError, match=words):
+        scene.solve(pd.DataFrame([row]))
+
+
+BAD_CELLS = [
+    ("friction", -0.1, "friction = -0.1: allowed are finite numbers from 0"),
+    ("friction", np.nan, "friction = nan"),
+    ("restitution", 1.01, "restitution = 1.01: allowed are numbers from 0 to 1"),
+    ("radius [m]", 0.0, r"radius \[m\] = 0.0: allowed are finite numbers above 0"),
+    ("density [kg/m^3]", np.inf, r"density \[kg/m\^3\] = inf"),
+    ("poisson_ratio", 0.6, "poisson_ratio = 0.6"),
+    ("velocity_normal [m/s]", -2.0, "approach = -2: the bodies must approach each other"),
+    ("velocity_normal [m/s]", 0.0, "approach = "),
+    ("velocity_normal [m/s]", "fast", "= 'fast': allowed are finite numbers"),
+    ("spin [rad/s]", 1e308, "too large or too small"),
+]
+
+
+@pytest.mark.parametrize(("name", "value", "words"), BAD_CELLS, ids=[w for *_, w in BAD_CELLS])
+def test_a_bad_row_is_named_or_left_out(name, value, words):
+    rows = pd.concat([table(STEEL, PLANE)] * 4, ignore_index=True).astype(object)
+    rows.loc[2, name] = value
+    if name == "spin [rad/s]":
+        rows["radius [m]"] = 10.0
+    with pytest.raises(InputError, match="row 3: .*" + words):
+        scene.solve(rows)
+    remembered = scene.Solver()
+    after = remembered.solve(rows, skip_bad=True)
+    assert list(after.index) == [0, 1, 3]
+    assert remembered.rows == 4 and [number for number, _ in remembered.bad] == [3]
+
+
+def test_rows_are_numbered_over_all_tables(monkeypatch):
+    monkeypatch.setattr(solver, "BLOCK", 3)
+    rows = pd.concat([table(STEEL, PLANE)] * 5, ignore_index=True)
+    rows.loc[4, "friction"] = -1.0
+    remembered = scene.Solver()
+    with pytest.raises(InputError, match="row 5:"):
+        remembered.solve(rows)
+
+
+def test_a_normal_has_the_length_one():
+    with pytest.raises(InputError, match="row 1: normal_x, y, z have the length 1.28"):
+        scene.solve(table(STEEL, SPACE, NORMAL, normal_y=0.8))
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 2.0, np.nan, [1e-3, 1e-2], "fine"])
+def test_bad_tolerances_are_refused(tolerance):
+    with pytest.raises(InputError, match="tolerance"):
+        scene.Solver(tolerance)
+
+
+def test_equal_pairs_are_one_whatever_rounding_makes_of_them():
+    rng = np.random.default_rng(1)
+    rows = pd.DataFrame({**STEEL, **PLANE}, index=range(3000))
+    rows["radius [m]"] = rng.uniform(1e-3, 1e-2, 3000)
+    remembered = scene.Solver()
+    remembered.solve(rows)
+    explained = remembered.explain()
+    assert explained.count("m2/m1 = 3.5") == 1 and "few" not in explained
+
+
+def test_cheaper_rungs_are_taken_where_they_are_good_enough():
+    assert choice.rung(3.5, 1.21, 1.0, 0.25, 50)[:2] == ("lumped", "solved")
+    assert choice.rung(3.5, 1.21, 1.0, 0.2, 50)[:2] == ("continuum", "solved")
+    assert choice.rung(3.5, 1.21, 1.0, 0.2, 5000)[:2] == ("continuum", "compiled")
+    assert choice.rung(3.5, 1e-7, 0.5, 1e-2, 50)[:2] == ("rigid", "formula")
+    assert choice.rung(3.5, 1e-7, 0.5, 1e-5, 50)[:2] == ("lumped", "solved")
+    ready = {("lumped", 3.5, 1.21, 0.5): None}
+    assert choice.rung(3.5, 1.21, 0.5, 1e-3, 5000, ready)[:2] == ("lumped", "compiled")
+    assert gaps.elastic("lumped", 3.5, 1e-3) == np.inf
+
+
+def test_units_stand_in_every_header():
+    for name, column in columns.KNOWN.items():
+        assert columns.header(name) == (f"{name} [{column.unit}]" if column.unit else name)
