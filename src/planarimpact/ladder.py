@@ -70,7 +70,7 @@ def get(name):
     planarimpact.checks.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, \
 laws.bilbao, lumped, timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, annuli
     """
-    if name not in MODELS:
+    if not isinstance(name, str) or name not in MODELS:
         raise checks.InputError(f"model = {name!r}: allowed are {', '.join(MODELS)}")
     return MODELS[name]
 

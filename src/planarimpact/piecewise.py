@@ -26,9 +26,10 @@ CELLS = 4096, 8192, 16384, 32768  # of the table that finds the piece of a point
 
 _NODES = np.cos(np.pi * (2 * np.arange(DEGREE + 1) + 1) / (2 * DEGREE + 2))
 _BETWEEN = np.cos(np.pi * np.arange(DEGREE + 2) / (DEGREE + 1))
+_BETWEEN[[0, -1]] = 1 - 1e-7, -1 + 1e-4  # a hair inside: a kink itself may have another label
 _INDEPENDENT = np.array([-0.983, -0.614, -0.127, 0.352, 0.791])
 _POINTS = np.concatenate([_NODES, _BETWEEN, _INDEPENDENT])
-_INSIDE = np.argsort(_POINTS)[1:-1]  # without the ends, where a label may be that of a neighbour
+_ASCENDING = np.argsort(_POINTS)
 _FROM_VALUES = np.linalg.inv(chebyshev.chebvander(_NODES, DEGREE))
 _ELSEWHERE = chebyshev.chebvander(_POINTS[DEGREE + 1 :], DEGREE)
 _POWERS = np.stack(
@@ -134,7 +135,7 @@ def fit(function, kinks, tolerance, resolution=1e-13):
                 settled[left, right] = parts.take(parts.kink == left)
         kinks = sorted(set(kinks))
     parts = _Halves(*map(np.concatenate, zip(*settled.values(), strict=True)))
-    parts = parts.take(np.argsort(parts.kink + parts.low**2))
+    parts = _ordered(parts)
     return _pieces(parts, span), SAFETY * parts.error.max(axis=0)
 
 
@@ -163,9 +164,11 @@ def _halve(function, spans, tolerance):
         todo = todo._replace(
             coefficients=coefficients,
             error=error.max(axis=2),
-            labels=labels.reshape(x.shape)[:, _INSIDE],
+            labels=labels.reshape(x.shape)[:, _ASCENDING],
         )
-        good = (error[..., : _BETWEEN.size].max(axis=(1, 2)) <= tolerance) | (todo.depth >= DEEPEST)
+        good = (SAFETY * error[..., : _BETWEEN.size].max(axis=(1, 2)) <= tolerance) | (
+            todo.depth >= DEEPEST
+        )
         done.append(todo.take(good))
         todo = _halved(todo.take(~good))
     return _Halves(*map(np.concatenate, zip(*done, strict=True)))
@@ -179,10 +182,12 @@ def _halved(parts):
 
 
 def _changes_of_label(function, parts, resolution):
-    """Where labels change within parts, by bisection."""
-    x, labels = parts.points(_POINTS[_INSIDE]), parts.labels
-    part, place = np.nonzero(labels[:, 1:] != labels[:, :-1])
-    low, high, label = x[part, place], x[part, place + 1], labels[part, place]
+    """Where labels change within spans, by bisection."""
+    parts = _ordered(parts)
+    x, label = parts.points(_POINTS[_ASCENDING]).ravel(), parts.labels.ravel()
+    span = np.repeat(parts.kink, _POINTS.size)
+    before = np.flatnonzero((label[1:] != label[:-1]) & (span[1:] == span[:-1]))
+    low, high, label = x[before], x[before + 1], label[before]
     while (high - low > resolution).any():
         middle = (low + high) / 2
         same = function(middle)[1] == label
@@ -191,13 +196,19 @@ def _changes_of_label(function, parts, resolution):
 
 
 def _located(parts):
-    """Where parts had to be halved too often: both ends of the deepest of such neighbours."""
-    parts = parts.take(np.argsort(parts.kink + parts.low**2))
+    """Where parts had to be halved too often: around the deepest of such neighbours."""
+    parts = _ordered(parts)
     deep = np.flatnonzero(parts.depth > DEEP)
     rows = np.split(deep, np.flatnonzero(np.diff(deep) > 1) + 1) if deep.size else []
     deepest = parts.take(np.array([row[np.argmax(parts.depth[row])] for row in rows], dtype=int))
-    ends = deepest.kink + np.stack([deepest.low, deepest.high]) ** 2
-    return ends.ravel().tolist()
+    # With as much again on both sides: the kink may lie at an end of it.
+    width = deepest.high - deepest.low
+    ends = np.stack([np.maximum(deepest.low - width, 0.0), deepest.high + width])
+    return (deepest.kink + ends**2).ravel().tolist()
+
+
+def _ordered(parts):
+    return parts.take(np.argsort(parts.kink + parts.low**2))
 
 
 def _pieces(parts, end):
@@ -208,7 +219,7 @@ def _pieces(parts, end):
         kink=parts.kink,
         centre=(parts.low + parts.high) / 2,
         coefficients=np.ascontiguousarray(powers.transpose(1, 2, 0)),
-        label=parts.labels[:, _INSIDE.size // 2],
+        label=parts.labels[:, _POINTS.size // 2],
         end=end,
     )
 

@@ -23,7 +23,7 @@ settings.load_profile("house")
 
 TOLERANCE, LARGEST = 1e-10, 20.0
 ROUNDING = 1e-14  # of x - (1 + e) beta and of the model
-NEAR = 1e-4  # of a change of regime
+NEAR = 1e-10  # of a change of regime
 
 
 def compiled(groups, tolerance=TOLERANCE):
@@ -76,11 +76,12 @@ def test_the_error_bound_holds_everywhere(groups, seed):
     assert_within_the_bound(found, np.concatenate([starts, np.nextafter(starts, 0)]), groups)
 
 
+@settings(max_examples=80)
 @given(GROUPS, SEED)
 def test_the_regime_is_that_of_the_model_or_a_neighbour(groups, seed):
     found, x = compiled(groups), incidences(groups, seed)
     wrong = x[found(x).regime != lumped.rebound(x, *groups).regime]
-    assert wrong.size <= 4
+    assert wrong.size <= 1
     for one in np.abs(wrong):
         near = np.abs(one + NEAR * np.linspace(-1, 1, 2001))
         assert found(one).regime in lumped.rebound(near, *groups).regime, one
