@@ -26,7 +26,10 @@ include: "workflow/rules/curves.smk"
 include: "workflow/rules/reference.smk"
 include: "workflow/rules/drawing.smk"
 include: "workflow/rules/ledger.smk"
+include: "workflow/rules/trade.smk"
+include: "workflow/rules/scene.smk"
 include: "workflow/rules/judgement.smk"
+include: "workflow/rules/peers.smk"
 
 
 onsuccess:

@@ -1,23 +1,42 @@
 """The command line: python -m planarimpact {rebound,history,compile,scene,models}."""
 
 import argparse
-import contextlib
 import csv
 import io
 import json
 import os
 import sys
-from pathlib import Path
 
 import numpy as np
 
-from planarimpact import bodies, checks, continuum, ladder, lumped, response
+from planarimpact import bodies, checks, continuum, ladder, lumped, response, whole_files
 from planarimpact.results import Regime
 
 WORDS = """
 What happens when a rough, elastic body strikes a surface at an angle?
 Incidence is v1(0)/(mu v2(0)): tangential over normal speed, over friction. All velocities come in
 mu v2(0), negative where the contact point has turned round.
+"""
+COLUMNS = """\
+Columns, with units in the header; the order is free, all others are refused:
+  radius [m]              distance from centre to contact point, and radius of curvature
+  density [kg/m^3]        of a solid sphere; or else mass [kg] and gyration [m]
+  young_modulus [Pa], poisson_ratio
+  friction, restitution   of the pair
+  the state before, in a plane:
+    velocity_tangential [m/s], velocity_normal [m/s], positive towards the surface,
+    spin [rad/s], positive where it moves the contact point of this body forward
+  or in space, for bodies that turn alike about every axis:
+    velocity_x [m/s], _y, _z, spin_x [rad/s], _y, _z, and the unit normal normal_x, _y, _z
+    from the surface to the body; 0, 0, 1 if left out
+  id                      any words, carried over
+The other body, if it is no rigid half-space at rest, has the same columns with other_ in front;
+its velocities and spin have the directions of the first one's. A material alone makes it an
+elastic half-space; masses, radii of gyration and Young's moduli may be inf.
+Example:
+  radius [m],density [kg/m^3],young_modulus [Pa],poisson_ratio,friction,restitution,\
+velocity_tangential [m/s],velocity_normal [m/s],spin [rad/s]
+  0.01,7800,207e9,0.3,0.2,0.8,0.5,1,0
 """
 GROUPS = {
     "mass_ratio": (3.5, "m2/m1: 3.5 for a solid sphere, 2.5 for a thin shell, 3 for a disc"),
@@ -39,29 +58,32 @@ def main(arguments=None):
     options = _parser().parse_args(arguments)
     try:
         options.command(options)
+        sys.stdout.flush()
     except (checks.InputError, checks.ConvergenceError) as error:
         print(f"planarimpact: {error}", file=sys.stderr)
         return 2
-    except OSError as error:
-        print(f"planarimpact: {error.filename}: {error.strerror}", file=sys.stderr)
-        return 2
-    except BrokenPipeError:  # whoever read our output has had enough
+    except BrokenPipeError:  # whoever reads our output has had enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        print(f"planarimpact: {error.filename or 'output'}: {error.strerror}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("planarimpact: interrupted, nothing is written", file=sys.stderr)
+        return 130
     return 0
 
 
 def _rebound(options):
     x = options.incidence
-    if options.angle is not None:
-        x = bodies.incidence_from_angle(options.angle, options.friction)
+    if options.angle is None:
+        _refuse_given(options, ["friction"], "an incidence has it in it")
+    else:
+        x = bodies.incidence_from_angle(options.angle, options.friction or 1.0)
     if options.response:
-        if options.setting or any(getattr(options, k) != v for k, (v, _) in GROUPS.items()):
-            raise checks.InputError(
-                f"{options.response}: a response has its own groups and settings"
-            )
+        _refuse_given(options, ["model", "setting", *GROUPS], "a response has its own")
         found = response.load(options.response)(x)
     else:
-        found = ladder.rebound(options.model, x, **_groups(options), **_settings(options))
+        found = ladder.rebound(_model(options), x, **_groups(options), **_settings(options))
     columns = {"incidence": np.asarray(x), **found._asdict()}
     columns["regime"] = np.array([Regime(code).name for code in found.regime])
     if found.reversals is None:
@@ -70,24 +92,30 @@ def _rebound(options):
 
 
 def _history(options):
-    if options.model == "continuum":
-        groups = _groups(options)
+    groups = _groups(options)
+    if _model(options) == "continuum":
+        _refuse_given(options, ["samples"], "the continuum has a tolerance instead")
         checks.elastic(groups.pop("restitution"))
-        found = continuum.history(options.incidence, **groups, tolerance=options.tolerance)
-        columns = found._asdict()
+        given = {} if options.tolerance is None else {"tolerance": options.tolerance}
+        found = continuum.history(options.incidence, **groups, **given)
     else:
-        found = lumped.history(options.incidence, **_groups(options), samples=options.samples)
-        columns = {name: value for name, value in found._asdict().items() if name != "events"}
+        _refuse_given(options, ["tolerance"], "the lumped model is exact")
+        given = {} if options.samples is None else {"samples": options.samples}
+        found = lumped.history(options.incidence, **groups, **given)
+    columns = {name: value for name, value in found._asdict().items() if name != "events"}
     _print(columns, options)
 
 
 def _compile(options):
+    settings = _settings(options)
+    if "tolerance" in settings:
+        raise checks.InputError("--set tolerance: a response has one tolerance, --tolerance")
     built = response.compile(
-        options.model,
+        _model(options),
         incidence_max=options.incidence_max,
         tolerance=options.tolerance,
         **_groups(options),
-        **_settings(options),
+        **settings,
     )
     built.save(options.output)
     print(f"{options.output}: {built}")
@@ -120,8 +148,21 @@ def _models(options):
     _print(columns, options)
 
 
+def _model(options):
+    return options.model or "lumped"
+
+
 def _groups(options):
-    return {name: getattr(options, name) for name in GROUPS}
+    given = {name: getattr(options, name) for name in GROUPS}
+    return {k: GROUPS[k][0] if value is None else value for k, value in given.items()}
+
+
+def _refuse_given(options, names, why):
+    """Refuse options that would be ignored."""
+    for name in names:
+        if getattr(options, name) not in (None, []):
+            option = "--set" if name == "setting" else "--" + name.replace("_", "-")
+            raise checks.InputError(f"{option}: it does not apply, {why}")
 
 
 def _settings(options):
@@ -135,6 +176,7 @@ def _settings(options):
             equals = ""
         if not equals:
             raise checks.InputError(f"--set {text}: allowed is NAME=NUMBER, such as steps=256")
+    ladder.refuse_unknown(ladder.get(_model(options)), settings)
     return settings
 
 
@@ -153,13 +195,8 @@ def _print(columns, options):
     if options.output is None:
         sys.stdout.write(text)
         return
-    partial = Path(f"{options.output}.partial")
-    try:
+    with whole_files.written(options.output) as partial:
         partial.write_text(text, encoding="utf-8")
-        partial.replace(options.output)
-    finally:
-        with contextlib.suppress(OSError):
-            partial.unlink(missing_ok=True)
 
 
 def _or_null(value):
@@ -178,9 +215,7 @@ def _parser():
     impact.add_argument(
         "--angle", type=float, nargs="+", help="of incidence, degrees; see --friction"
     )
-    rebound.add_argument(
-        "--friction", type=float, default=1.0, help="mu, for --angle [%(default)s]"
-    )
+    rebound.add_argument("--friction", type=float, help="mu, for --angle [1]")
     rebound.add_argument("--response", metavar="FILE", help="use what `compile` has written")
     _add_model(rebound, list(ladder.MODELS))
     _add_output(rebound)
@@ -193,8 +228,8 @@ def _parser():
         + WORDS,
     )
     history.add_argument("--incidence", type=float, required=True, metavar="X")
-    history.add_argument("--samples", type=int, default=400, help="of lumped [%(default)s]")
-    history.add_argument("--tolerance", type=float, default=1e-4, help="of continuum [%(default)s]")
+    history.add_argument("--samples", type=int, help="of lumped [400]")
+    history.add_argument("--tolerance", type=float, help="of continuum [1e-4]")
     _add_model(history, ["lumped", "continuum"], settings=False)
     _add_output(history)
     history.set_defaults(command=_history)
@@ -215,15 +250,18 @@ def _parser():
         "scene",
         help="solve a table of impacts",
         description="Solve a table of impacts, one a row, each by the cheapest model that is good "
-        "enough. `python -c 'import planarimpact.scene as s; help(s.solve)'` lists the columns.",
+        "enough.",
+        epilog=COLUMNS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    scene.add_argument("input", help="the table, CSV or .parquet")
-    scene.add_argument("output", help="the table after the impacts")
+    scene.add_argument("input", help="the table: CSV, or Parquet where the name ends in .parquet")
+    scene.add_argument("output", help="the table after the impacts, in the same way")
     scene.add_argument(
         "--tolerance",
         type=float,
         default=1e-3,
-        help="largest error, in mu v2(0) of velocity and in mu F2max of friction [%(default)s]",
+        help="largest error: of the tangential velocity as a share of friction times normal speed, "
+        "of friction as a share of its limit [%(default)s]; elastic pairs reach some 1e-8",
     )
     scene.add_argument(
         "--explain", action="store_true", help="say which model took how many, and why"
@@ -231,7 +269,7 @@ def _parser():
     scene.add_argument(
         "--skip-bad",
         action="store_true",
-        help="leave bad rows out, and list them beside the output",
+        help="leave bad rows out, and list them in OUTPUT.bad.csv",
     )
     scene.set_defaults(command=_scene)
 
@@ -242,10 +280,10 @@ def _parser():
 
 
 def _add_model(parser, names, settings=True):
-    parser.add_argument("--model", default="lumped", choices=names, help="[%(default)s]")
+    parser.add_argument("--model", choices=names, help="[lumped]")
     for name, (value, words) in GROUPS.items():
         option = "--" + name.replace("_", "-")
-        parser.add_argument(option, type=float, default=value, help=f"{words} [%(default)s]")
+        parser.add_argument(option, type=float, help=f"{words} [{value}]")
     if settings:
         parser.add_argument(
             "--set",

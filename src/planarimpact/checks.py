@@ -85,7 +85,7 @@ def restitution(value):
 
 def elastic(value):
     """Check the restitution of a contact that is elastic whatever happens: e = 1."""
-    return checked("restitution", value, "the number 1: this contact is elastic", 1, 1)
+    return checked("restitution", value, "numbers equal to 1, as this contact is elastic", 1, 1)
 
 
 def groups(**given):

@@ -36,9 +36,10 @@ class Model(NamedTuple):
         Where it comes from.
     sliding_limit : callable or None
         Incidence from which it slides throughout, w = x - (1 + e) beta, as a function of mass
-        ratio, stiffness ratio, restitution and settings; None where it never does so exactly.
+        ratio, stiffness ratio, restitution (numbers) and settings; None where it never does so
+        exactly.
     kinks : callable
-        Incidences, by the same arguments, between which its answer is known to be smooth.
+        Incidences, by the same arguments, where its answer is known to bend; there may be more.
     """
 
     name: str
@@ -183,7 +184,8 @@ MODELS = {
             "formula",
             _ANY,
             _IMPULSES + "; two straight lines, the first with a constant to be fitted",
-            "R. M. Brach, J. Appl. Mech. 56 (1989) 133-138; O. R. Walton 1993",
+            "O. R. Walton, in Particulate Two-Phase Flow, 1993; R. M. Brach, J. Appl. Mech. 56 "
+            "(1989) 133-138",
             _brach_limit,
             _limit_alone(_brach_limit),
         ),
@@ -249,7 +251,8 @@ MODELS = {
             "steps",
             _ELASTIC,
             "elastic spheres with micro-slip, to a tolerance; no hysteresis",
-            "N. Maw et al., Wear 38 (1976) 101-114; V. L. Popov, M. Hess 2015",
+            "N. Maw et al., Wear 38 (1976) 101-114; V. L. Popov, M. Hess, Method of Dimensionality "
+            "Reduction in Contact Mechanics and Friction, Springer 2015",
             _compliant_limit,
             _compliant_kinks,
         ),
@@ -259,7 +262,7 @@ MODELS = {
             {"circles": 32, "steps": 512},
             "steps and circles",
             _ELASTIC,
-            "the same by the scheme of 1976, which shares no code: a check",
+            "the same by the scheme of 1976, another solver: a check",
             "N. Maw et al., Wear 38 (1976) 101-114",
             None,
             _compliant_kinks,
@@ -271,8 +274,9 @@ MODELS = {
 def reference(restitution):
     """Name of the model that others are measured against at a restitution.
 
-    The continuum where the contact is elastic; there is no theory of it with hysteresis, so for
-    e < 1 the lumped model, whose own distance from the continuum at e = 1 is up to 0.2.
+    The continuum where the contact is elastic. There is none with hysteresis here, so for e < 1
+    it is the lumped model; how far that is from the continuum at e = 1,
+    `planarimpact.scene.gaps.elastic` tells: 0.21 for a solid sphere of Poisson's ratio 0.3.
 
     Examples
     --------

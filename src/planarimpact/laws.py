@@ -15,7 +15,7 @@ from planarimpact.results import Rebound, Regime
 # Least squares of velocity against `planarimpact.continuum.rebound` at beta = 3.5, zeta^2 = 17/14
 # (Poisson's ratio 0.3), x = 0, 0.05 ... 8, among numbers from 0 to 1, rounded to two digits.
 BRACH_TANGENTIAL_RESTITUTION = 0.40
-# The fit runs into its bound: nearer to the limit of sliding the exponential is far too low.
+# The fit runs into its bound: towards sliding the exponential has far too little friction.
 BILBAO_TANGENTIAL_RESTITUTION = 1.00
 
 
@@ -84,14 +84,8 @@ def smith(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
 
     Parameters
     ----------
-    incidence : array_like
-        x = v1(0)/(mu v2(0)); any finite number, negative for the mirror image.
-    mass_ratio : array_like
-        beta = m2/m1 >= 1.
-    stiffness_ratio : array_like
-        zeta^2 > 0; it plays no part and is there for the sake of one calling convention.
-    restitution : array_like
-        Energetic coefficient e, 0 to 1.
+    incidence, mass_ratio, stiffness_ratio, restitution : array_like
+        As in `brach`.
 
     Returns
     -------
@@ -147,14 +141,8 @@ def bilbao(
 
     Parameters
     ----------
-    incidence : array_like
-        x = v1(0)/(mu v2(0)); any finite number, negative for the mirror image.
-    mass_ratio : array_like
-        beta = m2/m1 >= 1.
-    stiffness_ratio : array_like
-        zeta^2 > 0; it plays no part and is there for the sake of one calling convention.
-    restitution : array_like
-        Energetic coefficient e, 0 to 1.
+    incidence, mass_ratio, stiffness_ratio, restitution : array_like
+        As in `brach`.
     tangential_restitution : array_like
         b, 0 to 1: the share of the tangential velocity that comes back, reversed, where the
         incidence is small. The default is the best of them for solid elastic spheres of

@@ -95,7 +95,7 @@ def fit(function, kinks, tolerance, resolution=1e-13):
     kinks : sequence of float
         Known ones, the ends of the span among them; the first is 0.
     tolerance : float
-        Largest error allowed.
+        Wanted of the bound. A part that was halved `DEEPEST` times is taken as it is.
     resolution : float
         Precision, relative to the span, to which a change of label is located.
 
@@ -153,8 +153,8 @@ def _halve(function, spans, tolerance):
         number += todo.low.size
         if number > MOST_PIECES:
             raise ConvergenceError(
-                f"tolerance = {tolerance:g}: not met with {MOST_PIECES} polynomials; the function "
-                "is too rough for it"
+                f"tolerance = {tolerance:g}: not met after trying {MOST_PIECES} polynomials; the "
+                "function is too rough for it"
             )
         x = todo.points(_POINTS)
         values, labels = function(x.reshape(-1))

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact import checks, ladder, piecewise
+from planarimpact import checks, ladder, piecewise, whole_files
 from planarimpact.results import Rebound, Regime
 
 FORMAT, VERSION = "planarimpact response", 1
@@ -45,7 +45,8 @@ class Response:
     error_bound : Bound
         What was found: twice the largest difference from the model between the points of the
         fit, and the model's own tolerance where it has one. It is measured: in a model with
-        many kinks, one in time steps, some may hide between the points.
+        many kinks, one in time steps, some may hide between the points. It says nothing of the
+        regime, which changes to a hundredth of the tolerance where that of the model does.
     """
 
     def __init__(self, model, parameters, incidence_max, tolerance, error_bound, slides, pieces):
@@ -178,6 +179,11 @@ class Response:
         Parameters
         ----------
         path : str or Path
+
+        Raises
+        ------
+        InputError
+            If there can be no such file.
         """
         pieces = self._piecewise.pieces
         arrays = {key: np.asarray(value).tolist() for key, value in pieces._asdict().items()}
@@ -192,12 +198,8 @@ class Response:
         }
         text = json.dumps({"format": FORMAT, "version": VERSION, "sha256": _digest(content)})
         whole = f'{text[:-1]}, "content": {json.dumps(content)}}}\n'
-        partial = Path(f"{path}.partial")
-        try:
+        with whole_files.written(path) as partial:
             partial.write_text(whole, encoding="utf-8")
-            partial.replace(path)
-        finally:
-            partial.unlink(missing_ok=True)
 
 
 def compile(model, *, incidence_max, tolerance, **parameters):
@@ -256,9 +258,12 @@ def compile(model, *, incidence_max, tolerance, **parameters):
 
     kinks = [x for x in chosen.kinks(*groups.values(), **settings) if 0 < x < end]
     for share in FIT_SHARES:
-        # A change of regime bends the answer: a hundredth of the tolerance is near enough.
+        # A change of regime bends the answer: it is located to a hundredth of the tolerance.
         pieces, error = piecewise.fit(
-            function, [0.0, *kinks, end], tolerance * share, tolerance / 100
+            function,
+            [0.0, *kinks, end],
+            tolerance * share,
+            max(tolerance / 100 / max(end, 1.0), 1e-13),
         )
         bound = Bound(*(error + settings.get("tolerance", 0.0)).tolist())
         if max(bound) <= tolerance:
@@ -279,7 +284,9 @@ def load(path):
     Raises
     ------
     InputError
-        If the file is none, is of another version, or is damaged.
+        If the file is not of this format and version, or is damaged.
+    OSError
+        If it cannot be read.
 
     Examples
     --------

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -58,8 +59,8 @@ def test_angles_settings_and_json(capsys):
 
 
 def test_history_of_both_models(capsys):
-    for model in ("lumped", "continuum"):
-        assert main(["history", "--incidence", "1", "--model", model, "--tolerance", "0.01"]) == 0
+    for model, option in (("lumped", "--samples=9"), ("continuum", "--tolerance=0.01")):
+        assert main(["history", "--incidence", "1", "--model", model, option]) == 0
         rows = rows_of(capsys.readouterr().out)
         assert float(rows[0]["time"]) == 0 and float(rows[-1]["time"]) == 2
 
@@ -86,11 +87,18 @@ REFUSED = [
     (["rebound", "--incidence", "1", "--model", "annuli", "--restitution", "0.5"], "is elastic"),
     (["rebound", "--incidence", "1", "--response", "none.json"], "none.json: No such file"),
     (["rebound", "--incidence", "1", "--response", "x", "--mass-ratio", "2"], "has its own"),
+    (["rebound", "--incidence", "1", "--response", "x", "--model", "rigid"], "has its own"),
+    (["rebound", "--incidence", "1", "--set", "model=3"], "model = 3: lumped has no settings"),
+    (["compile", "x", "--model", "continuum", "--set", "tolerance=1"], "has one tolerance"),
     (["history", "--incidence", "1", "--samples", "1"], "samples = 1"),
+    (["history", "--incidence", "1", "--tolerance", "1"], "--tolerance: it does not apply"),
+    (["history", "--incidence", "1", "--model", "continuum", "--samples", "9"], "--samples: it"),
     (["history", "--incidence", "1", "--model", "continuum", "--restitution", "0.5"], "is elastic"),
     (["compile", "no/ball.json"], "no/ball.json"),
     (["scene", "none.csv", "out.csv"], "none.csv: No such file"),
-    (["scene", "none.csv", "none.csv"], "it is the table that is read"),
+    (["scene", "none.csv", "."], "no name of a file"),
+    (["rebound", "--incidence", "1", "--friction", "0.3"], "--friction: it does not apply"),
+    (["models", "--output", "no/models.csv"], "there is no folder"),
 ]
 
 
@@ -110,6 +118,64 @@ def test_a_scene_from_file_to_file(table, capsys):
     assert "5 impacts" in words and "lumped, solved" in words
     assert len(pd.read_csv(out)) == 5
     assert sorted(p.name for p in table.parent.iterdir()) == ["in.csv", "out.csv"]
+
+
+def test_a_table_is_not_replaced_by_its_result(table, capsys):
+    linked = table.with_name("linked.csv")
+    linked.hardlink_to(table)
+    for source, out in ((table, table), (table, linked), (linked, table)):
+        assert main(["scene", str(source), str(out)]) == 2
+        assert "it is the table that is read" in capsys.readouterr().err
+    table.rename(table.with_name("out.csv.bad.csv"))
+    assert main(["scene", str(table.with_name("out.csv.bad.csv")), str(table.with_name("out.csv"))])
+
+
+def test_links_are_followed_and_devices_left_alone(table, capsys):
+    real, link = table.with_name("real.csv"), table.with_name("link.csv")
+    real.write_text("earlier")
+    link.symlink_to(real)
+    assert main(["scene", str(table), str(link)]) == 0
+    assert link.is_symlink() and len(pd.read_csv(real)) == 5
+    assert main(["scene", str(table), "/dev/null"]) == 2
+    assert "no regular file" in capsys.readouterr().err
+
+
+def test_infinite_bodies_in_one_piece_do_not_shift_the_next(table):
+    rows = pd.read_csv(table)
+    other = {"other_radius [m]": 0.01, "other_gyration [m]": 0.005}
+    rows = rows.assign(**other, **{"other_mass [kg]": [np.inf, np.inf, 1.0, 2.0, np.inf]})
+    rows.to_csv(table, index=False)
+    whole, pieces = table.with_name("whole.csv"), table.with_name("pieces.csv")
+    files.solve(table, whole)
+    files.solve(table, pieces, rows=1)
+    assert whole.read_text() == pieces.read_text()
+    assert "other_spin_after [rad/s]" in pd.read_csv(whole)
+
+
+def test_a_comma_at_the_end_of_rows_moves_no_cell(table):
+    out, commas = table.with_name("out.csv"), table.with_name("commas.csv")
+    files.solve(table, out)
+    header, *rows = table.read_text().splitlines()
+    table.write_text("\n".join([header, *(f"{row}," for row in rows)]))
+    files.solve(table, commas)
+    assert commas.read_text() == out.read_text()
+
+
+def test_a_row_that_is_too_long_is_refused(table, capsys):
+    header, row, *_ = table.read_text().splitlines()
+    table.write_text(f"{header}\n0.02,{row}\n")
+    assert main(["scene", str(table), str(table.with_name("out.csv"))]) == 2
+    found = capsys.readouterr().err
+    assert "in.csv: no table in CSV" in found and found.count("\n") == 1
+
+
+def test_an_id_is_carried_over_as_it_is(table):
+    lines = table.read_text().splitlines()
+    names = ["id", "007", "1.50", "", "NA7", "x y"]
+    table.write_text("".join(f"{n},{line}\n" for n, line in zip(names, lines, strict=True)))
+    out = table.with_name("out.csv")
+    files.solve(table, out, rows=2)
+    assert [line.split(",")[0] for line in out.read_text().splitlines()] == names
 
 
 def test_pieces_do_not_show(table):
@@ -161,7 +227,25 @@ def test_parquet(table):
     files.solve(source, out, rows=2)
     plain = table.with_name("out.csv")
     files.solve(table, plain)
-    pd.testing.assert_frame_equal(pd.read_parquet(out), pd.read_csv(plain), check_dtype=False)
+    words = {"model": str, "regime": str}
+    tables = pd.read_parquet(out).astype(words), pd.read_csv(plain).astype(words)
+    pd.testing.assert_frame_equal(*tables, check_dtype=False, rtol=1e-12)
+
+
+def test_a_reader_that_has_had_enough_is_no_error():
+    command = f"{sys.executable} -m planarimpact history --incidence 1 --samples 20000 | head -1"
+    result = subprocess.run(
+        ["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True
+    )
+    assert result.returncode == 0 and not result.stderr and result.stdout.startswith("time,")
+
+
+def test_an_old_list_of_bad_rows_goes(table):
+    out = table.with_name("out.csv")
+    bad = table.with_name("out.csv.bad.csv")
+    bad.write_text("row,problem\n1,old\n")
+    files.solve(table, out)
+    assert not bad.exists()
 
 
 def test_help_speaks_of_every_command():

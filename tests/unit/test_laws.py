@@ -128,3 +128,12 @@ def test_bad_tangential_restitution_is_named(law):
         law(1.0, tangential_restitution=-0.1)
     with pytest.raises(InputError, match="shapes do not broadcast"):
         law([1.0, 2.0], tangential_restitution=[0.1, 0.2, 0.3])
+
+
+@pytest.mark.parametrize("law", [laws.brach, laws.smith])
+def test_sliding_loses_no_digits_of_dissipation(law):
+    x = np.array([20.0, 1e16, 1e300])
+    result = law(x, 3.5, 1.21, 0.5)
+    np.testing.assert_allclose(result.dissipation, 1.5 * (x / 2 + result.velocity / 2), rtol=1e-15)
+    limit = 1.5 * 3.5 / (1.4 if law is laws.brach else 1.0)
+    assert law(limit, 3.5, 1.21, 0.5).regime == Regime.SLIP_THROUGHOUT

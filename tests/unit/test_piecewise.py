@@ -62,6 +62,17 @@ def test_right_of_a_known_kink_half_powers_take_few_pieces(power, elsewhere):
     assert pieces.start.size <= 2 * piecewise.FIRST
 
 
+def test_the_bound_knows_of_points_that_no_part_was_accepted_by(monkeypatch):
+    """A bump at an independent point alone is not smoothed away."""
+    place = 1 + (piecewise._POINTS[-1] + 1) / 2  # in sqrt(x), of the second of two parts
+
+    def function(x):
+        return np.where(np.abs(np.sqrt(x) - place) < 1e-9, 1.0, 0.0)
+
+    _, bound = piecewise.fit(unlabelled(function), [0.0, 4.0], TOLERANCE)
+    assert bound[0] >= 1.0
+
+
 def test_a_kink_that_is_known_saves_pieces():
     known, unknown = (
         piecewise.fit(unlabelled(bend(1.5)), kinks, TOLERANCE)[0].start.size

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from planarimpact import InputError, bodies, lumped, scene
+from planarimpact import ConvergenceError, InputError, bodies, lumped, scene
 from planarimpact.scene import choice, columns, gaps, solver
 
 STEEL = {
@@ -159,6 +159,7 @@ BAD_COLUMNS = [
     (without(STEEL, "radius [m]") | PLANE, r"columns radius \[m\]: missing"),
     (STEEL | {"radius [mm]": 10} | PLANE, r"'radius \[mm\]': the unit of radius is \[m\]"),
     (STEEL | {"friction [m]": 1} | PLANE, "the unit of friction is none"),
+    (without(STEEL, "radius [m]") | {"radius": 1} | PLANE, r"the unit of radius is \[m\]"),
     (STEEL | {"colour": 1} | PLANE, "column 'colour': unknown"),
     (STEEL | {"densty [kg/m^3]": 1} | PLANE, r"did you mean 'density \[kg/m\^3\]'"),
     (STEEL | {"mass [kg]": 1.0} | PLANE, "either density"),
@@ -188,6 +189,10 @@ BAD_CELLS = [
     ("poisson_ratio", 0.6, "poisson_ratio = 0.6"),
     ("velocity_normal [m/s]", -2.0, "approach = -2: the bodies must approach each other"),
     ("velocity_normal [m/s]", 0.0, "approach = "),
+    ("radius [m]", True, r"radius \[m\] = True"),
+    ("radius [m]", 1 + 2j, "radius"),
+    ("radius [m]", 10**400, "radius"),
+    ("radius [m]", "1_0", r"radius \[m\] = '1_0'"),
     ("velocity_normal [m/s]", "fast", "= 'fast': allowed are finite numbers"),
     ("spin [rad/s]", 1e308, "too large or too small"),
 ]
@@ -219,6 +224,8 @@ def test_rows_are_numbered_over_all_tables(monkeypatch):
 def test_a_normal_has_the_length_one():
     with pytest.raises(InputError, match="row 1: normal_x, y, z have the length 1.28"):
         scene.solve(table(STEEL, SPACE, NORMAL, normal_y=0.8))
+    with pytest.raises(InputError, match="allowed is 1"):
+        scene.solve(table(STEEL, SPACE, NORMAL, normal_z=0.80001))
 
 
 @pytest.mark.parametrize("tolerance", [0.0, 2.0, np.nan, [1e-3, 1e-2], "fine"])
@@ -235,6 +242,85 @@ def test_equal_pairs_are_one_whatever_rounding_makes_of_them():
     remembered.solve(rows)
     explained = remembered.explain()
     assert explained.count("m2/m1 = 3.5") == 1 and "few" not in explained
+
+
+def test_pairs_are_told_apart_by_every_group(monkeypatch):
+    """Also where they share two of three, are many, and are compiled."""
+    monkeypatch.setitem(choice.COST, ("lumped", "compiled"), (0.0, 0.0))
+    kinds = [(g, nu, e) for g in (0.004, 0.006) for nu in (0.1, 0.4) for e in (0.3, 0.6, 0.9)]
+    rows = pd.concat(
+        [
+            table(without(STEEL, "density [kg/m^3]"), PLANE)
+            .assign(**{"mass [kg]": 0.1, "gyration [m]": g, "poisson_ratio": nu, "restitution": e})
+            .loc[[0] * 100]
+            for g, nu, e in kinds
+        ],
+        ignore_index=True,
+    )
+    after = scene.solve(rows)
+    assert (after["model"] == "lumped").all()
+    for number, (gyration, nu, e) in enumerate(kinds):
+        beta = 1 + (0.01 / gyration) ** 2
+        w = lumped.rebound(1.3 / 0.6, beta, bodies.stiffness_ratio(bodies.Material(1.0, nu)), e)
+        part = after.iloc[100 * number : 100 * number + 100]
+        contact = part["velocity_tangential_after [m/s]"] + 0.01 * part["spin_after [rad/s]"]
+        np.testing.assert_allclose(contact / 0.6, w.velocity, atol=2e-9)
+        assert 1e-12 < part["error [m/s]"].iloc[0] / 0.6 < 2e-9
+
+
+def test_two_bodies_by_hand():
+    """Materials and radii of both count, in the groups and in the forces."""
+    state = PLANE | {f"other_{name}": 0.0 for name in PLANE}
+    after = scene.solve(table(STEEL, state, OTHER)).iloc[0]
+    ball, other = bodies.solid_sphere(0.01, 7800.0), bodies.Body(0.05, 0.013, 0.02)
+    materials = bodies.Material(207e9, 0.3), bodies.Material(70e9, 0.2)
+    m1, m2 = bodies.effective_masses(ball, other)
+    x = 1.3 / 0.6
+    w = lumped.rebound(x, m2 / m1, bodies.stiffness_ratio(*materials), 0.8).velocity
+    impulse = m1 * 0.6 * (w - x)
+    assert after["velocity_tangential_after [m/s]"] == pytest.approx(1.0 + impulse / ball.mass)
+    assert after["other_velocity_tangential_after [m/s]"] == pytest.approx(-impulse / 0.05)
+    assert after["other_spin_after [rad/s]"] == pytest.approx(0.02 * impulse / 0.05 / 0.013**2)
+    modulus = bodies.effective_modulus(*materials)
+    force = bodies.hertz_peak_force(m2, 2.0, modulus, bodies.effective_radius(0.01, 0.02))
+    assert after["peak_normal_force [N]"] == pytest.approx(force)
+
+
+def test_an_endless_radius_needs_a_body_that_stays():
+    rows = table(STEEL, PLANE, without(OTHER, "other_radius [m]"), **{"other_radius [m]": np.inf})
+    with pytest.raises(InputError, match=r"row 1: other_radius \[m\] = inf: allowed are finite"):
+        scene.solve(rows)
+
+
+def test_blocks_share_what_they_know(monkeypatch):
+    """A pair with few impacts in each block is compiled once it has had many."""
+    monkeypatch.setattr(solver, "BLOCK", 100)
+    monkeypatch.setitem(choice.COST, ("lumped", "compiled"), (1e-3, 0.0))
+    monkeypatch.setitem(choice.COST, ("lumped", "solved"), (0.0, 5e-6))
+    rows = table(STEEL, PLANE).loc[[0] * 500]
+    remembered = scene.Solver()
+    remembered.solve(rows)
+    ways = {rung.way: count for (rung, _), count in remembered._taken.items()}
+    assert ways == {"solved": 100, "compiled": 400}
+
+
+def test_infinite_is_a_rigid_flat_wall():
+    wall = {
+        "other_radius [m]": np.inf,
+        "other_mass [kg]": np.inf,
+        "other_gyration [m]": np.inf,
+        "other_young_modulus [Pa]": np.inf,
+        "other_poisson_ratio": 0.2,
+    }
+    plain, rigid = scene.solve(table(STEEL, PLANE)), scene.solve(table(STEEL, PLANE, wall))
+    pd.testing.assert_frame_equal(plain, rigid[plain.columns], rtol=1e-13)
+
+
+def test_a_contact_too_stiff_for_the_continuum_is_named_by_its_row():
+    needle = without(STEEL, "density [kg/m^3]") | {"mass [kg]": 0.1, "gyration [m]": 1e-5}
+    slow = {"velocity_tangential [m/s]": 100.0}
+    with pytest.raises(ConvergenceError, match="row 1, .*steps"):
+        scene.solve(table(needle, PLANE, slow, restitution=1.0))
 
 
 def test_cheaper_rungs_are_taken_where_they_are_good_enough():

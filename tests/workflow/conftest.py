@@ -1,15 +1,21 @@
 """A copy of the project in a temporary folder, and one run of it that all tests share."""
 
+import json
+import os
 import re
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parents[2]
 PARTS = ["Snakefile", "workflow", "src", "data", "figures/README.md", ".gitignore"]
+
+
+TIMEOUT = 300  # s, of one run
 
 
 class Project:
@@ -26,7 +32,7 @@ class Project:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=300,
+            timeout=TIMEOUT,
         )
 
     def planned(self, *arguments):
@@ -77,9 +83,26 @@ def fresh(tmp_path):
 
 @pytest.fixture(scope="session")
 def first_run(tmp_path_factory):
-    """The project after a full run, and what that run printed. Do not change it."""
-    project = copy_of(ROOT, tmp_path_factory.mktemp("finished"))
-    return project, project.run()
+    """The project after a full run, and what that run printed. Do not change it.
+
+    Processes of pytest-xdist share it: the first one to get here runs it.
+    """
+    base = tmp_path_factory.getbasetemp()
+    base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    folder, words = base / "finished", base / "finished.json"
+    try:
+        folder.mkdir()
+    except FileExistsError:
+        deadline = time.monotonic() + TIMEOUT
+        while not words.exists() and time.monotonic() < deadline:
+            time.sleep(0.2)
+    else:
+        found = copy_of(ROOT, folder).run()
+        partial = base / "finished.partial"
+        partial.write_text(json.dumps([found.returncode, found.stdout]))
+        partial.replace(words)
+    code, text = json.loads(words.read_text())
+    return Project(folder), subprocess.CompletedProcess([], code, text)
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ import pytest
 import reference_data
 import write_ledger_page
 
-from planarimpact import bodies, continuum, ledger, lumped, rigid
+from planarimpact import bodies, continuum, laws, ledger, lumped, rigid
 from planarimpact.printed import dissipation, dynamics, peak_force
 
 ROOT = Path(__file__).parents[2]
@@ -162,6 +162,9 @@ FAULTS = {
             peak_friction=scaled(0.9),
             dissipation=scaled(1.01),
         ),
+    },
+    "less friction by other laws": {
+        (laws, "bilbao"): distorted(laws.bilbao, velocity=lambda v, _: v * 1.1),
     },
     "continuum off": {
         (continuum, "rebound"): distorted(

@@ -1,6 +1,9 @@
 """What the README says is so."""
 
 import re
+import shlex
+import subprocess
+import sys
 from collections import Counter
 from pathlib import Path
 
@@ -31,6 +34,38 @@ def test_continuum_example_runs_as_printed():
     names = {}
     exec(compile(blocks("python")[1], "README.md", "exec"), names)
     assert list(names["result"].reversals) == [1, 1, 0]
+
+
+def test_ladder_example_runs_as_printed():
+    names = {}
+    exec(compile(blocks("python")[2], "README.md", "exec"), names)
+    assert max(names["ball"].error_bound) <= 1e-10
+
+
+def test_commands_run_as_printed(tmp_path):
+    shown = [
+        line for block in blocks("sh") for line in block.splitlines() if "-m planarimpact" in line
+    ]
+    assert len(shown) == 4
+    (tmp_path / "data").symlink_to(ROOT / "data")
+    for line in shown:
+        command = [sys.executable, *shlex.split(line)[1:]]
+        result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+        assert result.returncode == 0 and result.stdout, (line, result.stderr)
+
+
+def test_errors_of_the_models_are_as_printed(first_run):
+    """To two digits, down to what rounding and the reference leave."""
+    table = csv_tables.read_rows(first_run[0] / "results/trade.csv")
+    found = {row["name"]: float(row["max_velocity [mu v2(0)]"]) for row in table}
+    rows = re.findall(r"^\| (.*) \| ([\d.e-]+) \| ([\d.e-]+) \| .* \| .* \|$", README, flags=re.M)
+    rows = [row for row in rows if row[0].replace("`", "") + ", e = 1" in found]
+    assert len(rows) == 11
+    for name, *errors in rows:
+        for e, error in zip(("1", "0.5"), errors, strict=True):
+            if error != "-":
+                exact = found[f"{name.replace('`', '')}, e = {e}"]
+                assert abs(exact - float(error)) <= max(0.06 * exact, 1e-7), (name, e, exact)
 
 
 def test_rule_graph_is_that_of_the_workflow(fresh):

@@ -6,8 +6,8 @@ import subprocess
 
 import pytest
 
-FIGURES = [*(f"fig{number}" for number in range(2, 10)), "micro_slip", "convergence", "trade"]
-
+FIGURES = [f"fig{number}" for number in range(2, 10)]
+FIGURES += ["micro_slip", "convergence", "trade", "superball"]
 
 # The figure that takes longest, of which tests of something else need not see everything.
 SHORT = (
@@ -88,8 +88,10 @@ def test_every_rule_has_log_benchmark_and_message(fresh):
 
 ALL = [f"Solving {figure}" for figure in FIGURES]
 LEDGER, PAGE = "Verifying the paper", "Writing the ledger's page"
-TRADE, TABLES = "Solving trade", "Tabulating error against time"
-ONLY_OF_TRADE = ("ladder", "laws", "timestep", "response", "piecewise")
+TABLES = "Tabulating error against time"
+SCENES = [f"Solving the scene {s}" for s in ("shot_peening", "billiard_cushion", "superball")]
+SCENES += ["Solving superball"]
+ALL_MODELS = ["Solving trade", *SCENES]
 AS_PRINTED = [f"Solving fig{number}" for number in (5, 6, 7, 9)]
 
 
@@ -100,19 +102,26 @@ AS_PRINTED = [f"Solving fig{number}" for number in (5, 6, 7, 9)]
         ("src/planarimpact/curves/fig6.py", ["Solving fig6"]),
         (
             "src/planarimpact/rigid.py",
-            [*(f"Solving fig{number}" for number in (5, 7, 9)), TRADE, LEDGER],
+            [*(f"Solving fig{number}" for number in (5, 7, 9)), *ALL_MODELS, LEDGER],
         ),
-        ("src/planarimpact/bodies.py", ["Solving fig8", LEDGER]),
-        ("src/planarimpact/annuli.py", ["Solving convergence", TRADE]),
-        *((f"src/planarimpact/{name}.py", [TRADE]) for name in ONLY_OF_TRADE),
+        ("src/planarimpact/bodies.py", ["Solving fig8", *SCENES, LEDGER]),
+        ("src/planarimpact/annuli.py", ["Solving convergence", *ALL_MODELS]),
+        *(
+            (f"src/planarimpact/{name}.py", ALL_MODELS)
+            for name in ("ladder", "response", "piecewise")
+        ),
+        *((f"src/planarimpact/{name}.py", [*ALL_MODELS, LEDGER]) for name in ("laws", "timestep")),
         ("workflow/scripts/trade_table.py", ["Drawing trade", TABLES]),
         ("workflow/scripts/one_thread.py", ALL),
-        ("src/planarimpact/hertz.py", [f"Solving {f}" for f in ("fig5", *FIGURES[-3:])] + [LEDGER]),
+        (
+            "src/planarimpact/hertz.py",
+            [f"Solving {f}" for f in ("fig5", "micro_slip", "convergence")] + [*ALL_MODELS, LEDGER],
+        ),
         (
             "src/planarimpact/landmarks.py",
             [f"Comparing {f} with its references" for f in FIGURES] + [LEDGER],
         ),
-        ("src/planarimpact/slip_onset.py", [*ALL[1:], LEDGER]),
+        ("src/planarimpact/slip_onset.py", [*ALL[1:], *SCENES[:3], LEDGER]),
         ("src/planarimpact/printed/dissipation.py", [*AS_PRINTED, LEDGER]),
         ("src/planarimpact/ledger/slip.py", [LEDGER]),
         ("data/stronge1994/ledger.yaml", [LEDGER]),

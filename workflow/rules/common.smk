@@ -28,6 +28,7 @@ except (reference_data.SourceError, run_plan.ConfigError) as error:
 wildcard_constraints:
     figure="|".join(run_plan.FIGURES),
     source="[a-z0-9_]+",
+    scene="|".join(config["scenes"]) or "none",
 
 
 def settings(wildcards):
@@ -64,6 +65,22 @@ def compared_series(wildcards):
 
 def solver_modules(wildcards):
     return run_plan.modules("solve", f"planarimpact.curves.{wildcards.figure}")
+
+
+def scene_tables(wildcards):
+    return [f"results/scenes/{scene}.csv" for scene in config["scenes"]]
+
+
+def scene_tolerance(wildcards):
+    return config["scenes"][wildcards.scene]["tolerance"]
+
+
+def all_cores(wildcards):
+    return workflow.cores
+
+
+def cores_reserved(wildcards):
+    return workflow.cores if wildcards.figure in run_plan.TIMED else 1
 
 
 def drawing_modules(wildcards):

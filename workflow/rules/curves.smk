@@ -12,6 +12,7 @@ rule curves:
         "results/logs/curves_{figure}.log",
     benchmark:
         "results/benchmarks/curves_{figure}.tsv"
+    threads: cores_reserved
     message:
         "Solving {wildcards.figure}"
     conda:

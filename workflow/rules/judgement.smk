@@ -51,6 +51,8 @@ rule gate:
         verdicts="results/verdicts.csv",
         ledger="results/ledger.csv",
         page="figures/ledger.html",
+        trade=rules.trade.output,
+        scenes=scene_tables,
         figures=rules.figures.input,
     output:
         "results/PASSED",

@@ -7,7 +7,11 @@ import reference_data
 
 SCRIPTS = Path(__file__).parent
 SRC = SCRIPTS.parents[1] / "src"
-FIGURES = [*(f"fig{number}" for number in range(2, 10)), "micro_slip", "convergence"]
+FIGURES = [f"fig{number}" for number in range(2, 10)]
+FIGURES += ["micro_slip", "convergence", "trade", "superball"]
+TIMED = ("convergence", "trade")  # measure time: nothing may run beside them
+# Groups that play no part: mass, in force against deflection; a ball that has its own.
+WITHOUT = {"fig2": ["mass_ratio"], "superball": ["mass_ratio", "stiffness_ratio"]}
 
 
 class ConfigError(Exception):
@@ -45,6 +49,9 @@ def check_config(config, schema, inventory, ledger):
             f"config: figures.fig5.experiment: '{experiment}' is not in data/; allowed are "
             + ", ".join(inventory)
         )
+    for scene in config["scenes"]:
+        if not Path(f"data/scenes/{scene}.csv").is_file():
+            raise ConfigError(f"config: scenes.{scene}: there is no data/scenes/{scene}.csv")
     for name, comparison in config["comparisons"].items():
         _check_comparison(f"config: comparisons.{name}", comparison, inventory)
         entry = comparison.get("documented", {}).get("entry")
@@ -96,13 +103,20 @@ def settings(config, inventory, figure):
         "stiffness_ratio": config["stiffness_ratio"],
         **config["figures"][figure],
     }
-    if figure == "fig2":  # mass plays no part in force against deflection
-        del chosen["mass_ratio"]
+    for group in WITHOUT.get(figure, ()):
+        del chosen[group]
     if "experiment" in chosen:
         keys = ("mass_ratio", "stiffness_ratio", "restitution", "friction", "speed", "radius")
         stated = inventory[chosen["experiment"]]["parameters"]
         chosen["experiment"] = {key: stated[key]["value"] for key in keys}
     return chosen
+
+
+def settings_of_peers(config):
+    """Impacts of figure `trade` on which other codes are tried."""
+    keys = ("incidence", "samples", "restitution", "tolerance")
+    chosen = {key: config["figures"]["trade"][key] for key in keys}
+    return {key: config[key] for key in ("mass_ratio", "stiffness_ratio")} | chosen
 
 
 def comparisons(config, figure):

@@ -1,5 +1,8 @@
 """Solve the curves of one figure. A crash becomes a table that says so: a failed verdict."""
 
+import one_thread  # noqa: F401
+
+# isort: split
 import csv
 import importlib
 import traceback

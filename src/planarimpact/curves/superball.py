@@ -30,7 +30,7 @@ def curves(throw):
     >>> ball = {"radius": 0.025, "density": 1100.0, "young_modulus": 5e6, "poisson_ratio": 0.5}
     >>> throw = {"friction": 0.8, "restitution": 0.9, "velocity": [6, -5], "spin": 0}
     >>> path = curves(ball | throw | {"gap": 0.7, "bounces": 3})["path"]
-    >>> path["velocity_x [m/s]"].round(1).tolist()  # forward, forward, back, back
+    >>> path["velocity_x [m/s]"].round(1).tolist()  # before, after each impact, at the end
     [6.0, 3.4, -1.2, -2.9, -2.9]
     """
     before, after = impacts(**throw)

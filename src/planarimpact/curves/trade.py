@@ -14,7 +14,7 @@ LUMPED_ACCURACY = 1e-12  # promised by `planarimpact.lumped`
 LUMPED_RESPONSE_TOLERANCE = 1e-10
 
 SEED = 1994
-REPEATS, ENOUGH = 25, 0.3  # medians are of so many calls, or of those begun in so many seconds
+REPEATS, ENOUGH = 25, 0.2  # medians are of so many calls, or of those begun in so many seconds
 # One impact costs little less than so many solved together: the overhead of arrays.
 TOGETHER = 300
 

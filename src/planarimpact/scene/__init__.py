@@ -19,15 +19,7 @@ def solve(table, tolerance=1e-3):
     Parameters
     ----------
     table : DataFrame
-        One impact a row. Columns: `radius [m]`; `density [kg/m^3]` of a solid sphere, or
-        `mass [kg]` and `gyration [m]`; `young_modulus [Pa]`, `poisson_ratio`; the same with
-        `other_` in front for the other body; `friction`, `restitution`; the state before, in
-        a plane (`velocity_tangential [m/s]`, `velocity_normal [m/s]`, positive towards the
-        other body, `spin [rad/s]`, positive where it moves the contact point in the tangential
-        direction) or in space (`velocity_x [m/s]` ..., `spin_z [rad/s]`, and the unit normal
-        `normal_x` ... from the other body, z if left out), the other body's with `other_` in
-        front, at rest if left out. An `id` is carried over. A material of the other body that is
-        left out is rigid.
+        One impact a row; `python -m planarimpact scene --help` lists the columns.
     tolerance : float
         Largest error of the tangential velocity of contact at separation, in mu v2(0), and of
         the peak friction, in mu times the peak normal force; 1e-10 to 1. It is measured against
@@ -38,13 +30,16 @@ def solve(table, tolerance=1e-3):
     -------
     DataFrame
         With the index of `table`: `id`; the state after, named as before with `_after`; `model`;
-        `error` of the tangential velocity [m/s]; `regime`; `incidence` v1(0)/(mu v2(0)); largest
-        normal force (Hertz) and friction [N]; `energy_lost [J]`.
+        `error` of the tangential velocity [m/s]; `regime`; `incidence` v1(0)/(mu v2(0)), inf or NaN
+        without friction; largest
+        normal force (Hertz, elastic in compression whatever e) and friction [N]; `energy_lost [J]`.
 
     Raises
     ------
     InputError
         For columns that are missing, unknown or do not go together, or a bad row, by its number.
+    ConvergenceError
+        If the continuum does not reach the tolerance, by the row.
 
     Examples
     --------

@@ -25,7 +25,8 @@ COST = {
 }
 FEW = 64  # impacts of a pair that are solved together with those of other pairs
 MOST = 0.99  # of the tolerance may be that of a cheaper model
-EXACT = 1e-11  # of the lumped model, most of it by groups taken to 12 digits
+EXACT = 1e-12  # of the lumped model and of groups told apart at 12 digits, by mass ratio
+FUTILE = 1e-4  # tolerance below which nobody tries the rigid limit
 FINE = 1e-9  # of a compiled lumped response, which costs little more than a coarse one
 
 
@@ -50,11 +51,12 @@ class Job(NamedTuple):
     pair: str
 
 
+REFERENCE = "the model that all others are measured against"
 MODELS = ("rigid", "lumped", "continuum")
-SLIDING = Rung("slip throughout", "formula", 0.0, "exact in every model")
+SLIDING = Rung("slip throughout", "formula", 0.0, "exact, whatever the reference")
 
 
-def jobs(mass_ratio, stiffness_ratio, restitution, rows, tolerance, responses=()):
+def jobs(mass_ratio, stiffness_ratio, restitution, rows, tolerance, responses, seen):
     """Divide impacts that do not slide throughout among the rungs, pair by pair.
 
     Parameters
@@ -65,14 +67,17 @@ def jobs(mass_ratio, stiffness_ratio, restitution, rows, tolerance, responses=()
     tolerance : float
     responses : dict
         Those compiled so far, as `solve` keeps them.
+    seen : Counter
+        Impacts of each pair so far: these are added.
 
     Returns
     -------
     list of Job
     """
-    groups = _rounded(np.stack([mass_ratio, stiffness_ratio, restitution])[:, rows])
+    groups = np.stack([mass_ratio, stiffness_ratio, restitution])[:, rows]
+    rounded = _rounded(groups)
     code = np.zeros(rows.size, dtype=np.int64)
-    for group in groups:
+    for group in rounded:
         own, values = pd.factorize(group)
         code, _ = pd.factorize(code * len(values) + own)
     order = np.argsort(code, kind="stable")
@@ -82,9 +87,12 @@ def jobs(mass_ratio, stiffness_ratio, restitution, rows, tolerance, responses=()
         if member.size < FEW:
             few.append(member)
             continue
-        pair = tuple(groups[:, member[0]].tolist())
+        pair = tuple(rounded[:, member[0]].tolist())
         name = "m2/m1 = {:.4g}, zeta^2 = {:.4g}, e = {:.4g}".format(*pair)
-        found.append(Job(rung(*pair, tolerance, member.size, responses), rows[member], pair, name))
+        seen[pair] += member.size
+        taken = rung(*pair, tolerance, seen[pair], responses)
+        own = pair if taken.way == "compiled" else tuple(groups[:, member])
+        found.append(Job(taken, rows[member], own, name))
     if few:
         found += _together(groups, rows, np.concatenate(few), tolerance)
     return found
@@ -103,9 +111,9 @@ def _together(groups, rows, members, tolerance):
     coarse = elastic & (gap <= MOST * tolerance)
     largest = float(np.max(gap[coarse], initial=0.0))
     kinds = (
-        (~elastic, Rung("lumped", "solved", 0.0, "the reference")),
+        (~elastic, Rung("lumped", "solved", 0.0, REFERENCE)),
         (coarse, Rung("lumped", "solved", largest, "differs by less than allowed, as measured")),
-        (elastic & ~coarse, Rung("continuum", "solved", 0.0, "the reference")),
+        (elastic & ~coarse, Rung("continuum", "solved", 0.0, REFERENCE)),
     )
     return [
         Job(rung, rows[members[chosen]], tuple(groups[:, members[chosen]]), "pairs of few impacts")
@@ -114,7 +122,7 @@ def _together(groups, rows, members, tolerance):
     ]
 
 
-def rung(mass_ratio, stiffness_ratio, restitution, tolerance, count, responses=()):
+def rung(mass_ratio, stiffness_ratio, restitution, tolerance, count, responses=None):
     """The cheapest rung for impacts of one pair that do not slide throughout.
 
     Parameters
@@ -123,7 +131,7 @@ def rung(mass_ratio, stiffness_ratio, restitution, tolerance, count, responses=(
     tolerance : float
     count : int
         How many: compiling pays for many.
-    responses : dict
+    responses : dict, optional
         Those compiled so far, as `solve` keeps them.
 
     Returns
@@ -145,18 +153,19 @@ def rung(mass_ratio, stiffness_ratio, restitution, tolerance, count, responses=(
     costs = []
     for (model, way), (first, each) in COST.items():
         if gap.get(model, np.inf) <= MOST * tolerance:
-            ready = way == "compiled" and (model, *groups) in responses
+            ready = way == "compiled" and (model, *groups) in (responses or {})
             costs.append(((0.0 if ready else first) + count * each, model, way))
     _, model, way = min(costs)
-    why = f"differs by {gap[model]:.2g} at most, as measured" if gap[model] else "the reference"
+    why = f"differs by {gap[model]:.2g} at most, as measured" if gap[model] else REFERENCE
     return Rung(model, way, gap[model], why)
 
 
 def _gap(model, mass_ratio, stiffness_ratio, restitution, tolerance):
     if restitution == 1:
         return float(gaps.elastic(model, mass_ratio, stiffness_ratio))
-    # The rigid limit turns no velocity round; it is not worth asking for less than that.
-    return gaps.inelastic(mass_ratio, stiffness_ratio, restitution) if tolerance > 1e-4 else np.inf
+    if tolerance < FUTILE:
+        return np.inf
+    return gaps.inelastic(mass_ratio, stiffness_ratio, restitution)
 
 
 def solve(rung, incidence, mass_ratio, stiffness_ratio, restitution, tolerance, responses):
@@ -176,7 +185,7 @@ def solve(rung, incidence, mass_ratio, stiffness_ratio, restitution, tolerance, 
     Returns
     -------
     rebound : Rebound
-    error : float
+    error : float or ndarray, shape (n,)
         Of velocity (mu v2(0)) and peak friction (mu F2max), against the reference.
     """
     groups = mass_ratio, stiffness_ratio, restitution
@@ -184,11 +193,12 @@ def solve(rung, incidence, mass_ratio, stiffness_ratio, restitution, tolerance, 
         key = rung.model, *groups
         if key not in responses:
             responses[key] = _compiled(rung.model, *groups, tolerance)
-        return responses[key](incidence), rung.error + max(responses[key].error_bound)
+        error = rung.error + max(responses[key].error_bound) + EXACT * mass_ratio
+        return responses[key](incidence), error
     if rung.model == "continuum":
         return continuum.rebound(incidence, *groups, tolerance=tolerance), tolerance
     model = {"lumped": lumped, "rigid": rigid}[rung.model]
-    return model.rebound(incidence, *groups), rung.error + EXACT
+    return model.rebound(incidence, *groups), rung.error + EXACT * np.asarray(mass_ratio)
 
 
 def _compiled(model, mass_ratio, stiffness_ratio, restitution, tolerance):

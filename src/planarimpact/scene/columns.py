@@ -5,6 +5,7 @@ import re
 from typing import NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from planarimpact.checks import InputError
 
@@ -107,7 +108,7 @@ def named(headers):
             close = difflib.get_close_matches(name, KNOWN, n=1)
             hint = f"; did you mean '{header(close[0])}'?" if close else ""
             raise InputError(f"column {text!r}: unknown{hint}")
-        if name != LABEL and (unit or "") not in (KNOWN[name].unit, "1" * (not KNOWN[name].unit)):
+        if name != LABEL and unit not in ((KNOWN[name].unit,) if KNOWN[name].unit else (None, "1")):
             wanted = f"is [{KNOWN[name].unit}]" if KNOWN[name].unit else "is none: it is a number"
             raise InputError(f"column {text!r}: the unit of {name} {wanted}")
         if name in found:
@@ -189,17 +190,28 @@ def numbers(table, names):
             shown = table[text].iloc[position]
             shown = repr(shown) if isinstance(shown, str) else f"{shown}"
             problems.setdefault(position, f"{text} = {shown}: allowed are {column.allowed}")
+    endless = np.isinf(values.get("other_radius", 0.0)) & _moves(values)
+    for position in np.flatnonzero(endless).tolist():
+        words = "allowed are finite numbers where the other body can move or turn"
+        problems.setdefault(position, f"{names['other_radius']} = inf: {words}")
     return values, problems
+
+
+def _moves(values):
+    """Whether the other body has a mass, or a radius of gyration, that is finite."""
+    if "other_density" in values:
+        return np.ones(values["other_density"].size, dtype=bool)
+    given = [values[name] for name in ("other_mass", "other_gyration") if name in values]
+    return np.any(np.isfinite(given), axis=0) if given else np.False_
 
 
 def _checked(series, column):
     """Numbers of one column, and which are not admissible."""
-    try:
+    types = pd.api.types
+    if types.is_integer_dtype(series) or types.is_float_dtype(series):
         values = series.to_numpy(dtype=float, na_value=np.nan)
-    except (TypeError, ValueError):  # words among them: they become NaN, and are bad
-        values = np.array([_number(cell) for cell in series])
-    if series.dtype == bool:
-        values = np.full(values.shape, np.nan)
+    else:  # words among them, or worse: cell by cell
+        values = np.array([_number(cell) for cell in series], dtype=float)
     good = values > column.low if column.open_low else values >= column.low
     good &= values <= column.high
     if not column.infinite:
@@ -208,7 +220,9 @@ def _checked(series, column):
 
 
 def _number(cell):
+    """A cell that is a number, or the text of one, else NaN."""
+    odd = isinstance(cell, (bool, np.bool_, complex)) or "_" in str(cell)
     try:
-        return np.nan if isinstance(cell, bool) else float(cell)
-    except (TypeError, ValueError):
+        return np.nan if odd else float(cell)
+    except (TypeError, ValueError, OverflowError):
         return np.nan

@@ -1,13 +1,15 @@
 """Tables of scenes in files, piece by piece: CSV, or Parquet where pyarrow is installed."""
 
-import os
 import sys
+import warnings
 from contextlib import contextmanager
 from pathlib import Path
 
 import pandas as pd
 
+from planarimpact import whole_files
 from planarimpact.checks import InputError
+from planarimpact.scene import columns
 from planarimpact.scene.solver import Solver
 
 ROWS = 250_000  # read, solved and written at a time
@@ -40,26 +42,44 @@ def solve(source, target, tolerance=1e-3, skip_bad=False, rows=ROWS, progress=No
     ------
     InputError
         As `planarimpact.scene.solve`, or if a file cannot be read or written.
+    ConvergenceError
+        As `planarimpact.scene.solve`.
     """
     source, target = Path(source), Path(target)
-    if source.resolve() == target.resolve():
-        raise InputError(f"{target}: it is the table that is read; the result needs another name")
+    if not target.name:
+        raise InputError(f"{target}: it is no name of a file")
+    bad = target.with_name(f"{target.name}.bad.csv")
+    for path in (target, bad):
+        if path.exists() and source.exists() and path.samefile(source):
+            raise InputError(f"{path}: it is the table that is read; the result needs another name")
     solver = Solver(tolerance)
     try:
-        with _written(target) as write:
+        with _appended(target) as write:
             for share, table in _pieces(source, rows):
-                write(solver.solve(table, skip_bad))
+                write(_solved(solver, table, skip_bad))
                 if progress:
                     progress(share, solver.rows)
+            if solver.bad:
+                with _appended(bad) as write_bad:
+                    write_bad(pd.DataFrame(solver.bad, columns=["row", "problem"]))
+            elif bad.is_file():  # of an earlier run
+                bad.unlink()
     except OSError as error:
         raise InputError(f"{error.filename or source}: {error.strerror or error}") from None
-    except InputError as error:
+    except _RefusedTable as error:
         raise InputError(f"{source}: {error}") from None
-    if solver.bad:
-        bad = pd.DataFrame(solver.bad, columns=["row", "problem"])
-        with _written(target.with_name(f"{target.name}.bad.csv")) as write:
-            write(bad)
     return solver
+
+
+def _solved(solver, table, skip_bad):
+    try:
+        return solver.solve(table, skip_bad)
+    except InputError as error:
+        raise _RefusedTable(str(error)) from None
+
+
+class _RefusedTable(InputError):
+    """Something in the table that is read, which the message does not name."""
 
 
 def bar(share, impacts):
@@ -71,45 +91,53 @@ def bar(share, impacts):
 
 def _pieces(source, rows):
     """Tables of some rows each, with the share of the file read."""
-    if source.suffix == ".parquet":
-        parquet = _pyarrow_parquet(source).ParquetFile(source)
-        whole, so_far = max(parquet.metadata.num_rows, 1), 0
-        for batch in parquet.iter_batches(rows):
-            so_far += batch.num_rows
-            yield so_far / whole, batch.to_pandas()
-        if not so_far:
-            yield 1.0, parquet.schema_arrow.empty_table().to_pandas()
+    if _is_parquet(source):
+        yield from _parquet_pieces(source, rows)
         return
     whole = max(source.stat().st_size, 1)
-    with open(source, "rb") as file:
+    with open(source, "rb") as file, warnings.catch_warnings():
+        warnings.simplefilter("error", pd.errors.ParserWarning)  # rows that are too long
         try:
-            for table in pd.read_csv(file, chunksize=rows):
+            reader = pd.read_csv(file, chunksize=rows, index_col=False, dtype={columns.LABEL: str})
+            for table in reader:
                 yield min(file.tell() / whole, 1.0), table
-        except (ValueError, UnicodeError) as error:  # pandas' own errors are among the first
-            if isinstance(error, InputError):
-                raise
-            raise InputError(f"not a table in CSV: {error}") from None
+        except (ValueError, pd.errors.ParserWarning) as error:  # pandas' own are among the first
+            words = f"{error}".strip().splitlines()[-1]
+            raise _RefusedTable(f"no table in CSV, separated by commas: {words}") from None
+
+
+def _parquet_pieces(source, rows):
+    parquet = _pyarrow_parquet(source)
+    try:
+        file = parquet.ParquetFile(source)
+    except ValueError as error:
+        raise _RefusedTable(f"no Parquet file: {error}") from None
+    whole, so_far = max(file.metadata.num_rows, 1), 0
+    for batch in file.iter_batches(rows):
+        so_far += batch.num_rows
+        yield so_far / whole, batch.to_pandas()
+    if not so_far:
+        yield 1.0, file.schema_arrow.empty_table().to_pandas()
 
 
 @contextmanager
-def _written(target):
+def _appended(target):
     """A function that appends tables to a file; it gets its name when all are written."""
-    partial = target.with_name(f"{target.name}.partial")
-    writer = _ParquetWriter if target.suffix == ".parquet" else _CsvWriter
-    output = writer(partial)
-    try:
-        yield output.write
-        output.close()
-        os.replace(partial, target)
-    except BaseException:
-        output.close()
-        partial.unlink(missing_ok=True)
-        raise
+    with whole_files.written(target) as partial:
+        output = (_ParquetWriter if _is_parquet(target) else _CsvWriter)(partial, target)
+        try:
+            yield output.write
+        finally:
+            output.close()
+
+
+def _is_parquet(path):
+    return path.suffix.lower() == ".parquet"
 
 
 class _CsvWriter:
-    def __init__(self, path):
-        self.file = open(path, "w", encoding="utf-8", newline="")  # noqa: SIM115 (closed by close)
+    def __init__(self, path, target):
+        self.file = open(path, "w", encoding="utf-8", newline="")  # noqa: SIM115 (see close)
         self.first = True
 
     def write(self, table):
@@ -121,15 +149,18 @@ class _CsvWriter:
 
 
 class _ParquetWriter:
-    def __init__(self, path):
-        self.arrow, self.path, self.writer = _pyarrow_parquet(path), path, None
+    def __init__(self, path, target):
+        self.parquet, self.path, self.writer = _pyarrow_parquet(target), path, None
 
     def write(self, table):
         import pyarrow
 
-        content = pyarrow.Table.from_pandas(table, preserve_index=False)
+        if columns.LABEL in table:  # of one type, whatever the part of the table
+            table = table.astype({columns.LABEL: str})
+        schema = None if self.writer is None else self.writer.schema
+        content = pyarrow.Table.from_pandas(table, schema, preserve_index=False)
         if self.writer is None:
-            self.writer = self.arrow.ParquetWriter(self.path, content.schema)
+            self.writer = self.parquet.ParquetWriter(self.path, content.schema)
         self.writer.write_table(content)
 
     def close(self):

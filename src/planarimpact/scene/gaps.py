@@ -10,7 +10,7 @@ import numpy as np
 from planarimpact import lumped, rigid
 
 CHI = 0.5 * 2.0 ** (np.arange(41) / 8)
-# Over all incidences that stick at some time, to three digits, rounded up. Made by
+# Over all incidences that stick at some time, to three decimals, rounded up. Made by
 # tests/reference/gap_tables.py, and checked between the entries by tests/reference.
 # fmt: off
 VELOCITY = {

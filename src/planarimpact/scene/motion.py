@@ -143,13 +143,6 @@ def energy_lost(impacts, tangential_velocity):
     return impacts.m2 / 2 * (normal + (v1 - after) * (v1 + after) / impacts.mass_ratio)
 
 
-def energy(body, state):
-    """Kinetic energy [J]; that of a body of infinite mass is taken as 0."""
-    turning = body.gyration**2 * np.sum(state.spin**2, axis=0)
-    whole = body.mass / 2 * (np.sum(state.velocity**2, axis=0) + turning)
-    return np.where(np.isinf(body.mass), 0.0, whole)
-
-
 def columns_of(state, plane):
     """Columns of a state, by name: those of a plane state, or of three axes."""
     if plane:

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from planarimpact import checks, lumped
-from planarimpact.checks import InputError
+from planarimpact.checks import ConvergenceError, InputError
 from planarimpact.results import Regime
 from planarimpact.scene import choice, columns, motion
 
@@ -36,7 +36,7 @@ class Solver:
             raise InputError(f"tolerance, shape {number.shape}: allowed is one number")
         self.tolerance = float(number)
         self.bad, self.rows = [], 0
-        self._responses, self._taken = {}, Counter()
+        self._responses, self._seen, self._taken = {}, Counter(), Counter()
 
     def solve(self, table, skip_bad=False):
         """State after each impact of a table, as the function `solve`; bad rows may be left out.
@@ -83,8 +83,9 @@ class Solver:
         if wrong:
             good[list(problems)] = False
             impacts = motion.impacts({name: column[good] for name, column in values.items()})
+        numbers = self.rows + 1 + np.flatnonzero(good)
+        result = self._after(impacts, names, numbers)
         self.rows += len(table)
-        result = self._after(impacts, names)
         chosen = table[good]
         if columns.LABEL in names:
             result = {columns.LABEL: chosen[names[columns.LABEL]].to_numpy(), **result}
@@ -99,8 +100,8 @@ class Solver:
             more = f"; {len(numbered) - 1} more rows are bad" if len(numbered) > 1 else ""
             raise InputError(f"row {numbered[0][0]}: {numbered[0][1]}{more}")
 
-    def _after(self, impacts, names):
-        """Columns of the result."""
+    def _after(self, impacts, names, numbers):
+        """Columns of the result; rows have numbers for what cannot be solved."""
         unit = impacts.friction * impacts.v2
         groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
         slides = impacts.v1 >= lumped.slip_throughout_limit(*groups) * unit
@@ -111,10 +112,14 @@ class Solver:
         model = np.zeros(unit.size, np.intp)
         if slides.any():
             self._taken[choice.SLIDING, "all pairs"] += int(np.sum(slides))
-        for job in choice.jobs(*groups, np.flatnonzero(~slides), self.tolerance, self._responses):
+        stick = np.flatnonzero(~slides)
+        for job in choice.jobs(*groups, stick, self.tolerance, self._responses, self._seen):
             rows, rung = job.rows, job.rung
             x = impacts.v1[rows] / unit[rows]
-            found, known = choice.solve(rung, x, *job.groups, self.tolerance, self._responses)
+            try:
+                found, known = choice.solve(rung, x, *job.groups, self.tolerance, self._responses)
+            except ConvergenceError as error:
+                raise ConvergenceError(f"row {numbers[rows[0]]}, or one like it: {error}") from None
             velocity[rows] = found.velocity * unit[rows]
             peak[rows], regime[rows] = found.peak_friction, found.regime
             error[rows] = known * unit[rows]
@@ -126,7 +131,7 @@ class Solver:
         body, other = motion.after(impacts, velocity)
         plane = "spin" in names
         states = motion.columns_of(body, plane)
-        if np.isfinite(impacts.other.mass).any():
+        if {"other_density", "other_mass"} & set(names):
             states |= {f"other_{k}": v for k, v in motion.columns_of(other, plane).items()}
         after = {columns.header(name, "_after"): values for name, values in states.items()}
         with np.errstate(divide="ignore", invalid="ignore"):  # no friction, no incidence

@@ -1,0 +1,51 @@
+# LAMMPS and pooltool on the same impacts: `snakemake --cores 2 peers`, not part of `all`. They are
+# installed from workflow/envs/peers.txt; without them the picture says so.
+
+
+rule measure_peers:
+    """Error and time of both codes, beside ours in the same process."""
+    input:
+        modules=run_plan.modules("measure_peers"),
+    output:
+        "results/peers.csv",
+    params:
+        settings=run_plan.settings_of_peers(config),
+    log:
+        "results/logs/measure_peers.log",
+    benchmark:
+        "results/benchmarks/measure_peers.tsv"
+    threads: all_cores
+    message:
+        "Measuring LAMMPS and pooltool"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/measure_peers.py"
+
+
+rule peers:
+    """Error against time with the points of both codes."""
+    input:
+        modules=run_plan.modules("draw_peers"),
+        curves="results/curves/trade.csv",
+        peers="results/peers.csv",
+    output:
+        svg=report(
+            "figures/trade_with_peers.svg",
+            caption="../report/peers.rst",
+            category="Trade",
+            labels={"figure": "with LAMMPS and pooltool"},
+        ),
+        png="figures/trade_with_peers.png",
+    params:
+        settings=run_plan.settings(config, SOURCES, "trade"),
+    log:
+        "results/logs/peers.log",
+    benchmark:
+        "results/benchmarks/peers.tsv"
+    message:
+        "Drawing error against time with LAMMPS and pooltool"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/draw_peers.py"

@@ -1,0 +1,28 @@
+rule trade:
+    """Error and time of every model as tables; always succeeds."""
+    input:
+        modules=run_plan.modules("write_trade"),
+        curves="results/curves/trade.csv",
+    output:
+        table=report(
+            "results/trade.csv",
+            caption="../report/trade.rst",
+            category="Trade",
+            labels={"table": "error and time of every model"},
+        ),
+        answers=report(
+            "results/which_model.csv",
+            caption="../report/which_model.rst",
+            category="Trade",
+            labels={"table": "which model for which tolerance"},
+        ),
+    log:
+        "results/logs/trade.log",
+    benchmark:
+        "results/benchmarks/trade.tsv"
+    message:
+        "Tabulating error against time"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/write_trade.py"

