@@ -255,7 +255,10 @@ def _parser():
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     scene.add_argument("input", help="the table: CSV, or Parquet where the name ends in .parquet")
-    scene.add_argument("output", help="the table after the impacts, in the same way")
+    scene.add_argument(
+        "output",
+        help="the table after the impacts, in the same way, or JSON where it ends in .json",
+    )
     scene.add_argument(
         "--tolerance",
         type=float,

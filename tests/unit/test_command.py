@@ -214,6 +214,21 @@ def test_what_is_no_table_is_refused(table, text, capsys):
     assert "in.csv" in capsys.readouterr().err
 
 
+def test_a_result_in_json(table):
+    out, plain = table.with_name("out.json"), table.with_name("out.csv")
+    rows = pd.read_csv(table).assign(friction=[0.3, 0.0, 0.3, 0.3, 0.3])
+    rows.to_csv(table, index=False)
+    files.solve(table, out, rows=2)
+    files.solve(table, plain, rows=2)
+    found = json.loads(out.read_text())
+    assert found[1]["incidence"] is None and len(found) == 5
+    exact = pd.read_csv(plain).replace(np.inf, np.nan)
+    pd.testing.assert_frame_equal(pd.DataFrame(found), exact, check_dtype=False, rtol=1e-15)
+    table.write_text(table.read_text().splitlines()[0] + "\n")
+    files.solve(table, out)
+    assert json.loads(out.read_text()) == []
+
+
 def test_parquet_without_pyarrow_says_what_to_install(table, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     assert main(["scene", str(table), str(table.with_name("out.parquet"))]) == 2

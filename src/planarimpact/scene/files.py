@@ -1,10 +1,15 @@
-"""Tables of scenes in files, piece by piece: CSV, or Parquet where pyarrow is installed."""
+"""Tables of scenes in files, piece by piece: CSV, or Parquet where pyarrow is installed.
 
+Results may be JSON too.
+"""
+
+import json
 import sys
 import warnings
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from planarimpact import whole_files
@@ -21,8 +26,8 @@ def solve(source, target, tolerance=1e-3, skip_bad=False, rows=ROWS, progress=No
     Parameters
     ----------
     source, target : str or Path
-        Tables as `planarimpact.scene.solve` takes and returns them; `.parquet` is Parquet, all
-        else CSV.
+        Tables as `planarimpact.scene.solve` takes and returns them; `.parquet` is Parquet, a
+        target `.json` an array of objects, all else CSV.
     tolerance : float
         As there.
     skip_bad : bool
@@ -124,7 +129,8 @@ def _parquet_pieces(source, rows):
 def _appended(target):
     """A function that appends tables to a file; it gets its name when all are written."""
     with whole_files.written(target) as partial:
-        output = (_ParquetWriter if _is_parquet(target) else _CsvWriter)(partial, target)
+        writers = {".parquet": _ParquetWriter, ".json": _JsonWriter}
+        output = writers.get(target.suffix.lower(), _CsvWriter)(partial, target)
         try:
             yield output.write
         finally:
@@ -145,6 +151,24 @@ class _CsvWriter:
         self.first = False
 
     def close(self):
+        self.file.close()
+
+
+class _JsonWriter:
+    """An array of objects, one a line; what is no finite number is null."""
+
+    def __init__(self, path, target):
+        self.file = open(path, "w", encoding="utf-8")  # noqa: SIM115 (see close)
+        self.before = "[\n"
+
+    def write(self, table):
+        for row in table.astype(object).to_dict("records"):
+            plain = {k: None if v != v or v in (np.inf, -np.inf) else v for k, v in row.items()}
+            self.file.write(self.before + json.dumps(plain))
+            self.before = ",\n"
+
+    def close(self):
+        self.file.write("[]\n" if self.before == "[\n" else "\n]\n")
         self.file.close()
 
 
