@@ -172,3 +172,14 @@ def test_the_span_may_be_of_any_size():
             unlabelled(lambda x, end=end: np.cos(3 * x / end)), [0, end], 1e-9
         )
         assert np.abs(evaluate(pieces, x) - np.cos(3 * x / end)).max() <= bound[0] <= 2e-9
+
+
+def test_a_label_of_a_known_kink_itself_is_not_searched_for():
+    calls = []
+
+    def function(x):
+        calls.append(x.size)
+        return np.sin(x)[None], (x > KINK).astype(int)  # KINK has the label of its left
+
+    piecewise.fit(function, [0.0, KINK, END], 1e-3)
+    assert len(calls) == 1

@@ -300,3 +300,26 @@ def test_a_refused_incidence_is_named_by_its_place():
         law(9.0)
     with pytest.raises(InputError, match=r"incidence\[1, 0\] = nan: allowed are finite numbers$"):
         compiled("lumped").velocity(np.array([[1.0, 2.0], [np.nan, 4.0]]))
+
+
+def test_the_bound_has_the_tolerance_of_the_model_in_it():
+    found = compiled("continuum")
+    assert COARSE / 2 < max(found.error_bound) <= COARSE
+
+
+def test_a_regime_changes_where_that_of_the_model_does():
+    groups = {"mass_ratio": 7.0, "stiffness_ratio": 0.2, "restitution": 0.9}
+    found = response.compile("lumped", incidence_max=12, tolerance=1e-9, **groups)
+    x = np.linspace(0.01, 12, 4000)
+    low, high = x[:-1], x[1:]
+    codes = ladder.rebound("lumped", x, **groups).regime
+    low, high = low[codes[1:] != codes[:-1]], high[codes[1:] != codes[:-1]]
+    first = ladder.rebound("lumped", low, **groups).regime
+    for _ in range(60):
+        middle = (low + high) / 2
+        same = ladder.rebound("lumped", middle, **groups).regime == first
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    assert low.size == 5
+    for near in (low - 1e-9, high + 1e-9):
+        exact = ladder.rebound("lumped", near, **groups).regime
+        assert found(near).regime.tolist() == exact.tolist()

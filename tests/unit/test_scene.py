@@ -337,3 +337,15 @@ def test_cheaper_rungs_are_taken_where_they_are_good_enough():
 def test_units_stand_in_every_header():
     for name, column in columns.KNOWN.items():
         assert columns.header(name) == (f"{name} [{column.unit}]" if column.unit else name)
+
+
+@pytest.mark.parametrize("gyration", [1e-3, 1e-4])
+def test_the_error_holds_for_large_mass_ratios(gyration):
+    rows = table(without(STEEL, "density [kg/m^3]"), PLANE).loc[[0] * 100]
+    rows = rows.assign(**{"mass [kg]": 0.1, "gyration [m]": gyration})
+    after = scene.solve(rows, 1e-10).iloc[0]
+    beta, zeta2 = 1 + (0.01 / gyration) ** 2, bodies.stiffness_ratio(bodies.Material(1.0, 0.3))
+    wanted = 0.6 * lumped.rebound(1.3 / 0.6, beta, zeta2, 0.8).velocity
+    found = after["velocity_tangential_after [m/s]"] + 0.01 * after["spin_after [rad/s]"]
+    assert abs(found - wanted) <= after["error [m/s]"]
+    assert after["error [m/s]"] <= 0.6e-12 * beta * 1.001
