@@ -122,8 +122,10 @@ def _compile(options):
 
 
 def _scene(options):
-    from planarimpact.scene import files  # pandas takes its time
-
+    try:
+        from planarimpact.scene import files  # here, as pandas takes its time
+    except ImportError as error:
+        raise checks.InputError(f"scenes need pandas: pip install pandas ({error})") from None
     progress = files.bar if sys.stderr.isatty() else None
     solver = files.solve(
         options.input, options.output, options.tolerance, options.skip_bad, progress=progress

@@ -214,6 +214,13 @@ def test_what_is_no_table_is_refused(table, text, capsys):
     assert "in.csv" in capsys.readouterr().err
 
 
+def test_without_pandas_it_says_what_to_install(table):
+    code = "import sys; sys.modules['pandas'] = None; from planarimpact.__main__ import main; "
+    code += f"sys.exit(main(['scene', {str(table)!r}, 'out.csv']))"
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert result.returncode == 2 and "scenes need pandas: pip install pandas" in result.stderr
+
+
 def test_a_result_in_json(table):
     out, plain = table.with_name("out.json"), table.with_name("out.csv")
     rows = pd.read_csv(table).assign(friction=[0.3, 0.0, 0.3, 0.3, 0.3])
