@@ -68,6 +68,12 @@ def test_laws_of_impulses_have_no_peak_friction_and_others_do(named):
         assert any("dissipation" in column for column in row)
 
 
+def test_a_velocity_that_is_no_number_shows():
+    exact = ladder.rebound("lumped", [1.0, 2.0])
+    found = trade.errors(exact._replace(velocity=exact.velocity * float("nan")), exact)
+    assert found[MAX] != found[MAX]  # NaN: the verdict `trade-solved` then diverges
+
+
 def test_times_are_there_within_the_budget(named):
     assert all(row["time_1 [s]"][0] > row["time_100 [s]"][0] > 0 for row in named.values())
     none = trade.curves(**SETTINGS | {"restitution": [0.5], "budget": 0.0})

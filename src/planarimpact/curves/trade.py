@@ -181,7 +181,7 @@ def errors(found, exact):
     Parameters
     ----------
     found, exact : Rebound
-        Arrays of one length; NaN in a field that `found` leaves open.
+        Arrays of one length; NaN in a field, other than velocity, that `found` leaves open.
 
     Returns
     -------
@@ -199,7 +199,8 @@ def errors(found, exact):
     columns = {}
     for field, unit in FIELDS.items():
         gap = np.abs(getattr(found, field) - getattr(exact, field))
-        if np.isfinite(gap).all():
+        # A velocity that is no number is a fault, and must show.
+        if field == "velocity" or np.isfinite(gap).all():
             columns[f"rms_{field} [{unit}]"] = np.sqrt(np.mean(gap**2))
             columns[f"max_{field} [{unit}]"] = np.max(gap)
     return columns
