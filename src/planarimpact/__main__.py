@@ -95,7 +95,7 @@ def _history(options):
     groups = _groups(options)
     if _model(options) == "continuum":
         _refuse_given(options, ["samples"], "the continuum has a tolerance instead")
-        checks.elastic(groups.pop("restitution"))
+        checks.elastic(groups.pop("restitution", 1.0))
         given = {} if options.tolerance is None else {"tolerance": options.tolerance}
         found = continuum.history(options.incidence, **groups, **given)
     else:
@@ -155,8 +155,9 @@ def _model(options):
 
 
 def _groups(options):
+    """Groups that were given; models have defaults for the others."""
     given = {name: getattr(options, name) for name in GROUPS}
-    return {k: GROUPS[k][0] if value is None else value for k, value in given.items()}
+    return {name: value for name, value in given.items() if value is not None}
 
 
 def _refuse_given(options, names, why):
@@ -186,8 +187,8 @@ def _print(columns, options):
     """Columns of equal length as CSV or JSON, to a file whole or not at all, or to the terminal."""
     plain = {name: np.asarray(values).tolist() for name, values in columns.items()}
     if options.format == "json":
-        # JSON knows no NaN: what a model leaves open is null.
-        text = json.dumps({k: [_or_null(x) for x in v] for k, v in plain.items()}, indent=1) + "\n"
+        named = {name: [whole_files.or_null(x) for x in xs] for name, xs in plain.items()}
+        text = json.dumps(named, indent=1) + "\n"
     else:
         buffer = io.StringIO()
         writer = csv.writer(buffer, lineterminator="\n")
@@ -199,10 +200,6 @@ def _print(columns, options):
         return
     with whole_files.written(options.output) as partial:
         partial.write_text(text, encoding="utf-8")
-
-
-def _or_null(value):
-    return None if isinstance(value, float) and not np.isfinite(value) else value
 
 
 def _parser():

@@ -71,12 +71,7 @@ def rebound(
     >>> round(float(rebound(2.0).velocity), 3)
     -0.666
     """
-    signed, beta, zeta2 = checks.elastic_groups(
-        incidence=incidence,
-        mass_ratio=mass_ratio,
-        stiffness_ratio=stiffness_ratio,
-        restitution=restitution,
-    )
+    signed, beta, zeta2 = checks.elastic_impact(incidence, mass_ratio, stiffness_ratio, restitution)
     circles = checks.count("circles", circles, 1)
     needed = STEPS_A_RADIAN * np.pi * np.sqrt(np.max(beta / zeta2, initial=1.0))
     steps = checks.count("steps", steps, math.ceil(needed))

@@ -88,18 +88,27 @@ def elastic(value):
     return checked("restitution", value, "numbers equal to 1, as this contact is elastic", 1, 1)
 
 
-def groups(**given):
-    """Check groups of an impact, each by the rule of its name, and broadcast them.
+# In the order of every model's call.
+RULES = {
+    "incidence": incidence,
+    "mass_ratio": mass_ratio,
+    "stiffness_ratio": stiffness_ratio,
+    "restitution": restitution,
+}
+
+
+def impact(*values):
+    """Check and broadcast the four groups of an impact, in the order that every model has.
 
     Parameters
     ----------
-    **given : array_like
-        Any of incidence, mass_ratio, stiffness_ratio, restitution.
+    *values : array_like
+        incidence, mass_ratio, stiffness_ratio, restitution.
 
     Returns
     -------
     tuple of ndarray of float64
-        In the order given, of one shape.
+        In this order, of one shape.
 
     Raises
     ------
@@ -108,31 +117,38 @@ def groups(**given):
 
     Examples
     --------
-    >>> x, beta = groups(incidence=[0.5, 2.0], mass_ratio=3.5)
-    >>> beta.tolist()
-    [3.5, 3.5]
+    >>> [group.tolist() for group in impact([0.5, 2.0], 3.5, 1.21, 1)]
+    [[0.5, 2.0], [3.5, 3.5], [1.21, 1.21], [1.0, 1.0]]
     """
-    return broadcast(**{name: RULES[name](value) for name, value in given.items()})
+    named = zip(RULES, values, strict=True)
+    return broadcast(**{name: RULES[name](value) for name, value in named})
 
 
-def elastic_groups(*, restitution, **given):
-    """Check groups of an elastic contact as `groups` does; e must be 1 and is left out.
+def elastic_impact(*values):
+    """Check them as `impact` does for an elastic contact; e must be 1 and is left out.
 
     Examples
     --------
-    >>> [x.tolist() for x in elastic_groups(incidence=2.0, restitution=[1, 1])]
-    [[2.0, 2.0]]
+    >>> [group.tolist() for group in elastic_impact(2.0, 3.5, 1.21, [1, 1])]
+    [[2.0, 2.0], [3.5, 3.5], [1.21, 1.21]]
     """
-    checked_groups = {name: RULES[name](value) for name, value in given.items()}
-    return broadcast(**checked_groups, restitution=elastic(restitution))[:-1]
+    elastic(values[-1])
+    return impact(*values)[:-1]
 
 
-RULES = {
-    "incidence": incidence,
-    "mass_ratio": mass_ratio,
-    "stiffness_ratio": stiffness_ratio,
-    "restitution": restitution,
-}
+def single(name, value):
+    """Return a checked array that holds one number as float, or refuse it.
+
+    Examples
+    --------
+    >>> single("tolerance", checked("tolerance", [1e-3], "numbers"))
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: tolerance, shape (1,): allowed is one number
+    """
+    if value.ndim:
+        raise InputError(f"{name}, shape {value.shape}: allowed is one number")
+    return float(value)
 
 
 def count(name, value, least):

@@ -75,12 +75,7 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *,
     >>> [round(float(w), 5) for w in result.velocity]
     [0.06343, -0.66592, 1.0]
     """
-    groups = checks.elastic_groups(
-        incidence=incidence,
-        mass_ratio=mass_ratio,
-        stiffness_ratio=stiffness_ratio,
-        restitution=restitution,
-    )
+    groups = incidence, mass_ratio, stiffness_ratio, restitution
     signed, beta, zeta2, tolerance = _checked(*groups, tolerance)
     size, beta, zeta2 = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2))
     velocity, impulse, *found = _at_limits(size, beta, zeta2)
@@ -121,7 +116,7 @@ def fixed_steps(incidence, mass_ratio=3.5, stiffness_ratio=1.21, steps=128, extr
     >>> [round(float(fixed_steps(2.0, steps=64, extrapolate=e)), 5) for e in (False, True)]
     [-0.66537, -0.66594]
     """
-    signed, beta, zeta2, _ = _checked(incidence, mass_ratio, stiffness_ratio, 1.0)
+    signed, beta, zeta2, _ = _checked(incidence, mass_ratio, stiffness_ratio, 1.0, 1.0)
     steps = checks.count("steps", steps, 2)
     if extrapolate and steps % 2:
         raise checks.InputError(f"steps = {steps}: allowed are even integers where extrapolated")
@@ -168,7 +163,8 @@ def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-4):
     >>> float(contact.time[-1]), float(contact.stick_radius[-1])
     (2.0, 0.0)
     """
-    signed, beta, zeta2, tolerance = _checked(incidence, mass_ratio, stiffness_ratio, tolerance)
+    groups = incidence, mass_ratio, stiffness_ratio, 1.0
+    signed, beta, zeta2, tolerance = _checked(*groups, tolerance)
     if signed.ndim:
         raise checks.InputError(f"shape = {signed.shape}: one contact takes scalars")
     x, beta, zeta2 = (a.reshape(1) for a in (np.abs(signed), beta, zeta2))
@@ -312,11 +308,7 @@ def _settled_path(x, beta, zeta2, tolerance):
     _give_up(x[0], beta[0], zeta2[0], tolerance, change)
 
 
-def _checked(incidence, mass_ratio, stiffness_ratio, tolerance):
-    groups = checks.groups(
-        incidence=incidence, mass_ratio=mass_ratio, stiffness_ratio=stiffness_ratio
-    )
+def _checked(incidence, mass_ratio, stiffness_ratio, restitution, tolerance):
+    groups = checks.elastic_impact(incidence, mass_ratio, stiffness_ratio, restitution)
     tolerance = checks.checked("tolerance", tolerance, "numbers above 0", 0, open_low=True)
-    if tolerance.ndim:
-        raise checks.InputError(f"tolerance, shape {tolerance.shape}: allowed is one number")
-    return *groups, float(tolerance)
+    return *groups, checks.single("tolerance", tolerance)

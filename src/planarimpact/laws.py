@@ -66,11 +66,7 @@ def brach(
     [-0.5, 1.0]
     """
     signed, beta, _, e, b = _groups(
-        tangential_restitution,
-        incidence=incidence,
-        mass_ratio=mass_ratio,
-        stiffness_ratio=stiffness_ratio,
-        restitution=restitution,
+        tangential_restitution, incidence, mass_ratio, stiffness_ratio, restitution
     )
     x, beta, e, b = (a.reshape(-1) for a in (np.abs(signed), beta, e, b))
     change = _sliding_change(beta, e)
@@ -114,12 +110,7 @@ def smith(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
     >>> [round(float(w), 4) for w in smith([1.0, 8.0]).velocity]
     [-0.772, 1.0]
     """
-    signed, beta, _, e = checks.groups(
-        incidence=incidence,
-        mass_ratio=mass_ratio,
-        stiffness_ratio=stiffness_ratio,
-        restitution=restitution,
-    )
+    signed, beta, _, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     x, beta, e = (a.reshape(-1) for a in (np.abs(signed), beta, e))
     change = _sliding_change(beta, e)
     slides = x >= change
@@ -172,11 +163,7 @@ def bilbao(
     [-0.1, 2.33, 999993.0]
     """
     signed, beta, _, e, b = _groups(
-        tangential_restitution,
-        incidence=incidence,
-        mass_ratio=mass_ratio,
-        stiffness_ratio=stiffness_ratio,
-        restitution=restitution,
+        tangential_restitution, incidence, mass_ratio, stiffness_ratio, restitution
     )
     x, beta, e, b = (a.reshape(-1) for a in (np.abs(signed), beta, e, b))
     with np.errstate(divide="ignore", over="ignore"):  # x = 0 or tiny: the exponential is 0
@@ -187,13 +174,13 @@ def bilbao(
     return Rebound.of(signed, x - change, change / beta, np.full(x.shape, np.nan), regime)
 
 
-def _groups(tangential_restitution, **given):
+def _groups(tangential_restitution, *impact):
     """Checked groups and tangential restitution, of one shape."""
     b = checks.checked(
         "tangential_restitution", tangential_restitution, "numbers from 0 to 1", 0, 1
     )
-    arrays = dict(zip(given, checks.groups(**given), strict=True))
-    return checks.broadcast(**arrays, tangential_restitution=b)
+    groups = dict(zip(checks.RULES, checks.impact(*impact), strict=True))
+    return checks.broadcast(**groups, tangential_restitution=b)
 
 
 def _sliding_change(beta, e):

@@ -57,7 +57,7 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
     >>> float(result.velocity[2])  # x - (1 + e) beta
     1.0
     """
-    x, *groups = _checked(incidence, mass_ratio, stiffness_ratio, restitution)
+    x, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     groups = [np.abs(x).reshape(-1), *(group.reshape(-1) for group in groups)]
     velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
     regime = np.empty(x.size, np.uint8)
@@ -95,7 +95,7 @@ def slip_throughout_limit(mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0)
     >>> float(slip_throughout_limit(3.5, 1.21, 1.0))
     5.79
     """
-    _, *groups = _checked(0.0, mass_ratio, stiffness_ratio, restitution)
+    _, *groups = checks.impact(0.0, mass_ratio, stiffness_ratio, restitution)
     return stick_slip.slip_throughout_limit(*groups)[()]
 
 
@@ -195,7 +195,7 @@ def friction_work(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1
 
 def _phases(incidence, mass_ratio, stiffness_ratio, restitution):
     """One impact: its mirror sign, (beta, zeta^2, e), and its phases, each with its last eta."""
-    checked = _checked(incidence, mass_ratio, stiffness_ratio, restitution)
+    checked = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     if checked[0].ndim:
         raise checks.InputError(f"shape = {checked[0].shape}: one contact takes scalars")
     x, *groups = (a.reshape(1) for a in checked)
@@ -234,12 +234,3 @@ def _kinds(phase, earlier):
     if phase.in_restitution and EventKind.MAXIMUM_COMPRESSION not in so_far:
         return [EventKind.MAXIMUM_COMPRESSION, *(kind for kind in kinds if kind != so_far[-1])]
     return kinds
-
-
-def _checked(incidence, mass_ratio, stiffness_ratio, restitution):
-    return checks.groups(
-        incidence=incidence,
-        mass_ratio=mass_ratio,
-        stiffness_ratio=stiffness_ratio,
-        restitution=restitution,
-    )

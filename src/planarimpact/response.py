@@ -337,10 +337,7 @@ def _infinite(number):
 
 
 def _number(name, value, allowed, low=-np.inf, high=np.inf):
-    number = checks.checked(name, value, allowed, low, high)
-    if number.ndim:
-        raise checks.InputError(f"{name}, shape {number.shape}: allowed is one number")
-    return float(number)
+    return checks.single(name, checks.checked(name, value, allowed, low, high))
 
 
 def _parameters(model, given):
@@ -349,11 +346,7 @@ def _parameters(model, given):
     settings = {key: value for key, value in given.items() if key not in groups}
     ladder.refuse_unknown(model, settings)
     groups |= {key: value for key, value in given.items() if key in groups}
-    for key, value in groups.items():
-        number = checks.RULES[key](value)
-        if number.ndim:
-            raise checks.InputError(f"{key}, shape {number.shape}: allowed is one number")
-        groups[key] = float(number)
+    groups = {key: checks.single(key, checks.RULES[key](value)) for key, value in groups.items()}
     for key, value in settings.items():
         _number(key, value, "finite numbers")
         settings[key] = np.asarray(value).item()  # whole numbers stay whole

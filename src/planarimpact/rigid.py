@@ -42,12 +42,7 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
     >>> [float(w) for w in rebound([2.0, 8.0]).velocity]
     [0.0, 1.0]
     """
-    signed, beta, _, e = checks.groups(
-        incidence=incidence,
-        mass_ratio=mass_ratio,
-        stiffness_ratio=stiffness_ratio,
-        restitution=restitution,
-    )
+    signed, beta, _, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     x, beta, e = (a.reshape(-1) for a in (np.abs(signed), beta, e))
     impulse_to_halt = x / beta
     slides = impulse_to_halt >= 1 + e

@@ -94,15 +94,11 @@ def mindlin(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *,
 
     Parameters
     ----------
-    incidence : array_like
-        x = v1(0)/(mu v2(0)); any finite number, negative for the mirror image.
-    mass_ratio : array_like
-        beta = m2/m1 >= 1.
+    incidence, mass_ratio, restitution : array_like
+        As in `linear`.
     stiffness_ratio : array_like
         zeta^2 > 0, normal stiffness dF2/d(depth) of an elastic contact over Mindlin's tangential
         stiffness 8 a G*; (2 - nu)/(2 (1 - nu)) for equal materials.
-    restitution : array_like
-        Energetic coefficient e, 0 to 1.
     steps : int
         Over the exact duration of contact; at least 2 and 1.0076 (1 + e) times the root
         of beta/zeta^2, since the tangential oscillation grows with fewer. Close to
@@ -210,12 +206,7 @@ MINDLIN_RESCALED = MINDLIN._replace(rescales=True)
 
 
 def _rebound(law, incidence, mass_ratio, stiffness_ratio, restitution, steps):
-    signed, *groups = checks.groups(
-        incidence=incidence,
-        mass_ratio=mass_ratio,
-        stiffness_ratio=stiffness_ratio,
-        restitution=restitution,
-    )
+    signed, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     beta, zeta2, e = (a.reshape(-1) for a in groups)
     steps = checks.count("steps", steps, max(2, _steps_needed(law, beta, zeta2, e)))
     x = np.abs(signed).reshape(-1)

@@ -1,5 +1,6 @@
-"""Files that appear whole or not at all."""
+"""Files that appear whole or not at all, and what JSON writes for no number."""
 
+import math
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -45,3 +46,14 @@ def written(path):
         partial.replace(target)
     finally:
         partial.unlink(missing_ok=True)
+
+
+def or_null(value):
+    """A value for JSON, which knows neither NaN nor infinity: None for these.
+
+    Examples
+    --------
+    >>> [or_null(value) for value in (1.5, float("inf"), "words")]
+    [1.5, None, 'words']
+    """
+    return None if isinstance(value, float) and not math.isfinite(value) else value

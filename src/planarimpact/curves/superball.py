@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 
 from planarimpact import scene
+from planarimpact.scene.columns import header
 
 TOLERANCE = 1e-6
 
@@ -70,23 +71,17 @@ def impacts(friction, restitution, velocity, spin, gap, bounces, **ball):
     before, after : DataFrame
         As `planarimpact.scene.solve` takes and returns them.
     """
-    units = {"radius": " [m]", "density": " [kg/m^3]", "young_modulus": " [Pa]"}
-    fixed = {name + units.get(name, ""): value for name, value in ball.items()}
-    fixed |= {"friction": friction, "restitution": restitution}
+    fixed = ball | {"friction": friction, "restitution": restitution}
     state = {"velocity_x": velocity[0], "velocity_y": 0.0, "velocity_z": velocity[1]}
     state |= {"spin_x": 0.0, "spin_y": -spin, "spin_z": 0.0}
     solver, rows, results = scene.Solver(TOLERANCE), [], []
     for bounce in range(bounces):
         floor = bounce % 2 == 0
-        row = {"id": f"{bounce + 1}, {'floor' if floor else 'table'}", **fixed}
-        row |= {f"{name} [{_unit(name)}]": value for name, value in state.items()}
-        row |= {"normal_x": 0.0, "normal_y": 0.0, "normal_z": 1.0 if floor else -1.0}
+        normal = {"normal_x": 0.0, "normal_y": 0.0, "normal_z": 1.0 if floor else -1.0}
+        row = {header(name): value for name, value in (fixed | state | normal).items()}
+        row = {"id": f"{bounce + 1}, {'floor' if floor else 'table'}", **row}
         rows.append(row)
         results.append(solver.solve(pd.DataFrame([row])))
         after = results[-1].iloc[0]
-        state = {name: float(after[f"{name}_after [{_unit(name)}]"]) for name in state}
+        state = {name: float(after[header(name, "_after")]) for name in state}
     return pd.DataFrame(rows), pd.concat(results, ignore_index=True)
-
-
-def _unit(name):
-    return "m/s" if name.startswith("velocity") else "rad/s"

@@ -48,12 +48,7 @@ def rebound(incidence, mass_ratio, stiffness_ratio, restitution):
     >>> [round(float(w), 3) for w in velocity]  # Eq. 21 has no root for 6
     [0.211, nan, 1.0]
     """
-    x, *groups = checks.groups(
-        incidence=np.ravel(incidence),
-        mass_ratio=mass_ratio,
-        stiffness_ratio=stiffness_ratio,
-        restitution=restitution,
-    )
+    x, *groups = checks.impact(np.ravel(incidence), mass_ratio, stiffness_ratio, restitution)
     beta, zeta2, e = (float(group[0]) for group in groups)
     limit = slip.slip_throughout_limit(beta, e)
     solved = [_solved(abs(value), beta, zeta2, e, limit) for value in x.tolist()]

@@ -27,7 +27,7 @@ _FINITE = "finite numbers"
 _ABOVE = dict(allowed="finite numbers above 0", low=0, open_low=True)
 _LARGE = dict(allowed="numbers above 0, or inf", low=0, open_low=True, infinite=True)
 _RATIO = dict(allowed="numbers above -1, up to 0.5", low=-1, high=0.5, open_low=True)
-_AXES = "xyz"
+AXES = "xyz"
 
 BODY = {
     "radius": Column("m", **_ABOVE),
@@ -54,9 +54,9 @@ PLANE = {
     "velocity_normal": Column("m/s", _FINITE),
     "spin": Column("rad/s", _FINITE),
 }
-SPACE = {f"velocity_{axis}": Column("m/s", _FINITE) for axis in _AXES}
-SPACE |= {f"spin_{axis}": Column("rad/s", _FINITE) for axis in _AXES}
-NORMAL = {f"normal_{axis}": Column("", "numbers from -1 to 1", low=-1, high=1) for axis in _AXES}
+SPACE = {f"velocity_{axis}": Column("m/s", _FINITE) for axis in AXES}
+SPACE |= {f"spin_{axis}": Column("rad/s", _FINITE) for axis in AXES}
+NORMAL = {f"normal_{axis}": Column("", "numbers from -1 to 1", low=-1, high=1) for axis in AXES}
 OTHER_PLANE = {f"other_{name}": column for name, column in PLANE.items()}
 OTHER_SPACE = {f"other_{name}": column for name, column in SPACE.items()}
 

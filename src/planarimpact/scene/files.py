@@ -9,7 +9,6 @@ import warnings
 from contextlib import contextmanager
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 
 from planarimpact import whole_files
@@ -163,7 +162,7 @@ class _JsonWriter:
 
     def write(self, table):
         for row in table.astype(object).to_dict("records"):
-            plain = {k: None if v != v or v in (np.inf, -np.inf) else v for k, v in row.items()}
+            plain = {name: whole_files.or_null(cell) for name, cell in row.items()}
             self.file.write(self.before + json.dumps(plain))
             self.before = ",\n"
 

@@ -13,8 +13,8 @@ import numpy as np
 
 from planarimpact import bodies
 from planarimpact.bodies import Body, Material
+from planarimpact.scene.columns import AXES
 
-AXES = "xyz"
 UNIT = 1e-6  # largest error of the length of a normal
 
 
@@ -69,7 +69,7 @@ def impacts(values):
         along = np.sum(relative * normal, axis=0)
         sideways = relative - along * normal
         v1, v2 = np.hypot(np.hypot(*sideways[:2]), sideways[2]), -along
-        _, m2 = bodies.effective_masses(body, other)
+        m1, m2 = bodies.effective_masses(body, other)
         return Impacts(
             body,
             other,
@@ -82,7 +82,7 @@ def impacts(values):
             values["friction"],
             values["restitution"],
             m2,
-            bodies.mass_ratio(body, other),
+            m2 / m1,
             bodies.stiffness_ratio(*_materials(values)),
             _peak_normal(values, m2, v2),
         )

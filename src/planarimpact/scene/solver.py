@@ -32,9 +32,7 @@ class Solver:
 
     def __init__(self, tolerance=1e-3):
         number = checks.checked("tolerance", tolerance, "numbers from 1e-10 to 1", 1e-10, 1)
-        if number.ndim:
-            raise InputError(f"tolerance, shape {number.shape}: allowed is one number")
-        self.tolerance = float(number)
+        self.tolerance = checks.single("tolerance", number)
         self.bad, self.rows = [], 0
         self._responses, self._seen, self._taken = {}, Counter(), Counter()
 
