@@ -67,8 +67,16 @@ class Rebound(NamedTuple):
         """
         size = np.abs(incidence).reshape(-1)
         work = impulse * (size / 2 + velocity / 2)
+        return cls.shaped(incidence, velocity, peak_friction, work, regime, reversals)
+
+    @classmethod
+    def shaped(cls, incidence, velocity, peak_friction, dissipation, regime, reversals=None):
+        """As `of`, for a solver that knows the dissipation itself, to more digits.
+
+        `dissipation` is in mu^2 m2 v2(0)^2.
+        """
         velocity = velocity * np.copysign(1.0, incidence.reshape(-1))
-        fields = velocity, peak_friction, work, regime
+        fields = velocity, peak_friction, dissipation, regime
         if incidence.ndim == 0:
             *numbers, code = (field[0] for field in fields)
             count = None if reversals is None else int(reversals[0])
@@ -89,6 +97,7 @@ class EventKind(StrEnum):
     CONTACT = "contact"
     STICK = "stick"
     SLIP = "slip"
+    RELOADING = "reloading"
     MAXIMUM_COMPRESSION = "maximum compression"
     SEPARATION = "separation"
 

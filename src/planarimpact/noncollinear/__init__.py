@@ -1,0 +1,298 @@
+"""Impact of a body whose centre is not on the contact normal (Stronge 1994, Eqs 1-5, 8, 9).
+
+The paper derives the coupled equations and then leaves them for the collinear case; here they are
+solved as they stand, with the contact of `planarimpact.lumped`: linear normal and tangential
+elements, Coulomb friction, energetic restitution. Normal and tangential motion are coupled, so
+compression may end and begin again, and friction may press the body into the surface faster than
+the normal force slows it (jam) until its point sticks.
+
+`inverse_mass` turns a body, or with `combined` two, into what `rebound` and `history` take. `rigid`
+has the same impact without compliance. `phases` and `stick_end` hold the closed forms and the
+search for the end of stick, `solver` their order. Axes and signs: `configuration`.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact import checks
+from planarimpact.checks import InputError, checked
+from planarimpact.noncollinear.configuration import (
+    InverseMass,
+    checked_inverse_mass,
+    combined,
+    contact_velocity,
+    inverse_mass,
+    motion_after,
+    refuse_overflow,
+)
+from planarimpact.noncollinear.solver import Impacts, solve
+from planarimpact.noncollinear.timeline import NoncollinearHistory, timeline
+from planarimpact.results import Regime
+
+__all__ = [
+    "InverseMass",
+    "NoncollinearHistory",
+    "NoncollinearRebound",
+    "combined",
+    "contact_velocity",
+    "history",
+    "inverse_mass",
+    "kinetic_energy",
+    "motion_after",
+    "rebound",
+]
+
+# Impacts solved together: few enough for memory, enough to hide Python's overhead.
+CHUNK = 65536
+# Beyond these the groups are of no body, and products of them would leave float64.
+LARGEST = 1e50
+
+
+class NoncollinearRebound(NamedTuple):
+    """The state at separation, one entry an impact; scalars where all arguments were scalars.
+
+    Attributes
+    ----------
+    tangential, normal : ndarray of float64 or float
+        Velocity of the contact point [m/s]; normal is negative or 0, the body leaves.
+    tangential_impulse, normal_impulse : ndarray of float64 or float
+        Of friction and normal force [N s], positive where they oppose positive velocities.
+    peak_friction, peak_normal : ndarray of float64 or float
+        Largest |F1| and F2 [N].
+    friction_work : ndarray of float64 or float
+        Energy that friction dissipates [J]; for e = 0 with the tangential strain energy that is
+        lost at separation.
+    hysteresis : ndarray of float64 or float
+        Energy lost in the normal element [J].
+    duration : ndarray of float64 or float
+        Of the contact [s].
+    regime : ndarray of uint8 or Regime
+        Codes of `Regime`.
+    jams : ndarray of bool or bool
+        Whether the contact slips, for a time, while friction presses the body into the surface
+        more than the normal force holds it off.
+    """
+
+    tangential: np.ndarray
+    normal: np.ndarray
+    tangential_impulse: np.ndarray
+    normal_impulse: np.ndarray
+    peak_friction: np.ndarray
+    peak_normal: np.ndarray
+    friction_work: np.ndarray
+    hysteresis: np.ndarray
+    duration: np.ndarray
+    regime: np.ndarray
+    jams: np.ndarray
+
+
+def rebound(
+    tangential,
+    normal,
+    inverse_mass,
+    friction,
+    restitution=1.0,
+    stiffness_ratio=1.21,
+    stiffness=1.0,
+):
+    """State at separation; all arguments broadcast.
+
+    Parameters
+    ----------
+    tangential, normal : array_like
+        Velocity of the contact point before the impact [m/s]; normal > 0 is approach.
+    inverse_mass : InverseMass
+        Of one body or, combined, of two [1/kg].
+    friction : array_like
+        Coulomb's mu, from 0.
+    restitution : array_like
+        Energetic coefficient e, 0 to 1: the normal element has the stiffness kappa in
+        compression and kappa/e^2 below its largest compression. e = 0 separates at the first
+        maximum of compression.
+    stiffness_ratio : array_like
+        zeta^2 > 0, normal over tangential stiffness.
+    stiffness : array_like
+        kappa [N/m] of the normal element; it scales forces and duration, nothing else.
+
+    Returns
+    -------
+    NoncollinearRebound
+
+    Raises
+    ------
+    InputError
+        If an argument is not a finite real number in its range, if shapes do not broadcast, if
+        a ratio of velocities or masses, zeta^2 or mu is beyond 1e50, or a result beyond float64.
+    ConvergenceError
+        If a contact has more than 5 000 phases of stick and slip: where the tangential spring is
+        very stiff, c^2 m1 m2 is within about 1e-7 of 1, or e is very small and
+        mu |c| m2 > 1, so that friction holds the contact closed.
+
+    Notes
+    -----
+    Closed forms within a phase; energy balances to 1e-12 of the kinetic energy. With c = 0 it is
+    `planarimpact.lumped.rebound` in other units, to 1e-12.
+
+    Examples
+    --------
+    A metre of slender rod falls on its tip, tilted by 45 degrees:
+
+    >>> rod = inverse_mass(1.0, 12**-0.5, offset=0.125**0.5, depth=0.125**0.5)
+    >>> result = rebound(0.0, 1.0, rod, friction=0.5, restitution=0.5)
+    >>> [round(float(v), 3) for v in (result.tangential, result.normal)]
+    [0.618, -0.433]
+    >>> lost = kinetic_energy(0.0, 1.0, rod) - kinetic_energy(*result[:2], rod)
+    >>> bool(abs(lost - result.friction_work - result.hysteresis) < 1e-15)
+    True
+    """
+    arguments = _checked(
+        tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness
+    )
+    v1, v2, coupling, m2, e, kappa, impacts = _groups(arguments)
+    pieces = [
+        solve(Impacts(*(field[start : start + CHUNK] for field in impacts)))
+        for start in range(0, max(v1.size, 1), CHUNK)  # one even of none
+    ]
+    found = [np.concatenate(column) for column in zip(*pieces, strict=True)]
+    velocity, approach, peak_friction, peak_normal, work, duration, regime, jams = found
+    # p = -(inverse mass)^-1 times the change of velocity.
+    change = impacts.velocity - velocity, 1 - approach
+    determinant = impacts.mass_ratio - coupling**2
+    friction_impulse = (change[0] + coupling * change[1]) / determinant
+    normal_impulse = (coupling * change[0] + impacts.mass_ratio * change[1]) / determinant
+    force = np.sqrt(m2) * np.sqrt(kappa) * v2
+    with np.errstate(over="ignore"):
+        fields = [
+            velocity * v2,
+            approach * v2,
+            friction_impulse * v2 * m2,
+            normal_impulse * v2 * m2,
+            peak_friction * force,
+            peak_normal * force,
+            work * v2 * (m2 * v2),
+            (1 - e) * (1 + e) * peak_normal**2 / 2 * v2 * (m2 * v2),
+            duration * np.sqrt(m2) / np.sqrt(kappa),
+        ]
+    refuse_overflow(NoncollinearRebound._fields, fields)
+    shape = arguments[0].shape
+    fields = [field.reshape(shape)[()] for field in (*fields, regime, jams)]
+    if not shape:
+        fields[-2:] = Regime(int(fields[-2])), bool(fields[-1])
+    return NoncollinearRebound(*fields)
+
+
+def history(
+    tangential,
+    normal,
+    inverse_mass,
+    friction,
+    restitution=1.0,
+    stiffness_ratio=1.21,
+    stiffness=1.0,
+    samples=400,
+):
+    """Forces and velocities over one contact.
+
+    Parameters
+    ----------
+    tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness
+        As in `rebound`; scalars.
+    samples : int
+        At least 2: instants evenly spread over the contact. Events come on top, so that every
+        one is a vertex.
+
+    Returns
+    -------
+    NoncollinearHistory
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As `rebound`; also if an argument is not scalar or `samples` is no integer above 1.
+
+    Examples
+    --------
+    A tilted rod slides into the surface and jams: slip grows the forces until it stops.
+
+    >>> rod = inverse_mass(1.0, 12**-0.5, offset=0.2, depth=0.4)
+    >>> contact = history(2.0, 1.0, rod, friction=1.6, restitution=0.5)
+    >>> [str(event.kind) for event in contact.events]
+    ['contact', 'slip', 'stick', 'maximum compression', 'slip', 'separation']
+    """
+    samples = checks.count("samples", samples, 2)
+    arguments = _checked(
+        tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness
+    )
+    if arguments[0].ndim:
+        raise InputError(f"shape = {arguments[0].shape}: one contact takes scalars")
+    _, v2, _, m2, e, kappa, impacts = _groups(arguments)
+    trace = []
+    solve(impacts, trace)
+    units = (float(a[0]) for a in (v2, np.sqrt(m2) * np.sqrt(kappa), np.sqrt(m2) / np.sqrt(kappa)))
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = timeline(trace, float(e[0]), float(impacts.stiffness_ratio[0]), samples, *units)
+    refuse_overflow(found._fields, found[:-1])
+    return found
+
+
+def kinetic_energy(tangential, normal, inverse_mass):
+    """Kinetic energy [J] that a contact can change, at velocities [m/s] of the contact point.
+
+    That of the motion which the contact point shares; what turns or moves a body about its
+    contact point stays as it is in an impact. Arguments broadcast.
+
+    Examples
+    --------
+    >>> float(kinetic_energy(3.0, 2.0, InverseMass(0.5, 0.0, 1.0)))
+    11.0
+    """
+    mass = checked_inverse_mass(inverse_mass)
+    v1, v2, a, c, b = checks.broadcast(
+        tangential=checked("tangential", tangential, "finite numbers"),
+        normal=checked("normal", normal, "finite numbers"),
+        **{f"inverse_mass.{name}": field for name, field in mass._asdict().items()},
+    )
+    with np.errstate(over="ignore"):
+        energy = (v1 * v1 / a + (v2 + v1 * (c / a)) ** 2 / (b - c * (c / a))) / 2
+    refuse_overflow(["kinetic energy"], [energy])
+    return energy
+
+
+def _checked(tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness):
+    mass = checked_inverse_mass(inverse_mass)
+    return checks.broadcast(
+        tangential=checked("tangential", tangential, "finite numbers"),
+        normal=checked("normal", normal, "finite numbers above 0 (approach)", 0, open_low=True),
+        friction=checked("friction", friction, "finite numbers from 0", 0),
+        restitution=checks.restitution(restitution),
+        stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
+        stiffness=checked("stiffness", stiffness, "finite numbers above 0", 0, open_low=True),
+        **{f"inverse_mass.{name}": field for name, field in mass._asdict().items()},
+    )
+
+
+def _groups(arguments):
+    """Flat arrays: v1, v2, coupling m2 c, m2, e, kappa, and the impacts in the solver's units."""
+    v1, v2, mu, e, zeta2, kappa, a, c, b = (field.reshape(-1) for field in arguments)
+    with np.errstate(over="ignore", under="ignore"):
+        groups = {
+            "tangential/normal": v1 / v2,
+            "inverse_mass.tangential/normal": a / b,
+            "inverse_mass.coupling/normal": c / b,
+            "stiffness_ratio": zeta2,
+            "friction": mu,
+        }
+    for name, group in groups.items():
+        positive = name in ("inverse_mass.tangential/normal", "stiffness_ratio")
+        good = np.abs(group) <= LARGEST
+        if positive:
+            good &= group >= 1 / LARGEST
+        if not good.all():
+            least = f"{1 / LARGEST:g}" if positive else f"{-LARGEST:g}"
+            raise InputError(
+                f"{name} = {float(group[~good][0])!r}: allowed are numbers from {least} to"
+                f" {LARGEST:g}"
+            )
+    ratio, beta, coupling, zeta2, mu = groups.values()
+    return v1, v2, coupling, 1 / b, e, kappa, Impacts(ratio, beta, coupling, zeta2, mu, e)

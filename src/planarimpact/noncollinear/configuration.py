@@ -1,0 +1,185 @@
+"""Bodies that strike off their centre: inverse mass at the contact point, and motion to and fro.
+
+Axes and signs as in `planarimpact.bodies`: tangential velocities and forces along any one direction
+of the surface, normal velocities positive while the body approaches. The contact point lies at
+(offset, depth) from the centre of mass: `offset` along the tangential direction, `depth` along the
+approach of the first body; in the paper x1 = offset, x2 = -depth. Spin is positive where it moves a
+contact point of positive depth in the tangential direction. Friction and normal force are positive
+where they oppose positive velocities of the (first) body.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact import checks
+from planarimpact.bodies import Motion
+from planarimpact.checks import InputError, checked
+
+
+class InverseMass(NamedTuple):
+    """Inverse mass at the contact point [1/kg] (Eq. 2): 1/m1, the coupling c, and 1/m2.
+
+    Tangential and normal velocity change by -(p1/m1 - c p2) and -(p2/m2 - c p1) under impulses p1
+    of friction and p2 of the normal force. c = 0 in a collinear configuration.
+    """
+
+    tangential: np.ndarray
+    coupling: np.ndarray
+    normal: np.ndarray
+
+
+def inverse_mass(mass, gyration, offset, depth):
+    """Inverse mass of one rigid body at its contact point (Eqs 1, 2); arguments broadcast.
+
+    Parameters
+    ----------
+    mass, gyration : array_like
+        M [kg] and radius of gyration k [m], above 0.
+    offset, depth : array_like
+        Contact point from the centre of mass [m], see the module's heading.
+
+    Returns
+    -------
+    InverseMass
+        1/m1 = (1 + depth^2/k^2)/M, c = offset depth/(M k^2), 1/m2 = (1 + offset^2/k^2)/M.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a finite real number in its range, or shapes do not broadcast.
+
+    Examples
+    --------
+    >>> rod = inverse_mass(1.0, 12**-0.5, offset=0.3, depth=0.4)  # a metre of slender rod, tilted
+    >>> [round(float(entry), 12) for entry in rod]
+    [2.92, 1.44, 2.08]
+    """
+    mass, gyration, offset, depth = checks.broadcast(
+        mass=_positive("mass", mass),
+        gyration=_positive("gyration", gyration),
+        offset=_finite("offset", offset),
+        depth=_finite("depth", depth),
+    )
+    with np.errstate(over="ignore", invalid="ignore"):  # refused as not finite
+        along, down = offset / gyration, depth / gyration
+        found = InverseMass((1 + down**2) / mass, along * down / mass, (1 + along**2) / mass)
+    return checked_inverse_mass(found)
+
+
+def combined(first, second):
+    """Inverse mass of two bodies that strike each other: the sum of theirs.
+
+    The second body's contact point is seen from its own centre along the same axes, those of the
+    first: its depth is negative where its centre lies beyond the surface.
+
+    Examples
+    --------
+    >>> balls = combined(inverse_mass(1.0, 1.0, 0.0, 2.0), inverse_mass(2.0, 1.0, 0.0, -1.0))
+    >>> [float(entry) for entry in balls]
+    [6.0, 0.0, 1.5]
+    """
+    one, other = checked_inverse_mass(first), checked_inverse_mass(second)
+    checks.broadcast(first=one.normal, second=other.normal)
+    return checked_inverse_mass(InverseMass(*map(np.add, one, other)))
+
+
+def checked_inverse_mass(value):
+    """Check that an inverse mass is that of a body: finite, positive definite."""
+    if not isinstance(value, InverseMass):
+        raise InputError(
+            f"inverse_mass = {value!r}: allowed are InverseMass({', '.join(InverseMass._fields)})"
+            " tuples, as inverse_mass(...) makes them"
+        )
+    tangential, coupling, normal = checks.broadcast(
+        tangential=_positive("inverse_mass.tangential", value.tangential),
+        coupling=_finite("inverse_mass.coupling", value.coupling),
+        normal=_positive("inverse_mass.normal", value.normal),
+    )
+    with np.errstate(over="ignore", under="ignore"):
+        # Of no body: one has 1/(m1 m2) - c^2 = (1 + (offset^2 + depth^2)/k^2)/M^2 > 0.
+        definite = np.abs(coupling) / normal * (np.abs(coupling) / tangential) < 1
+    if not definite.all():
+        index = tuple(int(i) for i in np.argwhere(~definite)[0])
+        raise InputError(
+            f"inverse_mass.coupling = {float(coupling[index])!r}: allowed are numbers whose square"
+            " is below tangential times normal"
+        )
+    return InverseMass(tangential[()], coupling[()], normal[()])
+
+
+def contact_velocity(motion, offset, depth):
+    """Velocity (tangential, normal) [m/s] of the contact point of a body.
+
+    Parameters
+    ----------
+    motion : bodies.Motion
+        Of the centre of mass [m/s, m/s] and spin [rad/s]; numbers or arrays that broadcast.
+    offset, depth : array_like
+        Contact point [m].
+
+    Examples
+    --------
+    >>> [float(v) for v in contact_velocity(Motion(0.0, 1.0, 2.0), offset=0.25, depth=0.5)]
+    [1.0, 0.5]
+    """
+    tangential, normal, spin, offset, depth = checks.broadcast(
+        tangential=_finite("motion.tangential", motion.tangential),
+        normal=_finite("motion.normal", motion.normal),
+        spin=_finite("motion.spin", motion.spin),
+        offset=_finite("offset", offset),
+        depth=_finite("depth", depth),
+    )
+    return tangential + depth * spin, normal - offset * spin
+
+
+def motion_after(motion, impulses, mass, gyration, offset, depth):
+    """Motion of a body after friction and normal force have given their impulses.
+
+    Parameters
+    ----------
+    motion : bodies.Motion
+        Before the impact.
+    impulses : (array_like, array_like)
+        Of friction and normal force [N s]: `tangential_impulse` and `normal_impulse` of a result;
+        with both signs changed for the second of two bodies.
+    mass, gyration, offset, depth : array_like
+        As in `inverse_mass`.
+
+    Returns
+    -------
+    bodies.Motion
+
+    Examples
+    --------
+    >>> after = motion_after(Motion(0.0, 1.0, 0.0), (0.0, 1.5), 1.0, 0.5, offset=0.5, depth=0.0)
+    >>> [float(v) for v in after]
+    [0.0, -0.5, 3.0]
+    """
+    friction, normal = impulses
+    mass, gyration, friction, normal, offset, depth, tangential, approach, spin = checks.broadcast(
+        mass=_positive("mass", mass),
+        gyration=_positive("gyration", gyration),
+        friction=_finite("impulses[0]", friction),
+        normal=_finite("impulses[1]", normal),
+        offset=_finite("offset", offset),
+        depth=_finite("depth", depth),
+        **{f"motion.{n}": _finite(f"motion.{n}", v) for n, v in motion._asdict().items()},
+    )
+    turned = (normal * offset - friction * depth) / mass / gyration**2
+    return Motion(tangential - friction / mass, approach - normal / mass, spin + turned)
+
+
+def refuse_overflow(names, fields):
+    """Refuse results that float64 cannot hold."""
+    for name, field in zip(names, fields, strict=False):
+        if not np.isfinite(field).all():
+            raise InputError(f"{name} of the result is beyond float64: choose other units")
+
+
+def _positive(name, value):
+    return checked(name, value, "finite numbers above 0", low=0, open_low=True)
+
+
+def _finite(name, value):
+    return checked(name, value, "finite numbers")

@@ -1,0 +1,303 @@
+"""The phases of a non-collinear contact in turn, from contact to separation."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact.checks import ConvergenceError
+from planarimpact.noncollinear import stick_end
+from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
+from planarimpact.results import Regime
+
+# Phases of one contact; one that has more is refused rather than waited for.
+MOST_PHASES = 5_000
+# Smaller restitutions than this leave the same tangential motion, to rounding.
+SMALLEST_PACE = 1e-50
+# Share by which two impulses differ that are equal but for rounding.
+TIE = 1e-14
+
+
+class Impacts(NamedTuple):
+    """Impacts in the units of `phases`, arrays of shape (n,); |v2(0)| = 1."""
+
+    velocity: np.ndarray
+    mass_ratio: np.ndarray
+    coupling: np.ndarray
+    stiffness_ratio: np.ndarray
+    friction: np.ndarray
+    restitution: np.ndarray
+
+
+class Outcome(NamedTuple):
+    """What is known of each impact so far, arrays of shape (n,), filled in place."""
+
+    velocity: np.ndarray
+    approach: np.ndarray
+    peak_friction: np.ndarray
+    peak_normal: np.ndarray
+    friction_work: np.ndarray
+    duration: np.ndarray
+    regime: np.ndarray
+    jams: np.ndarray
+
+
+class Phase(NamedTuple):
+    """One phase of one contact: its `Slip` or `Stick`, the half it belongs to, how long."""
+
+    motion: Slip | Stick
+    unloading: bool
+    duration: float
+
+
+class Contacts(NamedTuple):
+    """Contacts that go on, arrays of shape (n,): where in the batch, state, half, slip, history.
+
+    `direction` is that of slip, 0 in stick; `rising` whether in unloading the force has begun to
+    rise again; `peak` that at maximum compression so far.
+    """
+
+    lanes: np.ndarray
+    state: State
+    unloading: np.ndarray
+    direction: np.ndarray
+    rising: np.ndarray
+    peak: np.ndarray
+    sticks: np.ndarray
+    slid_first: np.ndarray
+
+
+def solve(impacts, trace=None):
+    """Velocities, peak forces, work of friction, duration and regime.
+
+    Parameters
+    ----------
+    impacts : Impacts
+    trace : list, optional
+        For a single impact: its phases are appended in order.
+
+    Returns
+    -------
+    Outcome
+
+    Raises
+    ------
+    ConvergenceError
+        If a contact has more than `MOST_PHASES` phases.
+    """
+    size = impacts.velocity.size
+    outcome = Outcome(*np.zeros((6, size)), np.zeros(size, np.uint8), np.zeros(size, bool))
+    contacts = _first(impacts)
+    for _ in range(MOST_PHASES):
+        if not contacts.lanes.size:
+            return outcome
+        contacts = _advance(contacts, impacts, outcome, trace)
+    raise _too_long(impacts, contacts.lanes[0])
+
+
+def _too_long(impacts, lane):
+    """What to raise for a contact that goes on and on."""
+    named = {name: float(field[lane]) for name, field in impacts._asdict().items()}
+    return ConvergenceError(
+        f"the contact of impact {lane} has too many phases or oscillations; with V = v1/v2 and C ="
+        " m2 c they are many where omega/Omega is large, where C^2 is near m2/m1, or where friction"
+        f" holds the contact closed (mu |C| > 1) while it rattles (e << 1): {named}"
+    )
+
+
+def _first(impacts):
+    """Contacts at their first instant: stick, unless the spring cannot follow."""
+    velocity, mu, zeta2 = impacts.velocity, impacts.friction, impacts.stiffness_ratio
+    size = velocity.size
+    direction = np.where(velocity < 0, -1.0, 1.0)
+    start = State(np.zeros(size), np.ones(size), np.zeros(size), velocity)
+    all_lanes = np.arange(size)
+    groups = _groups(impacts, all_lanes, np.zeros(size, bool))
+    limit = mu * zeta2
+    # Where both forces leave zero together, what follows tells.
+    grows = Slip.start(start, groups, direction).slope >= 0
+    slides = (np.abs(velocity) > limit) | ((np.abs(velocity) == limit) & grows) | (mu == 0)
+    return Contacts(
+        all_lanes,
+        start,
+        np.zeros(size, bool),
+        np.where(slides, direction, 0.0),
+        np.zeros(size, bool),
+        np.zeros(size),
+        np.where(slides, 0, 1),
+        slides,
+    )
+
+
+def _groups(impacts, lanes, unloading):
+    pace = np.where(unloading, np.maximum(impacts.restitution[lanes], SMALLEST_PACE), 1.0)
+    return Groups(
+        impacts.mass_ratio[lanes],
+        impacts.coupling[lanes],
+        impacts.stiffness_ratio[lanes],
+        impacts.friction[lanes],
+        pace,
+    )
+
+
+def _advance(contacts, impacts, outcome, trace):
+    """One phase for every contact; those that end leave."""
+    groups = _groups(impacts, contacts.lanes, contacts.unloading)
+    sticks = contacts.direction == 0
+    pieces = []
+    for chosen, move in ((~sticks, _slide), (sticks, _stick)):
+        which = np.flatnonzero(chosen)
+        if which.size:
+            part, some = _take(contacts, which), Groups(*(g[which] for g in groups))
+            pieces.append(_leave(*move(part, some, impacts, outcome, trace), impacts, outcome))
+    if len(pieces) == 1:
+        return pieces[0]
+    return _join(*pieces)
+
+
+def _take(contacts, which):
+    state = State(*(field[which] for field in contacts.state))
+    return Contacts(*(state if field is contacts.state else field[which] for field in contacts))
+
+
+def _join(first, second):
+    state = State(*(np.concatenate(pair) for pair in zip(first.state, second.state, strict=True)))
+    return Contacts(
+        *(
+            state if one is first.state else np.concatenate([one, two])
+            for one, two in zip(first, second, strict=True)
+        )
+    )
+
+
+def _slide(contacts, groups, impacts, outcome, trace):
+    """Slip to its next event: the contacts after it, those that separate, those that turn."""
+    slip = Slip.start(contacts.state, groups, contacts.direction)
+    unloading = contacts.unloading
+    separation = np.where(unloading, slip.separation(), np.inf)
+    candidates = np.stack(
+        [
+            # At once with another event, it is for the next phase to tell whether slip goes on.
+            slip.stop() * (1 + TIE),
+            np.where(unloading, separation, slip.turn()),
+            np.where(unloading, slip.reload(contacts.peak), np.inf),
+        ]
+    )
+    event = candidates.argmin(axis=0)
+    impulse = candidates.min(axis=0)
+    if not np.isfinite(impulse).all():
+        raise _too_long(impacts, contacts.lanes[~np.isfinite(impulse)][0])
+    after = slip.after(impulse, separation)
+    stops, ends, again = (event == kind for kind in range(3))
+    after = after._replace(
+        approach=np.where(ends & ~unloading, 0.0, after.approach),
+        normal=np.where(ends & unloading, 0.0, np.where(again, contacts.peak, after.normal)),
+    )
+    lanes, mu = contacts.lanes, groups.friction
+    after = after._replace(friction=contacts.direction * mu * after.normal)
+    # Within a reloading that stays below the earlier peak the force has a crest of its own.
+    crest = slip.turn()
+    inside = (contacts.state.approach > 0) & (after.approach < 0) & unloading
+    top = slip.after(np.where(inside, crest, 0.0), separation).normal
+    force = np.maximum(np.maximum(contacts.state.normal, after.normal), top)
+    outcome.peak_friction[lanes] = np.maximum(outcome.peak_friction[lanes], mu * force)
+    outcome.friction_work[lanes] += slip.work(impulse)
+    duration = slip.duration(impulse, after.normal)
+    outcome.duration[lanes] += groups.pace * duration
+    outcome.jams[lanes] |= (slip.mass < 0) & (impulse > 0)
+    _record(trace, slip, contacts, duration)
+    moved = contacts._replace(
+        state=after,
+        direction=np.where(stops, 0.0, contacts.direction),
+        rising=unloading & (after.approach > 0),
+        sticks=contacts.sticks + stops,
+    )
+    return moved, ends, again
+
+
+def _stick(contacts, groups, impacts, outcome, trace):
+    """Stick to its next event."""
+    stick = Stick.start(contacts.state, groups)
+    unloading = contacts.unloading
+    which = stick_end.functions(
+        stick, contacts.state, groups, contacts.peak, unloading, contacts.rising
+    )
+    time, event = stick_end.first_zero(which)
+    if (event < 0).any():
+        raise _too_long(impacts, contacts.lanes[event < 0][0])
+    after = stick.at(time)
+    forward, backward, turns, ends, other = (event == kind for kind in range(5))
+    again = other & contacts.rising
+    direction = np.where(forward, 1.0, np.where(backward, -1.0, 0.0))
+    slides = forward | backward
+    mu = groups.friction
+    normal = np.where(ends & unloading, 0.0, np.where(again, contacts.peak, after.normal))
+    # At the onset of slip the larger of the two forces is known to more digits.
+    normal = np.where(slides & (mu > 1), np.abs(after.friction) / np.maximum(mu, 1.0), normal)
+    normal = np.maximum(normal, 0.0)
+    after = State(
+        normal,
+        np.where(ends & ~unloading, 0.0, after.approach),
+        np.where(slides, direction * mu * normal, after.friction),
+        np.where(turns, 0.0, after.velocity),
+    )
+    lanes = contacts.lanes
+    outcome.peak_friction[lanes] = np.maximum(outcome.peak_friction[lanes], np.abs(after.friction))
+    outcome.duration[lanes] += groups.pace * time
+    _record(trace, stick, contacts, time)
+    moved = contacts._replace(
+        state=after,
+        direction=direction,
+        rising=(contacts.rising | other) & ~again,
+    )
+    return moved, ends, again
+
+
+def _record(trace, motion, contacts, duration):
+    if trace is not None:
+        trace.append(Phase(motion, bool(contacts.unloading[0]), float(duration[0])))
+
+
+def _leave(contacts, ends, again, impacts, outcome):
+    """Turn contacts at maximum compression and at the earlier peak; settle those that separate."""
+    lanes, state = contacts.lanes, contacts.state
+    e = impacts.restitution[lanes]
+    pace = np.maximum(e, SMALLEST_PACE)
+    compressed = ends & ~contacts.unloading
+    peak = np.where(compressed, state.normal, contacts.peak)
+    separates = (ends & contacts.unloading) | (compressed & (e == 0))
+    approach = np.where(again, pace * state.approach, state.approach)
+    moved = contacts._replace(
+        state=state._replace(approach=approach),
+        unloading=(contacts.unloading | compressed) & ~again,
+        peak=peak,
+    )
+    gone = np.flatnonzero(separates)
+    if gone.size:
+        _settle(_take(moved, gone), e[gone], impacts, outcome)
+        moved = _take(moved, np.flatnonzero(~separates))
+    return moved
+
+
+def _settle(contacts, e, impacts, outcome):
+    """Write down contacts that separate, with the strain energy that is lost then.
+
+    A spring still holds friction where e = 0, or where mu is too large to tell the last slip from
+    separation.
+    """
+    lanes, state = contacts.lanes, contacts.state
+    outcome.velocity[lanes] = state.velocity
+    outcome.approach[lanes] = e * state.approach
+    outcome.peak_normal[lanes] = contacts.peak
+    outcome.friction_work[lanes] += impacts.stiffness_ratio[lanes] * state.friction**2 / 2
+    sticks, slid_first, slides = contacts.sticks, contacts.slid_first, contacts.direction != 0
+    outcome.regime[lanes] = np.select(
+        [sticks == 0, sticks > 1, slid_first & slides, slid_first, slides],
+        [
+            Regime.SLIP_THROUGHOUT,
+            Regime.MULTIPLE,
+            Regime.SLIP_STICK_SLIP,
+            Regime.SLIP_STICK,
+            Regime.STICK_SLIP,
+        ],
+        Regime.STICK,
+    )

@@ -1,0 +1,205 @@
+"""Where stick ends: the first zero of several functions, each a sum of the two modes.
+
+The search advances from the left only, in steps that cannot jump a zero. With |f''| <= M such a
+step is the positive root of f + f' h - M h^2/2. Another one knows more: in stick every one obeys
+
+    f'' + rate^2 f >= -load,
+
+so f lies above the solution of the equation while rate h < pi; its zero is found by the tangent of
+half the angle. The longer of the two is taken: the second is long where f is small throughout, as
+mu N - F is where both fall together. For it, the onset of slip in the direction g, rate^2 =
+b + g mu C, b that of the tangential element alone, and the right-hand side is k N with -k zeta^2
+the slope of `phases.Slip`.
+
+A function may fall below zero by a rounding error, `NOISE` of its size, before it counts. So the
+double zero of f where slip has just ended, from which a search might chatter, is left behind at
+once: there k > 0, and no load.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact.noncollinear.phases import Slip
+from planarimpact.slip_onset import sin_cos
+
+NOISE = 1e-15
+# Smaller than any force that matters; so a function that is 0 throughout has no zero.
+NOTHING = 1e-50
+# The search is quadratic: after a step of this share of the faster mode's period it is done.
+LAST_STEP = 1e-9
+STEPS = 5_000
+# Contacts that are done stay in the arrays until only this share of them is not.
+KEEP = 0.7
+
+
+class Functions(NamedTuple):
+    """Functions constant + p_cos cos(rate_p t) + p_sin sin(rate_p t) + ...; arrays (5, n).
+
+    Each with its noise, the square of its own rate, and its load.
+    """
+
+    constant: np.ndarray
+    p_cos: np.ndarray
+    p_sin: np.ndarray
+    q_cos: np.ndarray
+    q_sin: np.ndarray
+    noise: np.ndarray
+    square: np.ndarray
+    load: np.ndarray
+    rate_p: np.ndarray
+    rate_q: np.ndarray
+
+    def take(self, lanes):
+        """These functions for some of the contacts."""
+        return Functions(*(field[..., lanes] for field in self))
+
+
+def functions(stick, state, groups, peak, unloading, rising):
+    """The five whose first zero ends a phase of stick.
+
+    mu N - F and mu N + F (slip begins); |V| (an extremum of F); y in compression, N in unloading
+    (maximum compression, separation); in unloading -y (the force begins to rise again) or, where it
+    is `rising`, what it lacks to the earlier peak.
+    """
+    beta, coupling, zeta2, mu, pace = groups
+    cosine, sine, scale, zeta = stick.cosine, stick.sine, stick.scale, stick.zeta
+    loading, falls = ~unloading, unloading & ~rising
+    swing = np.where(
+        state.velocity != 0, state.velocity, coupling * state.normal - beta * state.friction
+    )
+    ahead = np.where(swing < 0, -zeta, zeta)
+    zero = np.zeros(state.normal.size)
+    constant = np.stack([zero, zero, zero, zero, np.where(rising, peak, 1.0 * loading)])
+    # Share of N, F scale, and of their rates in each.
+    normal = np.stack([mu, mu, zero, 1.0 * unloading, -1.0 * rising])
+    friction = np.stack([-1 / scale, 1 / scale, zero, zero, zero])
+    normal_rate = np.stack([zero, zero, zero, 1.0 * loading, -1.0 * falls])
+    friction_rate = np.stack([zero, zero, ahead, zero, zero])
+    p_share, q_share = _modes(normal, friction, cosine, sine)
+    p_rate, q_rate = _modes(normal_rate, friction_rate, cosine, sine)
+    p_rate, q_rate = p_rate * stick.rate_p, q_rate * stick.rate_q
+    (p_a, p_b), (q_a, q_b) = stick.p, stick.q
+    p_size, q_size = stick.sizes
+    noise = (np.abs(p_share) + np.abs(p_rate)) * p_size + (
+        np.abs(q_share) + np.abs(q_rate)
+    ) * q_size
+    return Functions(
+        constant,
+        p_share * p_a + p_rate * p_b,
+        p_share * p_b - p_rate * p_a,
+        q_share * q_a + q_rate * q_b,
+        q_share * q_b - q_rate * q_a,
+        NOISE * noise + NOTHING,
+        *_own_motion(stick, state, groups, unloading, rising),
+        stick.rate_p,
+        stick.rate_q,
+    )
+
+
+def _modes(normal, friction, cosine, sine):
+    """Shares of p and q, from those of N and F scale."""
+    return normal * cosine - friction * sine, normal * sine + friction * cosine
+
+
+def _own_motion(stick, state, groups, unloading, rising):
+    """Square of each function's own rate, and its load."""
+    beta, coupling, zeta2, mu, pace = groups
+    p_size, q_size = stick.sizes
+    across = np.abs(stick.sine)
+    normal = stick.cosine * p_size + across * q_size
+    friction = (across * p_size + stick.cosine * q_size) / stick.scale
+    approach = stick.cosine * stick.rate_p * p_size + across * stick.rate_q * q_size
+    velocity = stick.zeta * (across * stick.rate_p * p_size + stick.cosine * stick.rate_q * q_size)
+    pull = np.abs(coupling)
+    own, one = pace**2 * beta / zeta2, np.ones(mu.size)
+    square = np.stack([own + mu * coupling, own - mu * coupling, own, one, one])
+    slopes = [Slip.start(state, groups, side).slope for side in (1.0, -1.0)]
+    turning = pull * pace / zeta2 * velocity  # of y'' + y
+    load = np.stack(
+        [
+            np.maximum(slopes[0], 0.0) / zeta2 * normal,
+            np.maximum(slopes[1], 0.0) / zeta2 * normal,
+            pull * pace * approach,
+            np.where(unloading, pull * friction, turning),
+            np.where(rising, pull * friction, np.where(unloading, turning, 0.0)),
+        ]
+    )
+    return square, load
+
+
+def first_zero(which):
+    """Time of the first zero of any of the functions, and which has it.
+
+    Parameters
+    ----------
+    which : Functions
+
+    Returns
+    -------
+    time : ndarray, shape (n,)
+    index : ndarray of int, shape (n,)
+        -1 where `STEPS` steps did not reach it.
+    """
+    lanes = np.arange(which.rate_p.size)
+    found, index = np.zeros(lanes.size), np.full(lanes.size, -1)
+    time, open_ = np.zeros(lanes.size), np.ones(lanes.size, bool)
+    bend = _bend(which)
+    for _ in range(STEPS):
+        step, nearest = _free_step(which, bend, time)
+        time = time + step
+        done = open_ & (step * np.maximum(which.rate_p, which.rate_q) <= LAST_STEP)
+        found[lanes[done]], index[lanes[done]] = time[done], nearest[done]
+        open_ &= ~done
+        left = np.count_nonzero(open_)
+        if not left:
+            return found, index
+        if left < KEEP * open_.size:
+            lanes, time, bend, which = lanes[open_], time[open_], bend[:, open_], which.take(open_)
+            open_ = np.ones(left, bool)
+    return found, index
+
+
+def _bend(which):
+    """Bound of the second derivative of each function."""
+    p_size = np.hypot(which.p_cos, which.p_sin) * which.rate_p**2
+    q_size = np.hypot(which.q_cos, which.q_sin) * which.rate_q**2
+    return np.maximum(p_size + q_size, NOTHING**2)
+
+
+def _free_step(which, bend, time):
+    """Longest step without a zero, and the function that has the next one."""
+    sin_p, cos_p = sin_cos(which.rate_p * time)
+    sin_q, cos_q = sin_cos(which.rate_q * time)
+    value = which.constant + which.noise + which.p_cos * cos_p + which.p_sin * sin_p
+    value += which.q_cos * cos_q + which.q_sin * sin_q
+    slope = which.rate_p * (which.p_sin * cos_p - which.p_cos * sin_p)
+    slope += which.rate_q * (which.q_sin * cos_q - which.q_cos * sin_q)
+    value = np.maximum(value, 0.0)
+    steps = (slope + np.sqrt(slope * slope + 2 * bend * value)) / bend
+    own = _free_step_by_motion(value, slope, which.square, which.load)
+    steps = np.maximum(steps, own)
+    nearest = steps.argmin(axis=0)
+    return np.take_along_axis(steps, nearest[None], axis=0)[0], nearest
+
+
+def _free_step_by_motion(value, slope, square, load):
+    """The same from f'' + square f >= -load, by the tangent of half the angle over the rate."""
+    bend = square * value + 2 * load
+    root = slope * slope + bend * value
+    rises, never = slope > 0, root < 0
+    root = np.sqrt(np.where(never, 0.0, root))
+    never |= rises & (bend <= 0)
+    over = np.where(rises, bend, root - slope)
+    half = np.where(rises, slope + root, value) / np.where(over > 0, over, 1.0)
+    rate = np.sqrt(np.abs(square))
+    angle = rate * half
+    swings = square > 0
+    step = np.arctan(angle)
+    if not swings.all():
+        never |= ~swings & (angle >= 1)
+        step = np.where(swings, step, np.arctanh(np.where(swings | never, 0.0, angle)))
+    divisor = np.where(rate > 0, rate, 1.0)
+    step = np.where(angle > 1e-6, 2 * step / divisor, 2 * half)
+    # Beyond half a period of a sinusoid the bound says nothing.
+    return np.where(never, np.where(swings, np.pi / divisor, np.inf), step)

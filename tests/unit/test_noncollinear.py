@@ -1,0 +1,285 @@
+"""The non-collinear model: bodies, refusals, limits, histories, and the rigid impulse beside it."""
+
+import numpy as np
+import pytest
+
+from planarimpact import InputError, Regime, noncollinear
+from planarimpact.bodies import Motion
+from planarimpact.checks import ConvergenceError
+from planarimpact.noncollinear import InverseMass, rigid, solver
+
+ROD = {"mass": 2.0, "gyration": 1 / 12**0.5}  # of a metre
+
+
+def rod(degrees, mass=2.0):
+    tilt = np.radians(degrees)
+    return noncollinear.inverse_mass(mass, 12**-0.5, np.sin(tilt) / 2, np.cos(tilt) / 2)
+
+
+def test_effective_masses_are_those_of_the_paper():
+    mass, gyration, x1, x2 = 3.0, 0.5, 0.25, -1.0
+    found = noncollinear.inverse_mass(mass, gyration, offset=x1, depth=-x2)
+    m1 = mass * gyration**2 / (gyration**2 + x2**2)
+    m2 = mass * gyration**2 / (gyration**2 + x1**2)
+    np.testing.assert_allclose(found, (1 / m1, -x1 * x2 / (mass * gyration**2), 1 / m2))
+
+
+def test_motion_of_the_body_and_of_its_contact_point_agree():
+    place = {"offset": 0.2, "depth": 0.4}
+    mass = noncollinear.inverse_mass(**ROD, **place)
+    motion = Motion(0.3, 1.0, -0.5)
+    v1, v2 = noncollinear.contact_velocity(motion, **place)
+    result = noncollinear.rebound(v1, v2, mass, 0.6, 0.7)
+    impulses = result.tangential_impulse, result.normal_impulse
+    after = noncollinear.motion_after(motion, impulses, **ROD, **place)
+    found = noncollinear.contact_velocity(after, **place)
+    np.testing.assert_allclose(found, result[:2], atol=1e-14)
+    lost = [
+        2.0 * (m.tangential**2 + m.normal**2 + (m.spin * ROD["gyration"]) ** 2) / 2
+        for m in (motion, after)
+    ]
+    assert lost[0] - lost[1] == pytest.approx(result.friction_work + result.hysteresis, rel=1e-12)
+
+
+def test_two_bodies_are_one_of_their_inverse_mass():
+    """Equal rods, tip to tip, mirrored in the surface: as one of half the mass on a half-space."""
+    above = noncollinear.inverse_mass(2.0, 0.3, offset=0.2, depth=0.4)
+    below = noncollinear.inverse_mass(2.0, 0.3, offset=-0.2, depth=-0.4)
+    pair = noncollinear.combined(above, below)
+    half = noncollinear.inverse_mass(1.0, 0.3, offset=0.2, depth=0.4)
+    np.testing.assert_allclose(pair, half)
+    one, other = (noncollinear.rebound(1.0, 2.0, m, 0.5, 0.8) for m in (pair, half))
+    np.testing.assert_allclose(one[:9], other[:9])
+
+
+def test_arguments_broadcast_and_scalars_stay_scalars():
+    result = noncollinear.rebound([0.0, 1.0], 1.0, rod([[10.0], [20.0], [30.0]]), 0.5, 0.5)
+    assert all(field.shape == (3, 2) for field in result)
+    single = noncollinear.rebound(1.0, 1.0, rod(20.0), 0.5, 0.5)
+    assert isinstance(single.regime, Regime) and isinstance(single.jams, bool)
+    assert all(found[1, 1] == one for found, one in zip(result, single, strict=True))
+    for model in (noncollinear, rigid):
+        none = model.rebound(np.zeros((0, 2)), 1.0, rod(20.0), 0.5, 0.5)
+        assert all(field.shape == (0, 2) for field in none)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"normal": 0.0}, "normal = 0.0: allowed are finite numbers above 0 (approach)"),
+        ({"normal": -1.0}, "normal = -1.0"),
+        ({"tangential": np.nan}, "tangential = nan"),
+        ({"friction": -0.1}, "friction = -0.1: allowed are finite numbers from 0"),
+        ({"restitution": 1.5}, "restitution = 1.5"),
+        ({"stiffness_ratio": 0.0}, "stiffness_ratio = 0.0"),
+        ({"stiffness": [1.0, 0.0]}, "stiffness[1] = 0.0"),
+        ({"inverse_mass": (1.0, 0.0, 1.0)}, "inverse_mass = (1.0, 0.0, 1.0): allowed are Inverse"),
+        ({"inverse_mass": InverseMass(1.0, 1.0, 1.0)}, "inverse_mass.coupling = 1.0"),
+        ({"inverse_mass": InverseMass(0.0, 0.0, 1.0)}, "inverse_mass.tangential = 0.0"),
+        ({"tangential": 1e300, "normal": 1e-300}, "tangential/normal = inf"),
+        ({"friction": 1e51}, "friction = 1e+51"),
+        ({"tangential": [1.0, 2.0], "normal": [1.0, 1.0, 1.0]}, "shapes do not broadcast"),
+    ],
+)
+def test_bad_input_is_refused_by_name(change, words):
+    good = {"tangential": 1.0, "normal": 1.0, "inverse_mass": rod(20.0), "friction": 0.5}
+    for function in (noncollinear.rebound, noncollinear.history):
+        with pytest.raises(InputError) as caught:
+            function(**good | change)
+        assert words in str(caught.value)
+
+
+def test_bodies_and_samples_are_refused_by_name():
+    with pytest.raises(InputError, match="gyration = 0.0"):
+        noncollinear.inverse_mass(1.0, 0.0, 0.1, 0.1)
+    with pytest.raises(InputError, match="offset = inf"):
+        noncollinear.inverse_mass(1.0, 1.0, np.inf, 0.1)
+    with pytest.raises(InputError, match="samples = 1"):
+        noncollinear.history(1.0, 1.0, rod(20.0), 0.5, samples=1)
+    with pytest.raises(InputError, match="one contact takes scalars"):
+        noncollinear.history([1.0, 2.0], 1.0, rod(20.0), 0.5)
+    with pytest.raises(InputError, match="law = 'newton'.*kinematic"):
+        rigid.rebound(1.0, 1.0, rod(20.0), 0.5, law="newton")
+    with pytest.raises(InputError, match="law = .*kinematic"):
+        rigid.rebound(1.0, 1.0, rod(20.0), 0.5, law=np.array(["energetic", "kinetic"]))
+    with pytest.raises(InputError, match="first .2,., second .3,."):
+        noncollinear.combined(rod([1.0, 2.0]), rod([1.0, 2.0, 3.0]))
+    with pytest.raises(InputError, match="mass = 0.0"):
+        noncollinear.motion_after(Motion(0.0, 1.0, 0.0), (0.0, 1.0), 0.0, 1.0, 0.1, 0.1)
+    with pytest.raises(InputError, match="motion.spin = nan"):
+        noncollinear.motion_after(Motion(0.0, 1.0, np.nan), (0.0, 1.0), 1.0, 1.0, 0.1, 0.1)
+
+
+def test_what_float64_cannot_hold_is_refused_by_name():
+    with pytest.raises(InputError, match="inverse_mass.tangential = inf"):
+        noncollinear.inverse_mass(1.0, 1e-200, 0.1, 0.1)
+    with pytest.raises(InputError, match="friction_work of the result is beyond float64"):
+        noncollinear.rebound(1e200, 1e200, rod(20.0), 0.5)
+    with pytest.raises(InputError, match="kinetic energy of the result"):
+        noncollinear.kinetic_energy(1e200, 1.0, rod(20.0))
+    with pytest.raises(InputError, match="normal_force of the result"):
+        noncollinear.history(1e200, 1e200, rod(20.0), 0.5, stiffness=1e250)
+    with pytest.raises(InputError, match="tangential of the result"):
+        rigid.rebound(1e200, 1e-200, rod(20.0), 0.5)
+
+
+@pytest.mark.parametrize("law", list(rigid.Law))
+def test_speed_and_mass_only_scale_the_rigid_impulse(law):
+    a, c, b = rod(20.0)
+    plain = rigid.rebound(1.0, 1.0, rod(20.0), 0.5, 0.5, law)
+    for speed, mass in ((2.0**600, 0.25), (2.0**-600, 4.0)):
+        scaled = InverseMass(a / mass, c / mass, b / mass)
+        found = rigid.rebound(speed, speed, scaled, 0.5, 0.5, law)
+        units = speed, speed, mass * speed, mass * speed
+        assert all(x == y * unit for x, y, unit in zip(found, plain, units, strict=False))
+
+
+@pytest.mark.parametrize("e", [1e-6, 1e-12, 1e-20, 1e-300])
+def test_a_history_of_little_restitution_ends_at_separation(e):
+    contact = noncollinear.history(0.4, 1.0, rod(30.0), 0.8, e)
+    result = noncollinear.rebound(0.4, 1.0, rod(30.0), 0.8, e)
+    assert contact.normal_force[-1] <= 1e-12 * result.peak_normal
+    assert contact.normal[-1] == pytest.approx(result.normal, rel=1e-12)
+    assert contact.tangential[-1] == pytest.approx(result.tangential, rel=1e-12)
+
+
+def test_energy_balances_however_rough_the_contact():
+    """The last slip begins at a normal force of the order 1/mu, at last below rounding."""
+    friction = 10.0 ** np.arange(1, 50)
+    for v1, mass, zeta2 in ((2.0, rod(30.0), 1.21), (-1.5, rod(-50.0), 20.0)):
+        result = noncollinear.rebound(v1, 1.0, mass, friction, 0.6, zeta2)
+        before = noncollinear.kinetic_energy(v1, 1.0, mass)
+        after = noncollinear.kinetic_energy(result.tangential, result.normal, mass)
+        lost = result.friction_work + result.hysteresis
+        np.testing.assert_allclose(before - after, lost, atol=1e-12 * before)
+
+
+def test_an_endless_rattle_is_refused_with_its_numbers(monkeypatch):
+    """Friction holds the contact closed (mu C > 1), and the stiff unloading element rattles."""
+    monkeypatch.setattr(solver, "MOST_PHASES", 300)
+    mass = InverseMass(1.0, 0.75, 1.0)
+    with pytest.raises(ConvergenceError, match="impact 1 has too many phases.*'friction': 6.0"):
+        noncollinear.rebound([0.0, 12.0], 1.0, mass, 6.0, 1e-9, 20.0)
+
+
+def test_no_restitution_separates_at_maximum_compression():
+    contact = noncollinear.history(0.4, 1.0, rod(30.0), 0.8, 0.0)
+    kinds = [str(event.kind) for event in contact.events]
+    assert kinds == ["contact", "stick", "maximum compression", "separation"]
+    result = noncollinear.rebound(0.4, 1.0, rod(30.0), 0.8, [0.0, 1e-300, 1e-6])
+    assert (result.normal <= 0).all() and result.normal[0] == 0
+    assert np.ptp(result.tangential) < 1e-5
+    assert np.ptp(result.friction_work) < 1e-5
+
+
+@pytest.mark.parametrize(
+    ("v1", "mass_ratio", "coupling", "friction", "restitution", "stiffness_ratio", "regime"),
+    [
+        (1.0, 0.5, 0.25, 4.0, 0.0, 0.5, "STICK"),
+        (4.0, 0.5, 0.25, 4.0, 0.0, 0.5, "SLIP_STICK"),
+        (4.0, 0.5, 0.25, 4.0, 1.0, 1.0, "STICK_SLIP"),  # at the limit of initial slip
+        (4.0, 0.5, 0.25, 4.0, 1.0, 2.0, "MULTIPLE"),
+        (4.0, 4.0, -1.0, 2.0, 1.0, 1.0, "SLIP_THROUGHOUT"),  # slip stops at maximum compression
+    ],
+)
+def test_regimes_at_round_numbers(
+    v1, mass_ratio, coupling, friction, restitution, stiffness_ratio, regime
+):
+    mass = InverseMass(mass_ratio, coupling, 1.0)
+    result = noncollinear.rebound(v1, 1.0, mass, friction, restitution, stiffness_ratio)
+    assert result.regime.name == regime and not result.jams
+
+
+def test_reloading_follows_the_line_of_unloading_up_to_the_earlier_peak():
+    """Friction compresses the contact again after its first maximum."""
+    mass = noncollinear.inverse_mass(1.032, 0.9537, -2.2135, 1.59155)
+    contact = noncollinear.history(-12.425, 3.3405, mass, 2.3832, 0.0283, 2.2134, 300.7, 4000)
+    kinds = [str(event.kind) for event in contact.events]
+    assert kinds.count("maximum compression") == 2 and kinds.count("reloading") == 1
+    peaks = [e.normal for e in contact.events if str(e.kind) == "maximum compression"]
+    again = next(e.normal for e in contact.events if str(e.kind) == "reloading")
+    assert again == pytest.approx(peaks[0], rel=1e-14) and peaks[1] > peaks[0]
+    # Force and compression stay on the two lines.
+    loading = contact.normal_force - 300.7 * contact.compression
+    assert loading.max() <= 1e-12 * max(peaks)
+    rest = (1 - 0.0283**2) * contact.compression.max()
+    late = contact.time > contact.events[-3].time
+    line = 300.7 / 0.0283**2 * (contact.compression[late] - rest)
+    np.testing.assert_allclose(contact.normal_force[late], line, atol=1e-9 * max(peaks))
+
+
+def test_forces_of_a_jam_grow_exponentially_until_slip_stops():
+    mass, mu = rod(25.0), 1.8
+    contact = noncollinear.history(10.0, 1.0, mass, mu, 0.5, samples=2000)
+    assert noncollinear.rebound(10.0, 1.0, mass, mu, 0.5).jams
+    stop = next(event.time for event in contact.events if str(event.kind) == "stick")
+    slides = contact.time < stop
+    rate = np.sqrt(mu * mass.coupling - mass.normal)
+    expected = np.sinh(rate * contact.time[slides]) / rate
+    np.testing.assert_allclose(contact.normal_force[slides], expected, rtol=1e-12)
+
+
+def test_stiff_tangential_elements_come_to_the_rigid_impulse():
+    """zeta^2 -> 0 where the contact slides on or comes to rest before it separates."""
+    angles = np.array([-60.0, -30.0, 5.0, 60.0])
+    stiff = noncollinear.rebound(1.5, 1.0, rod(angles), 0.4, 0.6, 1e-4)
+    exact = rigid.rebound(1.5, 1.0, rod(angles), 0.4, 0.6)
+    np.testing.assert_allclose(stiff.tangential, exact.tangential, atol=0.02)
+    np.testing.assert_allclose(stiff.normal, exact.normal, atol=0.02)
+
+
+LAWS = list(rigid.Law)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_laws_of_restitution_agree_where_slip_goes_on(law):
+    result = rigid.rebound(9.0, 1.0, rod([-20.0, 0.0, 20.0]), 0.3, 0.7, law)
+    sliding = noncollinear.rebound(9.0, 1.0, rod([-20.0, 0.0, 20.0]), 0.3, 0.7)
+    np.testing.assert_allclose(result.tangential, sliding.tangential, rtol=1e-13)
+    np.testing.assert_allclose(result.normal, sliding.normal, rtol=1e-13)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("v1", [0.0, 0.3, 1.0, 3.0, -1.0])
+@pytest.mark.parametrize("friction", [0.0, 0.3, 1.6])
+def test_rigid_impulse_against_small_steps(law, v1, friction):
+    """Velocities against the normal impulse, in small steps that know only Coulomb's law."""
+    e, count = 0.7, 4_000
+    for degrees in (-50.0, -20.0, 25.0, 60.0):
+        a, c, b = rod(degrees)
+        result = rigid.rebound(v1, 1.0, rod(degrees), friction, e, law)
+        step = result.normal_impulse / count
+        velocity, normal, work, compression = v1, 1.0, [0.0, 0.0], None
+        for done in range(count):
+            share = np.sign(velocity) * friction
+            after = velocity - step * (share * a - c)
+            if velocity * after <= 0:  # at rest: held if friction can
+                share = np.clip((velocity / step + c) / a, -friction, friction)
+                after = velocity - step * (share * a - c)
+            middle = normal - step * (b - share * c) / 2
+            velocity, normal = after, normal - step * (b - share * c)
+            work[int(normal < 0)] += middle * step
+            if normal < 0 and compression is None:
+                compression = done * step
+        near = pytest.approx(result.tangential, abs=1e-3), pytest.approx(result.normal, abs=1e-3)
+        assert (velocity, normal) == near
+        if law == rigid.Law.ENERGETIC:
+            assert -work[1] == pytest.approx(e**2 * work[0], abs=1e-3)
+        elif law == rigid.Law.KINEMATIC:
+            assert result.normal == pytest.approx(-e, abs=1e-14)
+        else:
+            assert result.normal_impulse == pytest.approx((1 + e) * compression, abs=3e-3)
+
+
+def test_only_the_energetic_coefficient_never_creates_energy():
+    """Newton's does for a rod, Poisson's for others (Stronge 1990)."""
+    angles = np.linspace(-85, 85, 341)
+    for friction in (0.2, 0.5, 1.0, 1.6):
+        for v1 in (0.0, 0.3, 0.6, 1.0, 2.5):
+            before = noncollinear.kinetic_energy(v1, 1.0, rod(angles))
+            energetic = rigid.rebound(v1, 1.0, rod(angles), friction, 0.9)
+            after = noncollinear.kinetic_energy(energetic.tangential, energetic.normal, rod(angles))
+            assert (after <= before).all()
+    newton = rigid.rebound(0.6, 1.0, rod(-37.0), 0.5, 0.9, "kinematic")
+    gained = noncollinear.kinetic_energy(newton.tangential, newton.normal, rod(-37.0))
+    assert gained > 1.1 * noncollinear.kinetic_energy(0.6, 1.0, rod(-37.0))
