@@ -13,8 +13,6 @@ to check it. Units: radius a_max, time d_max/|v2(0)|, force its largest normal v
 traction and friction), tangential displacement zeta^2 mu d_max.
 """
 
-import math
-
 import numpy as np
 from scipy.special import beta as beta_function
 from scipy.special import betaincinv
@@ -22,10 +20,15 @@ from scipy.special import betaincinv
 from planarimpact import checks
 from planarimpact.results import Rebound, Regime
 
-IMPACTS_TOGETHER = 256  # bounds the memory of their systems of equations
+CELLS = 2**18  # entries of the systems of equations solved together: bounds the memory
+MOST_CIRCLES = 1000
+MOST_STEPS = 10**7
 MOST_TRIALS = 100
 STEPS_A_RADIAN = 1  # of the tangential oscillation; explicit steps are unstable below some 0.6
 ROUNDING = 1e-12
+# Of velocity over zeta^2. Below the least, contact sticks to its last step and the answer is in
+# proportion to x; above the largest it slides throughout, whatever the number.
+LEAST, LARGEST = 1e-100, 1e100
 
 
 def rebound(
@@ -38,7 +41,7 @@ def rebound(
     incidence, mass_ratio, stiffness_ratio, restitution : array_like
         x, beta, zeta^2 and e = 1, as in `planarimpact.continuum.rebound`.
     circles : int
-        At least 1: circles over the largest contact, equally spaced.
+        1 to 1000: circles over the largest contact, equally spaced.
     steps : int
         Equal steps in time over the contact, at least pi times the square root of beta/zeta^2:
         with fewer the tangential oscillation may grow. Accuracy takes many times more.
@@ -72,11 +75,13 @@ def rebound(
     -0.666
     """
     signed, beta, zeta2 = checks.elastic_impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    circles = checks.count("circles", circles, 1)
-    needed = STEPS_A_RADIAN * np.pi * np.sqrt(np.max(beta / zeta2, initial=1.0))
-    steps = checks.count("steps", steps, math.ceil(needed))
+    circles = _checked_circles(circles)
+    with np.errstate(over="ignore"):
+        needed = STEPS_A_RADIAN * np.pi * (np.sqrt(beta) / np.sqrt(zeta2))
+    steps = checks.explicit_steps(steps, needed, 3, MOST_STEPS)
     x, beta, zeta2 = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2))
-    cuts = range(IMPACTS_TOGETHER, x.size, IMPACTS_TOGETHER)
+    together = max(1, CELLS // circles**2)
+    cuts = range(together, x.size, together)
     parts = [
         _impacts(*groups, circles, steps)
         for groups in zip(*(np.split(a, cuts) for a in (x, beta, zeta2)), strict=True)
@@ -115,9 +120,18 @@ def friction(radius, displacement, circles=32):
     0.875
     """
     radius, displacement = checks.path(radius, displacement)
-    contact = _Contact(1, checks.count("circles", circles, 1))
+    contact = _Contact(1, _checked_circles(circles))
     travel = np.diff(displacement, prepend=0.0)
     return np.array([contact.move(a, u)[0] for a, u in zip(radius, travel[:, None], strict=True)])
+
+
+def _checked_circles(circles):
+    circles = checks.count("circles", circles, 1)
+    if circles > MOST_CIRCLES:
+        raise checks.InputError(
+            f"circles = {circles}: allowed are integers from 1 to {MOST_CIRCLES}"
+        )
+    return circles
 
 
 def _impacts(x, beta, zeta2, circles, steps):
@@ -127,9 +141,13 @@ def _impacts(x, beta, zeta2, circles, steps):
     force, impulse, last_sign, reversals, gross_slips, peak = np.zeros((6, x.size))
     slipped = starts_in_slip = None
     kick = 1.25 * step  # F2max = (5/4) m2 v2(0)^2/d_max
+    with np.errstate(over="ignore"):
+        start = np.clip(x / zeta2, LEAST, LARGEST)
+        share = np.minimum(x / zeta2 / LEAST, 1.0)  # of x in what is solved
+    slowing = beta / zeta2
     for edge in radius:
         impulse += kick / 2 * force
-        force = contact.move(edge, (x - beta * impulse) * step / zeta2)
+        force = contact.move(edge, (start - slowing * impulse) * step)
         impulse += kick / 2 * force
         peak = np.maximum(peak, np.abs(force))
         sign = np.where(force == 0, last_sign, np.sign(force))
@@ -145,9 +163,14 @@ def _impacts(x, beta, zeta2, circles, steps):
     impulse += kick / 2 * force  # of the last step, at whose end there is no force any more
     usual = np.where(starts_in_slip, Regime.SLIP_STICK_SLIP, Regime.STICK_SLIP)
     usual = np.where(starts_in_slip & (gross_slips == 0), Regime.SLIP_THROUGHOUT, usual)
-    usual = np.where(peak == 0, Regime.STICK, usual)
+    slides = usual == Regime.SLIP_THROUGHOUT
+    usual = np.where(x == 0, Regime.STICK, usual)
     regime = np.where(gross_slips > 1, Regime.MULTIPLE, usual).astype(np.uint8)
-    return x - beta * impulse, impulse, peak, regime, reversals.astype(np.int64)
+    left = 1 - slowing * (impulse / start)  # share of the velocity
+    velocity = np.where(slides, x - beta * impulse, x * left)
+    impulse = np.where(slides, impulse, impulse * share)
+    peak = np.minimum(peak * share, 1.0)
+    return velocity, impulse, peak, regime, reversals.astype(np.int64) * (x > 0)
 
 
 def _contact_radius(steps):

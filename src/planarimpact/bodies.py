@@ -2,6 +2,7 @@
 
 Collinear configurations only: each centre of mass lies on the contact normal. Arguments are
 numbers or arrays that broadcast; every refusal is an `InputError` with the field and its value.
+Scales are free: any for which the result is a number, from 1e-308 to 1e308, or it is refused.
 
 Signs. The normal velocity is positive while the body approaches, so it is positive before the
 impact and negative after it. The tangential velocity is positive in the incident direction (or
@@ -21,6 +22,14 @@ import numpy as np
 
 from planarimpact import checks
 from planarimpact.checks import InputError, checked
+
+
+class OutOfRange(InputError):
+    """A result that is too large or too small for a number; `where` says which of an array."""
+
+    def __init__(self, name, values, where):
+        super().__init__(f"{name} = {values[where][0]:g}: it is beyond the range of numbers")
+        self.where = where
 
 
 class Material(NamedTuple):
@@ -78,6 +87,18 @@ def _positive_or_infinite(name, value):
     return np.where(infinite, np.inf, _positive(name, finite, allowed="numbers above 0, or inf"))
 
 
+# Results are refused below, so that numpy need not warn.
+_quietly = np.errstate(over="ignore", invalid="ignore", divide="ignore")
+
+
+def _in_range(name, values, above=0.0):
+    """Return values as they are, if all are finite and larger than `above` in size."""
+    lost = ~(np.isfinite(values) & (np.abs(values) > above))
+    if lost.any():
+        raise OutOfRange(name, np.atleast_1d(values), np.atleast_1d(lost))
+    return values
+
+
 def _all_positive(**arguments):
     return checks.broadcast(**{name: _positive(name, v) for name, v in arguments.items()})
 
@@ -98,6 +119,7 @@ def _fields(name, value, kind):
     return {n: rule(n, v) for n, rule, v in zip(names, _CHECKS[kind], value, strict=True)}
 
 
+@_quietly
 def solid_sphere(radius, density):
     """Body of a homogeneous sphere, k^2 = 2 r^2/5, from its radius [m] and density [kg/m^3].
 
@@ -105,7 +127,8 @@ def solid_sphere(radius, density):
     0.0669
     """
     r, rho = _all_positive(radius=radius, density=density)
-    return Body(4 / 3 * np.pi * rho * r**3, r * np.sqrt(2 / 5), r[()])
+    mass = _in_range("mass", rho * r * r * r * (4 / 3 * np.pi))
+    return Body(mass, r * np.sqrt(2 / 5), r[()])
 
 
 def thin_shell(radius, mass):
@@ -128,6 +151,22 @@ def disc(radius, mass):
     return Body(m[()], r * np.sqrt(1 / 2), r[()])
 
 
+def _shares_of_mass(body, other):
+    """The smaller mass, and by how much it divides for m1 and for m2."""
+    mass, gyration, radius, other_mass, other_gyration, other_radius = checks.broadcast(
+        **_fields("body", body, Body), **_fields("other", other, Body)
+    )
+    lighter = np.minimum(mass, other_mass)
+    if np.isinf(lighter).any():
+        raise InputError("body.mass = inf, other.mass = inf: one of the two must be finite")
+    # Relative to the smaller mass nothing is lost, whatever the unit.
+    share, other_share = lighter / mass, lighter / other_mass
+    turning = (1 + (radius / gyration) ** 2) * share
+    turning = turning + (1 + (other_radius / other_gyration) ** 2) * other_share
+    return lighter, turning, share + other_share
+
+
+@_quietly
 def effective_masses(body, other=HALF_SPACE):
     """Tangential and normal effective mass (m1, m2) [kg] of two bodies, one of finite mass.
 
@@ -136,25 +175,19 @@ def effective_masses(body, other=HALF_SPACE):
     >>> [round(float(m), 3) for m in effective_masses(Body(mass=7.0, gyration=1.0, radius=1.0))]
     [3.5, 7.0]
     """
-    mass, gyration, radius, other_mass, other_gyration, other_radius = checks.broadcast(
-        **_fields("body", body, Body), **_fields("other", other, Body)
-    )
-    inverse_m2 = 1 / mass + 1 / other_mass
-    if not inverse_m2.all():
-        raise InputError("body.mass = inf, other.mass = inf: one of the two must be finite")
-    inverse_m1 = (1 + (radius / gyration) ** 2) / mass
-    inverse_m1 += (1 + (other_radius / other_gyration) ** 2) / other_mass
-    return 1 / inverse_m1, 1 / inverse_m2
+    lighter, turning, moving = _shares_of_mass(body, other)
+    return _in_range("m1", lighter / turning), lighter / moving
 
 
+@_quietly
 def mass_ratio(body, other=HALF_SPACE):
     """Mass ratio beta = m2/m1 of two bodies, one of finite mass.
 
     >>> round(float(mass_ratio(solid_sphere(0.01, 2500.0))), 12)
     3.5
     """
-    m1, m2 = effective_masses(body, other)
-    return m2 / m1
+    _, turning, moving = _shares_of_mass(body, other)
+    return _in_range("mass_ratio", turning / moving)
 
 
 def _compliances(material, other):
@@ -166,27 +199,30 @@ def _compliances(material, other):
     pairs = list(zip(arrays[::2], arrays[1::2], strict=True))
     normal = sum((1 - nu) * (1 + nu) / young for young, nu in pairs)
     tangential = sum(2 * (2 - nu) * (1 + nu) / young for young, nu in pairs)
-    return normal, tangential
+    return _in_range("1/E*", normal), _in_range("1/G*", tangential)
 
 
+@_quietly
 def effective_modulus(material, other=None):
     """Effective modulus E* [Pa], 1/E* = sum (1 - nu^2)/E; `other` None is a rigid counterbody.
 
     >>> round(float(effective_modulus(Material(380e9, 0.23), Material(70e9, 0.25)) / 1e9))
     63
     """
-    return 1 / _compliances(material, other)[0]
+    return _in_range("E*", 1 / _compliances(material, other)[0])
 
 
+@_quietly
 def effective_shear_modulus(material, other=None):
     """Effective shear modulus G* [Pa], 1/G* = sum (2 - nu)/G with G = E/(2 (1 + nu)).
 
     >>> round(float(effective_shear_modulus(Material(380e9, 0.23), Material(70e9, 0.25)) / 1e9), 1)
     13.5
     """
-    return 1 / _compliances(material, other)[1]
+    return _in_range("G*", 1 / _compliances(material, other)[1])
 
 
+@_quietly
 def stiffness_ratio(material, other=None):
     """Stiffness ratio zeta^2 = E*/(4 G*), normal over tangential.
 
@@ -210,9 +246,11 @@ def effective_radius(radius, other=np.inf):
     first, second = checks.broadcast(
         radius=_positive("radius", radius), other=_positive_or_infinite("other", other)
     )
-    return first / (1 + first / second)
+    smaller, larger = np.minimum(first, second), np.maximum(first, second)
+    return smaller / (1 + smaller / larger)
 
 
+@_quietly
 def contact_velocity(tangential, normal, spin, radius):
     """Velocity (v1, v2) [m/s] of the contact point: v1 = tangential + radius spin, v2 = normal.
 
@@ -228,7 +266,7 @@ def contact_velocity(tangential, normal, spin, radius):
         spin=_finite("spin", spin),
         radius=_not_negative("radius", radius),
     )
-    return tangential + radius * spin, normal.copy()[()]
+    return _in_range("v1", tangential + radius * spin, above=-1.0), normal.copy()[()]
 
 
 def incidence(v1, v2, friction):
@@ -267,6 +305,7 @@ def incidence_from_angle(theta_deg, friction):
         return checks.incidence(np.tan(np.radians(theta)) / mu)[()]
 
 
+@_quietly
 def rebound_motion(body, motion, friction, rebound_velocity, restitution):
     """Motion of one body after its impact on a half-space at rest.
 
@@ -305,9 +344,12 @@ def rebound_motion(body, motion, friction, rebound_velocity, restitution):
     v1, v2 = contact_velocity(tangential, normal, spin, radius)
     centre_change = (w * mu * v2 - v1) / beta  # P1/M: m1/M = 1/beta
     spin_change = centre_change * (radius / gyration) / gyration
-    return Motion(tangential + centre_change, -e * v2, spin + spin_change)
+    after = Motion(tangential + centre_change, -e * v2, spin + spin_change)
+    names = (f"{field} after impact" for field in Motion._fields)
+    return Motion(*(_in_range(name, v, above=-1.0) for name, v in zip(names, after, strict=True)))
 
 
+@_quietly
 def hertz_peak_force(mass, speed, effective_modulus, effective_radius):
     """Peak normal force [N] of an elastic Hertz contact, from m2 [kg], v2(0) [m/s], E* [Pa], R [m].
 
@@ -323,9 +365,11 @@ def hertz_peak_force(mass, speed, effective_modulus, effective_radius):
         effective_radius=effective_radius,
     )
     # v2^1.2, since v2^2 would overflow first.
-    return (4 / 3 * modulus * np.sqrt(radius)) ** 0.4 * (1.25 * m2) ** 0.6 * v2**1.2
+    force = (4 / 3 * modulus * np.sqrt(radius)) ** 0.4 * (1.25 * m2) ** 0.6 * v2**1.2
+    return _in_range("peak force", force)
 
 
+@_quietly
 def normal_frequency(peak_force, mass, speed):
     """Omega [rad/s] of the linear spring of equal peak force [N], m2 Omega v2 = peak force.
 
@@ -336,4 +380,4 @@ def normal_frequency(peak_force, mass, speed):
     2.0
     """
     force, m2, v2 = _all_positive(peak_force=peak_force, mass=mass, speed=speed)
-    return force / m2 / v2
+    return _in_range("frequency", force / m2 / v2)

@@ -4,6 +4,9 @@ import math
 
 import numpy as np
 
+# Twice as much can still be represented.
+LARGEST = 8e307
+
 
 class InputError(ValueError):
     """An argument outside what the model admits; names it, its value and what is allowed."""
@@ -63,13 +66,15 @@ def checked(name, value, allowed, low=-math.inf, high=math.inf, open_low=False):
 
 
 def incidence(value):
-    """Check an incidence x = v1(0)/(mu v2(0)): any finite number."""
-    return checked("incidence", value, "finite numbers")
+    """Check an incidence x = v1(0)/(mu v2(0)): any number whose work of friction is finite."""
+    rule = "finite numbers from -8e307 to 8e307 (the work of friction is up to twice as large)"
+    return checked("incidence", value, rule, -LARGEST, LARGEST)
 
 
 def mass_ratio(value):
     """Check beta = m2/m1 >= 1: a free rigid body has beta = 1 + (x2/k)^2."""
-    return checked("mass_ratio", value, "finite numbers from 1 (a free body has 1 + (x2/k)^2)", 1)
+    rule = "finite numbers from 1 to 8e307 (a free body has 1 + (x2/k)^2)"
+    return checked("mass_ratio", value, rule, 1, LARGEST)
 
 
 def stiffness_ratio(value):
@@ -164,6 +169,45 @@ def count(name, value, least):
     if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
         raise InputError(f"{name} = {value!r}: allowed are integers from {least}")
     return int(value)
+
+
+def explicit_steps(steps, needed, least, most):
+    """Return a number of explicit steps as int, if the tangential oscillation is stable with it.
+
+    Parameters
+    ----------
+    steps : int
+        From `least` to `most`.
+    needed : array_like
+        How many are needed for each impact, or infinity.
+    least, most : int
+
+    Raises
+    ------
+    InputError
+        If `steps` is no such number, or below one of those needed.
+
+    Examples
+    --------
+    >>> explicit_steps(64, [100.0], 3, 10**7)
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: steps = 64: allowed are integers from 100 to 10000000 (with \
+fewer explicit steps the tangential oscillation is unstable)
+    """
+    steps = count("steps", steps, least)
+    needed = np.max(needed, initial=least)
+    if not needed <= most:
+        raise InputError(
+            f"steps = {steps}: for this mass_ratio and stiffness_ratio {needed:.3g} explicit steps "
+            f"are needed, or the tangential oscillation is unstable; allowed are up to {most}"
+        )
+    if not needed <= steps <= most:
+        raise InputError(
+            f"steps = {steps}: allowed are integers from {math.ceil(needed)} to {most} (with fewer "
+            "explicit steps the tangential oscillation is unstable)"
+        )
+    return steps
 
 
 def path(radius, displacement):

@@ -3,7 +3,8 @@
 A linear normal element (stiffness kappa, kappa/e^2 in restitution) and a linear tangential
 element (kappa/zeta^2) join the body to a massless particle that sticks to the surface or slips
 on it with Coulomb friction. `planarimpact.stick_slip` holds the phases,
-`planarimpact.slip_onset` the search for the start of slip.
+`planarimpact.slip_onset` the search for the start of slip, `planarimpact.many_phases` a way past
+thousands of phases.
 """
 
 import numpy as np
@@ -13,6 +14,14 @@ from planarimpact.results import Event, EventKind, History, Rebound
 
 # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
 CHUNK = 16384
+# Velocities scale with x, beta and zeta^2 together: sums of large ones must not overflow.
+LARGE, SHRINK = 1e300, 2.0**-40
+# Far below zeta^2 and sqrt(beta zeta^2) forces and velocity are proportional to the incidence:
+# a small one is lifted, lest the forces lose digits to underflow.
+SMALL, LINEAR, LIFT = 1e-100, 1e-20, 2.0**200
+# Stiffness ratios below this times beta count as this, lest squares of angles underflow: in stick
+# the velocity, of at most sqrt(beta zeta^2), is 0 to 1e-140 of beta.
+LEAST_STIFFNESS = 1e-280
 
 
 def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
@@ -21,7 +30,7 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
     Parameters
     ----------
     incidence : array_like
-        x = v1(0)/(mu v2(0)), tangential over normal speed and friction. Any finite number;
+        x = v1(0)/(mu v2(0)), tangential over normal speed and friction. Any number to 8e307;
         a negative one gives the mirror image.
     mass_ratio : array_like
         beta = m2/m1 >= 1 (Eqs 1, 2); 3.5 for a solid sphere on a half-space.
@@ -43,7 +52,9 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
 
     Notes
     -----
-    Velocity and peak friction are exact to rounding in every regime, thresholds included.
+    Velocity, peak friction and dissipation are within a hundred times what rounding of the four
+    arguments does to them, in every regime, thresholds included. The time does not depend on
+    the number of phases, which grows as omega/Omega: see `planarimpact.many_phases`.
     Stronge's printed equations differ in two places: the limit of slip throughout (see
     `slip_throughout_limit`) and the direction of the last slip, which at small e is the
     incident one.
@@ -59,13 +70,34 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
     """
     x, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     groups = [np.abs(x).reshape(-1), *(group.reshape(-1) for group in groups)]
-    velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
-    regime = np.empty(x.size, np.uint8)
+    fields = *(np.empty(x.size) for _ in range(3)), np.empty(x.size, np.uint8)
     for start in range(0, x.size, CHUNK):
         part = slice(start, start + CHUNK)
-        outcome, impulse[part] = stick_slip.solve(stick_slip.Impacts(*(a[part] for a in groups)))
-        velocity[part], peak[part], regime[part] = outcome
-    return Rebound.of(x, velocity, impulse, peak, regime)
+        outcome = _outcome(*(group[part] for group in groups))
+        for field, found in zip(fields, outcome, strict=True):
+            field[part] = found
+    return Rebound.shaped(x, *fields)
+
+
+def _outcome(x, beta, zeta2, e):
+    """Outcome of impacts x >= 0 of any size; arrays of shape (n,)."""
+    largest = max(x.max(), beta.max(), zeta2.max())
+    ordinary = x.min() >= SMALL and largest <= LARGE
+    if ordinary and zeta2.min() >= LEAST_STIFFNESS * beta.max():
+        return stick_slip.solve(stick_slip.Impacts(x, beta, zeta2, e))
+    scale = _scale(x, beta, zeta2)
+    x, beta, zeta2 = scale * x, scale * beta, scale * zeta2
+    zeta2 = np.maximum(zeta2, LEAST_STIFFNESS * beta)
+    bound = LINEAR * np.minimum(zeta2, np.sqrt(beta) * np.sqrt(zeta2))
+    linear = (x < SMALL) & (LIFT * np.minimum(x, SMALL) < bound)
+    lift = np.where(linear, LIFT, 1.0)
+    velocity, peak, work, regime = stick_slip.solve(stick_slip.Impacts(lift * x, beta, zeta2, e))
+    return velocity / (scale * lift), peak / lift, work / lift / (scale * lift), regime
+
+
+def _scale(x, beta, zeta2):
+    """What to multiply x, beta and zeta^2 by, and all velocities with them."""
+    return np.where(np.maximum(np.maximum(x, beta), zeta2) > LARGE, SHRINK, 1.0)
 
 
 def slip_throughout_limit(mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
@@ -118,7 +150,8 @@ def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, sa
     Raises
     ------
     InputError
-        As `rebound`; also if an argument is not scalar or `samples` is no integer above 1.
+        As `rebound`; also if an argument is not scalar, `samples` is no integer above 1, or
+        the contact has more than 100 000 phases.
 
     Examples
     --------
@@ -129,18 +162,20 @@ def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, sa
     1.5
     """
     samples = checks.count("samples", samples, 2)
-    mirror, groups, phases = _phases(incidence, mass_ratio, stiffness_ratio, restitution)
-    zeta2, e = groups[1:]
+    mirror, scale, groups, phases = _phases(incidence, mass_ratio, stiffness_ratio, restitution)
+    zeta2, e = groups[1] / scale, groups[2]
     grid = np.linspace(0.0, 1.0 + e, samples)
-    columns, events = [], []
+    columns, events, before = [], [], None
     for phase, eta_end in phases:
         start, end = (normal.time(eta, e, phase.in_restitution) for eta in (phase.eta, eta_end))
         inside = grid[(grid > start) & (grid < end)]
         time = np.concatenate([[start], inside, [end]])
         eta = np.concatenate([[phase.eta], _angle(inside, e, phase.in_restitution), [eta_end]])
         friction, velocity = stick_slip.state(phase, eta, *groups)
-        columns.append(np.stack([time, normal.force(eta), mirror * friction, mirror * velocity]))
-        events += [_event(kind, columns[-1][:, 0], zeta2) for kind in _kinds(phase, events)]
+        velocity = mirror * velocity / scale
+        columns.append(np.stack([time, normal.force(eta), mirror * friction, velocity]))
+        events += [_event(kind, columns[-1][:, 0], zeta2) for kind in _kinds(phase, before)]
+        before = phase
     if e == 0:
         events.append(_event(EventKind.MAXIMUM_COMPRESSION, columns[-1][:, -1], zeta2))
     events.append(_event(EventKind.SEPARATION, columns[-1][:, -1], zeta2))
@@ -168,7 +203,8 @@ def friction_work(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1
     Raises
     ------
     InputError
-        As `rebound`; also if an argument is not scalar.
+        As `rebound`; also if an argument is not scalar, or the contact has more than 100 000
+        phases.
 
     Examples
     --------
@@ -176,7 +212,7 @@ def friction_work(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1
     >>> bool(abs(friction_work(2.0) - balance) < 1e-14)
     True
     """
-    _, groups, phases = _phases(incidence, mass_ratio, stiffness_ratio, restitution)
+    _, scale, groups, phases = _phases(incidence, mass_ratio, stiffness_ratio, restitution)
     _, zeta2, e = groups
     nodes, weights = np.polynomial.legendre.leggauss(20)
     work = 0.0
@@ -190,18 +226,25 @@ def friction_work(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1
         pace = -e if phase.in_restitution else 1.0
         slip = pace * velocity - phase.side * zeta2 * np.cos(eta)
         work += half * float(weights @ (friction * slip))
-    return work
+    return work / scale
 
 
 def _phases(incidence, mass_ratio, stiffness_ratio, restitution):
-    """One impact: its mirror sign, (beta, zeta^2, e), and its phases, each with its last eta."""
+    """One impact: mirror sign, scale, (beta, zeta^2, e), and its phases, each with its last eta.
+
+    Ratios and velocities have been multiplied by the scale.
+    """
     checked = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     if checked[0].ndim:
         raise checks.InputError(f"shape = {checked[0].shape}: one contact takes scalars")
-    x, *groups = (a.reshape(1) for a in checked)
+    x, beta, zeta2, e = (a.reshape(1) for a in checked)
+    scale = _scale(x, beta, zeta2)
+    mirror = float(np.copysign(1.0, x[0]))
+    x, beta, zeta2 = scale * x, scale * beta, scale * zeta2
+    zeta2 = np.maximum(zeta2, LEAST_STIFFNESS * beta)
     trace = []
-    stick_slip.solve(stick_slip.Impacts(np.abs(x), *groups), trace)
-    beta, zeta2, e = (float(a[0]) for a in groups)
+    stick_slip.solve(stick_slip.Impacts(np.abs(x), beta, zeta2, e), trace)
+    beta, zeta2, e = (float(a[0]) for a in (beta, zeta2, e))
     if e == 0:  # separation at maximum compression
         trace = [phase for phase in trace if not phase.in_restitution]
     trace = [stick_slip.Phase(*(np.ravel(field)[0] for field in phase)) for phase in trace]
@@ -211,8 +254,7 @@ def _phases(incidence, mass_ratio, stiffness_ratio, restitution):
         for phase, after in zip(trace, trace[1:], strict=False)
     ]
     ends.append(0.0 if trace[-1].in_restitution else np.pi / 2)
-    mirror = float(np.copysign(1.0, x[0]))
-    return mirror, (beta, zeta2, e), list(zip(trace, ends, strict=True))
+    return mirror, float(scale[0]), (beta, zeta2, e), list(zip(trace, ends, strict=True))
 
 
 def _angle(time, e, in_restitution):
@@ -225,12 +267,11 @@ def _event(kind, column, zeta2):
     return Event(kind, time, force, friction, velocity, float(zeta2 * friction))
 
 
-def _kinds(phase, earlier):
+def _kinds(phase, before):
     """Events where a phase starts; one that goes on through maximum compression is not new."""
-    kinds = [EventKind.STICK if phase.sticks else EventKind.SLIP]
-    if not earlier:
-        return [EventKind.CONTACT, *kinds]
-    so_far = [event.kind for event in earlier]
-    if phase.in_restitution and EventKind.MAXIMUM_COMPRESSION not in so_far:
-        return [EventKind.MAXIMUM_COMPRESSION, *(kind for kind in kinds if kind != so_far[-1])]
-    return kinds
+    kind = EventKind.STICK if phase.sticks else EventKind.SLIP
+    if before is None:
+        return [EventKind.CONTACT, kind]
+    if phase.in_restitution == before.in_restitution:
+        return [kind]
+    return [EventKind.MAXIMUM_COMPRESSION, *([kind] if phase.sticks != before.sticks else [])]

@@ -18,6 +18,8 @@ from planarimpact.results import Rebound, Regime
 
 FORMAT, VERSION = "planarimpact response", 1
 CHUNK = 16384  # impacts evaluated together: they stay in the cache
+ROUNDING = 2.0**-48  # of the largest incidence that is fitted: no smaller error can be told
+NARROWEST = 1e-30  # of the span: a kink nearer to 0 is 0
 MODEL_SHARE = 1 / 2  # of the tolerance: the larger part is for what costs more
 FIT_SHARES = 1 / 4, 1 / 32  # of the tolerance, at the first try and the second
 
@@ -213,7 +215,8 @@ def compile(model, *, incidence_max, tolerance, **parameters):
         Largest |x| = |v1(0)|/(mu v2(0)) that it must answer, from 1e-9 on. Where the model slides
         throughout from a smaller one on, all larger ones are answered.
     tolerance : float
-        Largest error of velocity (mu v2(0)) and peak friction (mu F2max), 1e-11 to 1.
+        Largest error of velocity (mu v2(0)) and peak friction (mu F2max), 1e-11 to 1, and at
+        least 4e-15 of the largest incidence that does not slide throughout by formula.
     **parameters
         mass_ratio, stiffness_ratio and restitution (defaults 3.5, 1.21, 1), numbers; and the
         model's settings, but not a tolerance of its own, which is chosen here.
@@ -248,6 +251,11 @@ def compile(model, *, incidence_max, tolerance, **parameters):
     if chosen.sliding_limit is not None:
         slides = float(chosen.sliding_limit(*groups.values(), **settings))
     end = min(largest, slides)
+    if tolerance < ROUNDING * end:
+        raise checks.InputError(
+            f"tolerance = {tolerance:g}: allowed are numbers from {ROUNDING * end:.1e} for "
+            f"incidences up to {end:g}, as rounding goes"
+        )
 
     silent = np.isnan(chosen.rebound(end / 2, *groups.values(), **settings).peak_friction)
 
@@ -256,7 +264,7 @@ def compile(model, *, incidence_max, tolerance, **parameters):
         peak = np.zeros(x.size) if silent else found.peak_friction
         return np.stack([found.velocity, peak]), found.regime
 
-    kinks = [x for x in chosen.kinks(*groups.values(), **settings) if 0 < x < end]
+    kinks = [x for x in chosen.kinks(*groups.values(), **settings) if NARROWEST * end < x < end]
     for share in FIT_SHARES:
         # A change of regime bends the answer: it is located to a hundredth of the tolerance.
         pieces, error = piecewise.fit(

@@ -16,7 +16,7 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
     Parameters
     ----------
     incidence : array_like
-        x = v1(0)/(mu v2(0)); any finite number, negative for the mirror image.
+        x = v1(0)/(mu v2(0)); any number to 8e307, negative for the mirror image.
     mass_ratio : array_like
         beta = m2/m1 >= 1.
     stiffness_ratio : array_like

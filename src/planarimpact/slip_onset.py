@@ -16,8 +16,10 @@ The root is searched only where it is alone:
 import numpy as np
 
 HALF_PI = np.pi / 2
-# The root finder is cubic: after a step of this size the root is at rounding.
+# The root finder is cubic: after a step of this share of the bracket the root is at rounding.
 LAST_STEP = 1e-6
+# Beyond it rounding leaves the phase of an oscillation open.
+LARGEST_PHASE = 1e15
 
 
 def sin_cos(angle):
@@ -49,13 +51,20 @@ def in_restitution(eta, theta, amplitude, rate):
         Number of the half-wave: T has the sign of sin(theta) = (-1)^wave.
     """
     rate = np.maximum(rate, np.finfo(float).tiny)
-    reached = np.minimum(eta, np.arcsin(np.minimum(amplitude, 1.0)))  # N = A: no slip before
+    fast = rate > 1
+    highest = amplitude
+    slow = np.flatnonzero(~fast)
+    if slow.size:
+        end = theta[slow] + rate[slow] * eta[slow]
+        highest = amplitude.copy()  # T that still rises at the end stays below A, perhaps far
+        highest[slow] *= np.sin(np.minimum(end, HALF_PI))
+    reached = np.minimum(eta, np.arcsin(np.minimum(highest, 1.0)))  # no slip before
     theta_reached = theta + rate * (eta - reached)
+    if theta_reached.max() > LARGEST_PHASE:
+        lost = theta_reached > LARGEST_PHASE
+        theta_reached = np.where(lost, 2 * np.pi + theta_reached % (2 * np.pi), theta_reached)
     wave = np.floor(theta_reached / np.pi)
     rho = theta_reached - wave * np.pi
-    fast = rate > 1
-    # rate <= 1: one crossing, in the half-wave in which stick would end.
-    last = np.maximum(wave, np.ceil((theta + rate * eta) / np.pi) - 1)
     (force, fall), (friction, swing) = sin_cos(reached), sin_cos(rho)
     falling = rate * swing * force + friction * fall <= 0
     passed = (wave == 0) | (falling & (rho > HALF_PI))
@@ -65,27 +74,35 @@ def in_restitution(eta, theta, amplitude, rate):
         passed[dip] = ~found
         reached[dip] -= slid
         theta_reached[dip] += rate[dip] * slid
-    wave = np.where(fast, wave + passed, last)
+    wave = wave + passed
+    if slow.size:  # one crossing, in the half-wave in which stick would end
+        end = theta_reached[slow] + rate[slow] * reached[slow]
+        wave[slow] = np.maximum(wave[slow] - passed[slow], np.ceil(end / np.pi) - 1)
 
     start = np.maximum(theta_reached, wave * np.pi)
     eta = np.maximum(reached - (start - theta_reached) / rate, 0.0)
     rho = start - wave * np.pi
     widest = np.where(fast, np.minimum(eta, (HALF_PI - rho) / rate), eta)
     advance = _crossing(eta, rho, amplitude, rate, np.maximum(widest, 0.0))
+    advance = np.minimum(advance, eta)  # rounding may put a root at separation behind it
     return eta - advance, rho + rate * advance, wave
 
 
 def _crossing(eta, rho, amplitude, rate, widest):
     """Single zero in [0, widest] of sin(eta - a) - amplitude sin(rho + rate a), guarded."""
     advance = np.zeros_like(eta)
-    lane, low, high, trial = np.arange(eta.size), advance, widest, advance
-    for _ in range(100):
+    last_step = LAST_STEP * widest
+    # The root may lie at the very end, where rounding puts it beyond.
+    lane, low, high, trial = np.arange(eta.size), advance, widest + last_step, advance
+    for step in range(100):
         before = trial
         force, fall = sin_cos(eta - before)
         friction, swing = sin_cos(rho + rate * before)
         friction, swing = friction * amplitude, swing * amplitude * rate
         excess, descent = force - friction, fall + swing
         above = excess > 0
+        if step == 0:  # while N - |T| grows, what lies below zero is rounding
+            above |= descent < 0
         low, high = np.where(above, before, low), np.where(above, high, before)
         # The nearer root of the Taylor parabola; good also where the descent vanishes.
         root = descent * descent - 2 * excess * (rate * rate * friction - force)
@@ -93,15 +110,15 @@ def _crossing(eta, rho, amplitude, rate, widest):
             trial = before + 2 * excess / (descent + np.sqrt(np.maximum(root, 0.0)))
         inside = (trial >= low) & (trial <= high)
         trial = np.where(inside, trial, (low + high) / 2)
-        moving = ~inside | (np.abs(trial - before) > LAST_STEP)
-        moving &= high - low > LAST_STEP**2
+        moving = ~inside | (np.abs(trial - before) > last_step)
+        moving &= high - low > LAST_STEP * last_step
         if moving.all():
             continue
         advance[lane] = trial
         lane = lane[moving]
         if not lane.size:
             break
-        trial, low, high = trial[moving], low[moving], high[moving]
+        trial, low, high, last_step = (a[moving] for a in (trial, low, high, last_step))
         eta, rho, amplitude, rate = eta[moving], rho[moving], amplitude[moving], rate[moving]
     return advance
 
@@ -125,12 +142,11 @@ def _onset_behind_crest(eta, rho, amplitude, rate):
         # Both vanish together where |T| meets N tangentially, or at separation.
         step = 2 * excess / np.maximum(reach, np.finfo(float).tiny)
         step = np.minimum(step, (np.pi - rho - rate * advance) / (2 * rate))
-        small = step <= LAST_STEP**2 * eta
+        small = step <= LAST_STEP**2 * (eta - advance)
         found |= rises & small
-        step = np.where(rises & ~small, step, 0.0)
-        if not step.any():
+        advance += np.where(rises, step, 0.0)
+        if not (rises & ~small).any():
             break
-        advance += step
     return found, advance
 
 

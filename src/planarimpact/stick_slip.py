@@ -13,16 +13,24 @@ omega in compression and e omega in restitution. Slip ends in closed form; where
 Errors do not grow: any two solutions approach each other in the tangential energy
 w^2/(2 beta) + zeta^2 T^2/2, and an event misplaced by epsilon moves the result by the order of
 epsilon^2.
+
+The work of friction in one slip is the normal impulse times the mean of the slip velocities at
+its ends. The sum of these, all positive, keeps its digits where x^2 - w^2 would lose them.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact import normal, slip_onset
-from planarimpact.checks import ConvergenceError
+from planarimpact import many_phases, normal, slip_onset
+from planarimpact.checks import ConvergenceError, InputError
 from planarimpact.results import Regime
 from planarimpact.slip_onset import HALF_PI, sin_cos
+
+# Impacts that still alternate after so many sticks go on by `planarimpact.many_phases`.
+STICKS_BEFORE_SKIP = 16
+# A trace of more would take minutes.
+MOST_TRACED = 100_000
 
 
 class Impacts(NamedTuple):
@@ -43,11 +51,15 @@ class Outcome(NamedTuple):
 
     velocity: np.ndarray
     peak_friction: np.ndarray
+    dissipation: np.ndarray
     regime: np.ndarray
 
 
 class Stick(NamedTuple):
-    """Impacts, by index, in stick in restitution from `eta` on: T = side amplitude sin(theta)."""
+    """Impacts, by index, in stick in restitution from `eta` on: T = side amplitude sin(theta).
+
+    Arrays of their own, which may be changed in place.
+    """
 
     lanes: np.ndarray
     eta: np.ndarray
@@ -77,8 +89,9 @@ def restick_coefficient(beta, zeta2, e):
 
     Slip in restitution has the velocity C - K cos(eta), C constant; it can end only if K > 0.
     """
-    fast = e * e * beta > zeta2
-    return np.where(fast, (e * e * beta - zeta2) / np.where(fast, e, 1.0), 0.0)
+    excess = e * (e * beta) - zeta2
+    fast = excess > 0
+    return np.where(fast, excess, 0.0) / np.where(fast, e, 1.0)
 
 
 def slip_throughout_limit(beta, zeta2, e):
@@ -87,7 +100,7 @@ def slip_throughout_limit(beta, zeta2, e):
 
 
 def solve(impacts, trace=None):
-    """Velocity, peak friction, regime and tangential impulse of impacts.
+    """Outcome of impacts.
 
     Parameters
     ----------
@@ -98,19 +111,23 @@ def solve(impacts, trace=None):
     Returns
     -------
     Outcome
-    impulse : ndarray
-        Tangential impulse, which is (x - w)/beta.
+
+    Raises
+    ------
+    InputError
+        If a trace would have more than 100 000 phases.
 
     Examples
     --------
-    >>> outcome, impulse = solve(Impacts(*np.array([[8.0], [3.5], [1.21], [1.0]])))
-    >>> float(outcome.velocity[0]), float(impulse[0])
-    (1.0, 2.0)
+    >>> outcome = solve(Impacts(*np.array([[8.0], [3.5], [1.21], [1.0]])))
+    >>> float(outcome.velocity[0]), float(outcome.dissipation[0])
+    (1.0, 9.0)
     """
     x, beta, zeta2, e = impacts
-    outcome = Outcome(
-        x - (1 + e) * beta, np.ones_like(x), np.full(x.shape, Regime.SLIP_THROUGHOUT, np.uint8)
-    )
+    impulse = 1 + e
+    change = impulse * beta
+    regime = np.full(x.shape, Regime.SLIP_THROUGHOUT, np.uint8)
+    outcome = Outcome(x - change, np.ones_like(x), impulse * (x - change / 2), regime)
     sticks = x < slip_throughout_limit(beta, zeta2, e)
     slips_to_restitution = (x > beta) & (x > zeta2)
     early = np.flatnonzero(sticks & ~slips_to_restitution)
@@ -122,8 +139,12 @@ def solve(impacts, trace=None):
         _alternate(stick, impacts, outcome, trace)
     if late.size:
         outcome.regime[late] = Regime.SLIP_STICK
-        _alternate(_after_late_slip(late, impacts.take(late)), impacts, outcome, trace)
-    return outcome, np.where(sticks, (x - outcome.velocity) / beta, 1 + e)
+        stick = _after_late_slip(late, impacts.take(late), outcome)
+        _alternate(stick, impacts, outcome, trace)
+    # Rounding creates no energy.
+    np.minimum(np.maximum(outcome.velocity, -x), x, out=outcome.velocity)
+    np.maximum(outcome.dissipation, 0.0, out=outcome.dissipation)
+    return outcome
 
 
 def state(phase, eta, beta, zeta2, e):
@@ -134,10 +155,11 @@ def state(phase, eta, beta, zeta2, e):
     friction, velocity : ndarray, shape of eta
     """
     if phase.sticks:
-        rate = np.sqrt(beta / zeta2) * (e if phase.in_restitution else 1.0)
+        omega = np.sqrt(beta / zeta2)
+        rate = omega * (e if phase.in_restitution else 1.0)
         sine, cosine = sin_cos(phase.theta + rate * np.abs(eta - phase.eta))
         force = phase.side * phase.amplitude
-        return force * sine, np.sqrt(beta * zeta2) * force * cosine
+        return force * sine, omega * zeta2 * force * cosine
     passed = np.abs(normal.impulse(eta) - normal.impulse(phase.eta))
     share = e if phase.in_restitution else 1.0
     return phase.side * normal.force(eta), phase.velocity - phase.side * beta * share * passed
@@ -172,15 +194,18 @@ def _from_compression(lanes, impacts, outcome, trace):
     theta = theta + omega * (HALF_PI - eta)
     sine, cosine = sin_cos(theta)
     friction = amplitude * sine
-    outcome.velocity[lanes] = np.sqrt(beta * zeta2) * amplitude * cosine
+    outcome.velocity[lanes] = omega * zeta2 * amplitude * cosine
     outcome.peak_friction[lanes] = np.where(theta < HALF_PI, friction, amplitude)
     outcome.regime[lanes] = np.where(slips_first, Regime.SLIP_STICK, Regime.STICK)
+    outcome.dissipation[lanes] = gap * gap * reach / 2
 
     broken = (omega < 1) & (friction > 1)
     if broken.any():
         where = np.flatnonzero(broken)
         _break_in_compression(lanes[where], impacts.take(where), outcome, trace)
     last = (e == 0) | (x == 0)
+    left = np.flatnonzero(last & ~broken)  # these lose the strain energy at separation
+    outcome.dissipation[lanes[left]] += zeta2[left] * friction[left] * friction[left] / 2
     if trace is not None and last[0] and not broken[0]:
         trace.append(Phase(True, True, HALF_PI, 1.0, 0.0, amplitude, theta))
     on = np.flatnonzero(~(broken | last))
@@ -194,64 +219,98 @@ def _break_in_compression(lanes, impacts, outcome, trace):
     eta = slip_onset.in_compression(x, zeta2, omega)
     onset = x * np.cos(omega * eta)
     passed = normal.impulse(eta)
-    outcome.velocity[lanes] = onset - beta * (1 + e - passed)
+    compressed = onset - beta * (1 - passed)
+    final = onset - beta * (1 + e - passed)
+    work = (1 - passed) * (onset - zeta2 * (1 - passed) + compressed)
+    work += e * compressed + e * final + zeta2
+    outcome.velocity[lanes] = final
     outcome.peak_friction[lanes] = 1.0
+    outcome.dissipation[lanes] = work / 2
     outcome.regime[lanes] = Regime.STICK_SLIP
     if trace is not None:
         trace.append(Phase(False, False, eta, 1.0, onset))
-        trace.append(Phase(False, True, HALF_PI, 1.0, onset - beta * (1 - passed)))
+        trace.append(Phase(False, True, HALF_PI, 1.0, compressed))
 
 
-def _after_late_slip(lanes, impacts):
+def _after_late_slip(lanes, impacts, outcome):
     """Stick after a first slip that ended in restitution, at cos(eta) = (x - beta)/K."""
     x, beta, zeta2, e = impacts
     reach = restick_coefficient(beta, zeta2, e)
     slope, gap = (beta - x) / reach, (reach + (beta - x)) / reach
+    work = x - zeta2 + (x - beta) + e * (beta - x) * slope
+    outcome.dissipation[lanes] = work / 2
     amplitude, theta, eta = _tangent(slope, gap, e * np.sqrt(beta / zeta2))
     return Stick(lanes, eta, theta, amplitude, np.ones_like(eta))
 
 
 def _alternate(stick, impacts, outcome, trace):
-    """Slip and stick in turn until every impact slides to separation; fills the outcome."""
-    first = True
-    sticks_left = _most_sticks(stick, impacts)
+    """Slip and stick in turn until every impact slides to separation; adds to the outcome."""
+    count = 0
     while stick.lanes.size:
-        if not sticks_left:
-            raise ConvergenceError(f"{stick.lanes.size} impacts stick more often than they can")
-        sticks_left -= 1
+        if count == STICKS_BEFORE_SKIP:
+            _skip(stick, impacts, outcome, trace)
         lanes, amplitude = stick.lanes, stick.amplitude
-        _, beta, zeta2, e = impacts.take(lanes)
-        rate = e * np.sqrt(beta / zeta2)
+        beta, zeta2, e = (field[lanes] for field in impacts[1:])
+        omega = np.sqrt(beta / zeta2)
+        rate = e * omega
+        if count == 0:
+            most = _most_sticks(rate)
+        if count == most:
+            raise ConvergenceError(f"{lanes.size} impacts stick more often than they can")
         eta, rho, wave = slip_onset.in_restitution(stick.eta, stick.theta, amplitude, rate)
         side = np.where(wave % 2 == 0, stick.side, -stick.side)
-        onset = np.sqrt(beta * zeta2) * amplitude * np.cos(rho)
-        final = onset - beta * e * normal.impulse(eta)  # in the direction of slip
+        onset = omega * zeta2 * amplitude * np.cos(rho)  # in the direction of slip
+        ahead = normal.impulse(eta)
+        final = onset - beta * e * ahead
         outcome.velocity[lanes] = side * final
         if trace is not None:
             trace.append(Phase(True, True, stick.eta, stick.side, 0.0, amplitude, stick.theta))
             trace.append(Phase(False, True, eta, side, side * onset))
-        if first:
+        if count == 0:
             rising = (wave == 0) & (rho < HALF_PI)
             crest = np.where(rising, normal.force(eta), amplitude)
             slid = stick.eta < HALF_PI  # slip went through maximum compression, where N = 1
             outcome.peak_friction[lanes] = np.where(slid, 1.0, crest)
             outcome.regime[lanes] += np.uint8(Regime.STICK_SLIP - Regime.STICK)
-            first = False
-        # Slip lasts to separation unless its velocity, final + zeta^2/e there, would turn round.
-        again = np.flatnonzero((rate > 1) & (e * final < -zeta2))
-        stick = _stick_again(stick, again, side, final, beta, zeta2, e, rate)
+        # e times the slip velocity here and at separation. Where it would turn round, slip ends.
+        here, there = e * onset + zeta2 * (1 - ahead), e * final + zeta2
+        work = ahead * (here + there)
+        again = np.flatnonzero((rate > 1) & (there < 0))
+        excess = e[again] * (e[again] * beta[again]) - zeta2[again]
+        work[again] = here[again] * (here[again] / excess)
+        outcome.dissipation[lanes] += work / 2
+        # That slip ends at cos(eta) = 1 - gap.
+        gap = -there[again] / excess
+        amplitude, theta, eta = _tangent(gap - 1, gap, rate[again])
+        stick = Stick(lanes[again], eta, theta, amplitude, side[again])
         outcome.regime[stick.lanes] = Regime.MULTIPLE
+        count += 1
 
 
-def _most_sticks(stick, impacts):
+def _most_sticks(rate):
     """Each stick in restitution has a half-wave of T of its own, a part of it at the ends."""
-    _, beta, zeta2, e = impacts.take(stick.lanes)
-    return int(np.max(e * np.sqrt(beta / zeta2), initial=0.0)) + 3
+    return int(rate.max()) + 3
 
 
-def _stick_again(stick, again, side, final, beta, zeta2, e, rate):
-    """Stick after a slip in restitution that ends at cos(eta) = C/K = 1 - gap."""
-    beta, zeta2, e, rate = beta[again], zeta2[again], e[again], rate[again]
-    gap = -(final[again] + zeta2 / e) / restick_coefficient(beta, zeta2, e)
-    amplitude, theta, eta = _tangent(gap - 1, gap, rate)
-    return Stick(stick.lanes[again], eta, theta, amplitude, side[again])
+def _skip(stick, impacts, outcome, trace):
+    """Move sticks that have far to go close to separation; adds the work of slip on the way."""
+    beta, zeta2, e = (field[stick.lanes] for field in impacts[1:])
+    rate = e * np.sqrt(beta / zeta2)
+    far = np.flatnonzero(many_phases.worth_skipping(stick.eta, rate))
+    if not far.size:
+        return
+    if trace is not None:
+        phases = 2 * rate[0] * stick.eta[0] / np.pi
+        if phases > MOST_TRACED:
+            raise InputError(
+                f"stiffness_ratio = {float(zeta2[0])!r}: some {phases:.2g} phases in one contact; "
+                f"allowed are {MOST_TRACED} where each one is asked for"
+            )
+        return
+    rate, zeta2 = rate[far], zeta2[far]
+    eta, half_waves = many_phases.skip(stick.eta[far], rate)
+    amplitude, theta, eta = _tangent(-np.cos(eta), normal.impulse(eta), rate)
+    lost = zeta2 * (stick.amplitude[far] ** 2 - amplitude**2) / 2
+    outcome.dissipation[stick.lanes[far]] += lost
+    stick.eta[far], stick.theta[far], stick.amplitude[far] = eta, theta, amplitude
+    stick.side[far] *= np.where(half_waves % 2 == 0, 1.0, -1.0)

@@ -30,12 +30,17 @@ from planarimpact import checks, hertz
 from planarimpact.results import Rebound, Regime
 
 STEPS = 64
+MOST_STEPS = 10**7  # some minutes
 
 # Impacts solved together, as in `planarimpact.lumped`.
 CHUNK = 16384
 
 # Explicit steps are stable while an oscillation turns by no larger angle a step.
 STABLE_ANGLE = 2.0
+
+# Of velocity over zeta^2. Below the least, contact sticks to its last step and the answer is in
+# proportion to x; above the largest it slides throughout, whatever the number.
+LEAST, LARGEST = 1e-100, 1e300
 
 
 def linear(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, steps=STEPS):
@@ -52,9 +57,9 @@ def linear(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, 
     restitution : array_like
         Energetic coefficient e, 0 to 1.
     steps : int
-        Over the exact duration of contact; at least 2 and (1 + e) pi/4 times the root of
-        beta/zeta^2, since the tangential oscillation grows with fewer. Close to
-        that number it may still create energy, ten times the velocity at worst.
+        Over the exact duration of contact; 3 to 10^7, and at least (1 + e) pi/4 times the root
+        of beta/zeta^2: with fewer the tangential oscillation turns by more than 2 in a step and
+        grows. Close to that number it may still create energy, ten times the velocity at worst.
 
     Returns
     -------
@@ -100,9 +105,9 @@ def mindlin(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *,
         zeta^2 > 0, normal stiffness dF2/d(depth) of an elastic contact over Mindlin's tangential
         stiffness 8 a G*; (2 - nu)/(2 (1 - nu)) for equal materials.
     steps : int
-        Over the exact duration of contact; at least 2 and 1.0076 (1 + e) times the root
-        of beta/zeta^2, since the tangential oscillation grows with fewer. Close to
-        that number it may still create energy, ten times the velocity at worst.
+        Over the exact duration of contact; 3 to 10^7, and at least 1.0076 (1 + e) times the root
+        of beta/zeta^2: with fewer the tangential oscillation turns by more than 2 in a step and
+        grows. Close to that number it may still create energy, ten times the velocity at worst.
 
     Returns
     -------
@@ -123,7 +128,8 @@ def mindlin(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *,
     4096. The error of the steps falls with their first power, since friction grows with the
     radius at the end of each step. Nor does the law conserve energy: friction that is kept while
     its spring softens gains some (Elata & Berryman 1996), and where beta/zeta^2 is small enough
-    for stick to last, a solid sphere may leave up to 5 % faster than it came.
+    for stick to last, a solid sphere may leave up to 5 % faster than it came: |velocity| <= |x|
+    and dissipation >= 0 do not hold for this law, however many steps there are.
 
     References
     ----------
@@ -208,7 +214,10 @@ MINDLIN_RESCALED = MINDLIN._replace(rescales=True)
 def _rebound(law, incidence, mass_ratio, stiffness_ratio, restitution, steps):
     signed, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     beta, zeta2, e = (a.reshape(-1) for a in groups)
-    steps = checks.count("steps", steps, max(2, _steps_needed(law, beta, zeta2, e)))
+    with np.errstate(over="ignore"):
+        frequency = math.sqrt(law.stiffness) * (np.sqrt(beta) / np.sqrt(zeta2))
+        turn = (1 + e) * law.to_maximum * frequency
+    steps = checks.explicit_steps(steps, turn / STABLE_ANGLE, 3, MOST_STEPS)
     x = np.abs(signed).reshape(-1)
     velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
     regime = np.empty(x.size, np.uint8)
@@ -217,14 +226,6 @@ def _rebound(law, incidence, mass_ratio, stiffness_ratio, restitution, steps):
         outcome = _impacts(law, x[part], beta[part], zeta2[part], e[part], steps)
         velocity[part], impulse[part], peak[part], regime[part] = outcome
     return Rebound.of(signed, velocity, impulse, peak, regime)
-
-
-def _steps_needed(law, beta, zeta2, e):
-    """Least number of steps that keeps the tangential oscillation stable in every impact."""
-    with np.errstate(over="ignore"):
-        frequency = np.sqrt(law.stiffness) * (np.sqrt(beta) / np.sqrt(zeta2))
-        needed = (1 + e) * law.to_maximum * frequency / STABLE_ANGLE
-    return math.ceil(min(np.max(needed, initial=0.0), np.finfo(float).max))
 
 
 class _Instant(NamedTuple):
@@ -273,10 +274,11 @@ def _impacts(law, x, beta, zeta2, e, steps):
     # Normal motion knows e alone: it is integrated once where all impacts share it.
     if (e == e[0]).all():
         e = e[:1]
-    # Tangential velocity over zeta^2, half a step ahead. Where that is beyond all numbers the
-    # contact slides throughout, with any that is large.
+    # Tangential velocity over zeta^2, half a step ahead.
     with np.errstate(over="ignore"):
-        velocity = np.minimum(x / zeta2, 1e300)
+        start = np.clip(x / zeta2, LEAST, LARGEST)
+        start_share = np.minimum(x / zeta2 / LEAST, 1.0)  # of x in what is solved
+    velocity = start.copy()
     slowing = beta / zeta2
     friction, work, peak = np.zeros((3, x.size))
     slips, slipped, starts_in_slip = np.zeros((3, x.size), bool)
@@ -306,9 +308,10 @@ def _impacts(law, x, beta, zeta2, e, steps):
     slides = sticks == 0
     impulse = np.where(slides, normal_impulse, 0.0)
     final = x - beta * impulse
-    final[~slides] = zeta2[~slides] * velocity[~slides]
-    impulse = np.where(slides, impulse, (x - final) / beta)
+    final[~slides] = (x * (velocity / start))[~slides]
+    impulse = np.where(slides, impulse, x / beta - final / beta)
     regime = _regime(sticks, starts_in_slip, slips)
+    peak *= start_share
     return final, impulse, np.minimum(peak / law.peak_force, 1.0), regime
 
 

@@ -3,7 +3,8 @@
     python tests/benchmarks/lumped_speed.py
 
 Prints nanoseconds an impact, and for comparison between machines the ratio to the time of one
-sine and one cosine of the same million numbers in the same run.
+sine and one cosine of the same million numbers in the same run; then the time of a single impact
+against the number of its phases.
 """
 
 import time
@@ -49,6 +50,11 @@ def main():
     for name, work in cases.items():
         found = nanoseconds(work)
         print(f"{found:7.1f} ns  {found / unit:5.1f} x  {name}")
+    print("a single impact, x = 2, beta = 3.5, e = 0.9:")
+    for ratio in (1.21, 1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 1e-300):
+        phases = 0.9 * np.sqrt(3.5 / ratio)  # at most; e omega/Omega half-waves, stick and slip
+        found = nanoseconds(lambda ratio=ratio: lumped.rebound(2.0, 3.5, ratio, 0.9)) * COUNT
+        print(f"{found / 1e6:7.2f} ms  at most {phases:.2g} phases, zeta^2 = {ratio:g}")
 
 
 if __name__ == "__main__":

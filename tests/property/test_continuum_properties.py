@@ -11,9 +11,6 @@ MASS_RATIO = st.floats(1.0, 20.0)
 STIFFNESS_RATIO = st.floats(-1.0, 1.0).map(lambda power: 10.0**power)
 PATH = st.lists(st.tuples(st.floats(0.05, 1.0), st.floats(-1.5, 1.5)), min_size=1, max_size=25)
 
-settings.register_profile("house", max_examples=150, deadline=None, derandomize=True)
-settings.load_profile("house")
-
 
 @given(SHARE, MASS_RATIO, STIFFNESS_RATIO)
 def test_friction_never_creates_energy(share, beta, zeta2):
@@ -56,7 +53,7 @@ def test_straight_steps_may_be_divided(path, parts):
     np.testing.assert_allclose(cut[parts - 1 :: parts], whole, atol=1e-9)
 
 
-@settings(max_examples=20)
+@settings(max_examples=settings.default.max_examples // 7)
 @given(SHARE, st.floats(1.0, 8.0), st.floats(0.3, 5.0))
 def test_annuli_find_the_same(share, beta, zeta2):
     x = share * float(lumped.slip_throughout_limit(beta, zeta2))

@@ -18,9 +18,6 @@ RESTITUTION = st.one_of(
 )
 GROUPS = st.tuples(MASS_RATIO, STIFFNESS_RATIO, RESTITUTION)
 
-settings.register_profile("house", max_examples=150, deadline=None, derandomize=True)
-settings.load_profile("house")
-
 TOLERANCE, LARGEST = 1e-10, 20.0
 ROUNDING = 1e-14  # of x - (1 + e) beta and of the model
 NEAR = 1e-10  # of a change of regime
@@ -76,7 +73,7 @@ def test_the_error_bound_holds_everywhere(groups, seed):
     assert_within_the_bound(found, np.concatenate([starts, np.nextafter(starts, 0)]), groups)
 
 
-@settings(max_examples=80)
+@settings(max_examples=settings.default.max_examples // 2)
 @given(GROUPS, SEED)
 def test_the_regime_is_that_of_the_model_or_a_neighbour(groups, seed):
     found, x = compiled(groups), incidences(groups, seed)

@@ -1,5 +1,6 @@
 """Identities, limits and refusals of the lumped and the rigid model."""
 
+import high_precision
 import numpy as np
 import pytest
 
@@ -113,6 +114,88 @@ def test_without_restitution_the_spring_keeps_the_rest_of_the_loss():
     assert result.regime is Regime.STICK
 
 
+HARDLY_ANYTHING_LOST = (1e-5, 1.0, 1e10, 0.3)  # 2e-20
+
+
+@pytest.mark.parametrize(
+    ("field", "bound", "case"),
+    [
+        # N and |T| stay together from maximum compression on.
+        ("velocity", 1e-15, (0.9999999998255678, 1.0, 0.344897342622378, 0.5872796115786215)),
+        # Slip starts at separation, where rounding puts it behind.
+        ("velocity", 1e-15, (0.9999999999333825, 1.0, 1.0, 1.0)),
+        # Friction far below the amplitude that it would reach later: 7e-12.
+        ("peak_friction", 1e-26, (1.0655893404136876, 1.0655789130626547, 256863749330.29388, 0.1)),
+        ("dissipation", 1e-34, HARDLY_ANYTHING_LOST),
+        # Resonance: 1e-33 lost of 2e-3, if the arguments are exact.
+        ("dissipation", 1e-30, (0.067495625, 1.07993, 0.06749562499999999, 0.5)),
+        # Slip starts near a double zero.
+        ("dissipation", 1e-15, (1.7420800000000003, 41.8356, 1.74208, 1.0)),
+    ],
+)
+def test_small_results_keep_their_digits(field, bound, case):
+    exact = getattr(high_precision.rebound(*case, digits=60), field)
+    assert abs(float(getattr(lumped.rebound(*case), field) - exact)) <= bound
+
+
+def test_dissipation_from_the_velocities_would_lose_them():
+    x, beta, *_ = HARDLY_ANYTHING_LOST
+    result = lumped.rebound(*HARDLY_ANYTHING_LOST)
+    difference = (x - result.velocity) * (x + result.velocity) / (2 * beta)
+    assert abs(difference - result.dissipation) > 1e7 * 1e-34
+
+
+@pytest.mark.parametrize("groups", GROUPS)
+def test_a_tiny_incidence_only_scales_the_outcome(groups):
+    unit = lumped.rebound(1e-60, *groups)
+    for x in (1e-120, 1e-200, 1e-300, 1e-310, 5e-324):
+        found, share = lumped.rebound(x, *groups), x / 1e-60
+        for name, power in (("velocity", 1), ("peak_friction", 1), ("dissipation", 2)):
+            expected = getattr(unit, name) * share**power
+            np.testing.assert_allclose(getattr(found, name), expected, rtol=1e-14, atol=1e-323)
+
+
+def test_a_tiny_incidence_that_slips_first_is_no_scaled_one():
+    found, limit = lumped.rebound(1e-150, 3.5, 1e-220), rigid.rebound(1e-150, 3.5)
+    assert found.peak_friction == pytest.approx(limit.peak_friction, rel=1e-12, abs=0)
+
+
+def test_nothing_that_is_allowed_overflows_or_creates_energy():
+    """Warnings are errors here."""
+    x = np.array([0.0, 5e-324, 1e-300, 1.0, 1e150, 1e300, 8e307])
+    beta = np.array([1.0, 3.5, 1e150, 8e307])
+    zeta2 = np.array([5e-324, 1e-300, 1e-150, 1.0, 1e150, 1e300, 1.79e308])
+    e = np.array([0.0, 5e-324, 1e-300, 1e-9, 0.5, 1.0])
+    grid = np.meshgrid(x, beta, zeta2, e, indexing="ij")
+    result = lumped.rebound(*grid)
+    assert (np.abs(result.velocity) <= grid[0]).all()
+    assert (result.dissipation >= 0).all() and np.isfinite(result.dissipation).all()
+    assert ((result.peak_friction >= 0) & (result.peak_friction <= 1)).all()
+    assert np.isfinite(lumped.slip_throughout_limit(*grid[1:])).all()
+
+
+@pytest.mark.parametrize("x", [0.0, 5e-324, 1.0, 1e300, 8e307])
+@pytest.mark.parametrize("beta", [1.0, 8e307])
+@pytest.mark.parametrize("e", [0.0, 5e-324, 1.0])
+def test_a_contact_at_the_end_of_the_numbers_is_followed(x, beta, e):
+    zeta2 = 1.79e308
+    result = lumped.rebound(x, beta, zeta2, e)
+    contact = lumped.history(x, beta, zeta2, e, samples=3)
+    assert contact.velocity[-1] == pytest.approx(result.velocity, rel=1e-14, abs=1e-14 * beta)
+    np.testing.assert_allclose(contact.spring, zeta2 * contact.friction)
+    if e > 0:
+        work = lumped.friction_work(x, beta, zeta2, e)
+        assert work == pytest.approx(result.dissipation, rel=1e-12, abs=1e-12 * min(x, beta))
+
+
+def test_resonance_creates_no_energy():
+    """x = -w but for rounding: T stays proportional to N to the end."""
+    near = 1 + np.concatenate([-np.geomspace(1e-16, 1e-3, 200), np.geomspace(1e-16, 1e-3, 200)])
+    for x in (1e-17, 0.3, 1.0):
+        result = lumped.rebound(x, 3.5, 3.5 * near, 1.0)
+        assert (np.abs(result.velocity) <= x).all() and (result.dissipation >= 0).all()
+
+
 def test_rigid_contact():
     result = rigid.rebound([0.0, 1.75, 3.5, 9.0], restitution=1.0)
     np.testing.assert_allclose(result.velocity, [0, 0, 0, 2])
@@ -128,6 +211,8 @@ def test_rigid_contact():
     [
         ({"incidence": np.nan}, "incidence = nan: allowed are finite numbers"),
         ({"incidence": [0.0, np.inf]}, r"incidence\[1\] = inf"),
+        ({"incidence": -1e308}, "incidence = -1e.308: .* -8e307 to 8e307 .the work of friction"),
+        ({"mass_ratio": 1e308}, "mass_ratio = 1e.308: .* from 1 to 8e307"),
         ({"incidence": "1"}, "incidence = '1'"),
         ({"incidence": True}, "incidence = True"),
         ({"incidence": 1j}, "as real numbers"),

@@ -317,16 +317,38 @@ def test_infinite_is_a_rigid_flat_wall():
 
 
 def test_a_contact_too_stiff_for_the_continuum_is_named_by_its_row():
-    needle = without(STEEL, "density [kg/m^3]") | {"mass [kg]": 0.1, "gyration [m]": 1e-5}
-    slow = {"velocity_tangential [m/s]": 100.0}
-    with pytest.raises(ConvergenceError, match="row 1, .*steps"):
-        scene.solve(table(needle, PLANE, slow, restitution=1.0))
+    needle = without(STEEL, "density [kg/m^3]") | {"mass [kg]": 0.1, "gyration [m]": 1e-7}
+    row = table(needle, PLANE, restitution=1.0)
+    good = row.assign(**{"gyration [m]": 0.006})
+    with pytest.raises(ConvergenceError, match="row 2: .* needs .* steps, .*; 1 more rows"):
+        scene.solve(pd.concat([good, row, good, row]))
+
+
+@pytest.mark.parametrize("count", [1, choice.FEW])
+def test_a_contact_without_an_answer_may_be_left_out(count):
+    """Where a response cannot be compiled, its impacts are solved one by one."""
+    needle = without(STEEL, "density [kg/m^3]") | {"mass [kg]": 0.1, "gyration [m]": 1e-7}
+    row = table(needle, PLANE, restitution=1.0)
+    good = row.assign(**{"gyration [m]": 0.006})
+    sliding = row.assign(friction=1e-12)
+    faster = good.assign(**{"velocity_tangential [m/s]": 2.0})
+    rows = pd.concat(count * [row, sliding] + [good, faster], ignore_index=True)
+    found = solver.Solver()
+    after = found.solve(rows, skip_bad=True)
+    assert after.index.tolist() == [*range(1, 2 * count, 2), 2 * count, 2 * count + 1]
+    assert [number for number, _ in found.bad] == list(range(1, 2 * count, 2))
+    assert all("the tangential oscillation needs" in words for _, words in found.bad)
+    alone = scene.solve(pd.concat([good, faster], ignore_index=True))
+    last = after.iloc[-2:].reset_index(drop=True)
+    pd.testing.assert_frame_equal(last, alone, check_categorical=False)
+    assert found.explain().startswith(f"{count + 2} impacts")
 
 
 def test_cheaper_rungs_are_taken_where_they_are_good_enough():
     assert choice.rung(3.5, 1.21, 1.0, 0.25, 50)[:2] == ("lumped", "solved")
     assert choice.rung(3.5, 1.21, 1.0, 0.2, 50)[:2] == ("continuum", "solved")
     assert choice.rung(3.5, 1.21, 1.0, 0.2, 5000)[:2] == ("continuum", "compiled")
+    assert choice.rung(350, 1.21, 1.0, 0.2, 5000)[:2] == ("continuum", "solved")
     assert choice.rung(3.5, 1e-7, 0.5, 1e-2, 50)[:2] == ("rigid", "formula")
     assert choice.rung(3.5, 1e-7, 0.5, 1e-5, 50)[:2] == ("lumped", "solved")
     ready = {("lumped", 3.5, 1.21, 0.5): None}

@@ -193,15 +193,15 @@ def test_scalars_give_scalars_and_nothing_gives_nothing(law):
 @pytest.mark.parametrize("steps", [3, 64])
 def test_extreme_impacts_have_an_answer(law, steps):
     """No warning either: pytest turns them into errors."""
-    x = np.array([0.0, 5e-324, 1e-300, 1.0, 3.5, 1e9, 1e300])[:, None, None]
-    beta, zeta2 = np.array([[1, 1], [1, 2.1], [3.5, 1e300], [1e300, 1e300], [1, 1e308]]).T[
-        ..., None
-    ]
+    x = np.array([0.0, 5e-324, 1e-300, 1.0, 3.5, 1e9, 8e307])[:, None, None]
+    beta, zeta2 = np.array(
+        [[1, 1], [1, 2.1], [3.5, 1e300], [1e300, 1e300], [1, 1e308], [8e307, 1.7e308]]
+    ).T[..., None]
     e = np.array([0.0, 5e-324, 1e-200, 1e-9, 0.01, 1.0])
     result = law(x, beta, zeta2, e, steps=steps)
     assert np.isfinite(np.stack(result[:3])).all()
     np.testing.assert_allclose(
-        result.dissipation[-1, 0], 1e300 * (1 + e), rtol=0.5 if steps == 3 else 0.05
+        result.dissipation[-1, 0], 8e307 * (1 + e), rtol=0.5 if steps == 3 else 0.05
     )
 
 
@@ -219,8 +219,8 @@ def test_too_few_steps_for_the_tangential_oscillation_are_refused(law, least):
         law([1.0, 2.0], 3.5, [1.0, 0.01], steps=least - 1)
     near = law(1e-6, 3.5, 0.01, steps=least)
     assert abs(near.velocity) < 1e-4
-    with pytest.raises(InputError, match="steps = 64: allowed are integers from 1"):
-        law(1.0, 1e308, 5e-324)
+    with pytest.raises(InputError, match="steps = 64: .* inf explicit steps are needed"):
+        law(1.0, 8e307, 5e-324)
 
 
 @pytest.mark.parametrize("law", LAWS)

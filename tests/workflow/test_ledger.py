@@ -12,7 +12,7 @@ import pytest
 import reference_data
 import write_ledger_page
 
-from planarimpact import bodies, continuum, laws, ledger, lumped, rigid
+from planarimpact import bodies, continuum, laws, ledger, lumped, noncollinear, rigid
 from planarimpact.printed import dissipation, dynamics, peak_force
 
 ROOT = Path(__file__).parents[2]
@@ -98,7 +98,8 @@ def scaled(factor):
 
 
 FRICTION_WORK = lumped.friction_work
-MASSES, STIFFNESS_RATIO = bodies.effective_masses, bodies.stiffness_ratio
+MASSES, MASS_RATIO = bodies.effective_masses, bodies.mass_ratio
+STIFFNESS_RATIO = bodies.stiffness_ratio
 SPHERE = bodies.solid_sphere
 
 # Faults of the solvers, each a set of replacements.
@@ -184,8 +185,15 @@ FAULTS = {
             1.1 * MASSES(*args)[0],
             MASSES(*args)[1],
         ),
+        (bodies, "mass_ratio"): lambda *args: MASS_RATIO(*args) / 1.1,
         (bodies, "stiffness_ratio"): lambda *args: 2 * STIFFNESS_RATIO(*args),
         (bodies, "solid_sphere"): lambda *args: SPHERE(*args)._replace(mass=1.1),
+    },
+    "motions not coupled": {
+        (noncollinear, "history"): altered(
+            noncollinear.history,
+            inverse_mass=lambda m: noncollinear.InverseMass(m[0], 0.0, m[2]),
+        ),
     },
 }
 # These compare a formula with the mechanics of a rigid body, and use no solver.
@@ -264,8 +272,8 @@ def test_a_broken_solver_fails_the_run_and_says_where(finished):
     """The last slip pushed the wrong way."""
     finished.edit(
         "src/planarimpact/stick_slip.py",
-        "final = onset - beta * e * normal.impulse(eta)",
-        "final = onset + beta * e * normal.impulse(eta)",
+        "final = onset - beta * e * ahead",
+        "final = onset + beta * e * ahead",
     )
     result = finished.run("results/ledger.csv", "figures/ledger.html")
     assert result.returncode == 0, result.stdout

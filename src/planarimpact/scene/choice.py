@@ -23,6 +23,7 @@ COST = {
     ("continuum", "solved"): (3e-2, 2e-4),
     ("continuum", "compiled"): (1e-1, 6e-8),
 }
+ORDINARY = 3.0  # beta/zeta^2 for which they hold; they grow with it
 FEW = 64  # impacts of a pair that are solved together with those of other pairs
 MOST = 0.99  # of the tolerance may be that of a cheaper model
 EXACT = 1e-12  # of the lumped model and of groups told apart at 12 digits, by mass ratio
@@ -151,8 +152,14 @@ def rung(mass_ratio, stiffness_ratio, restitution, tolerance, count, responses=N
         if model not in gap:
             gap[model] = _gap(model, *groups, tolerance)
     costs = []
+    oscillates = max(1.0, mass_ratio / stiffness_ratio / ORDINARY)
     for (model, way), (first, each) in COST.items():
         if gap.get(model, np.inf) <= MOST * tolerance:
+            # A compiled response has a kink for every half-wave, of which each costs more there.
+            if (model, way) == ("continuum", "solved"):
+                each = each * oscillates
+            elif way == "compiled":
+                first = first * (oscillates**2 if model == "continuum" else oscillates**0.5)
             ready = way == "compiled" and (model, *groups) in (responses or {})
             costs.append(((0.0 if ready else first) + count * each, model, way))
     _, model, way = min(costs)
@@ -202,10 +209,12 @@ def solve(rung, incidence, mass_ratio, stiffness_ratio, restitution, tolerance, 
 
 
 def _compiled(model, mass_ratio, stiffness_ratio, restitution, tolerance):
+    limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution)
+    wanted = tolerance if model == "continuum" else min(tolerance, FINE)
     return response.compile(
         model,
-        incidence_max=lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution),
-        tolerance=tolerance if model == "continuum" else min(tolerance, FINE),
+        incidence_max=limit,
+        tolerance=max(wanted, response.ROUNDING * limit),
         mass_ratio=mass_ratio,
         stiffness_ratio=stiffness_ratio,
         restitution=restitution,

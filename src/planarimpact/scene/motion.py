@@ -16,6 +16,7 @@ from planarimpact.bodies import Body, Material
 from planarimpact.scene.columns import AXES
 
 UNIT = 1e-6  # largest error of the length of a normal
+LARGEST_RATIO = 1e12  # of masses m2/m1: beyond it no digit of the rebound is sure
 
 
 class State(NamedTuple):
@@ -59,6 +60,11 @@ def impacts(values):
     -------
     Impacts
         v2 may be 0 or negative, where nothing approaches: the caller refuses that.
+
+    Raises
+    ------
+    OutOfRange
+        If a mass, a mass ratio or a force is beyond the range of numbers; it says where.
     """
     with np.errstate(over="ignore", invalid="ignore"):  # `problems` finds what is not finite
         body, other = _body(values, ""), _body(values, "other_")
@@ -69,7 +75,7 @@ def impacts(values):
         along = np.sum(relative * normal, axis=0)
         sideways = relative - along * normal
         v1, v2 = np.hypot(np.hypot(*sideways[:2]), sideways[2]), -along
-        m1, m2 = bodies.effective_masses(body, other)
+        _, m2 = bodies.effective_masses(body, other)
         return Impacts(
             body,
             other,
@@ -82,7 +88,7 @@ def impacts(values):
             values["friction"],
             values["restitution"],
             m2,
-            m2 / m1,
+            bodies.mass_ratio(body, other),
             bodies.stiffness_ratio(*_materials(values)),
             _peak_normal(values, m2, v2),
         )
@@ -101,13 +107,18 @@ def problems(impacts):
     """
     length = np.sqrt(np.sum(impacts.normal**2, axis=0))
     numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.peak_normal, impacts.v1
-    finite = np.isfinite(numbers).all(axis=0) & np.isfinite(impacts.v2)
+    with np.errstate(over="ignore"):
+        energy = impacts.m2 * impacts.v2 * impacts.v2 + impacts.m2 * impacts.v1 * impacts.v1
+    finite = np.isfinite(numbers).all(axis=0) & np.isfinite(impacts.v2) & np.isfinite(energy)
     found = {}
     for i in np.flatnonzero(~finite):
         found[int(i)] = "its numbers are too large or too small to compute with"
     for i in np.flatnonzero(~(impacts.v2 > 0) & finite):
         words = f"normal velocity of approach = {impacts.v2[i]:g}: the bodies must approach"
         found[int(i)] = f"{words} each other"
+    for i in np.flatnonzero(impacts.mass_ratio > LARGEST_RATIO):
+        words = f"allowed are numbers up to {LARGEST_RATIO:g}"
+        found[int(i)] = f"mass ratio m2/m1 = {impacts.mass_ratio[i]:g}: {words}"
     for i in np.flatnonzero(np.abs(length - 1) > UNIT):
         found[int(i)] = f"normal_x, y, z have the length {length[i]:g}: allowed is 1"
     return found
@@ -127,20 +138,23 @@ def after(impacts, tangential_velocity):
     body, other : State
     """
     change = (tangential_velocity - impacts.v1) / impacts.mass_ratio
-    # P1 = m1 (v1(tf) - v1(0)), m1 = m2/beta; P2 = (1 + e) m2 v2(0).
-    sideways = impacts.m2 * change * impacts.tangent
-    impulse = sideways + impacts.m2 * (1 + impacts.restitution) * impacts.v2 * impacts.normal
+    # P1 = m1 (v1(tf) - v1(0)), m1 = m2/beta; P2 = (1 + e) m2 v2(0). Both over m2, so that they
+    # stay numbers whatever the units.
+    impulse = change * impacts.tangent + (1 + impacts.restitution) * impacts.v2 * impacts.normal
+    m2 = impacts.m2
     return (
-        _kicked(impacts.before, impacts.body, impulse, -impacts.normal),
-        _kicked(impacts.other_before, impacts.other, -impulse, impacts.normal),
+        _kicked(impacts.before, impacts.body, m2, impulse, -impacts.normal),
+        _kicked(impacts.other_before, impacts.other, m2, -impulse, impacts.normal),
     )
 
 
 def energy_lost(impacts, tangential_velocity):
     """Kinetic energy lost by both bodies [J]: in the normal element, and tangentially."""
     e, v1, after = impacts.restitution, impacts.v1, tangential_velocity
-    normal = (1 - e) * (1 + e) * impacts.v2**2
-    return impacts.m2 / 2 * (normal + (v1 - after) * (v1 + after) / impacts.mass_ratio)
+    # Masses first: a velocity squared is no number where the energy still is one.
+    normal = (1 - e) * (1 + e) * (impacts.m2 / 2 * impacts.v2 * impacts.v2)
+    m1 = impacts.m2 / impacts.mass_ratio
+    return normal + m1 / 2 * (v1 - after) * (v1 + after)
 
 
 def columns_of(state, plane):
@@ -207,10 +221,11 @@ def _contact_velocity(state, body, towards):
     return state.velocity + body.radius * np.cross(state.spin, towards, axis=0)
 
 
-def _kicked(state, body, impulse, towards):
-    """State after an impulse at the contact point."""
-    turn = np.cross(towards, impulse, axis=0) * (body.radius / body.gyration) / body.gyration
-    return State(state.velocity + impulse / body.mass, state.spin + turn / body.mass)
+def _kicked(state, body, m2, impulse, towards):
+    """State after an impulse, given over m2, at the contact point."""
+    change = impulse * (m2 / body.mass)
+    turn = np.cross(towards, change, axis=0) * (body.radius / body.gyration) / body.gyration
+    return State(state.velocity + change, state.spin + turn)
 
 
 def _peak_normal(values, m2, v2):

@@ -5,7 +5,7 @@ from collections import Counter
 import numpy as np
 import pandas as pd
 
-from planarimpact import checks, lumped
+from planarimpact import bodies, checks, continuum, lumped
 from planarimpact.checks import ConvergenceError, InputError
 from planarimpact.results import Regime
 from planarimpact.scene import choice, columns, motion
@@ -43,7 +43,7 @@ class Solver:
         ----------
         table : DataFrame
         skip_bad : bool
-            Leave bad rows out, and keep them in `bad`.
+            Leave bad rows out, and those without an answer, and keep them in `bad`.
 
         Returns
         -------
@@ -73,37 +73,53 @@ class Solver:
         values, problems = columns.numbers(table, names)
         good = np.ones(len(table), dtype=bool)
         good[list(problems)] = False
-        impacts = motion.impacts({name: column[good] for name, column in values.items()})
+        impacts = self._impacts(values, good, problems)
         positions = np.flatnonzero(good)
         wrong = motion.problems(impacts)
         problems |= {int(positions[i]): words for i, words in wrong.items()}
-        self._note(problems, skip_bad)
+        self._refuse(problems, skip_bad, InputError)
         if wrong:
             good[list(problems)] = False
-            impacts = motion.impacts({name: column[good] for name, column in values.items()})
-        numbers = self.rows + 1 + np.flatnonzero(good)
-        result = self._after(impacts, names, numbers)
+            impacts = self._impacts(values, good, problems)
+        result, unsolved = self._after(impacts, names)
+        positions = np.flatnonzero(good)
+        unsolved = {int(positions[i]): words for i, words in unsolved.items()}
+        self._refuse(unsolved, skip_bad, ConvergenceError)
+        problems |= unsolved
+        self.bad += [
+            (self.rows + position + 1, problems[position]) for position in sorted(problems)
+        ]
         self.rows += len(table)
         chosen = table[good]
         if columns.LABEL in names:
             result = {columns.LABEL: chosen[names[columns.LABEL]].to_numpy(), **result}
-        return pd.DataFrame(result, index=chosen.index)
+        found = pd.DataFrame(result, index=chosen.index)
+        return found[~np.isin(positions, list(unsolved))] if unsolved else found
 
-    def _note(self, problems, skip_bad):
-        """Refuse the first bad row, or note them all."""
-        numbered = [(self.rows + position + 1, problems[position]) for position in sorted(problems)]
-        if skip_bad:
-            self.bad += numbered
-        elif numbered:
-            more = f"; {len(numbered) - 1} more rows are bad" if len(numbered) > 1 else ""
-            raise InputError(f"row {numbered[0][0]}: {numbered[0][1]}{more}")
+    def _impacts(self, values, good, problems):
+        """Impacts of the good rows; those whose physical quantities are no numbers become bad."""
+        while True:
+            try:
+                return motion.impacts({name: column[good] for name, column in values.items()})
+            except bodies.OutOfRange as error:
+                for position in np.flatnonzero(good)[error.where].tolist():
+                    problems[position], good[position] = str(error), False
 
-    def _after(self, impacts, names, numbers):
-        """Columns of the result; rows have numbers for what cannot be solved."""
+    def _refuse(self, problems, skip_bad, kind):
+        """Refuse the first bad row, unless bad rows are skipped."""
+        if problems and not skip_bad:
+            first = min(problems)
+            more = f"; {len(problems) - 1} more rows are bad" if len(problems) > 1 else ""
+            raise kind(f"row {self.rows + first + 1}: {problems[first]}{more}")
+
+    def _after(self, impacts, names):
+        """Columns of the result, and what has none: `{position: words}`."""
         unit = impacts.friction * impacts.v2
         groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
-        slides = impacts.v1 >= lumped.slip_throughout_limit(*groups) * unit
-        lost = (1 + impacts.restitution) * impacts.mass_ratio * unit
+        with np.errstate(over="ignore"):  # where friction stops any velocity that is a number
+            slides = impacts.v1 >= lumped.slip_throughout_limit(*groups) * unit
+            lost = (1 + impacts.restitution) * impacts.mass_ratio * unit
+        unsolved = {}
         velocity = impacts.v1 - np.where(slides, lost, 0.0)
         peak, error = np.ones(unit.size), np.zeros(unit.size)
         regime = np.full(unit.size, Regime.SLIP_THROUGHOUT, np.uint8)
@@ -112,18 +128,32 @@ class Solver:
             self._taken[choice.SLIDING, "all pairs"] += int(np.sum(slides))
         stick = np.flatnonzero(~slides)
         for job in choice.jobs(*groups, stick, self.tolerance, self._responses, self._seen):
-            rows, rung = job.rows, job.rung
-            x = impacts.v1[rows] / unit[rows]
-            try:
-                found, known = choice.solve(rung, x, *job.groups, self.tolerance, self._responses)
-            except ConvergenceError as error:
-                raise ConvergenceError(f"row {numbers[rows[0]]}, or one like it: {error}") from None
+            x = impacts.v1[job.rows] / unit[job.rows]
+            rung, (found, known), left, without = self._answers(job, x)
+            unsolved |= {int(job.rows[i]): words for i, words in without.items()}
+            rows = job.rows[left]
             velocity[rows] = found.velocity * unit[rows]
             peak[rows], regime[rows] = found.peak_friction, found.regime
             error[rows] = known * unit[rows]
             model[rows] = 1 + choice.MODELS.index(rung.model)
             self._taken[rung, job.pair] += rows.size
-        return self._columns(impacts, names, velocity, peak, error, regime, model)
+        return self._columns(impacts, names, velocity, peak, error, regime, model), unsolved
+
+    def _answers(self, job, x):
+        """The rung, results and errors, which impacts they are of, and why others have none."""
+        rung, left, without = job.rung, np.arange(x.size), {}
+        while True:
+            groups = (group if np.ndim(group) == 0 else group[left] for group in job.groups)
+            try:
+                found = choice.solve(rung, x[left], *groups, self.tolerance, self._responses)
+                return rung, found, left, without
+            except ConvergenceError as error:
+                if rung.way == "compiled":  # some of its impacts may have an answer
+                    rung = rung._replace(way="solved")
+                    continue
+                lost = error.impacts if isinstance(error, continuum.Unsolved) else slice(None)
+                without |= dict.fromkeys(left[lost].tolist(), str(error))
+                left = np.delete(left, lost)
 
     def _columns(self, impacts, names, velocity, peak, error, regime, model):
         body, other = motion.after(impacts, velocity)

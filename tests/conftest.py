@@ -1,0 +1,19 @@
+"""Profiles of Hypothesis, for every test of a property.
+
+`house` tries the same few examples each time, so that the suite is quick and never fails by
+chance. `long` tries fifty times as many at random, and takes an hour:
+
+    python -m pytest -n 0 tests/property --hypothesis-profile=long
+
+or with the environment variable HYPOTHESIS_PROFILE=long.
+"""
+
+import os
+
+from hypothesis import settings
+
+EXAMPLES = 150
+
+settings.register_profile("house", max_examples=EXAMPLES, deadline=None, derandomize=True)
+settings.register_profile("long", max_examples=50 * EXAMPLES, deadline=None)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "house"))

@@ -1,0 +1,286 @@
+"""The other models at the extremes: a right answer or a clear refusal, never a warning or NaN.
+
+pytest turns warnings into errors. Each model has a box of its own, in its docstring.
+"""
+
+import time
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from planarimpact import (
+    ConvergenceError,
+    InputError,
+    annuli,
+    bodies,
+    continuum,
+    ladder,
+    laws,
+    lumped,
+    response,
+    scene,
+    timestep,
+)
+
+LAWS = [laws.smith, laws.brach, laws.bilbao]
+STEPPED = [timestep.linear, timestep.mindlin, timestep.mindlin_rescaled]
+MASS_RATIOS = [1.0, np.nextafter(1, 2), 3.5, 1e6, 1e300, 8e307]
+STIFFNESS_RATIOS = [5e-324, 1e-300, 1e-8, 1.21, 1e12, 1e300, 1.7e308]
+RESTITUTIONS = [0.0, 5e-324, 1e-160, 1e-3, 0.5, np.nextafter(1, 0), 1.0]
+FEWER = settings(max_examples=settings.default.max_examples // 7)
+LONGEST = 30  # s, of one call, on a machine with other things to do
+
+
+def incidences(beta, zeta2, e):
+    """Tiny, huge, and each threshold with its neighbours."""
+    limit = float(lumped.slip_throughout_limit(beta, zeta2, e))
+    at = np.array([zeta2, beta, limit, (1 + e) * beta])
+    x = np.concatenate([at, np.nextafter(at, 0), np.nextafter(at, np.inf), at / 2])
+    x = np.append(x, [0.0, 5e-324, 1e-300, 1e-100, 1.0, 1e12, 1e100, 8e307])
+    return np.sort(x[x <= 8e307])
+
+
+def box(restitutions):
+    for beta in MASS_RATIOS:
+        for zeta2 in STIFFNESS_RATIOS:
+            for e in restitutions:
+                yield incidences(beta, zeta2, e), beta, zeta2, e
+
+
+def answered(call):
+    """What a call returns, or None where it refuses clearly; in time."""
+    start = time.monotonic()
+    try:
+        return call()
+    except (InputError, ConvergenceError) as error:
+        words = str(error)
+        assert " = " in words and any(w in words for w in ("allowed", "not met", "rounding"))
+        assert len(words) < 300
+        return None
+    finally:
+        assert time.monotonic() - start < LONGEST
+
+
+def assert_possible(result, x, gain=0.0):
+    """Finite, and energy from nothing only as far as the error of a model's steps may create it."""
+    assert np.isfinite(np.stack([result.velocity, result.dissipation])).all()
+    assert (np.abs(result.velocity) <= x * (1 + gain + 1e-14)).all()
+    if not gain:
+        assert (result.dissipation >= 0).all()
+    peak = result.peak_friction[~np.isnan(result.peak_friction)]
+    assert ((peak >= 0) & (peak <= 1)).all()
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_laws_of_impulses(law):
+    for x, *groups in box(RESTITUTIONS):
+        assert_possible(law(x, *groups), x)
+
+
+@pytest.mark.parametrize("law", STEPPED)
+def test_laws_in_steps(law):
+    solved = 0
+    for x, *groups in box(RESTITUTIONS):
+        result = answered(lambda x=x, groups=groups: law(x, *groups, steps=64))
+        if result is not None:
+            solved += 1
+            gain = 0.06 if law is timestep.mindlin else 0.03 if law is timestep.linear else 0.0
+            assert_possible(result, x, gain)
+    assert solved > 100
+
+
+@pytest.mark.parametrize("law", STEPPED)
+def test_a_tiny_impact_scales_a_small_one(law):
+    """It sticks to the last step, so that everything is in proportion to the incidence."""
+    for beta, zeta2 in ((3.5, 1.21), (1e300, 1e300), (1.0, 1.7e308), (1e200, 1e201)):
+        small = law(zeta2 * 1e-90, beta, zeta2)
+        for x in (zeta2 * 1e-101, zeta2 * 1e-110, min(1e-12, zeta2 * 1e-120)):
+            tiny = law(x, beta, zeta2)
+            share = x / (zeta2 * 1e-90)
+            for found, wanted in zip(tiny[:2], small[:2], strict=False):
+                assert found == pytest.approx(wanted * share, rel=1e-12, abs=1e-322)
+
+
+def test_annuli():
+    solved = 0
+    for circles, steps in ((1, 64), (8, 128)):
+        for x, *groups in box([1.0]):
+            call = {"circles": circles, "steps": steps}
+            result = answered(lambda x=x, g=groups, c=call: annuli.rebound(x, *g, **c))
+            if result is not None:
+                solved += 1
+                assert_possible(result, x, 0.02)
+    assert solved > 20
+
+
+@pytest.mark.parametrize("beta", [1.0, 3.5, 8e307])
+@pytest.mark.parametrize("zeta2", [5e-324, 1e-8, 1.21, 1e12, 1e300])
+def test_the_continuum(beta, zeta2):
+    limit = float(lumped.slip_throughout_limit(beta, zeta2))
+    for x in (5e-324, np.nextafter(limit, 0), limit, limit / 2, 8e307):
+        result = answered(
+            lambda x=x: continuum.rebound([x], beta, zeta2, tolerance=0.1 * max(1.0, x))
+        )
+        if result is not None:
+            assert_possible(result, np.array([x]))
+            if x >= limit:
+                assert result.velocity[0] == x - 2 * beta
+
+
+@pytest.mark.parametrize("model", ["rigid", "laws.smith", "laws.brach"])
+def test_responses(model):
+    for beta in MASS_RATIOS:
+        for zeta2 in STIFFNESS_RATIOS:
+            for largest in (1e-9, 20.0, 1e300):
+                groups = {"mass_ratio": beta, "stiffness_ratio": zeta2, "restitution": 0.5}
+                found = answered(
+                    lambda groups=groups, largest=largest: response.compile(
+                        model, incidence_max=largest, tolerance=1e-6, **groups
+                    )
+                )
+                if found is not None:
+                    x = np.append(np.geomspace(1e-320, largest, 50), largest)
+                    assert_possible(found(x), x)
+                    exact = ladder.rebound(model, x, **groups).velocity
+                    error = np.abs(found(x).velocity - exact)
+                    assert (error <= 1e-6 + 1e-14 * np.maximum(x, beta)).all()
+
+
+REFUSED = {
+    "circles": lambda: annuli.rebound(2.0, circles=10**9),
+    "steps = 1000000000": lambda: annuli.rebound(2.0, steps=10**9),
+    "steps = 2": lambda: timestep.mindlin(2.0, steps=2),
+    "steps = 100000000": lambda: timestep.linear(2.0, steps=10**8),
+    "unstable": lambda: timestep.linear(1.0, 3.5, 1e-3, steps=64),
+    "steps = 16: allowed are integers from 3142": lambda: continuum.fixed_steps(
+        1, 1e6, 1, steps=16
+    ),
+    "steps = 1000000000:": lambda: continuum.fixed_steps(1.0, steps=10**9),
+    "to 32768": lambda: continuum.fixed_steps(1e-9, 1.0, 1e-300),
+    "rounding alone": lambda: continuum.rebound(2.0, tolerance=1e-16),
+    "out of reach of 32768": lambda: continuum.rebound(2.0, tolerance=1e-13),
+    "as rounding goes": lambda: response.compile(
+        "rigid", incidence_max=1e12, tolerance=1e-6, mass_ratio=1e12
+    ),
+}
+
+
+@pytest.mark.parametrize(("words", "call"), REFUSED.items(), ids=list(REFUSED))
+def test_what_cannot_be_done_is_refused_at_once(words, call):
+    start = time.monotonic()
+    with pytest.raises((InputError, ConvergenceError), match=words):
+        call()
+    assert time.monotonic() - start < 3
+
+
+# Physical scales. A unit that is a power of two changes exponents only, if nothing leaves the
+# range of numbers on the way. Powers of m, kg and s are the columns.
+
+EXPONENT = st.integers(-160, 160)
+UNITS = {
+    "radius [m]": (1, 0, 0),
+    "other_radius [m]": (1, 0, 0),
+    "mass [kg]": (0, 1, 0),
+    "other_mass [kg]": (0, 1, 0),
+    "gyration [m]": (1, 0, 0),
+    "other_gyration [m]": (1, 0, 0),
+    "young_modulus [Pa]": (-1, 1, -2),
+    "velocity_tangential [m/s]": (1, 0, -1),
+    "velocity_normal [m/s]": (1, 0, -1),
+    "spin [rad/s]": (0, 0, -1),
+    "velocity_tangential_after [m/s]": (1, 0, -1),
+    "velocity_normal_after [m/s]": (1, 0, -1),
+    "spin_after [rad/s]": (0, 0, -1),
+    "other_velocity_tangential_after [m/s]": (1, 0, -1),
+    "other_velocity_normal_after [m/s]": (1, 0, -1),
+    "other_spin_after [rad/s]": (0, 0, -1),
+    "error [m/s]": (1, 0, -1),
+    "incidence": (0, 0, 0),
+    "energy_lost [J]": (2, 1, -2),
+    "peak_normal_force [N]": (1, 1, -2),
+    "peak_friction_force [N]": (1, 1, -2),
+}
+ROWS = pd.DataFrame(
+    {
+        "radius [m]": [0.01, 0.013, 0.02],
+        "mass [kg]": [0.03, 0.2, 0.07],
+        "gyration [m]": [0.006, 0.009, 0.011],
+        "other_radius [m]": [0.02, 0.05, 0.01],
+        "other_mass [kg]": [0.05, 1.0, 0.02],
+        "other_gyration [m]": [0.013, 0.03, 0.007],
+        "young_modulus [Pa]": 207e9,
+        "poisson_ratio": 0.3,
+        "friction": [0.3, 0.2, 0.6],
+        "restitution": [0.8, 0.5, 0.0],
+        "velocity_tangential [m/s]": [1.0, 7.0, -0.3],
+        "velocity_normal [m/s]": [2.0, 1.0, 3.0],
+        "spin [rad/s]": [30.0, -5.0, 11.0],
+    }
+)
+
+
+def in_units(table, *exponents):
+    factor = {name: 2.0 ** float(np.dot(UNITS.get(name, (0, 0, 0)), exponents)) for name in table}
+    return table.assign(**{name: table[name] * factor[name] for name in table if name in UNITS})
+
+
+@FEWER
+@given(EXPONENT, EXPONENT, EXPONENT)
+def test_a_scene_has_no_scale(metre, kilogram, second):
+    table = in_units(ROWS, metre, kilogram, second)
+    found, wanted = scene.solve(table), in_units(scene.solve(ROWS), metre, kilogram, second)
+    for name in found:
+        if "force" in name:  # powers that are no whole numbers
+            np.testing.assert_allclose(found[name], wanted[name], rtol=1e-13)
+        else:
+            assert found[name].tolist() == wanted[name].tolist(), name
+
+
+@FEWER
+@given(EXPONENT, EXPONENT, EXPONENT)
+def test_bodies_have_no_scale(metre, kilogram, second):
+    m, kg, s = 2.0**metre, 2.0**kilogram, 2.0**second
+    speed, modulus = m / s, kg / m / s / s
+
+    def physics(m, kg, s, speed, modulus):
+        body = bodies.Body(0.3 * kg, 0.006 * m, 0.01 * m)
+        other = bodies.Body(0.7 * kg, 0.03 * m, 0.02 * m)
+        motion = bodies.Motion(1.3 * speed, 2.1 * speed, 30 / s)
+        steel, glass = bodies.Material(2e11 * modulus, 0.3), bodies.Material(7e10 * modulus, 0.2)
+        m1, m2 = bodies.effective_masses(body, other)
+        ratio, zeta2 = bodies.mass_ratio(body, other), bodies.stiffness_ratio(steel, glass)
+        radius = bodies.effective_radius(0.01 * m, 0.02 * m)
+        after = bodies.rebound_motion(body, motion, 0.3, -0.4, 0.5)
+        x = bodies.incidence(*motion[:2], 0.3)
+        scaled = after.tangential / speed, after.normal / speed, after.spin * s
+        return m1 / kg, m2 / kg, ratio, zeta2, radius / m, x, *scaled
+
+    assert physics(m, kg, s, speed, modulus) == physics(1.0, 1.0, 1.0, 1.0, 1.0)
+
+
+BEYOND = [
+    lambda: bodies.solid_sphere(1e-150, 1e-150),
+    lambda: bodies.solid_sphere(1e150, 1e150),
+    lambda: bodies.mass_ratio(bodies.Body(1.0, 1e-150, 1e150)),
+    lambda: bodies.hertz_peak_force(1e150, 1e150, 1e150, 1e150),
+    lambda: bodies.normal_frequency(1e150, 1e-150, 1e-150),
+    lambda: bodies.contact_velocity(1e300, 1.0, 1e200, 1e200),
+]
+
+
+@pytest.mark.parametrize("call", BEYOND)
+def test_results_beyond_the_range_of_numbers_are_refused(call):
+    with pytest.raises(bodies.OutOfRange, match=" = .*: it is beyond the range of numbers"):
+        call()
+
+
+def test_a_scene_refuses_such_rows_by_number():
+    table = ROWS.assign(**{"gyration [m]": [0.006, 1e-9, 1e-200]})
+    with pytest.raises(InputError, match="row 2: mass ratio m2/m1 = .*up to 1e.12; 1 more row"):
+        scene.solve(table)
+    solver = scene.Solver()
+    assert len(solver.solve(table, skip_bad=True)) == 1
+    assert [row for row, _ in solver.bad] == [2, 3]

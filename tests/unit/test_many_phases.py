@@ -1,0 +1,110 @@
+"""The jump over many phases against the phases themselves, and impacts that need it."""
+
+import high_precision
+import numpy as np
+import pytest
+
+from planarimpact import InputError, Regime, lumped, many_phases, rigid, slip_onset, stick_slip
+
+
+def impacts(rates, seed=1):
+    """Random impacts x, beta, zeta^2, e that stick and slip with these rates nu = e omega."""
+    rng = np.random.default_rng(seed)
+    shape = np.shape(rates)
+    beta, e = rng.uniform(1, 8, shape), rng.uniform(0.1, 1, shape)
+    # Slip first to restitution only where phases are few: those impacts take a loop of their own.
+    x = rng.uniform(0.1, np.where(np.asarray(rates) < 3000, 1.5, 1.0)) * beta
+    return x, beta, (e / np.asarray(rates)) ** 2 * beta, e
+
+
+def plainly(monkeypatch, *groups):
+    """All phases one after the other."""
+    with monkeypatch.context() as patch:
+        patch.setattr(stick_slip, "STICKS_BEFORE_SKIP", -1)
+        return lumped.rebound(*groups)
+
+
+def worst_count(rate):
+    """Error of `half_waves` over its bound, between sticks of an impact followed through."""
+    trace = []
+    groups = [np.array([value]) for value in (1.0, 1.0, rate**-2.0, 1.0)]
+    stick_slip.solve(stick_slip.Impacts(*groups), trace)
+    start, *etas = (phase.eta for phase in trace if phase.sticks and phase.in_restitution)
+    start, etas = etas[16], etas[16:]
+    worst = 0.0
+    for number in np.linspace(1, len(etas) - 1, 20).astype(int):
+        phase = rate * float(etas[number][0])
+        if phase < 50:
+            break
+        error = abs(many_phases.half_waves(start, etas[number], np.array([rate]))[0] - number)
+        # The terms left out, and the rounding that the phases heap up.
+        worst = max(worst, error / (2e-12 * (1000 / phase) ** 4 + 1e-13 * rate))
+    return worst
+
+
+@pytest.mark.parametrize("rate", [200.0, 700.0, 3000.0])
+def test_half_waves_are_counted_without_following_them(rate):
+    assert worst_count(rate) < 1
+
+
+@pytest.mark.parametrize("left_out", ["excess_phase", "_excess_slope"])
+def test_a_count_without_the_excess_or_its_slope_would_be_seen(monkeypatch, left_out):
+    monkeypatch.setattr(many_phases, left_out, lambda middle, rate: 0.0 * (middle * rate))
+    assert worst_count(700.0) > 10
+
+
+def test_jump_agrees_with_the_phases(monkeypatch):
+    rates = np.geomspace(200, 1e4, 24)
+    groups = impacts(rates)
+    jumped, followed = lumped.rebound(*groups), plainly(monkeypatch, *groups)
+    scale = groups[2] / groups[3]  # of the velocity, zeta^2/e
+    assert (np.abs(jumped.velocity - followed.velocity) <= 1e-12 * rates * scale).all()
+    np.testing.assert_allclose(jumped.dissipation, followed.dissipation, rtol=1e-13)
+    np.testing.assert_array_equal(jumped.peak_friction, followed.peak_friction)
+    np.testing.assert_array_equal(jumped.regime, followed.regime)
+    assert (jumped.velocity != followed.velocity).any()  # it did jump
+
+
+@pytest.mark.parametrize(("e", "rate", "x"), [(1.0, 1310.0, 3.0), (0.5, 1350.0, 3.49)])
+def test_jump_against_40_digits(monkeypatch, e, rate, x):
+    zeta2 = (e / rate) ** 2 * 3.5
+    exact = high_precision.rebound(x, 3.5, zeta2, e)
+    bound = 1e-14 * rate * zeta2 / e  # rounding of the phase, 50 times
+    assert abs(float(lumped.rebound(x, 3.5, zeta2, e).velocity - exact.velocity)) < bound
+    true = many_phases.excess_phase
+    monkeypatch.setattr(many_phases, "excess_phase", lambda *a: true(*a) * (1 + 1e-6))
+    assert abs(float(lumped.rebound(x, 3.5, zeta2, e).velocity - exact.velocity)) > bound
+
+
+def test_number_of_steps_does_not_depend_on_the_number_of_phases(monkeypatch):
+    searched = []
+    true = slip_onset.in_restitution
+    monkeypatch.setattr(
+        slip_onset, "in_restitution", lambda *a: searched.append(a[0].size) or true(*a)
+    )
+    for zeta2 in (1e-6, 1e-8, 1e-12, 1e-30, 1e-300, 5e-324):
+        searched.clear()
+        result = lumped.rebound(2.0, 3.5, zeta2, 0.9)
+        assert result.regime == Regime.MULTIPLE
+        assert len(searched) < 450
+
+
+@pytest.mark.parametrize("zeta2", [1e-4, 1e-6, 1e-8, 1e-12, 1e-100, 1e-300, 5e-324])
+def test_vanishing_compliance_tends_to_the_rigid_contact(zeta2):
+    x = np.array([0.0, 5e-324, 1e-300, 1e-4, 0.3, 1.0, 3.4, 3.5, 3.6, 5.0, 6.6, 6.7, 9.0, 1e300])
+    e = np.array([1.0, 0.9, 1e-3])[:, None]
+    found, limit = lumped.rebound(x, 3.5, zeta2, e), rigid.rebound(x, 3.5, restitution=e)
+    gap = np.maximum(np.sqrt(3.5 * zeta2), 1e-150)
+    assert (np.abs(found.velocity - limit.velocity) <= gap + 1e-15 * limit.velocity).all()
+    # Where the first slip ends; not where x is as small as zeta^2 and stick comes first.
+    slides = x > zeta2
+    close = gap * 4 + 1e-14 * limit.dissipation
+    assert (np.abs(found.dissipation - limit.dissipation) <= close)[:, slides].all()
+    assert (np.abs(found.velocity) <= x).all()
+
+
+def test_a_contact_of_too_many_phases_is_not_followed():
+    assert len(lumped.history(1.0, 3.5, 1e-5, 1.0).events) > 250
+    for follow in (lumped.history, lumped.friction_work):
+        with pytest.raises(InputError, match="stiffness_ratio = 1e-12: .* 100000 where each"):
+            follow(1.0, 3.5, 1e-12, 1.0)
