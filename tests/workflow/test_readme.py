@@ -42,6 +42,15 @@ def test_ladder_example_runs_as_printed():
     assert max(names["ball"].error_bound) <= 1e-10
 
 
+def test_noncollinear_example_gives_what_it_says():
+    names, block = {}, blocks("python")[3]
+    exec(compile(block, "README.md", "exec"), names)
+    tangential, normal, jams = re.search(r"m/s: (\S+), (\S+), (\w+)", block).groups()
+    result = names["result"]
+    assert (f"{result.tangential:.2f}", f"{result.normal:.2f}") == (tangential, normal)
+    assert str(result.jams) == jams
+
+
 def test_commands_run_as_printed(tmp_path):
     shown = [
         line for block in blocks("sh") for line in block.splitlines() if "-m planarimpact" in line
@@ -101,6 +110,18 @@ def test_distance_of_lumped_model_and_continuum_is_as_printed():
             gap = lumped.rebound(x, 3.5, zeta2).velocity - exact
             found = np.sqrt(np.mean(gap**2)), np.max(np.abs(gap))
             assert [f"{g:.3f}" for g in found] == [f"{float(c):.3f}" for c in row[column:][:2]]
+
+
+def test_stability_is_as_printed(first_run):
+    impacts = csv_tables.read(first_run[0] / "results/curves/stability.csv")["impacts"]
+    section = README.split("## How stable is it?")[1].split("##")[0]
+    count, phases, lost = (
+        int(re.search(words, section)[1])
+        for words in (r"(\d+) impacts", r"(\d+) phases", r"more than (\d+) digit")
+    )
+    assert count == impacts["phases [1]"].size
+    assert phases == round(impacts["phases [1]"].max(), -2)
+    assert lost - 1 < impacts["digits_lost [1]"].max() <= lost
 
 
 def test_documented_differences_are_counted(first_run):

@@ -7,7 +7,7 @@ import subprocess
 import pytest
 
 FIGURES = [f"fig{number}" for number in range(2, 10)]
-FIGURES += ["micro_slip", "convergence", "trade", "superball"]
+FIGURES += ["micro_slip", "convergence", "trade", "superball", "stability", "rod"]
 
 # The figure that takes longest, of which tests of something else need not see everything.
 SHORT = (
@@ -33,7 +33,7 @@ def test_a_good_run_passes_and_leaves_everything(first_run):
         ):
             assert (project / path).stat().st_size > 100
         assert (project / f"results/benchmarks/draw_{figure}.tsv").exists()
-    for table in ("trade", "which_model"):
+    for table in ("trade", "which_model", "stability"):
         assert (project / f"results/{table}.csv").stat().st_size > 100
     found = verdicts(project)
     assert "diverges" not in found.values()
@@ -89,6 +89,7 @@ def test_every_rule_has_log_benchmark_and_message(fresh):
 ALL = [f"Solving {figure}" for figure in FIGURES]
 LEDGER, PAGE = "Verifying the paper", "Writing the ledger's page"
 TABLES = "Tabulating error against time"
+DECADES = "Tabulating digits by decades"
 SCENES = [f"Solving the scene {s}" for s in ("shot_peening", "billiard_cushion", "superball")]
 SCENES += ["Solving superball"]
 ALL_MODELS = ["Solving trade", *SCENES]
@@ -104,7 +105,7 @@ AS_PRINTED = [f"Solving fig{number}" for number in (5, 6, 7, 9)]
             "src/planarimpact/rigid.py",
             [*(f"Solving fig{number}" for number in (5, 7, 9)), *ALL_MODELS, LEDGER],
         ),
-        ("src/planarimpact/bodies.py", ["Solving fig8", *SCENES, LEDGER]),
+        ("src/planarimpact/bodies.py", ["Solving fig8", "Solving rod", *SCENES, LEDGER]),
         ("src/planarimpact/annuli.py", ["Solving convergence", *ALL_MODELS]),
         *(
             (f"src/planarimpact/{name}.py", ALL_MODELS)
@@ -129,6 +130,7 @@ AS_PRINTED = [f"Solving fig{number}" for number in (5, 6, 7, 9)]
         ("workflow/scripts/ledger_entries.py", [LEDGER]),
         ("workflow/scripts/closing.py", []),
         ("data/chung_ooi2011/rebound.csv", ["Reading the series of chung_ooi2011"]),
+        ("data/lumped_extremes/impacts.csv", ["Solving stability"]),
     ],
 )
 def test_an_edit_reruns_what_it_must_and_nothing_more(finished, path, expected):
@@ -138,7 +140,7 @@ def test_an_edit_reruns_what_it_must_and_nothing_more(finished, path, expected):
     jobs, counts = finished.planned()
     direct = [job for job, reason in jobs.items() if path in reason]
     assert sorted(direct) == sorted(expected), jobs
-    follow = {"Judging", "Gathering the verdicts", PAGE, TABLES}
+    follow = {"Judging", "Gathering the verdicts", PAGE, TABLES, DECADES}
     figures = {word for job in direct for word in job.split() if word in FIGURES} or {"fig5"}
     rest = set(jobs) - set(direct) - follow
     assert all(any(figure in job.split() for figure in figures) for job in rest), jobs
@@ -254,6 +256,7 @@ BAD_CONFIG = [
     ("figures={fig5: {tolerance: 0}}", "figures.fig5.tolerance: 0 is less than the minimum"),
     ("figures={convergence: {steps: [32, 33]}}", "figures.convergence.steps.1: 33 is not a mult"),
     ("comparisons={fig5-maw-rubber: {reference: maw1976/no}}", "'maw1976/no' is neither"),
+    ("figures={stability: {points: maw1976/slip_throughout_limit}}", "limit' is no series"),
     ("comparisons={fig5-maw-rubber: {tolerance: 3}}", "'tolerance' was unexpected"),
 ]
 

@@ -52,6 +52,7 @@ rule gate:
         ledger="results/ledger.csv",
         page="figures/ledger.html",
         trade=rules.trade.output,
+        stability=rules.stability.output,
         scenes=scene_tables,
         figures=rules.figures.input,
     output:

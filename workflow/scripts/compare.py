@@ -75,9 +75,11 @@ def _name(documented):
 
 
 def _distance(entry, known, curves, series_paths):
-    """Distance of one comparison from a series, or between two columns."""
+    """Distance of one comparison from a series, between two columns, or of one from zero."""
     if entry["metric"] == "balance":
-        return _balance(entry, curves)
+        return comparison.difference_distance(*_columns(entry["balance"], curves), BALANCE_SIGMA)
+    if entry["metric"] == "largest":
+        return comparison.difference_distance(*_columns([entry["largest"]], curves), 0.0, 1.0)
     source, name = entry["reference"].split("/")
     series = csv_tables.read(series_paths[source])[name]
     x, y = (reference_data.column_name(known[axis]) for axis in ("x", "y"))
@@ -129,16 +131,16 @@ def _landmark(entry, fact, curves):
     return comparison.fact_distance(found, fact), gap, words
 
 
-def _balance(entry, curves):
-    pairs = [
-        (columns[entry["balance"][0]], columns[entry["balance"][1]])
+def _columns(names, curves):
+    """Columns of all curves that have them all, one after the other."""
+    found = [
+        [columns[name] for name in names]
         for columns in curves.values()
-        if all(name in columns for name in entry["balance"])
+        if all(name in columns for name in names)
     ]
-    if not pairs:
-        raise ValueError(f"no curve has both columns {entry['balance']}")
-    left, right = (np.concatenate(side) for side in zip(*pairs, strict=True))
-    return comparison.difference_distance(left, right, BALANCE_SIGMA)
+    if not found:
+        raise ValueError(f"no curve has the columns {names}")
+    return [np.concatenate(same) for same in zip(*found, strict=True)]
 
 
 def _named(curves, name):

@@ -8,10 +8,11 @@ import reference_data
 SCRIPTS = Path(__file__).parent
 SRC = SCRIPTS.parents[1] / "src"
 FIGURES = [f"fig{number}" for number in range(2, 10)]
-FIGURES += ["micro_slip", "convergence", "trade", "superball"]
+FIGURES += ["micro_slip", "convergence", "trade", "superball", "stability", "rod"]
 TIMED = ("convergence", "trade")  # measure time: nothing may run beside them
-# Groups that play no part: mass, in force against deflection; a ball that has its own.
-WITHOUT = {"fig2": ["mass_ratio"], "superball": ["mass_ratio", "stiffness_ratio"]}
+# Groups that play no part: mass, in force against deflection; bodies or a table with their own.
+BOTH = ["mass_ratio", "stiffness_ratio"]
+WITHOUT = {"fig2": ["mass_ratio"], "superball": BOTH, "stability": BOTH, "rod": ["mass_ratio"]}
 
 
 class ConfigError(Exception):
@@ -41,7 +42,7 @@ def check_config(config, schema, inventory, ledger):
     except reference_data.SourceError as error:
         raise ConfigError(str(error)) from None
     for figure, settings in config["figures"].items():
-        for key in ("incidence", "angle"):
+        for key in ("incidence", "angle", "tilt"):
             _ascending(f"config: figures.{figure}.{key}", settings.get(key))
     experiment = config["figures"]["fig5"]["experiment"]
     if experiment not in inventory:
@@ -49,6 +50,9 @@ def check_config(config, schema, inventory, ledger):
             f"config: figures.fig5.experiment: '{experiment}' is not in data/; allowed are "
             + ", ".join(inventory)
         )
+    where, table = "config: figures.stability.points", config["figures"]["stability"]["points"]
+    if reference(inventory, table, where)[0] != "series":
+        raise ConfigError(f"{where}: '{table}' is no series")
     for scene in config["scenes"]:
         if not Path(f"data/scenes/{scene}.csv").is_file():
             raise ConfigError(f"config: scenes.{scene}: there is no data/scenes/{scene}.csv")
@@ -69,9 +73,10 @@ def _ascending(where, span):
 
 def _check_comparison(where, comparison, inventory):
     metric = comparison["metric"]
-    if metric == "balance":
-        if "balance" not in comparison:
-            raise ConfigError(f"{where}: metric balance needs `balance`, two columns")
+    columns = {"balance": "`balance`, two columns", "largest": "`largest`, a column"}
+    if metric in columns:
+        if metric not in comparison:
+            raise ConfigError(f"{where}: metric {metric} needs {columns[metric]}")
         return
     if "reference" not in comparison:
         raise ConfigError(f"{where}: metric {metric} needs `reference`")
@@ -155,7 +160,13 @@ def overlays(config, inventory, figure):
 
 
 def nodes_of(config, inventory, figure):
-    """Reference tables whose points the curves must pass through: `{path: column of x}`."""
+    """Reference tables whose points the curves must pass through: `{path: column of x}`.
+
+    A column None stands for the whole table, of the figure that is given one.
+    """
+    if "points" in config["figures"][figure]:
+        _, table = reference(inventory, config["figures"][figure]["points"])
+        return {table["path"]: None}
     exact = {
         c.get("reference")
         for c in comparisons(config, figure).values()

@@ -3,7 +3,6 @@
 import one_thread  # noqa: F401
 
 # isort: split
-import csv
 import importlib
 import traceback
 
@@ -14,11 +13,12 @@ import job
 def solve(figure, settings, nodes, output):
     """Write the curves of `figure`.
 
-    `nodes`, `{CSV of a reference table: its column}`, are points that curves must pass through.
+    `nodes`, `{CSV of a reference table: its column}`, are points that curves must pass through;
+    without a column it is the whole table, `points`.
     """
     try:
         if nodes:
-            settings = {**settings, "nodes": _read_nodes(nodes)}
+            settings = settings | _read_nodes(nodes)
         named = importlib.import_module(f"planarimpact.curves.{figure}").curves(**settings)
     except Exception as error:
         traceback.print_exc()
@@ -30,9 +30,13 @@ def solve(figure, settings, nodes, output):
 def _read_nodes(nodes):
     points = set()
     for path, column in nodes.items():
-        with open(path, newline="", encoding="utf-8") as file:
-            points |= {float(row[column]) for row in csv.DictReader(file)}
-    return sorted(points)
+        rows = csv_tables.read_rows(path)
+        if column is None:
+            names = {name.split(" [")[0]: name for name in rows[0]}
+            table = {short: [float(row[name]) for row in rows] for short, name in names.items()}
+            return {"points": table}
+        points |= {float(row[column]) for row in rows}
+    return {"nodes": sorted(points)}
 
 
 if "snakemake" in globals():

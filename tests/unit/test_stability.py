@@ -1,0 +1,134 @@
+"""The stability map: what counts as a correct digit, and impacts that fail."""
+
+import warnings
+
+import numpy as np
+import pytest
+import write_stability
+
+from planarimpact import lumped
+from planarimpact.curves import stability
+
+X = [0.0, 0.5, 2.0, 8.0]
+
+
+@pytest.fixture
+def points():
+    """Four impacts, with the solver's own answers taken as exact."""
+    exact = lumped.rebound(X)
+    size = len(X)
+    table = {"incidence": list(X), "mass_ratio": [3.5] * size, "stiffness_ratio": [1.21] * size}
+    table |= {"restitution": [1.0] * size, "phases": [1, 2, 3, 1]}
+    for name in stability.OUTPUTS:
+        table |= {name: getattr(exact, name).tolist(), f"condition_{name}": list(X)}
+    return table
+
+
+def lost(points):
+    return stability.curves(points, 10)["impacts"]["digits_lost [1]"]
+
+
+def test_equal_answers_lose_nothing(points):
+    found = stability.curves(points, 10)
+    assert found["impacts"]["digits_lost [1]"].tolist() == [0, 0, 0, 0]
+    assert found["impacts"]["digits_velocity [1]"].tolist() == [16, 16, 16, 16]
+    assert found["contacts"]["phases [1]"].tolist() == [2, 3]
+    assert found["contacts"]["energy_residual [1]"].max() < 1e-15
+
+
+def test_digits_are_lost_beyond_what_the_condition_allows(points):
+    points["velocity"][3] *= 1 + 1e-12
+    points["condition_velocity"][3] = 999.0
+    found = stability.curves(points, 10)["impacts"]
+    assert found["digits_velocity [1]"][3] == pytest.approx(12, abs=1e-3)
+    assert found["digits_allowed_velocity [1]"][3] == pytest.approx(52 * np.log10(2) - 3)
+    assert found["digits_lost [1]"][3] == pytest.approx(0.653, abs=1e-3)
+
+
+def test_a_few_of_the_smallest_numbers_are_no_error(points):
+    points["velocity"][0] = 50 * 5e-324
+    assert lost(points)[0] == 0
+    points["velocity"][0] = 1000 * 5e-324
+    assert lost(points)[0] > 0
+
+
+@pytest.mark.parametrize("how", ["raises", "warns", "gives NaN"])
+def test_one_impact_that_fails_has_no_digits_and_stops_no_other(points, how, monkeypatch):
+    rebound = lumped.rebound
+
+    def failing(incidence, *groups):
+        found = rebound(incidence, *groups)
+        if 2.0 in np.ravel(incidence):
+            if how == "raises":
+                raise ArithmeticError("oh")
+            if how == "warns":
+                warnings.warn("oh", RuntimeWarning, stacklevel=2)
+            if how == "gives NaN":
+                return found._replace(velocity=np.where(incidence == 2.0, np.nan, found.velocity))
+        return found
+
+    monkeypatch.setattr(lumped, "rebound", failing)
+    assert lost(points).tolist() == [0, 0, stability.DIGITS, 0]
+
+
+def test_a_contact_that_cannot_be_followed_counts_as_wrong(points, monkeypatch):
+    def failing(*group):
+        raise ArithmeticError("oh")
+
+    monkeypatch.setattr(lumped, "history", failing)
+    found = stability.curves(points, 10)["contacts"]
+    assert found["friction_excess [mu F2max]"].tolist() == [1, 1]
+    assert found["energy_residual [1]"].tolist() == [1, 1]
+
+
+@pytest.mark.parametrize(("friction", "excess"), [(-1.5, 0.5), (np.nan, 1.0)])
+def test_friction_beyond_its_limit_is_found_in_either_direction(
+    points, friction, excess, monkeypatch
+):
+    history = lumped.history
+
+    def wrong(*group, samples):
+        found = history(*group, samples)
+        peak = max(found.events, key=lambda event: event.normal)  # at maximum compression, N = 1
+        return found._replace(events=[peak._replace(friction=friction)])
+
+    monkeypatch.setattr(lumped, "history", wrong)
+    found = stability.curves(points, 10)["contacts"]
+    assert found["friction_excess [mu F2max]"] == pytest.approx([excess] * 2)
+
+
+@pytest.mark.parametrize(
+    ("x", "zeta2", "most_work"),
+    [
+        (2.0, 1.21, 2.0 * 2.0 / 7),  # all tangential energy
+        (900.0, 1e3, 2 * 900.0),  # friction at its limit over the whole contact
+    ],
+)
+def test_energy_is_compared_with_the_most_work_of_friction(x, zeta2, most_work, monkeypatch):
+    rebound = lumped.rebound
+    exact = rebound(x, 3.5, zeta2)
+    table = {"incidence": [x], "mass_ratio": [3.5], "stiffness_ratio": [zeta2]}
+    table |= {"restitution": [1.0], "phases": [2]}
+    for name in stability.OUTPUTS:
+        table |= {name: [getattr(exact, name)], f"condition_{name}": [0.0]}
+    wrong = exact._replace(dissipation=exact.dissipation + 1e-6 * most_work)
+    monkeypatch.setattr(lumped, "rebound", lambda *group: wrong)
+    found = stability.curves(table, 10)["contacts"]
+    assert found["energy_residual [1]"] == pytest.approx([1e-6])
+
+
+def test_decades(points):
+    impacts = stability.curves(points, 10)["impacts"]
+    impacts["digits_lost [1]"][2] = 1.26
+    rows = [
+        dict(zip(write_stability.COLUMNS, row, strict=True))
+        for row in write_stability.by_decade(impacts)
+    ]
+    spans = [
+        (row["from [unit of quantity]"], row["to [unit of quantity]"], row["impacts [1]"])
+        for row in rows
+        if row["quantity"] == "incidence [mu v2(0)]"
+    ]
+    assert spans == [("0", "0", 1), ("1e-1", "1e0", 1), ("1e0", "1e1", 2)]
+    assert [row["digits_lost_most [1]"] for row in rows][:3] == ["0.0", "0.0", "1.3"]
+    assert {row["quantity"] for row in rows} == set(write_stability.QUANTITIES)
