@@ -295,4 +295,5 @@ def _groups(arguments):
                 f" {LARGEST:g}"
             )
     ratio, beta, coupling, zeta2, mu = groups.values()
-    return v1, v2, coupling, 1 / b, e, kappa, Impacts(ratio, beta, coupling, zeta2, mu, e)
+    impacts = Impacts(np.arange(v1.size), ratio, beta, coupling, zeta2, mu, e)
+    return v1, v2, coupling, 1 / b, e, kappa, impacts

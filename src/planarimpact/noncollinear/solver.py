@@ -18,8 +18,9 @@ TIE = 1e-14
 
 
 class Impacts(NamedTuple):
-    """Impacts in the units of `phases`, arrays of shape (n,); |v2(0)| = 1."""
+    """Impacts in the units of `phases`, arrays of shape (n,); |v2(0)| = 1. Each has a number."""
 
+    number: np.ndarray
     velocity: np.ndarray
     mass_ratio: np.ndarray
     coupling: np.ndarray
@@ -96,9 +97,10 @@ def solve(impacts, trace=None):
 
 def _too_long(impacts, lane):
     """What to raise for a contact that goes on and on."""
-    named = {name: float(field[lane]) for name, field in impacts._asdict().items()}
+    number, *groups = (field[lane] for field in impacts)
+    named = dict(zip(Impacts._fields[1:], map(float, groups), strict=True))
     return ConvergenceError(
-        f"the contact of impact {lane} has too many phases or oscillations; with V = v1/v2 and C ="
+        f"the contact of impact {number} has too many phases or oscillations; with V = v1/v2, C ="
         " m2 c they are many where omega/Omega is large, where C^2 is near m2/m1, or where friction"
         f" holds the contact closed (mu |C| > 1) while it rattles (e << 1): {named}"
     )
