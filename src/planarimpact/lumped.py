@@ -53,8 +53,10 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
     Notes
     -----
     Velocity, peak friction and dissipation are within a hundred times what rounding of the four
-    arguments does to them, in every regime, thresholds included. The time does not depend on
-    the number of phases, which grows as omega/Omega: see `planarimpact.many_phases`.
+    arguments does to them, in every regime, thresholds included; excepted is a dissipation below
+    1e-16 of the energy, where T and N fall together (zeta^2 next to beta, e = 1). The time does
+    not depend on the number of phases, which grows as omega/Omega: see
+    `planarimpact.many_phases`.
     Stronge's printed equations differ in two places: the limit of slip throughout (see
     `slip_throughout_limit`) and the direction of the last slip, which at small e is the
     incident one.
