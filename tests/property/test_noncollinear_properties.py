@@ -65,7 +65,8 @@ def test_the_mirror_image_is_solved_alike(groups):
     turned = other._replace(
         tangential=-other.tangential, tangential_impulse=-other.tangential_impulse
     )
-    scale = 1 + abs(v1) + mass.tangential
+    # Impulses follow from velocities by a matrix that a large coupling makes nearly singular.
+    scale = (1 + abs(v1) + mass.tangential) / (1 - groups[2] ** 2)
     np.testing.assert_allclose(turned[:9], one[:9], rtol=1e-12, atol=1e-13 * scale)
     assert other.regime == one.regime and other.jams == one.jams
 
