@@ -19,9 +19,10 @@ from planarimpact import checks
 from planarimpact.checks import InputError, checked
 from planarimpact.noncollinear.configuration import (
     InverseMass,
-    checked_inverse_mass,
+    checked_impact,
     combined,
     contact_velocity,
+    fields_of,
     inverse_mass,
     motion_after,
     refuse_overflow,
@@ -247,11 +248,11 @@ def kinetic_energy(tangential, normal, inverse_mass):
     >>> float(kinetic_energy(3.0, 2.0, InverseMass(0.5, 0.0, 1.0)))
     11.0
     """
-    mass = checked_inverse_mass(inverse_mass)
+    mass = fields_of(inverse_mass)
     v1, v2, a, c, b = checks.broadcast(
         tangential=checked("tangential", tangential, "finite numbers"),
         normal=checked("normal", normal, "finite numbers"),
-        **{f"inverse_mass.{name}": field for name, field in mass._asdict().items()},
+        **mass,
     )
     with np.errstate(over="ignore"):
         energy = (v1 * v1 / a + (v2 + v1 * (c / a)) ** 2 / (b - c * (c / a))) / 2
@@ -260,40 +261,32 @@ def kinetic_energy(tangential, normal, inverse_mass):
 
 
 def _checked(tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness):
-    mass = checked_inverse_mass(inverse_mass)
-    return checks.broadcast(
-        tangential=checked("tangential", tangential, "finite numbers"),
-        normal=checked("normal", normal, "finite numbers above 0 (approach)", 0, open_low=True),
-        friction=checked("friction", friction, "finite numbers from 0", 0),
-        restitution=checks.restitution(restitution),
+    return checked_impact(
+        tangential,
+        normal,
+        inverse_mass,
+        friction,
+        restitution,
         stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
         stiffness=checked("stiffness", stiffness, "finite numbers above 0", 0, open_low=True),
-        **{f"inverse_mass.{name}": field for name, field in mass._asdict().items()},
     )
 
 
 def _groups(arguments):
     """Flat arrays: v1, v2, coupling m2 c, m2, e, kappa, and the impacts in the solver's units."""
-    v1, v2, mu, e, zeta2, kappa, a, c, b = (field.reshape(-1) for field in arguments)
+    v1, v2, mu, e, zeta2, kappa, a, c, b = arguments
     with np.errstate(over="ignore", under="ignore"):
         groups = {
-            "tangential/normal": v1 / v2,
-            "inverse_mass.tangential/normal": a / b,
-            "inverse_mass.coupling/normal": c / b,
-            "stiffness_ratio": zeta2,
-            "friction": mu,
+            "tangential/normal": (v1 / v2, -LARGEST),
+            "inverse_mass.tangential/normal": (a / b, 1 / LARGEST),
+            "inverse_mass.coupling/normal": (c / b, -LARGEST),
+            "stiffness_ratio": (zeta2, 1 / LARGEST),
+            "friction": (mu, -LARGEST),
         }
-    for name, group in groups.items():
-        positive = name in ("inverse_mass.tangential/normal", "stiffness_ratio")
-        good = np.abs(group) <= LARGEST
-        if positive:
-            good &= group >= 1 / LARGEST
-        if not good.all():
-            least = f"{1 / LARGEST:g}" if positive else f"{-LARGEST:g}"
-            raise InputError(
-                f"{name} = {float(group[~good][0])!r}: allowed are numbers from {least} to"
-                f" {LARGEST:g}"
-            )
-    ratio, beta, coupling, zeta2, mu = groups.values()
+    ratio, beta, coupling, zeta2, mu = (
+        checked(name, group, f"numbers from {low:g} to {LARGEST:g}", low, LARGEST).reshape(-1)
+        for name, (group, low) in groups.items()
+    )
+    v1, v2, e, kappa, b = (field.reshape(-1) for field in (v1, v2, e, kappa, b))
     impacts = Impacts(np.arange(v1.size), ratio, beta, coupling, zeta2, mu, e)
     return v1, v2, coupling, 1 / b, e, kappa, impacts

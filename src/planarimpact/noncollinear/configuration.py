@@ -108,6 +108,25 @@ def checked_inverse_mass(value):
     return InverseMass(tangential[()], coupling[()], normal[()])
 
 
+def checked_impact(tangential, normal, inverse_mass, friction, restitution, **others):
+    """Check an impact, and broadcast it with checked `others`, the inverse mass last."""
+    mass = fields_of(inverse_mass)
+    return checks.broadcast(
+        tangential=_finite("tangential", tangential),
+        normal=checked("normal", normal, "finite numbers above 0 (approach)", 0, open_low=True),
+        friction=checked("friction", friction, "finite numbers from 0", 0),
+        restitution=checks.restitution(restitution),
+        **others,
+        **mass,
+    )
+
+
+def fields_of(inverse_mass):
+    """Checked fields of an inverse mass, keyed by the names that a refusal shows."""
+    mass = checked_inverse_mass(inverse_mass)
+    return {f"inverse_mass.{name}": field for name, field in mass._asdict().items()}
+
+
 def contact_velocity(motion, offset, depth):
     """Velocity (tangential, normal) [m/s] of the contact point of a body.
 

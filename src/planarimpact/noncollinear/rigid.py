@@ -16,9 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact import checks
-from planarimpact.checks import InputError, checked
-from planarimpact.noncollinear.configuration import checked_inverse_mass, refuse_overflow
+from planarimpact.checks import InputError
+from planarimpact.noncollinear.configuration import checked_impact, refuse_overflow
 
 
 class Law(StrEnum):
@@ -93,14 +92,7 @@ def rebound(tangential, normal, inverse_mass, friction, restitution=1.0, law=Law
     """
     if not isinstance(law, str) or law not in list(Law):
         raise InputError(f"law = {law!r}: allowed are {', '.join(Law)}")
-    mass = checked_inverse_mass(inverse_mass)
-    v1, v2, mu, e, a, c, b = checks.broadcast(
-        tangential=checked("tangential", tangential, "finite numbers"),
-        normal=checked("normal", normal, "finite numbers above 0 (approach)", 0, open_low=True),
-        friction=checked("friction", friction, "finite numbers from 0", 0),
-        restitution=checks.restitution(restitution),
-        **{f"inverse_mass.{name}": field for name, field in mass._asdict().items()},
-    )
+    v1, v2, mu, e, a, c, b = checked_impact(tangential, normal, inverse_mass, friction, restitution)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):
         *fields, jams = _rebound(v1 / v2, mu, e, a / b, c / b, Law(law))
         units = v2, v2, v2 / b, v2 / b
