@@ -38,4 +38,6 @@ onsuccess:
 
 
 onerror:
-    print(closing.words(STARTED))
+    print(closing.words(STARTED, stopped=True))
+    # What an earlier run passed need not hold for what this one has left.
+    Path("results/PASSED").unlink(missing_ok=True)

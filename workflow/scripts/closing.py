@@ -1,4 +1,4 @@
-"""What a run prints last: the tables that it made, and whether it was judged."""
+"""What a run prints last: the tables that it made, whether it was judged, and what to do next."""
 
 from pathlib import Path
 
@@ -7,15 +7,27 @@ import ledger_table
 import verdict_table
 
 VERDICTS, LEDGER = "results/verdicts.csv", "results/ledger.csv"
+REPORT = "figures/report.html"
+NEXT = [
+    f"Look:     {REPORT}, open it in a browser; everything above, with its reasons",
+    "Play:     figures/explorer.html",
+    "Change:   workflow/config.yaml, and run again: only what depends on it is redone",
+]
+STOPPED = [
+    "A job stopped. What it said is above, and in results/logs/. Mend it and type the same command",
+    "again: finished work is kept. README.md, Troubleshooting, has the usual causes.",
+]
 
 
-def words(started):
+def words(started, stopped=False):
     """The end of a run that began at the time `started`; older tables would mislead.
 
     Parameters
     ----------
     started : float
         Seconds since the epoch.
+    stopped : bool, optional
+        A job failed, or the run was interrupted.
     """
     judged = _ran("gate", started)
     parts, failed = [], []
@@ -29,12 +41,22 @@ def words(started):
         failed.append(("entries of the ledger that no longer hold", ledger_table.failing(rows)))
     bad = ", ".join(f"{len(rows)} {what}" for what, rows in failed if rows)
     if bad:
-        parts.append(f"FAILED: {bad}. All columns: {VERDICTS}, {LEDGER}")
+        parts += [f"FAILED: {bad}. All columns: {VERDICTS}, {LEDGER}", *_after_a_failure(judged)]
     elif judged:
-        parts.append(f"PASSED. All columns: {VERDICTS}, {LEDGER}; pictures: figures/")
+        parts += [f"PASSED. All columns: {VERDICTS}, {LEDGER}; pictures: figures/", *NEXT]
     else:
         parts.append("No verdict in this run. Pictures: figures/")
+        parts += STOPPED if stopped else []
     return "\n" + "\n".join(parts) + "\n"
+
+
+def _after_a_failure(judged):
+    if not judged:
+        return STOPPED
+    return [
+        f"Why, row by row:  {REPORT}, open it in a browser",
+        "On purpose? To draw without being judged:  snakemake --cores 2 figures",
+    ]
 
 
 def _ran(rule, started):
