@@ -4,8 +4,9 @@
 `continuum` and `annuli` solve the elastic contact with micro-slip by two independent methods.
 `laws` and `timestep` are what others use; `ladder` has every model under one call, `response`
 compiles any of them, `scene` solves tables of impacts. `bodies` turns physical bodies into the
-groups that they all take. `printed` holds the paper's formulas as printed, for verification, and
-`ledger` checks what is right and wrong in them.
+groups that they all take; `noncollinear` has bodies that strike off their centre. `printed` holds
+the paper's formulas as printed, for verification, and `ledger` checks what is right and wrong in
+them.
 """
 
 from planarimpact.checks import ConvergenceError, InputError

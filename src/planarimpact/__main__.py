@@ -6,11 +6,14 @@ import io
 import json
 import os
 import sys
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from planarimpact import bodies, checks, continuum, ladder, lumped, response, whole_files
-from planarimpact.results import Regime
+from planarimpact.arrays import ArrayLike
+from planarimpact.results import ContinuumHistory, History, Regime
 
 WORDS = """
 What happens when a rough, elastic body strikes a surface at an angle?
@@ -45,7 +48,7 @@ GROUPS = {
 }
 
 
-def main(arguments=None):
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; returns the exit status: 0, or 2 for what cannot be done, said in a line.
 
     Examples
@@ -73,7 +76,7 @@ def main(arguments=None):
     return 0
 
 
-def _rebound(options):
+def _rebound(options: argparse.Namespace) -> None:
     x = options.incidence
     if options.angle is None:
         _refuse_given(options, ["friction"], "an incidence has it in it")
@@ -91,8 +94,9 @@ def _rebound(options):
     _print(columns, options)
 
 
-def _history(options):
+def _history(options: argparse.Namespace) -> None:
     groups = _groups(options)
+    found: History | ContinuumHistory
     if _model(options) == "continuum":
         _refuse_given(options, ["samples"], "the continuum has a tolerance instead")
         checks.elastic(groups.pop("restitution", 1.0))
@@ -106,7 +110,7 @@ def _history(options):
     _print(columns, options)
 
 
-def _compile(options):
+def _compile(options: argparse.Namespace) -> None:
     settings = _settings(options)
     if "tolerance" in settings:
         raise checks.InputError("--set tolerance: a response has one tolerance, --tolerance")
@@ -121,7 +125,7 @@ def _compile(options):
     print(f"{options.output}: {built}")
 
 
-def _scene(options):
+def _scene(options: argparse.Namespace) -> None:
     try:
         from planarimpact.scene import files  # here, as pandas takes its time
     except ImportError as error:
@@ -137,7 +141,7 @@ def _scene(options):
         print(solver.explain())
 
 
-def _models(options):
+def _models(options: argparse.Namespace) -> None:
     columns = {"model": list(ladder.MODELS)}
     models = ladder.MODELS.values()
     columns["cost"] = [model.cost for model in models]
@@ -150,17 +154,17 @@ def _models(options):
     _print(columns, options)
 
 
-def _model(options):
+def _model(options: argparse.Namespace) -> str:
     return options.model or "lumped"
 
 
-def _groups(options):
+def _groups(options: argparse.Namespace) -> dict[str, Any]:
     """Groups that were given; models have defaults for the others."""
     given = {name: getattr(options, name) for name in GROUPS}
     return {name: value for name, value in given.items() if value is not None}
 
 
-def _refuse_given(options, names, why):
+def _refuse_given(options: argparse.Namespace, names: list[str], why: str) -> None:
     """Refuse options that would be ignored."""
     for name in names:
         if getattr(options, name) not in (None, []):
@@ -168,7 +172,7 @@ def _refuse_given(options, names, why):
             raise checks.InputError(f"{option}: it does not apply, {why}")
 
 
-def _settings(options):
+def _settings(options: argparse.Namespace) -> dict[str, float]:
     """Settings of the model that were given, `NAME=NUMBER`."""
     settings = {}
     for text in options.setting:
@@ -183,7 +187,7 @@ def _settings(options):
     return settings
 
 
-def _print(columns, options):
+def _print(columns: Mapping[str, ArrayLike], options: argparse.Namespace) -> None:
     """Columns of equal length as CSV or JSON, to a file whole or not at all, or to the terminal."""
     plain = {name: np.asarray(values).tolist() for name, values in columns.items()}
     if options.format == "json":
@@ -202,7 +206,7 @@ def _print(columns, options):
         partial.write_text(text, encoding="utf-8")
 
 
-def _parser():
+def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m planarimpact", description=WORDS)
     commands = parser.add_subparsers(required=True, metavar="command")
 
@@ -281,7 +285,7 @@ def _parser():
     return parser
 
 
-def _add_model(parser, names, settings=True):
+def _add_model(parser: argparse.ArgumentParser, names: list[str], settings: bool = True) -> None:
     parser.add_argument("--model", choices=names, help="[lumped]")
     for name, (value, words) in GROUPS.items():
         option = "--" + name.replace("_", "-")
@@ -297,7 +301,7 @@ def _add_model(parser, names, settings=True):
         )
 
 
-def _add_output(parser):
+def _add_output(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--format", choices=["csv", "json"], default="csv", help="[%(default)s]")
     parser.add_argument("--output", metavar="FILE", help="instead of the terminal")
 

@@ -18,6 +18,7 @@ from scipy.special import beta as beta_function
 from scipy.special import betaincinv
 
 from planarimpact import checks
+from planarimpact.arrays import Array, ArrayLike, Integers
 from planarimpact.results import Rebound, Regime
 
 CELLS = 2**18  # entries of the systems of equations solved together: bounds the memory
@@ -32,8 +33,14 @@ LEAST, LARGEST = 1e-100, 1e100
 
 
 def rebound(
-    incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, circles=32, steps=512
-):
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+    *,
+    circles: int = 32,
+    steps: int = 512,
+) -> Rebound:
     """State at separation; the groups broadcast.
 
     Parameters
@@ -83,13 +90,13 @@ def rebound(
     together = max(1, CELLS // circles**2)
     cuts = range(together, x.size, together)
     parts = [
-        _impacts(*groups, circles, steps)
+        _impacts(*groups, circles=circles, steps=steps)
         for groups in zip(*(np.split(a, cuts) for a in (x, beta, zeta2)), strict=True)
     ]
     return Rebound.of(signed, *map(np.concatenate, zip(*parts, strict=True)))
 
 
-def friction(radius, displacement, circles=32):
+def friction(radius: ArrayLike, displacement: ArrayLike, circles: int = 32) -> Array:
     """Tangential force along a given path of contact radius and displacement (quasi-static).
 
     Parameters
@@ -125,7 +132,7 @@ def friction(radius, displacement, circles=32):
     return np.array([contact.move(a, u)[0] for a, u in zip(radius, travel[:, None], strict=True)])
 
 
-def _checked_circles(circles):
+def _checked_circles(circles: int) -> int:
     circles = checks.count("circles", circles, 1)
     if circles > MOST_CIRCLES:
         raise checks.InputError(
@@ -134,12 +141,15 @@ def _checked_circles(circles):
     return circles
 
 
-def _impacts(x, beta, zeta2, circles, steps):
+def _impacts(
+    x: Array, beta: Array, zeta2: Array, *, circles: int, steps: int
+) -> tuple[Array, Array, Array, Integers, Integers]:
     """Velocity, impulse, peak friction, regime and reversals of impacts solved together."""
     radius, step = _contact_radius(steps)
     contact = _Contact(x.size, circles)
     force, impulse, last_sign, reversals, gross_slips, peak = np.zeros((6, x.size))
-    slipped = starts_in_slip = None
+    started = False
+    starts_in_slip, slipped = np.zeros((2, x.size), bool)
     kick = 1.25 * step  # F2max = (5/4) m2 v2(0)^2/d_max
     with np.errstate(over="ignore"):
         start = np.clip(x / zeta2, LEAST, LARGEST)
@@ -155,10 +165,10 @@ def _impacts(x, beta, zeta2, circles, steps):
         last_sign = sign
         slips = (contact.slip != 0).all(axis=0)
         # The first few annuli are too coarse to tell how the contact starts.
-        if starts_in_slip is not None:
+        if started:
             gross_slips += slips & ~slipped
         elif len(contact.slip) > circles / 8:
-            starts_in_slip = slips
+            started, starts_in_slip = True, slips
         slipped = slips
     impulse += kick / 2 * force  # of the last step, at whose end there is no force any more
     usual = np.where(starts_in_slip, Regime.SLIP_STICK_SLIP, Regime.STICK_SLIP)
@@ -173,7 +183,7 @@ def _impacts(x, beta, zeta2, circles, steps):
     return velocity, impulse, peak, regime, reversals.astype(np.int64) * (x > 0)
 
 
-def _contact_radius(steps):
+def _contact_radius(steps: int) -> tuple[Array, float]:
     """Radius at the instants between equal steps of a Hertz contact, and the step in time.
 
     With d^(5/2) = y, time is an incomplete beta function of y: t = (2/5) B(2/5, 1/2; y).
@@ -187,13 +197,13 @@ def _contact_radius(steps):
 class _Contact:
     """Tractions of many contacts that share their normal motion."""
 
-    def __init__(self, contacts, circles):
+    def __init__(self, contacts: int, circles: int) -> None:
         self._fixed = np.arange(1, circles + 1) / circles
         self._circles = np.ones(1)  # radii of the elliptic distributions, the edge last
         self._strength = np.zeros((1, contacts))  # of each distribution at its centre
         self.slip = np.zeros((0, contacts), dtype=np.int8)  # direction in each annulus, 0 stick
 
-    def move(self, edge, travel):
+    def move(self, edge: float, travel: Array) -> Array:
         """Bring the edge to a radius and the bodies on by `travel`; return tangential forces."""
         inside = self._fixed[self._fixed < edge * (1 - 1e-9)]
         circles = np.append(inside, edge)
@@ -207,7 +217,7 @@ class _Contact:
         self._circles, self._strength = circles, shape @ traction
         return 2 / 3 * np.pi * circles**2 @ self._strength
 
-    def _try(self, influence, goal, limit):
+    def _try(self, influence: Array, goal: Array, limit: Array) -> Array:
         """Tractions that fit: stuck annuli reach their displacement, others slip, none exceeds."""
         annuli, contacts = goal.shape
         # Annuli are counted from within: those that were there keep their state.
@@ -236,7 +246,7 @@ class _Contact:
         )
 
 
-def _displacement(radius, circles):
+def _displacement(radius: Array, circles: Array) -> Array:
     """Surface displacement at each radius for unit elliptic traction over each circle.
 
     Johnson, Contact Mechanics, Eqs 3.42: inside a circle of radius a it is proportional to

@@ -9,9 +9,10 @@ times the approach.
 import numpy as np
 
 from planarimpact import checks
+from planarimpact.arrays import Array, ArrayLike
 
 
-def friction(displacement):
+def friction(displacement: ArrayLike) -> Array:
     """Tangential force of a contact that is pushed sideways for the first time.
 
     Parameters
@@ -38,7 +39,7 @@ def friction(displacement):
     return np.copysign(_loading(np.minimum(np.abs(u), 1.0)), u)[()]
 
 
-def unloading(displacement, turned_at):
+def unloading(displacement: ArrayLike, turned_at: ArrayLike) -> Array:
     """Tangential force on the way back (Mindlin & Deresiewicz 1953).
 
     Parameters
@@ -80,7 +81,7 @@ def unloading(displacement, turned_at):
     return (_loading(top) - 2 * _loading((top - u) / 2))[()]
 
 
-def stick_radius(force):
+def stick_radius(force: ArrayLike) -> Array:
     """Radius inside which the contact sticks, at a force of first loading.
 
     Parameters
@@ -107,7 +108,7 @@ def stick_radius(force):
     return np.cbrt(1 - np.abs(force))[()]
 
 
-def _loading(displacement):
+def _loading(displacement: Array) -> Array:
     """1 - (1 - u)^(3/2) without cancellation at small u."""
     with np.errstate(divide="ignore"):  # the logarithm of 0 where all of the contact slips
         return -np.expm1(1.5 * np.log1p(-displacement))

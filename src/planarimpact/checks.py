@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 
+from planarimpact.arrays import Array, ArrayLike
+
 # Twice as much can still be represented.
 LARGEST = 8e307
 
@@ -16,7 +18,14 @@ class ConvergenceError(ArithmeticError):
     """A numerical method that did not reach what was asked of it; says how far it came."""
 
 
-def checked(name, value, allowed, low=-math.inf, high=math.inf, open_low=False):
+def checked(
+    name: str,
+    value: ArrayLike,
+    allowed: str,
+    low: float = -math.inf,
+    high: float = math.inf,
+    open_low: bool = False,
+) -> Array:
     """Return `value` as float64, or refuse it.
 
     Parameters
@@ -65,30 +74,30 @@ def checked(name, value, allowed, low=-math.inf, high=math.inf, open_low=False):
     return numbers
 
 
-def incidence(value):
+def incidence(value: ArrayLike) -> Array:
     """Check an incidence x = v1(0)/(mu v2(0)): any number whose work of friction is finite."""
     rule = "finite numbers from -8e307 to 8e307 (the work of friction is up to twice as large)"
     return checked("incidence", value, rule, -LARGEST, LARGEST)
 
 
-def mass_ratio(value):
+def mass_ratio(value: ArrayLike) -> Array:
     """Check beta = m2/m1 >= 1: a free rigid body has beta = 1 + (x2/k)^2."""
     rule = "finite numbers from 1 to 8e307 (a free body has 1 + (x2/k)^2)"
     return checked("mass_ratio", value, rule, 1, LARGEST)
 
 
-def stiffness_ratio(value):
+def stiffness_ratio(value: ArrayLike) -> Array:
     """Check zeta^2 > 0; its limit 0, no tangential compliance, is `planarimpact.rigid`."""
     rule = "finite numbers above 0 (for no tangential compliance use planarimpact.rigid)"
     return checked("stiffness_ratio", value, rule, 0, open_low=True)
 
 
-def restitution(value):
+def restitution(value: ArrayLike) -> Array:
     """Check the energetic coefficient of restitution, 0 <= e <= 1."""
     return checked("restitution", value, "numbers from 0 to 1", 0, 1)
 
 
-def elastic(value):
+def elastic(value: ArrayLike) -> Array:
     """Check the restitution of a contact that is elastic whatever happens: e = 1."""
     return checked("restitution", value, "numbers equal to 1, as this contact is elastic", 1, 1)
 
@@ -102,7 +111,7 @@ RULES = {
 }
 
 
-def impact(*values):
+def impact(*values: ArrayLike) -> tuple[Array, ...]:
     """Check and broadcast the four groups of an impact, in the order that every model has.
 
     Parameters
@@ -129,7 +138,7 @@ def impact(*values):
     return broadcast(**{name: RULES[name](value) for name, value in named})
 
 
-def elastic_impact(*values):
+def elastic_impact(*values: ArrayLike) -> tuple[Array, ...]:
     """Check them as `impact` does for an elastic contact; e must be 1 and is left out.
 
     Examples
@@ -141,7 +150,7 @@ def elastic_impact(*values):
     return impact(*values)[:-1]
 
 
-def single(name, value):
+def single(name: str, value: Array) -> float:
     """Return a checked array that holds one number as float, or refuse it.
 
     Examples
@@ -156,7 +165,25 @@ def single(name, value):
     return float(value)
 
 
-def count(name, value, least):
+def number(
+    name: str,
+    value: ArrayLike,
+    allowed: str,
+    low: float = -math.inf,
+    high: float = math.inf,
+    open_low: bool = False,
+) -> float:
+    """Check one number as `checked` does arrays.
+
+    Examples
+    --------
+    >>> number("tolerance", 1, "numbers above 0", 0, open_low=True)
+    1.0
+    """
+    return single(name, checked(name, value, allowed, low, high, open_low))
+
+
+def count(name: str, value: int, least: int) -> int:
     """Return a number of steps, circles or samples as int: an integer from `least`.
 
     Examples
@@ -171,7 +198,7 @@ def count(name, value, least):
     return int(value)
 
 
-def explicit_steps(steps, needed, least, most):
+def explicit_steps(steps: int, needed: ArrayLike, least: int, most: int) -> int:
     """Return a number of explicit steps as int, if the tangential oscillation is stable with it.
 
     Parameters
@@ -196,21 +223,21 @@ def explicit_steps(steps, needed, least, most):
 fewer explicit steps the tangential oscillation is unstable)
     """
     steps = count("steps", steps, least)
-    needed = np.max(needed, initial=least)
-    if not needed <= most:
+    fewest = float(np.max(needed, initial=least))
+    if not fewest <= most:
         raise InputError(
-            f"steps = {steps}: for this mass_ratio and stiffness_ratio {needed:.3g} explicit steps "
+            f"steps = {steps}: for this mass_ratio and stiffness_ratio {fewest:.3g} explicit steps "
             f"are needed, or the tangential oscillation is unstable; allowed are up to {most}"
         )
-    if not needed <= steps <= most:
+    if not fewest <= steps <= most:
         raise InputError(
-            f"steps = {steps}: allowed are integers from {math.ceil(needed)} to {most} (with fewer "
+            f"steps = {steps}: allowed are integers from {math.ceil(fewest)} to {most} (with fewer "
             "explicit steps the tangential oscillation is unstable)"
         )
     return steps
 
 
-def path(radius, displacement):
+def path(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, ...]:
     """Check a path of contact: radii in a_max and displacements, as many of one as of the other.
 
     Examples
@@ -227,7 +254,7 @@ def path(radius, displacement):
     return points
 
 
-def broadcast(**arguments):
+def broadcast(**arguments: Array) -> tuple[Array, ...]:
     """Broadcast checked arguments against each other, or say which shapes do not fit.
 
     Examples

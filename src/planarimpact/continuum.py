@@ -13,6 +13,7 @@ it impacts that slide throughout.
 import numpy as np
 
 from planarimpact import checks, hertz, lumped, tangential_motion
+from planarimpact.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.results import ContinuumHistory, Rebound, Regime
 
 FIRST_STEPS = 16
@@ -33,12 +34,19 @@ class Unsolved(checks.ConvergenceError):
         Their indices in the flattened arguments.
     """
 
-    def __init__(self, message, impacts):
+    def __init__(self, message: str, impacts: Integers) -> None:
         super().__init__(message)
         self.impacts = impacts
 
 
-def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, tolerance=1e-6):
+def rebound(
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+    *,
+    tolerance: float = 1e-6,
+) -> Rebound:
     """State at separation; the groups broadcast.
 
     Parameters
@@ -93,24 +101,29 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *,
     >>> [round(float(w), 5) for w in result.velocity]
     [0.06343, -0.66592, 1.0]
     """
-    groups = incidence, mass_ratio, stiffness_ratio, restitution
-    signed, beta, zeta2, tolerance = _checked(*groups, tolerance)
+    signed, beta, zeta2, tolerance = _checked(
+        incidence, mass_ratio, stiffness_ratio, restitution, tolerance
+    )
     size, beta, zeta2 = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2))
-    velocity, impulse, *found = _at_limits(size, beta, zeta2)
-    rest = np.flatnonzero(found[1] == _UNSOLVED)
-    groups = size[rest], beta[rest], zeta2[rest]
+    velocity, impulse, peak, regime, reversals = _at_limits(size, beta, zeta2)
+    rest = np.flatnonzero(regime == _UNSOLVED)
     try:
-        velocity[rest], *fine = _refine(*groups, tolerance)
+        found = _refine(size[rest], beta[rest], zeta2[rest], tolerance)
     except Unsolved as error:
         error.impacts = rest[error.impacts]
         raise
+    velocity[rest], peak[rest], regime[rest], reversals[rest] = found
     impulse[rest] = (size - velocity)[rest] / beta[rest]
-    for array, values in zip(found, fine, strict=True):
-        array[rest] = values
-    return Rebound.of(signed, velocity, impulse, *found)
+    return Rebound.of(signed, velocity, impulse, peak, regime, reversals)
 
 
-def fixed_steps(incidence, mass_ratio=3.5, stiffness_ratio=1.21, steps=128, extrapolate=False):
+def fixed_steps(
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    steps: int = 128,
+    extrapolate: bool = False,
+) -> Array:
     """Velocity at separation with a given number of steps, whatever its error.
 
     Parameters
@@ -154,7 +167,12 @@ def fixed_steps(incidence, mass_ratio=3.5, stiffness_ratio=1.21, steps=128, extr
     return (np.copysign(1.0, signed) * velocity.reshape(signed.shape))[()]
 
 
-def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-4):
+def history(
+    incidence: float,
+    mass_ratio: float = 3.5,
+    stiffness_ratio: float = 1.21,
+    tolerance: float = 1e-4,
+) -> ContinuumHistory:
     """Forces, velocity and radius of stick over one contact.
 
     Parameters
@@ -187,8 +205,9 @@ def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-4):
     >>> float(contact.time[-1]), float(contact.stick_radius[-1])
     (2.0, 0.0)
     """
-    groups = incidence, mass_ratio, stiffness_ratio, 1.0
-    signed, beta, zeta2, tolerance = _checked(*groups, tolerance)
+    signed, beta, zeta2, tolerance = _checked(
+        incidence, mass_ratio, stiffness_ratio, 1.0, tolerance
+    )
     if signed.ndim:
         raise checks.InputError(f"shape = {signed.shape}: one contact takes scalars")
     x, beta, zeta2 = (a.reshape(1) for a in (np.abs(signed), beta, zeta2))
@@ -208,7 +227,9 @@ def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, tolerance=1e-4):
 _UNSOLVED = 255
 
 
-def _at_limits(x, beta, zeta2):
+def _at_limits(
+    x: Array, beta: Array, zeta2: Array
+) -> tuple[Array, Array, Array, Integers, Integers]:
     """Impacts with a closed form, and `_UNSOLVED` in place of the regime of all others.
 
     Velocity, impulse of friction, peak friction, regime, reversals.
@@ -221,13 +242,13 @@ def _at_limits(x, beta, zeta2):
     return velocity, 2 * full, full, regime, np.zeros(x.shape, dtype=np.int64)
 
 
-def _steps_needed(beta, zeta2):
+def _steps_needed(beta: Array, zeta2: Array) -> Array:
     """Steps that resolve the tangential oscillation: a contact has sqrt(beta/zeta^2)/2 of it."""
     with np.errstate(over="ignore"):
         return STEPS_A_RADIAN * np.pi * (np.sqrt(beta) / np.sqrt(zeta2))
 
 
-def _refuse_hopeless(x, beta, zeta2, tolerance):
+def _refuse_hopeless(x: Array, beta: Array, zeta2: Array, tolerance: float) -> None:
     """Refuse impacts of which it is known beforehand that no number of steps will do."""
     needed = _steps_needed(beta, zeta2)
     unresolved = np.flatnonzero(needed > MOST_STEPS)
@@ -248,7 +269,9 @@ def _refuse_hopeless(x, beta, zeta2, tolerance):
         )
 
 
-def _refine(x, beta, zeta2, tolerance):
+def _refine(
+    x: Array, beta: Array, zeta2: Array, tolerance: float
+) -> tuple[Array, Array, Integers, Integers]:
     """Velocity, peak friction, regime and reversals, with steps doubled until they settle."""
     values, estimate = np.zeros((2, x.size)), np.full((2, x.size), np.inf)
     counts = np.zeros((2, x.size), dtype=np.int64)
@@ -284,14 +307,16 @@ def _refine(x, beta, zeta2, tolerance):
     return velocity, peak, _regime(x, zeta2, counts[0]), counts[1]
 
 
-def _in_reach(error, tolerance, steps):
+def _in_reach(error: Array, tolerance: float, steps: int) -> Booleans:
     """Whether `MOST_STEPS` steps may bring an error within the tolerance, or none is known."""
     if 2 * steps > MOST_STEPS:
         return error <= tolerance
     return ~(error * (steps / MOST_STEPS) ** BEST_ORDER > tolerance)
 
 
-def _not_met(x, beta, zeta2, tolerance, steps, error):
+def _not_met(
+    x: float, beta: float, zeta2: float, tolerance: float, steps: int, error: float
+) -> str:
     beyond = f", and out of reach of {MOST_STEPS}" if steps < MOST_STEPS else ""
     return (
         f"tolerance = {tolerance:g}: not met with {steps} steps{beyond}, at incidence = {x:g}, "
@@ -299,24 +324,24 @@ def _not_met(x, beta, zeta2, tolerance, steps, error):
     )
 
 
-def _integrate_in_parts(x, beta, zeta2, steps):
+def _integrate_in_parts(x: Array, beta: Array, zeta2: Array, steps: int) -> tuple[Array, Integers]:
     """Raw velocity and peak, and counts of gross slips after stick and of reversals, in parts."""
     together = max(1, CELLS // steps)
     cuts = range(together, x.size, together)
     groups = zip(*(np.split(a, cuts) for a in (x, beta, zeta2)), strict=True)
-    found = [_summary(*tangential_motion.path(*part, steps)[1:]) for part in groups]
+    found = [_summary(*tangential_motion.path(a, b, c, steps)[1:]) for a, b, c in groups]
     values, counts = zip(*found, strict=True)
     return np.concatenate(values, axis=1), np.concatenate(counts, axis=1)
 
 
-def _summary(friction, velocity, stick_radius):
+def _summary(friction: Array, velocity: Array, stick_radius: Array) -> tuple[Array, Integers]:
     gross = stick_radius == 0
     gross_slips = np.sum(gross[1:] & ~gross[:-1], axis=0)
     counts = np.stack([gross_slips, _sign_changes(friction)])
     return np.stack([velocity[-1], _peak(np.abs(friction))]), counts
 
 
-def _sign_changes(force):
+def _sign_changes(force: Array) -> Integers:
     """How often each column changes sign; zeros do not count."""
     sign = np.sign(force)
     # Carry the last sign over zeros.
@@ -325,7 +350,7 @@ def _sign_changes(force):
     return np.sum(sign[1:] * sign[:-1] < 0, axis=0)
 
 
-def _peak(force):
+def _peak(force: Array) -> Array:
     """Largest value of each column, by the parabola through the three points nearest to it."""
     middle = np.clip(force.argmax(axis=0), 1, len(force) - 2)
     before, at, after = (np.take_along_axis(force, (middle + i)[None], 0)[0] for i in (-1, 0, 1))
@@ -336,13 +361,13 @@ def _peak(force):
     return np.where(inside, at + lift, force.max(axis=0))
 
 
-def _regime(x, zeta2, gross_slips):
+def _regime(x: Array, zeta2: Array, gross_slips: Integers) -> Integers:
     """Regime by the start of contact and the number of gross slips after stick."""
     usual = np.where(x > zeta2, Regime.SLIP_STICK_SLIP, Regime.STICK_SLIP)
     return np.where(gross_slips > 1, Regime.MULTIPLE, usual)
 
 
-def _settled_path(x, beta, zeta2, tolerance):
+def _settled_path(x: Array, beta: Array, zeta2: Array, tolerance: float) -> list[Array]:
     """Path of one contact after gross slip, as fine as the tolerance asks."""
     _refuse_hopeless(x, beta, zeta2, tolerance)
     why, steps = None, 128
@@ -355,13 +380,19 @@ def _settled_path(x, beta, zeta2, tolerance):
         resolved = steps >= _steps_needed(beta, zeta2)[0]
         if resolved and change <= tolerance:
             return [a[:, 0] for a in fine]
-        if resolved and not _in_reach(np.float64(change), tolerance, steps):
+        if resolved and not _in_reach(np.asarray(change), tolerance, steps):
             why = _not_met(x[0], beta[0], zeta2[0], tolerance, steps, change)
         coarse = fine
     raise checks.ConvergenceError(why)
 
 
-def _checked(incidence, mass_ratio, stiffness_ratio, restitution, tolerance):
-    groups = checks.elastic_impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    tolerance = checks.checked("tolerance", tolerance, "numbers above 0", 0, open_low=True)
-    return *groups, checks.single("tolerance", tolerance)
+def _checked(
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike,
+    stiffness_ratio: ArrayLike,
+    restitution: ArrayLike,
+    tolerance: float,
+) -> tuple[Array, Array, Array, float]:
+    x, beta, zeta2 = checks.elastic_impact(incidence, mass_ratio, stiffness_ratio, restitution)
+    allowed = checks.number("tolerance", tolerance, "numbers above 0", 0, open_low=True)
+    return x, beta, zeta2, allowed

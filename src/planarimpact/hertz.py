@@ -9,11 +9,13 @@ velocity |v2(0)|, force its largest value, time d_max/|v2(0)| except where t_c i
 import numpy as np
 from scipy.special import betainc
 
+from planarimpact.arrays import Array, ArrayLike
+
 # Largest normal force in m2 v2(0)^2/d_max: the strain energy (2/5) F2max d_max is all there is.
 PEAK_FORCE = 1.25
 
 
-def velocity(phase):
+def velocity(phase: ArrayLike) -> Array:
     """Normal velocity of approach: 1 at contact, -1 at separation.
 
     Parameters
@@ -39,7 +41,7 @@ def velocity(phase):
     return np.cos(phase) / _slowness(np.sin(phase))
 
 
-def pace(phase):
+def pace(phase: ArrayLike) -> Array:
     """Time for a unit of phase, dt/dphase.
 
     Parameters
@@ -60,12 +62,12 @@ def pace(phase):
     return 2 * radius * _slowness(radius)
 
 
-def _slowness(radius):
+def _slowness(radius: Array) -> Array:
     """cos(phase)/v, by the factors that 1 - a^2 and 1 - a^5 share."""
     return np.sqrt((1 + radius) / (1 + radius * (1 + radius * (1 + radius * (1 + radius)))))
 
 
-def phase_at(velocity):
+def phase_at(velocity: ArrayLike) -> Array:
     """Phase at a normal velocity, the inverse of `velocity`.
 
     Parameters
@@ -89,7 +91,7 @@ def phase_at(velocity):
     return np.arctan2(np.exp(0.2 * log), cosine)
 
 
-def time(phase):
+def time(phase: ArrayLike) -> Array:
     """Time t/t_c: 0 at contact, 1 at maximum compression, 2 at separation.
 
     Parameters

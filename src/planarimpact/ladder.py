@@ -6,12 +6,14 @@ rung costs and how far it is off is measured by the workflow (`results/trade.csv
 here.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
 
 from planarimpact import annuli, checks, continuum, laws, lumped, rigid, timestep
+from planarimpact.arrays import ArrayLike
+from planarimpact.results import Rebound
 
 
 class Model(NamedTuple):
@@ -43,18 +45,27 @@ class Model(NamedTuple):
     """
 
     name: str
-    rebound: Callable
-    settings: dict
+    rebound: Callable[..., Rebound]
+    settings: dict[str, float]
     cost: str
-    restitution: tuple
+    restitution: tuple[float, float]
     valid: str
     source: str
-    sliding_limit: Callable | None
-    kinks: Callable
+    sliding_limit: Callable[..., float] | None
+    kinks: Callable[..., tuple[float, ...]]
 
 
-def get(name):
+def get(name: str) -> Model:
     """The model of a name.
+
+    Parameters
+    ----------
+    name : str
+        One of `MODELS`.
+
+    Returns
+    -------
+    Model
 
     Raises
     ------
@@ -76,7 +87,14 @@ laws.bilbao, lumped, timestep.linear, timestep.mindlin, timestep.mindlin_rescale
     return MODELS[name]
 
 
-def rebound(model, incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, **settings):
+def rebound(
+    model: str,
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+    **settings: float,
+) -> Rebound:
     """State at separation by the model of a name.
 
     Parameters
@@ -111,40 +129,61 @@ def rebound(model, incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=
     return chosen.rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
 
 
-def refuse_unknown(model, settings):
-    """Refuse settings that a model does not have."""
+def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
+    """Refuse settings that a model does not have.
+
+    Parameters
+    ----------
+    model : Model
+    settings : mapping
+        By name.
+
+    Raises
+    ------
+    InputError
+        Naming the first setting that it does not have, and those it has.
+
+    Examples
+    --------
+    >>> refuse_unknown(get("annuli"), {"circles": 8})
+    """
     for key, value in settings.items():
         if key not in model.settings:
             known = f"the settings {', '.join(model.settings)}" if model.settings else "no settings"
             raise checks.InputError(f"{key} = {value!r}: {model.name} has {known}")
 
 
-def _all_impulse(beta, zeta2, e, **settings):
+def _all_impulse(beta: float, zeta2: float, e: float, **settings: float) -> float:
     """All of the normal impulse turns into friction: that of a contact without compliance."""
     return (1 + e) * beta
 
 
-def _brach_limit(beta, zeta2, e, tangential_restitution=laws.BRACH_TANGENTIAL_RESTITUTION):
+def _brach_limit(
+    beta: float,
+    zeta2: float,
+    e: float,
+    tangential_restitution: float = laws.BRACH_TANGENTIAL_RESTITUTION,
+) -> float:
     return (1 + e) * beta / (1 + tangential_restitution)
 
 
-def _compliant_limit(beta, zeta2, e, **settings):
+def _compliant_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
     return float(lumped.slip_throughout_limit(beta, zeta2, e))
 
 
-def _compliant_kinks(beta, zeta2, e, **settings):
+def _compliant_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
     return zeta2, beta, _compliant_limit(beta, zeta2, e)
 
 
-def _no_kinks(beta, zeta2, e, **settings):
+def _no_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
     return ()
 
 
-def _rigid_kinks(beta, zeta2, e, **settings):
+def _rigid_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
     return beta, (1 + e) * beta
 
 
-def _limit_alone(limit):
+def _limit_alone(limit: Callable[..., float]) -> Callable[..., tuple[float, ...]]:
     return lambda *groups, **settings: (limit(*groups, **settings),)
 
 
@@ -271,12 +310,22 @@ MODELS = {
 }
 
 
-def reference(restitution):
+def reference(restitution: ArrayLike) -> str:
     """Name of the model that others are measured against at a restitution.
 
     The continuum where the contact is elastic. There is none with hysteresis here, so for e < 1
     it is the lumped model; how far that is from the continuum at e = 1,
     `planarimpact.scene.gaps.elastic` tells: 0.21 for a solid sphere of Poisson's ratio 0.3.
+
+    Parameters
+    ----------
+    restitution : array_like
+        e, 0 to 1.
+
+    Returns
+    -------
+    str
+        "continuum" where all of them are 1, else "lumped".
 
     Examples
     --------

@@ -2,8 +2,10 @@
 
 import numpy as np
 
+from planarimpact.arrays import ArrayLike, Integers
 
-def peak(x, y):
+
+def peak(x: ArrayLike, y: ArrayLike) -> float:
     """Place of the largest value, refined by the parabola through its neighbours.
 
     Parameters
@@ -37,8 +39,21 @@ def peak(x, y):
     return float(x[top] - left / 2 + (left + right) / 2 * rise / (rise - fall))
 
 
-def regime_start(x, regimes, regime):
+def regime_start(x: ArrayLike, regimes: ArrayLike, regime: str) -> float:
     """First x at which the curve is in `regime`.
+
+    Parameters
+    ----------
+    x : array_like, shape (n,)
+        Ascending.
+    regimes : array_like of str, shape (n,)
+        Names of the regimes at x.
+    regime : str
+        One of them.
+
+    Returns
+    -------
+    float
 
     Raises
     ------
@@ -53,8 +68,21 @@ def regime_start(x, regimes, regime):
     return float(np.asarray(x, float)[_in_regime(regimes, regime)[0]])
 
 
-def regime_end(x, regimes, regime):
+def regime_end(x: ArrayLike, regimes: ArrayLike, regime: str) -> float:
     """Last x at which the curve is in `regime`.
+
+    Parameters
+    ----------
+    x : array_like, shape (n,)
+        Ascending.
+    regimes : array_like of str, shape (n,)
+        Names of the regimes at x.
+    regime : str
+        One of them.
+
+    Returns
+    -------
+    float
 
     Raises
     ------
@@ -69,15 +97,25 @@ def regime_end(x, regimes, regime):
     return float(np.asarray(x, float)[_in_regime(regimes, regime)[-1]])
 
 
-def _in_regime(regimes, regime):
+def _in_regime(regimes: ArrayLike, regime: str) -> Integers:
     inside = np.flatnonzero(np.asarray(regimes) == regime)
     if not inside.size:
         raise ValueError(f"the curve is nowhere in the regime {regime}")
     return inside
 
 
-def first_reaching(x, y, level):
+def first_reaching(x: ArrayLike, y: ArrayLike, level: float) -> float:
     """First x at which y reaches `level`, to rounding.
+
+    Parameters
+    ----------
+    x, y : array_like, shape (n,)
+        A curve, x ascending.
+    level : float
+
+    Returns
+    -------
+    float
 
     Raises
     ------
@@ -95,8 +133,18 @@ def first_reaching(x, y, level):
     return float(np.asarray(x, float)[reached[0]])
 
 
-def value_at(x, y, at):
+def value_at(x: ArrayLike, y: ArrayLike, at: float) -> float:
     """Value of the polyline at x = `at`.
+
+    Parameters
+    ----------
+    x, y : array_like, shape (n,)
+        Its vertices, x ascending.
+    at : float
+
+    Returns
+    -------
+    float
 
     Raises
     ------

@@ -10,6 +10,7 @@ B = (1 + e) beta is the change of velocity of a contact that slides throughout.
 import numpy as np
 
 from planarimpact import checks
+from planarimpact.arrays import Array, ArrayLike, Booleans
 from planarimpact.results import Rebound, Regime
 
 # Least squares of velocity against `planarimpact.continuum.rebound` at beta = 3.5, zeta^2 = 17/14
@@ -20,13 +21,13 @@ BILBAO_TANGENTIAL_RESTITUTION = 1.00
 
 
 def brach(
-    incidence,
-    mass_ratio=3.5,
-    stiffness_ratio=1.21,
-    restitution=1.0,
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
     *,
-    tangential_restitution=BRACH_TANGENTIAL_RESTITUTION,
-):
+    tangential_restitution: ArrayLike = BRACH_TANGENTIAL_RESTITUTION,
+) -> Rebound:
     """Two straight lines: constant tangential restitution, or sliding throughout.
 
     Parameters
@@ -75,7 +76,12 @@ def brach(
     return _rebound(signed, velocity, beta, e, slides)
 
 
-def smith(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
+def smith(
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+) -> Rebound:
     """Friction by a mean direction of slip, weighted by the speed before and after.
 
     Parameters
@@ -121,13 +127,13 @@ def smith(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
 
 
 def bilbao(
-    incidence,
-    mass_ratio=3.5,
-    stiffness_ratio=1.21,
-    restitution=1.0,
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
     *,
-    tangential_restitution=BILBAO_TANGENTIAL_RESTITUTION,
-):
+    tangential_restitution: ArrayLike = BILBAO_TANGENTIAL_RESTITUTION,
+) -> Rebound:
     """Velocity ratio by an exponential of the reciprocal incidence: a reconstruction.
 
     Parameters
@@ -174,7 +180,7 @@ def bilbao(
     return Rebound.of(signed, x - change, change / beta, np.full(x.shape, np.nan), regime)
 
 
-def _groups(tangential_restitution, *impact):
+def _groups(tangential_restitution: ArrayLike, *impact: ArrayLike) -> tuple[Array, ...]:
     """Checked groups and tangential restitution, of one shape."""
     b = checks.checked(
         "tangential_restitution", tangential_restitution, "numbers from 0 to 1", 0, 1
@@ -183,13 +189,13 @@ def _groups(tangential_restitution, *impact):
     return checks.broadcast(**groups, tangential_restitution=b)
 
 
-def _sliding_change(beta, e):
+def _sliding_change(beta: Array, e: Array) -> Array:
     """B = (1 + e) beta; it may be too large for a number, which is as good as any."""
     with np.errstate(over="ignore"):
         return (1 + e) * beta
 
 
-def _rebound(signed, velocity, beta, e, slides):
+def _rebound(signed: Array, velocity: Array, beta: Array, e: Array, slides: Booleans) -> Rebound:
     """A law's velocity for |x|, and what follows from whether it slides throughout."""
     x = np.abs(signed).reshape(-1)
     # From velocities the impulse of sliding would lose its digits where x is large.

@@ -10,6 +10,7 @@ thousands of phases.
 import numpy as np
 
 from planarimpact import checks, normal, stick_slip
+from planarimpact.arrays import Array, ArrayLike, Integers, Numbers
 from planarimpact.results import Event, EventKind, History, Rebound
 
 # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
@@ -24,7 +25,12 @@ SMALL, LINEAR, LIFT = 1e-100, 1e-20, 2.0**200
 LEAST_STIFFNESS = 1e-280
 
 
-def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
+def rebound(
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+) -> Rebound:
     """State at separation; all arguments broadcast.
 
     Parameters
@@ -72,16 +78,16 @@ def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
     """
     x, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     groups = [np.abs(x).reshape(-1), *(group.reshape(-1) for group in groups)]
-    fields = *(np.empty(x.size) for _ in range(3)), np.empty(x.size, np.uint8)
+    velocity, peak, work = (np.empty(x.size) for _ in range(3))
+    regime = np.empty(x.size, np.uint8)
     for start in range(0, x.size, CHUNK):
         part = slice(start, start + CHUNK)
         outcome = _outcome(*(group[part] for group in groups))
-        for field, found in zip(fields, outcome, strict=True):
-            field[part] = found
-    return Rebound.shaped(x, *fields)
+        velocity[part], peak[part], work[part], regime[part] = outcome
+    return Rebound.shaped(x, velocity, peak, work, regime)
 
 
-def _outcome(x, beta, zeta2, e):
+def _outcome(x: Array, beta: Array, zeta2: Array, e: Array) -> tuple[Array, Array, Array, Integers]:
     """Outcome of impacts x >= 0 of any size; arrays of shape (n,)."""
     largest = max(x.max(), beta.max(), zeta2.max())
     ordinary = x.min() >= SMALL and largest <= LARGE
@@ -97,12 +103,14 @@ def _outcome(x, beta, zeta2, e):
     return velocity / (scale * lift), peak / lift, work / lift / (scale * lift), regime
 
 
-def _scale(x, beta, zeta2):
+def _scale(x: Array, beta: Array, zeta2: Array) -> Array:
     """What to multiply x, beta and zeta^2 by, and all velocities with them."""
     return np.where(np.maximum(np.maximum(x, beta), zeta2) > LARGE, SHRINK, 1.0)
 
 
-def slip_throughout_limit(mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
+def slip_throughout_limit(
+    mass_ratio: ArrayLike = 3.5, stiffness_ratio: ArrayLike = 1.21, restitution: ArrayLike = 1.0
+) -> Array:
     """Smallest incidence that slides through the whole contact; all arguments broadcast.
 
     x = beta + max(0, e beta - zeta^2/e), or zeta^2 where that is larger. The paper prints
@@ -133,7 +141,13 @@ def slip_throughout_limit(mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0)
     return stick_slip.slip_throughout_limit(*groups)[()]
 
 
-def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, samples=400):
+def history(
+    incidence: float,
+    mass_ratio: float = 3.5,
+    stiffness_ratio: float = 1.21,
+    restitution: float = 1.0,
+    samples: int = 400,
+) -> History:
     """Forces and velocity over one contact (Figs 3 and 4).
 
     Parameters
@@ -186,7 +200,12 @@ def history(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, sa
     return History(time, force, friction, velocity, zeta2 * friction, tuple(events))
 
 
-def friction_work(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
+def friction_work(
+    incidence: float,
+    mass_ratio: float = 3.5,
+    stiffness_ratio: float = 1.21,
+    restitution: float = 1.0,
+) -> float:
     """Work of friction, integrated over the phases of slip: |F1| times the slip velocity.
 
     A second way to `rebound(...).dissipation`, which comes from the balance of energy; the two
@@ -227,11 +246,13 @@ def friction_work(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1
         # Slip velocity w - s' times dt, in the angle of either half.
         pace = -e if phase.in_restitution else 1.0
         slip = pace * velocity - phase.side * zeta2 * np.cos(eta)
-        work += half * float(weights @ (friction * slip))
+        work += float(half * (weights @ (friction * slip)))
     return work / scale
 
 
-def _phases(incidence, mass_ratio, stiffness_ratio, restitution):
+def _phases(
+    incidence: float, mass_ratio: float, stiffness_ratio: float, restitution: float
+) -> tuple[float, float, tuple[float, float, float], list[tuple[stick_slip.Phase, Numbers]]]:
     """One impact: mirror sign, scale, (beta, zeta^2, e), and its phases, each with its last eta.
 
     Ratios and velocities have been multiplied by the scale.
@@ -244,32 +265,32 @@ def _phases(incidence, mass_ratio, stiffness_ratio, restitution):
     mirror = float(np.copysign(1.0, x[0]))
     x, beta, zeta2 = scale * x, scale * beta, scale * zeta2
     zeta2 = np.maximum(zeta2, LEAST_STIFFNESS * beta)
-    trace = []
+    trace: list[stick_slip.Phase] = []
     stick_slip.solve(stick_slip.Impacts(np.abs(x), beta, zeta2, e), trace)
-    beta, zeta2, e = (float(a[0]) for a in (beta, zeta2, e))
-    if e == 0:  # separation at maximum compression
+    if e[0] == 0:  # separation at maximum compression
         trace = [phase for phase in trace if not phase.in_restitution]
-    trace = [stick_slip.Phase(*(np.ravel(field)[0] for field in phase)) for phase in trace]
+    trace = [stick_slip.Phase._make(np.ravel(field)[0] for field in phase) for phase in trace]
     # A phase ends where the next one starts, or with its half of the contact.
     ends = [
         after.eta if after.in_restitution == phase.in_restitution else np.pi / 2
         for phase, after in zip(trace, trace[1:], strict=False)
     ]
     ends.append(0.0 if trace[-1].in_restitution else np.pi / 2)
-    return mirror, float(scale[0]), (beta, zeta2, e), list(zip(trace, ends, strict=True))
+    groups = float(beta[0]), float(zeta2[0]), float(e[0])
+    return mirror, float(scale[0]), groups, list(zip(trace, ends, strict=True))
 
 
-def _angle(time, e, in_restitution):
+def _angle(time: Array, e: float, in_restitution: bool) -> Array:
     """The angle `eta` of `planarimpact.normal` at a time within one half."""
     return np.pi / 2 * np.clip((1 + e - time) / e if in_restitution else time, 0.0, 1.0)
 
 
-def _event(kind, column, zeta2):
+def _event(kind: EventKind, column: Array, zeta2: float) -> Event:
     time, force, friction, velocity = (float(value) for value in column)
     return Event(kind, time, force, friction, velocity, float(zeta2 * friction))
 
 
-def _kinds(phase, before):
+def _kinds(phase: stick_slip.Phase, before: stick_slip.Phase | None) -> list[EventKind]:
     """Events where a phase starts; one that goes on through maximum compression is not new."""
     kind = EventKind.STICK if phase.sticks else EventKind.SLIP
     if before is None:

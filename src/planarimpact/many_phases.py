@@ -21,6 +21,8 @@ rounding of nu down to `last_phase`; from there on the phases are followed.
 
 import numpy as np
 
+from planarimpact.arrays import Array, Booleans, Numbers
+
 # A skip takes the time of some fifty half-waves.
 LEAST_GAIN = 200.0
 
@@ -31,7 +33,7 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 LEAST_DECLINE = 1e-20
 
 
-def last_phase(rate):
+def last_phase(rate: Numbers) -> Array:
     """Phase nu eta at which a skip ends.
 
     There the count of half-waves is wrong by 6e-13 (1000/phase)^4, which must not exceed
@@ -45,7 +47,7 @@ def last_phase(rate):
     return np.clip(1000 * (6e3 / rate) ** 0.25, 100.0, 1000.0)
 
 
-def worth_skipping(eta, rate):
+def worth_skipping(eta: Array, rate: Numbers) -> Booleans:
     """Whether stick that starts at `eta`, after a slip, is far from separation.
 
     Examples
@@ -56,7 +58,7 @@ def worth_skipping(eta, rate):
     return rate * eta > last_phase(rate) + LEAST_GAIN
 
 
-def skip(eta, rate):
+def skip(eta: Array, rate: Array) -> tuple[Array, Array]:
     """Go on by a whole number of half-waves, to about `last_phase` before separation.
 
     Parameters
@@ -91,7 +93,7 @@ def skip(eta, rate):
     return goal, whole
 
 
-def half_waves(start, end, rate):
+def half_waves(start: Array, end: Numbers, rate: Array) -> Array:
     """How many half-waves lie between two angles, start >= end; a real number.
 
     Examples
@@ -112,13 +114,13 @@ def half_waves(start, end, rate):
     return rate * (start - end - total) / np.pi + slopes / 24
 
 
-def _excess_slope(eta, rate):
+def _excess_slope(eta: Numbers, rate: Array) -> Array:
     """Derivative of delta to the phase, over a half-wave."""
     step = np.pi / rate
     return (excess_phase(eta + step, rate) - excess_phase(eta - step, rate)) / (2 * np.pi)
 
 
-def excess_phase(middle, rate):
+def excess_phase(middle: Numbers, rate: Numbers) -> Array:
     """delta of the half-wave from the start of stick to the next, by the angle in its middle.
 
     Sums of positive terms and a contraction: exact to about 1e-16.
@@ -130,7 +132,7 @@ def excess_phase(middle, rate):
     """
     ratio = 1 / (rate * np.tan(middle))
     phi = psi = np.sqrt(2 * np.pi * ratio)
-    delta = 0.0
+    delta = np.zeros_like(ratio)
     for _ in range(8):
         half = (np.pi + delta) / (2 * rate)
         eta = middle + half

@@ -21,6 +21,7 @@ u has changed by d.
 import numpy as np
 
 from planarimpact import checks
+from planarimpact.arrays import Array, ArrayLike, Integers, Numbers
 
 
 class SpringRow:
@@ -47,7 +48,7 @@ class SpringRow:
     0.646446609
     """
 
-    def __init__(self, radius, steps):
+    def __init__(self, radius: Array, steps: int) -> None:
         n = radius.size
         self._column = np.arange(n)
         self._top = np.ones(n, dtype=np.intp)  # index of each tip
@@ -58,7 +59,9 @@ class SpringRow:
         self._integral[1] = _integral(0.0, self._memory[0], radius, 0.0)
         self.stick_radius = np.zeros(n)
 
-    def move(self, radius, displacement, which=slice(None)):
+    def move(
+        self, radius: Array, displacement: Array, which: slice | Integers = slice(None)
+    ) -> Array:
         """Move the tips in one straight step (in r^2, u); return the tangential force.
 
         Parameters
@@ -96,7 +99,9 @@ class SpringRow:
         self.stick_radius[which] = np.where(slips, edge_r, radius)
         return 1.5 * (displacement * radius + integral)
 
-    def _last_inside(self, column, top, highest, lowest):
+    def _last_inside(
+        self, column: Integers, top: Integers, highest: Array, lowest: Array
+    ) -> Integers:
         """Index of the outermost vertex inside the new cone, -1 for none: inner ones are too."""
         last, active = top.copy(), np.arange(top.size)
         while active.size:
@@ -107,13 +112,17 @@ class SpringRow:
             active = active[last[active] >= 0]
         return last
 
-    def _put(self, index, column, radius, memory, integral):
+    def _put(
+        self, index: Integers, column: Integers, radius: Array, memory: Array, integral: Array
+    ) -> None:
         self._radius[index, column] = radius
         self._memory[index, column] = memory
         self._integral[index, column] = integral
 
 
-def _crossing(r, c, outer_r, outer_c, highest, lowest):
+def _crossing(
+    r: Array, c: Array, outer_r: Array, outer_c: Array, highest: Array, lowest: Array
+) -> tuple[Array, Array]:
     """Where the piece from a vertex inside the cone to one outside leaves it: radius and c."""
     q, outer_q = r * r, outer_r * outer_r
     with np.errstate(divide="ignore", invalid="ignore"):  # where there is no vertex inside
@@ -125,14 +134,14 @@ def _crossing(r, c, outer_r, outer_c, highest, lowest):
     return np.sqrt(q), np.where(above <= below, highest - q, lowest + q)
 
 
-def _integral(r, c, outer_r, outer_c):
+def _integral(r: Numbers, c: Array, outer_r: Array, outer_c: Numbers) -> Array:
     """Integral over the radius of a piece that is straight in r^2."""
     total = r + outer_r
     share = (outer_r + 2 * r) / (3 * np.where(total > 0, total, 1.0))
     return (outer_r - r) * (c + (outer_c - c) * share)
 
 
-def friction(radius, displacement):
+def friction(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, Array]:
     """Tangential force along a given path of approach and displacement (quasi-static).
 
     Parameters

@@ -8,8 +8,10 @@ forces vanish. Units: force m2 Omega |v2(0)|, impulse m2 |v2(0)|, time t_c.
 
 import numpy as np
 
+from planarimpact.arrays import Array, Numbers
 
-def force(eta):
+
+def force(eta: Numbers) -> Array:
     """Normal force F2 at `eta` (Table 1), in m2 Omega |v2(0)|.
 
     Examples
@@ -20,7 +22,7 @@ def force(eta):
     return np.sin(eta)
 
 
-def impulse(eta):
+def impulse(eta: Numbers) -> Array:
     """Impulse between `eta` and the nearer end of contact (Table 1), in m2 |v2(0)|.
 
     From contact in compression; in restitution multiply by e: what is still to come.
@@ -33,7 +35,7 @@ def impulse(eta):
     return 2 * np.sin(eta / 2) ** 2
 
 
-def time(eta, restitution, in_restitution):
+def time(eta: Numbers, restitution: float, in_restitution: bool) -> Array:
     """Time t/t_c at `eta`: 0 at contact, 1 at maximum compression, 1 + e at separation.
 
     Examples

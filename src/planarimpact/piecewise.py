@@ -6,12 +6,14 @@ so each piece is a polynomial in sqrt(x - kink). Kinks that are not known in adv
 that must be halved again and again; they are located, and the fit is made anew between them.
 """
 
+from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from planarimpact.arrays import Array, Booleans, Integers
 from planarimpact.checks import ConvergenceError
 
 DEGREE = 7
@@ -23,6 +25,9 @@ ROUNDS = 8  # of locating kinks
 MOST_PIECES = 4096
 SAFETY = 2  # of the bound over the largest error found
 CELLS = 4096, 8192, 16384, 32768  # of the table that finds the piece of a point
+
+# Values, shape (functions, n), and labels of points x, shape (n,).
+Function: TypeAlias = Callable[[Array], tuple[Array, Integers]]
 
 _NODES = np.cos(np.pi * (2 * np.arange(DEGREE + 1) + 1) / (2 * DEGREE + 2))
 _BETWEEN = np.cos(np.pi * np.arange(DEGREE + 2) / (DEGREE + 1))
@@ -56,35 +61,37 @@ class Pieces(NamedTuple):
     end : float
     """
 
-    start: np.ndarray
-    kink: np.ndarray
-    centre: np.ndarray
-    coefficients: np.ndarray
-    label: np.ndarray
+    start: Array
+    kink: Array
+    centre: Array
+    coefficients: Array
+    label: Integers
     end: float
 
 
 class _Halves(NamedTuple):
     """Parts of spans between kinks while they are fitted: ends in the root variable, and a fit."""
 
-    kink: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
-    depth: np.ndarray
-    coefficients: np.ndarray  # (parts, functions, DEGREE + 1), of Chebyshev polynomials
-    error: np.ndarray  # (parts, functions), largest at points that are no nodes
-    labels: np.ndarray  # (parts, points)
+    kink: Array
+    low: Array
+    high: Array
+    depth: Integers
+    coefficients: Array  # (parts, functions, DEGREE + 1), of Chebyshev polynomials
+    error: Array  # (parts, functions), largest at points that are no nodes
+    labels: Integers  # (parts, points)
 
-    def points(self, at):
+    def points(self, at: Array) -> Array:
         """Points x of every part, shape (parts, points), at places `at` in -1 to 1."""
         middle, half = (self.low + self.high) / 2, (self.high - self.low) / 2
         return self.kink[:, None] + (middle[:, None] + half[:, None] * at) ** 2
 
-    def take(self, chosen):
-        return _Halves(*(field[chosen] for field in self))
+    def take(self, chosen: Booleans | Integers) -> "_Halves":
+        return _Halves._make(field[chosen] for field in self)
 
 
-def fit(function, kinks, tolerance, resolution=1e-13):
+def fit(
+    function: Function, kinks: Sequence[float], tolerance: float, resolution: float = 1e-13
+) -> tuple[Pieces, Array]:
     """Fit functions on a span by polynomials between kinks.
 
     Parameters
@@ -134,12 +141,12 @@ def fit(function, kinks, tolerance, resolution=1e-13):
             else:
                 settled[left, right] = parts.take(parts.kink == left)
         kinks = sorted(set(kinks))
-    parts = _Halves(*map(np.concatenate, zip(*settled.values(), strict=True)))
+    parts = _Halves._make(map(np.concatenate, zip(*settled.values(), strict=True)))
     parts = _ordered(parts)
     return _pieces(parts, span), SAFETY * parts.error.max(axis=0)
 
 
-def _halve(function, spans, tolerance):
+def _halve(function: Function, spans: list[tuple[float, float]], tolerance: float) -> _Halves:
     """Parts of the spans, halved until their fits agree with the function between its nodes."""
     left, right = np.array(spans).T
     shares = np.where(right - left > NARROW * right[-1], FIRST, 1)
@@ -171,17 +178,17 @@ def _halve(function, spans, tolerance):
         )
         done.append(todo.take(good))
         todo = _halved(todo.take(~good))
-    return _Halves(*map(np.concatenate, zip(*done, strict=True)))
+    return _Halves._make(map(np.concatenate, zip(*done, strict=True)))
 
 
-def _halved(parts):
+def _halved(parts: _Halves) -> _Halves:
     middle, depth = (parts.low + parts.high) / 2, parts.depth + 1
     below = parts._replace(high=middle, depth=depth)
     above = parts._replace(low=middle, depth=depth)
-    return _Halves(*map(np.concatenate, zip(below, above, strict=True)))
+    return _Halves._make(map(np.concatenate, zip(below, above, strict=True)))
 
 
-def _changes_of_label(function, parts, resolution):
+def _changes_of_label(function: Function, parts: _Halves, resolution: float) -> list[float]:
     """Where labels change within spans, by bisection."""
     parts = _ordered(parts)
     x, label = parts.points(_POINTS[_ASCENDING]).ravel(), parts.labels.ravel()
@@ -195,7 +202,7 @@ def _changes_of_label(function, parts, resolution):
     return high.tolist()
 
 
-def _located(parts):
+def _located(parts: _Halves) -> list[float]:
     """Where parts had to be halved too often: around the deepest of such neighbours."""
     parts = _ordered(parts)
     deep = np.flatnonzero(parts.depth > DEEP)
@@ -207,11 +214,11 @@ def _located(parts):
     return (deepest.kink + ends**2).ravel().tolist()
 
 
-def _ordered(parts):
+def _ordered(parts: _Halves) -> _Halves:
     return parts.take(np.argsort(parts.kink + parts.low**2))
 
 
-def _pieces(parts, end):
+def _pieces(parts: _Halves, end: float) -> Pieces:
     half = (parts.high - parts.low) / 2
     powers = (parts.coefficients @ _POWERS) / half[:, None, None] ** np.arange(DEGREE + 1)
     return Pieces(
@@ -237,7 +244,7 @@ class Piecewise:
     ([0.5, 1.2], [0, 1])
     """
 
-    def __init__(self, pieces):
+    def __init__(self, pieces: Pieces) -> None:
         self.pieces = pieces
         self._following = np.append(pieces.start[1:], np.inf)
         tables = [self._starts(cells) for cells in CELLS]
@@ -246,14 +253,14 @@ class Piecewise:
         self._table = tables[moves.index(self._moves)]
         self._scale = (self._table.size - 2) / pieces.end
 
-    def _starts(self, cells):
+    def _starts(self, cells: int) -> Integers:
         """Piece at the left of each cell, and after the last one: where the search begins."""
         left = np.arange(cells + 1) * (self.pieces.end / cells)
         # A hair to the left: rounding must not skip a piece, only begin one too early.
         first = np.searchsorted(self.pieces.start, left * (1 - 1e-14), side="right") - 1
         return np.append(np.maximum(first, 0), len(self.pieces.start) - 1)
 
-    def find(self, x):
+    def find(self, x: Array) -> tuple[Integers, Array]:
         """Piece of each x in [0, end], and its variable there."""
         piece = self._table.take((x * self._scale).astype(np.intp), mode="clip")
         for _ in range(self._moves):
@@ -263,7 +270,7 @@ class Piecewise:
         root -= self.pieces.centre.take(piece, mode="clip")
         return piece, root
 
-    def value(self, function, piece, root):
+    def value(self, function: int, piece: Integers, root: Array) -> Array:
         """One function there, by Horner's rule."""
         rows = self.pieces.coefficients[function]
         value = rows[-1].take(piece, mode="clip")

@@ -8,12 +8,14 @@ the formula that it is.
 
 import hashlib
 import json
+from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from planarimpact import checks, ladder, piecewise, whole_files
+from planarimpact.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.results import Rebound, Regime
 
 FORMAT, VERSION = "planarimpact response", 1
@@ -51,7 +53,16 @@ class Response:
         regime, which changes to a hundredth of the tolerance where that of the model does.
     """
 
-    def __init__(self, model, parameters, incidence_max, tolerance, error_bound, slides, pieces):
+    def __init__(
+        self,
+        model: str,
+        parameters: dict[str, float],
+        incidence_max: float,
+        tolerance: float,
+        error_bound: Bound,
+        slides: float,
+        pieces: piecewise.Pieces,
+    ) -> None:
         self.model = model
         self.parameters = parameters
         self.incidence_max = incidence_max
@@ -60,11 +71,11 @@ class Response:
         self._slides = slides  # incidence from which the formula of slip throughout holds, or inf
         self._piecewise = piecewise.Piecewise(pieces)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         groups = ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
         return f"<Response of {self.model}: {groups}; error {max(self.error_bound):.1e}>"
 
-    def __call__(self, incidence):
+    def __call__(self, incidence: ArrayLike) -> Rebound:
         """State at separation, as the model's own `rebound` gives it.
 
         Parameters
@@ -103,10 +114,13 @@ class Response:
             regime[part][size == 0] = Regime.STICK
         return Rebound.of(x, velocity, impulse, peak, regime.astype(np.uint8))
 
-    def velocity(self, incidence):
+    def velocity(self, incidence: ArrayLike) -> Array:
         """Velocity at separation alone: the fastest way to it.
 
-        Parameters, refusals and sign as for a call.
+        Parameters
+        ----------
+        incidence : array_like
+            As for a call, with the same refusals.
 
         Returns
         -------
@@ -118,16 +132,27 @@ class Response:
         >>> float(compile("rigid", incidence_max=9, tolerance=1e-9).velocity(-8.0))
         -1.0
         """
-        ready = isinstance(incidence, np.ndarray) and incidence.dtype == np.float64
-        x = incidence if ready else checks.incidence(incidence)
+        x = incidence
+        if not isinstance(x, np.ndarray) or x.dtype != np.float64:
+            x = checks.incidence(x)
         velocity, flat = np.empty(x.size), x.reshape(-1)
         for part, size, slides, piece, root in self._parts(x):
             found = self._velocity(size, slides, piece, root)
             np.multiply(found, np.copysign(1.0, flat[part]), out=velocity[part])
         return velocity.reshape(x.shape)[()]
 
-    def peak_friction(self, incidence):
-        """Peak friction alone, in mu times the largest normal force.
+    def peak_friction(self, incidence: ArrayLike) -> Array:
+        """Peak friction alone.
+
+        Parameters
+        ----------
+        incidence : array_like
+            As for a call, with the same refusals.
+
+        Returns
+        -------
+        ndarray of float64 or float
+            In mu times the largest normal force.
 
         Examples
         --------
@@ -136,8 +161,18 @@ class Response:
         """
         return self(incidence).peak_friction
 
-    def dissipation(self, incidence):
-        """Work of friction alone, in mu^2 m2 v2(0)^2.
+    def dissipation(self, incidence: ArrayLike) -> Array:
+        """Work of friction alone.
+
+        Parameters
+        ----------
+        incidence : array_like
+            As for a call, with the same refusals.
+
+        Returns
+        -------
+        ndarray of float64 or float
+            In mu^2 m2 v2(0)^2.
 
         Examples
         --------
@@ -146,7 +181,7 @@ class Response:
         """
         return self(incidence).dissipation
 
-    def _parts(self, x):
+    def _parts(self, x: Array) -> Iterator[tuple[slice, Array, Booleans, Integers, Array]]:
         """Parts of the impacts: slice, |x|, whether it slides, piece and its variable."""
         limit, flat = min(self.incidence_max, np.finfo(float).max), x.reshape(-1)
         for start in range(0, flat.size, CHUNK):
@@ -159,7 +194,7 @@ class Response:
             piece, root = self._piecewise.find(np.minimum(size, self._piecewise.pieces.end))
             yield part, size, slides, piece, root
 
-    def _velocity(self, size, slides, piece, root):
+    def _velocity(self, size: Array, slides: Booleans, piece: Integers, root: Array) -> Array:
         """Velocity at separation for |x|."""
         found = self._piecewise.value(0, piece, root)
         # Rounding and the fit must not create energy.
@@ -169,7 +204,7 @@ class Response:
             np.copyto(found, size - (1 + e) * beta, where=slides)
         return found
 
-    def save(self, path):
+    def save(self, path: str | Path) -> None:
         """Write the response to a file, whole or not at all.
 
         The file is JSON: `format` and `version`; `content` with model, parameters, incidence_max,
@@ -192,10 +227,10 @@ class Response:
         content = {
             "model": self.model,
             "parameters": self.parameters,
-            "incidence_max": _finite(self.incidence_max),
+            "incidence_max": whole_files.or_null(self.incidence_max),
             "tolerance": self.tolerance,
             "error_bound": self.error_bound._asdict(),
-            "slides_from": _finite(self._slides),
+            "slides_from": whole_files.or_null(self._slides),
             "pieces": arrays,
         }
         text = json.dumps({"format": FORMAT, "version": VERSION, "sha256": _digest(content)})
@@ -204,7 +239,7 @@ class Response:
             partial.write_text(whole, encoding="utf-8")
 
 
-def compile(model, *, incidence_max, tolerance, **parameters):
+def compile(model: str, *, incidence_max: float, tolerance: float, **parameters: float) -> Response:
     """Compile the response of one pair of bodies by any model of the ladder.
 
     Parameters
@@ -242,8 +277,10 @@ def compile(model, *, incidence_max, tolerance, **parameters):
     inf
     """
     chosen = ladder.get(model)
-    largest = _number("incidence_max", incidence_max, "numbers from 1e-9 to 1e300", 1e-9, 1e300)
-    tolerance = _number("tolerance", tolerance, "numbers from 1e-11 to 1", 1e-11, 1)
+    largest = checks.number(
+        "incidence_max", incidence_max, "numbers from 1e-9 to 1e300", 1e-9, 1e300
+    )
+    tolerance = checks.number("tolerance", tolerance, "numbers from 1e-11 to 1", 1e-11, 1)
     groups, settings = _parameters(chosen, parameters)
     if "tolerance" in chosen.settings:
         settings["tolerance"] = tolerance * MODEL_SHARE
@@ -256,10 +293,9 @@ def compile(model, *, incidence_max, tolerance, **parameters):
             f"tolerance = {tolerance:g}: allowed are numbers from {ROUNDING * end:.1e} for "
             f"incidences up to {end:g}, as rounding goes"
         )
-
     silent = np.isnan(chosen.rebound(end / 2, *groups.values(), **settings).peak_friction)
 
-    def function(x):
+    def function(x: Array) -> tuple[Array, Integers]:
         found = chosen.rebound(x, *groups.values(), **settings)
         peak = np.zeros(x.size) if silent else found.peak_friction
         return np.stack([found.velocity, peak]), found.regime
@@ -286,8 +322,16 @@ def compile(model, *, incidence_max, tolerance, **parameters):
     return Response(model, groups | settings, reach, tolerance, bound, slides, pieces)
 
 
-def load(path):
+def load(path: str | Path) -> Response:
     """Read a response that `Response.save` wrote.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Response
 
     Raises
     ------
@@ -318,8 +362,8 @@ def load(path):
     if not content or file.get("sha256") != _digest(content):
         raise checks.InputError(f"{path}: damaged: its content is not what was written")
     rows = content["pieces"]
-    pieces = piecewise.Pieces(
-        *(np.array(rows[key]) if key != "end" else rows[key] for key in piecewise.Pieces._fields)
+    pieces = piecewise.Pieces._make(
+        np.array(rows[key]) if key != "end" else rows[key] for key in piecewise.Pieces._fields
     )
     return Response(
         content["model"],
@@ -332,23 +376,17 @@ def load(path):
     )
 
 
-def _digest(content):
+def _digest(content: dict[str, Any]) -> str:
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
-def _finite(number):
-    return None if np.isinf(number) else number
-
-
-def _infinite(number):
+def _infinite(number: float | None) -> float:
     return np.inf if number is None else number
 
 
-def _number(name, value, allowed, low=-np.inf, high=np.inf):
-    return checks.single(name, checks.checked(name, value, allowed, low, high))
-
-
-def _parameters(model, given):
+def _parameters(
+    model: ladder.Model, given: dict[str, float]
+) -> tuple[dict[str, float], dict[str, float]]:
     """The three groups, and the settings of a model with their defaults; scalars."""
     groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 1.0}
     settings = {key: value for key, value in given.items() if key not in groups}
@@ -356,6 +394,6 @@ def _parameters(model, given):
     groups |= {key: value for key, value in given.items() if key in groups}
     groups = {key: checks.single(key, checks.RULES[key](value)) for key, value in groups.items()}
     for key, value in settings.items():
-        _number(key, value, "finite numbers")
+        checks.number(key, value, "finite numbers")
         settings[key] = np.asarray(value).item()  # whole numbers stay whole
     return groups, dict(model.settings) | settings

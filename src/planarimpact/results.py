@@ -1,9 +1,11 @@
 """What every model returns, and the names of the contact regimes."""
 
 from enum import IntEnum, StrEnum
-from typing import NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
+
+from planarimpact.arrays import Array, Integers
 
 
 class Regime(IntEnum):
@@ -52,14 +54,22 @@ class Rebound(NamedTuple):
         None where the model does not count.
     """
 
-    velocity: np.ndarray
-    peak_friction: np.ndarray
-    dissipation: np.ndarray
-    regime: np.ndarray
-    reversals: np.ndarray | None = None
+    velocity: Array
+    peak_friction: Array
+    dissipation: Array
+    regime: Any  # an array of codes, or one Regime: two types with nothing in common
+    reversals: Integers | None = None
 
     @classmethod
-    def of(cls, incidence, velocity, impulse, peak_friction, regime, reversals=None):
+    def of(
+        cls,
+        incidence: Array,
+        velocity: Array,
+        impulse: Array,
+        peak_friction: Array,
+        regime: Integers,
+        reversals: Integers | None = None,
+    ) -> Self:
         """Put together what a solver found for |x|, flat, in the shape and sign of `incidence`.
 
         `impulse` is that of friction, in mu m2 |v2(0)|. Times the mean velocity it is the work:
@@ -70,7 +80,15 @@ class Rebound(NamedTuple):
         return cls.shaped(incidence, velocity, peak_friction, work, regime, reversals)
 
     @classmethod
-    def shaped(cls, incidence, velocity, peak_friction, dissipation, regime, reversals=None):
+    def shaped(
+        cls,
+        incidence: Array,
+        velocity: Array,
+        peak_friction: Array,
+        dissipation: Array,
+        regime: Integers,
+        reversals: Integers | None = None,
+    ) -> Self:
         """As `of`, for a solver that knows the dissipation itself, to more digits.
 
         `dissipation` is in mu^2 m2 v2(0)^2.
@@ -80,9 +98,9 @@ class Rebound(NamedTuple):
         if incidence.ndim == 0:
             *numbers, code = (field[0] for field in fields)
             count = None if reversals is None else int(reversals[0])
-            return cls(*numbers, Regime(int(code)), count)
-        count = None if reversals is None else reversals.reshape(incidence.shape)
-        return cls(*(field.reshape(incidence.shape) for field in fields), count)
+            return cls._make([*numbers, Regime(int(code)), count])
+        counts = None if reversals is None else reversals.reshape(incidence.shape)
+        return cls._make([*(field.reshape(incidence.shape) for field in fields), counts])
 
 
 class EventKind(StrEnum):
@@ -132,12 +150,12 @@ class History(NamedTuple):
         In order of time, from contact to separation; STICK and SLIP mark where a phase starts.
     """
 
-    time: np.ndarray
-    normal: np.ndarray
-    friction: np.ndarray
-    velocity: np.ndarray
-    spring: np.ndarray
-    events: tuple
+    time: Array
+    normal: Array
+    friction: Array
+    velocity: Array
+    spring: Array
+    events: tuple[Event, ...]
 
 
 class ContinuumHistory(NamedTuple):
@@ -161,9 +179,9 @@ class ContinuumHistory(NamedTuple):
         nothing slips, 0 in gross slip.
     """
 
-    time: np.ndarray
-    normal: np.ndarray
-    friction: np.ndarray
-    velocity: np.ndarray
-    contact_radius: np.ndarray
-    stick_radius: np.ndarray
+    time: Array
+    normal: Array
+    friction: Array
+    velocity: Array
+    contact_radius: Array
+    stick_radius: Array

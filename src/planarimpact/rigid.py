@@ -7,10 +7,16 @@ configuration it never turns round. Light and dotted curves of Figs 5, 7 and 9.
 import numpy as np
 
 from planarimpact import checks
+from planarimpact.arrays import ArrayLike
 from planarimpact.results import Rebound, Regime
 
 
-def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
+def rebound(
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+) -> Rebound:
     """State at separation; all arguments broadcast.
 
     Parameters

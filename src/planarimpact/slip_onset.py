@@ -15,6 +15,8 @@ The root is searched only where it is alone:
 
 import numpy as np
 
+from planarimpact.arrays import Array, Booleans
+
 HALF_PI = np.pi / 2
 # The root finder is cubic: after a step of this share of the bracket the root is at rounding.
 LAST_STEP = 1e-6
@@ -22,7 +24,7 @@ LAST_STEP = 1e-6
 LARGEST_PHASE = 1e15
 
 
-def sin_cos(angle):
+def sin_cos(angle: Array) -> tuple[Array, Array]:
     """Sine and cosine from one tangent, the cheapest function of the three.
 
     Examples
@@ -35,7 +37,9 @@ def sin_cos(angle):
     return tangent * double, double - 1
 
 
-def in_restitution(eta, theta, amplitude, rate):
+def in_restitution(
+    eta: Array, theta: Array, amplitude: Array, rate: Array
+) -> tuple[Array, Array, Array]:
     """First eta' <= eta, falling, with sin(eta') = |amplitude sin(theta + rate (eta - eta'))|.
 
     For rate > 1 and theta < pi the ratio |T|/N must be past its maximum, as it is at every start
@@ -88,7 +92,7 @@ def in_restitution(eta, theta, amplitude, rate):
     return eta - advance, rho + rate * advance, wave
 
 
-def _crossing(eta, rho, amplitude, rate, widest):
+def _crossing(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array) -> Array:
     """Single zero in [0, widest] of sin(eta - a) - amplitude sin(rho + rate a), guarded."""
     advance = np.zeros_like(eta)
     last_step = LAST_STEP * widest
@@ -123,7 +127,9 @@ def _crossing(eta, rho, amplitude, rate, widest):
     return advance
 
 
-def _onset_behind_crest(eta, rho, amplitude, rate):
+def _onset_behind_crest(
+    eta: Array, rho: Array, amplitude: Array, rate: Array
+) -> tuple[Booleans, Array]:
     """Search a falling |T| whose ratio to N still rises: found or not, and the advance.
 
     Steps that provably jump no root: the second derivative of N - |T| is at least -N, and N
@@ -150,7 +156,7 @@ def _onset_behind_crest(eta, rho, amplitude, rate):
     return found, advance
 
 
-def in_compression(x, zeta2, rate):
+def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
     """First eta > 0 with x/(zeta^2 rate) sin(rate eta) = sin(eta), for rate < 1.
 
     The caller knows that T exceeds N at maximum compression. With u = eta^2, (T - N)/eta is

@@ -23,6 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact import many_phases, normal, slip_onset
+from planarimpact.arrays import Array, Integers, Numbers
 from planarimpact.checks import ConvergenceError, InputError
 from planarimpact.results import Regime
 from planarimpact.slip_onset import HALF_PI, sin_cos
@@ -36,23 +37,23 @@ MOST_TRACED = 100_000
 class Impacts(NamedTuple):
     """Groups of impacts with incidence x >= 0, arrays of one shape (n,)."""
 
-    x: np.ndarray
-    beta: np.ndarray
-    zeta2: np.ndarray
-    e: np.ndarray
+    x: Array
+    beta: Array
+    zeta2: Array
+    e: Array
 
-    def take(self, lanes):
+    def take(self, lanes: Integers) -> "Impacts":
         """The impacts with these indices."""
-        return Impacts(*(field[lanes] for field in self))
+        return Impacts._make(field[lanes] for field in self)
 
 
 class Outcome(NamedTuple):
     """What is known of each impact so far, arrays of shape (n,), filled in place."""
 
-    velocity: np.ndarray
-    peak_friction: np.ndarray
-    dissipation: np.ndarray
-    regime: np.ndarray
+    velocity: Array
+    peak_friction: Array
+    dissipation: Array
+    regime: Integers
 
 
 class Stick(NamedTuple):
@@ -61,11 +62,11 @@ class Stick(NamedTuple):
     Arrays of their own, which may be changed in place.
     """
 
-    lanes: np.ndarray
-    eta: np.ndarray
-    theta: np.ndarray
-    amplitude: np.ndarray
-    side: np.ndarray
+    lanes: Integers
+    eta: Array
+    theta: Array
+    amplitude: Array
+    side: Array
 
 
 class Phase(NamedTuple):
@@ -77,14 +78,14 @@ class Phase(NamedTuple):
 
     sticks: bool
     in_restitution: bool
-    eta: np.ndarray
-    side: np.ndarray
-    velocity: np.ndarray = 0.0
-    amplitude: np.ndarray = 0.0
-    theta: np.ndarray = 0.0
+    eta: Numbers
+    side: Numbers
+    velocity: Numbers = 0.0
+    amplitude: Numbers = 0.0
+    theta: Numbers = 0.0
 
 
-def restick_coefficient(beta, zeta2, e):
+def restick_coefficient(beta: Array, zeta2: Array, e: Array) -> Array:
     """K = e beta - zeta^2/e where positive, else 0.
 
     Slip in restitution has the velocity C - K cos(eta), C constant; it can end only if K > 0.
@@ -94,12 +95,12 @@ def restick_coefficient(beta, zeta2, e):
     return np.where(fast, excess, 0.0) / np.where(fast, e, 1.0)
 
 
-def slip_throughout_limit(beta, zeta2, e):
+def slip_throughout_limit(beta: Array, zeta2: Array, e: Array) -> Array:
     """Incidence from which slip never ends."""
     return np.maximum(zeta2, beta + restick_coefficient(beta, zeta2, e))
 
 
-def solve(impacts, trace=None):
+def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
     """Outcome of impacts.
 
     Parameters
@@ -147,7 +148,7 @@ def solve(impacts, trace=None):
     return outcome
 
 
-def state(phase, eta, beta, zeta2, e):
+def state(phase: Phase, eta: Array, beta: float, zeta2: float, e: float) -> tuple[Array, Array]:
     """Friction and velocity of one phase at angles `eta` of its half.
 
     Returns
@@ -165,7 +166,7 @@ def state(phase, eta, beta, zeta2, e):
     return phase.side * normal.force(eta), phase.velocity - phase.side * beta * share * passed
 
 
-def _tangent(slope, gap, rate):
+def _tangent(slope: Array, gap: Array, rate: Array) -> tuple[Array, Array, Array]:
     """Stick that starts with T = N and T' = N' = slope: amplitude, theta and eta there.
 
     `gap` is 1 - |slope|, free of cancellation.
@@ -175,7 +176,9 @@ def _tangent(slope, gap, rate):
     return np.hypot(force, slope / rate), np.arctan2(rate * force, slope), eta
 
 
-def _from_compression(lanes, impacts, outcome, trace):
+def _from_compression(
+    lanes: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
+) -> Stick:
     """Stick from the start, or after slip in compression, up to maximum compression.
 
     Fills the outcome of contacts that end there or slip on; the others are returned.
@@ -212,7 +215,9 @@ def _from_compression(lanes, impacts, outcome, trace):
     return Stick(lanes[on], np.full(on.size, HALF_PI), theta[on], amplitude[on], np.ones(on.size))
 
 
-def _break_in_compression(lanes, impacts, outcome, trace):
+def _break_in_compression(
+    lanes: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
+) -> None:
     """Initial stick that breaks before maximum compression (omega < Omega) slips to the end."""
     x, beta, zeta2, e = impacts
     omega = np.sqrt(beta / zeta2)
@@ -232,7 +237,7 @@ def _break_in_compression(lanes, impacts, outcome, trace):
         trace.append(Phase(False, True, HALF_PI, 1.0, compressed))
 
 
-def _after_late_slip(lanes, impacts, outcome):
+def _after_late_slip(lanes: Integers, impacts: Impacts, outcome: Outcome) -> Stick:
     """Stick after a first slip that ended in restitution, at cos(eta) = (x - beta)/K."""
     x, beta, zeta2, e = impacts
     reach = restick_coefficient(beta, zeta2, e)
@@ -243,7 +248,7 @@ def _after_late_slip(lanes, impacts, outcome):
     return Stick(lanes, eta, theta, amplitude, np.ones_like(eta))
 
 
-def _alternate(stick, impacts, outcome, trace):
+def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None) -> None:
     """Slip and stick in turn until every impact slides to separation; adds to the outcome."""
     count = 0
     while stick.lanes.size:
@@ -287,12 +292,12 @@ def _alternate(stick, impacts, outcome, trace):
         count += 1
 
 
-def _most_sticks(rate):
+def _most_sticks(rate: Array) -> int:
     """Each stick in restitution has a half-wave of T of its own, a part of it at the ends."""
     return int(rate.max()) + 3
 
 
-def _skip(stick, impacts, outcome, trace):
+def _skip(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None) -> None:
     """Move sticks that have far to go close to separation; adds the work of slip on the way."""
     beta, zeta2, e = (field[stick.lanes] for field in impacts[1:])
     rate = e * np.sqrt(beta / zeta2)

@@ -8,10 +8,11 @@ units these are: velocity mu |v2(0)|, force mu times the largest normal force, r
 import numpy as np
 
 from planarimpact import hertz, lumped
+from planarimpact.arrays import Array
 from planarimpact.micro_slip import SpringRow
 
 
-def first_stick(x, beta, zeta2):
+def first_stick(x: Array, beta: Array, zeta2: Array) -> tuple[Array, Array]:
     """Where gross slip from the start of contact ends: at once for x <= zeta^2.
 
     Parameters
@@ -39,7 +40,7 @@ def first_stick(x, beta, zeta2):
     return hertz.phase_at(normal), np.where(slips, zeta2 * normal, x)
 
 
-def gross_slip(x, beta, zeta2):
+def gross_slip(x: Array, beta: Array, zeta2: Array) -> list[Array]:
     """Path of one contact from its start to the end of gross slip, which may be separation.
 
     Parameters
@@ -66,7 +67,7 @@ def gross_slip(x, beta, zeta2):
     return [phase, friction, velocity, np.zeros(phase.size)]
 
 
-def path(x, beta, zeta2, steps):
+def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
     """Integrate from the end of gross slip to separation.
 
     Parameters
@@ -108,7 +109,9 @@ def path(x, beta, zeta2, steps):
     return found
 
 
-def _turn(row, phase, step, displacement, early, middle):
+def _turn(
+    row: SpringRow, phase: Array, step: Array, displacement: Array, early: Array, middle: Array
+) -> None:
     """Move the row to where slip ends within a step, if it does.
 
     Slip in the direction g goes on while g u - d grows. Where that has its top is remembered by

@@ -22,11 +22,13 @@ d_max/|v2(0)| where it is Hertzian.
 """
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from planarimpact import checks, hertz
+from planarimpact.arrays import Array, ArrayLike, Booleans, Integers, Numbers
 from planarimpact.results import Rebound, Regime
 
 STEPS = 64
@@ -43,7 +45,14 @@ STABLE_ANGLE = 2.0
 LEAST, LARGEST = 1e-100, 1e300
 
 
-def linear(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, steps=STEPS):
+def linear(
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+    *,
+    steps: int = STEPS,
+) -> Rebound:
     """Linear springs with a slider, after Cundall & Strack: the lumped model in steps.
 
     Parameters
@@ -94,7 +103,14 @@ def linear(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, 
     return _rebound(LINEAR, incidence, mass_ratio, stiffness_ratio, restitution, steps)
 
 
-def mindlin(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, steps=STEPS):
+def mindlin(
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+    *,
+    steps: int = STEPS,
+) -> Rebound:
     """Hertz contact; friction grows with the full tangential stiffness.
 
     Parameters
@@ -145,8 +161,13 @@ def mindlin(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *,
 
 
 def mindlin_rescaled(
-    incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0, *, steps=STEPS
-):
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+    *,
+    steps: int = STEPS,
+) -> Rebound:
     """Hertz contact as `mindlin`, where a contact that shrinks gives up its share of friction.
 
     Parameters
@@ -211,7 +232,14 @@ MINDLIN = _Law(
 MINDLIN_RESCALED = MINDLIN._replace(rescales=True)
 
 
-def _rebound(law, incidence, mass_ratio, stiffness_ratio, restitution, steps):
+def _rebound(
+    law: _Law,
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike,
+    stiffness_ratio: ArrayLike,
+    restitution: ArrayLike,
+    steps: int,
+) -> Rebound:
     signed, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     beta, zeta2, e = (a.reshape(-1) for a in groups)
     with np.errstate(over="ignore"):
@@ -231,19 +259,20 @@ def _rebound(law, incidence, mass_ratio, stiffness_ratio, restitution, steps):
 class _Instant(NamedTuple):
     """Normal motion at one step, arrays of one entry or of one for each impact."""
 
-    force: np.ndarray
-    touches: np.ndarray  # bool: whether there is any force
-    rate: np.ndarray  # growth of tangential force, for a unit of tangential velocity/zeta^2
-    kept: np.ndarray | None  # share of the tangential force that is carried over; None for all
-    kick: np.ndarray  # time over which the force at this step acts
+    force: Array
+    touches: Booleans  # whether there is any force
+    rate: Array  # growth of tangential force, for a unit of tangential velocity/zeta^2
+    kept: Array | None  # share of the tangential force that is carried over; None for all
+    kick: Array  # time over which the force at this step acts
 
 
-def _normal_motion(law, e, steps):
+def _normal_motion(law: _Law, e: Array, steps: int) -> Iterator[_Instant]:
     """Yield every `_Instant` of contact but the first and the last, where there is no force."""
     step = (1 + e) * (law.to_maximum / steps)
     # For e = 0, which never touches again below the largest depth, any tiny number will do.
     compliance = np.maximum(e * e, 1e-300)
-    depth, deepest, radius = np.zeros((3, e.size))
+    depth, deepest = np.zeros((2, e.size))
+    radius: Numbers = np.zeros(e.size)
     velocity = np.ones(e.size)  # of approach, half a step ahead; no force yet slows it
     ended = np.zeros(e.size, bool)
     while True:
@@ -264,12 +293,14 @@ def _normal_motion(law, e, steps):
         yield _Instant(force, touches, rate, kept, np.where(ended, step / 2, step))
 
 
-def _share_kept(before, after):
+def _share_kept(before: Numbers, after: Numbers) -> Array:
     """Radius of contact over that a step before, where it shrinks."""
     return np.divide(after, before, out=np.ones_like(after), where=after < before)
 
 
-def _impacts(law, x, beta, zeta2, e, steps):
+def _impacts(
+    law: _Law, x: Array, beta: Array, zeta2: Array, e: Array, steps: int
+) -> tuple[Array, Array, Array, Integers]:
     """Velocity, impulse, peak friction and regime of impacts solved together, x >= 0."""
     # Normal motion knows e alone: it is integrated once where all impacts share it.
     if (e == e[0]).all():
@@ -281,9 +312,10 @@ def _impacts(law, x, beta, zeta2, e, steps):
     velocity = start.copy()
     slowing = beta / zeta2
     friction, work, peak = np.zeros((3, x.size))
-    slips, slipped, starts_in_slip = np.zeros((3, x.size), bool)
-    sticks = None  # phases of stick so far
-    normal_impulse = 0.0
+    slips, starts_in_slip = np.zeros((2, x.size), bool)
+    slipped = np.ones(x.size, bool)  # as if in slip before, so that an initial stick counts
+    sticks = np.zeros(x.size, np.int64)  # phases of stick so far
+    started, normal_impulse = False, np.zeros(e.size)
     for normal in _normal_motion(law, e, steps):
         np.multiply(velocity, normal.rate, out=work)
         if normal.kept is not None:
@@ -291,11 +323,9 @@ def _impacts(law, x, beta, zeta2, e, steps):
         work += friction
         np.abs(work, out=friction)
         np.greater(friction, normal.force, out=slips, where=normal.touches)
-        if sticks is None:
-            starts_in_slip[:] = slips
-            sticks = (~slips).astype(np.int64)
-        else:
-            sticks += slipped > slips
+        if not started:
+            started, starts_in_slip[:] = True, slips
+        sticks += slipped > slips
         slipped[:] = slips
         np.minimum(friction, normal.force, out=friction)
         np.maximum(peak, friction, out=peak)
@@ -315,7 +345,7 @@ def _impacts(law, x, beta, zeta2, e, steps):
     return final, impulse, np.minimum(peak / law.peak_force, 1.0), regime
 
 
-def _regime(sticks, starts_in_slip, ends_in_slip):
+def _regime(sticks: Integers, starts_in_slip: Booleans, ends_in_slip: Booleans) -> Integers:
     """Regime by the number of phases of stick and by what was seen first and last."""
     after_stick = np.where(ends_in_slip, Regime.STICK_SLIP, Regime.STICK)
     after_slip = np.where(ends_in_slip, Regime.SLIP_STICK_SLIP, Regime.SLIP_STICK)

@@ -1,6 +1,7 @@
 """Files that appear whole or not at all, and what JSON writes for no number."""
 
 import math
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -8,7 +9,7 @@ from planarimpact.checks import InputError
 
 
 @contextmanager
-def written(path):
+def written(path: str | Path) -> Iterator[Path]:
     """Give a path to write to; the file gets its own name when the block ends well.
 
     Parameters
@@ -48,7 +49,7 @@ def written(path):
         partial.unlink(missing_ok=True)
 
 
-def or_null(value):
+def or_null(value: object) -> object:
     """A value for JSON, which knows neither NaN nor infinity: None for these.
 
     Examples

@@ -4,3 +4,11 @@ Each module has one function `curves`, whose keywords are the settings of that f
 `workflow/config.yaml` with the physics shared by all. It returns `{name: {column: array}}`; a
 column's name carries its unit in brackets, S = (v1(0)^2 + v2(0)^2)^(1/2).
 """
+
+from typing import Any, TypeAlias
+
+from numpy.typing import NDArray
+
+Column: TypeAlias = NDArray[Any]  # numbers, or words
+Columns: TypeAlias = dict[str, Column]
+Curves: TypeAlias = dict[str, Columns]

@@ -2,11 +2,14 @@
 
 import numpy as np
 
+from planarimpact.arrays import ArrayLike, Booleans
+from planarimpact.curves import Columns, Curves
+
 # Below this the printed equations are the exact ones to rounding.
 SAME = 1e-9
 
 
-def beside(name, curve, printed):
+def beside(name: str, curve: Columns, printed: ArrayLike) -> Curves:
     """Curves of the printed equations beside one exact curve.
 
     Parameters
@@ -47,7 +50,7 @@ def beside(name, curve, printed):
     return found
 
 
-def _with_neighbours(chosen, after=True):
+def _with_neighbours(chosen: Booleans, after: bool = True) -> Booleans:
     grown = chosen.copy()
     grown[:-1] |= chosen[1:]
     if after:

@@ -1,14 +1,26 @@
 """Beyond the paper: two methods for one continuum, their errors and what they cost."""
 
 import time
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from planarimpact import annuli, continuum, lumped
+from planarimpact.arrays import Array, ArrayLike
+from planarimpact.curves import Columns, Curves
 from planarimpact.curves.sampling import vertices
 
 
-def curves(mass_ratio, stiffness_ratio, samples, tolerance, steps, circles, fixed, nodes=()):
+def curves(
+    mass_ratio: float,
+    stiffness_ratio: Sequence[float],
+    samples: int,
+    tolerance: float,
+    steps: Sequence[int],
+    circles: Sequence[int],
+    fixed: dict[str, int],
+    nodes: ArrayLike = (),
+) -> Curves:
     """Both methods against the finest answer, and the continuum where it is tabulated.
 
     Parameters
@@ -47,16 +59,16 @@ def curves(mass_ratio, stiffness_ratio, samples, tolerance, steps, circles, fixe
     groups = x, mass_ratio, zeta2
     exact = continuum.rebound(*groups, tolerance=tolerance).velocity
 
-    def plain(n):
+    def plain(n: int) -> Array:
         return continuum.fixed_steps(*groups, n)
 
-    def extrapolated(n):
+    def extrapolated(n: int) -> Array:
         return continuum.fixed_steps(*groups, n, extrapolate=True)
 
-    def by_circles(n):
+    def by_circles(n: int) -> Array:
         return annuli.rebound(*groups, circles=n, steps=fixed["steps"]).velocity
 
-    def by_steps(n):
+    def by_steps(n: int) -> Array:
         return annuli.rebound(*groups, circles=fixed["circles"], steps=n).velocity
 
     named = {
@@ -73,7 +85,9 @@ def curves(mass_ratio, stiffness_ratio, samples, tolerance, steps, circles, fixe
     return named
 
 
-def _errors(method, column, numbers, exact):
+def _errors(
+    method: Callable[[int], Array], column: str, numbers: Sequence[int], exact: Array
+) -> Columns:
     """Error and time of a method at each number, and the order from the first to the last."""
     errors, times = [], []
     for number in numbers:

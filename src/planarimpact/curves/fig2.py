@@ -2,8 +2,10 @@
 
 import numpy as np
 
+from planarimpact.curves import Curves
 
-def curves(stiffness_ratio, restitution):
+
+def curves(stiffness_ratio: float, restitution: float) -> Curves:
     """Loading and unloading lines in the units of Table 1.
 
     Parameters

@@ -1,12 +1,22 @@
 """Fig. 3: forces and tangential velocity against time, initial stick."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from planarimpact import lumped
+from planarimpact.curves import Columns, Curves
 from planarimpact.curves.sampling import name
+from planarimpact.results import History
 
 
-def curves(mass_ratio, stiffness_ratio, incidence, restitution, samples):
+def curves(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    incidence: float,
+    restitution: Sequence[float],
+    samples: int,
+) -> Curves:
     """One contact for each coefficient of restitution.
 
     Parameters
@@ -36,7 +46,7 @@ def curves(mass_ratio, stiffness_ratio, incidence, restitution, samples):
     }
 
 
-def _columns(contact):
+def _columns(contact: History) -> Columns:
     """Columns of a history, with one vertex an event."""
     events = contact.events
     at_event = np.isin(contact.time, [event.time for event in events])

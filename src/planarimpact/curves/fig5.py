@@ -1,27 +1,31 @@
 """Fig. 5: tangential velocity at separation against incidence, e = 1."""
 
+from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
 
 from planarimpact import continuum, lumped, rigid
+from planarimpact.arrays import Array, ArrayLike
+from planarimpact.curves import Columns, Curves
 from planarimpact.curves import as_printed as printed_curves
 from planarimpact.curves.sampling import regime_names, vertices
 from planarimpact.printed import impact
 from planarimpact.printed.slip import slip_throughout_limit as printed_limit
+from planarimpact.results import Rebound
 
 
 def curves(
-    mass_ratio,
-    stiffness_ratio,
-    incidence,
-    restitution,
-    samples,
-    tolerance,
-    rubber,
-    experiment,
-    as_printed=False,
-):
+    mass_ratio: float,
+    stiffness_ratio: float,
+    incidence: Sequence[float],
+    restitution: float,
+    samples: int,
+    tolerance: float,
+    rubber: dict[str, float],
+    experiment: dict[str, float],
+    as_printed: bool = False,
+) -> Curves:
     """The lumped model, its limit, the elastic continuum; the same for rubber, an experiment.
 
     Parameters
@@ -59,8 +63,8 @@ def curves(
     1.0
     """
     limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution)
-    limits = limit, printed_limit(mass_ratio, restitution)
-    x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limits)
+    printed = printed_limit(mass_ratio, restitution)
+    x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, printed)
     spring = rubber["stiffness_ratio"]
     elastic = partial(continuum.rebound, tolerance=tolerance)
     groups = mass_ratio, stiffness_ratio
@@ -86,11 +90,11 @@ def curves(
     return named
 
 
-def _velocity(x, rebound):
+def _velocity(x: Array, rebound: Rebound) -> Columns:
     return {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": rebound.velocity}
 
 
-def _sphere(x, rebound, mass_ratio):
+def _sphere(x: Array, rebound: Rebound, mass_ratio: float) -> Columns:
     return {
         **_velocity(x, rebound),
         "regime": regime_names(rebound.regime),
@@ -98,7 +102,16 @@ def _sphere(x, rebound, mass_ratio):
     }
 
 
-def _experiment(samples, model, mass_ratio, stiffness_ratio, restitution, friction, speed, radius):
+def _experiment(
+    samples: int,
+    model: Callable[..., Rebound],
+    mass_ratio: float,
+    stiffness_ratio: float,
+    restitution: float,
+    friction: float,
+    speed: float,
+    radius: float,
+) -> Columns:
     """What a free sphere without spin shows against its angle of incidence."""
     groups = mass_ratio, stiffness_ratio, restitution
     limits = [stiffness_ratio, mass_ratio, lumped.slip_throughout_limit(*groups)]
@@ -122,7 +135,9 @@ def _experiment(samples, model, mass_ratio, stiffness_ratio, restitution, fricti
     }
 
 
-def contact_velocities(angle, centre_restitution, mass_ratio, friction):
+def contact_velocities(
+    angle: ArrayLike, centre_restitution: ArrayLike, mass_ratio: float, friction: float
+) -> tuple[Array, Array]:
     """Measured points of a sphere without spin in the axes of the figure.
 
     Parameters

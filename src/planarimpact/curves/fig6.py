@@ -1,6 +1,10 @@
 """Fig. 6: tangential velocity at separation against incidence, for several restitutions."""
 
+from collections.abc import Sequence
+
 from planarimpact import lumped
+from planarimpact.arrays import ArrayLike
+from planarimpact.curves import Curves
 from planarimpact.curves import as_printed as printed_curves
 from planarimpact.curves.sampling import name, regime_names, vertices
 from planarimpact.printed import impact
@@ -8,8 +12,14 @@ from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
 
 def curves(
-    mass_ratio, stiffness_ratio, incidence, restitution, samples, nodes=(), as_printed=False
-):
+    mass_ratio: float,
+    stiffness_ratio: float,
+    incidence: Sequence[float],
+    restitution: Sequence[float],
+    samples: int,
+    nodes: ArrayLike = (),
+    as_printed: bool = False,
+) -> Curves:
     """One curve for each coefficient of restitution.
 
     Parameters
@@ -41,8 +51,8 @@ def curves(
     named = {}
     for e in restitution:
         limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
-        limits = limit, printed_limit(mass_ratio, e)
-        x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limits, nodes)
+        printed = printed_limit(mass_ratio, e)
+        x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, printed, nodes)
         rebound = lumped.rebound(x, mass_ratio, stiffness_ratio, e)
         named[name("e", e)] = {
             "incidence [mu v2(0)]": x,

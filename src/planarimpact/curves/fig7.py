@@ -1,15 +1,26 @@
 """Fig. 7: largest normal and tangential force against the angle of incidence."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from planarimpact import lumped, rigid
+from planarimpact.arrays import Array
+from planarimpact.curves import Columns, Curves
 from planarimpact.curves import as_printed as printed_curves
 from planarimpact.curves.sampling import name, vertices
 from planarimpact.printed import impact
 from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
 
-def curves(mass_ratio, stiffness_ratio, angle, friction, samples, as_printed=False):
+def curves(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    angle: Sequence[float],
+    friction: Sequence[float],
+    samples: int,
+    as_printed: bool = False,
+) -> Curves:
     """Peak forces over m2 Omega S; they do not depend on restitution when omega > Omega.
 
     Parameters
@@ -58,10 +69,10 @@ def curves(mass_ratio, stiffness_ratio, angle, friction, samples, as_printed=Fal
     return named
 
 
-def _as_printed(mu, mass_ratio, stiffness_ratio, samples):
+def _as_printed(mu: float, mass_ratio: float, stiffness_ratio: float, samples: int) -> Curves:
     """Eqs 30 to 33 where they differ: from x = beta, where slip lasts to t_c, to (1 + e) beta."""
     limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, 1.0)
-    end = printed_limit(mass_ratio, 1.0)
+    end = float(printed_limit(mass_ratio, 1.0))
     x = vertices((mass_ratio, end), samples // 20 + 2, limit)
     theta = np.degrees(np.arctan(mu * x))
     scale = mu * np.cos(np.radians(theta))
@@ -70,5 +81,5 @@ def _as_printed(mu, mass_ratio, stiffness_ratio, samples):
     return printed_curves.beside(name("mu", mu), _force(theta, exact), scale * peak)
 
 
-def _force(theta, force):
+def _force(theta: Array, force: Array) -> Columns:
     return {"angle [deg]": theta, "peak_force [m2 Omega S]": force}

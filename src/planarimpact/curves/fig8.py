@@ -1,12 +1,24 @@
 """Fig. 8: largest forces in newtons on the pendulum ball of Lewis & Rogers."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from planarimpact import bodies, lumped
+from planarimpact.curves import Curves
 from planarimpact.curves.sampling import vertices
 
 
-def curves(mass_ratio, stiffness_ratio, angle, friction, speed, mass, ball, samples):
+def curves(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    angle: Sequence[float],
+    friction: float,
+    speed: float,
+    mass: float,
+    ball: dict[str, float],
+    samples: int,
+) -> Curves:
     """Peak forces at one speed of incidence.
 
     The paper states no contact stiffness. Omega is taken so that the peak force at normal

@@ -1,8 +1,12 @@
 """Fig. 9: share of the initial kinetic energy dissipated by friction."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from planarimpact import lumped, rigid
+from planarimpact.arrays import ArrayLike
+from planarimpact.curves import Curves
 from planarimpact.curves import as_printed as printed_curves
 from planarimpact.curves.sampling import name, vertices
 from planarimpact.printed import impact
@@ -10,15 +14,15 @@ from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
 
 def curves(
-    mass_ratio,
-    stiffness_ratio,
-    angle,
-    friction,
-    restitution,
-    samples,
-    nodes=(),
-    as_printed=False,
-):
+    mass_ratio: float,
+    stiffness_ratio: float,
+    angle: Sequence[float],
+    friction: Sequence[float],
+    restitution: Sequence[float],
+    samples: int,
+    nodes: ArrayLike = (),
+    as_printed: bool = False,
+) -> Curves:
     """Dissipation by friction over m2 S^2/2, from two independent calculations.
 
     Parameters

@@ -1,9 +1,20 @@
 """Beyond the paper: where the contact sticks over the impact, and the forces of both models."""
 
+from collections.abc import Sequence
+
 from planarimpact import continuum, lumped
+from planarimpact.curves import Columns, Curves
+from planarimpact.results import ContinuumHistory, History
 
 
-def curves(mass_ratio, stiffness_ratio, incidences, forces, samples, tolerance):
+def curves(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    incidences: Sequence[float],
+    forces: Sequence[float],
+    samples: int,
+    tolerance: float,
+) -> Curves:
     """Contacts of the elastic continuum, and of the lumped model where forces are compared.
 
     Parameters
@@ -38,12 +49,12 @@ def curves(mass_ratio, stiffness_ratio, incidences, forces, samples, tolerance):
             "stick_radius [a_max]": contact.stick_radius,
         }
     for x in forces:
-        contact = lumped.history(x, mass_ratio, stiffness_ratio, 1.0, samples)
-        named[f"lumped, x = {x:g}"] = _columns(contact)
+        whole = lumped.history(x, mass_ratio, stiffness_ratio, 1.0, samples)
+        named[f"lumped, x = {x:g}"] = _columns(whole)
     return named
 
 
-def _columns(contact):
+def _columns(contact: ContinuumHistory | History) -> Columns:
     return {
         "time [t_c]": contact.time,
         "normal_force [F2max]": contact.normal,

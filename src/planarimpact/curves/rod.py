@@ -1,16 +1,28 @@
 """Beyond the paper: a slender rod strikes with its tip, tilted, so that its motions are coupled."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from planarimpact import noncollinear
+from planarimpact.arrays import Array, ArrayLike
+from planarimpact.curves import Columns, Curves
 from planarimpact.curves.sampling import name, regime_names, vertices
-from planarimpact.noncollinear import rigid
-from planarimpact.noncollinear.rigid import Law
+from planarimpact.noncollinear import InverseMass, NoncollinearHistory, NoncollinearRebound, rigid
+from planarimpact.noncollinear.rigid import ImpulsiveRebound, Law
 
 RIGID = {"rigid": Law.ENERGETIC, "rigid, Newton": Law.KINEMATIC}
 
 
-def curves(stiffness_ratio, tilt, velocity_ratio, friction, restitution, samples, contact):
+def curves(
+    stiffness_ratio: float,
+    tilt: Sequence[float],
+    velocity_ratio: Sequence[float],
+    friction: float,
+    restitution: float,
+    samples: int,
+    contact: dict[str, float],
+) -> Curves:
     """Rebound against the tilt, compliant and rigid, and one contact that jams.
 
     Parameters
@@ -61,8 +73,8 @@ def curves(stiffness_ratio, tilt, velocity_ratio, friction, restitution, samples
             "regime": regime_names(found.regime),
         }
         for kind, law in RIGID.items():
-            found = rigid.rebound(ratio, 1.0, rod, friction, restitution, law)
-            named[f"{kind}, {name('v1/v2', ratio)}"] = _columns(angle, found, rod, before)
+            sudden = rigid.rebound(ratio, 1.0, rod, friction, restitution, law)
+            named[f"{kind}, {name('v1/v2', ratio)}"] = _columns(angle, sudden, rod, before)
     for label, mu in (("contact", friction), ("contact, mu = 0", 0.0)):
         named[label] = _followed(
             noncollinear.history(
@@ -78,7 +90,7 @@ def curves(stiffness_ratio, tilt, velocity_ratio, friction, restitution, samples
     return named
 
 
-def slender_rod(tilt):
+def slender_rod(tilt: ArrayLike) -> InverseMass:
     """Inverse mass at the tip of a uniform slender rod, in units of 1/m2.
 
     Parameters
@@ -102,7 +114,7 @@ def slender_rod(tilt):
     return noncollinear.inverse_mass(mass, 12**-0.5, offset=sine / 2, depth=cosine / 2)
 
 
-def jam_limits(friction):
+def jam_limits(friction: float) -> Array:
     """Tilts in degrees between which a slender rod jams while its tip slides: mu |c| m2 = 1.
 
     c m2 = 3 tan/(1 + 4 tan^2) is at most 3/4, so there are none for mu <= 4/3.
@@ -122,7 +134,9 @@ def jam_limits(friction):
     return np.concatenate([-limits[::-1], limits])
 
 
-def _columns(angle, found, rod, before):
+def _columns(
+    angle: Array, found: NoncollinearRebound | ImpulsiveRebound, rod: InverseMass, before: Array
+) -> Columns:
     after = noncollinear.kinetic_energy(found.tangential, found.normal, rod)
     return {
         "tilt [deg]": angle,
@@ -133,7 +147,7 @@ def _columns(angle, found, rod, before):
     }
 
 
-def _followed(contact):
+def _followed(contact: NoncollinearHistory) -> Columns:
     """Columns of a history; the last event of an instant stands at its vertex."""
     event = np.full(contact.time.size, "", dtype="<U24")
     for mark in contact.events:

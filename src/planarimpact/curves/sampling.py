@@ -1,11 +1,15 @@
 """Where curves have their vertices."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from planarimpact.arrays import Array, ArrayLike, Integers
+from planarimpact.curves import Column
 from planarimpact.results import Regime
 
 
-def vertices(span, samples, *extra):
+def vertices(span: Sequence[float], samples: int, *extra: ArrayLike) -> Array:
     """Evenly spread samples of `span` with `extra` points inside it, sorted, each once.
 
     Parameters
@@ -26,12 +30,13 @@ def vertices(span, samples, *extra):
     >>> vertices((0.0, 2.0), 3, 1.21, [5.0]).tolist()
     [0.0, 1.0, 1.21, 2.0]
     """
-    points = [np.ravel(np.asarray(points, dtype=float)) for points in extra]
-    points = np.concatenate([np.linspace(*span, samples), *points])
-    return np.unique(points[(points >= span[0]) & (points <= span[1])])
+    low, high = span
+    more = [np.ravel(np.asarray(points, dtype=float)) for points in extra]
+    points = np.concatenate([np.linspace(low, high, samples), *more])
+    return np.unique(points[(points >= low) & (points <= high)])
 
 
-def name(symbol, value):
+def name(symbol: str, value: float) -> str:
     """Name of a curve by a parameter, the same in curves and in reference data.
 
     Examples
@@ -42,7 +47,7 @@ def name(symbol, value):
     return f"{symbol} = {value:g}"
 
 
-def regime_names(codes):
+def regime_names(codes: Integers) -> Column:
     """Names of an array of `Regime` codes.
 
     Examples

@@ -1,10 +1,14 @@
 """Beyond the paper: correct digits of the lumped model all over its parameters, and their limit."""
 
 import warnings
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeVar
 
 import numpy as np
 
 from planarimpact import lumped
+from planarimpact.arrays import Array
+from planarimpact.curves import Curves
 
 GROUPS = {
     "incidence": "mu v2(0)",
@@ -19,7 +23,10 @@ FLOOR = 100 * 5e-324
 DIGITS = 16.0  # no more are counted
 
 
-def curves(points, most_phases):
+_Result = TypeVar("_Result")
+
+
+def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
     """Digits of every output at given impacts, and the balances of their contacts.
 
     Parameters
@@ -73,9 +80,9 @@ def curves(points, most_phases):
     return {"impacts": labelled | columns, "contacts": followed}
 
 
-def _solved(groups):
+def _solved(groups: Array) -> Array:
     """Outputs of impacts, shape (3, n); NaN for one that raises or warns, and for no other."""
-    found = _attempt(lambda: np.stack(lumped.rebound(*groups)[: len(OUTPUTS)]))
+    found = _attempt(lambda: np.stack(lumped.rebound(*groups)[:3]))
     if found is not None:
         return found
     if groups.shape[1] == 1:
@@ -83,7 +90,7 @@ def _solved(groups):
     return np.concatenate([_solved(half) for half in np.array_split(groups, 2, axis=1)], axis=1)
 
 
-def _attempt(call):
+def _attempt(call: Callable[[], _Result]) -> _Result | None:
     """What a call returns; None if it raises or warns."""
     try:
         with warnings.catch_warnings():
@@ -93,7 +100,7 @@ def _attempt(call):
         return None
 
 
-def _digits(found, exact, condition):
+def _digits(found: Array, exact: Array, condition: Array) -> tuple[Array, Array, Array]:
     """Digits found, allowed and lost of one output."""
     size = np.maximum(np.abs(exact), FLOOR)
     error = np.abs(found - exact)
@@ -107,18 +114,19 @@ def _digits(found, exact, condition):
     return correct + 0.0, np.clip(allowed, 0.0, DIGITS) + 0.0, lost  # no -0.0
 
 
-def _balances(size, *group):
+def _balances(size: float, x: float, beta: float, zeta2: float, e: float) -> tuple[float, float]:
     """Excess of friction over the Coulomb limit, and residual of energy over `size`; at worst 1."""
-    events = _attempt(lambda: lumped.history(*group, samples=2).events)
-    gap = _attempt(lambda: lumped.friction_work(*group) - lumped.rebound(*group).dissipation)
+    groups = x, beta, zeta2, e
+    events = _attempt(lambda: lumped.history(x, beta, zeta2, e, samples=2).events)
+    gap = _attempt(lambda: lumped.friction_work(*groups) - lumped.rebound(*groups).dissipation)
     if events is None or gap is None:
         return 1.0, 1.0
     excess = np.max([abs(event.friction) - event.normal for event in events], initial=0.0)
     excess = np.nan_to_num(excess, nan=1.0)
     # For e = 0 the tangential spring loses energy too.
-    return excess, 0.0 if group[-1] == 0 or abs(gap) <= FLOOR else min(1.0, abs(gap) / size)
+    return excess, 0.0 if e == 0 or abs(gap) <= FLOOR else min(1.0, float(abs(gap)) / size)
 
 
-def _most_work(x, beta, zeta2, e):
+def _most_work(x: Array, beta: Array, zeta2: Array, e: Array) -> Array:
     """All tangential energy, or friction at its limit over the whole contact where that is less."""
     return np.minimum(x, 2 * (1 + e) * beta) * (x / (2 * beta))

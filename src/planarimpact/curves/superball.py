@@ -1,15 +1,19 @@
 """A superball thrown under a table: it comes back. Its path between floor and table."""
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 import pandas as pd
 
 from planarimpact import scene
+from planarimpact.curves import Curves
 from planarimpact.scene.columns import header
 
 TOLERANCE = 1e-6
 
 
-def curves(throw):
+def curves(throw: dict[str, Any]) -> Curves:
     """Path of a ball between a floor and the underside of a table, and each impact.
 
     Parameters
@@ -58,7 +62,15 @@ def curves(throw):
     return {"path": path}
 
 
-def impacts(friction, restitution, velocity, spin, gap, bounces, **ball):
+def impacts(
+    friction: float,
+    restitution: float,
+    velocity: Sequence[float],
+    spin: float,
+    gap: float,
+    bounces: int,
+    **ball: float,
+) -> tuple[pd.DataFrame, pd.DataFrame]:
     """The impacts of a throw as a scene, each from the state after the one before, and its result.
 
     Parameters
@@ -78,7 +90,9 @@ def impacts(friction, restitution, velocity, spin, gap, bounces, **ball):
     for bounce in range(bounces):
         floor = bounce % 2 == 0
         normal = {"normal_x": 0.0, "normal_y": 0.0, "normal_z": 1.0 if floor else -1.0}
-        row = {header(name): value for name, value in (fixed | state | normal).items()}
+        row: dict[str, Any] = {
+            header(name): value for name, value in (fixed | state | normal).items()
+        }
         row = {"id": f"{bounce + 1}, {'floor' if floor else 'table'}", **row}
         rows.append(row)
         results.append(solver.solve(pd.DataFrame([row])))

@@ -1,12 +1,16 @@
 """Beyond the paper: how far off each model of the ladder is, and what it costs on this machine."""
 
 import time
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from planarimpact import ladder, response
+from planarimpact.arrays import Array
+from planarimpact.curves import Curves
+from planarimpact.ladder import Model
+from planarimpact.results import Rebound
 
 FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
 SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
@@ -20,18 +24,18 @@ TOGETHER = 300
 
 
 def curves(
-    mass_ratio,
-    stiffness_ratio,
-    incidence,
-    samples,
-    restitution,
-    tolerance,
-    steps,
-    circles,
-    tolerances,
-    batches,
-    budget,
-):
+    mass_ratio: float,
+    stiffness_ratio: float,
+    incidence: Sequence[float],
+    samples: int,
+    restitution: Sequence[float],
+    tolerance: float,
+    steps: Sequence[int],
+    circles: Sequence[int],
+    tolerances: Sequence[float],
+    batches: Sequence[int],
+    budget: float,
+) -> Curves:
     """Errors and times of every model that admits a restitution, a curve of one point each.
 
     Parameters
@@ -72,7 +76,7 @@ def curves(
     0.0
     """
     tried = {"steps": steps, "circles": circles, "tolerance": tolerances}
-    x = np.linspace(*incidence, samples)
+    x = np.linspace(incidence[0], incidence[1], samples)
     named = {}
     for e in restitution:
         groups = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio, "restitution": e}
@@ -92,16 +96,19 @@ def curves(
     return named
 
 
+_Solver: TypeAlias = Callable[[Array], Rebound]
+
+
 class _Contender(NamedTuple):
     """One model with its settings, as a function of the incidence alone."""
 
     model: str
-    settings: dict
-    rebound: Callable
-    build_time: dict = {}
+    settings: dict[str, float]
+    rebound: _Solver
+    build_time: dict[str, float] = {}
 
 
-def _solved(groups, tried):
+def _solved(groups: dict[str, float], tried: dict[str, Sequence[float]]) -> Iterator[_Contender]:
     """Every model that admits the restitution, with each setting that is tried."""
     for model in ladder.MODELS.values():
         if _admits(model, groups["restitution"]):
@@ -109,26 +116,28 @@ def _solved(groups, tried):
                 yield _Contender(model.name, settings, _solver(model, groups, settings))
 
 
-def _admits(model, restitution):
+def _admits(model: Model, restitution: float) -> bool:
     low, high = model.restitution
     return low <= restitution <= high
 
 
-def _variants(model, tried):
+def _variants(model: Model, tried: dict[str, Sequence[float]]) -> list[dict[str, float]]:
     """Settings of a model: the first that is tried is varied, the others keep their defaults."""
     known = {key: value for key, value in model.settings.items() if key in tried}
     varied = next(iter(known), None)
     return [known | {varied: value} for value in tried[varied]] if varied else [{}]
 
 
-def _solver(model, groups, settings):
-    def rebound(x):
+def _solver(model: Model, groups: dict[str, float], settings: dict[str, float]) -> _Solver:
+    def rebound(x: Array) -> Rebound:
         return model.rebound(x, **groups, **settings)
 
     return rebound
 
 
-def _compiled(groups, tolerances, incidence_max):
+def _compiled(
+    groups: dict[str, float], tolerances: Sequence[float], incidence_max: float
+) -> Iterator[_Contender]:
     """Responses of the exact models, compiled here."""
     wanted = [("lumped", LUMPED_RESPONSE_TOLERANCE)]
     if _admits(ladder.get("continuum"), groups["restitution"]):
@@ -141,13 +150,13 @@ def _compiled(groups, tolerances, incidence_max):
         yield _Contender(f"response of {model}", settings, made, build_time)
 
 
-def _name(contender, e):
+def _name(contender: _Contender, e: float) -> str:
     words = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
     settings = [words[key].format(value) for key, value in contender.settings.items()]
     return ", ".join([contender.model, *settings, f"e = {e:g}"])
 
 
-def reference(x, groups, tolerance):
+def reference(x: Array, groups: dict[str, float], tolerance: float) -> tuple[Rebound, float]:
     """What errors are measured against, and its own error in velocity.
 
     Parameters
@@ -175,7 +184,7 @@ def reference(x, groups, tolerance):
     return model.rebound(x, **groups), LUMPED_ACCURACY
 
 
-def errors(found, exact):
+def errors(found: Rebound, exact: Rebound) -> dict[str, float]:
     """Root mean square and largest error of each field that a model answers.
 
     Parameters
@@ -206,7 +215,12 @@ def errors(found, exact):
     return columns
 
 
-def times(seconds, incidence, batches, budget):
+def times(
+    seconds: Callable[[Array], float],
+    incidence: Sequence[float],
+    batches: Sequence[int],
+    budget: float,
+) -> dict[str, float]:
     """Time of an impact in each batch, as far as the budget goes.
 
     Parameters
@@ -231,21 +245,22 @@ def times(seconds, incidence, batches, budget):
     {'time_1 [s]': 0.5, 'time_10 [s]': 0.5}
     """
     random = np.random.default_rng(SEED)
-    seconds(random.uniform(*incidence, 1))  # the first call pays for what is kept
+    low, high = incidence
+    seconds(random.uniform(low, high, 1))  # the first call pays for what is kept
     columns, before, median = {}, 1, 0.0
     for batch in sorted(batches):
         if median * batch / max(before, TOGETHER) > budget:
             break
-        taken = []
+        taken: list[float] = []
         while len(taken) < REPEATS and sum(taken) < ENOUGH:
-            taken.append(seconds(random.uniform(*incidence, batch)))
+            taken.append(seconds(random.uniform(low, high, batch)))
         before, median = batch, float(np.median(taken))
         columns[f"time_{batch} [s]"] = median / batch
     return columns
 
 
-def _stopwatch(rebound):
-    def seconds(x):
+def _stopwatch(rebound: _Solver) -> Callable[[Array], float]:
+    def seconds(x: Array) -> float:
         start = time.perf_counter()
         rebound(x)
         return time.perf_counter() - start

@@ -17,7 +17,7 @@ from planarimpact.ledger.finding import Finding, Judgement, judge
 __all__ = ["Finding", "Judgement", "judge", "run"]
 
 
-def run(check):
+def run(check: str) -> Finding:
     """Run one check, named `module.function`.
 
     Raises

@@ -4,14 +4,16 @@ v1(0), v2(0) < 0, F2 > 0, F1 = (kappa/zeta^2) u1 and du1/dt = -v1 in stick. Scal
 numbers with no common factor, so that a formula with a wrong one cannot agree by accident.
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import cumulative_simpson
 
 from planarimpact import lumped, timestep
+from planarimpact.arrays import Array, Numbers
 from planarimpact.printed import dynamics
-from planarimpact.results import Event, EventKind, History
+from planarimpact.results import Event, EventKind, History, Rebound
 
 FRICTION, NORMAL_MASS, NORMAL_VELOCITY, STIFFNESS = 0.3, 1.7, -2.3, 5.9
 # The sphere of the paper's examples (p. 444), and others, all with omega > Omega as it assumes,
@@ -25,11 +27,11 @@ RESTITUTIONS = (0.05, 0.15, 0.3, 0.6, 0.9, 1.0)
 class State:
     """Time, forces, tangential velocity and deflection at one instant, or at many."""
 
-    t: float
-    force_2: float
-    force_1: float
-    v1: float
-    u1: float
+    t: Array
+    force_2: Array
+    force_1: Array
+    v1: Array
+    u1: Array
 
 
 @dataclass(frozen=True)
@@ -48,64 +50,64 @@ class Contact:
     stiffness = STIFFNESS
 
     @property
-    def m1(self):
+    def m1(self) -> float:
         """Tangential effective mass."""
         return self.m2 / self.mass_ratio
 
     @property
-    def v1(self):
+    def v1(self) -> float:
         """Tangential velocity at t = 0."""
         return self.incidence * self.velocity_scale
 
     @property
-    def normal_frequency(self):
+    def normal_frequency(self) -> float:
         """Omega."""
         return np.sqrt(self.stiffness / self.m2)
 
     @property
-    def tangential_frequency(self):
+    def tangential_frequency(self) -> float:
         """omega."""
         return np.sqrt(self.stiffness / (self.stiffness_ratio * self.m1))
 
     @property
-    def compression_time(self):
+    def compression_time(self) -> float:
         """t_c."""
         return np.pi / 2 / self.normal_frequency
 
     @property
-    def force_scale(self):
+    def force_scale(self) -> float:
         """m2 Omega |v2(0)|."""
         return -self.m2 * self.normal_frequency * self.v2
 
     @property
-    def friction_scale(self):
+    def friction_scale(self) -> float:
         """mu times the scale of normal forces."""
         return self.friction * self.force_scale
 
     @property
-    def velocity_scale(self):
+    def velocity_scale(self) -> float:
         """mu v2(0), negative."""
         return self.friction * self.v2
 
     @property
-    def path(self):
+    def path(self) -> State:
         """States at all samples and events."""
         return self._state(self.history)
 
     @property
-    def events(self):
+    def events(self) -> list[tuple[EventKind, State]]:
         """States at the events, `(kind, State)` in order."""
         return [(event.kind, self._state(event)) for event in self.history.events]
 
-    def first(self, kind):
+    def first(self, kind: EventKind) -> State:
         """State at the first event of a kind."""
         return next(state for found, state in self.events if found == kind)
 
-    def last(self, kind):
+    def last(self, kind: EventKind) -> State:
         """State at the last event of a kind."""
         return [state for found, state in self.events if found == kind][-1]
 
-    def between(self, start, end):
+    def between(self, start: Numbers, end: Numbers) -> State:
         """States of the path from one time to another, both included."""
         path = self.path
         inside = (path.t >= start) & (path.t <= end)
@@ -113,31 +115,31 @@ class Contact:
         return State(*(column[inside] for column in columns))
 
     @property
-    def rebound(self):
+    def rebound(self) -> Rebound:
         """What `lumped.rebound` finds: another way than the path's."""
         groups = self.mass_ratio, self.stiffness_ratio, self.restitution
         return lumped.rebound(self.incidence, *groups)
 
     @property
-    def final_velocity(self):
+    def final_velocity(self) -> float:
         """v1(tf), of `rebound`."""
         return float(self.rebound.velocity) * self.velocity_scale
 
-    def impulse(self, t):
+    def impulse(self, t: Numbers) -> Array:
         """p(t) by Table 1."""
         groups = self.v2, self.m2, self.normal_frequency, self.restitution
         return dynamics.table_1_impulse(t, *groups)
 
-    def impulse_left(self, t):
+    def impulse_left(self, t: Numbers) -> Array:
         """p(tf) - p(t), by Table 1."""
         return -(1 + self.restitution) * self.m2 * self.v2 - self.impulse(t)
 
     @property
-    def last_slip_direction(self):
+    def last_slip_direction(self) -> float:
         """s of the last slip, from the force there: F1 = -mu s F2."""
         return -float(np.sign(self.last(EventKind.SLIP).force_1))
 
-    def _state(self, found: Event | History):
+    def _state(self, found: Event | History) -> State:
         return State(
             np.asarray(found.time) * self.compression_time,
             np.asarray(found.normal) * self.force_scale,
@@ -148,12 +150,12 @@ class Contact:
 
 
 def contact(
-    incidence,
-    mass_ratio=MASS_RATIO,
-    stiffness_ratio=STIFFNESS_RATIO,
-    restitution=1.0,
-    samples=65,
-):
+    incidence: float,
+    mass_ratio: float = MASS_RATIO,
+    stiffness_ratio: float = STIFFNESS_RATIO,
+    restitution: float = 1.0,
+    samples: int = 65,
+) -> Contact:
     """Solve one contact.
 
     Examples
@@ -166,7 +168,7 @@ def contact(
     return Contact(*groups, lumped.history(*groups, samples))
 
 
-def integral(found, values):
+def integral(found: Contact, values: Array) -> Array:
     """Integral over time of values along a path, piece by piece between its kinks.
 
     Examples
@@ -192,29 +194,29 @@ class NormalMotion:
     """What the exact normal force does along one contact, by quadrature."""
 
     found: Contact
-    impulse: np.ndarray
-    velocity: np.ndarray
-    displacement: np.ndarray
-    work: np.ndarray
+    impulse: Array
+    velocity: Array
+    displacement: Array
+    work: Array
 
     @property
-    def top(self):
+    def top(self) -> int:
         """Index of maximum compression."""
         return int(np.flatnonzero(self.found.path.t == self.found.compression_time)[0])
 
 
-def without_micro_slip(incidence):
+def without_micro_slip(incidence: Array) -> Rebound:
     """Rebound of the paper's sphere, e = 1, by a Hertz contact that slips as a whole; to 1e-3."""
     return timestep.mindlin_rescaled(incidence, *SPHERE, steps=4096)
 
 
-def normal_motions():
+def normal_motions() -> Iterator[tuple[float, NormalMotion]]:
     """Normal motions for all restitutions of the checks: (e, NormalMotion)."""
     for e in RESTITUTIONS:
         yield e, normal_motion(e)
 
 
-def normal_motion(restitution):
+def normal_motion(restitution: float) -> NormalMotion:
     """Normal motion of a contact of the paper's sphere, good to 1e-9."""
     found = contact(0.7, restitution=restitution, samples=4001)
     force = found.path.force_2
@@ -224,7 +226,7 @@ def normal_motion(restitution):
     return NormalMotion(found, impulse, velocity, integral(found, velocity), work)
 
 
-def initial_stick():
+def initial_stick() -> Iterator[Contact]:
     """Contacts over the paper's range of initial stick, 0 < x < zeta^2."""
     for beta, zeta2 in PAIRS:
         for e in RESTITUTIONS:
@@ -232,7 +234,9 @@ def initial_stick():
                 yield contact(share * zeta2, beta, zeta2, e)
 
 
-def slip_stick_slip(restitutions=RESTITUTIONS, late=None):
+def slip_stick_slip(
+    restitutions: Sequence[float] = RESTITUTIONS, late: bool | None = None
+) -> Iterator[Contact]:
     """Contacts that slip, stick and slip; `late`: stick begins in restitution, or not."""
     for beta, zeta2 in PAIRS:
         for e in restitutions:
@@ -245,13 +249,13 @@ def slip_stick_slip(restitutions=RESTITUTIONS, late=None):
                 yield from (contact(x, beta, zeta2, e) for x in later)
 
 
-def with_stick():
+def with_stick() -> Iterator[Contact]:
     """Contacts that stick, at first or after slip, and slip to the end."""
     yield from initial_stick()
     yield from slip_stick_slip()
 
 
-def slip_throughout():
+def slip_throughout() -> Iterator[Contact]:
     """Contacts over the paper's range of slip throughout, x > (1 + e) beta."""
     for beta, zeta2 in PAIRS:
         for e in RESTITUTIONS:

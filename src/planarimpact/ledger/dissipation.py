@@ -3,7 +3,9 @@
 import numpy as np
 
 from planarimpact import lumped, rigid
+from planarimpact.arrays import Array, Numbers
 from planarimpact.ledger import contact
+from planarimpact.ledger.contact import Contact, State
 from planarimpact.ledger.dynamics import PLATE
 from planarimpact.ledger.finding import Finding, largest
 from planarimpact.printed import dissipation, slip
@@ -14,7 +16,7 @@ FRICTIONS, RESTITUTIONS = (0.1, 0.5), (1.0, 0.5)
 ANGLES = np.linspace(0.0, 89.95, 17991)[1:]  # degrees
 
 
-def kinetic_energy():
+def kinetic_energy() -> Finding:
     """K0 over the kinetic energy of a rigid body, less 1, without spin and with it."""
     mass, gyration, x2 = PLATE["mass"], PLATE["gyration"], PLATE["x2"]
     v1, v2 = -0.8, -1.3
@@ -27,7 +29,7 @@ def kinetic_energy():
     return Finding(largest([np.array(ratios) - 1]))
 
 
-def hysteresis():
+def hysteresis() -> Finding:
     """Eqs 36 and 37 against the normal kinetic energy that the exact contact loses."""
     gaps = []
     for e, motion in contact.normal_motions():
@@ -39,22 +41,22 @@ def hysteresis():
     return Finding(largest(gaps))
 
 
-def _unit(found):
+def _unit(found: Contact) -> float:
     """Tangential kinetic energy m1 v1(0)^2/2, in which the gaps are measured."""
     return found.m1 * found.v1**2 / 2
 
 
-def _exact(found):
+def _exact(found: Contact) -> float:
     """Exact dissipation by friction, in the paper's units."""
     return float(found.rebound.dissipation) * found.m2 * found.velocity_scale**2
 
 
-def _spring(found, state):
+def _spring(found: Contact, state: State) -> Array:
     """Tangential strain energy in a state."""
     return found.stiffness / found.stiffness_ratio * state.u1**2 / 2
 
 
-def friction_after_stick():
+def friction_after_stick() -> Finding:
     """Distance of Eq. 38 from the exact energy lost, over m1 v1(0)^2/2, all initial stick.
 
     Corrected: with s, and the tangential strain energy at t1.
@@ -70,12 +72,13 @@ def friction_after_stick():
     return Finding(largest(printed), largest(corrected))
 
 
-def friction_after_stick_in_groups():
+def friction_after_stick_in_groups() -> Finding:
     """Distance of Eq. 39 from the exact energy lost, over m1 v1(0)^2/2, all initial stick.
 
     Corrected: with s g1 for g1, and mu^2 zeta^2 sin^2 of the angle of restitution at t1.
     """
-    printed, corrected = [], []
+    printed: list[Numbers] = []
+    corrected: list[Numbers] = []
     for found in contact.initial_stick():
         onset, normal = found.last(EventKind.SLIP), found.m2 * found.v2**2
         swing = np.cos(found.tangential_frequency * onset.t)
@@ -92,7 +95,7 @@ def friction_after_stick_in_groups():
     return Finding(largest(printed), largest(corrected))
 
 
-def friction_of_two_slips():
+def friction_of_two_slips() -> Finding:
     """Distance of Eq. 40 from the exact energy lost, over m1 v1(0)^2/2, slip - stick - slip.
 
     Corrected: strain energy at t3 comes in, that at t2 goes out.
@@ -101,10 +104,9 @@ def friction_of_two_slips():
     for found in contact.slip_stick_slip():
         scale, normal = found.velocity_scale, found.m2 * found.v2**2
         start, onset = found.first(EventKind.STICK), found.last(EventKind.SLIP)
-        velocities = [v / scale for v in (start.v1, onset.v1, found.final_velocity)]
-        lost = dissipation.eq_40_friction(
-            found.incidence, *velocities, found.mass_ratio, found.friction
-        )
+        w2, w3, final = start.v1 / scale, onset.v1 / scale, found.final_velocity / scale
+        groups = found.mass_ratio, found.friction
+        lost = dissipation.eq_40_friction(found.incidence, w2, w3, final, *groups)
         gap = lost * normal / 2 - _exact(found)
         printed.append(gap / _unit(found))
         strain = _spring(found, onset) - _spring(found, start)
@@ -112,7 +114,7 @@ def friction_of_two_slips():
     return Finding(largest(printed), largest(corrected))
 
 
-def friction_of_slip_throughout():
+def friction_of_slip_throughout() -> Finding:
     """Eq. 41 against the exact energy lost above the printed limit."""
     gaps = []
     for found in contact.slip_throughout():
@@ -122,7 +124,7 @@ def friction_of_slip_throughout():
     return Finding(largest(gaps))
 
 
-def theorem():
+def theorem() -> Finding:
     """The footnote's D1 of the first slip less the work of friction on the particle.
 
     Over m1 v1(0)^2/2, the work by quadrature along exact contacts. Corrected: less the tangential
@@ -144,7 +146,7 @@ def theorem():
     return Finding(largest(printed), largest(corrected))
 
 
-def only_in_slip():
+def only_in_slip() -> Finding:
     """Work of friction over the phases of slip against the exact balance of energy."""
     gaps = []
     for found in contact.with_stick():
@@ -154,7 +156,7 @@ def only_in_slip():
     return Finding(largest(gaps))
 
 
-def body_velocity_alone():
+def body_velocity_alone() -> Finding:
     """Work of friction with v1 alone over the last slip, over that with v1 + du1/dt.
 
     The lowest ratio over initial stick, sphere of the paper, e = 1; the sentence has it 1.
@@ -168,7 +170,7 @@ def body_velocity_alone():
     return Finding(float(min(ratios)))
 
 
-def strain_recovered():
+def strain_recovered() -> Finding:
     """Share of the strain energy at the onset of the last slip that the body gets back.
 
     The largest over the contacts of the checks; what the body does not get, friction takes.
@@ -181,7 +183,7 @@ def strain_recovered():
     return Finding(float(max(shares)))
 
 
-def small_incidence():
+def small_incidence() -> Finding:
     """Dissipation by friction over that without tangential compliance, in initial stick.
 
     The smallest ratio over e = 1 and 0.5, those of Fig. 9.
@@ -196,7 +198,7 @@ def small_incidence():
     return Finding(float(np.min(ratios)))
 
 
-def compliance_immaterial():
+def compliance_immaterial() -> Finding:
     """Difference that tangential compliance makes to the dissipation above the printed limit."""
     gaps = []
     for e in contact.RESTITUTIONS:
@@ -206,14 +208,14 @@ def compliance_immaterial():
     return Finding(largest(gaps))
 
 
-def _dissipated(friction, restitution):
+def _dissipated(friction: float, restitution: float) -> Array:
     """Share of m2 S^2/2 that friction takes at each of ANGLES."""
     theta = np.radians(ANGLES)
     lost = lumped.rebound(np.tan(theta) / friction, *contact.SPHERE, restitution).dissipation
     return 2 * (friction * np.cos(theta)) ** 2 * lost
 
 
-def angle_of_largest():
+def angle_of_largest() -> Finding:
     """Largest angle between most dissipation and the start of slip throughout, degrees.
 
     Over both frictions and restitutions of Fig. 9.
@@ -227,7 +229,7 @@ def angle_of_largest():
     return Finding(float(max(gaps)))
 
 
-def limited_by_restitution():
+def limited_by_restitution() -> Finding:
     """Smallest gain of the largest share dissipated from one e to the next larger."""
     shares = [
         [_dissipated(mu, e).max() for e in np.linspace(0, 1, 11)] for mu in (0.1, 0.3, 0.5, 1.0)
@@ -235,7 +237,7 @@ def limited_by_restitution():
     return Finding(float(np.min(np.diff(shares, axis=1))))
 
 
-def rigid_independence():
+def rigid_independence() -> Finding:
     """Slip halted: dissipation over x^2 mu^2 m2 v2(0)^2/(2 beta), less 1, for all e.
 
     Of the rigid limit and of the lumped model with zeta^2 = 1e-4, in units where mu cancels.

@@ -1,10 +1,14 @@
 """Checks of Eqs 1 to 9 and Table 1, and of what pp. 435 to 440 say of them."""
 
+from collections.abc import Iterator
+
 import numpy as np
 from scipy.integrate import cumulative_simpson, solve_ivp
 
 from planarimpact import bodies, lumped, noncollinear
+from planarimpact.arrays import Array
 from planarimpact.ledger import contact
+from planarimpact.ledger.contact import Contact, State
 from planarimpact.ledger.finding import Finding, largest
 from planarimpact.printed import dynamics
 from planarimpact.results import EventKind
@@ -13,13 +17,15 @@ from planarimpact.results import EventKind
 PLATE = {"mass": 2.3, "gyration": 0.7, "x1": 0.4, "x2": -0.9}
 
 
-def _change_of_velocity(impulse, mass, gyration, x1, x2):
+def _change_of_velocity(
+    impulse: Array, mass: float, gyration: float, x1: float, x2: float
+) -> Array:
     """Change of velocity of C of a free rigid body, from the balances of momentum and spin."""
     spin = (x1 * impulse[1] - x2 * impulse[0]) / (mass * gyration**2)
     return np.array([impulse[0] / mass - spin * x2, impulse[1] / mass + spin * x1])
 
 
-def inverse_mass():
+def inverse_mass() -> Finding:
     """Eq. 1 against the response of a free rigid body to unit impulses, and `bodies`."""
     columns = [_change_of_velocity(unit, **PLATE) for unit in np.eye(2)]
     free = dynamics.eq_1_inverse_mass(**PLATE) - np.array(columns).T
@@ -28,7 +34,7 @@ def inverse_mass():
     return Finding(largest([free, collinear * ours - 1]))
 
 
-def effective_masses():
+def effective_masses() -> Finding:
     """Eq. 2 against `bodies` for a collinear impact, and against a free rigid body."""
     masses = dynamics.eq_2_effective_masses(2.3, 0.7, 0.0, -0.9)
     collinear = np.array(masses) / bodies.effective_masses(bodies.Body(2.3, 0.7, 0.9)) - 1
@@ -37,7 +43,7 @@ def effective_masses():
     return Finding(largest([collinear, free]))
 
 
-def velocity_change():
+def velocity_change() -> Finding:
     """Eq. 3 against a free rigid body, and along contacts: m1 dv1 is the impulse of friction."""
     impulse = np.array([0.3, 1.1])
     inverse = dynamics.eq_1_inverse_mass(**PLATE)
@@ -51,19 +57,19 @@ def velocity_change():
     return Finding(largest(gaps))
 
 
-def off_diagonal():
+def off_diagonal() -> Finding:
     """The coupling of Eq. 1 over its diagonal for x1 = 0."""
     inverse = dynamics.eq_1_inverse_mass(2.3, 0.7, 0.0, -0.9)
     beta = float(bodies.mass_ratio(bodies.Body(2.3, 0.7, 0.9)))
     return Finding(largest([inverse[0, 1], inverse[0, 0] / inverse[1, 1] / beta - 1]))
 
 
-def natural_frequencies():
+def natural_frequencies() -> Finding:
     """Relative distance of the formula from eigenvalues of the motion in stick.
 
     A plate with x1/k = 0.57, x2/k = -1.29 and its mirror image, zeta^2 = 1.4.
     """
-    gaps = {4: [], 2: []}
+    gaps: dict[int, list[Array]] = {4: [], 2: []}
     for x1 in (PLATE["x1"], -PLATE["x1"]):
         plate = PLATE | {"x1": x1}
         springs = np.diag([1 / 1.4, 1.0]) * 3.1
@@ -77,7 +83,7 @@ def natural_frequencies():
     return Finding(largest(gaps[4]), largest(gaps[2]))
 
 
-def frequencies():
+def frequencies() -> Finding:
     """Eq. 4: compression takes up the normal momentum in t_c; stick swings with omega."""
     gaps = []
     for beta, zeta2 in contact.PAIRS:
@@ -94,7 +100,7 @@ def frequencies():
     return Finding(largest(gaps))
 
 
-def restitution():
+def restitution() -> Finding:
     """Eq. 5: works of the normal force along exact contacts give e back."""
     gaps = []
     for e, motion in contact.normal_motions():
@@ -103,7 +109,7 @@ def restitution():
     return Finding(largest(gaps))
 
 
-def normal_velocity():
+def normal_velocity() -> Finding:
     """Eqs 6a and 6b against the momentum that the exact normal force has brought."""
     gaps = []
     for e, motion in contact.normal_motions():
@@ -116,7 +122,7 @@ def normal_velocity():
     return Finding(largest(gaps))
 
 
-def table_1():
+def table_1() -> Finding:
     """All rows of Table 1 against the exact normal force and its integrals."""
     gaps = []
     for e, motion in contact.normal_motions():
@@ -132,7 +138,7 @@ def table_1():
     return Finding(largest(gaps))
 
 
-def duration():
+def duration() -> Finding:
     """tf/t_c of the solver against 1 + e."""
     gaps = [
         lumped.history(x, restitution=e, samples=2).time[-1] - (1 + e)
@@ -142,7 +148,7 @@ def duration():
     return Finding(largest(gaps))
 
 
-def final_indentation():
+def final_indentation() -> Finding:
     """u2(tf) over u2(t_c) by quadrature of the exact force, against 1 - e^2."""
     gaps = []
     for e, motion in contact.normal_motions():
@@ -151,7 +157,7 @@ def final_indentation():
     return Finding(largest(gaps))
 
 
-def stored_work():
+def stored_work() -> Finding:
     """Work at t_c over F2(t_c) u2(t_c)/2, and slope of unloading over kappa/e^2, less 1."""
     gaps = []
     for e, motion in contact.normal_motions():
@@ -163,7 +169,7 @@ def stored_work():
     return Finding(largest(gaps))
 
 
-def velocity_continuous():
+def velocity_continuous() -> Finding:
     """Eqs 6a and 6b at t_c, over v2(0), and the momentum brought till then."""
     gaps = []
     for e, motion in contact.normal_motions():
@@ -177,7 +183,7 @@ def velocity_continuous():
     return Finding(largest(gaps))
 
 
-def hysteresis_caption():
+def hysteresis_caption() -> Finding:
     """Share of the absorbed energy that is lost, less the ratio of areas, e^2 (Fig. 2)."""
     printed, corrected = [], []
     for e in (0.3, 0.6, 0.9):
@@ -188,7 +194,7 @@ def hysteresis_caption():
     return Finding(largest(printed), largest(corrected))
 
 
-def normal_independence():
+def normal_independence() -> Finding:
     """Difference that incidence and stiffness ratio make to the exact normal force."""
     gaps = []
     for e in contact.RESTITUTIONS:
@@ -200,7 +206,7 @@ def normal_independence():
     return Finding(largest(gaps))
 
 
-def stick():
+def stick() -> Finding:
     """Eqs 7a to 7c along the first stick of exact contacts, and against numerical integration."""
     gaps = _integrated_stick()
     for found in contact.with_stick():
@@ -217,7 +223,7 @@ def stick():
     return Finding(largest(gaps))
 
 
-def noncollinear_stick():
+def noncollinear_stick() -> Finding:
     """Part of the second derivative of F2 that no single frequency explains, root mean square.
 
     Over compression of a slender rod that sticks with its tip, v1/v2 = -0.5: tilted by 25 deg, less
@@ -226,7 +232,7 @@ def noncollinear_stick():
     return Finding(_not_harmonic(25.0) - _not_harmonic(0.0))
 
 
-def _not_harmonic(tilt):
+def _not_harmonic(tilt: float) -> float:
     place = np.sin(np.radians(tilt)) / 2, np.cos(np.radians(tilt)) / 2
     rod = noncollinear.inverse_mass(1.0, 12**-0.5, *place)
     found = noncollinear.history(-0.5, 1.0, rod, friction=1.0, samples=2001)
@@ -239,9 +245,9 @@ def _not_harmonic(tilt):
     return float(np.linalg.norm(rest) / np.linalg.norm(change))
 
 
-def _integrated_stick():
+def _integrated_stick() -> list[Array]:
     """Distance of Eqs 7a and 7b from du1/dt = -v1, m1 dv1/dt = (kappa/zeta^2) u1, integrated."""
-    start = np.array([0.3, -0.8])
+    start = 0.3, -0.8
     stiffness, m1 = contact.STIFFNESS / contact.STIFFNESS_RATIO, 0.6
     omega, end = np.sqrt(stiffness / m1), 2.0
     found = solve_ivp(
@@ -260,7 +266,7 @@ def _integrated_stick():
     return [value - exact for value, exact in zip(printed, found.y, strict=True)]
 
 
-def friction_cone():
+def friction_cone() -> Finding:
     """Largest excess of |F1| over mu F2 along exact contacts, over the largest mu F2."""
     excess = [
         np.max(np.abs(found.path.force_1) - found.friction * found.path.force_2)
@@ -270,13 +276,13 @@ def friction_cone():
     return Finding(max(0.0, float(np.max(excess))))
 
 
-def _last_slips():
+def _last_slips() -> Iterator[tuple[Contact, State, float]]:
     for found in contact.with_stick():
         start, end = found.last(EventKind.SLIP), found.last(EventKind.SEPARATION)
         yield found, found.between(start.t, end.t), found.last_slip_direction
 
 
-def slip_force():
+def slip_force() -> Finding:
     """Eq. 8 along the last slip, with s from the velocity of the particle."""
     gaps = []
     for found, path, direction in _last_slips():
@@ -288,7 +294,7 @@ def slip_force():
     return Finding(largest(gaps))
 
 
-def velocity_slope():
+def velocity_slope() -> Finding:
     """Eq. 9 along the last slip: dv1/dp, p of Table 1."""
     gaps = []
     for found, path, direction in _last_slips():
@@ -301,7 +307,7 @@ def velocity_slope():
     return Finding(largest(gaps))
 
 
-def _restored(found, path):
+def _restored(found: Contact, path: State) -> float:
     """Fall of v2 from the start of a path to its end, over v2(0), by Eq. 6."""
     groups = found.v2, found.normal_frequency, found.restitution
     velocity = dynamics.table_1_velocity(path.t, *groups)

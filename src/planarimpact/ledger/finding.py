@@ -1,7 +1,7 @@
 """What a check of the ledger returns, and the judgement of an entry on it."""
 
-from collections.abc import Iterable
-from typing import NamedTuple
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,7 +35,7 @@ class Judgement(NamedTuple):
     why: str
 
 
-def largest(values: Iterable):
+def largest(values: Iterable) -> float:
     """Largest absolute value of numbers and arrays; nan stays nan.
 
     Examples
@@ -46,7 +46,7 @@ def largest(values: Iterable):
     return float(np.max([np.max(np.abs(value), initial=0) for value in values]))
 
 
-def verdict(found, confirms):
+def verdict(found: float, confirms: Mapping[str, float]) -> str:
     """Verdict that a number supports.
 
     Parameters
@@ -77,7 +77,7 @@ def verdict(found, confirms):
     return CONFIRMED if good else WRONG
 
 
-def judge(finding, entry):
+def judge(finding: Finding, entry: Mapping[str, Any]) -> Judgement:
     """Judge whether an entry of the ledger still holds.
 
     Parameters

@@ -1,39 +1,47 @@
 """Checks of Eqs 28 to 35, and of what pp. 435 and 444 to 449 say of the largest forces."""
 
+from collections.abc import Callable, Iterable, Sequence
+
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from planarimpact import bodies, landmarks, lumped, rigid
+from planarimpact.arrays import Array, Numbers
 from planarimpact.ledger import contact
+from planarimpact.ledger.contact import Contact, State
 from planarimpact.ledger.finding import Finding, largest
 from planarimpact.ledger.slip import boundary
 from planarimpact.printed import peak_force
-from planarimpact.results import EventKind
+from planarimpact.results import EventKind, Rebound
 
 FRICTIONS = (0.1, 0.2, 0.4, 0.6, 0.8, 1.0)
 ANGLES = np.linspace(0.0, 89.9, 1799)[1:]  # degrees, 0.05 apart
 
 
-def _forces(model, friction):
+def _forces(model: Callable[[Array], Rebound], friction: float) -> Array:
     """F1max/(m2 Omega S) at each of ANGLES; `model` takes incidences."""
     theta = np.radians(ANGLES)
     return friction * np.cos(theta) * model(np.tan(theta) / friction).peak_friction
 
 
-def _lumped(x):
+def _lumped(x: Array) -> Rebound:
     return lumped.rebound(x, *contact.SPHERE)
 
 
-def _rigid(x):
+def _rigid(x: Array) -> Rebound:
     return rigid.rebound(x, contact.MASS_RATIO)
 
 
-def _speed(found):
+def _speed(found: Contact) -> tuple[float, float]:
     """S(0) of a contact, and v1(0)/v2(0)."""
     return np.hypot(found.v1, found.v2), found.v1 / found.v2
 
 
-def _against(contacts, printed, force=lambda found: np.abs(found.path.force_1).max()):
+def _against(
+    contacts: Iterable[Contact],
+    printed: Callable[[Contact, float], Numbers],
+    force: Callable[[Contact], Numbers] = lambda found: np.abs(found.path.force_1).max(),
+) -> float:
     """Largest distance of a printed force over m2 Omega S from that of exact contacts, in mu."""
     gaps = []
     for found in contacts:
@@ -43,10 +51,10 @@ def _against(contacts, printed, force=lambda found: np.abs(found.path.force_1).m
     return largest(gaps)
 
 
-def normal():
+def normal() -> Finding:
     """Eq. 28 against the exact normal force, which is largest at t_c."""
 
-    def at_compression(found):
+    def at_compression(found: Contact) -> Numbers:
         top = found.first(EventKind.MAXIMUM_COMPRESSION).force_2
         return top if top == found.path.force_2.max() else np.nan
 
@@ -56,12 +64,12 @@ def normal():
     )
 
 
-def _peak(found):
+def _peak(found: Contact) -> Array:
     """Exact peak of friction."""
     return found.rebound.peak_friction * found.friction_scale
 
 
-def stick():
+def stick() -> Finding:
     """Eq. 29 against the exact peak of friction, initial stick."""
     gaps = []
     for found in contact.initial_stick():
@@ -70,7 +78,7 @@ def stick():
     return Finding(largest(gaps))
 
 
-def stick_over_speed():
+def stick_over_speed() -> Finding:
     """Eq. 30 against the exact peak of friction, initial stick."""
     return Finding(
         _against(
@@ -83,7 +91,7 @@ def stick_over_speed():
     )
 
 
-def stick_velocity():
+def stick_velocity() -> Finding:
     """v1 at t = pi/(2 omega), where friction is largest in initial stick, over v1(0)."""
     gaps = []
     for beta, zeta2 in contact.PAIRS:
@@ -95,7 +103,7 @@ def stick_velocity():
     return Finding(largest(gaps))
 
 
-def _start(found):
+def _start(found: Contact) -> tuple[State, tuple[Numbers, Numbers]]:
     """Both values of Eq. 32 at the exact start of stick, and that start."""
     start = found.first(EventKind.STICK)
     angle = found.normal_frequency * start.t
@@ -103,7 +111,7 @@ def _start(found):
     return start, peak_force.eq_32_start(angle, *groups)
 
 
-def _along_stick(found):
+def _along_stick(found: Contact) -> tuple[State, Numbers]:
     """States of the stick after the first slip, and Eqs 31 and 32 there, as a force."""
     start, values = _start(found)
     path = found.between(start.t, found.last(EventKind.SLIP).t)
@@ -115,7 +123,7 @@ def _along_stick(found):
     return path, force * found.m2 * found.normal_frequency * speed
 
 
-def stick_after_slip():
+def stick_after_slip() -> Finding:
     """Eq. 31 with Eq. 32 along the stick that begins in compression, over mu F2max."""
     gaps = []
     for found in contact.slip_stick_slip(late=False):
@@ -124,7 +132,7 @@ def stick_after_slip():
     return Finding(largest(gaps))
 
 
-def start_of_stick():
+def start_of_stick() -> Finding:
     """Eq. 32 at the exact start of stick in compression; corrected: u1 with a minus."""
     printed, corrected = [], []
     for found in contact.slip_stick_slip(late=False):
@@ -136,7 +144,7 @@ def start_of_stick():
     return Finding(largest(printed), largest(corrected))
 
 
-def peak_after_late_stick():
+def peak_after_late_stick() -> Finding:
     """Largest value of Eq. 31 over the stick that begins in restitution, less the exact peak.
 
     In mu F2max, at e = 1, where both formulas of Table 1 coincide; corrected by Eq. 33.
@@ -150,7 +158,7 @@ def peak_after_late_stick():
     return Finding(largest(printed), largest(corrected))
 
 
-def slip_throughout():
+def slip_throughout() -> Finding:
     """Eq. 33 against the exact peak of friction above the printed limit, and from beta on."""
     contacts = [*contact.slip_throughout(), *contact.slip_stick_slip(late=True)]
     return Finding(
@@ -160,7 +168,7 @@ def slip_throughout():
     )
 
 
-def _rigid_gap(formula, shares):
+def _rigid_gap(formula: Callable[..., Numbers], shares: Sequence[float]) -> Finding:
     """Distance of a formula of the rigid limit from mu F2 where slip halts or F2 is largest, in mu.
 
     The instant from the exact normal impulse by quadrature, and `rigid` with it; x = shares of
@@ -185,7 +193,7 @@ def _rigid_gap(formula, shares):
     return Finding(largest(gaps))
 
 
-def rigid_halted():
+def rigid_halted() -> Finding:
     """Eq. 34 where slip halts in compression, against quadrature and `rigid`."""
     return _rigid_gap(
         lambda slope, beta: peak_force.eq_34_friction(slope, contact.FRICTION, beta),
@@ -193,20 +201,20 @@ def rigid_halted():
     )
 
 
-def rigid_sliding():
+def rigid_sliding() -> Finding:
     """Eq. 35 where slip goes through compression, against quadrature and `rigid`."""
     return _rigid_gap(
         lambda slope, _: peak_force.eq_35_friction(slope, contact.FRICTION), (1.0, 1.7, 2.5)
     )
 
 
-def compliance_reduces():
+def compliance_reduces() -> Finding:
     """Smallest excess of the peak without tangential compliance over the compliant one, in mu."""
     x = np.linspace(0, 8, 2001)
     return Finding(float(np.min(_rigid(x).peak_friction - _lumped(x).peak_friction)))
 
 
-def restitution_immaterial():
+def restitution_immaterial() -> Finding:
     """Change of the peak of friction with e, omega > Omega."""
     x = np.linspace(0, 8, 401)
     e = np.linspace(0, 1, 21)[:, None]
@@ -214,7 +222,7 @@ def restitution_immaterial():
     return Finding(largest(gaps))
 
 
-def in_compression():
+def in_compression() -> Finding:
     """Largest excess of the peak of friction over that of compression alone, e = 0."""
     x = np.linspace(0, 8, 401)
     e = np.linspace(0, 1, 21)[:, None]
@@ -225,7 +233,7 @@ def in_compression():
     return Finding(float(np.max(gaps)))
 
 
-def late_stick():
+def late_stick() -> Finding:
     """Share of the incidences of slip - stick - slip (e = 1) whose stick begins after t_c."""
     beta, zeta2 = contact.SPHERE
     limit = float(lumped.slip_throughout_limit(beta, zeta2, 1.0))
@@ -235,7 +243,7 @@ def late_stick():
     return Finding(float(np.mean([state.t > top for state in found])))
 
 
-def velocity_at_stick():
+def velocity_at_stick() -> Finding:
     """Lowest v1(t2)/(mu v2(0)) over slip - stick - slip, e = 1; negative: turned round."""
     lowest = min(
         found.first(EventKind.STICK).v1 / found.velocity_scale
@@ -245,7 +253,7 @@ def velocity_at_stick():
     return Finding(float(lowest))
 
 
-def peak_after_stick():
+def peak_after_stick() -> Finding:
     """Share of the incidences of slip - stick - slip (e = 1) with the peak before stick."""
     beta, zeta2 = contact.SPHERE
     limit = float(lumped.slip_throughout_limit(beta, zeta2, 1.0))
@@ -257,7 +265,7 @@ def peak_after_stick():
     return Finding(float(np.mean(shares)))
 
 
-def simultaneous():
+def simultaneous() -> Finding:
     """Distance of the instants of both peaks in slip throughout, in t_c."""
     gaps = []
     for found in contact.slip_throughout():
@@ -267,38 +275,38 @@ def simultaneous():
     return Finding(largest(gaps))
 
 
-def _angle_of_peak(friction, model=_lumped):
+def _angle_of_peak(friction: float, model: Callable[[Array], Rebound] = _lumped) -> float:
     return landmarks.peak(ANGLES, _forces(model, friction))
 
 
-def peak_angle_small_friction():
+def peak_angle_small_friction() -> Finding:
     """Angle of the largest peak of friction, mu = 0.1, in degrees."""
     return Finding(_angle_of_peak(0.1))
 
 
-def peak_angle_large_friction():
+def peak_angle_large_friction() -> Finding:
     """The same for mu = 1."""
     return Finding(_angle_of_peak(1.0))
 
 
-def peak_angle_lewis_rogers():
+def peak_angle_lewis_rogers() -> Finding:
     """The same for mu = 0.18."""
     return Finding(_angle_of_peak(0.18))
 
 
-def peak_angle_rises():
+def peak_angle_rises() -> Finding:
     """Smallest rise of that angle from one mu of Fig. 7 to the next, in degrees."""
     return Finding(float(np.min(np.diff([_angle_of_peak(mu) for mu in FRICTIONS]))))
 
 
-def peak_at_intermediate_incidence():
+def peak_at_intermediate_incidence() -> Finding:
     """Smallest distance of the incidence of the largest peak from zeta^2 and (1 + e) beta."""
     beta, zeta2 = contact.SPHERE
     x = np.array([np.tan(np.radians(_angle_of_peak(mu))) / mu for mu in FRICTIONS])
     return Finding(float(min((x - zeta2).min(), (2 * beta - x).min())))
 
 
-def reduction():
+def reduction() -> Finding:
     """How much less the largest peak is than without tangential compliance.
 
     The smallest such share over the frictions of Fig. 7.
@@ -307,7 +315,7 @@ def reduction():
     return Finding(float(min(shares)))
 
 
-def peak_below_gross_slip():
+def peak_below_gross_slip() -> Finding:
     """Largest incidence of the largest peak, with tangential compliance and without."""
     incidences = [
         np.tan(np.radians(_angle_of_peak(mu, model))) / mu
@@ -317,42 +325,42 @@ def peak_below_gross_slip():
     return Finding(float(max(incidences)))
 
 
-def compliance_immaterial():
+def compliance_immaterial() -> Finding:
     """Difference of both peaks from x = beta on, in mu."""
     x = np.linspace(contact.MASS_RATIO, 20, 200)
     return Finding(largest([_lumped(x).peak_friction - _rigid(x).peak_friction]))
 
 
-def full_friction_angle():
+def full_friction_angle() -> Finding:
     """Angle from which peak friction is mu times the peak normal force, mu = 0.18, degrees."""
 
-    def below(angle):
-        return _lumped(np.tan(np.radians(angle)) / 0.18).peak_friction < 1 - 1e-15
+    def below(angle: float) -> bool:
+        return bool(_lumped(np.tan(np.radians(angle)) / 0.18).peak_friction < 1 - 1e-15)
 
     return Finding(boundary(below, 0.0, 80.0))
 
 
-def ball_mass():
+def ball_mass() -> Finding:
     """Mass of a steel ball of 25.4 mm and half as much for its holder, kg."""
     return Finding(1.5 * float(bodies.solid_sphere(0.0127, 7850.0).mass))
 
 
-def _effect(model, friction):
+def _effect(model: Callable[[Array], Rebound], friction: float) -> float:
     """Relative change that another model makes to the largest peak of one mu."""
     return abs(_forces(model, friction).max() / _forces(_lumped, friction).max() - 1)
 
 
-def _hertz(x):
+def _hertz(x: Array) -> Rebound:
     """Rebound of a Hertz contact; beyond 8 it slides throughout, where the peak is the same."""
     return contact.without_micro_slip(np.minimum(x, 8.0))
 
 
-def normal_details():
+def normal_details() -> Finding:
     """Largest relative change of the largest peak of a mu, Hertz' normal compliance for linear."""
     return Finding(float(max(_effect(_hertz, mu) for mu in (0.1, 0.4, 1.0))))
 
 
-def stiffness_matters_more():
+def stiffness_matters_more() -> Finding:
     """Change of the largest peak by zeta^2 = 1.5 for 1.21, over that by Hertz' compliance.
 
     The smallest ratio for mu = 0.1, 0.4 and 1.

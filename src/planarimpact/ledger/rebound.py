@@ -1,8 +1,12 @@
 """Checks of what pp. 435 to 449 say of the order of stick and slip, and of the rebound."""
 
+from collections.abc import Sequence
+from functools import partial
+
 import numpy as np
 
 from planarimpact import bodies, continuum, laws, lumped, rigid
+from planarimpact.arrays import Array
 from planarimpact.ledger import contact
 from planarimpact.ledger.finding import Finding, largest
 from planarimpact.ledger.slip import boundary
@@ -15,7 +19,7 @@ INCIDENCE = np.linspace(0, 8, 2001)[1:]
 SPHERES = tuple((contact.MASS_RATIO, zeta2) for zeta2 in (1.0, contact.STIFFNESS_RATIO, 1.5))
 
 
-def first_slip_in_restitution():
+def first_slip_in_restitution() -> Finding:
     """Earliest onset of slip after initial stick, in t_c, where omega > Omega."""
     return Finding(
         float(
@@ -27,16 +31,16 @@ def first_slip_in_restitution():
     )
 
 
-def deflection_when_slip_reverses():
+def deflection_when_slip_reverses() -> Finding:
     """Share of contacts with reversed last slip, s = +1, whose u1 is positive there."""
     found = [c for c in contact.initial_stick() if c.last_slip_direction > 0]
     return Finding(float(np.mean([c.last(EventKind.SLIP).u1 > 0 for c in found])))
 
 
-def _largest_restitution_of_kept_direction(incidences):
+def _largest_restitution_of_kept_direction(incidences: Sequence[float]) -> float:
     """Largest e at which the last slip runs in the incident direction, sphere of the paper."""
 
-    def kept(e):
+    def kept(e: float) -> bool:
         return any(
             contact.contact(x, *contact.SPHERE, e, samples=2).last_slip_direction < 0
             for x in incidences
@@ -47,17 +51,17 @@ def _largest_restitution_of_kept_direction(incidences):
     return boundary(kept, float(last), 1.0) if last else 0.0
 
 
-def reversal_after_stick():
+def reversal_after_stick() -> Finding:
     """Largest e at which slip after initial stick does not reverse, sphere of the paper."""
     return Finding(_largest_restitution_of_kept_direction([0.1, 0.6, 1.2]))
 
 
-def reversal_after_slip():
+def reversal_after_slip() -> Finding:
     """Largest e at which the second slip does not reverse, sphere of the paper."""
     return Finding(_largest_restitution_of_kept_direction([1.3, 2.0, 3.0, 3.499999]))
 
 
-def three_sequences():
+def three_sequences() -> Finding:
     """Share of impacts whose second slip does not last: they stick again, and slip again.
 
     Over omega/Omega from 1 to 6 and incidence up to 2 m2/m1, at e = 1.
@@ -69,7 +73,7 @@ def three_sequences():
     return Finding(float(np.mean(found.regime == Regime.MULTIPLE)))
 
 
-def three_sequences_of_spheres():
+def three_sequences_of_spheres() -> Finding:
     """The same share for omega/Omega of elastic spheres, and every e."""
     e = np.linspace(0, 1, 60)[:, None]
     x = np.linspace(0.01, 8, 200)
@@ -77,37 +81,37 @@ def three_sequences_of_spheres():
     return Finding(float(max(share)))
 
 
-def sphere_mass_ratio():
+def sphere_mass_ratio() -> Finding:
     """m2/m1 of a solid sphere."""
     return Finding(float(bodies.mass_ratio(bodies.solid_sphere(0.01, 7800.0))))
 
 
-def sphere_stiffness_ratio():
+def sphere_stiffness_ratio() -> Finding:
     """zeta^2 for nu = 0.3."""
     return Finding(float(bodies.stiffness_ratio(bodies.Material(2e11, 0.3))))
 
 
-def rubber_stiffness_ratio():
+def rubber_stiffness_ratio() -> Finding:
     """zeta^2 for nu = 0.5."""
     return Finding(float(bodies.stiffness_ratio(bodies.Material(1e6, 0.5))))
 
 
-def _frequency_ratio(poisson_ratio):
+def _frequency_ratio(poisson_ratio: float) -> float:
     beta = bodies.mass_ratio(bodies.solid_sphere(0.01, 7800.0))
     return float(np.sqrt(beta / bodies.stiffness_ratio(bodies.Material(2e11, poisson_ratio))))
 
 
-def sphere_frequency_ratio():
+def sphere_frequency_ratio() -> Finding:
     """omega/Omega of a solid sphere, nu = 0.3."""
     return Finding(_frequency_ratio(0.3))
 
 
-def rubber_frequency_ratio():
+def rubber_frequency_ratio() -> Finding:
     """omega/Omega of a solid sphere, nu = 0.5."""
     return Finding(_frequency_ratio(0.5))
 
 
-def smallest_frequency_ratio():
+def smallest_frequency_ratio() -> Finding:
     """Smallest omega/Omega of solid spheres, thin shells and discs, nu from 0 to 0.5."""
     shapes = bodies.solid_sphere(0.01, 7800.0), bodies.thin_shell(1.0, 1.0), bodies.disc(1.0, 1.0)
     beta = min(float(bodies.mass_ratio(body)) for body in shapes)
@@ -116,7 +120,7 @@ def smallest_frequency_ratio():
     return Finding(float(np.sqrt(beta / zeta2.max())))
 
 
-def vanishing_compliance():
+def vanishing_compliance() -> Finding:
     """Distance of velocity and peak friction at zeta^2 = 1e-4 from the rigid limit."""
     x = INCIDENCE[::50]
     soft, hard = lumped.rebound(x, contact.MASS_RATIO, 1e-4), rigid.rebound(x, contact.MASS_RATIO)
@@ -124,7 +128,7 @@ def vanishing_compliance():
     return Finding(largest(gaps))
 
 
-def transition_at_compression():
+def transition_at_compression() -> Finding:
     """Time of stick over t_c, less 1, at incidence m2/m1, e = 0.9 and 1."""
     gaps = []
     for beta, zeta2 in contact.PAIRS:
@@ -134,7 +138,7 @@ def transition_at_compression():
     return Finding(largest(gaps))
 
 
-def sliding_slows():
+def sliding_slows() -> Finding:
     """Gain of the particle's sliding speed over restitution, slip throughout with e = 0.5.
 
     The particle slides with v1 + du1/dt; du1/dt follows mu F2.
@@ -148,7 +152,7 @@ def sliding_slows():
     return Finding(float((after - before) / found.velocity_scale))
 
 
-def reversal_without_compliance():
+def reversal_without_compliance() -> Finding:
     """Lowest velocity at separation without tangential compliance; reversed is negative.
 
     The lower one of the rigid limit and of the lumped model with zeta^2 = 1e-4.
@@ -161,16 +165,18 @@ def reversal_without_compliance():
     return Finding(float(min(found.velocity.min() for found in models)))
 
 
-def rigid_rebound_limit():
+def _halts(e: float, x: float) -> bool:
+    return bool(rigid.rebound(x, contact.MASS_RATIO, restitution=e).velocity == 0)
+
+
+def rigid_rebound_limit() -> Finding:
     """Incidence above which the rigid limit leaves with velocity, over the impulse it takes.
 
     That is m2/m1 times the exact normal impulse by quadrature, which Eq. 26 has as (1 + e) p(t_c).
     """
     gaps, beta = [], contact.MASS_RATIO
     for e in contact.RESTITUTIONS:
-        limit = boundary(
-            lambda x, e=e: rigid.rebound(x, beta, restitution=e).velocity == 0, 0.0, 20.0
-        )
+        limit = boundary(partial(_halts, e), 0.0, 20.0)
         motion = contact.normal_motion(e)
         impulse = motion.impulse[-1] / (-motion.found.m2 * motion.found.v2)
         gaps += [
@@ -180,7 +186,7 @@ def rigid_rebound_limit():
     return Finding(largest(gaps))
 
 
-def rigid_sequence():
+def rigid_sequence() -> Finding:
     """Share of rigid contacts below (1 + e) beta that do not slip first and then stick."""
     e, beta = np.linspace(0, 1, 11)[:, None], contact.MASS_RATIO
     x = slip.slip_throughout_limit(beta, e) * np.linspace(0.001, 0.999, 50)
@@ -189,7 +195,7 @@ def rigid_sequence():
     )
 
 
-def unaffected_velocity():
+def unaffected_velocity() -> Finding:
     """Difference that tangential compliance makes to the velocity above the printed limit."""
     gaps, beta = [], contact.MASS_RATIO
     for e in (0.0, *contact.RESTITUTIONS):
@@ -202,25 +208,25 @@ def unaffected_velocity():
     return Finding(largest(gaps))
 
 
-def _models_apart():
+def _models_apart() -> tuple[Array, Array]:
     """Incidences of Fig. 5, and distance of lumped model and continuum there."""
     exact = continuum.rebound(INCIDENCE, *contact.SPHERE, tolerance=1e-5).velocity
     return INCIDENCE, np.abs(lumped.rebound(INCIDENCE, *contact.SPHERE).velocity - exact)
 
 
-def models_differ_most():
+def models_differ_most() -> Finding:
     """Largest distance of lumped model and continuum above 2 beta - zeta^2, over that below."""
     x, gap = _models_apart()
     limit = 2 * contact.MASS_RATIO - contact.STIFFNESS_RATIO
     return Finding(float(gap[x > limit].max() / gap[x <= limit].max()))
 
 
-def practically_identical():
+def practically_identical() -> Finding:
     """Largest distance of lumped model and continuum in v1(tf)/(mu v2(0))."""
     return Finding(float(_models_apart()[1].max()))
 
 
-def identical_at_almost_all():
+def identical_at_almost_all() -> Finding:
     """Share of the angles 0 to 90 deg at which the models are within 0.05.
 
     The smallest over the frictions of Fig. 7.
@@ -235,7 +241,7 @@ def identical_at_almost_all():
     return Finding(float(min(shares)))
 
 
-def micro_slip_matters():
+def micro_slip_matters() -> Finding:
     """Largest effect of micro-slip on v1(tf)/(mu v2(0)): the continuum with it and without.
 
     Without: a Hertz contact that sticks and slips as a whole.
@@ -247,7 +253,7 @@ def micro_slip_matters():
     )
 
 
-def last_slip_prolonged():
+def last_slip_prolonged() -> Finding:
     """How much earlier the last slip begins in the lumped model than in the continuum, in t_c.
 
     The smallest lead at incidences 0.5, 1, 2 and 3; gross slip is meant.
@@ -261,7 +267,7 @@ def last_slip_prolonged():
     return Finding(float(min(leads)))
 
 
-def mostly_reversed():
+def mostly_reversed() -> Finding:
     """Share of small and intermediate incidence with reversed velocity, the smaller of both models.
 
     Up to the limit of slip throughout, 2 beta - zeta^2.
@@ -275,7 +281,7 @@ def mostly_reversed():
     return Finding(float(min(np.mean(found.velocity < 0) for found in models)))
 
 
-def early_micro_slip():
+def early_micro_slip() -> Finding:
     """Longest share of the first quarter of an impact with a slipping annulus around stick.
 
     Elastic continuum, incidences below zeta^2.
@@ -289,7 +295,7 @@ def early_micro_slip():
     return Finding(float(max(shares)))
 
 
-def micro_slip():
+def micro_slip() -> Finding:
     """Shortest share of an impact in which the continuum sticks inside a slipping annulus."""
     shares = []
     for x in (0.1, 0.5, 1.0):
@@ -299,7 +305,7 @@ def micro_slip():
     return Finding(float(min(shares)))
 
 
-def continuum_reverses():
+def continuum_reverses() -> Finding:
     """Lowest rebound velocity of the continuum and the lumped model, the higher of the two."""
     models = (
         lumped.rebound(INCIDENCE, *contact.SPHERE),
@@ -308,14 +314,14 @@ def continuum_reverses():
     return Finding(float(max(found.velocity.min() for found in models)))
 
 
-def limit_falls_with_losses():
+def limit_falls_with_losses() -> Finding:
     """Largest e below which more internal dissipation leaves the limit of slip throughout."""
     e = np.linspace(0, 1, 2001)
     limit = lumped.slip_throughout_limit(*contact.SPHERE, e)
     return Finding(float(e[np.flatnonzero(np.diff(limit) > 0)[0]]))
 
 
-def compression_unaffected():
+def compression_unaffected() -> Finding:
     """Change of the velocity at t_c with e."""
     gaps = []
     for x in (0.3, 1.0, 2.0, 3.3, 5.0, 9.0):
@@ -327,7 +333,7 @@ def compression_unaffected():
     return Finding(largest(gaps))
 
 
-def restitution_change_falls():
+def restitution_change_falls() -> Finding:
     """Largest gain of |v1(tf) - v1(tc)|/(mu v2(0)) as e falls, sphere of the paper."""
     e = np.linspace(0, 1, 101)[:, None]
     velocity = lumped.rebound(INCIDENCE, *contact.SPHERE, e).velocity
@@ -336,7 +342,7 @@ def restitution_change_falls():
     return Finding(float(np.max(np.maximum.accumulate(change, axis=0) - change)))
 
 
-def other_laws():
+def other_laws() -> Finding:
     """Largest part of full friction that the laws of Bilbao, Smith and Brach lack at x = 1e4."""
     gaps = []
     for law in (laws.bilbao, laws.smith, laws.brach):

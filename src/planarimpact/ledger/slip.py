@@ -1,15 +1,20 @@
 """Checks of Eqs 10 to 27: when stick and slip begin, and the velocity at separation."""
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 
 from planarimpact import lumped
+from planarimpact.arrays import Array, Numbers
 from planarimpact.ledger import contact
+from planarimpact.ledger.contact import Contact, State
 from planarimpact.ledger.finding import Finding, largest
 from planarimpact.printed import slip
 from planarimpact.results import EventKind, Regime
 
 
-def boundary(holds, low, high):
+def boundary(holds: Callable[[float], bool], low: float, high: float) -> float:
     """Where a property that holds at `low` and not at `high` is lost, by bisection.
 
     Examples
@@ -23,7 +28,7 @@ def boundary(holds, low, high):
     return low
 
 
-def slips_throughout_from(mass_ratio, stiffness_ratio, restitution):
+def slips_throughout_from(mass_ratio: float, stiffness_ratio: float, restitution: float) -> float:
     """Incidence from which the exact solver never sticks, by bisection of its regimes.
 
     Examples
@@ -32,14 +37,14 @@ def slips_throughout_from(mass_ratio, stiffness_ratio, restitution):
     5.79
     """
 
-    def sticks(x):
+    def sticks(x: float) -> bool:
         found = lumped.rebound(x, mass_ratio, stiffness_ratio, restitution)
         return found.regime != Regime.SLIP_THROUGHOUT
 
     return boundary(sticks, 0.0, 4 * mass_ratio)
 
 
-def force_ratio():
+def force_ratio() -> Finding:
     """Eqs 10a and 10b at the exact onset of slip: |F1| = mu F2, and less before."""
     gaps = []
     for found in contact.initial_stick():
@@ -57,21 +62,21 @@ def force_ratio():
     return Finding(largest(gaps))
 
 
-def initial_stick_limit():
+def _sticks_at_first(mass_ratio: float, stiffness_ratio: float, x: float) -> bool:
+    return bool(lumped.rebound(x, mass_ratio, stiffness_ratio).regime == Regime.STICK_SLIP)
+
+
+def initial_stick_limit() -> Finding:
     """Eq. 11 against the incidence at which the regime of the exact solver changes."""
     gaps = []
     for beta, zeta2 in contact.PAIRS:
-        limit = boundary(
-            lambda x, b=beta, z=zeta2: lumped.rebound(x, b, z).regime == Regime.STICK_SLIP,
-            1e-3 * zeta2,
-            2 * zeta2,
-        )
+        limit = boundary(partial(_sticks_at_first, beta, zeta2), 1e-3 * zeta2, 2 * zeta2)
         printed = slip.eq_11_stick_limit(contact.FRICTION, zeta2)
         gaps.append(limit * contact.FRICTION / printed - 1)
     return Finding(largest(gaps))
 
 
-def velocity_at_slip():
+def velocity_at_slip() -> Finding:
     """Eq. 12 at the exact onset of slip."""
     gaps = []
     for found in contact.initial_stick():
@@ -81,7 +86,7 @@ def velocity_at_slip():
     return Finding(largest(gaps))
 
 
-def final_velocity():
+def final_velocity() -> Finding:
     """Eq. 13 after initial stick, with s as it is at the onset of slip."""
     gaps = []
     for found in contact.initial_stick():
@@ -93,11 +98,11 @@ def final_velocity():
     return Finding(largest(gaps))
 
 
-def _share_left(found, t):
+def _share_left(found: Contact, t: Numbers) -> Array:
     return slip.impulse_ratio(t, found.normal_frequency, found.restitution)
 
 
-def impulse_left():
+def impulse_left() -> Finding:
     """Eq. 14 and g1: the impulse after t1 from the momentum at separation."""
     gaps = []
     for found in contact.initial_stick():
@@ -108,7 +113,7 @@ def impulse_left():
     return Finding(largest(gaps))
 
 
-def rebound_after_stick():
+def rebound_after_stick() -> Finding:
     """Eq. 15 against the exact rebound; corrected with s at the onset of slip."""
     printed, corrected = [], []
     for found in contact.initial_stick():
@@ -121,7 +126,7 @@ def rebound_after_stick():
     return Finding(largest(printed), largest(corrected))
 
 
-def velocity_in_slip():
+def velocity_in_slip() -> Finding:
     """Eq. 16 along the first slip."""
     gaps = []
     for found in contact.slip_stick_slip():
@@ -132,12 +137,12 @@ def velocity_in_slip():
     return Finding(largest(gaps))
 
 
-def _normal_rate(found, t):
+def _normal_rate(found: Contact, t: Numbers) -> Array:
     groups = found.v2, found.m2, found.normal_frequency, found.restitution
     return slip.eq_20_normal_force_rate(t, *groups)
 
 
-def transition():
+def transition() -> Finding:
     """Eq. 17 where the exact contact starts to stick: both forces have one rate."""
     gaps = []
     for found in contact.slip_stick_slip():
@@ -151,7 +156,7 @@ def transition():
     return Finding(largest(gaps))
 
 
-def stick_force_rate():
+def stick_force_rate() -> Finding:
     """Formula after Eq. 17: its integral over the stick is the change of the exact force."""
     gaps = []
     nodes, weights = np.polynomial.legendre.leggauss(20)
@@ -166,7 +171,12 @@ def stick_force_rate():
     return Finding(largest(gaps))
 
 
-def _transition_states(formula_a, formula_b, exact, scale):
+def _transition_states(
+    formula_a: Callable[..., Numbers],
+    formula_b: Callable[..., Numbers],
+    exact: Callable[[State], Numbers],
+    scale: Callable[[Contact], float],
+) -> Finding:
     """Distances of two formulas at t2, each in its half, from the exact state there."""
     gaps = []
     for found in contact.slip_stick_slip():
@@ -177,10 +187,10 @@ def _transition_states(formula_a, formula_b, exact, scale):
     return Finding(largest(gaps))
 
 
-def deflection_at_stick():
+def deflection_at_stick() -> Finding:
     """Eqs 18a and 18b at the exact start of stick."""
 
-    def groups(found):
+    def groups(found: Contact) -> tuple[float, float, float, float, float, float]:
         frequencies = found.normal_frequency, found.tangential_frequency
         return found.v2, found.friction, found.m1, found.m2, *frequencies
 
@@ -192,10 +202,10 @@ def deflection_at_stick():
     )
 
 
-def velocity_at_stick():
+def velocity_at_stick() -> Finding:
     """Eqs 19a and 19b at the exact start of stick."""
 
-    def groups(found):
+    def groups(found: Contact) -> tuple[float, float, float, float, float]:
         return found.v1, found.v2, found.friction, found.mass_ratio, found.normal_frequency
 
     return _transition_states(
@@ -206,7 +216,7 @@ def velocity_at_stick():
     )
 
 
-def normal_force_rate():
+def normal_force_rate() -> Finding:
     """Eq. 20: its integral over each half is the change of the exact normal force."""
     gaps = []
     nodes, weights = np.polynomial.legendre.leggauss(20)
@@ -221,7 +231,7 @@ def normal_force_rate():
     return Finding(largest(gaps))
 
 
-def end_of_first_slip():
+def end_of_first_slip() -> Finding:
     """Eq. 21 at the exact start of stick gives the incidence back."""
     gaps = []
     for found in contact.slip_stick_slip():
@@ -232,7 +242,7 @@ def end_of_first_slip():
     return Finding(largest(gaps))
 
 
-def second_stick():
+def second_stick() -> Finding:
     """Eqs 22a and 22b along the stick of the exact contact."""
     gaps = []
     for found in contact.slip_stick_slip():
@@ -246,7 +256,7 @@ def second_stick():
     return Finding(largest(gaps))
 
 
-def onset_of_second_slip():
+def onset_of_second_slip() -> Finding:
     """Eq. 23 at the exact onset of the last slip; corrected with s times its right side."""
     printed, corrected = [], []
     for found in contact.slip_stick_slip():
@@ -268,7 +278,7 @@ def onset_of_second_slip():
     return Finding(largest(printed), largest(corrected))
 
 
-def final_velocity_after_second_slip():
+def final_velocity_after_second_slip() -> Finding:
     """Eq. 24 against the exact rebound; corrected with s at the onset of slip."""
     printed, corrected = [], []
     for found in contact.slip_stick_slip():
@@ -282,7 +292,7 @@ def final_velocity_after_second_slip():
     return Finding(largest(printed), largest(corrected))
 
 
-def rebound_after_second_slip():
+def rebound_after_second_slip() -> Finding:
     """Eq. 25 against the exact rebound; corrected with s at the onset of slip."""
     printed, corrected = [], []
     for found in contact.slip_stick_slip():
@@ -295,7 +305,7 @@ def rebound_after_second_slip():
     return Finding(largest(printed), largest(corrected))
 
 
-def rebound_after_slip_throughout():
+def rebound_after_slip_throughout() -> Finding:
     """Eqs 26 and 27 against the exact rebound above the printed limit."""
     gaps = []
     for found in contact.slip_throughout():
@@ -309,7 +319,7 @@ def rebound_after_slip_throughout():
     return Finding(largest(gaps))
 
 
-def slip_throughout_limit():
+def slip_throughout_limit() -> Finding:
     """The printed limit (1 + e) beta against bisection of regimes; corrected by Eq. 21.
 
     Corrected: beta + max(0, e beta - zeta^2/e).

@@ -11,11 +11,12 @@ has the same impact without compliance. `phases` and `stick_end` hold the closed
 search for the end of stick, `solver` their order. Axes and signs: `configuration`.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from planarimpact import checks
+from planarimpact.arrays import Array, ArrayLike, Booleans
 from planarimpact.checks import InputError, checked
 from planarimpact.noncollinear.configuration import (
     InverseMass,
@@ -27,7 +28,7 @@ from planarimpact.noncollinear.configuration import (
     motion_after,
     refuse_overflow,
 )
-from planarimpact.noncollinear.solver import Impacts, solve
+from planarimpact.noncollinear.solver import Impacts, Phase, solve
 from planarimpact.noncollinear.timeline import NoncollinearHistory, timeline
 from planarimpact.results import Regime
 
@@ -75,28 +76,28 @@ class NoncollinearRebound(NamedTuple):
         more than the normal force holds it off.
     """
 
-    tangential: np.ndarray
-    normal: np.ndarray
-    tangential_impulse: np.ndarray
-    normal_impulse: np.ndarray
-    peak_friction: np.ndarray
-    peak_normal: np.ndarray
-    friction_work: np.ndarray
-    hysteresis: np.ndarray
-    duration: np.ndarray
-    regime: np.ndarray
-    jams: np.ndarray
+    tangential: Array
+    normal: Array
+    tangential_impulse: Array
+    normal_impulse: Array
+    peak_friction: Array
+    peak_normal: Array
+    friction_work: Array
+    hysteresis: Array
+    duration: Array
+    regime: Any  # as in Rebound
+    jams: Booleans
 
 
 def rebound(
-    tangential,
-    normal,
-    inverse_mass,
-    friction,
-    restitution=1.0,
-    stiffness_ratio=1.21,
-    stiffness=1.0,
-):
+    tangential: ArrayLike,
+    normal: ArrayLike,
+    inverse_mass: InverseMass,
+    friction: ArrayLike,
+    restitution: ArrayLike = 1.0,
+    stiffness_ratio: ArrayLike = 1.21,
+    stiffness: ArrayLike = 1.0,
+) -> NoncollinearRebound:
     """State at separation; all arguments broadcast.
 
     Parameters
@@ -152,7 +153,7 @@ def rebound(
     )
     v1, v2, coupling, m2, e, kappa, impacts = _groups(arguments)
     pieces = [
-        solve(Impacts(*(field[start : start + CHUNK] for field in impacts)))
+        solve(Impacts._make(field[start : start + CHUNK] for field in impacts))
         for start in range(0, max(v1.size, 1), CHUNK)  # one even of none
     ]
     found = [np.concatenate(column) for column in zip(*pieces, strict=True)]
@@ -184,15 +185,15 @@ def rebound(
 
 
 def history(
-    tangential,
-    normal,
-    inverse_mass,
-    friction,
-    restitution=1.0,
-    stiffness_ratio=1.21,
-    stiffness=1.0,
-    samples=400,
-):
+    tangential: float,
+    normal: float,
+    inverse_mass: InverseMass,
+    friction: float,
+    restitution: float = 1.0,
+    stiffness_ratio: float = 1.21,
+    stiffness: float = 1.0,
+    samples: int = 400,
+) -> NoncollinearHistory:
     """Forces and velocities over one contact.
 
     Parameters
@@ -228,7 +229,7 @@ def history(
     if arguments[0].ndim:
         raise InputError(f"shape = {arguments[0].shape}: one contact takes scalars")
     _, v2, _, m2, e, kappa, impacts = _groups(arguments)
-    trace = []
+    trace: list[Phase] = []
     solve(impacts, trace)
     units = (float(a[0]) for a in (v2, np.sqrt(m2) * np.sqrt(kappa), np.sqrt(m2) / np.sqrt(kappa)))
     with np.errstate(over="ignore", invalid="ignore"):
@@ -237,11 +238,29 @@ def history(
     return found
 
 
-def kinetic_energy(tangential, normal, inverse_mass):
-    """Kinetic energy [J] that a contact can change, at velocities [m/s] of the contact point.
+def kinetic_energy(tangential: ArrayLike, normal: ArrayLike, inverse_mass: InverseMass) -> Array:
+    """Kinetic energy that a contact can change; arguments broadcast.
 
     That of the motion which the contact point shares; what turns or moves a body about its
-    contact point stays as it is in an impact. Arguments broadcast.
+    contact point stays as it is in an impact.
+
+    Parameters
+    ----------
+    tangential, normal : array_like
+        Velocity of the contact point [m/s].
+    inverse_mass : InverseMass
+        Of one body or, combined, of two [1/kg].
+
+    Returns
+    -------
+    ndarray of float64 or float
+        [J].
+
+    Raises
+    ------
+    InputError
+        If an argument is not a finite real number in its range, if shapes do not broadcast, or
+        if the result is beyond float64.
 
     Examples
     --------
@@ -260,7 +279,15 @@ def kinetic_energy(tangential, normal, inverse_mass):
     return energy
 
 
-def _checked(tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness):
+def _checked(
+    tangential: ArrayLike,
+    normal: ArrayLike,
+    inverse_mass: InverseMass,
+    friction: ArrayLike,
+    restitution: ArrayLike,
+    stiffness_ratio: ArrayLike,
+    stiffness: ArrayLike,
+) -> tuple[Array, ...]:
     return checked_impact(
         tangential,
         normal,
@@ -272,7 +299,9 @@ def _checked(tangential, normal, inverse_mass, friction, restitution, stiffness_
     )
 
 
-def _groups(arguments):
+def _groups(
+    arguments: tuple[Array, ...],
+) -> tuple[Array, Array, Array, Array, Array, Array, Impacts]:
     """Flat arrays: v1, v2, coupling m2 c, m2, e, kappa, and the impacts in the solver's units."""
     v1, v2, mu, e, zeta2, kappa, a, c, b = arguments
     with np.errstate(over="ignore", under="ignore"):

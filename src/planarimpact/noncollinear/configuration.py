@@ -8,13 +8,16 @@ contact point of positive depth in the tangential direction. Friction and normal
 where they oppose positive velocities of the (first) body.
 """
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
 from planarimpact import checks
+from planarimpact.arrays import Array, ArrayLike, Numbers
 from planarimpact.bodies import Motion
 from planarimpact.checks import InputError, checked
+from planarimpact.quantities import finite, positive
 
 
 class InverseMass(NamedTuple):
@@ -24,12 +27,14 @@ class InverseMass(NamedTuple):
     of friction and p2 of the normal force. c = 0 in a collinear configuration.
     """
 
-    tangential: np.ndarray
-    coupling: np.ndarray
-    normal: np.ndarray
+    tangential: Numbers
+    coupling: Numbers
+    normal: Numbers
 
 
-def inverse_mass(mass, gyration, offset, depth):
+def inverse_mass(
+    mass: ArrayLike, gyration: ArrayLike, offset: ArrayLike, depth: ArrayLike
+) -> InverseMass:
     """Inverse mass of one rigid body at its contact point (Eqs 1, 2); arguments broadcast.
 
     Parameters
@@ -56,10 +61,10 @@ def inverse_mass(mass, gyration, offset, depth):
     [2.92, 1.44, 2.08]
     """
     mass, gyration, offset, depth = checks.broadcast(
-        mass=_positive("mass", mass),
-        gyration=_positive("gyration", gyration),
-        offset=_finite("offset", offset),
-        depth=_finite("depth", depth),
+        mass=positive("mass", mass),
+        gyration=positive("gyration", gyration),
+        offset=finite("offset", offset),
+        depth=finite("depth", depth),
     )
     with np.errstate(over="ignore", invalid="ignore"):  # refused as not finite
         along, down = offset / gyration, depth / gyration
@@ -67,11 +72,25 @@ def inverse_mass(mass, gyration, offset, depth):
     return checked_inverse_mass(found)
 
 
-def combined(first, second):
+def combined(first: InverseMass, second: InverseMass) -> InverseMass:
     """Inverse mass of two bodies that strike each other: the sum of theirs.
 
     The second body's contact point is seen from its own centre along the same axes, those of the
     first: its depth is negative where its centre lies beyond the surface.
+
+    Parameters
+    ----------
+    first, second : InverseMass
+        [1/kg]; they broadcast.
+
+    Returns
+    -------
+    InverseMass
+
+    Raises
+    ------
+    InputError
+        If one is of no body, or shapes do not broadcast.
 
     Examples
     --------
@@ -80,11 +99,11 @@ def combined(first, second):
     [6.0, 0.0, 1.5]
     """
     one, other = checked_inverse_mass(first), checked_inverse_mass(second)
-    checks.broadcast(first=one.normal, second=other.normal)
+    checks.broadcast(first=np.asarray(one.normal), second=np.asarray(other.normal))
     return checked_inverse_mass(InverseMass(*map(np.add, one, other)))
 
 
-def checked_inverse_mass(value):
+def checked_inverse_mass(value: InverseMass) -> InverseMass:
     """Check that an inverse mass is that of a body: finite, positive definite."""
     if not isinstance(value, InverseMass):
         raise InputError(
@@ -92,9 +111,9 @@ def checked_inverse_mass(value):
             " tuples, as inverse_mass(...) makes them"
         )
     tangential, coupling, normal = checks.broadcast(
-        tangential=_positive("inverse_mass.tangential", value.tangential),
-        coupling=_finite("inverse_mass.coupling", value.coupling),
-        normal=_positive("inverse_mass.normal", value.normal),
+        tangential=positive("inverse_mass.tangential", value.tangential),
+        coupling=finite("inverse_mass.coupling", value.coupling),
+        normal=positive("inverse_mass.normal", value.normal),
     )
     with np.errstate(over="ignore", under="ignore"):
         # Of no body: one has 1/(m1 m2) - c^2 = (1 + (offset^2 + depth^2)/k^2)/M^2 > 0.
@@ -108,11 +127,18 @@ def checked_inverse_mass(value):
     return InverseMass(tangential[()], coupling[()], normal[()])
 
 
-def checked_impact(tangential, normal, inverse_mass, friction, restitution, **others):
+def checked_impact(
+    tangential: ArrayLike,
+    normal: ArrayLike,
+    inverse_mass: InverseMass,
+    friction: ArrayLike,
+    restitution: ArrayLike,
+    **others: Array,
+) -> tuple[Array, ...]:
     """Check an impact, and broadcast it with checked `others`, the inverse mass last."""
     mass = fields_of(inverse_mass)
     return checks.broadcast(
-        tangential=_finite("tangential", tangential),
+        tangential=finite("tangential", tangential),
         normal=checked("normal", normal, "finite numbers above 0 (approach)", 0, open_low=True),
         friction=checked("friction", friction, "finite numbers from 0", 0),
         restitution=checks.restitution(restitution),
@@ -121,14 +147,14 @@ def checked_impact(tangential, normal, inverse_mass, friction, restitution, **ot
     )
 
 
-def fields_of(inverse_mass):
+def fields_of(inverse_mass: InverseMass) -> dict[str, Array]:
     """Checked fields of an inverse mass, keyed by the names that a refusal shows."""
     mass = checked_inverse_mass(inverse_mass)
     return {f"inverse_mass.{name}": field for name, field in mass._asdict().items()}
 
 
-def contact_velocity(motion, offset, depth):
-    """Velocity (tangential, normal) [m/s] of the contact point of a body.
+def contact_velocity(motion: Motion, offset: ArrayLike, depth: ArrayLike) -> tuple[Array, Array]:
+    """Velocity of the contact point of a body.
 
     Parameters
     ----------
@@ -137,22 +163,34 @@ def contact_velocity(motion, offset, depth):
     offset, depth : array_like
         Contact point [m].
 
+    Returns
+    -------
+    tangential, normal : ndarray of float64 or float
+        [m/s].
+
     Examples
     --------
     >>> [float(v) for v in contact_velocity(Motion(0.0, 1.0, 2.0), offset=0.25, depth=0.5)]
     [1.0, 0.5]
     """
     tangential, normal, spin, offset, depth = checks.broadcast(
-        tangential=_finite("motion.tangential", motion.tangential),
-        normal=_finite("motion.normal", motion.normal),
-        spin=_finite("motion.spin", motion.spin),
-        offset=_finite("offset", offset),
-        depth=_finite("depth", depth),
+        tangential=finite("motion.tangential", motion.tangential),
+        normal=finite("motion.normal", motion.normal),
+        spin=finite("motion.spin", motion.spin),
+        offset=finite("offset", offset),
+        depth=finite("depth", depth),
     )
     return tangential + depth * spin, normal - offset * spin
 
 
-def motion_after(motion, impulses, mass, gyration, offset, depth):
+def motion_after(
+    motion: Motion,
+    impulses: tuple[ArrayLike, ArrayLike],
+    mass: ArrayLike,
+    gyration: ArrayLike,
+    offset: ArrayLike,
+    depth: ArrayLike,
+) -> Motion:
     """Motion of a body after friction and normal force have given their impulses.
 
     Parameters
@@ -177,28 +215,20 @@ def motion_after(motion, impulses, mass, gyration, offset, depth):
     """
     friction, normal = impulses
     mass, gyration, friction, normal, offset, depth, tangential, approach, spin = checks.broadcast(
-        mass=_positive("mass", mass),
-        gyration=_positive("gyration", gyration),
-        friction=_finite("impulses[0]", friction),
-        normal=_finite("impulses[1]", normal),
-        offset=_finite("offset", offset),
-        depth=_finite("depth", depth),
-        **{f"motion.{n}": _finite(f"motion.{n}", v) for n, v in motion._asdict().items()},
+        mass=positive("mass", mass),
+        gyration=positive("gyration", gyration),
+        friction=finite("impulses[0]", friction),
+        normal=finite("impulses[1]", normal),
+        offset=finite("offset", offset),
+        depth=finite("depth", depth),
+        **{f"motion.{n}": finite(f"motion.{n}", v) for n, v in motion._asdict().items()},
     )
     turned = (normal * offset - friction * depth) / mass / gyration**2
     return Motion(tangential - friction / mass, approach - normal / mass, spin + turned)
 
 
-def refuse_overflow(names, fields):
+def refuse_overflow(names: Iterable[str], fields: Iterable[Array]) -> None:
     """Refuse results that float64 cannot hold."""
     for name, field in zip(names, fields, strict=False):
         if not np.isfinite(field).all():
             raise InputError(f"{name} of the result is beyond float64: choose other units")
-
-
-def _positive(name, value):
-    return checked(name, value, "finite numbers above 0", low=0, open_low=True)
-
-
-def _finite(name, value):
-    return checked(name, value, "finite numbers")

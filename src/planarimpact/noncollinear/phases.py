@@ -17,28 +17,30 @@ effective normal inverse mass, may be negative: the body jams, its forces grow e
 Stick. N and zeta F/pace are two oscillators coupled by one symmetric matrix: two modes.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
+
+from planarimpact.arrays import Array, Numbers
 
 
 class Groups(NamedTuple):
     """Groups of impacts, arrays of shape (n,): beta, C, zeta^2, mu, and the pace of this half."""
 
-    mass_ratio: np.ndarray
-    coupling: np.ndarray
-    stiffness_ratio: np.ndarray
-    friction: np.ndarray
-    pace: np.ndarray
+    mass_ratio: Array
+    coupling: Array
+    stiffness_ratio: Array
+    friction: Array
+    pace: Array
 
 
 class State(NamedTuple):
     """Forces N, F and velocities y, V of contacts, arrays of shape (n,); y in units of the pace."""
 
-    normal: np.ndarray
-    approach: np.ndarray
-    friction: np.ndarray
-    velocity: np.ndarray
+    normal: Array
+    approach: Array
+    friction: Array
+    velocity: Array
 
 
 class Slip(NamedTuple):
@@ -50,13 +52,13 @@ class Slip(NamedTuple):
 
     state: State
     groups: Groups
-    direction: np.ndarray
-    mass: np.ndarray
-    speed: np.ndarray
-    slope: np.ndarray
+    direction: Numbers
+    mass: Array
+    speed: Array
+    slope: Array
 
     @classmethod
-    def start(cls, state, groups, direction):
+    def start(cls, state: State, groups: Groups, direction: Numbers) -> Self:
         """Slip that starts at this state."""
         beta, coupling, zeta2, mu, pace = groups
         mass = 1 - direction * mu * coupling
@@ -64,17 +66,17 @@ class Slip(NamedTuple):
         slope = pace**2 * (direction * coupling - mu * beta) + mu * zeta2 * mass
         return cls(state, groups, direction, mass, np.maximum(speed, 0.0), slope)
 
-    def stop(self):
+    def stop(self) -> Array:
         """Impulse at which the speed of slip vanishes, or inf; never without friction."""
         slows = (self.slope < 0) & (self.groups.friction > 0)
         return np.where(slows, self.speed / np.where(slows, -self.slope, 1.0), np.inf)
 
-    def turn(self):
+    def turn(self) -> Array:
         """Impulse at which approach ends, or inf where the body jams."""
         y = self.state.approach
         return np.where(self.mass > 0, y / np.where(self.mass > 0, self.mass, 1.0), np.inf)
 
-    def separation(self):
+    def separation(self) -> Array:
         """Impulse at which the normal force vanishes, or inf."""
         n, y, m = self.state.normal, self.state.approach, self.mass
         square = y * y + m * n * n
@@ -86,7 +88,7 @@ class Slip(NamedTuple):
         early = n * n / np.where(falls & (n > 0), root - y, 1.0)
         return np.where(falls, early, np.where(turns, late, np.inf))
 
-    def reload(self, peak):
+    def reload(self, peak: Array) -> Array:
         """Impulse at which the force reaches its earlier `peak` again, or inf."""
         n, y, m = self.state.normal, self.state.approach, self.mass
         missing = (peak - n) * (peak + n)
@@ -98,7 +100,7 @@ class Slip(NamedTuple):
         late = (root - y) / np.where(jams, -m, 1.0)
         return np.where(rises, early, np.where(jams, late, np.inf))
 
-    def after(self, impulse, separation):
+    def after(self, impulse: Array, separation: Array) -> State:
         """State after an impulse, given that of separation (inf where there is none)."""
         n, y = self.state.normal, self.state.approach
         ends = np.isfinite(separation) & (separation > 0)
@@ -108,11 +110,11 @@ class Slip(NamedTuple):
         normal = np.sqrt(np.maximum(np.where(ends, near, far), 0.0))
         return self._state(impulse, normal)
 
-    def work(self, impulse):
+    def work(self, impulse: Array) -> Array:
         """Work of friction over an impulse."""
         return self.groups.friction * impulse * (self.speed + self.slope * impulse / 2)
 
-    def duration(self, impulse, normal_after):
+    def duration(self, impulse: Array, normal_after: Array) -> Array:
         """Time at this pace: by the tangent of its half, which is P/(N + N')."""
         forces = self.state.normal + normal_after
         half = impulse / np.where(forces > 0, forces, 1.0)
@@ -123,7 +125,7 @@ class Slip(NamedTuple):
             )
         return 2 * np.where(rate * half > 1e-9, angle / np.maximum(rate, 1e-300), half)
 
-    def at(self, time):
+    def at(self, time: Array) -> State:
         """States at times of this pace, for one contact and an array of times."""
         n, y = self.state.normal, self.state.approach
         sine, half = self._sine(time), self._sine(time / 2)
@@ -132,7 +134,7 @@ class Slip(NamedTuple):
         normal = n * (1 - self.mass * lag) + y * sine
         return self._state(impulse, normal)
 
-    def _state(self, impulse, normal):
+    def _state(self, impulse: Array, normal: Array) -> State:
         """State after an impulse, which leaves this normal force."""
         beta, coupling, _, mu, pace = self.groups
         push = coupling - self.direction * mu * beta
@@ -143,7 +145,7 @@ class Slip(NamedTuple):
             self.state.velocity + pace * push * impulse,
         )
 
-    def _sine(self, time):
+    def _sine(self, time: Array) -> Array:
         """sin(rate t)/rate with rate^2 = mass, of either sign."""
         rate = np.sqrt(np.abs(self.mass))
         if np.all(rate == 0):
@@ -158,18 +160,18 @@ class Stick(NamedTuple):
     `p` and `q` hold (a, b), `sizes` what they were put together from, before any cancellation.
     """
 
-    cosine: np.ndarray
-    sine: np.ndarray
-    scale: np.ndarray
-    zeta: np.ndarray
-    rate_p: np.ndarray
-    rate_q: np.ndarray
-    p: tuple
-    q: tuple
-    sizes: tuple
+    cosine: Array
+    sine: Array
+    scale: Array
+    zeta: Array
+    rate_p: Array
+    rate_q: Array
+    p: tuple[Array, Array]
+    q: tuple[Array, Array]
+    sizes: tuple[Array, ...]
 
     @classmethod
-    def start(cls, state, groups):
+    def start(cls, state: State, groups: Groups) -> Self:
         """Stick that starts at this state."""
         beta, coupling, zeta2, _, pace = groups
         zeta = np.sqrt(zeta2)
@@ -201,7 +203,7 @@ class Stick(NamedTuple):
         )
         return cls(cosine, sine, scale, zeta, rate_p, rate_q, p, q, sizes)
 
-    def at(self, time):
+    def at(self, time: Array) -> State:
         """States at times of this pace, of the shape of the contacts or for one contact."""
         cos_p, sin_p = np.cos(self.rate_p * time), np.sin(self.rate_p * time)
         cos_q, sin_q = np.cos(self.rate_q * time), np.sin(self.rate_q * time)

@@ -16,8 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from planarimpact.arrays import Array, ArrayLike, Booleans
 from planarimpact.checks import InputError
-from planarimpact.noncollinear.configuration import checked_impact, refuse_overflow
+from planarimpact.noncollinear.configuration import InverseMass, checked_impact, refuse_overflow
 
 
 class Law(StrEnum):
@@ -48,14 +49,21 @@ class ImpulsiveRebound(NamedTuple):
         off, while it slides at first.
     """
 
-    tangential: np.ndarray
-    normal: np.ndarray
-    tangential_impulse: np.ndarray
-    normal_impulse: np.ndarray
-    jams: np.ndarray
+    tangential: Array
+    normal: Array
+    tangential_impulse: Array
+    normal_impulse: Array
+    jams: Booleans
 
 
-def rebound(tangential, normal, inverse_mass, friction, restitution=1.0, law=Law.ENERGETIC):
+def rebound(
+    tangential: ArrayLike,
+    normal: ArrayLike,
+    inverse_mass: InverseMass,
+    friction: ArrayLike,
+    restitution: ArrayLike = 1.0,
+    law: Law | str = Law.ENERGETIC,
+) -> ImpulsiveRebound:
     """State at separation; all arguments but `law` broadcast.
 
     Parameters
@@ -98,10 +106,12 @@ def rebound(tangential, normal, inverse_mass, friction, restitution=1.0, law=Law
         units = v2, v2, v2 / b, v2 / b
         fields = [(field * unit)[()] for field, unit in zip(fields, units, strict=True)]
     refuse_overflow(ImpulsiveRebound._fields, fields)
-    return ImpulsiveRebound(*fields, jams[()])
+    return ImpulsiveRebound._make([*fields, jams[()]])
 
 
-def _rebound(v1, mu, e, a, c, law):
+def _rebound(
+    v1: Array, mu: Array, e: Array, a: Array, c: Array, law: Law
+) -> tuple[Array, Array, Array, Array, Booleans]:
     """The fields of the result for v2 = 1 and an inverse normal mass of 1."""
     # Rates of change with the normal impulse: of v1 and, times -1, of v2, sliding at first ...
     slides_back = np.abs(c) > mu * a

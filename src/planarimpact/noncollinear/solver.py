@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from planarimpact.arrays import Array, Booleans, Integers
 from planarimpact.checks import ConvergenceError
 from planarimpact.noncollinear import stick_end
 from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
@@ -20,26 +21,26 @@ TIE = 1e-14
 class Impacts(NamedTuple):
     """Impacts in the units of `phases`, arrays of shape (n,); |v2(0)| = 1. Each has a number."""
 
-    number: np.ndarray
-    velocity: np.ndarray
-    mass_ratio: np.ndarray
-    coupling: np.ndarray
-    stiffness_ratio: np.ndarray
-    friction: np.ndarray
-    restitution: np.ndarray
+    number: Integers
+    velocity: Array
+    mass_ratio: Array
+    coupling: Array
+    stiffness_ratio: Array
+    friction: Array
+    restitution: Array
 
 
 class Outcome(NamedTuple):
     """What is known of each impact so far, arrays of shape (n,), filled in place."""
 
-    velocity: np.ndarray
-    approach: np.ndarray
-    peak_friction: np.ndarray
-    peak_normal: np.ndarray
-    friction_work: np.ndarray
-    duration: np.ndarray
-    regime: np.ndarray
-    jams: np.ndarray
+    velocity: Array
+    approach: Array
+    peak_friction: Array
+    peak_normal: Array
+    friction_work: Array
+    duration: Array
+    regime: Integers
+    jams: Booleans
 
 
 class Phase(NamedTuple):
@@ -57,17 +58,17 @@ class Contacts(NamedTuple):
     rise again; `peak` that at maximum compression so far.
     """
 
-    lanes: np.ndarray
+    lanes: Integers
     state: State
-    unloading: np.ndarray
-    direction: np.ndarray
-    rising: np.ndarray
-    peak: np.ndarray
-    sticks: np.ndarray
-    slid_first: np.ndarray
+    unloading: Booleans
+    direction: Array
+    rising: Booleans
+    peak: Array
+    sticks: Integers
+    slid_first: Booleans
 
 
-def solve(impacts, trace=None):
+def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
     """Velocities, peak forces, work of friction, duration and regime.
 
     Parameters
@@ -86,7 +87,7 @@ def solve(impacts, trace=None):
         If a contact has more than `MOST_PHASES` phases.
     """
     size = impacts.velocity.size
-    outcome = Outcome(*np.zeros((6, size)), np.zeros(size, np.uint8), np.zeros(size, bool))
+    outcome = Outcome._make([*np.zeros((6, size)), np.zeros(size, np.uint8), np.zeros(size, bool)])
     contacts = _first(impacts)
     for _ in range(MOST_PHASES):
         if not contacts.lanes.size:
@@ -95,7 +96,7 @@ def solve(impacts, trace=None):
     raise _too_long(impacts, contacts.lanes[0])
 
 
-def _too_long(impacts, lane):
+def _too_long(impacts: Impacts, lane: int) -> ConvergenceError:
     """What to raise for a contact that goes on and on."""
     number, *groups = (field[lane] for field in impacts)
     named = dict(zip(Impacts._fields[1:], map(float, groups), strict=True))
@@ -106,7 +107,7 @@ def _too_long(impacts, lane):
     )
 
 
-def _first(impacts):
+def _first(impacts: Impacts) -> Contacts:
     """Contacts at their first instant: stick, unless the spring cannot follow."""
     velocity, mu, zeta2 = impacts.velocity, impacts.friction, impacts.stiffness_ratio
     size = velocity.size
@@ -130,7 +131,7 @@ def _first(impacts):
     )
 
 
-def _groups(impacts, lanes, unloading):
+def _groups(impacts: Impacts, lanes: Integers, unloading: Booleans) -> Groups:
     pace = np.where(unloading, np.maximum(impacts.restitution[lanes], SMALLEST_PACE), 1.0)
     return Groups(
         impacts.mass_ratio[lanes],
@@ -141,7 +142,9 @@ def _groups(impacts, lanes, unloading):
     )
 
 
-def _advance(contacts, impacts, outcome, trace):
+def _advance(
+    contacts: Contacts, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
+) -> Contacts:
     """One phase for every contact; those that end leave."""
     groups = _groups(impacts, contacts.lanes, contacts.unloading)
     sticks = contacts.direction == 0
@@ -156,22 +159,26 @@ def _advance(contacts, impacts, outcome, trace):
     return _join(*pieces)
 
 
-def _take(contacts, which):
-    state = State(*(field[which] for field in contacts.state))
-    return Contacts(*(state if field is contacts.state else field[which] for field in contacts))
+def _take(contacts: Contacts, which: Integers) -> Contacts:
+    state = State._make(field[which] for field in contacts.state)
+    return Contacts._make(state if field is contacts.state else field[which] for field in contacts)
 
 
-def _join(first, second):
+def _join(first: Contacts, second: Contacts) -> Contacts:
     state = State(*(np.concatenate(pair) for pair in zip(first.state, second.state, strict=True)))
-    return Contacts(
-        *(
-            state if one is first.state else np.concatenate([one, two])
-            for one, two in zip(first, second, strict=True)
-        )
+    return Contacts._make(
+        state if one is first.state else np.concatenate([one, two])
+        for one, two in zip(first, second, strict=True)
     )
 
 
-def _slide(contacts, groups, impacts, outcome, trace):
+def _slide(
+    contacts: Contacts,
+    groups: Groups,
+    impacts: Impacts,
+    outcome: Outcome,
+    trace: list[Phase] | None,
+) -> tuple[Contacts, Booleans, Booleans]:
     """Slip to its next event: the contacts after it, those that separate, those that turn."""
     slip = Slip.start(contacts.state, groups, contacts.direction)
     unloading = contacts.unloading
@@ -216,7 +223,13 @@ def _slide(contacts, groups, impacts, outcome, trace):
     return moved, ends, again
 
 
-def _stick(contacts, groups, impacts, outcome, trace):
+def _stick(
+    contacts: Contacts,
+    groups: Groups,
+    impacts: Impacts,
+    outcome: Outcome,
+    trace: list[Phase] | None,
+) -> tuple[Contacts, Booleans, Booleans]:
     """Stick to its next event."""
     stick = Stick.start(contacts.state, groups)
     unloading = contacts.unloading
@@ -254,12 +267,16 @@ def _stick(contacts, groups, impacts, outcome, trace):
     return moved, ends, again
 
 
-def _record(trace, motion, contacts, duration):
+def _record(
+    trace: list[Phase] | None, motion: Slip | Stick, contacts: Contacts, duration: Array
+) -> None:
     if trace is not None:
         trace.append(Phase(motion, bool(contacts.unloading[0]), float(duration[0])))
 
 
-def _leave(contacts, ends, again, impacts, outcome):
+def _leave(
+    contacts: Contacts, ends: Booleans, again: Booleans, impacts: Impacts, outcome: Outcome
+) -> Contacts:
     """Turn contacts at maximum compression and at the earlier peak; settle those that separate."""
     lanes, state = contacts.lanes, contacts.state
     e = impacts.restitution[lanes]
@@ -280,7 +297,7 @@ def _leave(contacts, ends, again, impacts, outcome):
     return moved
 
 
-def _settle(contacts, e, impacts, outcome):
+def _settle(contacts: Contacts, e: Array, impacts: Impacts, outcome: Outcome) -> None:
     """Write down contacts that separate, with the strain energy that is lost then.
 
     A spring still holds friction where e = 0, or where mu is too large to tell the last slip from

@@ -20,7 +20,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.noncollinear.phases import Slip
+from planarimpact.arrays import Array, Booleans, Integers
+from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
 from planarimpact.slip_onset import sin_cos
 
 NOISE = 1e-15
@@ -39,23 +40,25 @@ class Functions(NamedTuple):
     Each with its noise, the square of its own rate, and its load.
     """
 
-    constant: np.ndarray
-    p_cos: np.ndarray
-    p_sin: np.ndarray
-    q_cos: np.ndarray
-    q_sin: np.ndarray
-    noise: np.ndarray
-    square: np.ndarray
-    load: np.ndarray
-    rate_p: np.ndarray
-    rate_q: np.ndarray
+    constant: Array
+    p_cos: Array
+    p_sin: Array
+    q_cos: Array
+    q_sin: Array
+    noise: Array
+    square: Array
+    load: Array
+    rate_p: Array
+    rate_q: Array
 
-    def take(self, lanes):
+    def take(self, lanes: Booleans) -> "Functions":
         """These functions for some of the contacts."""
-        return Functions(*(field[..., lanes] for field in self))
+        return Functions._make(field[..., lanes] for field in self)
 
 
-def functions(stick, state, groups, peak, unloading, rising):
+def functions(
+    stick: Stick, state: State, groups: Groups, peak: Array, unloading: Booleans, rising: Booleans
+) -> Functions:
     """The five whose first zero ends a phase of stick.
 
     mu N - F and mu N + F (slip begins); |V| (an extremum of F); y in compression, N in unloading
@@ -97,12 +100,14 @@ def functions(stick, state, groups, peak, unloading, rising):
     )
 
 
-def _modes(normal, friction, cosine, sine):
+def _modes(normal: Array, friction: Array, cosine: Array, sine: Array) -> tuple[Array, Array]:
     """Shares of p and q, from those of N and F scale."""
     return normal * cosine - friction * sine, normal * sine + friction * cosine
 
 
-def _own_motion(stick, state, groups, unloading, rising):
+def _own_motion(
+    stick: Stick, state: State, groups: Groups, unloading: Booleans, rising: Booleans
+) -> tuple[Array, Array]:
     """Square of each function's own rate, and its load."""
     beta, coupling, zeta2, mu, pace = groups
     p_size, q_size = stick.sizes
@@ -128,7 +133,7 @@ def _own_motion(stick, state, groups, unloading, rising):
     return square, load
 
 
-def first_zero(which):
+def first_zero(which: Functions) -> tuple[Array, Integers]:
     """Time of the first zero of any of the functions, and which has it.
 
     Parameters
@@ -160,14 +165,14 @@ def first_zero(which):
     return found, index
 
 
-def _bend(which):
+def _bend(which: Functions) -> Array:
     """Bound of the second derivative of each function."""
     p_size = np.hypot(which.p_cos, which.p_sin) * which.rate_p**2
     q_size = np.hypot(which.q_cos, which.q_sin) * which.rate_q**2
     return np.maximum(p_size + q_size, NOTHING**2)
 
 
-def _free_step(which, bend, time):
+def _free_step(which: Functions, bend: Array, time: Array) -> tuple[Array, Integers]:
     """Longest step without a zero, and the function that has the next one."""
     sin_p, cos_p = sin_cos(which.rate_p * time)
     sin_q, cos_q = sin_cos(which.rate_q * time)
@@ -183,7 +188,7 @@ def _free_step(which, bend, time):
     return np.take_along_axis(steps, nearest[None], axis=0)[0], nearest
 
 
-def _free_step_by_motion(value, slope, square, load):
+def _free_step_by_motion(value: Array, slope: Array, square: Array, load: Array) -> Array:
     """The same from f'' + square f >= -load, by the tangent of half the angle over the rate."""
     bend = square * value + 2 * load
     root = slope * slope + bend * value

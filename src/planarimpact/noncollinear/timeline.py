@@ -4,7 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from planarimpact.arrays import Array
 from planarimpact.noncollinear.phases import Slip
+from planarimpact.noncollinear.solver import Phase
 from planarimpact.results import Event, EventKind
 
 
@@ -26,17 +28,25 @@ class NoncollinearHistory(NamedTuple):
         where a phase starts, RELOADING where compression exceeds its earlier maximum again.
     """
 
-    time: np.ndarray
-    normal_force: np.ndarray
-    friction: np.ndarray
-    tangential: np.ndarray
-    normal: np.ndarray
-    compression: np.ndarray
-    spring: np.ndarray
-    events: tuple
+    time: Array
+    normal_force: Array
+    friction: Array
+    tangential: Array
+    normal: Array
+    compression: Array
+    spring: Array
+    events: tuple[Event, ...]
 
 
-def timeline(trace, e, zeta2, samples, speed, force, time):
+def timeline(
+    trace: list[Phase],
+    e: float,
+    zeta2: float,
+    samples: int,
+    speed: float,
+    force: float,
+    time: float,
+) -> NoncollinearHistory:
     """History of a contact.
 
     Parameters
@@ -55,7 +65,9 @@ def timeline(trace, e, zeta2, samples, speed, force, time):
     """
     ends = np.cumsum([_pace(phase, e) * phase.duration for phase in trace])
     grid = np.linspace(0.0, ends[-1], samples)
-    pieces, marks, before, peak = [], [], None, 0.0
+    pieces: list[Array] = []
+    marks: list[tuple[EventKind, int]] = []
+    before, peak = None, 0.0
     for phase, start, end in zip(trace, np.append(0.0, ends[:-1]), ends, strict=True):
         marks += [(kind, sum(piece.shape[1] for piece in pieces)) for kind in _kinds(phase, before)]
         inside = grid[(grid > start) & (grid < end)]
@@ -86,14 +98,14 @@ def timeline(trace, e, zeta2, samples, speed, force, time):
     )
     # The end of a phase is the start of the next.
     starts = np.cumsum([piece.shape[1] for piece in pieces])[:-1]
-    return NoncollinearHistory(*np.delete(columns, starts, axis=1), events)
+    return NoncollinearHistory._make([*np.delete(columns, starts, axis=1), events])
 
 
-def _pace(phase, e):
+def _pace(phase: Phase, e: float) -> float:
     return e if phase.unloading else 1.0
 
 
-def _kinds(phase, before):
+def _kinds(phase: Phase, before: Phase | None) -> list[EventKind]:
     """Events where a phase starts."""
     kind = EventKind.SLIP if isinstance(phase.motion, Slip) else EventKind.STICK
     if before is None:

@@ -1,7 +1,11 @@
 """Equations 36 to 41: energy lost in the normal element and to friction."""
 
+from planarimpact.arrays import Numbers
 
-def kinetic_energy(mass, gyration, x2, v1, v2, spin):
+
+def kinetic_energy(
+    mass: Numbers, gyration: Numbers, x2: Numbers, v1: Numbers, v2: Numbers, spin: Numbers
+) -> Numbers:
     """Formula before Eq. 36 (p. 447): initial kinetic energy K0; spin is positive clockwise.
 
     With the factor 1/2 that the scan does not show.
@@ -12,7 +16,7 @@ def kinetic_energy(mass, gyration, x2, v1, v2, spin):
     return mass / 2 * (v1**2 + v2**2 - 2 * x2 * v1 * spin + (x2**2 + gyration**2) * spin**2)
 
 
-def eq_36_hysteresis(m2, v2, restitution):
+def eq_36_hysteresis(m2: Numbers, v2: Numbers, restitution: Numbers) -> Numbers:
     """Eq. 36: D2(tf), lost in the normal element.
 
     >>> eq_36_hysteresis(2.0, -1.0, 0.5)
@@ -21,7 +25,7 @@ def eq_36_hysteresis(m2, v2, restitution):
     return (1 - restitution**2) * m2 * v2**2 / 2
 
 
-def eq_37_hysteresis_share(restitution):
+def eq_37_hysteresis_share(restitution: Numbers) -> Numbers:
     """Eq. 37: the same over M v2(0)^2/2.
 
     >>> eq_37_hysteresis_share(0.5)
@@ -30,7 +34,9 @@ def eq_37_hysteresis_share(restitution):
     return 1 - restitution**2
 
 
-def eq_38_friction(v1_t1, impulse_left, friction, m1):
+def eq_38_friction(
+    v1_t1: Numbers, impulse_left: Numbers, friction: Numbers, m1: Numbers
+) -> Numbers:
     """Eq. 38: D1(tf) = -integral of F1 v1 dt over the last slip, with s = +1.
 
     F1 dt = -mu dp and v1 = v1(t1) - (mu/m1) [p - p(t1)].
@@ -41,7 +47,9 @@ def eq_38_friction(v1_t1, impulse_left, friction, m1):
     return friction * impulse_left * (v1_t1 - friction / m1 * impulse_left / 2)
 
 
-def eq_39_friction(incidence, swing, g1, mass_ratio, friction):
+def eq_39_friction(
+    incidence: Numbers, swing: Numbers, g1: Numbers, mass_ratio: Numbers, friction: Numbers
+) -> Numbers:
     """Eq. 39: 2 D1/(m2 v2(0)^2) after initial stick; `swing` is cos(omega t1).
 
     With the sign that Eqs 38, 12 and 14 give; the scan does not show it.
@@ -52,7 +60,14 @@ def eq_39_friction(incidence, swing, g1, mass_ratio, friction):
     return -2 * friction**2 * g1 * (incidence * swing + mass_ratio * g1 / 2)
 
 
-def eq_40_friction(incidence, v1_t2, v1_t3, final, mass_ratio, friction):
+def eq_40_friction(
+    incidence: Numbers,
+    v1_t2: Numbers,
+    v1_t3: Numbers,
+    final: Numbers,
+    mass_ratio: Numbers,
+    friction: Numbers,
+) -> Numbers:
     """Eq. 40: 2 D1/(m2 v2(0)^2) after slip, stick, slip; velocities over mu v2(0).
 
     >>> eq_40_friction(2.0, 1.0, 2.0, 1.0, 2.0, 1.0)
@@ -61,7 +76,9 @@ def eq_40_friction(incidence, v1_t2, v1_t3, final, mass_ratio, friction):
     return friction**2 / mass_ratio * (incidence**2 - v1_t2**2 + v1_t3**2 - final**2)
 
 
-def eq_41_friction(incidence, mass_ratio, friction, restitution):
+def eq_41_friction(
+    incidence: Numbers, mass_ratio: Numbers, friction: Numbers, restitution: Numbers
+) -> Numbers:
     """Eq. 41: 2 D1/(m2 v2(0)^2) of slip throughout.
 
     >>> eq_41_friction(8.0, 3.5, 1.0, 1.0)
@@ -71,7 +88,7 @@ def eq_41_friction(incidence, mass_ratio, friction, restitution):
     return 2 * friction**2 * share * (incidence - share * mass_ratio / 2)
 
 
-def footnote_theorem(v1_before, v1_after, impulse):
+def footnote_theorem(v1_before: Numbers, v1_after: Numbers, impulse: Numbers) -> Numbers:
     """Footnote of p. 448: D1 of slip in one direction, -[v1(tb) + v1(ta)] [p1(tb) - p1(ta)]/2.
 
     With the minus that Eq. 36 asks for and the scan does not show.

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact import checks, lumped
+from planarimpact.arrays import Array, ArrayLike, Numbers
 from planarimpact.printed import dissipation, dynamics, peak_force, slip
 from planarimpact.results import EventKind
 
@@ -22,7 +23,9 @@ class Instants(NamedTuple):
     slip: float
 
 
-def rebound(incidence, mass_ratio, stiffness_ratio, restitution):
+def rebound(
+    incidence: ArrayLike, mass_ratio: float, stiffness_ratio: float, restitution: float
+) -> tuple[Array, Array, Array]:
     """Velocity, peak friction and dissipation as printed.
 
     Parameters
@@ -56,7 +59,9 @@ def rebound(incidence, mass_ratio, stiffness_ratio, restitution):
     return np.copysign(1.0, x) * velocity, peak, lost
 
 
-def _solved(x, beta, zeta2, e, limit):
+def _solved(
+    x: float, beta: float, zeta2: float, e: float, limit: Numbers
+) -> tuple[Numbers, Numbers, Numbers]:
     """Velocity, peak friction and dissipation of one impact."""
     if x >= limit:
         final = slip.eq_27_rebound(x, beta, e)
@@ -68,7 +73,7 @@ def _solved(x, beta, zeta2, e, limit):
     return (_stick_first if x <= zeta2 else _slip_first)(x, beta, zeta2, e, *instants)
 
 
-def _instants(x, beta, zeta2, e):
+def _instants(x: float, beta: float, zeta2: float, e: float) -> Instants | None:
     """Instants of the exact contact, None where its first slip never ends."""
     events = lumped.history(x, beta, zeta2, e, samples=2).events
     stick = next((event.time for event in events if event.kind == EventKind.STICK), None)
@@ -80,7 +85,9 @@ def _instants(x, beta, zeta2, e):
     return Instants(np.pi / 2 * stick, np.pi / 2 * after)
 
 
-def _stick_first(x, beta, zeta2, e, _, t1):
+def _stick_first(
+    x: float, beta: float, zeta2: float, e: float, _: float, t1: float
+) -> tuple[Numbers, Numbers, Numbers]:
     """Eqs 12, 15, 30 and 39."""
     omega = np.sqrt(beta / zeta2)
     g1 = slip.impulse_ratio(t1, 1.0, e) if e else 0.0
@@ -90,7 +97,9 @@ def _stick_first(x, beta, zeta2, e, _, t1):
     return final, peak, dissipation.eq_39_friction(x, np.cos(omega * t1), g1, beta, 1.0) / 2
 
 
-def _slip_first(x, beta, zeta2, e, t2, t3):
+def _slip_first(
+    x: float, beta: float, zeta2: float, e: float, t2: float, t3: float
+) -> tuple[Numbers, Numbers, Numbers]:
     """Eqs 19, 22, 25, 31, 32 and 40."""
     omega = np.sqrt(beta / zeta2)
     late = t2 > np.pi / 2
@@ -108,7 +117,7 @@ def _slip_first(x, beta, zeta2, e, t2, t3):
     return final, peak, dissipation.eq_40_friction(x, w2, w3, final, beta, 1.0) / 2
 
 
-def _largest(cosine, sine, end):
+def _largest(cosine: Numbers, sine: Numbers, end: float) -> float:
     """Largest |cosine cos(a) + sine sin(a)| for a from 0 to `end`: a crest, or an end."""
     crests = np.arctan2(sine, cosine) + np.pi * np.arange(-1, 3)
     angles = np.array([0.0, end, *crests[(crests > 0) & (crests < end)]])

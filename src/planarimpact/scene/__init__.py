@@ -8,12 +8,14 @@ for bodies whose radius of gyration is the same about every axis: they move in t
 incidence.
 """
 
+import pandas as pd
+
 from planarimpact.scene.solver import Solver
 
 __all__ = ["Solver", "solve"]
 
 
-def solve(table, tolerance=1e-3):
+def solve(table: pd.DataFrame, tolerance: float = 1e-3) -> pd.DataFrame:
     """Solve every impact of a table by the cheapest rung of the ladder that is good enough.
 
     Parameters

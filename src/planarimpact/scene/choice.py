@@ -5,12 +5,16 @@ lumped model. An error is the largest one of velocity (mu v2(0)) and peak fricti
 of a cheaper model is measured, `planarimpact.scene.gaps`.
 """
 
-from typing import NamedTuple
+from collections import Counter
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import pandas as pd
 
 from planarimpact import continuum, ladder, lumped, response, rigid
+from planarimpact.arrays import Array, Integers, Numbers
+from planarimpact.response import Response
+from planarimpact.results import Rebound
 from planarimpact.scene import gaps
 
 # Seconds for the first impact of a pair and for each further one, by tests/benchmarks/
@@ -31,6 +35,10 @@ FUTILE = 1e-4  # tolerance below which nobody tries the rigid limit
 FINE = 1e-9  # of a compiled lumped response, which costs little more than a coarse one
 
 
+# By model and groups.
+Responses: TypeAlias = dict[tuple[str, float, float, float], Response]
+
+
 class Rung(NamedTuple):
     """A model, the way to its answer, its error against the reference, and why it was taken.
 
@@ -47,8 +55,8 @@ class Job(NamedTuple):
     """Impacts of a table, by row, that one rung solves together; groups are numbers or arrays."""
 
     rung: Rung
-    rows: np.ndarray
-    groups: tuple
+    rows: Integers
+    groups: tuple[Numbers, ...]
     pair: str
 
 
@@ -57,7 +65,15 @@ MODELS = ("rigid", "lumped", "continuum")
 SLIDING = Rung("slip throughout", "formula", 0.0, "exact, whatever the reference")
 
 
-def jobs(mass_ratio, stiffness_ratio, restitution, rows, tolerance, responses, seen):
+def jobs(
+    mass_ratio: Array,
+    stiffness_ratio: Array,
+    restitution: Array,
+    rows: Integers,
+    tolerance: float,
+    responses: Responses,
+    seen: Counter[tuple[float, ...]],
+) -> list[Job]:
     """Divide impacts that do not slide throughout among the rungs, pair by pair.
 
     Parameters
@@ -88,7 +104,8 @@ def jobs(mass_ratio, stiffness_ratio, restitution, rows, tolerance, responses, s
         if member.size < FEW:
             few.append(member)
             continue
-        pair = tuple(rounded[:, member[0]].tolist())
+        beta, zeta2, e = rounded[:, member[0]].tolist()
+        pair = beta, zeta2, e
         name = "m2/m1 = {:.4g}, zeta^2 = {:.4g}, e = {:.4g}".format(*pair)
         seen[pair] += member.size
         taken = rung(*pair, tolerance, seen[pair], responses)
@@ -99,13 +116,13 @@ def jobs(mass_ratio, stiffness_ratio, restitution, rows, tolerance, responses, s
     return found
 
 
-def _rounded(groups):
+def _rounded(groups: Array) -> Array:
     """Groups to 12 digits: what differs by rounding alone is one pair."""
     bits = groups.view(np.int64)
     return ((bits + 2**11) & -(2**12)).view(np.float64)
 
 
-def _together(groups, rows, members, tolerance):
+def _together(groups: Array, rows: Integers, members: Integers, tolerance: float) -> list[Job]:
     """Jobs for impacts of pairs that have few each."""
     elastic = groups[2][members] == 1
     gap = np.where(elastic, gaps.elastic("lumped", *groups[:2, members]), 0.0)
@@ -123,7 +140,14 @@ def _together(groups, rows, members, tolerance):
     ]
 
 
-def rung(mass_ratio, stiffness_ratio, restitution, tolerance, count, responses=None):
+def rung(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    restitution: float,
+    tolerance: float,
+    count: int,
+    responses: Responses | None = None,
+) -> Rung:
     """The cheapest rung for impacts of one pair that do not slide throughout.
 
     Parameters
@@ -167,7 +191,9 @@ def rung(mass_ratio, stiffness_ratio, restitution, tolerance, count, responses=N
     return Rung(model, way, gap[model], why)
 
 
-def _gap(model, mass_ratio, stiffness_ratio, restitution, tolerance):
+def _gap(
+    model: str, mass_ratio: float, stiffness_ratio: float, restitution: float, tolerance: float
+) -> float:
     if restitution == 1:
         return float(gaps.elastic(model, mass_ratio, stiffness_ratio))
     if tolerance < FUTILE:
@@ -175,7 +201,15 @@ def _gap(model, mass_ratio, stiffness_ratio, restitution, tolerance):
     return gaps.inelastic(mass_ratio, stiffness_ratio, restitution)
 
 
-def solve(rung, incidence, mass_ratio, stiffness_ratio, restitution, tolerance, responses):
+def solve(
+    rung: Rung,
+    incidence: Array,
+    mass_ratio: Numbers,
+    stiffness_ratio: Numbers,
+    restitution: Numbers,
+    tolerance: float,
+    responses: Responses,
+) -> tuple[Rebound, Numbers]:
     """Impacts by a rung.
 
     Parameters
@@ -197,9 +231,9 @@ def solve(rung, incidence, mass_ratio, stiffness_ratio, restitution, tolerance, 
     """
     groups = mass_ratio, stiffness_ratio, restitution
     if rung.way == "compiled":
-        key = rung.model, *groups
+        key = rung.model, float(mass_ratio), float(stiffness_ratio), float(restitution)
         if key not in responses:
-            responses[key] = _compiled(rung.model, *groups, tolerance)
+            responses[key] = _compiled(*key, tolerance)
         error = rung.error + max(responses[key].error_bound) + EXACT * mass_ratio
         return responses[key](incidence), error
     if rung.model == "continuum":
@@ -208,8 +242,10 @@ def solve(rung, incidence, mass_ratio, stiffness_ratio, restitution, tolerance, 
     return model.rebound(incidence, *groups), rung.error + EXACT * np.asarray(mass_ratio)
 
 
-def _compiled(model, mass_ratio, stiffness_ratio, restitution, tolerance):
-    limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution)
+def _compiled(
+    model: str, mass_ratio: float, stiffness_ratio: float, restitution: float, tolerance: float
+) -> Response:
+    limit = float(lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution))
     wanted = tolerance if model == "continuum" else min(tolerance, FINE)
     return response.compile(
         model,

@@ -2,11 +2,14 @@
 
 import difflib
 import re
-from typing import NamedTuple
+from collections.abc import Iterable
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 
+from planarimpact.arrays import Array, Booleans
 from planarimpact.checks import InputError
 
 HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
@@ -24,26 +27,26 @@ class Column(NamedTuple):
 
 
 _FINITE = "finite numbers"
-_ABOVE = dict(allowed="finite numbers above 0", low=0, open_low=True)
-_LARGE = dict(allowed="numbers above 0, or inf", low=0, open_low=True, infinite=True)
-_RATIO = dict(allowed="numbers above -1, up to 0.5", low=-1, high=0.5, open_low=True)
+_above = partial(Column, allowed="finite numbers above 0", low=0, open_low=True)
+_large = partial(Column, allowed="numbers above 0, or inf", low=0, open_low=True, infinite=True)
+_ratio = partial(Column, allowed="numbers above -1, up to 0.5", low=-1, high=0.5, open_low=True)
 AXES = "xyz"
 
 BODY = {
-    "radius": Column("m", **_ABOVE),
-    "density": Column("kg/m^3", **_ABOVE),
-    "mass": Column("kg", **_ABOVE),
-    "gyration": Column("m", **_ABOVE),
-    "young_modulus": Column("Pa", **_ABOVE),
-    "poisson_ratio": Column("", **_RATIO),
+    "radius": _above("m"),
+    "density": _above("kg/m^3"),
+    "mass": _above("kg"),
+    "gyration": _above("m"),
+    "young_modulus": _above("Pa"),
+    "poisson_ratio": _ratio(""),
 }
 OTHER = {
-    "other_radius": Column("m", **_LARGE),
-    "other_density": Column("kg/m^3", **_ABOVE),
-    "other_mass": Column("kg", **_LARGE),
-    "other_gyration": Column("m", **_LARGE),
-    "other_young_modulus": Column("Pa", **_LARGE),
-    "other_poisson_ratio": Column("", **_RATIO),
+    "other_radius": _large("m"),
+    "other_density": _above("kg/m^3"),
+    "other_mass": _large("kg"),
+    "other_gyration": _large("m"),
+    "other_young_modulus": _large("Pa"),
+    "other_poisson_ratio": _ratio(""),
 }
 PAIR = {
     "friction": Column("", "finite numbers from 0", low=0),
@@ -64,7 +67,7 @@ KNOWN = BODY | OTHER | PAIR | PLANE | SPACE | NORMAL | OTHER_PLANE | OTHER_SPACE
 LABEL = "id"
 
 
-def header(name, ending=""):
+def header(name: str, ending: str = "") -> str:
     """Header of a column: its name, and an ending, with the unit in brackets if it has one.
 
     Examples
@@ -76,7 +79,7 @@ def header(name, ending=""):
     return f"{name}{ending} [{unit}]" if unit else name + ending
 
 
-def named(headers):
+def named(headers: Iterable[object]) -> dict[str, str]:
     """Names of the columns of a table, by header; refused if a set of them is incomplete.
 
     Parameters
@@ -118,7 +121,7 @@ def named(headers):
     return found
 
 
-def _refuse_incomplete(names):
+def _refuse_incomplete(names: set[str]) -> None:
     """Refuse a table whose columns do not make up bodies and a state."""
     _need(names, ["radius", "young_modulus", "poisson_ratio", "friction", "restitution"])
     _need_one_of(names, "density", ("mass", "gyration"))
@@ -142,29 +145,29 @@ def _refuse_incomplete(names):
         raise InputError(f"columns {_listed(wrong)}: the state has {dimensions} dimensions")
 
 
-def _need(names, wanted):
+def _need(names: set[str], wanted: Iterable[str]) -> None:
     missing = [name for name in wanted if name not in names]
     if missing:
         raise InputError(f"columns {_listed(missing)}: missing")
 
 
-def _need_one_of(names, single, several):
+def _need_one_of(names: set[str], single: str, several: Iterable[str]) -> None:
     if (single in names) == bool(names & set(several)):
         raise InputError(f"columns: needed are either {header(single)} or {_listed(several)}")
     if single not in names:
         _need(names, several)
 
 
-def _all_or_none(names, wanted):
+def _all_or_none(names: set[str], wanted: Iterable[str]) -> None:
     if names & set(wanted):
         _need(names, wanted)
 
 
-def _listed(names):
+def _listed(names: Iterable[str]) -> str:
     return ", ".join(header(name) for name in KNOWN if name in names)
 
 
-def numbers(table, names):
+def numbers(table: pd.DataFrame, names: dict[str, str]) -> tuple[dict[str, Array], dict[int, str]]:
     """Columns of a table as float64, and what is wrong in which row.
 
     Parameters
@@ -180,7 +183,8 @@ def numbers(table, names):
     problems : dict
         `{position: words}`, the first problem of every bad row, positions from 0.
     """
-    values, problems = {}, {}
+    values: dict[str, Array] = {}
+    problems: dict[int, str] = {}
     for name, text in names.items():
         if name == LABEL:
             continue
@@ -197,15 +201,15 @@ def numbers(table, names):
     return values, problems
 
 
-def _moves(values):
+def _moves(values: dict[str, Array]) -> Booleans:
     """Whether the other body has a mass, or a radius of gyration, that is finite."""
     if "other_density" in values:
         return np.ones(values["other_density"].size, dtype=bool)
     given = [values[name] for name in ("other_mass", "other_gyration") if name in values]
-    return np.any(np.isfinite(given), axis=0) if given else np.False_
+    return np.any(np.isfinite(given), axis=0) if given else np.zeros((), dtype=bool)
 
 
-def _checked(series, column):
+def _checked(series: pd.Series, column: Column) -> tuple[Array, Booleans]:
     """Numbers of one column, and which are not admissible."""
     types = pd.api.types
     if types.is_integer_dtype(series) or types.is_float_dtype(series):
@@ -219,7 +223,7 @@ def _checked(series, column):
     return values, ~good
 
 
-def _number(cell):
+def _number(cell: Any) -> float:
     """A cell that is a number, or the text of one, else NaN."""
     odd = isinstance(cell, (bool, np.bool_, complex)) or "_" in str(cell)
     try:

@@ -6,8 +6,11 @@ Results may be JSON too.
 import json
 import sys
 import warnings
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 import pandas as pd
 
@@ -19,7 +22,14 @@ from planarimpact.scene.solver import Solver
 ROWS = 250_000  # read, solved and written at a time
 
 
-def solve(source, target, tolerance=1e-3, skip_bad=False, rows=ROWS, progress=None):
+def solve(
+    source: str | Path,
+    target: str | Path,
+    tolerance: float = 1e-3,
+    skip_bad: bool = False,
+    rows: int = ROWS,
+    progress: Callable[[float, int], None] | None = None,
+) -> Solver:
     """Solve the scene of one file into another, which appears whole or not at all.
 
     Parameters
@@ -75,7 +85,7 @@ def solve(source, target, tolerance=1e-3, skip_bad=False, rows=ROWS, progress=No
     return solver
 
 
-def _solved(solver, table, skip_bad):
+def _solved(solver: Solver, table: pd.DataFrame, skip_bad: bool) -> pd.DataFrame:
     try:
         return solver.solve(table, skip_bad)
     except InputError as error:
@@ -86,14 +96,14 @@ class _RefusedTable(InputError):
     """Something in the table that is read, which the message does not name."""
 
 
-def bar(share, impacts):
+def bar(share: float, impacts: int) -> None:
     """Draw a bar of progress on the terminal, in place."""
     done = round(30 * share)
     line = f"\r[{'#' * done}{'.' * (30 - done)}] {100 * share:3.0f} %  {impacts:,} impacts"
     print(line, end="\n" if share >= 1 else "", file=sys.stderr, flush=True)
 
 
-def _pieces(source, rows):
+def _pieces(source: Path, rows: int) -> Iterator[tuple[float, pd.DataFrame]]:
     """Tables of some rows each, with the share of the file read."""
     if _is_parquet(source):
         yield from _parquet_pieces(source, rows)
@@ -110,7 +120,7 @@ def _pieces(source, rows):
             raise _RefusedTable(f"no table in CSV, separated by commas: {words}") from None
 
 
-def _parquet_pieces(source, rows):
+def _parquet_pieces(source: Path, rows: int) -> Iterator[tuple[float, pd.DataFrame]]:
     parquet = _pyarrow_parquet(source)
     try:
         file = parquet.ParquetFile(source)
@@ -125,10 +135,13 @@ def _parquet_pieces(source, rows):
 
 
 @contextmanager
-def _appended(target):
+def _appended(target: Path) -> Iterator[Callable[[pd.DataFrame], None]]:
     """A function that appends tables to a file; it gets its name when all are written."""
     with whole_files.written(target) as partial:
-        writers = {".parquet": _ParquetWriter, ".json": _JsonWriter}
+        writers: dict[str, type[_CsvWriter | _JsonWriter | _ParquetWriter]] = {
+            ".parquet": _ParquetWriter,
+            ".json": _JsonWriter,
+        }
         output = writers.get(target.suffix.lower(), _CsvWriter)(partial, target)
         try:
             yield output.write
@@ -136,46 +149,47 @@ def _appended(target):
             output.close()
 
 
-def _is_parquet(path):
+def _is_parquet(path: Path) -> bool:
     return path.suffix.lower() == ".parquet"
 
 
 class _CsvWriter:
-    def __init__(self, path, target):
+    def __init__(self, path: Path, target: Path) -> None:
         self.file = open(path, "w", encoding="utf-8", newline="")  # noqa: SIM115 (see close)
         self.first = True
 
-    def write(self, table):
+    def write(self, table: pd.DataFrame) -> None:
         table.to_csv(self.file, index=False, header=self.first, lineterminator="\n")
         self.first = False
 
-    def close(self):
+    def close(self) -> None:
         self.file.close()
 
 
 class _JsonWriter:
     """An array of objects, one a line; what is no finite number is null."""
 
-    def __init__(self, path, target):
+    def __init__(self, path: Path, target: Path) -> None:
         self.file = open(path, "w", encoding="utf-8")  # noqa: SIM115 (see close)
         self.before = "[\n"
 
-    def write(self, table):
+    def write(self, table: pd.DataFrame) -> None:
         for row in table.astype(object).to_dict("records"):
             plain = {name: whole_files.or_null(cell) for name, cell in row.items()}
             self.file.write(self.before + json.dumps(plain))
             self.before = ",\n"
 
-    def close(self):
+    def close(self) -> None:
         self.file.write("[]\n" if self.before == "[\n" else "\n]\n")
         self.file.close()
 
 
 class _ParquetWriter:
-    def __init__(self, path, target):
-        self.parquet, self.path, self.writer = _pyarrow_parquet(target), path, None
+    def __init__(self, path: Path, target: Path) -> None:
+        self.parquet, self.path = _pyarrow_parquet(target), path
+        self.writer: Any = None
 
-    def write(self, table):
+    def write(self, table: pd.DataFrame) -> None:
         import pyarrow
 
         if columns.LABEL in table:  # of one type, whatever the part of the table
@@ -186,12 +200,12 @@ class _ParquetWriter:
             self.writer = self.parquet.ParquetWriter(self.path, content.schema)
         self.writer.write_table(content)
 
-    def close(self):
+    def close(self) -> None:
         if self.writer is not None:
             self.writer.close()
 
 
-def _pyarrow_parquet(path):
+def _pyarrow_parquet(path: Path) -> ModuleType:
     try:
         from pyarrow import parquet
     except ImportError:

@@ -8,6 +8,7 @@ bodies. For e < 1 the reference is the lumped model, cheap enough to be asked ea
 import numpy as np
 
 from planarimpact import lumped, rigid
+from planarimpact.arrays import Array, ArrayLike
 
 CHI = 0.5 * 2.0 ** (np.arange(41) / 8)
 # Over all incidences that stick at some time, to three decimals, rounded up. Made by
@@ -46,7 +47,7 @@ MARGIN = 1.1  # between the entries of the table, or the incidences that were as
 SAMPLES = 257
 
 
-def elastic(model, mass_ratio, stiffness_ratio):
+def elastic(model: str, mass_ratio: ArrayLike, stiffness_ratio: ArrayLike) -> Array:
     """Largest error of a model against the continuum, e = 1.
 
     Parameters
@@ -74,7 +75,7 @@ def elastic(model, mass_ratio, stiffness_ratio):
     return np.where((chi >= CHI[0]) & (chi <= CHI[-1]), gap, np.inf)[()]
 
 
-def inelastic(mass_ratio, stiffness_ratio, restitution):
+def inelastic(mass_ratio: float, stiffness_ratio: float, restitution: float) -> float:
     """Largest error of the rigid limit against the lumped model, at one e < 1.
 
     Parameters

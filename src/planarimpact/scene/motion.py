@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact import bodies
+from planarimpact.arrays import Array
 from planarimpact.bodies import Body, Material
 from planarimpact.scene.columns import AXES
 
@@ -22,8 +23,8 @@ LARGEST_RATIO = 1e12  # of masses m2/m1: beyond it no digit of the rebound is su
 class State(NamedTuple):
     """Velocity of a centre [m/s] and spin [rad/s], arrays of shape (3, n) or (3, 1)."""
 
-    velocity: np.ndarray
-    spin: np.ndarray
+    velocity: Array
+    spin: Array
 
 
 class Impacts(NamedTuple):
@@ -34,21 +35,21 @@ class Impacts(NamedTuple):
 
     body: Body
     other: Body
-    normal: np.ndarray
+    normal: Array
     before: State
     other_before: State
-    tangent: np.ndarray  # unit vector of v1(0), 0 where there is none
-    v1: np.ndarray  # tangential velocity of contact, at least 0 [m/s]
-    v2: np.ndarray  # normal velocity of approach [m/s]
-    friction: np.ndarray
-    restitution: np.ndarray
-    m2: np.ndarray  # normal effective mass [kg]
-    mass_ratio: np.ndarray
-    stiffness_ratio: np.ndarray
-    peak_normal: np.ndarray  # largest normal force by Hertz [N]
+    tangent: Array  # unit vector of v1(0), 0 where there is none
+    v1: Array  # tangential velocity of contact, at least 0 [m/s]
+    v2: Array  # normal velocity of approach [m/s]
+    friction: Array
+    restitution: Array
+    m2: Array  # normal effective mass [kg]
+    mass_ratio: Array
+    stiffness_ratio: Array
+    peak_normal: Array  # largest normal force by Hertz [N]
 
 
-def impacts(values):
+def impacts(values: dict[str, Array]) -> Impacts:
     """Impacts of checked columns.
 
     Parameters
@@ -94,7 +95,7 @@ def impacts(values):
         )
 
 
-def problems(impacts):
+def problems(impacts: Impacts) -> dict[int, str]:
     """What is wrong with an impact as a whole: `{index: words}`.
 
     Examples
@@ -124,7 +125,7 @@ def problems(impacts):
     return found
 
 
-def after(impacts, tangential_velocity):
+def after(impacts: Impacts, tangential_velocity: Array) -> tuple[State, State]:
     """State after the impact.
 
     Parameters
@@ -148,7 +149,7 @@ def after(impacts, tangential_velocity):
     )
 
 
-def energy_lost(impacts, tangential_velocity):
+def energy_lost(impacts: Impacts, tangential_velocity: Array) -> Array:
     """Kinetic energy lost by both bodies [J]: in the normal element, and tangentially."""
     e, v1, after = impacts.restitution, impacts.v1, tangential_velocity
     # Masses first: a velocity squared is no number where the energy still is one.
@@ -157,7 +158,7 @@ def energy_lost(impacts, tangential_velocity):
     return normal + m1 / 2 * (v1 - after) * (v1 + after)
 
 
-def columns_of(state, plane):
+def columns_of(state: State, plane: bool) -> dict[str, Array]:
     """Columns of a state, by name: those of a plane state, or of three axes."""
     if plane:
         return {
@@ -169,7 +170,7 @@ def columns_of(state, plane):
     return named | {f"spin_{axis}": row for axis, row in zip(AXES, state.spin, strict=True)}
 
 
-def _body(values, prefix):
+def _body(values: dict[str, Array], prefix: str) -> Body:
     """A body; the other one is a half-space where it has no mass."""
     count = values["radius"].size
     radius = values.get(f"{prefix}radius", np.zeros(count))
@@ -183,7 +184,7 @@ def _body(values, prefix):
     return Body(mass, gyration, radius)
 
 
-def _materials(values):
+def _materials(values: dict[str, Array]) -> tuple[Material, Material | None]:
     material = Material(values["young_modulus"], values["poisson_ratio"])
     if "other_young_modulus" not in values:
         return material, None
@@ -193,13 +194,13 @@ def _materials(values):
     return material, Material(young, poisson)
 
 
-def _normal(values):
+def _normal(values: dict[str, Array]) -> Array:
     if "normal_x" in values:
         return np.stack([values[f"normal_{axis}"] for axis in AXES])
     return np.broadcast_to(np.array([[0.0], [0.0], [1.0]]), (3, values["radius"].size))
 
 
-def _state(values, prefix):
+def _state(values: dict[str, Array], prefix: str) -> State:
     if f"{prefix}velocity_x" in values:
         return State(
             np.stack([values[f"{prefix}velocity_{axis}"] for axis in AXES]),
@@ -216,19 +217,19 @@ def _state(values, prefix):
     )
 
 
-def _contact_velocity(state, body, towards):
+def _contact_velocity(state: State, body: Body, towards: Array) -> Array:
     """Velocity of the contact point, at the body's radius in the direction `towards`."""
     return state.velocity + body.radius * np.cross(state.spin, towards, axis=0)
 
 
-def _kicked(state, body, m2, impulse, towards):
+def _kicked(state: State, body: Body, m2: Array, impulse: Array, towards: Array) -> State:
     """State after an impulse, given over m2, at the contact point."""
     change = impulse * (m2 / body.mass)
     turn = np.cross(towards, change, axis=0) * (body.radius / body.gyration) / body.gyration
     return State(state.velocity + change, state.spin + turn)
 
 
-def _peak_normal(values, m2, v2):
+def _peak_normal(values: dict[str, Array], m2: Array, v2: Array) -> Array:
     radius = bodies.effective_radius(values["radius"], values.get("other_radius", np.inf))
     modulus = bodies.effective_modulus(*_materials(values))
     approaching = np.where((v2 > 0) & np.isfinite(v2), v2, 1.0)  # others are refused later

@@ -1,13 +1,15 @@
 """Solves tables of impacts, block by block, and remembers what it did."""
 
 from collections import Counter
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from planarimpact import bodies, checks, continuum, lumped
+from planarimpact.arrays import Array, Booleans, Integers, Numbers
 from planarimpact.checks import ConvergenceError, InputError
-from planarimpact.results import Regime
+from planarimpact.results import Rebound, Regime
 from planarimpact.scene import choice, columns, motion
 
 BLOCK = 2**17  # rows solved together: bounds the memory
@@ -30,13 +32,16 @@ class Solver:
         Rows read so far.
     """
 
-    def __init__(self, tolerance=1e-3):
-        number = checks.checked("tolerance", tolerance, "numbers from 1e-10 to 1", 1e-10, 1)
-        self.tolerance = checks.single("tolerance", number)
-        self.bad, self.rows = [], 0
-        self._responses, self._seen, self._taken = {}, Counter(), Counter()
+    def __init__(self, tolerance: float = 1e-3) -> None:
+        allowed = "numbers from 1e-10 to 1"
+        self.tolerance = checks.number("tolerance", tolerance, allowed, 1e-10, 1)
+        self.bad: list[tuple[int, str]] = []
+        self.rows = 0
+        self._responses: choice.Responses = {}
+        self._seen: Counter[tuple[float, ...]] = Counter()
+        self._taken: Counter[tuple[choice.Rung, str]] = Counter()
 
-    def solve(self, table, skip_bad=False):
+    def solve(self, table: pd.DataFrame, skip_bad: bool = False) -> pd.DataFrame:
         """State after each impact of a table, as the function `solve`; bad rows may be left out.
 
         Parameters
@@ -56,7 +61,7 @@ class Solver:
         ]
         return pd.concat(blocks) if len(blocks) > 1 else blocks[0]
 
-    def explain(self):
+    def explain(self) -> str:
         """How many impacts went to which rung and why, in words, a line each.
 
         Returns
@@ -69,7 +74,7 @@ class Solver:
             lines.append(f"{count:>10}  {way:<20}  {pair}: {rung.why}")
         return "\n".join(lines)
 
-    def _block(self, table, names, skip_bad):
+    def _block(self, table: pd.DataFrame, names: dict[str, str], skip_bad: bool) -> pd.DataFrame:
         values, problems = columns.numbers(table, names)
         good = np.ones(len(table), dtype=bool)
         good[list(problems)] = False
@@ -96,7 +101,9 @@ class Solver:
         found = pd.DataFrame(result, index=chosen.index)
         return found[~np.isin(positions, list(unsolved))] if unsolved else found
 
-    def _impacts(self, values, good, problems):
+    def _impacts(
+        self, values: dict[str, Array], good: Booleans, problems: dict[int, str]
+    ) -> motion.Impacts:
         """Impacts of the good rows; those whose physical quantities are no numbers become bad."""
         while True:
             try:
@@ -105,21 +112,25 @@ class Solver:
                 for position in np.flatnonzero(good)[error.where].tolist():
                     problems[position], good[position] = str(error), False
 
-    def _refuse(self, problems, skip_bad, kind):
+    def _refuse(
+        self, problems: dict[int, str], skip_bad: bool, kind: type[InputError | ConvergenceError]
+    ) -> None:
         """Refuse the first bad row, unless bad rows are skipped."""
         if problems and not skip_bad:
             first = min(problems)
             more = f"; {len(problems) - 1} more rows are bad" if len(problems) > 1 else ""
             raise kind(f"row {self.rows + first + 1}: {problems[first]}{more}")
 
-    def _after(self, impacts, names):
+    def _after(
+        self, impacts: motion.Impacts, names: dict[str, str]
+    ) -> tuple[dict[str, Any], dict[int, str]]:
         """Columns of the result, and what has none: `{position: words}`."""
         unit = impacts.friction * impacts.v2
         groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
         with np.errstate(over="ignore"):  # where friction stops any velocity that is a number
             slides = impacts.v1 >= lumped.slip_throughout_limit(*groups) * unit
             lost = (1 + impacts.restitution) * impacts.mass_ratio * unit
-        unsolved = {}
+        unsolved: dict[int, str] = {}
         velocity = impacts.v1 - np.where(slides, lost, 0.0)
         peak, error = np.ones(unit.size), np.zeros(unit.size)
         regime = np.full(unit.size, Regime.SLIP_THROUGHOUT, np.uint8)
@@ -139,13 +150,18 @@ class Solver:
             self._taken[rung, job.pair] += rows.size
         return self._columns(impacts, names, velocity, peak, error, regime, model), unsolved
 
-    def _answers(self, job, x):
+    def _answers(
+        self, job: choice.Job, x: Array
+    ) -> tuple[choice.Rung, tuple[Rebound, Numbers], Integers, dict[int, str]]:
         """The rung, results and errors, which impacts they are of, and why others have none."""
-        rung, left, without = job.rung, np.arange(x.size), {}
+        rung, left = job.rung, np.arange(x.size)
+        without: dict[int, str] = {}
         while True:
-            groups = (group if np.ndim(group) == 0 else group[left] for group in job.groups)
+            beta, zeta2, e = (
+                group if isinstance(group, float) else group[left] for group in job.groups
+            )
             try:
-                found = choice.solve(rung, x[left], *groups, self.tolerance, self._responses)
+                found = choice.solve(rung, x[left], beta, zeta2, e, self.tolerance, self._responses)
                 return rung, found, left, without
             except ConvergenceError as error:
                 if rung.way == "compiled":  # some of its impacts may have an answer
@@ -155,7 +171,16 @@ class Solver:
                 without |= dict.fromkeys(left[lost].tolist(), str(error))
                 left = np.delete(left, lost)
 
-    def _columns(self, impacts, names, velocity, peak, error, regime, model):
+    def _columns(
+        self,
+        impacts: motion.Impacts,
+        names: dict[str, str],
+        velocity: Array,
+        peak: Array,
+        error: Array,
+        regime: Integers,
+        model: Integers,
+    ) -> dict[str, Any]:
         body, other = motion.after(impacts, velocity)
         plane = "spin" in names
         states = motion.columns_of(body, plane)

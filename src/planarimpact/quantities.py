@@ -1,0 +1,99 @@
+"""Bodies, materials and motions in SI units, and the checks of their quantities."""
+
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact import checks
+from planarimpact.arrays import Array, ArrayLike, Booleans, Numbers
+from planarimpact.checks import InputError, checked
+
+
+class OutOfRange(InputError):
+    """A result that is too large or too small for a number; `where` says which of an array."""
+
+    def __init__(self, name: str, values: Array, where: Booleans) -> None:
+        super().__init__(f"{name} = {values[where][0]:g}: it is beyond the range of numbers")
+        self.where = where
+
+
+class Material(NamedTuple):
+    """An isotropic elastic material: Young's modulus [Pa] and Poisson's ratio (-1 < nu <= 0.5)."""
+
+    young_modulus: Numbers
+    poisson_ratio: Numbers
+
+
+class Body(NamedTuple):
+    """A rigid body: mass [kg], radius of gyration [m], distance centre to contact point [m].
+
+    An infinite mass is one that the impact does not move, an infinite gyration one kept from
+    turning.
+    """
+
+    mass: Numbers
+    gyration: Numbers
+    radius: Numbers
+
+
+class Motion(NamedTuple):
+    """Velocity of the centre of mass [m/s] and spin [rad/s]; signs as in `planarimpact.bodies`."""
+
+    tangential: Numbers
+    normal: Numbers
+    spin: Numbers
+
+
+# Its radius plays no part, as nothing turns it; its curvature is the default of effective_radius.
+HALF_SPACE = Body(mass=np.inf, gyration=np.inf, radius=0.0)
+
+finite = partial(checked, allowed="finite numbers")
+not_negative = partial(checked, allowed="finite numbers from 0", low=0)
+positive = partial(checked, allowed="finite numbers above 0", low=0, open_low=True)
+_poisson = partial(checked, allowed="numbers above -1, up to 0.5", low=-1, high=0.5, open_low=True)
+
+
+def positive_or_infinite(name: str, value: ArrayLike) -> Array:
+    """Check numbers above 0, which may be infinite."""
+    try:
+        infinite = np.isposinf(np.asarray(value))
+    except (TypeError, ValueError):  # not real numbers: `checked` says so
+        infinite = np.zeros((), bool)
+    others = np.where(infinite, 1.0, value) if infinite.any() else value
+    return np.where(infinite, np.inf, positive(name, others, allowed="numbers above 0, or inf"))
+
+
+# Results are refused below, so that numpy need not warn.
+quietly = np.errstate(over="ignore", invalid="ignore", divide="ignore")
+
+
+def in_range(name: str, values: Array, above: float = 0.0) -> Array:
+    """Return values as they are, if all are finite and larger than `above` in size."""
+    lost = ~(np.isfinite(values) & (np.abs(values) > above))
+    if lost.any():
+        raise OutOfRange(name, np.atleast_1d(values), np.atleast_1d(lost))
+    return values
+
+
+def all_positive(**arguments: ArrayLike) -> tuple[Array, ...]:
+    """Check finite numbers above 0, and broadcast them."""
+    return checks.broadcast(**{name: positive(name, v) for name, v in arguments.items()})
+
+
+_CHECKS = {
+    Material: (positive, _poisson),
+    Body: (positive_or_infinite, positive_or_infinite, not_negative),
+    Motion: (finite, positive, finite),
+}
+
+
+def fields(
+    name: str, value: Body | Material | Motion, kind: type[Body | Material | Motion]
+) -> dict[str, Array]:
+    """Checked fields of a `kind`, keyed by the names that a refusal shows."""
+    if not isinstance(value, kind):
+        form = f"{kind.__name__}({', '.join(kind._fields)})"
+        raise InputError(f"{name} = {value!r}: allowed are {form} tuples")
+    names = [f"{name}.{field}" for field in kind._fields]
+    return {n: rule(n, v) for n, rule, v in zip(names, _CHECKS[kind], value, strict=True)}
