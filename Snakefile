@@ -12,14 +12,38 @@ configfile: "workflow/config.yaml"
 include: "workflow/rules/common.smk"
 
 
+# Seconds each: on a cluster they run where snakemake does, not in the queue.
+localrules:
+    all,
+    figures,
+    series,
+    draw,
+    compare,
+    verdicts,
+    ledger_page,
+    trade,
+    stability,
+    gather_chunks,
+    study,
+    gate,
+
+
 rule all:
+    """Everything, up to the verdict: what runs if no target is named."""
     input:
         "results/PASSED",
 
 
 rule figures:
+    """Pictures only, without judging."""
     input:
         expand("figures/{figure}.{kind}", figure=run_plan.FIGURES, kind=["svg", "png"]),
+
+
+rule notebooks:
+    """The lectures alone: notebooks run from the first cell to the last, as pages."""
+    input:
+        notebook_pages,
 
 
 include: "workflow/rules/curves.smk"
@@ -29,6 +53,10 @@ include: "workflow/rules/ledger.smk"
 include: "workflow/rules/trade.smk"
 include: "workflow/rules/stability.smk"
 include: "workflow/rules/scene.smk"
+include: "workflow/rules/study.smk"
+include: "workflow/rules/report.smk"
+include: "workflow/rules/explorer.smk"
+include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/judgement.smk"
 include: "workflow/rules/peers.smk"
 

@@ -6,10 +6,13 @@ point's distance is the shortest one to the polyline of the curve, in sigmas.
 """
 
 import math
+from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+
+from planarimpact.arrays import Array, ArrayLike
 
 
 class Verdict(StrEnum):
@@ -28,15 +31,50 @@ class Verdict(StrEnum):
 
 
 class Distance(NamedTuple):
-    """Distances of `count` points: in sigmas, and root mean square in units of the y axis."""
+    """Distances of so many points: in sigmas, and root mean square in units of the y axis."""
 
     rms: float
     max: float
     plain_rms: float
-    count: int
+    points: int
 
 
-def distances_to_polyline(x, y, line_x, line_y, sigma_x, sigma_y):
+class Residuals(NamedTuple):
+    """One distance a point, signed: positive where the reference lies above what was computed.
+
+    Attributes
+    ----------
+    x : ndarray, shape (n,)
+        Abscissae of the points.
+    sigmas : ndarray, shape (n,)
+        Distances in sigmas of the reference.
+    plain : ndarray, shape (n,)
+        Vertical distances in units of the y axis.
+
+    Examples
+    --------
+    >>> Residuals(np.zeros(2), np.array([3.0, -4.0]), np.array([0.3, -0.4])).summary().max
+    4.0
+    """
+
+    x: Array
+    sigmas: Array
+    plain: Array
+
+    def summary(self) -> Distance:
+        """Root mean squares, the largest distance, and the number of points."""
+        rms, plain_rms = (float(np.sqrt(np.mean(a**2))) for a in (self.sigmas, self.plain))
+        return Distance(rms, float(np.abs(self.sigmas).max()), plain_rms, len(self.sigmas))
+
+
+def distances_to_polyline(
+    x: ArrayLike,
+    y: ArrayLike,
+    line_x: ArrayLike,
+    line_y: ArrayLike,
+    sigma_x: float,
+    sigma_y: float,
+) -> Array:
     """Shortest distance from each point to a polyline, in sigmas.
 
     Parameters
@@ -77,8 +115,13 @@ def distances_to_polyline(x, y, line_x, line_y, sigma_x, sigma_y):
     return nearest
 
 
-def curve_distance(points, curve, sigma, both_ways=False):
-    """Distance of points from a curve, and with `both_ways` of the curve from the points' line.
+def curve_residuals(
+    points: Sequence[ArrayLike],
+    curve: Sequence[ArrayLike],
+    sigma: tuple[float, float],
+    both_ways: bool = False,
+) -> Residuals:
+    """Distances of points from a curve, and with `both_ways` of the curve from the points' line.
 
     Parameters
     ----------
@@ -92,31 +135,53 @@ def curve_distance(points, curve, sigma, both_ways=False):
 
     Returns
     -------
-    Distance
-        `plain_rms` is the vertical one.
+    Residuals
+        Of the points, in order; with `both_ways` those of the curve's vertices follow.
+
+    Raises
+    ------
+    ValueError
+        If there are no points, or as in `distances_to_polyline`.
 
     Examples
     --------
     >>> line = ([0.0, 1.0, 2.0], [0.0, 5.0, 0.0])
-    >>> curve_distance(([0.0, 2.0], [0.0, 0.0]), line, (1.0, 1.0)).max
-    0.0
-    >>> curve_distance(([0.0, 2.0], [0.0, 0.0]), line, (1.0, 1.0), both_ways=True).max
+    >>> curve_residuals(([0.0, 2.0], [-1.0, 0.0]), line, (1.0, 1.0)).sigmas.tolist()
+    [-1.0, 0.0]
+    >>> curve_residuals(([0.0, 2.0], [0.0, 0.0]), line, (1.0, 1.0), both_ways=True).summary().max
     5.0
     """
     x, y = (np.asarray(axis, float) for axis in points)
     line_x, line_y = (np.asarray(axis, float) for axis in curve)
-    found = distances_to_polyline(x, y, line_x, line_y, *sigma)
-    if both_ways:
-        order = np.argsort(x)
-        inside = (line_x >= x.min()) & (line_x <= x.max())
-        back = distances_to_polyline(line_x[inside], line_y[inside], x[order], y[order], *sigma)
-        found = np.concatenate([found, back])
+    _refuse_none(x)
+    found = _from_polyline(x, y, line_x, line_y, sigma)
+    if not both_ways:
+        return found
+    order = np.argsort(x)
+    inside = (line_x >= x.min()) & (line_x <= x.max())
+    back = _from_polyline(line_x[inside], line_y[inside], x[order], y[order], sigma)
+    # Seen from a vertex of the curve it is the reference that lies on the other side.
+    return Residuals(
+        np.concatenate([found.x, back.x]),
+        np.concatenate([found.sigmas, -back.sigmas]),
+        np.concatenate([found.plain, -back.plain]),
+    )
+
+
+def _from_polyline(
+    x: Array, y: Array, line_x: Array, line_y: Array, sigma: tuple[float, float]
+) -> Residuals:
+    nearest = distances_to_polyline(x, y, line_x, line_y, *sigma)
     order = np.argsort(line_x, kind="stable")
-    vertical = y - np.interp(x, line_x[order], line_y[order])
-    return _summary(found, vertical)
+    above = y - np.interp(x, line_x[order], line_y[order])
+    return Residuals(x, np.copysign(nearest, above), above)
 
 
-def vertex_distance(points, vertices, sigma):
+def vertex_residuals(
+    points: tuple[ArrayLike, ArrayLike, Iterable[Any]],
+    vertices: tuple[ArrayLike, ArrayLike, Iterable[Any]],
+    sigma: tuple[float, float],
+) -> Residuals:
     """Distance of each point from the nearest vertex with the same label.
 
     Parameters
@@ -128,49 +193,57 @@ def vertex_distance(points, vertices, sigma):
 
     Returns
     -------
-    Distance
+    Residuals
 
     Raises
     ------
     ValueError
-        If a point's label has no vertex.
+        If there are no points, or a point's label has no vertex.
 
     Examples
     --------
-    >>> vertex_distance(([0.0], [1.0], ["slip"]), ([0.0], [3.0], ["slip"]), (1.0, 1.0)).max
-    2.0
+    >>> vertices = ([0.0], [3.0], ["slip"])
+    >>> vertex_residuals(([0.0], [1.0], ["slip"]), vertices, (1.0, 1.0)).sigmas.tolist()
+    [-2.0]
     """
-    x, y, labels = points
-    vertex_x, vertex_y, vertex_labels = vertices
-    of_label = {}
-    for index, label in enumerate(vertex_labels):
+    x, y = (np.asarray(axis, float) for axis in points[:2])
+    vertex_x, vertex_y = (np.asarray(axis, float) for axis in vertices[:2])
+    _refuse_none(x)
+    of_label: dict[Any, list[int]] = {}
+    for index, label in enumerate(vertices[2]):
         of_label.setdefault(label, []).append(index)
-    found, vertical = [], []
-    for px, py, label in zip(x, y, labels, strict=True):
+    sigmas, above = np.empty(len(x)), np.empty(len(x))
+    for i, label in enumerate(points[2]):
         if label not in of_label:
             raise ValueError(f"the curves have no vertex '{label}'")
-        dx, dy = (
-            np.asarray(v, float)[of_label[label]] - p for v, p in ((vertex_x, px), (vertex_y, py))
-        )
+        dx, dy = x[i] - vertex_x[of_label[label]], y[i] - vertex_y[of_label[label]]
         distance = np.hypot(dx / sigma[0], dy / sigma[1])
-        found.append(distance.min())
-        vertical.append(dy[distance.argmin()])
-    return _summary(np.array(found), np.array(vertical))
+        above[i] = dy[distance.argmin()]
+        sigmas[i] = np.copysign(distance.min(), above[i])
+    return Residuals(x, sigmas, above)
 
 
-def difference_distance(left, right, sigma):
-    """Distance of two columns that must be equal, in units of `sigma`.
+def difference_residuals(
+    x: ArrayLike, left: ArrayLike, right: ArrayLike, sigma: float
+) -> Residuals:
+    """Difference of two columns that must be equal, `left` less `right`, in units of `sigma`.
+
+    Raises
+    ------
+    ValueError
+        If the columns are empty.
 
     Examples
     --------
-    >>> difference_distance([1.0, 2.0], [1.0, 2.5], 0.5).max
-    1.0
+    >>> difference_residuals([0.0, 1.0], [1.0, 2.0], [1.0, 2.5], 0.5).sigmas.tolist()
+    [0.0, -1.0]
     """
     gap = np.asarray(left, float) - np.asarray(right, float)
-    return _summary(np.abs(gap) / sigma, gap)
+    _refuse_none(gap)
+    return Residuals(np.asarray(x, float), gap / sigma, gap)
 
 
-def fact_distance(found, fact):
+def fact_residuals(found: float, fact: Mapping[str, Any]) -> Residuals:
     """Distance of a landmark from a stated fact, in the fact's own tolerance.
 
     Parameters
@@ -182,32 +255,37 @@ def fact_distance(found, fact):
 
     Returns
     -------
-    Distance
-        For an inequality 0 where it holds, else infinite.
+    Residuals
+        Of one point, the landmark itself; for an inequality 0 where it holds, else infinite.
 
     Examples
     --------
-    >>> fact_distance(18.0, {"value": 20.0, "tolerance": 5.0}).max
-    0.4
-    >>> fact_distance(0.5, {"less_than": 0.0}).max
-    inf
+    >>> fact_residuals(18.0, {"value": 20.0, "tolerance": 5.0}).sigmas.tolist()
+    [0.4]
+    >>> fact_residuals(0.5, {"less_than": 0.0}).sigmas.tolist()
+    [-inf]
     """
+    stated = next(fact[key] for key in ("value", "less_than", "greater_than") if key in fact)
+    gap = stated - found
     if "value" in fact:
-        gap = found - fact["value"]
-        return _summary(np.array([abs(gap) / fact["tolerance"]]), np.array([gap]))
-    less, bound = "less_than" in fact, fact.get("less_than", fact.get("greater_than"))
-    holds = found < bound if less else found > bound
-    return _summary(np.array([0.0 if holds else math.inf]), np.array([found - bound]))
+        sigmas = gap / fact["tolerance"]
+    else:
+        holds = gap > 0 if "less_than" in fact else gap < 0
+        sigmas = 0.0 if holds else math.copysign(math.inf, gap)
+    return Residuals(np.array([found]), np.array([sigmas]), np.array([gap]))
 
 
-def _summary(found, gap):
-    if not len(found):
+def _refuse_none(points: Array) -> None:
+    if not len(points):
         raise ValueError("no points in the window")
-    rms = float(np.sqrt(np.mean(found**2)))
-    return Distance(rms, float(found.max()), float(np.sqrt(np.mean(gap**2))), len(found))
 
 
-def judge(distance, agreement=None, documented=None, difference=None):
+def judge(
+    distance: Distance,
+    agreement: Mapping[str, float] | None = None,
+    documented: Mapping[str, Any] | None = None,
+    difference: float | None = None,
+) -> Verdict:
     """Verdict on a distance.
 
     Parameters
@@ -233,10 +311,15 @@ def judge(distance, agreement=None, documented=None, difference=None):
     >>> print(judge(Distance(0.5, 1.0, 0.01, 9), documented={"rms": [2.0, 3.0]}))
     diverges
     """
-    measured = {"rms": distance.rms, "max": distance.max, "difference": difference}
+    measured = {"rms": distance.rms, "max": distance.max}
+    if difference is not None:
+        measured["difference"] = difference
     if documented is not None:
-        bounds = {key: documented[key] for key in measured if key in documented}
-        good = bool(bounds) and all(low <= measured[k] <= high for k, (low, high) in bounds.items())
+        bounds = {k: documented[k] for k in ("rms", "max", "difference") if k in documented}
+        good = bool(bounds) and all(
+            k in measured and low <= measured[k] <= high for k, (low, high) in bounds.items()
+        )
         return Verdict.DOCUMENTED if good else Verdict.DIVERGES
-    good = bool(agreement) and all(measured[key] <= limit for key, limit in agreement.items())
+    limits = agreement or {}
+    good = bool(limits) and all(measured[key] <= limit for key, limit in limits.items())
     return Verdict.AGREES if good else Verdict.DIVERGES

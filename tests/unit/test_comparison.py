@@ -7,12 +7,12 @@ from planarimpact import landmarks
 from planarimpact.comparison import (
     Distance,
     Verdict,
-    curve_distance,
-    difference_distance,
+    curve_residuals,
+    difference_residuals,
     distances_to_polyline,
-    fact_distance,
+    fact_residuals,
     judge,
-    vertex_distance,
+    vertex_residuals,
 )
 
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
@@ -20,7 +20,7 @@ LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
 
 def test_points_on_the_curve_have_no_distance_even_at_the_kink():
     x = np.array([0.0, 0.95, 1.0, 1.05, 2.0])
-    assert curve_distance((x, np.abs(x - 1)), LINE, (0.1, 0.1)).max < 1e-12
+    assert curve_residuals((x, np.abs(x - 1)), LINE, (0.1, 0.1)).summary().max < 1e-12
 
 
 def test_distance_is_shortest_in_sigmas_not_vertical():
@@ -30,7 +30,7 @@ def test_distance_is_shortest_in_sigmas_not_vertical():
 
 
 def test_sigma_scales_the_axes():
-    near = curve_distance(([1.0], [-0.2]), LINE, (1e6, 0.1))
+    near = curve_residuals(([1.0], [-0.2]), LINE, (1e6, 0.1)).summary()
     assert near.max == pytest.approx(2.0)
     assert near.plain_rms == pytest.approx(0.2)
 
@@ -39,25 +39,35 @@ def test_spike_between_points_is_seen_both_ways_only():
     spiked = (LINE[0], LINE[1].copy())
     spiked[1][3] = 5.0
     points = LINE[0][::4], LINE[1][::4]
-    assert curve_distance(points, spiked, (0.1, 0.1)).max < 1e-9
-    assert curve_distance(points, spiked, (0.1, 0.1), both_ways=True).max > 10
+    assert curve_residuals(points, spiked, (0.1, 0.1)).summary().max < 1e-9
+    assert curve_residuals(points, spiked, (0.1, 0.1), both_ways=True).summary().max > 10
+
+
+def test_sides_are_those_on_which_the_reference_lies():
+    points = [0.5, 1.5], [0.6, 0.4]
+    assert np.sign(curve_residuals(points, LINE, (1, 1)).sigmas).tolist() == [1, -1]
+    # The line of two points passes over the kink of the curve.
+    found = curve_residuals(([0.0, 2.0], [1.0, 1.0]), LINE, (1, 1), both_ways=True)
+    assert found.x[2 + 10] == 1.0 and found.sigmas[2 + 10] == 1.0
+    assert vertex_residuals(([0.0], [3.0], [""]), ([0.0], [1.0], [""]), (1, 1)).sigmas[0] == 2
+    assert fact_residuals(3.0, {"value": 1.0, "tolerance": 1.0}).sigmas[0] == -2
 
 
 def test_empty_window_and_broken_curve_are_refused():
     with pytest.raises(ValueError, match="no points"):
-        curve_distance(([], []), LINE, (1, 1))
+        curve_residuals(([], []), LINE, (1, 1))
     with pytest.raises(ValueError, match="not finite"):
-        curve_distance(([1.0], [1.0]), ([0.0, 1.0], [0.0, np.nan]), (1, 1))
+        curve_residuals(([1.0], [1.0]), ([0.0, 1.0], [0.0, np.nan]), (1, 1))
     with pytest.raises(ValueError, match="two vertices"):
-        curve_distance(([1.0], [1.0]), ([0.0], [0.0]), (1, 1))
+        curve_residuals(([1.0], [1.0]), ([0.0], [0.0]), (1, 1))
 
 
 def test_vertices_are_matched_by_label():
     vertices = ([0.0, 0.0], [1.0, 2.0], ["stick", "slip"])
-    assert vertex_distance(([0.0], [2.0], ["slip"]), vertices, (1, 1)).max == 0
-    assert vertex_distance(([0.0], [2.0], ["stick"]), vertices, (1, 1)).max == 1
+    assert vertex_residuals(([0.0], [2.0], ["slip"]), vertices, (1, 1)).summary().max == 0
+    assert vertex_residuals(([0.0], [2.0], ["stick"]), vertices, (1, 1)).summary().max == 1
     with pytest.raises(ValueError, match="no vertex 'end'"):
-        vertex_distance(([0.0], [2.0], ["end"]), vertices, (1, 1))
+        vertex_residuals(([0.0], [2.0], ["end"]), vertices, (1, 1))
 
 
 @pytest.mark.parametrize(
@@ -72,7 +82,7 @@ def test_vertices_are_matched_by_label():
     ],
 )
 def test_facts(found, fact, expected):
-    assert fact_distance(found, fact).max == expected
+    assert fact_residuals(found, fact).summary().max == expected
 
 
 @pytest.mark.parametrize(
@@ -103,7 +113,8 @@ def test_not_a_number_never_agrees():
 
 
 def test_difference_of_columns():
-    assert difference_distance([1.0, 2.0], [1.0, 2.5], 0.25).max == 2.0
+    found = difference_residuals([0.0, 1.0], [1.0, 2.0], [1.0, 2.5], 0.25)
+    assert found.x.tolist() == [0.0, 1.0] and found.sigmas.tolist() == [0.0, -2.0]
 
 
 def test_landmarks():

@@ -9,10 +9,14 @@ import sys
 import time
 from pathlib import Path
 
+import browser
 import pytest
+import reference_data
+import run_plan
+import write_explorer
 
 ROOT = Path(__file__).parents[2]
-PARTS = ["Snakefile", "workflow", "src", "data", "figures/README.md", ".gitignore"]
+PARTS = ["Snakefile", "profiles", "workflow", "src", "data", "figures/README.md", ".gitignore"]
 
 
 TIMEOUT = 300  # s, of one run
@@ -109,3 +113,37 @@ def first_run(tmp_path_factory):
 def finished(first_run, tmp_path):
     """A copy of the project after a full run, free to change."""
     return copy_of(first_run[0].folder, tmp_path)
+
+
+@pytest.fixture(scope="session")
+def explorer(tmp_path_factory):
+    """The explorer page, written as a run writes it."""
+    path = tmp_path_factory.mktemp("explorer") / "explorer.html"
+    config = reference_data.load_yaml(ROOT / "workflow/config.yaml")
+    sources = sorted((ROOT / "workflow/explorer").iterdir())
+    text = write_explorer.page(run_plan.settings_of_explorer(config), sources)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="session")
+def tab():
+    """A tab of one browser for all tests of the explorer; they are skipped where none is found."""
+    with browser.page() as found:
+        yield found
+
+
+@pytest.fixture
+def show(tab, explorer):
+    """Open the explorer anew, paused, with this behind # in its address, and without problems."""
+    tab.problems.clear()
+
+    def opened(address="", width=1280, height=900, motion="reduce"):
+        tab.prefer(prefers_reduced_motion=motion)
+        tab.resize(width, height, mobile=width < 500)
+        tab.open("about:blank")
+        tab.open(f"{explorer.as_uri()}#{address}")
+        return tab
+
+    yield opened
+    assert tab.problems == []

@@ -294,7 +294,7 @@ def test_a_changed_verdict_fails_the_run(finished):
     changed = text[:start] + text[start:].replace("verdict: confirmed", wrong, 1)
     (finished / FILE).write_text(changed)
     jobs, counts = finished.planned()
-    assert counts == {"ledger": 1, "ledger_page": 1, "gate": 1, "all": 1}
+    assert counts == {"ledger": 1, "ledger_page": 1, "report": 1, "gate": 1, "all": 1}
     result = finished.run()
     assert result.returncode != 0
     assert "no longer holds: eq-41" in result.stdout

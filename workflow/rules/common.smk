@@ -10,9 +10,11 @@ import closing
 import ledger_entries
 import reference_data
 import run_plan
+import study_plan
 
 STARTED = time.time()
 LEDGER = "data/stronge1994/ledger.yaml"
+NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
 LEDGER_SCHEMA = reference_data.load_yaml("workflow/schemas/ledger.schema.yaml")
 try:
     config = run_plan.with_values(config)
@@ -21,6 +23,7 @@ try:
     SYMBOLS = reference_data.load_yaml(LEDGER)["symbols"]
     schema = reference_data.load_yaml("workflow/schemas/config.schema.yaml")
     run_plan.check_config(config, schema, SOURCES, ENTRIES)
+    study_plan.check(config)
 except (reference_data.SourceError, run_plan.ConfigError) as error:
     raise WorkflowError(str(error))
 
@@ -29,6 +32,8 @@ wildcard_constraints:
     figure="|".join(run_plan.FIGURES),
     source="[a-z0-9_]+",
     scene="|".join(config["scenes"]) or "none",
+    notebook="|".join(NOTEBOOKS) or "none",
+    chunk=r"\d+-\d+",
 
 
 def settings(wildcards):
@@ -73,6 +78,14 @@ def scene_tables(wildcards):
 
 def scene_tolerance(wildcards):
     return config["scenes"][wildcards.scene]["tolerance"]
+
+
+def notebook_modules(wildcards):
+    return run_plan.modules_of_notebook(wildcards.notebook)
+
+
+def notebook_pages(wildcards):
+    return [f"figures/{notebook}.html" for notebook in NOTEBOOKS]
 
 
 def all_cores(wildcards):

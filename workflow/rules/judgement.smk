@@ -5,7 +5,8 @@ rule compare:
         curves="results/curves/{figure}.csv",
         series=compared_series,
     output:
-        "results/verdicts/{figure}.csv",
+        verdicts="results/verdicts/{figure}.csv",
+        residuals="results/residuals/{figure}.csv",
     params:
         comparisons=comparisons,
         references=references,
@@ -51,10 +52,14 @@ rule gate:
         verdicts="results/verdicts.csv",
         ledger="results/ledger.csv",
         page="figures/ledger.html",
+        report=rules.report.output,
+        explorer=rules.explorer.output,
         trade=rules.trade.output,
         stability=rules.stability.output,
         scenes=scene_tables,
+        study=rules.study.output,
         figures=rules.figures.input,
+        notebooks=notebook_pages,
     output:
         "results/PASSED",
     log:

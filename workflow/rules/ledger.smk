@@ -24,6 +24,7 @@ rule ledger_page:
     input:
         modules=run_plan.modules("write_ledger_page"),
         template="workflow/report/ledger.html",
+        parts=["workflow/report/ledger_parts.html", "workflow/report/page.css"],
         table="results/ledger.csv",
     output:
         report(

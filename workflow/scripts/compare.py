@@ -1,4 +1,4 @@
-"""Compare the curves of one figure with reference data: one row a comparison.
+"""Compare the curves of one figure with reference data: a row a comparison, and one a point.
 
 Always succeeds: what cannot be compared diverges, with the reason in `note`.
 """
@@ -15,6 +15,7 @@ COLUMNS = [
     "figure", "comparison", "verdict", "reference", "points", "rms [sigma]", "max [sigma]",
     "rms [axis units]", "found", "stated", "allowed", "note", "reason",
 ]  # fmt: skip
+RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
 # Two ways to one energy agree to this share of it; see the comparison's reason.
 BALANCE_SIGMA = 1e-12
 
@@ -36,6 +37,7 @@ def compare(figure, comparisons, references, curves_path, series_paths):
     Returns
     -------
     list of dict
+        `residuals` holds rows of the table of residuals, the other keys are `COLUMNS`.
     """
     rows = []
     try:
@@ -55,14 +57,17 @@ def compare(figure, comparisons, references, curves_path, series_paths):
         try:
             if problem:
                 raise ValueError(problem)
+            gap = None
             if entry["metric"] == "landmark":
-                distance, gap, words = _landmark(entry, known, curves)
+                quantity, residuals, gap, words = _landmark(entry, known, curves)
                 facts |= words
             else:
-                distance, gap = _distance(entry, known, curves, series_paths), None
-            documented = entry.get("documented")
+                quantity, residuals = _residuals(entry, known, curves, series_paths)
+            documented, distance = entry.get("documented"), residuals.summary()
             verdict = comparison.judge(distance, entry.get("agreement"), documented, gap)
             facts |= _numbers(distance, entry)
+            points = zip(residuals.x.tolist(), residuals.sigmas.tolist(), strict=True)
+            facts["residuals"] = [[name, quantity, *point] for point in points]
             note = _name(documented) if documented else ""
         except Exception as error:
             verdict, note = Verdict.DIVERGES, f"{error}"
@@ -74,12 +79,10 @@ def _name(documented):
     return f"ledger: {documented['entry']}" if "entry" in documented else documented["note"]
 
 
-def _distance(entry, known, curves, series_paths):
-    """Distance of one comparison from a series, between two columns, or of one from zero."""
-    if entry["metric"] == "balance":
-        return comparison.difference_distance(*_columns(entry["balance"], curves), BALANCE_SIGMA)
-    if entry["metric"] == "largest":
-        return comparison.difference_distance(*_columns([entry["largest"]], curves), 0.0, 1.0)
+def _residuals(entry, known, curves, series_paths):
+    """Residuals against a series, between two columns, or of one from zero; against what."""
+    if entry["metric"] in ("balance", "largest"):
+        return _residuals_of_columns(entry, curves)
     source, name = entry["reference"].split("/")
     series = csv_tables.read(series_paths[source])[name]
     x, y = (reference_data.column_name(known[axis]) for axis in ("x", "y"))
@@ -89,14 +92,14 @@ def _distance(entry, known, curves, series_paths):
     if entry["metric"] == "distance":
         points = series[x][chosen], series[y][chosen]
         curve = _curve(curves, entry["curve"], x, y)
-        return comparison.curve_distance(points, curve, sigma, known.get("line", False))
+        return x, comparison.curve_residuals(points, curve, sigma, known.get("line", False))
     labels = known.get("labels", [])
     if "curve" in entry:
         curves = {entry["curve"]: _named(curves, entry["curve"])}
         if "curve" in labels:
             chosen &= series["curve"] == entry["curve"]
     points = series[x][chosen], series[y][chosen], _labels(series, labels, chosen)
-    return comparison.vertex_distance(points, _vertices(curves, x, y, labels), sigma)
+    return x, comparison.vertex_residuals(points, _vertices(curves, x, y, labels), sigma)
 
 
 def _vertices(curves, x, y, labels):
@@ -118,7 +121,7 @@ def _labels(columns, labels, chosen=slice(None)):
 
 
 def _landmark(entry, fact, curves):
-    """Distance of a landmark from a fact, signed difference, and both in words."""
+    """What a landmark is, its residual from a fact, signed difference, and both in words."""
     where = entry["landmark"]
     options = [where[key] for key in ("regime", "level", "at") if key in where]
     names = [where["x"], "regime" if "regime" in where else where["y"]]
@@ -128,19 +131,26 @@ def _landmark(entry, fact, curves):
     stated = "".join(f"{sign}{fact[key]:g}{unit}" for key, sign in signs.items() if key in fact)
     gap = found - fact["value"] if "value" in fact else None
     words = {"found": f"{found:.4g}", "stated": stated}
-    return comparison.fact_distance(found, fact), gap, words
+    quantity = names[1] if where["kind"] == "value_at" else names[0]
+    return quantity, comparison.fact_residuals(found, fact), gap, words
 
 
-def _columns(names, curves):
-    """Columns of all curves that have them all, one after the other."""
-    found = [
-        [columns[name] for name in names]
-        for columns in curves.values()
-        if all(name in columns for name in names)
-    ]
-    if not found:
+def _residuals_of_columns(entry, curves):
+    """Residuals of two columns that must be equal, or of one from zero, over all curves.
+
+    Their points stand at the first column of the curves.
+    """
+    names = entry["balance"] if entry["metric"] == "balance" else [entry["largest"]]
+    holders = [columns for columns in curves.values() if all(name in columns for name in names)]
+    if not holders:
         raise ValueError(f"no curve has the columns {names}")
-    return [np.concatenate(same) for same in zip(*found, strict=True)]
+    quantity = next(iter(holders[0]))
+    x, left, *right = (
+        np.concatenate([columns[name] for columns in holders]) for name in (quantity, *names)
+    )
+    if right:
+        return quantity, comparison.difference_residuals(x, left, right[0], BALANCE_SIGMA)
+    return quantity, comparison.difference_residuals(x, left, np.zeros(len(left)), 1.0)
 
 
 def _named(curves, name):
@@ -166,7 +176,7 @@ def _refuse_not_finite(curves):
 
 def _numbers(distance, entry):
     return {
-        "points": distance.count,
+        "points": distance.points,
         "rms [sigma]": f"{distance.rms:.3g}",
         "max [sigma]": f"{distance.max:.3g}",
         "rms [axis units]": f"{distance.plain_rms:.3g}",
@@ -186,6 +196,13 @@ def _row(figure, name, verdict, **cells):
     return row | {"figure": figure, "comparison": name, "verdict": str(verdict)} | cells
 
 
+def write(rows, verdicts, residuals):
+    """Write both tables of the `rows` that `compare` gave."""
+    csv_tables.write_rows(verdicts, COLUMNS, [[row[column] for column in COLUMNS] for row in rows])
+    points = [point for row in rows for point in row.get("residuals", [])]
+    csv_tables.write_rows(residuals, RESIDUALS, points)
+
+
 if "snakemake" in globals():
     with job.log_to(snakemake.log[0]):  # noqa: F821
         found = compare(
@@ -195,8 +212,4 @@ if "snakemake" in globals():
             snakemake.input.curves,  # noqa: F821
             dict(zip(snakemake.params.sources, snakemake.input.series, strict=True)),  # noqa: F821
         )
-        csv_tables.write_rows(
-            snakemake.output[0],  # noqa: F821
-            COLUMNS,
-            [[row[column] for column in COLUMNS] for row in found],
-        )
+        write(found, snakemake.output.verdicts, snakemake.output.residuals)  # noqa: F821

@@ -1,6 +1,8 @@
 """What the rules need to know before they run: checked config and data, settings, modules."""
 
 import ast
+import functools
+import json
 from pathlib import Path
 
 import reference_data
@@ -10,6 +12,7 @@ SRC = SCRIPTS.parents[1] / "src"
 FIGURES = [f"fig{number}" for number in range(2, 10)]
 FIGURES += ["micro_slip", "convergence", "trade", "superball", "stability", "rod"]
 TIMED = ("convergence", "trade")  # measure time: nothing may run beside them
+EXPLORED = [f"fig{number}" for number in range(3, 10)] + ["superball"]  # impacts to play with
 # Groups that play no part: mass, in force against deflection; bodies or a table with their own.
 BOTH = ["mass_ratio", "stiffness_ratio"]
 WITHOUT = {"fig2": ["mass_ratio"], "superball": BOTH, "stability": BOTH, "rod": ["mass_ratio"]}
@@ -124,6 +127,17 @@ def settings_of_peers(config):
     return {key: config[key] for key in ("mass_ratio", "stiffness_ratio")} | chosen
 
 
+def settings_of_explorer(config):
+    """Shared physics, and the impacts of the figures that the explorer offers."""
+    keys = ("incidence", "friction", "restitution", "throw")
+    figures = {
+        figure: {key: config["figures"][figure][key] for key in keys if key in settings}
+        for figure, settings in config["figures"].items()
+        if figure in EXPLORED
+    }
+    return {key: config[key] for key in ("mass_ratio", "stiffness_ratio")} | {"figures": figures}
+
+
 def comparisons(config, figure):
     """Comparisons of one figure, `{name: entry}`."""
     chosen = config["comparisons"].items()
@@ -193,14 +207,28 @@ def modules(*names):
     return sorted(str(file.relative_to(SRC.parent)) for file in found)
 
 
+def modules_of_notebook(name):
+    """As `modules`, of what runs a notebook of workflow/notebooks and of what it imports."""
+    text = (SCRIPTS.parent / "notebooks" / f"{name}.ipynb").read_text(encoding="utf-8")
+    cells = [cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
+    return modules("run_notebook", *_imports("\n".join("".join(c["source"]) for c in cells)))
+
+
+@functools.cache
 def _imported(file):
+    names = _imports(file.read_text(encoding="utf-8"))
+    return [path for name in names for path in _files(name)]
+
+
+def _imports(text):
+    """Names that a module's text imports."""
     names = []
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+    for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):
             names += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom) and node.module:
             names += [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
-    return [path for name in names for path in _files(name)]
+    return names
 
 
 def _files(name):

@@ -1,14 +1,13 @@
 """Write the ledger's table as a page to read: one HTML file that needs nothing else."""
 
-import os
 import re
 from collections import Counter
 from pathlib import Path
 
 import csv_tables
-import jinja2
 import job
 import ledger_table
+import pages
 from markupsafe import Markup, escape
 
 STYLE = {
@@ -30,7 +29,7 @@ GREEK = {
 # A letter with an index: v1, F2, t_c, tf, F2max, psi1, du1.
 INDEXED = re.compile(r"\b(d?)([vuFDKmxtgV]|psi)(\d|_c|f|b|a)(max)?(?![A-Za-z0-9])")
 # Symbols of one letter; those behind a slash are units, or tags.
-SYMBOL = re.compile(r"(?<![/<\w])([eskMS])(?![\w>])|(?<!\w)(p)(?=\()")
+SYMBOL = re.compile(r"(?<![/<\w;])([eskMS])(?![\w>])|(?<!\w)(p)(?=\()")
 
 
 def mathematical(text):
@@ -57,31 +56,45 @@ def _indexed(match):
     return f"{change}{name}<sub>{index.strip('_')}</sub>{top}"
 
 
-def page(rows, symbols, template):
-    """The page of the ledger's rows; `symbols` explains what stands in their formulas."""
-    names = {row["entry"] for row in rows}
-    alternatives = "|".join(sorted(map(re.escape, names), key=len, reverse=True))
-    link = re.compile(rf"(?:(?<=see )|(?<=and ))({alternatives})\b")
+def linked_maths(names):
+    """Formulas of a text as HTML, with links to the entries of the ledger that it points to.
+
+    These stand as "see NAME and NAME", "ledger: NAME", and after an equation and a comma.
+
+    >>> print(linked_maths({"eq-12"})("mu, see eq-12"))
+    µ, see <a href="#eq-12">eq-12</a>
+    """
+    alternatives = "|".join(sorted(map(re.escape, names), key=len, reverse=True)) or "(?!)"
+    link = re.compile(rf"(?:(?<=see )|(?<=and )|(?<=ledger: )|(?<=eq-\d\d, ))({alternatives})\b")
 
     def maths(text):
-        # References to other entries, "see NAME and NAME", become links.
         parts = link.split(text)
         return Markup("").join(
             Markup('<a href="#{0}">{0}</a>').format(part) if part in names else mathematical(part)
             for part in parts
         )
 
-    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters["maths"] = maths
+    return maths
+
+
+def words(rows, symbols):
+    """What the templates need to show the ledger's rows; `symbols` explains their formulas."""
     counts = Counter(row["verdict"] for row in rows)
-    return environment.from_string(template).render(
-        rows=rows,
-        symbols=symbols,
-        failing=ledger_table.failing(rows),
-        counts={verdict: counts[verdict] for verdict in STYLE if counts[verdict]},
-        style=STYLE,
-        meaning=MEANING,
-    )
+    return {
+        "entries": rows,
+        "symbols": symbols,
+        "lapsed": ledger_table.failing(rows),
+        "counts": {verdict: counts[verdict] for verdict in STYLE if counts[verdict]},
+        "style": STYLE,
+        "meaning": MEANING,
+    }
+
+
+def page(rows, symbols, template):
+    """The page of the ledger's rows, by a template beside the parts that it includes."""
+    environment = pages.environment(Path(template).parent)
+    environment.filters["maths"] = linked_maths({row["entry"] for row in rows})
+    return environment.get_template(Path(template).name).render(words(rows, symbols))
 
 
 if "snakemake" in globals():
@@ -89,8 +102,6 @@ if "snakemake" in globals():
         text = page(
             csv_tables.read_rows(snakemake.input.table),  # noqa: F821
             snakemake.params.symbols,  # noqa: F821
-            Path(snakemake.input.template).read_text(encoding="utf-8"),  # noqa: F821
+            snakemake.input.template,  # noqa: F821
         )
-        partial = Path(f"{snakemake.output[0]}.partial")  # noqa: F821
-        partial.write_text(text, encoding="utf-8")
-        os.replace(partial, snakemake.output[0])  # noqa: F821
+        pages.write(snakemake.output[0], text)  # noqa: F821

@@ -1,0 +1,259 @@
+"""The grid of a parameter study: its points, its parts, its files, its checks and its picture."""
+
+import copy
+import math
+from pathlib import Path
+
+import draw_study
+import gather_chunks
+import numpy as np
+import pytest
+import reference_data
+import run_plan
+import solve_chunk
+import study_files
+import study_plan
+
+from planarimpact import checks, ladder, lumped, study
+from planarimpact.results import Rebound
+
+GRID = {
+    "incidence": {"from": -1, "to": 8, "points": 7},
+    "mass_ratio": [3.5],
+    "stiffness_ratio": [0.5, 1.21],
+    "restitution": {"from": 0, "to": 1, "points": 5},
+}
+COUNT = 70
+WORKFLOW = Path(__file__).parents[2] / "workflow"
+CONFIG = reference_data.load_yaml(WORKFLOW / "config.yaml")
+SCHEMA = reference_data.load_yaml(WORKFLOW / "schemas/config.schema.yaml")
+
+
+@pytest.fixture
+def axes():
+    return study.axes_of(GRID)
+
+
+def parts(axes, *ends):
+    for start, stop in zip(ends, ends[1:], strict=False):
+        yield start, study.solve(lumped.rebound, axes, start, stop)
+
+
+def test_every_point_of_the_gathered_grid_is_that_impact(axes):
+    """Solved alone, by its coordinates: no axis is swapped, no point is shifted."""
+    found = study.gather(axes, parts(axes, 0, 1, 30, 31, COUNT))
+    assert found["velocity"].shape == (7, 1, 2, 5)
+    for place in np.ndindex(found["velocity"].shape):
+        groups = {name: axes[name][i] for name, i in zip(axes, place, strict=True)}
+        alone = lumped.rebound(**groups)
+        for name in ("velocity", "peak_friction", "dissipation"):
+            assert math.isclose(found[name][place], getattr(alone, name), abs_tol=1e-14)
+        assert found["regime"][place] == alone.regime
+
+
+def test_a_solver_that_mixes_up_points_would_be_seen(axes):
+    def shifted(**groups):
+        return Rebound(*(np.roll(field, 1) for field in lumped.rebound(**groups)[:4]))
+
+    wrong = study.gather(axes, [(0, study.solve(shifted, axes, 0, COUNT))])
+    right = study.gather(axes, parts(axes, 0, COUNT))
+    assert not np.allclose(wrong["velocity"], right["velocity"])
+
+
+def test_blocks_hide_from_the_outcome_and_bound_what_is_solved_at_once(axes, monkeypatch):
+    whole = study.solve(lumped.rebound, axes, 0, COUNT)
+    monkeypatch.setattr(study, "BLOCK", 8)
+    sizes = []
+
+    def counted(**groups):
+        sizes.append(groups["incidence"].size)
+        return lumped.rebound(**groups)
+
+    some = study.solve(counted, axes, 5, 45)
+    assert sizes == [8, 8, 8, 8, 8]
+    for name, field in some.items():
+        np.testing.assert_allclose(field, whole[name][5:45], rtol=1e-13, atol=1e-14)
+
+
+def test_an_impact_that_cannot_be_solved_is_named_by_its_part(axes):
+    def failing(**groups):
+        raise checks.ConvergenceError("impact 3 went wrong")
+
+    with pytest.raises(checks.ConvergenceError, match="points 5 to 9 of the grid: impact 3"):
+        study.solve(failing, axes, 5, 9)
+    with pytest.raises(checks.InputError, match=r"of the grid: restitution\[0\] = 0.0.*equal to 1"):
+        study.solve(ladder.get("continuum").rebound, axes, 0, 9)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"restitution": [0.5, 1.5]}, r"restitution\[1\] = 1.5: allowed are numbers from 0 to 1"),
+        ({"restitution": []}, r"restitution = \[\]: allowed are ascending"),
+        ({"incidence": [2, 1]}, r"incidence = \[2, 1\]: allowed are ascending"),
+        ({"incidence": [[1], [2]]}, "incidence = .*: allowed are ascending"),
+        ({"incidence": {"from": 8, "to": 0, "points": 3}}, "incidence = .*: allowed are ascending"),
+        ({"incidence": {"from": 0, "to": 8, "points": 1}}, "incidence.points = 1: allowed are"),
+        ({"incidence": {"from": 0, "to": np.nan, "points": 3}}, r"incidence\[1\] = nan"),
+        ({"stiffness_ratio": 0}, "stiffness_ratio = 0.0: allowed are finite numbers above 0"),
+        ({"friction": [0.1]}, "axes = .*friction: allowed are incidence"),
+    ],
+)
+def test_bad_axes_are_refused(change, words):
+    with pytest.raises(checks.InputError, match=words):
+        study.axes_of(GRID | change)
+
+
+@pytest.mark.parametrize("span", [(-1, 3), (3, 3), (0, COUNT + 1)])
+def test_points_outside_the_grid_are_refused(axes, span):
+    with pytest.raises(checks.InputError, match=f"points .* allowed are some of 0 to {COUNT}"):
+        study.points(axes, *span)
+
+
+def test_parts_that_do_not_make_the_grid_are_refused(axes):
+    first, second = parts(axes, 0, 30, COUNT)
+    short = {name: field[:-1] for name, field in second[1].items()}
+    flat = second[1] | {"regime": second[1]["regime"].astype(float)}
+    uneven = second[1] | {"velocity": second[1]["velocity"][1:]}
+    for wrong, words in (
+        ([first], "end at point 30: allowed is 70"),
+        ([second, first], "starts at point 30: allowed is 0"),
+        ([first, first], "starts at point 0: allowed is 30"),
+        ([first, (30, short)], "end at point 69"),
+        ([first, (30, flat)], "the part from point 30 has .*regime .* float64"),
+        ([first, (30, uneven)], "the part from point 30 has velocity"),
+        ([first, second, (70, first[1])], "the part from point 70 has .* up to 0 points"),
+        ([first, (30, {"velocity": np.zeros(40)})], "the part from point 30 has velocity"),
+    ):
+        with pytest.raises(checks.InputError, match=words):
+            study.gather(axes, wrong)
+
+
+def test_files_say_what_is_in_them(axes, tmp_path):
+    chunks = [tmp_path / name for name in ("0-30.npz", "30-70.npz")]
+    for chunk in chunks:
+        solve_chunk.solve(chunk.stem, "lumped", {}, GRID, chunk)
+    gather_chunks.gather(chunks, "lumped", GRID, tmp_path / "study.npz")
+    with np.load(tmp_path / "study.npz") as file:
+        assert str(file["model"]) == "lumped"
+        assert file["velocity [mu v2(0)]"].shape == tuple(len(file[name]) for name in file["axes"])
+        assert list(file["axes"])[0] == "incidence [mu v2(0)]"
+        assert "4 SLIP_THROUGHOUT" in file["regimes"]
+    found, outputs = study_files.read(tmp_path / "study.npz")
+    expected = study.gather(axes, parts(axes, 0, 30, COUNT))
+    assert all(np.array_equal(outputs[name], expected[name]) for name in expected)
+    assert all(np.array_equal(found[name], axes[name]) for name in axes)
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "0-30.npz",
+        "30-70.npz",
+        "study.npz",
+    ]
+
+
+def test_a_chunk_is_solved_by_the_model_and_settings_asked_for(axes, tmp_path):
+    chunk = tmp_path / "0-70.npz"
+    solve_chunk.solve("0-70", "timestep.linear", {"steps": 32}, GRID, chunk)
+    _, outputs = study_files.read(chunk, "velocity")
+    expected = ladder.rebound("timestep.linear", **study.points(axes, 0, COUNT), steps=32)
+    assert np.array_equal(outputs["velocity"], expected.velocity)
+
+
+def test_a_chunk_of_another_grid_is_refused(tmp_path):
+    chunk = tmp_path / "0-70.npz"
+    solve_chunk.solve("0-70", "lumped", {}, GRID | {"mass_ratio": [3.0]}, chunk)
+    with pytest.raises(checks.InputError, match="0-70.npz: it belongs to another grid"):
+        gather_chunks.gather([chunk], "lumped", GRID, tmp_path / "study.npz")
+    assert not (tmp_path / "study.npz").exists()
+
+
+def changed(**study):
+    config = copy.deepcopy(CONFIG)
+    config["study"]["grid"] |= study.pop("grid", {})
+    config["study"] |= study
+    return config
+
+
+def check(config):
+    try:
+        reference_data.refuse_invalid(config, SCHEMA, "config")
+    except reference_data.SourceError as error:
+        raise run_plan.ConfigError(str(error)) from None
+    study_plan.check(config)
+
+
+@pytest.mark.parametrize(
+    ("study", "words"),
+    [
+        ({"model": "magic"}, "study.model: 'magic' is not one of"),
+        (
+            {"model": "continuum"},
+            r"study.grid.restitution = .*continuum is elastic; allowed is \[1",
+        ),
+        ({"settings": {"steps": 64}}, "study.settings.steps = 64: lumped has no settings"),
+        ({"settings": {"speed": 1}}, "study.settings: .*'speed' was unexpected"),
+        ({"chunks": 0}, "study.chunks: 0 is less than the minimum of 1"),
+        ({"chunks": 1.5}, "study.chunks: 1.5 is not of type 'integer'"),
+        (
+            {"chunks": 3, "grid": {"incidence": [1], "restitution": [1]}},
+            "study.chunks = 3: allowed are up to 2, one a point",
+        ),
+        ({"grid": {"friction": [0.1]}}, "study.grid: .*'friction' was unexpected"),
+        ({"grid": {"incidence": {"from": 0, "to": 8, "points": 1}}}, "points: 1 is less than"),
+        ({"grid": {"incidence": {"from": 0, "to": 8}}}, "incidence: 'points' is a required"),
+        ({"grid": {"incidence": {"from": 8, "to": 8, "points": 3}}}, "the numbers must ascend"),
+        ({"grid": {"incidence": [1, 1]}}, r"study.grid.incidence = \[1, 1\]: the numbers must"),
+        ({"grid": {"incidence": []}}, "study.grid.incidence: .* should be non-empty"),
+        ({"grid": {"incidence": 1}}, "study.grid.incidence: 1 is not of type 'object', 'array'"),
+        ({"grid": {"incidence": [math.nan]}}, "study.grid.incidence.0: nan is not a finite"),
+        ({"grid": {"restitution": [0, 1.5]}}, "study.grid.restitution.1: 1.5 is greater"),
+        ({"grid": {"stiffness_ratio": [0]}}, "study.grid.stiffness_ratio.0: 0 is less"),
+        ({"grid": {"mass_ratio": [0.5]}}, "study.grid.mass_ratio.0: 0.5 is less"),
+        (
+            {"grid": {"incidence": {"from": 0, "to": 8, "points": 10**6}}},
+            "study.grid: 402000000 points; allowed are up to 100000000",
+        ),
+    ],
+)
+def test_a_bad_study_is_refused(study, words):
+    with pytest.raises(run_plan.ConfigError, match=words):
+        check(changed(**study))
+
+
+def test_what_the_config_may_name_is_what_the_ladder_has():
+    known = SCHEMA["properties"]["study"]["properties"]
+    assert known["model"]["enum"] == list(ladder.MODELS)
+    settings = {name for model in ladder.MODELS.values() for name in model.settings}
+    assert set(known["settings"]["properties"]) == settings
+    elastic = [name for name, model in ladder.MODELS.items() if model.restitution == (1.0, 1.0)]
+    assert list(study_plan.ELASTIC) == elastic
+    assert set(known["grid"]["properties"]) == set(checks.RULES)
+
+
+def test_chunks_cover_the_grid_once_and_axes_left_out_are_shared():
+    for chunks in (1, 3, 4, 97):
+        config = changed(chunks=chunks)
+        spans = [tuple(map(int, name.split("-"))) for name in study_plan.chunks(config)]
+        assert len(spans) == chunks
+        assert [start for start, _ in spans] == [0] + [stop for _, stop in spans[:-1]]
+        assert spans[-1][1] == study_plan.count(config) == 321 * 201 * 2
+    assert study_plan.settings(changed())["grid"]["mass_ratio"] == [CONFIG["mass_ratio"]]
+    check(changed(model="continuum", settings={"tolerance": 1e-3}, grid={"restitution": [1]}))
+
+
+@pytest.mark.parametrize(
+    ("grid", "maps"),
+    [
+        ({}, 2),
+        ({"incidence": [8.0, 9.0]}, 2),
+        ({"mass_ratio": [1.0, 2, 3, 4]}, 6),
+        ({"incidence": [1.0], "restitution": [1.0], "stiffness_ratio": [1.0]}, 0),
+    ],
+)
+def test_a_map_is_drawn_for_every_slice_up_to_six(grid, maps):
+    axes = study.axes_of(GRID | grid)
+    count = math.prod(map(len, axes.values()))
+    found = study.gather(axes, [(0, study.solve(lumped.rebound, axes, 0, count))])
+    figure = draw_study.draw(axes, found["velocity"], found["regime"])
+    figure.draw_without_rendering()
+    titled = [panel for panel in figure.axes if panel.get_title()]
+    assert len(titled) == maps

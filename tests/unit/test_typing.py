@@ -1,0 +1,229 @@
+"""What users and editors rely on: types, docstrings, one style, and a package that stands alone."""
+
+import importlib
+import inspect
+import pkgutil
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+
+import planarimpact
+
+ROOT = Path(__file__).parents[2]
+MODULES = [module.name for module in pkgutil.walk_packages(planarimpact.__path__, "planarimpact.")]
+# What the heading of the package recommends, with what stands beside it: no building blocks.
+API = [
+    "annuli",
+    "bodies",
+    "cattaneo_mindlin",
+    "continuum",
+    "hertz",
+    "ladder",
+    "landmarks",
+    "laws",
+    "lumped",
+    "micro_slip",
+    "noncollinear",
+    "noncollinear.rigid",
+    "response",
+    "rigid",
+    "scene",
+    "timestep",
+]
+NEED_PANDAS = re.compile(r"planarimpact\.(scene\b|curves\.superball)")
+RIGHT = """\
+from planarimpact import lumped, noncollinear
+
+print(lumped.rebound(1.0).regime.name)
+print(noncollinear.rebound(1.0, 1.0, noncollinear.InverseMass(1.0, 0.0, 1.0), 0.5).regime.name)
+"""
+WRONG = """\
+from planarimpact import bodies, lumped
+
+lumped.rebound(1.0, restitution=None)
+lumped.rebound(1.0, restituton=0.5)
+lumped.history([1.0, 2.0])
+bodies.mass_ratio(0.0127)
+print(lumped.rebound(1.0).speed)
+"""
+REFUSED = [(3, "arg-type"), (4, "call-arg"), (5, "arg-type"), (6, "arg-type"), (7, "attr-defined")]
+
+
+def run(*command, cwd=ROOT, **options):
+    return subprocess.run(
+        [sys.executable, *command], cwd=cwd, capture_output=True, text=True, **options
+    )
+
+
+@pytest.fixture(scope="module")
+def mypy(tmp_path_factory):
+    """Runs of mypy that share what it has read of numpy, which takes most of the time."""
+    cache = tmp_path_factory.mktemp("mypy")
+
+    def check(*files, cwd=ROOT):
+        config = f"--config-file={ROOT / 'pyproject.toml'}"
+        return run("-m", "mypy", config, f"--cache-dir={cache}", *files, cwd=cwd)
+
+    return check
+
+
+def test_the_package_is_consistently_typed(mypy):
+    result = mypy()
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
+def test_users_profit_from_the_types(mypy, tmp_path):
+    """Examples, as in the README, pass; each wrong call is refused, by the installed package."""
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    examples = re.findall(r"```python\n(.*?)```", readme, flags=re.S)
+    assert len(examples) >= 4
+    examples.append(RIGHT)
+    for i, text in enumerate([*examples, WRONG]):
+        (tmp_path / f"example_{i}.py").write_text(text, encoding="utf-8")
+    result = mypy(*(f"example_{i}.py" for i in range(len(examples) + 1)), cwd=tmp_path)
+    errors = re.findall(r"^example_(\d+)\.py:(\d+): error: .*\[([\w-]+)\]$", result.stdout, re.M)
+    assert f"Found {len(REFUSED)} errors" in result.stdout, result.stdout
+    last = str(len(examples))
+    assert errors == [(last, str(line), code) for line, code in REFUSED], result.stdout
+
+
+def public(module):
+    """Public functions of a module, or those that it names as such, and methods; by name."""
+    names = getattr(module, "__all__", None) or [
+        name
+        for name, value in vars(module).items()
+        if not name.startswith("_") and getattr(value, "__module__", "") == module.__name__
+    ]
+    found = {name: getattr(module, name) for name in names}
+    for name, value in list(found.items()):
+        if inspect.isclass(value) and value.__module__.startswith("planarimpact"):
+            for method, function in inspect.getmembers(value, inspect.isroutine):
+                if method in vars(value) and not method.startswith("_"):
+                    found[f"{name}.{method}"] = function
+    return {name: value for name, value in found.items() if callable(value)}
+
+
+def missing(function, sections):
+    """What a function lacks: annotations, a docstring, or sections of it."""
+    signature = inspect.signature(function)
+    arguments = [p for p in signature.parameters.values() if p.name not in ("self", "cls")]
+    lacks = [p.name for p in arguments if p.annotation is p.empty]
+    if signature.return_annotation is signature.empty:
+        lacks.append("return")
+    doc = inspect.getdoc(function) or ""
+    wanted = ["Parameters"] if arguments and sections else []
+    if sections and signature.return_annotation is not None:
+        wanted.append("Returns")
+    if sections == "all" and arguments:
+        wanted.append("Examples")
+    lacks += [name for name in wanted if not re.search(rf"^{name}\n-+$", doc, flags=re.M)]
+    return lacks if doc else [*lacks, "docstring"]
+
+
+def routines(module):
+    return {n: f for n, f in public(module).items() if inspect.isroutine(f)}
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_what_is_public_has_types_and_a_docstring(name):
+    module = importlib.import_module(name)
+    assert inspect.getdoc(module)
+    for value in public(module).values():
+        assert not inspect.isclass(value) or inspect.getdoc(value), value
+    lacks = {n: missing(f, sections=None) for n, f in routines(module).items()}
+    assert not {n: words for n, words in lacks.items() if words}
+
+
+@pytest.mark.parametrize("name", API)
+def test_what_is_recommended_is_documented_in_full(name):
+    """Methods have their examples in that of the class, if not of their own."""
+    found = routines(importlib.import_module(f"planarimpact.{name}"))
+    lacks = {n: missing(f, "most" if "." in n else "all") for n, f in found.items()}
+    assert lacks and not {n: words for n, words in lacks.items() if words}
+
+
+def test_what_is_missing_is_seen():
+    def bare(x):
+        pass
+
+    def half(x: float) -> float:
+        """Half of it.
+
+        Returns
+        -------
+        float
+        """
+        return x / 2
+
+    assert missing(bare, None) == ["x", "return", "docstring"]
+    assert missing(half, None) == []
+    assert missing(half, "all") == ["Parameters", "Examples"]
+
+
+@pytest.mark.parametrize("words", [["check"], ["format", "--check"]])
+def test_one_style(words):
+    result = run("-m", "ruff", *words, "--no-cache", "src", "tests", "workflow")
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [(["check"], "import os\n"), (["format", "--check"], "x  = 1\n")],
+)
+def test_another_style_is_refused(words, text):
+    result = run(
+        "-m", "ruff", *words, "--no-cache", "--stdin-filename", "src/other.py", "-", input=text
+    )
+    assert result.returncode == 1
+
+
+def test_the_solver_needs_numpy_and_scipy_alone():
+    names = [name for name in MODULES if not NEED_PANDAS.match(name)]
+    result = run("-c", ALONE, *names)
+    assert result.returncode == 0, result.stderr
+    assert f"{len(names)} modules" in result.stdout and len(names) > 50
+    assert "pandas" in run("-c", ALONE, "planarimpact.scene").stderr
+
+
+ALONE = """
+import importlib, sys
+ALLOWED = {"numpy", "scipy", "planarimpact", *sys.stdlib_module_names}
+class Refuse:
+    def find_spec(self, name, path=None, target=None):
+        top = name.split(".")[0]
+        if top not in ALLOWED and not top.startswith("_"):
+            raise ImportError(f"{name} is not among the dependencies")
+sys.meta_path.insert(0, Refuse())
+for name in sys.argv[1:]:
+    importlib.import_module(name)
+print(len(sys.argv) - 1, "modules")
+"""
+
+
+def setuptools_version():
+    try:
+        return int(metadata.version("setuptools").split(".")[0])
+    except metadata.PackageNotFoundError:
+        return 0
+
+
+@pytest.mark.skipif(setuptools_version() < 77, reason="a wheel is built by setuptools 77 or later")
+def test_a_wheel_holds_the_package_and_nothing_else(tmp_path):
+    source = tmp_path / "source"
+    shutil.copytree(ROOT / "src", source / "src", ignore=shutil.ignore_patterns("*.egg-info"))
+    for name in ("pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(ROOT / name, source)
+    options = ["--no-deps", "--no-build-isolation", "--no-index", "--wheel-dir", str(tmp_path)]
+    result = run("-m", "pip", "wheel", *options, str(source))
+    assert result.returncode == 0, result.stderr
+    (wheel,) = tmp_path.glob("planarimpact-*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        names = {name for name in archive.namelist() if ".dist-info/" not in name}
+    shipped = {path.relative_to(ROOT / "src") for path in (ROOT / "src").rglob("*.py")}
+    assert names == {str(path) for path in shipped} | {"planarimpact/py.typed"}

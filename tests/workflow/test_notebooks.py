@@ -1,0 +1,142 @@
+"""The lectures: how they are kept, how they fail, and that their asserts see a wrong solver."""
+
+import json
+import re
+import sys
+from pathlib import Path
+
+import matplotlib
+import matplotlib.pyplot as plt
+import nbformat
+import pytest
+import run_notebook
+
+from planarimpact import stick_slip
+
+ROOT = Path(__file__).parents[2]
+TEMPLATE = ROOT / "workflow/report/notebook.html"
+NOTEBOOKS = sorted((ROOT / "workflow/notebooks").glob("*.ipynb"))
+NAMES = [path.stem for path in NOTEBOOKS]
+
+
+@pytest.fixture
+def book(request):
+    return nbformat.read(ROOT / f"workflow/notebooks/{request.param}.ipynb", as_version=4)
+
+
+every_notebook = pytest.mark.parametrize("book", NAMES, indirect=True)
+
+
+def code_of(book):
+    return [cell for cell in book.cells if cell.cell_type == "code"]
+
+
+def written(path, *sources):
+    """A notebook of these cells of code, at `path`."""
+    cells = [nbformat.v4.new_code_cell(source) for source in sources]
+    path.write_text(nbformat.writes(nbformat.v4.new_notebook(cells=cells)), encoding="utf-8")
+    return path
+
+
+def test_the_three_lectures_are_there():
+    lectures = {"why_a_superball_comes_back", "where_friction_turns_round", "choosing_a_model"}
+    assert lectures <= set(NAMES)
+    captions = (ROOT / "workflow/report/notebooks.rst").read_text()
+    assert all(f'"{name}"' in captions for name in NAMES)
+
+
+@every_notebook
+def test_sources_are_valid_and_without_outputs(book):
+    nbformat.validate(book)
+    for cell in code_of(book):
+        assert cell.outputs == [] and cell.execution_count is None
+        assert cell.source.startswith("# "), "the page takes its first line as a title"
+    assert "/home" not in str(book) and "http" not in str(book)
+
+
+@every_notebook
+def test_every_exercise_has_an_answer_that_runs(book):
+    headings = [cell.source.splitlines()[0] for cell in book.cells]
+    exercises, answers = headings.index("## Exercises"), headings.index("## Answers")
+    asked = re.findall(r"^(\d)\. ", book.cells[exercises].source, flags=re.M)
+    text = "\n".join(cell.source for cell in book.cells[answers:])
+    assert 3 <= len(asked) <= 5
+    assert asked == re.findall(r"^\*\*(\d)\.\*\*", text, flags=re.M)
+    checked = [c for c in book.cells[answers:] if c.cell_type == "code" and "assert" in c.source]
+    assert len(checked) >= 3
+
+
+@every_notebook
+def test_a_wrong_solver_trips_an_assert(book, monkeypatch):
+    solve = stick_slip.solve
+
+    def too_soft(impacts, *trace):
+        return solve(impacts._replace(zeta2=1.05 * impacts.zeta2), *trace)
+
+    monkeypatch.setattr(stick_slip, "solve", too_soft)
+    matplotlib.use("Agg")
+    names = {}
+    with matplotlib.rc_context(), pytest.raises(AssertionError):
+        for cell in code_of(book):
+            exec(cell.source, names)
+    plt.close("all")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_pages_are_built_and_need_nothing_else(first_run, name):
+    project, result = first_run
+    page = (project / f"figures/{name}.html").read_text()
+    assert len(page) < 1.5e6
+    assert "<script" not in page and "$" not in re.sub(r"<(pre|svg).*?</\1>", "", page, flags=re.S)
+    assert not re.search(r'(src|href)="(?!data:|#)|url\(|@import', page)
+    pictures = re.findall(r'<img alt="([^"]*)" src="data:image/svg', page)
+    assert len(pictures) >= 4 and all(len(words) > 20 for words in pictures)
+    executed = nbformat.read(project / f"results/notebooks/{name}.ipynb", as_version=4)
+    assert all(cell.execution_count for cell in code_of(executed))
+    log = (project / f"results/logs/notebook_{name}.log").read_text()
+    assert log == "" and f"Running the notebook {name}" in result.stdout
+
+
+def test_a_failing_cell_fails_the_job_in_one_line(fresh):
+    failing = "# Twice two\nx = 2\nassert x * x == 5, 'no\\nfive'"
+    written(fresh / "workflow/notebooks/broken.ipynb", "x = 1", failing)
+    result = fresh.run("figures/broken.html", "results/notebooks/broken.ipynb")
+    assert result.returncode != 0
+    words = r"^NotebookError: broken.ipynb, cell 2: assert x \* x == 5, .*: no five \(log: .*\)$"
+    assert len(re.findall(words, result.stdout, flags=re.M)) == 1, result.stdout
+    assert "Twice two" in (fresh / "results/logs/notebook_broken.log").read_text()
+    left = [*(fresh / "figures").glob("broken*"), *(fresh / "results/notebooks").glob("*")]
+    assert not left
+
+
+@pytest.mark.parametrize(
+    ("source", "words"),
+    [("import os; os._exit(1)", "died"), ("while True: pass", "timed out")],
+    ids=["ends", "hangs"],
+)
+def test_a_cell_that_ends_the_kernel_or_takes_too_long_is_given_up(
+    source, words, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(run_notebook, "CELL_TIMEOUT", 1)
+    lost = written(tmp_path / "lost.ipynb", source)
+    with pytest.raises(run_notebook.NotebookError, match=rf"^lost\.ipynb: .*{words}"):
+        run_notebook.run(lost, TEMPLATE, tmp_path / "executed.ipynb", tmp_path / "page.html")
+    assert list(tmp_path.iterdir()) == [lost]
+
+
+def test_the_kernel_is_this_python_whatever_is_registered(tmp_path, monkeypatch):
+    """And it needs no home and no profile; the sources of this checkout come first."""
+    trap = tmp_path / "kernels/python3"
+    trap.mkdir(parents=True)
+    (trap / "kernel.json").write_text(json.dumps({"argv": ["false"], "display_name": "no"}))
+    monkeypatch.setenv("JUPYTER_PATH", str(tmp_path))
+    monkeypatch.setenv("HOME", "/nonexistent")
+    startup = tmp_path / "ipython/profile_default/startup"
+    startup.mkdir(parents=True)
+    (startup / "mine.py").write_text("print('a profile')")
+    monkeypatch.setenv("IPYTHONDIR", str(tmp_path / "ipython"))
+    source = "import sys, planarimpact\nprint(sys.executable, planarimpact.__file__)"
+    results = tmp_path / "executed.ipynb", tmp_path / "page.html"
+    run_notebook.run(written(tmp_path / "where.ipynb", source), TEMPLATE, *results)
+    said = nbformat.read(results[0], as_version=4).cells[0].outputs[0].text.split()
+    assert said == [sys.executable, str(ROOT / "src/planarimpact/__init__.py")]

@@ -1,0 +1,305 @@
+"""The report: everything in it, every link leads somewhere, and a bad run looks bad."""
+
+import csv
+import importlib
+import math
+import re
+import shutil
+import subprocess
+import sys
+from collections import Counter
+from html.parser import HTMLParser
+from pathlib import Path
+
+import api_reference
+import browser
+import compare
+import docstring_html
+import ledger_table
+import pytest
+import reference_data
+import run_facts
+import run_plan
+import write_report
+
+ROOT = Path(__file__).parents[2]
+CONFIG = reference_data.load_yaml(ROOT / "workflow/config.yaml")
+SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
+VOID = {"meta", "img", "br", "input", "link", "hr"}
+
+
+class Page(HTMLParser):
+    """Anchors, links, resources and words of a page.
+
+    Refuses tags that do not balance, headings that skip a level, pictures without words.
+    """
+
+    def __init__(self, text):
+        super().__init__()
+        self.ids, self.links, self.resources, self.words = [], [], [], []
+        self.open, self.level = [], 0
+        self.feed(text)
+        assert not self.open, self.open
+
+    def handle_starttag(self, tag, attributes):
+        found = dict(attributes)
+        self.ids += [found["id"]] if "id" in found else []
+        self.links += [found["href"]] if tag == "a" else []
+        self.resources += [found[key] for key in ("src", "srcset", "data") if key in found]
+        self.resources += [found["href"]] if tag == "link" else []
+        if tag == "img":
+            assert len(found["alt"]) > 10
+            assert found["alt"].count("(") == found["alt"].count(")"), found["alt"]
+        if re.fullmatch("h[1-6]", tag):
+            assert int(tag[1]) <= self.level + 1, self.getpos()
+            self.level = int(tag[1])
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag, (tag, self.getpos())
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+def rows_of(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+@pytest.fixture(scope="module")
+def report(first_run):
+    return first_run[0] / "figures/report.html"
+
+
+@pytest.fixture(scope="module")
+def page(report):
+    return Page(report.read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def text(page):
+    return " ".join(" ".join(page.words).split())
+
+
+def test_it_is_one_file_that_needs_nothing_else(report, page):
+    assert report.stat().st_size < 5e6
+    assert all(resource.startswith("data:image/svg+xml;base64,") for resource in page.resources)
+    outside = [link for link in page.links if ":" in link]
+    assert outside and all(link.startswith("https://doi.org/10.") for link in outside)
+    styles = "".join(re.findall(r"<style>.*?</style>", report.read_text(), flags=re.S))
+    assert "url(" not in styles and "@import" not in styles
+
+
+def test_every_link_leads_somewhere(report, page):
+    twice = [name for name, count in Counter(page.ids).items() if count > 1]
+    assert not twice
+    for link in page.links:
+        if link.startswith("#"):
+            assert link[1:] in page.ids, link
+        elif ":" not in link:
+            assert (report.parent / link).is_file(), link
+
+
+def test_the_first_words_say_how_it_went(text):
+    assert text.index("PASSED") < text.index("A rough, elastic body") < text.index("Verdicts")
+    assert "FAILED" not in text
+
+
+def test_every_verdict_figure_source_and_function_is_there(first_run, page, text):
+    verdicts = rows_of(first_run[0] / "results/verdicts.csv")
+    for row in verdicts:
+        assert row["comparison"] in page.ids
+        assert f"{row['verdict']} {row['comparison']} " in text
+    counts = Counter(row["verdict"] for row in verdicts)
+    assert all(f"{verdict} {count} " in text for verdict, count in counts.items())
+    for figure in run_plan.FIGURES:
+        assert {figure, f"config-{figure}"} <= set(page.ids)
+        assert f"../results/curves/{figure}.csv" in page.links
+        module = importlib.import_module(f"planarimpact.curves.{figure}")
+        assert f"#{module.curves.__module__}.curves" in page.links
+    for source in (ROOT / "data").glob("*/source.yaml"):
+        stated = reference_data.load_yaml(source)
+        assert " ".join(stated["citation"].split()) in text
+        for kind in ("series", "facts"):
+            for name, entry in stated.get(kind, {}).items():
+                assert f"{source.parent.name}/{name}" in page.ids
+                assert (entry.get("digitised_by") or "") in text
+    assert text.count("nobody yet: there are no points") == 3
+    assert {"planarimpact.lumped.rebound", "planarimpact.results.Rebound.of"} <= set(page.ids)
+    assert "class Material(young_modulus: Numbers, poisson_ratio: Numbers)" in text
+    ledger = Counter(row["verdict"] for row in rows_of(first_run[0] / "results/ledger.csv"))
+    assert all(f"{count} are {verdict}" in text for verdict, count in ledger.items())
+
+
+def test_it_fits_a_phone_and_links_unfold_what_they_lead_to(report):
+    with browser.page() as tab:
+        tab.resize(360, 800, mobile=True)
+        tab.open(f"{report.as_uri()}#planarimpact.lumped.rebound")
+        folded = "document.getElementById('planarimpact.lumped.rebound').closest('details').open"
+        assert tab.evaluate(folded) is True
+        tab.evaluate(
+            "document.querySelectorAll('details').forEach((part) => { part.open = true; })"
+        )
+        assert tab.evaluate("document.documentElement.scrollWidth") <= 360
+        assert not tab.problems
+
+
+def test_the_ledger_is_the_one_of_its_own_page(first_run, report):
+    own = (first_run[0] / "figures/ledger.html").read_text()
+    articles = re.compile(r"<article .*?</article>", flags=re.S)
+    found = articles.findall(report.read_text())
+    assert len(found) == len(rows_of(first_run[0] / "results/ledger.csv"))
+    assert found == articles.findall(own)
+
+
+def refuse_other_residuals(verdicts, residuals):
+    """Check that rows of residuals are what the verdicts were made from."""
+    for row in verdicts:
+        mine = [r for r in residuals if r["comparison"] == row["comparison"]]
+        assert len(mine) == int(row["points"] or 0), row["comparison"]
+        if mine:
+            sigmas = [abs(float(r["distance [sigma]"])) for r in mine]
+            rms = math.sqrt(math.fsum(s * s for s in sigmas) / len(sigmas))
+            assert f"{max(sigmas):.3g}" == row["max [sigma]"], row["comparison"]
+            assert f"{rms:.3g}" == row["rms [sigma]"], row["comparison"]
+
+
+def test_residuals_are_those_that_were_judged(first_run):
+    results = first_run[0] / "results"
+    verdicts = rows_of(results / "verdicts.csv")
+    residuals = [row for path in (results / "residuals").glob("*.csv") for row in rows_of(path)]
+    refuse_other_residuals(verdicts, residuals)
+    largest = max(residuals, key=lambda row: abs(float(row["distance [sigma]"])))
+    falsified = [row | {"distance [sigma]": "0.9"} if row is largest else row for row in residuals]
+    with pytest.raises(AssertionError, match=largest["comparison"]):
+        refuse_other_residuals(verdicts, falsified)
+    # Fig. 5: the lumped model lies above the finite elements where these slip in an annulus.
+    sides = [r for r in residuals if r["comparison"] == "fig5-lumped-fem-small-incidence"]
+    assert all(float(row["distance [sigma]"]) < 0 for row in sides)
+
+
+@pytest.fixture(scope="module")
+def doctored():
+    """The report of a run: a comparison diverges, a solver crashed, an entry has lapsed."""
+    figures = [*run_plan.FIGURES]
+
+    def row(figure, comparison, verdict, **cells):
+        cells = {"figure": figure, "comparison": comparison, "verdict": verdict} | cells
+        return dict.fromkeys(compare.COLUMNS, "") | cells
+
+    verdicts = [
+        row("fig6", "fig6-e1", "diverges", points="2", **{"rms [sigma]": "7", "max [sigma]": "9"}),
+        row("trade", "trade-solved", "diverges", note="no curves: ArithmeticError: <oh>"),
+        *(row(name, f"{name}-solved", "agrees") for name in figures if name != "trade"),
+    ]
+    residuals = [
+        {"comparison": "fig6-e1", "quantity": "x [1]", "at": at, "distance [sigma]": far}
+        for at, far in (("1", "-9"), ("2", "4"))
+    ]
+    shown = {
+        name: write_report.figure(
+            name, b"<svg/>", "Words.", residuals if name == "fig6" else [], verdicts, CONFIG
+        )
+        for name in figures
+    }
+    lapsed = {"entry": "eq-1", "kind": "equation", "verdict": "wrong", "holds": "no"}
+    crashed = {"rows": [{"error": "ArithmeticError: <oh>"}], "caption": "Words."}
+    return write_report.page(
+        verdicts,
+        [dict.fromkeys(ledger_table.COLUMNS, "") | lapsed],
+        shown,
+        dict.fromkeys(("which_model", "trade", "stability"), crashed),
+        {},
+        {"versions": {}, "system": "", "date": "", "commit": "", "times": []},
+        "symbols",
+        {},
+        ROOT / "workflow/report/report.html",
+    )
+
+
+def test_a_diverging_run_looks_like_one(doctored):
+    text = " ".join(" ".join(Page(doctored).words).split())
+    first = "FAILED 2 of 15 comparisons diverge. 1 of 1 verdicts on the paper no longer hold."
+    assert text.index(first) < text.index("A rough, elastic body")
+    assert "PASSED" not in text
+    table = doctored[doctored.index('<table class="grid verdicts">') :].split("</table>")[0]
+    first = table.split("<tr")[2]
+    assert 'id="fig6-e1" class="diverges"' in first and 'class="mark fails">diverges<' in first
+    assert "rms 7, max 9" in first
+    assert "no curves: ArithmeticError: &lt;oh&gt;" in table.replace("No curves", "no curves")
+    assert doctored.count("<td>ArithmeticError: &lt;oh&gt;</td>") == 3
+
+
+@pytest.mark.parametrize("figure", ["fig3", "fig4", "fig6", "fig7", "fig8"])
+def test_functions_of_a_figure_are_those_that_it_calls(figure):
+    inventory = reference_data.load_all(ROOT / "data", SCHEMA)
+    module = importlib.import_module(f"planarimpact.curves.{figure}")
+    reference = api_reference.modules()
+    functions = {m["name"] for r in reference.values() for m in r["members"] if m["kind"] == "def"}
+    called = set()
+
+    def watch(frame, event, _):
+        if event == "call" and frame.f_back is not None:
+            home = frame.f_back.f_globals.get("__name__", "")
+            name = f"{frame.f_globals.get('__name__', '')}.{frame.f_code.co_name}"
+            if home.startswith("planarimpact.curves") and name in functions:
+                called.add(name)
+
+    settings = run_plan.settings(CONFIG, inventory, figure)
+    sys.setprofile(watch)
+    try:
+        module.curves(**settings)
+    finally:
+        sys.setprofile(None)
+    called = {name for name in called if not name.startswith("planarimpact.curves.")}
+    listed = api_reference.functions_of_figure(reference, figure)
+    assert called and called <= set(listed)
+    assert listed[0] == f"{module.curves.__module__}.curves"
+
+
+def test_docstrings_become_readable():
+    words = """Sum of `x`, see `other`.
+
+    Parameters
+    ----------
+    x : float
+        In m, below zeta^2 < 2.
+
+    Examples
+    --------
+    >>> 1 < 2
+    True
+    """
+    html = docstring_html.html(re.sub("^ {4}", "", words, flags=re.M), {"other": "a.b"}.get)
+    assert '<a href="#a.b"><code>other</code></a>' in html
+    assert "<dt><code>x</code> : float</dt><dd><p>In m, below zeta^2 &lt; 2.</p></dd>" in html
+    assert "<pre>&gt;&gt;&gt; 1 &lt; 2\nTrue</pre>" in html
+    table = docstring_html.html("===  ===\nm1   the `other`\n===  ===", {"other": "a.b"}.get)
+    assert '<tr><th scope="row">m1</th><td>the <a href="#a.b">' in table
+    names = "Parameters\n---\nother, x\n    Any.\n\nReturns\n---\nother\n    Sum."
+    html = docstring_html.html(names, {"other": "a.b"}.get)
+    assert html.count('<a href="#a.b">') == 1 and "<code>other</code>, <code>x</code>" in html
+
+
+def test_times_of_jobs_longest_first_without_one_that_is_being_written(tmp_path):
+    for name, words in {"short": "s\th:m:s\n1.5\t0\n", "long": "s\n20\n", "now": ""}.items():
+        (tmp_path / f"{name}.tsv").write_text(words)
+    assert run_facts.times(tmp_path) == [("long", 20.0), ("short", 1.5)]
+
+
+def test_commit_of_a_checkout_and_of_none(tmp_path, monkeypatch):
+    assert run_facts.commit(tmp_path) == run_facts.NO_COMMIT
+    if shutil.which("git") is None:
+        pytest.skip("git is missing")
+    git = ["git", "-C", str(tmp_path), "-c", "user.name=a", "-c", "user.email=a@b"]
+    for command in (["init", "-q"], ["commit", "-q", "--allow-empty", "-m", "first"]):
+        subprocess.run([*git, *command], check=True)
+    assert re.fullmatch("[0-9a-f]{40}", run_facts.commit(tmp_path))
+    (tmp_path / "inside").mkdir()
+    assert run_facts.commit(tmp_path / "inside") == run_facts.NO_COMMIT
+    (tmp_path / "file").write_text("new")
+    assert run_facts.commit(tmp_path).endswith(", with uncommitted changes")
+    monkeypatch.setenv("PATH", "")
+    assert run_facts.commit(tmp_path) == run_facts.NO_COMMIT

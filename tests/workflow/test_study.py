@@ -1,0 +1,109 @@
+"""The parameter study in the workflow: killed and gone on with, what reruns, what is refused."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+STUDY = "results/study.npz"
+# The second half of the grid waits while there is a file `wait`.
+WAITS = """    import pathlib, time
+    while start > 60000 and pathlib.Path("wait").exists():
+        time.sleep(0.05)
+    axes ="""
+SECONDS = 60  # that anything here may take
+
+
+def stopped(project, sign):
+    """Start the study, end it by a signal when two of four chunks are done; its words."""
+    log = project / f"{sign.name}.txt"
+    command = [sys.executable, "-m", "snakemake", "--cores", "4", STUDY]
+    deadline = time.monotonic() + SECONDS
+    with open(log, "w") as file:
+        running = subprocess.Popen(
+            command, cwd=project.folder, stdout=file, stderr=file, start_new_session=True
+        )
+        try:
+            while not halfway(project, log.read_text()) and running.poll() is None:
+                assert time.monotonic() < deadline, log.read_text()
+                time.sleep(0.05)
+        finally:
+            os.killpg(running.pid, sign)
+            assert running.wait(SECONDS) != 0
+    return log.read_text()
+
+
+def halfway(project, words):
+    """Two chunks are there and known to snakemake, and it has started the two that wait."""
+    started = re.findall("Solving the points (6|9)", words)
+    expected = 2 if "0-32260" in words else 0
+    return len(chunks(project)) == len(started) == 2 and words.count("Finished jobid") == expected
+
+
+def chunks(project):
+    """Chunks that are there, each with its time and that of its log."""
+    return {
+        path.stem: (
+            path.stat().st_mtime_ns,
+            (project / f"results/logs/study_{path.stem}.log").stat().st_mtime_ns,
+        )
+        for path in (project / "results/study").glob("*.npz")
+    }
+
+
+def solved(words):
+    return sorted(re.findall(r"Job \d+: Solving the points (\S+) of the study", words))
+
+
+def test_a_killed_study_goes_on_where_it_was(fresh, first_run):
+    """Ctrl-C, then a kill without warning, then to the end: no chunk is lost or solved twice."""
+    fresh.edit("workflow/scripts/solve_chunk.py", "    axes =", WAITS)
+    (fresh / "wait").touch()
+    assert len(solved(stopped(fresh, signal.SIGINT))) == 4
+    done = chunks(fresh)
+    assert sorted(done) == ["0-32260", "32260-64521"]
+
+    assert solved(stopped(fresh, signal.SIGKILL)) == ["64521-96781", "96781-129042"]
+    assert chunks(fresh) == done
+
+    (fresh / "wait").unlink()
+    locked = fresh.run(STUDY)
+    assert locked.returncode != 0 and "--unlock" in locked.stdout
+    assert fresh.run("--unlock").returncode == 0
+    last = fresh.run(STUDY)
+    assert last.returncode == 0, last.stdout
+    assert solved(last.stdout) == ["64521-96781", "96781-129042"]
+    assert {name: times for name, times in chunks(fresh).items() if name in done} == done
+    assert (fresh / STUDY).read_bytes() == (first_run[0] / STUDY).read_bytes()
+
+
+def test_a_failing_solver_fails_the_run_and_leaves_the_other_chunks(fresh):
+    path = "src/planarimpact/study.py"
+    fresh.edit(
+        path,
+        "            found = rebound(",
+        "            _fail(first)\n            found = rebound(",
+    )
+    (fresh / path).write_text(
+        (fresh / path).read_text()
+        + "\n\ndef _fail(first):\n    if first > 90000:\n        raise checks.InputError('oh')\n"
+    )
+    result = fresh.run(STUDY, "--keep-going")
+    assert result.returncode != 0
+    assert "InputError: points 96781 to 129042 of the grid: oh" in result.stdout
+    assert sorted(chunks(fresh)) == ["0-32260", "32260-64521", "64521-96781"]
+    assert not (fresh / STUDY).exists()
+
+
+def test_what_a_change_solves_again(finished):
+    study = {"solve_chunk": 4, "gather_chunks": 1, "study": 1, "gate": 1, "all": 1}
+    grid = finished.planned("--config", "study={grid: {incidence: {points: 100}}}")[1]
+    assert {rule: grid.get(rule) for rule in study} == study
+    assert "curves" not in grid and "scene" not in grid
+
+
+def test_the_study_is_refused_before_any_work(fresh):
+    words = r"study.grid.incidence = \{'from': 9, .*: the numbers must ascend"
+    fresh.refuses(words, "--config", "study={grid: {incidence: {from: 9}}}")

@@ -1,0 +1,180 @@
+"use strict";
+
+// Charts as SVG markup, written anew at every change. They are as wide as they stand on the screen,
+// so that type keeps its size on a phone. Drawing only: the impact has been solved before.
+const charts = (() => {
+  const HEIGHT = 190;
+  const MARGIN = { right: 10, top: 20, bottom: 20 };
+  const LETTER = 7.6; // width of one, at most
+  const CURVE = 240; // vertices
+
+  const number = (value, digits = 2) =>
+    Number(value.toFixed(digits)).toString().replace("-", "\u2212");
+
+  function ticks(low, high, count) {
+    const raw = (high - low) / count;
+    const decade = 10 ** Math.floor(Math.log10(raw));
+    const step = decade * [1, 2, 5, 10].find((nice) => nice * decade >= raw * 0.999);
+    const first = Math.ceil(low / step - 1e-9);
+    const last = Math.floor(high / step + 1e-9);
+    return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
+  }
+
+  // Scales, frame and ticks of a chart over the ranges x and y; `at` inverts a place on the screen.
+  function axes(svg, width, x, y, x_ticks = ticks(...x, width / 80)) {
+    const y_ticks = ticks(...y, 5);
+    const left = Math.max(42, 10 + LETTER * Math.max(...y_ticks.map((one) => number(one).length)));
+    const right = width - MARGIN.right;
+    const bottom = HEIGHT - MARGIN.bottom;
+    const X = (value) => left + ((value - x[0]) / (x[1] - x[0])) * (right - left);
+    const Y = (value) => bottom - ((value - y[0]) / (y[1] - y[0])) * (bottom - MARGIN.top);
+    const rows = y_ticks.map(
+      (value) => `<line class="grid" x1="${left}" x2="${right}" y1="${Y(value)}"
+        y2="${Y(value)}"/><text class="tick" text-anchor="end" x="${left - 6}"
+        y="${Y(value) + 4}">${number(value)}</text>`,
+    );
+    const columns = x_ticks.map(
+      (value) => `<line class="axis" x1="${X(value)}" x2="${X(value)}" y1="${bottom}"
+        y2="${bottom - 4}"/><text class="tick" text-anchor="middle" x="${X(value)}"
+        y="${bottom + 15}">${number(value)}</text>`,
+    );
+    const zero = Y(Math.min(Math.max(0, y[0]), y[1]));
+    const frame = `<path class="axis" d="M${left},${MARGIN.top}V${bottom}H${right}"/>
+      <line class="axis" x1="${left}" x2="${right}" y1="${zero}" y2="${zero}"/>`;
+    svg.setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`);
+    svg.setAttribute("height", HEIGHT);
+    const at = (event) => {
+      const place = event.clientX - svg.getBoundingClientRect().left;
+      const share = (place - left) / (right - left);
+      return x[0] + Math.min(Math.max(share, 0), 1) * (x[1] - x[0]);
+    };
+    return { X, Y, at, markup: rows.join("") + columns.join("") + frame };
+  }
+
+  function line(style, xs, ys, { X, Y }) {
+    const points = Array.from(xs, (x, i) => `${X(x).toFixed(1)},${Y(ys[i]).toFixed(1)}`);
+    return `<polyline class="${style}" points="${points.join(" ")}"/>`;
+  }
+
+  // A stretch of the axis with the first of its words that fits above.
+  function band(style, start, end, words, { X }) {
+    const [left, width] = [X(start), X(end) - X(start)];
+    const height = HEIGHT - MARGIN.top - MARGIN.bottom;
+    const word = words.find((one) => width > LETTER * one.length) ?? "";
+    return `<rect class="band ${style}" x="${left}" width="${width}" y="${MARGIN.top}"
+      height="${height}"/><rect class="head ${style}" x="${left}" width="${width}" y="2"
+      height="16"/><text class="word" x="${left + width / 2}" y="14">${word}</text>`;
+  }
+
+  const phase_bands = (impact, scales) =>
+    impact.phases
+      .map((phase) => {
+        const arrow = phase.side > 0 ? "\u2192" : "\u2190";
+        const words = phase.sticks ? ["stick"] : [`slip ${arrow}`, arrow];
+        return band(phase.sticks ? "stick" : "slip", phase.start, phase.end, words, scales);
+      })
+      .join("");
+
+  // The cursor is moved alone, without a new chart.
+  const cursor = (...dots) =>
+    `<g class="cursor"><line y1="${MARGIN.top}" y2="${HEIGHT - MARGIN.bottom}"/>` +
+    dots.map((style) => `<circle class="${style}" r="4.5"/>`).join("") + "</g>";
+
+  function move_cursor(svg, { X, Y }, t, values) {
+    const line = svg.querySelector(".cursor line");
+    line.setAttribute("x1", X(t));
+    line.setAttribute("x2", X(t));
+    svg.querySelectorAll(".cursor circle").forEach((dot, i) => {
+      dot.setAttribute("cx", X(t));
+      dot.setAttribute("cy", Y(values[i]));
+    });
+  }
+
+  const maximum_compression = ({ X }) =>
+    `<line class="guide" x1="${X(1)}" x2="${X(1)}" y1="${MARGIN.top}"
+      y2="${HEIGHT - MARGIN.bottom}"/>`;
+
+  function forces(svg, width, impact) {
+    const scales = axes(svg, width, [0, 2], [-1.1, 1.1], [0, 0.5, 1, 1.5, 2]);
+    const { time, normal, friction } = impact.contact;
+    svg.innerHTML =
+      phase_bands(impact, scales) + scales.markup + maximum_compression(scales) +
+      line("limit", time, normal.map((force) => -force), scales) +
+      line("friction", time, friction, scales) +
+      line("normal", time, normal, scales) + cursor("normal", "friction");
+    return scales;
+  }
+
+  function velocity(svg, width, impact) {
+    const { time, velocity } = impact.contact;
+    const [low, high] = [Math.min(0, ...velocity), Math.max(0, ...velocity)];
+    const room = 0.08 * (high - low || 1);
+    const scales = axes(svg, width, [0, 2], [low - room, high + room], [0, 0.5, 1, 1.5, 2]);
+    svg.innerHTML =
+      phase_bands(impact, scales) + scales.markup + maximum_compression(scales) +
+      line("velocity", time, velocity, scales) + cursor("velocity");
+    return scales;
+  }
+
+  // What can be drawn against incidence: value of an impact, and of one without tangential
+  // compliance. Over angles the unit is the speed S before the impact.
+  const VIEWS = {
+    velocity: { over_angle: false, value: (found) => found.velocity },
+    forces: {
+      over_angle: true,
+      value: (found, mu, cosine) => mu * cosine * found.peak_friction,
+      beside: (cosine) => cosine,
+    },
+    energy: {
+      over_angle: true,
+      value: (found, mu, cosine) => 2 * (mu * cosine) ** 2 * found.dissipation,
+    },
+  };
+
+  const REGIMES = [
+    ["stick", "sticks first", "stick"],
+    ["mixed", "slips first", "slip"],
+    ["slip", "slips throughout", "slip"],
+  ];
+
+  // The curve over all incidences, thresholds among its vertices, with the present impact on it.
+  function incidence(svg, width, impact, view) {
+    const { mu, x, beta, zeta2, e, limit } = impact;
+    const { over_angle, value, beside } = VIEWS[view];
+    const place = (incidence) =>
+      over_angle ? (Math.atan(mu * incidence) * 180) / Math.PI : incidence;
+    const widest = Math.max(8, 1.25 * limit, 1.08 * x);
+    const range = over_angle ? [0, 90] : [0, widest];
+    const x_ticks = over_angle ? [0, 30, 60, 90] : undefined;
+    const even = Array.from({ length: CURVE }, (_, i) => i / (CURVE - 1));
+    const xs = over_angle
+      ? even.map((share) => Math.tan((share * 89.95 * Math.PI) / 180) / mu)
+      : even.map((share) => share * widest);
+    xs.push(...[zeta2, beta, limit].filter((threshold) => place(threshold) < range[1]));
+    xs.sort((a, b) => a - b);
+    const cosine = (incidence) => 1 / Math.hypot(1, mu * incidence);
+    const measure = (incidence, found) => value(found, mu, cosine(incidence));
+    const lumped = (one) => measure(one, solver.rebound(one, beta, zeta2, e));
+    const ys = xs.map(lumped);
+    const rigid = xs.map((one) => measure(one, solver.rigid_rebound(one, beta, e)));
+    const beyond = beside ? xs.map((one) => beside(cosine(one))) : [];
+    const present = lumped(x);
+    const every = [...ys, ...rigid, ...beyond, present];
+    const [low, high] = [Math.min(0, ...every), Math.max(...every)];
+    const room = 0.06 * (high - low || 1);
+    const scales = axes(svg, width, range, [low < 0 ? low - room : 0, high + room], x_ticks);
+    const places = xs.map(place);
+    const edges = [0, zeta2, limit, Infinity].map((edge) => Math.min(place(edge), range[1]));
+    const bands = REGIMES.map(([style, ...words], i) =>
+      edges[i + 1] > edges[i] ? band(style, edges[i], edges[i + 1], words, scales) : "");
+    svg.innerHTML =
+      bands.join("") + scales.markup +
+      (beside ? line("normal", places, beyond, scales) : "") +
+      line("rigid", places, rigid, scales) + line(`curve ${view}`, places, ys, scales) +
+      `<circle class="present" cx="${scales.X(place(x))}" cy="${scales.Y(present)}" r="6"/>`;
+    const to_angle = (value) => (over_angle ? value : (Math.atan(mu * value) * 180) / Math.PI);
+    return { ...scales, angle: (event) => to_angle(scales.at(event)) };
+  }
+
+  return { forces, velocity, incidence, move_cursor, number };
+})();

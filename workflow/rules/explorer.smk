@@ -1,0 +1,28 @@
+EXPLORER_SOURCES = ["explorer.html", "explorer.css"]
+EXPLORER_SOURCES += [f"{part}.js" for part in ("solver", "charts", "diagram", "words", "page")]
+
+
+rule explorer:
+    """A page to play with one impact; it solves the lumped model itself."""
+    input:
+        modules=run_plan.modules("write_explorer"),
+        sources=expand("workflow/explorer/{file}", file=EXPLORER_SOURCES),
+    output:
+        report(
+            "figures/explorer.html",
+            caption="../report/explorer.rst",
+            category="Explorer",
+            labels={"page": "an impact to play with"},
+        ),
+    params:
+        settings=run_plan.settings_of_explorer(config),
+    log:
+        "results/logs/explorer.log",
+    benchmark:
+        "results/benchmarks/explorer.tsv"
+    message:
+        "Writing the explorer"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/write_explorer.py"

@@ -1,0 +1,69 @@
+# A grid of impacts, scattered into chunks, solved, gathered and drawn:
+#   snakemake --cores 2 study                       here
+#   snakemake --profile workflow/profiles/slurm study    on a cluster
+
+
+rule solve_chunk:
+    """Solve some points of the study's grid, `start-stop`; the chunks know nothing of each other."""
+    input:
+        modules=run_plan.modules("solve_chunk"),
+    output:
+        "results/study/{chunk}.npz",
+    params:
+        settings=study_plan.settings(config),
+    log:
+        "results/logs/study_{chunk}.log",
+    benchmark:
+        "results/benchmarks/study_{chunk}.tsv"
+    message:
+        "Solving the points {wildcards.chunk} of the study"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/solve_chunk.py"
+
+
+rule gather_chunks:
+    """Put the chunks together in the shape of the grid."""
+    input:
+        modules=run_plan.modules("gather_chunks"),
+        chunks=expand("results/study/{chunk}.npz", chunk=study_plan.chunks(config)),
+    output:
+        "results/study.npz",
+    params:
+        settings=study_plan.settings(config),
+    log:
+        "results/logs/gather_chunks.log",
+    benchmark:
+        "results/benchmarks/gather_chunks.tsv"
+    message:
+        "Gathering the study"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/gather_chunks.py"
+
+
+rule study:
+    """Draw maps of the rebound over the grid; never solves."""
+    input:
+        modules=run_plan.modules("draw_study"),
+        study="results/study.npz",
+    output:
+        svg=report(
+            "figures/study.svg",
+            caption="../report/study.rst",
+            category="Study",
+            labels={"figure": "rebound over the grid"},
+        ),
+        png="figures/study.png",
+    log:
+        "results/logs/study.log",
+    benchmark:
+        "results/benchmarks/study.tsv"
+    message:
+        "Drawing the study"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/draw_study.py"

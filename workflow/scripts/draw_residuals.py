@@ -1,0 +1,126 @@
+"""Residuals of a figure as strips: one a curve and reference, with what is allowed shaded."""
+
+import drawing
+import numpy as np
+from matplotlib.patches import Patch
+
+STRIP, LABEL = 0.55, 0.3  # inches: height of a strip, and of the label of its x axis
+MARKS = {
+    "agrees": {"color": drawing.BLACK, "marker": "o", "markersize": 2},
+    "differs as documented": {"color": drawing.BLUE, "marker": "s", "markersize": 1.8},
+    "diverges": {"color": drawing.VERMILLION, "marker": "x", "markersize": 4},
+}
+ALL_ALLOWED = {"color": drawing.PALE, "linewidth": 0, "zorder": 0.5}
+RMS_ALLOWED = {"color": drawing.GREEN, "alpha": 0.35, "linewidth": 0, "zorder": 0.6}
+RMS = {"color": drawing.GREEN, "linewidth": 0.9, "linestyle": "-", "zorder": 1.9}
+
+
+def draw(residuals, comparisons, verdicts):
+    """Strips of the comparisons of one figure that have a residual a point.
+
+    Parameters
+    ----------
+    residuals : list of dict
+        Rows of results/residuals/FIGURE.csv.
+    comparisons : dict
+        `{name: entry of the config}`.
+    verdicts : dict
+        `{name: verdict}`.
+
+    Returns
+    -------
+    Figure or None
+        None where there are none to draw.
+    """
+    strips = _strips(residuals, comparisons)
+    if not strips:
+        return None
+    # A label only below the last of several strips with the same axis.
+    axis = [quantity for _, _, quantity in strips]
+    labelled = [i + 1 == len(axis) or axis[i + 1] != axis[i] for i in range(len(axis))]
+    heights = [STRIP + LABEL * last for last in labelled]
+    figure = drawing.new(sum(heights) + 0.8)
+    rows = figure.subplots(len(strips), squeeze=False, height_ratios=heights)[:, 0]
+    for axes, last, ((curve, reference, quantity), parts) in zip(
+        rows, labelled, strips.items(), strict=True
+    ):
+        for name, (x, distance) in parts.items():
+            _draw_comparison(axes, comparisons[name], x, distance, MARKS[verdicts[name]])
+        axes.axhline(0, **drawing.GUIDE)
+        axes.set_title(f"{curve}  -  {reference}", fontsize=drawing.NOTE, loc="left", pad=2)
+        axes.margins(x=0.02, y=0.15)
+        axes.tick_params(labelsize=drawing.NOTE, labelbottom=last)
+        if last:
+            axes.set_xlabel(words(quantity), fontsize=drawing.NOTE)
+    for axes, quantity in zip(rows, axis, strict=True):
+        same = [a for a, q in zip(rows, axis, strict=True) if q == quantity]
+        axes.set_xlim(min(a.get_xlim()[0] for a in same), max(a.get_xlim()[1] for a in same))
+    figure.supylabel(r"distance [$\sigma$]", fontsize=drawing.NOTE + 1)
+    shown = {name for parts in strips.values() for name in parts}
+    bounds = set().union(*(_bounds(comparisons[name]) for name in shown))
+    _add_legend(figure, {verdicts[name] for name in shown}, bounds)
+    return figure
+
+
+def words(quantity):
+    """Name of a column for a reader.
+
+    Examples
+    --------
+    >>> words("rebound_angle [deg]"), words("velocity [mu v2(0)]"), words("time [t_c]")
+    ('rebound angle [deg]', 'velocity [µ v2(0)]', 'time [t_c]')
+    """
+    name, bracket, unit = quantity.partition(" [")
+    return name.replace("_", " ") + bracket + unit.replace("mu ", "µ ")
+
+
+def _strips(residuals, comparisons):
+    """Points by strip and comparison; strips with the same axis next to each other."""
+    found = {}
+    for row in residuals:
+        entry = comparisons[row["comparison"]]
+        if entry["metric"] in ("distance", "vertices"):
+            key = entry.get("curve", "all curves"), entry["reference"], row["quantity"]
+            part = found.setdefault(key, {}).setdefault(row["comparison"], [])
+            part.append((float(row["at"]), float(row["distance [sigma]"])))
+    quantities = list(dict.fromkeys(quantity for _, _, quantity in found))
+    return {
+        key: {name: np.transpose(points) for name, points in found[key].items()}
+        for key in sorted(found, key=lambda key: quantities.index(key[2]))
+    }
+
+
+def _draw_comparison(axes, entry, x, distance, mark):
+    window = np.clip(entry.get("window", (-np.inf, np.inf)), x.min(), x.max())
+    span = window if window[0] < window[1] else window + [-0.5, 0.5]
+    bounds = _bounds(entry)
+    if "max" in bounds:
+        axes.fill_between(span, -bounds["max"][1], bounds["max"][1], **ALL_ALLOWED)
+    if "rms" in bounds:
+        low, high = bounds["rms"]
+        rms = np.sqrt(np.mean(distance**2))
+        for side in (-1, 1):
+            axes.fill_between(span, side * low, side * high, **RMS_ALLOWED)
+            axes.plot(span, [side * rms, side * rms], **RMS)
+    axes.plot(x, distance, linestyle="none", **mark)
+
+
+def _bounds(entry):
+    """What `rms` and `max` must lie between, as far as the comparison bounds them."""
+    bounds = {key: (0.0, limit) for key, limit in entry.get("agreement", {}).items()}
+    return bounds | {k: v for k, v in entry.get("documented", {}).items() if isinstance(v, list)}
+
+
+def _add_legend(figure, verdicts, bounds):
+    points = [
+        drawing.key(verdict, linestyle="none", **mark)
+        for verdict, mark in MARKS.items()
+        if verdict in verdicts
+    ]
+    if "max" in bounds:
+        points.append(Patch(label="allowed for all", **ALL_ALLOWED))
+    columns = {"points": points}
+    if "rms" in bounds:
+        allowed = Patch(label="allowed for it", **RMS_ALLOWED)
+        columns["root mean square"] = [drawing.key("of the points", **RMS), allowed]
+    drawing.legend_below(figure, *columns.values(), titles=columns)

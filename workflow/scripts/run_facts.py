@@ -1,0 +1,71 @@
+"""On what, from what and how long a run was made."""
+
+import csv
+import datetime
+import os
+import platform
+import subprocess
+from importlib import metadata
+from pathlib import Path
+
+PACKAGES = ("planarimpact", "numpy", "scipy", "matplotlib", "pandas", "snakemake")
+NO_COMMIT = "unknown: not a git checkout, or git is missing"
+
+
+def versions():
+    """Versions of Python and of the packages that a run uses, `{name: version}`."""
+    found = {"python": platform.python_version()}
+    for name in PACKAGES:
+        try:
+            found[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            found[name] = "not installed"
+    return found
+
+
+def system():
+    """Operating system and processor, without the name of the machine."""
+    return f"{platform.platform()}, {os.cpu_count()} processors"
+
+
+def date():
+    """Now, to the minute, in universal time."""
+    return f"{datetime.datetime.now(datetime.UTC):%d %B %Y, %H:%M} UTC"
+
+
+def commit(folder):
+    """Commit of a checkout, and whether something is not committed; words where there is none.
+
+    A folder that only lies inside some other checkout is none.
+    """
+    try:
+        root, name = _git(folder, "rev-parse", "--show-toplevel", "HEAD").split("\n")
+        if Path(root).resolve() != Path(folder).resolve():
+            return NO_COMMIT
+        changed = _git(folder, "status", "--porcelain")
+    except (OSError, subprocess.SubprocessError, ValueError):
+        return NO_COMMIT
+    return f"{name}, with uncommitted changes" if changed else name
+
+
+def _git(folder, *arguments):
+    command = ["git", "-C", str(folder), *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=20).stdout[
+        :-1
+    ]
+
+
+def times(benchmarks):
+    """Seconds that each job took when it last ran, longest first: list of (job, seconds).
+
+    Parameters
+    ----------
+    benchmarks : Path
+        Folder with a table a job; one that another job is just writing may be empty.
+    """
+    found = []
+    for path in sorted(Path(benchmarks).glob("*.tsv")):
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = csv.DictReader(file, delimiter="\t")
+            found += [(path.stem, float(row["s"])) for row in rows][:1]
+    return sorted(found, key=lambda job: -job[1])
