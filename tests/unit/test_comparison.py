@@ -62,6 +62,11 @@ def test_empty_window_and_broken_curve_are_refused():
         curve_residuals(([1.0], [1.0]), ([0.0], [0.0]), (1, 1))
 
 
+def test_the_nearest_of_several_vertices_counts():
+    vertices = [0.0, 0.0], [3.0, 1.5], ["slip", "slip"]
+    assert vertex_residuals(([0.0], [1.0], ["slip"]), vertices, (1, 1)).sigmas.tolist() == [-0.5]
+
+
 def test_vertices_are_matched_by_label():
     vertices = ([0.0, 0.0], [1.0, 2.0], ["stick", "slip"])
     assert vertex_residuals(([0.0], [2.0], ["slip"]), vertices, (1, 1)).summary().max == 0

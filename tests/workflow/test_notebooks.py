@@ -133,10 +133,12 @@ def test_the_kernel_is_this_python_whatever_is_registered(tmp_path, monkeypatch)
     monkeypatch.setenv("HOME", "/nonexistent")
     startup = tmp_path / "ipython/profile_default/startup"
     startup.mkdir(parents=True)
-    (startup / "mine.py").write_text("print('a profile')")
+    (startup / "mine.py").write_text("profile = True")
     monkeypatch.setenv("IPYTHONDIR", str(tmp_path / "ipython"))
-    source = "import sys, planarimpact\nprint(sys.executable, planarimpact.__file__)"
+    source = (
+        "import sys, planarimpact\nprint(sys.executable, planarimpact.__file__, 'profile' in dir())"
+    )
     results = tmp_path / "executed.ipynb", tmp_path / "page.html"
     run_notebook.run(written(tmp_path / "where.ipynb", source), TEMPLATE, *results)
     said = nbformat.read(results[0], as_version=4).cells[0].outputs[0].text.split()
-    assert said == [sys.executable, str(ROOT / "src/planarimpact/__init__.py")]
+    assert said == [sys.executable, str(ROOT / "src/planarimpact/__init__.py"), "False"]

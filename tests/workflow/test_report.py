@@ -1,6 +1,8 @@
 """The report: everything in it, every link leads somewhere, and a bad run looks bad."""
 
+import base64
 import csv
+import html
 import importlib
 import math
 import re
@@ -15,12 +17,16 @@ import api_reference
 import browser
 import compare
 import docstring_html
+import draw_residuals
 import ledger_table
+import numpy as np
 import pytest
 import reference_data
 import run_facts
 import run_plan
+import write_ledger_page
 import write_report
+import yaml
 
 ROOT = Path(__file__).parents[2]
 CONFIG = reference_data.load_yaml(ROOT / "workflow/config.yaml")
@@ -133,12 +139,55 @@ def test_every_verdict_figure_source_and_function_is_there(first_run, page, text
     assert all(f"{count} are {verdict}" in text for verdict, count in ledger.items())
 
 
+def test_a_row_of_the_verdicts_says_what_was_allowed_and_why(first_run, report):
+    results = first_run[0] / "results"
+    names = {row["entry"] for row in rows_of(results / "ledger.csv")}
+    maths = write_ledger_page.linked_maths(names)
+    text = report.read_text(encoding="utf-8")
+    for row in rows_of(results / "verdicts.csv"):
+        shown = text[text.index(f'<tr id="{row["comparison"]}"') :].split("</tr>")[0]
+        assert f'<a href="#{row["figure"]}">' in shown
+        assert f'<td class="bounds">{row["allowed"].replace("<=", "≤")}</td>' in shown
+        assert maths(write_report.sentence(row["reason"])) in shown
+        entry = row["note"].removeprefix("ledger: ")
+        assert (f'<a href="#{entry}">' in shown) == (entry in names)
+
+
+@pytest.mark.parametrize("name", run_plan.FIGURES)
+def test_a_figure_has_its_own_picture_words_verdicts_and_settings(first_run, report, name):
+    text = report.read_text(encoding="utf-8")
+    shown = text[text.index(f'<h3 id="{name}">') :].split("</details>")[0]
+    svg = (report.parent / f"{name}.svg").read_bytes()
+    assert base64.b64encode(svg).decode() in shown
+    words = write_report.caption(ROOT / "workflow/report/figures.rst", name)
+    assert write_ledger_page.mathematical(words.split(". ")[0]) in shown
+    verdicts = rows_of(first_run[0] / "results/verdicts.csv")
+    mine = [row["comparison"] for row in verdicts if row["figure"] == name]
+    assert re.findall(r'<td><a href="#([^"]*)">', shown) == mine
+    settings = yaml.safe_load(html.unescape(shown.split("<pre>")[1].split("</pre>")[0]))
+    config = run_plan.with_values(CONFIG)
+    assert settings["figures"] == {name: config["figures"][name]}
+    assert settings.get("comparisons", {}) == {
+        comparison: entry
+        for comparison, entry in config["comparisons"].items()
+        if entry["figure"] == name
+    }
+
+
+def test_provenance_and_what_lies_beside_are_there(page, text):
+    assert f"numpy {np.__version__}" in text
+    beside = {"explorer.html", "study.svg", "ledger.html"}
+    notebooks = {f"{path.stem}.html" for path in (ROOT / "workflow/notebooks").glob("*.ipynb")}
+    assert beside | notebooks <= set(page.links)
+
+
 def test_it_fits_a_phone_and_links_unfold_what_they_lead_to(report):
     with browser.page() as tab:
         tab.resize(360, 800, mobile=True)
         tab.open(f"{report.as_uri()}#planarimpact.lumped.rebound")
-        folded = "document.getElementById('planarimpact.lumped.rebound').closest('details').open"
-        assert tab.evaluate(folded) is True
+        for name in ("planarimpact.lumped.rebound", "planarimpact.rigid"):
+            tab.evaluate(f"location.hash = '{name}'; new Promise((go) => setTimeout(go, 50))")
+            assert tab.evaluate(f"document.getElementById('{name}').closest('details').open")
         tab.evaluate(
             "document.querySelectorAll('details').forEach((part) => { part.open = true; })"
         )
@@ -175,14 +224,22 @@ def test_residuals_are_those_that_were_judged(first_run):
     falsified = [row | {"distance [sigma]": "0.9"} if row is largest else row for row in residuals]
     with pytest.raises(AssertionError, match=largest["comparison"]):
         refuse_other_residuals(verdicts, falsified)
+    windows = {
+        n: entry["window"] for n, entry in CONFIG["comparisons"].items() if "window" in entry
+    }
+    for name, (low, high) in windows.items():
+        places = [float(row["at"]) for row in residuals if row["comparison"] == name]
+        assert len(set(places)) > 1 and low <= min(places) and max(places) <= high, name
     # Fig. 5: the lumped model lies above the finite elements where these slip in an annulus.
     sides = [r for r in residuals if r["comparison"] == "fig5-lumped-fem-small-incidence"]
     assert all(float(row["distance [sigma]"]) < 0 for row in sides)
 
 
-@pytest.fixture(scope="module")
-def doctored():
-    """The report of a run: a comparison diverges, a solver crashed, an entry has lapsed."""
+def doctored(*lapsed):
+    """The report of a run in which a comparison diverged and a solver crashed.
+
+    With a `lapsed` entry of the ledger all comparisons agree.
+    """
     figures = [*run_plan.FIGURES]
 
     def row(figure, comparison, verdict, **cells):
@@ -194,6 +251,7 @@ def doctored():
         row("trade", "trade-solved", "diverges", note="no curves: ArithmeticError: <oh>"),
         *(row(name, f"{name}-solved", "agrees") for name in figures if name != "trade"),
     ]
+    verdicts = [row | {"verdict": "agrees"} for row in verdicts] if lapsed else verdicts
     residuals = [
         {"comparison": "fig6-e1", "quantity": "x [1]", "at": at, "distance [sigma]": far}
         for at, far in (("1", "-9"), ("2", "4"))
@@ -204,11 +262,10 @@ def doctored():
         )
         for name in figures
     }
-    lapsed = {"entry": "eq-1", "kind": "equation", "verdict": "wrong", "holds": "no"}
     crashed = {"rows": [{"error": "ArithmeticError: <oh>"}], "caption": "Words."}
     return write_report.page(
         verdicts,
-        [dict.fromkeys(ledger_table.COLUMNS, "") | lapsed],
+        [dict.fromkeys(ledger_table.COLUMNS, "") | entry for entry in lapsed],
         shown,
         dict.fromkeys(("which_model", "trade", "stability"), crashed),
         {},
@@ -219,17 +276,51 @@ def doctored():
     )
 
 
-def test_a_diverging_run_looks_like_one(doctored):
-    text = " ".join(" ".join(Page(doctored).words).split())
-    first = "FAILED 2 of 15 comparisons diverge. 1 of 1 verdicts on the paper no longer hold."
+def test_a_diverging_run_looks_like_one():
+    page = doctored()
+    text = " ".join(" ".join(Page(page).words).split())
+    first = "FAILED 2 of 15 comparisons diverge."
     assert text.index(first) < text.index("A rough, elastic body")
     assert "PASSED" not in text
-    table = doctored[doctored.index('<table class="grid verdicts">') :].split("</table>")[0]
+    table = page[page.index('<table class="grid verdicts">') :].split("</table>")[0]
     first = table.split("<tr")[2]
     assert 'id="fig6-e1" class="diverges"' in first and 'class="mark fails">diverges<' in first
     assert "rms 7, max 9" in first
     assert "no curves: ArithmeticError: &lt;oh&gt;" in table.replace("No curves", "no curves")
-    assert doctored.count("<td>ArithmeticError: &lt;oh&gt;</td>") == 3
+    assert page.count("<td>ArithmeticError: &lt;oh&gt;</td>") == 3
+
+
+def test_a_run_with_a_lapsed_entry_looks_like_one():
+    page = doctored({"entry": "eq-1", "kind": "equation", "verdict": "wrong", "holds": "no"})
+    assert "<title>Failed:" in page and "PASSED" not in page and "comparisons diverge" not in page
+    assert "1 of 1 verdicts on the paper no longer hold." in page
+
+
+def test_strips_show_points_bounds_and_verdicts():
+    strip = {"metric": "distance", "curve": "lumped", "reference": "a/b"}
+    comparisons = {
+        "low": strip | {"documented": {"entry": "known", "rms": [2.0, 4.0]}},
+        "high": strip | {"agreement": {"rms": 1.5, "max": 3.0}},
+        "corner": {"metric": "vertices", "reference": "a/c", "agreement": {"max": 1.0}},
+        "peak": {"metric": "landmark", "reference": "a/d", "agreement": {"max": 1.0}},
+    }
+    points = {"low": [-1, -3], "high": [2, 0], "corner": [0.5], "peak": [0.1]}
+    residuals = [
+        {"comparison": name, "quantity": "x [1]", "at": f"{at}", "distance [sigma]": f"{far}"}
+        for name, distances in points.items()
+        for at, far in enumerate(distances)
+    ]
+    verdicts = {"low": "diverges", "high": "agrees", "corner": "agrees", "peak": "agrees"}
+    first, second = draw_residuals.draw(residuals, comparisons, verdicts).axes
+    drawn = {line.get_marker(): line for line in first.lines if line.get_linestyle() == "None"}
+    assert drawn["x"].get_ydata().tolist() == [-1, -3]
+    assert drawn["o"].get_ydata().tolist() == [2, 0]
+    rms = {round(line.get_ydata()[0] ** 2) for line in first.lines if line.get_linestyle() == "-"}
+    assert rms >= {5, 2}
+    tops = [area.get_datalim(first.transData).y1 for area in first.collections]
+    assert max(tops) == 4 and {3.0, 1.5} <= set(tops)
+    assert second.lines[0].get_ydata().tolist() == [0.5]
+    assert draw_residuals.draw(residuals[-1:], comparisons, verdicts) is None
 
 
 @pytest.mark.parametrize("figure", ["fig3", "fig4", "fig6", "fig7", "fig8"])
@@ -256,6 +347,8 @@ def test_functions_of_a_figure_are_those_that_it_calls(figure):
     called = {name for name in called if not name.startswith("planarimpact.curves.")}
     listed = api_reference.functions_of_figure(reference, figure)
     assert called and called <= set(listed)
+    moved = api_reference.home("planarimpact.bodies.mass_ratio", reference)
+    assert moved == "planarimpact.masses.mass_ratio"
     assert listed[0] == f"{module.curves.__module__}.curves"
 
 

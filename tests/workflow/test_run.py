@@ -60,7 +60,9 @@ def test_report_has_every_picture_with_its_caption(finished):
         for name in ("results", "categories")
     )
     filed = [path for parts in categories.values() for paths in parts.values() for path in paths]
-    pages = [f"figures/{path.name}" for path in (finished / "figures").glob("*.html")]
+    # Our own report would only say it all twice.
+    pages = {f"figures/{path.name}" for path in (finished / "figures").glob("*.html")}
+    pages.remove("figures/report.html")
     assert {*pages, *(f"figures/{figure}.svg" for figure in FIGURES)} <= set(results)
     assert sorted(filed) == sorted(results) and "Other" not in categories
     assert all(len(result["caption"]) > 30 for result in results.values())
@@ -304,6 +306,11 @@ BAD_CONFIG = [
 @pytest.mark.parametrize(("change", "words"), BAD_CONFIG, ids=[c for c, _ in BAD_CONFIG])
 def test_bad_config_is_refused_before_any_work(fresh, change, words):
     fresh.refuses(words, "--config", change)
+
+
+def test_a_module_that_is_no_python_is_refused_by_its_line(fresh):
+    (fresh / "src/planarimpact/laws.py").write_text("x = = 2\n")
+    fresh.refuses(r"src/planarimpact/laws.py, line 1: invalid syntax")
 
 
 BAD_DATA = [

@@ -85,6 +85,13 @@ def test_a_failed_run_says_why_and_how_to_draw_without_judging(folder, change, b
     assert "figures/report.html" in words and "--cores 2 figures" in words
 
 
+def test_one_page_with_a_failing_row_is_neither_judged_nor_stopped(folder):
+    ended(folder, "verdicts", "ledger", verdict="diverges")
+    words = closing.words(0)
+    assert "FAILED: 1 diverging" in words
+    assert "stopped" not in words and "On purpose" not in words
+
+
 def test_a_stopped_run_says_so_and_no_older_table(folder):
     ended(folder, "verdicts", "ledger", "gate")
     for path in (folder / "results").glob("*/*"):

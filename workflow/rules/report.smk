@@ -26,12 +26,7 @@ rule report:
         ledger="results/ledger.csv",
         tables=[*rules.trade.output, *rules.stability.output],
     output:
-        report(
-            "figures/report.html",
-            caption="../report/report.rst",
-            category="Report",
-            labels={"page": "the run as one page"},
-        ),
+        "figures/report.html",
     params:
         figures=run_plan.FIGURES,
         config={

@@ -13,6 +13,10 @@ NEXT = [
     "Play:     figures/explorer.html",
     "Change:   workflow/config.yaml, and run again: only what depends on it is redone",
 ]
+AFTER_A_FAILURE = [
+    f"Why, row by row:  {REPORT}, open it in a browser",
+    "On purpose? To draw without being judged:  snakemake --cores 2 figures",
+]
 STOPPED = [
     "A job stopped. What it said is above, and in results/logs/. Mend it and type the same command",
     "again: finished work is kept. README.md, Troubleshooting, has the usual causes.",
@@ -41,22 +45,16 @@ def words(started, stopped=False):
         failed.append(("entries of the ledger that no longer hold", ledger_table.failing(rows)))
     bad = ", ".join(f"{len(rows)} {what}" for what, rows in failed if rows)
     if bad:
-        parts += [f"FAILED: {bad}. All columns: {VERDICTS}, {LEDGER}", *_after_a_failure(judged)]
+        parts.append(f"FAILED: {bad}. All columns: {VERDICTS}, {LEDGER}")
     elif judged:
         parts += [f"PASSED. All columns: {VERDICTS}, {LEDGER}; pictures: figures/", *NEXT]
     else:
-        parts.append("No verdict in this run. Pictures: figures/")
-        parts += STOPPED if stopped else []
+        parts.append("No verdict in this run as a whole. Pictures: figures/")
+    if judged and bad:
+        parts += AFTER_A_FAILURE
+    elif stopped and not judged:
+        parts += STOPPED
     return "\n" + "\n".join(parts) + "\n"
-
-
-def _after_a_failure(judged):
-    if not judged:
-        return STOPPED
-    return [
-        f"Why, row by row:  {REPORT}, open it in a browser",
-        "On purpose? To draw without being judged:  snakemake --cores 2 figures",
-    ]
 
 
 def _ran(rule, started):

@@ -19,7 +19,7 @@ WITHOUT = {"fig2": ["mass_ratio"], "superball": BOTH, "stability": BOTH, "rod": 
 
 
 class ConfigError(Exception):
-    """workflow/config.yaml or a --config value is not admissible."""
+    """workflow/config.yaml or a --config value is not admissible, or a module is no Python."""
 
 
 def with_values(node):
@@ -209,21 +209,26 @@ def modules(*names):
 
 def modules_of_notebook(name):
     """As `modules`, of what runs a notebook of workflow/notebooks and of what it imports."""
-    text = (SCRIPTS.parent / "notebooks" / f"{name}.ipynb").read_text(encoding="utf-8")
-    cells = [cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
-    return modules("run_notebook", *_imports("\n".join("".join(c["source"]) for c in cells)))
+    path = SCRIPTS.parent / "notebooks" / f"{name}.ipynb"
+    book = json.loads(path.read_text(encoding="utf-8"))
+    cells = ["".join(cell["source"]) for cell in book["cells"] if cell["cell_type"] == "code"]
+    return modules("run_notebook", *_imports("\n".join(cells), path))
 
 
 @functools.cache
 def _imported(file):
-    names = _imports(file.read_text(encoding="utf-8"))
+    names = _imports(file.read_text(encoding="utf-8"), file)
     return [path for name in names for path in _files(name)]
 
 
-def _imports(text):
-    """Names that a module's text imports."""
+def _imports(text, file):
+    """Names that the text of a file imports."""
+    try:
+        tree = ast.parse(text)
+    except SyntaxError as error:
+        raise ConfigError(f"{file}, line {error.lineno}: {error.msg}") from None
     names = []
-    for node in ast.walk(ast.parse(text)):
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             names += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom) and node.module:
