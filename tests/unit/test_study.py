@@ -2,9 +2,11 @@
 
 import copy
 import math
+import re
 from pathlib import Path
 
 import draw_study
+import drawing
 import gather_chunks
 import numpy as np
 import pytest
@@ -14,7 +16,7 @@ import solve_chunk
 import study_files
 import study_plan
 
-from planarimpact import checks, ladder, lumped, study
+from planarimpact import Regime, checks, ladder, lumped, study
 from planarimpact.results import Rebound
 
 GRID = {
@@ -91,6 +93,7 @@ def test_an_impact_that_cannot_be_solved_is_named_by_its_part(axes):
         ({"restitution": [0.5, 1.5]}, r"restitution\[1\] = 1.5: allowed are numbers from 0 to 1"),
         ({"restitution": []}, r"restitution = \[\]: allowed are ascending"),
         ({"incidence": [2, 1]}, r"incidence = \[2, 1\]: allowed are ascending"),
+        ({"incidence": [1, 1]}, r"incidence = \[1, 1\]: allowed are ascending"),
         ({"incidence": [[1], [2]]}, "incidence = .*: allowed are ascending"),
         ({"incidence": {"from": 8, "to": 0, "points": 3}}, "incidence = .*: allowed are ascending"),
         ({"incidence": {"from": 0, "to": 8, "points": 1}}, "incidence.points = 1: allowed are"),
@@ -133,7 +136,7 @@ def test_files_say_what_is_in_them(axes, tmp_path):
     chunks = [tmp_path / name for name in ("0-30.npz", "30-70.npz")]
     for chunk in chunks:
         solve_chunk.solve(chunk.stem, "lumped", {}, GRID, chunk)
-    gather_chunks.gather(chunks, "lumped", GRID, tmp_path / "study.npz")
+    gather_chunks.gather(chunks, "lumped", {}, GRID, tmp_path / "study.npz")
     with np.load(tmp_path / "study.npz") as file:
         assert str(file["model"]) == "lumped"
         assert file["velocity [mu v2(0)]"].shape == tuple(len(file[name]) for name in file["axes"])
@@ -158,11 +161,20 @@ def test_a_chunk_is_solved_by_the_model_and_settings_asked_for(axes, tmp_path):
     assert np.array_equal(outputs["velocity"], expected.velocity)
 
 
-def test_a_chunk_of_another_grid_is_refused(tmp_path):
+@pytest.mark.parametrize(
+    ("model", "settings", "grid", "words"),
+    [
+        ("laws.brach", {}, {"mass_ratio": [3.0]}, "it belongs to another grid"),
+        ("rigid", {}, {}, "solved by rigid {}; allowed is laws.brach {}"),
+        ("laws.brach", {"tangential_restitution": 0.1}, {}, "solved by laws.brach {'tangential"),
+    ],
+)
+def test_a_chunk_of_another_study_is_refused(model, settings, grid, words, tmp_path):
+    """Snakemake knows it by its parameters, unless the files came without its records."""
     chunk = tmp_path / "0-70.npz"
-    solve_chunk.solve("0-70", "lumped", {}, GRID | {"mass_ratio": [3.0]}, chunk)
-    with pytest.raises(checks.InputError, match="0-70.npz: it belongs to another grid"):
-        gather_chunks.gather([chunk], "lumped", GRID, tmp_path / "study.npz")
+    solve_chunk.solve("0-70", model, settings, GRID | grid, chunk)
+    with pytest.raises(checks.InputError, match=f"0-70.npz: {words}"):
+        gather_chunks.gather([chunk], "laws.brach", {}, GRID, tmp_path / "study.npz")
     assert not (tmp_path / "study.npz").exists()
 
 
@@ -192,13 +204,16 @@ def check(config):
         ({"settings": {"steps": 64}}, "study.settings.steps = 64: lumped has no settings"),
         ({"settings": {"speed": 1}}, "study.settings: .*'speed' was unexpected"),
         ({"chunks": 0}, "study.chunks: 0 is less than the minimum of 1"),
-        ({"chunks": 1.5}, "study.chunks: 1.5 is not of type 'integer'"),
+        ({"chunks": 2.0}, "study.chunks: 2.0 is not of type 'integer'"),
+        ({"chunks": True}, "study.chunks: True is not of type 'integer'"),
+        ({"model": "annuli", "settings": {"steps": 64.0}}, "study.settings.steps: 64.0 is not of"),
         (
             {"chunks": 3, "grid": {"incidence": [1], "restitution": [1]}},
             "study.chunks = 3: allowed are up to 2, one a point",
         ),
         ({"grid": {"friction": [0.1]}}, "study.grid: .*'friction' was unexpected"),
         ({"grid": {"incidence": {"from": 0, "to": 8, "points": 1}}}, "points: 1 is less than"),
+        ({"grid": {"incidence": {"from": 0, "to": 8, "points": 1e2}}}, "points: 100.0 is not of"),
         ({"grid": {"incidence": {"from": 0, "to": 8}}}, "incidence: 'points' is a required"),
         ({"grid": {"incidence": {"from": 8, "to": 8, "points": 3}}}, "the numbers must ascend"),
         ({"grid": {"incidence": [1, 1]}}, r"study.grid.incidence = \[1, 1\]: the numbers must"),
@@ -246,7 +261,8 @@ def test_chunks_cover_the_grid_once_and_axes_left_out_are_shared():
         ({}, 2),
         ({"incidence": [8.0, 9.0]}, 2),
         ({"mass_ratio": [1.0, 2, 3, 4]}, 6),
-        ({"incidence": [1.0], "restitution": [1.0], "stiffness_ratio": [1.0]}, 0),
+        ({"restitution": [1.0], "stiffness_ratio": [1.0]}, 1),
+        ({"incidence": [1.0], "restitution": [1.0], "stiffness_ratio": [1.0]}, 1),
     ],
 )
 def test_a_map_is_drawn_for_every_slice_up_to_six(grid, maps):
@@ -257,3 +273,49 @@ def test_a_map_is_drawn_for_every_slice_up_to_six(grid, maps):
     figure.draw_without_rendering()
     titled = [panel for panel in figure.axes if panel.get_title()]
     assert len(titled) == maps
+    ends = [[f"{axes[name][i]:g}" for name in ("mass_ratio", "stiffness_ratio")] for i in (0, -1)]
+    for panel, values in zip((titled[0], titled[-1]), ends, strict=True):
+        assert re.findall(r" = (\S+?)(?:,|$)", panel.get_title())[:2] == values
+
+
+def map_of(velocity, regime):
+    """The panel of a map over incidence and restitution."""
+    grid = {name: np.array([1.0]) for name in checks.RULES}
+    columns, rows = velocity.shape
+    grid |= {"incidence": np.arange(float(columns)), "restitution": np.linspace(0, 1, rows)}
+    shape = (columns, 1, 1, rows)
+    return draw_study.draw(grid, velocity.reshape(shape), regime.reshape(shape)).axes[0]
+
+
+def test_a_map_shows_where_velocity_is_negative_without_colours():
+    velocity = np.linspace(-1, 1, 20)[:, None] * np.ones(20)
+    regime = np.full((20, 20), Regime.STICK_SLIP)
+    (hatched,) = map_of(velocity, regime).findobj(_is_hatched)
+    (area,) = hatched.get_paths()
+    assert area.get_extents().intervalx.tolist() == [0, 9.5]
+    assert not map_of(velocity + 2, regime).findobj(_is_hatched)
+
+
+def test_a_study_along_one_axis_is_a_curve():
+    grid = {name: np.array([1.0]) for name in checks.RULES} | {"stiffness_ratio": np.arange(3.0)}
+    velocity = np.array([1.0, -1, 2])
+    shape = (1, 1, 3, 1)
+    panel = draw_study.draw(grid, velocity.reshape(shape), np.zeros(shape)).axes[0]
+    assert panel.get_lines()[-1].get_xydata().tolist() == [[0, 1], [1, -1], [2, 2]]
+    assert panel.get_xlabel() == draw_study.LABELS["stiffness_ratio"]
+
+
+def _is_hatched(artist):
+    return any(getattr(artist, "hatches", None) or [])
+
+
+def test_a_map_names_a_regime_where_there_is_room_and_draws_a_boundary_once():
+    regime = np.full((40, 40), Regime.SLIP_THROUGHOUT)
+    regime[:20] = Regime.STICK_SLIP
+    regime[20:22] = Regime.SLIP_STICK_SLIP  # a line, but no room for a name
+    regime[:1] = Regime.STICK  # the edge of the grid: neither
+    panel = map_of(np.ones((40, 40)), regime)
+    assert (panel.get_xlabel(), panel.get_ylabel()) == (drawing.INCIDENCE, "restitution $e$")
+    assert [text.get_text() for text in panel.texts] == ["stick-\nslip", "slip-\nthroughout"]
+    paths = [path for lines in panel.collections[1:] for path in lines.get_paths()]
+    assert [sorted(set(path.vertices[:, 0])) for path in paths] == [[19.5], [21.5]]

@@ -45,6 +45,7 @@ SelectTypeParameters=CR_Core
 MpiDefault=none
 SwitchType=switch/none
 SlurmdParameters=config_overrides
+SchedulerParameters=batch_sched_delay=0
 NodeName={host} NodeAddr=127.0.0.1 CPUs=2 RealMemory=4000
 PartitionName=main Nodes={host} Default=YES State=UP
 """
@@ -166,22 +167,23 @@ def cluster():
 
 
 def test_the_study_goes_through_slurm(cluster, fresh):
-    """Both chunks in one job, and the numbers are those of this machine."""
-    quick = ["--slurm-init-seconds-before-status-checks", "2"]
+    """A job a chunk, and the numbers are those of this machine."""
+    # Looks after 1, 12 and 33 s.
+    quick = ["--slurm-init-seconds-before-status-checks", "1"]
     code, words = cluster.snakemake(
         fresh, "results/study.npz", *quick, "--config", "study={chunks: 2}"
     )
     assert code == 0, words
     jobs = cluster.says("scontrol", "show", "jobs", "--oneliner").splitlines()
-    assert len(jobs) == 1, words
+    assert len(jobs) == 2, words
     for part in (
         "JobState=COMPLETED",
-        "Comment=rule_chunks_solve_chunk",
+        "Comment=rule_solve_chunk",
         "NumCPUs=1 ",
-        "TimeLimit=01:00:00",
+        "TimeLimit=00:30:00",
         f"WorkDir={fresh.folder}",
     ):
-        assert part in jobs[0]
+        assert all(part in job for job in jobs), (part, jobs)
     axes, outputs = study_files.read(fresh / "results/study.npz")
     ends = [tuple(map(int, path.stem.split("-"))) for path in fresh.folder.glob("results/study/*")]
     assert len(ends) == 2
@@ -190,8 +192,11 @@ def test_the_study_goes_through_slurm(cluster, fresh):
         assert np.array_equal(field, outputs[name]), name
 
 
-def test_the_profile_is_understood_without_slurm(fresh):
-    result = fresh.run(*PROFILE, "--dry-run", "results/study.npz")
-    assert result.returncode == 0, result.stdout
+def test_a_bad_study_is_refused_before_slurm_is_asked(fresh):
+    """The profile is understood without SLURM, too."""
+    words = r"study.grid.incidence = \{'from': 9, .*: the numbers must ascend"
+    fresh.refuses(
+        words, *PROFILE, "results/study.npz", "--config", "study={grid: {incidence: {from: 9}}}"
+    )
     entries = (fresh / "workflow/profiles/slurm/config.yaml").read_text()
     assert not re.search(r"\n\n(?!#)", entries), "an entry without a word on it"

@@ -1,4 +1,7 @@
-"""The parameter study: maps of the rebound over its two longest axes, slices of the others."""
+"""The parameter study: maps of the rebound over its two longest axes, slices of the others.
+
+A study along one axis is a curve.
+"""
 
 import itertools
 
@@ -7,21 +10,26 @@ import job
 import numpy as np
 import study_files
 from matplotlib.colors import Normalize
+from matplotlib.patches import Patch
+from scipy import ndimage
 
 from planarimpact import Regime
 
-LABELS = {
+SYMBOLS = {
     "incidence": drawing.INCIDENCE,
     "mass_ratio": "$m_2/m_1$",
     "stiffness_ratio": r"$\zeta^2$",
-    "restitution": "restitution $e$",
+    "restitution": "$e$",
 }
+LABELS = SYMBOLS | {"restitution": "restitution $e$"}
 SLICES = 6  # that are drawn
 POINTS = 400  # along an axis: more cannot be seen
 COLOURS = "RdBu_r"
 ZERO = {"colors": drawing.BLACK, "linewidths": 1.4}
 BOUNDARY = {"colors": drawing.BLACK, "linewidths": 0.7, "linestyles": [(0, (4, 2))]}
 LEAST = 0.02  # share of a map that a regime must take to be shown: not the edge of the grid
+ROOM = 0.03  # of a panel, radius of the largest circle in a regime that is named
+NEGATIVE = {"hatch": "////", "edgecolor": "0.7", "linewidth": 0}  # blue and red are one in grey
 PLATE = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 1.0}
 
 
@@ -38,7 +46,7 @@ def draw(axes, velocity, regime):
     names = list(axes)
     across, upright = sorted(sorted(names, key=lambda name: -len(axes[name]))[:2], key=names.index)
     if min(len(axes[across]), len(axes[upright])) < 2:
-        return drawing.failure("study: a map needs two axes of two points or more")
+        return _curve(axes, velocity.ravel())
     others = [name for name in names if name not in (across, upright)]
     slices = list(itertools.product(*(range(len(axes[name])) for name in others)))
     shown = [slices[i] for i in _thinned(len(slices), SLICES)]
@@ -58,10 +66,10 @@ def draw(axes, velocity, regime):
         # As a picture inside the SVG: a hundred thousand cells are no drawing.
         mesh = panel.pcolormesh(*grid, values, shading="nearest", rasterized=True, **colours)
         if values.min() < 0 < values.max():
+            panel.contourf(*grid, values, [-limit, 0.0], colors="none", hatches=[NEGATIVE["hatch"]])
             panel.contour(*grid, values, [0.0], **ZERO)
         _draw_regimes(panel, grid, codes)
-        words = (f"{LABELS[name]} = {axes[name][cut[name]]:g}" for name in others)
-        panel.set_title(", ".join(words))
+        panel.set_title(_place(axes, cut, others))
         panel.set(xlim=grid[0][[0, -1]], ylim=grid[1][[0, -1]])
         panel.set(xlabel=LABELS[across], ylabel=LABELS[upright])
         panel.label_outer()
@@ -69,13 +77,34 @@ def draw(axes, velocity, regime):
         panel.remove()
     bar = figure.colorbar(mesh, ax=panels[: len(shown)], aspect=30, pad=0.02)
     bar.set_label(drawing.REBOUND)
-    left = f", {len(shown)} of {len(slices)} slices" if len(shown) < len(slices) else ""
     entries = [
-        drawing.key(f"zero; blue: turned round{left}", color=drawing.BLACK, linewidth=1.4),
+        drawing.key("zero", color=drawing.BLACK, linewidth=1.4),
+        Patch(facecolor="none", label="negative", **NEGATIVE),
         drawing.key("regimes meet", color=drawing.BLACK, linewidth=0.7, linestyle=(0, (4, 2))),
     ]
-    figure.legend(handles=entries, loc="outside lower center", ncols=2)
+    if len(shown) < len(slices):
+        words = f"{len(shown)} of {len(slices)} slices"
+        entries.append(drawing.key(words, linestyle="none"))
+    figure.legend(handles=entries, loc="outside lower center", ncols=len(entries))
     return figure
+
+
+def _curve(axes, velocity):
+    """Velocity along the longest axis, where all others have one point."""
+    across = max(axes, key=lambda name: len(axes[name]))
+    figure = drawing.new(2.8)
+    panel = figure.subplots()
+    panel.axhline(0, **drawing.GUIDE)
+    panel.plot(axes[across], velocity, color=drawing.BLACK, marker="." if len(velocity) < 9 else "")
+    others = [name for name in axes if name != across]
+    panel.set_title(_place(axes, dict.fromkeys(others, 0), others))
+    panel.set(xlabel=LABELS[across], ylabel=drawing.REBOUND)
+    return figure
+
+
+def _place(axes, cut, others):
+    """Where a slice lies, in words."""
+    return ", ".join(f"{SYMBOLS[name]} = {axes[name][cut[name]]:g}" for name in others)
 
 
 def _thinned(count, most):
@@ -85,19 +114,30 @@ def _thinned(count, most):
 
 def _draw_regimes(panel, grid, codes):
     """Lines where regimes meet, and their names; those at the edge of the grid are left out."""
-    present, counts = np.unique(codes, return_counts=True)
-    large = present[counts >= LEAST * codes.size]
-    small = ~np.isin(codes, large)
-    for code in large:
+    regimes = [code for code in np.unique(codes) if _is_large(codes == code)]
+    for code in regimes:
         inside = codes == code
-        if inside.all() or len(large) > 1:
+        if _room(inside) >= ROOM and (inside.all() or len(regimes) > 1):
             row, column = _middle(inside)
             name = Regime(code).name.lower().replace("_", "-\n", 2).replace("_", "-")
             place = {"ha": "center", "va": "center", "fontsize": drawing.NOTE, "bbox": PLATE}
             panel.text(grid[0][column], grid[1][row], name, **place)
-        if len(large) > 1:
-            field = np.ma.masked_array(inside.astype(float), small)
+        # Each line once, from the regime with the smaller code: two that overlap lose their dashes.
+        field = np.ma.masked_array(inside.astype(float), ~np.isin(codes, regimes) | (codes < code))
+        if field.min() < field.max():
             panel.contour(*grid, field, [0.5], **BOUNDARY)
+
+
+def _is_large(inside):
+    """A region takes its share, and is more than a row or column of cells."""
+    thick = inside[1:, 1:] & inside[:-1, 1:] & inside[1:, :-1] & inside[:-1, :-1]
+    return thick.any() and inside.mean() >= LEAST
+
+
+def _room(inside):
+    """Radius of the largest circle in a region, in panels."""
+    cell = 1 / np.array(inside.shape)
+    return ndimage.distance_transform_edt(np.pad(inside, 1), sampling=cell).max()
 
 
 def _middle(inside):

@@ -7,26 +7,30 @@ import study_files
 from planarimpact import checks, study
 
 
-def gather(chunks, model, grid, path):
-    """Read chunks of a grid, in order, into one file; a chunk of another grid is refused."""
+def gather(chunks, model, settings, grid, path):
+    """Read chunks of a grid, in order, into one file; a chunk of another study is refused."""
     axes = study.axes_of(grid)
-    outputs = study.gather(axes, (_part(chunk, axes) for chunk in chunks))
-    study_files.write(path, model, axes, outputs)
+    outputs = study.gather(axes, (_part(chunk, model, settings, axes) for chunk in chunks))
+    study_files.write(path, model, settings, axes, outputs)
     print(f"{outputs['velocity'].size} points of {model}")
 
 
-def _part(path, axes):
+def _part(path, model, settings, axes):
+    start, *solver = study_files.origin(path)
     found, outputs = study_files.read(path)
     if not all(np.array_equal(found[name], axes[name]) for name in axes):
         raise checks.InputError(f"{path}: it belongs to another grid")
-    return study_files.first_point(path), outputs
+    if solver != [model, settings]:
+        raise checks.InputError(
+            f"{path}: solved by {solver[0]} {solver[1]}; allowed is {model} {settings}"
+        )
+    return start, outputs
 
 
 if "snakemake" in globals():
     with job.log_to(snakemake.log[0]):  # noqa: F821
         gather(
             snakemake.input.chunks,  # noqa: F821
-            snakemake.params.settings["model"],  # noqa: F821
-            snakemake.params.settings["grid"],  # noqa: F821
-            snakemake.output[0],  # noqa: F821
+            **snakemake.params.settings,  # noqa: F821
+            path=snakemake.output[0],  # noqa: F821
         )

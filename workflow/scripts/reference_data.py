@@ -12,6 +12,14 @@ from pathlib import Path
 import jsonschema
 import yaml
 
+# For JSON Schema 2.0 is an integer; for range() it is not.
+_Validator = jsonschema.validators.extend(
+    jsonschema.Draft202012Validator,
+    type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine(
+        "integer", lambda _, value: isinstance(value, int) and not isinstance(value, bool)
+    ),
+)
+
 
 class SourceError(Exception):
     """Something in data/ is not as source.yaml or its schema says."""
@@ -92,8 +100,9 @@ def load_all(data, schema):
 
 def refuse_invalid(document, schema, name):
     """Refuse a document that its schema does not admit, saying where and what."""
-    validator = jsonschema.Draft202012Validator(schema)
-    errors = sorted(validator.iter_errors(document), key=lambda e: [str(p) for p in e.path])
+    errors = sorted(
+        _Validator(schema).iter_errors(document), key=lambda e: [str(p) for p in e.path]
+    )
     if errors:
         where = ".".join(map(str, errors[0].path)) or "top level"
         raise SourceError(f"{name}: {where}: {errors[0].message}")

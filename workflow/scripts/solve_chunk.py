@@ -14,7 +14,7 @@ def solve(chunk, model, settings, grid, path):
     start, stop = map(int, chunk.split("-"))
     axes = study.axes_of(grid)
     outputs = study.solve(ladder.get(model).rebound, axes, start, stop, **settings)
-    study_files.write(path, model, axes, outputs, start)
+    study_files.write(path, model, settings, axes, outputs, start)
     print(f"{stop - start} points of {model}, from {start} on")
 
 

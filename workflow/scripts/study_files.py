@@ -1,5 +1,7 @@
 """Files of the parameter study: NumPy's .npz, every array under its name and unit."""
 
+import json
+
 import numpy as np
 
 from planarimpact import Regime, checks, whole_files
@@ -22,16 +24,17 @@ def column(name):
     return f"{name} [{UNITS[name]}]"
 
 
-def write(path, model, axes, outputs, start=0):
+def write(path, model, settings, axes, outputs, start=0):
     """Write the outputs from the point `start` of a grid on, whole or not at all.
 
-    With them: the axes in the order of the dimensions, the model, and what the codes of the
-    regimes mean.
+    With them: the axes in the order of the dimensions, the model and its settings, and what the
+    codes of the regimes mean.
     """
     named = {column(name): value for name, value in (axes | outputs).items()}
     words = {
         "axes": [column(name) for name in axes],
         "model": model,
+        "settings": json.dumps(settings),
         "start": start,
         "regimes": [f"{regime.value} {regime.name}" for regime in Regime],
     }
@@ -46,7 +49,7 @@ def read(path, *names):
         return axes, {name: file[column(name)] for name in names or OUTPUTS}
 
 
-def first_point(path):
-    """Number of the first point in a file."""
+def origin(path):
+    """Number of the first point in a file, the model that solved it, and its settings."""
     with np.load(path) as file:
-        return int(file["start"])
+        return int(file["start"]), str(file["model"]), json.loads(str(file["settings"]))
