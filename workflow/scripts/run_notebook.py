@@ -65,6 +65,8 @@ def run(notebook, template, executed, page):
             kernel_manager_class=ThisPython,
             config=Config({"ThisPython": place}),
             timeout=CELL_TIMEOUT,
+            # A kernel that ends by itself sometimes dies of its own sockets, and says so.
+            shutdown_kernel="immediate",
             record_timing=False,
             coalesce_streams=True,
         )
