@@ -74,8 +74,8 @@ def test_the_two_methods_agree(name):
 
 
 def test_the_table_is_what_its_command_writes():
-    """Two rows, computed anew with the same circles and steps."""
-    x = np.array([1.0, 4.0])
+    """A row, computed anew with the same circles and steps."""
+    x = np.array([4.0])
     again = annuli_tables.table(STEEL, incidence=x)
     rows = read("maw1976/rebound_nu_0.3.csv")
     np.testing.assert_allclose(again, rows[np.isin(rows[:, 0], x), 1], atol=5.1e-6)
