@@ -16,6 +16,7 @@ include: "workflow/rules/common.smk"
 localrules:
     all,
     figures,
+    notebooks,
     series,
     draw,
     compare,
@@ -25,6 +26,8 @@ localrules:
     stability,
     gather_chunks,
     study,
+    explorer,
+    report,
     gate,
 
 
