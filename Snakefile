@@ -1,9 +1,13 @@
 # Planar impact of rough compliant bodies: solve, draw, compare, judge.
 #   snakemake --cores 2            everything, up to the verdict
 #   snakemake --cores 2 figures    pictures only, without judging
+from snakemake.io import strip_wildcard_constraints
 from snakemake.utils import min_version
 
 min_version("9.0")
+
+
+include: "workflow/rules/refusals.smk"
 
 
 configfile: "workflow/config.yaml"
@@ -16,7 +20,10 @@ include: "workflow/rules/common.smk"
 localrules:
     all,
     figures,
+    measurements,
     notebooks,
+    study,
+    peers,
     series,
     draw,
     compare,
@@ -25,12 +32,14 @@ localrules:
     trade,
     stability,
     gather_chunks,
-    study,
+    draw_study,
     explorer,
     report,
     gate,
 
 
+# What can be asked for. Each target names the files on the way to it too: after a job has failed,
+# Snakemake makes a missing one anew only if it is asked for.
 rule all:
     """Everything, up to the verdict: what runs if no target is named."""
     input:
@@ -38,15 +47,40 @@ rule all:
 
 
 rule figures:
-    """Pictures only, without judging."""
+    """Pictures only, without judging, and without those that take long as they measure time."""
     input:
-        expand("figures/{figure}.{kind}", figure=run_plan.FIGURES, kind=["svg", "png"]),
+        expand("results/curves/{figure}.csv", figure=UNTIMED),
+        expand("figures/{figure}.{kind}", figure=UNTIMED, kind=["svg", "png"]),
+
+
+rule measurements:
+    """Pictures of error against time, measured on this machine, without judging."""
+    input:
+        expand("results/curves/{figure}.csv", figure=run_plan.TIMED),
+        expand("figures/{figure}.{kind}", figure=run_plan.TIMED, kind=["svg", "png"]),
 
 
 rule notebooks:
     """The lectures alone: notebooks run from the first cell to the last, as pages."""
     input:
-        notebook_pages,
+        expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS),
+        expand("figures/{notebook}.html", notebook=NOTEBOOKS),
+
+
+rule study:
+    """The parameter study alone: its grid solved and drawn."""
+    input:
+        expand("results/study/{chunk}.npz", chunk=CHUNKS),
+        "results/study.npz",
+        expand("figures/study.{kind}", kind=["svg", "png"]),
+
+
+rule peers:
+    """Error against time with LAMMPS and pooltool, where they are installed."""
+    input:
+        "results/curves/trade.csv",
+        "results/peers.csv",
+        expand("figures/trade_with_peers.{kind}", kind=["svg", "png"]),
 
 
 include: "workflow/rules/curves.smk"
@@ -57,18 +91,46 @@ include: "workflow/rules/trade.smk"
 include: "workflow/rules/stability.smk"
 include: "workflow/rules/scene.smk"
 include: "workflow/rules/study.smk"
-include: "workflow/rules/report.smk"
-include: "workflow/rules/explorer.smk"
 include: "workflow/rules/notebooks.smk"
+include: "workflow/rules/explorer.smk"
+include: "workflow/rules/report.smk"
 include: "workflow/rules/judgement.smk"
 include: "workflow/rules/peers.smk"
 
 
+if workflow.is_main_process:
+    if "--no-hooks" in sys.argv:
+        raise WorkflowError("--no-hooks: not allowed, results/PASSED would outlive what it is about")
+    judgement.drop_false_pass()
+    BEFORE = closing.state()
+
+
+# Logs and benchmarks of every job that there can be.
+WORDS_OF_JOBS = expand(
+    [
+        strip_wildcard_constraints(path)
+        for rule in workflow.rules
+        for path in [*rule.log, rule.benchmark]
+        if path
+    ],
+    **VALUES,
+)
+
+
+onstart:
+    # Half-made files would count as whole, or old ones as new.
+    for option, given in {
+        "--keep-incomplete": workflow.execution_settings.keep_incomplete,
+        "--touch": workflow.touch,
+    }.items():
+        if given:
+            raise WorkflowError(f"{option}: not allowed, results/PASSED could not be trusted")
+    closing.start(set(WORDS_OF_JOBS))
+
+
 onsuccess:
-    print(closing.words(STARTED))
+    print(closing.words(BEFORE, workflow.config_settings.config_args or ()))
 
 
 onerror:
-    print(closing.words(STARTED, stopped=True))
-    # What an earlier run passed need not hold for what this one has left.
-    Path("results/PASSED").unlink(missing_ok=True)
+    print(closing.words(BEFORE, workflow.config_settings.config_args or (), stopped=True, log=log))

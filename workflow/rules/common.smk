@@ -1,79 +1,67 @@
-# Checked config and data before any work, and what the rules ask of them.
-import sys
-import time
-from pathlib import Path
-
-from snakemake.exceptions import WorkflowError
-
-sys.path.insert(0, str(Path(workflow.basedir) / "workflow" / "scripts"))
+# Checked config and data before any work, and what the rules ask of them. All of it is worked out
+# here, once: the functions below only look it up.
 import closing
+import judgement
 import ledger_entries
-import reference_data
-import run_plan
 import study_plan
 
-STARTED = time.time()
 LEDGER = "data/stronge1994/ledger.yaml"
 NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
-LEDGER_SCHEMA = reference_data.load_yaml("workflow/schemas/ledger.schema.yaml")
 try:
     config = run_plan.with_values(config)
+    LEDGER_SCHEMA = reference_data.load_yaml("workflow/schemas/ledger.schema.yaml")
     SOURCES = reference_data.load_all("data", reference_data.load_yaml("workflow/schemas/source.schema.yaml"))
     ENTRIES = ledger_entries.load(LEDGER, LEDGER_SCHEMA)
     SYMBOLS = reference_data.load_yaml(LEDGER)["symbols"]
     schema = reference_data.load_yaml("workflow/schemas/config.schema.yaml")
     run_plan.check_config(config, schema, SOURCES, ENTRIES)
     study_plan.check(config)
+    FIGURES = {
+        figure: run_plan.plan_of_figure(config, SOURCES, figure) for figure in run_plan.FIGURES
+    }
+    EXPECTED_ROWS = run_plan.expected_rows(config, SOURCES)
+    NOTEBOOK_MODULES = {name: run_plan.modules_of_notebook(name) for name in NOTEBOOKS}
 except (reference_data.SourceError, run_plan.ConfigError) as error:
     raise WorkflowError(str(error))
 
+EXPECTED_ENTRIES = {name: "check" in entry for name, entry in ENTRIES.items()}
+CHUNKS = study_plan.chunks(config)
+# Sources whose series some figure is compared with.
+COMPARED = sorted({source for plan in FIGURES.values() for source in plan["sources"]})
+UNTIMED = [figure for figure in FIGURES if figure not in run_plan.TIMED]
+# Every value that a wildcard has in a run.
+VALUES = {
+    "figure": list(FIGURES),
+    "source": COMPARED,
+    "scene": list(config["scenes"]),
+    "notebook": NOTEBOOKS,
+    "chunk": CHUNKS,
+}
+
 
 wildcard_constraints:
-    figure="|".join(run_plan.FIGURES),
+    figure="|".join(FIGURES),
     source="[a-z0-9_]+",
     scene="|".join(config["scenes"]) or "none",
     notebook="|".join(NOTEBOOKS) or "none",
     chunk=r"\d+-\d+",
 
 
-def settings(wildcards):
-    return run_plan.settings(config, SOURCES, wildcards.figure)
+def of_figure(part):
+    """Input function: a part of what `run_plan.plan_of_figure` says of a figure."""
+
+    def found(wildcards):
+        return FIGURES[wildcards.figure][part]
+
+    return found
 
 
-def nodes(wildcards):
-    return run_plan.nodes_of(config, SOURCES, wildcards.figure)
-
-
-def node_tables(wildcards):
-    return list(nodes(wildcards))
-
-
-def comparisons(wildcards):
-    return run_plan.comparisons(config, wildcards.figure)
-
-
-def references(wildcards):
-    return run_plan.references(config, SOURCES, wildcards.figure)
-
-
-def overlays(wildcards):
-    return run_plan.overlays(config, SOURCES, wildcards.figure)
-
-
-def compared_sources(wildcards):
-    return run_plan.sources_of(config, SOURCES, wildcards.figure)
-
-
-def compared_series(wildcards):
-    return [f"results/series/{source}.csv" for source in compared_sources(wildcards)]
-
-
-def solver_modules(wildcards):
-    return run_plan.modules("solve", f"planarimpact.curves.{wildcards.figure}")
-
-
-def scene_tables(wildcards):
-    return [f"results/scenes/{scene}.csv" for scene in config["scenes"]]
+def sources(*files):
+    """Files of this repository that a rule reads, refused where one is missing."""
+    try:
+        return run_plan.present(*files)
+    except run_plan.ConfigError as error:
+        raise WorkflowError(str(error))
 
 
 def scene_tolerance(wildcards):
@@ -81,11 +69,7 @@ def scene_tolerance(wildcards):
 
 
 def notebook_modules(wildcards):
-    return run_plan.modules_of_notebook(wildcards.notebook)
-
-
-def notebook_pages(wildcards):
-    return [f"figures/{notebook}.html" for notebook in NOTEBOOKS]
+    return NOTEBOOK_MODULES[wildcards.notebook]
 
 
 def all_cores(wildcards):
@@ -96,14 +80,6 @@ def cores_reserved(wildcards):
     return workflow.cores if wildcards.figure in run_plan.TIMED else 1
 
 
-def drawing_modules(wildcards):
-    return run_plan.modules("draw", f"draw_{wildcards.figure}")
-
-
-# Checks are found by name: every module that holds some is an input.
-LEDGER_MODULES = [f"planarimpact.ledger.{module}" for module in ledger_entries.MODULES]
-
-
 def source_of(wildcards):
     return SOURCES[wildcards.source]
 
@@ -111,3 +87,7 @@ def source_of(wildcards):
 def files_of_source(wildcards):
     series = SOURCES[wildcards.source]["series"].values()
     return [f"data/{wildcards.source}/source.yaml", *(s["path"] for s in series if s["path"])]
+
+
+# Checks are found by name: every module that holds some is an input.
+LEDGER_MODULES = [f"planarimpact.ledger.{module}" for module in ledger_entries.MODULES]

@@ -1,13 +1,13 @@
 rule curves:
     """Solve every curve of one figure."""
     input:
-        modules=solver_modules,
-        tables=node_tables,
+        modules=of_figure("solver"),
+        tables=of_figure("tables"),
     output:
         "results/curves/{figure}.csv",
     params:
-        settings=settings,
-        nodes=nodes,
+        settings=of_figure("settings"),
+        nodes=of_figure("nodes"),
     log:
         "results/logs/curves_{figure}.log",
     benchmark:

@@ -1,9 +1,9 @@
 rule draw:
     """Draw one figure from its curves; never solves."""
     input:
-        modules=drawing_modules,
+        modules=of_figure("drawing"),
         curves="results/curves/{figure}.csv",
-        series=compared_series,
+        series=of_figure("series"),
     output:
         svg=report(
             "figures/{figure}.svg",
@@ -13,9 +13,9 @@ rule draw:
         ),
         png="figures/{figure}.png",
     params:
-        settings=settings,
-        overlays=overlays,
-        sources=compared_sources,
+        settings=of_figure("settings"),
+        overlays=of_figure("overlays"),
+        sources=of_figure("sources"),
     log:
         "results/logs/draw_{figure}.log",
     benchmark:

@@ -6,7 +6,7 @@ rule explorer:
     """A page to play with one impact; it solves the lumped model itself."""
     input:
         modules=run_plan.modules("write_explorer"),
-        sources=expand("workflow/explorer/{file}", file=EXPLORER_SOURCES),
+        sources=sources(*expand("workflow/explorer/{file}", file=EXPLORER_SOURCES)),
     output:
         report(
             "figures/explorer.html",

@@ -23,8 +23,8 @@ rule ledger_page:
     """The ledger as a page to read, with corrections and their derivations."""
     input:
         modules=run_plan.modules("write_ledger_page"),
-        template="workflow/report/ledger.html",
-        parts=["workflow/report/ledger_parts.html", "workflow/report/page.css"],
+        template=sources("workflow/report/ledger.html"),
+        parts=sources("workflow/report/ledger_parts.html", "workflow/report/page.css"),
         table="results/ledger.csv",
     output:
         report(

@@ -6,7 +6,7 @@ rule notebook:
     input:
         modules=notebook_modules,
         notebook="workflow/notebooks/{notebook}.ipynb",
-        template="workflow/report/notebook.html",
+        template=sources("workflow/report/notebook.html"),
     output:
         executed="results/notebooks/{notebook}.ipynb",
         page=report(

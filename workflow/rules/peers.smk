@@ -23,7 +23,7 @@ rule measure_peers:
         "../scripts/measure_peers.py"
 
 
-rule peers:
+rule draw_peers:
     """Error against time with the points of both codes."""
     input:
         modules=run_plan.modules("draw_peers"),
@@ -38,11 +38,11 @@ rule peers:
         ),
         png="figures/trade_with_peers.png",
     params:
-        settings=run_plan.settings(config, SOURCES, "trade"),
+        settings=FIGURES["trade"]["settings"],
     log:
-        "results/logs/peers.log",
+        "results/logs/draw_peers.log",
     benchmark:
-        "results/benchmarks/peers.tsv"
+        "results/benchmarks/draw_peers.tsv"
     message:
         "Drawing error against time with LAMMPS and pooltool"
     conda:

@@ -8,27 +8,30 @@ BESIDE = {
 
 
 rule report:
-    """The run as one page; always succeeds, whatever its verdicts."""
+    """The run as one page; always succeeds, whatever its verdicts, tables and modules."""
     input:
         modules=run_plan.modules("write_report"),
         interface=sorted(str(path) for path in Path("src/planarimpact").rglob("*.py")),
-        template="workflow/report/report.html",
-        parts=expand(
-            "workflow/report/{part}", part=["ledger_parts.html", "page.css", "report.css"]
+        template=sources("workflow/report/report.html"),
+        parts=sources(
+            *expand(
+                "workflow/report/{part}", part=["ledger_parts.html", "page.css", "report.css"]
+            )
         ),
-        captions="workflow/report/figures.rst",
-        table_captions=expand(
-            "workflow/report/{table}.rst", table=["trade", "which_model", "stability"]
+        captions=sources("workflow/report/figures.rst"),
+        table_captions=sources(
+            *expand("workflow/report/{table}.rst", table=["trade", "which_model", "stability"])
         ),
         verdicts="results/verdicts.csv",
-        residuals=expand("results/residuals/{figure}.csv", figure=run_plan.FIGURES),
-        pictures=expand("figures/{figure}.svg", figure=run_plan.FIGURES),
+        residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
+        pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
         tables=[*rules.trade.output, *rules.stability.output],
     output:
-        "figures/report.html",
+        page="figures/report.html",
+        problems="results/problems.csv",
     params:
-        figures=run_plan.FIGURES,
+        figures=list(FIGURES),
         config={
             key: config[key]
             for key in ("mass_ratio", "stiffness_ratio", "figures", "comparisons")
@@ -36,6 +39,8 @@ rule report:
         sources=SOURCES,
         symbols=SYMBOLS,
         links=BESIDE,
+        comparisons=EXPECTED_ROWS,
+        entries=EXPECTED_ENTRIES,
     log:
         "results/logs/report.log",
     benchmark:

@@ -27,7 +27,7 @@ rule gather_chunks:
     """Put the chunks together in the shape of the grid."""
     input:
         modules=run_plan.modules("gather_chunks"),
-        chunks=expand("results/study/{chunk}.npz", chunk=study_plan.chunks(config)),
+        chunks=expand(rules.solve_chunk.output, chunk=CHUNKS),
     output:
         "results/study.npz",
     params:
@@ -44,11 +44,11 @@ rule gather_chunks:
         "../scripts/gather_chunks.py"
 
 
-rule study:
+rule draw_study:
     """Draw maps of the rebound over the grid; never solves."""
     input:
         modules=run_plan.modules("draw_study"),
-        study="results/study.npz",
+        study=rules.gather_chunks.output,
     output:
         svg=report(
             "figures/study.svg",
@@ -58,9 +58,9 @@ rule study:
         ),
         png="figures/study.png",
     log:
-        "results/logs/study.log",
+        "results/logs/draw_study.log",
     benchmark:
-        "results/benchmarks/study.tsv"
+        "results/benchmarks/draw_study.tsv"
     message:
         "Drawing the study"
     conda:

@@ -1,68 +1,128 @@
 """What a run prints last: the tables that it made, whether it was judged, and what to do next."""
 
+import shlex
 from pathlib import Path
 
 import csv_tables
+import judgement
 import ledger_table
 import verdict_table
 
-VERDICTS, LEDGER = "results/verdicts.csv", "results/ledger.csv"
+VERDICTS, LEDGER = judgement.TABLES
+GATE_LOG = "results/logs/gate.log"
 REPORT = "figures/report.html"
+SHOWN = 8  # faults that are named; the log has them all
 NEXT = [
     f"Look:     {REPORT}, open it in a browser; everything above, with its reasons",
     "Play:     figures/explorer.html",
     "Change:   workflow/config.yaml, and run again: only what depends on it is redone",
 ]
-AFTER_A_FAILURE = [
-    f"Why, row by row:  {REPORT}, open it in a browser",
-    "On purpose? To draw without being judged:  snakemake --cores 2 figures",
-]
 STOPPED = [
     "A job stopped. What it said is above, and in results/logs/. Mend it and type the same command",
     "again: finished work is kept. README.md, Troubleshooting, has the usual causes.",
 ]
+INTERRUPTED = [
+    "Interrupted. Nothing needs mending: type the same command again, finished work is kept.",
+]
+# Snakemake's own log tells Ctrl-C from a job that failed.
+ON_REQUEST = "Terminating processes on user request"
 
 
-def words(started, stopped=False):
-    """The end of a run that began at the time `started`; older tables would mislead.
+def state():
+    """What tells later whether this run has written the tables, and the log of the gate, anew.
+
+    Times will not do: a clock may be wrong, and a copy of a folder has new ones.
+    """
+    return {path: _mark(path) for path in (VERDICTS, LEDGER, GATE_LOG)}
+
+
+def start(known):
+    """Take away what would speak of an earlier run: its verdict, and words of jobs that are gone.
 
     Parameters
     ----------
-    started : float
-        Seconds since the epoch.
+    known : collection of str
+        Logs and benchmarks of all jobs that the workflow has now.
+    """
+    Path(judgement.PASSED).unlink(missing_ok=True)
+    Path(GATE_LOG).unlink(missing_ok=True)
+    for folder in ("benchmarks", "logs"):
+        for path in Path("results", folder).glob("*"):
+            if path.is_file() and str(path) not in known:
+                path.unlink()
+
+
+def words(before, config=(), stopped=False, log=None):
+    """The end of a run; older tables would mislead, so they are left out.
+
+    Parameters
+    ----------
+    before : dict
+        What `state` gave when the run began.
+    config : sequence of str
+        What the user gave with --config, to be repeated.
     stopped : bool, optional
         A job failed, or the run was interrupted.
+    log : str, optional
+        Snakemake's log of the run.
     """
-    judged = _ran("gate", started)
-    parts, failed = [], []
-    if judged or _ran("verdicts", started):
-        rows = csv_tables.read_rows(VERDICTS)
+    new = {path for path, mark in before.items() if _mark(path) not in (mark, None)}
+    parts, failing = [], []
+    if new & {VERDICTS, GATE_LOG}:
+        rows = _rows(VERDICTS)
         parts.append(verdict_table.text(rows))
-        failed.append(("diverging comparisons, listed first", verdict_table.failing(rows)))
-    if judged or _ran("ledger", started):
-        rows = csv_tables.read_rows(LEDGER)
+        failing += [row["comparison"] for row in verdict_table.failing(rows)]
+    if new & {LEDGER, GATE_LOG}:
+        rows = _rows(LEDGER)
         parts.append(ledger_table.summary(rows))
-        failed.append(("entries of the ledger that no longer hold", ledger_table.failing(rows)))
-    bad = ", ".join(f"{len(rows)} {what}" for what, rows in failed if rows)
-    if bad:
-        parts.append(f"FAILED: {bad}. All columns: {VERDICTS}, {LEDGER}")
-    elif judged:
-        parts += [f"PASSED. All columns: {VERDICTS}, {LEDGER}; pictures: figures/", *NEXT]
+        failing += [row["entry"] for row in ledger_table.failing(rows)]
+    where = f"All columns: {VERDICTS}, {LEDGER}"
+    if GATE_LOG in new and Path(judgement.PASSED).exists():
+        parts += [f"PASSED. {where}; pictures: figures/", *NEXT]
+    elif GATE_LOG in new:
+        again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
+        parts += [
+            f"{where}. Why, row by row: {REPORT}, open it in a browser",
+            f"On purpose? To draw without being judged:  {shlex.join(again)}",
+            _failed(Path(GATE_LOG).read_text(encoding="utf-8").splitlines()),
+        ]
     else:
         parts.append("No verdict in this run as a whole. Pictures: figures/")
-    if judged and bad:
-        parts += AFTER_A_FAILURE
-    elif stopped and not judged:
-        parts += STOPPED
+        if stopped:
+            parts += INTERRUPTED if _interrupted(log) else STOPPED
+        if failing:
+            parts.append(_failed(f"diverges or no longer holds: {name}" for name in failing))
     return "\n" + "\n".join(parts) + "\n"
 
 
-def _ran(rule, started):
-    """A rule has ended since then: its benchmark is written last, and only where it succeeds.
+def _failed(faults):
+    """Headline of a failed run, and its first faults."""
+    faults = list(faults)
+    shown = [f"  {fault}" for fault in faults[:SHOWN]]
+    if len(faults) > SHOWN:
+        shown.append(f"  and {len(faults) - SHOWN} more: {GATE_LOG}")
+    return "\n".join([f"FAILED for {len(faults)} reasons:", *shown])
 
-    The gate leaves none when it fails: its log will do.
-    """
-    mark = Path(f"results/logs/{rule}.log")
-    if rule != "gate":
-        mark = Path(f"results/benchmarks/{rule}.tsv")
-    return mark.exists() and mark.stat().st_mtime >= started
+
+def _rows(path):
+    """Rows of a table; none where it cannot be read, which the gate has said."""
+    try:
+        return csv_tables.read_rows(path)
+    except (OSError, ValueError):
+        return []
+
+
+def _interrupted(log):
+    try:
+        return ON_REQUEST in Path(log).read_text(encoding="utf-8")
+    except (OSError, TypeError, ValueError):
+        return False
+
+
+def _mark(path):
+    """Changes whenever a file is written anew; None where there is none."""
+    try:
+        stat = Path(path).stat()
+    except OSError:
+        return None
+    return stat.st_mtime_ns, stat.st_ino

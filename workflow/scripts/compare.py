@@ -7,14 +7,11 @@ import csv_tables
 import job
 import numpy as np
 import reference_data
+from verdict_table import COLUMNS
 
 from planarimpact import comparison, landmarks
 from planarimpact.comparison import Verdict
 
-COLUMNS = [
-    "figure", "comparison", "verdict", "reference", "points", "rms [sigma]", "max [sigma]",
-    "rms [axis units]", "found", "stated", "allowed", "note", "reason",
-]  # fmt: skip
 RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
 # Two ways to one energy agree to this share of it; see the comparison's reason.
 BALANCE_SIGMA = 1e-12

@@ -4,9 +4,11 @@ A solver that crashed leaves a table with the single column `error`.
 """
 
 import csv
-import os
 
+import job  # noqa: F401  (before planarimpact: it finds the sources of this checkout)
 import numpy as np
+
+from planarimpact import whole_files
 
 
 class Failed(Exception):
@@ -31,12 +33,13 @@ def write(path, named, first="curve"):
 
 def write_rows(path, header, rows):
     """Write a CSV whole or not at all."""
-    partial = f"{path}.partial"
-    with open(partial, "w", newline="", encoding="utf-8") as file:
+    with (
+        whole_files.written(path) as partial,
+        open(partial, "w", newline="", encoding="utf-8") as file,
+    ):
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(header)
         writer.writerows(rows)
-    os.replace(partial, path)
 
 
 def read(path):
@@ -57,10 +60,23 @@ def read(path):
     return named
 
 
-def read_rows(path):
-    """Rows of a table as dicts of text."""
+def read_rows(path, columns=()):
+    """Rows of a table as dicts of text.
+
+    Raises
+    ------
+    ValueError
+        Naming file and line, if one of `columns` is missing or a row is not as wide as the header.
+    """
     with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+        header, *rows = list(csv.reader(file, strict=True)) or [[]]
+    missing = [column for column in columns if column not in header]
+    if missing:
+        raise ValueError(f"{path}, line 1: column '{missing[0]}' is missing")
+    for line, row in enumerate(rows, 2):
+        if len(row) != len(header):
+            raise ValueError(f"{path}, line {line}: {len(row)} cells where {len(header)} belong")
+    return [dict(zip(header, row, strict=True)) for row in rows]
 
 
 def _values(column):

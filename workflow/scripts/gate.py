@@ -1,36 +1,55 @@
-"""The gate: pass only if no comparison diverges and every entry of the ledger holds.
+"""The gate: pass only if every row is there and none fails, and all that was made is whole.
 
 Runs last, so nothing else is lost.
 """
 
 import sys
+from pathlib import Path
 
 import csv_tables
 import job
-import ledger_table
-import verdict_table
+import judgement
 
 
-def gate(verdicts, ledger, passed):
-    """Write `passed` if no row of either table fails; the number of failing rows."""
-    diverging = verdict_table.failing(csv_tables.read_rows(verdicts))
-    lapsed = ledger_table.failing(csv_tables.read_rows(ledger))
-    for row in diverging:
-        print(f"diverges: {row['comparison']}: {row['note']}")
-    for row in lapsed:
-        print(f"no longer holds: {row['entry']}: {row['problem']}")
-    bad = len(diverging) + len(lapsed)
-    if not bad:
-        with open(passed, "w", encoding="utf-8") as file:
-            file.write("no comparison diverges, every entry of the ledger holds\n")
-    return bad
+def faults(tables, residuals, problems, made, comparisons, entries):
+    """Why the run must not pass, in words, one line a fault.
+
+    Parameters
+    ----------
+    tables : (str, str)
+        results/verdicts.csv and results/ledger.csv.
+    residuals, made : list of str
+        Tables of residuals; every file that the run makes, these tables among them.
+    problems : str
+        Table of what the report could not show.
+    comparisons, entries : dict
+        As `judgement.faults_of_tables`.
+
+    Returns
+    -------
+    list of str
+    """
+    found = judgement.faults_of_files(made)
+    if found:  # what is cut cannot be counted
+        return found
+    verdicts, ledger = map(csv_tables.read_rows, tables)
+    found = judgement.faults_of_tables(verdicts, ledger, comparisons, entries)
+    found += [f"report: {row['problem']}" for row in csv_tables.read_rows(problems)]
+    return found or judgement.faults_of_residuals(verdicts, residuals)
 
 
 if "snakemake" in globals():
     with job.log_to(snakemake.log[0]):  # noqa: F821
-        count = gate(
-            snakemake.input.verdicts,  # noqa: F821
-            snakemake.input.ledger,  # noqa: F821
-            snakemake.output[0],  # noqa: F821
+        given = snakemake.input  # noqa: F821
+        found = faults(
+            (given.verdicts, given.ledger),
+            given.residuals,
+            given.problems,
+            given.made,
+            snakemake.params.comparisons,  # noqa: F821
+            snakemake.params.entries,  # noqa: F821
         )
-    sys.exit(min(count, 1))
+        print("\n".join(found))
+        if not found:
+            Path(snakemake.output[0]).write_text(judgement.words_of_pass(), encoding="utf-8")  # noqa: F821
+    sys.exit(bool(found))

@@ -1,5 +1,7 @@
 """Put the chunks of the parameter study together."""
 
+from pathlib import Path
+
 import job
 import numpy as np
 import study_files
@@ -8,11 +10,17 @@ from planarimpact import checks, study
 
 
 def gather(chunks, model, settings, grid, path):
-    """Read chunks of a grid, in order, into one file; a chunk of another study is refused."""
+    """Read chunks of a grid, in order, into one file; a chunk of another study is refused.
+
+    Chunks of an earlier grid, which lie beside them, are removed: nothing will read them again.
+    """
     axes = study.axes_of(grid)
     outputs = study.gather(axes, (_part(chunk, model, settings, axes) for chunk in chunks))
     study_files.write(path, model, settings, axes, outputs)
     print(f"{outputs['velocity'].size} points of {model}")
+    current = {Path(chunk) for chunk in chunks}
+    for path in {path for chunk in current for path in chunk.parent.glob("*.npz")} - current:
+        path.unlink()
 
 
 def _part(path, model, settings, axes):

@@ -9,7 +9,7 @@ if "snakemake" in globals():
         rows = verdict_table.gather(snakemake.input.verdicts)  # noqa: F821
         csv_tables.write_rows(
             snakemake.output[0],  # noqa: F821
-            list(rows[0]),
-            [list(row.values()) for row in rows],
+            verdict_table.COLUMNS,
+            [[row[column] for column in verdict_table.COLUMNS] for row in rows],
         )
         print(verdict_table.text(rows))

@@ -1,9 +1,9 @@
 """What all pages share: templates in one folder, and files written whole or not at all."""
 
-import os
-from pathlib import Path
-
 import jinja2
+import job  # noqa: F401  (before planarimpact: it finds the sources of this checkout)
+
+from planarimpact import whole_files
 
 
 def environment(folder):
@@ -19,6 +19,5 @@ def environment(folder):
 
 def write(path, text):
     """Write a page whole or not at all."""
-    partial = Path(f"{path}.partial")
-    partial.write_text(text, encoding="utf-8")
-    os.replace(partial, path)
+    with whole_files.written(path) as partial:
+        partial.write_text(text, encoding="utf-8")

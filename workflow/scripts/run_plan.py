@@ -19,7 +19,7 @@ WITHOUT = {"fig2": ["mass_ratio"], "superball": BOTH, "stability": BOTH, "rod": 
 
 
 class ConfigError(Exception):
-    """workflow/config.yaml or a --config value is not admissible, or a module is no Python."""
+    """What the rules are made from is not admissible: config, a module, a file that they read."""
 
 
 def with_values(node):
@@ -144,6 +144,38 @@ def comparisons(config, figure):
     return {name: dict(entry) for name, entry in chosen if entry["figure"] == figure}
 
 
+def expected_rows(config, inventory):
+    """Rows that the table of verdicts must have: `{comparison: may it be awaited}`."""
+    rows = {f"{figure}-solved": False for figure in FIGURES}
+    for figure in FIGURES:
+        known = references(config, inventory, figure)
+        for name, entry in comparisons(config, figure).items():
+            series = known.get(entry.get("reference"), {})
+            rows[name] = series.get("kind") == "awaited" and not series["path"]
+    return rows
+
+
+def plan_of_figure(config, inventory, figure):
+    """What the rules of one figure are told, and the files that they read.
+
+    It is asked for each figure before Snakemake looks at a rule: where an input function raises,
+    Snakemake drops the rule and takes its old output for a source file, without a word.
+    """
+    sources, tables = sources_of(config, inventory, figure), nodes_of(config, inventory, figure)
+    return {
+        "solver": modules("solve", f"planarimpact.curves.{figure}"),
+        "drawing": modules("draw", f"draw_{figure}"),
+        "settings": settings(config, inventory, figure),
+        "nodes": tables,
+        "tables": list(tables),
+        "comparisons": comparisons(config, figure),
+        "references": references(config, inventory, figure),
+        "overlays": overlays(config, inventory, figure),
+        "sources": sources,
+        "series": [f"results/series/{source}.csv" for source in sources],
+    }
+
+
 def references(config, inventory, figure):
     """Series and facts that the comparisons of one figure name: `{source/entry: entry}`."""
     named = [c["reference"] for c in comparisons(config, figure).values() if "reference" in c]
@@ -193,6 +225,28 @@ def nodes_of(config, inventory, figure):
     }
 
 
+def refuse_unreadable_modules():
+    """Refuse a module that Python cannot read, whatever the target: its rule would be dropped."""
+    for file in [*SCRIPTS.glob("*.py"), *SRC.rglob("*.py")]:
+        try:
+            compile(file.read_bytes(), file, "exec", dont_inherit=True)
+        except SyntaxError as error:
+            raise ConfigError(f"{_shown(file)}, line {error.lineno}: {error.msg}") from None
+        except ValueError as error:
+            raise ConfigError(f"{_shown(file)}: {error}") from None
+
+
+def present(*files):
+    """The files, if they are there; Snakemake would drop the rule that reads a missing one.
+
+    One file comes back as it is, several as a list: what an input of a rule may be.
+    """
+    for file in files:
+        if not Path(file).is_file():
+            raise ConfigError(f"{file}: missing, and a rule reads it")
+    return list(files) if len(files) > 1 else files[0]
+
+
 def modules(*names):
     """Files of some modules and of all they import: scripts beside this one, and planarimpact.
 
@@ -204,36 +258,44 @@ def modules(*names):
         if file not in found:
             found.add(file)
             todo += _imported(file)
-    return sorted(str(file.relative_to(SRC.parent)) for file in found)
+    return sorted(str(_shown(file)) for file in found)
 
 
 def modules_of_notebook(name):
     """As `modules`, of what runs a notebook of workflow/notebooks and of what it imports."""
     path = SCRIPTS.parent / "notebooks" / f"{name}.ipynb"
-    book = json.loads(path.read_text(encoding="utf-8"))
-    cells = ["".join(cell["source"]) for cell in book["cells"] if cell["cell_type"] == "code"]
-    return modules("run_notebook", *_imports("\n".join(cells), path))
+    try:
+        book = json.loads(path.read_text(encoding="utf-8"))
+        cells = ["".join(cell["source"]) for cell in book["cells"] if cell["cell_type"] == "code"]
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
+        words = f"{type(error).__name__}: {error}"
+        raise ConfigError(f"{_shown(path)}: not a notebook ({words})") from None
+    try:
+        imported = [name for cell in cells for name in _imports(cell)]
+    except (SyntaxError, ValueError) as error:
+        raise ConfigError(f"{_shown(path)}: a cell is no Python: {error}") from None
+    return modules("run_notebook", *imported)
 
 
 @functools.cache
 def _imported(file):
-    names = _imports(file.read_text(encoding="utf-8"), file)
-    return [path for name in names for path in _files(name)]
+    return [path for name in _imports(file.read_bytes()) for path in _files(name)]
 
 
-def _imports(text, file):
-    """Names that the text of a file imports."""
-    try:
-        tree = ast.parse(text)
-    except SyntaxError as error:
-        raise ConfigError(f"{file}, line {error.lineno}: {error.msg}") from None
+def _imports(text):
+    """Names that a Python text imports."""
     names = []
-    for node in ast.walk(tree):
+    for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):
             names += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom) and node.module:
             names += [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
     return names
+
+
+def _shown(file):
+    """A path of the repository, from its top folder."""
+    return file.relative_to(SRC.parent)
 
 
 def _files(name):

@@ -3,14 +3,23 @@
 from collections import Counter
 
 import csv_tables
+from tabulate import tabulate
 
+COLUMNS = [
+    "figure", "comparison", "verdict", "reference", "points", "rms [sigma]", "max [sigma]",
+    "rms [axis units]", "found", "stated", "allowed", "note", "reason",
+]  # fmt: skip
 ORDER = ["diverges", "differs as documented", "awaited", "agrees"]
 
 
 def gather(paths):
-    """Rows of several tables, worst verdict first, else in the order of the figures."""
-    rows = [row for path in paths for row in csv_tables.read_rows(path)]
-    return sorted(rows, key=lambda row: ORDER.index(row["verdict"]))
+    """Rows of several tables, worst verdict first, else in the order of the figures.
+
+    A verdict that cannot be comes before all: the gate will name it.
+    """
+    rows = [row for path in paths for row in csv_tables.read_rows(path, COLUMNS)]
+    rank = {verdict: place for place, verdict in enumerate(ORDER)}
+    return sorted(rows, key=lambda row: rank.get(row["verdict"], -1))
 
 
 def failing(rows):
@@ -19,21 +28,15 @@ def failing(rows):
 
 
 def text(rows):
-    """The table for a terminal; the note of a failing row is written out below it."""
-    lines = [f"{'verdict':<21} {'comparison':<35} {'measured':<27} {'allowed':<27} note"]
-    lines.append("-" * 130)
-    for row in rows:
-        note = row["note"] if row["verdict"] != "diverges" else ""
-        lines.append(
-            f"{row['verdict']:<21} {row['comparison']:<35} {_measured(row):<27} "
-            f"{row['allowed']:<27} {note}".rstrip()
-        )
-        if row["verdict"] == "diverges" and row["note"]:
-            lines.append(f"{'':<21} {row['note']}")
+    """The table for a terminal, and how many rows have each verdict."""
+    cells = [
+        [row["verdict"], row["comparison"], _measured(row), row["allowed"], row["note"]]
+        for row in rows
+    ]
     counts = Counter(row["verdict"] for row in rows)
-    lines.append("-" * 130)
-    lines.append(", ".join(f"{counts[v]} {v}" for v in ORDER if counts[v]))
-    return "\n".join(lines)
+    headers = ["verdict", "comparison", "measured", "allowed", "note"]
+    table = tabulate(cells, headers, disable_numparse=True)
+    return f"{table}\n\n" + ", ".join(f"{counts[v]} {v}" for v in ORDER if counts[v])
 
 
 def _measured(row):

@@ -1,12 +1,14 @@
 """Write the run as one page: verdicts, figures, provenance, ledger, tables, interface.
 
 Reads what the run has written and solves nothing. A solver that crashed is a failing row, a picture
-and tables that say so.
+and tables that say so. What cannot be shown is left out and named on top, with file and line; the
+gate fails on it.
 """
 
 import base64
 import io
 import re
+import traceback
 from collections import Counter
 from pathlib import Path
 from types import SimpleNamespace
@@ -17,11 +19,14 @@ import docstring_html
 import draw_residuals
 import jinja2
 import job
+import judgement
+import ledger_table
 import pages
 import run_facts
 import verdict_table
 import write_ledger_page
 import yaml
+from markupsafe import escape
 
 MARKS = {
     "diverges": "fails",
@@ -36,9 +41,47 @@ MEANING = {
     "agrees": "within its tolerance",
 }
 SHARED = ("mass_ratio", "stiffness_ratio")
+ROOT = Path(__file__).parents[2]
 
 
-def page(verdicts, ledger, figures, tables, sources, run, symbols, links, template):
+class Salvage:
+    """Calls functions, goes on where one fails, and keeps what to say of it.
+
+    Attributes
+    ----------
+    problems : list of str
+        What failed, the error, and the file and line where it happened.
+
+    Examples
+    --------
+    >>> salvage = Salvage()
+    >>> salvage("Fig. 5", "nothing", lambda: {}["curve"])
+    'nothing'
+    >>> salvage.problems[0].split(" (")[0]
+    "Fig. 5: KeyError: 'curve'"
+    """
+
+    def __init__(self):
+        self.problems = []
+
+    def __call__(self, what, otherwise, function, *arguments):
+        """What the function returns, or `otherwise`."""
+        try:
+            return function(*arguments)
+        except Exception as error:
+            traceback.print_exc()
+            self.problems.append(f"{what}: {type(error).__name__}: {error}{_place(error)}")
+            return otherwise
+
+
+def _place(error):
+    """Behind the words of an error, file and line where it arose: the last of this repository."""
+    frames = traceback.extract_tb(error.__traceback__)
+    ours = [f for f in frames if f.filename.startswith((str(ROOT / "workflow"), str(ROOT / "src")))]
+    return f" ({Path(ours[-1].filename).relative_to(ROOT)}, line {ours[-1].lineno})" if ours else ""
+
+
+def page(verdicts, ledger, figures, tables, sources, run, symbols, links, template, faults, tried):
     """The report.
 
     Parameters
@@ -58,13 +101,21 @@ def page(verdicts, ledger, figures, tables, sources, run, symbols, links, templa
     links : dict
         `{file beside the report: what it is}`.
     template : Path
+    faults : list of str
+        Why the run does not pass, as `judgement.faults_of_tables` says.
+    tried : Salvage
+        Calls what may fail; its problems so far are shown too.
 
     Returns
     -------
     str
     """
     names = {row["entry"] for row in ledger}
-    reference = api_reference.modules()
+    reference = tried("interface", {}, api_reference.modules)
+    functions = {
+        name: tried(title(name), [], api_reference.functions_of_figure, reference, name)
+        for name in (figures if reference else ())
+    }
     known = api_reference.anchors(reference)
 
     def docs(text, module):
@@ -82,18 +133,30 @@ def page(verdicts, ledger, figures, tables, sources, run, symbols, links, templa
     return environment.get_template(Path(template).name).render(
         write_ledger_page.words(ledger, symbols),
         verdicts=verdicts,
+        faults=faults + tried.problems,
         failing=verdict_table.failing(verdicts),
         verdict_counts=Counter(row["verdict"] for row in verdicts),
         marks=MARKS,
         verdict_meaning=MEANING,
         entry_of=_entry_of(names),
         figures=figures,
-        functions={name: api_reference.functions_of_figure(reference, name) for name in figures},
+        functions=functions,
         tables=tables,
         sources=sources,
         run=run,
         links=links,
         reference=reference,
+    )
+
+
+def without_details(faults):
+    """A page of faults alone, where the report itself cannot be written."""
+    items = "\n".join(f"<li>{escape(fault)}</li>" for fault in faults)
+    return (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Failed</title></head>'
+        "<body><h1>Planar impact of rough compliant bodies: report of a run</h1>\n"
+        "<p><b>FAILED</b> The report could not be written. The tables in results/ and the pictures "
+        f"beside this page are there.</p>\n<ul>\n{items}\n</ul></body></html>\n"
     )
 
 
@@ -214,64 +277,76 @@ def _yaml(document):
     return yaml.dump(document, Dumper=_Dumper, **style)
 
 
-def write(output, verdicts, ledger, svgs, residuals, captions, tables, config, **parts):
-    """Read the tables and pictures of a run and write the report.
+def write(output, problems, paths, residuals, svgs, captions, config, expected, **parts):
+    """Read the tables and pictures of a run and write the report, and what it could not show.
 
     Parameters
     ----------
-    output, verdicts, ledger : str
-        The report, and both tables.
-    svgs, residuals : dict
+    output, problems : str
+        The report, and the table of what could not be shown.
+    paths : dict
+        `{name: file}` of the tables: `verdicts`, `ledger`, and those of the sections.
+    residuals, svgs : dict
         `{figure: file}`.
     captions : str
         The template of the figures' captions; those of tables stand beside it.
-    tables : dict
-        `{name: file}`.
     config : dict
+    expected : (dict, dict)
+        Rows that the verdicts and the ledger must have, as `judgement.faults_of_tables` takes them.
     **parts
         `sources`, `run`, `symbols`, `links`, `template` as for `page`.
     """
-    rows = csv_tables.read_rows(verdicts)
-    figures = {
-        name: figure(
-            name,
-            Path(svgs[name]).read_bytes(),
-            caption(captions, name),
-            csv_tables.read_rows(residuals[name]),
-            rows,
-            config,
-        )
-        for name in svgs
-    }
-    tables = {
-        name: {
-            "rows": csv_tables.read_rows(path),
-            "caption": caption(Path(captions).with_name(f"{name}.rst"), name),
-        }
-        for name, path in tables.items()
-    }
-    pages.write(output, page(rows, csv_tables.read_rows(ledger), figures, tables, **parts))
+    tried = Salvage()
+    read = csv_tables.read_rows
+    paths = dict(paths)
+    rows = tried("verdicts", [], read, paths.pop("verdicts"), verdict_table.COLUMNS)
+    ledger = tried("ledger", [], read, paths.pop("ledger"), ledger_table.COLUMNS)
+    faults = judgement.faults_of_tables(rows, ledger, *expected)
+    rows = [row for row in rows if row["verdict"] in MARKS]
+    ledger = [row for row in ledger if row["verdict"] in write_ledger_page.STYLE]
+
+    def section(name):
+        text = caption(captions, name)
+        picture = Path(svgs[name]).read_bytes()
+        return figure(name, picture, text, read(residuals[name]), rows, config)
+
+    def table(name):
+        text = caption(Path(captions).with_name(f"{name}.rst"), name)
+        return {"rows": read(paths[name]), "caption": text}
+
+    figures = {name: tried(title(name), None, section, name) for name in svgs}
+    figures = {name: found for name, found in figures.items() if found}
+    tables = {name: tried(name, {"rows": [], "caption": ""}, table, name) for name in paths}
+    run = parts.pop("run")
+    run = {name: tried(name, missing, function) for name, (missing, function) in run.items()}
+    text = tried(
+        "report",
+        None,
+        lambda: page(rows, ledger, figures, tables, run=run, faults=faults, tried=tried, **parts),
+    )
+    pages.write(output, text or without_details(faults + tried.problems))
+    csv_tables.write_rows(problems, ["problem"], [[problem] for problem in tried.problems])
 
 
 if "snakemake" in globals():
     with job.log_to(snakemake.log[0]):  # noqa: F821
         files, given = snakemake.input, snakemake.params  # noqa: F821
         write(
-            snakemake.output[0],  # noqa: F821
-            files.verdicts,
-            files.ledger,
-            dict(zip(given.figures, files.pictures, strict=True)),
+            snakemake.output.page,  # noqa: F821
+            snakemake.output.problems,  # noqa: F821
+            {Path(path).stem: path for path in (files.verdicts, files.ledger, *files.tables)},
             dict(zip(given.figures, files.residuals, strict=True)),
+            dict(zip(given.figures, files.pictures, strict=True)),
             files.captions,
-            {Path(path).stem: path for path in files.tables},
             given.config,
+            (given.comparisons, given.entries),
             sources=given.sources,
             run={
-                "versions": run_facts.versions(),
-                "system": run_facts.system(),
-                "date": run_facts.date(),
-                "commit": run_facts.commit("."),
-                "times": run_facts.times("results/benchmarks"),
+                "versions": ({}, run_facts.versions),
+                "system": ("", run_facts.system),
+                "date": ("", run_facts.date),
+                "commit": ("", lambda: run_facts.commit(".")),
+                "times": ([], lambda: run_facts.times("results/benchmarks")),
             },
             symbols=given.symbols,
             links=given.links,

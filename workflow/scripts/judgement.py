@@ -1,0 +1,164 @@
+"""Is a run good? What its tables say, whether they are complete, and whether its files are whole."""
+
+import csv
+import hashlib
+import json
+import zipfile
+import zlib
+from pathlib import Path
+from xml.etree import ElementTree
+
+import csv_tables
+import ledger_table
+import verdict_table
+
+PASSED = "results/PASSED"
+TABLES = ("results/verdicts.csv", "results/ledger.csv")
+HOW_TO_MEND = "remove that file and run again"
+# The points of a figure are counted (`faults_of_residuals`): it may have none. So may a good report.
+MAY_HAVE_NO_ROWS = {"residuals", "problems"}
+
+
+def faults_of_tables(verdicts, ledger, comparisons, entries):
+    """Why a run must not pass, in words, one line a fault.
+
+    Parameters
+    ----------
+    verdicts, ledger : list of dict
+        Rows of results/verdicts.csv and results/ledger.csv.
+    comparisons : dict
+        `{name: is its reference awaited}` of every row that the first must have.
+    entries : dict
+        `{name: has it a check}` of every row that the second must have.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> row = {"comparison": "fig6-e1", "verdict": "agrees"}
+    >>> faults_of_tables([row], [], {"fig6-e1": False, "fig6-e0": False}, {})
+    ['results/verdicts.csv: 0 rows of fig6-e0 where 1 belongs: remove that file and run again']
+    """
+    found = _miscounted(TABLES[0], "comparison", verdicts, comparisons)
+    found += _miscounted(TABLES[1], "entry", ledger, entries)
+    for row in verdicts:
+        name, verdict = row.get("comparison"), row.get("verdict")
+        if verdict == "diverges":
+            found.append(f"diverges: {name}: {row.get('note')}")
+        elif verdict not in verdict_table.ORDER or (verdict == "awaited") != comparisons.get(name):
+            found.append(f"{TABLES[0]}: {name} = {verdict!r} cannot be: {HOW_TO_MEND}")
+    for row in ledger:
+        name, holds = row.get("entry"), row.get("holds")
+        if holds == "no":
+            found.append(f"no longer holds: {name}: {row.get('problem')}")
+        elif holds != ("yes" if entries.get(name) else ""):
+            found.append(f"{TABLES[1]}: {name}, holds = {holds!r} cannot be: {HOW_TO_MEND}")
+    return found
+
+
+def _miscounted(table, column, rows, expected):
+    names = [row.get(column) for row in rows]
+    return [
+        f"{table}: {names.count(name)} rows of {name} where {int(name in expected)} belongs: "
+        f"{HOW_TO_MEND}"
+        for name in dict.fromkeys([*expected, *names])
+        if names.count(name) != (name in expected)
+    ]
+
+
+def faults_of_residuals(verdicts, paths):
+    """Tables of residuals that lack points which the verdicts rest on, a line each."""
+    counts = {}
+    for path in paths:
+        for row in csv_tables.read_rows(path):
+            name = row.get("comparison")
+            counts[name] = counts.get(name, 0) + 1
+    return [
+        f"results/residuals/{row['figure']}.csv: {counts.get(row['comparison'], 0)} points of "
+        f"{row['comparison']} where {row['points']} belong: {HOW_TO_MEND}"
+        for row in verdicts
+        if int(row.get("points") or 0) != counts.get(row["comparison"], 0)
+    ]
+
+
+def faults_of_files(paths):
+    """Files that are missing, empty or cut, a line each.
+
+    Parameters
+    ----------
+    paths : iterable of str
+        Judged by their endings: tables, pictures, pages, notebooks, arrays.
+    """
+    found = []
+    for path in paths:
+        try:
+            flaw = _LOOK[Path(path).suffix](Path(path))
+        except (OSError, ValueError, SyntaxError, csv.Error, zipfile.BadZipFile, zlib.error) as error:
+            flaw = f"{error}" or type(error).__name__
+        if flaw:
+            found.append(f"{path}: not whole ({flaw}): {HOW_TO_MEND}")
+    return found
+
+
+def _table(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        header, *rows = list(csv.reader(file)) or [[]]
+    ragged = [number for number, row in enumerate(rows, 2) if len(row) != len(header)]
+    if not header or not path.read_bytes().endswith(b"\n"):
+        return "it ends too early"
+    if not rows and not {path.stem, path.parent.name} & MAY_HAVE_NO_ROWS:
+        return "no rows"
+    return f"line {ragged[0]} is not as wide as the header" if ragged else ""
+
+
+def _vector_picture(path):
+    return "" if ElementTree.parse(path).getroot().tag.endswith("svg") else "no SVG"
+
+
+def _raster_picture(path):
+    data = path.read_bytes()
+    whole = data.startswith(b"\x89PNG\r\n\x1a\n") and data.endswith(b"IEND\xaeB`\x82")
+    return "" if whole else "no whole PNG"
+
+
+def _page(path):
+    return "" if path.read_bytes().rstrip().endswith(b"</html>") else "it ends too early"
+
+
+def _notebook(path):
+    return "" if json.loads(path.read_bytes()).get("cells") else "no cells"
+
+
+def _arrays(path):
+    with zipfile.ZipFile(path) as file:
+        return file.testzip() or ""
+
+
+_LOOK = {
+    ".csv": _table,
+    ".svg": _vector_picture,
+    ".png": _raster_picture,
+    ".html": _page,
+    ".ipynb": _notebook,
+    ".npz": _arrays,
+}
+
+
+def words_of_pass():
+    """What results/PASSED says: that it belongs to these tables and no others."""
+    lines = ["no comparison diverges, every entry of the ledger holds"]
+    for table in TABLES:
+        lines.append(f"sha256 {hashlib.sha256(Path(table).read_bytes()).hexdigest()} {table}")
+    return "\n".join(lines) + "\n"
+
+
+def drop_false_pass():
+    """Remove a results/PASSED that the gate did not write for the tables that are there."""
+    try:
+        if Path(PASSED).read_text(encoding="utf-8") == words_of_pass():
+            return
+    except (OSError, ValueError):
+        pass
+    Path(PASSED).unlink(missing_ok=True)
