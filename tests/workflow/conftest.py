@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[2]
 PARTS = ["Snakefile", "profiles", "workflow", "src", "data", "figures/README.md", ".gitignore"]
 
 
-TIMEOUT = 300  # s, of one run
+TIMEOUT = 3600  # s, of one run: against one that hangs, not against a busy machine
 
 
 class Project:
@@ -113,6 +113,16 @@ def first_run(tmp_path_factory):
 def finished(first_run, tmp_path):
     """A copy of the project after a full run, free to change."""
     return copy_of(first_run[0].folder, tmp_path)
+
+
+@pytest.fixture
+def copied_modules(tmp_path, monkeypatch):
+    """The modules in a folder of their own, where run_plan looks for them."""
+    for part in ("src", "workflow"):
+        shutil.copytree(ROOT / part, tmp_path / part)
+    monkeypatch.setattr(run_plan, "SRC", tmp_path / "src")
+    monkeypatch.setattr(run_plan, "SCRIPTS", tmp_path / "workflow/scripts")
+    return tmp_path
 
 
 @pytest.fixture(scope="session")

@@ -77,16 +77,6 @@ def test_errors_of_the_models_are_as_printed(first_run):
                 assert abs(exact - float(error)) <= max(0.06 * exact, 1e-7), (name, e, exact)
 
 
-def test_rule_graph_is_that_of_the_workflow(fresh):
-    shown = set()
-    for line in blocks("mermaid")[0].splitlines()[1:]:
-        chain = [word.strip() for word in line.split("-->")]
-        shown |= set(zip(chain, chain[1:], strict=False))
-    graph = fresh.run("--rulegraph", "mermaid-js").stdout
-    names = dict(re.findall(r"(id\d+)\[(\w+)\]", graph))
-    assert shown == {(names[a], names[b]) for a, b in re.findall(r"(id\d+) --> (id\d+)", graph)}
-
-
 def test_paths_and_sources_named_exist():
     named = re.findall(r"`((?:data|workflow|src|tests|figures)/[\w./]+)`", README)
     named += re.findall(r"\]\(((?!http|#)[^)]+)\)", README)

@@ -15,7 +15,6 @@ from pathlib import Path
 
 import api_reference
 import browser
-import compare
 import docstring_html
 import draw_residuals
 import ledger_table
@@ -24,6 +23,7 @@ import pytest
 import reference_data
 import run_facts
 import run_plan
+import verdict_table
 import write_ledger_page
 import write_report
 import yaml
@@ -244,7 +244,7 @@ def doctored(*lapsed):
 
     def row(figure, comparison, verdict, **cells):
         cells = {"figure": figure, "comparison": comparison, "verdict": verdict} | cells
-        return dict.fromkeys(compare.COLUMNS, "") | cells
+        return dict.fromkeys(verdict_table.COLUMNS, "") | cells
 
     verdicts = [
         row("fig6", "fig6-e1", "diverges", points="2", **{"rms [sigma]": "7", "max [sigma]": "9"}),
@@ -273,6 +273,8 @@ def doctored(*lapsed):
         "symbols",
         {},
         ROOT / "workflow/report/report.html",
+        ["fig6-e1 diverges"] if not lapsed else ["eq-1 no longer holds"],
+        write_report.Salvage(),
     )
 
 

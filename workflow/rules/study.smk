@@ -48,7 +48,7 @@ rule draw_study:
     """Draw maps of the rebound over the grid; never solves."""
     input:
         modules=run_plan.modules("draw_study"),
-        study=rules.gather_chunks.output,
+        study="results/study.npz",
     output:
         svg=report(
             "figures/study.svg",

@@ -1,5 +1,6 @@
 """What a run prints last: the tables that it made, whether it was judged, and what to do next."""
 
+import re
 import shlex
 from pathlib import Path
 
@@ -18,14 +19,13 @@ NEXT = [
     "Change:   workflow/config.yaml, and run again: only what depends on it is redone",
 ]
 STOPPED = [
-    "A job stopped. What it said is above, and in results/logs/. Mend it and type the same command",
-    "again: finished work is kept. README.md, Troubleshooting, has the usual causes.",
+    "What it said is above, and in results/logs/. Mend it and type the same command again:",
+    "finished work is kept. README.md, Troubleshooting, has the usual causes.",
 ]
-INTERRUPTED = [
-    "Interrupted. Nothing needs mending: type the same command again, finished work is kept.",
-]
-# Snakemake's own log tells Ctrl-C from a job that failed.
+INTERRUPTED = "Interrupted. Nothing needs mending: type the same command again to go on."
+# What Snakemake's own log says of Ctrl-C, and of a job that failed.
 ON_REQUEST = "Terminating processes on user request"
+FAILED_JOB = re.compile(r"^Error in rule (\w+):", flags=re.M)
 
 
 def state():
@@ -89,7 +89,7 @@ def words(before, config=(), stopped=False, log=None):
     else:
         parts.append("No verdict in this run as a whole. Pictures: figures/")
         if stopped:
-            parts += INTERRUPTED if _interrupted(log) else STOPPED
+            parts += _stopped(log)
         if failing:
             parts.append(_failed(f"diverges or no longer holds: {name}" for name in failing))
     return "\n" + "\n".join(parts) + "\n"
@@ -112,11 +112,16 @@ def _rows(path):
         return []
 
 
-def _interrupted(log):
+def _stopped(log):
+    """Why a run ended early."""
     try:
-        return ON_REQUEST in Path(log).read_text(encoding="utf-8")
+        said = Path(log).read_text(encoding="utf-8")
     except (OSError, TypeError, ValueError):
-        return False
+        said = ""
+    if ON_REQUEST in said:
+        return [INTERRUPTED]
+    names = ", ".join(dict.fromkeys(FAILED_JOB.findall(said)))
+    return [f"A job stopped: {names or 'see above'}.", *STOPPED]
 
 
 def _mark(path):

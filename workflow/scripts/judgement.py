@@ -1,4 +1,4 @@
-"""Is a run good? What its tables say, whether they are complete, and whether its files are whole."""
+"""Is a run good? What its tables say, whether each row is there, and whether files are whole."""
 
 import csv
 import hashlib
@@ -9,13 +9,12 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import csv_tables
-import ledger_table
 import verdict_table
 
 PASSED = "results/PASSED"
 TABLES = ("results/verdicts.csv", "results/ledger.csv")
 HOW_TO_MEND = "remove that file and run again"
-# The points of a figure are counted (`faults_of_residuals`): it may have none. So may a good report.
+# Points of a figure are counted elsewhere: it may have none. A good report has no problems.
 MAY_HAVE_NO_ROWS = {"residuals", "problems"}
 
 
@@ -95,11 +94,14 @@ def faults_of_files(paths):
     for path in paths:
         try:
             flaw = _LOOK[Path(path).suffix](Path(path))
-        except (OSError, ValueError, SyntaxError, csv.Error, zipfile.BadZipFile, zlib.error) as error:
+        except _UNREADABLE as error:
             flaw = f"{error}" or type(error).__name__
         if flaw:
             found.append(f"{path}: not whole ({flaw}): {HOW_TO_MEND}")
     return found
+
+
+_UNREADABLE = OSError, ValueError, SyntaxError, csv.Error, zipfile.BadZipFile, zlib.error
 
 
 def _table(path):

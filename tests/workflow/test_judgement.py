@@ -1,0 +1,245 @@
+"""The gate and the report of a finished run, in one process: what is cut is named, not passed."""
+
+import html
+import re
+import shutil
+
+import closing
+import csv_tables
+import gate
+import judgement
+import ledger_entries
+import ledger_table
+import pytest
+import reference_data
+import run_plan
+import verdict_table
+import write_report
+from conftest import ROOT
+
+
+def test_every_file_of_a_run_is_asked_for(first_run):
+    """Were one not, a job that lost it would not be done again."""
+    marks = first_run[0] / ".snakemake/metadata"
+    records = {file: reference_data.load_yaml(file) for file in marks.iterdir()}
+    wanted = {
+        path for record in records.values() if record["rule"] == "gate" for path in record["input"]
+    }
+    made = [
+        f"{path.relative_to(first_run[0].folder)}"
+        for folder in ("results", "figures")
+        for path in (first_run[0] / folder).rglob("*")
+        if path.is_file() and path.parent.name not in ("logs", "benchmarks")
+    ]
+    assert set(made) - wanted == {"results/PASSED", "figures/README.md"}
+
+
+@pytest.fixture(scope="module")
+def expected():
+    """Rows that the tables of a run must have."""
+    config = reference_data.load_yaml(ROOT / "workflow/config.yaml")
+    schema = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
+    sources = reference_data.load_all(ROOT / "data", schema)
+    schema = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
+    entries = ledger_entries.load(ROOT / "data/stronge1994/ledger.yaml", schema)
+    rows = run_plan.expected_rows(config, sources)
+    return rows, {name: "check" in entry for name, entry in entries.items()}
+
+
+@pytest.fixture
+def judged(first_run, expected, tmp_path, monkeypatch):
+    """Faults that the gate finds in a copy of what a run has made; and the copy."""
+    project = first_run[0]
+    for folder in ("results", "figures"):
+        shutil.copytree(project / folder, tmp_path / folder)
+    monkeypatch.chdir(tmp_path)
+    made = [str(path.relative_to(tmp_path)) for path in tmp_path.glob("*/**/*.*")]
+    made = [path for path in made if not re.search(r"logs/|benchmarks/|README", path)]
+    residuals = [path for path in made if "residuals/" in path]
+
+    def faults():
+        return gate.faults(judgement.TABLES, residuals, "results/problems.csv", made, *expected)
+
+    return faults, tmp_path
+
+
+SHORT = {
+    "results/ledger.csv": lambda text: "",
+    "results/verdicts.csv": lambda text: text.splitlines(keepends=True)[0],
+    "results/verdicts/fig8.csv": lambda text: text.splitlines(keepends=True)[0],
+    "results/curves/fig2.csv": lambda text: text[: len(text) // 2],
+    "results/residuals/fig5.csv": lambda text: "".join(text.splitlines(keepends=True)[:-1]),
+    "results/problems.csv": lambda text: text + "fig5: oh\n",
+    "results/which_model.csv": lambda text: text.splitlines(keepends=True)[0],
+    "figures/fig6.svg": lambda text: "",
+    "figures/fig7.svg": lambda text: text[: len(text) // 2],
+    "figures/report.html": lambda text: text[: len(text) // 2],
+    "results/notebooks/choosing_a_model.ipynb": lambda text: text[: len(text) // 2],
+}
+
+
+@pytest.mark.parametrize("path", SHORT)
+def test_a_short_table_or_picture_does_not_pass(judged, path):
+    faults, folder = judged
+    assert faults() == []
+    text = (folder / path).read_text(encoding="utf-8")
+    (folder / path).write_text(SHORT[path](text), encoding="utf-8")
+    assert any(path in fault or "report: fig5: oh" in fault for fault in faults()), faults()
+
+
+@pytest.mark.parametrize("path", ["figures/fig6.png", "results/study.npz", "results/study.npz "])
+def test_cut_pictures_and_arrays_do_not_pass(judged, path):
+    faults, folder = judged
+    data = bytearray((folder / path.strip()).read_bytes())
+    if path.endswith(" "):  # as long as before, and wrong in the middle
+        data[len(data) // 2] ^= 255
+    else:
+        data = data[: len(data) // 2]
+    (folder / path.strip()).write_bytes(data)
+    assert any(path.strip() in fault for fault in faults())
+
+
+def good_rows(expected):
+    """Rows of both tables in which nothing fails."""
+    words = {True: "awaited", False: "agrees"}
+    verdicts = [{"comparison": name, "verdict": words[a]} for name, a in expected[0].items()]
+    words = {True: "yes", False: ""}
+    return verdicts, [{"entry": name, "holds": words[c]} for name, c in expected[1].items()]
+
+
+CHANGED_ROWS = [
+    (("verdict", "diverges"), "diverges: fig6-e1: "),
+    (("verdict", "agree"), "fig6-e1 = 'agree' cannot be"),
+    (("verdict", "awaited"), "fig6-e1 = 'awaited' cannot be"),
+    (("comparison", "fig6-e2"), "0 rows of fig6-e1 where 1 belongs"),
+    (("comparison", "fig6-e0"), "2 rows of fig6-e0 where 1 belongs"),
+]
+
+
+@(
+    pytest.mark.parametrize((("column", "value"), "words"), CHANGED_ROWS)
+    if False
+    else pytest.mark.parametrize(
+        ("change", "words"), CHANGED_ROWS, ids=[words for _, words in CHANGED_ROWS]
+    )
+)
+def test_rows_that_cannot_be_do_not_pass(expected, change, words):
+    verdicts, ledger = good_rows(expected)
+    assert judgement.faults_of_tables(verdicts, ledger, *expected) == []
+    row = next(row for row in verdicts if row["comparison"] == "fig6-e1")
+    row[change[0]] = change[1]
+    assert any(words in f for f in judgement.faults_of_tables(verdicts, ledger, *expected))
+
+
+@pytest.mark.parametrize("holds", ["no", "", "YES", None])
+def test_entries_that_do_not_hold_do_not_pass(expected, holds):
+    verdicts, ledger = good_rows(expected)
+    row = next(row for row in ledger if row["entry"] == "eq-41")
+    row["holds"] = holds
+    found = judgement.faults_of_tables(verdicts, ledger, *expected)
+    assert len(found) == 1 and "eq-41" in found[0]
+
+
+def test_old_words_are_no_news(first_run, monkeypatch):
+    """Tables and a log of the gate that this run has not written are not printed."""
+    monkeypatch.chdir(first_run[0].folder)
+    assert "PASSED" not in closing.words(closing.state())
+    assert "PASSED." in closing.words(dict.fromkeys(closing.state(), (0, 0)))
+
+
+TABLES = ("verdicts", "ledger", "trade", "which_model", "stability")
+
+
+@pytest.fixture
+def report(first_run, expected, tmp_path, monkeypatch):
+    """Write the report of a finished run from a copy of its tables; page and problems."""
+    for folder in ("results", "figures"):
+        shutil.copytree(first_run[0] / folder, tmp_path / folder)
+    monkeypatch.chdir(tmp_path)
+    config = reference_data.load_yaml(ROOT / "workflow/config.yaml")
+    names = run_plan.FIGURES
+
+    def written():
+        write_report.write(
+            "figures/report.html",
+            "results/problems.csv",
+            {
+                name: f"results/{name}.csv"
+                for name in ("verdicts", "ledger", "trade", "which_model", "stability")
+            },
+            {name: f"results/residuals/{name}.csv" for name in names},
+            {name: f"figures/{name}.svg" for name in names},
+            str(ROOT / "workflow/report/figures.rst"),
+            config,
+            expected,
+            sources={},
+            run={
+                "versions": ({}, dict),
+                "system": ("", str),
+                "date": ("", str),
+                "commit": ("", str),
+                "times": ([], list),
+            },
+            symbols="",
+            links={},
+            template=ROOT / "workflow/report/report.html",
+        )
+        problems = [row["problem"] for row in csv_tables.read_rows("results/problems.csv")]
+        return (tmp_path / "figures/report.html").read_text(encoding="utf-8"), problems
+
+    return written, tmp_path
+
+
+def test_the_report_of_a_good_run_has_no_problems(report):
+    page, problems = report[0]()
+    assert problems == [] and "<title>Passed" in page
+
+
+VERDICTS = ",".join(verdict_table.COLUMNS)
+DAMAGE = [
+    ("results/verdicts.csv", "", "results/verdicts.csv"),
+    (
+        "results/verdicts.csv",
+        ",".join(verdict_table.COLUMNS) + "\nfig5,only\n",
+        "verdicts.csv, line 2",
+    ),
+    ("results/ledger.csv", "", "results/ledger.csv"),
+    ("results/ledger.csv", ",".join(ledger_table.COLUMNS[1:]) + "\n", "column 'kind' is missing"),
+    ("results/trade.csv", "a,b\n1\n", "results/trade.csv, line 2"),
+    ("results/residuals/fig5.csv", "comparison\nfig5-lumped-fem\n", "Fig. 5: "),
+    ("results/residuals/fig5.csv", None, "residuals/fig5.csv"),
+    ("figures/fig6.svg", None, "fig6.svg"),
+]
+
+
+@pytest.mark.parametrize(("path", "text", "words"), DAMAGE)
+def test_the_report_survives_a_damaged_table(report, path, text, words):
+    written, folder = report
+    if text is None:
+        (folder / path).unlink()
+    else:
+        (folder / path).write_text(text, encoding="utf-8")
+    page, problems = written()
+    assert "<title>Failed" in page and page.rstrip().endswith("</html>")
+    assert any(words in problem for problem in problems), problems
+    assert any(words in html.unescape(line) for line in page.splitlines() if "<li>" in line)
+
+
+def test_the_report_survives_a_figure_without_curves(report, copied_modules, monkeypatch):
+    (copied_modules / "src/planarimpact/curves/fig6.py").write_text('"""Fig. 6."""\n')
+    package = copied_modules / "src/planarimpact"
+    monkeypatch.setattr(write_report.api_reference, "PACKAGE", package)
+    monkeypatch.setattr(write_report.api_reference.modules, "__defaults__", (package,))
+    page, problems = report[0]()
+    assert len(problems) == 1 and problems[0].startswith("Fig. 6: KeyError: 'curves' (workflow/")
+    assert "<title>Failed" in page and "Fig. 9" in page
+
+
+def test_the_report_survives_itself(report, monkeypatch):
+    """Where the page cannot be made at all, a short one says why."""
+    monkeypatch.setitem(write_report.MEANING, "agrees", None)
+    monkeypatch.delitem(write_report.MARKS, "awaited")
+    monkeypatch.setattr(write_report.docstring_html, "html", lambda *_: 1 / 0)
+    page, problems = report[0]()
+    assert "FAILED" in page and "ZeroDivisionError" in page
+    assert problems[-1].startswith("report: ZeroDivisionError")

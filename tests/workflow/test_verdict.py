@@ -1,0 +1,191 @@
+"""A run that passes has passed: what is broken, cut, killed or planted never ends in PASSED."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+import run_plan
+
+# At the first start of a job it is killed without warning, later it fails.
+FAULT = """
+if "snakemake" in globals():
+    import os, pathlib, signal
+
+    mark = pathlib.Path("killed", pathlib.Path(snakemake.log[0]).stem)
+    if not mark.exists():
+        mark.parent.mkdir(exist_ok=True)
+        mark.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    raise RuntimeError("broken on purpose")
+"""
+# Every rule by the script of its jobs, in the order of the data. Those above others hide these.
+BEFORE, BEHIND = "before its work", "behind its work"
+LAYERS = [
+    {
+        "curves": ("solve", BEFORE),
+        "series": ("convert_series", BEHIND),
+        "ledger": ("check_ledger", BEFORE),
+        "scene": ("solve_scene", BEFORE),
+        "solve_chunk": ("solve_chunk", BEHIND),
+        "explorer": ("write_explorer", BEHIND),
+        "notebook": ("run_notebook", BEFORE),
+    },
+    {
+        "draw": ("draw", BEFORE),
+        "compare": ("compare", BEHIND),
+        "trade": ("write_trade", BEHIND),
+        "stability": ("write_stability", BEHIND),
+        "gather_chunks": ("gather_chunks", BEHIND),
+        "ledger_page": ("write_ledger_page", BEHIND),
+    },
+    {"verdicts": ("gather_verdicts", BEHIND), "draw_study": ("draw_study", BEHIND)},
+    {"report": ("write_report", BEHIND)},
+    {"gate": ("gate", BEFORE)},
+]
+
+
+def refuses_to_pass(project, *arguments):
+    """Run, and check that nothing says PASSED; what was printed."""
+    result = project.run(*arguments)
+    assert result.returncode != 0, result.stdout
+    assert "PASSED." not in result.stdout
+    assert not (project / "results/PASSED").exists()
+    return result.stdout
+
+
+def test_layers_name_every_rule(fresh):
+    words = "".join(file.read_text() for file in (fresh / "workflow/rules").glob("*.smk"))
+    rules = set(re.findall(r"^rule (\w+):", words, flags=re.M)) - {"measure_peers", "draw_peers"}
+    assert rules == {rule for layer in LAYERS for rule in layer}
+
+
+@pytest.mark.parametrize("layer", LAYERS, ids=["-".join(layer) for layer in LAYERS])
+def test_a_job_that_is_killed_and_then_fails_never_passes(finished, layer):
+    """In a tree that has passed: the same command again does not go on with what is left over."""
+    for script, place in layer.values():
+        path = finished / f"workflow/scripts/{script}.py"
+        text = path.read_text()
+        path.write_text(FAULT + text if place == BEFORE else text + FAULT)
+    for _ in range(3):
+        said = refuses_to_pass(finished)
+        assert set(layer) == set(re.findall(r"^Error in rule (\w+):", said, flags=re.M))
+    assert "broken on purpose" in said and "A job stopped" in said or "FAILED" in said
+
+
+def test_a_killed_job_does_not_hide_a_divergence(finished):
+    """Half the points are gone, and the job that would say so is killed once."""
+    path = finished / "data/chung_ooi2011/spin.csv"
+    lines = path.read_text().splitlines()
+    halves = [f"{x},{float(y) / 2}" for x, y in (line.split(",") for line in lines[1:])]
+    path.write_text("\n".join([lines[0], *halves]) + "\n")
+    script = finished / "workflow/scripts/compare.py"
+    script.write_text(
+        script.read_text() + FAULT.replace('raise RuntimeError("broken on purpose")', "")
+    )
+    refuses_to_pass(finished)
+    assert "diverges: fig5-lumped-fem-spin" in refuses_to_pass(finished)
+
+
+BROKEN = [
+    ("workflow/scripts/draw_fig6.py", "def broken(:\n", "draw_fig6.py, line 1: invalid syntax"),
+    ("src/planarimpact/curves/fig7.py", "return 1\n", "fig7.py, line 1: 'return' outside function"),
+    ("workflow/scripts/solve.py", "x = '\0'\n", "scripts/solve.py"),
+    ("workflow/scripts/solve.py", b"x = '\xff'\n", "scripts/solve.py"),
+    ("src/planarimpact/noncollinear/rigid.py", "if:\n", "noncollinear/rigid.py, line 1"),
+]
+
+
+@pytest.mark.parametrize(("path", "text", "words"), BROKEN)
+def test_a_module_that_is_no_python_is_refused(copied_modules, path, text, words):
+    run_plan.refuse_unreadable_modules()
+    (copied_modules / path).write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(run_plan.ConfigError, match=re.escape(words)):
+        run_plan.refuse_unreadable_modules()
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["{", '{"cells": 1}', '{"cells": [{"cell_type": "code", "source": ["def"]}]}', "[" * 9999],
+)
+def test_a_notebook_that_is_none_is_refused(copied_modules, text):
+    (copied_modules / "workflow/notebooks/choosing_a_model.ipynb").write_text(text)
+    with pytest.raises(run_plan.ConfigError, match=r"notebooks/choosing_a_model\.ipynb"):
+        run_plan.modules_of_notebook("choosing_a_model")
+
+
+def test_a_finished_tree_with_a_broken_module_or_a_lost_source_is_refused(finished):
+    """Snakemake alone would drop the rule and end with "Nothing to be done"."""
+    path = finished / "workflow/scripts/draw_fig6.py"
+    whole = path.read_text()
+    path.write_text(whole + "def broken(:\n")
+    said = finished.run()
+    assert said.returncode != 0 and "draw_fig6.py, line" in said.stdout
+    path.write_text(whole)
+    (finished / "workflow/report/page.css").unlink()
+    said = finished.run()
+    assert said.returncode != 0 and "page.css: missing" in said.stdout
+
+
+def test_short_tables_do_not_pass_twice_in_a_row(finished):
+    """End to end, with what `judged` tries in one process."""
+    for path in ("results/ledger.csv", "results/verdicts/fig8.csv"):
+        (finished / path).write_text((finished / path).read_text().split("\n")[0] + "\n")
+    for _ in range(2):
+        assert "remove that file and run again" in refuses_to_pass(finished)
+    for path in ("results/ledger.csv", "results/verdicts/fig8.csv"):
+        (finished / path).unlink()
+    mended = finished.run()
+    assert mended.returncode == 0 and "PASSED." in mended.stdout, mended.stdout
+
+
+def test_passed_does_not_outlive_what_it_was_about(finished):
+    passed = finished / "results/PASSED"
+    true = passed.read_text()
+    assert finished.run("figures/fig6.svg", "--config", "stiffness_ratio=1.5").returncode == 0
+    assert not passed.exists()
+    assert finished.run().returncode == 0 and passed.read_text() == true
+
+    # Killed behind the verdicts, before the gate.
+    (finished / "results/verdicts.csv").unlink()
+    command = [sys.executable, "-m", "snakemake", "--cores", "2"]
+    with open(finished / "words.txt", "w") as words:
+        running = subprocess.Popen(
+            command, cwd=finished.folder, stdout=words, stderr=words, start_new_session=True
+        )
+        while passed.exists() and running.poll() is None:
+            time.sleep(0.02)
+        os.killpg(running.pid, signal.SIGKILL)
+        running.wait()
+    assert not passed.exists()
+    assert finished.run("--unlock").returncode == 0
+
+    for planted in ("", "no comparison diverges, every entry of the ledger holds\n"):
+        passed.write_text(planted)
+        again = finished.run()
+        assert again.returncode == 0 and "PASSED." in again.stdout
+        assert passed.read_text() == true
+
+
+@pytest.mark.parametrize("option", ["--keep-incomplete", "--touch", "--no-hooks"])
+def test_options_that_would_make_passed_untrue_are_refused(finished, option):
+    with open(finished / "workflow/scripts/draw_fig6.py", "a") as file:
+        file.write("# edited\n")
+    result = finished.run(option)
+    assert result.returncode != 0 and f"{option}: not allowed" in result.stdout
+
+
+def test_words_of_vanished_jobs_and_chunks_are_gone(finished):
+    for path in ("results/benchmarks/curves_fig99.tsv", "results/study/0-7.npz"):
+        (finished / path).write_text("old")
+    few = "study={chunks: 2, grid: {incidence: {points: 20}}}"
+    assert finished.run("study", "--config", few).returncode == 0
+    assert not (finished / "results/benchmarks/curves_fig99.tsv").exists()
+    names = sorted(path.name for path in (finished / "results/study").iterdir())
+    assert names == ["0-4020.npz", "4020-8040.npz"]
+    # What jobs said about the chunks of the old grid goes with them.
+    left = {path.name for path in (finished / "results/benchmarks").glob("study_*")}
+    assert left == {"study_0-4020.tsv", "study_4020-8040.tsv"}
