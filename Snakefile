@@ -101,6 +101,10 @@ include: "workflow/rules/peers.smk"
 if workflow.is_main_process:
     if "--no-hooks" in sys.argv:
         raise WorkflowError("--no-hooks: not allowed, results/PASSED would outlive what it is about")
+    try:
+        judgement.refuse_results_without_records()
+    except RuntimeError as error:
+        raise WorkflowError(str(error))
     judgement.drop_false_pass()
     BEFORE = closing.state()
 

@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -168,6 +169,25 @@ def test_passed_does_not_outlive_what_it_was_about(finished):
         again = finished.run()
         assert again.returncode == 0 and "PASSED." in again.stdout
         assert passed.read_text() == true
+
+
+def test_results_without_records_are_refused(finished):
+    """A copy of a folder may leave hidden files out: then no change of physics would be noticed."""
+    shutil.rmtree(finished / ".snakemake")
+    said = finished.run("--config", "stiffness_ratio=1.5")
+    assert said.returncode != 0 and "remove results/ and run again" in said.stdout
+
+
+def test_other_files_of_an_older_date_are_noticed(finished):
+    """As an archive or a backup leaves them."""
+    for path in ("src/planarimpact/laws.py", "data/kharaz2001/spin.csv"):
+        text = (finished / path).read_text()
+        for old, new in {"import numpy": "import  numpy", "kratos,69.96": "kratos,69.97"}.items():
+            text = text.replace(old, new)
+        (finished / path).write_text(text)
+        os.utime(finished / path, (0, 0))
+    jobs = finished.planned()[0]
+    assert {"Solving trade", "Verifying the paper", "Reading the series of kharaz2001"} <= set(jobs)
 
 
 @pytest.mark.parametrize("option", ["--keep-incomplete", "--touch", "--no-hooks"])

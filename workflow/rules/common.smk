@@ -47,6 +47,24 @@ wildcard_constraints:
     chunk=r"\d+-\d+",
 
 
+# Every rule has the fingerprint of what it reads of this repository as a parameter, `content`.
+# Snakemake runs a job again if an input is newer than its output: files from an archive or a backup
+# may be other ones and yet older.
+def content_of_source(wildcards):
+    return run_plan.content(*run_plan.modules("convert_series"), *files_of_source(wildcards))
+
+
+def content_of_scene(wildcards):
+    table = f"data/scenes/{wildcards.scene}.csv"
+    return run_plan.content(*run_plan.modules("solve_scene"), table)
+
+
+def content_of_notebook(wildcards):
+    notebook = f"workflow/notebooks/{wildcards.notebook}.ipynb"
+    template = "workflow/report/notebook.html"
+    return run_plan.content(*notebook_modules(wildcards), notebook, template)
+
+
 def of_figure(part):
     """Input function: a part of what `run_plan.plan_of_figure` says of a figure."""
 

@@ -1,12 +1,13 @@
-EXPLORER_SOURCES = ["explorer.html", "explorer.css"]
-EXPLORER_SOURCES += [f"{part}.js" for part in ("solver", "charts", "diagram", "words", "page")]
+EXPLORER_PARTS = ["explorer.html", "explorer.css"]
+EXPLORER_PARTS += [f"{part}.js" for part in ("solver", "charts", "diagram", "words", "page")]
+EXPLORER_SOURCES = sources(*expand("workflow/explorer/{file}", file=EXPLORER_PARTS))
 
 
 rule explorer:
     """A page to play with one impact; it solves the lumped model itself."""
     input:
         modules=run_plan.modules("write_explorer"),
-        sources=sources(*expand("workflow/explorer/{file}", file=EXPLORER_SOURCES)),
+        sources=EXPLORER_SOURCES,
     output:
         report(
             "figures/explorer.html",
@@ -15,6 +16,7 @@ rule explorer:
             labels={"page": "an impact to play with"},
         ),
     params:
+        content=run_plan.content(*run_plan.modules("write_explorer"), *EXPLORER_SOURCES),
         settings=run_plan.settings_of_explorer(config),
     log:
         "results/logs/explorer.log",

@@ -8,6 +8,7 @@ rule compare:
         verdicts="results/verdicts/{figure}.csv",
         residuals="results/residuals/{figure}.csv",
     params:
+        content=run_plan.content(*run_plan.modules("compare")),
         comparisons=of_figure("comparisons"),
         references=of_figure("references"),
         sources=of_figure("sources"),
@@ -30,6 +31,8 @@ rule verdicts:
         verdicts=expand("results/verdicts/{figure}.csv", figure=FIGURES),
     output:
         "results/verdicts.csv",
+    params:
+        content=run_plan.content(*run_plan.modules("gather_verdicts")),
     log:
         "results/logs/verdicts.log",
     benchmark:
@@ -78,6 +81,7 @@ rule gate:
     output:
         "results/PASSED",
     params:
+        content=run_plan.content(*run_plan.modules("gate")),
         comparisons=EXPECTED_ROWS,
         entries=EXPECTED_ENTRIES,
     log:

@@ -1,3 +1,7 @@
+PAGE_PARTS = sources("workflow/report/ledger_parts.html", "workflow/report/page.css")
+PAGE_TEMPLATE = sources("workflow/report/ledger.html")
+
+
 rule ledger:
     """Run every entry of the paper's ledger against the exact solver; always succeeds."""
     input:
@@ -6,6 +10,7 @@ rule ledger:
     output:
         "results/ledger.csv",
     params:
+        content=run_plan.content(*run_plan.modules("check_ledger", *LEDGER_MODULES), LEDGER),
         schema=LEDGER_SCHEMA,
     log:
         "results/logs/ledger.log",
@@ -23,8 +28,8 @@ rule ledger_page:
     """The ledger as a page to read, with corrections and their derivations."""
     input:
         modules=run_plan.modules("write_ledger_page"),
-        template=sources("workflow/report/ledger.html"),
-        parts=sources("workflow/report/ledger_parts.html", "workflow/report/page.css"),
+        template=PAGE_TEMPLATE,
+        parts=PAGE_PARTS,
         table="results/ledger.csv",
     output:
         report(
@@ -34,6 +39,7 @@ rule ledger_page:
             labels={"page": "the paper verified"},
         ),
     params:
+        content=run_plan.content(*run_plan.modules("write_ledger_page"), PAGE_TEMPLATE, *PAGE_PARTS),
         symbols=SYMBOLS,
     log:
         "results/logs/ledger_page.log",

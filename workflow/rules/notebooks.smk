@@ -15,6 +15,8 @@ rule notebook:
             category="Teaching",
             labels={"lecture": "{notebook}"},
         ),
+    params:
+        content=content_of_notebook,
     log:
         "results/logs/notebook_{notebook}.log",
     benchmark:

@@ -9,6 +9,7 @@ rule measure_peers:
     output:
         "results/peers.csv",
     params:
+        content=run_plan.content(*run_plan.modules("measure_peers")),
         settings=run_plan.settings_of_peers(config),
     log:
         "results/logs/measure_peers.log",
@@ -38,6 +39,7 @@ rule draw_peers:
         ),
         png="figures/trade_with_peers.png",
     params:
+        content=run_plan.content(*run_plan.modules("draw_peers")),
         settings=FIGURES["trade"]["settings"],
     log:
         "results/logs/draw_peers.log",

@@ -6,6 +6,7 @@ rule series:
     output:
         "results/series/{source}.csv",
     params:
+        content=content_of_source,
         source=source_of,
     log:
         "results/logs/series_{source}.log",

@@ -7,21 +7,23 @@ BESIDE = {
 }
 
 
+REPORT_INTERFACE = sorted(str(path) for path in Path("src/planarimpact").rglob("*.py"))
+# The template, what it includes, and captions.
+REPORT_PARTS = sources(
+    *expand("workflow/report/{part}.html", part=["report", "ledger_parts"]),
+    *expand("workflow/report/{part}.css", part=["page", "report"]),
+    *expand("workflow/report/{part}.rst", part=["figures", "trade", "which_model", "stability"]),
+)
+
+
 rule report:
     """The run as one page; always succeeds, whatever its verdicts, tables and modules."""
     input:
         modules=run_plan.modules("write_report"),
-        interface=sorted(str(path) for path in Path("src/planarimpact").rglob("*.py")),
-        template=sources("workflow/report/report.html"),
-        parts=sources(
-            *expand(
-                "workflow/report/{part}", part=["ledger_parts.html", "page.css", "report.css"]
-            )
-        ),
-        captions=sources("workflow/report/figures.rst"),
-        table_captions=sources(
-            *expand("workflow/report/{table}.rst", table=["trade", "which_model", "stability"])
-        ),
+        interface=REPORT_INTERFACE,
+        template="workflow/report/report.html",
+        captions="workflow/report/figures.rst",
+        parts=REPORT_PARTS,
         verdicts="results/verdicts.csv",
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
@@ -31,6 +33,9 @@ rule report:
         page="figures/report.html",
         problems="results/problems.csv",
     params:
+        content=run_plan.content(
+            *run_plan.modules("write_report"), *REPORT_INTERFACE, *REPORT_PARTS
+        ),
         figures=list(FIGURES),
         config={
             key: config[key]

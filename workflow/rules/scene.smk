@@ -6,6 +6,7 @@ rule scene:
     output:
         "results/scenes/{scene}.csv",
     params:
+        content=content_of_scene,
         tolerance=scene_tolerance,
     log:
         "results/logs/scene_{scene}.log",

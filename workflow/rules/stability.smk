@@ -10,6 +10,8 @@ rule stability:
             category="Stability",
             labels={"table": "digits by decades of each parameter"},
         ),
+    params:
+        content=run_plan.content(*run_plan.modules("write_stability")),
     log:
         "results/logs/stability.log",
     benchmark:

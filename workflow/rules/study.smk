@@ -10,6 +10,7 @@ rule solve_chunk:
     output:
         "results/study/{chunk}.npz",
     params:
+        content=run_plan.content(*run_plan.modules("solve_chunk")),
         settings=study_plan.settings(config),
     log:
         "results/logs/study_{chunk}.log",
@@ -31,6 +32,7 @@ rule gather_chunks:
     output:
         "results/study.npz",
     params:
+        content=run_plan.content(*run_plan.modules("gather_chunks")),
         settings=study_plan.settings(config),
     log:
         "results/logs/gather_chunks.log",
@@ -57,6 +59,8 @@ rule draw_study:
             labels={"figure": "rebound over the grid"},
         ),
         png="figures/study.png",
+    params:
+        content=run_plan.content(*run_plan.modules("draw_study")),
     log:
         "results/logs/draw_study.log",
     benchmark:

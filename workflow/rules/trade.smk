@@ -16,6 +16,8 @@ rule trade:
             category="Trade",
             labels={"table": "which model for which tolerance"},
         ),
+    params:
+        content=run_plan.content(*run_plan.modules("write_trade")),
     log:
         "results/logs/trade.log",
     benchmark:

@@ -76,10 +76,23 @@ def new(height):
     return Figure(figsize=(WIDTH, height), layout="constrained")
 
 
-def save(figure, svg, png):
-    """Write both files, the same bytes for the same figure."""
+def save(figure, svg, png=None):
+    """Write both files, the same bytes for the same figure.
+
+    Parameters
+    ----------
+    figure : Figure
+    svg, png : path or binary file
+        The second may be left out.
+    """
+    # The layout is solved in an order that changes from run to run, and with it the last bits.
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for axes in figure.axes:
+        axes.set_position(np.round(axes.get_position().bounds, 6))
     figure.savefig(svg, format="svg", metadata={"Date": None})
-    figure.savefig(png, format="png", dpi=200)
+    if png:
+        figure.savefig(png, format="png", dpi=200)
 
 
 def failure(message):

@@ -13,6 +13,7 @@ import verdict_table
 
 PASSED = "results/PASSED"
 TABLES = ("results/verdicts.csv", "results/ledger.csv")
+RECORDS = ".snakemake/metadata"
 HOW_TO_MEND = "remove that file and run again"
 # Points of a figure are counted elsewhere: it may have none. A good report has no problems.
 MAY_HAVE_NO_ROWS = {"residuals", "problems"}
@@ -154,6 +155,19 @@ def words_of_pass():
     for table in TABLES:
         lines.append(f"sha256 {hashlib.sha256(Path(table).read_bytes()).hexdigest()} {table}")
     return "\n".join(lines) + "\n"
+
+
+def refuse_results_without_records():
+    """Refuse results of which Snakemake has no records: a change would go unnoticed.
+
+    Raises
+    ------
+    RuntimeError
+        If tables of a run are there without what Snakemake keeps of it, as in a copy of a folder
+        that left hidden files out.
+    """
+    if any(Path(table).exists() for table in TABLES) and not Path(RECORDS).is_dir():
+        raise RuntimeError(f"results/ is there without {RECORDS}: remove results/ and run again")
 
 
 def drop_false_pass():

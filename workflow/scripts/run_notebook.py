@@ -36,8 +36,10 @@ class ThisPython(AsyncKernelManager):
     @property
     def kernel_spec(self):
         words = ["-m", "ipykernel_launcher", "-f", "{connection_file}"]
-        # Pictures stay sharp on paper and at any size.
+        # Pictures stay sharp on paper and at any size, and are the same bytes at every run.
         words.append("--InlineBackend.figure_formats={'svg'}")
+        words.append("--InlineBackend.rc={'svg.hashsalt': 'planarimpact'}")
+        words.append("--InlineBackend.print_figure_kwargs={'metadata': {'Date': None}}")
         return KernelSpec(argv=[sys.executable, *words], language="python")
 
 

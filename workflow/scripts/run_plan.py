@@ -2,6 +2,7 @@
 
 import ast
 import functools
+import hashlib
 import json
 from pathlib import Path
 
@@ -162,9 +163,13 @@ def plan_of_figure(config, inventory, figure):
     Snakemake drops the rule and takes its old output for a source file, without a word.
     """
     sources, tables = sources_of(config, inventory, figure), nodes_of(config, inventory, figure)
+    solver = modules("solve", f"planarimpact.curves.{figure}")
+    drawing = modules("draw", f"draw_{figure}")
     return {
-        "solver": modules("solve", f"planarimpact.curves.{figure}"),
-        "drawing": modules("draw", f"draw_{figure}"),
+        "solver": solver,
+        "solver content": content(*solver, *tables),
+        "drawing": drawing,
+        "drawing content": content(*drawing),
         "settings": settings(config, inventory, figure),
         "nodes": tables,
         "tables": list(tables),
@@ -234,6 +239,17 @@ def refuse_unreadable_modules():
             raise ConfigError(f"{_shown(file)}, line {error.lineno}: {error.msg}") from None
         except ValueError as error:
             raise ConfigError(f"{_shown(file)}: {error}") from None
+
+
+def content(*files):
+    """Fingerprint of what files hold."""
+    digests = "".join(_digest(file) for file in files)
+    return hashlib.sha256(digests.encode()).hexdigest()
+
+
+@functools.cache
+def _digest(file):
+    return hashlib.sha256(Path(file).read_bytes()).hexdigest()
 
 
 def present(*files):

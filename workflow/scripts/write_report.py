@@ -17,6 +17,7 @@ import api_reference
 import csv_tables
 import docstring_html
 import draw_residuals
+import drawing
 import jinja2
 import job
 import judgement
@@ -257,7 +258,7 @@ def _entry_of(names):
 
 def _svg(figure):
     file = io.BytesIO()
-    figure.savefig(file, format="svg", metadata={"Date": None})
+    drawing.save(figure, file)
     return file.getvalue()
 
 
