@@ -12,7 +12,7 @@ from types import FrameType
 
 from planarimpact.checks import InputError
 
-ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+SIGNALS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 
 
 @contextmanager
@@ -80,7 +80,7 @@ def _unwound_by_signals() -> Iterator[None]:
     Only those that nobody else handles, and only in the main thread, where Python allows it.
     """
     main = threading.current_thread() is threading.main_thread()
-    numbers = [n for n in ENDINGS if main and signal.getsignal(n) is signal.SIG_DFL]
+    numbers = [n for n in SIGNALS if main and signal.getsignal(n) is signal.SIG_DFL]
 
     def leave(number: int, frame: FrameType | None) -> None:
         for n in numbers:  # a second one would interrupt the cleaning
