@@ -21,21 +21,24 @@ Incidence is v1(0)/(mu v2(0)): tangential over normal speed, over friction. All 
 mu v2(0), negative where the contact point has turned round.
 """
 COLUMNS = """\
-Columns, with units in the header; the order is free, all others are refused:
+Columns, with units in the header, separated by commas; the order is free, all others are refused:
   radius [m]              distance from centre to contact point, and radius of curvature
   density [kg/m^3]        of a solid sphere; or else mass [kg] and gyration [m]
   young_modulus [Pa], poisson_ratio
   friction, restitution   of the pair
   the state before, in a plane:
     velocity_tangential [m/s], velocity_normal [m/s], positive towards the surface,
-    spin [rad/s], positive where it moves the contact point of this body forward
+    spin [rad/s], positive where it moves the contact point of this body forward (backspin)
   or in space, for bodies that turn alike about every axis:
     velocity_x [m/s], _y, _z, spin_x [rad/s], _y, _z, and the unit normal normal_x, _y, _z
-    from the surface to the body; 0, 0, 1 if left out
-  id                      any words, carried over
+    from the surface to the body; 0, 0, 1 if left out. spin_x, _y, _z is the right-handed vector
+    of angular velocity: with x along and z up, a plane state has spin_y = -spin.
+  id                      any words, carried over as they are
 The other body, if it is no rigid half-space at rest, has the same columns with other_ in front;
-its velocities and spin have the directions of the first one's. A material alone makes it an
-elastic half-space; masses, radii of gyration and Young's moduli may be inf.
+its velocities and spin have the directions of the first one's: positive other_spin turns the same
+way round. A material alone makes it an elastic half-space; masses, radii of gyration and Young's
+moduli may be inf.
+The result has all these columns as they are, and then those of the state after.
 Example:
   radius [m],density [kg/m^3],young_modulus [Pa],poisson_ratio,friction,restitution,\
 velocity_tangential [m/s],velocity_normal [m/s],spin [rad/s]
@@ -127,18 +130,25 @@ def _compile(options: argparse.Namespace) -> None:
 
 def _scene(options: argparse.Namespace) -> None:
     try:
-        from planarimpact.scene import files  # here, as pandas takes its time
+        from planarimpact.scene import files, places  # here, as pandas takes its time
     except ImportError as error:
-        raise checks.InputError(f"scenes need pandas: pip install pandas ({error})") from None
+        raise checks.InputError(str(error)) from None
+    target = places.target(options.output)
     progress = files.bar if sys.stderr.isatty() else None
     solver = files.solve(
         options.input, options.output, options.tolerance, options.skip_bad, progress=progress
     )
-    print(f"{options.output}: {solver.rows - len(solver.bad)} impacts")
-    if solver.bad:
-        print(f"{options.output}.bad.csv: {len(solver.bad)} bad rows left out")
+    # Nothing else may stand in a table on standard output.
+    words = sys.stderr if target == places.target("-") else sys.stdout
+    print(f"{target.name}: {solver.rows - len(solver.bad)} impacts", file=words)
+    bad = places.beside(target)
+    if solver.bad and bad:
+        print(f"{bad.name}: {len(solver.bad)} bad rows left out", file=words)
+    elif solver.bad:
+        for row, problem in solver.bad:
+            print(f"row {row}, left out: {problem}", file=sys.stderr)
     if options.explain:
-        print(solver.explain())
+        print(solver.explain(), file=words)
 
 
 def _models(options: argparse.Namespace) -> None:
@@ -257,10 +267,15 @@ def _parser() -> argparse.ArgumentParser:
         epilog=COLUMNS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    scene.add_argument("input", help="the table: CSV, or Parquet where the name ends in .parquet")
+    scene.add_argument(
+        "input",
+        help="the table: a name that ends in .csv, .csv.gz or .parquet, a pipe, or - for standard "
+        "input; pipes are CSV",
+    )
     scene.add_argument(
         "output",
-        help="the table after the impacts, in the same way, or JSON where it ends in .json",
+        help="the same table with the state after each impact: names as for the input, .json too, "
+        "or - for standard output",
     )
     scene.add_argument(
         "--tolerance",
@@ -275,7 +290,8 @@ def _parser() -> argparse.ArgumentParser:
     scene.add_argument(
         "--skip-bad",
         action="store_true",
-        help="leave bad rows out, and list them in OUTPUT.bad.csv",
+        help="leave bad rows out, and list them in OUTPUT.bad.csv, or on standard error where the "
+        "output is a pipe",
     )
     scene.set_defaults(command=_scene)
 

@@ -1,16 +1,20 @@
 """The command line, in and out."""
 
 import csv
+import gzip
 import json
 import os
+import signal
 import subprocess
 import sys
+import threading
+import time
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from planarimpact import ladder, lumped
+from planarimpact import ladder, lumped, scene
 from planarimpact.__main__ import main
 from planarimpact.scene import files
 
@@ -96,7 +100,10 @@ REFUSED = [
     (["history", "--incidence", "1", "--model", "continuum", "--restitution", "0.5"], "is elastic"),
     (["compile", "no/ball.json"], "no/ball.json"),
     (["scene", "none.csv", "out.csv"], "none.csv: No such file"),
-    (["scene", "none.csv", "."], "no name of a file"),
+    (["scene", "none.csv", "."], ".: allowed are names that end in .csv, .csv.gz, .parquet or"),
+    (["scene", "none.xlsx", "out.csv"], "none.xlsx: allowed are names that end in .csv, .csv.gz"),
+    (["scene", "none.json", "out.csv"], "none.json: allowed are names that end in .csv, .csv.gz"),
+    (["scene", "none.csv", "out"], "out: allowed are names that end in .csv, .csv.gz, .parquet or"),
     (["rebound", "--incidence", "1", "--friction", "0.3"], "--friction: it does not apply"),
     (["models", "--output", "no/models.csv"], "there is no folder"),
 ]
@@ -130,13 +137,15 @@ def test_a_table_is_not_replaced_by_its_result(table, capsys):
     assert main(["scene", str(table.with_name("out.csv.bad.csv")), str(table.with_name("out.csv"))])
 
 
-def test_links_are_followed_and_devices_left_alone(table, capsys):
+def test_links_are_followed_and_folders_left_alone(table, capsys):
     real, link = table.with_name("real.csv"), table.with_name("link.csv")
     real.write_text("earlier")
     link.symlink_to(real)
     assert main(["scene", str(table), str(link)]) == 0
     assert link.is_symlink() and len(pd.read_csv(real)) == 5
-    assert main(["scene", str(table), "/dev/null"]) == 2
+    folder = table.with_name("folder.csv")
+    folder.mkdir()
+    assert main(["scene", str(table), str(folder)]) == 2
     assert "no regular file" in capsys.readouterr().err
 
 
@@ -161,21 +170,183 @@ def test_a_comma_at_the_end_of_rows_moves_no_cell(table):
     assert commas.read_text() == out.read_text()
 
 
-def test_a_row_that_is_too_long_is_refused(table, capsys):
-    header, row, *_ = table.read_text().splitlines()
-    table.write_text(f"{header}\n0.02,{row}\n")
+HEADER, CELLS = ",".join(ROW), [f"{value:g}" for value in ROW.values()]
+LINE = ",".join(CELLS)
+NO_TABLES = [
+    ("", "it is empty: the first line must name the columns"),
+    (" \n\n", "it is empty"),
+    ("\x00\x01", "unknown"),
+    ('a,"b\n1', "line 1: its quotation marks do not match"),
+    ("radius [m],radius [m]\n1,1\n", "column 'radius [m]' is there twice"),
+    (HEADER.replace(",", ";"), "it is separated by semicolons; allowed are commas"),
+    (HEADER.replace(",", "\t"), "it is separated by tabs; allowed are commas"),
+    (f"\n{LINE}\n{LINE}\n", "line 2: '0.01' stands where the name of a column belongs"),
+    (f"{HEADER}\n{LINE}\n\n{LINE},8\n", "line 4: 10 cells where 9 belong"),
+    (f"{HEADER}\n{LINE}\n{','.join(CELLS[:-1])}\n", "line 3: 8 cells where 9 belong"),
+    (f"{HEADER}\n{','.join(f'{c},0' for c in CELLS)}\n", "decimals have a point, not a comma"),
+    (f'{HEADER}\n"0,01",{LINE[5:]}\n', "'0,01': allowed are finite numbers above 0; decimals"),
+    (f'id,{HEADER}\n"a\nb",{LINE}\n"c,d"{LINE}\n', "line 4: its quotation marks do not match"),
+    (f'id,{HEADER}\n"a\nb",{LINE}\n"c,d",{LINE},8\n', "line 4: 11 cells where 10 belong"),
+    (f"{HEADER}\n{LINE[:-1]}NA\n", "row 1: spin [rad/s] = 'NA'"),
+    (f"{HEADER}\n{LINE}\xe9\n".encode("latin-1"), "it is no text in UTF-8"),
+]
+
+
+@pytest.mark.parametrize(("text", "words"), NO_TABLES, ids=[words for _, words in NO_TABLES])
+def test_what_is_no_table_is_named_for_what_it_is(table, text, words, capsys):
+    table.write_bytes(text if isinstance(text, bytes) else text.encode())
     assert main(["scene", str(table), str(table.with_name("out.csv"))]) == 2
     found = capsys.readouterr().err
-    assert "in.csv: no table in CSV" in found and found.count("\n") == 1
+    assert "in.csv: " in found and words in found and found.count("\n") == 1
+    assert os.listdir(table.parent) == ["in.csv"]
 
 
-def test_an_id_is_carried_over_as_it_is(table):
-    lines = table.read_text().splitlines()
-    names = ["id", "007", "1.50", "", "NA7", "x y"]
-    table.write_text("".join(f"{n},{line}\n" for n, line in zip(names, lines, strict=True)))
+IDS = ["007", "1e5", "", "NA", "null", " x y ", 'a "b", c', "two\nlines", "1.50", "-0"]
+
+
+@pytest.mark.parametrize("rows", [1, 100])
+def test_the_result_has_the_table_and_then_what_follows(table, rows):
+    given = [{"radius [m]": 0.01, "id": name, **ROW, "spin [rad/s]": 1 / 3} for name in IDS]
+    with open(table, "w", encoding="utf-8-sig", newline="") as file:  # as Excel writes it
+        writer = csv.DictWriter(file, list(given[0]))
+        writer.writeheader()
+        writer.writerows(given)
     out = table.with_name("out.csv")
-    files.solve(table, out, rows=2)
-    assert [line.split(",")[0] for line in out.read_text().splitlines()] == names
+    files.solve(table, out, rows=rows)
+    with open(out, encoding="utf-8", newline="") as file:
+        found = list(csv.DictReader(file))
+    assert [row["id"] for row in found] == IDS
+    assert list(found[0])[:10] == list(given[0]) and len(found[0]) == 20
+    for name in ROW:
+        assert {float(row[name]) for row in found} == {given[0][name]}
+
+
+def test_numbers_are_read_and_written_to_the_last_place(table):
+    rng = np.random.default_rng(8)
+    rows = pd.DataFrame([ROW] * 200).assign(**{"spin [rad/s]": rng.normal(0, 50, 200)})
+    rows.to_csv(table, index=False)
+    out = table.with_name("out.csv")
+    files.solve(table, out)
+    wanted = scene.solve(rows)
+    with open(out, encoding="utf-8") as file:
+        found = list(csv.DictReader(file))
+    for name in ("spin [rad/s]", "spin_after [rad/s]", "energy_lost [J]"):
+        assert [float(row[name]) for row in found] == wanted[name].tolist()
+
+
+def test_whole_numbers_and_others_are_one_column(table):
+    """A piece of whole numbers is written as one of others is, also after a row of words."""
+    spins = ["1", "2", "3", "0.5", "4", "fast"]
+    table.write_text("\n".join([HEADER, *(LINE[:-1] + spin for spin in spins)]))
+    whole, pieces = table.with_name("whole.csv"), table.with_name("pieces.csv")
+    files.solve(table, whole, skip_bad=True)
+    files.solve(table, pieces, skip_bad=True, rows=2)
+    assert whole.read_text() == pieces.read_text()
+    assert pd.read_csv(whole)["spin [rad/s]"].tolist() == [1, 2, 3, 0.5, 4]
+
+
+@pytest.fixture
+def standard_input():
+    """A function that makes a file standard input."""
+    saved = os.dup(0)
+
+    def take(path):
+        with open(path, "rb") as file:
+            os.dup2(file.fileno(), 0)
+
+    yield take
+    os.dup2(saved, 0)
+    os.close(saved)
+
+
+@pytest.mark.parametrize(("source", "target"), [("-", "-"), ("/dev/stdin", "/dev/stdout")])
+def test_from_standard_input_to_standard_output(table, capfd, standard_input, source, target):
+    plain = table.with_name("plain.csv")
+    files.solve(table, plain)
+    standard_input(table)
+    assert main(["scene", source, target, "--explain"]) == 0
+    found = capfd.readouterr()
+    assert found.out == plain.read_text()
+    assert "standard output: 5 impacts" in found.err and "lumped, solved" in found.err
+
+
+def test_bad_rows_of_a_stream_are_listed_on_standard_error(table, capfd, standard_input):
+    table.write_text(f"{HEADER}\n{LINE}\n-{LINE}\n{LINE}\n")
+    standard_input(table)
+    assert main(["scene", "-", "-", "--skip-bad"]) == 0
+    found = capfd.readouterr()
+    assert len(rows_of(found.out)) == 2
+    assert "row 2, left out: radius [m] = -0.01: allowed are finite numbers above 0" in found.err
+    standard_input(table)
+    assert main(["scene", "-", "-"]) == 2
+    assert "standard input: row 2: radius [m] = -0.01" in capfd.readouterr().err
+    assert os.listdir(table.parent) == ["in.csv"]
+
+
+def test_pipes_are_csv_whatever_they_are_called(table, capsys):
+    plain, named = table.with_name("plain.csv"), table.with_name("named.parquet")
+    files.solve(table, plain)
+    os.mkfifo(named)
+    inner, outer = os.pipe()  # as the shell's <(...)
+    shares, found = [], []
+    reader = threading.Thread(target=lambda: found.append(named.read_text()), daemon=True)
+    reader.start()
+    os.write(outer, table.read_bytes())
+    os.close(outer)
+    files.solve(f"/dev/fd/{inner}", named, rows=2, progress=lambda *done: shares.append(done))
+    os.close(inner)
+    reader.join()
+    assert found == [plain.read_text()] and named.is_fifo()
+    assert shares == [(None, 2), (None, 4), (None, 5)]
+    files.bar(*shares[-1])
+    assert capsys.readouterr().err == "5 impacts\n"
+    assert sorted(os.listdir(table.parent)) == ["in.csv", "named.parquet", "plain.csv"]
+
+
+def test_gzip_in_and_out(table, capsys):
+    packed, out = table.with_name("IN.CSV.GZ"), table.with_name("out.csv.gz")
+    packed.write_bytes(gzip.compress(table.read_bytes()))
+    plain = table.with_name("plain.csv")
+    files.solve(table, plain)
+    files.solve(packed, out)
+    assert gzip.decompress(out.read_bytes()) == plain.read_bytes()
+    first = out.read_bytes()
+    files.solve(packed, out, rows=5)
+    assert out.read_bytes() == first  # no name of a file, no time
+    for half in (packed.read_bytes()[:-9], b"radius [m]"):
+        packed.write_bytes(half)
+        assert main(["scene", str(packed), str(out)]) == 2
+        assert "IN.CSV.GZ: it is no whole gzip file" in capsys.readouterr().err
+    assert out.read_bytes() == first
+
+
+def test_a_reader_of_the_table_that_has_had_enough_is_no_error(table):
+    command = f"{sys.executable} -m planarimpact scene {table} - | :"
+    result = subprocess.run(
+        ["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True
+    )
+    assert result.returncode == 0 and "Traceback" not in result.stderr
+
+
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, -15), (signal.SIGINT, 130)])
+def test_a_scene_that_is_ended_leaves_nothing_behind(table, number, status):
+    waiting, out = table.with_name("waiting"), table.with_name("out.csv")
+    out.write_text("earlier")
+    os.mkfifo(waiting)
+    code = "import signal, sys; from planarimpact.__main__ import main; "
+    # Whoever runs the tests may ignore them.
+    code += "signal.signal(signal.SIGTERM, signal.SIG_DFL); "
+    code += "signal.signal(signal.SIGINT, signal.default_int_handler); sys.exit(main(sys.argv[1:]))"
+    command = [sys.executable, "-c", code, "scene", str(waiting), str(out)]
+    held = os.open(waiting, os.O_RDWR)  # a table that never ends
+    process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+    while process.poll() is None and len(os.listdir(table.parent)) < 4:
+        time.sleep(0.01)
+    process.send_signal(number)
+    assert process.wait() == status
+    os.close(held)
+    assert sorted(os.listdir(table.parent)) == ["in.csv", "out.csv", "waiting"]
+    assert out.read_text() == "earlier"
 
 
 def test_pieces_do_not_show(table):
@@ -207,18 +378,11 @@ def test_an_earlier_result_survives_a_refusal(table):
     assert out.read_text() == "earlier"
 
 
-@pytest.mark.parametrize("text", ["", "\x00\x01", 'a,"b\n1', "radius [m],radius [m]\n1,1\n"])
-def test_what_is_no_table_is_refused(table, text, capsys):
-    table.write_text(text)
-    assert main(["scene", str(table), str(table.with_name("out.csv"))]) == 2
-    assert "in.csv" in capsys.readouterr().err
-
-
 def test_without_pandas_it_says_what_to_install(table):
     code = "import sys; sys.modules['pandas'] = None; from planarimpact.__main__ import main; "
     code += f"sys.exit(main(['scene', {str(table)!r}, 'out.csv']))"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert result.returncode == 2 and "scenes need pandas: pip install pandas" in result.stderr
+    assert result.returncode == 2 and "scene needs pandas: pip install pandas" in result.stderr
 
 
 def test_a_result_in_json(table):
@@ -252,6 +416,34 @@ def test_parquet(table):
     words = {"model": str, "regime": str}
     tables = pd.read_parquet(out).astype(words), pd.read_csv(plain).astype(words)
     pd.testing.assert_frame_equal(*tables, check_dtype=False, rtol=1e-12)
+
+
+def test_parquet_keeps_its_types(table):
+    pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    source, out = table.with_name("in.parquet"), table.with_name("out.parquet")
+    rows = pd.DataFrame([ROW] * 5).astype({"friction": "float32", "density [kg/m^3]": "int16"})
+    names = pyarrow.array([2**53 + 1, None, 3, 4, 5])
+    given = pyarrow.Table.from_pandas(rows).append_column("id", names)
+    pyarrow.parquet.write_table(given, source)
+    files.solve(source, out, rows=2)
+    found = pyarrow.parquet.read_table(out)
+    for name in given.column_names:
+        assert found[name].type == given[name].type and found[name].equals(given[name])
+    plain = table.with_name("out.csv")
+    files.solve(source, plain)
+    first, second, *_ = rows_of(plain.read_text())
+    assert (first["id"], second["id"]) == (f"{2**53 + 1}", "")
+    assert float(first["friction"]) == np.float32(0.3)
+    indexed = rows.set_axis([f"shot {n}" for n in range(5)])
+    for name in (None, "id"):  # a named index is a column of the file
+        indexed.rename_axis(name).to_parquet(source)
+        files.solve(source, plain)
+        assert rows_of(plain.read_text())[4].get("id") == (name and "shot 4")
+    dates = given.set_column(9, "id", pyarrow.array([None, 1, 2, 3, 4], pyarrow.date32()))
+    pyarrow.parquet.write_table(dates, source)
+    files.solve(source, table.with_name("out.json"))
+    shown = [row["id"] for row in json.loads(table.with_name("out.json").read_text())]
+    assert shown[:2] == [None, "1970-01-02"]
 
 
 def test_a_reader_that_has_had_enough_is_no_error():

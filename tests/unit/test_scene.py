@@ -1,5 +1,9 @@
 """Scenes: columns, plane and space, energy, blocks, and the choice of a rung."""
 
+import importlib
+import sys
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -134,6 +138,35 @@ def test_without_friction_only_the_normal_velocity_changes():
     after = scene.solve(table(STEEL, PLANE, friction=0.0)).iloc[0]
     assert after["velocity_tangential_after [m/s]"] == 1.0 and after["spin_after [rad/s]"] == 30.0
     assert after["velocity_normal_after [m/s]"] == -1.6 and after["model"] == "slip throughout"
+
+
+def test_the_result_has_the_table_and_then_what_follows():
+    """Columns, their order, types and values, and the index, of rows that are not left out."""
+    rows = table(PLANE, STEEL).loc[[0] * 4].set_axis(["a", "b", "b", "c"])
+    rows = rows.assign(id=["NA", None, "007", 1e5], friction=["0.3", "0.2", "1e-1", "no"])
+    rows = rows.astype({"density [kg/m^3]": int, "radius [m]": "float32"})
+    before = rows.copy()
+    after = solver.Solver().solve(rows, skip_bad=True)
+    assert list(after.columns)[: len(rows.columns)] == list(rows.columns)
+    pd.testing.assert_frame_equal(after[list(rows.columns)], rows.iloc[:3])
+    pd.testing.assert_frame_equal(rows, before)
+
+
+@pytest.mark.parametrize(
+    "given", ["shots.csv", Path("shots.csv"), {"radius [m]": 1}, np.ones((3, 3))]
+)
+def test_what_is_no_table_is_refused(given):
+    with pytest.raises(
+        InputError, match="table = .*: allowed is a pandas DataFrame; .* reads files"
+    ):
+        scene.solve(given)
+
+
+def test_without_pandas_it_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    monkeypatch.delitem(sys.modules, "planarimpact.scene")
+    with pytest.raises(ImportError, match="planarimpact.scene needs pandas: pip install pandas"):
+        importlib.import_module("planarimpact.scene")
 
 
 def test_index_and_id_are_kept_and_blocks_do_not_show(monkeypatch):

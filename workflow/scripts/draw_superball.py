@@ -4,7 +4,7 @@ import drawing
 import numpy as np
 from matplotlib.patches import Circle, FancyArrowPatch
 
-PLACE, HEIGHT, SPIN = "place [m]", "height [m]", "spin [rad/s]"
+PLACE, HEIGHT, SPIN = "place [m]", "height [m]", "spin_y [rad/s]"
 SURFACE = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
 WORDS = {
     "STICK": "sticks",
@@ -47,7 +47,7 @@ def draw(curves, settings, points):
     legs = range(len(place) - 1)
     motions = zip(path["velocity_x [m/s]"], path[SPIN], strict=True)
     entries = [
-        drawing.key(f"({n + 1}) {_plain(v, 1)} m/s along, {_plain(s)} rad/s", **_style(v < 0))
+        drawing.key(f"({n + 1}) {_plain(v, 1)} m/s, spin_y {_plain(s)} rad/s", **_style(v < 0))
         for n, (v, s) in zip(legs, motions, strict=False)
     ]
     drawing.legend_below(figure, entries[0::2], entries[1::2])

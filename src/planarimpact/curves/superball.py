@@ -21,14 +21,16 @@ def curves(throw: dict[str, Any]) -> Curves:
     throw : dict
         `radius` [m], `density` [kg/m^3], `young_modulus` [Pa] and `poisson_ratio` of the ball,
         `friction`, `restitution`; `velocity` [m/s] before the first impact, on the floor, along
-        and up; `spin` [rad/s], positive where it moves the foot of the ball forward; `gap` [m]
-        between floor and table; `bounces`.
+        and up; `spin` [rad/s] before it, positive where it moves the foot of the ball forward;
+        `gap` [m] between floor and table; `bounces`.
 
     Returns
     -------
     dict
         `path`: one row before the first impact, one at each, one after the last; velocity and spin
-        are those after it. Gravity is left out: the throw is fast.
+        are those after it. They have the names and signs of a scene in space, x along the floor and
+        z up: spin_y is positive where the ball turns as if it rolled forward on the floor, and
+        -`spin` before the first impact. Gravity is left out: the throw is fast.
 
     Examples
     --------
@@ -50,13 +52,13 @@ def curves(throw: dict[str, Any]) -> Curves:
     height = np.concatenate([[reach / 2], height, [last]])
     flight = np.abs(np.diff(height)) / np.abs(up)
     place = np.cumsum(np.concatenate([[0.0], along * flight]))
-    spin = -np.append(before["spin_y [rad/s]"][:1], after["spin_y_after [rad/s]"])
+    spin = np.append(before["spin_y [rad/s]"][:1], after["spin_y_after [rad/s]"])
     path = {
         "place [m]": place - place[1],
         "height [m]": throw["radius"] + height,
         "velocity_x [m/s]": np.append(along, along[-1]),
         "velocity_z [m/s]": np.append(up, up[-1]),
-        "spin [rad/s]": np.append(spin, spin[-1]),
+        "spin_y [rad/s]": np.append(spin, spin[-1]),
         "regime": np.array(["before", *after["regime"], "after"]),
     }
     return {"path": path}

@@ -8,7 +8,11 @@ for bodies whose radius of gyration is the same about every axis: they move in t
 incidence.
 """
 
-import pandas as pd
+try:
+    import pandas as pd
+except ImportError as error:
+    words = f"planarimpact.scene needs pandas: pip install pandas ({error})"
+    raise ImportError(words, name=error.name) from None
 
 from planarimpact.scene.solver import Solver
 
@@ -31,15 +35,16 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        With the index of `table`: `id`; the state after, named as before with `_after`; `model`;
-        `error` of the tangential velocity [m/s]; `regime`; `incidence` v1(0)/(mu v2(0)), inf or NaN
-        without friction; largest
-        normal force (Hertz, elastic in compression whatever e) and friction [N]; `energy_lost [J]`.
+        `table` with its index and columns, and then: the state after, named as before with
+        `_after`; `model`; `error` of the tangential velocity [m/s]; `regime`; `incidence`
+        v1(0)/(mu v2(0)), inf or NaN without friction; largest normal force (Hertz, elastic in
+        compression whatever e) and friction [N]; `energy_lost [J]`.
 
     Raises
     ------
     InputError
-        For columns that are missing, unknown or do not go together, or a bad row, by its number.
+        For what is no DataFrame, columns that are missing, unknown or do not go together, or a bad
+        row, by its number.
     ConvergenceError
         If the continuum does not reach the tolerance, by the row: solving many elastic pairs of
         a mass ratio above 100 takes seconds, beyond some 10 000 the answer is mostly this.

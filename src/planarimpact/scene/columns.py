@@ -65,6 +65,7 @@ OTHER_SPACE = {f"other_{name}": column for name, column in SPACE.items()}
 
 KNOWN = BODY | OTHER | PAIR | PLANE | SPACE | NORMAL | OTHER_PLANE | OTHER_SPACE
 LABEL = "id"
+DECIMALS = "; decimals have a point, not a comma"
 
 
 def header(name: str, ending: str = "") -> str:
@@ -115,7 +116,7 @@ def named(headers: Iterable[object]) -> dict[str, str]:
             wanted = f"is [{KNOWN[name].unit}]" if KNOWN[name].unit else "is none: it is a number"
             raise InputError(f"column {text!r}: the unit of {name} {wanted}")
         if name in found:
-            raise InputError(f"column {text!r}: it is there twice")
+            raise InputError(f"column {text!r} is there twice")
         found[name] = text
     _refuse_incomplete(set(found))
     return found
@@ -191,9 +192,10 @@ def numbers(table: pd.DataFrame, names: dict[str, str]) -> tuple[dict[str, Array
         column = KNOWN[name]
         values[name], bad = _checked(table[text], column)
         for position in np.flatnonzero(bad).tolist():
-            shown = table[text].iloc[position]
-            shown = repr(shown) if isinstance(shown, str) else f"{shown}"
-            problems.setdefault(position, f"{text} = {shown}: allowed are {column.allowed}")
+            cell = table[text].iloc[position]
+            shown = repr(cell) if isinstance(cell, str) else f"{cell}"
+            hint = DECIMALS if "," in shown else ""
+            problems.setdefault(position, f"{text} = {shown}: allowed are {column.allowed}{hint}")
     endless = np.isinf(values.get("other_radius", 0.0)) & _moves(values)
     for position in np.flatnonzero(endless).tolist():
         words = "allowed are finite numbers where the other body can move or turn"

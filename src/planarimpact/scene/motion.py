@@ -4,7 +4,8 @@ Vectors are arrays of shape (3, n) in the axes of the table. The unit normal n p
 other body, or the surface, to the body; contact points lie at -radius n from the body's centre and
 at +radius n from the other's. A plane state stands in the plane of x (tangential) and z (normal):
 its normal velocity is positive towards the surface and its spin, positive where it moves the
-contact point in the tangential direction, turns about -y.
+contact point in the tangential direction, turns about -y. In space the spin is the right-handed
+vector of angular velocity.
 """
 
 from typing import NamedTuple

@@ -1,5 +1,6 @@
 """Solves tables of impacts, block by block, and remembers what it did."""
 
+import reprlib
 from collections import Counter
 from typing import Any
 
@@ -54,6 +55,11 @@ class Solver:
         -------
         DataFrame
         """
+        if not isinstance(table, pd.DataFrame):
+            raise InputError(
+                f"table = {' '.join(reprlib.repr(table).split())}: allowed is a pandas DataFrame; "
+                "`python -m planarimpact scene` reads files"
+            )
         names = columns.named(table.columns)
         blocks = [
             self._block(table.iloc[start : start + BLOCK], names, skip_bad)
@@ -95,10 +101,7 @@ class Solver:
             (self.rows + position + 1, problems[position]) for position in sorted(problems)
         ]
         self.rows += len(table)
-        chosen = table[good]
-        if columns.LABEL in names:
-            result = {columns.LABEL: chosen[names[columns.LABEL]].to_numpy(), **result}
-        found = pd.DataFrame(result, index=chosen.index)
+        found = table[good].assign(**result)
         return found[~np.isin(positions, list(unsolved))] if unsolved else found
 
     def _impacts(

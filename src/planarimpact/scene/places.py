@@ -1,0 +1,112 @@
+"""What the name of a table says: a kind of file by its ending, standard input or output, a pipe."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+from planarimpact.checks import InputError
+
+CSV, GZIP, PARQUET, JSON = ".csv", ".csv.gz", ".parquet", ".json"
+
+
+class Place(NamedTuple):
+    """Where a table is read or written.
+
+    A stream is standard input or output, a pipe or a device: CSV whatever its name, and written to
+    straight, as it cannot be replaced by a file.
+    """
+
+    name: str  # for messages
+    opened: str | int  # for `open`: a path, or the number of an open file
+    kind: str
+    stream: bool
+
+
+def source(path: str | Path) -> Place:
+    """Place of a table that is read; `-` is standard input.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Place
+
+    Raises
+    ------
+    InputError
+        If the name says nothing that can be read.
+
+    Examples
+    --------
+    >>> source("shots.csv").kind, source("-").name
+    ('.csv', 'standard input')
+    >>> source("shots.xlsx")
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: shots.xlsx: allowed are names that end in .csv, .csv.gz or \
+.parquet, pipes, and - for standard input
+    """
+    return _place(path, ("-", "/dev/stdin"), 0, "standard input", (CSV, GZIP, PARQUET))
+
+
+def target(path: str | Path) -> Place:
+    """Place of a table that is written, JSON too; `-` is standard output.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Place
+
+    Raises
+    ------
+    InputError
+        If the name says nothing that can be written.
+
+    Examples
+    --------
+    >>> target("after.json").kind, target("-").stream
+    ('.json', True)
+    """
+    return _place(path, ("-", "/dev/stdout"), 1, "standard output", (CSV, GZIP, PARQUET, JSON))
+
+
+def beside(target: Place) -> Place | None:
+    """Place of the list of bad rows: `<name>.bad.csv`; a stream has nothing beside it.
+
+    Examples
+    --------
+    >>> beside(target("after.json")).name, beside(target("-"))
+    ('after.json.bad.csv', None)
+    """
+    name = f"{target.name}.bad.csv"
+    return None if target.stream else Place(name, name, CSV, stream=False)
+
+
+def _place(
+    path: str | Path, standard: tuple[str, ...], number: int, words: str, kinds: tuple[str, ...]
+) -> Place:
+    name = str(path)
+    if name in standard:
+        return Place(words, number, CSV, stream=True)
+    if Path(path).is_fifo() or Path(path).is_char_device():
+        return Place(name, name, CSV, stream=True)
+    for kind in kinds:
+        if name.lower().endswith(kind):
+            if kind == PARQUET:
+                _refuse_without_pyarrow(name)
+            return Place(name, name, kind, stream=False)
+    endings = f"{', '.join(kinds[:-1])} or {kinds[-1]}"
+    raise InputError(f"{name}: allowed are names that end in {endings}, pipes, and - for {words}")
+
+
+def _refuse_without_pyarrow(name: str) -> None:
+    try:
+        import pyarrow  # noqa: F401 (whether it is there)
+    except ImportError:
+        raise InputError(
+            f"{name}: Parquet needs pyarrow: pip install pyarrow, or use CSV"
+        ) from None

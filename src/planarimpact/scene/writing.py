@@ -1,0 +1,110 @@
+"""Tables of scenes written piece by piece: CSV, JSON, or Parquet where pyarrow is installed."""
+
+import gzip
+import io
+import json
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from typing import Any, TextIO, TypeAlias
+
+import pandas as pd
+
+from planarimpact import whole_files
+from planarimpact.checks import InputError
+from planarimpact.scene import places
+from planarimpact.scene.places import Place
+
+Write: TypeAlias = Callable[[pd.DataFrame], None]
+
+LEVEL = 6  # of gzip, as the command has it: the highest takes five times as long
+
+
+@contextmanager
+def appended(target: Place) -> Iterator[Write]:
+    """A function that appends tables to a target; a file gets its name when all are written.
+
+    Parameters
+    ----------
+    target : Place
+
+    Yields
+    ------
+    callable
+        Takes a DataFrame; all of them have the same columns.
+
+    Raises
+    ------
+    InputError
+        If the target cannot be written. A pipe that nobody reads any more is a BrokenPipeError.
+    """
+    try:
+        with ExitStack() as stack:
+            opened = target.opened
+            if not target.stream:
+                opened = str(stack.enter_context(whole_files.written(target.name)))
+            if target.kind == places.PARQUET:
+                yield stack.enter_context(_parquet(opened))
+            else:
+                file = stack.enter_context(_text(opened, target.kind))
+                manager = _json if target.kind == places.JSON else _csv
+                yield stack.enter_context(manager(file))
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise InputError(f"{target.name}: {error.strerror or error}") from None
+
+
+@contextmanager
+def _text(opened: str | int, kind: str) -> Iterator[TextIO]:
+    with ExitStack() as stack:
+        file: Any = stack.enter_context(open(opened, "wb", closefd=isinstance(opened, str)))
+        if kind == places.GZIP:  # without name and time: the same table is the same file
+            file = stack.enter_context(gzip.GzipFile("", "wb", LEVEL, file, mtime=0))
+        yield stack.enter_context(io.TextIOWrapper(file, encoding="utf-8", newline=""))
+
+
+@contextmanager
+def _csv(file: TextIO) -> Iterator[Write]:
+    header = True
+
+    def write(table: pd.DataFrame) -> None:
+        nonlocal header
+        table.to_csv(file, index=False, header=header, lineterminator="\n")
+        header = False
+
+    yield write
+
+
+@contextmanager
+def _json(file: TextIO) -> Iterator[Write]:
+    """An array of objects, one a line; what is no finite number is null."""
+    before = "[\n"
+
+    def write(table: pd.DataFrame) -> None:
+        nonlocal before
+        for row in table.astype(object).to_dict("records"):
+            plain = {name: whole_files.or_null(cell) for name, cell in row.items()}
+            file.write(before + json.dumps(plain, default=str))  # an id may be a date
+            before = ",\n"
+
+    yield write
+    file.write("[]\n" if before == "[\n" else "\n]\n")
+
+
+@contextmanager
+def _parquet(path: str | int) -> Iterator[Write]:
+    import pyarrow  # here, as it takes its time
+    from pyarrow import parquet
+
+    with ExitStack() as stack:
+        writer: Any = None
+
+        def write(table: pd.DataFrame) -> None:
+            nonlocal writer
+            schema = None if writer is None else writer.schema
+            content = pyarrow.Table.from_pandas(table, schema, preserve_index=False)
+            if writer is None:
+                writer = stack.enter_context(parquet.ParquetWriter(path, content.schema))
+            writer.write_table(content)
+
+        yield write
