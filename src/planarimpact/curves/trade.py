@@ -251,8 +251,8 @@ def times(
 
     Examples
     --------
-    >>> times(lambda x: 0.5 * x.size, (0, 8), [1, 10, 10000], 60)
-    {'time_1 [s]': 0.5, 'time_10 [s]': 0.5}
+    >>> times(lambda x: 0.001 * x.size, (0, 8), [1, 10, 10000], budget=0.1)
+    {'time_1 [s]': 0.001, 'time_10 [s]': 0.001}
     """
     random = np.random.default_rng(SEED)
     low, high = incidence
