@@ -178,6 +178,7 @@ BAD_YAML = {
     "Latin-1": ("a: 1\nb: é".encode("latin-1"), "line 2: byte 0xe9 is no UTF-8"),
     "UTF-16": ("a: 1".encode("utf-16"), "line 1: the file is UTF-16"),
     "a list as key": ("a: 1\n[1, 2]: 3", "line 2: a key is no text"),
+    "a list that says it is a text": ("? !!str [a]\n: c", "line 1: a key is no text"),
     "a mapping as key": ("? {a: b}\n: c", "line 1: a key is no text"),
     "a number as key": ("1: a", "line 1: the key '1' is no text"),
     "a key twice": ("a: 1\nb: 2\na: 3", "line 3: the key 'a' stands twice"),

@@ -95,9 +95,10 @@ class _Loader(yaml.SafeLoader):
         node = super().compose_mapping_node(anchor)
         known = set()
         for key, _ in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                _refuse("a key is no text", key.start_mark)
             if key.tag not in (TEXT, MERGE):
-                name = f"the key '{key.value}'" if isinstance(key, yaml.ScalarNode) else "a key"
-                _refuse(f"{name} is no text", key.start_mark)
+                _refuse(f"the key '{key.value}' is no text", key.start_mark)
             if key.value in known:
                 _refuse(f"the key '{key.value}' stands twice", key.start_mark)
             known.add(key.value)
