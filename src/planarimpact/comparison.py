@@ -2,7 +2,8 @@
 
 A vertical residual is wrong near a kink or on a steep slope, where a perfect curve may seem
 several per cent off. So both axes are scaled by the uncertainties of the reference, and a
-point's distance is the shortest one to the polyline of the curve, in sigmas.
+point's distance is the shortest one to the polyline of the curve, in sigmas. Where the model is not
+meant to be exact, an allowance for its form joins the uncertainties first.
 """
 
 import math
@@ -241,6 +242,31 @@ def difference_residuals(
     gap = np.asarray(left, float) - np.asarray(right, float)
     _refuse_none(gap)
     return Residuals(np.asarray(x, float), gap / sigma, gap)
+
+
+def with_allowance(
+    sigma: tuple[float, float], allowance: tuple[float, float]
+) -> tuple[float, float]:
+    """Uncertainty of a point beside a model that may itself be off: root of the sum of squares.
+
+    Parameters
+    ----------
+    sigma : (float, float)
+        Of the points, in units of the x and the y axis.
+    allowance : (float, float)
+        How far the model may be off by its form, in the same units.
+
+    Returns
+    -------
+    (float, float)
+
+    Examples
+    --------
+    >>> with_allowance((0.0, 0.4), (0.1, 0.3))
+    (0.1, 0.5)
+    """
+    x, y = (math.hypot(*pair) for pair in zip(sigma, allowance, strict=True))
+    return x, y
 
 
 def fact_residuals(found: float, fact: Mapping[str, Any]) -> Residuals:

@@ -1,13 +1,20 @@
 """Error against time: known distances between models, the Pareto front, the choice of a model."""
 
+import math
+import re
+from pathlib import Path
+from types import SimpleNamespace
+
 import csv_tables
+import draw_trade
 import pytest
 import trade_table
 import write_trade
 
-from planarimpact import InputError, ladder
+from planarimpact import InputError, ladder, response
 from planarimpact.curves import trade
 
+REPORT = Path(__file__).parents[2] / "workflow/report"
 RMS, MAX = "rms_velocity [mu v2(0)]", "max_velocity [mu v2(0)]"
 SETTINGS = {
     "mass_ratio": 3.5,
@@ -93,6 +100,116 @@ def test_front_leaves_out_what_is_beaten():
     assert trade_table.front([1.0], [0.0]) == [0]
 
 
+class Clock:
+    """Stands for `time`: wall time passes as told, and the process gets a share of it."""
+
+    def __init__(self, tick=1e-9):
+        self.wall = self.cpu = 0.0
+        self.tick = tick
+
+    def pass_by(self, seconds, share):
+        self.wall += seconds
+        self.cpu += share * seconds
+
+    def perf_counter(self):
+        return self.wall
+
+    def process_time(self):
+        return math.floor(self.cpu / self.tick) * self.tick
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    """Of a step to choose."""
+
+    def set_up(tick=1e-9):
+        found = Clock(tick)
+        monkeypatch.setattr(trade, "time", found)
+        monkeypatch.setattr(trade, "_tick", lambda: tick)
+        return found
+
+    return set_up
+
+
+@pytest.mark.parametrize(
+    ("call", "share", "tick", "busy"),
+    [
+        (0.01, 1.0, 1e-9, None),
+        (0.01, 0.9, 1e-9, None),
+        (0.01, 0.8, 1e-9, 1.25),
+        (0.01, 0.25, 1e-9, 4.0),
+        (1e-5, 0.25, 1e-9, 4.0),
+        (1e-4, 1.0, 0.01, None),  # far below the step of the CPU clock
+        (0.015, 1.0, 0.01, None),  # shown as 0.01 or 0.02
+        (3.0, 1.0, 0.01, None),
+        (3.0, 0.5, 0.01, 2.0),
+    ],
+)
+def test_a_time_taken_on_a_busy_machine_says_so(call, share, tick, busy, clock):
+    fake = clock(tick)
+
+    def solve(x):
+        fake.pass_by(call, share)
+        return call
+
+    found = trade.times(solve, (0, 8), [1000], 10.0)
+    assert found["time_1000 [s]"] == pytest.approx(call / 1000)
+    assert found.get("busy_1000 [1]") == (busy and pytest.approx(busy, rel=0.01))
+
+
+def test_short_calls_of_which_few_are_interrupted_are_timed_well_beside_any_load(clock):
+    fake, calls = clock(), []
+
+    def solve(x):
+        calls.append(x.size)
+        start = fake.wall
+        fake.pass_by(1e-5, 1.0)
+        if len(calls) % 5 == 0:
+            fake.pass_by(0.004, 0.0)  # another program has its turn
+        return fake.wall - start
+
+    found = trade.times(solve, (0, 8), [1000], 10.0)
+    assert found == {"time_1000 [s]": pytest.approx(1e-8)}
+
+
+def test_a_busy_machine_leaves_no_batch_out(clock):
+    """The second takes 30 s as the clock on the wall goes, and 3 s of the processor."""
+    fake = clock()
+
+    def solve(x):
+        fake.pass_by(x.size / 100, 0.1)
+        return x.size / 100
+
+    assert set(trade.times(solve, (0, 8), [1000, 3000], 4.0)) == {
+        *("time_1000 [s]", "busy_1000 [1]"),
+        *("time_3000 [s]", "busy_3000 [1]"),
+    }
+
+
+def test_a_slow_compilation_on_a_busy_machine_says_so(clock, monkeypatch):
+    fake, compiled = clock(), response.compile
+
+    def compile_(*args, **kwargs):
+        fake.pass_by(3.0, 0.5)
+        return compiled(*args, **kwargs)
+
+    monkeypatch.setattr(trade.response, "compile", compile_)
+    settings = {"restitution": [0.5], "steps": [16], "batches": [1]}
+    rows = trade.curves(**SETTINGS | settings)
+    assert rows["response of lumped, tolerance 1e-10, e = 0.5"]["busy_build [1]"] == [
+        pytest.approx(2.0)
+    ]
+    assert sum(key.startswith("busy") for columns in rows.values() for key in columns) == 1
+
+
+def test_the_step_of_the_cpu_clock_is_measured(monkeypatch):
+    """It may state a finer one than it has."""
+    reads = iter(range(1000))
+    coarse = SimpleNamespace(process_time=lambda: 0.01 * (next(reads) // 100))
+    monkeypatch.setattr(trade, "time", coarse)
+    assert trade._tick.__wrapped__() == pytest.approx(0.01)
+
+
 def row(name, error, restitution="1.0", reference="1e-7", build="", times=("", "")):
     return {
         "curve": name,
@@ -130,6 +247,51 @@ def test_error_of_the_reference_counts():
     """9.5e-7 against a reference that is known to 1e-7 does not show that 1e-6 is met."""
     assert trade_table.which_model(ROWS, [1e-6])[0]["model_10"] == "none"
     assert trade_table.which_model(ROWS, [1.1e-6])[0]["model_10"] == "slow"
+
+
+@pytest.mark.parametrize(
+    ("busy", "small", "large"),
+    [
+        # Nearly all of its time is compilation, and that is right.
+        ({"compiled": {"busy_1000 [1]": "2"}}, "fine, 8 steps", "compiled"),
+        ({"compiled": {"busy_build [1]": "2"}}, "fine, 8 steps", trade_table.BUSY),
+        ({"fine": {"busy_10 [1]": "3"}}, trade_table.BUSY, "compiled"),
+        # On a quiet machine it would still be slower than the other.
+        ({"fine": {"busy_1000 [1]": "1.9"}}, "fine, 8 steps", "compiled"),
+        ({"fine": {"busy_1000 [1]": "10"}}, "fine, 8 steps", trade_table.BUSY),
+    ],
+)
+def test_a_time_taken_on_a_busy_machine_is_not_chosen(busy, small, large):
+    rows = [
+        dict.fromkeys(("busy_10 [1]", "busy_1000 [1]", "busy_build [1]"), "")
+        | row
+        | busy.get(row["curve"].split(",")[0], {})
+        for row in ROWS
+    ]
+    (found,) = trade_table.which_model(rows, [0.01])[:1]
+    assert (found["model_10"], found["model_1000"]) == (small, large)
+    for batch in (10, 1000):
+        known = found[f"model_{batch}"] != trade_table.BUSY
+        assert bool(found[f"whole_time_{batch} [s]"]) is known
+        assert bool(found[f"max_velocity_{batch} [mu v2(0)]"]) is known
+
+
+def test_table_figure_and_captions_say_that_the_machine_was_busy(named, tmp_path):
+    quiet = {
+        name: {key: value for key, value in columns.items() if not key.startswith("busy")}
+        for name, columns in named.items()
+    }
+    busy = {name: columns | {"busy_100 [1]": [2.5]} for name, columns in quiet.items()}
+    for curves, said in ((quiet, False), (quiet | dict(list(busy.items())[:2]), True)):
+        path, *tables = (tmp_path / f"{name}.csv" for name in ("curves", "table", "answers"))
+        csv_tables.write(path, curves)
+        figure = draw_trade.draw(csv_tables.read(path), SETTINGS, {})
+        words = r"\nthe machine was busy: 2 of \d\d times are up to 2.5 times too long$"
+        assert bool(re.search(words, figure.get_suptitle())) is said
+        write_trade.write(path, *tables)
+        assert ("busy_100 [1]" in csv_tables.read_rows(tables[0])[0]) is said
+    assert f"more than {trade.BUSY}" in (REPORT / "trade.rst").read_text()
+    assert trade_table.BUSY in (REPORT / "which_model.rst").read_text()
 
 
 def test_tables_are_written_and_keep_their_words(named, tmp_path):

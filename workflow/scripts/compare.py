@@ -62,7 +62,7 @@ def compare(figure, comparisons, references, curves_path, series_paths):
                 quantity, residuals = _residuals(entry, known, curves, series_paths)
             documented, distance = entry.get("documented"), residuals.summary()
             verdict = comparison.judge(distance, entry.get("agreement"), documented, gap)
-            facts |= _numbers(distance, entry)
+            facts |= _numbers(distance, entry, known)
             points = zip(residuals.x.tolist(), residuals.sigmas.tolist(), strict=True)
             facts["residuals"] = [[name, quantity, *point] for point in points]
             note = _name(documented) if documented else ""
@@ -83,8 +83,8 @@ def _residuals(entry, known, curves, series_paths):
     source, name = entry["reference"].split("/")
     series = csv_tables.read(series_paths[source])[name]
     x, y = (reference_data.column_name(known[axis]) for axis in ("x", "y"))
-    sigma = known["x"]["sigma"], known["y"]["sigma"]
-    low, high = entry.get("window", (-np.inf, np.inf))
+    sigma = _sigma(entry, known)
+    low, high = _window(entry, known["x"])
     chosen = (series[x] >= low) & (series[x] <= high)
     if entry["metric"] == "distance":
         points = series[x][chosen], series[y][chosen]
@@ -97,6 +97,22 @@ def _residuals(entry, known, curves, series_paths):
             chosen &= series["curve"] == entry["curve"]
     points = series[x][chosen], series[y][chosen], _labels(series, labels, chosen)
     return x, comparison.vertex_residuals(points, _vertices(curves, x, y, labels), sigma)
+
+
+def _sigma(entry, series):
+    """Of both axes, with the allowance for the form of the model if the comparison has one."""
+    sigma = series["x"]["sigma"], series["y"]["sigma"]
+    allowance = entry.get("allowance")
+    if allowance is None:
+        return sigma
+    return comparison.with_allowance(sigma, (allowance["x"], allowance["y"]))
+
+
+def _window(entry, axis):
+    """Ends of the window; one at the end of the axis' range lets in what lies just outside it."""
+    low, high = entry.get("window", axis["range"])
+    first, last = axis["range"]
+    return low if low > first else -np.inf, high if high < last else np.inf
 
 
 def _vertices(curves, x, y, labels):
@@ -171,21 +187,29 @@ def _refuse_not_finite(curves):
                 raise ValueError(f"curve '{name}', column '{column}' is not finite")
 
 
-def _numbers(distance, entry):
+def _numbers(distance, entry, known):
     return {
         "points": distance.points,
         "rms [sigma]": f"{distance.rms:.3g}",
         "max [sigma]": f"{distance.max:.3g}",
         "rms [axis units]": f"{distance.plain_rms:.3g}",
-        "allowed": _allowed(entry),
+        "allowed": _allowed(entry, known),
     }
 
 
-def _allowed(entry):
+def _allowed(entry, known):
     if "agreement" in entry:
-        return ", ".join(f"{key} <= {limit:g}" for key, limit in entry["agreement"].items())
+        limits = ", ".join(f"{key} <= {limit:g}" for key, limit in entry["agreement"].items())
+        return limits + (_unit_of_distance(entry, known) if "allowance" in entry else "")
     bounds = {k: v for k, v in entry["documented"].items() if k not in ("entry", "note")}
     return ", ".join(f"{low:g} <= {key} <= {high:g}" for key, (low, high) in bounds.items())
+
+
+def _unit_of_distance(entry, series):
+    """What a distance of 1 is in axis units, where it is not the sigma that source.yaml states."""
+    axes = zip((series["x"], series["y"]), _sigma(entry, series), strict=True)
+    words = ", ".join(f"{axis['column']} {size:.3g} {axis['unit']}" for axis, size in axes)
+    return f"; 1 is {words}: allowance for the model and sigma together".replace("_", " ")
 
 
 def _row(figure, name, verdict, **cells):

@@ -74,7 +74,7 @@ FRONT_WITH_RESPONSES = FRONT | {"linestyle": (0, (4, 2))}
 def draw(curves, settings, points, families=FAMILIES):
     """(a) Error against time for the first restitution, (b) for the last, (c) time and batch.
 
-    `families` may hold more than those of the legend.
+    `families` may hold more than those of the legend. The title says so if times are too long.
     """
     rows = [{key: value[0] for key, value in curve.items()} for curve in curves.values()]
     first, last = settings["restitution"][0], settings["restitution"][-1]
@@ -96,7 +96,8 @@ def draw(curves, settings, points, families=FAMILIES):
     _draw_growth(growth, _of(rows, first), sorted(settings["batches"]))
     growth.set(title=f"(c) $e = {first:g}$", xlabel="impacts together", ylabel=TIME_WORDS)
     note = f"numbers at points: steps, circles or tolerance; (a), (b): {batch} impacts together"
-    figure.suptitle(note, fontsize=drawing.NOTE)
+    notes = [note, trade_table.warning(rows)]
+    figure.suptitle("\n".join(filter(None, notes)), fontsize=drawing.NOTE)
     _add_legend(figure)
     return figure
 

@@ -5,12 +5,24 @@ a series. An awaited series becomes digitised when WebPlotDigitizer's export is 
 folder as `<series>.wpd.csv` and `digitised_by` in source.yaml says whose work it is.
 """
 
+import codecs
 import csv
 import math
+import re
+import unicodedata
 from pathlib import Path
 
+import digitiser_export
 import jsonschema
-import yaml
+import strict_yaml
+
+MOST_LINES = 10_000  # of a series
+OUTSIDE = 3  # sigmas; so far may a value lie outside the range of its axis
+LARGEST_SIGMA = 0.01  # of the range: the series here have a tenth to a half of it
+_NUMBERS = {
+    mark: re.compile(rf"[+-]?([0-9]+([{mark}][0-9]*)?|[{mark}][0-9]+)([eE][+-]?[0-9]+)?")
+    for mark in ".,"
+}
 
 # For JSON Schema 2.0 is an integer; for range() it is not.
 _Validator = jsonschema.validators.extend(
@@ -49,47 +61,81 @@ def load(folder, schema):
     source = load_yaml(path)
     refuse_invalid(source, schema, path)
     for name, series in source.get("series", {}).items():
+        for axis in ("x", "y"):
+            _refuse_axis(f"{path}: series.{name}.{axis}", series[axis])
         series["path"] = _file_of(folder, name, series)
         if series["path"]:
             read_series(name, series)
     known = {"source.yaml", *(Path(s["path"]).name for s in _found(source))}
     strays = sorted(file.name for file in folder.glob("*.csv") if file.name not in known)
     if strays:
-        names = ", ".join(source.get("series", {})) or "none"
-        raise SourceError(f"{folder / strays[0]}: no series of that name; source.yaml has {names}")
+        names = ", ".join(_file_name(*item) for item in source.get("series", {}).items()) or "none"
+        raise SourceError(f"{folder / strays[0]}: no series of that name; allowed are {names}")
     return source
 
 
-class _UniqueKeys(yaml.SafeLoader):
-    """Refuses what YAML lets pass: of two equal keys the first is lost without a word."""
-
-    def construct_mapping(self, node, deep=False):
-        names = [key.value for key, _ in node.value]
-        for key, _ in node.value:
-            if names.count(key.value) > 1:
-                self._refuse(key, "stands twice")
-            if key.tag not in ("tag:yaml.org,2002:str", "tag:yaml.org,2002:merge"):
-                self._refuse(key, "is no text")
-        return super().construct_mapping(node, deep)
-
-    @staticmethod
-    def _refuse(key, what):
-        message = f"the key '{key.value}' {what}"
-        raise yaml.constructor.ConstructorError(None, None, message, key.start_mark)
+def _refuse_axis(where, axis):
+    """Refuse what the schema cannot: numbers of an axis that do not go together."""
+    low, high = axis["range"]
+    if not low < high:
+        raise SourceError(f"{where}.range = {axis['range']}: the first number must be the smaller")
+    most = LARGEST_SIGMA * (high - low)
+    if axis["sigma"] > most:
+        raise SourceError(
+            f"{where}.sigma = {axis['sigma']:g}: allowed is up to {most:g}, a hundredth of the "
+            f"range {low:g} to {high:g}; with more the series would judge nothing"
+        )
 
 
 def load_yaml(path):
-    """Read a YAML file whose keys are texts, each once.
+    """Read a YAML file: a mapping whose keys are texts, each once.
+
+    Parameters
+    ----------
+    path : str or Path
+        Of a source, a schema, a ledger or workflow/config.yaml.
+
+    Returns
+    -------
+    dict
 
     Raises
     ------
     SourceError
-        Naming the file, and the line where there is one.
+        In one line, naming the file, and the line where there is one.
     """
     try:
-        return yaml.load(Path(path).read_text(encoding="utf-8"), Loader=_UniqueKeys)
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise SourceError(f"{path}: {error}") from None
+        return strict_yaml.load("".join(_lines(path)))
+    except ValueError as error:
+        raise SourceError(f"{path}, {error}") from None
+
+
+def _lines(path, most=math.inf):
+    """Lines of a text file in UTF-8, read one by one as they are asked for."""
+    try:
+        with open(path, "rb") as file:
+            for number, line in enumerate(file, start=1):
+                if number > most:
+                    raise SourceError(f"{path}: more than {most} lines; allowed are up to {most}")
+                yield _decoded(line, number, path)
+    except OSError as error:
+        raise SourceError(f"{path}: {error.strerror}") from None
+
+
+def _decoded(line, number, path):
+    where, advice = f"{path}, line {number}", "save the file as UTF-8"
+    if number == 1:
+        if line.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+            raise SourceError(f"{where}: the file is UTF-16; {advice}")
+        line = line.removeprefix(codecs.BOM_UTF8)
+    if b"\0" in line:
+        raise SourceError(f"{where}: a NUL byte; {advice}")
+    try:
+        return line.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise SourceError(
+            f"{where}: byte 0x{line[error.start]:02x} is no UTF-8; {advice}"
+        ) from None
 
 
 def load_all(data, schema):
@@ -126,22 +172,30 @@ def column_name(axis):
 
 
 def read_series(name, series):
-    """Read one series, checked: `{column: list}` with numbers on both axes, words as labels."""
-    path = Path(series["path"])
-    labels = series.get("labels", [])
+    """Read one series, checked: `{column: list}` with numbers on both axes, words as labels.
+
+    Parameters
+    ----------
+    name : str
+    series : dict
+        Its entry in source.yaml, with its `path`.
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    SourceError
+        Naming file, line, column and value.
+    """
+    path, labels = series["path"], series.get("labels", [])
     axes = {column_name(series[axis]): series[axis] for axis in ("x", "y")}
-    try:
-        with open(path, newline="", encoding="utf-8-sig") as file:
-            rows = list(csv.reader(file))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise SourceError(f"{path}: not a readable CSV: {error}") from None
-    if series["kind"] == "awaited":
-        header, rows = list(axes), _digitiser_rows(path, name, rows)
-    else:
-        header, rows = (rows or [[]])[0], list(enumerate(rows[1:], start=2))
-    missing = [column for column in [*labels, *axes] if column not in header]
-    if missing:
-        raise SourceError(f"{path}: column '{missing[0]}' is missing; found {', '.join(header)}")
+    header, mark, rows = _table(path, name, series)
+    for column in [*labels, *axes]:
+        if header.count(column) != 1:
+            problem = "is missing" if column not in header else "stands twice"
+            raise SourceError(f"{path}: column '{column}' {problem}; found {', '.join(header)}")
     if not rows:
         raise SourceError(f"{path}: no points")
     columns = {column: [] for column in [*labels, *axes]}
@@ -151,18 +205,52 @@ def read_series(name, series):
         for column in columns:
             cell = row[header.index(column)]
             where = f"{path}, line {line}, column '{column}'"
-            columns[column].append(_number(cell, axes[column], where) if column in axes else cell)
+            columns[column].append(
+                _number(cell, mark, axes[column], where) if column in axes else cell
+            )
     return columns
 
 
-def _number(cell, axis, where):
-    low, high = axis["range"]
+def _table(path, name, series):
+    """Header of a series, its decimal mark, and its rows with the numbers of their lines."""
+    lines, exported = [], series["kind"] == "awaited"
+    for number, line in enumerate(_lines(path, MOST_LINES), start=1):
+        if "\t" in line:
+            allowed = "commas or semicolons" if exported else "commas"
+            raise SourceError(f"{path}, line {number}: a tab; cells are separated by {allowed}")
+        lines.append(line)
+    between = digitiser_export.separator(lines) if exported else ","
+    reader = csv.reader(lines, delimiter=between, strict=True)
     try:
-        value = float(cell)
-    except ValueError:
-        raise SourceError(f"{where}: '{cell}' is not a number") from None
-    if not (math.isfinite(value) and low <= value <= high):
-        raise SourceError(f"{where}: {cell} is outside {low:g} to {high:g}")
+        rows = [(reader.line_num, row) for row in reader]
+        if exported:
+            header = [column_name(series[axis]) for axis in ("x", "y")]
+            return header, *digitiser_export.points(rows, between, name)
+    except csv.Error as error:
+        raise SourceError(f"{path}, line {reader.line_num}: {error}") from None
+    except ValueError as error:
+        raise SourceError(f"{path}, {error}") from None
+    return (rows[0][1] if rows else []), ".", rows[1:]
+
+
+def _number(cell, mark, axis, where):
+    """A decimal number, at most a little outside the range of its axis.
+
+    float() would also take `1_000`, `nan` and digits of other scripts.
+    """
+    text = cell.strip(" ")
+    if not _NUMBERS[mark].fullmatch(text):
+        strange = [unicodedata.name(letter, "unnamed") for letter in text if not letter.isascii()]
+        named = f" ({strange[0].lower()})" if strange else ""
+        raise SourceError(f"{where}: {text!r}{named} is not a decimal number such as -0{mark}05")
+    value = float(text.replace(",", "."))
+    low, high = axis["range"]
+    beyond = OUTSIDE * axis["sigma"]
+    if not low - beyond <= value <= high + beyond:
+        raise SourceError(
+            f"{where}: {text} is outside {low:g} to {high:g} by more than {OUTSIDE} sigmas, "
+            f"{beyond:g}"
+        )
     return value
 
 
@@ -170,14 +258,17 @@ def _found(source):
     return [series for series in source.get("series", {}).values() if series["path"]]
 
 
+def _file_name(name, series):
+    return f"{name}.wpd.csv" if series["kind"] == "awaited" else f"{name}.csv"
+
+
 def _file_of(folder, name, series):
     """Path of a series; None for an awaited one whose export is not there."""
+    path = folder / _file_name(name, series)
     if series["kind"] != "awaited":
-        path = folder / f"{name}.csv"
         if not path.is_file():
             raise SourceError(f"{path}: missing, and {folder / 'source.yaml'} says it is there")
         return str(path)
-    path = folder / f"{name}.wpd.csv"
     if not path.is_file():
         return None
     if not series["digitised_by"]:
@@ -186,19 +277,3 @@ def _file_of(folder, name, series):
             "(who, when, with what)"
         )
     return str(path)
-
-
-def _digitiser_rows(path, name, rows):
-    """Points of a WebPlotDigitizer export: one dataset, or all of them under two header lines."""
-    start = 0
-    if rows and len(rows) > 1 and [cell.strip() for cell in rows[1][:2]] == ["X", "Y"]:
-        datasets = [cell.strip() for cell in rows[0][::2]]
-        if len(datasets) > 1 and name not in datasets:
-            raise SourceError(
-                f"{path}: several datasets ({', '.join(datasets)}); call one '{name}', or export "
-                "one alone"
-            )
-        start = 2 * (datasets.index(name) if name in datasets else 0)
-        rows = [[], [], *rows[2:]]
-    points = [(line, row[start : start + 2]) for line, row in enumerate(rows, start=1)]
-    return [(line, row) for line, row in points if any(cell.strip() for cell in row)]

@@ -2,6 +2,7 @@
 
 import csv
 import datetime
+import math
 import os
 import platform
 import subprocess
@@ -49,10 +50,17 @@ def commit(folder):
 
 
 def _git(folder, *arguments):
-    command = ["git", "-C", str(folder), *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=20).stdout[
-        :-1
-    ]
+    # A hook of git, or a shell with GIT_DIR, would have it look into another repository.
+    environment = {key: value for key, value in os.environ.items() if not key.startswith("GIT_")}
+    found = subprocess.run(
+        ["git", "-C", str(folder), *arguments],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=20,
+        env=environment,
+    )
+    return found.stdout[:-1]
 
 
 def times(benchmarks):
@@ -61,11 +69,17 @@ def times(benchmarks):
     Parameters
     ----------
     benchmarks : Path
-        Folder with a table a job; one that another job is just writing may be empty.
+        Folder with a table a job. One that another job is just writing, or that is damaged, is
+        left out.
     """
     found = []
     for path in sorted(Path(benchmarks).glob("*.tsv")):
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = csv.DictReader(file, delimiter="\t")
-            found += [(path.stem, float(row["s"])) for row in rows][:1]
+        try:
+            with open(path, newline="", encoding="utf-8") as file:
+                row = next(csv.DictReader(file, delimiter="\t"))
+            seconds = float(row["s"])
+        except (OSError, StopIteration, LookupError, TypeError, ValueError, csv.Error):
+            continue
+        if math.isfinite(seconds):
+            found.append((path.stem, seconds))
     return sorted(found, key=lambda job: -job[1])

@@ -1,5 +1,6 @@
 """Beyond the paper: how far off each model of the ladder is, and what it costs on this machine."""
 
+import functools
 import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple, TypeAlias
@@ -19,6 +20,10 @@ LUMPED_RESPONSE_TOLERANCE = 1e-10
 
 SEED = 1994
 REPEATS, ENOUGH = 25, 0.2  # medians are of so many calls, or of those begun in so many seconds
+# Wall time over CPU time beyond which the machine was busy: a time is a fifth too long, more than
+# it changes from run to run. A quiet machine stays below 1.05; as many other jobs as it has cores
+# make it 1.5 and more.
+BUSY = 1.2
 # One impact costs little less than so many solved together: the overhead of arrays.
 TOGETHER = 300
 
@@ -65,7 +70,9 @@ def curves(
         `{"<model>, <settings>, e = <restitution>": {column: array of one}}`: model and settings;
         errors, root mean square and largest, in velocity, peak friction (laws of impulses leave
         it open) and dissipation; the error of the reference itself; times. "response of ..." is
-        compiled once, in `build_time`, and then evaluated.
+        compiled once, in `build_time`, and then evaluated. A time taken while the machine was busy
+        has a column beside it, `busy_<batch>` or `busy_build`: wall time over CPU time, which is
+        about how many times too long it is.
 
     Examples
     --------
@@ -143,11 +150,13 @@ def _compiled(
     if _admits(ladder.get("continuum"), groups["restitution"]):
         wanted += [("continuum", tolerance) for tolerance in tolerances]
     for model, tolerance in wanted:
-        start = time.perf_counter()
-        made = response.compile(model, incidence_max=incidence_max, tolerance=tolerance, **groups)
-        seconds = time.perf_counter() - start
-        settings, build_time = {"tolerance": tolerance}, {"build_time [s]": seconds}
-        yield _Contender(f"response of {model}", settings, made, build_time)
+        watch = _Watch()
+        with watch:
+            made = response.compile(
+                model, incidence_max=incidence_max, tolerance=tolerance, **groups
+            )
+        build_time = {"build_time [s]": watch.wall[0]} | _busy("build", watch.over_cpu())
+        yield _Contender(f"response of {model}", {"tolerance": tolerance}, made, build_time)
 
 
 def _name(contender: _Contender, e: float) -> str:
@@ -237,26 +246,71 @@ def times(
     Returns
     -------
     dict
-        A column for each batch that was solved: the median time, over the batch.
+        A column for each batch that was solved: the median time, over the batch. Where the machine
+        was busy, `busy_<batch>` follows: the median wall time of the calls over their CPU time.
 
     Examples
     --------
-    >>> times(lambda x: 0.5 * x.size, (0, 8), [1, 10, 10000], 60)
-    {'time_1 [s]': 0.5, 'time_10 [s]': 0.5}
+    >>> times(lambda x: 0.001 * x.size, (0, 8), [1, 10, 10000], budget=0.1)
+    {'time_1 [s]': 0.001, 'time_10 [s]': 0.001}
     """
     random = np.random.default_rng(SEED)
     low, high = incidence
     seconds(random.uniform(low, high, 1))  # the first call pays for what is kept
-    columns, before, median = {}, 1, 0.0
+    columns: dict[str, float] = {}
+    before, alone = 1, 0.0
     for batch in sorted(batches):
-        if median * batch / max(before, TOGETHER) > budget:
+        if alone * batch / max(before, TOGETHER) > budget:
             break
         taken: list[float] = []
+        watch = _Watch()
         while len(taken) < REPEATS and sum(taken) < ENOUGH:
-            taken.append(seconds(random.uniform(low, high, batch)))
-        before, median = batch, float(np.median(taken))
-        columns[f"time_{batch} [s]"] = median / batch
+            x = random.uniform(low, high, batch)
+            with watch:
+                taken.append(seconds(x))
+        median, over = float(np.median(taken)), watch.over_cpu()
+        columns |= {f"time_{batch} [s]": median / batch} | _busy(f"{batch}", over)
+        before, alone = batch, median / max(over, 1.0)  # a busy machine leaves no batch out
     return columns
+
+
+def _busy(name: str, over_cpu: float) -> dict[str, float]:
+    """A column that says how busy the machine was, if it was."""
+    return {f"busy_{name} [1]": over_cpu} if over_cpu > BUSY else {}
+
+
+class _Watch:
+    """Wall and CPU time of blocks of code, to see whether the machine gave them a whole core."""
+
+    def __init__(self) -> None:
+        self.wall: list[float] = []
+        self.cpu: list[float] = []
+
+    def __enter__(self) -> None:
+        # The CPU clock is read first and last, so that it never shows less for want of reading it.
+        self._start = time.process_time(), time.perf_counter()
+
+    def __exit__(self, *_: object) -> None:
+        self.wall.append(time.perf_counter() - self._start[1])
+        self.cpu.append(time.process_time() - self._start[0])
+
+    def over_cpu(self) -> float:
+        """Median wall time over median CPU time.
+
+        Of calls shorter than a slice of time of the operating system most are not interrupted, and
+        the median is right beside any load. Calls shorter than a tick of the CPU clock show too
+        little CPU time: by one tick at most, which is added.
+        """
+        return float(np.median(self.wall) / (np.median(self.cpu) + _tick()))
+
+
+@functools.cache
+def _tick() -> float:
+    """Step of the CPU clock. It is measured: some systems state a finer one than they have."""
+    start = now = time.process_time()
+    while now == start:
+        now = time.process_time()
+    return now - start
 
 
 def _stopwatch(rebound: _Solver) -> Callable[[Array], float]:

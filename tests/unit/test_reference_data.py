@@ -1,0 +1,236 @@
+"""What may stand in data/: YAML, tables and exports are read as they are meant, or refused."""
+
+import itertools
+from pathlib import Path
+
+import pytest
+import reference_data
+import yaml
+
+ROOT = Path(__file__).parents[2]
+SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
+AXES = {
+    "x": {"column": "incidence", "unit": "1", "sigma": 0.02, "range": [0, 20]},
+    "y": {"column": "velocity", "unit": "1", "sigma": 0.01, "range": [-5, 20]},
+}
+X, Y = "incidence [1]", "velocity [1]"
+HEADER = f"{X},{Y}\n"
+
+
+def read(folder, text, kind="awaited"):
+    """x and y of a series that holds this text."""
+    path = folder / "mine.csv"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    found = reference_data.read_series("mine", {"kind": kind, "path": str(path), **AXES})
+    return list(zip(found[X], found[Y], strict=True))
+
+
+EXPORTS = {
+    "one dataset": "0.5, -0.05\n1, 2.5e-1\n",
+    "decimal commas": "0,5; -0,05\n1; 2,5e-1\n",
+    "semicolons and points": "0.5;-0.05\n1;0.25\n",
+    "quoted decimal commas": '"0,5","-0,05"\n1,"0,25"\n',
+    "BOM, CRLF and a blank line": "\ufeff0.5,-.05\r\n\r\n1.,+0.25\r\n",
+    "several datasets": "a,,mine,\nX,Y,X,Y\n7,7,0.5,-0.05\n,,1,0.25\n8,8,,\n",
+    "several with semicolons": "mine;;b;\nX;Y;X;Y\n0,5;-0,05;7;7\n1;0,25;;\n",
+    "one dataset under headers": "any name,\nX,Y\n0.5,-0.05\n1,0.25\n",
+}
+
+
+@pytest.mark.parametrize("text", EXPORTS.values(), ids=EXPORTS)
+def test_every_form_of_an_export_gives_its_points(text, tmp_path):
+    assert read(tmp_path, text) == [(0.5, -0.05), (1.0, 0.25)]
+
+
+BAD_EXPORTS = [
+    ("0.5, -0.05\n0,5, -0,05\n", "line 2: 4 cells where 2 belong; it looks like decimal commas"),
+    ("0,5, 1\n", "line 1: 3 cells where 2 belong; it looks like decimal commas: separate cells by"),
+    ("mine,,b,\nX,Y,X,Y\n0,5,1,2,0,5,1,2\n", "line 3: 8 cells where 4 belong; .* decimal commas"),
+    ("0.5,1,\n", "line 1: 3 cells where 2 belong"),
+    ("0.5,1.5,2.5\n", "line 1: 3 cells where 2 belong; commas separate the cells of this file"),
+    ("0.5 1.5\n", "line 1: 1 cells where 2 belong; commas separate the cells of this file"),
+    ("0.5,1\n2;1\n", "line 1: 1 cells where 2 belong; semicolons separate the cells"),
+    ("0,5;1\n0.6;1\n", r"line 2: '0\.6', but '0,5' in line 1: write decimal points throughout"),
+    ("1.000,5;1\n", r"line 1, column 'incidence \[1\]': '1.000,5' is not a decimal number"),
+    ("0.5\t1.5\n", "line 1: a tab; cells are separated by commas or semicolons"),
+    ("1,1\n0,5\t1,5\n", "line 2: a tab"),
+    ("x,y\n1,2\n", "line 1: 'x, y' is a header; the export of one dataset has none"),
+    ("1,\n", "line 1: half a point: x = '1' alone"),
+    ("1,2\n,3\n", "line 2: half a point: y = '3' alone"),
+    ("a,,mine,\nX,Y,X,Y\n1,1,2,\n", "line 3: half a point: x = '2' alone"),
+    ("a,,mine,\nX,Y,X,Y\n1,1\n", "line 3: 2 cells where 4 belong"),
+    ("a,b,,mine,\nX,Y,X,Y\n1,1,1,1\n", "line 1: 5 cells where 4 belong, a name and an empty"),
+    ("mine,,\nX,Y,Label\n1,1,a\n", "line 2: 'X, Y, Label' where X, Y of each dataset belong"),
+    ("a,,b,\nX,Y,X,Y\n1,1,2,2\n", r"several datasets \(a, b\); call one 'mine'"),
+    ("mine,,mine,\nX,Y,X,Y\n1,1,2,2\n", r"several datasets \(mine, mine\); call one 'mine'"),
+    ('1,"2\n3,4\n', "line 2: unexpected end of data"),
+    ("0.5,1\n0.6,many\n", r"line 2, column 'velocity \[1\]': 'many' is not a decimal number"),
+    ("1_000,1\n", "'1_000' is not a decimal number"),
+    ("nan,1\n", "'nan' is not a decimal number"),
+    ("1,inf\n", "'inf' is not a decimal number"),
+    ("0x1p3,1\n", "'0x1p3' is not a decimal number"),
+    ("1,\u22120.5\n", r"'\u22120.5' \(minus sign\) is not a decimal number"),
+    ("\u0661,1\n", r"\(arabic-indic digit one\) is not a decimal number"),
+    ("1\u00a0,1\n", r"'1\\xa0' \(no-break space\) is not"),
+    ("1e999,1\n", "1e999 is outside 0 to 20"),
+    ("", "no points"),
+    ("1,2\n\n".encode("utf-16"), "line 1: the file is UTF-16; save the file as UTF-8"),
+    ("1,2\n".encode("utf-16-le"), "line 1: a NUL byte; save the file as UTF-8"),
+    (b"1,2\n\xff,3\n", "line 2: byte 0xff is no UTF-8"),
+]
+
+
+@pytest.mark.parametrize(("text", "words"), BAD_EXPORTS)
+def test_a_bad_export_is_refused(text, words, tmp_path):
+    with pytest.raises(reference_data.SourceError, match=words) as refusal:
+        read(tmp_path, text)
+    assert f"{tmp_path / 'mine.csv'}" in str(refusal.value) and "\n" not in str(refusal.value)
+
+
+BAD_TABLES = [
+    ("1_0,2\n", "line 2, column 'incidence .*': '1_0' is not a decimal number"),
+    ("1,2\n1,5,2\n", "line 3: 3 cells where 2 belong"),
+    ("1;2\n", "line 2: 1 cells where 2 belong"),
+    ('"1,5",2\n', "line 2, .*'1,5' is not a decimal number"),
+]
+
+
+@pytest.mark.parametrize(("text", "words"), BAD_TABLES)
+def test_tables_of_this_project_have_commas_and_decimal_points(text, words, tmp_path):
+    assert read(tmp_path, f"{HEADER}1,2\n", "digitised") == [(1.0, 2.0)]
+    with pytest.raises(reference_data.SourceError, match=words):
+        read(tmp_path, HEADER + text, "digitised")
+    with pytest.raises(reference_data.SourceError, match="'velocity .*' stands twice"):
+        read(tmp_path, f"{X},{Y},{Y}\n1,2,3\n", "digitised")
+
+
+@pytest.mark.parametrize("kind", ["awaited", "digitised", "computed"])
+def test_a_point_may_lie_three_sigmas_outside_the_range(kind, tmp_path):
+    header = "" if kind == "awaited" else HEADER
+    assert read(tmp_path, f"{header}-0.06,-5.03\n20.06,20.03\n", kind)[0] == (-0.06, -5.03)
+    for row in ("-0.061,1", "20.061,1", "1,-5.031"):
+        words = "is outside .* by more than 3 sigmas, 0.0"
+        with pytest.raises(reference_data.SourceError, match=words):
+            read(tmp_path, f"{header}{row}\n", kind)
+
+
+def test_of_a_long_file_no_more_is_read_than_is_allowed(tmp_path):
+    """What follows the last line allowed is not even looked at."""
+    most = reference_data.MOST_LINES
+    assert len(read(tmp_path, "1,2\n" * most)) == most
+    with pytest.raises(reference_data.SourceError, match=f"more than {most} lines"):
+        read(tmp_path, b"1,2\n" * (most + 1) + b"\xff\0\n")
+
+
+def source(folder, text):
+    """Load data/johnson1983 after an edit of its source.yaml."""
+    old = (ROOT / "data/johnson1983/source.yaml").read_text()
+    new = text(old)
+    assert new != old
+    (folder / "source.yaml").write_text(new)
+    return reference_data.load(folder, SCHEMA)
+
+
+def test_a_sigma_so_large_that_it_says_nothing_is_refused(tmp_path):
+    where = "series.rubber_sphere.{}.sigma = {}: allowed is up to {}, a hundredth of the range"
+    for axis, range_, most in (("x", "[0, 20]", 0.2), ("y", "[-5, 20]", 0.25)):
+        stated = f"sigma: 0.03, range: {range_}"
+        for sigma in (most, 2 * most):
+            change = (stated, f"sigma: {sigma}, range: {range_}")
+            if sigma == most:
+                source(tmp_path, lambda text, change=change: text.replace(*change))
+                continue
+            with pytest.raises(reference_data.SourceError) as refusal:
+                source(tmp_path, lambda text, change=change: text.replace(*change))
+            assert where.format(axis, sigma, most) in str(refusal.value)
+    with pytest.raises(reference_data.SourceError, match=r"x.range = \[20, 0\]: the first number"):
+        source(tmp_path, lambda text: text.replace("range: [0, 20]", "range: [20, 0]"))
+
+
+def test_an_export_of_another_name_is_told_its_own(tmp_path):
+    (tmp_path / "rubber_sphere.csv").write_text("1,2\n")
+    with pytest.raises(reference_data.SourceError, match="allowed are rubber_sphere.wpd.csv"):
+        source(tmp_path, lambda text: text + "\n")
+
+
+def bomb(link, last):
+    """Lines that each stand for nine of the one before."""
+    pairs = itertools.pairwise("abcdefgh")
+    lines = [f"{b}: &{b} {link.format(', '.join([f'*{a}'] * 9))}" for a, b in pairs]
+    return "\n".join([f"a: &a {last}", *lines])
+
+
+BAD_YAML = {
+    "a date": ("a: 1\nb: 2020-13-45", "line 2: '2020-13-45' is no timestamp"),
+    "an integer": ("a: !!int abc", "line 1: 'abc' is no int"),
+    "a number": ("a: !!float x", "line 1: 'x' is no float"),
+    "a truth": ("a: !!bool maybe", "line 1: 'maybe' is no bool"),
+    "a number too long": ("a: " + "9" * 5000, "line 1: '9+' is no int"),
+    "deep": ("a:\n " + "[" * 10_000, "line 2: deeper than 50 levels"),
+    "deep by aliases": (
+        "a0: &a0 [1]\n" + "\n".join(f"a{i + 1}: &a{i + 1} [*a{i}]" for i in range(60)),
+        "line 49: deeper than 50 levels",
+    ),
+    "a surrogate": ('a: "\\ud800"', r"line 1: U\+D800 is no character of a text"),
+    "an escaped NUL": ('a: "\\0"', r"line 1: U\+0000 is no character of a text"),
+    "a NUL": ("a: 1\nb: \0", "line 2: a NUL byte"),
+    "a control character": ("a: 1\nb: \a", r"line 2: U\+0007 is no character of a text"),
+    "Latin-1": ("a: 1\nb: é".encode("latin-1"), "line 2: byte 0xe9 is no UTF-8"),
+    "UTF-16": ("a: 1".encode("utf-16"), "line 1: the file is UTF-16"),
+    "a list as key": ("a: 1\n[1, 2]: 3", "line 2: a key is no text"),
+    "a list that says it is a text": ("? !!str [a]\n: c", "line 1: a key is no text"),
+    "a mapping as key": ("? {a: b}\n: c", "line 1: a key is no text"),
+    "a number as key": ("1: a", "line 1: the key '1' is no text"),
+    "a key twice": ("a: 1\nb: 2\na: 3", "line 3: the key 'a' stands twice"),
+    "a tag": ("a: !!python/object/apply:os.getcwd []", "line 1: could not determine a constructor"),
+    "a list": ("- 1", "line 1: a list where a mapping belongs"),
+    "a word": ("word", "line 1: a value where a mapping belongs"),
+    "empty": ("", "line 1: nothing where a mapping belongs"),
+    "a bracket": ("a: [1", "line 1: while parsing a flow sequence, expected"),
+    "two documents": ("a: 1\n---\nb: 1", "line 2: expected a single document"),
+    "an alias in itself": ("a: 1\nb: &b [*b]", r"line 2: the alias '\*b' stands inside its own"),
+    "aliases": (bomb("[{}]", "[x, x]"), "more than 100000 values, with aliases written out"),
+    "merges": (bomb("{{<<: [{}]}}", "{k: 1}"), "more than 100000 values, with aliases written"),
+}
+
+
+@pytest.mark.parametrize(("text", "words"), BAD_YAML.values(), ids=BAD_YAML)
+def test_bad_yaml_is_refused_in_one_line(text, words, tmp_path):
+    path = tmp_path / "a.yaml"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(reference_data.SourceError, match=words) as refusal:
+        reference_data.load_yaml(path)
+    assert str(refusal.value).startswith(f"{path}, line") and "\n" not in str(refusal.value)
+    with pytest.raises(reference_data.SourceError, match="^.*no.yaml: No such file or directory$"):
+        reference_data.load_yaml(tmp_path / "no.yaml")
+
+
+def test_a_merge_may_be_overridden_and_merged_again(tmp_path):
+    path = tmp_path / "a.yaml"
+    path.write_text("top:\n  c: {<<: &b {<<: &a {k: 1}, k: 2}, k: 3}\nb: *b\na: *a\n")
+    assert reference_data.load_yaml(path) == {
+        "top": {"c": {"k": 3}}, "b": {"k": 2}, "a": {"k": 1},
+    }  # fmt: skip
+
+
+def test_each_key_is_compared_with_few_others(tmp_path, monkeypatch):
+    """Counted, not timed: of 300 keys each with all others are 90 000 comparisons."""
+    compared = []
+
+    class Counted(str):
+        __hash__ = str.__hash__
+
+        def __eq__(self, other):
+            compared.append(other)
+            return str.__eq__(self, other)
+
+    made = yaml.ScalarNode.__init__
+    monkeypatch.setattr(
+        yaml.ScalarNode,
+        "__init__",
+        lambda node, tag, value, *rest, **style: made(node, tag, Counted(value), *rest, **style),
+    )
+    path = tmp_path / "a.yaml"
+    path.write_text("\n".join(f"k{i}: text" for i in range(300)))
+    assert len(reference_data.load_yaml(path)) == 300
+    assert len(compared) < 10 * 300

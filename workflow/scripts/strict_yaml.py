@@ -1,0 +1,127 @@
+"""YAML that is refused where PyYAML would lose something, crash, or fill the memory.
+
+PyYAML keeps the last of two equal keys without a word, ends with a ValueError at a date that does
+not exist, and lets a few lines of aliases stand for more values than a memory holds.
+"""
+
+import yaml
+
+DEEPEST = 50  # levels; the documents of this project have ten
+MOST_VALUES = 100_000  # aliases written out; the largest document of this project has 2203
+TEXT, MERGE = "tag:yaml.org,2002:str", "tag:yaml.org,2002:merge"
+
+
+def load(text):
+    """Read a document: a mapping with texts as keys, each once.
+
+    Parameters
+    ----------
+    text : str
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    ValueError
+        In one line, which begins with that of the document.
+
+    Examples
+    --------
+    >>> load("a: &one {b: 1}\\nc: {<<: *one, d: 2}")
+    {'a': {'b': 1}, 'c': {'b': 1, 'd': 2}}
+    >>> load("a: 1\\na: 2")
+    Traceback (most recent call last):
+    ValueError: line 2: the key 'a' stands twice
+    """
+    try:
+        document = yaml.load(text, Loader=_Loader)
+    except yaml.reader.ReaderError as error:
+        line = text.count("\n", 0, error.position) + 1
+        raise ValueError(f"line {line}: {_no_character(error.character)}") from None
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        words = ", ".join(part for part in (error.context, error.problem) if part)
+        raise ValueError(f"line {mark.line + 1}: {' '.join(words.split())}") from None
+    if not isinstance(document, dict):
+        kind = {"NoneType": "nothing", "list": "a list"}.get(type(document).__name__, "a value")
+        raise ValueError(f"line 1: {kind} where a mapping belongs, keys with values")
+    return document
+
+
+class _Loader(yaml.SafeLoader):
+    """Checks the graph of nodes, in which an alias takes no room however much it stands for."""
+
+    def __init__(self, stream):
+        super().__init__(stream)
+        self._level = self._values = 0
+
+    def compose_node(self, parent, index):
+        """Compose a node that is neither too deep nor one of too many."""
+        event = self.peek_event()
+        is_alias, before = isinstance(event, yaml.AliasEvent), self._values
+        self._level += 1
+        self._values += 1
+        self._refuse_too_much(self._level, event.start_mark)
+        node = super().compose_node(parent, index)
+        if not is_alias:
+            node.size = self._values - before
+            node.height = 1 + max((child.height for child in _inside(node)), default=0)
+        elif not hasattr(node, "size"):
+            _refuse(f"the alias '*{event.anchor}' stands inside its own anchor", event.start_mark)
+        else:
+            self._values += node.size - 1
+            self._refuse_too_much(self._level + node.height - 1, event.start_mark)
+        self._level -= 1
+        return node
+
+    def _refuse_too_much(self, level, mark):
+        if level > DEEPEST:
+            _refuse(f"deeper than {DEEPEST} levels", mark)
+        if self._values > MOST_VALUES:
+            _refuse(f"more than {MOST_VALUES} values, with aliases written out", mark)
+
+    def compose_scalar_node(self, anchor):
+        """Compose a scalar of characters that a file can hold."""
+        node = super().compose_scalar_node(anchor)
+        for character in node.value:
+            if character == "\0" or "\ud800" <= character <= "\udfff":
+                _refuse(_no_character(ord(character)), node.start_mark)
+        return node
+
+    def compose_mapping_node(self, anchor):
+        """Compose a mapping with every key once; what a merge brings may be overridden."""
+        node = super().compose_mapping_node(anchor)
+        known = set()
+        for key, _ in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                _refuse("a key is no text", key.start_mark)
+            if key.tag not in (TEXT, MERGE):
+                _refuse(f"the key '{key.value}' is no text", key.start_mark)
+            if key.value in known:
+                _refuse(f"the key '{key.value}' stands twice", key.start_mark)
+            known.add(key.value)
+        return node
+
+    def construct_object(self, node, deep=False):
+        """Build a value; what its text cannot be is refused, however PyYAML fails at it."""
+        try:
+            return super().construct_object(node, deep)
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
+            kind = node.tag.rpartition(":")[2]
+            _refuse(f"{node.value[:60]!r} is no {kind}", node.start_mark)
+
+
+def _inside(node):
+    if isinstance(node, yaml.MappingNode):
+        return [child for pair in node.value for child in pair]
+    return node.value if isinstance(node, yaml.SequenceNode) else []
+
+
+def _no_character(code):
+    return f"U+{code:04X} is no character of a text"
+
+
+def _refuse(what, mark):
+    raise yaml.constructor.ConstructorError(None, None, what, mark)
