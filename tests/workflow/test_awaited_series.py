@@ -10,6 +10,8 @@ from pathlib import Path
 import compare
 import convert_series
 import csv_tables
+import draw_fig5
+import draw_fig8
 import numpy as np
 import pytest
 import reference_data
@@ -182,6 +184,21 @@ def test_a_point_just_outside_the_axis_is_in_the_window_that_begins_there(judged
 def test_a_window_that_begins_inside_the_axis_lets_nothing_else_in(judged):
     points = export([0.0, 0.4, 2.0, 3.0], [0.0, 0.0, -0.5, 0.0])
     assert judged(RUBBER, points, window=[0.5, 20.0])["points"] == 2
+
+
+@pytest.mark.parametrize(
+    ("module", "name"),
+    [(draw_fig5, RUBBER), *((draw_fig8, name) for name in list(AWAITED)[1:])],
+)
+def test_a_point_just_outside_the_axes_is_drawn(module, name, inventory, curves):
+    figure = module.__name__.removeprefix("draw_")
+    points = {
+        name: {"x": np.array([-0.05, 1.0]), "y": np.array([0.0, 0.1]), "sigma": (0.1, 0.1),
+               "line": False, "parameters": {}}
+    }  # fmt: skip
+    settings = run_plan.settings(CONFIG, inventory, figure)
+    drawn = module.draw(csv_tables.read(curves / f"{figure}.csv"), settings, points)
+    assert drawn.axes[0].get_xlim()[0] == -0.05
 
 
 @pytest.mark.parametrize(

@@ -332,7 +332,7 @@ def test_a_bad_ledger_is_refused_before_any_work(fresh, old, new, words):
 def test_a_ledger_that_is_no_text_is_refused(fresh):
     (fresh / FILE).write_bytes(b"\xff\xfe")
     words = fresh.run().stdout
-    assert f"{FILE}: 'utf-8' codec" in words and "Traceback" not in words
+    assert f"{FILE}, line 1: the file is UTF-16" in words and "Traceback" not in words
 
 
 def test_the_page_has_every_entry_and_needs_nothing_else(first_run):

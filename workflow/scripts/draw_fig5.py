@@ -19,6 +19,7 @@ REGIMES = {
 RUBBER = {"color": drawing.GREEN, "linestyle": "-", "linewidth": 1.0}
 SOFT_CONTINUUM = {"color": drawing.GREEN, "linestyle": drawing.DASHES[1], "linewidth": 1.0}
 EXPERIMENT = {"color": drawing.BLUE, "linestyle": "-", "linewidth": 0.7}
+RUBBER_SPHERE = "johnson1983/rubber_sphere"
 RUBBER_POINTS = {"color": drawing.BLACK, "marker": "o", "markerfacecolor": "white"}
 ELEMENT_POINTS = {"color": drawing.VERMILLION, "marker": "s", "markerfacecolor": "white"}
 GLASS_POINTS = {"color": drawing.BLUE, "marker": "o", "markersize": 3}
@@ -37,6 +38,8 @@ def draw(curves, settings, points):
     paper = _draw_paper(axes, curves, points, settings)
     added = _draw_added(axes, curves, points, settings)
     _set_axes(axes, curves["lumped"], left, right)
+    if RUBBER_SPHERE in points:
+        drawing.let_in(axes, points[RUBBER_SPHERE])
     _draw_regimes(axes, curves["lumped"], right)
     _draw_printed_limit(axes, printed)
     frequency = math.sqrt(settings["mass_ratio"] / settings["stiffness_ratio"])
@@ -55,7 +58,7 @@ def _draw_paper(axes, curves, points, settings):
         _draw_curve(axes, curves["continuum"], "elastic continuum (Maw et al.)", drawing.CONTINUUM),
         _draw_curve(axes, rough, "no tangential compliance", drawing.RIGID),
     ]
-    series = {"johnson1983/rubber_sphere": ("rubber sphere (Johnson)", RUBBER_POINTS)}
+    series = {RUBBER_SPHERE: ("rubber sphere (Johnson)", RUBBER_POINTS)}
     return entries + drawing.references(axes, points, series)
 
 

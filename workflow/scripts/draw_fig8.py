@@ -28,6 +28,12 @@ def draw(curves, settings, points):
         *_draw_measured(axes, enlarged, points),
     ]
     _set_axes(axes, enlarged, settings["angle"])
+    for force, part in (("normal", axes), ("friction", enlarged)):
+        if (name := f"lewis_rogers1988/{force}_force") in points:
+            drawing.let_in(part, points[name])
+    low, high = zip(axes.get_ylim(), (ENLARGED * y for y in enlarged.get_ylim()), strict=True)
+    axes.set_ylim(min(low), max(high))
+    enlarged.set_ylim(min(low) / ENLARGED, max(high) / ENLARGED)
     paper.append(_draw_statements(enlarged, friction, points))
     added = [_draw_largest(enlarged, friction)]
     _draw_note(axes, settings)

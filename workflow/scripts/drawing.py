@@ -224,6 +224,26 @@ def references(axes, points, wanted):
     ]
 
 
+def let_in(axes, series):
+    """Widen axes to points that were digitised just outside them, up to three sigmas.
+
+    Parameters
+    ----------
+    axes : Axes
+        With their limits set.
+    series : dict
+        As `draw` gets it.
+    """
+    for name, get, set_ in (
+        ("x", axes.get_xlim, axes.set_xlim),
+        ("y", axes.get_ylim, axes.set_ylim),
+    ):
+        (low, high), sigma = get(), series["sigma"]["xy".index(name)]
+        values = series[name]
+        near = values[(values >= low - 3 * sigma) & (values <= high + 3 * sigma)]
+        set_(min([low, *near]), max([high, *near]))
+
+
 def angle_axes(axes, span):
     """Angles of incidence below, the ratio of velocities that they stand for above."""
     axes.set(xlim=span, xlabel=r"angle of incidence $\theta$")
