@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from planarimpact.arrays import Array, ArrayLike
+from planarimpact.arrays import Array, ArrayLike, Numbers
 
 # Twice as much can still be represented.
 LARGEST = 8e307
@@ -198,14 +198,14 @@ def count(name: str, value: int, least: int) -> int:
     return int(value)
 
 
-def explicit_steps(steps: int, needed: ArrayLike, least: int, most: int) -> int:
+def explicit_steps(steps: int, needed: Numbers, least: int, most: int) -> int:
     """Return a number of explicit steps as int, if the tangential oscillation is stable with it.
 
     Parameters
     ----------
     steps : int
         From `least` to `most`.
-    needed : array_like
+    needed : float or ndarray of float64
         How many are needed for each impact, or infinity.
     least, most : int
 
@@ -216,7 +216,7 @@ def explicit_steps(steps: int, needed: ArrayLike, least: int, most: int) -> int:
 
     Examples
     --------
-    >>> explicit_steps(64, [100.0], 3, 10**7)
+    >>> explicit_steps(64, 100.0, 3, 10**7)
     Traceback (most recent call last):
     ...
     planarimpact.checks.InputError: steps = 64: allowed are integers from 100 to 10000000 (with \
