@@ -125,6 +125,7 @@ def contact_velocity(
     return in_range("v1", tangential + radius * spin, above=-1.0), normal.copy()[()]
 
 
+@checks.default_errors
 def incidence(v1: ArrayLike, v2: ArrayLike, friction: ArrayLike) -> Array:
     """Incidence of an impact from the velocity of the contact point.
 
@@ -159,6 +160,7 @@ def incidence(v1: ArrayLike, v2: ArrayLike, friction: ArrayLike) -> Array:
         return checks.incidence(v1 / v2 / mu)[()]
 
 
+@checks.default_errors
 def angle_of_incidence(incidence: ArrayLike, friction: ArrayLike) -> Array:
     """Angle of incidence, from the normal.
 
@@ -191,6 +193,7 @@ def angle_of_incidence(incidence: ArrayLike, friction: ArrayLike) -> Array:
         return np.degrees(np.arctan(mu * x))
 
 
+@checks.default_errors
 def incidence_from_angle(theta_deg: ArrayLike, friction: ArrayLike) -> Array:
     """Incidence of an impact at an angle; the inverse of `angle_of_incidence`.
 

@@ -9,6 +9,10 @@ from planarimpact.arrays import Array, ArrayLike, Numbers
 # Twice as much can still be represented.
 LARGEST = 8e307
 
+# Decorates whatever users call: NumPy's own defaults, so that no answer depends on what the caller
+# has set by np.seterr or np.errstate, and an invalid operation that nobody foresaw still warns.
+default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
+
 
 class InputError(ValueError):
     """An argument outside what the model admits; names it, its value and what is allowed."""

@@ -64,8 +64,8 @@ def positive_or_infinite(name: str, value: ArrayLike) -> Array:
     return np.where(infinite, np.inf, positive(name, others, allowed="numbers above 0, or inf"))
 
 
-# Results are refused below, so that numpy need not warn.
-quietly = np.errstate(over="ignore", invalid="ignore", divide="ignore")
+# Results are refused below, so that numpy need not warn, whatever the caller has set.
+quietly = np.errstate(over="ignore", invalid="ignore", divide="ignore", under="ignore")
 
 
 def in_range(name: str, values: Array, above: float = 0.0) -> Array:

@@ -75,6 +75,7 @@ class Response:
         groups = ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
         return f"<Response of {self.model}: {groups}; error {max(self.error_bound):.1e}>"
 
+    @checks.default_errors
     def __call__(self, incidence: ArrayLike) -> Rebound:
         """State at separation, as the model's own `rebound` gives it.
 
@@ -114,6 +115,7 @@ class Response:
             regime[part][size == 0] = Regime.STICK
         return Rebound.of(x, velocity, impulse, peak, regime.astype(np.uint8))
 
+    @checks.default_errors
     def velocity(self, incidence: ArrayLike) -> Array:
         """Velocity at separation alone: the fastest way to it.
 
@@ -239,6 +241,7 @@ class Response:
             partial.write_text(whole, encoding="utf-8")
 
 
+@checks.default_errors
 def compile(model: str, *, incidence_max: float, tolerance: float, **parameters: float) -> Response:
     """Compile the response of one pair of bodies by any model of the ladder.
 
@@ -322,6 +325,7 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
     return Response(model, groups | settings, reach, tolerance, bound, slides, pieces)
 
 
+@checks.default_errors
 def load(path: str | Path) -> Response:
     """Read a response that `Response.save` wrote.
 
