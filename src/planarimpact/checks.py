@@ -29,6 +29,7 @@ def checked(
     low: float = -math.inf,
     high: float = math.inf,
     open_low: bool = False,
+    infinite: bool = False,
 ) -> Array:
     """Return `value` as float64, or refuse it.
 
@@ -37,11 +38,14 @@ def checked(
     name : str
         The argument's name, for the message.
     value : array_like of real numbers, any shape
-        What the caller gave. Booleans, strings and complex numbers are refused.
+        What the caller gave. Booleans, strings and complex numbers are refused, and masked
+        arrays of which an entry is masked.
     allowed : str
         What is allowed, in words, for the message.
     low, high : float
-        Bounds, inclusive (`low` exclusive with `open_low`). Infinities and NaN never pass.
+        Bounds, inclusive (`low` exclusive with `open_low`). NaN never passes.
+    infinite : bool
+        Whether an infinity within the bounds passes.
 
     Returns
     -------
@@ -61,6 +65,11 @@ def checked(
     ...
     planarimpact.checks.InputError: restitution[1] = 1.5: allowed are numbers from 0 to 1
     """
+    if _is_masked(value):
+        raise InputError(
+            f"{name} has masked entries: allowed are {allowed}; leave the masked entries out with "
+            "compressed(), or replace them with filled(value)"
+        )
     try:
         given = np.asarray(value)
     except ValueError:
@@ -70,12 +79,21 @@ def checked(
     with np.errstate(invalid="ignore", over="ignore"):
         numbers = given.astype(np.float64)
         good = (numbers > low if open_low else numbers >= low) & (numbers <= high)
-    good &= np.isfinite(numbers)
+    # What became infinite as float64 is not what was given.
+    good &= np.isfinite(numbers) | (np.isinf(given) & infinite)
     if not good.all():
         index = tuple(int(i) for i in np.argwhere(~good)[0])
         where = f"[{', '.join(map(str, index))}]" if index else ""
         raise InputError(f"{name}{where} = {float(numbers[index])!r}: allowed are {allowed}")
     return numbers
+
+
+def _is_masked(value: object) -> bool:
+    """Whether NumPy's conversion would make data of masked entries, in lists of arrays too."""
+    if isinstance(value, (list, tuple)):
+        nested = list, tuple, np.ma.MaskedArray
+        return any(_is_masked(entry) for entry in value if isinstance(entry, nested))
+    return bool(np.ma.is_masked(value))
 
 
 def incidence(value: ArrayLike) -> Array:

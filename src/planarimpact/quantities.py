@@ -51,17 +51,10 @@ HALF_SPACE = Body(mass=np.inf, gyration=np.inf, radius=0.0)
 finite = partial(checked, allowed="finite numbers")
 not_negative = partial(checked, allowed="finite numbers from 0", low=0)
 positive = partial(checked, allowed="finite numbers above 0", low=0, open_low=True)
+positive_or_infinite = partial(
+    checked, allowed="numbers above 0, or inf", low=0, open_low=True, infinite=True
+)
 _poisson = partial(checked, allowed="numbers above -1, up to 0.5", low=-1, high=0.5, open_low=True)
-
-
-def positive_or_infinite(name: str, value: ArrayLike) -> Array:
-    """Check numbers above 0, which may be infinite."""
-    try:
-        infinite = np.isposinf(np.asarray(value))
-    except (TypeError, ValueError):  # not real numbers: `checked` says so
-        infinite = np.zeros((), bool)
-    others = np.where(infinite, 1.0, value) if infinite.any() else value
-    return np.where(infinite, np.inf, positive(name, others, allowed="numbers above 0, or inf"))
 
 
 # Results are refused below, so that numpy need not warn, whatever the caller has set.

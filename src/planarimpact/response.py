@@ -135,7 +135,7 @@ class Response:
         -1.0
         """
         x = incidence
-        if not isinstance(x, np.ndarray) or x.dtype != np.float64:
+        if type(x) is not np.ndarray or x.dtype != np.float64:  # a subclass may have a mask
             x = checks.incidence(x)
         velocity, flat = np.empty(x.size), x.reshape(-1)
         for part, size, slides, piece, root in self._parts(x):
