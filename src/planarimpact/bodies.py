@@ -266,15 +266,17 @@ def rebound_motion(
     >>> [round(float(v), 12) for v in after]
     [0.5, -1.0, -5.0]
     """
-    beta, _, gyration, radius, tangential, normal, spin, mu, w, e = checks.broadcast(
+    before = fields("motion", motion, Motion)
+    before["motion.normal"] = positive("motion.normal", motion.normal)  # it must approach
+    beta, _, gyration, radius, tangential, v2, spin, mu, w, e = checks.broadcast(
         mass_ratio=mass_ratio(body),  # refuses an infinite mass
         **fields("body", body, Body),
-        **fields("motion", motion, Motion),
+        **before,
         friction=_friction(friction),
         rebound_velocity=finite("rebound_velocity", rebound_velocity),
         restitution=checks.restitution(restitution),
     )
-    v1, v2 = contact_velocity(tangential, normal, spin, radius)
+    v1, _ = contact_velocity(tangential, v2, spin, radius)
     centre_change = (w * mu * v2 - v1) / beta  # P1/M: m1/M = 1/beta
     spin_change = centre_change * (radius / gyration) / gyration
     after = tangential + centre_change, -e * v2, spin + spin_change

@@ -76,7 +76,7 @@ def checked(
         raise InputError(f"{name} = {value!r}: not a regular array of numbers") from None
     if given.dtype.kind not in "iuf":
         raise InputError(f"{name} = {value!r}: allowed are {allowed}, as real numbers")
-    with np.errstate(invalid="ignore", over="ignore"):
+    with np.errstate(invalid="ignore", over="ignore", under="ignore"):
         numbers = given.astype(np.float64)
         good = (numbers > low if open_low else numbers >= low) & (numbers <= high)
     # What became infinite as float64 is not what was given.
