@@ -1,6 +1,9 @@
 """Refusals: what the package raises, and the checks of arguments before any work."""
 
 import math
+import reprlib
+from collections.abc import Collection
+from typing import Any
 
 import numpy as np
 
@@ -14,12 +17,28 @@ LARGEST = 8e307
 default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
 
 
+_BRIEF = reprlib.Repr()
+_BRIEF.maxlevel, _BRIEF.maxlist, _BRIEF.maxdict, _BRIEF.maxtuple = 1, 4, 4, 4
+_BRIEF.maxstring = _BRIEF.maxother = 60
+
+
 class InputError(ValueError):
     """An argument outside what the model admits; names it, its value and what is allowed."""
 
 
 class ConvergenceError(ArithmeticError):
     """A numerical method that did not reach what was asked of it; says how far it came."""
+
+
+def brief(value: object) -> str:
+    """What a refusal shows of a value that may be long: its beginning and its end, in one line.
+
+    Examples
+    --------
+    >>> brief([1.5, "x", 3, 4, 5])
+    "[1.5, 'x', 3, 4, ...]"
+    """
+    return _BRIEF.repr(value).replace("\n", " ")
 
 
 def checked(
@@ -73,9 +92,9 @@ def checked(
     try:
         given = np.asarray(value)
     except ValueError:
-        raise InputError(f"{name} = {value!r}: not a regular array of numbers") from None
+        raise InputError(f"{name} = {brief(value)}: not a regular array of numbers") from None
     if given.dtype.kind not in "iuf":
-        raise InputError(f"{name} = {value!r}: allowed are {allowed}, as real numbers")
+        raise InputError(f"{name} = {brief(value)}: allowed are {allowed}, as real numbers")
     with np.errstate(invalid="ignore", over="ignore", under="ignore"):
         numbers = given.astype(np.float64)
         good = (numbers > low if open_low else numbers >= low) & (numbers <= high)
@@ -216,8 +235,73 @@ def count(name: str, value: int, least: int) -> int:
     planarimpact.checks.InputError: steps = 2.5: allowed are integers from 1
     """
     if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
-        raise InputError(f"{name} = {value!r}: allowed are integers from {least}")
+        raise InputError(f"{name} = {brief(value)}: allowed are integers from {least}")
     return int(value)
+
+
+def record(name: str, value: Any, keys: Collection[str]) -> dict[str, Any]:
+    """Return a dict that was read from a file, if it has certain keys and no others.
+
+    Examples
+    --------
+    >>> record("error_bound", {"velocity": 0.1}, ["velocity", "peak_friction"])
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: error_bound has ['velocity']: allowed are velocity, \
+peak_friction, each once
+    """
+    if not isinstance(value, dict) or set(value) != set(keys):
+        found = brief(list(value) if isinstance(value, dict) else value)
+        raise InputError(f"{name} has {found}: allowed are {', '.join(keys)}, each once")
+    return value
+
+
+def listed(name: str, value: Any, shape: tuple[int, ...]) -> Array:
+    """Return nested lists of numbers that were read from a file as an array of this shape.
+
+    Parameters
+    ----------
+    name : str
+        For the message.
+    value : object
+        Lists, with ints and floats for entries, perhaps infinite or NaN: the caller's to refuse.
+    shape : tuple of int
+        Lengths of the lists, from the outermost on.
+
+    Returns
+    -------
+    ndarray of float64
+
+    Raises
+    ------
+    InputError
+        Naming the first entry or list that is something else.
+
+    Examples
+    --------
+    >>> listed("start", [0, 0.5], (2,)).tolist()
+    [0.0, 0.5]
+    >>> listed("start", [0, "0.5"], (2,))
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: start[1] = '0.5': allowed are numbers
+    """
+    _refuse_other_lists(name, value, shape)
+    try:
+        return np.array(value, dtype=np.float64)
+    except OverflowError:
+        raise InputError(f"{name}: an integer is beyond the range of numbers") from None
+
+
+def _refuse_other_lists(name: str, value: Any, shape: tuple[int, ...]) -> None:
+    if not shape:
+        if type(value) not in (int, float):
+            raise InputError(f"{name} = {brief(value)}: allowed are numbers")
+        return
+    if not isinstance(value, list) or len(value) != shape[0]:
+        raise InputError(f"{name} = {brief(value)}: allowed are lists of {shape[0]}")
+    for i, entry in enumerate(value):
+        _refuse_other_lists(f"{name}[{i}]", entry, shape[1:])
 
 
 def explicit_steps(steps: int, needed: Numbers, least: int, most: int) -> int:
