@@ -1,4 +1,4 @@
-"""The command line: python -m planarimpact {rebound,history,compile,scene,models}."""
+"""The command line: planarimpact {rebound,history,compile,scene,models}."""
 
 import argparse
 import csv
@@ -7,13 +7,23 @@ import json
 import os
 import sys
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from planarimpact import bodies, checks, continuum, ladder, lumped, response, whole_files
+from planarimpact import (
+    __version__,
+    bodies,
+    checks,
+    continuum,
+    ladder,
+    lumped,
+    response,
+    whole_files,
+)
 from planarimpact.arrays import ArrayLike
-from planarimpact.results import ContinuumHistory, History, Regime
+from planarimpact.results import ContinuumHistory, History, Rebound, Regime
 
 WORDS = """
 What happens when a rough, elastic body strikes a surface at an angle?
@@ -44,6 +54,32 @@ Example:
 velocity_tangential [m/s],velocity_normal [m/s],spin [rad/s]
   0.01,7800,207e9,0.3,0.2,0.8,0.5,1,0
 """
+# Units of the columns that are written, by what has them; words have none.
+UNITS: dict[type, dict[str, str]] = {
+    Rebound: {
+        "incidence": "mu v2(0)",
+        "velocity": "mu v2(0)",
+        "peak_friction": "mu F2max",
+        "dissipation": "mu^2 m2 v2(0)^2",
+        "regime": "",
+        "reversals": "1",
+    },
+    History: {
+        "time": "t_c",
+        "normal": "m2 Omega v2(0)",
+        "friction": "mu m2 Omega v2(0)",
+        "velocity": "mu v2(0)",
+        "spring": "mu v2(0)/Omega",
+    },
+    ContinuumHistory: {
+        "time": "t_c",
+        "normal": "F2max",
+        "friction": "mu F2max",
+        "velocity": "mu v2(0)",
+        "contact_radius": "a_max",
+        "stick_radius": "a_max",
+    },
+}
 GROUPS = {
     "mass_ratio": (3.5, "m2/m1: 3.5 for a solid sphere, 2.5 for a thin shell, 3 for a disc"),
     "stiffness_ratio": (1.21, "zeta^2, normal over tangential stiffness: (2-nu)/(2(1-nu))"),
@@ -57,11 +93,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Examples
     --------
     >>> main(["rebound", "--incidence", "8", "--model", "rigid"])
-    incidence,velocity,peak_friction,dissipation,regime
+    incidence [mu v2(0)],velocity [mu v2(0)],peak_friction [mu F2max],\
+dissipation [mu^2 m2 v2(0)^2],regime
     8.0,1.0,1.0,9.0,SLIP_THROUGHOUT
     0
     """
-    options = _parser().parse_args(arguments)
+    given = sys.argv[1:] if arguments is None else arguments
+    options = _parser().parse_args([_spaced(word) for word in given])
     try:
         options.command(options)
         sys.stdout.flush()
@@ -79,25 +117,59 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _rebound(options: argparse.Namespace) -> None:
+def _spaced(word: str) -> str:
+    """A negative number with a space in front: else argparse takes -1e-3 or -inf for an option."""
+    try:
+        float(word)
+    except ValueError:
+        return word
+    return f" {word}" if word.startswith("-") else word
+
+
+def _table(options: argparse.Namespace) -> None:
+    """Write the columns of a command: to the terminal, or to a file whole or not at all."""
+    as_json = _is_json(options)
+    if options.output is None:
+        sys.stdout.write(_text(options.columns(options), as_json))
+        return
+    with whole_files.written(options.output) as partial:
+        partial.write_text(_text(options.columns(options), as_json), encoding="utf-8")
+
+
+def _is_json(options: argparse.Namespace) -> bool:
+    """Whether a table is wanted in JSON, by the name of its file or by --format; else in CSV."""
+    if options.output is None:
+        return bool(options.format == "json")
+    ending = Path(options.output).suffix.lower()
+    if ending not in (".csv", ".json"):
+        raise checks.InputError(
+            f"--output {options.output}: allowed are names that end in .csv or .json"
+        )
+    if options.format and ending != f".{options.format}":
+        raise checks.InputError(
+            f"--format {options.format}: --output {options.output} ends in {ending}"
+        )
+    return ending == ".json"
+
+
+def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
     x = options.incidence
     if options.angle is None:
         _refuse_given(options, ["friction"], "an incidence has it in it")
+    elif options.friction is None:
+        raise checks.InputError("--angle: it needs --friction, from which the incidence follows")
     else:
-        x = bodies.incidence_from_angle(options.angle, options.friction or 1.0)
+        x = bodies.incidence_from_angle(options.angle, options.friction)
     if options.response:
         _refuse_given(options, ["model", "setting", *GROUPS], "a response has its own")
         found = response.load(options.response)(x)
     else:
         found = ladder.rebound(_model(options), x, **_groups(options), **_settings(options))
-    columns = {"incidence": np.asarray(x), **found._asdict()}
-    columns["regime"] = np.array([Regime(code).name for code in found.regime])
-    if found.reversals is None:
-        del columns["reversals"]
-    _print(columns, options)
+    regime = [Regime(code).name for code in found.regime]
+    return _with_units(Rebound, {"incidence": x, **found._asdict(), "regime": regime})
 
 
-def _history(options: argparse.Namespace) -> None:
+def _history(options: argparse.Namespace) -> dict[str, ArrayLike]:
     groups = _groups(options)
     found: History | ContinuumHistory
     if _model(options) == "continuum":
@@ -109,22 +181,33 @@ def _history(options: argparse.Namespace) -> None:
         _refuse_given(options, ["tolerance"], "the lumped model is exact")
         given = {} if options.samples is None else {"samples": options.samples}
         found = lumped.history(options.incidence, **groups, **given)
-    columns = {name: value for name, value in found._asdict().items() if name != "events"}
-    _print(columns, options)
+    return _with_units(type(found), found._asdict())
+
+
+def _with_units(kind: type, fields: Mapping[str, Any]) -> dict[str, ArrayLike]:
+    """Columns of the fields that are written and have a value, by name and unit."""
+    return {
+        f"{name} [{unit}]" if unit else name: fields[name]
+        for name, unit in UNITS[kind].items()
+        if fields[name] is not None
+    }
 
 
 def _compile(options: argparse.Namespace) -> None:
     settings = _settings(options)
     if "tolerance" in settings:
         raise checks.InputError("--set tolerance: a response has one tolerance, --tolerance")
-    built = response.compile(
-        _model(options),
-        incidence_max=options.incidence_max,
-        tolerance=options.tolerance,
-        **_groups(options),
-        **settings,
-    )
-    built.save(options.output)
+    if Path(options.output).suffix.lower() != ".json":
+        raise checks.InputError(f"{options.output}: allowed are names that end in .json")
+    with whole_files.written(options.output) as partial:  # a bad name is refused before any work
+        built = response.compile(
+            _model(options),
+            incidence_max=options.incidence_max,
+            tolerance=options.tolerance,
+            **_groups(options),
+            **settings,
+        )
+        built.save(partial)
     print(f"{options.output}: {built}")
 
 
@@ -151,8 +234,8 @@ def _scene(options: argparse.Namespace) -> None:
         print(solver.explain(), file=words)
 
 
-def _models(options: argparse.Namespace) -> None:
-    columns = {"model": list(ladder.MODELS)}
+def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:
+    columns: dict[str, ArrayLike] = {"model": list(ladder.MODELS)}
     models = ladder.MODELS.values()
     columns["cost"] = [model.cost for model in models]
     columns["settings"] = [
@@ -161,7 +244,7 @@ def _models(options: argparse.Namespace) -> None:
     columns["restitution"] = ["{:g} to {:g}".format(*model.restitution) for model in models]
     columns["valid"] = [model.valid for model in models]
     columns["source"] = [model.source for model in models]
-    _print(columns, options)
+    return columns
 
 
 def _model(options: argparse.Namespace) -> str:
@@ -186,9 +269,9 @@ def _settings(options: argparse.Namespace) -> dict[str, float]:
     """Settings of the model that were given, `NAME=NUMBER`."""
     settings = {}
     for text in options.setting:
-        name, equals, number = text.partition("=")
+        name, equals, value = text.partition("=")
         try:
-            settings[name] = int(number) if number.isdigit() else float(number)
+            settings[name] = number(value)
         except ValueError:
             equals = ""
         if not equals:
@@ -197,27 +280,36 @@ def _settings(options: argparse.Namespace) -> dict[str, float]:
     return settings
 
 
-def _print(columns: Mapping[str, ArrayLike], options: argparse.Namespace) -> None:
-    """Columns of equal length as CSV or JSON, to a file whole or not at all, or to the terminal."""
+def number(text: str) -> float:
+    """Number of a text, an integer where it is written as one; argparse calls it by its name.
+
+    Examples
+    --------
+    >>> number("64"), number("-1e3")
+    (64, -1000.0)
+    """
+    return int(text) if text.strip().lstrip("-").isdigit() else float(text)
+
+
+def _text(columns: Mapping[str, ArrayLike], as_json: bool) -> str:
+    """Columns of equal length as JSON or CSV."""
     plain = {name: np.asarray(values).tolist() for name, values in columns.items()}
-    if options.format == "json":
+    if as_json:
         named = {name: [whole_files.or_null(x) for x in xs] for name, xs in plain.items()}
-        text = json.dumps(named, indent=1) + "\n"
-    else:
-        buffer = io.StringIO()
-        writer = csv.writer(buffer, lineterminator="\n")
-        writer.writerow(plain)
-        writer.writerows(zip(*plain.values(), strict=True))
-        text = buffer.getvalue()
-    if options.output is None:
-        sys.stdout.write(text)
-        return
-    with whole_files.written(options.output) as partial:
-        partial.write_text(text, encoding="utf-8")
+        return json.dumps(named, indent=1) + "\n"
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(plain)
+    writer.writerows(zip(*plain.values(), strict=True))
+    return buffer.getvalue()
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m planarimpact", description=WORDS)
+    called = (
+        "planarimpact" if Path(sys.argv[0]).stem == "planarimpact" else "python -m planarimpact"
+    )
+    parser = argparse.ArgumentParser(prog=called, description=WORDS)
+    parser.add_argument("--version", action="version", version=f"planarimpact {__version__}")
     commands = parser.add_subparsers(required=True, metavar="command")
 
     rebound = commands.add_parser(
@@ -226,13 +318,13 @@ def _parser() -> argparse.ArgumentParser:
     impact = rebound.add_mutually_exclusive_group(required=True)
     impact.add_argument("--incidence", type=float, nargs="+", metavar="X")
     impact.add_argument(
-        "--angle", type=float, nargs="+", help="of incidence, degrees; see --friction"
+        "--angle", type=float, nargs="+", help="of incidence, degrees; needs --friction"
     )
-    rebound.add_argument("--friction", type=float, help="mu, for --angle [1]")
+    rebound.add_argument("--friction", type=float, help="mu, above 0, for --angle")
     rebound.add_argument("--response", metavar="FILE", help="use what `compile` has written")
     _add_model(rebound, list(ladder.MODELS))
     _add_output(rebound)
-    rebound.set_defaults(command=_rebound)
+    rebound.set_defaults(command=_table, columns=_rebound)
 
     history = commands.add_parser(
         "history",
@@ -241,11 +333,11 @@ def _parser() -> argparse.ArgumentParser:
         + WORDS,
     )
     history.add_argument("--incidence", type=float, required=True, metavar="X")
-    history.add_argument("--samples", type=int, help="of lumped [400]")
+    history.add_argument("--samples", type=number, help="of lumped [400]")
     history.add_argument("--tolerance", type=float, help="of continuum [1e-4]")
     _add_model(history, ["lumped", "continuum"], settings=False)
     _add_output(history)
-    history.set_defaults(command=_history)
+    history.set_defaults(command=_table, columns=_history)
 
     compiled = commands.add_parser(
         "compile",
@@ -253,7 +345,7 @@ def _parser() -> argparse.ArgumentParser:
         description="Make a response, a table of polynomials that gives the rebound of one pair of "
         "bodies in nanoseconds, and write it to a file." + WORDS,
     )
-    compiled.add_argument("output", metavar="FILE", help="where to write it, JSON")
+    compiled.add_argument("output", metavar="FILE", help="where to write it, JSON: NAME.json")
     compiled.add_argument("--tolerance", type=float, default=1e-6, help="[%(default)s]")
     compiled.add_argument("--incidence-max", type=float, default=20.0, help="[%(default)s]")
     _add_model(compiled, list(ladder.MODELS))
@@ -297,7 +389,7 @@ def _parser() -> argparse.ArgumentParser:
 
     models = commands.add_parser("models", help="list the models", description="The models.")
     _add_output(models)
-    models.set_defaults(command=_models)
+    models.set_defaults(command=_table, columns=_models)
     return parser
 
 
@@ -318,8 +410,10 @@ def _add_model(parser: argparse.ArgumentParser, names: list[str], settings: bool
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--format", choices=["csv", "json"], default="csv", help="[%(default)s]")
-    parser.add_argument("--output", metavar="FILE", help="instead of the terminal")
+    parser.add_argument("--format", choices=["csv", "json"], help="on the terminal [csv]")
+    parser.add_argument(
+        "--output", metavar="FILE", help="instead of the terminal: NAME.csv or NAME.json"
+    )
 
 
 if __name__ == "__main__":

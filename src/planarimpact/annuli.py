@@ -32,6 +32,7 @@ ROUNDING = 1e-12
 LEAST, LARGEST = 1e-100, 1e100
 
 
+@checks.default_errors
 def rebound(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
@@ -96,6 +97,7 @@ def rebound(
     return Rebound.of(signed, *map(np.concatenate, zip(*parts, strict=True)))
 
 
+@checks.default_errors
 def friction(radius: ArrayLike, displacement: ArrayLike, circles: int = 32) -> Array:
     """Tangential force along a given path of contact radius and displacement (quasi-static).
 

@@ -125,6 +125,7 @@ def contact_velocity(
     return in_range("v1", tangential + radius * spin, above=-1.0), normal.copy()[()]
 
 
+@checks.default_errors
 def incidence(v1: ArrayLike, v2: ArrayLike, friction: ArrayLike) -> Array:
     """Incidence of an impact from the velocity of the contact point.
 
@@ -159,6 +160,7 @@ def incidence(v1: ArrayLike, v2: ArrayLike, friction: ArrayLike) -> Array:
         return checks.incidence(v1 / v2 / mu)[()]
 
 
+@checks.default_errors
 def angle_of_incidence(incidence: ArrayLike, friction: ArrayLike) -> Array:
     """Angle of incidence, from the normal.
 
@@ -191,6 +193,7 @@ def angle_of_incidence(incidence: ArrayLike, friction: ArrayLike) -> Array:
         return np.degrees(np.arctan(mu * x))
 
 
+@checks.default_errors
 def incidence_from_angle(theta_deg: ArrayLike, friction: ArrayLike) -> Array:
     """Incidence of an impact at an angle; the inverse of `angle_of_incidence`.
 
@@ -263,15 +266,17 @@ def rebound_motion(
     >>> [round(float(v), 12) for v in after]
     [0.5, -1.0, -5.0]
     """
-    beta, _, gyration, radius, tangential, normal, spin, mu, w, e = checks.broadcast(
+    before = fields("motion", motion, Motion)
+    before["motion.normal"] = positive("motion.normal", motion.normal)  # it must approach
+    beta, _, gyration, radius, tangential, v2, spin, mu, w, e = checks.broadcast(
         mass_ratio=mass_ratio(body),  # refuses an infinite mass
         **fields("body", body, Body),
-        **fields("motion", motion, Motion),
+        **before,
         friction=_friction(friction),
         rebound_velocity=finite("rebound_velocity", rebound_velocity),
         restitution=checks.restitution(restitution),
     )
-    v1, v2 = contact_velocity(tangential, normal, spin, radius)
+    v1, _ = contact_velocity(tangential, v2, spin, radius)
     centre_change = (w * mu * v2 - v1) / beta  # P1/M: m1/M = 1/beta
     spin_change = centre_change * (radius / gyration) / gyration
     after = tangential + centre_change, -e * v2, spin + spin_change

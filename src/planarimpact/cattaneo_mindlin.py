@@ -12,6 +12,7 @@ from planarimpact import checks
 from planarimpact.arrays import Array, ArrayLike
 
 
+@checks.default_errors
 def friction(displacement: ArrayLike) -> Array:
     """Tangential force of a contact that is pushed sideways for the first time.
 
@@ -39,6 +40,7 @@ def friction(displacement: ArrayLike) -> Array:
     return np.copysign(_loading(np.minimum(np.abs(u), 1.0)), u)[()]
 
 
+@checks.default_errors
 def unloading(displacement: ArrayLike, turned_at: ArrayLike) -> Array:
     """Tangential force on the way back (Mindlin & Deresiewicz 1953).
 
@@ -81,6 +83,7 @@ def unloading(displacement: ArrayLike, turned_at: ArrayLike) -> Array:
     return (_loading(top) - 2 * _loading((top - u) / 2))[()]
 
 
+@checks.default_errors
 def stick_radius(force: ArrayLike) -> Array:
     """Radius inside which the contact sticks, at a force of first loading.
 

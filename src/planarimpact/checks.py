@@ -1,13 +1,25 @@
 """Refusals: what the package raises, and the checks of arguments before any work."""
 
 import math
+import reprlib
+from collections.abc import Collection
+from typing import Any
 
 import numpy as np
 
-from planarimpact.arrays import Array, ArrayLike
+from planarimpact.arrays import Array, ArrayLike, Numbers
 
 # Twice as much can still be represented.
 LARGEST = 8e307
+
+# Decorates whatever users call: NumPy's own defaults, so that no answer depends on what the caller
+# has set by np.seterr or np.errstate, and an invalid operation that nobody foresaw still warns.
+default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
+
+
+_BRIEF = reprlib.Repr()
+_BRIEF.maxlevel, _BRIEF.maxlist, _BRIEF.maxdict, _BRIEF.maxtuple = 1, 4, 4, 4
+_BRIEF.maxstring = _BRIEF.maxother = 60
 
 
 class InputError(ValueError):
@@ -18,6 +30,17 @@ class ConvergenceError(ArithmeticError):
     """A numerical method that did not reach what was asked of it; says how far it came."""
 
 
+def brief(value: object) -> str:
+    """What a refusal shows of a value that may be long: its beginning and its end, in one line.
+
+    Examples
+    --------
+    >>> brief([1.5, "x", 3, 4, 5])
+    "[1.5, 'x', 3, 4, ...]"
+    """
+    return _BRIEF.repr(value).replace("\n", " ")
+
+
 def checked(
     name: str,
     value: ArrayLike,
@@ -25,6 +48,7 @@ def checked(
     low: float = -math.inf,
     high: float = math.inf,
     open_low: bool = False,
+    infinite: bool = False,
 ) -> Array:
     """Return `value` as float64, or refuse it.
 
@@ -33,11 +57,14 @@ def checked(
     name : str
         The argument's name, for the message.
     value : array_like of real numbers, any shape
-        What the caller gave. Booleans, strings and complex numbers are refused.
+        What the caller gave. Booleans, strings and complex numbers are refused, and masked
+        arrays of which an entry is masked.
     allowed : str
         What is allowed, in words, for the message.
     low, high : float
-        Bounds, inclusive (`low` exclusive with `open_low`). Infinities and NaN never pass.
+        Bounds, inclusive (`low` exclusive with `open_low`). NaN never passes.
+    infinite : bool
+        Whether an infinity within the bounds passes.
 
     Returns
     -------
@@ -57,21 +84,35 @@ def checked(
     ...
     planarimpact.checks.InputError: restitution[1] = 1.5: allowed are numbers from 0 to 1
     """
+    if _is_masked(value):
+        raise InputError(
+            f"{name} has masked entries: allowed are {allowed}; leave the masked entries out with "
+            "compressed(), or replace them with filled(value)"
+        )
     try:
         given = np.asarray(value)
     except ValueError:
-        raise InputError(f"{name} = {value!r}: not a regular array of numbers") from None
+        raise InputError(f"{name} = {brief(value)}: not a regular array of numbers") from None
     if given.dtype.kind not in "iuf":
-        raise InputError(f"{name} = {value!r}: allowed are {allowed}, as real numbers")
-    with np.errstate(invalid="ignore", over="ignore"):
+        raise InputError(f"{name} = {brief(value)}: allowed are {allowed}, as real numbers")
+    with np.errstate(invalid="ignore", over="ignore", under="ignore"):
         numbers = given.astype(np.float64)
         good = (numbers > low if open_low else numbers >= low) & (numbers <= high)
-    good &= np.isfinite(numbers)
+    # What became infinite as float64 is not what was given.
+    good &= np.isfinite(numbers) | (np.isinf(given) & infinite)
     if not good.all():
         index = tuple(int(i) for i in np.argwhere(~good)[0])
         where = f"[{', '.join(map(str, index))}]" if index else ""
         raise InputError(f"{name}{where} = {float(numbers[index])!r}: allowed are {allowed}")
     return numbers
+
+
+def _is_masked(value: object) -> bool:
+    """Whether NumPy's conversion would make data of masked entries, in lists of arrays too."""
+    if isinstance(value, (list, tuple)):
+        nested = list, tuple, np.ma.MaskedArray
+        return any(_is_masked(entry) for entry in value if isinstance(entry, nested))
+    return bool(np.ma.is_masked(value))
 
 
 def incidence(value: ArrayLike) -> Array:
@@ -194,18 +235,83 @@ def count(name: str, value: int, least: int) -> int:
     planarimpact.checks.InputError: steps = 2.5: allowed are integers from 1
     """
     if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
-        raise InputError(f"{name} = {value!r}: allowed are integers from {least}")
+        raise InputError(f"{name} = {brief(value)}: allowed are integers from {least}")
     return int(value)
 
 
-def explicit_steps(steps: int, needed: ArrayLike, least: int, most: int) -> int:
+def record(name: str, value: Any, keys: Collection[str]) -> dict[str, Any]:
+    """Return a dict that was read from a file, if it has certain keys and no others.
+
+    Examples
+    --------
+    >>> record("error_bound", {"velocity": 0.1}, ["velocity", "peak_friction"])
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: error_bound has ['velocity']: allowed are velocity, \
+peak_friction, each once
+    """
+    if not isinstance(value, dict) or set(value) != set(keys):
+        found = brief(list(value) if isinstance(value, dict) else value)
+        raise InputError(f"{name} has {found}: allowed are {', '.join(keys)}, each once")
+    return value
+
+
+def listed(name: str, value: Any, shape: tuple[int, ...]) -> Array:
+    """Return nested lists of numbers that were read from a file as an array of this shape.
+
+    Parameters
+    ----------
+    name : str
+        For the message.
+    value : object
+        Lists, with ints and floats for entries, perhaps infinite or NaN: the caller's to refuse.
+    shape : tuple of int
+        Lengths of the lists, from the outermost on.
+
+    Returns
+    -------
+    ndarray of float64
+
+    Raises
+    ------
+    InputError
+        Naming the first entry or list that is something else.
+
+    Examples
+    --------
+    >>> listed("start", [0, 0.5], (2,)).tolist()
+    [0.0, 0.5]
+    >>> listed("start", [0, "0.5"], (2,))
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: start[1] = '0.5': allowed are numbers
+    """
+    _refuse_other_lists(name, value, shape)
+    try:
+        return np.array(value, dtype=np.float64)
+    except OverflowError:
+        raise InputError(f"{name}: an integer is beyond the range of numbers") from None
+
+
+def _refuse_other_lists(name: str, value: Any, shape: tuple[int, ...]) -> None:
+    if not shape:
+        if type(value) not in (int, float):
+            raise InputError(f"{name} = {brief(value)}: allowed are numbers")
+        return
+    if not isinstance(value, list) or len(value) != shape[0]:
+        raise InputError(f"{name} = {brief(value)}: allowed are lists of {shape[0]}")
+    for i, entry in enumerate(value):
+        _refuse_other_lists(f"{name}[{i}]", entry, shape[1:])
+
+
+def explicit_steps(steps: int, needed: Numbers, least: int, most: int) -> int:
     """Return a number of explicit steps as int, if the tangential oscillation is stable with it.
 
     Parameters
     ----------
     steps : int
         From `least` to `most`.
-    needed : array_like
+    needed : float or ndarray of float64
         How many are needed for each impact, or infinity.
     least, most : int
 
@@ -216,7 +322,7 @@ def explicit_steps(steps: int, needed: ArrayLike, least: int, most: int) -> int:
 
     Examples
     --------
-    >>> explicit_steps(64, [100.0], 3, 10**7)
+    >>> explicit_steps(64, 100.0, 3, 10**7)
     Traceback (most recent call last):
     ...
     planarimpact.checks.InputError: steps = 64: allowed are integers from 100 to 10000000 (with \

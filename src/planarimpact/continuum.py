@@ -39,6 +39,7 @@ class Unsolved(checks.ConvergenceError):
         self.impacts = impacts
 
 
+@checks.default_errors
 def rebound(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
@@ -117,6 +118,7 @@ def rebound(
     return Rebound.of(signed, velocity, impulse, peak, regime, reversals)
 
 
+@checks.default_errors
 def fixed_steps(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
@@ -167,6 +169,7 @@ def fixed_steps(
     return (np.copysign(1.0, signed) * velocity.reshape(signed.shape))[()]
 
 
+@checks.default_errors
 def history(
     incidence: float,
     mass_ratio: float = 3.5,

@@ -9,12 +9,14 @@ velocity |v2(0)|, force its largest value, time d_max/|v2(0)| except where t_c i
 import numpy as np
 from scipy.special import betainc
 
+from planarimpact import checks
 from planarimpact.arrays import Array, ArrayLike
 
 # Largest normal force in m2 v2(0)^2/d_max: the strain energy (2/5) F2max d_max is all there is.
 PEAK_FORCE = 1.25
 
 
+@checks.default_errors
 def velocity(phase: ArrayLike) -> Array:
     """Normal velocity of approach: 1 at contact, -1 at separation.
 
@@ -41,6 +43,7 @@ def velocity(phase: ArrayLike) -> Array:
     return np.cos(phase) / _slowness(np.sin(phase))
 
 
+@checks.default_errors
 def pace(phase: ArrayLike) -> Array:
     """Time for a unit of phase, dt/dphase.
 
@@ -67,6 +70,7 @@ def _slowness(radius: Array) -> Array:
     return np.sqrt((1 + radius) / (1 + radius * (1 + radius * (1 + radius * (1 + radius)))))
 
 
+@checks.default_errors
 def phase_at(velocity: ArrayLike) -> Array:
     """Phase at a normal velocity, the inverse of `velocity`.
 
@@ -91,6 +95,7 @@ def phase_at(velocity: ArrayLike) -> Array:
     return np.arctan2(np.exp(0.2 * log), cosine)
 
 
+@checks.default_errors
 def time(phase: ArrayLike) -> Array:
     """Time t/t_c: 0 at contact, 1 at maximum compression, 2 at separation.
 

@@ -83,7 +83,7 @@ def get(name: str) -> Model:
 laws.bilbao, lumped, timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, annuli
     """
     if not isinstance(name, str) or name not in MODELS:
-        raise checks.InputError(f"model = {name!r}: allowed are {', '.join(MODELS)}")
+        raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
     return MODELS[name]
 
 
@@ -150,7 +150,7 @@ def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
     for key, value in settings.items():
         if key not in model.settings:
             known = f"the settings {', '.join(model.settings)}" if model.settings else "no settings"
-            raise checks.InputError(f"{key} = {value!r}: {model.name} has {known}")
+            raise checks.InputError(f"{key} = {checks.brief(value)}: {model.name} has {known}")
 
 
 def _all_impulse(beta: float, zeta2: float, e: float, **settings: float) -> float:

@@ -20,6 +20,7 @@ BRACH_TANGENTIAL_RESTITUTION = 0.40
 BILBAO_TANGENTIAL_RESTITUTION = 1.00
 
 
+@checks.default_errors
 def brach(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
@@ -76,6 +77,7 @@ def brach(
     return _rebound(signed, velocity, beta, e, slides)
 
 
+@checks.default_errors
 def smith(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
@@ -126,6 +128,7 @@ def smith(
     return _rebound(signed, velocity, beta, e, slides)
 
 
+@checks.default_errors
 def bilbao(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,

@@ -25,6 +25,7 @@ SMALL, LINEAR, LIFT = 1e-100, 1e-20, 2.0**200
 LEAST_STIFFNESS = 1e-280
 
 
+@checks.default_errors
 def rebound(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
@@ -108,6 +109,7 @@ def _scale(x: Array, beta: Array, zeta2: Array) -> Array:
     return np.where(np.maximum(np.maximum(x, beta), zeta2) > LARGE, SHRINK, 1.0)
 
 
+@checks.default_errors
 def slip_throughout_limit(
     mass_ratio: ArrayLike = 3.5, stiffness_ratio: ArrayLike = 1.21, restitution: ArrayLike = 1.0
 ) -> Array:
@@ -141,6 +143,7 @@ def slip_throughout_limit(
     return stick_slip.slip_throughout_limit(*groups)[()]
 
 
+@checks.default_errors
 def history(
     incidence: float,
     mass_ratio: float = 3.5,
@@ -200,6 +203,7 @@ def history(
     return History(time, force, friction, velocity, zeta2 * friction, tuple(events))
 
 
+@checks.default_errors
 def friction_work(
     incidence: float,
     mass_ratio: float = 3.5,

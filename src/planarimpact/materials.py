@@ -126,6 +126,7 @@ def stiffness_ratio(material: Material, other: Material | None = None) -> Array:
     return tangential / normal / 4
 
 
+@checks.default_errors
 def effective_radius(radius: ArrayLike, other: ArrayLike = np.inf) -> Array:
     """Effective radius of two convex surfaces in contact.
 

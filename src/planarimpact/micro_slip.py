@@ -141,6 +141,7 @@ def _integral(r: Numbers, c: Array, outer_r: Array, outer_c: Numbers) -> Array:
     return (outer_r - r) * (c + (outer_c - c) * share)
 
 
+@checks.default_errors
 def friction(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, Array]:
     """Tangential force along a given path of approach and displacement (quasi-static).
 

@@ -8,13 +8,14 @@ that must be halved again and again; they are located, and the fit is made anew 
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from planarimpact import checks
 from planarimpact.arrays import Array, Booleans, Integers
-from planarimpact.checks import ConvergenceError
+from planarimpact.checks import ConvergenceError, InputError
 
 DEGREE = 7
 FIRST = 2  # parts of every span to begin with: few large batches cost less than many small
@@ -33,7 +34,9 @@ _NODES = np.cos(np.pi * (2 * np.arange(DEGREE + 1) + 1) / (2 * DEGREE + 2))
 _BETWEEN = np.cos(np.pi * np.arange(DEGREE + 2) / (DEGREE + 1))
 _BETWEEN[[0, -1]] = 1 - 1e-7, -1 + 1e-4  # a hair inside: a kink itself may have another label
 _INDEPENDENT = np.array([-0.983, -0.614, -0.127, 0.352, 0.791])
-_POINTS = np.concatenate([_NODES, _BETWEEN, _INDEPENDENT])
+# Where the error of a piece is measured, from -1 at its left end to 1 at its right one.
+MEASURED = np.concatenate([_BETWEEN, _INDEPENDENT])
+_POINTS = np.concatenate([_NODES, MEASURED])
 _ASCENDING = np.argsort(_POINTS)
 _FROM_VALUES = np.linalg.inv(chebyshev.chebvander(_NODES, DEGREE))
 _ELSEWHERE = chebyshev.chebvander(_POINTS[DEGREE + 1 :], DEGREE)
@@ -67,6 +70,70 @@ class Pieces(NamedTuple):
     coefficients: Array
     label: Integers
     end: float
+
+
+def restored(name: str, rows: Any, functions: int) -> Pieces:
+    """Pieces that were read from a file: a dict of numbers and lists, by the fields of `Pieces`.
+
+    Parameters
+    ----------
+    name : str
+        What the dict is called, for the message.
+    rows : object
+        What was read.
+    functions : int
+        How many functions the pieces must have.
+
+    Returns
+    -------
+    Pieces
+
+    Raises
+    ------
+    InputError
+        If these are no pieces, in their order, of [0, end]. Coefficients may be NaN.
+
+    Examples
+    --------
+    >>> pieces, _ = fit(lambda x: (np.sqrt(x)[None], x.astype(int)), [0.0, 1.0, 2.0], 1e-12)
+    >>> rows = {key: np.asarray(value).tolist() for key, value in pieces._asdict().items()}
+    >>> bool((restored("pieces", rows, 1).coefficients == pieces.coefficients).all())
+    True
+    >>> restored("pieces", rows | {"end": 0.5}, 1)
+    Traceback (most recent call last):
+    ...
+    planarimpact.checks.InputError: pieces.start[2] = 1.0: allowed are numbers that ascend from 0 \
+to less than end = 0.5
+    """
+    rows = checks.record(name, rows, Pieces._fields)
+    end = checks.number(f"{name}.end", rows["end"], "finite numbers above 0", 0, open_low=True)
+    count = len(rows["start"]) if isinstance(rows["start"], list) else 0
+    start, kink, centre, coefficients, label = (
+        checks.listed(f"{name}.{field}", rows[field], shape)
+        for field, shape in {
+            "start": (max(count, 1),),
+            "kink": (count,),
+            "centre": (count,),
+            "coefficients": (functions, DEGREE + 1, count),
+            "label": (count,),
+        }.items()
+    )
+    in_order = (np.diff(start, prepend=-1.0) > 0) & (start < end)
+    in_order[0] = start[0] == 0
+    wrong = {
+        "start": (start, in_order, f"numbers that ascend from 0 to less than end = {end:g}"),
+        "kink": (kink, (kink >= 0) & (kink <= start), "numbers from 0 to the start of the piece"),
+        "centre": (centre, np.isfinite(centre), "finite numbers"),
+        "coefficients": (coefficients, ~np.isinf(coefficients), "numbers that are not infinite"),
+        "label": (label, np.isin(label, np.arange(256)), "integers from 0 to 255"),
+    }
+    for field, (values, good, allowed) in wrong.items():
+        if not good.all():
+            index = tuple(int(i) for i in np.argwhere(~good)[0])
+            raise InputError(
+                f"{name}.{field}{list(index)} = {float(values[index])!r}: allowed are {allowed}"
+            )
+    return Pieces(start, kink, centre, coefficients, label.astype(np.int64), end)
 
 
 class _Halves(NamedTuple):
@@ -234,6 +301,8 @@ def _pieces(parts: _Halves, end: float) -> Pieces:
 class Piecewise:
     """Evaluates `Pieces`: which piece, its variable, and one function there.
 
+    The arrays of the pieces are read-only from then on.
+
     Examples
     --------
     >>> pieces, _ = fit(lambda x: (np.sqrt(x)[None], x.astype(int)), [0.0, 1.0, 2.0], 1e-12)
@@ -242,9 +311,14 @@ class Piecewise:
     >>> piece, root = found.find(x)
     >>> found.value(0, piece, root).round(12).tolist(), pieces.label[piece].tolist()
     ([0.5, 1.2], [0, 1])
+    >>> x, values = found.sample(np.zeros(1))
+    >>> float(x[0, 0]), round(float(values[0, 0, 0]), 12), round(float(found.jumps().max()), 12)
+    (0.0625, 0.25, 0.0)
     """
 
     def __init__(self, pieces: Pieces) -> None:
+        for array in pieces[:-1]:
+            array.flags.writeable = False
         self.pieces = pieces
         self._following = np.append(pieces.start[1:], np.inf)
         tables = [self._starts(cells) for cells in CELLS]
@@ -278,3 +352,38 @@ class Piecewise:
             value *= root
             value += row.take(piece, mode="clip")
         return value
+
+    def sample(self, at: Array) -> tuple[Array, Array]:
+        """Points of every piece, and the functions there.
+
+        Parameters
+        ----------
+        at : ndarray, shape (n,)
+            Places in each piece, from -1 at its left end to 1 at its right one.
+
+        Returns
+        -------
+        x : ndarray, shape (pieces, n)
+        values : ndarray, shape (functions, pieces, n)
+        """
+        low, high = (ends[:, None] for ends in self._ends())
+        root = (low + high) / 2 + (high - low) / 2 * at
+        x = np.minimum(self.pieces.kink[:, None] + root**2, self.pieces.end)
+        piece = np.broadcast_to(np.arange(low.size)[:, None], root.shape)
+        functions = range(len(self.pieces.coefficients))
+        variable = root - self.pieces.centre[:, None]
+        return x, np.stack([self.value(f, piece, variable) for f in functions])
+
+    def jumps(self) -> Array:
+        """How far the functions jump from piece to piece, shape (functions, pieces - 1)."""
+        low, high = (ends - self.pieces.centre for ends in self._ends())
+        left = np.arange(low.size - 1)
+        functions = range(len(self.pieces.coefficients))
+        return np.abs(
+            [self.value(f, left + 1, low[1:]) - self.value(f, left, high[:-1]) for f in functions]
+        )
+
+    def _ends(self) -> tuple[Array, Array]:
+        """Ends of every piece in sqrt(x - kink)."""
+        following = np.append(self.pieces.start[1:], self.pieces.end)
+        return np.sqrt(self.pieces.start - self.pieces.kink), np.sqrt(following - self.pieces.kink)

@@ -8,8 +8,10 @@ the formula that it is.
 
 import hashlib
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,11 +21,21 @@ from planarimpact.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.results import Rebound, Regime
 
 FORMAT, VERSION = "planarimpact response", 1
+CONTENT = (
+    "model",
+    "parameters",
+    "incidence_max",
+    "tolerance",
+    "error_bound",
+    "slides_from",
+    "pieces",
+)
 CHUNK = 16384  # impacts evaluated together: they stay in the cache
 ROUNDING = 2.0**-48  # of the largest incidence that is fitted: no smaller error can be told
 NARROWEST = 1e-30  # of the span: a kink nearer to 0 is 0
 MODEL_SHARE = 1 / 2  # of the tolerance: the larger part is for what costs more
 FIT_SHARES = 1 / 4, 1 / 32  # of the tolerance, at the first try and the second
+COARSE = 1e-3  # tolerance of the model, where it has one, with which a file is compared at first
 
 
 class Bound(NamedTuple):
@@ -33,14 +45,17 @@ class Bound(NamedTuple):
     peak_friction: float
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class Response:
     """The rebound of one pair of bodies as a function of incidence; made by `compile` or `load`.
+
+    Nothing of it can be changed.
 
     Attributes
     ----------
     model : str
         Name of the model that it stands for.
-    parameters : dict
+    parameters : mapping
         mass_ratio, stiffness_ratio, restitution, and the model's settings.
     incidence_max : float
         Largest |incidence| that it answers; infinite where the model slides throughout beyond.
@@ -51,30 +66,40 @@ class Response:
         fit, and the model's own tolerance where it has one. It is measured: in a model with
         many kinks, one in time steps, some may hide between the points. It says nothing of the
         regime, which changes to a hundredth of the tolerance where that of the model does.
+    slides_from : float
+        Incidence from which the formula of slip throughout holds, or infinity.
+    pieces : planarimpact.piecewise.Pieces
+        Polynomials of velocity and peak friction up to there, or up to `incidence_max`.
     """
 
-    def __init__(
-        self,
-        model: str,
-        parameters: dict[str, float],
-        incidence_max: float,
-        tolerance: float,
-        error_bound: Bound,
-        slides: float,
-        pieces: piecewise.Pieces,
-    ) -> None:
-        self.model = model
-        self.parameters = parameters
-        self.incidence_max = incidence_max
-        self.tolerance = tolerance
-        self.error_bound = error_bound
-        self._slides = slides  # incidence from which the formula of slip throughout holds, or inf
-        self._piecewise = piecewise.Piecewise(pieces)
+    model: str
+    parameters: Mapping[str, float]
+    incidence_max: float
+    tolerance: float
+    error_bound: Bound
+    slides_from: float
+    pieces: piecewise.Pieces
+    _piecewise: piecewise.Piecewise = field(init=False)
+    _gains: bool = field(init=False)  # whether the model itself creates energy somewhere
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parameters", MappingProxyType(dict(self.parameters)))
+        table = piecewise.Piecewise(self.pieces)
+        object.__setattr__(self, "_piecewise", table)
+        x, (velocity, _) = table.sample(piecewise.MEASURED)
+        most = x + self.error_bound.velocity + ROUNDING * self.pieces.end
+        object.__setattr__(self, "_gains", bool((np.abs(velocity) > most).any()))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle and copy it by what it is made of; a read-only mapping has no pickle."""
+        made_of = (self.model, dict(self.parameters), self.incidence_max, self.tolerance)
+        return Response, (*made_of, self.error_bound, self.slides_from, self.pieces)
 
     def __repr__(self) -> str:
         groups = ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
         return f"<Response of {self.model}: {groups}; error {max(self.error_bound):.1e}>"
 
+    @checks.default_errors
     def __call__(self, incidence: ArrayLike) -> Rebound:
         """State at separation, as the model's own `rebound` gives it.
 
@@ -109,11 +134,12 @@ class Response:
             impulse[part] = np.where(slides, 1 + e, (size - velocity[part]) / beta)
             fitted = np.clip(self._piecewise.value(1, piece, root), 0.0, 1.0)
             peak[part] = np.where(slides, 1.0, fitted)
-            labels = self._piecewise.pieces.label.take(piece)
+            labels = self.pieces.label.take(piece)
             regime[part] = np.where(slides, Regime.SLIP_THROUGHOUT, labels)
             regime[part][size == 0] = Regime.STICK
         return Rebound.of(x, velocity, impulse, peak, regime.astype(np.uint8))
 
+    @checks.default_errors
     def velocity(self, incidence: ArrayLike) -> Array:
         """Velocity at separation alone: the fastest way to it.
 
@@ -133,7 +159,7 @@ class Response:
         -1.0
         """
         x = incidence
-        if not isinstance(x, np.ndarray) or x.dtype != np.float64:
+        if type(x) is not np.ndarray or x.dtype != np.float64:  # a subclass may have a mask
             x = checks.incidence(x)
         velocity, flat = np.empty(x.size), x.reshape(-1)
         for part, size, slides, piece, root in self._parts(x):
@@ -190,15 +216,15 @@ class Response:
             if not (size <= limit).all():
                 span = f" from {-limit:g} to {limit:g}" if limit == self.incidence_max else ""
                 checks.checked("incidence", x, "finite numbers" + span, -limit, limit)
-            slides = size >= self._slides
-            piece, root = self._piecewise.find(np.minimum(size, self._piecewise.pieces.end))
+            slides = size >= self.slides_from
+            piece, root = self._piecewise.find(np.minimum(size, self.pieces.end))
             yield part, size, slides, piece, root
 
     def _velocity(self, size: Array, slides: Booleans, piece: Integers, root: Array) -> Array:
         """Velocity at separation for |x|."""
         found = self._piecewise.value(0, piece, root)
-        # Rounding and the fit must not create energy.
-        np.clip(found, -size, size, out=found)
+        if not self._gains:  # then rounding and the fit must not either
+            np.clip(found, -size, size, out=found)
         if slides.any():
             e, beta = self.parameters["restitution"], self.parameters["mass_ratio"]
             np.copyto(found, size - (1 + e) * beta, where=slides)
@@ -222,23 +248,23 @@ class Response:
         InputError
             If there can be no such file.
         """
-        pieces = self._piecewise.pieces
-        arrays = {key: np.asarray(value).tolist() for key, value in pieces._asdict().items()}
-        content = {
-            "model": self.model,
-            "parameters": self.parameters,
-            "incidence_max": whole_files.or_null(self.incidence_max),
-            "tolerance": self.tolerance,
-            "error_bound": self.error_bound._asdict(),
-            "slides_from": whole_files.or_null(self._slides),
-            "pieces": arrays,
-        }
+        values = (
+            self.model,
+            dict(self.parameters),
+            whole_files.or_null(self.incidence_max),
+            self.tolerance,
+            self.error_bound._asdict(),
+            whole_files.or_null(self.slides_from),
+            {key: np.asarray(value).tolist() for key, value in self.pieces._asdict().items()},
+        )
+        content = dict(zip(CONTENT, values, strict=True))
         text = json.dumps({"format": FORMAT, "version": VERSION, "sha256": _digest(content)})
         whole = f'{text[:-1]}, "content": {json.dumps(content)}}}\n'
         with whole_files.written(path) as partial:
             partial.write_text(whole, encoding="utf-8")
 
 
+@checks.default_errors
 def compile(model: str, *, incidence_max: float, tolerance: float, **parameters: float) -> Response:
     """Compile the response of one pair of bodies by any model of the ladder.
 
@@ -276,23 +302,9 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
     >>> response.incidence_max  # slides throughout from 3.5 on
     inf
     """
-    chosen = ladder.get(model)
-    largest = checks.number(
-        "incidence_max", incidence_max, "numbers from 1e-9 to 1e300", 1e-9, 1e300
+    chosen, groups, settings, tolerance, slides, end, reach = _asked(
+        model, incidence_max, tolerance, parameters
     )
-    tolerance = checks.number("tolerance", tolerance, "numbers from 1e-11 to 1", 1e-11, 1)
-    groups, settings = _parameters(chosen, parameters)
-    if "tolerance" in chosen.settings:
-        settings["tolerance"] = tolerance * MODEL_SHARE
-    slides = np.inf
-    if chosen.sliding_limit is not None:
-        slides = float(chosen.sliding_limit(*groups.values(), **settings))
-    end = min(largest, slides)
-    if tolerance < ROUNDING * end:
-        raise checks.InputError(
-            f"tolerance = {tolerance:g}: allowed are numbers from {ROUNDING * end:.1e} for "
-            f"incidences up to {end:g}, as rounding goes"
-        )
     silent = np.isnan(chosen.rebound(end / 2, *groups.values(), **settings).peak_friction)
 
     def function(x: Array) -> tuple[Array, Integers]:
@@ -318,12 +330,16 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
         )
     if silent:  # a law of impulses
         pieces.coefficients[1] = np.nan
-    reach = np.inf if slides <= largest else largest
     return Response(model, groups | settings, reach, tolerance, bound, slides, pieces)
 
 
+@checks.default_errors
 def load(path: str | Path) -> Response:
     """Read a response that `Response.save` wrote.
+
+    Whatever the file says is checked: that it follows from the question that was asked, and that
+    its pieces are those of the model, within the error bound, where `compile` measured that. It
+    takes a millisecond; with the continuum some twenty, as few answers as possible are asked of it.
 
     Parameters
     ----------
@@ -336,7 +352,7 @@ def load(path: str | Path) -> Response:
     Raises
     ------
     InputError
-        If the file is not of this format and version, or is damaged.
+        If the file is not of this format and version, is damaged, or says anything that is not so.
     OSError
         If it cannot be read.
 
@@ -348,6 +364,19 @@ def load(path: str | Path) -> Response:
     >>> load(path).velocity([2.0, 8.0]).tolist()
     [0.0, 1.0]
     """
+    content = _content(path)
+    try:
+        # What overflows is no answer of any model.
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = _restored(content)
+            _refuse_strangers(found)
+    except (checks.InputError, checks.ConvergenceError) as error:
+        raise checks.InputError(f"{path}: {error}; compile it again") from None
+    return found
+
+
+def _content(path: str | Path) -> Any:
+    """What a file holds, if it is of this format and nothing in it has changed."""
     try:
         file = json.loads(Path(path).read_text(encoding="utf-8"))
         kind, version = file["format"], file["version"]
@@ -361,31 +390,134 @@ def load(path: str | Path) -> Response:
     content = file.get("content")
     if not content or file.get("sha256") != _digest(content):
         raise checks.InputError(f"{path}: damaged: its content is not what was written")
-    rows = content["pieces"]
-    pieces = piecewise.Pieces._make(
-        np.array(rows[key]) if key != "end" else rows[key] for key in piecewise.Pieces._fields
-    )
-    return Response(
-        content["model"],
-        content["parameters"],
-        _infinite(content["incidence_max"]),
-        content["tolerance"],
-        Bound(**content["error_bound"]),
-        _infinite(content["slides_from"]),
-        pieces,
-    )
+    return content
 
 
-def _digest(content: dict[str, Any]) -> str:
+def _digest(content: Any) -> str:
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
-def _infinite(number: float | None) -> float:
-    return np.inf if number is None else number
+def _restored(content: Any) -> Response:
+    """The response that a content describes, if `compile` would say the same of its question."""
+    content = checks.record("content", content, CONTENT)
+    model, reach = content["model"], content["incidence_max"]
+    names = [*list(checks.RULES)[1:], *ladder.get(model).settings]
+    parameters = checks.record("parameters", content["parameters"], names)
+    pieces = piecewise.restored("pieces", content["pieces"], len(Bound._fields))
+    largest = pieces.end if reach is None else reach
+    asked = _asked(model, largest, content["tolerance"], parameters)
+    follows = {
+        "incidence_max": (reach, whole_files.or_null(asked.reach)),
+        "slides_from": (content["slides_from"], whole_files.or_null(asked.slides)),
+        "pieces.end": (pieces.end, asked.end),
+    }
+    follows |= {f"parameters.{key}": (parameters[key], v) for key, v in asked.settings.items()}
+    for name, (given, expected) in follows.items():
+        if given != expected:
+            words = f"{name} = {checks.brief(given)}: allowed is {expected!r}"
+            raise checks.InputError(f"{words}, as the rest of it has it")
+    least, most = asked.settings.get("tolerance", 0.0), asked.tolerance
+    allowed = f"numbers from {least:g} to the tolerance, {most:g}"
+    bound = checks.record("error_bound", content["error_bound"], Bound._fields)
+    bound = {
+        k: checks.number(f"error_bound.{k}", v, allowed, least, most) for k, v in bound.items()
+    }
+    parameters = asked.groups | asked.settings
+    return Response(model, parameters, asked.reach, most, Bound(**bound), asked.slides, pieces)
+
+
+def _refuse_strangers(found: Response) -> None:
+    """Refuse a response that is farther from its model than its error bound."""
+    own = found.parameters.get("tolerance")
+    if own is None:
+        words = _disagreement(found, piecewise.MEASURED, found.parameters)
+    else:
+        # A model with a tolerance takes long to be as exact. Few and coarse answers of it, and no
+        # jump from piece to piece, tell as much of the pieces; in doubt it is asked for its best.
+        coarse, middle = {"tolerance": max(own, COARSE)}, np.zeros(1)
+        words = _jump(found) or (
+            _disagreement(found, middle, dict(found.parameters) | coarse)
+            and _disagreement(found, middle, found.parameters)
+        )
+    if words:
+        raise checks.InputError(words)
+
+
+def _jump(found: Response) -> str:
+    """Where a response jumps from one piece to the next, in words."""
+    jumps = found._piecewise.jumps()
+    for (name, bound), jump in zip(found.error_bound._asdict().items(), jumps, strict=True):
+        if (jump > bound).any():
+            i = int(np.argmax(jump > bound))
+            return (
+                f"pieces.start[{i + 1}] = {found.pieces.start[i + 1]:g}: {name} jumps by "
+                f"{jump[i]:.1e} there, but error_bound is {bound:.1e}"
+            )
+    return ""
+
+
+def _disagreement(found: Response, at: Array, parameters: Mapping[str, float]) -> str:
+    """Where a model answers otherwise than a response, at places `at` of every piece, in words."""
+    x, values = found._piecewise.sample(at)
+    answer = ladder.rebound(found.model, x, **parameters)
+    spare = parameters.get("tolerance", 0.0) + ROUNDING * found.pieces.end
+    for (name, bound), value in zip(found.error_bound._asdict().items(), values, strict=True):
+        model = getattr(answer, name)
+        right = (np.abs(value - model) <= bound + spare) | (np.isnan(value) & np.isnan(model))
+        if not right.all():
+            at_x, one, other = (field[~right][0] for field in (x, value, model))
+            return (
+                f"pieces, incidence {at_x:g}: {name} = {one:g}, but {found.model} has {other:g} "
+                f"and error_bound is {bound:.1e}"
+            )
+    label = found.pieces.label
+    wrong = (answer.regime != label[:, None]).all(axis=1)
+    if wrong.any():
+        i = int(wrong.argmax())
+        return f"pieces.label[{i}] = {label[i]}, but {found.model} has {answer.regime[i, 0]} there"
+    return ""
+
+
+class _Asked(NamedTuple):
+    """What is asked of a response, checked, and what follows from it."""
+
+    model: ladder.Model
+    groups: dict[str, float]
+    settings: dict[str, float]
+    tolerance: float
+    slides: float  # incidence from which the formula of slip throughout holds, or inf
+    end: float  # of what is fitted
+    reach: float  # largest incidence that is answered
+
+
+def _asked(
+    model: str, incidence_max: float, tolerance: float, parameters: Mapping[str, float]
+) -> _Asked:
+    chosen = ladder.get(model)
+    largest = checks.number(
+        "incidence_max", incidence_max, "numbers from 1e-9 to 1e300", 1e-9, 1e300
+    )
+    tolerance = checks.number("tolerance", tolerance, "numbers from 1e-11 to 1", 1e-11, 1)
+    groups, settings = _parameters(chosen, parameters)
+    if "tolerance" in chosen.settings:
+        settings["tolerance"] = tolerance * MODEL_SHARE
+    # Of no impact at all it is no work: the model refuses what it does not admit.
+    chosen.rebound(np.zeros(0), *groups.values(), **settings)
+    slides = np.inf
+    if chosen.sliding_limit is not None:
+        slides = float(chosen.sliding_limit(*groups.values(), **settings))
+    end = min(largest, slides)
+    if tolerance < ROUNDING * end:
+        raise checks.InputError(
+            f"tolerance = {tolerance:g}: allowed are numbers from {ROUNDING * end:.1e} for "
+            f"incidences up to {end:g}, as rounding goes"
+        )
+    reach = np.inf if slides <= largest else largest
+    return _Asked(chosen, groups, settings, tolerance, slides, end, reach)
 
 
 def _parameters(
-    model: ladder.Model, given: dict[str, float]
+    model: ladder.Model, given: Mapping[str, float]
 ) -> tuple[dict[str, float], dict[str, float]]:
     """The three groups, and the settings of a model with their defaults; scalars."""
     groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 1.0}

@@ -11,6 +11,7 @@ from planarimpact.arrays import ArrayLike
 from planarimpact.results import Rebound, Regime
 
 
+@checks.default_errors
 def rebound(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,

@@ -45,6 +45,7 @@ STABLE_ANGLE = 2.0
 LEAST, LARGEST = 1e-100, 1e300
 
 
+@checks.default_errors
 def linear(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
@@ -103,6 +104,7 @@ def linear(
     return _rebound(LINEAR, incidence, mass_ratio, stiffness_ratio, restitution, steps)
 
 
+@checks.default_errors
 def mindlin(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
@@ -160,6 +162,7 @@ def mindlin(
     return _rebound(MINDLIN, incidence, mass_ratio, stiffness_ratio, restitution, steps)
 
 
+@checks.default_errors
 def mindlin_rescaled(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,

@@ -14,7 +14,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from planarimpact import ladder, lumped, scene
+import planarimpact
+from planarimpact import continuum, ladder, lumped, response, scene
 from planarimpact.__main__ import main
 from planarimpact.scene import files
 
@@ -38,35 +39,114 @@ def table(tmp_path):
     return path
 
 
+VELOCITY = "velocity [mu v2(0)]"
+REBOUND = {
+    "incidence [mu v2(0)]": [0.5, -2.0, 8.0],
+    VELOCITY: "velocity",
+    "peak_friction [mu F2max]": "peak_friction",
+    "dissipation [mu^2 m2 v2(0)^2]": "dissipation",
+    "regime": ["STICK_SLIP", "SLIP_STICK_SLIP", "SLIP_THROUGHOUT"],
+    "reversals [1]": "reversals",
+}
+COMMON = {"time [t_c]": "time", VELOCITY: "velocity"}
+HISTORY = COMMON | {
+    "normal [m2 Omega v2(0)]": "normal",
+    "friction [mu m2 Omega v2(0)]": "friction",
+    "spring [mu v2(0)/Omega]": "spring",
+}
+CONTINUUM_HISTORY = COMMON | {
+    "normal [F2max]": "normal",
+    "friction [mu F2max]": "friction",
+    "contact_radius [a_max]": "contact_radius",
+    "stick_radius [a_max]": "stick_radius",
+}
+
+
 def rows_of(text):
     return list(csv.DictReader(text.splitlines()))
 
 
-def test_rebound_prints_what_the_model_says(capsys):
-    assert main(["rebound", "--incidence", "0.5", "-2", "8", "--restitution", "0.5"]) == 0
-    rows = rows_of(capsys.readouterr().out)
-    exact = lumped.rebound([0.5, -2.0, 8.0], restitution=0.5)
-    assert [float(row["velocity"]) for row in rows] == exact.velocity.tolist()
-    assert [row["regime"] for row in rows][2] == "SLIP_THROUGHOUT"
+def columns_of(text):
+    header, *rows = csv.reader(text.splitlines())
+    return dict(zip(header, zip(*rows, strict=True), strict=True))
+
+
+def assert_are(columns, fields, result):
+    """The columns, by name and unit, hold the fields of a result, or the values beside them."""
+    assert set(columns) == set(fields)
+    for name, field in fields.items():
+        expected = getattr(result, field) if isinstance(field, str) else field
+        kind = str if name == "regime" else float
+        assert [kind(entry) for entry in columns[name]] == list(expected), name
+
+
+@pytest.mark.parametrize(("model", "settings"), [("lumped", {}), ("continuum", {"tolerance": 0.1})])
+def test_rebound_prints_what_the_model_says_with_units(model, settings, capsys):
+    given = [f"--set={name}={value}" for name, value in settings.items()]
+    assert main(["rebound", "--incidence", "0.5", "-2", "8", "--model", model, *given]) == 0
+    fields = {n: f for n, f in REBOUND.items() if f != "reversals" or model == "continuum"}
+    exact = ladder.rebound(model, [0.5, -2.0, 8.0], **settings)
+    assert_are(columns_of(capsys.readouterr().out), fields, exact)
+
+
+@pytest.mark.parametrize(
+    ("fields", "option", "result"),
+    [
+        (HISTORY, "--samples=9", lambda: lumped.history(1.0, samples=9)),
+        (CONTINUUM_HISTORY, "--tolerance=0.01", lambda: continuum.history(1.0, tolerance=0.01)),
+    ],
+)
+def test_history_prints_what_the_model_says_with_units(fields, option, result, capsys, tmp_path):
+    model = "continuum" if fields is CONTINUUM_HISTORY else "lumped"
+    command = ["history", "--incidence", "1", "--model", model, option]
+    assert main(command) == main([*command, "--output", str(tmp_path / "a.JSON")]) == 0
+    assert_are(columns_of(capsys.readouterr().out), fields, result())
+    assert_are(json.loads((tmp_path / "a.JSON").read_text()), fields, result())
+
+
+NUMBERS = ["-1e-3", "-1E-300", "-.5e1", "-2", "-1e+1", "-0.0"]
+
+
+def test_negative_numbers_are_numbers_however_they_are_written(capsys):
+    assert main(["rebound", "--model", "rigid", "--incidence", *NUMBERS, "--mass-ratio", "2"]) == 0
+    found = columns_of(capsys.readouterr().out)["incidence [mu v2(0)]"]
+    assert [float(x) for x in found] == [float(x) for x in NUMBERS]
+
+
+REFUSED_NUMBERS = [
+    (["rebound", "--incidence", "1"], ["--mass-ratio", "--stiffness-ratio", "--restitution"]),
+    (["rebound", "--friction", "0.3"], ["--angle"]),
+    (["rebound", "--angle", "30"], ["--friction"]),
+    (["rebound"], ["--incidence"]),
+    (["history"], ["--incidence"]),
+    (["history", "--incidence", "1"], ["--mass-ratio", "--samples"]),
+    (["history", "--incidence", "1", "--model", "continuum"], ["--tolerance"]),
+    (["compile", "x.json"], ["--tolerance", "--incidence-max", "--stiffness-ratio"]),
+    (["scene", "in.csv", "out.csv"], ["--tolerance"]),
+]
+
+
+@pytest.mark.parametrize(
+    ("command", "option"), [(c, option) for c, options in REFUSED_NUMBERS for option in options]
+)
+def test_numbers_that_are_none_reach_our_own_words(command, option, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for text in ("-inf", "-nan"):
+        assert main([*command, option, text]) == 2
+        error = capsys.readouterr().err
+        name = "theta_deg" if option == "--angle" else option[2:].replace("-", "_")
+        assert name in error and f"{float(text)}: allowed are" in error and error.count("\n") == 1
 
 
 def test_angles_settings_and_json(capsys):
     command = ["rebound", "--angle", "45", "--friction", "0.5", "--format", "json"]
     assert main([*command, "--model", "timestep.linear", "--set", "steps=256"]) == 0
     found = json.loads(capsys.readouterr().out)
-    assert found["incidence"] == pytest.approx([2.0])
-    assert found["velocity"] == [
-        ladder.rebound("timestep.linear", found["incidence"][0], steps=256)[0]
-    ]
+    incidence = found["incidence [mu v2(0)]"]
+    assert incidence == pytest.approx([2.0])
+    assert found[VELOCITY] == [ladder.rebound("timestep.linear", incidence[0], steps=256)[0]]
     assert main([*command, "--model", "laws.smith"]) == 0
-    assert json.loads(capsys.readouterr().out)["peak_friction"] == [None]
-
-
-def test_history_of_both_models(capsys):
-    for model, option in (("lumped", "--samples=9"), ("continuum", "--tolerance=0.01")):
-        assert main(["history", "--incidence", "1", "--model", model, option]) == 0
-        rows = rows_of(capsys.readouterr().out)
-        assert float(rows[0]["time"]) == 0 and float(rows[-1]["time"]) == 2
+    assert json.loads(capsys.readouterr().out)["peak_friction [mu F2max]"] == [None]
 
 
 def test_compile_and_use(capsys, tmp_path):
@@ -74,9 +154,7 @@ def test_compile_and_use(capsys, tmp_path):
     assert main(["compile", path, "--tolerance", "1e-9", "--restitution", "0.7"]) == 0
     assert main(["rebound", "--incidence", "2", "--response", path]) == 0
     row = rows_of(capsys.readouterr().out.split("\n", 1)[1])[0]
-    assert float(row["velocity"]) == pytest.approx(
-        lumped.rebound(2.0, restitution=0.7)[0], abs=1e-9
-    )
+    assert float(row[VELOCITY]) == pytest.approx(lumped.rebound(2.0, restitution=0.7)[0], abs=1e-9)
 
 
 def test_models_are_listed(capsys):
@@ -106,7 +184,54 @@ REFUSED = [
     (["scene", "none.csv", "out"], "out: allowed are names that end in .csv, .csv.gz, .parquet or"),
     (["rebound", "--incidence", "1", "--friction", "0.3"], "--friction: it does not apply"),
     (["models", "--output", "no/models.csv"], "there is no folder"),
+    (["rebound", "--angle", "30"], "--angle: it needs --friction"),
+    (["rebound", "--angle", "30", "--friction", "0"], "friction = 0.0: allowed are"),
+    (["rebound", "--incidence", "1", "--friction", "0"], "--friction: it does not apply"),
+    (["rebound", "--incidence", "1", "--set", "steps=-5"], "steps = -5"),
+    (["models", "--output", "a.txt"], "--output a.txt: allowed are names that end in .csv or"),
+    (["models", "--output", "csv"], "--output csv: allowed are"),
+    (["history", "--incidence", "1", "--output", "a.csv", "--format", "json"], "ends in .csv"),
+    (["rebound", "--incidence", "1", "--output", "a.json", "--format", "csv"], "ends in .json"),
+    (["compile", "ball.csv"], "ball.csv: allowed are names that end in .json"),
 ]
+
+
+def test_a_bad_name_is_refused_before_any_work(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr(ladder, "rebound", lambda *_, **__: pytest.fail("it solves"))
+    monkeypatch.setattr(response, "compile", lambda *_, **__: pytest.fail("it compiles"))
+    for name in (tmp_path / "no" / "a.json", tmp_path / "a.txt", tmp_path):
+        assert main(["rebound", "--incidence", "1", "--output", str(name)]) == 2
+        assert main(["compile", str(name)]) == 2
+        assert capsys.readouterr().err.count("\n") == 2
+
+
+@pytest.mark.parametrize("command", [["models"], ["rebound", "--incidence", "1"]])
+def test_the_name_of_a_file_says_its_format(command, tmp_path, capsys):
+    for ending, kind in (("json", "json"), ("csv", "csv")):
+        path = tmp_path / f"table.{ending}"
+        assert main([*command, "--output", str(path)]) == 0
+        assert main([*command, "--format", kind]) == 0
+        assert path.read_text() == capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("program", "called"),
+    [
+        ("/bin/planarimpact", "planarimpact"),
+        ("/x/planarimpact/__main__.py", "python -m planarimpact"),
+    ],
+)
+def test_the_usage_says_how_it_was_called(program, called, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", [program, "models", "--help"])
+    with pytest.raises(SystemExit):
+        main()
+    assert capsys.readouterr().out.startswith(f"usage: {called} models")
+
+
+def test_the_version_is_that_of_the_package(capsys):
+    with pytest.raises(SystemExit):
+        main(["--version"])
+    assert capsys.readouterr().out == f"planarimpact {planarimpact.__version__}\n"
 
 
 @pytest.mark.parametrize(("command", "words"), REFUSED, ids=[" ".join(c) for c, _ in REFUSED])
@@ -451,7 +576,7 @@ def test_a_reader_that_has_had_enough_is_no_error():
     result = subprocess.run(
         ["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True
     )
-    assert result.returncode == 0 and not result.stderr and result.stdout.startswith("time,")
+    assert result.returncode == 0 and not result.stderr and result.stdout.startswith("time [t_c],")
 
 
 def test_an_old_list_of_bad_rows_goes(table):

@@ -106,7 +106,7 @@ def test_bodies_and_samples_are_refused_by_name():
         noncollinear.combined(rod([1.0, 2.0]), rod([1.0, 2.0, 3.0]))
     with pytest.raises(InputError, match="mass = 0.0"):
         noncollinear.motion_after(Motion(0.0, 1.0, 0.0), (0.0, 1.0), 0.0, 1.0, 0.1, 0.1)
-    with pytest.raises(InputError, match="motion.spin = nan"):
+    with pytest.raises(InputError, match="spin = nan"):
         noncollinear.motion_after(Motion(0.0, 1.0, np.nan), (0.0, 1.0), 1.0, 1.0, 0.1, 0.1)
 
 

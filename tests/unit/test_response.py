@@ -1,5 +1,6 @@
 """Compiled responses against their models; what they refuse; their files."""
 
+import copy
 import pickle
 
 import numpy as np
@@ -21,6 +22,7 @@ CASES = [
     ("lumped", FINE, {"restitution": 0.0}),
     ("timestep.linear", COARSE, {"restitution": 0.5}),
     ("timestep.linear", 1e-6, {"steps": 16}),
+    ("timestep.linear", 0.08, {"steps": 16, "mass_ratio": 50.0, "stiffness_ratio": 0.94}),  # gains
     ("timestep.mindlin", COARSE, {}),
     ("timestep.mindlin_rescaled", COARSE, {"stiffness_ratio": 3.0}),
     ("continuum", COARSE, {}),
@@ -155,10 +157,25 @@ def test_it_is_deterministic(ball):
     assert_same(compiled("lumped", 1e-10)(X), ball(X))
 
 
-def test_it_is_pickled(ball):
-    again = pickle.loads(pickle.dumps(ball))
-    assert_same(again(X), ball(X))
-    assert repr(again) == repr(ball) and "lumped" in repr(ball)
+@pytest.mark.parametrize(
+    "again", [lambda ball: pickle.loads(pickle.dumps(ball)), copy.copy, copy.deepcopy]
+)
+def test_it_is_pickled_and_copied(ball, again):
+    assert_same(again(ball)(X), ball(X))
+    assert repr(again(ball)) == repr(ball) and "lumped" in repr(ball)
+    assert again(ball).parameters == ball.parameters
+
+
+def test_nothing_of_it_can_be_changed(ball):
+    with pytest.raises(TypeError):
+        ball.parameters["mass_ratio"] = 2.0
+    for name in ("tolerance", "error_bound", "pieces", "parameters", "another"):
+        with pytest.raises(AttributeError):
+            setattr(ball, name, 1.0)
+    for made in (ball, copy.deepcopy(ball)):
+        for array in made.pieces[:-1]:
+            with pytest.raises(ValueError, match="read-only"):
+                array[...] = 0
 
 
 def test_laws_of_impulses_know_a_peak_in_sliding_alone():

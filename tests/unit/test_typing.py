@@ -12,6 +12,7 @@ from importlib import metadata
 from pathlib import Path
 
 import pytest
+import run_plan
 
 import planarimpact
 
@@ -36,6 +37,14 @@ API = [
     "scene",
     "timestep",
 ]
+FRESH = """
+import sys
+import planarimpact
+
+assert not {"scipy", "pandas", "planarimpact.lumped"} & set(sys.modules), "import is slow"
+assert {"lumped", "scene", "Regime"} <= set(dir(planarimpact))
+print(planarimpact.lumped.rebound(8.0).velocity, planarimpact.__version__)
+"""
 NEED_PANDAS = re.compile(r"planarimpact\.(scene\b|curves\.superball)")
 RIGHT = """\
 from planarimpact import lumped, noncollinear
@@ -43,7 +52,11 @@ from planarimpact import lumped, noncollinear
 print(lumped.rebound(1.0).regime.name)
 print(noncollinear.rebound(1.0, 1.0, noncollinear.InverseMass(1.0, 0.0, 1.0), 0.5).regime.name)
 """
+# Without an import of the modules: each is there, and is what it is.
+RIGHT += "import planarimpact\n\nfloat(planarimpact.lumped.rebound(1.0).velocity)\n"
+RIGHT += "".join(f"print(planarimpact.{name}.__name__)\n" for name in planarimpact._MODULES)
 WRONG = """\
+import planarimpact
 from planarimpact import bodies, lumped
 
 lumped.rebound(1.0, restitution=None)
@@ -51,8 +64,11 @@ lumped.rebound(1.0, restituton=0.5)
 lumped.history([1.0, 2.0])
 bodies.mass_ratio(0.0127)
 print(lumped.rebound(1.0).speed)
+planarimpact.lumped.rebound(1.0, restitution=None)
+print(planarimpact.lumpd)
 """
-REFUSED = [(3, "arg-type"), (4, "call-arg"), (5, "arg-type"), (6, "arg-type"), (7, "attr-defined")]
+REFUSED = [(4, "arg-type"), (5, "call-arg"), (6, "arg-type"), (7, "arg-type"), (8, "attr-defined")]
+REFUSED += [(9, "arg-type"), (10, "attr-defined")]
 
 
 def run(*command, cwd=ROOT, **options):
@@ -91,6 +107,28 @@ def test_users_profit_from_the_types(mypy, tmp_path):
     assert f"Found {len(REFUSED)} errors" in result.stdout, result.stdout
     last = str(len(examples))
     assert errors == [(last, str(line), code) for line, code in REFUSED], result.stdout
+
+
+def test_modules_are_there_without_an_import_of_their_own():
+    """And the package itself, of sources that are not installed, is there at once."""
+    result = run("-c", FRESH, cwd=ROOT / "src")
+    assert result.stdout == f"1.0 {planarimpact.__version__}\n", result.stderr
+    assert {name.split(".")[0] for name in API} <= set(planarimpact._MODULES)
+    for name in planarimpact._MODULES:
+        assert getattr(planarimpact, name).__name__ == f"planarimpact.{name}"
+    with pytest.raises(AttributeError, match="module 'planarimpact' has no attribute 'lumpd'"):
+        planarimpact.lumpd  # noqa: B018
+
+
+def test_the_workflow_does_not_take_all_modules_for_inputs_of_each_job():
+    needed = run_plan.modules("planarimpact.rigid")
+    assert "src/planarimpact/rigid.py" in needed
+    assert "src/planarimpact/continuum.py" not in needed
+
+
+def test_one_version():
+    cited = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {planarimpact.__version__}\n" in cited
 
 
 def public(module):
@@ -227,5 +265,8 @@ def test_a_wheel_holds_the_package_and_nothing_else(tmp_path):
     (wheel,) = tmp_path.glob("planarimpact-*.whl")
     with zipfile.ZipFile(wheel) as archive:
         names = {name for name in archive.namelist() if ".dist-info/" not in name}
+        (script,) = [n for n in archive.namelist() if n.endswith("/entry_points.txt")]
+        assert "planarimpact = planarimpact.__main__:main" in archive.read(script).decode()
     shipped = {path.relative_to(ROOT / "src") for path in (ROOT / "src").rglob("*.py")}
+    assert wheel.name.split("-")[1] == planarimpact.__version__
     assert names == {str(path) for path in shipped} | {"planarimpact/py.typed"}

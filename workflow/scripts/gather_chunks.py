@@ -19,7 +19,7 @@ def gather(chunks, model, settings, grid, path):
     study_files.write(path, model, settings, axes, outputs)
     print(f"{outputs['velocity'].size} points of {model}")
     current = {Path(chunk) for chunk in chunks}
-    for path in {path for chunk in current for path in chunk.parent.glob("*.npz")} - current:
+    for path in {path for chunk in current for path in chunk.parent.glob("[0-9]*-*.npz")} - current:
         path.unlink()
 
 

@@ -89,6 +89,7 @@ class NoncollinearRebound(NamedTuple):
     jams: Booleans
 
 
+@checks.default_errors
 def rebound(
     tangential: ArrayLike,
     normal: ArrayLike,
@@ -184,6 +185,7 @@ def rebound(
     return NoncollinearRebound(*fields)
 
 
+@checks.default_errors
 def history(
     tangential: float,
     normal: float,
@@ -238,6 +240,7 @@ def history(
     return found
 
 
+@checks.default_errors
 def kinetic_energy(tangential: ArrayLike, normal: ArrayLike, inverse_mass: InverseMass) -> Array:
     """Kinetic energy that a contact can change; arguments broadcast.
 

@@ -32,6 +32,7 @@ class InverseMass(NamedTuple):
     normal: Numbers
 
 
+@checks.default_errors
 def inverse_mass(
     mass: ArrayLike, gyration: ArrayLike, offset: ArrayLike, depth: ArrayLike
 ) -> InverseMass:
@@ -72,6 +73,7 @@ def inverse_mass(
     return checked_inverse_mass(found)
 
 
+@checks.default_errors
 def combined(first: InverseMass, second: InverseMass) -> InverseMass:
     """Inverse mass of two bodies that strike each other: the sum of theirs.
 
@@ -153,6 +155,7 @@ def fields_of(inverse_mass: InverseMass) -> dict[str, Array]:
     return {f"inverse_mass.{name}": field for name, field in mass._asdict().items()}
 
 
+@checks.default_errors
 def contact_velocity(motion: Motion, offset: ArrayLike, depth: ArrayLike) -> tuple[Array, Array]:
     """Velocity of the contact point of a body.
 
@@ -183,6 +186,7 @@ def contact_velocity(motion: Motion, offset: ArrayLike, depth: ArrayLike) -> tup
     return tangential + depth * spin, normal - offset * spin
 
 
+@checks.default_errors
 def motion_after(
     motion: Motion,
     impulses: tuple[ArrayLike, ArrayLike],

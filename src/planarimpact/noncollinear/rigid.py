@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.arrays import Array, ArrayLike, Booleans
-from planarimpact.checks import InputError
+from planarimpact.checks import InputError, default_errors
 from planarimpact.noncollinear.configuration import InverseMass, checked_impact, refuse_overflow
 
 
@@ -56,6 +56,7 @@ class ImpulsiveRebound(NamedTuple):
     jams: Booleans
 
 
+@default_errors
 def rebound(
     tangential: ArrayLike,
     normal: ArrayLike,

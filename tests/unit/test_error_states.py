@@ -1,0 +1,88 @@
+"""No answer depends on how NumPy was told, by the caller, to treat floating-point errors."""
+
+import numpy as np
+import pytest
+
+from planarimpact import (
+    annuli,
+    bodies,
+    cattaneo_mindlin,
+    continuum,
+    hertz,
+    ladder,
+    laws,
+    lumped,
+    micro_slip,
+    noncollinear,
+    response,
+)
+from planarimpact.noncollinear import rigid
+
+SMALL_AND_LARGE = np.array([1e-300, 0.0, 0.7, 2.3, 8.0, 1e150])
+COARSE = {"continuum": {"tolerance": 1e-2}, "annuli": {"circles": 4, "steps": 16}}
+ROD = noncollinear.inverse_mass(1.0, 12**-0.5, offset=0.2, depth=0.4)
+TINY = 1e-300
+CALLS = {
+    name: lambda name=name: ladder.rebound(name, SMALL_AND_LARGE, **COARSE.get(name, {}))
+    for name in ladder.MODELS
+}
+CALLS |= {
+    f"lumped.history {x:g}": lambda x=x: lumped.history(x, samples=9) for x in (TINY, 0.0, 2.3)
+}
+CALLS |= {
+    f"continuum.history {x:g}": lambda x=x: continuum.history(x, tolerance=1e-2)
+    for x in (TINY, 0.0, 2.3)
+}
+CALLS |= {
+    "lumped.slip_throughout_limit": lambda: lumped.slip_throughout_limit(3.5, [TINY, 1e150], TINY),
+    "lumped.friction_work": lambda: lumped.friction_work(TINY),
+    "laws, small tangential restitution": lambda: laws.brach(TINY, tangential_restitution=TINY),
+    "continuum.fixed_steps": lambda: continuum.fixed_steps(SMALL_AND_LARGE[:-1], steps=8),
+    "annuli.friction": lambda: annuli.friction([1e-6, 1.0], [TINY, 1e-200], circles=4),
+    "micro_slip.friction": lambda: micro_slip.friction([1e-6, 1.0], [TINY, 1e-200]),
+    "cattaneo_mindlin": lambda: (
+        cattaneo_mindlin.friction(TINY),
+        cattaneo_mindlin.unloading(0.0, TINY),
+        cattaneo_mindlin.stick_radius(TINY),
+    ),
+    "hertz": lambda: [f(TINY) for f in (hertz.velocity, hertz.pace, hertz.phase_at, hertz.time)],
+    "response": lambda: (
+        response.compile("lumped", incidence_max=9, tolerance=1e-3)(SMALL_AND_LARGE),
+        response.compile("lumped", incidence_max=1e-9, tolerance=1e-3).velocity(TINY),
+    ),
+    "noncollinear": lambda: [
+        noncollinear.rebound([TINY, 0.0, 0.5, 2.0, 1e50], 1.0, ROD, 0.5, [0.5, TINY, 0, 1, 1]),
+        noncollinear.history(TINY, 1.0, ROD, 0.5, 0.5, samples=9),
+        noncollinear.history(2.0, 1.0, ROD, 1.6, 0.5, samples=9),
+        noncollinear.kinetic_energy(TINY, TINY, ROD),
+        noncollinear.combined(ROD, noncollinear.inverse_mass(1e200, 1e150, 1e-200, 1e-200)),
+        noncollinear.contact_velocity(bodies.Motion(TINY, 1.0, TINY), 1e-200, 1e-200),
+        noncollinear.motion_after(bodies.Motion(0, 1, 0), (TINY, TINY), 1e200, 1.0, 1.0, 1.0),
+    ],
+    "noncollinear.rigid": lambda: rigid.rebound([TINY, 0.0, 0.5, 1e150], 1.0, ROD, 0.5, 0.5),
+    "bodies": lambda: [
+        bodies.mass_ratio(bodies.Body(1.0, 1e200, 1e-200)),
+        bodies.effective_radius(1e-200, 1e200),
+        bodies.contact_velocity(0.0, 1.0, 1e-200, 1e-200),
+        bodies.incidence(1e-300, 1.0, 1e100),
+        bodies.angle_of_incidence(1e-300, 1e-100),
+        bodies.angle_of_incidence(1e300, 1e100),
+        bodies.incidence_from_angle(1e-300, 1e100),
+        bodies.rebound_motion(
+            bodies.Body(1.0, 1.0, 1.0), bodies.Motion(TINY, TINY, TINY), 1e-10, 0.5, 0.5
+        ),
+    ],
+}
+
+
+def to_the_bit(call):
+    with np.printoptions(floatmode="unique", threshold=10**6):
+        return repr(CALLS[call]())
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_the_error_state_of_the_caller_changes_nothing(call):
+    usual = to_the_bit(call)
+    for state in ("raise", "ignore"):
+        with np.errstate(all=state):
+            assert to_the_bit(call) == usual
