@@ -7,6 +7,9 @@ compiles any of them, `scene` solves tables of impacts. `bodies` turns physical 
 groups that they all take; `noncollinear` has bodies that strike off their centre. `printed` holds
 the paper's formulas as printed, for verification, and `ledger` checks what is right and wrong in
 them.
+
+`import planarimpact` is enough: `planarimpact.lumped` and the others are imported at their first
+use.
 """
 
 import importlib

@@ -16,7 +16,6 @@ LARGEST = 8e307
 # has set by np.seterr or np.errstate, and an invalid operation that nobody foresaw still warns.
 default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
 
-
 _BRIEF = reprlib.Repr()
 _BRIEF.maxlevel, _BRIEF.maxlist, _BRIEF.maxdict, _BRIEF.maxtuple = 1, 4, 4, 4
 _BRIEF.maxstring = _BRIEF.maxother = 60
@@ -248,11 +247,11 @@ def record(name: str, value: Any, keys: Collection[str]) -> dict[str, Any]:
     Traceback (most recent call last):
     ...
     planarimpact.checks.InputError: error_bound has ['velocity']: allowed are velocity, \
-peak_friction, each once
+peak_friction
     """
     if not isinstance(value, dict) or set(value) != set(keys):
         found = brief(list(value) if isinstance(value, dict) else value)
-        raise InputError(f"{name} has {found}: allowed are {', '.join(keys)}, each once")
+        raise InputError(f"{name} has {found}: allowed are {', '.join(keys)}")
     return value
 
 

@@ -107,11 +107,14 @@ to less than end = 0.5
     """
     rows = checks.record(name, rows, Pieces._fields)
     end = checks.number(f"{name}.end", rows["end"], "finite numbers above 0", 0, open_low=True)
-    count = len(rows["start"]) if isinstance(rows["start"], list) else 0
+    if not isinstance(rows["start"], list) or not rows["start"]:
+        words = f"{name}.start = {checks.brief(rows['start'])}"
+        raise InputError(f"{words}: allowed is a list of numbers, at least one")
+    count = len(rows["start"])
     start, kink, centre, coefficients, label = (
         checks.listed(f"{name}.{field}", rows[field], shape)
         for field, shape in {
-            "start": (max(count, 1),),
+            "start": (count,),
             "kink": (count,),
             "centre": (count,),
             "coefficients": (functions, DEGREE + 1, count),

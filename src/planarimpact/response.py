@@ -338,8 +338,9 @@ def load(path: str | Path) -> Response:
     """Read a response that `Response.save` wrote.
 
     Whatever the file says is checked: that it follows from the question that was asked, and that
-    its pieces are those of the model, within the error bound, where `compile` measured that. It
-    takes a millisecond; with the continuum some twenty, as few answers as possible are asked of it.
+    its pieces are those of the model, within the error bound, where `compile` measured that. A
+    model with a tolerance of its own is asked for coarse answers, one a piece; there the pieces
+    must also meet within the error bound.
 
     Parameters
     ----------
