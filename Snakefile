@@ -137,4 +137,4 @@ onsuccess:
 
 
 onerror:
-    print(closing.words(BEFORE, workflow.config_settings.config_args or (), stopped=True, log=log))
+    print(closing.words(BEFORE, workflow.config_settings.config_args or (), stopped=True, logs=log))

@@ -93,13 +93,6 @@ def test_bad_config_is_refused(change, words, check):
     assert "\n" not in str(refusal.value)
 
 
-def test_a_module_that_is_no_python_is_refused_by_its_line(tmp_path, monkeypatch):
-    (tmp_path / "laws.py").write_text("x = = 2\n")
-    monkeypatch.setattr(run_plan, "SCRIPTS", tmp_path)
-    with pytest.raises(run_plan.ConfigError, match="laws.py, line 1: invalid syntax"):
-        run_plan.modules("laws")
-
-
 @pytest.fixture
 def data(tmp_path):
     """A copy of data/, and how to edit a file in it."""

@@ -1,6 +1,5 @@
 """What a run says: signs of life, and the end."""
 
-import os
 import time
 
 import closing
@@ -51,52 +50,64 @@ def test_a_sign_of_life_needs_no_earlier_run(folder, table, monkeypatch, capsys)
     assert set(capsys.readouterr().err.splitlines()) == {"... first: 0 s"}
 
 
-def ended(folder, *rules, verdict="agrees", holds="yes"):
-    """Tables as a run leaves them that came as far as these rules."""
+@pytest.fixture
+def before(folder):
+    """What `closing.state` says before a run in a folder that had one already."""
+    ended(folder, "gate", passed=True)
+    return closing.state()
+
+
+def ended(folder, gate=None, passed=False, verdict="agrees", holds="yes"):
+    """Tables as a run leaves them that came as far as the gate, or just to its door."""
     for path, row in (
         (closing.VERDICTS, VERDICT | {"verdict": verdict}),
         (closing.LEDGER, ENTRY | {"holds": holds}),
     ):
         csv_tables.write_rows(folder / path, list(row), [list(row.values())])
-    for rule in rules:
-        (folder / f"results/benchmarks/{rule}.tsv").touch()
-        (folder / f"results/logs/{rule}.log").touch()
+    if gate is not None:
+        (folder / closing.GATE_LOG).unlink(missing_ok=True)
+        (folder / closing.GATE_LOG).write_text(gate)
+    passed_file = folder / "results/PASSED"
+    passed_file.write_text("passed") if passed else passed_file.unlink(missing_ok=True)
 
 
-def test_a_passed_run_says_where_to_look_and_what_next(folder):
-    ended(folder, "verdicts", "ledger", "gate")
-    words = closing.words(0)
-    assert "1 agrees" in words and "PASSED" in words
+def test_a_passed_run_says_where_to_look_and_what_next(folder, before):
+    ended(folder, "\n", passed=True)
+    words = closing.words(before)
+    assert "1 agrees" in words and "PASSED." in words
     for path in ("figures/report.html", "figures/explorer.html", "workflow/config.yaml"):
         assert path in words
 
 
-@pytest.mark.parametrize(
-    ("change", "bad"),
-    [
-        ({"verdict": "diverges"}, "FAILED: 1 diverging comparisons"),
-        ({"holds": "no"}, "FAILED: 1 entries of the ledger that no longer hold"),
-    ],
-)
-def test_a_failed_run_says_why_and_how_to_draw_without_judging(folder, change, bad):
-    ended(folder, "verdicts", "ledger", "gate", **change)
-    words = closing.words(0, stopped=True)
-    assert bad in words and "PASSED" not in words and "Play" not in words
-    assert "figures/report.html" in words and "--cores 2 figures" in words
+def test_a_failed_run_names_its_rows_last_and_repeats_the_config(folder, before):
+    faults = [f"diverges: row-{i}: far off" for i in range(closing.SHOWN + 2)]
+    ended(folder, "\n".join(faults), verdict="diverges")
+    words = closing.words(before, ["a=1", "figures={fig6: {restitution: [0, 1]}}"], stopped=True)
+    assert "PASSED" not in words and "Play" not in words and "figures/report.html" in words
+    assert "figures --config a=1 'figures={fig6: {restitution: [0, 1]}}'" in words
+    last = words.strip().splitlines()[-closing.SHOWN - 2 :]
+    assert last[0] == f"FAILED for {len(faults)} reasons:"
+    assert last[1:-1] == [f"  {fault}" for fault in faults[: closing.SHOWN]]
+    assert last[-1] == f"  and 2 more: {closing.GATE_LOG}"
 
 
-def test_one_page_with_a_failing_row_is_neither_judged_nor_stopped(folder):
-    ended(folder, "verdicts", "ledger", verdict="diverges")
-    words = closing.words(0)
-    assert "FAILED: 1 diverging" in words
+def test_tables_without_the_gate_are_no_verdict(folder, before):
+    ended(folder, verdict="diverges")
+    words = closing.words(before)
+    assert "No verdict in this run" in words and "diverges or no longer holds: fig6-e1" in words
     assert "stopped" not in words and "On purpose" not in words
 
 
-def test_a_stopped_run_says_so_and_no_older_table(folder):
-    ended(folder, "verdicts", "ledger", "gate")
-    for path in (folder / "results").glob("*/*"):
-        os.utime(path, (1, 1))
-    words = closing.words(2, stopped=True)
-    assert "No verdict in this run" in words and "finished work is kept" in words
-    assert "agrees" not in words
-    assert "stopped" not in closing.words(2)
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [
+        ("Error in rule draw:\n  x\nError in rule draw:\nError in rule scene:", "draw, scene."),
+        (f"{closing.ON_REQUEST}, this might\nError in rule draw:", "Nothing needs mending"),
+    ],
+)
+def test_a_stopped_run_says_why_and_no_older_table(folder, before, said, words):
+    (folder / "snakemake.log").write_text(said)
+    found = closing.words(before, stopped=True, logs=["snakemake.log"])
+    assert words in found and "No verdict in this run" in found and "finished work" in found
+    assert "agrees" not in found and "PASSED" not in found
+    assert "stopped" not in closing.words(before)

@@ -22,7 +22,9 @@ STOPPED = [
     "What it said is above, and in results/logs/. Mend it and type the same command again:",
     "finished work is kept. README.md, Troubleshooting, has the usual causes.",
 ]
-INTERRUPTED = "Interrupted. Nothing needs mending: type the same command again to go on."
+INTERRUPTED = (
+    "Interrupted. Nothing needs mending: type the same command again, finished work is kept."
+)
 # What Snakemake's own log says of Ctrl-C, and of a job that failed.
 ON_REQUEST = "Terminating processes on user request"
 FAILED_JOB = re.compile(r"^Error in rule (\w+):", flags=re.M)
@@ -52,7 +54,7 @@ def start(known):
                 path.unlink()
 
 
-def words(before, config=(), stopped=False, log=None):
+def words(before, config=(), stopped=False, logs=()):
     """The end of a run; older tables would mislead, so they are left out.
 
     Parameters
@@ -63,8 +65,8 @@ def words(before, config=(), stopped=False, log=None):
         What the user gave with --config, to be repeated.
     stopped : bool, optional
         A job failed, or the run was interrupted.
-    log : str, optional
-        Snakemake's log of the run.
+    logs : sequence of str, optional
+        Snakemake's logs of the run.
     """
     new = {path for path, mark in before.items() if _mark(path) not in (mark, None)}
     parts, failing = [], []
@@ -89,7 +91,7 @@ def words(before, config=(), stopped=False, log=None):
     else:
         parts.append("No verdict in this run as a whole. Pictures: figures/")
         if stopped:
-            parts += _stopped(log)
+            parts += _stopped(logs)
         if failing:
             parts.append(_failed(f"diverges or no longer holds: {name}" for name in failing))
     return "\n" + "\n".join(parts) + "\n"
@@ -112,12 +114,9 @@ def _rows(path):
         return []
 
 
-def _stopped(log):
+def _stopped(logs):
     """Why a run ended early."""
-    try:
-        said = Path(log).read_text(encoding="utf-8")
-    except (OSError, TypeError, ValueError):
-        said = ""
+    said = "".join(Path(log).read_text(encoding="utf-8", errors="replace") for log in logs)
     if ON_REQUEST in said:
         return [INTERRUPTED]
     names = ", ".join(dict.fromkeys(FAILED_JOB.findall(said)))

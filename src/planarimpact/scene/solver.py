@@ -42,6 +42,7 @@ class Solver:
         self._seen: Counter[tuple[float, ...]] = Counter()
         self._taken: Counter[tuple[choice.Rung, str]] = Counter()
 
+    @checks.default_errors
     def solve(self, table: pd.DataFrame, skip_bad: bool = False) -> pd.DataFrame:
         """State after each impact of a table, as the function `solve`; bad rows may be left out.
 
