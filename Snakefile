@@ -38,14 +38,8 @@ localrules:
     gate,
 
 
-# What can be asked for. Each target names the files on the way to it too: after a job has failed,
-# Snakemake makes a missing one anew only if it is asked for.
-rule all:
-    """Everything, up to the verdict: what runs if no target is named."""
-    input:
-        "results/PASSED",
-
-
+# What can be asked for; `all` stands below. Each target names the files on the way to it too: after a
+# job has failed, Snakemake makes a missing one anew only if it is asked for.
 rule figures:
     """Pictures only, without judging, and without those that take long as they measure time."""
     input:
@@ -98,14 +92,20 @@ include: "workflow/rules/judgement.smk"
 include: "workflow/rules/peers.smk"
 
 
-if workflow.is_main_process:
-    if "--no-hooks" in sys.argv:
-        raise WorkflowError("--no-hooks: not allowed, results/PASSED would outlive what it is about")
+rule all:
+    """Everything, up to the verdict: what runs if no target is named."""
+    default_target: True
+    input:
+        "results/PASSED",
+        MADE,
+
+
+if STARTED_HERE:
     try:
-        judgement.refuse_results_without_records()
+        judgement.refuse_unknown_results(MADE)
     except RuntimeError as error:
-        raise WorkflowError(str(error))
-    judgement.drop_false_pass()
+        raise refused(error)
+    judgement.drop_false_pass(MADE, config)
     BEFORE = closing.state()
 
 
@@ -122,13 +122,6 @@ WORDS_OF_JOBS = expand(
 
 
 onstart:
-    # Half-made files would count as whole, or old ones as new.
-    for option, given in {
-        "--keep-incomplete": workflow.execution_settings.keep_incomplete,
-        "--touch": workflow.touch,
-    }.items():
-        if given:
-            raise WorkflowError(f"{option}: not allowed, results/PASSED could not be trusted")
     closing.start(set(WORDS_OF_JOBS))
 
 

@@ -3,6 +3,7 @@
 import html
 import re
 import shutil
+from pathlib import Path
 
 import closing
 import csv_tables
@@ -11,6 +12,7 @@ import judgement
 import ledger_entries
 import ledger_table
 import pytest
+import records
 import reference_data
 import run_plan
 import verdict_table
@@ -50,17 +52,20 @@ def expected():
 def judged(first_run, expected, tmp_path, monkeypatch):
     """Faults that the gate finds in a copy of what a run has made; and the copy."""
     project = first_run[0]
-    for folder in ("results", "figures"):
+    for folder in ("results", "figures", ".snakemake/records", *records.REPOSITORY):
         shutil.copytree(project / folder, tmp_path / folder)
+    shutil.copy(project / "Snakefile", tmp_path)
     monkeypatch.chdir(tmp_path)
-    made = [str(path.relative_to(tmp_path)) for path in tmp_path.glob("*/**/*.*")]
+    made = [p for folder in ("results", "figures") for p in Path(folder).rglob("*.*")]
+    made = [str(path) for path in made]
     made = [path for path in made if not re.search(r"logs/|benchmarks/|README", path)]
     residuals = [path for path in made if "residuals/" in path]
 
     def faults():
-        return gate.faults(judgement.TABLES, residuals, "results/problems.csv", made, *expected)
+        page, problems = "figures/report.html", "results/problems.csv"
+        return gate.faults(judgement.TABLES, residuals, page, problems, made, *expected)
 
-    return faults, tmp_path
+    return faults, tmp_path, made
 
 
 SHORT = {
@@ -80,7 +85,7 @@ SHORT = {
 
 @pytest.mark.parametrize("path", SHORT)
 def test_a_short_table_or_picture_does_not_pass(judged, path):
-    faults, folder = judged
+    faults, folder, _ = judged
     assert faults() == []
     text = (folder / path).read_text(encoding="utf-8")
     (folder / path).write_text(SHORT[path](text), encoding="utf-8")
@@ -89,7 +94,7 @@ def test_a_short_table_or_picture_does_not_pass(judged, path):
 
 @pytest.mark.parametrize("path", ["figures/fig6.png", "results/study.npz", "results/study.npz "])
 def test_cut_pictures_and_arrays_do_not_pass(judged, path):
-    faults, folder = judged
+    faults, folder, _ = judged
     data = bytearray((folder / path.strip()).read_bytes())
     if path.endswith(" "):  # as long as before, and wrong in the middle
         data[len(data) // 2] ^= 255
@@ -99,10 +104,73 @@ def test_cut_pictures_and_arrays_do_not_pass(judged, path):
     assert any(path.strip() in fault for fault in faults())
 
 
+OTHER_HANDS = {
+    # What is whole and not what its job has left: times three, of another figure, of another run.
+    "results/curves/superball.csv": lambda text: text.replace("0.", "7."),
+    "results/scenes/shot_peening.csv": lambda text: text.replace("0.", "7."),
+    "results/verdicts/fig6.csv": lambda text: text.replace("0.000722", "0.5"),
+    "figures/fig5.svg": lambda text: Path("figures/fig6.svg").read_text(),
+    "figures/report.html": lambda text: text.replace("PASSED", "passed"),
+    "figures/ledger.html": lambda text: "<html>old</html>",
+    # What a job has read, and no longer stands there.
+    "src/planarimpact/lumped.py": lambda text: text + "# edited while a job ran\n",
+    "data/kharaz2001/spin.csv": lambda text: text.replace("69.96", "69.97"),
+    "workflow/explorer/solver.js": lambda text: text + "// edited\n",
+}
+
+
+@pytest.mark.parametrize("path", OTHER_HANDS)
+def test_what_does_not_belong_together_does_not_pass(judged, path):
+    """As after a restored backup, a copy from a colleague, an edit while jobs ran."""
+    faults, folder, _ = judged
+    text = (folder / path).read_text(encoding="utf-8")
+    (folder / path).write_text(OTHER_HANDS[path](text), encoding="utf-8")
+    assert any(path in fault for fault in faults())
+
+
+def test_the_report_must_show_every_comparison(judged):
+    faults, folder, _ = judged
+    (folder / "figures/report.html").write_text("<html></html>")
+    assert "figures/report.html: it does not show fig6-e1" in faults()
+
+
+def test_passed_belongs_to_files_sources_and_config(judged):
+    _, folder, made = judged
+    passed, config = folder / judgement.PASSED, {"mass_ratio": 3.5}
+
+    def kept():
+        judgement.drop_false_pass(made, config)
+        return passed.exists()
+
+    true = judgement.words_of_pass(made, config)
+    for planted in ("", "PASSED", true[:-2]):
+        passed.write_text(planted)
+        assert not kept()
+    passed.write_text(true)
+    assert kept()
+    config["mass_ratio"] = 2.5
+    assert not kept()
+    config["mass_ratio"] = 3.5
+    for path in ("results/curves/fig2.csv", "src/planarimpact/laws.py", "figures/fig3.png"):
+        passed.write_text(true)
+        before = (folder / path).read_bytes()
+        (folder / path).write_bytes(before + b" ")
+        assert not kept(), path
+        (folder / path).unlink()
+        passed.write_text(true)
+        assert not kept(), path
+        (folder / path).write_bytes(before)
+    passed.mkdir()
+    assert not kept()
+
+
 def good_rows(expected):
     """Rows of both tables in which nothing fails."""
     words = {True: "awaited", False: "agrees"}
-    verdicts = [{"comparison": name, "verdict": words[a]} for name, a in expected[0].items()]
+    blank = dict.fromkeys(verdict_table.COLUMNS, "")
+    verdicts = [
+        blank | {"comparison": name, "verdict": words[a]} for name, a in expected[0].items()
+    ]
     words = {True: "yes", False: ""}
     return verdicts, [{"entry": name, "holds": words[c]} for name, c in expected[1].items()]
 

@@ -116,6 +116,7 @@ BAD_DATA = [
     ("0.586,-0.027", "0.586,-99", "rebound.csv, line 4, .*: -99 is outside -5 to 20"),
     ("0.586,-0.027", "0.586,nan", "rebound.csv, line 4, .*: 'nan' is not a decimal number"),
     ("0.586,-0.027", "0.586", "rebound.csv, line 4: 1 cells where 2 belong"),
+    ("0.586,-0.027\n", "", r"series.rebound.points = 17: .*rebound.csv has 16 points"),
     ("incidence [mu v2(0)]", "x", r"column 'incidence \[mu v2\(0\)\]' is missing; found x"),
 ]
 

@@ -1,7 +1,6 @@
 # Checked config and data before any work, and what the rules ask of them. All of it is worked out
 # here, once: the functions below only look it up.
 import closing
-import judgement
 import ledger_entries
 import study_plan
 
@@ -22,7 +21,7 @@ try:
     EXPECTED_ROWS = run_plan.expected_rows(config, SOURCES)
     NOTEBOOK_MODULES = {name: run_plan.modules_of_notebook(name) for name in NOTEBOOKS}
 except (reference_data.SourceError, run_plan.ConfigError) as error:
-    raise WorkflowError(str(error))
+    raise refused(error)
 
 EXPECTED_ENTRIES = {name: "check" in entry for name, entry in ENTRIES.items()}
 CHUNKS = study_plan.chunks(config)
@@ -79,7 +78,12 @@ def sources(*files):
     try:
         return run_plan.present(*files)
     except run_plan.ConfigError as error:
-        raise WorkflowError(str(error))
+        raise refused(error)
+
+
+# Only `snakemake --report` reads them all.
+CAPTIONS = ["explorer", "figures", "ledger", "notebooks", "peers", "stability", "study", "trade"]
+sources(*expand("workflow/report/{caption}.rst", caption=[*CAPTIONS, "which_model"]))
 
 
 def scene_tolerance(wildcards):

@@ -66,6 +66,9 @@ MAKERS = [
 ]
 
 
+MADE = expand([f"{path}" for maker in MAKERS for path in maker.output], **VALUES)
+
+
 rule gate:
     """Fail the run if a row diverges, no longer holds or is missing, or if a file is not whole.
 
@@ -75,15 +78,17 @@ rule gate:
         modules=run_plan.modules("gate"),
         verdicts="results/verdicts.csv",
         ledger="results/ledger.csv",
+        page="figures/report.html",
         problems="results/problems.csv",
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
-        made=expand([f"{path}" for maker in MAKERS for path in maker.output], **VALUES),
+        made=MADE,
     output:
         "results/PASSED",
     params:
         content=run_plan.content(*run_plan.modules("gate")),
         comparisons=EXPECTED_ROWS,
         entries=EXPECTED_ENTRIES,
+        config=config,
     log:
         "results/logs/gate.log",
     benchmark:

@@ -5,11 +5,27 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 sys.path.insert(0, str(Path(workflow.basedir) / "workflow" / "scripts"))
+import judgement
+import options
 import reference_data
 import run_plan
+
+
+# Jobs on a cluster read this file too: only the process that was started speaks for the run.
+STARTED_HERE = workflow.is_main_process and not options.is_dry(sys.argv)
+
+
+def refused(error):
+    """What to raise; a run that is refused has not passed, whatever an earlier one did."""
+    if STARTED_HERE:
+        judgement.drop_pass()
+    return WorkflowError(str(error))
+
 
 try:
     run_plan.refuse_unreadable_modules()
     reference_data.load_yaml("workflow/config.yaml")
-except (reference_data.SourceError, run_plan.ConfigError) as error:
-    raise WorkflowError(str(error))
+    if STARTED_HERE:
+        options.refuse_untrustworthy(sys.argv)
+except (reference_data.SourceError, run_plan.ConfigError, options.OptionError) as error:
+    raise refused(error)

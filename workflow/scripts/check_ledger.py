@@ -50,7 +50,7 @@ def _words(confirms):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         rows = check(ledger_entries.load(snakemake.input.entries, snakemake.params.schema))  # noqa: F821
         csv_tables.write_rows(
             snakemake.output[0],  # noqa: F821

@@ -46,7 +46,7 @@ def start(known):
     known : collection of str
         Logs and benchmarks of all jobs that the workflow has now.
     """
-    Path(judgement.PASSED).unlink(missing_ok=True)
+    judgement.drop_pass()
     Path(GATE_LOG).unlink(missing_ok=True)
     for folder in ("benchmarks", "logs"):
         for path in Path("results", folder).glob("*"):
@@ -81,6 +81,8 @@ def words(before, config=(), stopped=False, logs=()):
     where = f"All columns: {VERDICTS}, {LEDGER}"
     if GATE_LOG in new and Path(judgement.PASSED).exists():
         parts += [f"PASSED. {where}; pictures: figures/", *NEXT]
+        if stopped:  # what was asked for beside the verdict
+            parts += _stopped(logs)
     elif GATE_LOG in new:
         again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
         parts += [

@@ -225,7 +225,7 @@ def write(rows, verdicts, residuals):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         found = compare(
             snakemake.wildcards.figure,  # noqa: F821
             snakemake.params.comparisons,  # noqa: F821

@@ -18,5 +18,5 @@ def convert(source, output):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         convert(snakemake.params.source, snakemake.output[0])  # noqa: F821

@@ -36,7 +36,7 @@ def _points(name, entry, path):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         draw(
             snakemake.wildcards.figure,  # noqa: F821
             snakemake.params.settings,  # noqa: F821

@@ -88,7 +88,7 @@ def _draw_laws(axes, curves, batch):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         try:
             figure = draw(
                 csv_tables.read(snakemake.input.curves),  # noqa: F821

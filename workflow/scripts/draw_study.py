@@ -148,7 +148,7 @@ def _middle(inside):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         axes, outputs = study_files.read(
             snakemake.input.study,  # noqa: F821
             "velocity",

@@ -9,9 +9,10 @@ from pathlib import Path
 import csv_tables
 import job
 import judgement
+import records
 
 
-def faults(tables, residuals, problems, made, comparisons, entries):
+def faults(tables, residuals, page, problems, made, comparisons, entries):
     """Why the run must not pass, in words, one line a fault.
 
     Parameters
@@ -20,8 +21,8 @@ def faults(tables, residuals, problems, made, comparisons, entries):
         results/verdicts.csv and results/ledger.csv.
     residuals, made : list of str
         Tables of residuals; every file that the run makes, these tables among them.
-    problems : str
-        Table of what the report could not show.
+    page, problems : str
+        The report, and the table of what it could not show.
     comparisons, entries : dict
         As `judgement.faults_of_tables`.
 
@@ -35,7 +36,9 @@ def faults(tables, residuals, problems, made, comparisons, entries):
     verdicts, ledger = map(csv_tables.read_rows, tables)
     found = judgement.faults_of_tables(verdicts, ledger, comparisons, entries)
     found += [f"report: {row['problem']}" for row in csv_tables.read_rows(problems)]
-    return found or judgement.faults_of_residuals(verdicts, residuals)
+    found += judgement.faults_of_report(page, comparisons)
+    found = found or judgement.faults_of_residuals(verdicts, residuals)
+    return found or records.faults(made)
 
 
 if "snakemake" in globals():
@@ -44,6 +47,7 @@ if "snakemake" in globals():
         found = faults(
             (given.verdicts, given.ledger),
             given.residuals,
+            given.page,
             given.problems,
             given.made,
             snakemake.params.comparisons,  # noqa: F821
@@ -51,5 +55,6 @@ if "snakemake" in globals():
         )
         print("\n".join(found))
         if not found:
-            Path(snakemake.output[0]).write_text(judgement.words_of_pass(), encoding="utf-8")  # noqa: F821
+            words = judgement.words_of_pass(given.made, snakemake.params.config)  # noqa: F821
+            Path(snakemake.output[0]).write_text(words, encoding="utf-8")  # noqa: F821
     sys.exit(bool(found))

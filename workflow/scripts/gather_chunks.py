@@ -36,7 +36,7 @@ def _part(path, model, settings, axes):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         gather(
             snakemake.input.chunks,  # noqa: F821
             **snakemake.params.settings,  # noqa: F821

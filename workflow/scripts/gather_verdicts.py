@@ -5,7 +5,7 @@ import job
 import verdict_table
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         rows = verdict_table.gather(snakemake.input.verdicts)  # noqa: F821
         csv_tables.write_rows(
             snakemake.output[0],  # noqa: F821

@@ -6,6 +6,8 @@ import threading
 import time
 from pathlib import Path
 
+import records
+
 # Those that the rules track, wherever else the package may be installed.
 sys.path.insert(0, str(Path(__file__).parents[2] / "src"))
 
@@ -33,6 +35,15 @@ def log_to(path):
         finally:
             ended.set()
             watch.join()
+
+
+@contextlib.contextmanager
+def recorded(snakemake):
+    """Do a job of Snakemake: its words to its log, and a record of what it read and wrote."""
+    inputs = {path: records.fingerprint(path) for path in snakemake.input}
+    with log_to(snakemake.log[0]):
+        yield
+        records.write(snakemake.output, inputs)
 
 
 def _show_life(log, terminal, ended):

@@ -3,18 +3,19 @@
 import csv
 import hashlib
 import json
+import shutil
 import zipfile
 import zlib
 from pathlib import Path
 from xml.etree import ElementTree
 
 import csv_tables
+import records
 import verdict_table
+from records import HOW_TO_MEND
 
 PASSED = "results/PASSED"
 TABLES = ("results/verdicts.csv", "results/ledger.csv")
-RECORDS = ".snakemake/metadata"
-HOW_TO_MEND = "remove that file and run again"
 # Points of a figure are counted elsewhere: it may have none. A good report has no problems.
 MAY_HAVE_NO_ROWS = {"residuals", "problems"}
 
@@ -46,7 +47,7 @@ def faults_of_tables(verdicts, ledger, comparisons, entries):
     for row in verdicts:
         name, verdict = row.get("comparison"), row.get("verdict")
         if verdict == "diverges":
-            found.append(f"diverges: {name}: {row.get('note')}")
+            found.append(f"diverges: {name}: {verdict_table.why(row)}")
         elif verdict not in verdict_table.ORDER or (verdict == "awaited") != comparisons.get(name):
             found.append(f"{TABLES[0]}: {name} = {verdict!r} cannot be: {HOW_TO_MEND}")
     for row in ledger:
@@ -80,6 +81,14 @@ def faults_of_residuals(verdicts, paths):
         f"{row['comparison']} where {row['points']} belong: {HOW_TO_MEND}"
         for row in verdicts
         if int(row.get("points") or 0) != counts.get(row["comparison"], 0)
+    ]
+
+
+def faults_of_report(page, comparisons):
+    """Comparisons that the report does not show, a line each."""
+    text = Path(page).read_text(encoding="utf-8")
+    return [
+        f"{page}: it does not show {name}" for name in comparisons if f'id="{name}"' not in text
     ]
 
 
@@ -149,32 +158,55 @@ _LOOK = {
 }
 
 
-def words_of_pass():
-    """What results/PASSED says: that it belongs to these tables and no others."""
-    lines = ["no comparison diverges, every entry of the ledger holds"]
-    for table in TABLES:
-        lines.append(f"sha256 {hashlib.sha256(Path(table).read_bytes()).hexdigest()} {table}")
-    return "\n".join(lines) + "\n"
+def words_of_pass(made, config):
+    """What results/PASSED says: what it belongs to, and to nothing else.
+
+    Parameters
+    ----------
+    made : sequence of str
+        Every file that a run makes.
+    config : dict
+        As the run has it, with what the command line changed.
+    """
+    physics = hashlib.sha256(json.dumps(config, sort_keys=True).encode()).hexdigest()
+    return (
+        "no comparison diverges, every entry of the ledger holds\n"
+        f"config  {physics}\n"
+        f"sources {records.fingerprint_of_all(records.files_of_repository())}\n"
+        f"made    {records.fingerprint_of_all(made)}\n"
+    )
 
 
-def refuse_results_without_records():
+def drop_false_pass(made, config):
+    """Remove a results/PASSED that the gate did not write for what is there now."""
+    try:
+        if Path(PASSED).read_text(encoding="utf-8") == words_of_pass(made, config):
+            return
+    except (OSError, ValueError):
+        pass
+    drop_pass()
+
+
+def drop_pass():
+    """Remove results/PASSED, whatever it is."""
+    if Path(PASSED).is_dir() and not Path(PASSED).is_symlink():
+        shutil.rmtree(PASSED)
+    Path(PASSED).unlink(missing_ok=True)
+
+
+def refuse_unknown_results(made):
     """Refuse results of which Snakemake has no records: a change would go unnoticed.
 
     Raises
     ------
     RuntimeError
-        If tables of a run are there without what Snakemake keeps of it, as in a copy of a folder
+        If files of a run are there without what Snakemake keeps of it, as in a copy of a folder
         that left hidden files out.
     """
-    if any(Path(table).exists() for table in TABLES) and not Path(RECORDS).is_dir():
-        raise RuntimeError(f"results/ is there without {RECORDS}: remove results/ and run again")
-
-
-def drop_false_pass():
-    """Remove a results/PASSED that the gate did not write for the tables that are there."""
-    try:
-        if Path(PASSED).read_text(encoding="utf-8") == words_of_pass():
-            return
-    except (OSError, ValueError):
-        pass
-    Path(PASSED).unlink(missing_ok=True)
+    unknown = records.unknown(made)
+    if unknown:
+        more = f" (and {len(unknown) - 1} more files)" if len(unknown) > 1 else ""
+        raise RuntimeError(
+            f"{unknown[0]}{more}: there, but how it was made is not known; remove it, or all of "
+            "results/ and the pictures and pages in figures/, and run again"
+        )

@@ -149,7 +149,7 @@ def _name(contender, e):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         rows, notes = measure(**snakemake.params.settings)  # noqa: F821
         csv_tables.write(snakemake.output[0], rows)  # noqa: F821
         print("\n".join(notes or ["both codes are installed"]))

@@ -65,13 +65,22 @@ def load(folder, schema):
             _refuse_axis(f"{path}: series.{name}.{axis}", series[axis])
         series["path"] = _file_of(folder, name, series)
         if series["path"]:
-            read_series(name, series)
+            _refuse_other_number(f"{path}: series.{name}", series, read_series(name, series))
     known = {"source.yaml", *(Path(s["path"]).name for s in _found(source))}
     strays = sorted(file.name for file in folder.glob("*.csv") if file.name not in known)
     if strays:
         names = ", ".join(_file_name(*item) for item in source.get("series", {}).items()) or "none"
         raise SourceError(f"{folder / strays[0]}: no series of that name; allowed are {names}")
     return source
+
+
+def _refuse_other_number(where, series, columns):
+    """Refuse a file that was cut, or has points of which source.yaml knows nothing."""
+    found = len(next(iter(columns.values())))
+    if series["kind"] != "awaited" and found != series.get("points"):
+        raise SourceError(
+            f"{where}.points = {series.get('points')}: {series['path']} has {found} points"
+        )
 
 
 def _refuse_axis(where, axis):

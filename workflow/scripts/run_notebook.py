@@ -89,7 +89,8 @@ def run(notebook, template, executed, page):
 def _environment(scratch):
     """The sources of this checkout, and nothing of the user's: no profile, no folder at home."""
     places = dict.fromkeys(("IPYTHONDIR", "JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR"), scratch)
-    return os.environ | {"PYTHONPATH": str(SRC)} | places
+    # Its numbers are checked by assertions, which PYTHONOPTIMIZE would leave out.
+    return os.environ | {"PYTHONPATH": str(SRC), "PYTHONOPTIMIZE": ""} | places
 
 
 def _failure(book, error):
@@ -107,7 +108,7 @@ def _failure(book, error):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         run(
             snakemake.input.notebook,  # noqa: F821
             snakemake.input.template,  # noqa: F821

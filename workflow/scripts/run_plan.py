@@ -4,14 +4,17 @@ import ast
 import functools
 import hashlib
 import json
+import re
 from pathlib import Path
 
+import records
 import reference_data
 
 SCRIPTS = Path(__file__).parent
 SRC = SCRIPTS.parents[1] / "src"
 FIGURES = [f"fig{number}" for number in range(2, 10)]
 FIGURES += ["micro_slip", "convergence", "trade", "superball", "stability", "rod"]
+CONFLICT = re.compile(r"^(<<<<<<< |>>>>>>> )", flags=re.M)
 TIMED = ("convergence", "trade")  # measure time: nothing may run beside them
 EXPLORED = [f"fig{number}" for number in range(3, 10)] + ["superball"]  # impacts to play with
 # Groups that play no part: mass, in force against deflection; bodies or a table with their own.
@@ -247,9 +250,7 @@ def content(*files):
     return hashlib.sha256(digests.encode()).hexdigest()
 
 
-@functools.cache
-def _digest(file):
-    return hashlib.sha256(Path(file).read_bytes()).hexdigest()
+_digest = functools.cache(records.fingerprint)
 
 
 def present(*files):
@@ -260,6 +261,11 @@ def present(*files):
     for file in files:
         if not Path(file).is_file():
             raise ConfigError(f"{file}: missing, and a rule reads it")
+        text = Path(file).read_text(encoding="utf-8")
+        if not text.strip():
+            raise ConfigError(f"{file}: empty")
+        if CONFLICT.search(text):
+            raise ConfigError(f"{file}: it has marks of a merge that was not finished")
     return list(files) if len(files) > 1 else files[0]
 
 

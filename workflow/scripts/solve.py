@@ -40,7 +40,7 @@ def _read_nodes(nodes):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         solve(
             snakemake.wildcards.figure,  # noqa: F821
             snakemake.params.settings,  # noqa: F821

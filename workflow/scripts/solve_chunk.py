@@ -19,7 +19,7 @@ def solve(chunk, model, settings, grid, path):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         solve(
             snakemake.wildcards.chunk,  # noqa: F821
             **snakemake.params.settings,  # noqa: F821

@@ -5,7 +5,7 @@ import job
 from planarimpact.scene import files
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         solver = files.solve(
             snakemake.input.table,  # noqa: F821
             snakemake.output[0],  # noqa: F821

@@ -27,6 +27,13 @@ def failing(rows):
     return [row for row in rows if row["verdict"] == "diverges"]
 
 
+def why(row):
+    """Why a row fails, in words."""
+    measured = _measured(row)
+    limits = f"{measured}; allowed is {row['allowed']}" if measured else ""
+    return ": ".join(words for words in (row["note"], limits) if words)
+
+
 def text(rows):
     """The table for a terminal, and how many rows have each verdict."""
     cells = [

@@ -122,6 +122,6 @@ def page(settings, sources):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         text = page(snakemake.params.settings, snakemake.input.sources)  # noqa: F821
         pages.write(snakemake.output[0], text)  # noqa: F821

@@ -98,7 +98,7 @@ def page(rows, symbols, template):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         text = page(
             csv_tables.read_rows(snakemake.input.table),  # noqa: F821
             snakemake.params.symbols,  # noqa: F821

@@ -325,12 +325,12 @@ def write(output, problems, paths, residuals, svgs, captions, config, expected, 
         None,
         lambda: page(rows, ledger, figures, tables, run=run, faults=faults, tried=tried, **parts),
     )
-    pages.write(output, text or without_details(faults + tried.problems))
+    pages.write(output, without_details(faults + tried.problems) if text is None else text)
     csv_tables.write_rows(problems, ["problem"], [[problem] for problem in tried.problems])
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         files, given = snakemake.input, snakemake.params  # noqa: F821
         write(
             snakemake.output.page,  # noqa: F821

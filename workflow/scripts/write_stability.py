@@ -75,5 +75,5 @@ def write(curves, table):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         write(snakemake.input.curves, snakemake.output[0])  # noqa: F821

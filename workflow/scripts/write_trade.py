@@ -18,7 +18,7 @@ def write(curves, table, answers):
 
 
 if "snakemake" in globals():
-    with job.log_to(snakemake.log[0]):  # noqa: F821
+    with job.recorded(snakemake):  # noqa: F821
         write(
             snakemake.input.curves,  # noqa: F821
             snakemake.output.table,  # noqa: F821

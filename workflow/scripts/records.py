@@ -1,0 +1,108 @@
+"""What every job read and wrote, by fingerprints: results that do not belong together are found.
+
+Snakemake knows that a file is older than what it was made from. It does not know that a file was
+restored from a backup, copied from a colleague, or edited while a job ran.
+"""
+
+import base64
+import hashlib
+import json
+from pathlib import Path
+
+FOLDER = Path(".snakemake/records")
+# Snakemake's own, without which no change of a parameter is noticed; and of what it has in hand.
+METADATA, INCOMPLETE = Path(".snakemake/metadata"), Path(".snakemake/incomplete")
+REPOSITORY = ("data", "src", "workflow")
+HOW_TO_MEND = "remove that file and run again"
+
+
+def fingerprint(path):
+    """Fingerprint of what a file holds."""
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+
+
+def fingerprint_of_all(paths):
+    """One fingerprint of many files, and of their names."""
+    lines = "".join(f"{fingerprint(path)} {path}\n" for path in sorted(paths))
+    return hashlib.sha256(lines.encode()).hexdigest()
+
+
+def files_of_repository():
+    """Files that a run reads, or that belong to what it reads."""
+    found = ["Snakefile"]
+    for folder in REPOSITORY:
+        found += [str(p) for p in Path(folder).rglob("*") if p.is_file() and p.suffix != ".pyc"]
+    return found
+
+
+def write(outputs, inputs):
+    """Keep what a job has written, and the fingerprints that its inputs had when it began.
+
+    Parameters
+    ----------
+    outputs : sequence of str
+    inputs : dict
+        `{path: fingerprint}`.
+    """
+    for path in outputs:
+        record = FOLDER / f"{path}.json"
+        record.parent.mkdir(parents=True, exist_ok=True)
+        record.write_text(json.dumps({"sha256": fingerprint(path), "inputs": inputs}))
+
+
+def faults(made):
+    """Files that are not as their job left them, or were made from what is no longer there.
+
+    Parameters
+    ----------
+    made : iterable of str
+
+    Returns
+    -------
+    list of str
+        In words, a line each.
+    """
+    known, found = {}, []
+
+    def now(path):
+        if path not in known:
+            known[path] = fingerprint(path) if Path(path).is_file() else None
+        return known[path]
+
+    for path in made:
+        record = _read(FOLDER / f"{path}.json")
+        if record is None or record["sha256"] != now(path):
+            found.append(f"{path}: not as its job has left it: {HOW_TO_MEND}")
+            continue
+        other = [source for source, old in record["inputs"].items() if now(source) != old]
+        if other:
+            found.append(f"{path}: made from another {other[0]}: {HOW_TO_MEND}")
+    return found
+
+
+def unknown(made):
+    """Files that are there without Snakemake's records of how they were made."""
+    return [
+        path
+        for path in made
+        if Path(path).exists()
+        and not (INCOMPLETE / _encoded(path)).exists()
+        and not (_has_words(METADATA / _encoded(path)) and (FOLDER / f"{path}.json").exists())
+    ]
+
+
+def _encoded(path):
+    return base64.b64encode(path.encode()).decode()
+
+
+def _has_words(path):
+    return path.is_file() and path.stat().st_size > 0
+
+
+def _read(path):
+    """A record; None where there is none that can be read."""
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+        return record if {"sha256", "inputs"} <= set(record) else None
+    except (OSError, ValueError, TypeError):
+        return None
