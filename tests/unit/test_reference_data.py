@@ -33,7 +33,7 @@ EXPORTS = {
     "BOM, CRLF and a blank line": "\ufeff0.5,-.05\r\n\r\n1.,+0.25\r\n",
     "several datasets": "a,,mine,\nX,Y,X,Y\n7,7,0.5,-0.05\n,,1,0.25\n8,8,,\n",
     "several with semicolons": "mine;;b;\nX;Y;X;Y\n0,5;-0,05;7;7\n1;0,25;;\n",
-    "one dataset under headers": "any name,\nX,Y\n0.5,-0.05\n1,0.25\n",
+    "one dataset under headers": "Default Dataset,\nX,Y\n0.5,-0.05\n1,0.25\n",
 }
 
 
@@ -43,6 +43,7 @@ def test_every_form_of_an_export_gives_its_points(text, tmp_path):
 
 
 BAD_EXPORTS = [
+    ("steel disc,\nX,Y\n1,2\n", "datasets \\(steel disc\\); call one 'mine'"),
     ("0.5, -0.05\n0,5, -0,05\n", "line 2: 4 cells where 2 belong; it looks like decimal commas"),
     ("0,5, 1\n", "line 1: 3 cells where 2 belong; it looks like decimal commas: separate cells by"),
     ("mine,,b,\nX,Y,X,Y\n0,5,1,2,0,5,1,2\n", "line 3: 8 cells where 4 belong; .* decimal commas"),
@@ -61,8 +62,8 @@ BAD_EXPORTS = [
     ("a,,mine,\nX,Y,X,Y\n1,1\n", "line 3: 2 cells where 4 belong"),
     ("a,b,,mine,\nX,Y,X,Y\n1,1,1,1\n", "line 1: 5 cells where 4 belong, a name and an empty"),
     ("mine,,\nX,Y,Label\n1,1,a\n", "line 2: 'X, Y, Label' where X, Y of each dataset belong"),
-    ("a,,b,\nX,Y,X,Y\n1,1,2,2\n", r"several datasets \(a, b\); call one 'mine'"),
-    ("mine,,mine,\nX,Y,X,Y\n1,1,2,2\n", r"several datasets \(mine, mine\); call one 'mine'"),
+    ("a,,b,\nX,Y,X,Y\n1,1,2,2\n", r"datasets \(a, b\); call one 'mine'"),
+    ("mine,,mine,\nX,Y,X,Y\n1,1,2,2\n", r"datasets \(mine, mine\); call one 'mine'"),
     ('1,"2\n3,4\n', "line 2: unexpected end of data"),
     ("0.5,1\n0.6,many\n", r"line 2, column 'velocity \[1\]': 'many' is not a decimal number"),
     ("1_000,1\n", "'1_000' is not a decimal number"),
@@ -162,8 +163,10 @@ def bomb(link, last):
 
 BAD_YAML = {
     "a date": ("a: 1\nb: 2020-13-45", "line 2: '2020-13-45' is no timestamp"),
-    "an integer": ("a: !!int abc", "line 1: 'abc' is no int"),
-    "a number": ("a: !!float x", "line 1: 'x' is no float"),
+    "octal": ("a: 0400", "line 1: '0400' is no decimal number"),
+    "minutes": ("a: 6:40", "line 1: '6:40' is no decimal number"),
+    "an integer": ("a: !!int abc", "line 1: 'abc' is no decimal number"),
+    "a number": ("a: !!float x", "line 1: 'x' is no decimal number"),
     "a truth": ("a: !!bool maybe", "line 1: 'maybe' is no bool"),
     "a number too long": ("a: " + "9" * 5000, "line 1: '9+' is no int"),
     "deep": ("a:\n " + "[" * 10_000, "line 2: deeper than 50 levels"),

@@ -129,6 +129,41 @@ def test_bad_data_is_refused(data, old, new, words):
         reference_data.load_all(folder, SOURCE_SCHEMA)
 
 
+@pytest.mark.parametrize("name", ["rubber_sphere.wpd.CSV", "rubber_sphere.wpd.csv.txt", "a.json"])
+def test_a_file_that_would_be_ignored_is_refused(data, name):
+    folder, _ = data
+    (folder / "johnson1983" / name).write_text("0.5, -0.1\n")
+    with pytest.raises(reference_data.SourceError, match=f"{name}: no series of that name"):
+        reference_data.load_all(folder, SOURCE_SCHEMA)
+
+
+@pytest.mark.parametrize("name", ["points.csv", "mine/source.yml"])
+def test_what_is_no_source_is_refused(data, name):
+    path = data[0] / name
+    path.parent.mkdir(exist_ok=True)
+    path.write_text("x: 1\n")
+    with pytest.raises(reference_data.SourceError, match="no source: allowed are folders"):
+        reference_data.load_all(data[0], SOURCE_SCHEMA)
+
+
+MISREAD = [
+    ["samples=0400"], ["stiffness_ratio=1_5"], ["a=6:40"], ["a=0x10"], ["a=1", "a=2"],
+    ["figures={fig3: {samples: 50, samples: 90}}"], ["figures={fig3: {samples: 010}}"],
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("arguments", MISREAD, ids=[" ".join(words) for words in MISREAD])
+def test_values_that_would_be_misread_are_refused(arguments):
+    with pytest.raises(run_plan.ConfigError, match="^--config "):
+        run_plan.refuse_misread_values(arguments)
+
+
+def test_values_that_mean_what_they_say_are_not_refused():
+    run_plan.refuse_misread_values(
+        ["a=1.5", "b=-2e-3", "c={d: [0, 0.6, 1], e: true}", "f=nan", "g="]
+    )
+
+
 def test_missing_and_stray_series_are_refused(data, check):
     folder, edit = data
     (folder / "chung_ooi2011/rebound.csv").rename(folder / "chung_ooi2011/rebounds.csv")

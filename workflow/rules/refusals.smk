@@ -24,7 +24,9 @@ def refused(error):
 
 try:
     run_plan.refuse_unreadable_modules()
-    reference_data.load_yaml("workflow/config.yaml")
+    for file in ("workflow/config.yaml", *workflow.config_settings.configfiles):
+        reference_data.load_yaml(file)
+    run_plan.refuse_misread_values(workflow.config_settings.config_args or ())
     if STARTED_HERE:
         options.refuse_untrustworthy(sys.argv)
 except (reference_data.SourceError, run_plan.ConfigError, options.OptionError) as error:

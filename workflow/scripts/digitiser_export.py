@@ -8,6 +8,7 @@ import re
 
 WHOLE = re.compile(r"[+-]?[0-9]+([eE][+-]?[0-9]+)?")
 NO_NUMBERS = ("nan", "inf", "infinity")  # words, but no names of columns
+UNNAMED = "Default Dataset"  # what WebPlotDigitizer calls it where the user has not
 SEPARATORS = {",": "commas", ";": "semicolons"}
 
 
@@ -93,10 +94,9 @@ def _place(names, axes, name):
             "for each dataset; a name must have no comma"
         )
     datasets = titles[::2]
-    if len(datasets) > 1 and datasets.count(name) != 1:
+    if datasets != [UNNAMED] and datasets.count(name) != 1:
         raise ValueError(
-            f"line {line}: several datasets ({', '.join(datasets)}); call one '{name}', or export "
-            "one alone"
+            f"line {line}: datasets ({', '.join(datasets)}); call one '{name}', or export one alone"
         )
     return 2 * (datasets.index(name) if name in datasets else 0), len(row)
 

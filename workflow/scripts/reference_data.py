@@ -67,11 +67,19 @@ def load(folder, schema):
         if series["path"]:
             _refuse_other_number(f"{path}: series.{name}", series, read_series(name, series))
     known = {"source.yaml", *(Path(s["path"]).name for s in _found(source))}
-    strays = sorted(file.name for file in folder.glob("*.csv") if file.name not in known)
+    # A ledger may lie there, or what computes a series; a table by another ending would be ignored.
+    strays = sorted(
+        name for name in _visible(folder) - known if not name.endswith((".yaml", ".py"))
+    )
     if strays:
         names = ", ".join(_file_name(*item) for item in source.get("series", {}).items()) or "none"
         raise SourceError(f"{folder / strays[0]}: no series of that name; allowed are {names}")
     return source
+
+
+def _visible(folder):
+    """Names of what lies in a folder, without hidden files and words for readers."""
+    return {path.name for path in folder.iterdir() if not path.name.startswith((".", "README"))}
 
 
 def _refuse_other_number(where, series, columns):
@@ -148,8 +156,11 @@ def _decoded(line, number, path):
 
 
 def load_all(data, schema):
-    """Load every source below the folder `data`: `{source: contents}`."""
-    folders = sorted(path.parent for path in Path(data).glob("*/source.yaml"))
+    """Load every source below the folder `data`: `{source: contents}`; `scenes` is none."""
+    folders = [Path(data, name) for name in sorted(_visible(Path(data)) - {"scenes"})]
+    for folder in folders:
+        if not (folder / "source.yaml").is_file():
+            raise SourceError(f"{folder}: no source: allowed are folders with a source.yaml")
     return {folder.name: load(folder, schema) for folder in folders}
 
 
@@ -280,7 +291,7 @@ def _file_of(folder, name, series):
         return str(path)
     if not path.is_file():
         return None
-    if not series["digitised_by"]:
+    if (series["digitised_by"] or "").strip().lower() in ("", "null", "none", "nobody"):
         raise SourceError(
             f"{path}: whose work? Fill series.{name}.digitised_by in {folder / 'source.yaml'} "
             "(who, when, with what)"

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import records
 import reference_data
+import strict_yaml
 
 SCRIPTS = Path(__file__).parent
 SRC = SCRIPTS.parents[1] / "src"
@@ -34,12 +35,32 @@ def with_values(node):
         return [with_values(value) for value in node]
     if isinstance(node, str) and node.lower() in ("true", "false"):
         return node.lower() == "true"
-    for number in (int, float) if isinstance(node, str) else ():
-        try:
-            return number(node)
-        except ValueError:
-            continue
+    if isinstance(node, str):
+        for tag, number in {"int": int, "float": float}.items():
+            if strict_yaml.NUMBERS[f"tag:yaml.org,2002:{tag}"].fullmatch(node):
+                return number(node)
+        if node.lower() in ("nan", "inf", "-inf"):  # to be refused as numbers, not as words
+            return float(node)
     return node
+
+
+def refuse_misread_values(arguments):
+    """Refuse a --config whose values Snakemake would take for others, or that is there twice.
+
+    Parameters
+    ----------
+    arguments : sequence of str
+        `name=value`, as the user wrote them.
+    """
+    names = [text.partition("=")[0] for text in arguments]
+    for text, name in zip(arguments, names, strict=True):
+        if names.count(name) > 1:
+            raise ConfigError(f"--config {name}: it is there twice")
+        value = text.partition("=")[2]
+        try:
+            strict_yaml.load(f"{name}: {value}")
+        except ValueError as error:
+            raise ConfigError(f"--config {text}: {str(error).partition(': ')[2]}") from None
 
 
 def check_config(config, schema, inventory, ledger):

@@ -1,13 +1,23 @@
 """YAML that is refused where PyYAML would lose something, crash, or fill the memory.
 
 PyYAML keeps the last of two equal keys without a word, ends with a ValueError at a date that does
-not exist, and lets a few lines of aliases stand for more values than a memory holds.
+not exist, lets a few lines of aliases stand for more values than a memory holds, and reads 010 as
+8, 6:40 as 400 and 1_21 as 121.
 """
+
+import re
 
 import yaml
 
 DEEPEST = 50  # levels; the documents of this project have ten
 MOST_VALUES = 100_000  # aliases written out; the largest document of this project has 2203
+# Numbers that mean the same to everybody; infinities and NaN are left to the schemas.
+NUMBERS = {
+    "tag:yaml.org,2002:int": re.compile(r"[-+]?(0|[1-9][0-9]*)"),
+    "tag:yaml.org,2002:float": re.compile(
+        r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)(e[-+]?[0-9]+)?|[-+]?\.(inf|nan)", flags=re.I
+    ),
+}
 TEXT, MERGE = "tag:yaml.org,2002:str", "tag:yaml.org,2002:merge"
 
 
@@ -88,6 +98,8 @@ class _Loader(yaml.SafeLoader):
         for character in node.value:
             if character == "\0" or "\ud800" <= character <= "\udfff":
                 _refuse(_no_character(ord(character)), node.start_mark)
+        if node.tag in NUMBERS and not NUMBERS[node.tag].fullmatch(node.value):
+            _refuse(f"{node.value[:60]!r} is no decimal number such as -0.05", node.start_mark)
         return node
 
     def compose_mapping_node(self, anchor):
