@@ -26,8 +26,8 @@ try:
     run_plan.refuse_unreadable_modules()
     for file in ("workflow/config.yaml", *workflow.config_settings.configfiles):
         reference_data.load_yaml(file)
-    run_plan.refuse_misread_values(workflow.config_settings.config_args or ())
-    if STARTED_HERE:
+    if workflow.is_main_process:
+        run_plan.refuse_misread_values(workflow.config_settings.config_args or ())
         options.refuse_untrustworthy(sys.argv)
 except (reference_data.SourceError, run_plan.ConfigError, options.OptionError) as error:
     raise refused(error)
