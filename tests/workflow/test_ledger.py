@@ -299,7 +299,7 @@ def test_a_changed_verdict_fails_the_run(finished):
     assert result.returncode != 0
     assert "no longer holds: eq-41" in result.stdout
     assert "recorded as wrong, found confirmed" in result.stdout
-    assert "FAILED for 1 reasons:\n  no longer holds: eq-41: recorded as" in result.stdout
+    assert "FAILED. Reasons: 1\n  no longer holds: eq-41: recorded as" in result.stdout
     assert not (finished / "results/PASSED").exists()
 
 

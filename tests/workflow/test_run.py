@@ -230,7 +230,7 @@ def test_wrong_physics_fails_after_everything_is_written(finished):
     table = first.stdout[first.stdout.index("verdict  ") :].splitlines()
     assert table[2].startswith("diverges")
     # The last words say which rows, and how to have the same without being judged.
-    failed = next(i for i, line in enumerate(table) if line.startswith("FAILED for "))
+    failed = next(i for i, line in enumerate(table) if line.startswith("FAILED. Reasons: "))
     assert table[failed + 1].startswith("  diverges: fig") and len(table) - failed < 16
     assert f"snakemake --cores 2 figures {shlex.join(wrong)}" in table[failed - 1]
 

@@ -86,7 +86,7 @@ def test_a_failed_run_names_its_rows_last_and_repeats_the_config(folder, before)
     assert "PASSED" not in words and "Play" not in words and "figures/report.html" in words
     assert "figures --config a=1 'figures={fig6: {restitution: [0, 1]}}'" in words
     last = words.strip().splitlines()[-closing.SHOWN - 2 :]
-    assert last[0] == f"FAILED for {len(faults)} reasons:"
+    assert last[0] == f"FAILED. Reasons: {len(faults)}"
     assert last[1:-1] == [f"  {fault}" for fault in faults[: closing.SHOWN]]
     assert last[-1] == f"  and 2 more: {closing.GATE_LOG}"
 

@@ -71,11 +71,11 @@ def words(before, config=(), stopped=False, logs=()):
     new = {path for path, mark in before.items() if _mark(path) not in (mark, None)}
     parts, failing = [], []
     if new & {VERDICTS, GATE_LOG}:
-        rows = _rows(VERDICTS)
+        rows = _rows(VERDICTS, verdict_table.COLUMNS)
         parts.append(verdict_table.text(rows))
         failing += [row["comparison"] for row in verdict_table.failing(rows)]
     if new & {LEDGER, GATE_LOG}:
-        rows = _rows(LEDGER)
+        rows = _rows(LEDGER, ("verdict", "holds", "entry", "where", "problem"))
         parts.append(ledger_table.summary(rows))
         failing += [row["entry"] for row in ledger_table.failing(rows)]
     where = f"All columns: {VERDICTS}, {LEDGER}"
@@ -105,13 +105,13 @@ def _failed(faults):
     shown = [f"  {fault}" for fault in faults[:SHOWN]]
     if len(faults) > SHOWN:
         shown.append(f"  and {len(faults) - SHOWN} more: {GATE_LOG}")
-    return "\n".join([f"FAILED for {len(faults)} reasons:", *shown])
+    return "\n".join([f"FAILED. Reasons: {len(faults)}", *shown])
 
 
-def _rows(path):
+def _rows(path, columns):
     """Rows of a table; none where it cannot be read, which the gate has said."""
     try:
-        return csv_tables.read_rows(path)
+        return csv_tables.read_rows(path, columns)
     except (OSError, ValueError):
         return []
 
