@@ -9,8 +9,8 @@ import pytest
 
 VERDICT = {
     "figure": "fig6", "comparison": "fig6-e1", "verdict": "agrees", "reference": "a/b",
-    "points": 5, "rms [sigma]": 0.1, "max [sigma]": 0.2, "found": "", "stated": "",
-    "allowed": "max <= 1", "note": "", "reason": "",
+    "points": 5, "rms [sigma]": 0.1, "max [sigma]": 0.2, "rms [axis units]": 0.1, "found": "",
+    "stated": "", "allowed": "max <= 1", "note": "", "reason": "",
 }  # fmt: skip
 ENTRY = {
     "verdict": "wrong", "holds": "yes", "entry": "eq-25", "where": "Eq. 25", "problem": "0.1 > 0",
