@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact import checks
+from planarimpact import checks, continuum
 from planarimpact.results import Rebound
 
 AnyArray = NDArray[Any]
@@ -138,7 +138,8 @@ def solve(
     Raises
     ------
     InputError, ConvergenceError
-        As the model does, with the points among which it happened.
+        As the model does, with the points among which it happened; `impacts`, where the error
+        has them, are points of the grid.
 
     Examples
     --------
@@ -155,7 +156,10 @@ def solve(
         try:
             found = rebound(**groups, **settings)
         except (checks.InputError, checks.ConvergenceError) as error:
-            raise type(error)(f"points {first} to {last} of the grid: {error}") from None
+            error.args = (f"points {first} to {last} of the grid: {error}",)
+            if isinstance(error, continuum.Unsolved):
+                error.impacts = first + error.impacts
+            raise
         for name, field in fields.items():
             field[first - start : last - start] = getattr(found, name)
     return fields

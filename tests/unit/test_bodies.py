@@ -210,3 +210,11 @@ def test_refusals_name_the_field_and_its_value(call, field, value):
 def test_shapes_that_do_not_broadcast_are_refused():
     with pytest.raises(InputError, match="v1 .3,., v2 .2,."):
         bodies.incidence(np.ones(3), np.ones(2), 0.1)
+
+
+def test_a_result_out_of_range_is_pickled_with_its_place():
+    with pytest.raises(bodies.OutOfRange, match="= inf: it is beyond") as refusal:
+        bodies.normal_frequency([1e-9, 1e300], 1e-200, 1.0)
+    again = pickle.loads(pickle.dumps(refusal.value))
+    assert type(again) is bodies.OutOfRange and str(again) == str(refusal.value)
+    assert again.where.tolist() == [False, True]

@@ -2,6 +2,7 @@
 
 import copy
 import math
+import pickle
 import re
 from pathlib import Path
 
@@ -16,7 +17,7 @@ import solve_chunk
 import study_files
 import study_plan
 
-from planarimpact import Regime, checks, ladder, lumped, study
+from planarimpact import Regime, checks, continuum, ladder, lumped, study
 from planarimpact.results import Rebound
 
 GRID = {
@@ -85,6 +86,16 @@ def test_an_impact_that_cannot_be_solved_is_named_by_its_part(axes):
         study.solve(failing, axes, 5, 9)
     with pytest.raises(checks.InputError, match=r"of the grid: restitution\[0\] = 0.0.*equal to 1"):
         study.solve(ladder.get("continuum").rebound, axes, 0, 9)
+
+
+def test_an_unsolved_impact_of_the_continuum_keeps_its_kind_and_is_a_point_of_the_grid():
+    axes = study.axes_of(GRID | {"incidence": [1, 2, 3], "restitution": 1})
+    rebound = ladder.get("continuum").rebound
+    with pytest.raises(continuum.Unsolved, match="points 4 to 6 of the grid: tolerance") as refusal:
+        study.solve(rebound, axes, 4, 6, tolerance=1e-15)
+    again = pickle.loads(pickle.dumps(refusal.value))
+    for error in (refusal.value, again):
+        assert error.impacts.tolist() == [4, 5] and str(error) == str(refusal.value)
 
 
 @pytest.mark.parametrize(
