@@ -11,6 +11,8 @@ from planarimpact.arrays import Array, ArrayLike, Numbers
 
 # Twice as much can still be represented.
 LARGEST = 8e307
+# Largest count of samples, circles or points: their tables still fit into a memory.
+MOST = 10_000_000
 
 # Decorates whatever users call: NumPy's own defaults, so that no answer depends on what the caller
 # has set by np.seterr or np.errstate, and an invalid operation that nobody foresaw still warns.
@@ -223,18 +225,19 @@ def number(
     return single(name, checked(name, value, allowed, low, high, open_low))
 
 
-def count(name: str, value: int, least: int) -> int:
-    """Return a number of steps, circles or samples as int: an integer from `least`.
+def count(name: str, value: int, least: int, most: int = MOST) -> int:
+    """Return a number of steps, circles or samples as int: an integer from `least` to `most`.
 
     Examples
     --------
     >>> count("steps", 2.5, 1)
     Traceback (most recent call last):
     ...
-    planarimpact.checks.InputError: steps = 2.5: allowed are integers from 1
+    planarimpact.checks.InputError: steps = 2.5: allowed are integers from 1 to 10000000
     """
-    if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
-        raise InputError(f"{name} = {brief(value)}: allowed are integers from {least}")
+    integer = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    if not integer or not least <= value <= most:
+        raise InputError(f"{name} = {brief(value)}: allowed are integers from {least} to {most}")
     return int(value)
 
 
@@ -327,14 +330,14 @@ def explicit_steps(steps: int, needed: Numbers, least: int, most: int) -> int:
     planarimpact.checks.InputError: steps = 64: allowed are integers from 100 to 10000000 (with \
 fewer explicit steps the tangential oscillation is unstable)
     """
-    steps = count("steps", steps, least)
+    steps = count("steps", steps, least, most)
     fewest = float(np.max(needed, initial=least))
     if not fewest <= most:
         raise InputError(
             f"steps = {steps}: for this mass_ratio and stiffness_ratio {fewest:.3g} explicit steps "
             f"are needed, or the tangential oscillation is unstable; allowed are up to {most}"
         )
-    if not fewest <= steps <= most:
+    if steps < fewest:
         raise InputError(
             f"steps = {steps}: allowed are integers from {math.ceil(fewest)} to {most} (with fewer "
             "explicit steps the tangential oscillation is unstable)"
