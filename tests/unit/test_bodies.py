@@ -1,11 +1,12 @@
 """Bodies and materials: known values, limits, conservation laws, refusals."""
 
+import collections
 import pickle
 
 import numpy as np
 import pytest
 
-from planarimpact import InputError, bodies
+from planarimpact import InputError, bodies, lumped
 from planarimpact.bodies import HALF_SPACE, Body, Material, Motion
 
 CERAMIC, GLASS = Material(380e9, 0.23), Material(70e9, 0.25)
@@ -205,6 +206,34 @@ def test_refusals_name_the_field_and_its_value(call, field, value):
     with pytest.raises(InputError) as refusal:
         call()
     assert str(refusal.value).startswith(f"{field} = {value}")
+
+
+OTHERS = [
+    [True, 2.0],
+    (0.5, np.False_),
+    [[1.0, 2.0], [3, False]],
+    [np.array([True]), np.array([2.0])],
+    collections.deque([True, 2.0]),
+    np.array([True, 2.0], dtype=object),
+    bytearray(b"12"),
+    memoryview(b"12"),
+    [bytearray(b"12")],
+]
+
+
+@pytest.mark.parametrize("value", OTHERS, ids=map(str, OTHERS))
+def test_booleans_and_bytes_are_no_numbers_beside_numbers_either(value):
+    with pytest.raises(InputError, match="incidence = .*: allowed are finite .*, as real numbers"):
+        lumped.rebound(value)
+
+
+@pytest.mark.parametrize("value", [10**20, [10**20, 1.5], [[-(10**300), 1]], range(3)])
+def test_whole_numbers_are_numbers_if_a_float_can_hold_them(value):
+    numbers = np.array(value, dtype=float)
+    np.testing.assert_array_equal(lumped.rebound(value).velocity, lumped.rebound(numbers).velocity)
+    for large in (10**400, [1, -(10**400)]):
+        with pytest.raises(InputError, match="incidence: an integer is beyond the range of numb"):
+            lumped.rebound(large)
 
 
 def test_shapes_that_do_not_broadcast_are_refused():

@@ -109,6 +109,7 @@ def test_an_unsolved_impact_of_the_continuum_keeps_its_kind_and_is_a_point_of_th
         ({"incidence": {"from": 8, "to": 0, "points": 3}}, "incidence = .*: allowed are ascending"),
         ({"incidence": {"from": 0, "to": 8, "points": 1}}, "incidence.points = 1: allowed are"),
         ({"incidence": {"from": 0, "to": np.nan, "points": 3}}, r"incidence\[1\] = nan"),
+        ({"incidence": {"from": True, "to": 8, "points": 3}}, r"incidence = \[True, 8\]: allowed"),
         ({"stiffness_ratio": 0}, "stiffness_ratio = 0.0: allowed are finite numbers above 0"),
         ({"friction": [0.1]}, "axes = .*friction: allowed are incidence"),
     ],
