@@ -221,7 +221,7 @@ OTHERS = [
 ]
 
 
-@pytest.mark.parametrize("value", OTHERS, ids=map(str, OTHERS))
+@pytest.mark.parametrize("value", OTHERS, ids=lambda value: type(value).__name__)
 def test_booleans_and_bytes_are_no_numbers_beside_numbers_either(value):
     with pytest.raises(InputError, match="incidence = .*: allowed are finite .*, as real numbers"):
         lumped.rebound(value)
