@@ -275,7 +275,7 @@ _MAKER = object()
 
 def _made(*made_of: Any) -> Response:
     """A response whose fields belong together: of `compile`, a checked file or another response."""
-    return Response(*made_of, _MAKER)
+    return Response(*(*made_of, _MAKER))
 
 
 @checks.default_errors
