@@ -4,7 +4,9 @@ import argparse
 import csv
 import io
 import json
+import math
 import os
+import re
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -80,6 +82,11 @@ UNITS: dict[type, dict[str, str]] = {
         "stick_radius": "a_max",
     },
 }
+# Numbers as the command line takes them: Python's own reading has more, such as 1_000.
+NUMBER = re.compile(
+    r"[+-]?((?P<digits>\d+\.?\d*|\.\d+)(e[+-]?\d+)?|inf|infinity|nan)", re.ASCII | re.IGNORECASE
+)
+WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
 GROUPS = {
     "mass_ratio": (3.5, "m2/m1: 3.5 for a solid sphere, 2.5 for a thin shell, 3 for a disc"),
     "stiffness_ratio": (1.21, "zeta^2, normal over tangential stiffness: (2-nu)/(2(1-nu))"),
@@ -98,6 +105,9 @@ dissipation [mu^2 m2 v2(0)^2],regime
     8.0,1.0,1.0,9.0,SLIP_THROUGHOUT
     0
     """
+    if sys.stdout is None:  # closed by whoever called: the next file opened might take its place
+        print("planarimpact: standard output is closed: allowed is an open one", file=sys.stderr)
+        return 2
     given = sys.argv[1:] if arguments is None else arguments
     options = _parser().parse_args([_spaced(word) for word in given])
     try:
@@ -160,13 +170,25 @@ def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
         raise checks.InputError("--angle: it needs --friction, from which the incidence follows")
     else:
         x = bodies.incidence_from_angle(options.angle, options.friction)
-    if options.response:
+    if options.response is not None:
         _refuse_given(options, ["model", "setting", *GROUPS], "a response has its own")
+        _refuse_replacing(options)
         found = response.load(options.response)(x)
     else:
         found = ladder.rebound(_model(options), x, **_groups(options), **_settings(options))
     regime = [Regime(code).name for code in found.regime]
     return _with_units(Rebound, {"incidence": x, **found._asdict(), "regime": regime})
+
+
+def _refuse_replacing(options: argparse.Namespace) -> None:
+    """Refuse a response without a name, and a table that would take its place."""
+    if not options.response:
+        raise checks.InputError("--response '': allowed are names of files that `compile` writes")
+    source, target = Path(options.response), Path(options.output or os.devnull)
+    if source.exists() and target.exists() and source.samefile(target):
+        raise checks.InputError(
+            f"--output {target}: it is the response that is read; the table needs another name"
+        )
 
 
 def _history(options: argparse.Namespace) -> dict[str, ArrayLike]:
@@ -270,25 +292,50 @@ def _settings(options: argparse.Namespace) -> dict[str, float]:
     settings = {}
     for text in options.setting:
         name, equals, value = text.partition("=")
-        try:
-            settings[name] = number(value)
-        except ValueError:
-            equals = ""
         if not equals:
             raise checks.InputError(f"--set {text}: allowed is NAME=NUMBER, such as steps=256")
+        if name in settings:
+            raise checks.InputError(f"--set {text}: {name} is set twice, allowed is once")
+        try:
+            settings[name] = number(value)
+        except argparse.ArgumentTypeError as error:
+            raise checks.InputError(f"--set {name}: {error}") from None
     ladder.refuse_unknown(ladder.get(_model(options)), settings)
     return settings
 
 
+def decimal(text: str) -> float:
+    """Number of a text, in ASCII and as everybody writes it; a refusal is for argparse to name.
+
+    Examples
+    --------
+    >>> decimal("64"), decimal("-1e3")
+    (64.0, -1000.0)
+    """
+    text = text.strip(" ")
+    written = NUMBER.fullmatch(text)
+    if not written:
+        raise argparse.ArgumentTypeError(
+            f"{text!r}: allowed are decimal numbers, such as 0.5 or -1e-3"
+        )
+    value = float(text)
+    if value == 0 and re.search("[1-9]", written["digits"]):
+        raise argparse.ArgumentTypeError(
+            f"{text!r}: it is too small for a number; allowed are 0 and numbers from 5e-324"
+        )
+    return value
+
+
 def number(text: str) -> float:
-    """Number of a text, an integer where it is written as one; argparse calls it by its name.
+    """Number of a text as `decimal` reads it, an integer where it is written as one.
 
     Examples
     --------
     >>> number("64"), number("-1e3")
     (64, -1000.0)
     """
-    return int(text) if text.strip().lstrip("-").isdigit() else float(text)
+    value = decimal(text)
+    return int(text) if WHOLE.fullmatch(text.strip(" ")) and math.isfinite(value) else value
 
 
 def _text(columns: Mapping[str, ArrayLike], as_json: bool) -> str:
@@ -304,11 +351,36 @@ def _text(columns: Mapping[str, ArrayLike], as_json: bool) -> str:
     return buffer.getvalue()
 
 
+class _Once(argparse.Action):
+    """Store what an option is given, and refuse the option where it comes a second time."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
+        option_string: str | None = None,
+    ) -> None:
+        given = vars(namespace).setdefault("given", set())
+        if self.dest in given:
+            raise argparse.ArgumentError(self, f"{values!r} is a second value, allowed is one")
+        given.add(self.dest)
+        setattr(namespace, self.dest, values)
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser, and those of its commands, that stores an option once."""
+
+    def __init__(self, **given: Any) -> None:
+        super().__init__(**given)
+        self.register("action", None, _Once)
+
+
 def _parser() -> argparse.ArgumentParser:
     called = (
         "planarimpact" if Path(sys.argv[0]).stem == "planarimpact" else "python -m planarimpact"
     )
-    parser = argparse.ArgumentParser(prog=called, description=WORDS)
+    parser = _Parser(prog=called, description=WORDS)
     parser.add_argument("--version", action="version", version=f"planarimpact {__version__}")
     commands = parser.add_subparsers(required=True, metavar="command")
 
@@ -316,11 +388,11 @@ def _parser() -> argparse.ArgumentParser:
         "rebound", help="state at separation", description="State at separation." + WORDS
     )
     impact = rebound.add_mutually_exclusive_group(required=True)
-    impact.add_argument("--incidence", type=float, nargs="+", metavar="X")
+    impact.add_argument("--incidence", type=decimal, nargs="+", metavar="X")
     impact.add_argument(
-        "--angle", type=float, nargs="+", help="of incidence, degrees; needs --friction"
+        "--angle", type=decimal, nargs="+", help="of incidence, degrees; needs --friction"
     )
-    rebound.add_argument("--friction", type=float, help="mu, above 0, for --angle")
+    rebound.add_argument("--friction", type=decimal, help="mu, above 0, for --angle")
     rebound.add_argument("--response", metavar="FILE", help="use what `compile` has written")
     _add_model(rebound, list(ladder.MODELS))
     _add_output(rebound)
@@ -332,9 +404,9 @@ def _parser() -> argparse.ArgumentParser:
         description="Forces and velocity over one contact, against time in that of compression."
         + WORDS,
     )
-    history.add_argument("--incidence", type=float, required=True, metavar="X")
+    history.add_argument("--incidence", type=decimal, required=True, metavar="X")
     history.add_argument("--samples", type=number, help="of lumped [400]")
-    history.add_argument("--tolerance", type=float, help="of continuum [1e-4]")
+    history.add_argument("--tolerance", type=decimal, help="of continuum [1e-4]")
     _add_model(history, ["lumped", "continuum"], settings=False)
     _add_output(history)
     history.set_defaults(command=_table, columns=_history)
@@ -346,8 +418,8 @@ def _parser() -> argparse.ArgumentParser:
         "bodies in nanoseconds, and write it to a file." + WORDS,
     )
     compiled.add_argument("output", metavar="FILE", help="where to write it, JSON: NAME.json")
-    compiled.add_argument("--tolerance", type=float, default=1e-6, help="[%(default)s]")
-    compiled.add_argument("--incidence-max", type=float, default=20.0, help="[%(default)s]")
+    compiled.add_argument("--tolerance", type=decimal, default=1e-6, help="[%(default)s]")
+    compiled.add_argument("--incidence-max", type=decimal, default=20.0, help="[%(default)s]")
     _add_model(compiled, list(ladder.MODELS))
     compiled.set_defaults(command=_compile)
 
@@ -371,7 +443,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     scene.add_argument(
         "--tolerance",
-        type=float,
+        type=decimal,
         default=1e-3,
         help="largest error: of the tangential velocity as a share of friction times normal speed, "
         "of friction as a share of its limit [%(default)s]; elastic pairs reach some 1e-8",
@@ -397,7 +469,7 @@ def _add_model(parser: argparse.ArgumentParser, names: list[str], settings: bool
     parser.add_argument("--model", choices=names, help="[lumped]")
     for name, (value, words) in GROUPS.items():
         option = "--" + name.replace("_", "-")
-        parser.add_argument(option, type=float, help=f"{words} [{value}]")
+        parser.add_argument(option, type=decimal, help=f"{words} [{value}]")
     if settings:
         parser.add_argument(
             "--set",

@@ -2,19 +2,24 @@
 
 import math
 import reprlib
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planarimpact.arrays import Array, ArrayLike, Numbers
 
 # Twice as much can still be represented.
 LARGEST = 8e307
+# Largest count of samples, circles or points: their tables still fit into a memory.
+MOST = 10_000_000
 
 # Decorates whatever users call: NumPy's own defaults, so that no answer depends on what the caller
 # has set by np.seterr or np.errstate, and an invalid operation that nobody foresaw still warns.
 default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
+
+_NUMBERS = int, float, np.integer, np.floating
 
 _BRIEF = reprlib.Repr()
 _BRIEF.maxlevel, _BRIEF.maxlist, _BRIEF.maxdict, _BRIEF.maxtuple = 1, 4, 4, 4
@@ -56,8 +61,8 @@ def checked(
     name : str
         The argument's name, for the message.
     value : array_like of real numbers, any shape
-        What the caller gave. Booleans, strings and complex numbers are refused, and masked
-        arrays of which an entry is masked.
+        What the caller gave. Booleans, strings, bytes and complex numbers are refused, in lists
+        too, and masked arrays of which an entry is masked.
     allowed : str
         What is allowed, in words, for the message.
     low, high : float
@@ -92,7 +97,9 @@ def checked(
         given = np.asarray(value)
     except ValueError:
         raise InputError(f"{name} = {brief(value)}: not a regular array of numbers") from None
-    if given.dtype.kind not in "iuf":
+    if given.dtype == object and set(map(type, given.flat)) <= {int, float}:
+        given = _whole_numbers(name, given, allowed)
+    if given.dtype.kind not in "iuf" or _has_other(value):
         raise InputError(f"{name} = {brief(value)}: allowed are {allowed}, as real numbers")
     with np.errstate(invalid="ignore", over="ignore", under="ignore"):
         numbers = given.astype(np.float64)
@@ -112,6 +119,27 @@ def _is_masked(value: object) -> bool:
         nested = list, tuple, np.ma.MaskedArray
         return any(_is_masked(entry) for entry in value if isinstance(entry, nested))
     return bool(np.ma.is_masked(value))
+
+
+def _whole_numbers(name: str, given: NDArray[np.object_], allowed: str) -> Array:
+    """Python's numbers as float64: NumPy has no integers as large as Python has."""
+    try:
+        return given.astype(np.float64)
+    except OverflowError:
+        raise InputError(
+            f"{name}: an integer is beyond the range of numbers, allowed are {allowed}"
+        ) from None
+
+
+def _has_other(value: object) -> bool:
+    """Whether NumPy's conversion would make numbers of booleans or bytes, in lists too."""
+    if isinstance(value, (bytearray, memoryview)):
+        return True
+    if isinstance(value, Sequence) and not isinstance(value, (str, bytes)):
+        kinds = set(map(type, value))  # the one look at every entry of a long list of numbers
+        unclear = {kind for kind in kinds if kind is bool or not issubclass(kind, _NUMBERS)}
+        return bool(unclear) and any(_has_other(x) for x in value if type(x) in unclear)
+    return isinstance(value, bool) or getattr(getattr(value, "dtype", None), "kind", "") == "b"
 
 
 def incidence(value: ArrayLike) -> Array:
@@ -223,18 +251,19 @@ def number(
     return single(name, checked(name, value, allowed, low, high, open_low))
 
 
-def count(name: str, value: int, least: int) -> int:
-    """Return a number of steps, circles or samples as int: an integer from `least`.
+def count(name: str, value: int, least: int, most: int = MOST) -> int:
+    """Return a number of steps, circles or samples as int: an integer from `least` to `most`.
 
     Examples
     --------
     >>> count("steps", 2.5, 1)
     Traceback (most recent call last):
     ...
-    planarimpact.checks.InputError: steps = 2.5: allowed are integers from 1
+    planarimpact.checks.InputError: steps = 2.5: allowed are integers from 1 to 10000000
     """
-    if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
-        raise InputError(f"{name} = {brief(value)}: allowed are integers from {least}")
+    integer = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    if not integer or not least <= value <= most:
+        raise InputError(f"{name} = {brief(value)}: allowed are integers from {least} to {most}")
     return int(value)
 
 
@@ -327,14 +356,14 @@ def explicit_steps(steps: int, needed: Numbers, least: int, most: int) -> int:
     planarimpact.checks.InputError: steps = 64: allowed are integers from 100 to 10000000 (with \
 fewer explicit steps the tangential oscillation is unstable)
     """
-    steps = count("steps", steps, least)
+    steps = count("steps", steps, least, most)
     fewest = float(np.max(needed, initial=least))
     if not fewest <= most:
         raise InputError(
             f"steps = {steps}: for this mass_ratio and stiffness_ratio {fewest:.3g} explicit steps "
             f"are needed, or the tangential oscillation is unstable; allowed are up to {most}"
         )
-    if not fewest <= steps <= most:
+    if steps < fewest:
         raise InputError(
             f"steps = {steps}: allowed are integers from {math.ceil(fewest)} to {most} (with fewer "
             "explicit steps the tangential oscillation is unstable)"

@@ -38,6 +38,10 @@ class Unsolved(checks.ConvergenceError):
         super().__init__(message)
         self.impacts = impacts
 
+    def __reduce__(self) -> tuple[type["Unsolved"], tuple[str, Integers]]:
+        """Pickle it by what it is made of: processes hand their errors on so."""
+        return type(self), (str(self), self.impacts)
+
 
 @checks.default_errors
 def rebound(

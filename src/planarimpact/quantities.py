@@ -14,9 +14,13 @@ from planarimpact.checks import InputError, checked
 class OutOfRange(InputError):
     """A result that is too large or too small for a number; `where` says which of an array."""
 
-    def __init__(self, name: str, values: Array, where: Booleans) -> None:
-        super().__init__(f"{name} = {values[where][0]:g}: it is beyond the range of numbers")
+    def __init__(self, message: str, where: Booleans) -> None:
+        super().__init__(message)
         self.where = where
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle it by what it is made of: processes hand their errors on so."""
+        return type(self), (str(self), self.where)
 
 
 finite = partial(checked, allowed="finite numbers")
@@ -99,9 +103,10 @@ quietly = np.errstate(over="ignore", invalid="ignore", divide="ignore", under="i
 
 def in_range(name: str, values: Array, above: float = 0.0) -> Array:
     """Return values as they are, if all are finite and larger than `above` in size."""
-    lost = ~(np.isfinite(values) & (np.abs(values) > above))
+    lost = np.atleast_1d(~(np.isfinite(values) & (np.abs(values) > above)))
     if lost.any():
-        raise OutOfRange(name, np.atleast_1d(values), np.atleast_1d(lost))
+        first = np.atleast_1d(values)[lost][0]
+        raise OutOfRange(f"{name} = {first:g}: it is beyond the range of numbers", lost)
     return values
 
 

@@ -9,7 +9,7 @@ the formula that it is.
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import InitVar, dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -79,10 +79,16 @@ class Response:
     error_bound: Bound
     slides_from: float
     pieces: piecewise.Pieces
+    _maker: InitVar[object] = None
     _piecewise: piecewise.Piecewise = field(init=False)
     _gains: bool = field(init=False)  # whether the model itself creates energy somewhere
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, _maker: object) -> None:
+        if _maker is not _MAKER:  # it may be `dataclasses.replace`, which measures nothing
+            raise checks.InputError(
+                f"response of {checks.brief(self.model)}: allowed are those that `compile` or "
+                "`load` makes, as they are measured against their model"
+            )
         object.__setattr__(self, "parameters", MappingProxyType(dict(self.parameters)))
         table = piecewise.Piecewise(self.pieces)
         object.__setattr__(self, "_piecewise", table)
@@ -93,7 +99,7 @@ class Response:
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle and copy it by what it is made of; a read-only mapping has no pickle."""
         made_of = (self.model, dict(self.parameters), self.incidence_max, self.tolerance)
-        return Response, (*made_of, self.error_bound, self.slides_from, self.pieces)
+        return _made, (*made_of, self.error_bound, self.slides_from, self.pieces)
 
     def __repr__(self) -> str:
         groups = ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
@@ -264,6 +270,14 @@ class Response:
             partial.write_text(whole, encoding="utf-8")
 
 
+_MAKER = object()
+
+
+def _made(*made_of: Any) -> Response:
+    """A response whose fields belong together: of `compile`, a checked file or another response."""
+    return Response(*(*made_of, _MAKER))
+
+
 @checks.default_errors
 def compile(model: str, *, incidence_max: float, tolerance: float, **parameters: float) -> Response:
     """Compile the response of one pair of bodies by any model of the ladder.
@@ -330,7 +344,7 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
         )
     if silent:  # a law of impulses
         pieces.coefficients[1] = np.nan
-    return Response(model, groups | settings, reach, tolerance, bound, slides, pieces)
+    return _made(model, groups | settings, reach, tolerance, bound, slides, pieces)
 
 
 @checks.default_errors
@@ -379,11 +393,14 @@ def load(path: str | Path) -> Response:
 def _content(path: str | Path) -> Any:
     """What a file holds, if it is of this format and nothing in it has changed."""
     try:
-        file = json.loads(Path(path).read_text(encoding="utf-8"))
+        text = Path(path).read_text(encoding="utf-8")
+        file = json.loads(text, object_pairs_hook=_without_doubles)
         kind, version = file["format"], file["version"]
+    except checks.InputError as error:
+        raise checks.InputError(f"{path}: damaged: {error}") from None
     except (ValueError, TypeError, KeyError, RecursionError):
         raise checks.InputError(f"{path}: no {FORMAT} file, or a damaged one") from None
-    if (kind, version) != (FORMAT, VERSION):
+    if (kind, version) != (FORMAT, VERSION) or type(version) is not int:
         raise checks.InputError(
             f"{path}: format {kind!r}, version {version!r}: allowed is {FORMAT!r}, {VERSION}; "
             "compile it again"
@@ -392,6 +409,16 @@ def _content(path: str | Path) -> Any:
     if not content or file.get("sha256") != _digest(content):
         raise checks.InputError(f"{path}: damaged: its content is not what was written")
     return content
+
+
+def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object of JSON, of which Python would keep the last value of a key that comes twice."""
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in found:
+            raise checks.InputError(f"{checks.brief(key)} is there twice, allowed is once")
+        found[key] = value
+    return found
 
 
 def _digest(content: Any) -> str:
@@ -424,7 +451,7 @@ def _restored(content: Any) -> Response:
         k: checks.number(f"error_bound.{k}", v, allowed, least, most) for k, v in bound.items()
     }
     parameters = asked.groups | asked.settings
-    return Response(model, parameters, asked.reach, most, Bound(**bound), asked.slides, pieces)
+    return _made(model, parameters, asked.reach, most, Bound(**bound), asked.slides, pieces)
 
 
 def _refuse_strangers(found: Response) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact import checks
+from planarimpact import checks, continuum
 from planarimpact.results import Rebound
 
 AnyArray = NDArray[Any]
@@ -57,15 +57,17 @@ def axes_of(grid: Mapping[str, Any]) -> dict[str, AnyArray]:
     stiffness_ratio [1.21]
     restitution [0.5 1. ]
     """
-    if set(grid) != set(checks.RULES):
+    if not isinstance(grid, Mapping) or set(grid) != set(checks.RULES):
+        found = ", ".join(map(str, grid)) if isinstance(grid, Mapping) else checks.brief(grid)
         raise checks.InputError(
-            f"axes = {', '.join(grid)}: allowed are {', '.join(checks.RULES)}, each once"
+            f"axes = {found}: allowed are {', '.join(checks.RULES)}, each once, in a dict"
         )
     return {name: _axis(name, grid[name]) for name in checks.RULES}
 
 
 def _axis(name: str, given: Any) -> AnyArray:
     if isinstance(given, dict):
+        checks.record(name, given, ("from", "to", "points"))
         points = checks.count(f"{name}.points", given["points"], 2)
         low, high = checks.RULES[name]([given["from"], given["to"]])
         values = np.linspace(low, high, points)
@@ -103,9 +105,7 @@ def points(axes: Mapping[str, AnyArray], start: int, stop: int) -> dict[str, Any
     (array([1., 2., 2.]), array([1., 0., 1.]))
     """
     shape = _shape(axes)
-    count = math.prod(shape)
-    if not 0 <= start < stop <= count:
-        raise checks.InputError(f"points {start} to {stop}: allowed are some of 0 to {count}")
+    _refuse_outside(shape, start, stop)
     places = np.unravel_index(np.arange(start, stop), shape)
     return {name: values[place] for (name, values), place in zip(axes.items(), places, strict=True)}
 
@@ -138,7 +138,8 @@ def solve(
     Raises
     ------
     InputError, ConvergenceError
-        As the model does, with the points among which it happened.
+        If there are no such points; or as the model does, with the points among which it
+        happened: `impacts`, where the error has them, are points of the grid.
 
     Examples
     --------
@@ -148,6 +149,7 @@ def solve(
     >>> solve(lumped.rebound, grid, 1, 2)["velocity"]
     array([1.])
     """
+    _refuse_outside(_shape(axes), start, stop)
     fields = {name: np.empty(stop - start, dtype) for name, dtype in OUTPUTS.items()}
     for first in range(start, stop, BLOCK):
         last = min(first + BLOCK, stop)
@@ -155,7 +157,10 @@ def solve(
         try:
             found = rebound(**groups, **settings)
         except (checks.InputError, checks.ConvergenceError) as error:
-            raise type(error)(f"points {first} to {last} of the grid: {error}") from None
+            error.args = (f"points {first} to {last} of the grid: {error}",)
+            if isinstance(error, continuum.Unsolved):
+                error.impacts = first + error.impacts
+            raise
         for name, field in fields.items():
             field[first - start : last - start] = getattr(found, name)
     return fields
@@ -200,6 +205,7 @@ def gather(
     for start, part in parts:
         if start != done:
             raise checks.InputError(f"a part starts at point {start}: allowed is {done}, the next")
+        checks.record(f"the part from point {start}", part, OUTPUTS)
         length = np.size(part["velocity"])
         expected = {name: ((length,), np.dtype(dtype)) for name, dtype in OUTPUTS.items()}
         found = {name: (np.shape(value), np.asarray(value).dtype) for name, value in part.items()}
@@ -215,6 +221,14 @@ def gather(
     if done != count:
         raise checks.InputError(f"the parts end at point {done}: allowed is {count}, the last")
     return {name: field.reshape(shape) for name, field in fields.items()}
+
+
+def _refuse_outside(shape: tuple[int, ...], start: int, stop: int) -> None:
+    """Refuse points that a grid of this shape has not."""
+    whole = all(isinstance(n, (int, np.integer)) and not isinstance(n, bool) for n in (start, stop))
+    count = math.prod(shape)
+    if not whole or not 0 <= start < stop <= count:
+        raise checks.InputError(f"points {start} to {stop}: allowed are some of 0 to {count}")
 
 
 def _shape(axes: Mapping[str, AnyArray]) -> tuple[int, ...]:

@@ -1,11 +1,12 @@
 """Bodies and materials: known values, limits, conservation laws, refusals."""
 
+import collections
 import pickle
 
 import numpy as np
 import pytest
 
-from planarimpact import InputError, bodies
+from planarimpact import InputError, bodies, lumped
 from planarimpact.bodies import HALF_SPACE, Body, Material, Motion
 
 CERAMIC, GLASS = Material(380e9, 0.23), Material(70e9, 0.25)
@@ -207,6 +208,42 @@ def test_refusals_name_the_field_and_its_value(call, field, value):
     assert str(refusal.value).startswith(f"{field} = {value}")
 
 
+OTHERS = [
+    [True, 2.0],
+    (0.5, np.False_),
+    [[1.0, 2.0], [3, False]],
+    [np.array([True]), np.array([2.0])],
+    collections.deque([True, 2.0]),
+    np.array([True, 2.0], dtype=object),
+    bytearray(b"12"),
+    memoryview(b"12"),
+    [bytearray(b"12")],
+]
+
+
+@pytest.mark.parametrize("value", OTHERS, ids=lambda value: type(value).__name__)
+def test_booleans_and_bytes_are_no_numbers_beside_numbers_either(value):
+    with pytest.raises(InputError, match="incidence = .*: allowed are finite .*, as real numbers"):
+        lumped.rebound(value)
+
+
+@pytest.mark.parametrize("value", [10**20, [10**20, 1.5], [[-(10**300), 1]], range(3)])
+def test_whole_numbers_are_numbers_if_a_float_can_hold_them(value):
+    numbers = np.array(value, dtype=float)
+    np.testing.assert_array_equal(lumped.rebound(value).velocity, lumped.rebound(numbers).velocity)
+    for large in (10**400, [1, -(10**400)]):
+        with pytest.raises(InputError, match="incidence: an integer is beyond the range of numb"):
+            lumped.rebound(large)
+
+
 def test_shapes_that_do_not_broadcast_are_refused():
     with pytest.raises(InputError, match="v1 .3,., v2 .2,."):
         bodies.incidence(np.ones(3), np.ones(2), 0.1)
+
+
+def test_a_result_out_of_range_is_pickled_with_its_place():
+    with pytest.raises(bodies.OutOfRange, match="= inf: it is beyond") as refusal:
+        bodies.normal_frequency([1e-9, 1e300], 1e-200, 1.0)
+    again = pickle.loads(pickle.dumps(refusal.value))
+    assert type(again) is bodies.OutOfRange and str(again) == str(refusal.value)
+    assert again.where.tolist() == [False, True]

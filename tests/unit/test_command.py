@@ -157,6 +157,61 @@ def test_compile_and_use(capsys, tmp_path):
     assert float(row[VELOCITY]) == pytest.approx(lumped.rebound(2.0, restitution=0.7)[0], abs=1e-9)
 
 
+def test_a_response_is_not_replaced_by_what_it_answers(capsys, tmp_path):
+    path, linked, hard = (tmp_path / name for name in ("ball.json", "linked.json", "hard.json"))
+    assert main(["compile", str(path), "--model", "rigid"]) == 0
+    before = path.read_bytes()
+    linked.symlink_to(path)
+    hard.hardlink_to(path)
+    for output in (path, linked, hard):
+        command = ["rebound", "--incidence", "2", "--response", str(path), "--output", str(output)]
+        assert main(command) == 2
+        assert "it is the response that is read" in capsys.readouterr().err
+        assert output.read_bytes() == before
+
+
+ONCE = [
+    ["rebound", "--incidence", "1", "--inc", "2"],
+    ["rebound", "--incidence", "1", "--model", "rigid", "--model=rigid"],
+    ["rebound", "--incidence", "1", "--restitution", "0.5", "--restitution", "1"],
+    ["models", "--format", "csv", "--format", "json"],
+    ["scene", "in.csv", "out.csv", "--tolerance", "1", "--tolerance", "1e-3"],
+]
+
+
+@pytest.mark.parametrize("command", ONCE, ids=lambda command: command[-1])
+def test_an_option_is_given_once(command, capsys):
+    with pytest.raises(SystemExit, match="2"):
+        main(command)
+    assert "is a second value, allowed is one" in capsys.readouterr().err
+
+
+NO_NUMBERS = ["1_000", "\uff11", "1_0e-4", "0x10", "1e-400", "-0.001e-330", "1\n", "", "1,5", "e5"]
+
+
+@pytest.mark.parametrize("text", NO_NUMBERS)
+def test_what_is_no_decimal_number_or_too_small_for_one_is_not_read(text, capsys):
+    with pytest.raises(SystemExit, match="2"):
+        main(["rebound", "--incidence", text])
+    assert f"argument --incidence: {text!r}: " in capsys.readouterr().err
+
+
+def test_zeros_are_zero_however_they_are_written(capsys):
+    zeros = ["0", "-0.0", ".0", "0e-999", "5e-324", "1E+3", " +1."]
+    assert main(["rebound", "--model", "rigid", "--incidence", *zeros]) == 0
+    found = columns_of(capsys.readouterr().out)["incidence [mu v2(0)]"]
+    assert [float(x) for x in found] == [float(x) for x in zeros]
+
+
+def test_a_closed_standard_output_is_named(capsys, monkeypatch):
+    with monkeypatch.context() as closed:
+        closed.setattr(sys, "stdout", None)
+        assert main(["rebound", "--incidence", "1"]) == 2
+    assert capsys.readouterr().err == (
+        "planarimpact: standard output is closed: allowed is an open one\n"
+    )
+
+
 def test_models_are_listed(capsys):
     assert main(["models"]) == 0
     assert [row["model"] for row in rows_of(capsys.readouterr().out)] == list(ladder.MODELS)
@@ -193,6 +248,10 @@ REFUSED = [
     (["history", "--incidence", "1", "--output", "a.csv", "--format", "json"], "ends in .csv"),
     (["rebound", "--incidence", "1", "--output", "a.json", "--format", "csv"], "ends in .json"),
     (["compile", "ball.csv"], "ball.csv: allowed are names that end in .json"),
+    (["rebound", "--incidence", "1", "--response", ""], "--response '': allowed are names of"),
+    (["rebound", "--incidence", "1", "--set", "n=1", "--set", "n=2"], "--set n=2: n is set twice"),
+    (["rebound", "--incidence", "1", "--set", "steps=1_0"], "--set steps: '1_0': allowed are"),
+    (["history", "--incidence", "1", "--samples", f"{10**15}"], f"samples = {10**15}: allowed are"),
 ]
 
 

@@ -1,6 +1,7 @@
 """Compiled responses against their models; what they refuse; their files."""
 
 import copy
+import dataclasses
 import pickle
 
 import numpy as np
@@ -176,6 +177,14 @@ def test_nothing_of_it_can_be_changed(ball):
         for array in made.pieces[:-1]:
             with pytest.raises(ValueError, match="read-only"):
                 array[...] = 0
+
+
+@pytest.mark.parametrize(
+    "change", [{"model": "rigid"}, {"tolerance": 1e-12}, {"parameters": {"mass_ratio": 2.0}}, {}]
+)
+def test_it_is_not_replaced_by_one_that_nobody_measured(ball, change):
+    with pytest.raises(InputError, match="response of .*: allowed are those that `compile` or"):
+        dataclasses.replace(ball, **change)
 
 
 def test_laws_of_impulses_know_a_peak_in_sliding_alone():

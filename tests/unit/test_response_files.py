@@ -89,12 +89,22 @@ def refused(path, *words):
     [
         ('"version": 1', '"version": 2', ["version 2", "compile it again"]),
         ('"version": 1', '"version": "1"', ["version '1'"]),
+        ('"version": 1', '"version": true', ["version True"]),
+        ('"version": 1', '"version": 1.0', ["version 1.0"]),
         (response.FORMAT, "another", ["format 'another'"]),
     ],
 )
 def test_another_version_or_format_is_refused(file, old, new, words):
     file.write_text(file.read_text().replace(old, new, 1))
     refused(file, *words)
+
+
+@pytest.mark.parametrize("key", ["version", "tolerance", "mass_ratio", "kink"])
+def test_a_key_that_is_there_twice_is_refused(file, key):
+    """Another reader of JSON may take the first of two values."""
+    text = file.read_text()
+    file.write_text(text.replace(f'"{key}": ', f'"{key}": 2, "{key}": ', 1))
+    refused(file, f"damaged: '{key}' is there twice")
 
 
 def test_one_digit_changed_is_seen_wherever_it_is(file):

@@ -2,6 +2,7 @@
 
 import copy
 import math
+import pickle
 import re
 from pathlib import Path
 
@@ -16,7 +17,7 @@ import solve_chunk
 import study_files
 import study_plan
 
-from planarimpact import Regime, checks, ladder, lumped, study
+from planarimpact import Regime, checks, continuum, ladder, lumped, study
 from planarimpact.results import Rebound
 
 GRID = {
@@ -87,6 +88,16 @@ def test_an_impact_that_cannot_be_solved_is_named_by_its_part(axes):
         study.solve(ladder.get("continuum").rebound, axes, 0, 9)
 
 
+def test_an_unsolved_impact_of_the_continuum_keeps_its_kind_and_is_a_point_of_the_grid():
+    axes = study.axes_of(GRID | {"incidence": [1, 2, 3], "restitution": 1})
+    rebound = ladder.get("continuum").rebound
+    with pytest.raises(continuum.Unsolved, match="points 4 to 6 of the grid: tolerance") as refusal:
+        study.solve(rebound, axes, 4, 6, tolerance=1e-15)
+    again = pickle.loads(pickle.dumps(refusal.value))
+    for error in (refusal.value, again):
+        assert error.impacts.tolist() == [4, 5] and str(error) == str(refusal.value)
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
@@ -98,8 +109,16 @@ def test_an_impact_that_cannot_be_solved_is_named_by_its_part(axes):
         ({"incidence": {"from": 8, "to": 0, "points": 3}}, "incidence = .*: allowed are ascending"),
         ({"incidence": {"from": 0, "to": 8, "points": 1}}, "incidence.points = 1: allowed are"),
         ({"incidence": {"from": 0, "to": np.nan, "points": 3}}, r"incidence\[1\] = nan"),
+        ({"incidence": {"from": True, "to": 8, "points": 3}}, r"incidence = \[True, 8\]: allowed"),
         ({"stiffness_ratio": 0}, "stiffness_ratio = 0.0: allowed are finite numbers above 0"),
         ({"friction": [0.1]}, "axes = .*friction: allowed are incidence"),
+        ({"incidence": {"from": 0, "to": 8}}, "incidence has .*: allowed are from, to, points"),
+        (
+            {"incidence": {"from": 0, "to": 8, "points": 3, "scale": "log"}},
+            "incidence has .*'scale'.*: allowed are from, to, points",
+        ),
+        ({"incidence": {"from": 0, "to": 8, "points": 10**9}}, "points = 1000000000: allowed are"),
+        ({1: [0.1]}, "axes = .*1: allowed are incidence"),
     ],
 )
 def test_bad_axes_are_refused(change, words):
@@ -107,10 +126,18 @@ def test_bad_axes_are_refused(change, words):
         study.axes_of(GRID | change)
 
 
-@pytest.mark.parametrize("span", [(-1, 3), (3, 3), (0, COUNT + 1)])
+@pytest.mark.parametrize("grid", [None, [1], "incidence", list(GRID)])
+def test_what_is_no_grid_is_refused(grid):
+    with pytest.raises(checks.InputError, match="axes = .*: allowed are incidence.* in a dict"):
+        study.axes_of(grid)
+
+
+@pytest.mark.parametrize("span", [(-1, 3), (3, 3), (3, 1), (0, COUNT + 1), (0.0, 2), (True, 2)])
 def test_points_outside_the_grid_are_refused(axes, span):
     with pytest.raises(checks.InputError, match=f"points .* allowed are some of 0 to {COUNT}"):
         study.points(axes, *span)
+    with pytest.raises(checks.InputError, match=f"points .* allowed are some of 0 to {COUNT}"):
+        study.solve(lumped.rebound, axes, *span)
 
 
 def test_parts_that_do_not_make_the_grid_are_refused(axes):
@@ -126,7 +153,9 @@ def test_parts_that_do_not_make_the_grid_are_refused(axes):
         ([first, (30, flat)], "the part from point 30 has .*regime .* float64"),
         ([first, (30, uneven)], "the part from point 30 has velocity"),
         ([first, second, (70, first[1])], "the part from point 70 has .* up to 0 points"),
-        ([first, (30, {"velocity": np.zeros(40)})], "the part from point 30 has velocity"),
+        ([first, (30, {"velocity": np.zeros(40)})], "the part from point 30 has .*velocity"),
+        ([(0, {})], r"the part from point 0 has \[\]: allowed are velocity"),
+        ([(0, None)], "the part from point 0 has None: allowed are velocity"),
     ):
         with pytest.raises(checks.InputError, match=words):
             study.gather(axes, wrong)
