@@ -286,15 +286,6 @@ def test_infinite_bodies_in_one_piece_do_not_shift_the_next(table):
     assert "other_spin_after [rad/s]" in pd.read_csv(whole)
 
 
-def test_a_comma_at_the_end_of_rows_moves_no_cell(table):
-    out, commas = table.with_name("out.csv"), table.with_name("commas.csv")
-    files.solve(table, out)
-    header, *rows = table.read_text().splitlines()
-    table.write_text("\n".join([header, *(f"{row}," for row in rows)]))
-    files.solve(table, commas)
-    assert commas.read_text() == out.read_text()
-
-
 HEADER, CELLS = ",".join(ROW), [f"{value:g}" for value in ROW.values()]
 LINE = ",".join(CELLS)
 NO_TABLES = [
@@ -309,6 +300,9 @@ NO_TABLES = [
     (f"{HEADER}\n{LINE}\n\n{LINE},8\n", "line 4: 10 cells where 9 belong"),
     (f"{HEADER}\n{LINE}\n{','.join(CELLS[:-1])}\n", "line 3: 8 cells where 9 belong"),
     (f"{HEADER}\n{','.join(f'{c},0' for c in CELLS)}\n", "decimals have a point, not a comma"),
+    (f"{HEADER},id\n{LINE[:-1]}0,5,1,\n", "line 2: 12 cells where 10 belong; decimals have"),
+    (f"{HEADER},id\n{LINE},1,\n", "line 2: 11 cells where 10 belong; decimals have a point"),
+    (f'{HEADER},id\n{LINE},"1",\n', "line 2: 11 cells where 10 belong; decimals have a point"),
     (f'{HEADER}\n"0,01",{LINE[5:]}\n', "'0,01': allowed are finite numbers above 0; decimals"),
     (f'id,{HEADER}\n"a\nb",{LINE}\n"c,d"{LINE}\n', "line 4: its quotation marks do not match"),
     (f'id,{HEADER}\n"a\nb",{LINE}\n"c,d",{LINE},8\n', "line 4: 11 cells where 10 belong"),

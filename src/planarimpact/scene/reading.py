@@ -145,12 +145,9 @@ def _rows_with_quotes(lines: Lines, width: int) -> Iterator[str]:
 
 
 def _fitting(number: int, text: str, cells: int, width: int) -> str:
-    """A row that has its cells, or is blank; one more that is empty, after a last comma, goes."""
+    """A row that has its cells, or is blank."""
     if cells == width or text.isspace():
         return text
-    bare = text.rstrip("\r\n")
-    if cells == width + 1 and bare.endswith(","):
-        return bare[:-1] + "\n"
     hint = columns.DECIMALS if cells > width else ""
     raise InputError(f"line {number}: {cells} cells where {width} belong{hint}")
 
