@@ -228,6 +228,7 @@ BAD_CELLS = [
     ("radius [m]", "1_0", r"radius \[m\] = '1_0'"),
     ("velocity_normal [m/s]", "fast", "= 'fast': allowed are finite numbers"),
     ("spin [rad/s]", 1e308, "too large or too small"),
+    ("friction", 1e308, r"friction = 1e\+308 times normal velocity .* = 2 is too large a number"),
 ]
 
 
@@ -243,6 +244,41 @@ def test_a_bad_row_is_named_or_left_out(name, value, words):
     after = remembered.solve(rows, skip_bad=True)
     assert list(after.index) == [0, 1, 3]
     assert remembered.rows == 4 and [number for number, _ in remembered.bad] == [3]
+
+
+EXTREMES = [
+    {"friction": 1e-300},
+    {"friction": 1e-300, "velocity_tangential [m/s]": 1e100},
+    {"friction": 1e-300, "velocity_normal [m/s]": 1e-100},
+    {"velocity_tangential [m/s]": 0.0, "spin [rad/s]": 1e-320},
+    {"spin [rad/s]": 1e300},
+    {"friction": 1e308},
+    {"density [kg/m^3]": 1e300, "radius [m]": 1e-100, "spin [rad/s]": 1e150},
+]
+
+
+@pytest.mark.parametrize("extreme", EXTREMES, ids=str)
+def test_no_number_makes_a_warning(extreme):
+    """Nor depends on how NumPy was told to treat it; what friction cannot hold slides."""
+    remembered = scene.Solver()
+    with np.errstate(all="raise"):
+        after = remembered.solve(table(STEEL, PLANE, extreme), skip_bad=True)
+    assert len(after) + len(remembered.bad) == 1
+    numbers = after.select_dtypes(float).drop(columns="incidence")
+    assert np.isfinite(numbers.to_numpy()).all()
+    if extreme.get("friction") == 1e-300:
+        assert after["regime"].tolist() == ["SLIP_THROUGHOUT"]
+        assert (
+            after["velocity_tangential_after [m/s]"].iloc[0]
+            == (PLANE | extreme)["velocity_tangential [m/s]"]
+        )
+
+
+def test_a_spin_after_that_is_no_number_is_named():
+    needle = without(STEEL, "density [kg/m^3]") | {"mass [kg]": 1.0, "gyration [m]": 1e-308}
+    rows = table(needle, PLANE, **{"radius [m]": 1e-308, "velocity_normal [m/s]": 1e10})
+    with pytest.raises(InputError, match="row 1: its numbers are too large or too small"):
+        scene.solve(rows)
 
 
 def test_rows_are_numbered_over_all_tables(monkeypatch):
