@@ -15,7 +15,7 @@ import pandas as pd
 import pytest
 
 import planarimpact
-from planarimpact import continuum, ladder, lumped, response, scene
+from planarimpact import InputError, continuum, ladder, lumped, response, scene
 from planarimpact.__main__ import main
 from planarimpact.scene import files
 
@@ -286,6 +286,18 @@ def test_infinite_bodies_in_one_piece_do_not_shift_the_next(table):
     assert "other_spin_after [rad/s]" in pd.read_csv(whole)
 
 
+def test_a_number_too_large_is_not_infinite_in_a_file(table):
+    other = {"other_radius [m]": 0.01, "other_gyration [m]": 0.005, "other_mass [kg]": "1e99"}
+    rows = pd.DataFrame([ROW | other] * 3).assign(**{"other_mass [kg]": ["1e99", "inf", "1e400"]})
+    rows.to_csv(table, index=False)
+    out = table.with_name("out.csv")
+    with pytest.raises(InputError, match=r"row 3: other_mass \[kg\] = '1e400': allowed are"):
+        files.solve(table, out)
+    assert not out.exists()
+    files.solve(table, out, skip_bad=True)
+    assert pd.read_csv(out)["other_mass [kg]"].tolist() == [1e99, np.inf]
+
+
 HEADER, CELLS = ",".join(ROW), [f"{value:g}" for value in ROW.values()]
 LINE = ",".join(CELLS)
 NO_TABLES = [
@@ -320,7 +332,20 @@ def test_what_is_no_table_is_named_for_what_it_is(table, text, words, capsys):
     assert os.listdir(table.parent) == ["in.csv"]
 
 
-IDS = ["007", "1e5", "", "NA", "null", " x y ", 'a "b", c', "two\nlines", "1.50", "-0"]
+IDS = [
+    "007",
+    "1e5",
+    "",
+    "NA",
+    "null",
+    " x y ",
+    'a "b", c',
+    "two\nlines",
+    "1.50",
+    "-0",
+    "a\rb",
+    "c\r\n",
+]
 
 
 @pytest.mark.parametrize("rows", [1, 100])

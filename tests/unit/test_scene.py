@@ -226,6 +226,7 @@ BAD_CELLS = [
     ("radius [m]", 1 + 2j, "radius"),
     ("radius [m]", 10**400, "radius"),
     ("radius [m]", "1_0", r"radius \[m\] = '1_0'"),
+    ("radius [m]", "０.０１", r"radius \[m\] = '０.０１': allowed are"),
     ("velocity_normal [m/s]", "fast", "= 'fast': allowed are finite numbers"),
     ("spin [rad/s]", 1e308, "too large or too small"),
     ("friction", 1e308, r"friction = 1e\+308 times normal velocity .* = 2 is too large a number"),
@@ -371,6 +372,23 @@ def test_blocks_share_what_they_know(monkeypatch):
     remembered.solve(rows)
     ways = {rung.way: count for (rung, _), count in remembered._taken.items()}
     assert ways == {"solved": 100, "compiled": 400}
+
+
+@pytest.mark.parametrize("cell", ["1e400", np.longdouble("1e400"), 10**400, "1" + 400 * "0"])
+def test_a_number_too_large_is_not_infinite(cell):
+    rows = table(STEEL, PLANE, OTHER).assign(**{"other_mass [kg]": np.array([cell])})
+    with pytest.raises(InputError, match=r"row 1: other_mass \[kg\] = .*1.*allowed are .* or inf"):
+        scene.solve(rows)
+
+
+@pytest.mark.parametrize("cell", ["inf", "Infinity", np.inf, np.longdouble("inf")])
+def test_infinite_is_what_is_called_so(cell):
+    other = OTHER | {"other_mass [kg]": cell}
+    after = scene.solve(table(STEEL, PLANE, other))
+    pd.testing.assert_series_equal(
+        after["spin_after [rad/s]"],
+        scene.solve(table(STEEL, PLANE, OTHER | {"other_mass [kg]": np.inf}))["spin_after [rad/s]"],
+    )
 
 
 def test_infinite_is_a_rigid_flat_wall():

@@ -14,6 +14,7 @@ from itertools import chain, islice
 from pathlib import Path
 from typing import TypeAlias
 
+import numpy as np
 import pandas as pd
 
 from planarimpact.checks import InputError
@@ -70,6 +71,13 @@ def _csv_pieces(source: Place, rows: int) -> Iterator[Piece]:
 
 
 def _table(text: str, types: dict[str, type[str]]) -> pd.DataFrame:
+    """Rows of the text; columns with infinite cells are text, which tells inf from 1e400."""
+    table = _parsed(text, types)
+    endless = [name for name in table.select_dtypes(float) if np.isinf(table[name]).any()]
+    return _parsed(text, types | dict.fromkeys(endless, str)) if endless else table
+
+
+def _parsed(text: str, types: dict[str, type[str]]) -> pd.DataFrame:
     return pd.read_csv(
         io.BytesIO(text.encode()),
         index_col=False,
