@@ -2,6 +2,7 @@
 
 import csv
 import gzip
+import io
 import json
 import os
 import signal
@@ -259,7 +260,9 @@ def test_a_table_is_not_replaced_by_its_result(table, capsys):
         assert main(["scene", str(source), str(out)]) == 2
         assert "it is the table that is read" in capsys.readouterr().err
     table.rename(table.with_name("out.csv.bad.csv"))
-    assert main(["scene", str(table.with_name("out.csv.bad.csv")), str(table.with_name("out.csv"))])
+    bad, out = table.with_name("out.csv.bad.csv"), table.with_name("out.csv")
+    assert main(["scene", str(bad), str(out), "--skip-bad"]) == 2
+    assert "it is the table that is read" in capsys.readouterr().err
 
 
 def test_links_are_followed_and_folders_left_alone(table, capsys):
@@ -272,6 +275,10 @@ def test_links_are_followed_and_folders_left_alone(table, capsys):
     folder.mkdir()
     assert main(["scene", str(table), str(folder)]) == 2
     assert "no regular file" in capsys.readouterr().err
+    circle = table.with_name("circle.csv")
+    circle.symlink_to(circle)
+    assert main(["scene", str(table), str(circle)]) == 2
+    assert "circle.csv: it is a symbolic link that leads back" in capsys.readouterr().err
 
 
 def test_infinite_bodies_in_one_piece_do_not_shift_the_next(table):
@@ -403,7 +410,9 @@ def standard_input():
     os.close(saved)
 
 
-@pytest.mark.parametrize(("source", "target"), [("-", "-"), ("/dev/stdin", "/dev/stdout")])
+@pytest.mark.parametrize(
+    ("source", "target"), [("-", "-"), ("/dev/stdin", "/dev/stdout"), ("/dev/fd/0", "/dev/fd/1")]
+)
 def test_from_standard_input_to_standard_output(table, capfd, standard_input, source, target):
     plain = table.with_name("plain.csv")
     files.solve(table, plain)
@@ -412,6 +421,32 @@ def test_from_standard_input_to_standard_output(table, capfd, standard_input, so
     found = capfd.readouterr()
     assert found.out == plain.read_text()
     assert "standard output: 5 impacts" in found.err and "lumped, solved" in found.err
+
+
+def test_a_file_by_its_name_is_one_also_where_it_is_standard_input(table, standard_input):
+    """Whoever reads a list line by line may have read some of it already."""
+    out = table.with_name("out.csv")
+    standard_input(table)
+    os.lseek(0, 0, os.SEEK_END)
+    assert files.solve(table, out).rows == 5
+
+
+def test_words_that_standard_output_has_no_letters_for_are_no_error(table, monkeypatch):
+    out = table.with_name("é.csv")
+    with io.TextIOWrapper(io.BytesIO(), encoding="ascii") as ascii_only:
+        monkeypatch.setattr(sys, "stdout", ascii_only)
+        assert main(["scene", str(table), str(out), "--explain"]) == 0
+        said = ascii_only.buffer.getvalue().decode()
+    assert "\\xe9.csv: 5 impacts\n" in said and out.exists()
+
+
+def test_an_interrupt_does_not_speak_of_what_may_be_written(table, monkeypatch, capsys):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(files, "solve", interrupted)
+    assert main(["scene", str(table), "-"]) == 130
+    assert capsys.readouterr().err == "planarimpact: interrupted\n"
 
 
 def test_bad_rows_of_a_stream_are_listed_on_standard_error(table, capfd, standard_input):
@@ -590,6 +625,15 @@ def test_parquet_keeps_its_types(table):
     assert shown[:2] == [None, "1970-01-02"]
 
 
+def test_a_name_that_is_twice_in_parquet_is_refused(table):
+    pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    source = table.with_name("in.parquet")
+    given = pyarrow.Table.from_pandas(pd.DataFrame([ROW]))
+    pyarrow.parquet.write_table(given.append_column("friction", pyarrow.array([1])), source)
+    with pytest.raises(InputError, match="in.parquet: column 'friction' is there twice"):
+        files.solve(source, table.with_name("out.csv"))
+
+
 def test_a_reader_that_has_had_enough_is_no_error():
     command = f"{sys.executable} -m planarimpact history --incidence 1 --samples 20000 | head -1"
     result = subprocess.run(
@@ -598,12 +642,27 @@ def test_a_reader_that_has_had_enough_is_no_error():
     assert result.returncode == 0 and not result.stderr and result.stdout.startswith("time [t_c],")
 
 
-def test_an_old_list_of_bad_rows_goes(table):
+def test_a_list_of_bad_rows_is_written_where_they_are_skipped_and_only_there(table):
     out = table.with_name("out.csv")
     bad = table.with_name("out.csv.bad.csv")
-    bad.write_text("row,problem\n1,old\n")
+    bad.write_text("mine")
     files.solve(table, out)
-    assert not bad.exists()
+    assert bad.read_text() == "mine"
+    files.solve(table, out, skip_bad=True)
+    assert bad.read_text() == "row,problem\n"
+    table.write_text("radius [m]\n1\n")
+    bad.write_text("of the result that is there")
+    with pytest.raises(InputError):
+        files.solve(table, out, skip_bad=True)
+    assert bad.read_text() == "of the result that is there"
+
+
+def test_a_list_of_bad_rows_does_not_replace_the_result(table):
+    out, bad = table.with_name("out.csv"), table.with_name("out.csv.bad.csv")
+    bad.symlink_to(out)
+    with pytest.raises(InputError, match="out.csv.bad.csv: it is a link to the result"):
+        files.solve(table, out, skip_bad=True)
+    assert not out.exists()
 
 
 def test_help_speaks_of_every_command():

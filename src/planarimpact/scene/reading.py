@@ -173,6 +173,7 @@ def _parquet_pieces(source: Place, rows: int) -> Iterator[Piece]:
         raise InputError(f"no Parquet file: {error}") from None
     # The index of a table that pandas has written, unless it has a name, is none of its columns.
     names = [name for name in file.schema_arrow.names if not name.startswith("__index_level_")]
+    columns.named(names)  # pyarrow does not say which name is there twice
     exact = {"types_mapper": pd.ArrowDtype, "ignore_metadata": True}
     whole, so_far = max(file.metadata.num_rows, 1), 0
     for batch in file.iter_batches(rows, columns=names):
