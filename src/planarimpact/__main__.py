@@ -10,7 +10,7 @@ import re
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import numpy as np
 
@@ -122,7 +122,7 @@ dissipation [mu^2 m2 v2(0)^2],regime
         print(f"planarimpact: {error.filename or 'output'}: {error.strerror}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
-        print("planarimpact: interrupted, nothing is written", file=sys.stderr)
+        print("planarimpact: interrupted", file=sys.stderr)
         return 130
     return 0
 
@@ -245,15 +245,21 @@ def _scene(options: argparse.Namespace) -> None:
     )
     # Nothing else may stand in a table on standard output.
     words = sys.stderr if target == places.target("-") else sys.stdout
-    print(f"{target.name}: {solver.rows - len(solver.bad)} impacts", file=words)
+    _say(f"{target.name}: {solver.rows - len(solver.bad)} impacts", words)
     bad = places.beside(target)
     if solver.bad and bad:
-        print(f"{bad.name}: {len(solver.bad)} bad rows left out", file=words)
+        _say(f"{bad.name}: {len(solver.bad)} bad rows left out", words)
     elif solver.bad:
         for row, problem in solver.bad:
-            print(f"row {row}, left out: {problem}", file=sys.stderr)
+            _say(f"row {row}, left out: {problem}", sys.stderr)
     if options.explain:
-        print(solver.explain(), file=words)
+        _say(solver.explain(), words)
+
+
+def _say(words: str, file: TextIO) -> None:
+    """Print words, with escapes for letters that the file has none for."""
+    encoding = file.encoding or "utf-8"
+    print(words.encode(encoding, "backslashreplace").decode(encoding), file=file)
 
 
 def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:

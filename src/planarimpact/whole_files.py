@@ -1,6 +1,7 @@
 """Files that appear whole or not at all, and what JSON writes for no number."""
 
 import math
+import os
 import secrets
 import signal
 import stat
@@ -12,7 +13,16 @@ from types import FrameType
 
 from planarimpact.checks import InputError
 
-SIGNALS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+# What ends the process, with the handler that it has where nobody has set another.
+SIGNALS = {
+    getattr(signal, name): handler
+    for name, handler in (
+        ("SIGTERM", signal.SIG_DFL),
+        ("SIGHUP", signal.SIG_DFL),
+        ("SIGINT", signal.default_int_handler),
+    )
+    if hasattr(signal, name)
+}
 
 
 @contextmanager
@@ -35,7 +45,7 @@ def written(path: str | Path) -> Iterator[Path]:
     Raises
     ------
     InputError
-        If `path` is there and no regular file, or its folder is not.
+        If `path` is there and no regular file, or its folder is not, or links go in a circle.
 
     Examples
     --------
@@ -46,7 +56,9 @@ def written(path: str | Path) -> Iterator[Path]:
     >>> path.read_text(), partial.exists()
     ('all of them', False)
     """
-    target = Path(path).resolve()
+    target = Path(os.path.realpath(path))
+    if target.is_symlink():
+        raise InputError(f"{path}: it is a symbolic link that leads back to itself")
     if target.exists() and not target.is_file():
         raise InputError(f"{path}: it is there already, and no regular file")
     if not target.parent.is_dir():
@@ -77,14 +89,17 @@ class _Ended(BaseException):
 def _unwound_by_signals() -> Iterator[None]:
     """Let signals that would end the process at once leave the block as an exception does first.
 
+    Ctrl-C does so anyway: here that a second one does not interrupt the cleaning after the first.
     Only those that nobody else handles, and only in the main thread, where Python allows it.
     """
     main = threading.current_thread() is threading.main_thread()
-    numbers = [n for n in SIGNALS if main and signal.getsignal(n) is signal.SIG_DFL]
+    numbers = [n for n, handler in SIGNALS.items() if main and signal.getsignal(n) is handler]
 
     def leave(number: int, frame: FrameType | None) -> None:
         for n in numbers:  # a second one would interrupt the cleaning
             signal.signal(n, signal.SIG_IGN)
+        if number == signal.SIGINT:
+            raise KeyboardInterrupt
         raise _Ended(number)
 
     try:
@@ -94,7 +109,7 @@ def _unwound_by_signals() -> Iterator[None]:
             yield
         finally:
             for n in numbers:
-                signal.signal(n, signal.SIG_DFL)
+                signal.signal(n, SIGNALS[n])
     except _Ended as ended:
         if ended.number not in numbers:  # of a block around this one, which has files too
             raise

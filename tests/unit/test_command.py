@@ -2,6 +2,7 @@
 
 import csv
 import gzip
+import io
 import json
 import os
 import signal
@@ -15,7 +16,7 @@ import pandas as pd
 import pytest
 
 import planarimpact
-from planarimpact import continuum, ladder, lumped, response, scene
+from planarimpact import InputError, continuum, ladder, lumped, response, scene
 from planarimpact.__main__ import main
 from planarimpact.scene import files
 
@@ -318,7 +319,9 @@ def test_a_table_is_not_replaced_by_its_result(table, capsys):
         assert main(["scene", str(source), str(out)]) == 2
         assert "it is the table that is read" in capsys.readouterr().err
     table.rename(table.with_name("out.csv.bad.csv"))
-    assert main(["scene", str(table.with_name("out.csv.bad.csv")), str(table.with_name("out.csv"))])
+    bad, out = table.with_name("out.csv.bad.csv"), table.with_name("out.csv")
+    assert main(["scene", str(bad), str(out), "--skip-bad"]) == 2
+    assert "it is the table that is read" in capsys.readouterr().err
 
 
 def test_links_are_followed_and_folders_left_alone(table, capsys):
@@ -331,6 +334,10 @@ def test_links_are_followed_and_folders_left_alone(table, capsys):
     folder.mkdir()
     assert main(["scene", str(table), str(folder)]) == 2
     assert "no regular file" in capsys.readouterr().err
+    circle = table.with_name("circle.csv")
+    circle.symlink_to(circle)
+    assert main(["scene", str(table), str(circle)]) == 2
+    assert "circle.csv: it is a symbolic link that leads back" in capsys.readouterr().err
 
 
 def test_infinite_bodies_in_one_piece_do_not_shift_the_next(table):
@@ -345,13 +352,16 @@ def test_infinite_bodies_in_one_piece_do_not_shift_the_next(table):
     assert "other_spin_after [rad/s]" in pd.read_csv(whole)
 
 
-def test_a_comma_at_the_end_of_rows_moves_no_cell(table):
-    out, commas = table.with_name("out.csv"), table.with_name("commas.csv")
-    files.solve(table, out)
-    header, *rows = table.read_text().splitlines()
-    table.write_text("\n".join([header, *(f"{row}," for row in rows)]))
-    files.solve(table, commas)
-    assert commas.read_text() == out.read_text()
+def test_a_number_too_large_is_not_infinite_in_a_file(table):
+    other = {"other_radius [m]": 0.01, "other_gyration [m]": 0.005, "other_mass [kg]": "1e99"}
+    rows = pd.DataFrame([ROW | other] * 3).assign(**{"other_mass [kg]": ["1e99", "inf", "1e400"]})
+    rows.to_csv(table, index=False)
+    out = table.with_name("out.csv")
+    with pytest.raises(InputError, match=r"row 3: other_mass \[kg\] = '1e400': allowed are"):
+        files.solve(table, out)
+    assert not out.exists()
+    files.solve(table, out, skip_bad=True)
+    assert pd.read_csv(out)["other_mass [kg]"].tolist() == [1e99, np.inf]
 
 
 HEADER, CELLS = ",".join(ROW), [f"{value:g}" for value in ROW.values()]
@@ -368,6 +378,9 @@ NO_TABLES = [
     (f"{HEADER}\n{LINE}\n\n{LINE},8\n", "line 4: 10 cells where 9 belong"),
     (f"{HEADER}\n{LINE}\n{','.join(CELLS[:-1])}\n", "line 3: 8 cells where 9 belong"),
     (f"{HEADER}\n{','.join(f'{c},0' for c in CELLS)}\n", "decimals have a point, not a comma"),
+    (f"{HEADER},id\n{LINE[:-1]}0,5,1,\n", "line 2: 12 cells where 10 belong; decimals have"),
+    (f"{HEADER},id\n{LINE},1,\n", "line 2: 11 cells where 10 belong; decimals have a point"),
+    (f'{HEADER},id\n{LINE},"1",\n', "line 2: 11 cells where 10 belong; decimals have a point"),
     (f'{HEADER}\n"0,01",{LINE[5:]}\n', "'0,01': allowed are finite numbers above 0; decimals"),
     (f'id,{HEADER}\n"a\nb",{LINE}\n"c,d"{LINE}\n', "line 4: its quotation marks do not match"),
     (f'id,{HEADER}\n"a\nb",{LINE}\n"c,d",{LINE},8\n', "line 4: 11 cells where 10 belong"),
@@ -385,7 +398,20 @@ def test_what_is_no_table_is_named_for_what_it_is(table, text, words, capsys):
     assert os.listdir(table.parent) == ["in.csv"]
 
 
-IDS = ["007", "1e5", "", "NA", "null", " x y ", 'a "b", c', "two\nlines", "1.50", "-0"]
+IDS = [
+    "007",
+    "1e5",
+    "",
+    "NA",
+    "null",
+    " x y ",
+    'a "b", c',
+    "two\nlines",
+    "1.50",
+    "-0",
+    "a\rb",
+    "c\r\n",
+]
 
 
 @pytest.mark.parametrize("rows", [1, 100])
@@ -443,7 +469,9 @@ def standard_input():
     os.close(saved)
 
 
-@pytest.mark.parametrize(("source", "target"), [("-", "-"), ("/dev/stdin", "/dev/stdout")])
+@pytest.mark.parametrize(
+    ("source", "target"), [("-", "-"), ("/dev/stdin", "/dev/stdout"), ("/dev/fd/0", "/dev/fd/1")]
+)
 def test_from_standard_input_to_standard_output(table, capfd, standard_input, source, target):
     plain = table.with_name("plain.csv")
     files.solve(table, plain)
@@ -452,6 +480,32 @@ def test_from_standard_input_to_standard_output(table, capfd, standard_input, so
     found = capfd.readouterr()
     assert found.out == plain.read_text()
     assert "standard output: 5 impacts" in found.err and "lumped, solved" in found.err
+
+
+def test_a_file_by_its_name_is_one_also_where_it_is_standard_input(table, standard_input):
+    """Whoever reads a list line by line may have read some of it already."""
+    out = table.with_name("out.csv")
+    standard_input(table)
+    os.lseek(0, 0, os.SEEK_END)
+    assert files.solve(table, out).rows == 5
+
+
+def test_words_that_standard_output_has_no_letters_for_are_no_error(table, monkeypatch):
+    out = table.with_name("é.csv")
+    with io.TextIOWrapper(io.BytesIO(), encoding="ascii") as ascii_only:
+        monkeypatch.setattr(sys, "stdout", ascii_only)
+        assert main(["scene", str(table), str(out), "--explain"]) == 0
+        said = ascii_only.buffer.getvalue().decode()
+    assert "\\xe9.csv: 5 impacts\n" in said and out.exists()
+
+
+def test_an_interrupt_does_not_speak_of_what_may_be_written(table, monkeypatch, capsys):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(files, "solve", interrupted)
+    assert main(["scene", str(table), "-"]) == 130
+    assert capsys.readouterr().err == "planarimpact: interrupted\n"
 
 
 def test_bad_rows_of_a_stream_are_listed_on_standard_error(table, capfd, standard_input):
@@ -630,6 +684,15 @@ def test_parquet_keeps_its_types(table):
     assert shown[:2] == [None, "1970-01-02"]
 
 
+def test_a_name_that_is_twice_in_parquet_is_refused(table):
+    pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    source = table.with_name("in.parquet")
+    given = pyarrow.Table.from_pandas(pd.DataFrame([ROW]))
+    pyarrow.parquet.write_table(given.append_column("friction", pyarrow.array([1])), source)
+    with pytest.raises(InputError, match="in.parquet: column 'friction' is there twice"):
+        files.solve(source, table.with_name("out.csv"))
+
+
 def test_a_reader_that_has_had_enough_is_no_error():
     command = f"{sys.executable} -m planarimpact history --incidence 1 --samples 20000 | head -1"
     result = subprocess.run(
@@ -638,12 +701,27 @@ def test_a_reader_that_has_had_enough_is_no_error():
     assert result.returncode == 0 and not result.stderr and result.stdout.startswith("time [t_c],")
 
 
-def test_an_old_list_of_bad_rows_goes(table):
+def test_a_list_of_bad_rows_is_written_where_they_are_skipped_and_only_there(table):
     out = table.with_name("out.csv")
     bad = table.with_name("out.csv.bad.csv")
-    bad.write_text("row,problem\n1,old\n")
+    bad.write_text("mine")
     files.solve(table, out)
-    assert not bad.exists()
+    assert bad.read_text() == "mine"
+    files.solve(table, out, skip_bad=True)
+    assert bad.read_text() == "row,problem\n"
+    table.write_text("radius [m]\n1\n")
+    bad.write_text("of the result that is there")
+    with pytest.raises(InputError):
+        files.solve(table, out, skip_bad=True)
+    assert bad.read_text() == "of the result that is there"
+
+
+def test_a_list_of_bad_rows_does_not_replace_the_result(table):
+    out, bad = table.with_name("out.csv"), table.with_name("out.csv.bad.csv")
+    bad.symlink_to(out)
+    with pytest.raises(InputError, match="out.csv.bad.csv: it is a link to the result"):
+        files.solve(table, out, skip_bad=True)
+    assert not out.exists()
 
 
 def test_help_speaks_of_every_command():

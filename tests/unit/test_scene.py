@@ -226,8 +226,10 @@ BAD_CELLS = [
     ("radius [m]", 1 + 2j, "radius"),
     ("radius [m]", 10**400, "radius"),
     ("radius [m]", "1_0", r"radius \[m\] = '1_0'"),
+    ("radius [m]", "０.０１", r"radius \[m\] = '０.０１': allowed are"),
     ("velocity_normal [m/s]", "fast", "= 'fast': allowed are finite numbers"),
     ("spin [rad/s]", 1e308, "too large or too small"),
+    ("friction", 1e308, r"friction = 1e\+308 times normal velocity .* = 2 is too large a number"),
 ]
 
 
@@ -243,6 +245,41 @@ def test_a_bad_row_is_named_or_left_out(name, value, words):
     after = remembered.solve(rows, skip_bad=True)
     assert list(after.index) == [0, 1, 3]
     assert remembered.rows == 4 and [number for number, _ in remembered.bad] == [3]
+
+
+EXTREMES = [
+    {"friction": 1e-300},
+    {"friction": 1e-300, "velocity_tangential [m/s]": 1e100},
+    {"friction": 1e-300, "velocity_normal [m/s]": 1e-100},
+    {"velocity_tangential [m/s]": 0.0, "spin [rad/s]": 1e-320},
+    {"spin [rad/s]": 1e300},
+    {"friction": 1e308},
+    {"density [kg/m^3]": 1e300, "radius [m]": 1e-100, "spin [rad/s]": 1e150},
+]
+
+
+@pytest.mark.parametrize("extreme", EXTREMES, ids=str)
+def test_no_number_makes_a_warning(extreme):
+    """Nor depends on how NumPy was told to treat it; what friction cannot hold slides."""
+    remembered = scene.Solver()
+    with np.errstate(all="raise"):
+        after = remembered.solve(table(STEEL, PLANE, extreme), skip_bad=True)
+    assert len(after) + len(remembered.bad) == 1
+    numbers = after.select_dtypes(float).drop(columns="incidence")
+    assert np.isfinite(numbers.to_numpy()).all()
+    if extreme.get("friction") == 1e-300:
+        assert after["regime"].tolist() == ["SLIP_THROUGHOUT"]
+        assert (
+            after["velocity_tangential_after [m/s]"].iloc[0]
+            == (PLANE | extreme)["velocity_tangential [m/s]"]
+        )
+
+
+def test_a_spin_after_that_is_no_number_is_named():
+    needle = without(STEEL, "density [kg/m^3]") | {"mass [kg]": 1.0, "gyration [m]": 1e-308}
+    rows = table(needle, PLANE, **{"radius [m]": 1e-308, "velocity_normal [m/s]": 1e10})
+    with pytest.raises(InputError, match="row 1: its numbers are too large or too small"):
+        scene.solve(rows)
 
 
 def test_rows_are_numbered_over_all_tables(monkeypatch):
@@ -335,6 +372,23 @@ def test_blocks_share_what_they_know(monkeypatch):
     remembered.solve(rows)
     ways = {rung.way: count for (rung, _), count in remembered._taken.items()}
     assert ways == {"solved": 100, "compiled": 400}
+
+
+@pytest.mark.parametrize("cell", ["1e400", np.longdouble("1e400"), 10**400, "1" + 400 * "0"])
+def test_a_number_too_large_is_not_infinite(cell):
+    rows = table(STEEL, PLANE, OTHER).assign(**{"other_mass [kg]": np.array([cell])})
+    with pytest.raises(InputError, match=r"row 1: other_mass \[kg\] = .*1.*allowed are .* or inf"):
+        scene.solve(rows)
+
+
+@pytest.mark.parametrize("cell", ["inf", "Infinity", np.inf, np.longdouble("inf")])
+def test_infinite_is_what_is_called_so(cell):
+    other = OTHER | {"other_mass [kg]": cell}
+    after = scene.solve(table(STEEL, PLANE, other))
+    pd.testing.assert_series_equal(
+        after["spin_after [rad/s]"],
+        scene.solve(table(STEEL, PLANE, OTHER | {"other_mass [kg]": np.inf}))["spin_after [rad/s]"],
+    )
 
 
 def test_infinite_is_a_rigid_flat_wall():

@@ -9,6 +9,7 @@ import threading
 
 import pytest
 
+from planarimpact.checks import InputError
 from planarimpact.whole_files import written
 
 
@@ -79,6 +80,30 @@ def test_an_error_leaves_what_was_there(path, error):
         partial.write_text("half")
         raise error
     assert path.read_text() == "earlier" and os.listdir(path.parent) == ["words.txt"]
+
+
+def test_links_that_go_in_a_circle_are_refused(path):
+    other = path.with_name("other")
+    path.symlink_to(other)
+    other.symlink_to(path)
+    with pytest.raises(InputError, match="words.txt: .* link"), written(path):
+        pytest.fail("it writes")
+    assert path.is_symlink() and len(os.listdir(path.parent)) == 2
+
+
+def test_a_second_interrupt_does_not_interrupt_the_cleaning(path):
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt), written(path), written(path.with_name("other")):
+            try:
+                signal.raise_signal(signal.SIGINT)
+            finally:
+                signal.raise_signal(signal.SIGINT)
+                cleaned = True
+        assert cleaned and not os.listdir(path.parent)
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 # Two files at a time, as a page and its notebook are written.

@@ -193,7 +193,7 @@ def numbers(table: pd.DataFrame, names: dict[str, str]) -> tuple[dict[str, Array
         values[name], bad = _checked(table[text], column)
         for position in np.flatnonzero(bad).tolist():
             cell = table[text].iloc[position]
-            shown = repr(cell) if isinstance(cell, str) else f"{cell}"
+            shown = repr(cell) if isinstance(cell, str) else str(cell)
             hint = DECIMALS if "," in shown else ""
             problems.setdefault(position, f"{text} = {shown}: allowed are {column.allowed}{hint}")
     endless = np.isinf(values.get("other_radius", 0.0)) & _moves(values)
@@ -214,9 +214,10 @@ def _moves(values: dict[str, Array]) -> Booleans:
 def _checked(series: pd.Series, column: Column) -> tuple[Array, Booleans]:
     """Numbers of one column, and which are not admissible."""
     types = pd.api.types
-    if types.is_integer_dtype(series) or types.is_float_dtype(series):
+    is_number = types.is_integer_dtype(series) or types.is_float_dtype(series)
+    if is_number and series.dtype.itemsize <= 8:
         values = series.to_numpy(dtype=float, na_value=np.nan)
-    else:  # words among them, or worse: cell by cell
+    else:  # words among them, numbers that float64 may not hold, or worse: cell by cell
         values = np.array([_number(cell) for cell in series], dtype=float)
     good = values > column.low if column.open_low else values >= column.low
     good &= values <= column.high
@@ -226,9 +227,14 @@ def _checked(series: pd.Series, column: Column) -> tuple[Array, Booleans]:
 
 
 def _number(cell: Any) -> float:
-    """A cell that is a number, or the text of one, else NaN."""
-    odd = isinstance(cell, (bool, np.bool_, complex)) or "_" in str(cell)
+    """A cell that is a number, or the text of one in plain digits, else NaN.
+
+    Infinite is only what is called so: not a number that float64 cannot hold.
+    """
+    text = str(cell)
+    odd = isinstance(cell, (bool, np.bool_, complex)) or "_" in text or not text.isascii()
     try:
-        return np.nan if odd else float(cell)
+        value = np.nan if odd else float(cell)
     except (TypeError, ValueError, OverflowError):
         return np.nan
+    return np.nan if np.isinf(value) and "inf" not in text.lower() else value

@@ -1,7 +1,9 @@
 """Scenes from file to file, piece by piece: CSV, Parquet where pyarrow is installed, or JSON."""
 
+import os
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 import pandas as pd
@@ -35,7 +37,8 @@ def solve(
         As there.
     skip_bad : bool
         Leave bad rows out instead of refusing the table. They are listed in a file beside the
-        target, `<its name>.bad.csv`, unless that is no file, and in `bad` of the result.
+        target, `<its name>.bad.csv`, unless that is no file, and in `bad` of the result; the list
+        is written also where no row is bad.
     rows : int
         How many are held at a time.
     progress : callable, optional
@@ -55,23 +58,26 @@ def solve(
         As `planarimpact.scene.solve`.
     """
     read, result = places.source(source), places.target(target)
-    bad = places.beside(result)
+    bad = places.beside(result) if skip_bad else None
     for place in (result, bad):
         if place and not read.stream and _same(Path(place.name), Path(read.name)):
             raise InputError(
                 f"{place.name}: it is the table that is read; the result needs another name"
             )
+    if bad and os.path.realpath(bad.name) == os.path.realpath(result.name):
+        raise InputError(
+            f"{bad.name}: it is a link to the result; bad rows need a file of their own"
+        )
     solver = Solver(tolerance)
-    with writing.appended(result) as write:
-        for share, table in _solved(solver, read, skip_bad, rows):
-            write(table)
-            if progress:
-                progress(share, solver.rows)
-        if bad and solver.bad:
-            with writing.appended(bad) as write_bad:
-                write_bad(pd.DataFrame(solver.bad, columns=["row", "problem"]))
-        elif bad and Path(bad.name).is_file():  # of an earlier run
-            Path(bad.name).unlink()
+    with ExitStack() as stack:
+        write_bad = stack.enter_context(writing.appended(bad)) if bad else None
+        with writing.appended(result) as write:
+            for share, table in _solved(solver, read, skip_bad, rows):
+                write(table)
+                if progress:
+                    progress(share, solver.rows)
+        if write_bad:  # also where there are none: an old list says nothing of a new result
+            write_bad(pd.DataFrame(solver.bad, columns=["row", "problem"]))
     return solver
 
 

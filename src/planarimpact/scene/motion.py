@@ -109,15 +109,20 @@ def problems(impacts: Impacts) -> dict[int, str]:
     """
     length = np.sqrt(np.sum(impacts.normal**2, axis=0))
     numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.peak_normal, impacts.v1
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):
         energy = impacts.m2 * impacts.v2 * impacts.v2 + impacts.m2 * impacts.v1 * impacts.v1
-    finite = np.isfinite(numbers).all(axis=0) & np.isfinite(impacts.v2) & np.isfinite(energy)
+        unit = impacts.friction * impacts.v2
+        spins = [_largest_turn(impacts, body) for body in (impacts.body, impacts.other)]
+    finite = np.isfinite([*numbers, impacts.v2, energy, *spins]).all(axis=0)
     found = {}
     for i in np.flatnonzero(~finite):
         found[int(i)] = "its numbers are too large or too small to compute with"
     for i in np.flatnonzero(~(impacts.v2 > 0) & finite):
         words = f"normal velocity of approach = {impacts.v2[i]:g}: the bodies must approach"
         found[int(i)] = f"{words} each other"
+    for i in np.flatnonzero(finite & np.isinf(unit)):
+        words = f"times normal velocity of approach = {impacts.v2[i]:g} is too large a number"
+        found[int(i)] = f"friction = {impacts.friction[i]:g} {words} to compute with"
     for i in np.flatnonzero(impacts.mass_ratio > LARGEST_RATIO):
         words = f"allowed are numbers up to {LARGEST_RATIO:g}"
         found[int(i)] = f"mass ratio m2/m1 = {impacts.mass_ratio[i]:g}: {words}"
@@ -228,6 +233,12 @@ def _kicked(state: State, body: Body, m2: Array, impulse: Array, towards: Array)
     change = impulse * (m2 / body.mass)
     turn = np.cross(towards, change, axis=0) * (body.radius / body.gyration) / body.gyration
     return State(state.velocity + change, state.spin + turn)
+
+
+def _largest_turn(impacts: Impacts, body: Body) -> Array:
+    """More than an impact can change the spin of a body [rad/s]."""
+    change = 2 * (impacts.v1 + impacts.v2) * (impacts.m2 / body.mass)
+    return change * (body.radius / body.gyration) / body.gyration
 
 
 def _peak_normal(values: dict[str, Array], m2: Array, v2: Array) -> Array:

@@ -1,5 +1,6 @@
 """What the name of a table says: a kind of file by its ending, standard input or output, a pipe."""
 
+import os
 from pathlib import Path
 from typing import NamedTuple
 
@@ -90,17 +91,27 @@ def _place(
     path: str | Path, standard: tuple[str, ...], number: int, words: str, kinds: tuple[str, ...]
 ) -> Place:
     name = str(path)
-    if name in standard:
+    kind = next((kind for kind in kinds if name.lower().endswith(kind)), None)
+    flows = Path(path).is_fifo() or Path(path).is_char_device()
+    # A file with a name of its own is read and written by that, whatever the shell has opened too.
+    if name in standard or ((flows or not kind) and _is_open(path, number)):
         return Place(words, number, CSV, stream=True)
-    if Path(path).is_fifo() or Path(path).is_char_device():
+    if flows:
         return Place(name, name, CSV, stream=True)
-    for kind in kinds:
-        if name.lower().endswith(kind):
-            if kind == PARQUET:
-                _refuse_without_pyarrow(name)
-            return Place(name, name, kind, stream=False)
+    if kind:
+        if kind == PARQUET:
+            _refuse_without_pyarrow(name)
+        return Place(name, name, kind, stream=False)
     endings = f"{', '.join(kinds[:-1])} or {kinds[-1]}"
     raise InputError(f"{name}: allowed are names that end in {endings}, pipes, and - for {words}")
+
+
+def _is_open(path: str | Path, number: int) -> bool:
+    """Whether a path leads to the open file of a number, as /dev/fd/1 does to standard output."""
+    try:
+        return os.path.samestat(os.stat(path), os.fstat(number))
+    except OSError:  # either is not there
+        return False
 
 
 def _refuse_without_pyarrow(name: str) -> None:

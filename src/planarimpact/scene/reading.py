@@ -14,6 +14,7 @@ from itertools import chain, islice
 from pathlib import Path
 from typing import TypeAlias
 
+import numpy as np
 import pandas as pd
 
 from planarimpact.checks import InputError
@@ -70,6 +71,13 @@ def _csv_pieces(source: Place, rows: int) -> Iterator[Piece]:
 
 
 def _table(text: str, types: dict[str, type[str]]) -> pd.DataFrame:
+    """Rows of the text; columns with infinite cells are text, which tells inf from 1e400."""
+    table = _parsed(text, types)
+    endless = [name for name in table.select_dtypes(float) if np.isinf(table[name]).any()]
+    return _parsed(text, types | dict.fromkeys(endless, str)) if endless else table
+
+
+def _parsed(text: str, types: dict[str, type[str]]) -> pd.DataFrame:
     return pd.read_csv(
         io.BytesIO(text.encode()),
         index_col=False,
@@ -145,12 +153,9 @@ def _rows_with_quotes(lines: Lines, width: int) -> Iterator[str]:
 
 
 def _fitting(number: int, text: str, cells: int, width: int) -> str:
-    """A row that has its cells, or is blank; one more that is empty, after a last comma, goes."""
+    """A row that has its cells, or is blank."""
     if cells == width or text.isspace():
         return text
-    bare = text.rstrip("\r\n")
-    if cells == width + 1 and bare.endswith(","):
-        return bare[:-1] + "\n"
     hint = columns.DECIMALS if cells > width else ""
     raise InputError(f"line {number}: {cells} cells where {width} belong{hint}")
 
@@ -168,6 +173,7 @@ def _parquet_pieces(source: Place, rows: int) -> Iterator[Piece]:
         raise InputError(f"no Parquet file: {error}") from None
     # The index of a table that pandas has written, unless it has a name, is none of its columns.
     names = [name for name in file.schema_arrow.names if not name.startswith("__index_level_")]
+    columns.named(names)  # pyarrow does not say which name is there twice
     exact = {"types_mapper": pd.ArrowDtype, "ignore_metadata": True}
     whole, so_far = max(file.metadata.num_rows, 1), 0
     for batch in file.iter_batches(rows, columns=names):

@@ -191,7 +191,8 @@ class Solver:
         if {"other_density", "other_mass"} & set(names):
             states |= {f"other_{k}": v for k, v in motion.columns_of(other, plane).items()}
         after = {columns.header(name, "_after"): values for name, values in states.items()}
-        with np.errstate(divide="ignore", invalid="ignore"):  # no friction, no incidence
+        # No friction, no incidence; with very little it is larger than any number.
+        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             incidence = impacts.v1 / (impacts.friction * impacts.v2)
         models = [choice.SLIDING.model, *choice.MODELS]
         return after | {

@@ -63,13 +63,26 @@ def _text(opened: str | int, kind: str) -> Iterator[TextIO]:
         yield stack.enter_context(io.TextIOWrapper(file, encoding="utf-8", newline=""))
 
 
+class _Lines:
+    """A file of CSV that is told "\\r\\n" at the end of each row, and writes "\\n".
+
+    Python quotes a cell with a carriage return only where that is part of the end of a row.
+    """
+
+    def __init__(self, file: TextIO) -> None:
+        self.write_text = file.write
+
+    def write(self, row: str) -> None:
+        self.write_text(row.removesuffix("\r\n") + "\n")
+
+
 @contextmanager
 def _csv(file: TextIO) -> Iterator[Write]:
-    header = True
+    header, lines = True, _Lines(file)
 
     def write(table: pd.DataFrame) -> None:
         nonlocal header
-        table.to_csv(file, index=False, header=header, lineterminator="\n")
+        table.to_csv(lines, index=False, header=header, lineterminator="\r\n")
         header = False
 
     yield write
