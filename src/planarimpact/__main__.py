@@ -256,9 +256,9 @@ def _scene(options: argparse.Namespace) -> None:
         _say(solver.explain(), words)
 
 
-def _say(words: str, file: TextIO) -> None:
-    """Print words, with escapes for letters that the file has none for."""
-    encoding = file.encoding or "utf-8"
+def _say(words: str, file: TextIO | None) -> None:
+    """Print words, with escapes for letters that the file, if there is one, has none for."""
+    encoding = getattr(file, "encoding", None) or "utf-8"
     print(words.encode(encoding, "backslashreplace").decode(encoding), file=file)
 
 
