@@ -135,12 +135,7 @@ def friction(radius: ArrayLike, displacement: ArrayLike, circles: int = 32) -> A
 
 
 def _checked_circles(circles: int) -> int:
-    circles = checks.count("circles", circles, 1)
-    if circles > MOST_CIRCLES:
-        raise checks.InputError(
-            f"circles = {circles}: allowed are integers from 1 to {MOST_CIRCLES}"
-        )
-    return circles
+    return checks.count("circles", circles, 1, MOST_CIRCLES)
 
 
 def _impacts(
