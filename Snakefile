@@ -100,11 +100,12 @@ rule all:
         MADE,
 
 
-if STARTED_HERE:
+if workflow.is_main_process:
     try:
         judgement.refuse_unknown_results(MADE)
     except RuntimeError as error:
         raise refused(error)
+if STARTED_HERE:
     judgement.drop_false_pass(MADE, config)
     BEFORE = closing.state()
 

@@ -184,12 +184,17 @@ def test_passed_does_not_outlive_what_it_was_about(finished):
     assert "every entry of the ledger holds" in passed.read_text()
 
 
-def test_results_without_records_are_refused(finished):
+def test_results_without_records_are_refused(finished, first_run):
     """A copy of a folder may leave hidden files out: then no change of physics would be noticed."""
     shutil.rmtree(finished / ".snakemake")
-    for folder in ("", ".snakemake/metadata", ".snakemake/records"):
-        if folder:
-            (finished / folder).mkdir(parents=True)
+    metadata = shutil.copytree(first_run[0] / ".snakemake/metadata", finished / "metadata")
+    for path in metadata.iterdir():
+        path.write_bytes(path.read_bytes()[:100])
+    for kept in (None, "metadata", "records"):
+        if kept == "metadata":
+            shutil.copytree(metadata, finished / ".snakemake/metadata")
+        elif kept:
+            shutil.copytree(first_run[0] / ".snakemake/records", finished / ".snakemake/records")
         assert "how it was made is not known" in refuses_to_pass(
             finished, "--config", "stiffness_ratio=1.5"
         )
@@ -247,6 +252,7 @@ def test_a_dry_run_changes_nothing(finished):
 UNTRUSTWORTHY = [
     "--keep-incomplete", "--touch", "-t", "--no-hook", "--ignore-incomplete", "--ii", "--nolock",
     "--allowed-rules all gate --", "--rerun-triggers mtime", "--rerun-t input code",
+    "--drop-metadata",
 ]  # fmt: skip
 
 
@@ -262,7 +268,43 @@ def test_other_options_are_not_refused(fresh, monkeypatch):
     for words in ("", "-n", "figures --config a=1", "-F", "--until compare", "-j 1 study"):
         options.refuse_untrustworthy(["/bin/snakemake", "--cores", "2", *words.split()])
     assert options.is_dry(["snakemake", "-n"]) and not options.is_dry(["snakemake", "-F"])
-    options.refuse_untrustworthy(["another program", "--touch"])
+
+
+def test_a_profile_does_not_hide_what_is_not_allowed(fresh, monkeypatch):
+    monkeypatch.chdir(fresh.folder)
+    with open("profiles/default/config.yaml", "a") as file:
+        file.write("rerun-triggers: [mtime]\n")
+    for arguments in (["snakemake", "--cores", "2"], ["/bin/smk", "--cores", "2"]):
+        with pytest.raises(options.OptionError, match="--rerun-triggers"):
+            options.refuse_untrustworthy(arguments)
+    with pytest.raises(options.OptionError, match="own command line"):
+        options.refuse_untrustworthy(["another program", "--what"])
+
+
+def test_bytecode_of_other_sources_is_not_run(finished):
+    """A source of the same size and date as the one before, as an archive may leave it."""
+    path = finished / "src/planarimpact/lumped.py"
+    right = path.read_text()
+    wrong = right.replace("shaped(x, velocity, peak", "shaped(x,-velocity, peak")
+    assert wrong != right and len(wrong) == len(right)
+    os.utime(path, (1e9, 1e9))
+    command = (
+        f"import sys; sys.path.insert(0, {str(finished / 'src')!r}); import planarimpact.lumped"
+    )
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    subprocess.run([sys.executable, "-c", command], env=environment, check=True)
+    assert list(path.parent.rglob("__pycache__/lumped*.pyc"))
+    path.write_text(wrong)
+    os.utime(path, (1e9, 1e9))
+    table = finished / "results/curves/fig6.csv"
+    before = table.read_text()
+    assert finished.run("results/curves/fig6.csv").returncode == 0
+    assert table.read_text() != before
+
+
+def test_another_snakefile_than_that_of_the_folder_is_refused(finished, first_run):
+    said = finished.run("-s", str(first_run[0] / "Snakefile"))
+    assert said.returncode != 0 and "in the folder of its Snakefile" in said.stdout
 
 
 def test_words_of_vanished_jobs_and_chunks_are_gone(finished):

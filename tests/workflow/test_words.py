@@ -1,11 +1,13 @@
 """What a run says: signs of life, and the end."""
 
 import time
+from types import SimpleNamespace
 
 import closing
 import csv_tables
 import job
 import pytest
+import records
 
 VERDICT = {
     "figure": "fig6", "comparison": "fig6-e1", "verdict": "agrees", "reference": "a/b",
@@ -55,6 +57,19 @@ def before(folder):
     """What `closing.state` says before a run in a folder that had one already."""
     ended(folder, "gate", passed=True)
     return closing.state()
+
+
+def test_an_input_that_is_edited_meanwhile_fails_the_job(folder):
+    (folder / "data.csv").write_text("1")
+    (folder / "made.csv").write_text("1")
+    told = SimpleNamespace(input=["data.csv"], output=["made.csv"], log=["results/logs/a.log"])
+    with job.recorded(told):
+        pass
+    assert records.faults(["made.csv"]) == []
+    with pytest.raises(RuntimeError, match="data.csv was edited while the job ran"):
+        with job.recorded(told):
+            (folder / "data.csv").write_text("2")
+    assert "made from another data.csv" in records.faults(["made.csv"])[0]
 
 
 def ended(folder, gate=None, passed=False, verdict="agrees", holds="yes"):

@@ -22,6 +22,8 @@ def refused(error):
     return WorkflowError(str(error))
 
 
+if Path(workflow.basedir).resolve() != Path.cwd().resolve():
+    raise WorkflowError(f"run Snakemake in the folder of its Snakefile: cd {workflow.basedir}")
 try:
     run_plan.refuse_unreadable_modules()
     for file in ("workflow/config.yaml", *workflow.config_settings.configfiles):

@@ -2,6 +2,7 @@
 
 import re
 import shlex
+import shutil
 from pathlib import Path
 
 import csv_tables
@@ -41,12 +42,17 @@ def state():
 def start(known):
     """Take away what would speak of an earlier run: its verdict, and words of jobs that are gone.
 
+    Python's bytecode too: it takes a source of the same size and date for the same source.
+
     Parameters
     ----------
     known : collection of str
         Logs and benchmarks of all jobs that the workflow has now.
     """
     judgement.drop_pass()
+    for folder in ("src", "workflow"):
+        for path in Path(folder).rglob("__pycache__"):
+            shutil.rmtree(path, ignore_errors=True)
     Path(GATE_LOG).unlink(missing_ok=True)
     for folder in ("benchmarks", "logs"):
         for path in Path("results", folder).glob("*"):

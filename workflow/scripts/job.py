@@ -39,10 +39,19 @@ def log_to(path):
 
 @contextlib.contextmanager
 def recorded(snakemake):
-    """Do a job of Snakemake: its words to its log, and a record of what it read and wrote."""
+    """Do a job of Snakemake: its words to its log, and a record of what it read and wrote.
+
+    Raises
+    ------
+    RuntimeError
+        If an input has changed meanwhile: nobody knows which version the job has read.
+    """
     inputs = {path: records.fingerprint(path) for path in snakemake.input}
     with log_to(snakemake.log[0]):
         yield
+        for path, before in inputs.items():
+            if records.fingerprint(path) != before:
+                raise RuntimeError(f"{path} was edited while the job ran: run again")
         records.write(snakemake.output, inputs)
 
 

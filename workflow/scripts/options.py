@@ -10,6 +10,7 @@ WHY = {
     "ignore_incomplete": "half-made files would count as whole",
     "allowed_rules": "old files would count as new",
     "nolock": "two runs would mix their files",
+    "drop_metadata": "a change of the config would go unnoticed",
 }
 
 
@@ -41,18 +42,24 @@ def refuse_untrustworthy(arguments):
     OptionError
         Naming the option.
     """
-    given, usual = _parsed(arguments), _parsed(arguments[:1])
+    from snakemake.settings.types import RerunTrigger
+
+    given = _parsed(arguments)
     for name, why in WHY.items():
         if getattr(given, name):
             raise OptionError(f"--{name.replace('_', '-')}: not allowed here, {why}")
-    if given.rerun_triggers != usual.rerun_triggers:
+    if not set(RerunTrigger) <= set(given.rerun_triggers):
         raise OptionError("--rerun-triggers: not allowed here, old files would count as new")
 
 
 def _parsed(arguments):
-    """Options as Snakemake reads them; none if another program calls Snakemake."""
-    own = list(arguments[1:]) if "snakemake" in arguments[0] else []
+    """Options as Snakemake reads them, its profiles too."""
     from snakemake.cli import parse_args  # here: only the process that was started has it
 
-    with contextlib.redirect_stderr(io.StringIO()):  # it has said which profile it uses
-        return parse_args(own)[1]
+    try:
+        with contextlib.redirect_stderr(io.StringIO()):  # it has said which profile it uses
+            return parse_args(list(arguments[1:]))[1]
+    except SystemExit:
+        raise OptionError(
+            "start Snakemake by its own command line, whose options are checked"
+        ) from None

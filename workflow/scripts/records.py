@@ -76,7 +76,7 @@ def faults(made):
             continue
         other = [source for source, old in record["inputs"].items() if now(source) != old]
         if other:
-            found.append(f"{path}: made from another {other[0]}: {HOW_TO_MEND}")
+            found.append(f"{path}: made from another {other[0]}: remove {path} and run again")
     return found
 
 
@@ -87,7 +87,7 @@ def unknown(made):
         for path in made
         if Path(path).exists()
         and not (INCOMPLETE / _encoded(path)).exists()
-        and not (_has_words(METADATA / _encoded(path)) and (FOLDER / f"{path}.json").exists())
+        and not (_is_json(METADATA / _encoded(path)) and (FOLDER / f"{path}.json").exists())
     ]
 
 
@@ -95,8 +95,11 @@ def _encoded(path):
     return base64.b64encode(path.encode()).decode()
 
 
-def _has_words(path):
-    return path.is_file() and path.stat().st_size > 0
+def _is_json(path):
+    try:
+        return bool(json.loads(path.read_text(encoding="utf-8")))
+    except (OSError, ValueError):
+        return False
 
 
 def _read(path):
