@@ -66,9 +66,9 @@ def test_an_input_that_is_edited_meanwhile_fails_the_job(folder):
     with job.recorded(told):
         pass
     assert records.faults(["made.csv"]) == []
-    with pytest.raises(RuntimeError, match="data.csv was edited while the job ran"):
-        with job.recorded(told):
-            (folder / "data.csv").write_text("2")
+    words = "data.csv was edited while the job ran"
+    with pytest.raises(RuntimeError, match=words), job.recorded(told):
+        (folder / "data.csv").write_text("2")
     assert "made from another data.csv" in records.faults(["made.csv"])[0]
 
 
