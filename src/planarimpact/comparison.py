@@ -12,12 +12,16 @@ from enum import StrEnum
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.stats import chi2
 
 from planarimpact.arrays import Array, ArrayLike
 
 
 class Verdict(StrEnum):
     """The outcome of one comparison; only DIVERGES fails a run.
+
+    UNCHANGED is said of a check that compares us with ourselves: it ran, it came out as before. It
+    guards against accidents and is evidence of nothing.
 
     Examples
     --------
@@ -29,6 +33,7 @@ class Verdict(StrEnum):
     DOCUMENTED = "differs as documented"
     DIVERGES = "diverges"
     AWAITED = "awaited"
+    UNCHANGED = "as before"
 
 
 class Distance(NamedTuple):
@@ -306,25 +311,75 @@ def _refuse_none(points: Array) -> None:
         raise ValueError("no points in the window")
 
 
-def judge(
-    distance: Distance,
-    agreement: Mapping[str, float] | None = None,
-    documented: Mapping[str, Any] | None = None,
-    difference: float | None = None,
-) -> Verdict:
-    """Verdict on a distance.
+class ChiSquared(NamedTuple):
+    """How well points fit a curve to which nothing was fitted.
+
+    Attributes
+    ----------
+    value : float
+        Sum of squares of the distances in sigmas, correlated where a parameter moves them together.
+    degrees : int
+        Degrees of freedom: the number of points.
+    p : float
+        Probability that chance alone gives a value as large.
+    """
+
+    value: float
+    degrees: int
+    p: float
+
+
+def chi_squared(sigmas: ArrayLike, shifts: ArrayLike = ()) -> ChiSquared:
+    """Chi-squared of distances, with the uncertainty of the curve's own parameters.
+
+    A parameter that is known to one sigma moves all points of the curve together, so the distances
+    have the covariance 1 + sum of J J^T, one J a parameter. That is what a fit of the parameters
+    gives that is held to their stated values with their stated sigmas.
 
     Parameters
     ----------
-    distance : Distance
-        What was measured.
-    agreement : dict, optional
-        Largest `rms` and `max`, in sigmas.
-    documented : dict, optional
-        A known difference instead: bounds [low, high] of `rms` or `max` in sigmas, or of
-        `difference` in axis units. Outside them, on either side, the curve diverges.
-    difference : float, optional
-        Signed difference of a landmark, for `documented`.
+    sigmas : array_like, shape (n,)
+        Signed distances of the points, in their own sigmas.
+    shifts : array_like, shape (k, n)
+        How much each distance changes with one sigma of each of k independent parameters.
+
+    Returns
+    -------
+    ChiSquared
+
+    Raises
+    ------
+    ValueError
+        If there are no points.
+
+    Examples
+    --------
+    >>> found = chi_squared([1.0, 2.0])
+    >>> found.value, found.degrees, round(found.p, 3)
+    (5.0, 2, 0.082)
+    >>> round(chi_squared([1.0, 1.0], [[3.0, 3.0]]).value, 3)  # one shift explains both
+    0.105
+    """
+    distance = np.asarray(sigmas, float)
+    _refuse_none(distance)
+    moved = np.asarray(shifts, float).reshape(-1, len(distance))
+    covariance = np.eye(len(distance)) + moved.T @ moved
+    value = float(distance @ np.linalg.solve(covariance, distance))
+    return ChiSquared(value, len(distance), float(chi2.sf(value, len(distance))))
+
+
+def judge(good: bool, documented: bool = False, unchanged: bool = True) -> Verdict:
+    """Verdict on a comparison.
+
+    Parameters
+    ----------
+    good : bool
+        The curve meets its reference: the probability p is large enough, or the distance is within
+        the tolerance.
+    documented : bool
+        A difference is known and explained. If there is none any more, that is a fault too.
+    unchanged : bool
+        What was found lies within the bounds of its regression test, if it has one.
 
     Returns
     -------
@@ -332,20 +387,11 @@ def judge(
 
     Examples
     --------
-    >>> print(judge(Distance(0.5, 1.0, 0.01, 9), {"rms": 1.0, "max": 3.0}))
-    agrees
-    >>> print(judge(Distance(0.5, 1.0, 0.01, 9), documented={"rms": [2.0, 3.0]}))
-    diverges
+    >>> print(judge(True), judge(False), judge(False, documented=True), sep="; ")
+    agrees; diverges; differs as documented
+    >>> print(judge(True, documented=True), judge(True, unchanged=False), sep="; ")
+    diverges; diverges
     """
-    measured = {"rms": distance.rms, "max": distance.max}
-    if difference is not None:
-        measured["difference"] = difference
-    if documented is not None:
-        bounds = {k: documented[k] for k in ("rms", "max", "difference") if k in documented}
-        good = bool(bounds) and all(
-            k in measured and low <= measured[k] <= high for k, (low, high) in bounds.items()
-        )
-        return Verdict.DOCUMENTED if good else Verdict.DIVERGES
-    limits = agreement or {}
-    good = bool(limits) and all(measured[key] <= limit for key, limit in limits.items())
-    return Verdict.AGREES if good else Verdict.DIVERGES
+    if not unchanged or good == documented:
+        return Verdict.DIVERGES
+    return Verdict.AGREES if good else Verdict.DOCUMENTED

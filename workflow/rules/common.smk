@@ -18,6 +18,10 @@ try:
     FIGURES = {
         figure: run_plan.plan_of_figure(config, SOURCES, figure) for figure in run_plan.FIGURES
     }
+    JUDGED = {
+        name: run_plan.plan_of_judgement(config, SOURCES, name)
+        for name in run_plan.judged(config)
+    }
     EXPECTED_ROWS = run_plan.expected_rows(config, SOURCES)
     NOTEBOOK_MODULES = {name: run_plan.modules_of_notebook(name) for name in NOTEBOOKS}
 except (reference_data.SourceError, run_plan.ConfigError) as error:
@@ -25,12 +29,13 @@ except (reference_data.SourceError, run_plan.ConfigError) as error:
 
 EXPECTED_ENTRIES = {name: "check" in entry for name, entry in ENTRIES.items()}
 CHUNKS = study_plan.chunks(config)
-# Sources whose series some figure is compared with.
-COMPARED = sorted({source for plan in FIGURES.values() for source in plan["sources"]})
+# Sources with whose series something is compared.
+COMPARED = sorted({source for plan in JUDGED.values() for source in plan["sources"]})
 UNTIMED = [figure for figure in FIGURES if figure not in run_plan.TIMED]
 # Every value that a wildcard has in a run.
 VALUES = {
     "figure": list(FIGURES),
+    "judged": list(JUDGED),
     "source": COMPARED,
     "scene": list(config["scenes"]),
     "notebook": NOTEBOOKS,
@@ -40,6 +45,7 @@ VALUES = {
 
 wildcard_constraints:
     figure="|".join(FIGURES),
+    judged="|".join(JUDGED),
     source="[a-z0-9_]+",
     scene="|".join(config["scenes"]) or "none",
     notebook="|".join(NOTEBOOKS) or "none",
@@ -69,6 +75,15 @@ def of_figure(part):
 
     def found(wildcards):
         return FIGURES[wildcards.figure][part]
+
+    return found
+
+
+def of_judged(part):
+    """Input function: a part of what `run_plan.plan_of_judgement` says."""
+
+    def found(wildcards):
+        return JUDGED[wildcards.judged][part]
 
     return found
 

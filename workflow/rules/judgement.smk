@@ -1,23 +1,24 @@
 rule compare:
-    """Compare the curves of one figure with reference data; always succeeds."""
+    """Compare a figure's curves, a scene or the study with reference data; always succeeds."""
     input:
         modules=run_plan.modules("compare"),
-        curves="results/curves/{figure}.csv",
-        series=of_figure("series"),
+        table=of_judged("table"),
+        series=of_judged("series"),
     output:
-        verdicts="results/verdicts/{figure}.csv",
-        residuals="results/residuals/{figure}.csv",
+        verdicts="results/verdicts/{judged}.csv",
+        residuals="results/residuals/{judged}.csv",
     params:
         content=run_plan.content(*run_plan.modules("compare")),
-        comparisons=of_figure("comparisons"),
-        references=of_figure("references"),
-        sources=of_figure("sources"),
+        comparisons=of_judged("comparisons"),
+        references=of_judged("references"),
+        sources=of_judged("sources"),
+        significance=config["significance"],
     log:
-        "results/logs/compare_{figure}.log",
+        "results/logs/compare_{judged}.log",
     benchmark:
-        "results/benchmarks/compare_{figure}.tsv"
+        "results/benchmarks/compare_{judged}.tsv"
     message:
-        "Comparing {wildcards.figure} with its references"
+        "Comparing {wildcards.judged} with references"
     conda:
         "../envs/planarimpact.yaml"
     script:
@@ -28,7 +29,7 @@ rule verdicts:
     """One table of all verdicts, worst first."""
     input:
         modules=run_plan.modules("gather_verdicts"),
-        verdicts=expand("results/verdicts/{figure}.csv", figure=FIGURES),
+        verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
     output:
         "results/verdicts.csv",
     params:
@@ -80,7 +81,7 @@ rule gate:
         ledger="results/ledger.csv",
         page="figures/report.html",
         problems="results/problems.csv",
-        residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
+        residuals=expand("results/residuals/{judged}.csv", judged=JUDGED),
         made=MADE,
     output:
         "results/PASSED",

@@ -1,35 +1,78 @@
-"""Compare the curves of one figure with reference data: a row a comparison, and one a point.
+"""Compare one table of a run with reference data: a row a comparison, and one a point.
 
 Always succeeds: what cannot be compared diverges, with the reason in `note`.
 """
 
+from typing import NamedTuple
+
 import csv_tables
 import job
+import judged_tables
 import numpy as np
 import reference_data
 from verdict_table import COLUMNS
 
-from planarimpact import comparison, landmarks
-from planarimpact.comparison import Verdict
+from planarimpact import comparison, landmarks, lumped
+from planarimpact.comparison import Residuals, Verdict
+from planarimpact.curves.sampling import shifted_by
 
 RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
 # Two ways to one energy agree to this share of it; see the comparison's reason.
 BALANCE_SIGMA = 1e-12
+# What a row rests on, by the kind of its reference.
+EVIDENCE = {
+    "digitised": "published points",
+    "awaited": "published points",
+    "computed": "independent computation",
+    "fact": "stated value",
+    "law": "law or limit",
+    "itself": "none: regression",
+}
 
 
-def compare(figure, comparisons, references, curves_path, series_paths):
-    """Rows of the verdict table, the first on the curves themselves.
+class Measured(NamedTuple):
+    """How far curves are from what a comparison names.
+
+    Attributes
+    ----------
+    quantity : str
+        Column at which the points stand.
+    residuals : Residuals
+    columns : list of str
+        The column that each residual is of.
+    shifts : ndarray, shape (k, n)
+        Change of the residuals with one sigma of each uncertain parameter.
+    gap : float or None
+        Of a landmark: found less stated.
+    words : dict
+        Of a landmark: both in words.
+    """
+
+    quantity: str
+    residuals: Residuals
+    columns: list
+    shifts: np.ndarray = np.zeros((0, 0))
+    gap: float | None = None
+    words: dict = {}
+
+
+def compare(name, comparisons, references, path, series_paths, significance):
+    """Rows of the verdict table, the first on the table itself.
 
     Parameters
     ----------
-    figure : str
+    name : str
+        Of a figure, `scene_` and that of a scene, or `study`.
     comparisons : dict
         `{name: entry of the config}`.
     references : dict
-        `{source/entry: series or fact of source.yaml}`.
-    curves_path : str
+        `{source/entry: series or fact of source.yaml, with the source's parameters}`.
+    path : str
+        The table.
     series_paths : dict
         `{source: table of its series}`.
+    significance : float
+        Published points agree if p is above it.
 
     Returns
     -------
@@ -38,81 +81,181 @@ def compare(figure, comparisons, references, curves_path, series_paths):
     """
     rows = []
     try:
-        curves = csv_tables.read(curves_path)
-        _refuse_not_finite(curves)
+        curves = judged_tables.read(path)
         problem = None
     except Exception as error:
         problem = f"no curves: {error}"
-    solved = Verdict.DIVERGES if problem else Verdict.AGREES
-    rows.append(_row(figure, f"{figure}-solved", solved, note=problem or "", reason="it must run"))
-    for name, entry in comparisons.items():
-        facts = dict(reference=entry.get("reference", ""), reason=entry["reason"])
+    solved = Verdict.DIVERGES if problem else Verdict.UNCHANGED
+    facts = {"evidence": EVIDENCE["itself"], "reason": "it must run"}
+    rows.append(_row(name, f"{name}-solved", solved, note=problem or "", **facts))
+    for title, entry in comparisons.items():
         known = references.get(entry.get("reference"))
-        if known is not None and known.get("kind") == "awaited" and not known["path"]:
-            rows.append(_row(figure, name, Verdict.AWAITED, note=known["figure"], **facts))
+        facts = {"reference": entry.get("reference", ""), "reason": entry["reason"]}
+        facts["evidence"] = EVIDENCE[_kind(known)]
+        if _kind(known) == "awaited" and not known["path"]:
+            rows.append(_row(name, title, Verdict.AWAITED, note=known["figure"], **facts))
             continue
         try:
             if problem:
                 raise ValueError(problem)
-            gap = None
-            if entry["metric"] == "landmark":
-                quantity, residuals, gap, words = _landmark(entry, known, curves)
-                facts |= words
-            else:
-                quantity, residuals = _residuals(entry, known, curves, series_paths)
-            documented, distance = entry.get("documented"), residuals.summary()
-            verdict = comparison.judge(distance, entry.get("agreement"), documented, gap)
-            facts |= _numbers(distance, entry, known)
-            points = zip(residuals.x.tolist(), residuals.sigmas.tolist(), strict=True)
-            facts["residuals"] = [[name, quantity, *point] for point in points]
-            note = _name(documented) if documented else ""
+            found = measure(entry, known, curves, series_paths)
+            verdict = judge(entry, known, found, significance)
+            facts |= _numbers(entry, known, found, significance) | found.words
+            points = zip(found.residuals.x.tolist(), found.residuals.sigmas.tolist(), strict=True)
+            facts["residuals"] = [[title, found.quantity, *point] for point in points]
+            note = _note(entry, found, verdict)
         except Exception as error:
             verdict, note = Verdict.DIVERGES, f"{error}"
-        rows.append(_row(figure, name, verdict, note=note, **facts))
+        rows.append(_row(name, title, verdict, note=note, **facts))
     return rows
 
 
-def _name(documented):
-    return f"ledger: {documented['entry']}" if "entry" in documented else documented["note"]
+def measure(entry, known, curves, series_paths):
+    """Distances of one comparison.
 
+    Parameters
+    ----------
+    entry : dict
+        Of the config.
+    known : dict or None
+        Its reference.
+    curves : dict
+        As `judged_tables.read` gives them.
+    series_paths : dict
+        `{source: table of its series}`.
 
-def _residuals(entry, known, curves, series_paths):
-    """Residuals against a series, between two columns, or of one from zero; against what."""
+    Returns
+    -------
+    Measured
+
+    Raises
+    ------
+    ValueError
+        Saying what is missing.
+    """
     if entry["metric"] in ("balance", "largest"):
-        return _residuals_of_columns(entry, curves)
+        quantity, residuals = _residuals_of_columns(entry, curves)
+        name = entry["balance"][0] if entry["metric"] == "balance" else entry["largest"]
+        return Measured(quantity, residuals, [name] * len(residuals.x))
+    if entry["metric"] == "landmark":
+        return _landmark(entry, known, curves)
+    points = _points(entry, known, series_paths)
+    find = _from_curve if entry["metric"] == "distance" else _from_vertices
+    residuals, columns = find(entry, known, curves, points)
+    shifts = [
+        (upper[0].sigmas - lower[0].sigmas) / 2
+        for upper, lower in (
+            [find(entry | {"curve": name}, known, curves, points) for name in pair]
+            for pair in shifted_by(entry.get("curve"), curves)
+        )
+    ]
+    x = reference_data.column_name(known["x"])
+    return Measured(x, residuals, columns, np.reshape(shifts, (len(shifts), len(columns))))
+
+
+def judge(entry, known, found, significance):
+    """Verdict on what `measure` found."""
+    distance = found.residuals.summary()
+    if _is_published(known):
+        chi2 = comparison.chi_squared(found.residuals.sigmas, found.shifts)
+        good, measured = chi2.p > significance, {"chi2": chi2.value}
+    else:
+        good, measured = distance.max <= entry.get("limit", 1.0), {}
+    measured |= {"rms": distance.rms, "max": distance.max, "difference": found.gap}
+    bounds = entry.get("regression", {})
+    unchanged = all(low <= measured[key] <= high for key, (low, high) in bounds.items())
+    return comparison.judge(good, "documented" in entry, unchanged)
+
+
+def _kind(known):
+    """Kind of a reference: of a series its own; `fact`; without a reference a `law`."""
+    return "law" if known is None else known.get("kind", "fact")
+
+
+def _is_published(known):
+    return _kind(known) in ("digitised", "awaited")
+
+
+def _points(entry, known, series_paths):
+    """Columns of the reference in the regime and with the labels that the comparison asks for."""
     source, name = entry["reference"].split("/")
     series = csv_tables.read(series_paths[source])[name]
-    x, y = (reference_data.column_name(known[axis]) for axis in ("x", "y"))
-    sigma = _sigma(entry, known)
-    low, high = _window(entry, known["x"])
-    chosen = (series[x] >= low) & (series[x] <= high)
-    if entry["metric"] == "distance":
-        points = series[x][chosen], series[y][chosen]
-        curve = _curve(curves, entry["curve"], x, y)
-        return x, comparison.curve_residuals(points, curve, sigma, known.get("line", False))
-    labels = known.get("labels", [])
+    x = series[reference_data.column_name(known["x"])]
+    low, high = _window(entry, known)
+    chosen = (x >= low) & (x < high)
+    for label, word in entry.get("points", {}).items():
+        chosen &= series[label] == word
+    if "curve" in entry and "curve" in known.get("labels", []):
+        chosen &= series["curve"] == entry["curve"]
+    if not chosen.any():
+        raise ValueError("the reference has no such points")
+    return {column: values[chosen] for column, values in series.items()}
+
+
+def _window(entry, known):
+    """Where a regime begins and ends on the axis of the reference, by its source's parameters."""
+    if "regime" not in entry:
+        return -np.inf, np.inf
+    stated = known["parameters"]
+    groups = [stated[key] for key in ("mass_ratio", "stiffness_ratio", "restitution")]
+    limits = [groups[1], float(lumped.slip_throughout_limit(*groups))]
+    if known["x"]["column"] == "angle":
+        limits = np.degrees(np.arctan(stated["friction"] * np.array(limits))).tolist()
+    ends = [-np.inf, *limits, np.inf]
+    place = ["initial stick", "slip and stick", "slip throughout"].index(entry["regime"])
+    return ends[place], ends[place + 1]
+
+
+def _from_curve(entry, known, curves, points):
+    """Distances from the polyline of the named curve, or of each point's own."""
+    x = reference_data.column_name(known["x"])
+    parts, columns = [], []
+    names = [entry["curve"]] if "curve" in entry else dict.fromkeys(points["curve"])
+    for name in names:
+        own = slice(None) if "curve" in entry else points["curve"] == name
+        for axis in reference_data.ordinates(known):
+            y = reference_data.column_name(axis)
+            at, value = points[x][own], points[y][own]
+            there = ~np.isnan(value)
+            if there.any():
+                line = _curve(curves, name, x, y)
+                where = at[there], value[there]
+                sigma = _sigma(entry, known["x"], axis)
+                part = comparison.curve_residuals(where, line, sigma, known.get("line", False))
+                parts.append(part)
+                columns += [f"{y} of {name}"] * len(part.x)
+    return _joined(parts), columns
+
+
+def _from_vertices(entry, known, curves, points):
+    """Distances from the vertices with the same labels."""
+    x, labels = reference_data.column_name(known["x"]), known.get("labels", [])
     if "curve" in entry:
         curves = {entry["curve"]: _named(curves, entry["curve"])}
-        if "curve" in labels:
-            chosen &= series["curve"] == entry["curve"]
-    points = series[x][chosen], series[y][chosen], _labels(series, labels, chosen)
-    return x, comparison.vertex_residuals(points, _vertices(curves, x, y, labels), sigma)
+    words, parts, columns = _labels(points, labels), [], []
+    for axis in reference_data.ordinates(known):
+        y = reference_data.column_name(axis)
+        there = ~np.isnan(points[y])
+        if there.any():
+            own = [word for word, inside in zip(words, there, strict=True) if inside]
+            sigma = _sigma(entry, known["x"], axis)
+            vertices = _vertices(curves, x, y, labels)
+            where = points[x][there], points[y][there], own
+            parts.append(comparison.vertex_residuals(where, vertices, sigma))
+            columns += [f"{y} of {word}" if word else y for word in own]
+    return _joined(parts), columns
 
 
-def _sigma(entry, series):
+def _joined(parts):
+    return Residuals(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+
+
+def _sigma(entry, x, y):
     """Of both axes, with the allowance for the form of the model if the comparison has one."""
-    sigma = series["x"]["sigma"], series["y"]["sigma"]
-    allowance = entry.get("allowance")
+    sigma, allowance = (x["sigma"], y["sigma"]), entry.get("allowance")
     if allowance is None:
         return sigma
     return comparison.with_allowance(sigma, (allowance["x"], allowance["y"]))
-
-
-def _window(entry, axis):
-    """Ends of the window; one at the end of the axis' range lets in what lies just outside it."""
-    low, high = entry.get("window", axis["range"])
-    first, last = axis["range"]
-    return low if low > first else -np.inf, high if high < last else np.inf
 
 
 def _vertices(curves, x, y, labels):
@@ -124,17 +267,19 @@ def _vertices(curves, x, y, labels):
             found[0].extend(columns[x])
             found[1].extend(columns[y])
             found[2].extend(_labels(named, labels))
+    if not found[0]:
+        raise ValueError(f"no curve has the columns '{x}' and '{y}'")
     return found
 
 
-def _labels(columns, labels, chosen=slice(None)):
+def _labels(columns, labels):
     if not labels:
-        return [""] * len(next(iter(columns.values()))[chosen])
-    return [", ".join(words) for words in zip(*(columns[k][chosen] for k in labels), strict=True)]
+        return [""] * len(next(iter(columns.values())))
+    return [", ".join(map(str, words)) for words in zip(*(columns[k] for k in labels), strict=True)]
 
 
 def _landmark(entry, fact, curves):
-    """What a landmark is, its residual from a fact, signed difference, and both in words."""
+    """A landmark against a stated fact."""
     where = entry["landmark"]
     options = [where[key] for key in ("regime", "level", "at") if key in where]
     names = [where["x"], "regime" if "regime" in where else where["y"]]
@@ -143,9 +288,10 @@ def _landmark(entry, fact, curves):
     signs = {"value": "", "less_than": "< ", "greater_than": "> "}
     stated = "".join(f"{sign}{fact[key]:g}{unit}" for key, sign in signs.items() if key in fact)
     gap = found - fact["value"] if "value" in fact else None
-    words = {"found": f"{found:.4g}", "stated": stated}
     quantity = names[1] if where["kind"] == "value_at" else names[0]
-    return quantity, comparison.fact_residuals(found, fact), gap, words
+    words = {"found": f"{found:.4g}", "stated": stated}
+    residuals = comparison.fact_residuals(found, fact)
+    return Measured(quantity, residuals, [quantity], gap=gap, words=words)
 
 
 def _residuals_of_columns(entry, curves):
@@ -180,36 +326,50 @@ def _curve(curves, name, *columns):
     return [curve[column] for column in columns]
 
 
-def _refuse_not_finite(curves):
-    for name, columns in curves.items():
-        for column, values in columns.items():
-            if values.dtype.kind == "f" and not np.isfinite(values).all():
-                raise ValueError(f"curve '{name}', column '{column}' is not finite")
+def _note(entry, found, verdict):
+    """What is known of a difference; of a new one, where it is largest."""
+    documented = entry.get("documented", {})
+    known = (
+        f"ledger: {documented['entry']}" if "entry" in documented else documented.get("note", "")
+    )
+    sigmas = np.abs(found.residuals.sigmas)
+    if verdict != Verdict.DIVERGES or len(sigmas) == 1:
+        return known
+    worst = int(sigmas.argmax())
+    place = f"largest for {found.columns[worst]} at {found.quantity} = {found.residuals.x[worst]:g}"
+    return "; ".join(words for words in (known, place) if words)
 
 
-def _numbers(distance, entry, known):
-    return {
+def _numbers(entry, known, found, significance):
+    distance = found.residuals.summary()
+    cells = {
         "points": distance.points,
         "rms [sigma]": f"{distance.rms:.3g}",
         "max [sigma]": f"{distance.max:.3g}",
         "rms [axis units]": f"{distance.plain_rms:.3g}",
-        "allowed": _allowed(entry, known),
+        "allowed": _allowed(entry, known, significance),
+        "regression": ", ".join(
+            f"{low:g} <= {key} <= {high:g}"
+            for key, (low, high) in entry.get("regression", {}).items()
+        ),
     }
+    if _is_published(known):
+        chi2 = comparison.chi_squared(found.residuals.sigmas, found.shifts)
+        cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
+        cells["p"] = f"{chi2.p:.2g}"
+    return cells
 
 
-def _allowed(entry, known):
-    if "agreement" in entry:
-        limits = ", ".join(f"{key} <= {limit:g}" for key, limit in entry["agreement"].items())
-        return limits + (_unit_of_distance(entry, known) if "allowance" in entry else "")
-    bounds = {k: v for k, v in entry["documented"].items() if k not in ("entry", "note")}
-    return ", ".join(f"{low:g} <= {key} <= {high:g}" for key, (low, high) in bounds.items())
-
-
-def _unit_of_distance(entry, series):
-    """What a distance of 1 is in axis units, where it is not the sigma that source.yaml states."""
-    axes = zip((series["x"], series["y"]), _sigma(entry, series), strict=True)
-    words = ", ".join(f"{axis['column']} {size:.3g} {axis['unit']}" for axis, size in axes)
-    return f"; 1 is {words}: allowance for the model and sigma together".replace("_", " ")
+def _allowed(entry, known, significance):
+    if not _is_published(known):
+        return f"max <= {entry.get('limit', 1.0):g}"
+    words = f"p > {significance:g}"
+    if "allowance" not in entry:
+        return words
+    axes = known["x"], known["y"]
+    sizes = zip(axes, _sigma(entry, *axes), strict=True)
+    unit = ", ".join(f"{axis['column']} {size:.3g} {axis['unit']}" for axis, size in sizes)
+    return f"{words}; 1 is {unit}: allowance for the model and sigma together".replace("_", " ")
 
 
 def _row(figure, name, verdict, **cells):
@@ -227,10 +387,11 @@ def write(rows, verdicts, residuals):
 if "snakemake" in globals():
     with job.recorded(snakemake):  # noqa: F821
         found = compare(
-            snakemake.wildcards.figure,  # noqa: F821
+            snakemake.wildcards.judged,  # noqa: F821
             snakemake.params.comparisons,  # noqa: F821
             snakemake.params.references,  # noqa: F821
-            snakemake.input.curves,  # noqa: F821
+            snakemake.input.table,  # noqa: F821
             dict(zip(snakemake.params.sources, snakemake.input.series, strict=True)),  # noqa: F821
+            snakemake.params.significance,  # noqa: F821
         )
         write(found, snakemake.output.verdicts, snakemake.output.residuals)  # noqa: F821

@@ -53,7 +53,7 @@ def read(path):
         part = [row for row in rows if row[0] == name]
         columns = zip(*(row[1:] for row in part), strict=True)
         named[name] = {
-            key: _values(column)
+            key: values(column)
             for key, column in zip(header[1:], columns, strict=True)
             if any(column)
         }
@@ -79,7 +79,8 @@ def read_rows(path, columns=()):
     return [dict(zip(header, row, strict=True)) for row in rows]
 
 
-def _values(column):
+def values(column):
+    """Cells of a column as float64; as text if one of them is no number."""
     try:
         return np.array([float(cell) for cell in column])
     except ValueError:

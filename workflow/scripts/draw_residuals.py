@@ -91,8 +91,8 @@ def _strips(residuals, comparisons):
 
 
 def _draw_comparison(axes, entry, x, distance, mark):
-    window = np.clip(entry.get("window", (-np.inf, np.inf)), x.min(), x.max())
-    span = window if window[0] < window[1] else window + [-0.5, 0.5]
+    span = np.array([x.min(), x.max()])
+    span = span if span[0] < span[1] else span + [-0.5, 0.5]
     bounds = _bounds(entry)
     if "max" in bounds:
         axes.fill_between(span, -bounds["max"][1], bounds["max"][1], **ALL_ALLOWED)
@@ -106,9 +106,10 @@ def _draw_comparison(axes, entry, x, distance, mark):
 
 
 def _bounds(entry):
-    """What `rms` and `max` must lie between, as far as the comparison bounds them."""
-    bounds = {key: (0.0, limit) for key, limit in entry.get("agreement", {}).items()}
-    return bounds | {k: v for k, v in entry.get("documented", {}).items() if isinstance(v, list)}
+    """What `rms` and `max` must lie between; what chi-squared says is no bound for a point."""
+    if "regression" in entry:
+        return entry["regression"]
+    return {} if "digitised" in entry else {"max": (0.0, 1.0)}
 
 
 def _add_legend(figure, verdicts, bounds):

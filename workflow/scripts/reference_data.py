@@ -61,8 +61,8 @@ def load(folder, schema):
     source = load_yaml(path)
     refuse_invalid(source, schema, path)
     for name, series in source.get("series", {}).items():
-        for axis in ("x", "y"):
-            _refuse_axis(f"{path}: series.{name}.{axis}", series[axis])
+        for where, axis in _named_axes(series):
+            _refuse_axis(f"{path}: series.{name}.{where}", axis)
         series["path"] = _file_of(folder, name, series)
         if series["path"]:
             _refuse_other_number(f"{path}: series.{name}", series, read_series(name, series))
@@ -187,12 +187,27 @@ def _leaves(node, where=""):
 
 
 def column_name(axis):
-    """Column header of an axis, unit in brackets."""
-    return f"{axis['column']} [{axis['unit']}]"
+    """Column header of an axis, unit in brackets if it has one."""
+    return f"{axis['column']} [{axis['unit']}]" if axis["unit"] else axis["column"]
+
+
+def ordinates(series):
+    """The y axes of a series: one, or a list of them."""
+    return series["y"] if isinstance(series["y"], list) else [series["y"]]
+
+
+def _named_axes(series):
+    """All axes of a series, and where each stands in source.yaml."""
+    several = isinstance(series["y"], list)
+    yield "x", series["x"]
+    for place, axis in enumerate(ordinates(series)):
+        yield f"y.{place}" if several else "y", axis
 
 
 def read_series(name, series):
-    """Read one series, checked: `{column: list}` with numbers on both axes, words as labels.
+    """Read one series, checked: `{column: list}` with numbers on its axes, words as labels.
+
+    Of several y axes a cell may be empty, where a curve has no such quantity: it becomes nan.
 
     Parameters
     ----------
@@ -210,7 +225,8 @@ def read_series(name, series):
         Naming file, line, column and value.
     """
     path, labels = series["path"], series.get("labels", [])
-    axes = {column_name(series[axis]): series[axis] for axis in ("x", "y")}
+    axes = {column_name(axis): axis for _, axis in _named_axes(series)}
+    may_be_empty = {column_name(axis) for axis in series["y"]} if len(axes) > 2 else set()
     header, mark, rows = _table(path, name, series)
     for column in [*labels, *axes]:
         if header.count(column) != 1:
@@ -225,9 +241,13 @@ def read_series(name, series):
         for column in columns:
             cell = row[header.index(column)]
             where = f"{path}, line {line}, column '{column}'"
-            columns[column].append(
-                _number(cell, mark, axes[column], where) if column in axes else cell
-            )
+            if column in axes:
+                empty = column in may_be_empty and not cell
+                columns[column].append(
+                    math.nan if empty else _number(cell, mark, axes[column], where)
+                )
+            else:
+                columns[column].append(cell)
     return columns
 
 

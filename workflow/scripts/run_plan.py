@@ -16,8 +16,16 @@ SRC = SCRIPTS.parents[1] / "src"
 FIGURES = [f"fig{number}" for number in range(2, 10)]
 FIGURES += ["micro_slip", "convergence", "trade", "superball", "stability", "rod"]
 CONFLICT = re.compile(r"^(<<<<<<< |>>>>>>> )", flags=re.M)
+WITH_NODES = ["fig5", "fig6", "fig7", "fig8", "fig9", "convergence", "rod"]  # pass through points
+SCENE = "scene_"  # before the name of a scene, among what is judged
 TIMED = ("convergence", "trade")  # measure time: nothing may run beside them
 EXPLORED = [f"fig{number}" for number in range(3, 10)] + ["superball"]  # impacts to play with
+# Curves of Fig. 5 that have the parameters of a source: which ones they need.
+SPHERE = ["mass_ratio", "stiffness_ratio", "restitution"]
+SOURCES_OF_CURVES = {
+    "experiment": [*SPHERE, "friction", "speed", "radius"],
+    "finite_elements": SPHERE,
+}
 # Groups that play no part: mass, in force against deflection; bodies or a table with their own.
 BOTH = ["mass_ratio", "stiffness_ratio"]
 WITHOUT = {"fig2": ["mass_ratio"], "superball": BOTH, "stability": BOTH, "rod": ["mass_ratio"]}
@@ -72,12 +80,13 @@ def check_config(config, schema, inventory, ledger):
     for figure, settings in config["figures"].items():
         for key in ("incidence", "angle", "tilt"):
             _ascending(f"config: figures.{figure}.{key}", settings.get(key))
-    experiment = config["figures"]["fig5"]["experiment"]
-    if experiment not in inventory:
-        raise ConfigError(
-            f"config: figures.fig5.experiment: '{experiment}' is not in data/; allowed are "
-            + ", ".join(inventory)
-        )
+    for key in SOURCES_OF_CURVES:
+        source = config["figures"]["fig5"][key]
+        if source not in inventory:
+            raise ConfigError(
+                f"config: figures.fig5.{key}: '{source}' is not in data/; allowed are "
+                + ", ".join(inventory)
+            )
     where, table = "config: figures.stability.points", config["figures"]["stability"]["points"]
     if reference(inventory, table, where)[0] != "series":
         raise ConfigError(f"{where}: '{table}' is no series")
@@ -85,6 +94,11 @@ def check_config(config, schema, inventory, ledger):
         if not Path(f"data/scenes/{scene}.csv").is_file():
             raise ConfigError(f"config: scenes.{scene}: there is no data/scenes/{scene}.csv")
     for name, comparison in config["comparisons"].items():
+        if comparison["figure"] not in judged(config):
+            raise ConfigError(
+                f"config: comparisons.{name}.figure: '{comparison['figure']}' is not judged; allowed "
+                "are " + ", ".join(judged(config))
+            )
         _check_comparison(f"config: comparisons.{name}", comparison, inventory)
         entry = comparison.get("documented", {}).get("entry")
         if entry is not None and entry not in ledger:
@@ -101,23 +115,50 @@ def _ascending(where, span):
 
 def _check_comparison(where, comparison, inventory):
     metric = comparison["metric"]
-    columns = {"balance": "`balance`, two columns", "largest": "`largest`, a column"}
+    columns = {
+        "balance": ("balance", "`balance`, two columns"),
+        "largest": ("largest", "`largest`, a column"),
+    }
     if metric in columns:
-        if metric not in comparison:
-            raise ConfigError(f"{where}: metric {metric} needs {columns[metric]}")
+        key, words = columns[metric]
+        if key not in comparison:
+            raise ConfigError(f"{where}: metric {metric} needs {words}")
         return
     if "reference" not in comparison:
         raise ConfigError(f"{where}: metric {metric} needs `reference`")
-    kind, _ = reference(inventory, comparison["reference"], where)
+    kind, known = reference(inventory, comparison["reference"], where)
     if (kind == "facts") != (metric == "landmark"):
         raise ConfigError(f"{where}: metric {metric} does not go with one of the {kind}")
     if metric == "landmark" and "landmark" not in comparison:
         raise ConfigError(f"{where}: metric landmark needs `landmark`")
-    if metric in ("distance", "landmark") and "curve" not in comparison:
+    several = metric == "distance" and "curve" in known.get("labels", [])
+    if metric in ("distance", "landmark") and "curve" not in comparison and not several:
         raise ConfigError(f"{where}: metric {metric} needs `curve`")
-    spans = {"window": comparison.get("window"), **comparison.get("documented", {})}
-    for key, span in spans.items():
-        _ascending(f"{where}.{key}", span)
+    for label in comparison.get("points", {}):
+        if label not in known.get("labels", []):
+            raise ConfigError(f"{where}.points.{label}: no label of {comparison['reference']}")
+    for key, span in comparison.get("regression", {}).items():
+        _ascending(f"{where}.regression.{key}", span)
+
+
+def judged(config):
+    """Names of all that comparisons may judge: figures, scenes, the parameter study."""
+    return [*FIGURES, *(f"{SCENE}{name}" for name in config["scenes"]), "study"]
+
+
+def table_of(name):
+    """The file that is judged under a name.
+
+    Examples
+    --------
+    >>> table_of("fig5"), table_of("scene_superball")
+    ('results/curves/fig5.csv', 'results/scenes/superball.csv')
+    """
+    if name == "study":
+        return "results/study.npz"
+    if name.startswith(SCENE):
+        return f"results/scenes/{name.removeprefix(SCENE)}.csv"
+    return f"results/curves/{name}.csv"
 
 
 def reference(inventory, name, where="reference"):
@@ -138,10 +179,16 @@ def settings(config, inventory, figure):
     }
     for group in WITHOUT.get(figure, ()):
         del chosen[group]
-    if "experiment" in chosen:
-        keys = ("mass_ratio", "stiffness_ratio", "restitution", "friction", "speed", "radius")
-        stated = inventory[chosen["experiment"]]["parameters"]
-        chosen["experiment"] = {key: stated[key]["value"] for key in keys}
+    for key, needed in SOURCES_OF_CURVES.items():
+        if key in chosen:
+            stated = inventory[chosen[key]]["parameters"]
+            chosen[key] = {name: stated[name]["value"] for name in needed}
+            if key == "experiment":
+                chosen["uncertainty"] = {
+                    name: stated[name]["uncertainty"]
+                    for name in needed
+                    if stated[name]["uncertainty"]
+                }
     return chosen
 
 
@@ -163,21 +210,33 @@ def settings_of_explorer(config):
     return {key: config[key] for key in ("mass_ratio", "stiffness_ratio")} | {"figures": figures}
 
 
-def comparisons(config, figure):
-    """Comparisons of one figure, `{name: entry}`."""
+def comparisons(config, name):
+    """Comparisons of one figure, of a scene or of the study: `{name: entry}`."""
     chosen = config["comparisons"].items()
-    return {name: dict(entry) for name, entry in chosen if entry["figure"] == figure}
+    return {title: dict(entry) for title, entry in chosen if entry["figure"] == name}
 
 
 def expected_rows(config, inventory):
     """Rows that the table of verdicts must have: `{comparison: may it be awaited}`."""
-    rows = {f"{figure}-solved": False for figure in FIGURES}
-    for figure in FIGURES:
-        known = references(config, inventory, figure)
-        for name, entry in comparisons(config, figure).items():
+    rows = {f"{name}-solved": False for name in judged(config)}
+    for name in judged(config):
+        known = references(config, inventory, name)
+        for title, entry in comparisons(config, name).items():
             series = known.get(entry.get("reference"), {})
-            rows[name] = series.get("kind") == "awaited" and not series["path"]
+            rows[title] = series.get("kind") == "awaited" and not series["path"]
     return rows
+
+
+def plan_of_judgement(config, inventory, name):
+    """What the rule that compares one figure, scene or study is told, and what it reads."""
+    sources = sources_of(config, inventory, name)
+    return {
+        "table": table_of(name),
+        "comparisons": comparisons(config, name),
+        "references": references(config, inventory, name),
+        "sources": sources,
+        "series": [f"results/series/{source}.csv" for source in sources],
+    }
 
 
 def plan_of_figure(config, inventory, figure):
@@ -197,18 +256,24 @@ def plan_of_figure(config, inventory, figure):
         "settings": settings(config, inventory, figure),
         "nodes": tables,
         "tables": list(tables),
-        "comparisons": comparisons(config, figure),
-        "references": references(config, inventory, figure),
         "overlays": overlays(config, inventory, figure),
         "sources": sources,
         "series": [f"results/series/{source}.csv" for source in sources],
     }
 
 
-def references(config, inventory, figure):
-    """Series and facts that the comparisons of one figure name: `{source/entry: entry}`."""
-    named = [c["reference"] for c in comparisons(config, figure).values() if "reference" in c]
-    return {name: reference(inventory, name)[1] for name in named}
+def references(config, inventory, name):
+    """Series and facts that some comparisons name: `{source/entry: entry}`.
+
+    With the parameters of their source, which say where a regime begins.
+    """
+    named = [c["reference"] for c in comparisons(config, name).values() if "reference" in c]
+    found = {}
+    for full in named:
+        stated = inventory[full.split("/")[0]]["parameters"]
+        parameters = {key: parameter["value"] for key, parameter in stated.items()}
+        found[full] = reference(inventory, full)[1] | {"parameters": parameters}
+    return found
 
 
 def series_of(config, inventory, figure):
@@ -228,9 +293,7 @@ def overlays(config, inventory, figure):
     chosen = {name: entry for name, entry in named if "statement" in entry}
     for name, entry in series_of(config, inventory, figure).items():
         if entry["kind"] != "computed":
-            stated = inventory[name.split("/")[0]]["parameters"]
-            parameters = {key: parameter["value"] for key, parameter in stated.items()}
-            chosen[name] = {**entry, "parameters": parameters}
+            chosen[name] = entry
     return chosen
 
 
@@ -242,6 +305,8 @@ def nodes_of(config, inventory, figure):
     if "points" in config["figures"][figure]:
         _, table = reference(inventory, config["figures"][figure]["points"])
         return {table["path"]: None}
+    if figure not in WITH_NODES:
+        return {}
     exact = {
         c.get("reference")
         for c in comparisons(config, figure).values()

@@ -13,12 +13,11 @@ import job
 def solve(figure, settings, nodes, output):
     """Write the curves of `figure`.
 
-    `nodes`, `{CSV of a reference table: its column}`, are points that curves must pass through;
+    `nodes`, `{CSV of a reference table: its x column}`, are points that curves must pass through;
     without a column it is the whole table, `points`.
     """
     try:
-        if nodes:
-            settings = settings | _read_nodes(nodes)
+        settings = settings | read_nodes(nodes)
         named = importlib.import_module(f"planarimpact.curves.{figure}").curves(**settings)
     except Exception as error:
         traceback.print_exc()
@@ -27,16 +26,17 @@ def solve(figure, settings, nodes, output):
     csv_tables.write(output, named)
 
 
-def _read_nodes(nodes):
-    points = set()
+def read_nodes(nodes):
+    """Settings that hold the points of reference tables, `nodes` as for `solve`."""
+    points = {}
     for path, column in nodes.items():
         rows = csv_tables.read_rows(path)
         if column is None:
             names = {name.split(" [")[0]: name for name in rows[0]}
             table = {short: [float(row[name]) for row in rows] for short, name in names.items()}
             return {"points": table}
-        points |= {float(row[column]) for row in rows}
-    return {"nodes": sorted(points)}
+        points.setdefault(column.split(" [")[0], set()).update(float(row[column]) for row in rows)
+    return {"nodes": {axis: sorted(found) for axis, found in points.items()}} if points else {}
 
 
 if "snakemake" in globals():

@@ -6,10 +6,11 @@ import csv_tables
 from tabulate import tabulate
 
 COLUMNS = [
-    "figure", "comparison", "verdict", "reference", "points", "rms [sigma]", "max [sigma]",
-    "rms [axis units]", "found", "stated", "allowed", "note", "reason",
+    "figure", "comparison", "verdict", "evidence", "reference", "points", "chi^2",
+    "degrees of freedom", "p", "rms [sigma]", "max [sigma]", "rms [axis units]", "found", "stated",
+    "allowed", "regression", "note", "reason",
 ]  # fmt: skip
-ORDER = ["diverges", "differs as documented", "awaited", "agrees"]
+ORDER = ["diverges", "differs as documented", "awaited", "agrees", "as before"]
 
 
 def gather(paths):
@@ -30,14 +31,21 @@ def failing(rows):
 def why(row):
     """Why a row fails, in words."""
     measured = _measured(row)
-    limits = f"{measured}; allowed is {row['allowed']}" if measured else ""
+    limits = f"{measured}; allowed is {_allowed(row)}" if measured else ""
     return ": ".join(words for words in (row["note"], limits) if words)
+
+
+def _allowed(row):
+    """What a row must keep to: to agree, or where a difference is documented to stay as it was."""
+    if not row["regression"]:
+        return row["allowed"]
+    return f"a difference, and as before {row['regression']}"
 
 
 def text(rows):
     """The table for a terminal, and how many rows have each verdict."""
     cells = [
-        [row["verdict"], row["comparison"], _measured(row), row["allowed"], row["note"]]
+        [row["verdict"], row["comparison"], _measured(row), _allowed(row), row["note"]]
         for row in rows
     ]
     counts = Counter(row["verdict"] for row in rows)
@@ -49,4 +57,6 @@ def text(rows):
 def _measured(row):
     if row["found"]:
         return f"{row['found']} (stated {row['stated']})"
+    if row["p"]:
+        return f"chi^2 {row['chi^2']} of {row['degrees of freedom']}, p = {row['p']}"
     return f"rms {row['rms [sigma]']}, max {row['max [sigma]']}" if row["points"] else ""

@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from planarimpact import annuli, continuum, lumped
-from planarimpact.arrays import Array, ArrayLike
+from planarimpact.arrays import Array
 from planarimpact.curves import Columns, Curves
-from planarimpact.curves.sampling import vertices
+from planarimpact.curves.sampling import Nodes, vertices
 
 
 def curves(
@@ -19,7 +19,7 @@ def curves(
     steps: Sequence[int],
     circles: Sequence[int],
     fixed: dict[str, int],
-    nodes: ArrayLike = (),
+    nodes: Nodes | None = None,
 ) -> Curves:
     """Both methods against the finest answer, and the continuum where it is tabulated.
 
@@ -37,8 +37,8 @@ def curves(
         Numbers of time steps and of circles that are tried.
     fixed : dict
         `steps` and `circles` of the annuli while the other number is tried.
-    nodes : array_like
-        Incidences of the reference tables.
+    nodes : dict, optional
+        Those of the reference tables, of `incidence`.
 
     Returns
     -------
@@ -78,7 +78,7 @@ def curves(
         "annuli, steps": _errors(by_steps, "steps [1]", steps, exact),
     }
     for ratio in stiffness_ratio:
-        at = vertices((0.0, 10.0), 2, nodes)
+        at = vertices((0.0, 10.0), 2, (nodes or {}).get("incidence", ()))
         velocity = continuum.rebound(at, mass_ratio, ratio).velocity
         columns = {"incidence [mu v2(0)]": at, "velocity [mu v2(0)]": velocity}
         named[f"continuum, zeta2 = {ratio:.4f}"] = columns

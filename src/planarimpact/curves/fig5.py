@@ -1,7 +1,7 @@
 """Fig. 5: tangential velocity at separation against incidence, e = 1."""
 
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeAlias
 
 import numpy as np
 
@@ -9,10 +9,15 @@ from planarimpact import continuum, lumped, rigid
 from planarimpact.arrays import Array, ArrayLike
 from planarimpact.curves import Columns, Curves
 from planarimpact.curves import as_printed as printed_curves
-from planarimpact.curves.sampling import regime_names, vertices
+from planarimpact.curves.sampling import SIGNS, Nodes, regime_names, shifted, vertices
 from planarimpact.printed import impact
 from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 from planarimpact.results import Rebound
+
+# Curves that only tell how far an uncertain parameter moves another one have fewer vertices.
+COARSER = 4
+
+_Model: TypeAlias = Callable[..., Rebound]
 
 
 def curves(
@@ -24,6 +29,9 @@ def curves(
     tolerance: float,
     rubber: dict[str, float],
     experiment: dict[str, float],
+    finite_elements: dict[str, float],
+    uncertainty: Mapping[str, float] | None = None,
+    nodes: Nodes | None = None,
     as_printed: bool = False,
 ) -> Curves:
     """The lumped model, its limit, the elastic continuum; the same for rubber, an experiment.
@@ -43,32 +51,49 @@ def curves(
     experiment : dict
         An elastic sphere shot at a plane without spin: `mass_ratio`, `stiffness_ratio`,
         `restitution`, `friction`, `speed` (m/s), `radius` (m).
+    finite_elements : dict
+        Of a finite-element solution: `mass_ratio`, `stiffness_ratio`, `restitution`.
+    uncertainty : dict, optional
+        One sigma of each parameter of the experiment that is uncertain.
+    nodes : dict, optional
+        More points that are vertices: of `incidence`, and of `angle` for the experiment.
     as_printed : bool
         Add what the printed equations give, see `planarimpact.curves.as_printed`.
 
     Returns
     -------
     dict
-        `lumped`, `no tangential compliance`, `continuum`; `lumped, rubber` and `continuum,
-        rubber`; `lumped, experiment` and `continuum, experiment`. The first and third add the
-        regime and the spin after impact, R spin/(mu v2(0)) in the direction of incidence
-        negative; the last two the quantities that are measured against the angle of incidence.
+        `lumped`, `no tangential compliance`, `continuum`; `lumped` and `continuum` again for
+        `rubber`, `finite elements` and `experiment`. Those without such a word and those of the
+        finite elements have the regime and the spin after impact, R spin/(mu v2(0)) in the
+        direction of incidence negative; those of the experiment the quantities that are measured
+        against the angle of incidence, and curves beside them with one parameter off by one sigma,
+        named by `planarimpact.curves.sampling.shifted`.
 
     Examples
     --------
     >>> sphere = dict(mass_ratio=3.5, stiffness_ratio=1.164, restitution=0.98, friction=0.092,
     ...               speed=3.9, radius=0.0025)
-    >>> named = curves(3.5, 1.21, (0, 8), 1.0, 9, 1e-4, {"stiffness_ratio": 1.5}, sphere)
+    >>> elements = dict(mass_ratio=3.5, stiffness_ratio=1.2143, restitution=1.0)
+    >>> rubber = {"stiffness_ratio": 1.5}
+    >>> named = curves(3.5, 1.21, (0, 8), 1.0, 9, 1e-4, rubber, sphere, elements)
     >>> float(named["lumped"]["velocity [mu v2(0)]"][-1])
     1.0
     """
     limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution)
     printed = printed_limit(mass_ratio, restitution)
-    x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, printed)
+    at = nodes or {}
+    extra = at.get("incidence", ())
+    x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, printed, extra)
     spring = rubber["stiffness_ratio"]
-    elastic = partial(continuum.rebound, tolerance=tolerance)
     groups = mass_ratio, stiffness_ratio
     exact = lumped.rebound(x, *groups, restitution)
+
+    def elastic(
+        incidence: ArrayLike, mass_ratio: float, stiffness_ratio: float, restitution: float = 1.0
+    ) -> Rebound:
+        return continuum.rebound(incidence, mass_ratio, stiffness_ratio, tolerance=tolerance)
+
     named = {
         "lumped": _sphere(x, exact, mass_ratio),
         "no tangential compliance": _velocity(
@@ -77,13 +102,18 @@ def curves(
         "continuum": _sphere(x, elastic(x, *groups), mass_ratio),
         "lumped, rubber": _velocity(x, lumped.rebound(x, mass_ratio, spring, restitution)),
         "continuum, rubber": _velocity(x, elastic(x, mass_ratio, spring)),
-        "lumped, experiment": _experiment(samples, lumped.rebound, **experiment),
-        "continuum, experiment": _experiment(
-            samples,
-            lambda x, beta, zeta2, e: elastic(x, beta, zeta2, tolerance=tolerance),
-            **experiment,
-        ),
     }
+    models: dict[str, _Model] = {"lumped": lumped.rebound, "continuum": elastic}
+    for model, rebound in models.items():
+        found = rebound(x, **finite_elements)
+        named[f"{model}, finite elements"] = _sphere(x, found, finite_elements["mass_ratio"])
+        curve = f"{model}, experiment"
+        named[curve] = _experiment(samples, at.get("angle", ()), rebound, **experiment)
+        for parameter, sigma in (uncertainty or {}).items():
+            for sign in SIGNS:
+                changed = experiment | {parameter: experiment[parameter] + sign * sigma}
+                beside = _experiment(samples // COARSER, (), rebound, **changed)
+                named[shifted(curve, parameter, sign)] = beside
     if as_printed:
         velocity, _, _ = impact.rebound(x, *groups, restitution)
         named |= printed_curves.beside("", named["lumped"], velocity)
@@ -104,7 +134,8 @@ def _sphere(x: Array, rebound: Rebound, mass_ratio: float) -> Columns:
 
 def _experiment(
     samples: int,
-    model: Callable[..., Rebound],
+    nodes: ArrayLike,
+    model: _Model,
     mass_ratio: float,
     stiffness_ratio: float,
     restitution: float,
@@ -116,7 +147,8 @@ def _experiment(
     groups = mass_ratio, stiffness_ratio, restitution
     limits = [stiffness_ratio, mass_ratio, lumped.slip_throughout_limit(*groups)]
     # The ratio of velocities has no value at normal incidence.
-    angle = vertices((0.01, 89.9), samples, np.degrees(np.arctan(friction * np.array(limits))))
+    thresholds = np.degrees(np.arctan(friction * np.array(limits)))
+    angle = vertices((0.01, 89.9), samples, thresholds, nodes)
     slope = np.tan(np.radians(angle))
     x = slope / friction
     rebound = model(x, *groups)

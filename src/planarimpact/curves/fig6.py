@@ -3,10 +3,9 @@
 from collections.abc import Sequence
 
 from planarimpact import lumped
-from planarimpact.arrays import ArrayLike
 from planarimpact.curves import Curves
 from planarimpact.curves import as_printed as printed_curves
-from planarimpact.curves.sampling import name, regime_names, vertices
+from planarimpact.curves.sampling import Nodes, name, regime_names, vertices
 from planarimpact.printed import impact
 from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
@@ -17,7 +16,7 @@ def curves(
     incidence: Sequence[float],
     restitution: Sequence[float],
     samples: int,
-    nodes: ArrayLike = (),
+    nodes: Nodes | None = None,
     as_printed: bool = False,
 ) -> Curves:
     """One curve for each coefficient of restitution.
@@ -32,8 +31,8 @@ def curves(
         Coefficients e, one curve each, named `e = ...`.
     samples : int
         Evenly spread vertices; thresholds come on top.
-    nodes : array_like
-        More incidences that are vertices.
+    nodes : dict, optional
+        More vertices, of `incidence`.
     as_printed : bool
         Add what the printed equations give, see `planarimpact.curves.as_printed`.
 
@@ -48,11 +47,12 @@ def curves(
     >>> [float(curve["velocity [mu v2(0)]"][-1]) for curve in named.values()]
     [4.5, 1.0]
     """
+    extra = (nodes or {}).get("incidence", ())
     named = {}
     for e in restitution:
         limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
         printed = printed_limit(mass_ratio, e)
-        x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, printed, nodes)
+        x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, printed, extra)
         rebound = lumped.rebound(x, mass_ratio, stiffness_ratio, e)
         named[name("e", e)] = {
             "incidence [mu v2(0)]": x,

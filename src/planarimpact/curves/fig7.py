@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from planarimpact import lumped, rigid
-from planarimpact.arrays import Array
+from planarimpact.arrays import Array, ArrayLike
 from planarimpact.curves import Columns, Curves
 from planarimpact.curves import as_printed as printed_curves
-from planarimpact.curves.sampling import name, vertices
+from planarimpact.curves.sampling import Nodes, name, vertices
 from planarimpact.printed import impact
 from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
@@ -19,6 +19,7 @@ def curves(
     angle: Sequence[float],
     friction: Sequence[float],
     samples: int,
+    nodes: Nodes | None = None,
     as_printed: bool = False,
 ) -> Curves:
     """Peak forces over m2 Omega S; they do not depend on restitution when omega > Omega.
@@ -33,6 +34,8 @@ def curves(
         Coefficients mu.
     samples : int
         Evenly spread vertices; thresholds come on top.
+    nodes : dict, optional
+        More vertices, of `angle`.
     as_printed : bool
         Add what the printed equations give, see `planarimpact.curves.as_printed`.
 
@@ -51,13 +54,14 @@ def curves(
     """
     limit = float(lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, 1.0))
     thresholds = np.array([stiffness_ratio, mass_ratio, limit])
-    theta = vertices(angle, samples)
+    extra = (nodes or {}).get("angle", ())
+    theta = vertices(angle, samples, extra)
     named = {
         "normal": _force(theta, np.cos(np.radians(theta))),
         "slip throughout": _force(theta, np.sin(np.radians(theta)) / limit),
     }
     for mu in friction:
-        theta = vertices(angle, samples, np.degrees(np.arctan(mu * thresholds)))
+        theta = vertices(angle, samples, np.degrees(np.arctan(mu * thresholds)), extra)
         x = np.tan(np.radians(theta)) / mu
         scale = mu * np.cos(np.radians(theta))
         compliant = lumped.rebound(x, mass_ratio, stiffness_ratio).peak_friction
@@ -65,16 +69,20 @@ def curves(
         named[name("mu", mu)] = _force(theta, scale * compliant)
         named[f"no tangential compliance, {name('mu', mu)}"] = _force(theta, scale * rough)
         if as_printed:
-            named |= _as_printed(mu, mass_ratio, stiffness_ratio, samples)
+            named |= _as_printed(mu, mass_ratio, stiffness_ratio, samples, extra)
     return named
 
 
-def _as_printed(mu: float, mass_ratio: float, stiffness_ratio: float, samples: int) -> Curves:
+def _as_printed(
+    mu: float, mass_ratio: float, stiffness_ratio: float, samples: int, nodes: ArrayLike
+) -> Curves:
     """Eqs 30 to 33 where they differ: from x = beta, where slip lasts to t_c, to (1 + e) beta."""
     limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, 1.0)
     end = float(printed_limit(mass_ratio, 1.0))
     x = vertices((mass_ratio, end), samples // 20 + 2, limit)
-    theta = np.degrees(np.arctan(mu * x))
+    ends = np.degrees(np.arctan(mu * np.array([mass_ratio, end]))).tolist()
+    theta = vertices(ends, 2, np.degrees(np.arctan(mu * x)), nodes)
+    x = np.clip(np.tan(np.radians(theta)) / mu, mass_ratio, end)
     scale = mu * np.cos(np.radians(theta))
     exact = scale * lumped.rebound(x, mass_ratio, stiffness_ratio).peak_friction
     _, peak, _ = impact.rebound(x, mass_ratio, stiffness_ratio, 1.0)

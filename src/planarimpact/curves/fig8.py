@@ -6,7 +6,7 @@ import numpy as np
 
 from planarimpact import bodies, lumped
 from planarimpact.curves import Curves
-from planarimpact.curves.sampling import vertices
+from planarimpact.curves.sampling import Nodes, vertices
 
 
 def curves(
@@ -18,6 +18,7 @@ def curves(
     mass: float,
     ball: dict[str, float],
     samples: int,
+    nodes: Nodes | None = None,
 ) -> Curves:
     """Peak forces at one speed of incidence.
 
@@ -36,6 +37,8 @@ def curves(
         `radius` (m), `young_modulus` (Pa) and `poisson_ratio` of ball and plate.
     samples : int
         Evenly spread vertices; thresholds come on top.
+    nodes : dict, optional
+        More vertices, of `angle`.
 
     Returns
     -------
@@ -56,7 +59,8 @@ def curves(
     )
     limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, 1.0)
     thresholds = np.array([stiffness_ratio, mass_ratio, limit])
-    theta = vertices(angle, samples, np.degrees(np.arctan(friction * thresholds)))
+    extra = (nodes or {}).get("angle", ())
+    theta = vertices(angle, samples, np.degrees(np.arctan(friction * thresholds)), extra)
     x = np.tan(np.radians(theta)) / friction
     peak = lumped.rebound(x, mass_ratio, stiffness_ratio).peak_friction
     lowest = [lumped.history(value, mass_ratio, stiffness_ratio).friction.min() for value in x]

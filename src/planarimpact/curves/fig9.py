@@ -5,10 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from planarimpact import lumped, rigid
-from planarimpact.arrays import ArrayLike
 from planarimpact.curves import Curves
 from planarimpact.curves import as_printed as printed_curves
-from planarimpact.curves.sampling import name, vertices
+from planarimpact.curves.sampling import Nodes, name, vertices
 from planarimpact.printed import impact
 from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
@@ -20,7 +19,7 @@ def curves(
     friction: Sequence[float],
     restitution: Sequence[float],
     samples: int,
-    nodes: ArrayLike = (),
+    nodes: Nodes | None = None,
     as_printed: bool = False,
 ) -> Curves:
     """Dissipation by friction over m2 S^2/2, from two independent calculations.
@@ -35,8 +34,8 @@ def curves(
         Coefficients mu and e, a curve for each pair.
     samples : int
         Evenly spread vertices; thresholds come on top.
-    nodes : array_like
-        More angles that are vertices.
+    nodes : dict, optional
+        More vertices, of `angle`.
     as_printed : bool
         Add what the printed equations give, see `planarimpact.curves.as_printed`.
 
@@ -52,13 +51,14 @@ def curves(
     >>> sorted(named)
     ['mu = 0.5, e = 1', 'no tangential compliance, mu = 0.5, e = 1']
     """
+    extra = (nodes or {}).get("angle", ())
     named = {}
     for mu in friction:
         for e in restitution:
             limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
             limits = limit, printed_limit(mass_ratio, e)
             thresholds = np.array([stiffness_ratio, mass_ratio, *limits])
-            theta = vertices(angle, samples, np.degrees(np.arctan(mu * thresholds)), nodes)
+            theta = vertices(angle, samples, np.degrees(np.arctan(mu * thresholds)), extra)
             x = np.tan(np.radians(theta)) / mu
             share = 2 * (mu * np.cos(np.radians(theta))) ** 2
             lost = lumped.rebound(x, mass_ratio, stiffness_ratio, e).dissipation

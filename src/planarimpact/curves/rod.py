@@ -7,7 +7,7 @@ import numpy as np
 from planarimpact import noncollinear
 from planarimpact.arrays import Array, ArrayLike
 from planarimpact.curves import Columns, Curves
-from planarimpact.curves.sampling import name, regime_names, vertices
+from planarimpact.curves.sampling import Nodes, name, regime_names, vertices
 from planarimpact.noncollinear import InverseMass, NoncollinearHistory, NoncollinearRebound, rigid
 from planarimpact.noncollinear.rigid import ImpulsiveRebound, Law
 
@@ -22,6 +22,7 @@ def curves(
     restitution: float,
     samples: int,
     contact: dict[str, float],
+    nodes: Nodes | None = None,
 ) -> Curves:
     """Rebound against the tilt, compliant and rigid, and one contact that jams.
 
@@ -40,6 +41,8 @@ def curves(
         Evenly spread tilts, and instants of the contact; limits of the jam and events come on top.
     contact : dict
         `tilt` in degrees and `velocity_ratio` of the contact that is followed through.
+    nodes : dict, optional
+        More vertices, of `tilt`.
 
     Returns
     -------
@@ -58,7 +61,7 @@ def curves(
     >>> float(named["rigid, Newton, v1/v2 = 0.6"]["kinetic_energy [K0]"].max().round(2))
     1.26
     """
-    angle = vertices(tilt, samples, jam_limits(friction))
+    angle = vertices(tilt, samples, jam_limits(friction), (nodes or {}).get("tilt", ()))
     rod = slender_rod(angle)
     named = {}
     for ratio in velocity_ratio:

@@ -1,0 +1,50 @@
+"""What a run judges, read as named curves: tables of figures, scenes, and the parameter study."""
+
+from pathlib import Path
+
+import csv_tables
+import numpy as np
+import study_files
+
+
+def read(path):
+    """Curves that are judged, `{curve: {column: array}}`, all numbers finite.
+
+    Parameters
+    ----------
+    path : str
+        The table of a figure; of a scene, which is one curve, `impacts`, with a number for each row;
+        or the study, one curve, `grid`, a row a point.
+
+    Raises
+    ------
+    csv_tables.Failed
+        If the solver left an error instead.
+    ValueError
+        If a number is not finite.
+    """
+    if Path(path).suffix == ".npz":
+        curves = {"grid": _points_of_study(path)}
+    elif Path(path).parent.name == "scenes":
+        curves = {"impacts": _impacts(path)}
+    else:
+        curves = csv_tables.read(path)
+    for curve, columns in curves.items():
+        for column, values in columns.items():
+            if values.dtype.kind == "f" and not np.isfinite(values).all():
+                raise ValueError(f"curve '{curve}', column '{column}' is not finite")
+    return curves
+
+
+def _impacts(path):
+    rows = csv_tables.read_rows(path)
+    columns = {name: csv_tables.values([row[name] for row in rows]) for name in rows[0]}
+    return {"row [1]": np.arange(1.0, len(rows) + 1)} | columns
+
+
+def _points_of_study(path):
+    axes, outputs = study_files.read(Path(path))
+    grid = np.meshgrid(*axes.values(), indexing="ij")
+    groups = dict(zip(axes, grid, strict=True))
+    numbers = {name: values for name, values in outputs.items() if name != "regime"}
+    return {study_files.column(name): values.ravel() for name, values in (groups | numbers).items()}

@@ -1,0 +1,188 @@
+"""The smallest change of each group of the physics that a comparison catches.
+
+The curves are solved once more for each group, off by a little; the distances change in proportion,
+and so they are extended until the verdict is `diverges`.
+"""
+
+import one_thread  # noqa: F401
+
+# isort: split
+import functools
+import importlib
+
+import compare
+import csv_tables
+import job
+import judged_tables
+import numpy as np
+import solve
+
+from planarimpact.comparison import Residuals, Verdict
+
+# What is changed, and the keys under which settings have it.
+GROUPS = {
+    "zeta^2": ("stiffness_ratio", "poisson_ratio"),
+    "beta": ("mass_ratio",),
+    "e": ("restitution",),
+    "mu": ("friction",),
+}
+COLUMNS = ["comparison", *GROUPS]
+STEP = 1e-4  # small enough for changes in proportion, large beside rounding
+SIZES = 10.0 ** np.arange(-15, 0.01, 0.1)
+# Parts of settings that hold physics of their own.
+PARTS = ("experiment", "finite_elements", "rubber", "throw", "points")
+# Studies of error are left out: no change of the physics is meant to be seen in them.
+SHORT = {
+    "convergence": {
+        "steps": [16, 32],
+        "circles": [4, 8],
+        "fixed": {"steps": 16, "circles": 4},
+        "tolerance": 1e-3,
+    }
+}
+# Its digits are logarithms, which do not change in proportion: it is solved for every power of ten
+# until it catches the change, on every so manieth of its points.
+DIGITS, SPARSE = "stability", 40
+
+
+def sensitivities(figure, settings, nodes, path, comparisons, references, series, significance):
+    """Rows of the table: what each comparison of one figure catches.
+
+    Parameters
+    ----------
+    figure : str
+    settings, nodes : dict
+        As `solve.solve` takes them.
+    path : str
+        The curves that were judged.
+    comparisons, references, series, significance
+        As `compare.compare` takes them.
+
+    Returns
+    -------
+    list of list of str
+        The name of the comparison, and sizes of the changes, see `GROUPS`: relative ones, of e an
+        absolute one. `none` where even a change by 1 is not caught; empty where the figure does not
+        depend on the group, or the comparison cannot be made.
+    """
+    settings = settings | solve.read_nodes(nodes) | SHORT.get(figure, {})
+    try:
+        curves = judged_tables.read(path)
+    except Exception:  # the row `...-solved` says so
+        return [[title, *[""] * len(GROUPS)] for title in comparisons]
+    rows = []
+    solved = {group: _solver(figure, settings, group, list(curves)) for group in GROUPS}
+    for title, entry in comparisons.items():
+        known = references.get(entry.get("reference"))
+
+        def measure(curves, entry=entry, known=known):
+            return compare.measure(entry, known, curves, series)
+
+        def caught(found, entry=entry, known=known):
+            return compare.judge(entry, known, found, significance) == Verdict.DIVERGES
+
+        search = _by_trial if figure == DIGITS else _in_proportion
+        rows.append([title, *(search(curves, solved[group], measure, caught) for group in GROUPS)])
+    return rows
+
+
+def _solver(figure, settings, group, names):
+    """Curves with a group off by a size, under the names they have else; None without the group."""
+    module = importlib.import_module(f"planarimpact.curves.{figure}")
+    if changed(settings, group, STEP) == settings:
+        return None
+
+    @functools.cache
+    def solved(size):
+        wrong = changed(settings, group, size)
+        wrong.pop("uncertainty", None)
+        if figure == DIGITS:
+            wrong["points"] = {key: column[::SPARSE] for key, column in wrong["points"].items()}
+        own = [name for name in names if "sigma" not in name]
+        found = module.curves(**wrong)
+        return dict(zip(own, found.values(), strict=True))
+
+    return solved
+
+
+def changed(settings, group, size):
+    """Settings with one group off: by that share of it, restitution by so much.
+
+    Restitution is lowered, but 0 is raised. A stiffness ratio that follows from Poisson's ratio is
+    lowered, as 1/2 is the largest of these.
+
+    Examples
+    --------
+    >>> changed({"restitution": [1.0, 0.0], "samples": 9}, "e", 0.25)
+    {'restitution': [0.75, 0.25], 'samples': 9}
+    >>> changed({"throw": {"friction": 0.5}}, "mu", 0.5)
+    {'throw': {'friction': 0.75}}
+    """
+    wrong = {}
+    for key, value in settings.items():
+        if key in PARTS:
+            wrong[key] = changed(value, group, size)
+        elif key in GROUPS[group]:
+            several = [_off(key, number, size) for number in np.ravel(value).tolist()]
+            wrong[key] = several if isinstance(value, list) else several[0]
+        else:
+            wrong[key] = value
+    return wrong
+
+
+def _off(key, number, size):
+    if key == "restitution":
+        return number - size if number > size else number + size
+    if key == "poisson_ratio":
+        ratio = (2 - number) / (2 * (1 - number)) * (1 - size)
+        return 2 * (ratio - 1) / (2 * ratio - 1)
+    return number * (1 + size)
+
+
+def _in_proportion(curves, solved, measure, caught):
+    """Size that is caught, from one change of the distances in proportion to it, either way."""
+    try:
+        found = measure(curves)
+        other = measure(solved(STEP)) if solved else None
+    except Exception:  # awaited, or failing for a reason that its own row gives
+        return ""
+    if other is None:
+        return ""
+
+    def off(size):
+        share = size / STEP
+        parts = [a + share * (b - a) for a, b in zip(found.residuals, other.residuals, strict=True)]
+        gap = None if found.gap is None else found.gap + share * (other.gap - found.gap)
+        return found._replace(residuals=Residuals(*parts), gap=gap)
+
+    return _words(size for size in SIZES if caught(off(size)) and caught(off(-size)))
+
+
+def _by_trial(curves, solved, measure, caught):
+    """Size that is caught, each tried."""
+    if not solved:
+        return ""
+    return _words(size for size in SIZES[::10] if caught(measure(solved(float(size)))))
+
+
+def _words(sizes):
+    return next((f"{size:.1g}" for size in sizes), "none")
+
+
+if "snakemake" in globals():
+    with job.recorded(snakemake):  # noqa: F821
+        given = snakemake.params  # noqa: F821
+        csv_tables.write_rows(
+            snakemake.output[0],  # noqa: F821
+            COLUMNS,
+            sensitivities(
+                snakemake.wildcards.figure,  # noqa: F821
+                given.settings,
+                given.nodes,
+                snakemake.input.curves,  # noqa: F821
+                given.comparisons,
+                given.references,
+                dict(zip(given.sources, snakemake.input.series, strict=True)),
+                given.significance,
+            ),
+        )
