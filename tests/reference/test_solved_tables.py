@@ -1,0 +1,145 @@
+"""Scenes and study against their independent tables, and which faults the tables would show."""
+
+import csv
+import math
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import reference_data
+import solved_tables
+import study_plan
+
+from planarimpact import lumped, rigid, scene, study
+from planarimpact.scene import choice, motion
+
+ROOT = Path(__file__).parents[2]
+CONFIG = reference_data.load_yaml(ROOT / "workflow/config.yaml")
+SOURCE = {
+    name: reference_data.load_yaml(ROOT / f"data/{name}_solved/source.yaml")["series"]
+    for name in ("scenes", "study")
+}
+NAMES = [*solved_tables.SCENES, "grid"]
+# Zero throughout, as the ball stays in its plane: a factor or sign cannot show.
+ZERO = {"superball": {"velocity_y_after [m/s]", "spin_x_after [rad/s]", "spin_z_after [rad/s]"}}
+
+
+def stated(name):
+    """Entry of a series in its source.yaml, and its table as text."""
+    source = "study" if name == "grid" else "scenes"
+    with open(ROOT / f"data/{source}_solved/{name}.csv", newline="", encoding="utf-8") as file:
+        return SOURCE[source][name], pd.DataFrame(csv.DictReader(file))
+
+
+def solved(name):
+    """What the package answers at the points of a series."""
+    _, table = stated(name)
+    if name != "grid":
+        tolerance = CONFIG["scenes"][name]["tolerance"]
+        after = scene.solve(pd.read_csv(ROOT / f"data/scenes/{name}.csv"), tolerance)
+        return after.iloc[table["row [1]"].astype(int) - 1].reset_index(drop=True)
+    axes = study.axes_of(study_plan.settings(CONFIG)["grid"])
+    shape = [len(values) for values in axes.values()]
+    found = study.solve(lumped.rebound, axes, 0, math.prod(shape))
+    texts = {header.split(" [")[0]: table[header] for header in table.columns[:3]}
+    texts["mass_ratio"] = [repr(CONFIG["mass_ratio"])] * len(table)
+    places = [
+        [[*map(repr, values.tolist())].index(text) for text in texts[axis]]
+        for axis, values in axes.items()
+    ]
+    point = np.ravel_multi_index(places, shape)
+    headers = {header.split(" [")[0]: header for header in table.columns[3:]}
+    outputs = pd.DataFrame({headers[key]: values[point] for key, values in found.items()})
+    return outputs.assign(point=point, **{key: table[key] for key in table.columns[:2]})
+
+
+def differing(name, found):
+    """Columns that leave the series: by more than a sigma, or by another word."""
+    series, table = stated(name)
+    headers = [*table.columns[len(series["labels"]) + 1 :]]
+    assert [axis["column"] for axis in series["y"]] == [text.split(" [")[0] for text in headers]
+    assert series["points"] == len(table)
+    far = {
+        column
+        for column, axis in zip(headers, series["y"], strict=True)
+        if (np.abs(found[column] - table[column].astype(float)) > axis["sigma"]).any()
+    }
+    return far | {label for label in series["labels"] if [*found[label]] != [*table[label]]}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_package_answers_as_the_table(name):
+    assert differing(name, solved(name)) == set()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_table_is_what_the_mechanics_gives(name):
+    _, table = stated(name)
+    step = 1 if len(table) < 100 else 7
+    header, rows = (
+        solved_tables.study_table(step) if name == "grid" else solved_tables.scene_table(name, step)
+    )
+    assert header == [*table]
+    assert rows == table.iloc[::step].to_numpy().tolist()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_factor_or_a_sign_leaves_the_table(name):
+    found = solved(name)
+    series, table = stated(name)
+    numbers = {*table.columns[len(series["labels"]) + 1 :]}
+    for column in numbers - ZERO.get(name, set()):
+        for factor in (1.3, -1.0):
+            wrong = found.assign(**{column: found[column].astype(float) * factor})
+            assert differing(name, wrong) == {column}
+    for column in ZERO.get(name, set()):
+        assert (found[column] == 0).all()
+
+
+FAULTS = {
+    "a spin by a wrong lever": (
+        motion,
+        "_kicked",
+        lambda right: (
+            lambda state, body, *rest: right(
+                state, body._replace(gyration=body.gyration * 1.1), *rest
+            )
+        ),
+    ),
+    "an impulse of the wrong sign": (
+        motion,
+        "_kicked",
+        lambda right: (
+            lambda state, body, m2, impulse, towards: right(state, body, m2, -impulse, towards)
+        ),
+    ),
+    "the loss of energy": (motion, "energy_lost", lambda right: lambda *args: 1.3 * right(*args)),
+    "Hertz's force": (motion, "_peak_normal", lambda right: lambda *args: 1.3 * right(*args)),
+}
+
+
+@pytest.mark.parametrize("name", solved_tables.SCENES)
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_fault_in_the_code_leaves_the_table(name, fault, monkeypatch):
+    module, function, wrong = FAULTS[fault]
+    monkeypatch.setattr(module, function, wrong(getattr(module, function)))
+    assert differing(name, solved(name))
+
+
+@pytest.mark.parametrize("name", ["shot_peening", "superball"])
+def test_a_cheaper_model_leaves_the_table(name, monkeypatch):
+    """The cushion's impacts slide throughout: there every model has one answer."""
+    monkeypatch.setattr(choice, "lumped", rigid)
+    assert "regime" in differing(name, solved(name))
+
+
+def test_a_fault_in_one_chunk_leaves_the_table():
+    found = solved("grid")
+    for chunk in study_plan.chunks(CONFIG):
+        start, stop = map(int, chunk.split("-"))
+        inside = found["point"].between(start, stop - 1)
+        assert {start, stop - 1} <= {*found["point"]}
+        for column in ("velocity [mu v2(0)]", "peak_friction [mu F2max]"):
+            wrong = found.assign(**{column: found[column].where(~inside, 3 * found[column])})
+            assert differing("grid", wrong) == {column}
