@@ -46,6 +46,54 @@ rule verdicts:
         "../scripts/gather_verdicts.py"
 
 
+rule sensitivity:
+    """Find the smallest change of each group that the comparisons of one figure catch."""
+    input:
+        modules=of_figure("sensitivity"),
+        tables=of_figure("tables"),
+        curves="results/curves/{figure}.csv",
+        series=lambda wildcards: JUDGED[wildcards.figure]["series"],
+    output:
+        "results/sensitivity/{figure}.csv",
+    params:
+        content=of_figure("sensitivity content"),
+        settings=of_figure("settings"),
+        nodes=of_figure("nodes"),
+        judged=lambda wildcards: JUDGED[wildcards.figure],
+        significance=config["significance"],
+    log:
+        "results/logs/sensitivity_{figure}.log",
+    benchmark:
+        "results/benchmarks/sensitivity_{figure}.tsv"
+    message:
+        "Finding what the comparisons of {wildcards.figure} catch"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/sensitivity.py"
+
+
+rule gates:
+    """One table of the smallest change that each comparison catches."""
+    input:
+        modules=run_plan.modules("gather_gates"),
+        parts=expand("results/sensitivity/{figure}.csv", figure=FIGURES),
+    output:
+        "results/gates.csv",
+    params:
+        content=run_plan.content(*run_plan.modules("gather_gates")),
+    log:
+        "results/logs/gates.log",
+    benchmark:
+        "results/benchmarks/gates.tsv"
+    message:
+        "Gathering what the comparisons catch"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/gather_gates.py"
+
+
 # Every rule whose files a run makes: the gate asks for all of them, wanted by others or not.
 MAKERS = [
     rules.curves,
@@ -53,6 +101,8 @@ MAKERS = [
     rules.draw,
     rules.compare,
     rules.verdicts,
+    rules.sensitivity,
+    rules.gates,
     rules.ledger,
     rules.ledger_page,
     rules.trade,

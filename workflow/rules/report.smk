@@ -12,7 +12,7 @@ REPORT_INTERFACE = sorted(str(path) for path in Path("src/planarimpact").rglob("
 REPORT_PARTS = sources(
     *expand("workflow/report/{part}.html", part=["report", "ledger_parts"]),
     *expand("workflow/report/{part}.css", part=["page", "report"]),
-    *expand("workflow/report/{part}.rst", part=["figures", "trade", "which_model", "stability"]),
+    *expand("workflow/report/{part}.rst", part=["figures", "trade", "which_model", "stability", "gates"]),
 )
 
 
@@ -28,7 +28,7 @@ rule report:
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
-        tables=[*rules.trade.output, *rules.stability.output],
+        tables=[*rules.trade.output, *rules.stability.output, "results/gates.csv"],
     output:
         page="figures/report.html",
         problems="results/problems.csv",
@@ -39,7 +39,7 @@ rule report:
         figures=list(FIGURES),
         config={
             key: config[key]
-            for key in ("mass_ratio", "stiffness_ratio", "figures", "comparisons")
+            for key in ("mass_ratio", "stiffness_ratio", "figures", "significance", "comparisons")
         },
         sources=SOURCES,
         symbols=SYMBOLS,

@@ -25,7 +25,7 @@ def draw(residuals, comparisons, verdicts):
     comparisons : dict
         `{name: entry of the config}`.
     verdicts : dict
-        `{name: verdict}`.
+        `{name: row of results/verdicts.csv}`.
 
     Returns
     -------
@@ -45,7 +45,8 @@ def draw(residuals, comparisons, verdicts):
         rows, labelled, strips.items(), strict=True
     ):
         for name, (x, distance) in parts.items():
-            _draw_comparison(axes, comparisons[name], x, distance, MARKS[verdicts[name]])
+            bounds = _bounds(comparisons[name], verdicts[name])
+            _draw_comparison(axes, bounds, x, distance, MARKS[verdicts[name]["verdict"]])
         axes.axhline(0, **drawing.GUIDE)
         axes.set_title(f"{curve}  -  {reference}", fontsize=drawing.NOTE, loc="left", pad=2)
         axes.margins(x=0.02, y=0.15)
@@ -57,8 +58,8 @@ def draw(residuals, comparisons, verdicts):
         axes.set_xlim(min(a.get_xlim()[0] for a in same), max(a.get_xlim()[1] for a in same))
     figure.supylabel(r"distance [$\sigma$]", fontsize=drawing.NOTE + 1)
     shown = {name for parts in strips.values() for name in parts}
-    bounds = set().union(*(_bounds(comparisons[name]) for name in shown))
-    _add_legend(figure, {verdicts[name] for name in shown}, bounds)
+    bounds = set().union(*(_bounds(comparisons[name], verdicts[name]) for name in shown))
+    _add_legend(figure, {verdicts[name]["verdict"] for name in shown}, bounds)
     return figure
 
 
@@ -90,10 +91,9 @@ def _strips(residuals, comparisons):
     }
 
 
-def _draw_comparison(axes, entry, x, distance, mark):
+def _draw_comparison(axes, bounds, x, distance, mark):
     span = np.array([x.min(), x.max()])
     span = span if span[0] < span[1] else span + [-0.5, 0.5]
-    bounds = _bounds(entry)
     if "max" in bounds:
         axes.fill_between(span, -bounds["max"][1], bounds["max"][1], **ALL_ALLOWED)
     if "rms" in bounds:
@@ -105,11 +105,10 @@ def _draw_comparison(axes, entry, x, distance, mark):
     axes.plot(x, distance, linestyle="none", **mark)
 
 
-def _bounds(entry):
-    """What `rms` and `max` must lie between; what chi-squared says is no bound for a point."""
-    if "regression" in entry:
-        return entry["regression"]
-    return {} if "digitised" in entry else {"max": (0.0, 1.0)}
+def _bounds(entry, row):
+    """What `rms` and `max` must lie between; chi-squared bounds all points together, and none."""
+    known = entry.get("regression", {} if row["p"] else {"max": (0.0, 1.0)})
+    return {key: span for key, span in known.items() if key in ("rms", "max")}
 
 
 def _add_legend(figure, verdicts, bounds):

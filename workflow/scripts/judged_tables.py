@@ -13,8 +13,8 @@ def read(path):
     Parameters
     ----------
     path : str
-        The table of a figure; of a scene, which is one curve, `impacts`, with a number for each row;
-        or the study, one curve, `grid`, a row a point.
+        The table of a figure; of a scene, one curve `impacts` whose rows are numbered; or the
+        study, one curve `grid` with a row a point.
 
     Raises
     ------
@@ -46,5 +46,6 @@ def _points_of_study(path):
     axes, outputs = study_files.read(Path(path))
     grid = np.meshgrid(*axes.values(), indexing="ij")
     groups = dict(zip(axes, grid, strict=True))
-    numbers = {name: values for name, values in outputs.items() if name != "regime"}
-    return {study_files.column(name): values.ravel() for name, values in (groups | numbers).items()}
+    columns = {study_files.column(name): a.ravel() for name, a in (groups | outputs).items()}
+    # The axes without their units too, as labels of a point.
+    return columns | {name: values.ravel() for name, values in groups.items()}

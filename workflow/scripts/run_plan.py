@@ -96,8 +96,8 @@ def check_config(config, schema, inventory, ledger):
     for name, comparison in config["comparisons"].items():
         if comparison["figure"] not in judged(config):
             raise ConfigError(
-                f"config: comparisons.{name}.figure: '{comparison['figure']}' is not judged; allowed "
-                "are " + ", ".join(judged(config))
+                f"config: comparisons.{name}.figure: '{comparison['figure']}' is not judged; "
+                "allowed are " + ", ".join(judged(config))
             )
         _check_comparison(f"config: comparisons.{name}", comparison, inventory)
         entry = comparison.get("documented", {}).get("entry")
@@ -247,12 +247,15 @@ def plan_of_figure(config, inventory, figure):
     """
     sources, tables = sources_of(config, inventory, figure), nodes_of(config, inventory, figure)
     solver = modules("solve", f"planarimpact.curves.{figure}")
+    judging = modules("sensitivity", f"planarimpact.curves.{figure}")
     drawing = modules("draw", f"draw_{figure}")
     return {
         "solver": solver,
         "solver content": content(*solver, *tables),
         "drawing": drawing,
         "drawing content": content(*drawing),
+        "sensitivity": judging,
+        "sensitivity content": content(*judging, *tables),
         "settings": settings(config, inventory, figure),
         "nodes": tables,
         "tables": list(tables),

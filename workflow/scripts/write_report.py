@@ -24,6 +24,7 @@ import judgement
 import ledger_table
 import pages
 import run_facts
+import run_plan
 import verdict_table
 import write_ledger_page
 import yaml
@@ -34,12 +35,14 @@ MARKS = {
     "differs as documented": "rounding",
     "awaited": "not",
     "agrees": "confirmed",
+    "as before": "not",
 }
 MEANING = {
     "diverges": "outside its tolerance: the run fails",
-    "differs as documented": "a known difference, within bounds on both sides",
+    "differs as documented": "a difference that is known, explained and as large as before",
     "awaited": "the reference is not to be had yet",
-    "agrees": "within its tolerance",
+    "agrees": "with published points (p is large enough), or within the tolerance of its reference",
+    "as before": "it ran; this guards against accidents and is evidence of nothing",
 }
 SHARED = ("mass_ratio", "stiffness_ratio")
 ROOT = Path(__file__).parents[2]
@@ -82,7 +85,9 @@ def _place(error):
     return f" ({Path(ours[-1].filename).relative_to(ROOT)}, line {ours[-1].lineno})" if ours else ""
 
 
-def page(verdicts, ledger, figures, tables, sources, run, symbols, links, template, faults, tried):
+def page(
+    verdicts, ledger, figures, tables, config, sources, run, symbols, links, template, faults, tried
+):
     """The report.
 
     Parameters
@@ -92,7 +97,9 @@ def page(verdicts, ledger, figures, tables, sources, run, symbols, links, templa
     figures : dict
         `{name: what figure() gave}`.
     tables : dict
-        `{name: {"rows", "caption"}}` of `which_model`, `trade`, `stability`.
+        `{name: {"rows", "caption"}}` of `which_model`, `trade`, `stability`, `gates`.
+    config : dict
+        As it was in the run.
     sources : dict
         Contents of data/*/source.yaml.
     run : dict
@@ -130,13 +137,16 @@ def page(verdicts, ledger, figures, tables, sources, run, symbols, links, templa
         "quantity": draw_residuals.words,
         "docs": docs,
         "sentence": sentence,
+        "title_of": title,
     }
     return environment.get_template(Path(template).name).render(
         write_ledger_page.words(ledger, symbols),
         verdicts=verdicts,
+        significance=config["significance"],
         faults=faults + tried.problems,
         failing=verdict_table.failing(verdicts),
         verdict_counts=Counter(row["verdict"] for row in verdicts),
+        evidence=Counter(row["evidence"] for row in verdicts if row["verdict"] == "agrees"),
         marks=MARKS,
         verdict_meaning=MEANING,
         entry_of=_entry_of(names),
@@ -183,8 +193,7 @@ def figure(name, svg, caption, residuals, verdicts, config):
     """
     rows = [row for row in verdicts if row["figure"] == name]
     entries = {c: e for c, e in config["comparisons"].items() if e["figure"] == name}
-    words = {row["comparison"]: row["verdict"] for row in rows}
-    strips = draw_residuals.draw(residuals, entries, words)
+    strips = draw_residuals.draw(residuals, entries, {row["comparison"]: row for row in rows})
     return {
         "title": title(name),
         "picture": _embedded(svg),
@@ -211,6 +220,8 @@ def title(name):
     """
     if name.startswith("fig"):
         return f"Fig. {name.removeprefix('fig')}"
+    if name.startswith(run_plan.SCENE):
+        return f"Scene: {name.removeprefix(run_plan.SCENE).replace('_', ' ')}"
     return name.replace("_", " ").capitalize()
 
 
@@ -323,7 +334,9 @@ def write(output, problems, paths, residuals, svgs, captions, config, expected, 
     text = tried(
         "report",
         None,
-        lambda: page(rows, ledger, figures, tables, run=run, faults=faults, tried=tried, **parts),
+        lambda: page(
+            rows, ledger, figures, tables, config, run=run, faults=faults, tried=tried, **parts
+        ),
     )
     pages.write(output, without_details(faults + tried.problems) if text is None else text)
     csv_tables.write_rows(problems, ["problem"], [[problem] for problem in tried.problems])
