@@ -63,8 +63,8 @@ def _spring(found: Contact, state: State) -> Array:
 def friction_after_stick() -> Finding:
     """Distance of Eq. 38 from the exact energy lost, over m1 v1(0)^2/2, all initial stick.
 
-    With the better one of both signs before the impulse; that is the minus. Corrected: with s,
-    and the tangential strain energy at t1.
+    With that sign before the impulse, minus or the plus of the scan, which comes nearer.
+    Corrected: the minus, with s, and the tangential strain energy at t1.
     """
     printed: dict[int, list[Numbers]] = {-1: [], 1: []}
     corrected = []
@@ -87,8 +87,8 @@ def _of_best_reading(gaps: Mapping[Any, Iterable[Numbers]]) -> float:
 def friction_after_stick_in_groups() -> Finding:
     """Distance of Eq. 39 from the exact energy lost, over m1 v1(0)^2/2, all initial stick.
 
-    With the better one of both leading signs; that is the minus. Corrected: with s g1 for g1, and
-    mu^2 zeta^2 sin^2 of the angle of restitution at t1.
+    With the leading sign that comes nearer. Corrected: the minus, with s g1 for g1, and mu^2 zeta^2
+    sin^2 of the angle of restitution at t1.
     """
     printed: dict[int, list[Numbers]] = {-1: [], 1: []}
     corrected = []
@@ -110,8 +110,8 @@ def friction_after_stick_in_groups() -> Finding:
 def friction_of_two_slips() -> Finding:
     """Distance of Eq. 40 from the exact energy lost, over m1 v1(0)^2/2, slip - stick - slip.
 
-    With the best choice of the signs before v1(t2)^2, v1(t3)^2 and v1(tf)^2; those are -, +, -.
-    Corrected: strain energy at t3 comes in, that at t2 goes out.
+    With the signs before v1(t2)^2, v1(t3)^2 and v1(tf)^2 that come nearest. Corrected: -, +, -, and
+    strain energy at t3 comes in, that at t2 goes out.
     """
     printed: dict[tuple[int, ...], list[Numbers]] = {
         signs: [] for signs in product((-1, 1), repeat=3)

@@ -147,8 +147,9 @@ def signs_of_deflection() -> Finding:
     lost: before the u1(t2) of Eq. 32, and before the brace of Eq. 31. Corrected: u1(t2) with a
     minus, as in Eq. 18, and a minus before sine and brace, as Eq. 7c asks.
     """
-    readings = list(product((-1, 1), repeat=2))
-    printed: dict[tuple[int, int], list[Numbers]] = {reading: [] for reading in readings}
+    printed: dict[tuple[int, int], list[Numbers]] = {
+        signs: [] for signs in product((-1, 1), (-1, 1))
+    }
     corrected = []
     for found in contact.slip_stick_slip(late=False):
         start, (stretch, velocity) = _start(found)
