@@ -90,6 +90,16 @@ def test_no_sign_saves_the_equations_of_dissipation():
     for check in ("after_stick", "after_stick_in_groups", "of_two_slips"):
         found = ledger.run(f"dissipation.friction_{check}")
         assert found.found > 0.8 and found.corrected < 1e-12
+    gaps = {sign: [] for sign in (-1, 1)}
+    for found in contact.initial_stick():
+        onset = found.last(EventKind.SLIP)
+        impulse = found.friction * found.impulse_left(onset.t)
+        energy = found.m1 * np.array([found.v1, found.final_velocity]) ** 2 / 2
+        for sign, gap in gaps.items():
+            lost = impulse * onset.v1 + sign * impulse**2 / (2 * found.m1)
+            gap.append(abs(lost - (energy[0] - energy[1])) / energy[0])
+    nearest = min(max(gap) for gap in gaps.values())
+    assert ledger.run("dissipation.friction_after_stick").found == pytest.approx(nearest, rel=1e-6)
 
 
 def test_no_sign_saves_the_deflection_in_stick():

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from pathlib import Path
 
+import browser
 import check_ledger
 import ledger_entries
 import ledger_table
@@ -81,7 +82,7 @@ def test_the_page_counts_grades_and_groups_by_cause(rows):
     )
     grades = Counter(entry["grade"] for entry in ENTRIES.values() if "grade" in entry)
     assert shown_grades(html) == grades
-    assert f"{grades.total()} entries are wrong, " in html
+    assert f"{grades.total()} entries are wrong: " in html
     table = html[html.index("What is wrong, by cause") : html.index("<h2>Equations")]
     groups = re.findall(r"<tbody>(.*?)</tbody>", table, flags=re.S)
     by_cause = {
@@ -94,6 +95,28 @@ def test_the_page_counts_grades_and_groups_by_cause(rows):
     }
     order = [re.findall(r'<span class="mark \w+">([^<]+)</span>', group)[0] for group in groups]
     assert order == sorted(order, key=list(ledger_table.GRADES).index)
+
+
+def test_the_page_fits_a_phone(rows, tmp_path):
+    page = tmp_path / "ledger.html"
+    template = ROOT / "workflow/report/ledger.html"
+    page.write_text(write_ledger_page.page(list(rows.values()), "mu", template), encoding="utf-8")
+    with browser.page() as tab:
+        tab.resize(390, 800, mobile=True)
+        tab.open(page.as_uri())
+        assert tab.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_the_readme_counts_grades_and_causes():
+    wrong = [entry for entry in ENTRIES.values() if "grade" in entry]
+    grades = Counter(entry["grade"] for entry in wrong)
+    words = (
+        f"Of the wrong ones {grades['changes a result']} change a result, "
+        f"{grades['sign or misprint']} are signs or misprints, perhaps the scan's, and "
+        f"{grades['matter of judgement']} matters of judgement; they go back to "
+        f"{len({entry['cause'] for entry in wrong})} causes."
+    )
+    assert words in " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
 
 
 def test_every_check_is_used():

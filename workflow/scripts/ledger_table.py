@@ -10,8 +10,8 @@ COLUMNS = [
 # How much hangs on a wrong entry, gravest first, and in words that go on after their number.
 GRADES = {
     "changes a result": "change a result",
-    "sign or misprint": "signs or misprints (perhaps the scan's)",
-    "matter of judgement": "matters of judgement",
+    "sign or misprint": "are signs or misprints (perhaps the scan's)",
+    "matter of judgement": "are matters of judgement",
 }
 
 
