@@ -38,7 +38,7 @@ def test_no_solution_between_the_limits(e):
 
 
 def test_the_kept_direction_costs_twice_the_impulse_left():
-    """Just below x = beta at e = 0.5 the print is 2 e beta too high (ledger: eq-25)."""
+    """Just below x = beta at e = 0.5 Eq. 25 with s = +1 is 2 e beta too high."""
     x = BETA - 1e-6
     velocity, _, _ = impact.rebound([x], BETA, ZETA2, 0.5)
     excess = velocity[0] - lumped.rebound(x, BETA, ZETA2, 0.5).velocity

@@ -1,3 +1,4 @@
+LEDGER_FACTS = sources("data/stronge1994/source.yaml")  # beside the ledger, which names some
 PAGE_PARTS = sources("workflow/report/ledger_parts.html", "workflow/report/page.css")
 PAGE_TEMPLATE = sources("workflow/report/ledger.html")
 
@@ -7,10 +8,13 @@ rule ledger:
     input:
         modules=run_plan.modules("check_ledger", *LEDGER_MODULES),
         entries=LEDGER,
+        facts=LEDGER_FACTS,
     output:
         "results/ledger.csv",
     params:
-        content=run_plan.content(*run_plan.modules("check_ledger", *LEDGER_MODULES), LEDGER),
+        content=run_plan.content(
+            *run_plan.modules("check_ledger", *LEDGER_MODULES), LEDGER, LEDGER_FACTS
+        ),
         schema=LEDGER_SCHEMA,
     log:
         "results/logs/ledger.log",

@@ -19,8 +19,21 @@ STYLE = {
 MEANING = {
     "confirmed": "true as it stands, in the range that the entry names",
     "confirmed within rounding": "the stated number is the right one, rounded",
-    "wrong": "false as it stands; the entry says what is right, and why",
+    "wrong": "false as read here; the entry says what is right, and why",
     "not testable": "outside what is modelled here, or no data",
+}
+GRADE_STYLE = {
+    "changes a result": "grave",
+    "sign or misprint": "misprint",
+    "matter of judgement": "judgement",
+}
+GRADE_MEANING = {
+    "changes a result": "a limit, a formula or a number of the paper comes out otherwise, under "
+    "every fair reading",
+    "sign or misprint": "one sign, digit or word, perhaps the scan's; the paper has it right "
+    "elsewhere, or asks for it",
+    "matter of judgement": "approximate words, or a sentence that stands under another fair "
+    "reading, which the entry names",
 }
 GREEK = {
     "mu": "µ", "zeta": "ζ", "beta": "β", "Omega": "Ω", "omega": "ω", "kappa": "κ", "pi": "π",
@@ -85,9 +98,22 @@ def words(rows, symbols):
         "symbols": symbols,
         "lapsed": ledger_table.failing(rows),
         "counts": {verdict: counts[verdict] for verdict in STYLE if counts[verdict]},
-        "style": STYLE,
-        "meaning": MEANING,
+        "grades": ledger_table.grades(rows),
+        "graded": ledger_table.grades_in_words(rows),
+        "causes": by_cause(rows),
+        "style": STYLE | GRADE_STYLE,
+        "meaning": MEANING | GRADE_MEANING,
     }
+
+
+def by_cause(rows):
+    """Wrong rows by what they follow from, `{cause in words: rows}`, the gravest ones first."""
+    order = list(ledger_table.GRADES)
+    wrong = [row for row in rows if row.get("cause")]
+    causes = {}
+    for row in sorted(wrong, key=lambda row: order.index(row["grade"])):
+        causes.setdefault(row["because"], []).append(row)
+    return causes
 
 
 def page(rows, symbols, template):

@@ -4,7 +4,7 @@ v1(0), v2(0) < 0, F2 > 0, F1 = (kappa/zeta^2) u1 and du1/dt = -v1 in stick. Scal
 numbers with no common factor, so that a formula with a wrong one cannot agree by accident.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -253,6 +253,11 @@ def with_stick() -> Iterator[Contact]:
     """Contacts that stick, at first or after slip, and slip to the end."""
     yield from initial_stick()
     yield from slip_stick_slip()
+
+
+def reversed_last_slip(contacts: Iterable[Contact]) -> Iterator[Contact]:
+    """Those contacts whose last slip runs against the incident direction, s = +1."""
+    return (found for found in contacts if found.last_slip_direction > 0)
 
 
 def slip_throughout() -> Iterator[Contact]:

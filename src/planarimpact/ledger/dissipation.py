@@ -1,5 +1,9 @@
 """Checks of Eqs 36 to 41, and of what pp. 435 and 447 to 449 say of the energy lost."""
 
+from collections.abc import Iterable, Mapping
+from itertools import product
+from typing import Any
+
 import numpy as np
 
 from planarimpact import lumped, rigid
@@ -59,59 +63,71 @@ def _spring(found: Contact, state: State) -> Array:
 def friction_after_stick() -> Finding:
     """Distance of Eq. 38 from the exact energy lost, over m1 v1(0)^2/2, all initial stick.
 
-    Corrected: with s, and the tangential strain energy at t1.
+    With that sign before the impulse, minus or the plus of the scan, which comes nearer.
+    Corrected: the minus, with s, and the tangential strain energy at t1.
     """
-    printed, corrected = [], []
+    printed: dict[int, list[Numbers]] = {-1: [], 1: []}
+    corrected = []
     for found in contact.initial_stick():
         onset, s = found.last(EventKind.SLIP), found.last_slip_direction
         left, groups = found.impulse_left(onset.t), (found.friction, found.m1)
-        lost = dissipation.eq_38_friction(onset.v1, left, *groups)
-        printed.append((lost - _exact(found)) / _unit(found))
-        lost = dissipation.eq_38_friction(onset.v1, s * left, *groups) + _spring(found, onset)
+        for sign, gaps in printed.items():
+            lost = dissipation.eq_38_friction(onset.v1, left, *groups, sign)
+            gaps.append((lost - _exact(found)) / _unit(found))
+        lost = dissipation.eq_38_friction(onset.v1, s * left, *groups, -1) + _spring(found, onset)
         corrected.append((lost - _exact(found)) / _unit(found))
-    return Finding(largest(printed), largest(corrected))
+    return Finding(_of_best_reading(printed), largest(corrected))
+
+
+def _of_best_reading(gaps: Mapping[Any, Iterable[Numbers]]) -> float:
+    """Largest distance under that reading of a formula which comes nearest."""
+    return min(largest(found) for found in gaps.values())
 
 
 def friction_after_stick_in_groups() -> Finding:
     """Distance of Eq. 39 from the exact energy lost, over m1 v1(0)^2/2, all initial stick.
 
-    Corrected: with s g1 for g1, and mu^2 zeta^2 sin^2 of the angle of restitution at t1.
+    With the leading sign that comes nearer. Corrected: the minus, with s g1 for g1, and mu^2 zeta^2
+    sin^2 of the angle of restitution at t1.
     """
-    printed: list[Numbers] = []
-    corrected: list[Numbers] = []
+    printed: dict[int, list[Numbers]] = {-1: [], 1: []}
+    corrected = []
     for found in contact.initial_stick():
         onset, normal = found.last(EventKind.SLIP), found.m2 * found.v2**2
         swing = np.cos(found.tangential_frequency * onset.t)
         g1 = slip.impulse_ratio(onset.t, found.normal_frequency, found.restitution)
-        sine = onset.force_2 / found.force_scale
-        strain = found.friction**2 * found.stiffness_ratio * sine**2
-        for gaps, share, add in (
-            (printed, g1, 0.0),
-            (corrected, found.last_slip_direction * g1, strain),
-        ):
-            groups = found.incidence, swing, share, found.mass_ratio, found.friction
-            lost = (dissipation.eq_39_friction(*groups) + add) * normal / 2
-            gaps.append((lost - _exact(found)) / _unit(found))
-    return Finding(largest(printed), largest(corrected))
+        groups = found.mass_ratio, found.friction
+        lost = dissipation.eq_39_friction(found.incidence, swing, g1, *groups)
+        for sign, gaps in printed.items():
+            gaps.append((-sign * lost * normal / 2 - _exact(found)) / _unit(found))
+        signed = found.last_slip_direction * g1
+        lost = dissipation.eq_39_friction(found.incidence, swing, signed, *groups)
+        strain = found.stiffness_ratio * (found.friction * onset.force_2 / found.force_scale) ** 2
+        corrected.append(((lost + strain) * normal / 2 - _exact(found)) / _unit(found))
+    return Finding(_of_best_reading(printed), largest(corrected))
 
 
 def friction_of_two_slips() -> Finding:
     """Distance of Eq. 40 from the exact energy lost, over m1 v1(0)^2/2, slip - stick - slip.
 
-    Corrected: strain energy at t3 comes in, that at t2 goes out.
+    With the signs before v1(t2)^2, v1(t3)^2 and v1(tf)^2 that come nearest. Corrected: -, +, -, and
+    strain energy at t3 comes in, that at t2 goes out.
     """
-    printed, corrected = [], []
+    printed: dict[tuple[int, ...], list[Numbers]] = {
+        signs: [] for signs in product((-1, 1), repeat=3)
+    }
+    corrected = []
     for found in contact.slip_stick_slip():
-        scale, normal = found.velocity_scale, found.m2 * found.v2**2
+        scale, unit = found.velocity_scale, _unit(found)
         start, onset = found.first(EventKind.STICK), found.last(EventKind.SLIP)
         w2, w3, final = start.v1 / scale, onset.v1 / scale, found.final_velocity / scale
-        groups = found.mass_ratio, found.friction
-        lost = dissipation.eq_40_friction(found.incidence, w2, w3, final, *groups)
-        gap = lost * normal / 2 - _exact(found)
-        printed.append(gap / _unit(found))
+        speeds, groups = (found.incidence, w2, w3, final), (found.mass_ratio, found.friction)
+        for signs, gaps in printed.items():
+            lost = dissipation.eq_40_friction(*speeds, *groups, signs)
+            gaps.append((lost * found.m2 * found.v2**2 / 2 - _exact(found)) / unit)
         strain = _spring(found, onset) - _spring(found, start)
-        corrected.append((gap + strain) / _unit(found))
-    return Finding(largest(printed), largest(corrected))
+        corrected.append(printed[-1, 1, -1][-1] + strain / unit)
+    return Finding(_of_best_reading(printed), largest(corrected))
 
 
 def friction_of_slip_throughout() -> Finding:
@@ -171,31 +187,49 @@ def body_velocity_alone() -> Finding:
 
 
 def strain_recovered() -> Finding:
-    """Share of the strain energy at the onset of the last slip that the body gets back.
-
-    The largest over the contacts of the checks; what the body does not get, friction takes.
-    """
+    """Tangential strain energy at separation over that at the onset of the last slip, e > 0."""
     shares = []
     for found in contact.with_stick():
-        onset = found.last(EventKind.SLIP)
-        gained = found.m1 * (found.final_velocity**2 - onset.v1**2) / 2
-        shares.append(gained / _spring(found, onset))
-    return Finding(float(max(shares)))
+        onset, end = found.last(EventKind.SLIP), found.last(EventKind.SEPARATION)
+        shares.append(_spring(found, end) / _spring(found, onset))
+    return Finding(largest(shares))
+
+
+def strain_decreases() -> Finding:
+    """Largest rise of either element's strain energy during the last slip, or what is left of it.
+
+    Over its value at the onset; contacts that slip, stick and slip, e > 0.
+    """
+    rises = []
+    for found in contact.slip_stick_slip():
+        onset, end = found.last(EventKind.SLIP), found.last(EventKind.SEPARATION)
+        path = found.between(onset.t, end.t)
+        # What the normal element gives back: stiffness kappa/e^2 in restitution.
+        normal = found.restitution**2 * path.force_2**2 / (2 * found.stiffness)
+        for energy in (_spring(found, path), normal):
+            rises += [np.diff(energy).max() / energy[0], energy[-1] / energy[0]]
+    return Finding(float(max(rises)))
+
+
+def losses_decoupled() -> Finding:
+    """Spread of the hysteresis over m2 v2(0)^2/2 with incidence and zeta^2, collinear impact."""
+    spreads = []
+    for e in contact.RESTITUTIONS:
+        shares = []
+        for x, zeta2 in ((0.3, 1.21), (2.0, 1.21), (8.0, 1.21), (2.0, 0.5)):
+            found = contact.contact(x, contact.MASS_RATIO, zeta2, e, samples=2001)
+            impulse = contact.integral(found, found.path.force_2)
+            work = contact.integral(found, found.path.force_2 * (found.v2 + impulse / found.m2))
+            shares.append(-work[-1] / (found.m2 * found.v2**2 / 2))
+        spreads.append(np.ptp(shares))
+    return Finding(largest(spreads))
 
 
 def small_incidence() -> Finding:
-    """Dissipation by friction over that without tangential compliance, in initial stick.
-
-    The smallest ratio over e = 1 and 0.5, those of Fig. 9.
-    """
-    beta, zeta2 = contact.SPHERE
-    x = np.linspace(0, zeta2, 201)[1:]
-    ratios = [
-        lumped.rebound(x, beta, zeta2, e).dissipation
-        / rigid.rebound(x, beta, restitution=e).dissipation
-        for e in RESTITUTIONS
-    ]
-    return Finding(float(np.min(ratios)))
+    """Largest share of m2 S^2/2 that friction takes up to 10 degrees: the axes of Fig. 9."""
+    small = ANGLES <= 10.0
+    shares = [_dissipated(mu, e)[small].max() for mu in FRICTIONS for e in RESTITUTIONS]
+    return Finding(float(max(shares)))
 
 
 def compliance_immaterial() -> Finding:
@@ -216,16 +250,15 @@ def _dissipated(friction: float, restitution: float) -> Array:
 
 
 def angle_of_largest() -> Finding:
-    """Largest angle between most dissipation and the start of slip throughout, degrees.
+    """Largest angle between most dissipation and the printed limit of slip throughout, degrees.
 
     Over both frictions and restitutions of Fig. 9.
     """
     gaps = []
     for mu in FRICTIONS:
         for e in RESTITUTIONS:
-            limit = lumped.slip_throughout_limit(*contact.SPHERE, e)
-            onset = np.degrees(np.arctan(mu * limit))
-            gaps.append(ANGLES[_dissipated(mu, e).argmax()] - onset)
+            limit = np.degrees(np.arctan(mu * slip.slip_throughout_limit(contact.MASS_RATIO, e)))
+            gaps.append(ANGLES[_dissipated(mu, e).argmax()] - limit)
     return Finding(float(max(gaps)))
 
 

@@ -1,6 +1,7 @@
 """Checks of Eqs 28 to 35, and of what pp. 435 and 444 to 449 say of the largest forces."""
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import product
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
@@ -111,9 +112,15 @@ def _start(found: Contact) -> tuple[State, tuple[Numbers, Numbers]]:
     return start, peak_force.eq_32_start(angle, *groups)
 
 
-def _along_stick(found: Contact) -> tuple[State, Numbers]:
-    """States of the stick after the first slip, and Eqs 31 and 32 there, as a force."""
-    start, values = _start(found)
+def _along_stick(
+    found: Contact, values: tuple[Numbers, Numbers] | None = None
+) -> tuple[State, Numbers]:
+    """States of the stick after the first slip, and Eq. 31 there, as a force.
+
+    `values` at t2 are those of Eq. 32 where not given.
+    """
+    start, of_eq_32 = _start(found)
+    values = of_eq_32 if values is None else values
     path = found.between(start.t, found.last(EventKind.SLIP).t)
     speed, slope = _speed(found)
     elapsed = found.normal_frequency * (path.t - start.t)
@@ -132,16 +139,28 @@ def stick_after_slip() -> Finding:
     return Finding(largest(gaps))
 
 
-def start_of_stick() -> Finding:
-    """Eq. 32 at the exact start of stick in compression; corrected: u1 with a minus."""
-    printed, corrected = [], []
+def signs_of_deflection() -> Finding:
+    """How far the legible plus in Eq. 31 and one sign of u1(t2) in Eqs 18 and 32 are apart.
+
+    In units of mu: the largest distance of Eq. 31 from the exact force, or of Eq. 32 from the
+    exact u1(t2), whichever is larger, under the best choice of the signs that the scan may have
+    lost: before the u1(t2) of Eq. 32, and before the brace of Eq. 31. Corrected: u1(t2) with a
+    minus, as in Eq. 18, and a minus before sine and brace, as Eq. 7c asks.
+    """
+    printed: dict[tuple[int, int], list[Numbers]] = {
+        signs: [] for signs in product((-1, 1), (-1, 1))
+    }
+    corrected = []
     for found in contact.slip_stick_slip(late=False):
         start, (stretch, velocity) = _start(found)
-        scale = found.velocity_scale
-        exact = found.normal_frequency * start.u1 / scale
-        printed += [stretch - exact, velocity - start.v1 / scale]
-        corrected += [-stretch - exact, velocity - start.v1 / scale]
-    return Finding(largest(printed), largest(corrected))
+        exact = found.normal_frequency * start.u1 / found.velocity_scale
+        for (sign, leading), gaps in printed.items():
+            path, force = _along_stick(found, (sign * stretch, velocity))
+            gaps.append(sign * stretch - exact)
+            gaps.append((leading * force - path.force_1) / found.friction_scale)
+        path, force = _along_stick(found, (-stretch, -velocity))
+        corrected += [-stretch - exact, (-force - path.force_1) / found.friction_scale]
+    return Finding(min(largest(gaps) for gaps in printed.values()), largest(corrected))
 
 
 def peak_after_late_stick() -> Finding:
@@ -306,13 +325,23 @@ def peak_at_intermediate_incidence() -> Finding:
     return Finding(float(min((x - zeta2).min(), (2 * beta - x).min())))
 
 
-def reduction() -> Finding:
+def _reductions() -> Array:
+    """How much less the largest peak is than without tangential compliance, one a friction."""
+    shares = [1 - _forces(_lumped, mu).max() / _forces(_rigid, mu).max() for mu in FRICTIONS]
+    return np.array(shares)
+
+
+def largest_reduction() -> Finding:
     """How much less the largest peak is than without tangential compliance.
 
-    The smallest such share over the frictions of Fig. 7.
+    The largest such share over the frictions of Fig. 7.
     """
-    shares = [1 - _forces(_lumped, mu).max() / _forces(_rigid, mu).max() for mu in FRICTIONS]
-    return Finding(float(min(shares)))
+    return Finding(float(_reductions().max()))
+
+
+def smallest_reduction() -> Finding:
+    """The smallest such share over the frictions of Fig. 7."""
+    return Finding(float(_reductions().min()))
 
 
 def peak_below_gross_slip() -> Finding:
@@ -345,9 +374,13 @@ def ball_mass() -> Finding:
     return Finding(1.5 * float(bodies.solid_sphere(0.0127, 7850.0).mass))
 
 
-def _effect(model: Callable[[Array], Rebound], friction: float) -> float:
-    """Relative change that another model makes to the largest peak of one mu."""
-    return abs(_forces(model, friction).max() / _forces(_lumped, friction).max() - 1)
+def _effect(
+    model: Callable[[Array], Rebound],
+    friction: float,
+    base: Callable[[Array], Rebound] = _lumped,
+) -> float:
+    """Relative change of the largest peak of one mu from a model to another."""
+    return abs(_forces(model, friction).max() / _forces(base, friction).max() - 1)
 
 
 def _hertz(x: Array) -> Rebound:
@@ -361,12 +394,15 @@ def normal_details() -> Finding:
 
 
 def stiffness_matters_more() -> Finding:
-    """Change of the largest peak by zeta^2 = 1.5 for 1.21, over that by Hertz' compliance.
+    """Change of the largest peak from nu = 0 to 0.5, over that by Hertz' compliance.
 
-    The smallest ratio for mu = 0.1, 0.4 and 1.
+    zeta^2 is 1 for nu = 0 and 1.5 for 0.5. The smallest ratio for mu = 0.1, 0.4 and 1.
     """
-    ratios = [
-        _effect(lambda x: lumped.rebound(x, contact.MASS_RATIO, 1.5), mu) / _effect(_hertz, mu)
-        for mu in (0.1, 0.4, 1.0)
-    ]
+
+    def sphere(poisson_ratio: float) -> Callable[[Array], Rebound]:
+        zeta2 = bodies.stiffness_ratio(bodies.Material(1.0, poisson_ratio))
+        return lambda x: lumped.rebound(x, contact.MASS_RATIO, zeta2)
+
+    frictions = (0.1, 0.4, 1.0)
+    ratios = [_effect(sphere(0.5), mu, sphere(0.0)) / _effect(_hertz, mu) for mu in frictions]
     return Finding(float(min(ratios)))

@@ -1,5 +1,7 @@
 """Equations 36 to 41: energy lost in the normal element and to friction."""
 
+from collections.abc import Sequence
+
 from planarimpact.arrays import Numbers
 
 
@@ -35,16 +37,17 @@ def eq_37_hysteresis_share(restitution: Numbers) -> Numbers:
 
 
 def eq_38_friction(
-    v1_t1: Numbers, impulse_left: Numbers, friction: Numbers, m1: Numbers
+    v1_t1: Numbers, impulse_left: Numbers, friction: Numbers, m1: Numbers, sign: int
 ) -> Numbers:
     """Eq. 38: D1(tf) = -integral of F1 v1 dt over the last slip, with s = +1.
 
-    F1 dt = -mu dp and v1 = v1(t1) - (mu/m1) [p - p(t1)].
+    F1 dt = -mu dp and v1 = v1(t1) + sign (mu/m1) [p - p(t1)]. Eqs 13 and 39 ask for sign = -1;
+    the scan shows a plus.
 
-    >>> eq_38_friction(1.0, 2.0, 0.5, 1.0)
+    >>> eq_38_friction(1.0, 2.0, 0.5, 1.0, sign=-1)
     0.5
     """
-    return friction * impulse_left * (v1_t1 - friction / m1 * impulse_left / 2)
+    return friction * impulse_left * (v1_t1 + sign * friction / m1 * impulse_left / 2)
 
 
 def eq_39_friction(
@@ -67,13 +70,18 @@ def eq_40_friction(
     final: Numbers,
     mass_ratio: Numbers,
     friction: Numbers,
+    signs: Sequence[int] = (-1, 1, -1),
 ) -> Numbers:
     """Eq. 40: 2 D1/(m2 v2(0)^2) after slip, stick, slip; velocities over mu v2(0).
+
+    `signs` stand before the squares of the second to fourth velocity; the scan does not show
+    them, and Eq. 38 over both slips asks for -, +, -.
 
     >>> eq_40_friction(2.0, 1.0, 2.0, 1.0, 2.0, 1.0)
     3.0
     """
-    return friction**2 / mass_ratio * (incidence**2 - v1_t2**2 + v1_t3**2 - final**2)
+    later = (sign * v1**2 for sign, v1 in zip(signs, (v1_t2, v1_t3, final), strict=True))
+    return friction**2 / mass_ratio * (incidence**2 + sum(later))
 
 
 def eq_41_friction(
