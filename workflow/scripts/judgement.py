@@ -17,7 +17,7 @@ from records import HOW_TO_MEND
 PASSED = "results/PASSED"
 TABLES = ("results/verdicts.csv", "results/ledger.csv")
 # Points of a figure are counted elsewhere: it may have none. A good report has no problems.
-MAY_HAVE_NO_ROWS = {"residuals", "problems"}
+MAY_HAVE_NO_ROWS = {"residuals", "sensitivity", "problems"}
 
 
 def faults_of_tables(verdicts, ledger, comparisons, entries):
