@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize
+from scipy.stats import kstest
 
 from planarimpact import landmarks
 from planarimpact.comparison import (
-    Distance,
     Verdict,
+    chi_squared,
     curve_residuals,
     difference_residuals,
     distances_to_polyline,
@@ -91,30 +93,46 @@ def test_facts(found, fact, expected):
 
 
 @pytest.mark.parametrize(
-    ("rms", "largest", "verdict"),
-    [(0.9, 2.9, Verdict.AGREES), (1.1, 2.9, Verdict.DIVERGES), (0.9, 3.1, Verdict.DIVERGES)],
+    ("good", "documented", "unchanged", "verdict"),
+    [
+        (True, False, True, Verdict.AGREES),
+        (False, False, True, Verdict.DIVERGES),
+        (False, True, True, Verdict.DOCUMENTED),
+        (False, True, False, Verdict.DIVERGES),
+        (True, True, True, Verdict.DIVERGES),  # there is no difference any more
+        (True, False, False, Verdict.DIVERGES),
+    ],
 )
-def test_agreement_is_bounded_by_rms_and_max(rms, largest, verdict):
-    assert judge(Distance(rms, largest, 0.0, 5), {"rms": 1.0, "max": 3.0}) == verdict
+def test_verdicts(good, documented, unchanged, verdict):
+    assert judge(good, documented, unchanged) == verdict
 
 
-@pytest.mark.parametrize(
-    ("rms", "verdict"),
-    [(2.5, Verdict.DOCUMENTED), (1.9, Verdict.DIVERGES), (3.1, Verdict.DIVERGES)],
-)
-def test_a_documented_difference_is_bounded_on_both_sides(rms, verdict):
-    documented = {"entry": "known", "rms": [2.0, 3.0]}
-    assert judge(Distance(rms, 9.0, 0.0, 5), documented=documented) == verdict
+def test_chi_squared_is_that_of_a_fit_held_to_the_stated_parameters():
+    rng = np.random.default_rng(4)
+    distance, shifts = rng.normal(size=9), rng.normal(size=(2, 9))
+
+    def loss(parameters):
+        return np.sum((distance - parameters @ shifts) ** 2) + parameters @ parameters
+
+    fitted = minimize(loss, np.zeros(2), tol=1e-12).fun
+    assert chi_squared(distance, shifts).value == pytest.approx(fitted, rel=1e-9)
 
 
-@pytest.mark.parametrize("nothing", [{}, None])
-def test_no_tolerance_is_no_agreement(nothing):
-    assert judge(Distance(0.0, 0.0, 0.0, 1), nothing) == Verdict.DIVERGES
-    assert judge(Distance(0, 0, 0, 1), documented={"entry": "known"}) == Verdict.DIVERGES
+def test_probability_of_chi_squared():
+    rng = np.random.default_rng(5)
+    common, own = rng.normal(size=(4000, 1)), rng.normal(size=(4000, 6))
+    shift = np.linspace(0.5, 3.0, 6)
+    p = [chi_squared(row, [shift]).p for row in own + common * shift]
+    # Chance alone makes p even; without the shift nearly all of these would be refused.
+    assert kstest(p, "uniform").pvalue > 0.01
+    assert np.mean([chi_squared(row).p < 0.01 for row in own + common * shift]) > 0.4
 
 
-def test_not_a_number_never_agrees():
-    assert judge(Distance(np.nan, np.nan, 0.0, 1), {"max": 1.0}) == Verdict.DIVERGES
+def test_not_a_number_is_not_probable():
+    assert not chi_squared([np.nan, 0.0]).p > 0.01
+    assert not chi_squared([np.inf, 0.0]).p > 0.01
+    with pytest.raises(ValueError, match="no points"):
+        chi_squared([])
 
 
 def test_difference_of_columns():
