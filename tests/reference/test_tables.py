@@ -3,11 +3,15 @@
 from pathlib import Path
 
 import exact_tables
+import printed_tables
 import pytest
 import table_files
 
 ROOT = Path(__file__).parents[2]
-GENERATORS = {"lumped_40_digits": (exact_tables, 1)}  # and how many rows to compute one of
+GENERATORS = {  # and how many rows there are to each that is computed anew
+    "lumped_40_digits": (exact_tables, 1),
+    "printed_40_digits": (printed_tables, 8),
+}
 
 
 @pytest.mark.parametrize("source", GENERATORS)
