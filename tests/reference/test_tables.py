@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import closed_form_tables
 import exact_tables
 import printed_tables
 import pytest
@@ -11,6 +12,7 @@ ROOT = Path(__file__).parents[2]
 GENERATORS = {  # and how many rows there are to each that is computed anew
     "lumped_40_digits": (exact_tables, 1),
     "printed_40_digits": (printed_tables, 8),
+    "closed_forms": (closed_form_tables, 1),
 }
 
 
