@@ -47,8 +47,17 @@ def write(folder, tables):
             writer.writerows(table.cells(row) for row in range(len(table.rows)))
 
 
-def differing(path, table, every=1):
+def differing(path, table, every=1, last_place=0.0):
     """Rows of a file that are not what its table computes; `every` so many rows are computed.
+
+    Parameters
+    ----------
+    path : Path
+    table : Table
+    every : int
+    last_place : float
+        What numbers may differ by: one in the last place written, where floating point computes
+        them and may round otherwise on another machine.
 
     Returns
     -------
@@ -59,5 +68,18 @@ def differing(path, table, every=1):
         header, *found = csv.reader(file)
     if header != table.header or len(found) != len(table.rows):
         return [([*header, str(len(found))], [*table.header, str(len(table.rows))])]
-    chosen = range(0, len(found), every)
-    return [(found[i], table.cells(i)) for i in chosen if found[i] != table.cells(i)]
+    pairs = [(found[row], table.cells(row)) for row in range(0, len(found), every)]
+    return [(old, new) for old, new in pairs if not _agree(old, new, last_place)]
+
+
+def _agree(old, new, last_place):
+    if old == new:
+        return True
+    return len(old) == len(new) and all(
+        a == b or (_is_number(a) and _is_number(b) and abs(float(a) - float(b)) <= last_place)
+        for a, b in zip(old, new, strict=True)
+    )
+
+
+def _is_number(text):
+    return text.lstrip("-")[:1].isdigit()
