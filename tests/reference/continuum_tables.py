@@ -22,6 +22,8 @@ from table_files import Table
 INCIDENCES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.1, 1.2, 1.3, 1.4, 1.6, 1.8, 2.0, 2.3, 2.6, 3.0, 3.3)
 INCIDENCES += (3.5, 3.7, 4.0, 4.3, 4.6, 5.0, 5.2, 5.4, 5.6, 5.7, 5.8, 6.0, 7.0, 8.0, 10.0, 12.0)
 INCIDENCES += (14.0,)
+# Of what data/model_errors measures errors against.
+GRID = tuple(round(0.1 * k, 1) for k in range(81))
 ANGLES = (0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 15.0, 18.0, 20.0, 22.0, 25.0)
 ANGLES += (27.0, 28.0, 30.0, 35.0, 50.0, 70.0)
 COURSES = (0.5, 1.0, 2.5, 4.5)  # incidences of the histories
@@ -34,6 +36,7 @@ ROW_ERROR = {"friction": 5e-5, "velocity": 1e-4, "stick_radius": 5e-4}
 def tables():
     """All tables, `{name: Table}`."""
     return {
+        "rebound_grid": _grid(),
         "fig5_rebound": _fig5(),
         "fig5_experiment": _fig5_experiment(),
         "micro_slip_instants": _micro_slip(),
@@ -54,6 +57,28 @@ def by_annuli(zeta2, incidences):
     return annuli_tables.checked(zeta2, np.array(incidences))
 
 
+# Both tables of the paper's sphere come from one run: its time hardly depends on how many impacts.
+STEEL = tuple(sorted({*INCIDENCES, *GRID}))
+
+
+def _sphere_rebound(zeta2):
+    """Incidences and rebounds by annuli of the sphere of steel or of rubber."""
+    at = STEEL if zeta2 == ZETA2 else INCIDENCES
+    return at, by_annuli(zeta2, at)
+
+
+def _grid():
+    rows = [functools.partial(_on_grid, x) for x in GRID]
+    force, lost = "peak_friction [mu F2max]", "dissipation [mu^2 m2 v2(0)^2]"
+    return Table([INCIDENCE, VELOCITY, force, lost], rows)
+
+
+def _on_grid(x):
+    at, found = _sphere_rebound(ZETA2)
+    fields = found.velocity, found.peak_friction, found.dissipation
+    return [x, *(digits(field[at.index(x)], 6) for field in fields)]
+
+
 def _fig5():
     rows = []
     for curve, zeta2, spins in (("continuum", ZETA2, True), ("continuum, rubber", RUBBER, False)):
@@ -62,7 +87,8 @@ def _fig5():
 
 
 def _sphere(curve, x, zeta2, spins):
-    velocity = by_annuli(zeta2, INCIDENCES).velocity[INCIDENCES.index(x)]
+    at, found = _sphere_rebound(zeta2)
+    velocity = found.velocity[at.index(x)]
     spin = digits(-5 / 7 * (x - velocity), 5) if spins else None
     return [curve, x, digits(velocity, 5), spin]
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import closed_form_tables
 import continuum_tables
+import error_tables
 import exact_tables
 import numpy as np
 import printed_tables
@@ -20,6 +21,7 @@ GENERATORS = {
     "printed_40_digits": (printed_tables, 8, 0.0),
     "closed_forms": (closed_form_tables, 1, 0.0),
     "slender_rod": (rod_tables, 4, 1.1e-10),
+    "model_errors": (error_tables, 1, 1.1e-12),
 }
 
 
