@@ -20,6 +20,8 @@ TOLERANCE = {"rtol": 1e-12, "atol": 1e-14, "method": "DOP853"}
 class Contact:
     """One contact, integrated from first touch to separation."""
 
+    dense = False  # whether `phases` can be evaluated between their steps
+
     def __init__(self, v1, v2, body, friction, restitution, stiffness_ratio, stiffness):
         """`body` is (M, k, x1, x2) of Eqs 1 and 2; restitution above 0."""
         mass, gyration, x1, x2 = body
@@ -34,6 +36,9 @@ class Contact:
         # The spring can follow the body only as fast as friction grows.
         self.g = 0 if abs(v1) <= friction * stiffness_ratio * abs(v2) else math.copysign(1, v1)
         self.kinds = ["slip" if self.g else "stick"]
+        # Of each phase: when it begins, what SciPy found, slip direction, loading, deepest; and
+        # the name of the event that ends it.
+        self.phases = []
 
     def normal(self, u2):
         """F2."""
@@ -76,14 +81,15 @@ class Contact:
         fastest *= 1.0 if self.loading else self.e
         found = solve_ivp(
             self.rate, (0, 50 * period), [*self.state, 0.0], events=events,
-            max_step=fastest / 100, first_step=fastest * 1e-4, **TOLERANCE,
+            max_step=fastest / 100, first_step=fastest * 1e-4, dense_output=self.dense, **TOLERANCE,
         )  # fmt: skip
         forces = [self.tangential(u1, u2) for u1, u2 in found.y[:2].T]
         self.peak_friction = max(self.peak_friction, *map(abs, forces))
+        name = next(n for n, times in zip(names, found.t_events, strict=True) if len(times))
+        self.phases.append((self.time, found, self.g, self.loading, self.deepest, name))
         self.time += found.t[-1]
         self.friction_work += found.y[4, -1]
         self.state = list(found.y[:4, -1])
-        name = next(n for n, times in zip(names, found.t_events, strict=True) if len(times))
         return self._switch(name)
 
     def _switch(self, name):

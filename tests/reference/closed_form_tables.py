@@ -1,0 +1,112 @@
+"""Write the tables of data/closed_forms: what a line of algebra gives, with 50 digits.
+
+python tests/reference/closed_form_tables.py data/closed_forms
+"""
+
+import functools
+import sys
+
+import exact_tables
+import table_files
+from exact_tables import ANGLE, BETA, INCIDENCE, VELOCITY, ZETA2
+from mpmath import mp
+from table_files import Table
+
+
+@mp.workdps(table_files.DIGITS)
+def tables():
+    """All tables, `{name: Table}`."""
+    return {
+        "fig2_elements": _fig2(),
+        "fig5_rebound": _fig5(),
+        "fig7_peak_force": _fig7(),
+        "fig9_dissipation": _fig9(),
+    }
+
+
+# Force against deflection --------------------------------------------------------------------
+
+
+def _fig2():
+    """Ends of the lines, e = 0.5.
+
+    The normal element is compressed by v2(0)/Omega, with stiffness 1. In restitution it gives back
+    e^2 of the work: the triangle under the line of unloading has e^2 of the area of the other, and
+    the same height, so e^2 of its base.
+    """
+    base = mp.mpf("0.5") ** 2
+    lines = {
+        "normal loading": [(0, 0), (1, 1)],
+        "normal unloading": [(1, 1), (1 - base, 0)],
+        "tangential": [(s, s / mp.mpf(ZETA2)) for s in (-1, 1)],
+    }
+    rows = [
+        functools.partial(list, [curve, *map(mp.mpf, point)])
+        for curve, points in lines.items()
+        for point in points
+    ]
+    return Table(["curve", "deflection [v2(0)/Omega]", "force [m2 Omega v2(0)]"], rows)
+
+
+# Without tangential compliance: slides until the impulse is x/beta, then sticks ----------------
+
+
+def _fig5():
+    grid = (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 6.5, 6.9, 7.0, 7.1, 7.5, 8.0, 10.0, 12.0, 14.0)
+    rows = [functools.partial(_rebound, x) for x in grid]
+    return Table(["curve", INCIDENCE, VELOCITY], rows)
+
+
+def _rebound(x):
+    return ["no tangential compliance", x, max(mp.zero, mp.mpf(x) - 2 * mp.mpf(BETA))]
+
+
+def _fig7():
+    """Without tangential compliance; the largest normal force; and the border of sliding.
+
+    At the border x = 2 beta - zeta^2 friction is mu cos(theta) at its largest, mu = tan(theta)/x.
+    """
+    border = 2 * mp.mpf(BETA) - mp.mpf(ZETA2)
+    rows = []
+    for angle in [*exact_tables.FIG7_ANGLES, 90.0]:
+        rows.append(functools.partial(_turned, "normal", angle, mp.cos, mp.one))
+    for angle in [*exact_tables.FIG7_ANGLES, 90.0]:
+        rows.append(functools.partial(_turned, "slip throughout", angle, mp.sin, border))
+    for mu in exact_tables.FRICTIONS:
+        rows += [functools.partial(_halted_force, mu, a) for a in exact_tables.fig7_angles(mu)]
+    return Table(["curve", ANGLE, "peak_force [m2 Omega S]"], rows)
+
+
+def _turned(curve, angle, function, over):
+    return [curve, angle, function(mp.radians(angle)) / over]
+
+
+def _halted_force(mu, angle):
+    theta = mp.radians(angle)
+    halt = mp.tan(theta) / mp.mpf(mu) / mp.mpf(BETA)  # impulse
+    # The impulse is 1 - cos(tau), the force sin(tau) up to the greatest compression.
+    normal = mp.sqrt(halt * (2 - halt)) if halt < 1 else mp.one
+    curve = f"no tangential compliance, mu = {mu:g}"
+    return [curve, angle, mp.mpf(mu) * mp.cos(theta) * normal]
+
+
+def _fig9():
+    rows = []
+    for mu, e in exact_tables.UNSOLVED_FIG9:
+        angles = {float(k) for k in range(5, 90, 5)}
+        angles |= set(exact_tables.threshold_angles(mu, (1 + e) * BETA))
+        rows += [functools.partial(_halted_work, mu, e, angle) for angle in sorted(angles)]
+    return Table(["curve", ANGLE, "friction_dissipation [m2 S^2/2]"], rows)
+
+
+def _halted_work(mu, e, angle):
+    """Loss of tangential kinetic energy; m1 v1(0)^2/2 if slip halts."""
+    theta = mp.radians(angle)
+    before = mp.tan(theta) / mp.mpf(mu)
+    after = max(mp.zero, before - (1 + mp.mpf(e)) * mp.mpf(BETA))
+    lost = (before**2 - after**2) / mp.mpf(BETA) * (mp.mpf(mu) * mp.cos(theta)) ** 2
+    return [f"no tangential compliance, mu = {mu:g}, e = {e:g}", angle, lost]
+
+
+if __name__ == "__main__":
+    table_files.write(sys.argv[1], tables())

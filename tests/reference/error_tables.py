@@ -1,0 +1,170 @@
+"""Write the tables of data/model_errors: how far off simple models are, computed a second time.
+
+    python tests/reference/error_tables.py data/model_errors
+
+For e = 1 against the elastic continuum, data/elastic_continuum/rebound_grid.csv; for e = 0.5
+against the lumped model with 40 digits. The models are written anew from their definitions.
+"""
+
+import csv
+import functools
+import math
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import exact_tables
+import numpy as np
+import table_files
+from exact_tables import BETA, ZETA2
+from table_files import Table
+
+GRID = Path(__file__).parents[2] / "data/elastic_continuum/rebound_grid.csv"
+INCIDENCES = np.linspace(0.0, 8.0, 81)
+STEPS = (16, 64, 256)
+BRACH, BILBAO = 0.40, 1.00  # tangential restitution: the values that the package documents
+FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
+
+
+class Answer(NamedTuple):
+    """Arrays over the incidences; None where the model leaves it open."""
+
+    velocity: np.ndarray
+    peak_friction: np.ndarray | None
+    dissipation: np.ndarray
+
+
+def tables():
+    """All tables, `{name: Table}`."""
+    return {"elastic": _errors(1.0, continuum()), "inelastic": _errors(0.5, lumped(0.5))}
+
+
+def _errors(e, exact):
+    models = {"rigid": rigid, "laws.smith": smith, "laws.brach": brach, "laws.bilbao": bilbao}
+    models["lumped"] = lumped
+    for name, law in LAWS.items():
+        for steps in STEPS:
+            models[f"timestep.{name}, {steps} steps"] = functools.partial(leapfrog, law, steps)
+    models["response of lumped, tolerance 1e-10"] = lumped
+    rows = [functools.partial(_row, name, model, e, exact) for name, model in models.items()]
+    columns = [
+        f"{kind}_{name} [{unit}]" for name, unit in FIELDS.items() for kind in ("rms", "max")
+    ]
+    return Table(["curve", "restitution [1]", *columns], rows)
+
+
+def _row(name, model, e, exact):
+    cells = []
+    for found, right in zip(model(e), exact, strict=True):
+        if found is None:
+            cells += [None, None]
+        else:
+            gap = np.abs(found - right)
+            cells += [round(float(np.sqrt(np.mean(gap**2))), 12), round(float(gap.max()), 12)]
+    return [f"{name}, e = {e:g}", e, *cells]
+
+
+# What errors are measured against ------------------------------------------------------------
+
+
+def continuum():
+    """The elastic continuum by annuli, from its table."""
+    with open(GRID, newline="", encoding="utf-8") as file:
+        rows = np.array(list(csv.reader(file))[1:], float)
+    if not np.allclose(rows[:, 0], INCIDENCES, rtol=0, atol=1e-12):
+        raise SystemExit(f"{GRID}: other incidences")
+    return Answer(*rows[:, 1:].T)
+
+
+@functools.cache
+def lumped(e):
+    """The lumped model with 40 digits."""
+    found = [exact_tables.solve(float(x), BETA, ZETA2, e) for x in INCIDENCES]
+    fields = ([float(getattr(answer, name)) for answer in found] for name in FIELDS)
+    return Answer(*map(np.array, fields))
+
+
+# Closed forms --------------------------------------------------------------------------------
+
+
+def _law(velocity, peak=None):
+    """All fields from the velocity: what is lost of the tangential energy x^2/(2 beta)."""
+    return Answer(velocity, peak, (INCIDENCES**2 - velocity**2) / (2 * BETA))
+
+
+def rigid(e):
+    """Slides until the impulse x/beta, then sticks: friction is sin(arccos(1 - x/beta)) there."""
+    angle = np.arccos(1 - np.minimum(INCIDENCES / BETA, 1))
+    return _law(np.maximum(INCIDENCES - (1 + e) * BETA, 0), np.sin(angle))
+
+
+def brach(e):
+    """Two lines."""
+    return _law(np.maximum(-BRACH * INCIDENCES, INCIDENCES - (1 + e) * BETA))
+
+
+def smith(e):
+    """Impulse (1 + e) (x |x| + w |w|)/(x^2 + w^2), solved for w by bisection.
+
+    x less beta times the impulse for an assumed w is larger than that w for w = -x, and smaller for
+    w = 0 unless the contact slides throughout.
+    """
+    x, change = INCIDENCES[1:], (1 + e) * BETA
+    low, high = -x, np.zeros_like(x)
+    for _ in range(60):
+        middle = (low + high) / 2
+        impulse = (x**2 + middle * np.abs(middle)) / (x**2 + middle**2)
+        above = x - change * impulse > middle
+        low, high = np.where(above, middle, low), np.where(above, high, middle)
+    reversed_ = np.append(0.0, (low + high) / 2)
+    return _law(np.where(change <= INCIDENCES, INCIDENCES - change, reversed_))
+
+
+def bilbao(e):
+    """Velocity ratio exponential in the reciprocal of the incidence."""
+    x, reach = INCIDENCES[1:], 1 + BILBAO
+    ratio = 1 - reach * (1 - np.exp(-(1 + e) * BETA / (reach * x)))
+    return _law(np.append(0.0, x * ratio))
+
+
+# Steps in time -------------------------------------------------------------------------------
+
+# Exponent of force by depth; whether friction shrinks with the radius of contact.
+LAWS = {"linear": (1.0, False), "mindlin": (1.5, False), "mindlin_rescaled": (1.5, True)}
+
+
+def leapfrog(law, steps, e):
+    """A contact law of a discrete-element code, in equal steps over the exact duration.
+
+    Units: the largest depth of an elastic contact, v2(0) and m2. Force is P d^power; its work
+    P/(power + 1) is the energy 1/2. Velocities are half a step ahead of positions.
+    """
+    power, rescales = law
+    peak_force = (power + 1) / 2
+    # To greatest compression: the integral of dd/sqrt(1 - d^(power + 1)).
+    share = 1 / (power + 1)
+    duration = share * math.gamma(share) * math.gamma(0.5) / math.gamma(share + 0.5)
+    step = (1 + e) * duration / steps
+    approach, depth, deepest, radius = 1.0, 0.0, 0.0, 0.0
+    w, friction, largest = INCIDENCES.copy(), np.zeros(INCIDENCES.size), np.zeros(INCIDENCES.size)
+    while True:
+        depth += step * approach
+        deepest = max(deepest, depth)
+        # Below the deepest point force follows a curve that is steeper by 1/e^2.
+        elastic = deepest - (deepest - depth) / e**2
+        if elastic <= 0:
+            # Few steps may overshoot the largest force; the share is defined to be at most 1.
+            return _law(w, np.minimum(largest / peak_force, 1.0))
+        before, radius = radius, elastic ** (power - 1)
+        force = peak_force * elastic**power
+        if rescales and radius < before:
+            friction = friction * radius / before
+        stiffness = peak_force * power * radius / ZETA2
+        friction = np.clip(friction + step * stiffness * w, -force, force)
+        largest = np.maximum(largest, np.abs(friction))
+        approach -= step * force
+        w = w - step * BETA * friction
+
+
+if __name__ == "__main__":
+    table_files.write(sys.argv[1], tables())

@@ -1,0 +1,85 @@
+"""Tables of reference values as files: what the generators of data/ share."""
+
+import csv
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from mpmath import mp
+
+DIGITS = 50  # carried
+
+
+class Table(NamedTuple):
+    """A table whose rows are computed one by one, so that a test can compute a few of them anew.
+
+    Attributes
+    ----------
+    header : list of str
+    rows : list of callable
+        Each returns the cells of its row: words, numbers, or None for a cell left empty.
+    """
+
+    header: list[str]
+    rows: list[Any]
+
+    def cells(self, row):
+        """The texts of one row; numbers have 20 digits, float64 those that identify it."""
+        with mp.workdps(DIGITS):
+            return [_text(cell) for cell in self.rows[row]()]
+
+
+def _text(cell):
+    if cell is None:
+        return ""
+    if isinstance(cell, str):
+        return cell
+    if isinstance(cell, int | float):
+        return repr(float(cell))
+    return mp.nstr(cell, 20, strip_zeros=True)
+
+
+def write(folder, tables):
+    """Write `{name: Table}` as CSV files."""
+    for name, table in tables.items():
+        with open(Path(folder) / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(table.header)
+            writer.writerows(table.cells(row) for row in range(len(table.rows)))
+
+
+def differing(path, table, every=1, last_place=0.0):
+    """Rows of a file that are not what its table computes; `every` so many rows are computed.
+
+    Parameters
+    ----------
+    path : Path
+    table : Table
+    every : int
+    last_place : float
+        What numbers may differ by: one in the last place written, where floating point computes
+        them and may round otherwise on another machine.
+
+    Returns
+    -------
+    list of (list of str, list of str)
+        What the file has and what it should have. A wrong header or number of rows comes first.
+    """
+    with open(path, newline="", encoding="utf-8") as file:
+        header, *found = csv.reader(file)
+    if header != table.header or len(found) != len(table.rows):
+        return [([*header, str(len(found))], [*table.header, str(len(table.rows))])]
+    pairs = [(found[row], table.cells(row)) for row in range(0, len(found), every)]
+    return [(old, new) for old, new in pairs if not _agree(old, new, last_place)]
+
+
+def _agree(old, new, last_place):
+    if old == new:
+        return True
+    return len(old) == len(new) and all(
+        a == b or (_is_number(a) and _is_number(b) and abs(float(a) - float(b)) <= last_place)
+        for a, b in zip(old, new, strict=True)
+    )
+
+
+def _is_number(text):
+    return text.lstrip("-")[:1].isdigit()

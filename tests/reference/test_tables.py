@@ -1,0 +1,67 @@
+"""Tables of data/ that are computed are what their generators compute."""
+
+import csv
+from pathlib import Path
+
+import closed_form_tables
+import continuum_tables
+import error_tables
+import exact_tables
+import numpy as np
+import printed_tables
+import pytest
+import rod_tables
+import spring_row
+import table_files
+
+ROOT = Path(__file__).parents[2]
+# How many rows there are to each that is computed anew; what its numbers may differ by.
+GENERATORS = {
+    "lumped_40_digits": (exact_tables, 1, 0.0),
+    "printed_40_digits": (printed_tables, 8, 0.0),
+    "closed_forms": (closed_form_tables, 1, 0.0),
+    "slender_rod": (rod_tables, 4, 1.1e-10),
+    "model_errors": (error_tables, 1, 1.1e-12),
+}
+
+
+@pytest.mark.parametrize("source", GENERATORS)
+def test_tables_in_data_are_what_their_generator_computes(source):
+    generator, *settings = GENERATORS[source]
+    tables = generator.tables()
+    assert {path.stem for path in (ROOT / "data" / source).glob("*.csv")} == set(tables)
+    for name, table in tables.items():
+        path = ROOT / "data" / source / f"{name}.csv"
+        assert not table_files.differing(path, table, *settings), name
+
+
+def test_histories_of_the_continuum_are_what_their_generator_computes():
+    path = ROOT / "data/elastic_continuum/micro_slip_instants.csv"
+    table = continuum_tables.tables()["micro_slip_instants"]
+    assert not table_files.differing(path, table, 1, 1.1e-6)
+
+
+@pytest.mark.parametrize(("curve", "zeta2"), [("continuum", 1.21), ("continuum, rubber", 1.5)])
+def test_rebound_by_annuli_is_that_of_a_row_of_springs(curve, zeta2):
+    """To compute a row anew would take a minute; this method shares no code with the annuli.
+
+    2e-4 is 1e-4 for the table, its sigma, and 1e-4 for the springs: half as many springs and steps
+    change velocities by that much.
+    """
+    with open(ROOT / "data/elastic_continuum/fig5_rebound.csv", newline="") as file:
+        rows = [row for row in csv.reader(file) if row[0] == curve]
+    x, velocity = np.array([row[1:3] for row in rows[1::4]], float).T
+    found = spring_row.course(x, 3.5, zeta2, (2.0,), springs=2000, steps=8000).velocity[0]
+    np.testing.assert_allclose(velocity, found, rtol=0, atol=2e-4)
+
+
+def test_a_changed_cell_is_seen(tmp_path):
+    """A digit, a sign, a missing row."""
+    table = exact_tables.tables()["fig3_events"]
+    table_files.write(tmp_path, {"fig3": table})
+    path = tmp_path / "fig3.csv"
+    text = path.read_text()
+    assert not table_files.differing(path, table)
+    for changed in (text.replace("0.20978", "0.20979"), text.replace(",-", ",", 1), text[:-90]):
+        path.write_text(changed)
+        assert table_files.differing(path, table, 1, 1e-6)
