@@ -133,10 +133,8 @@ def measure(entry, known, curves, series_paths):
     ValueError
         Saying what is missing.
     """
-    if entry["metric"] in ("balance", "largest"):
-        quantity, residuals = _residuals_of_columns(entry, curves)
-        name = entry["balance"][0] if entry["metric"] == "balance" else entry["largest"]
-        return Measured(quantity, residuals, [name] * len(residuals.x))
+    if entry["metric"] in ("balance", "largest", "range"):
+        return _columns_alone(entry, curves)
     if entry["metric"] == "landmark":
         return _landmark(entry, known, curves)
     points = _points(entry, known, series_paths)
@@ -294,22 +292,30 @@ def _landmark(entry, fact, curves):
     return Measured(quantity, residuals, [quantity], gap=gap, words=words)
 
 
-def _residuals_of_columns(entry, curves):
-    """Residuals of two columns that must be equal, or of one from zero, over all curves.
+def _columns_alone(entry, curves):
+    """Two columns that must be equal, one that must be small, or some that have a range.
 
     Their points stand at the first column of the curves.
     """
-    names = entry["balance"] if entry["metric"] == "balance" else [entry["largest"]]
+    metric = entry["metric"]
+    names = [entry["largest"]] if metric == "largest" else entry["columns"]
+    if "curve" in entry:
+        curves = {entry["curve"]: _named(curves, entry["curve"])}
     holders = [columns for columns in curves.values() if all(name in columns for name in names)]
     if not holders:
         raise ValueError(f"no curve has the columns {names}")
     quantity = next(iter(holders[0]))
-    x, left, *right = (
-        np.concatenate([columns[name] for columns in holders]) for name in (quantity, *names)
-    )
-    if right:
-        return quantity, comparison.difference_residuals(x, left, right[0], BALANCE_SIGMA)
-    return quantity, comparison.difference_residuals(x, left, np.zeros(len(left)), 1.0)
+    x = np.concatenate([next(iter(columns.values())) for columns in holders])
+    values = [np.concatenate([columns[name] for columns in holders]) for name in names]
+    if metric == "range":
+        low, high = entry["range"]
+        x, found = np.tile(x, len(names)), np.concatenate(values)
+        middle = np.full(len(found), (low + high) / 2)
+        residuals = comparison.difference_residuals(x, found, middle, (high - low) / 2)
+        return Measured(quantity, residuals, np.repeat(names, len(values[0])).tolist())
+    other, sigma = (values[1], BALANCE_SIGMA) if metric == "balance" else (np.zeros(len(x)), 1.0)
+    residuals = comparison.difference_residuals(x, values[0], other, sigma)
+    return Measured(quantity, residuals, [names[0]] * len(x))
 
 
 def _named(curves, name):
@@ -361,6 +367,8 @@ def _numbers(entry, known, found, significance):
 
 
 def _allowed(entry, known, significance):
+    if "range" in entry:
+        return "{:g} to {:g}".format(*entry["range"])
     if not _is_published(known):
         return f"max <= {entry.get('limit', 1.0):g}"
     words = f"p > {significance:g}"

@@ -116,13 +116,15 @@ def _ascending(where, span):
 def _check_comparison(where, comparison, inventory):
     metric = comparison["metric"]
     columns = {
-        "balance": ("balance", "`balance`, two columns"),
+        "balance": ("columns", "`columns`, two"),
         "largest": ("largest", "`largest`, a column"),
+        "range": ("columns", "`columns` and their `range`"),
     }
     if metric in columns:
         key, words = columns[metric]
-        if key not in comparison:
+        if key not in comparison or (metric == "range" and "range" not in comparison):
             raise ConfigError(f"{where}: metric {metric} needs {words}")
+        _ascending(f"{where}.range", comparison.get("range"))
         return
     if "reference" not in comparison:
         raise ConfigError(f"{where}: metric {metric} needs `reference`")

@@ -23,6 +23,7 @@ from planarimpact.comparison import Residuals, Verdict
 # What is changed, by the keys under which settings have it.
 KEYS = [("stiffness_ratio", "poisson_ratio"), ("mass_ratio",), ("restitution",), ("friction",)]
 GROUPS = dict(zip(verdict_table.GROUPS, KEYS, strict=True))
+PRINTED = "as printed"  # in the names of curves
 UNTRIED = ("trade",)  # times take long; its errors are those of models that other figures show
 COARSER, FEWEST = 5, 10  # vertices
 STEP = 1e-4  # small enough for changes in proportion, large beside rounding
@@ -68,7 +69,7 @@ def sensitivities(figure, settings, nodes, path, comparisons, references, series
     settings = settings | solve.read_nodes(nodes) | SHORT.get(figure, {})
     if "samples" in settings:
         settings["samples"] = max(FEWEST, settings["samples"] // COARSER)
-    if "as_printed" in settings:  # whether a printed equation differs is another matter
+    if "as_printed" in settings:
         settings["as_printed"] = False
     try:
         curves = None if figure in UNTRIED else judged_tables.read(path)
@@ -77,7 +78,7 @@ def sensitivities(figure, settings, nodes, path, comparisons, references, series
     if curves is None:
         return [[title, *[""] * len(GROUPS)] for title in comparisons]
     rows = []
-    solved = {group: _solver(figure, settings, group, list(curves)) for group in GROUPS}
+    solved = {group: _solver(figure, settings, group, curves) for group in GROUPS}
     for title, entry in comparisons.items():
         known = references.get(entry.get("reference"))
 
@@ -87,7 +88,7 @@ def sensitivities(figure, settings, nodes, path, comparisons, references, series
         def caught(found, entry=entry, known=known):
             return compare.judge(entry, known, found, significance) == Verdict.DIVERGES
 
-        if entry["metric"] == "balance":  # laws hold whatever the parameters
+        if entry["metric"] in ("balance", "range"):  # laws hold whatever the parameters
             rows.append([title, *["none"] * len(GROUPS)])
             continue
         search = _by_trial if figure == DIGITS else _in_proportion
@@ -95,8 +96,11 @@ def sensitivities(figure, settings, nodes, path, comparisons, references, series
     return rows
 
 
-def _solver(figure, settings, group, names):
-    """Curves with a group off by a size, under the names they have else; None without the group."""
+def _solver(figure, settings, group, curves):
+    """Curves with a group off by a size, under the names they have else; None without the group.
+
+    What the printed equations give is left as it is.
+    """
     module = importlib.import_module(f"planarimpact.curves.{figure}")
     if changed(settings, group, STEP) == settings:
         return None
@@ -107,9 +111,9 @@ def _solver(figure, settings, group, names):
         wrong.pop("uncertainty", None)
         if figure == DIGITS:
             wrong["points"] = {key: column[::SPARSE] for key, column in wrong["points"].items()}
-        own = [name for name in names if "sigma" not in name and "as printed" not in name]
-        found = module.curves(**wrong)
-        return dict(zip(own, found.values(), strict=True))
+        own = [name for name in curves if "sigma" not in name and PRINTED not in name]
+        changed_ones = dict(zip(own, module.curves(**wrong).values(), strict=True))
+        return {name: columns for name, columns in curves.items() if PRINTED in name} | changed_ones
 
     return solved
 
@@ -152,7 +156,7 @@ def _in_proportion(curves, solved, measure, caught):
     """Size that is caught, from one change of the distances in proportion to it, either way."""
     try:
         found = measure(curves)
-        if not solved:
+        if not solved or all(PRINTED in column for column in found.columns):
             return ""
         same, other = measure(solved(0.0)), measure(solved(STEP))
     except Exception:  # awaited, or failing for a reason that its own row gives
