@@ -295,7 +295,7 @@ def _landmark(entry, fact, curves):
 def _columns_alone(entry, curves):
     """Two columns that must be equal, one that must be small, or some that have a range.
 
-    Their points stand at the first column of the curves.
+    Their points stand at the first column of numbers.
     """
     metric = entry["metric"]
     names = [entry["largest"]] if metric == "largest" else entry["columns"]
@@ -304,18 +304,22 @@ def _columns_alone(entry, curves):
     holders = [columns for columns in curves.values() if all(name in columns for name in names)]
     if not holders:
         raise ValueError(f"no curve has the columns {names}")
-    quantity = next(iter(holders[0]))
-    x = np.concatenate([next(iter(columns.values())) for columns in holders])
+    places = [_first_of_numbers(columns) for columns in holders]
+    x = np.concatenate([columns[name] for columns, name in zip(holders, places, strict=True)])
     values = [np.concatenate([columns[name] for columns in holders]) for name in names]
     if metric == "range":
         low, high = entry["range"]
         x, found = np.tile(x, len(names)), np.concatenate(values)
         middle = np.full(len(found), (low + high) / 2)
         residuals = comparison.difference_residuals(x, found, middle, (high - low) / 2)
-        return Measured(quantity, residuals, np.repeat(names, len(values[0])).tolist())
+        return Measured(places[0], residuals, np.repeat(names, len(values[0])).tolist())
     other, sigma = (values[1], BALANCE_SIGMA) if metric == "balance" else (np.zeros(len(x)), 1.0)
     residuals = comparison.difference_residuals(x, values[0], other, sigma)
-    return Measured(quantity, residuals, [names[0]] * len(x))
+    return Measured(places[0], residuals, [names[0]] * len(x))
+
+
+def _first_of_numbers(columns):
+    return next(name for name, values in columns.items() if values.dtype.kind == "f")
 
 
 def _named(curves, name):
