@@ -138,31 +138,36 @@ def _reach_behind_crest(
 ) -> tuple[Booleans, Array]:
     """Whether a falling |T| whose ratio to N still rises meets N in this half-wave, and by when.
 
-    The ratio rises while turn = |T|'N - |T|N' > 0, at most to the end of the half-wave or of the
-    contact. Behind the crest of |T| the turn falls and is convex, so Newton's iterates approach
-    its zero from before, and the first one with N <= |T| bounds the onset. They end where `theta`,
-    the coarser of the two angles, no longer moves.
+    The ratio rises while turn = |T|'N - |T|N' > 0. If the contact ends before the half-wave, that
+    is to the end, where N vanishes alone. If not, the turn has one zero. Behind the crest of |T|
+    it falls and is convex, so Newton's iterates approach that zero from before, and the first one
+    with N <= |T| bounds the onset. They end at the rounding of `theta`, which for rate > 1 and a
+    half-wave that ends is the coarser of the two angles.
 
-    Where the half-wave ends with the contact the turn is the cube of the time to go but for a
-    constant: a step then still takes a third of that time, and the constant or rounding of the
-    turn ends the search long before `MOST_TURNS`.
+    Where the half-wave ends just before the contact, the turn is the cube of the time to go but
+    for a constant: a step then still takes a third of that time, and the constant or rounding of
+    the turn ends the search long before `MOST_TURNS`.
     """
-    met = np.zeros(eta.shape, bool)
+    met, reach = rate * eta <= np.pi - rho, eta.copy()
+    open_ = np.flatnonzero(~met)
+    if not open_.size:
+        return met, reach
+    eta, rho, amplitude, rate = eta[open_], rho[open_], amplitude[open_], rate[open_]
     theta = rho
-    last = np.minimum(rho + rate * eta, np.pi)
     for _ in range(MOST_TURNS):
         advance = (theta - rho) / rate
         force, fall = sin_cos(eta - advance)
         friction, swing = sin_cos(theta)
-        met = force <= amplitude * friction
+        meets = force <= amplitude * friction
         turn = rate * swing * force + friction * fall
         bend = (rate - 1 / rate) * friction * force
-        moving = ~met & (turn > 0) & (theta < last)
-        step = np.divide(turn, bend, out=np.zeros_like(turn), where=moving & (bend > 0))
-        before, theta = theta, np.where(moving, np.minimum(theta + step, last), theta)
+        moving = ~meets & (turn > 0) & (bend > 0)
+        step = np.divide(turn, bend, out=np.zeros_like(turn), where=moving)
+        before, theta = theta, np.minimum(theta + step, np.pi)
         if (theta == before).all():
-            return met, advance
-    raise _lost(eta)
+            met[open_], reach[open_] = meets, advance
+            return met, reach
+    raise _lost(theta)
 
 
 def _lost(lanes: Array | Integers) -> ConvergenceError:

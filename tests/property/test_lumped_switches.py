@@ -21,7 +21,7 @@ ALLOWED = 100  # what `lumped.rebound` promises: so many times the effect of rou
 
 
 def drawn(rng, count):
-    """Groups on both sides of e omega/Omega = 1 and beside it, e down to 1e-8, 1 and next to 1."""
+    """Groups on both sides of e omega/Omega = 1, e 1e-8 to 1, some incidences tiny."""
     beta = 10 ** rng.uniform(0, rng.choice([1, 6], count))
     e = rng.choice([1.0, 1 - ULP / 2, 0, 0, 0, 0], count)
     small = 10 ** np.where(rng.random(count) < 0.2, rng.uniform(-8, 0, count), -rng.random(count))
@@ -38,7 +38,8 @@ def drawn(rng, count):
     zeta2 = beta * (e / pace) ** 2
     limit = stick_slip.slip_throughout_limit(beta, zeta2, e)
     x = rng.random(count) * np.where(rng.random(count) < 0.5, limit, np.minimum(limit, zeta2))
-    return np.array([x, beta, zeta2, e])
+    tiny = np.where(rng.random(count) < 0.1, rng.uniform(-140, 0, count), 0)
+    return np.array([x * 10**tiny, beta, zeta2, e])
 
 
 def courses(groups):
@@ -145,7 +146,7 @@ def test_suspicious_answers_against_40_digits(impacts, jumps):
     x, beta, zeta2, e = impacts
     quick = (e * np.sqrt(beta / zeta2) < 12) & (e > 1e-6)  # for the reference
     ranks = [np.argsort(-np.where(quick, jump, 0))[:20] for jump in jumps]
-    spread = np.flatnonzero(quick)[::5000]
+    spread = np.flatnonzero(quick)[::1500]
     for lane in np.unique(np.concatenate([*ranks, spread])):
         point = tuple(map(float, impacts[:, lane]))
         _, *exact = map(mp.mpf, extreme_tables.row(point)[3:10])
