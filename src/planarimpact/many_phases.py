@@ -85,7 +85,7 @@ def skip(eta: Array, rate: Array) -> tuple[Array, Array]:
     end = last_phase(rate) / rate
     count = half_waves(eta, end, rate)
     whole = np.floor(count)
-    # Newton's iterates; the count is all but linear.
+    # Newton's iterates; the count is all but linear, and two leave it wrong by less than rounding.
     goal = end
     for _ in range(2):
         surplus = count - whole - half_waves(goal, end, rate)
@@ -123,7 +123,8 @@ def _excess_slope(eta: Numbers, rate: Array) -> Array:
 def excess_phase(middle: Numbers, rate: Numbers) -> Array:
     """delta of the half-wave from the start of stick to the next, by the angle in its middle.
 
-    Sums of positive terms and a contraction: exact to about 1e-16.
+    Sums of positive terms and a contraction, to a twelfth or less in each turn where a skip goes:
+    eight turns leave 4e-15 at its last half-waves, less before.
 
     Examples
     --------

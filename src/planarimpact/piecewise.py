@@ -174,7 +174,8 @@ def fit(
     tolerance : float
         Wanted of the bound. A part that was halved `DEEPEST` times is taken as it is.
     resolution : float
-        Precision, relative to the span, to which a change of label is located.
+        Precision, relative to the span, to which a change of label is located, or to rounding
+        where that is coarser.
 
     Returns
     -------
@@ -265,11 +266,13 @@ def _changes_of_label(function: Function, parts: _Halves, resolution: float) -> 
     span = np.repeat(parts.kink, _POINTS.size)
     before = np.flatnonzero((label[1:] != label[:-1]) & (span[1:] == span[:-1]))
     low, high, label = x[before], x[before + 1], label[before]
-    while (high - low > resolution).any():
+    while True:
         middle = (low + high) / 2
+        apart = (high - low > resolution) & (low < middle) & (middle < high)
+        if not apart.any():
+            return high.tolist()
         same = function(middle)[1] == label
         low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return high.tolist()
 
 
 def _located(parts: _Halves) -> list[float]:

@@ -15,11 +15,15 @@ The root is searched only where it is alone:
 
 import numpy as np
 
-from planarimpact.arrays import Array, Booleans
+from planarimpact.arrays import Array, Booleans, Integers
+from planarimpact.checks import ConvergenceError
 
 HALF_PI = np.pi / 2
 # The root finder is cubic: after a step of this share of the bracket the root is at rounding.
 LAST_STEP = 1e-6
+# After some turns every other one halves the bracket: 40 halvings leave LAST_STEP^2 of it.
+FREE_TURNS = 8
+MOST_TURNS = 100
 # Beyond it rounding leaves the phase of an oscillation open.
 LARGEST_PHASE = 1e15
 
@@ -74,10 +78,8 @@ def in_restitution(
     passed = (wave == 0) | (falling & (rho > HALF_PI))
     dip = np.flatnonzero(fast & ~passed & (rho > HALF_PI))
     if dip.size:
-        found, slid = _onset_behind_crest(reached[dip], rho[dip], amplitude[dip], rate[dip])
-        passed[dip] = ~found
-        reached[dip] -= slid
-        theta_reached[dip] += rate[dip] * slid
+        met, reach = _reach_behind_crest(reached[dip], rho[dip], amplitude[dip], rate[dip])
+        passed[dip] = ~met
     wave = wave + passed
     if slow.size:  # one crossing, in the half-wave in which stick would end
         end = theta_reached[slow] + rate[slow] * reached[slow]
@@ -87,6 +89,8 @@ def in_restitution(
     eta = np.maximum(reached - (start - theta_reached) / rate, 0.0)
     rho = start - wave * np.pi
     widest = np.where(fast, np.minimum(eta, (HALF_PI - rho) / rate), eta)
+    if dip.size:
+        widest[dip[met]] = reach[met]
     advance = _crossing(eta, rho, amplitude, rate, np.maximum(widest, 0.0))
     advance = np.minimum(advance, eta)  # rounding may put a root at separation behind it
     return eta - advance, rho + rate * advance, wave
@@ -98,14 +102,14 @@ def _crossing(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Arr
     last_step = LAST_STEP * widest
     # The root may lie at the very end, where rounding puts it beyond.
     lane, low, high, trial = np.arange(eta.size), advance, widest + last_step, advance
-    for step in range(100):
+    for turn in range(MOST_TURNS):
         before = trial
         force, fall = sin_cos(eta - before)
         friction, swing = sin_cos(rho + rate * before)
         friction, swing = friction * amplitude, swing * amplitude * rate
         excess, descent = force - friction, fall + swing
         above = excess > 0
-        if step == 0:  # while N - |T| grows, what lies below zero is rounding
+        if turn == 0:  # while N - |T| grows, what lies below zero is rounding
             above |= descent < 0
         low, high = np.where(above, before, low), np.where(above, high, before)
         # The nearer root of the Taylor parabola; good also where the descent vanishes.
@@ -113,6 +117,8 @@ def _crossing(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Arr
         with np.errstate(divide="ignore", invalid="ignore"):
             trial = before + 2 * excess / (descent + np.sqrt(np.maximum(root, 0.0)))
         inside = (trial >= low) & (trial <= high)
+        if turn >= FREE_TURNS and turn % 2:  # halve: rounding can throw `trial` to and fro
+            inside[:] = False
         trial = np.where(inside, trial, (low + high) / 2)
         moving = ~inside | (np.abs(trial - before) > last_step)
         moving &= high - low > LAST_STEP * last_step
@@ -121,46 +127,59 @@ def _crossing(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Arr
         advance[lane] = trial
         lane = lane[moving]
         if not lane.size:
-            break
+            return advance
         trial, low, high, last_step = (a[moving] for a in (trial, low, high, last_step))
         eta, rho, amplitude, rate = eta[moving], rho[moving], amplitude[moving], rate[moving]
-    return advance
+    raise _lost(lane)
 
 
-def _onset_behind_crest(
+def _reach_behind_crest(
     eta: Array, rho: Array, amplitude: Array, rate: Array
 ) -> tuple[Booleans, Array]:
-    """Search a falling |T| whose ratio to N still rises: found or not, and the advance.
+    """Whether a falling |T| whose ratio to N still rises meets N in this half-wave, and by when.
 
-    Steps that provably jump no root: the second derivative of N - |T| is at least -N, and N
-    falls. They stay in the half-wave of T, whose end the ratio cannot reach while it rises.
+    The ratio rises while turn = |T|'N - |T|N' > 0. If the contact ends before the half-wave, that
+    is to the end, where N vanishes alone. If not, the turn has one zero. Behind the crest of |T|
+    it falls and is convex, so Newton's iterates approach that zero from before, and the first one
+    with N <= |T| bounds the onset. They end at the rounding of `theta`, which for rate > 1 and a
+    half-wave that ends is the coarser of the two angles.
+
+    Where the half-wave ends just before the contact, the turn is the cube of the time to go but
+    for a constant: a step then still takes a third of that time, and the constant or rounding of
+    the turn ends the search long before `MOST_TURNS`.
     """
-    found = np.zeros(eta.shape, bool)
-    advance = np.zeros_like(eta)
-    for _ in range(200):
+    met, reach = rate * eta <= np.pi - rho, eta.copy()
+    open_ = np.flatnonzero(~met)
+    if not open_.size:
+        return met, reach
+    eta, rho, amplitude, rate = eta[open_], rho[open_], amplitude[open_], rate[open_]
+    theta = rho
+    for _ in range(MOST_TURNS):
+        advance = (theta - rho) / rate
         force, fall = sin_cos(eta - advance)
-        friction, swing = sin_cos(rho + rate * advance)
-        friction, swing = friction * amplitude, swing * amplitude * rate
-        rises = swing * force + friction * fall > 0
-        excess = np.maximum(force - friction, 0.0)
-        slope = fall + swing
-        reach = np.sqrt(slope * slope + 2 * force * excess) + slope
-        # Both vanish together where |T| meets N tangentially, or at separation.
-        step = 2 * excess / np.maximum(reach, np.finfo(float).tiny)
-        step = np.minimum(step, (np.pi - rho - rate * advance) / (2 * rate))
-        small = step <= LAST_STEP**2 * (eta - advance)
-        found |= rises & small
-        advance += np.where(rises, step, 0.0)
-        if not (rises & ~small).any():
-            break
-    return found, advance
+        friction, swing = sin_cos(theta)
+        meets = force <= amplitude * friction
+        turn = rate * swing * force + friction * fall
+        bend = (rate - 1 / rate) * friction * force
+        moving = ~meets & (turn > 0) & (bend > 0)
+        step = np.divide(turn, bend, out=np.zeros_like(turn), where=moving)
+        before, theta = theta, np.minimum(theta + step, np.pi)
+        if (theta == before).all():
+            met[open_], reach[open_] = meets, advance
+            return met, reach
+    raise _lost(theta)
+
+
+def _lost(lanes: Array | Integers) -> ConvergenceError:
+    return ConvergenceError(f"{lanes.size} impacts: no onset of slip after {MOST_TURNS} turns")
 
 
 def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
     """First eta > 0 with x/(zeta^2 rate) sin(rate eta) = sin(eta), for rate < 1.
 
     The caller knows that T exceeds N at maximum compression. With u = eta^2, (T - N)/eta is
-    increasing and concave in u, so Newton's iterates from the left rise to the root.
+    increasing and concave in u, so Newton's iterates from the left rise to the root; the first
+    that does not is at the rounding of u, or of T - N where they are close all along.
 
     Parameters
     ----------
@@ -179,15 +198,14 @@ def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
     True
     """
     amplitude, ratio = x / (zeta2 * rate), x / zeta2
-    u = 6 * (1 - ratio) / (1 - ratio * rate * rate)
-    for _ in range(60):
+    u = np.minimum(6 * (1 - ratio) / (1 - ratio * rate * rate), HALF_PI**2)
+    for _ in range(MOST_TURNS):
         eta = np.sqrt(u)
         (friction, swing), (force, fall) = sin_cos(rate * eta), sin_cos(eta)
         excess = amplitude * friction - force
         slope = amplitude * (rate * eta * swing - friction) - eta * fall + force
-        with np.errstate(divide="ignore", invalid="ignore"):
-            step = np.where(slope > 0, -2 * u * excess / slope, 0.0)
-        u = np.clip(u + step, 0.0, HALF_PI**2)
-        if np.abs(step).max() <= LAST_STEP**2:
-            break
-    return np.sqrt(u)
+        step = np.divide(-2 * u * excess, slope, out=np.zeros_like(u), where=slope > 0)
+        before, u = u, np.clip(u + step, u, HALF_PI**2)
+        if (u == before).all():
+            return eta
+    raise _lost(u)

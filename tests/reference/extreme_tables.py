@@ -47,6 +47,15 @@ HARD = [
     (1.0, 4.0, 1.0, 1.0),  # resonance: sticks throughout
 ]
 
+# Switches, where the order of phases or the direction of the last slip changes, are sought from
+# impacts of these e and e omega/Omega, by moving one parameter by such a factor; neighbours of a
+# switch stand so far from it, relatively.
+SWITCHES = 80
+SWITCH_RESTITUTIONS = [1.0, math.nextafter(1, 0), (-4, -1), (-1, 0), (-1, 0)]
+SWITCH_RATES = [(-1, 0), (-0.1, 0.1), (0, 0.6), (0, 0.6), (0.6, 1)]
+MOVES = [0.5, 0.8, 1.25, 2.0]
+DISTANCES = [1e-12, 1e-9, 1e-7, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4]
+
 
 def points():
     """Impacts of the table, `(incidence, mass ratio, stiffness ratio, restitution)`, each once."""
@@ -61,7 +70,7 @@ def points():
             beta, e = _draw(beta_span, dice), _draw(e_span, dice)
             for zeta2 in (beta, e * e * beta, e * e * beta / 4):
                 zeta2 = _neighbour(zeta2, dice)
-                if 1e-8 <= zeta2 <= 1e12:
+                if _in_box((0.0, beta, zeta2, e)):
                     found += _incidences(beta, zeta2, e, dice, 2, 1)
     for phases in PHASES:
         for e_span in ((-4, -1), (-1, 0), 1.0):
@@ -72,6 +81,7 @@ def points():
                     limit = thresholds(beta, zeta2, e)[2]
                     found += _incidences(beta, zeta2, e, dice, 1, 0)
                     found.append((_rounded(limit * dice.random()), beta, zeta2, e))
+    found += _around_switches(dice)
     return [p for p in dict.fromkeys(found) if _phases(*p) <= MOST_PHASES]
 
 
@@ -138,6 +148,67 @@ def _incidences(beta, zeta2, e, dice, at_thresholds, elsewhere):
         x = _draw(span, dice)
         chosen.append(_rounded(x * max(places)) if span in FACTORS else x)
     return [(x, beta, zeta2, e) for x in chosen]
+
+
+def _around_switches(dice):
+    """Impacts on both sides of a switch, its two neighbours among them, in one parameter."""
+    found = []
+    for _ in range(SWITCHES):
+        low, high, which = _switch(dice)
+        found += [low, high]
+        for distance in DISTANCES:
+            for end, side in ((low, -1), (high, 1)):
+                away = side * distance * (1 + dice.random())
+                found.append(_with(end, which, end[which] * (1 + away)))
+    return list(filter(_in_box, found))
+
+
+def _switch(dice):
+    """Two impacts of different courses that differ in one parameter by one unit in the last place.
+
+    Returns
+    -------
+    below, above : tuple
+        With the smaller and the larger value of that parameter.
+    which : int
+        Its place.
+    """
+    while True:
+        beta = _draw(_one_of([1.0, (0, 1), (0, 1), (1, 6)], dice), dice)
+        e = _draw(_one_of(SWITCH_RESTITUTIONS, dice), dice)
+        zeta2 = _rounded(beta * (e / _draw(_one_of(SWITCH_RATES, dice), dice)) ** 2)
+        x = _rounded(_one_of([zeta2, max(thresholds(beta, zeta2, e))], dice) * dice.random())
+        which = _one_of([0, 0, 0, 1, 2, RESTITUTION], dice)
+        start = x, beta, zeta2, e
+        moved = _with(start, which, _rounded(start[which] * _one_of(MOVES, dice)))
+        below, above = sorted((start, moved))
+        if not (_in_box(below) and _in_box(above)):
+            continue
+        first = course(below)
+        if first == course(above):
+            continue
+        low, high = below[which], above[which]
+        while math.nextafter(low, high) < high:
+            middle = low + (high - low) / 2
+            same = course(_with(start, which, middle)) == first
+            low, high = (middle, high) if same else (low, middle)
+        return _with(start, which, low), _with(start, which, high), which
+
+
+def course(point):
+    """Order of phases, and direction of the last slip."""
+    events = [e for e in high_precision.rebound(*point).events if e.kind in ("stick", "slip")]
+    directions = [mp.sign(e.friction or e.velocity) for e in events if e.kind == "slip"]
+    return [e.kind for e in events], directions[-1:]
+
+
+def _in_box(point):
+    _, beta, zeta2, e = point
+    return 1 <= beta <= 1e6 and 1e-8 <= zeta2 <= 1e12 and e <= 1
+
+
+def _with(point, which, value):
+    return (*point[:which], value, *point[which + 1 :])
 
 
 def _draw(span, dice):

@@ -1,6 +1,7 @@
 """The table of data/lumped_extremes is what the reference computes, and covers the box."""
 
 import csv
+from itertools import pairwise
 from pathlib import Path
 
 import extreme_tables
@@ -52,3 +53,16 @@ def test_every_threshold_and_its_neighbours_occur():
                 if x == side:
                     beside.add((which, float(np.sign(x - place))))
     assert beside == {(which, side) for which in range(5) for side in (-1.0, 0.0, 1.0)}
+
+
+def test_switches_are_bracketed_by_neighbours():
+    """Pairs one unit in the last place apart whose phases, or last slips, differ."""
+    points = [tuple(map(float, row[:4])) for row in rows()]
+    pairs = [(low, high) for low, high in pairwise(points) if one_ulp_apart(low, high)]
+    found = sum(extreme_tables.course(low) != extreme_tables.course(high) for low, high in pairs)
+    assert found >= extreme_tables.SWITCHES
+
+
+def one_ulp_apart(low, high):
+    moved = [(a, b) for a, b in zip(low, high, strict=True) if a != b]
+    return len(moved) == 1 and np.nextafter(moved[0][0], np.inf) == moved[0][1]

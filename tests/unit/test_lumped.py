@@ -4,7 +4,16 @@ import high_precision
 import numpy as np
 import pytest
 
-from planarimpact import ConvergenceError, EventKind, InputError, Regime, lumped, rigid, stick_slip
+from planarimpact import (
+    ConvergenceError,
+    EventKind,
+    InputError,
+    Regime,
+    lumped,
+    rigid,
+    slip_onset,
+    stick_slip,
+)
 
 GROUPS = [(3.5, 1.21, 1.0), (3.5, 1.21, 0.5), (2.5, 1.5, 0.0), (1.0, 10.0, 0.9), (8.0, 0.1, 0.7)]
 
@@ -247,3 +256,18 @@ def test_a_solver_gone_wrong_does_not_run_for_ever(monkeypatch):
     monkeypatch.setattr(stick_slip, "_most_sticks", lambda *_: 1)
     with pytest.raises(ConvergenceError, match="1 impacts stick more often"):
         lumped.rebound(2.0, 3.5, 0.1)
+
+
+@pytest.mark.parametrize(
+    "impact",
+    [
+        (2.0, 3.5, 1.21, 0.5),  # crossing of N by a rising T
+        (0.7479681011096113, 3.847930832708696, 0.3742534479740521, 0.3433422554521216),  # behind
+        (9.9, 3.5, 10.0, 0.5),  # in compression
+    ],
+)
+def test_a_search_that_finds_no_onset_says_so(impact, monkeypatch):
+    assert np.isfinite(lumped.rebound(*impact).velocity)
+    monkeypatch.setattr(slip_onset, "MOST_TURNS", 1)
+    with pytest.raises(ConvergenceError, match="1 impacts: no onset of slip after 1 turns"):
+        lumped.rebound(*impact)

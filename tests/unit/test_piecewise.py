@@ -103,6 +103,19 @@ def test_a_change_of_label_is_located(resolution):
     assert labels_at(pieces, x).tolist() == [2, 2, 2, 3, 3]
 
 
+def test_a_label_is_located_to_rounding_at_best():
+    """A finer resolution than neighbouring numbers have does not halve for ever."""
+    calls = []
+
+    def labelled(x):
+        calls.append(x.size)
+        assert len(calls) < 200
+        return x[None], (x > KINK).astype(int)
+
+    pieces, _ = piecewise.fit(labelled, [0.0, END], TOLERANCE, resolution=0.0)
+    assert np.nextafter(KINK, END) in pieces.start
+
+
 def test_several_labels_in_one_part_are_located():
     edges = np.array([2.01, 2.02, 2.05])
 
