@@ -27,6 +27,7 @@ NOT_HELD = {
     r"(trade|convergence): .*: (steps|circles|tolerance|reference_error) .*": "what was asked for",
     r"trade: (response of )?(continuum|annuli).*: (rms|max|restitution)\w* .*": "an error, bounded",
     r"convergence: (.*, extrapolated|annuli, steps): observed_order .*": "not predicted",
+    r"stability: contacts: (incidence|mass_ratio|stiffness_ratio|restitution) .*": "as in impacts",
     r"stability: .*: (omega|phases|digits_allowed_\w+) .*": "tells where, and what could be had",
     r"stability: .*: (digits_lost|friction_excess|energy_residual) .*": "an error, bounded",
     r"scene_\w+: impacts: error .*": "a bound of the error",
