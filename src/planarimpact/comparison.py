@@ -368,6 +368,31 @@ def chi_squared(sigmas: ArrayLike, shifts: ArrayLike = ()) -> ChiSquared:
     return ChiSquared(value, len(distance), float(chi2.sf(value, len(distance))))
 
 
+def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: float) -> Array:
+    """Incidences at which a contact no longer sticks at first, and at which it slips throughout.
+
+    They are those of every model with Coulomb friction and both compliances (Stronge 1994, Eq. 11,
+    and where its Eq. 21 loses its root), and choose the points of a comparison.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio, restitution : float
+        beta, zeta^2 and e > 0.
+
+    Returns
+    -------
+    ndarray of float64, shape (2,)
+        In mu v2(0).
+
+    Examples
+    --------
+    >>> limits_of_regimes(3.5, 1.21, 1.0).round(2).tolist()
+    [1.21, 5.79]
+    """
+    beta, zeta2, e = mass_ratio, stiffness_ratio, restitution
+    return np.array([zeta2, beta + max(0.0, e * beta - zeta2 / e)])
+
+
 def judge(good: bool, documented: bool = False, unchanged: bool = True) -> Verdict:
     """Verdict on a comparison.
 

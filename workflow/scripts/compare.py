@@ -12,7 +12,7 @@ import numpy as np
 import reference_data
 from verdict_table import COLUMNS
 
-from planarimpact import comparison, landmarks, lumped
+from planarimpact import comparison, landmarks
 from planarimpact.comparison import Residuals, Verdict
 from planarimpact.curves.sampling import shifted_by
 
@@ -195,10 +195,10 @@ def _window(entry, known):
     if "regime" not in entry:
         return -np.inf, np.inf
     stated = known["parameters"]
-    groups = [stated[key] for key in ("mass_ratio", "stiffness_ratio", "restitution")]
-    limits = [groups[1], float(lumped.slip_throughout_limit(*groups))]
+    keys = ("mass_ratio", "stiffness_ratio", "restitution")
+    limits = comparison.limits_of_regimes(*(stated[key] for key in keys))
     if known["x"]["column"] == "angle":
-        limits = np.degrees(np.arctan(stated["friction"] * np.array(limits))).tolist()
+        limits = np.degrees(np.arctan(stated["friction"] * limits))
     ends = [-np.inf, *limits, np.inf]
     place = ["initial stick", "slip and stick", "slip throughout"].index(entry["regime"])
     return ends[place], ends[place + 1]

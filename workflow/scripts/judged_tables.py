@@ -4,7 +4,6 @@ from pathlib import Path
 
 import csv_tables
 import numpy as np
-import study_files
 
 
 def read(path):
@@ -43,9 +42,13 @@ def _impacts(path):
 
 
 def _points_of_study(path):
-    axes, outputs = study_files.read(Path(path))
-    grid = np.meshgrid(*axes.values(), indexing="ij")
-    groups = dict(zip(axes, grid, strict=True))
-    columns = {study_files.column(name): a.ravel() for name, a in (groups | outputs).items()}
+    with np.load(path) as file:
+        arrays = {name: file[name] for name in file.files if "[" in name}
+        axes = [str(name) for name in file["axes"]]
+    grid = np.meshgrid(*(arrays[name] for name in axes), indexing="ij")
+    columns = {
+        name: values.ravel()
+        for name, values in (arrays | dict(zip(axes, grid, strict=True))).items()
+    }
     # The axes without their units too, as labels of a point.
-    return columns | {name: values.ravel() for name, values in groups.items()}
+    return columns | {name.split(" [")[0]: columns[name] for name in axes}
