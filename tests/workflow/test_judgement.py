@@ -233,7 +233,7 @@ def report(first_run, expected, tmp_path, monkeypatch):
             "results/problems.csv",
             {
                 name: f"results/{name}.csv"
-                for name in ("verdicts", "ledger", "trade", "which_model", "stability")
+                for name in ("verdicts", "ledger", "trade", "which_model", "stability", "gates")
             },
             {name: f"results/residuals/{name}.csv" for name in names},
             {name: f"figures/{name}.svg" for name in names},

@@ -241,13 +241,13 @@ def doctored(*lapsed):
         return dict.fromkeys(verdict_table.COLUMNS, "") | cells
 
     verdicts = [
-        row("fig6", "fig6-e1", "diverges", points="2", **{"rms [sigma]": "7", "max [sigma]": "9"}),
+        row("fig6", "fig6-rebound", "diverges", points="2", **{"rms [sigma]": "7", "max [sigma]": "9"}),
         row("trade", "trade-solved", "diverges", note="no curves: ArithmeticError: <oh>"),
-        *(row(name, f"{name}-solved", "agrees") for name in figures if name != "trade"),
+        *(row(name, f"{name}-solved", "as before") for name in figures if name != "trade"),
     ]
     verdicts = [row | {"verdict": "agrees"} for row in verdicts] if lapsed else verdicts
     residuals = [
-        {"comparison": "fig6-e1", "quantity": "x [1]", "at": at, "distance [sigma]": far}
+        {"comparison": "fig6-rebound", "quantity": "x [1]", "at": at, "distance [sigma]": far}
         for at, far in (("1", "-9"), ("2", "4"))
     ]
     shown = {
@@ -261,13 +261,14 @@ def doctored(*lapsed):
         verdicts,
         [dict.fromkeys(ledger_table.COLUMNS, "") | entry for entry in lapsed],
         shown,
-        dict.fromkeys(("which_model", "trade", "stability"), crashed),
+        dict.fromkeys(("which_model", "trade", "stability", "gates"), crashed),
+        CONFIG,
         {},
         {"versions": {}, "system": "", "date": "", "commit": "", "times": []},
         "symbols",
         {},
         ROOT / "workflow/report/report.html",
-        ["fig6-e1 diverges"] if not lapsed else ["eq-1 no longer holds"],
+        ["fig6-rebound diverges"] if not lapsed else ["eq-1 no longer holds"],
         write_report.Salvage(),
     )
 
@@ -280,10 +281,10 @@ def test_a_diverging_run_looks_like_one():
     assert "PASSED" not in text
     table = page[page.index('<table class="grid verdicts">') :].split("</table>")[0]
     first = table.split("<tr")[2]
-    assert 'id="fig6-e1" class="diverges"' in first and 'class="mark fails">diverges<' in first
+    assert 'id="fig6-rebound" class="diverges"' in first and 'class="mark fails">diverges<' in first
     assert "rms 7, max 9" in first
     assert "no curves: ArithmeticError: &lt;oh&gt;" in table.replace("No curves", "no curves")
-    assert page.count("<td>ArithmeticError: &lt;oh&gt;</td>") == 3
+    assert page.count("<td>ArithmeticError: &lt;oh&gt;</td>") == 4
 
 
 def test_a_run_with_a_lapsed_entry_looks_like_one():
@@ -295,10 +296,10 @@ def test_a_run_with_a_lapsed_entry_looks_like_one():
 def test_strips_show_points_bounds_and_verdicts():
     strip = {"metric": "distance", "curve": "lumped", "reference": "a/b"}
     comparisons = {
-        "low": strip | {"documented": {"entry": "known", "rms": [2.0, 4.0]}},
-        "high": strip | {"agreement": {"rms": 1.5, "max": 3.0}},
-        "corner": {"metric": "vertices", "reference": "a/c", "agreement": {"max": 1.0}},
-        "peak": {"metric": "landmark", "reference": "a/d", "agreement": {"max": 1.0}},
+        "low": strip | {"documented": {"entry": "known"}, "regression": {"rms": [2.0, 4.0]}},
+        "high": strip,
+        "corner": {"metric": "vertices", "reference": "a/c"},
+        "peak": {"metric": "landmark", "reference": "a/d"},
     }
     points = {"low": [-1, -3], "high": [2, 0], "corner": [0.5], "peak": [0.1]}
     residuals = [
@@ -306,16 +307,18 @@ def test_strips_show_points_bounds_and_verdicts():
         for name, distances in points.items()
         for at, far in enumerate(distances)
     ]
-    verdicts = {"low": "diverges", "high": "agrees", "corner": "agrees", "peak": "agrees"}
+    verdicts = dict.fromkeys(("corner", "peak"), {"verdict": "agrees", "p": ""})
+    verdicts |= {"low": {"verdict": "diverges", "p": ""}, "high": {"verdict": "agrees", "p": "0.5"}}
     first, second = draw_residuals.draw(residuals, comparisons, verdicts).axes
     drawn = {line.get_marker(): line for line in first.lines if line.get_linestyle() == "None"}
     assert drawn["x"].get_ydata().tolist() == [-1, -3]
     assert drawn["o"].get_ydata().tolist() == [2, 0]
     rms = {round(line.get_ydata()[0] ** 2) for line in first.lines if line.get_linestyle() == "-"}
-    assert rms >= {5, 2}
-    tops = [area.get_datalim(first.transData).y1 for area in first.collections]
-    assert max(tops) == 4 and {3.0, 1.5} <= set(tops)
+    assert rms >= {5}
+    # Chi-squared bounds the points of `high` together, and none of them alone.
+    assert {area.get_datalim(first.transData).y1 for area in first.collections} == {4.0, -2.0}
     assert second.lines[0].get_ydata().tolist() == [0.5]
+    assert {area.get_datalim(second.transData).y1 for area in second.collections} == {1.0}
     assert draw_residuals.draw(residuals[-1:], comparisons, verdicts) is None
 
 

@@ -136,8 +136,7 @@ EDITS = {
         "src/planarimpact/piecewise.py": [*ALL_MODELS, CHOOSING],
         "src/planarimpact/ladder.py": [*ALL_MODELS, *STUDY, CHOOSING],
         "src/planarimpact/laws.py": [*ALL_MODELS, *STUDY, LEDGER, CHOOSING],
-        "src/planarimpact/timestep.py": [*ALL_MODELS, *STUDY, LEDGER, TABLES_JUDGED = ["scene_shot_peening", "scene_billiard_cushion", "scene_superball", "study"]
-CHOOSING, REVERSAL],
+        "src/planarimpact/timestep.py": [*ALL_MODELS, *STUDY, LEDGER, CHOOSING, REVERSAL],
     },
     "parts of solvers": {
         "workflow/scripts/one_thread.py": [*ALL, *STUDY, *LECTURES],
