@@ -241,7 +241,13 @@ def doctored(*lapsed):
         return dict.fromkeys(verdict_table.COLUMNS, "") | cells
 
     verdicts = [
-        row("fig6", "fig6-rebound", "diverges", points="2", **{"rms [sigma]": "7", "max [sigma]": "9"}),
+        row(
+            "fig6",
+            "fig6-rebound",
+            "diverges",
+            points="2",
+            **{"rms [sigma]": "7", "max [sigma]": "9"},
+        ),
         row("trade", "trade-solved", "diverges", note="no curves: ArithmeticError: <oh>"),
         *(row(name, f"{name}-solved", "as before") for name in figures if name != "trade"),
     ]

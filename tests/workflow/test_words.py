@@ -8,11 +8,12 @@ import csv_tables
 import job
 import pytest
 import records
+import verdict_table
 
 VERDICT = {
-    "figure": "fig6", "comparison": "fig6-e1", "verdict": "agrees", "reference": "a/b",
-    "points": 5, "rms [sigma]": 0.1, "max [sigma]": 0.2, "rms [axis units]": 0.1, "found": "",
-    "stated": "", "allowed": "max <= 1", "note": "", "reason": "",
+    **dict.fromkeys(verdict_table.COLUMNS, ""),
+    "figure": "fig6", "comparison": "fig6-rebound", "verdict": "agrees", "reference": "a/b",
+    "points": 5, "rms [sigma]": 0.1, "max [sigma]": 0.2, "allowed": "max <= 1",
 }  # fmt: skip
 ENTRY = {
     "verdict": "wrong", "holds": "yes", "entry": "eq-25", "where": "Eq. 25", "problem": "0.1 > 0",
@@ -109,7 +110,9 @@ def test_a_failed_run_names_its_rows_last_and_repeats_the_config(folder, before)
 def test_tables_without_the_gate_are_no_verdict(folder, before):
     ended(folder, verdict="diverges")
     words = closing.words(before)
-    assert "No verdict in this run" in words and "diverges or no longer holds: fig6-e1" in words
+    assert (
+        "No verdict in this run" in words and "diverges or no longer holds: fig6-rebound" in words
+    )
     assert "stopped" not in words and "On purpose" not in words
 
 

@@ -38,9 +38,9 @@ def faults_of_tables(verdicts, ledger, comparisons, entries):
 
     Examples
     --------
-    >>> row = {"comparison": "fig6-e1", "verdict": "agrees"}
-    >>> faults_of_tables([row], [], {"fig6-e1": False, "fig6-e0": False}, {})
-    ['results/verdicts.csv: 0 rows of fig6-e0 where 1 belongs: remove that file and run again']
+    >>> row = {"comparison": "fig6-rebound", "verdict": "agrees"}
+    >>> faults_of_tables([row], [], {"fig6-rebound": False, "fig6-printed": False}, {})
+    ['results/verdicts.csv: 0 rows of fig6-printed where 1 belongs: remove that file and run again']
     """
     found = _miscounted(TABLES[0], "comparison", verdicts, comparisons)
     found += _miscounted(TABLES[1], "entry", ledger, entries)
