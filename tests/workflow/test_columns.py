@@ -3,17 +3,22 @@
 Also what the table of gates says of the smallest changes.
 """
 
+import importlib
 import re
 from pathlib import Path
 
 import compare
+import csv_tables
 import judged_tables
+import numpy as np
 import pytest
 import reference_data
 import run_plan
+import sensitivity
+import solve
 import study_files
 
-from planarimpact import checks
+from planarimpact import checks, comparison
 
 ROOT = Path(__file__).parents[2]
 SCHEMAS = ROOT / "workflow/schemas"
@@ -90,3 +95,49 @@ def test_no_column_can_be_scaled_or_flipped(name, factor, tables, monkeypatch):
         if all(row["verdict"] != "diverges" for row in _judged(name, path, series)):
             missed.append((curve, column))
     assert missed == []
+
+
+SLIDING = "chung_ooi2011/rebound"
+TRIED = ["fig2", "fig3", "fig6", "fig7", "micro_slip", "superball"]
+
+
+@pytest.mark.parametrize("name", TRIED)
+def test_the_table_of_gates_tells_what_is_caught(name, tables, tmp_path):
+    """A change twice as large is caught in truth, one of a third is not."""
+    folder, series = tables
+    rows = csv_tables.read_rows(folder / "results/gates.csv")
+    sizes = {row["comparison"]: row for row in rows if row["comparison"].startswith(f"{name}-")}
+    assert set(sizes) == set(run_plan.comparisons(CONFIG, name))
+    module = importlib.import_module(f"planarimpact.curves.{name}")
+    nodes = run_plan.nodes_of(CONFIG, INVENTORY, name)
+    settings = run_plan.settings(CONFIG, INVENTORY, name) | solve.read_nodes(nodes)
+    path = tmp_path / "curves.csv"
+    own = [c for c in judged_tables.read(folder / run_plan.table_of(name)) if "printed" not in c]
+    for title, row in sizes.items():
+        for group in sensitivity.GROUPS:
+            size = row[group]
+            for factor, caught in ((2.0, True), (1 / 3, False)):
+                if size not in ("", "none"):
+                    wrong = sensitivity.changed(settings, group, factor * float(size))
+                    wrong.pop("as_printed", None)
+                    csv_tables.write(
+                        path, dict(zip(own, module.curves(**wrong).values(), strict=True))
+                    )
+                    found = {row["comparison"]: row for row in _judged(name, path, series)}
+                    words = title, group, size, factor
+                    assert (found[title]["verdict"] == "diverges") == caught, words
+
+
+def test_sigmas_do_not_come_from_the_points_they_judge():
+    """Finite elements: from points that nothing looks at; Kharaz et al.: from a second reader."""
+    limits = comparison.limits_of_regimes(3.5, 1.2143, 1.0)
+    sheet = INVENTORY["chung_ooi2011"]["series"]["rebound"]
+    columns = reference_data.read_series("rebound", sheet)
+    x, w = (np.array(columns[reference_data.column_name(sheet[axis])]) for axis in "xy")
+    off = (w - (x - 7.0))[x > limits[1]]
+    assert sheet["x"]["sigma"] == sheet["y"]["sigma"] == round(np.sqrt(np.mean(off**2) / 2), 3)
+    judged = [c for c in CONFIG["comparisons"].values() if c.get("reference") == SLIDING]
+    assert {c["regime"] for c in judged} == {"initial stick", "slip and stick"}
+    for name, entry in CONFIG["comparisons"].items():
+        if entry.get("reference", "").startswith("kharaz2001/"):
+            assert len(entry["points"]) == 1, name
