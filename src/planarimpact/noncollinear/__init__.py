@@ -11,13 +11,14 @@ has the same impact without compliance. `phases` and `stick_end` hold the closed
 search for the end of stick, `solver` their order. Axes and signs: `configuration`.
 """
 
+import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from planarimpact import checks
-from planarimpact.arrays import Array, ArrayLike, Booleans
-from planarimpact.checks import InputError, checked
+from planarimpact.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.checks import ConvergenceError, InputError, checked
 from planarimpact.noncollinear.configuration import (
     InverseMass,
     checked_impact,
@@ -158,7 +159,7 @@ def rebound(
         for start in range(0, max(v1.size, 1), CHUNK)  # one even of none
     ]
     found = [np.concatenate(column) for column in zip(*pieces, strict=True)]
-    velocity, approach, peak_friction, peak_normal, work, duration, regime, jams = found
+    velocity, approach, peak_friction, peak_normal, work, duration, regime, jams, given_up = found
     # p = -(inverse mass)^-1 times the change of velocity.
     change = impacts.velocity - velocity, 1 - approach
     determinant = impacts.mass_ratio - coupling**2
@@ -179,6 +180,15 @@ def rebound(
         ]
     refuse_overflow(NoncollinearRebound._fields, fields)
     shape = arguments[0].shape
+    lost = np.flatnonzero(given_up)
+    if lost.size:
+        if not shape:
+            raise ConvergenceError(_given_up(impacts, lost))
+        # As NumPy does where a function of an array has no value for some entries.
+        warnings.warn(_given_up(impacts, lost), RuntimeWarning, stacklevel=3)
+        for field in fields:
+            field[lost] = np.nan
+        regime[lost], jams[lost] = Regime.UNRESOLVED, False
     fields = [field.reshape(shape)[()] for field in (*fields, regime, jams)]
     if not shape:
         fields[-2:] = Regime(int(fields[-2])), bool(fields[-1])
@@ -232,7 +242,8 @@ def history(
         raise InputError(f"shape = {arguments[0].shape}: one contact takes scalars")
     _, v2, _, m2, e, kappa, impacts = _groups(arguments)
     trace: list[Phase] = []
-    solve(impacts, trace)
+    if solve(impacts, trace).given_up[0]:
+        raise ConvergenceError(_given_up(impacts, np.zeros(1, int)))
     units = (float(a[0]) for a in (v2, np.sqrt(m2) * np.sqrt(kappa), np.sqrt(m2) / np.sqrt(kappa)))
     with np.errstate(over="ignore", invalid="ignore"):
         found = timeline(trace, float(e[0]), float(impacts.stiffness_ratio[0]), samples, *units)
@@ -320,5 +331,17 @@ def _groups(
         for name, (group, low) in groups.items()
     )
     v1, v2, e, kappa, b = (field.reshape(-1) for field in (v1, v2, e, kappa, b))
-    impacts = Impacts(np.arange(v1.size), ratio, beta, coupling, zeta2, mu, e)
+    impacts = Impacts(ratio, beta, coupling, zeta2, mu, e)
     return v1, v2, coupling, 1 / b, e, kappa, impacts
+
+
+def _given_up(impacts: Impacts, lost: Integers) -> str:
+    """What to say of impacts that have too many phases, by their flat indices."""
+    first = dict(zip(impacts._fields, (float(field[lost[0]]) for field in impacts), strict=True))
+    which = f"impact {lost[0]}" if lost.size == 1 else f"impacts {checks.brief(lost.tolist())}"
+    return (
+        f"{lost.size} of {impacts.velocity.size} impacts given up, with too many phases or"
+        f" oscillations: {which}, counted from 0 in the flattened arguments. With V = v1/v2, C ="
+        " m2 c they are many where omega/Omega is large, where C^2 is near m2/m1, or where friction"
+        f" holds the contact closed (mu |C| > 1) while it rattles (e << 1). The first has {first}"
+    )
