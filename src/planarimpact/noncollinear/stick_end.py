@@ -204,10 +204,12 @@ def _free_step(
 
 
 def _to_zero(value: Array, slope: Array, bend: Array) -> Array:
-    """Last step, to the zero itself: one to where the noise ends adds up over many phases."""
-    root = np.sqrt(np.maximum(slope * slope + 2 * bend * value, 0.0))
-    over = np.where(slope < 0, root - slope, bend)
-    return np.where(slope < 0, 2 * value, slope + root) / over
+    """Last step, to the zero itself or, where two are close, as far as is sure to be short of it.
+
+    To stop where the noise ends would add up over many phases.
+    """
+    over = np.sqrt(slope * slope + 2 * bend * np.abs(value)) - slope
+    return np.where(slope < 0, 2 * value / np.where(slope < 0, over, 1.0), 0.0)
 
 
 def _free_step_by_motion(value: Array, slope: Array, square: Array, load: Array) -> Array:
