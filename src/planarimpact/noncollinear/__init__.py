@@ -4,7 +4,8 @@ The paper derives the coupled equations and then leaves them for the collinear c
 solved as they stand, with the contact of `planarimpact.lumped`: linear normal and tangential
 elements, Coulomb friction, energetic restitution. Normal and tangential motion are coupled, so
 compression may end and begin again, and friction may press the body into the surface faster than
-the normal force slows it (jam) until its point sticks.
+the normal force slows it (jam) until its point sticks. What comes after the compression of a
+contact without restitution is the limit e -> 0, in `held`.
 
 `inverse_mass` turns a body, or with `combined` two, into what `rebound` and `history` take. `rigid`
 has the same impact without compliance. `phases` and `stick_end` hold the closed forms and the
@@ -65,16 +66,17 @@ class NoncollinearRebound(NamedTuple):
         Largest |F1| and F2 [N].
     friction_work : ndarray of float64 or float
         Energy that friction dissipates [J]; for e = 0 with the tangential strain energy that is
-        lost at separation.
+        lost where the contact lets go at maximum compression.
     hysteresis : ndarray of float64 or float
         Energy lost in the normal element [J].
     duration : ndarray of float64 or float
         Of the contact [s].
     regime : ndarray of uint8 or Regime
-        Codes of `Regime`.
+        Codes of `Regime`; UNRESOLVED where the impact has been given up.
     jams : ndarray of bool or bool
         Whether the contact slips, for a time, while friction presses the body into the surface
-        more than the normal force holds it off.
+        more than the normal force holds it off. For e = 0 the slip of a contact that lets go takes
+        no time, in `regime` too.
     """
 
     tangential: Array
@@ -112,8 +114,9 @@ def rebound(
         Coulomb's mu, from 0.
     restitution : array_like
         Energetic coefficient e, 0 to 1: the normal element has the stiffness kappa in
-        compression and kappa/e^2 below its largest compression. e = 0 separates at the first
-        maximum of compression.
+        compression and kappa/e^2 below its largest compression. e = 0 is the limit e -> 0: the
+        contact lets go at a maximum of compression, unless it sticks there and friction holds it
+        closed (mu |c| m2 > 1); then it lets go when friction has fallen to zero.
     stiffness_ratio : array_like
         zeta^2 > 0, normal over tangential stiffness.
     stiffness : array_like
@@ -129,14 +132,27 @@ def rebound(
         If an argument is not a finite real number in its range, if shapes do not broadcast, if
         a ratio of velocities or masses, zeta^2 or mu is beyond 1e50, or a result beyond float64.
     ConvergenceError
-        If a contact has more than 5 000 phases of stick and slip: where the tangential spring is
-        very stiff, c^2 m1 m2 is within about 1e-7 of 1, or e is very small and
-        mu |c| m2 > 1, so that friction holds the contact closed.
+        If the arguments are scalars and their impact is given up, as below.
+
+    Warns
+    -----
+    RuntimeWarning
+        If impacts of an array are given up: their numbers are NaN, the others have theirs. The
+        warning names the flat indices; `numpy.isnan(result.tangential)` finds them. Given up is
+        what takes more than 5 000 phases of stick and slip, or as many steps in one of them:
+        where the tangential spring is very stiff, c^2 m1 m2 is within about 1e-7 of 1, or e is
+        small, but not 0, and mu |c| m2 > 1, so that friction holds the contact closed while it
+        rattles.
 
     Notes
     -----
-    Closed forms within a phase; energy balances to 1e-12 of the kinetic energy. With c = 0 it is
-    `planarimpact.lumped.rebound` in other units, to 1e-12.
+    Closed forms within a phase. The energy balances to 1e-12 of the kinetic energy or, where that
+    is more, 1e-14/(1 - c^2 m1 m2) of it: near c^2 m1 m2 = 1 the energy is a small difference of
+    velocities. With c = 0 it is `planarimpact.lumped.rebound` in other units, to 1e-12.
+
+    The state at separation is continuous in all arguments but where the contact just fails to
+    separate: where mu |c| m2 > 1 it may come to N = 0 and rest there in the normal direction,
+    and friction either lets it go or presses it in for another compression.
 
     Examples
     --------
@@ -223,7 +239,8 @@ def history(
     Raises
     ------
     InputError, ConvergenceError
-        As `rebound`; also if an argument is not scalar or `samples` is no integer above 1.
+        As `rebound` of scalars; also if an argument is not scalar or `samples` is no integer
+        above 1.
 
     Examples
     --------

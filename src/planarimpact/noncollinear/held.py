@@ -123,7 +123,9 @@ class Release(NamedTuple):
         none = np.zeros_like(peak)
         slid = State(push * last, none, side * last, turned * speed)
         return cls(
-            Swing(State(push * force, none, side * force, state.velocity), groups, 1.0, creeps=False),
+            Swing(
+                State(push * force, none, side * force, state.velocity), groups, 1.0, creeps=False
+            ),
             Swing(slid, groups, gain, creeps=True),
             np.maximum(angle, 0.0) * zeta2 / stiffness,
             falls * quarter * zeta2 / creep_stiffness,

@@ -240,13 +240,9 @@ def _stick(
     # At the onset of slip the larger of the two forces is known to more digits.
     normal = np.where(slides & (mu > 1), np.abs(after.friction) / np.maximum(mu, 1.0), normal)
     normal = np.maximum(normal, 0.0)
-    rising = (contacts.rising | other) & ~again
-    # Rounding must not turn it back: that would be unloading and reloading in turn, for ever.
-    kept = np.where(unloading, np.minimum(after.approach, 0.0), np.maximum(after.approach, 0.0))
-    approach = np.where(contacts.rising | other, after.approach, kept)
     after = State(
         normal,
-        np.where(ends & ~unloading, 0.0, approach),
+        np.where(ends & ~unloading, 0.0, after.approach),
         np.where(slides, direction * mu * normal, after.friction),
         np.where(turns, 0.0, after.velocity),
     )
@@ -257,7 +253,7 @@ def _stick(
     moved = contacts._replace(
         state=after,
         direction=direction,
-        rising=rising,
+        rising=(contacts.rising | other) & ~again,
     )
     return moved, ends, again
 

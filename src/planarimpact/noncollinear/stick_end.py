@@ -12,8 +12,8 @@ b + g mu C, b that of the tangential element alone, and the right-hand side is k
 the slope of `phases.Slip`.
 
 A function may fall below zero by a rounding error, `NOISE` of its size, before it counts; then the
-zero itself is taken. So the double zero of f where slip has just ended, from which a search might chatter, is left behind at
-once: there k > 0, and no load.
+zero itself is taken. So the double zero of f where slip has just ended, from which a search might
+chatter, is left behind at once: there k > 0, and no load.
 """
 
 from typing import NamedTuple
@@ -191,9 +191,7 @@ def _values(which: Functions, time: Array) -> tuple[Array, Array]:
     return value, slope
 
 
-def _free_step(
-    which: Functions, bend: Array, value: Array, slope: Array
-) -> tuple[Array, Integers]:
+def _free_step(which: Functions, bend: Array, value: Array, slope: Array) -> tuple[Array, Integers]:
     """Longest step without a zero, and the function that has the next one."""
     value = np.maximum(value + which.noise, 0.0)
     steps = (slope + np.sqrt(slope * slope + 2 * bend * value)) / bend
