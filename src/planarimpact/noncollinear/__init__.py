@@ -4,20 +4,22 @@ The paper derives the coupled equations and then leaves them for the collinear c
 solved as they stand, with the contact of `planarimpact.lumped`: linear normal and tangential
 elements, Coulomb friction, energetic restitution. Normal and tangential motion are coupled, so
 compression may end and begin again, and friction may press the body into the surface faster than
-the normal force slows it (jam) until its point sticks.
+the normal force slows it (jam) until its point sticks. What comes after the compression of a
+contact without restitution is the limit e -> 0, in `held`.
 
 `inverse_mass` turns a body, or with `combined` two, into what `rebound` and `history` take. `rigid`
 has the same impact without compliance. `phases` and `stick_end` hold the closed forms and the
 search for the end of stick, `solver` their order. Axes and signs: `configuration`.
 """
 
+import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from planarimpact import checks
-from planarimpact.arrays import Array, ArrayLike, Booleans
-from planarimpact.checks import InputError, checked
+from planarimpact.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.checks import ConvergenceError, InputError, checked
 from planarimpact.noncollinear.configuration import (
     InverseMass,
     checked_impact,
@@ -64,16 +66,17 @@ class NoncollinearRebound(NamedTuple):
         Largest |F1| and F2 [N].
     friction_work : ndarray of float64 or float
         Energy that friction dissipates [J]; for e = 0 with the tangential strain energy that is
-        lost at separation.
+        lost where the contact lets go at maximum compression.
     hysteresis : ndarray of float64 or float
         Energy lost in the normal element [J].
     duration : ndarray of float64 or float
         Of the contact [s].
     regime : ndarray of uint8 or Regime
-        Codes of `Regime`.
+        Codes of `Regime`; UNRESOLVED where the impact has been given up.
     jams : ndarray of bool or bool
         Whether the contact slips, for a time, while friction presses the body into the surface
-        more than the normal force holds it off.
+        more than the normal force holds it off. For e = 0 the slip of a contact that lets go takes
+        no time, in `regime` too.
     """
 
     tangential: Array
@@ -111,8 +114,9 @@ def rebound(
         Coulomb's mu, from 0.
     restitution : array_like
         Energetic coefficient e, 0 to 1: the normal element has the stiffness kappa in
-        compression and kappa/e^2 below its largest compression. e = 0 separates at the first
-        maximum of compression.
+        compression and kappa/e^2 below its largest compression. e = 0 is the limit e -> 0: the
+        contact lets go at a maximum of compression, unless it sticks there and friction holds it
+        closed (mu |c| m2 > 1); then it lets go when friction has fallen to zero.
     stiffness_ratio : array_like
         zeta^2 > 0, normal over tangential stiffness.
     stiffness : array_like
@@ -128,14 +132,27 @@ def rebound(
         If an argument is not a finite real number in its range, if shapes do not broadcast, if
         a ratio of velocities or masses, zeta^2 or mu is beyond 1e50, or a result beyond float64.
     ConvergenceError
-        If a contact has more than 5 000 phases of stick and slip: where the tangential spring is
-        very stiff, c^2 m1 m2 is within about 1e-7 of 1, or e is very small and
-        mu |c| m2 > 1, so that friction holds the contact closed.
+        If the arguments are scalars and their impact is given up, as below.
+
+    Warns
+    -----
+    RuntimeWarning
+        If impacts of an array are given up: their numbers are NaN, the others have theirs. The
+        warning names the flat indices; `numpy.isnan(result.tangential)` finds them. Given up is
+        what takes more than 5 000 phases of stick and slip, or as many steps in one of them:
+        where the tangential spring is very stiff, c^2 m1 m2 is within about 1e-7 of 1, or e is
+        small, but not 0, and mu |c| m2 > 1, so that friction holds the contact closed while it
+        rattles.
 
     Notes
     -----
-    Closed forms within a phase; energy balances to 1e-12 of the kinetic energy. With c = 0 it is
-    `planarimpact.lumped.rebound` in other units, to 1e-12.
+    Closed forms within a phase. The energy balances to 1e-12 of the kinetic energy or, where that
+    is more, 1e-14/(1 - c^2 m1 m2) of it: near c^2 m1 m2 = 1 the energy is a small difference of
+    velocities. With c = 0 it is `planarimpact.lumped.rebound` in other units, to 1e-12.
+
+    The state at separation is continuous in all arguments but where the contact just fails to
+    separate: where mu |c| m2 > 1 it may come to N = 0 and rest there in the normal direction,
+    and friction either lets it go or presses it in for another compression.
 
     Examples
     --------
@@ -158,7 +175,7 @@ def rebound(
         for start in range(0, max(v1.size, 1), CHUNK)  # one even of none
     ]
     found = [np.concatenate(column) for column in zip(*pieces, strict=True)]
-    velocity, approach, peak_friction, peak_normal, work, duration, regime, jams = found
+    velocity, approach, peak_friction, peak_normal, work, duration, regime, jams, given_up = found
     # p = -(inverse mass)^-1 times the change of velocity.
     change = impacts.velocity - velocity, 1 - approach
     determinant = impacts.mass_ratio - coupling**2
@@ -179,6 +196,15 @@ def rebound(
         ]
     refuse_overflow(NoncollinearRebound._fields, fields)
     shape = arguments[0].shape
+    lost = np.flatnonzero(given_up)
+    if lost.size:
+        if not shape:
+            raise ConvergenceError(_given_up(impacts, lost))
+        # As NumPy does where a function of an array has no value for some entries.
+        warnings.warn(_given_up(impacts, lost), RuntimeWarning, stacklevel=3)
+        for field in fields:
+            field[lost] = np.nan
+        regime[lost], jams[lost] = Regime.UNRESOLVED, False
     fields = [field.reshape(shape)[()] for field in (*fields, regime, jams)]
     if not shape:
         fields[-2:] = Regime(int(fields[-2])), bool(fields[-1])
@@ -213,7 +239,8 @@ def history(
     Raises
     ------
     InputError, ConvergenceError
-        As `rebound`; also if an argument is not scalar or `samples` is no integer above 1.
+        As `rebound` of scalars; also if an argument is not scalar or `samples` is no integer
+        above 1.
 
     Examples
     --------
@@ -232,7 +259,8 @@ def history(
         raise InputError(f"shape = {arguments[0].shape}: one contact takes scalars")
     _, v2, _, m2, e, kappa, impacts = _groups(arguments)
     trace: list[Phase] = []
-    solve(impacts, trace)
+    if solve(impacts, trace).given_up[0]:
+        raise ConvergenceError(_given_up(impacts, np.zeros(1, int)))
     units = (float(a[0]) for a in (v2, np.sqrt(m2) * np.sqrt(kappa), np.sqrt(m2) / np.sqrt(kappa)))
     with np.errstate(over="ignore", invalid="ignore"):
         found = timeline(trace, float(e[0]), float(impacts.stiffness_ratio[0]), samples, *units)
@@ -320,5 +348,17 @@ def _groups(
         for name, (group, low) in groups.items()
     )
     v1, v2, e, kappa, b = (field.reshape(-1) for field in (v1, v2, e, kappa, b))
-    impacts = Impacts(np.arange(v1.size), ratio, beta, coupling, zeta2, mu, e)
+    impacts = Impacts(ratio, beta, coupling, zeta2, mu, e)
     return v1, v2, coupling, 1 / b, e, kappa, impacts
+
+
+def _given_up(impacts: Impacts, lost: Integers) -> str:
+    """What to say of impacts that have too many phases, by their flat indices."""
+    first = dict(zip(impacts._fields, (float(field[lost[0]]) for field in impacts), strict=True))
+    which = f"impact {lost[0]}" if lost.size == 1 else f"impacts {checks.brief(lost.tolist())}"
+    return (
+        f"{lost.size} of {impacts.velocity.size} impacts given up, with too many phases or"
+        f" oscillations: {which}, counted from 0 in the flattened arguments. With V = v1/v2, C ="
+        " m2 c they are many where omega/Omega is large, where C^2 is near m2/m1, or where friction"
+        f" holds the contact closed (mu |C| > 1) while it rattles (e << 1). The first has {first}"
+    )

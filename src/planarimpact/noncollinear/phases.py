@@ -119,10 +119,9 @@ class Slip(NamedTuple):
         forces = self.state.normal + normal_after
         half = impulse / np.where(forces > 0, forces, 1.0)
         rate = np.sqrt(np.abs(self.mass))
-        with np.errstate(divide="ignore"):  # at the end of an endless approach to N = 0
-            angle = np.where(
-                self.mass > 0, np.arctan(rate * half), np.arctanh(np.minimum(rate * half, 1.0))
-            )
+        # An approach to N = 0 that is endless but for rounding takes as long as rounding lets it.
+        tangent = np.minimum(rate * half, np.nextafter(1.0, 0.0))
+        angle = np.where(self.mass > 0, np.arctan(rate * half), np.arctanh(tangent))
         return 2 * np.where(rate * half > 1e-9, angle / np.maximum(rate, 1e-300), half)
 
     def at(self, time: Array) -> State:

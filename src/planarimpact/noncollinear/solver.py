@@ -5,12 +5,11 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.arrays import Array, Booleans, Integers
-from planarimpact.checks import ConvergenceError
-from planarimpact.noncollinear import stick_end
+from planarimpact.noncollinear import held, stick_end
 from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
 from planarimpact.results import Regime
 
-# Phases of one contact; one that has more is refused rather than waited for.
+# Phases of one contact; one that has more is given up rather than waited for.
 MOST_PHASES = 5_000
 # Smaller restitutions than this leave the same tangential motion, to rounding.
 SMALLEST_PACE = 1e-50
@@ -19,9 +18,8 @@ TIE = 1e-14
 
 
 class Impacts(NamedTuple):
-    """Impacts in the units of `phases`, arrays of shape (n,); |v2(0)| = 1. Each has a number."""
+    """Impacts in the units of `phases`, arrays of shape (n,); |v2(0)| = 1."""
 
-    number: Integers
     velocity: Array
     mass_ratio: Array
     coupling: Array
@@ -31,7 +29,11 @@ class Impacts(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """What is known of each impact so far, arrays of shape (n,), filled in place."""
+    """What is known of each impact so far, arrays of shape (n,), filled in place.
+
+    `given_up` marks impacts with more phases or oscillations than are waited for: they have no
+    result.
+    """
 
     velocity: Array
     approach: Array
@@ -41,12 +43,13 @@ class Outcome(NamedTuple):
     duration: Array
     regime: Integers
     jams: Booleans
+    given_up: Booleans
 
 
 class Phase(NamedTuple):
-    """One phase of one contact: its `Slip` or `Stick`, the half it belongs to, how long."""
+    """One phase of one contact: its motion, the half it belongs to, how long."""
 
-    motion: Slip | Stick
+    motion: Slip | Stick | held.Swing
     unloading: bool
     duration: float
 
@@ -80,31 +83,18 @@ def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
     Returns
     -------
     Outcome
-
-    Raises
-    ------
-    ConvergenceError
-        If a contact has more than `MOST_PHASES` phases.
     """
     size = impacts.velocity.size
-    outcome = Outcome._make([*np.zeros((6, size)), np.zeros(size, np.uint8), np.zeros(size, bool)])
+    outcome = Outcome._make(
+        [*np.zeros((6, size)), np.zeros(size, np.uint8), *np.zeros((2, size), bool)]
+    )
     contacts = _first(impacts)
     for _ in range(MOST_PHASES):
         if not contacts.lanes.size:
-            return outcome
+            break
         contacts = _advance(contacts, impacts, outcome, trace)
-    raise _too_long(impacts, contacts.lanes[0])
-
-
-def _too_long(impacts: Impacts, lane: int) -> ConvergenceError:
-    """What to raise for a contact that goes on and on."""
-    number, *groups = (field[lane] for field in impacts)
-    named = dict(zip(Impacts._fields[1:], map(float, groups), strict=True))
-    return ConvergenceError(
-        f"the contact of impact {number} has too many phases or oscillations; with V = v1/v2, C ="
-        " m2 c they are many where omega/Omega is large, where C^2 is near m2/m1, or where friction"
-        f" holds the contact closed (mu |C| > 1) while it rattles (e << 1): {named}"
-    )
+    outcome.given_up[contacts.lanes] = True
+    return outcome
 
 
 def _first(impacts: Impacts) -> Contacts:
@@ -153,7 +143,8 @@ def _advance(
         which = np.flatnonzero(chosen)
         if which.size:
             part, some = _take(contacts, which), Groups(*(g[which] for g in groups))
-            pieces.append(_leave(*move(part, some, impacts, outcome, trace), impacts, outcome))
+            moved = move(part, some, impacts, outcome, trace)
+            pieces.append(_leave(*moved, impacts, outcome, trace))
     if len(pieces) == 1:
         return pieces[0]
     return _join(*pieces)
@@ -193,8 +184,9 @@ def _slide(
     )
     event = candidates.argmin(axis=0)
     impulse = candidates.min(axis=0)
-    if not np.isfinite(impulse).all():
-        raise _too_long(impacts, contacts.lanes[~np.isfinite(impulse)][0])
+    endless = ~np.isfinite(impulse)  # by rounding, where C^2 is m2/m1 to the last digits
+    outcome.given_up[contacts.lanes] = endless
+    impulse = np.where(endless, 0.0, impulse)
     after = slip.after(impulse, separation)
     stops, ends, again = (event == kind for kind in range(3))
     after = after._replace(
@@ -237,8 +229,7 @@ def _stick(
         stick, contacts.state, groups, contacts.peak, unloading, contacts.rising
     )
     time, event = stick_end.first_zero(which)
-    if (event < 0).any():
-        raise _too_long(impacts, contacts.lanes[event < 0][0])
+    outcome.given_up[contacts.lanes] = event < 0
     after = stick.at(time)
     forward, backward, turns, ends, other = (event == kind for kind in range(5))
     again = other & contacts.rising
@@ -268,14 +259,22 @@ def _stick(
 
 
 def _record(
-    trace: list[Phase] | None, motion: Slip | Stick, contacts: Contacts, duration: Array
+    trace: list[Phase] | None,
+    motion: Slip | Stick | held.Swing,
+    contacts: Contacts,
+    duration: Array,
 ) -> None:
     if trace is not None:
         trace.append(Phase(motion, bool(contacts.unloading[0]), float(duration[0])))
 
 
 def _leave(
-    contacts: Contacts, ends: Booleans, again: Booleans, impacts: Impacts, outcome: Outcome
+    contacts: Contacts,
+    ends: Booleans,
+    again: Booleans,
+    impacts: Impacts,
+    outcome: Outcome,
+    trace: list[Phase] | None,
 ) -> Contacts:
     """Turn contacts at maximum compression and at the earlier peak; settle those that separate."""
     lanes, state = contacts.lanes, contacts.state
@@ -283,18 +282,59 @@ def _leave(
     pace = np.maximum(e, SMALLEST_PACE)
     compressed = ends & ~contacts.unloading
     peak = np.where(compressed, state.normal, contacts.peak)
-    separates = (ends & contacts.unloading) | (compressed & (e == 0))
+    dead = compressed & (e == 0)
+    separates = (ends & contacts.unloading) | dead
     approach = np.where(again, pace * state.approach, state.approach)
     moved = contacts._replace(
         state=state._replace(approach=approach),
         unloading=(contacts.unloading | compressed) & ~again,
         peak=peak,
     )
+    sticks = np.flatnonzero(dead & (contacts.direction == 0))
+    if sticks.size:
+        moved, goes_on = _hold(moved, sticks, impacts, outcome, trace)
+        separates[goes_on] = False
     gone = np.flatnonzero(separates)
     if gone.size:
         _settle(_take(moved, gone), e[gone], impacts, outcome)
-        moved = _take(moved, np.flatnonzero(~separates))
-    return moved
+    over = separates | outcome.given_up[lanes]
+    return _take(moved, np.flatnonzero(~over)) if over.any() else moved
+
+
+def _hold(
+    contacts: Contacts,
+    which: Integers,
+    impacts: Impacts,
+    outcome: Outcome,
+    trace: list[Phase] | None,
+) -> tuple[Contacts, Integers]:
+    """Move on those of `which`, in stick without restitution, that friction holds closed.
+
+    Returns the contacts and which of them compression goes on for.
+    """
+    lanes = contacts.lanes[which]
+    some, groups = _take(contacts, which), _groups(impacts, lanes, np.zeros(which.size, bool))
+    closed, lowest = held.lowest_force(some.state, groups)
+    which, lanes, kept = which[closed], lanes[closed], np.flatnonzero(closed)
+    some, groups = _take(some, kept), Groups(*(group[kept] for group in groups))
+    release = held.Release.of(some.state, groups, lowest[kept])
+    outcome.peak_friction[lanes] = np.maximum(outcome.peak_friction[lanes], release.peak_friction)
+    outcome.friction_work[lanes] += release.work
+    outcome.duration[lanes] += release.stick_time + release.creep_time
+    outcome.jams[lanes] |= release.bursts | ~release.reloads
+    if kept.size:
+        _record(trace, release.stick, some, release.stick_time)
+        if not release.reloads.all():
+            _record(trace, release.creep, some, release.creep_time)
+    state = State(*(field.copy() for field in contacts.state))
+    for field, end in zip(state, release.end, strict=True):
+        field[which] = end
+    # Each burst, and creep again and again, brings a new stick.
+    sticks, unloading = contacts.sticks.copy(), contacts.unloading.copy()
+    sticks[which] += release.bursts + 2 * ~release.reloads
+    unloading[which] = ~release.reloads
+    moved = contacts._replace(state=state, sticks=sticks, unloading=unloading)
+    return moved, which[release.reloads]
 
 
 def _settle(contacts: Contacts, e: Array, impacts: Impacts, outcome: Outcome) -> None:

@@ -11,9 +11,9 @@ mu N - F is where both fall together. For it, the onset of slip in the direction
 b + g mu C, b that of the tangential element alone, and the right-hand side is k N with -k zeta^2
 the slope of `phases.Slip`.
 
-A function may fall below zero by a rounding error, `NOISE` of its size, before it counts. So the
-double zero of f where slip has just ended, from which a search might chatter, is left behind at
-once: there k > 0, and no load.
+A function may fall below zero by a rounding error, `NOISE` of its size, before it counts; then the
+zero itself is taken. So the double zero of f where slip has just ended, from which a search might
+chatter, is left behind at once: there k > 0, and no load.
 """
 
 from typing import NamedTuple
@@ -151,17 +151,25 @@ def first_zero(which: Functions) -> tuple[Array, Integers]:
     time, open_ = np.zeros(lanes.size), np.ones(lanes.size, bool)
     bend = _bend(which)
     for _ in range(STEPS):
-        step, nearest = _free_step(which, bend, time)
-        time = time + step
-        done = open_ & (step * np.maximum(which.rate_p, which.rate_q) <= LAST_STEP)
-        found[lanes[done]], index[lanes[done]] = time[done], nearest[done]
-        open_ &= ~done
-        left = np.count_nonzero(open_)
-        if not left:
-            return found, index
-        if left < KEEP * open_.size:
-            lanes, time, bend, which = lanes[open_], time[open_], bend[:, open_], which.take(open_)
-            open_ = np.ones(left, bool)
+        value, slope = _values(which, time)
+        step, nearest = _free_step(which, bend, value, slope)
+        before, time = time, time + step
+        # Where time is so large that no shorter step changes it, that ends the search.
+        done = (step * np.maximum(which.rate_p, which.rate_q) <= LAST_STEP) | (time == before)
+        last = np.flatnonzero(done & open_)
+        if last.size:
+            place = nearest[last], last
+            back = _to_zero(value[place], slope[place], bend[place])
+            found[lanes[last]] = np.maximum(before[last] + back, 0.0)
+            index[lanes[last]] = nearest[last]
+            open_[last] = False
+            left = np.count_nonzero(open_)
+            if not left:
+                return found, index
+            if left < KEEP * open_.size:
+                lanes, time, bend = lanes[open_], time[open_], bend[:, open_]
+                which = which.take(open_)
+                open_ = np.ones(left, bool)
     return found, index
 
 
@@ -172,20 +180,34 @@ def _bend(which: Functions) -> Array:
     return np.maximum(p_size + q_size, NOTHING**2)
 
 
-def _free_step(which: Functions, bend: Array, time: Array) -> tuple[Array, Integers]:
-    """Longest step without a zero, and the function that has the next one."""
+def _values(which: Functions, time: Array) -> tuple[Array, Array]:
+    """The functions and their slopes."""
     sin_p, cos_p = sin_cos(which.rate_p * time)
     sin_q, cos_q = sin_cos(which.rate_q * time)
-    value = which.constant + which.noise + which.p_cos * cos_p + which.p_sin * sin_p
+    value = which.constant + which.p_cos * cos_p + which.p_sin * sin_p
     value += which.q_cos * cos_q + which.q_sin * sin_q
     slope = which.rate_p * (which.p_sin * cos_p - which.p_cos * sin_p)
     slope += which.rate_q * (which.q_sin * cos_q - which.q_cos * sin_q)
-    value = np.maximum(value, 0.0)
+    return value, slope
+
+
+def _free_step(which: Functions, bend: Array, value: Array, slope: Array) -> tuple[Array, Integers]:
+    """Longest step without a zero, and the function that has the next one."""
+    value = np.maximum(value + which.noise, 0.0)
     steps = (slope + np.sqrt(slope * slope + 2 * bend * value)) / bend
     own = _free_step_by_motion(value, slope, which.square, which.load)
     steps = np.maximum(steps, own)
     nearest = steps.argmin(axis=0)
     return np.take_along_axis(steps, nearest[None], axis=0)[0], nearest
+
+
+def _to_zero(value: Array, slope: Array, bend: Array) -> Array:
+    """Last step, to the zero itself or, where two are close, as far as is sure to be short of it.
+
+    To stop where the noise ends would add up over many phases.
+    """
+    over = np.sqrt(slope * slope + 2 * bend * np.abs(value)) - slope
+    return np.where(slope < 0, 2 * value / np.where(slope < 0, over, 1.0), 0.0)
 
 
 def _free_step_by_motion(value: Array, slope: Array, square: Array, load: Array) -> Array:

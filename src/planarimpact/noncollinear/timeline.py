@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.arrays import Array
+from planarimpact.noncollinear.held import Swing
 from planarimpact.noncollinear.phases import Slip
 from planarimpact.noncollinear.solver import Phase
 from planarimpact.results import Event, EventKind
@@ -26,6 +27,12 @@ class NoncollinearHistory(NamedTuple):
     events : tuple of Event
         In order of time; `normal` is the force, `velocity` the tangential one. STICK and SLIP mark
         where a phase starts, RELOADING where compression exceeds its earlier maximum again.
+
+    Notes
+    -----
+    Without restitution a contact that friction holds closed swings at once and without end
+    (`held`): the normal force is then its mean. There it jumps, and after a burst of slip friction
+    too: two vertices of one time. Creep, many short slips, counts as slip.
     """
 
     time: Array
@@ -66,10 +73,16 @@ def timeline(
     ends = np.cumsum([_pace(phase, e) * phase.duration for phase in trace])
     grid = np.linspace(0.0, ends[-1], samples)
     pieces: list[Array] = []
+    starts: list[int] = []
     marks: list[tuple[EventKind, int]] = []
     before, peak = None, 0.0
     for phase, start, end in zip(trace, np.append(0.0, ends[:-1]), ends, strict=True):
-        marks += [(kind, sum(piece.shape[1] for piece in pieces)) for kind in _kinds(phase, before)]
+        first = sum(piece.shape[1] for piece in pieces)
+        jumps = isinstance(phase.motion, Swing) and not (before and before.unloading)
+        # The end of a phase is the start of the next; before a jump it has its events.
+        marks += [(kind, first - jumps) for kind in _kinds(phase, before)]
+        if before and not jumps:
+            starts.append(first)
         inside = grid[(grid > start) & (grid < end)]
         instants = np.concatenate([[start], inside, [end]])
         # A phase of small e is too short for the difference of its instants.
@@ -87,7 +100,7 @@ def timeline(
         before = phase
     columns = np.concatenate(pieces, axis=1)
     last = columns.shape[1] - 1
-    if e == 0:
+    if not trace[-1].unloading:
         marks.append((EventKind.MAXIMUM_COMPRESSION, last))
     marks.append((EventKind.SEPARATION, last))
     scales = [time, speed * force, speed * force, speed, speed, speed * time, speed * time]
@@ -96,18 +109,16 @@ def timeline(
         Event(kind, *(float(columns[row, column]) for row in (0, 1, 2, 3, 6)))
         for kind, column in marks
     )
-    # The end of a phase is the start of the next.
-    starts = np.cumsum([piece.shape[1] for piece in pieces])[:-1]
     return NoncollinearHistory._make([*np.delete(columns, starts, axis=1), events])
 
 
 def _pace(phase: Phase, e: float) -> float:
-    return e if phase.unloading else 1.0
+    return e if phase.unloading and not isinstance(phase.motion, Swing) else 1.0
 
 
 def _kinds(phase: Phase, before: Phase | None) -> list[EventKind]:
     """Events where a phase starts."""
-    kind = EventKind.SLIP if isinstance(phase.motion, Slip) else EventKind.STICK
+    kind = _kind(phase)
     if before is None:
         return [EventKind.CONTACT, kind]
     kinds = []
@@ -115,6 +126,12 @@ def _kinds(phase: Phase, before: Phase | None) -> list[EventKind]:
         kinds.append(EventKind.MAXIMUM_COMPRESSION)
     if before.unloading and not phase.unloading:
         kinds.append(EventKind.RELOADING)
-    if type(phase.motion) is not type(before.motion):
+    if kind != _kind(before):
         kinds.append(kind)
     return kinds
+
+
+def _kind(phase: Phase) -> EventKind:
+    motion = phase.motion
+    slides = motion.creeps if isinstance(motion, Swing) else isinstance(motion, Slip)
+    return EventKind.SLIP if slides else EventKind.STICK
