@@ -75,9 +75,26 @@ BAD_CONFIG = [
     (figure("fig5", experiment="nobody"), "'nobody' is not in data/; allowed are"),
     (figure("fig5", tolerance="0"), "figures.fig5.tolerance: 0 is less than the minimum"),
     (figure("convergence", steps=["32", "33"]), "figures.convergence.steps.1: 33 is not a mult"),
-    (comparison("fig5-maw-rubber", reference="maw1976/no"), "'maw1976/no' is neither"),
+    (comparison("fig5-continuum-maw", reference="maw1976/no"), "'maw1976/no' is neither"),
     (figure("stability", points="maw1976/slip_throughout_limit"), "limit' is no series"),
-    (comparison("fig5-maw-rubber", tolerance="3"), "'tolerance' was unexpected"),
+    (comparison("fig5-continuum-maw", tolerance="3"), "'tolerance' was unexpected"),
+    ({"significance": "0"}, "significance: 0 is less than or equal to the minimum of 0"),
+    (comparison("fig5-continuum-maw", figure="fig10"), "'fig10' is not judged; allowed are fig2"),
+    (comparison("fig5-continuum-maw", regime="sticking"), "regime: 'sticking' is not one of"),
+    (
+        comparison("fig5-continuum-maw", points={"reader": "me"}),
+        "points.reader: no label of maw1976",
+    ),
+    (comparison("fig5-continuum-maw", limit="2"), "fig5-continuum-maw: .*should not be valid"),
+    (
+        comparison("fig5-continuum-maw", documented={"note": "known for long"}),
+        "'regression' is a dependency of 'documented'",
+    ),
+    (
+        comparison("fig5-lumped-maw-initial-stick", regression={"rms": ["3", "2"]}),
+        r"regression.rms = \[3, 2\]: the first number must be the smaller",
+    ),
+    (comparison("convergence-errors", range=["1", "0"]), r"errors.range = \[1, 0\]"),
     ({"study": {"grid": {"restitution": ["1", "0"]}}}, "study.grid.restitution = .*must ascend"),
 ]
 
