@@ -24,6 +24,8 @@ LAST_STEP = 1e-6
 # After some turns every other one halves the bracket: 40 halvings leave LAST_STEP^2 of it.
 FREE_TURNS = 8
 MOST_TURNS = 100
+# Distance of subnormal neighbours, between which there is nothing left to halve.
+SMALLEST = float(np.finfo(float).smallest_subnormal)
 # Beyond it rounding leaves the phase of an oscillation open.
 LARGEST_PHASE = 1e15
 
@@ -121,7 +123,7 @@ def _crossing(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Arr
             inside[:] = False
         trial = np.where(inside, trial, (low + high) / 2)
         moving = ~inside | (np.abs(trial - before) > last_step)
-        moving &= high - low > LAST_STEP * last_step
+        moving &= high - low > np.maximum(LAST_STEP * last_step, SMALLEST)
         if moving.all():
             continue
         advance[lane] = trial

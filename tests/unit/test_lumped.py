@@ -1,5 +1,7 @@
 """Identities, limits and refusals of the lumped and the rigid model."""
 
+from pathlib import Path
+
 import high_precision
 import numpy as np
 import pytest
@@ -15,6 +17,7 @@ from planarimpact import (
     stick_slip,
 )
 
+EXTREMES = Path(__file__).parents[2] / "data/lumped_extremes/impacts.csv"
 GROUPS = [(3.5, 1.21, 1.0), (3.5, 1.21, 0.5), (2.5, 1.5, 0.0), (1.0, 10.0, 0.9), (8.0, 0.1, 0.7)]
 
 
@@ -167,6 +170,19 @@ def test_a_tiny_incidence_only_scales_the_outcome(groups):
 def test_a_tiny_incidence_that_slips_first_is_no_scaled_one():
     found, limit = lumped.rebound(1e-150, 3.5, 1e-220), rigid.rebound(1e-150, 3.5)
     assert found.peak_friction == pytest.approx(limit.peak_friction, rel=1e-12, abs=0)
+
+
+def test_the_least_incidences_are_followed_through():
+    """The last slip starts so near separation that a bracket of it has no halves left."""
+    table = np.loadtxt(EXTREMES, delimiter=",", skiprows=1)
+    followed = table[(table[:, 0] < 1e-290) & (table[:, -1] <= 100)]
+    assert len(followed) > 200
+    for *groups, _, _, dissipation in followed[:, :7].tolist():
+        for event in lumped.history(*groups, samples=2).events:
+            if event.kind == EventKind.SLIP:
+                # A friction force of `normal` is rounded a few times on its way.
+                assert abs(event.friction) == pytest.approx(event.normal, rel=1e-15, abs=5e-324)
+        assert lumped.friction_work(*groups) == pytest.approx(dissipation, rel=0, abs=5e-324)
 
 
 def test_nothing_that_is_allowed_overflows_or_creates_energy():

@@ -15,6 +15,8 @@ const solver = (() => {
   const HALF_PI = Math.PI / 2;
   // The root finder is cubic: after a step of this share of the bracket the root is at rounding.
   const LAST_STEP = 1e-6;
+  const FREE_TURNS = 8;
+  const MOST_TURNS = 100;
   const TINY = 2 ** -1022;
 
   // ---- normal motion (Table 1) --------------------------------------------------------------
@@ -59,29 +61,27 @@ const solver = (() => {
     const fast = rate > 1;
     // T that still rises at the end stays below its amplitude.
     const highest = fast ? amplitude : amplitude * Math.sin(Math.min(theta + rate * eta, HALF_PI));
-    let reached = Math.min(eta, Math.asin(Math.min(highest, 1)));
-    let theta_reached = theta + rate * (eta - reached);
+    const reached = Math.min(eta, Math.asin(Math.min(highest, 1)));
+    const theta_reached = theta + rate * (eta - reached);
     let wave = Math.floor(theta_reached / Math.PI);
     let rho = theta_reached - wave * Math.PI;
     const [normal, fall] = sin_cos(reached);
     const [friction, swing] = sin_cos(rho);
     const falling = rate * swing * normal + friction * fall <= 0;
     let passed = wave === 0 || (falling && rho > HALF_PI);
+    let reach = null;
     if (fast && !passed && rho > HALF_PI) {
-      const [found, advance] = onset_behind_crest(reached, rho, amplitude, rate);
-      passed = !found;
-      reached -= advance;
-      theta_reached += rate * advance;
+      reach = reach_behind_crest(reached, rho, amplitude, rate);
+      passed = reach === null;
     }
-    const wave_searched = wave + (passed ? 1 : 0);
     // For rate <= 1 there is one crossing, in the half-wave in which stick would end.
     wave = fast
-      ? wave_searched
+      ? wave + (passed ? 1 : 0)
       : Math.max(wave, Math.ceil((theta_reached + rate * reached) / Math.PI) - 1);
     const start = Math.max(theta_reached, wave * Math.PI);
     eta = Math.max(reached - (start - theta_reached) / rate, 0);
     rho = start - wave * Math.PI;
-    const widest = fast ? Math.min(eta, (HALF_PI - rho) / rate) : eta;
+    const widest = reach ?? (fast ? Math.min(eta, (HALF_PI - rho) / rate) : eta);
     const advance = Math.min(crossing(eta, rho, amplitude, rate, Math.max(widest, 0)), eta);
     return [eta - advance, rho + rate * advance, wave];
   }
@@ -89,8 +89,9 @@ const solver = (() => {
   // The zero in [0, widest] of sin(eta - a) - amplitude sin(rho + rate a); bisection guards.
   function crossing(eta, rho, amplitude, rate, widest) {
     const last_step = LAST_STEP * widest;
+    const narrowest = Math.max(LAST_STEP * last_step, Number.MIN_VALUE);
     let [low, high, trial] = [0, widest + last_step, 0];
-    for (let step = 0; step < 100; step++) {
+    for (let turn = 0; turn < MOST_TURNS; turn++) {
       const before = trial;
       const [normal, fall] = sin_cos(eta - before);
       const [sine, cosine] = sin_cos(rho + rate * before);
@@ -98,58 +99,62 @@ const solver = (() => {
       const excess = normal - friction;
       const descent = fall + cosine * amplitude * rate;
       // While N - |T| grows, what lies below zero is rounding.
-      if (excess > 0 || (step === 0 && descent < 0)) low = before;
+      if (excess > 0 || (turn === 0 && descent < 0)) low = before;
       else high = before;
       // The nearer root of the Taylor parabola; good also where the descent vanishes.
       const root = descent * descent - 2 * excess * (rate * rate * friction - normal);
       trial = before + (2 * excess) / (descent + Math.sqrt(Math.max(root, 0)));
-      const inside = trial >= low && trial <= high;
+      // Rounding can throw `trial` to and fro: then every other turn halves the bracket.
+      const halves = turn >= FREE_TURNS && turn % 2 === 1;
+      const inside = !halves && trial >= low && trial <= high;
       if (!inside) trial = (low + high) / 2;
       const moving = !inside || Math.abs(trial - before) > last_step;
-      if (!moving || !(high - low > LAST_STEP * last_step)) break;
+      if (!moving || !(high - low > narrowest)) return trial;
     }
-    return trial;
+    throw lost();
   }
 
-  // Search a falling |T| whose ratio to N still rises: found or not, and the advance. The second
-  // derivative of N - |T| is at least -N, so that no step jumps a root.
-  function onset_behind_crest(eta, rho, amplitude, rate) {
-    let advance = 0;
-    for (let count = 0; count < 200; count++) {
+  // By when a falling |T| whose ratio to N still rises meets N in this half-wave, or null. The
+  // ratio rises while turn = |T|'N - |T|N' > 0: to the end if the contact ends first, else to the
+  // one zero of the turn. Newton's iterates approach that from before, down to rounding.
+  function reach_behind_crest(eta, rho, amplitude, rate) {
+    if (rate * eta <= Math.PI - rho) return eta;
+    let theta = rho;
+    for (let count = 0; count < MOST_TURNS; count++) {
+      const advance = (theta - rho) / rate;
       const [normal, fall] = sin_cos(eta - advance);
-      const [sine, cosine] = sin_cos(rho + rate * advance);
-      const friction = sine * amplitude;
-      const swing = cosine * amplitude * rate;
-      if (!(swing * normal + friction * fall > 0)) return [false, advance];
-      const excess = Math.max(normal - friction, 0);
-      const slope = fall + swing;
-      const reach = Math.sqrt(slope * slope + 2 * normal * excess) + slope;
-      let step = (2 * excess) / Math.max(reach, TINY);
-      step = Math.min(step, (Math.PI - rho - rate * advance) / (2 * rate));
-      const small = step <= LAST_STEP ** 2 * (eta - advance);
-      advance += step;
-      if (small) return [true, advance];
+      const [friction, swing] = sin_cos(theta);
+      if (normal <= amplitude * friction) return advance;
+      const turn = rate * swing * normal + friction * fall;
+      const bend = (rate - 1 / rate) * friction * normal;
+      const before = theta;
+      if (turn > 0 && bend > 0) theta = Math.min(theta + turn / bend, Math.PI);
+      if (theta === before) return null;
     }
-    return [false, advance];
+    throw lost();
   }
 
-  // First eta > 0 with x/(zeta^2 rate) sin(rate eta) = sin(eta), for rate < 1 (omega < Omega):
-  // in u = eta^2, (T - N)/eta is increasing and concave, and Newton's iterates rise to the root.
+  const lost = () => new Error(`no onset of slip after ${MOST_TURNS} turns`);
+
+  // First eta > 0 with x/(zeta^2 rate) sin(rate eta) = sin(eta), for rate < 1 (omega < Omega): in
+  // u = eta^2, (T - N)/eta is increasing and concave, and Newton's iterates rise to the root. The
+  // first that does not is at rounding.
   function in_compression(x, zeta2, rate) {
     const amplitude = x / (zeta2 * rate);
     const ratio = x / zeta2;
-    let u = (6 * (1 - ratio)) / (1 - ratio * rate * rate);
-    for (let count = 0; count < 60; count++) {
+    let u = Math.min((6 * (1 - ratio)) / (1 - ratio * rate * rate), HALF_PI ** 2);
+    for (let count = 0; count < MOST_TURNS; count++) {
       const eta = Math.sqrt(u);
       const [friction, swing] = sin_cos(rate * eta);
       const [normal, fall] = sin_cos(eta);
       const excess = amplitude * friction - normal;
       const slope = amplitude * (rate * eta * swing - friction) - eta * fall + normal;
       const step = slope > 0 ? (-2 * u * excess) / slope : 0;
-      u = Math.min(Math.max(u + step, 0), HALF_PI ** 2);
-      if (Math.abs(step) <= LAST_STEP ** 2) break;
+      const before = u;
+      u = Math.min(Math.max(u + step, u), HALF_PI ** 2);
+      if (u === before) return eta;
     }
-    return Math.sqrt(u);
+    throw lost();
   }
 
   // ---- phases -------------------------------------------------------------------------------
