@@ -87,44 +87,61 @@ def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
     """
     start, velocity = first_stick(x, beta, zeta2)
     step = (np.pi - start) / steps
-    radius, friction, displacement = np.sin(start), np.sin(start) ** 3, np.zeros(x.size)
+    radius, pace, normal = hertz.state(start)
+    separated = np.zeros(x.size), np.zeros(x.size), np.full(x.size, -1.0)
+    first = radius * radius
     row = SpringRow(radius, 2 * steps)
     found = np.empty((4, steps + 1, x.size))
-    found[:, 0] = start, friction, velocity, row.stick_radius
+    found[:, 0] = start, radius**3, velocity, row.stick_radius
+    share = np.minimum(x / zeta2, 1.0)
+    drag = share * beta
     kick = beta * hertz.PEAK_FORCE * step / 2
-    pace = hertz.pace(start)
+    bend = drag - share * zeta2
+    excess, lead, lack = velocity - drag * normal, np.zeros(x.size), np.zeros(x.size)
     for n in range(1, steps + 1):
-        # Tangential speeds in the unit of the spring row, by phase.
-        early = pace * velocity / zeta2
-        velocity = velocity - kick * pace * friction
-        half = start + (n - 0.5) * step
-        middle = hertz.pace(half) * velocity / zeta2
-        _turn(row, half - step / 2, step, displacement, early, middle)
-        displacement = displacement + step * middle
-        phase = half + step / 2
-        radius, pace = (np.sin(phase), hertz.pace(phase)) if n < steps else np.zeros((2, x.size))
-        friction = row.move(radius, displacement)
-        velocity = velocity - kick * pace * friction
-        found[:, n] = phase, friction, velocity, row.stick_radius
+        early = pace * (excess + bend * normal) / zeta2
+        growth = pace * normal
+        excess = excess + kick * pace * lack
+        phase = start + (n - 0.5) * step
+        _, pace, normal = hertz.state(phase)
+        middle = pace * (excess + bend * normal) / zeta2
+        rates = (early, growth), (middle, pace * normal)
+        _turn(row, phase - step / 2, step, share, lead - share * first, rates)
+        lead = lead + step * middle
+        phase = phase + step / 2
+        radius, pace, normal = hertz.state(phase) if n < steps else separated
+        depth = radius * radius
+        friction = row.move(radius, lead + share * (depth - first))
+        lack = share * (depth * radius) - friction
+        excess = excess + kick * pace * lack
+        found[:, n] = phase, friction, excess + drag * normal, row.stick_radius
     return found
 
 
 def _turn(
-    row: SpringRow, phase: Array, step: Array, displacement: Array, early: Array, middle: Array
+    row: SpringRow,
+    phase: Array,
+    step: Array,
+    share: Array,
+    lead: Array,
+    rates: tuple[tuple[Array, Array], tuple[Array, Array]],
 ) -> None:
     """Move the row to where slip ends within a step, if it does.
 
     Slip in the direction g goes on while g u - d grows. Where that has its top is remembered by
     all that has slipped: to miss it between two steps would cost an error of their square that
-    depends on chance, which no extrapolation takes away.
+    depends on chance, which no extrapolation takes away. `rates` are those of the lead and of d,
+    by phase, at the start of the step and in its middle.
     """
-    grows = np.sin(2 * phase), np.sin(2 * phase + step)  # d'(phase), at the start and the middle
+    (early, growth_early), (middle, growth_middle) = rates
     for direction in (1, -1):
-        at_start = direction * early - grows[0]
-        at_end = 2 * (direction * middle - grows[1]) - at_start
+        surplus = direction * share - 1
+        at_start = direction * early + surplus * growth_early
+        at_end = 2 * (direction * middle + surplus * growth_middle) - at_start
         turns = np.flatnonzero((at_start > 0) & (at_end < 0))
         if turns.size:
-            share = at_start[turns] / (at_start - at_end)[turns]
-            travel = share * (early[turns] + (middle - early)[turns] * share)
-            moved = displacement[turns] + step[turns] * travel
-            row.move(np.sin(phase[turns] + share * step[turns]), moved, turns)
+            part = at_start[turns] / (at_start - at_end)[turns]
+            travel = part * (early[turns] + (middle - early)[turns] * part)
+            radius = np.sin(phase[turns] + part * step[turns])
+            moved = lead[turns] + step[turns] * travel + share[turns] * radius * radius
+            row.move(radius, moved, turns)
