@@ -22,6 +22,7 @@ SAFETY = 3  # no error among 48 000 random impacts was larger than 0.31 of the t
 STEPS_A_RADIAN = 4  # of the tangential oscillation, before an error estimate is believed
 ROUNDING = 2.0**-48  # of the incidence, below which no error can be told
 BEST_ORDER = 4  # power of the steps with which an estimated error falls at best, as measured
+SECTIONS, GOLDEN = 24, 0.381966  # of the search for the peak: to 1e-5 of a step
 CELLS = 2**20  # steps times impacts solved together: bounds the memory to some 100 MB
 
 
@@ -336,16 +337,18 @@ def _integrate_in_parts(x: Array, beta: Array, zeta2: Array, steps: int) -> tupl
     together = max(1, CELLS // steps)
     cuts = range(together, x.size, together)
     groups = zip(*(np.split(a, cuts) for a in (x, beta, zeta2)), strict=True)
-    found = [_summary(*tangential_motion.path(a, b, c, steps)[1:]) for a, b, c in groups]
+    found = [_summary(*tangential_motion.path(a, b, c, steps)) for a, b, c in groups]
     values, counts = zip(*found, strict=True)
     return np.concatenate(values, axis=1), np.concatenate(counts, axis=1)
 
 
-def _summary(friction: Array, velocity: Array, stick_radius: Array) -> tuple[Array, Integers]:
+def _summary(
+    phase: Array, friction: Array, velocity: Array, stick_radius: Array
+) -> tuple[Array, Integers]:
     gross = stick_radius == 0
     gross_slips = np.sum(gross[1:] & ~gross[:-1], axis=0)
     counts = np.stack([gross_slips, _sign_changes(friction)])
-    return np.stack([velocity[-1], _peak(np.abs(friction))]), counts
+    return np.stack([velocity[-1], _peak(phase, np.abs(friction), gross)]), counts
 
 
 def _sign_changes(force: Array) -> Integers:
@@ -357,15 +360,40 @@ def _sign_changes(force: Array) -> Integers:
     return np.sum(sign[1:] * sign[:-1] < 0, axis=0)
 
 
-def _peak(force: Array) -> Array:
-    """Largest value of each column, by the parabola through the three points nearest to it."""
-    middle = np.clip(force.argmax(axis=0), 1, len(force) - 2)
-    before, at, after = (np.take_along_axis(force, (middle + i)[None], 0)[0] for i in (-1, 0, 1))
+def _peak(phase: Array, force: Array, gross: Booleans) -> Array:
+    """Largest force of each column, between the points too.
+
+    As gross slip sets in, the force reaches sin(phase)^3 with its deficit to the power 2/3
+    straight: the parabola through three points of that, all of them before gross slip, is smooth
+    where one of the force has a root in its curvature.
+    """
+    top = force.argmax(axis=0)
+    lanes = np.arange(top.size)
+    last = np.clip(top + 1, 2, len(force) - 2)
+    last -= gross[last, lanes]  # from here on, up to the first point that sticks
+    last -= gross[last, lanes]
+    slid = gross[last, lanes]
+    last = np.maximum(last, 2)
+    before, at, after = (
+        np.maximum(np.sin(phase[i, lanes]) ** 3 - force[i, lanes], 0.0) ** (2 / 3)
+        for i in (last - 2, last - 1, last)
+    )
+    step = phase[1] - phase[0]
     slope, bend = (after - before) / 2, before - 2 * at + after
-    # Its vertex counts where it lies among the points; else slip up to an end made the largest.
-    inside = (bend < 0) & (np.abs(slope) <= -bend)
-    lift = slope**2 / (2 * np.where(inside, -bend, 1.0))
-    return np.where(inside, at + lift, force.max(axis=0))
+    middle = phase[last - 1, lanes]
+
+    def value(at_phase: Array) -> Array:
+        t = (at_phase - middle) / step
+        lack = np.where(slid, 0.0, np.maximum(at + t * (slope + t * bend / 2), 0.0))
+        return np.sin(at_phase) ** 3 - lack * np.sqrt(lack)
+
+    low, high = phase[np.maximum(top - 1, 0), lanes], phase[np.minimum(top + 1, len(force) - 1), lanes]
+    for _ in range(SECTIONS):
+        third = (high - low) * GOLDEN
+        left, right = low + third, high - third
+        rises = value(left) < value(right)
+        low, high = np.where(rises, left, low), np.where(rises, high, right)
+    return np.maximum(value((low + high) / 2), 0.0)
 
 
 def _regime(x: Array, zeta2: Array, gross_slips: Integers) -> Integers:
