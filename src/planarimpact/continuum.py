@@ -22,6 +22,7 @@ SAFETY = 3  # no error among 48 000 random impacts was larger than 0.31 of the t
 STEPS_A_RADIAN = 4  # of the tangential oscillation, before an error estimate is believed
 ROUNDING = 2.0**-48  # of the incidence, below which no error can be told
 BEST_ORDER = 4  # power of the steps with which an estimated error falls at best, as measured
+UNSURE = 2  # changes by the last doubling, within which a gross slip may yet come or go
 SECTIONS, GOLDEN = 24, 0.381966  # of the search for the peak: to 1e-5 of a step
 CELLS = 2**20  # steps times impacts solved together: bounds the memory to some 100 MB
 
@@ -282,21 +283,26 @@ def _refine(
 ) -> tuple[Array, Array, Integers, Integers]:
     """Velocity, peak friction, regime and reversals, with steps doubled until they settle."""
     values, estimate = np.zeros((2, x.size)), np.full((2, x.size), np.inf)
-    counts = np.zeros((2, x.size), dtype=np.int64)
+    counts, nearest = np.zeros((2, x.size), dtype=np.int64), np.full(x.size, np.nan)
     coarse, change = np.full((2, 2, x.size), np.nan)
     _refuse_hopeless(x, beta, zeta2, tolerance)
     lost, why = [], None
     todo, steps = np.arange(x.size), FIRST_STEPS
     while todo.size:
-        fine, counts[:, todo] = _integrate_in_parts(x[todo], beta[todo], zeta2[todo], steps)
+        fine, number, near = _integrate_in_parts(x[todo], beta[todo], zeta2[todo], steps)
         correction = (fine - coarse[:, todo]) / 3
         better = fine + correction
         changed = np.abs(better - values[:, todo])
         # A change may vanish by chance, where an event of the contact is resolved late: the one
-        # before it, less what a doubling gains, counts too, and a share of the correction.
-        chances = change[:, todo] / 4, np.abs(correction) / 4
+        # before it, less what a doubling gains, counts too, and a share of the correction. All of
+        # the correction counts where a gross slip may yet come or go: the velocity has a kink
+        # there, which steps displace, and no difference of answers on one side of it shows that.
+        moved = np.abs(near - nearest[todo])
+        unsure = (number[0] != counts[0, todo]) | (near <= UNSURE * moved)
+        chances = change[:, todo] / 4, np.abs(correction) / np.where(unsure, 1, 4)
         estimate[:, todo] = SAFETY * np.maximum(changed, np.maximum(*chances))
         coarse[:, todo], values[:, todo], change[:, todo] = fine, better, changed
+        counts[:, todo], nearest[todo] = number, near
         resolved = steps >= _steps_needed(beta[todo], zeta2[todo])
         worst = estimate[:, todo].max(axis=0)  # NaN while there is no estimate yet
         settled = resolved & (worst <= tolerance)
@@ -332,23 +338,48 @@ def _not_met(
     )
 
 
-def _integrate_in_parts(x: Array, beta: Array, zeta2: Array, steps: int) -> tuple[Array, Integers]:
-    """Raw velocity and peak, and counts of gross slips after stick and of reversals, in parts."""
+def _integrate_in_parts(
+    x: Array, beta: Array, zeta2: Array, steps: int
+) -> tuple[Array, Integers, Array]:
+    """Raw velocity and peak, counts of gross slips after stick and of reversals, `_nearest`."""
     together = max(1, CELLS // steps)
     cuts = range(together, x.size, together)
     groups = zip(*(np.split(a, cuts) for a in (x, beta, zeta2)), strict=True)
     found = [_summary(*tangential_motion.path(a, b, c, steps)) for a, b, c in groups]
-    values, counts = zip(*found, strict=True)
-    return np.concatenate(values, axis=1), np.concatenate(counts, axis=1)
+    values, counts, nearest = zip(*found, strict=True)
+    return np.concatenate(values, axis=1), np.concatenate(counts, axis=1), np.concatenate(nearest)
 
 
 def _summary(
-    phase: Array, friction: Array, velocity: Array, stick_radius: Array
-) -> tuple[Array, Integers]:
+    phase: Array,
+    friction: Array,
+    velocity: Array,
+    stick_radius: Array,
+    reserve: Array,
+    centre: Array,
+) -> tuple[Array, Integers, Array]:
     gross = stick_radius == 0
     gross_slips = np.sum(gross[1:] & ~gross[:-1], axis=0)
     counts = np.stack([gross_slips, _sign_changes(friction)])
-    return np.stack([velocity[-1], _peak(phase, np.abs(friction), gross)]), counts
+    values = np.stack([velocity[-1], _peak(phase, np.abs(friction), gross)])
+    return values, counts, _nearest(reserve, centre, gross)
+
+
+def _nearest(reserve: Array, centre: Array, gross: Booleans) -> Array:
+    """How far each contact is from one gross slip more or less, in the unit of the spring row.
+
+    The smallest displacement that kept it from a gross slip, or that it slid in one between two
+    sticks; 1, which no reserve exceeds, where there is neither.
+    """
+    here = reserve[1:-1]
+    lowest = (here < reserve[:-2]) & (here <= reserve[2:]) & (here > ROUNDING)
+    nearest = np.min(here, axis=0, where=lowest, initial=1.0)
+    onsets, ends = ~gross[:-1] & gross[1:], gross[:-1] & ~gross[1:]
+    for i in np.flatnonzero(np.sum(ends, axis=0) > 1):
+        first, last = np.flatnonzero(onsets[:, i]), np.flatnonzero(ends[:, i])[1:] + 1
+        slid = np.abs(centre[last, i] - centre[first[: last.size], i])
+        nearest[i] = min(nearest[i], np.min(slid))
+    return nearest
 
 
 def _sign_changes(force: Array) -> Integers:
@@ -414,7 +445,7 @@ def _settled_path(x: Array, beta: Array, zeta2: Array, tolerance: float) -> list
         change = max(np.max(np.abs(fine[i][::2] - coarse[i])) / 3 for i in (1, 2))
         resolved = steps >= _steps_needed(beta, zeta2)[0]
         if resolved and change <= tolerance:
-            return [a[:, 0] for a in fine]
+            return [a[:, 0] for a in fine[:4]]
         if resolved and not _in_reach(np.asarray(change), tolerance, steps):
             why = _not_met(x[0], beta[0], zeta2[0], tolerance, steps, change)
         coarse = fine

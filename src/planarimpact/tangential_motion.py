@@ -78,7 +78,7 @@ def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
 
     Returns
     -------
-    phase, friction, velocity, stick_radius : ndarray, shape (steps + 1, n)
+    phase, friction, velocity, stick_radius, reserve, centre : ndarray, shape (steps + 1, n)
 
     Examples
     --------
@@ -91,8 +91,8 @@ def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
     separated = np.zeros(x.size), np.zeros(x.size), np.full(x.size, -1.0)
     first = radius * radius
     row = SpringRow(radius, 2 * steps)
-    found = np.empty((4, steps + 1, x.size))
-    found[:, 0] = start, radius**3, velocity, row.stick_radius
+    found = np.empty((6, steps + 1, x.size))
+    found[:, 0] = start, radius**3, velocity, row.stick_radius, np.zeros(x.size), row.centre
     share = np.minimum(x / zeta2, 1.0)
     drag = share * beta
     kick = beta * hertz.PEAK_FORCE * step / 2
@@ -111,10 +111,12 @@ def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
         phase = phase + step / 2
         radius, pace, normal = hertz.state(phase) if n < steps else separated
         depth = radius * radius
-        friction = row.move(radius, lead + share * (depth - first))
+        displacement = lead + share * (depth - first)
+        friction = row.move(radius, displacement)
         lack = share * (depth * radius) - friction
         excess = excess + kick * pace * lack
-        found[:, n] = phase, friction, excess + drag * normal, row.stick_radius
+        reserve = depth - np.abs(displacement + row.centre)
+        found[:, n] = phase, friction, excess + drag * normal, row.stick_radius, reserve, row.centre
     return found
 
 
