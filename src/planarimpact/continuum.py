@@ -394,37 +394,39 @@ def _sign_changes(force: Array) -> Integers:
 def _peak(phase: Array, force: Array, gross: Booleans) -> Array:
     """Largest force of each column, between the points too.
 
-    As gross slip sets in, the force reaches sin(phase)^3 with its deficit to the power 2/3
-    straight: the parabola through three points of that, all of them before gross slip, is smooth
-    where one of the force has a root in its curvature.
+    The deficit to sin(phase)^3 is taken as a parabola. As gross slip sets in, it vanishes with
+    the power 3/2 of the time left: there its power 2/3 is the parabola, through three points
+    before gross slip.
     """
     top = force.argmax(axis=0)
     lanes = np.arange(top.size)
     last = np.clip(top + 1, 2, len(force) - 2)
-    last -= gross[last, lanes]  # from here on, up to the first point that sticks
+    last -= gross[last, lanes]  # one point or two of gross slip may be near
     last -= gross[last, lanes]
-    slid = gross[last, lanes]
+    slides = gross[last, lanes]
     last = np.maximum(last, 2)
-    before, at, after = (
-        np.maximum(np.sin(phase[i, lanes]) ** 3 - force[i, lanes], 0.0) ** (2 / 3)
+    deficits = [
+        np.maximum(np.sin(phase[i, lanes]) ** 3 - force[i, lanes], 0.0)
         for i in (last - 2, last - 1, last)
-    )
-    step = phase[1] - phase[0]
+    ]
+    power = np.where(deficits[2] < deficits[0], 1.5, 1.0)
+    before, at, after = (deficit ** (1 / power) for deficit in deficits)
     slope, bend = (after - before) / 2, before - 2 * at + after
-    middle = phase[last - 1, lanes]
+    middle, step = phase[last - 1, lanes], phase[1] - phase[0]
 
-    def value(at_phase: Array) -> Array:
+    def between(at_phase: Array) -> Array:
         t = (at_phase - middle) / step
-        lack = np.where(slid, 0.0, np.maximum(at + t * (slope + t * bend / 2), 0.0))
-        return np.sin(at_phase) ** 3 - lack * np.sqrt(lack)
+        root = np.maximum(at + t * (slope + t * bend / 2), 0.0)
+        return np.sin(at_phase) ** 3 - np.where(slides, 0.0, root**power)
 
-    low, high = phase[np.maximum(top - 1, 0), lanes], phase[np.minimum(top + 1, len(force) - 1), lanes]
+    low = phase[np.maximum(top - 1, 0), lanes]
+    high = phase[np.minimum(top + 1, len(force) - 1), lanes]
     for _ in range(SECTIONS):
         third = (high - low) * GOLDEN
         left, right = low + third, high - third
-        rises = value(left) < value(right)
+        rises = between(left) < between(right)
         low, high = np.where(rises, left, low), np.where(rises, high, right)
-    return np.maximum(value((low + high) / 2), 0.0)
+    return between((low + high) / 2)
 
 
 def _regime(x: Array, zeta2: Array, gross_slips: Integers) -> Integers:
