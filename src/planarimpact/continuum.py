@@ -18,7 +18,9 @@ from planarimpact.results import ContinuumHistory, Rebound, Regime
 
 FIRST_STEPS = 16
 MOST_STEPS = 2**15
-SAFETY = 3  # no error among 48 000 random impacts was larger than 0.31 of the tolerance
+# Of 7000 random impacts none had an error above 0.3 of the tolerance; the largest that a search
+# for the worst found was 0.9 of it.
+SAFETY = 5
 STEPS_A_RADIAN = 4  # of the tangential oscillation, before an error estimate is believed
 ROUNDING = 2.0**-48  # of the incidence, below which no error can be told
 BEST_ORDER = 4  # power of the steps with which an estimated error falls at best, as measured
@@ -90,10 +92,11 @@ def rebound(
     Notes
     -----
     The error of the steps falls with their square, the extrapolated one with their power 2.5 on
-    average, as gross slip sets in with a root of time. The error is estimated, not bounded: three
+    average, as gross slip sets in with a root of time. The error is estimated, not bounded: five
     times the largest of the last change of the extrapolated answer, a quarter of the change
-    before it and a quarter of what extrapolation corrects. A reversal of friction shorter than a
-    step, just below slip throughout, is not counted.
+    before it and a quarter of what extrapolation corrects, all of that where one gross slip more
+    or less is within reach of the error. A reversal of friction shorter than a step, just below
+    slip throughout, is not counted.
 
     References
     ----------
@@ -157,7 +160,7 @@ def fixed_steps(
     Examples
     --------
     >>> [round(float(fixed_steps(2.0, steps=64, extrapolate=e)), 5) for e in (False, True)]
-    [-0.66537, -0.66594]
+    [-0.66502, -0.66594]
     """
     signed, beta, zeta2, _ = _checked(incidence, mass_ratio, stiffness_ratio, 1.0, 1.0)
     size, beta, zeta2 = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2))
@@ -394,9 +397,9 @@ def _sign_changes(force: Array) -> Integers:
 def _peak(phase: Array, force: Array, gross: Booleans) -> Array:
     """Largest force of each column, between the points too.
 
-    The deficit to sin(phase)^3 is taken as a parabola. As gross slip sets in, it vanishes with
-    the power 3/2 of the time left: there its power 2/3 is the parabola, through three points
-    before gross slip.
+    The deficit to as large a share of sin(phase)^3 is taken as a parabola. As gross slip sets in,
+    the one to all of it vanishes with the power 3/2 of the time left: there its power 2/3 is the
+    parabola, through three points before gross slip.
     """
     top = force.argmax(axis=0)
     lanes = np.arange(top.size)
@@ -405,19 +408,20 @@ def _peak(phase: Array, force: Array, gross: Booleans) -> Array:
     last -= gross[last, lanes]
     slides = gross[last, lanes]
     last = np.maximum(last, 2)
-    deficits = [
-        np.maximum(np.sin(phase[i, lanes]) ** 3 - force[i, lanes], 0.0)
-        for i in (last - 2, last - 1, last)
-    ]
-    power = np.where(deficits[2] < deficits[0], 1.5, 1.0)
-    before, at, after = (deficit ** (1 / power) for deficit in deficits)
+    points = np.stack([last - 2, last - 1, last])
+    normal, forces = np.sin(phase[points, lanes]) ** 3, force[points, lanes]
+    deficits = np.maximum(normal - forces, 0.0)
+    nears = (deficits[2] < deficits[0]) & (2 * forces[1] > normal[1])
+    share = np.where(nears | slides, 1.0, forces[1] / normal[1])
+    before, at, after = np.where(nears, deficits ** (2 / 3), share * normal - forces)
     slope, bend = (after - before) / 2, before - 2 * at + after
     middle, step = phase[last - 1, lanes], phase[1] - phase[0]
 
     def between(at_phase: Array) -> Array:
         t = (at_phase - middle) / step
-        root = np.maximum(at + t * (slope + t * bend / 2), 0.0)
-        return np.sin(at_phase) ** 3 - np.where(slides, 0.0, root**power)
+        lack = at + t * (slope + t * bend / 2)
+        lack = np.where(nears, np.maximum(lack, 0.0) ** 1.5, lack)
+        return share * np.sin(at_phase) ** 3 - np.where(slides, 0.0, lack)
 
     low = phase[np.maximum(top - 1, 0), lanes]
     high = phase[np.minimum(top + 1, len(force) - 1), lanes]

@@ -1,7 +1,11 @@
 """Tangential motion over a Hertz contact: gross slip first, which has a closed form, then steps.
 
 Stoermer-Verlet in equal steps of the phase of `planarimpact.hertz`, with the force of the row of
-springs of `planarimpact.micro_slip`. Arguments have been checked by `planarimpact.continuum`, whose
+springs of `planarimpact.micro_slip`. What is integrated is the difference from how the contact
+starts: with a share g = min(1, x/zeta^2) of the limit of friction everywhere, the displacement is
+g d and the velocity falls by g beta (1 - v). Gross slip is left out exactly, and whether a contact
+close to it slips or sticks is decided by its distance from it, which may be far smaller than the
+error of a step in the motion itself. Arguments have been checked by `planarimpact.continuum`, whose
 units these are: velocity mu |v2(0)|, force mu times the largest normal force, radius a_max.
 """
 
@@ -79,6 +83,8 @@ def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
     Returns
     -------
     phase, friction, velocity, stick_radius, reserve, centre : ndarray, shape (steps + 1, n)
+        The last two in the unit of the spring row: the displacement that the spring in the middle
+        is short of its limit, and what it remembers.
 
     Examples
     --------
@@ -97,6 +103,7 @@ def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
     drag = share * beta
     kick = beta * hertz.PEAK_FORCE * step / 2
     bend = drag - share * zeta2
+    # Velocity less that of the start, displacement less that of the start, and friction wanting.
     excess, lead, lack = velocity - drag * normal, np.zeros(x.size), np.zeros(x.size)
     for n in range(1, steps + 1):
         early = pace * (excess + bend * normal) / zeta2
