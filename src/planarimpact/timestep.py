@@ -14,7 +14,8 @@ ends with the step nearest to maximum compression. Codes often damp by a dashpot
 another law.
 
 `Regime` is what the steps show. A last slip shorter than a step is not seen, and the contact is
-said to end in stick. Hertz contact starts in slip from x = 2 zeta^2/3, not zeta^2, however many
+said to end in stick; of the sticks that are shorter than a step, one is counted where slip turns
+round and no other is seen. Hertz contact starts in slip from x = 2 zeta^2/3, not zeta^2, however many
 steps there are: the first one already has the stiffness of its end.
 
 Units: m2 and |v2(0)|, times mu in tangential direction; time 1/Omega where the contact is linear,
@@ -314,7 +315,7 @@ def _impacts(
         start_share = np.minimum(x / zeta2 / LEAST, 1.0)  # of x in what is solved
     velocity = start.copy()
     slowing = beta / zeta2
-    friction, work, peak = np.zeros((3, x.size))
+    friction, work, peak, lowest = np.zeros((4, x.size))
     slips, starts_in_slip = np.zeros((2, x.size), bool)
     slipped = np.ones(x.size, bool)  # as if in slip before, so that an initial stick counts
     sticks = np.zeros(x.size, np.int64)  # phases of stick so far
@@ -333,10 +334,13 @@ def _impacts(
         np.minimum(friction, normal.force, out=friction)
         np.maximum(peak, friction, out=peak)
         np.copysign(friction, work, out=friction)
+        np.minimum(lowest, friction, out=lowest)
         np.multiply(friction, slowing, out=work)
         work *= normal.kick
         velocity -= work
         normal_impulse = normal_impulse + normal.kick * normal.force
+    # A slip that has turned round has stuck, for less than a step.
+    sticks += (sticks == 0) & (lowest < 0)
     # Where it slides throughout, no digit of a large x may be lost from the impulse.
     slides = sticks == 0
     impulse = np.where(slides, normal_impulse, 0.0)
