@@ -462,7 +462,7 @@ def test_the_error_holds_for_large_mass_ratios(gyration):
 
 @pytest.mark.parametrize("ulps", [1, 2, 7, 2**10, 2**11 - 1, 2**11, 2**11 + 1, 2**12, 2**13])
 def test_elastic_is_restitution_1_alone_however_many_rows_there_are(ulps):
-    """Rounding to 12 digits, which makes pairs of what differs less, does not make e < 1 elastic."""
+    """Rounding to 12 digits, by which pairs are told apart, makes no e < 1 elastic."""
     for restitution, model in ((1 - ulps * 2.0**-53, "lumped"), (1.0, "continuum")):
         row = pd.DataFrame([STEEL | PLANE | {"restitution": restitution}])
         answers = [

@@ -1,4 +1,4 @@
-"""Laws in time steps against the leapfrog that they are, written plainly, where steps are coarse."""
+"""Laws in coarse time steps against the leapfrog that they are, written plainly."""
 
 import math
 
