@@ -39,8 +39,7 @@ def velocity(phase: ArrayLike) -> Array:
     >>> [round(float(v), 9) for v in velocity([0.0, np.pi / 2, np.pi])]
     [1.0, 0.0, -1.0]
     """
-    phase = np.asarray(phase, dtype=float)
-    return np.cos(phase) / _slowness(np.sin(phase))
+    return state(phase)[2]
 
 
 @checks.default_errors
@@ -61,8 +60,31 @@ def pace(phase: ArrayLike) -> Array:
     >>> round(float(pace(np.pi / 2)), 9)  # 2 sqrt(2/5)
     1.264911064
     """
-    radius = np.sin(np.asarray(phase, dtype=float))
-    return 2 * radius * _slowness(radius)
+    return state(phase)[1]
+
+
+@checks.default_errors
+def state(phase: ArrayLike) -> tuple[Array, Array, Array]:
+    """Radius of contact, `pace` and `velocity` at once.
+
+    Parameters
+    ----------
+    phase : array_like
+        0 to pi.
+
+    Returns
+    -------
+    radius, pace, velocity : ndarray of float64 or float
+
+    Examples
+    --------
+    >>> [round(float(a), 9) for a in state(np.pi / 2)]
+    [1.0, 1.264911064, 0.0]
+    """
+    phase = np.asarray(phase, dtype=float)
+    radius = np.sin(phase)
+    slowness = _slowness(radius)
+    return radius, 2 * radius * slowness, np.cos(phase) / slowness
 
 
 def _slowness(radius: Array) -> Array:

@@ -2,7 +2,8 @@
 
 Stiffnesses are those of a circular contact of radius a: 2 a E* normally, 8 a G* tangentially
 (Mindlin). They leave out the coupling of pressure with tangential displacement, which vanishes
-only for equal materials or where each body is incompressible or rigid.
+where (1 - 2 nu)/G is the same for both bodies: for equal materials, where each body is
+incompressible or rigid, and for other pairs by chance.
 """
 
 import numpy as np

@@ -59,6 +59,11 @@ class SpringRow:
         self._integral[1] = _integral(0.0, self._memory[0], radius, 0.0)
         self.stick_radius = np.zeros(n)
 
+    @property
+    def centre(self) -> Array:
+        """What the springs in the middle remember, which changes in gross slip alone."""
+        return self._memory[0]
+
     def move(
         self, radius: Array, displacement: Array, which: slice | Integers = slice(None)
     ) -> Array:

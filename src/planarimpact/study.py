@@ -1,7 +1,9 @@
 """A parameter study: a grid over the four groups of an impact, solved part by part.
 
 The points of a grid are numbered as in C, the last axis fastest. A part, `start` to `stop`, needs
-no more of the grid than its axes, so parts can be solved anywhere and in any order.
+no more of the grid than its axes, so parts can be solved anywhere and in any order. How a grid is
+divided may show in the last digits: the lumped model, which solves many impacts together, was
+found to move by up to 7e-16.
 """
 
 import math

@@ -1,7 +1,11 @@
 """Tangential motion over a Hertz contact: gross slip first, which has a closed form, then steps.
 
 Stoermer-Verlet in equal steps of the phase of `planarimpact.hertz`, with the force of the row of
-springs of `planarimpact.micro_slip`. Arguments have been checked by `planarimpact.continuum`, whose
+springs of `planarimpact.micro_slip`. What is integrated is the difference from how the contact
+starts: with a share g = min(1, x/zeta^2) of the limit of friction everywhere, the displacement is
+g d and the velocity falls by g beta (1 - v). Gross slip is left out exactly, and whether a contact
+close to it slips or sticks is decided by its distance from it, which may be far smaller than the
+error of a step in the motion itself. Arguments have been checked by `planarimpact.continuum`, whose
 units these are: velocity mu |v2(0)|, force mu times the largest normal force, radius a_max.
 """
 
@@ -78,7 +82,9 @@ def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
 
     Returns
     -------
-    phase, friction, velocity, stick_radius : ndarray, shape (steps + 1, n)
+    phase, friction, velocity, stick_radius, reserve, centre : ndarray, shape (steps + 1, n)
+        The last two in the unit of the spring row: the displacement that the spring in the middle
+        is short of its limit, and what it remembers.
 
     Examples
     --------
@@ -87,44 +93,64 @@ def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
     """
     start, velocity = first_stick(x, beta, zeta2)
     step = (np.pi - start) / steps
-    radius, friction, displacement = np.sin(start), np.sin(start) ** 3, np.zeros(x.size)
+    radius, pace, normal = hertz.state(start)
+    separated = np.zeros(x.size), np.zeros(x.size), np.full(x.size, -1.0)
+    first = radius * radius
     row = SpringRow(radius, 2 * steps)
-    found = np.empty((4, steps + 1, x.size))
-    found[:, 0] = start, friction, velocity, row.stick_radius
+    found = np.empty((6, steps + 1, x.size))
+    found[:, 0] = start, radius**3, velocity, row.stick_radius, np.zeros(x.size), row.centre
+    share = np.minimum(x / zeta2, 1.0)
+    drag = share * beta
     kick = beta * hertz.PEAK_FORCE * step / 2
-    pace = hertz.pace(start)
+    bend = drag - share * zeta2
+    # Velocity less that of the start, displacement less that of the start, and friction wanting.
+    excess, lead, lack = velocity - drag * normal, np.zeros(x.size), np.zeros(x.size)
     for n in range(1, steps + 1):
-        # Tangential speeds in the unit of the spring row, by phase.
-        early = pace * velocity / zeta2
-        velocity = velocity - kick * pace * friction
-        half = start + (n - 0.5) * step
-        middle = hertz.pace(half) * velocity / zeta2
-        _turn(row, half - step / 2, step, displacement, early, middle)
-        displacement = displacement + step * middle
-        phase = half + step / 2
-        radius, pace = (np.sin(phase), hertz.pace(phase)) if n < steps else np.zeros((2, x.size))
+        early = pace * (excess + bend * normal) / zeta2
+        growth = pace * normal
+        excess = excess + kick * pace * lack
+        phase = start + (n - 0.5) * step
+        _, pace, normal = hertz.state(phase)
+        middle = pace * (excess + bend * normal) / zeta2
+        rates = (early, growth), (middle, pace * normal)
+        _turn(row, phase - step / 2, step, share, lead - share * first, rates)
+        lead = lead + step * middle
+        phase = phase + step / 2
+        radius, pace, normal = hertz.state(phase) if n < steps else separated
+        depth = radius * radius
+        displacement = lead + share * (depth - first)
         friction = row.move(radius, displacement)
-        velocity = velocity - kick * pace * friction
-        found[:, n] = phase, friction, velocity, row.stick_radius
+        lack = share * (depth * radius) - friction
+        excess = excess + kick * pace * lack
+        reserve = depth - np.abs(displacement + row.centre)
+        found[:, n] = phase, friction, excess + drag * normal, row.stick_radius, reserve, row.centre
     return found
 
 
 def _turn(
-    row: SpringRow, phase: Array, step: Array, displacement: Array, early: Array, middle: Array
+    row: SpringRow,
+    phase: Array,
+    step: Array,
+    share: Array,
+    lead: Array,
+    rates: tuple[tuple[Array, Array], tuple[Array, Array]],
 ) -> None:
     """Move the row to where slip ends within a step, if it does.
 
     Slip in the direction g goes on while g u - d grows. Where that has its top is remembered by
     all that has slipped: to miss it between two steps would cost an error of their square that
-    depends on chance, which no extrapolation takes away.
+    depends on chance, which no extrapolation takes away. `rates` are those of the lead and of d,
+    by phase, at the start of the step and in its middle.
     """
-    grows = np.sin(2 * phase), np.sin(2 * phase + step)  # d'(phase), at the start and the middle
+    (early, growth_early), (middle, growth_middle) = rates
     for direction in (1, -1):
-        at_start = direction * early - grows[0]
-        at_end = 2 * (direction * middle - grows[1]) - at_start
+        surplus = direction * share - 1
+        at_start = direction * early + surplus * growth_early
+        at_end = 2 * (direction * middle + surplus * growth_middle) - at_start
         turns = np.flatnonzero((at_start > 0) & (at_end < 0))
         if turns.size:
-            share = at_start[turns] / (at_start - at_end)[turns]
-            travel = share * (early[turns] + (middle - early)[turns] * share)
-            moved = displacement[turns] + step[turns] * travel
-            row.move(np.sin(phase[turns] + share * step[turns]), moved, turns)
+            part = at_start[turns] / (at_start - at_end)[turns]
+            travel = part * (early[turns] + (middle - early)[turns] * part)
+            radius = np.sin(phase[turns] + part * step[turns])
+            moved = lead[turns] + step[turns] * travel + share[turns] * radius * radius
+            row.move(radius, moved, turns)

@@ -118,7 +118,7 @@ def test_a_solver_gone_wrong_gives_up_at_once(monkeypatch):
 
     def lost(x, *_):
         calls.append(x)
-        return np.full((2, x.size), np.nan), np.zeros((2, x.size), dtype=int)
+        return np.full((2, x.size), np.nan), np.zeros((2, x.size), dtype=int), np.ones(x.size)
 
     monkeypatch.setattr(continuum, "_integrate_in_parts", lost)
     with pytest.raises(ConvergenceError, match="incidence = 2.*estimated error nan"):

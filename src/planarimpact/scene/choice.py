@@ -31,6 +31,7 @@ ORDINARY = 3.0  # beta/zeta^2 for which they hold; they grow with it
 FEW = 64  # impacts of a pair that are solved together with those of other pairs
 MOST = 0.99  # of the tolerance may be that of a cheaper model
 EXACT = 1e-12  # of the lumped model and of groups told apart at 12 digits, by mass ratio
+BELOW_ONE = 1 - 2.0**-41  # the largest number of these digits below 1
 FUTILE = 1e-4  # tolerance below which nobody tries the rigid limit
 FINE = 1e-9  # of a compiled lumped response, which costs little more than a coarse one
 
@@ -93,6 +94,8 @@ def jobs(
     """
     groups = np.stack([mass_ratio, stiffness_ratio, restitution])[:, rows]
     rounded = _rounded(groups)
+    # Elastic is e = 1 alone, however many impacts there are: no other e is rounded to it.
+    rounded[2] = np.where(groups[2] < 1, np.minimum(rounded[2], BELOW_ONE), rounded[2])
     code = np.zeros(rows.size, dtype=np.int64)
     for group in rounded:
         own, values = pd.factorize(group)
