@@ -5,6 +5,7 @@ import math
 import re
 from pathlib import Path
 
+import browser
 import numpy as np
 import pytest
 import write_explorer
@@ -14,6 +15,11 @@ from planarimpact import Regime, bodies, lumped, rigid
 SOLVER = Path(__file__).parents[2] / "workflow/explorer/solver.js"
 SLIDERS = list(write_explorer.LIMITS)
 ACCURACY = 1e-9
+# |T| meets N behind its crest for an instant: a search that ended early has lost that slip.
+LOST_SLIPS = [
+    (0.7479681011096113, 3.847930832708696, 0.3742534479740521, 0.3433422554521216),
+    (0.3050717050640781, 5.529161641552116, 0.25370110146354574, 0.29494552140110963),
+]
 
 
 def impacts():
@@ -42,7 +48,7 @@ def expected(rows):
     return found.velocity, found.peak_friction, found.dissipation, names
 
 
-def disagreements(tab, rows, wanted, solver="solver"):
+def disagreements(tab, rows, wanted, solver="solver", accuracy=ACCURACY):
     """Rows that the solver of the page solves otherwise; `solver` is a JavaScript expression."""
     fields = "[found.velocity, found.peak_friction, found.dissipation, found.regime]"
     one = f"(row) => {{ const found = solver.rebound(...row); return {fields}; }}"
@@ -51,7 +57,7 @@ def disagreements(tab, rows, wanted, solver="solver"):
     # Velocity and dissipation of a grazing blow are as large as its incidence.
     size = np.maximum(np.array(rows)[:, 0], 1.0)
     close = [
-        np.abs(np.array(ours, float) - theirs) <= ACCURACY * size
+        np.abs(np.array(ours, float) - theirs) <= accuracy * size
         for ours, theirs in zip(numbers, wanted[:3], strict=True)
     ]
     same = [ours == theirs for ours, theirs in zip(regimes, wanted[3], strict=True)]
@@ -70,6 +76,62 @@ def test_a_wrong_vector_is_seen(field, show):
     wanted = [list(column) for column in expected(rows)]
     wanted[field][3] = "STICK" if field == 3 else wanted[field][3] + 1e-6 * max(1, rows[3][0])
     assert disagreements(show(), rows, wanted) == [rows[3]]
+
+
+def last_directions(tab, rows):
+    """Directions of the last slips, by the solver of the page."""
+    last = "solver.history(...row, 2).phases.at(-1).side"
+    return np.array(tab.evaluate(f"{json.dumps(rows.T.tolist())}.map((row) => {last})"))
+
+
+def beside_switches(tab, count):
+    """Impacts around changes of the last direction of slip, where slip may be lost: by bisection.
+
+    Incidence and restitution are moved; e omega/Omega is 1 to 6, beyond the sliders.
+    """
+    rng = np.random.default_rng(1994)
+    beta, e = rng.uniform(1, 10, count), rng.uniform(0.1, 1, count)
+    zeta2 = beta * (e / rng.uniform(1, 6, count)) ** 2
+    low = np.array([rng.random(count) * zeta2, beta, zeta2, e])
+    high = np.array([rng.random(count) * zeta2, beta, zeta2, rng.uniform(0.1, 1, count)])
+    side = last_directions(tab, low)
+    changes = side != last_directions(tab, high)
+    low, high, side = low[:, changes], high[:, changes], side[changes]
+    for _ in range(60):
+        middle = (low + high) / 2
+        same = last_directions(tab, middle) == side
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    near = 10.0 ** np.arange(-16, -3.5)
+    around = np.concatenate([1 - near, [1], 1 + near])
+    rows = np.repeat(low, around.size, axis=1)
+    rows[0] *= np.tile(around, side.size)
+    return rows.T.tolist()
+
+
+def test_no_slip_is_lost_beside_a_change_of_its_last_direction(show):
+    """To 1e-12: a hundred times rounding, 2^-53, at a condition of up to 5 beta = 50, in both."""
+    tab = show()
+    rows = LOST_SLIPS + beside_switches(tab, 400)
+    assert len(rows) > 2000
+    assert disagreements(tab, rows, expected(rows), accuracy=1e-12) == []
+
+
+@pytest.mark.parametrize(
+    ("search", "row"),
+    [
+        ("crossing", (1.0, 3.5, 1.21, 1.0)),
+        ("reach_behind_crest", (0.75, 8.1, 0.66, 0.74)),
+        ("in_compression", (1.9, 1.0, 2.0, 0.5)),
+    ],
+)
+def test_a_search_that_does_not_end_says_so(search, row, show):
+    text = SOLVER.read_text(encoding="utf-8")
+    assert "MOST_TURNS = 100" in text
+    body = text.replace("MOST_TURNS = 100", "MOST_TURNS = 1").replace("const solver = ", "return ")
+    with pytest.raises(
+        browser.BrowserError, match=rf"no onset of slip after 1 turns\s.*\s.*{search}"
+    ):
+        show().evaluate(f"(() => {{ {body} }})().rebound(...{json.dumps(row)})")
 
 
 FAULTS = {
