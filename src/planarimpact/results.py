@@ -13,8 +13,8 @@ class Regime(IntEnum):
 
     The paper's three regimes are STICK_SLIP, SLIP_STICK_SLIP and SLIP_THROUGHOUT. The others
     complete them: a contact that ends in stick (e = 0, or no tangential compliance), and
-    MULTIPLE, where stick comes back a second time. A normal impact, x = 0, is STICK. A law of
-    impulses alone leaves the order UNRESOLVED.
+    MULTIPLE, where stick comes back a second time. A normal impact, x = 0, is STICK. UNRESOLVED
+    is what a law of impulses alone says, and an impact that was given up.
 
     Examples
     --------
