@@ -63,7 +63,7 @@ def test_the_lumped_curve_of_fig_6_against_its_table():
     with open(DATA / "lumped_40_digits/fig6_rebound.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     for e in (0.0, 0.5, 1.0):
-        table = [list(row.values())[1:] for row in rows if row["curve"] == f"e = {e:g}"]
+        table = [list(row.values())[1:3] for row in rows if row["curve"] == f"e = {e:g}"]
         x, velocity = np.array(table, float).T
         found = response.compile("lumped", incidence_max=8, tolerance=1e-10, restitution=e)
         assert x.size > 30 and np.abs(found.velocity(x) - velocity).max() <= 1e-10

@@ -82,6 +82,7 @@ CURVES = {
             mass_ratio=3.5, stiffness_ratio=1.164, restitution=0.98, friction=0.092, speed=3.9,
             radius=0.0025,
         ),
+        finite_elements=dict(mass_ratio=3.5, stiffness_ratio=1.2143, restitution=1.0),
     ),
     fig6: dict(incidence=(0, 8), restitution=[0.5]),
     fig7: dict(angle=(0, 90), friction=[0.5]),

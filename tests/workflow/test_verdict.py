@@ -39,12 +39,17 @@ LAYERS = [
     {
         "draw": ("draw", BEFORE),
         "compare": ("compare", BEHIND),
+        "sensitivity": ("sensitivity", BEHIND),
         "trade": ("write_trade", BEHIND),
         "stability": ("write_stability", BEHIND),
         "gather_chunks": ("gather_chunks", BEHIND),
         "ledger_page": ("write_ledger_page", BEHIND),
     },
-    {"verdicts": ("gather_verdicts", BEHIND), "draw_study": ("draw_study", BEHIND)},
+    {
+        "verdicts": ("gather_verdicts", BEHIND),
+        "gates": ("gather_gates", BEHIND),
+        "draw_study": ("draw_study", BEHIND),
+    },
     {"report": ("write_report", BEHIND)},
     {"gate": ("gate", BEFORE)},
 ]

@@ -1,9 +1,12 @@
 """Residuals of a figure as strips: one a curve and reference, with what is allowed shaded."""
 
+from collections import Counter
+
 import drawing
 import numpy as np
 from matplotlib.patches import Patch
 
+MOST_POINTS = 1000  # of a comparison; more would be a block of ink, and make the page heavy
 STRIP, LABEL = 0.55, 0.3  # inches: height of a strip, and of the label of its x axis
 MARKS = {
     "agrees": {"color": drawing.BLACK, "marker": "o", "markersize": 2},
@@ -77,10 +80,10 @@ def words(quantity):
 
 def _strips(residuals, comparisons):
     """Points by strip and comparison; strips with the same axis next to each other."""
-    found = {}
+    found, counts = {}, Counter(row["comparison"] for row in residuals)
     for row in residuals:
         entry = comparisons[row["comparison"]]
-        if entry["metric"] in ("distance", "vertices"):
+        if entry["metric"] in ("distance", "vertices") and counts[row["comparison"]] <= MOST_POINTS:
             key = entry.get("curve", "all curves"), entry["reference"], row["quantity"]
             part = found.setdefault(key, {}).setdefault(row["comparison"], [])
             part.append((float(row["at"]), float(row["distance [sigma]"])))

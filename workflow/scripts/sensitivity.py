@@ -91,6 +91,9 @@ def sensitivities(figure, settings, nodes, path, comparisons, references, series
         if entry["metric"] in ("balance", "range"):  # laws hold whatever the parameters
             rows.append([title, *["none"] * len(GROUPS)])
             continue
+        if figure == DIGITS and entry["metric"] != "largest":  # the impacts themselves
+            rows.append([title, *[""] * len(GROUPS)])
+            continue
         search = _by_trial if figure == DIGITS else _in_proportion
         rows.append([title, *(search(curves, solved[group], measure, caught) for group in GROUPS)])
     return rows
