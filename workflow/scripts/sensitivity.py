@@ -25,7 +25,7 @@ KEYS = [("stiffness_ratio", "poisson_ratio"), ("mass_ratio",), ("restitution",),
 GROUPS = dict(zip(verdict_table.GROUPS, KEYS, strict=True))
 PRINTED = "as printed"  # in the names of curves
 UNTRIED = ("trade",)  # times take long; its errors are those of models that other figures show
-COARSER, FEWEST = 5, 10  # vertices
+COARSER, FEWEST = 20, 10  # vertices
 STEP = 1e-4  # small enough for changes in proportion, large beside rounding
 SIZES = 10.0 ** np.arange(-15, -0.25, 0.1)
 # Parts of settings that hold physics of their own.
@@ -37,6 +37,7 @@ SHORT = {
         "circles": [4, 8],
         "fixed": {"steps": 16, "circles": 4},
         "tolerance": 1e-3,
+        "samples": 2,
     },
     "stability": {"most_phases": 2},
 }
