@@ -147,7 +147,8 @@ def test_a_row_of_the_verdicts_says_what_was_allowed_and_why(first_run, report):
     for row in rows_of(results / "verdicts.csv"):
         shown = text[text.index(f'<tr id="{row["comparison"]}"') :].split("</tr>")[0]
         assert f'<a href="#{row["figure"]}">' in shown
-        assert f'<td class="bounds">{row["allowed"].replace("<=", "≤")}' in shown.replace("\n", "")
+        allowed = html.escape(row["allowed"].replace("<=", "≤"))
+        assert f'<td class="bounds">{allowed}' in shown.replace("\n", "")
         assert row["regression"].replace("<=", "≤").replace("chi2", "chi²") in shown
         assert row["evidence"] in shown
         assert maths(write_report.sentence(row["reason"])) in shown
