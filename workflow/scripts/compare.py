@@ -230,6 +230,11 @@ def _from_vertices(entry, known, curves, points):
     x, labels = reference_data.column_name(known["x"]), known.get("labels", [])
     if "curve" in entry:
         curves = {entry["curve"]: _named(curves, entry["curve"])}
+    labelled = [
+        (columns, _labels(columns | {"curve": np.full(len(columns[x]), name)}, labels))
+        for name, columns in curves.items()
+        if x in columns
+    ]
     words, parts, columns = _labels(points, labels), [], []
     for axis in reference_data.ordinates(known):
         y = reference_data.column_name(axis)
@@ -237,9 +242,8 @@ def _from_vertices(entry, known, curves, points):
         if there.any():
             own = [word for word, inside in zip(words, there, strict=True) if inside]
             sigma = _sigma(entry, known["x"], axis)
-            vertices = _vertices(curves, x, y, labels)
             where = points[x][there], points[y][there], own
-            parts.append(comparison.vertex_residuals(where, vertices, sigma))
+            parts.append(comparison.vertex_residuals(where, _vertices(labelled, x, y), sigma))
             columns += [f"{y} of {word}" if word else y for word in own]
     return _joined(parts), columns
 
@@ -256,18 +260,16 @@ def _sigma(entry, x, y):
     return comparison.with_allowance(sigma, (allowance["x"], allowance["y"]))
 
 
-def _vertices(curves, x, y, labels):
+def _vertices(labelled, x, y):
     """Vertices of all curves that have both columns: x, y, labels."""
-    found = [], [], []
-    for name, columns in curves.items():
-        if x in columns and y in columns:
-            named = {**columns, "curve": np.full(len(columns[x]), name)}
-            found[0].extend(columns[x])
-            found[1].extend(columns[y])
-            found[2].extend(_labels(named, labels))
-    if not found[0]:
+    holders = [(columns, words) for columns, words in labelled if y in columns]
+    if not holders:
         raise ValueError(f"no curve has the columns '{x}' and '{y}'")
-    return found
+    return (
+        np.concatenate([columns[x] for columns, _ in holders]),
+        np.concatenate([columns[y] for columns, _ in holders]),
+        [word for _, words in holders for word in words],
+    )
 
 
 def _labels(columns, labels):

@@ -41,8 +41,9 @@ SHORT = {
     },
     "stability": {"most_phases": 2},
 }
+LAWS = ("balance", "range")  # they hold whatever the parameters
 # Its digits are logarithms, which do not change in proportion: powers of ten are tried one by one,
-# on every so manieth of its points.
+# on one of so many points.
 DIGITS, SPARSE = "stability", 40
 TRIED = 10.0 ** np.arange(-15, -2)
 
@@ -78,8 +79,8 @@ def sensitivities(figure, settings, nodes, path, comparisons, references, series
         curves = None
     if curves is None:
         return [[title, *[""] * len(GROUPS)] for title in comparisons]
-    rows = []
     solved = {group: _solver(figure, settings, group, curves) for group in GROUPS}
+    rows = []
     for title, entry in comparisons.items():
         known = references.get(entry.get("reference"))
 
@@ -89,14 +90,15 @@ def sensitivities(figure, settings, nodes, path, comparisons, references, series
         def caught(found, entry=entry, known=known):
             return compare.judge(entry, known, found, significance) == Verdict.DIVERGES
 
-        if entry["metric"] in ("balance", "range"):  # laws hold whatever the parameters
-            rows.append([title, *["none"] * len(GROUPS)])
-            continue
-        if figure == DIGITS and entry["metric"] != "largest":  # the impacts themselves
-            rows.append([title, *[""] * len(GROUPS)])
-            continue
-        search = _by_trial if figure == DIGITS else _in_proportion
-        rows.append([title, *(search(curves, solved[group], measure, caught) for group in GROUPS)])
+        if entry["metric"] in LAWS:
+            sizes = ["none"] * len(GROUPS)
+        elif figure != DIGITS:
+            sizes = [_in_proportion(curves, solved[group], measure, caught) for group in GROUPS]
+        elif entry["metric"] == "largest":
+            sizes = [_by_trial(solved[group], measure, caught) for group in GROUPS]
+        else:  # the impacts themselves, of which only some are tried
+            sizes = [""] * len(GROUPS)
+        rows.append([title, *sizes])
     return rows
 
 
@@ -176,7 +178,7 @@ def _in_proportion(curves, solved, measure, caught):
     return _words(size for size in SIZES if caught(off(size)) and caught(off(-size)))
 
 
-def _by_trial(curves, solved, measure, caught):
+def _by_trial(solved, measure, caught):
     """Size that is caught, each tried."""
     if not solved:
         return ""
