@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from planarimpact import bodies, ledger, lumped, noncollinear, rigid
+from planarimpact import bodies, continuum, ledger, lumped, noncollinear, rigid
 from planarimpact.ledger import contact, finding
 from planarimpact.ledger.finding import Finding
 from planarimpact.printed import slip
@@ -70,10 +70,56 @@ def test_stiffness_is_judged_over_all_poisson_ratios():
     assert found > 1 > (1 - soft / paper) / abs(hertz / base - 1)
 
 
-def test_dissipation_at_small_angles_is_judged_on_the_axes_of_fig_9():
-    found = ledger.run("dissipation.small_incidence").found
-    # No more than all tangential energy, m1 v1(0)^2/2, can go.
-    assert 0 < found <= np.sin(np.radians(10)) ** 2 / 3.5 < 0.01
+def friction_loss(degrees, friction, restitution):
+    """Share of m2 S^2/2 that friction takes, and the same without tangential compliance.
+
+    Both by what is left: m1 v1^2/2 of the tangential motion, all of it or none where slip halts.
+    """
+    theta = np.radians(degrees)
+    x = np.tan(theta) / friction
+    left = (lumped.rebound(x, *contact.SPHERE, restitution).velocity / x) ** 2
+    return np.sin(theta) ** 2 / 3.5 * np.array([1 - left, np.ones_like(x)])
+
+
+def test_dissipation_at_small_angles_is_judged_against_that_without_compliance():
+    """It is small with compliance and without, as the entry says, and so not by compliance."""
+    ratios = {e: [] for e in (1.0, 0.5)}
+    whole = []
+    for e, found in ratios.items():
+        for mu in (0.1, 0.5):
+            soft, hard = friction_loss(np.array([1.0, 2.0, 3.0, 4.0, 5.0]), mu, e)
+            found.append(soft / hard)
+            whole.append(friction_loss(np.array([10.0]), mu, e)[:, 0])
+    for e, quoted in ((1.0, (0.66, 0.93)), (0.5, (0.46, 0.57))):
+        assert np.round([np.min(ratios[e]), np.max(ratios[e])], 2) == pytest.approx(quoted)
+    assert np.round(np.max(whole, axis=0), 4).tolist() == [0.0083, 0.0086]
+    # Initial stick, where it is least at e = 0.5 and the incidence zeta^2.
+    least = 1 - (lumped.rebound(1.21, *contact.SPHERE, 0.5).velocity / 1.21) ** 2
+    assert ledger.run("dissipation.small_incidence").found == pytest.approx(least, abs=1e-9)
+    # Between 0.1 and 0.25, where the entry says that it holds, a tenth at most.
+    x = np.linspace(0.01, 1.21, 100)
+    some = np.linspace(0.1, 0.25, 16)[:, None]
+    kept = (lumped.rebound(x, *contact.SPHERE, some).velocity / x) ** 2
+    assert (1 - kept).max() < 0.1
+
+
+def test_micro_slip_is_judged_by_what_the_paper_compares():
+    """0.215 between its model and the continuum; 0.52 by micro-slip alone, 0.39 by Hertz alone."""
+    x = np.linspace(0.0, 8.0, 201)[1:]
+    models = {
+        "lumped": lumped.rebound(x, *contact.SPHERE).velocity,
+        "continuum": continuum.rebound(x, *contact.SPHERE, tolerance=1e-4).velocity,
+        "whole": contact.without_micro_slip(x).velocity,
+    }
+    # Half a unit of the last figure, and what a grid of 0.04 misses of a kink of slope 1.
+    for first, second, quoted in (
+        ("lumped", "continuum", 0.215),
+        ("whole", "continuum", 0.52),
+        ("whole", "lumped", 0.39),
+    ):
+        assert np.abs(models[first] - models[second]).max() == pytest.approx(quoted, abs=0.025)
+    found = ledger.run("rebound.practically_identical").found
+    assert found == pytest.approx(0.215, abs=5e-4)
 
 
 def test_the_reduction_of_the_largest_friction_grows_with_mu():
@@ -108,22 +154,36 @@ def test_no_sign_saves_the_deflection_in_stick():
 
 
 def test_readings_quote_what_a_kept_direction_costs():
-    """0.042 and 3.75 mu v2(0): Eqs 15 and 24 taken for s = -1 too; with s = +1 they are exact."""
-    after_stick, after_slip = [], []
-    for contacts, costs in (
-        (contact.initial_stick(), after_stick),
-        (contact.slip_stick_slip(), after_slip),
-    ):
-        for found in contacts:
-            if found.last_slip_direction < 0:
-                onset = found.last(EventKind.SLIP)
-                left = found.impulse_left(onset.t)
-                final = slip.eq_24_final_velocity(onset.v1, left, found.friction, found.m1)
-                costs.append(abs(final - found.final_velocity) / abs(found.velocity_scale))
+    """Eqs 15 and 24 taken for s = -1 too; with s = +1 they are exact.
+
+    Eq. 15 is off by 0.045 mu v2(0) at most over solid spheres, by 0.008 over the paper's, where
+    stick just lasts; Eq. 24 by 3.75 over the contacts of its check.
+    """
+
+    def cost(found):
+        if found.last_slip_direction > 0:
+            return 0.0
+        onset = found.last(EventKind.SLIP)
+        left = found.impulse_left(onset.t)
+        final = slip.eq_24_final_velocity(onset.v1, left, found.friction, found.m1)
+        return abs(final - found.final_velocity) / abs(found.velocity_scale)
+
+    def over(zeta2):
+        shares, restitutions = (0.3, 0.7, 0.9, 0.99, 1.0), np.linspace(0.01, 0.32, 63)
+        return max(
+            (cost(contact.contact(share * zeta2, 3.5, zeta2, e, 2)), share, e)
+            for share in shares
+            for e in restitutions
+        )
+
     for check in ("slip.rebound_after_stick", "slip.final_velocity_after_second_slip"):
         assert ledger.run(check).found < 1e-9
-    assert max(after_stick) == pytest.approx(0.042, abs=5e-4)
-    assert max(after_slip) == pytest.approx(3.75, abs=5e-3)
+    largest = {zeta2: over(zeta2) for zeta2 in (1.0, 1.21, 1.35, 1.5)}
+    costs = [found[0] for found in largest.values()]
+    assert costs == sorted(costs)
+    assert largest[1.21][0] == pytest.approx(0.008, abs=5e-4)
+    assert largest[1.5] == pytest.approx((0.045, 1.0, 0.125), abs=5e-3)
+    assert max(map(cost, contact.slip_stick_slip())) == pytest.approx(3.75, abs=5e-3)
 
 
 def test_losses_are_decoupled_in_collinear_impact_only():

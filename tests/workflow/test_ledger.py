@@ -55,6 +55,42 @@ def test_signs_of_one_symbol_accuse_together():
     assert ENTRIES["eq-18-31-32"]["grade"] == "sign or misprint"
 
 
+def test_what_one_heading_repairs_is_a_misprint():
+    late = {name for name, entry in ENTRIES.items() if entry.get("cause") == "late-stick"}
+    assert late == {
+        "eq-32-late",
+        "stick-in-compression",
+        "still-moving-at-stick",
+        "peak-after-stick",
+    }
+    assert {ENTRIES[name]["grade"] for name in late} == {"sign or misprint"}
+
+
+def test_angles_that_the_paper_places_have_one_scale():
+    """5 deg either way, and beyond that one grade."""
+    stated, placed = ENTRIES["peak-angle-0.18"], ENTRIES["largest-dissipation-angle"]
+    assert stated["confirms"]["rounding"] == placed["confirms"]["at_most"] == 5
+    assert stated["grade"] == placed["grade"]
+
+
+def test_micro_slip_is_judged_by_the_comparison_that_the_paper_draws_on():
+    sentence, comparison = ENTRIES["micro-slip-insignificant"], ENTRIES["practically-identical"]
+    assert sentence["check"] == comparison["check"]
+    assert sentence["confirms"] == comparison["confirms"]
+
+
+def test_an_accusation_cites_the_pages_that_carry_it():
+    assert "446" not in ENTRIES["slip-throughout-limit"]["where"]
+    assert "449" not in ENTRIES["slip-throughout-limit"]["where"]
+    assert "435" not in ENTRIES["three-sequences"]["where"]
+
+
+def test_every_symbol_is_explained():
+    symbols = reference_data.load_yaml(ROOT / FILE)["symbols"]
+    for symbol in ("g1", "beta", "x =", "psi1", "chi", "ts", "theta", "nu"):
+        assert re.search(rf"\b{symbol}", symbols), symbol
+
+
 @pytest.mark.parametrize(
     "name", ["peak_angle_mu_0.1", "peak_angle_mu_0.18", "peak_angle_mu_1", "full_friction_angle"]
 )
@@ -95,6 +131,7 @@ def test_the_page_counts_grades_and_groups_by_cause(rows):
     }
     order = [re.findall(r'<span class="mark \w+">([^<]+)</span>', group)[0] for group in groups]
     assert order == sorted(order, key=list(ledger_table.GRADES).index)
+    assert 'href="#slip-throughout-limit"' in groups[0]
 
 
 def test_the_page_fits_a_phone(rows, tmp_path):

@@ -39,10 +39,10 @@ GREEK = {
     "mu": "µ", "zeta": "ζ", "beta": "β", "Omega": "Ω", "omega": "ω", "kappa": "κ", "pi": "π",
     "phi": "φ", "psi": "ψ", "chi": "χ", "theta": "θ", "tau": "τ", "nu": "ν",
 }  # fmt: skip
-# A letter with an index: v1, F2, t_c, tf, F2max, psi1, du1.
-INDEXED = re.compile(r"\b(d?)([vuFDKmxtgV]|psi)(\d|_c|f|b|a)(max)?(?![A-Za-z0-9])")
+# A letter with an index: v1, F2, t_c, tf, ts, F2max, psi1, du1.
+INDEXED = re.compile(r"\b(d?)([vuFDKmxtgV]|psi)(\d|_c|f|b|a|(?<=t)s)(max)?(?![A-Za-z0-9])")
 # Symbols of one letter; those behind a slash are units, or tags.
-SYMBOL = re.compile(r"(?<![/<\w;])([eskMS])(?![\w>])|(?<!\w)(p)(?=\()")
+SYMBOL = re.compile(r"(?<![/<\w;])([eskxMS])(?![\w>])|(?<!\w)(p)(?=\()")
 
 
 def mathematical(text):

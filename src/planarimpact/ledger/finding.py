@@ -17,8 +17,9 @@ class Finding(NamedTuple):
     Attributes
     ----------
     found : float
-        For an equation the largest distance of the printed formula from the exact solver, in
-        the unit that the check names; for a sentence the number that decides it.
+        For an equation the largest distance of the printed formula from the exact solver, of
+        those sampled, in the unit that the check names; for a sentence the number that decides it.
+        Between the samples there may be a larger one.
     corrected : float or None
         The same for the corrected formula, where the printed one is wrong.
     """

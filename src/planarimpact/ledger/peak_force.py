@@ -263,7 +263,10 @@ def late_stick() -> Finding:
 
 
 def velocity_at_stick() -> Finding:
-    """Lowest v1(t2)/(mu v2(0)) over slip - stick - slip, e = 1; negative: turned round."""
+    """Lowest v1(t2)/(mu v2(0)) over slip - stick - slip, e = 1, of those sampled.
+
+    Negative means that the body has turned round.
+    """
     lowest = min(
         found.first(EventKind.STICK).v1 / found.velocity_scale
         for found in contact.slip_stick_slip((1.0,))

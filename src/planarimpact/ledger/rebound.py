@@ -20,7 +20,7 @@ SPHERES = tuple((contact.MASS_RATIO, zeta2) for zeta2 in (1.0, contact.STIFFNESS
 
 
 def first_slip_in_restitution() -> Finding:
-    """Earliest onset of slip after initial stick, in t_c, where omega > Omega."""
+    """Earliest onset of slip after initial stick of those sampled, in t_c, where omega > Omega."""
     return Finding(
         float(
             min(
@@ -52,17 +52,23 @@ def _largest_restitution_of_kept_direction(incidences: Sequence[float]) -> float
 
 
 def reversal_after_stick() -> Finding:
-    """Largest e at which slip after initial stick does not reverse, sphere of the paper."""
+    """Largest e at which slip after initial stick does not reverse, sphere of the paper.
+
+    The largest of those sampled, incidences 0.1, 0.6 and 1.2.
+    """
     return Finding(_largest_restitution_of_kept_direction([0.1, 0.6, 1.2]))
 
 
 def reversal_after_slip() -> Finding:
-    """Largest e at which the second slip does not reverse, sphere of the paper."""
+    """Largest e at which the second slip does not reverse, sphere of the paper.
+
+    The largest of those sampled, incidences 1.3, 2, 3 and just below 3.5.
+    """
     return Finding(_largest_restitution_of_kept_direction([1.3, 2.0, 3.0, 3.499999]))
 
 
 def three_sequences() -> Finding:
-    """Share of impacts whose second slip does not last: they stick again, and slip again.
+    """Share of the impacts sampled whose second slip does not last: they stick and slip again.
 
     Over omega/Omega from 1 to 6 and incidence up to 2 m2/m1, at e = 1.
     """
@@ -239,18 +245,6 @@ def identical_at_almost_all() -> Finding:
     return Finding(float(min(shares)))
 
 
-def micro_slip_matters() -> Finding:
-    """Largest effect of micro-slip on v1(tf)/(mu v2(0)): the continuum with it and without.
-
-    Without: a Hertz contact that sticks and slips as a whole.
-    """
-    x = INCIDENCE[::10]
-    whole = contact.without_micro_slip(x).velocity
-    return Finding(
-        largest([whole - continuum.rebound(x, *contact.SPHERE, tolerance=1e-4).velocity])
-    )
-
-
 def last_slip_prolonged() -> Finding:
     """How much earlier the last slip begins in the lumped model than in the continuum, in t_c.
 
@@ -282,7 +276,7 @@ def mostly_reversed() -> Finding:
 def early_micro_slip() -> Finding:
     """Longest share of the first quarter of an impact with a slipping annulus around stick.
 
-    Elastic continuum, incidences below zeta^2.
+    Elastic continuum; the longest of those sampled, incidences 0.1, 0.5 and 1.
     """
     shares = []
     for x in (0.1, 0.5, 1.0):
@@ -294,7 +288,10 @@ def early_micro_slip() -> Finding:
 
 
 def micro_slip() -> Finding:
-    """Shortest share of an impact in which the continuum sticks inside a slipping annulus."""
+    """Shortest share of an impact in which the continuum sticks inside a slipping annulus.
+
+    Of those sampled, incidences 0.1, 0.5 and 1.
+    """
     shares = []
     for x in (0.1, 0.5, 1.0):
         found = continuum.history(x, *contact.SPHERE)

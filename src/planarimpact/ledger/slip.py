@@ -300,7 +300,7 @@ def rebound_after_second_slip() -> Finding:
 def slid_after_first_slip() -> Finding:
     """Largest way that the particle slides in the phase that begins at t2, over its deflection.
 
-    The particle moves with v1 + du1/dt; by quadrature along contacts of slip, stick and slip.
+    The particle moves with v1 + du1/dt; by quadrature along sampled contacts of slip, stick, slip.
     """
     shares = []
     for x in (1.3, 2.0, 3.0, 4.5):
@@ -327,9 +327,9 @@ def rebound_after_slip_throughout() -> Finding:
 
 
 def slip_throughout_limit() -> Finding:
-    """The printed limit (1 + e) beta against bisection of regimes; corrected by Eq. 21.
+    """The printed limit (1 + e) beta less the one found by bisection of regimes, as incidences x.
 
-    Corrected: beta + max(0, e beta - zeta^2/e).
+    Corrected, by Eq. 21: beta + max(0, e beta - zeta^2/e).
     """
     printed, corrected = [], []
     for beta, zeta2 in contact.PAIRS:
