@@ -499,6 +499,7 @@ def test_the_page_has_every_entry_and_needs_nothing_else(first_run):
 def test_formulas_become_readable():
     html = write_ledger_page.mathematical
     assert str(html("-zeta^2 < s, m/s")) == "−ζ<sup>2</sup> &lt; <i>s</i>, m/s"
+    assert str(html("Omega ts")) == "Ω <i>t</i><sub>s</sub>"
     assert str(html("F2max of psi1 -> 0")) == (
         "<i>F</i><sub>2</sub><sup>max</sup> of ψ<sub>1</sub> → 0"
     )

@@ -42,7 +42,7 @@ GREEK = {
 # A letter with an index: v1, F2, t_c, tf, ts, F2max, psi1, du1.
 INDEXED = re.compile(r"\b(d?)([vuFDKmxtgV]|psi)(\d|_c|f|b|a|(?<=t)s)(max)?(?![A-Za-z0-9])")
 # Symbols of one letter; those behind a slash are units, or tags.
-SYMBOL = re.compile(r"(?<![/<\w;])([eskxMS])(?![\w>])|(?<!\w)(p)(?=\()")
+SYMBOL = re.compile(r"(?<![/<\w;])([eskxMS])(?![\w<>])|(?<!\w)(p)(?=\()")
 
 
 def mathematical(text):
