@@ -12,7 +12,7 @@ from enum import StrEnum
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.stats import chi2, f
 
 from planarimpact.arrays import Array, ArrayLike
 
@@ -320,16 +320,22 @@ class ChiSquared(NamedTuple):
         Sum of squares of the distances in sigmas, correlated where a parameter moves them together.
     degrees : int
         Degrees of freedom: the number of points.
+    of_sigma : int or None
+        On how many independent values the sigmas rest; None where they are known.
     p : float
-        Probability that chance alone gives a value as large.
+        Probability that chance alone gives a value as large: by the distribution of chi-squared,
+        or where the sigmas were estimated themselves by that of F.
     """
 
     value: float
     degrees: int
+    of_sigma: int | None
     p: float
 
 
-def chi_squared(sigmas: ArrayLike, shifts: ArrayLike = ()) -> ChiSquared:
+def chi_squared(
+    sigmas: ArrayLike, shifts: ArrayLike = (), of_sigma: int | None = None
+) -> ChiSquared:
     """Chi-squared of distances, with the uncertainty of the curve's own parameters.
 
     A parameter that is known to one sigma moves all points of the curve together, so the distances
@@ -342,6 +348,8 @@ def chi_squared(sigmas: ArrayLike, shifts: ArrayLike = ()) -> ChiSquared:
         Signed distances of the points, in their own sigmas.
     shifts : array_like, shape (k, n)
         How much each distance changes with one sigma of each of k independent parameters.
+    of_sigma : int, optional
+        On how many independent values the sigmas rest, if they were estimated from a few.
 
     Returns
     -------
@@ -359,13 +367,18 @@ def chi_squared(sigmas: ArrayLike, shifts: ArrayLike = ()) -> ChiSquared:
     (5.0, 2, 0.082)
     >>> round(chi_squared([1.0, 1.0], [[3.0, 3.0]]).value, 3)  # one shift explains both
     0.105
+    >>> round(chi_squared([1.0, 2.0], of_sigma=4).p, 3)  # the sigma itself may be too small
+    0.198
     """
     distance = np.asarray(sigmas, float)
     _refuse_none(distance)
     moved = np.asarray(shifts, float).reshape(-1, len(distance))
     covariance = np.eye(len(distance)) + moved.T @ moved
     value = float(distance @ np.linalg.solve(covariance, distance))
-    return ChiSquared(value, len(distance), float(chi2.sf(value, len(distance))))
+    degrees = len(distance)
+    if of_sigma is None:
+        return ChiSquared(value, degrees, None, float(chi2.sf(value, degrees)))
+    return ChiSquared(value, degrees, of_sigma, float(f.sf(value / degrees, degrees, of_sigma)))
 
 
 def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: float) -> Array:

@@ -128,6 +128,16 @@ def test_probability_of_chi_squared():
     assert np.mean([chi_squared(row).p < 0.01 for row in own + common * shift]) > 0.4
 
 
+def test_estimated_sigmas_are_allowed_for():
+    """Points of the sigma that four others gave are refused by chance alone as often as p says."""
+    rng = np.random.default_rng(6)
+    estimated = np.sqrt(np.mean(rng.normal(size=(4000, 4)) ** 2, axis=1))
+    points = rng.normal(size=(4000, 6)) / estimated[:, None]
+    refused = np.mean([chi_squared(row, of_sigma=4).p < 0.01 for row in points])
+    assert 0.006 < refused < 0.015
+    assert np.mean([chi_squared(row).p < 0.01 for row in points]) > 0.1
+
+
 def test_not_a_number_is_not_probable():
     assert not chi_squared([np.nan, 0.0]).p > 0.01
     assert not chi_squared([np.inf, 0.0]).p > 0.01

@@ -98,6 +98,25 @@ def test_no_column_can_be_scaled_or_flipped(name, factor, tables, monkeypatch):
     assert missed == []
 
 
+@pytest.mark.parametrize(
+    ("name", "curve", "rows"),
+    [
+        ("fig5", "lumped", slice(703, 704)),
+        ("fig6", "e = 0", [300]),
+        ("study", "grid", range(1010, 1150)),
+    ],
+)
+def test_a_fault_between_the_points_of_reference_is_seen(name, curve, rows, tables, monkeypatch):
+    folder, series = tables
+    path, column = folder / run_plan.table_of(name), "velocity [mu v2(0)]"
+    curves = judged_tables.read(path)
+    velocity = curves[curve][column].copy()
+    velocity[rows] = -velocity[rows] - 0.1
+    wrong = curves | {curve: curves[curve] | {column: velocity}}
+    monkeypatch.setattr(judged_tables, "read", lambda _: wrong)
+    assert _diverges(name, path, series, only=f"{name}-contraction")
+
+
 SLIDING = "chung_ooi2011/rebound"
 TRIED = ["fig2", "fig3", "fig6", "fig7", "micro_slip", "superball"]
 

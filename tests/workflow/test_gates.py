@@ -150,7 +150,9 @@ def _names(*left_out):
     ]
 
 
-@pytest.mark.parametrize("name", [n for n in _names("range") if n not in WITHOUT_FAULT])
+@pytest.mark.parametrize(
+    "name", [n for n in _names("range", "contraction") if n not in WITHOUT_FAULT]
+)
 def test_a_wrong_solver_trips_the_gate(name, verdicts):
     """That the right one passes is what the whole run says."""
     found = [verdicts[fault, name]["verdict"] for fault in FAULTS]

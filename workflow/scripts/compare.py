@@ -135,6 +135,8 @@ def measure(entry, known, curves, series_paths):
     """
     if entry["metric"] in ("balance", "largest", "range"):
         return _columns_alone(entry, curves)
+    if entry["metric"] == "contraction":
+        return _expansion(entry, curves)
     if entry["metric"] == "landmark":
         return _landmark(entry, known, curves)
     points = _points(entry, known, series_paths)
@@ -155,7 +157,7 @@ def judge(entry, known, found, significance):
     """Verdict on what `measure` found."""
     distance = found.residuals.summary()
     if _is_published(known):
-        chi2 = comparison.chi_squared(found.residuals.sigmas, found.shifts)
+        chi2 = _chi_squared(known, found)
         good, measured = chi2.p > significance, {"chi2": chi2.value}
     else:
         good, measured = distance.max <= entry.get("limit", 1.0), {}
@@ -163,6 +165,11 @@ def judge(entry, known, found, significance):
     bounds = entry.get("regression", {})
     unchanged = all(low <= measured[key] <= high for key, (low, high) in bounds.items())
     return comparison.judge(good, "documented" in entry, unchanged)
+
+
+def _chi_squared(known, found):
+    sigmas, shifts = found.residuals.sigmas, found.shifts
+    return comparison.chi_squared(sigmas, shifts, known.get("sigma_values"))
 
 
 def _kind(known):
@@ -320,6 +327,32 @@ def _columns_alone(entry, curves):
     return Measured(places[0], residuals, [names[0]] * len(x))
 
 
+def _expansion(entry, curves):
+    """How much further apart neighbours of a curve leave than they arrive, at most at each place.
+
+    The printed equations need not keep to that.
+    """
+    x, y = entry["columns"]
+    parts = []
+    for name, columns in curves.items():
+        drawn = not any(word in name for word in ("as printed", "1 sigma"))
+        if drawn and x in columns and y in columns:
+            keys = [columns[label] for label in reversed(entry.get("labels", []))]
+            order = np.lexsort([columns[x], *keys])
+            same = np.ones(len(order) - 1, bool)
+            for key in keys:
+                same &= key[order][1:] == key[order][:-1]
+            arrive, leave = (np.abs(np.diff(columns[axis][order]))[same] for axis in (x, y))
+            excess = np.maximum(leave - arrive, 0.0)
+            parts.append(Residuals(columns[x][order][1:][same], excess, excess))
+    if not parts:
+        raise ValueError(f"no curve has the columns {entry['columns']}")
+    places, where = np.unique(np.concatenate([part.x for part in parts]), return_inverse=True)
+    excess = np.zeros(len(places))
+    np.maximum.at(excess, where, np.concatenate([part.plain for part in parts]))
+    return Measured(x, Residuals(places, excess, excess), [y] * len(places))
+
+
 def _first_of_numbers(columns):
     return next(name for name, values in columns.items() if values.dtype.kind == "f")
 
@@ -366,8 +399,9 @@ def _numbers(entry, known, found, significance):
         ),
     }
     if _is_published(known):
-        chi2 = comparison.chi_squared(found.residuals.sigmas, found.shifts)
+        chi2 = _chi_squared(known, found)
         cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
+        cells["degrees of sigma"] = chi2.of_sigma or ""
         cells["p"] = f"{chi2.p:.2g}"
     return cells
 

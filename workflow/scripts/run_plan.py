@@ -119,6 +119,7 @@ def _check_comparison(where, comparison, inventory):
         "balance": ("columns", "`columns`, two"),
         "largest": ("largest", "`largest`, a column"),
         "range": ("columns", "`columns` and their `range`"),
+        "contraction": ("columns", "`columns`, incidence and rebound"),
     }
     if metric in columns:
         key, words = columns[metric]

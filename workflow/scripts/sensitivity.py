@@ -41,7 +41,7 @@ SHORT = {
     },
     "stability": {"most_phases": 2},
 }
-LAWS = ("balance", "range")  # they hold whatever the parameters
+LAWS = ("balance", "range", "contraction")  # they hold whatever the parameters
 # Its digits are logarithms, which do not change in proportion: powers of ten are tried one by one,
 # on one of so many points.
 DIGITS, SPARSE = "stability", 40
@@ -93,7 +93,10 @@ def sensitivities(figure, settings, nodes, path, comparisons, references, series
         if entry["metric"] in LAWS:
             sizes = ["none"] * len(GROUPS)
         elif figure != DIGITS:
-            sizes = [_in_proportion(curves, solved[group], measure, caught) for group in GROUPS]
+            sizes = [
+                _in_proportion(curves, solved[group], measure, caught, one_way=group == "e")
+                for group in GROUPS
+            ]
         elif entry["metric"] == "largest":
             sizes = [_by_trial(solved[group], measure, caught) for group in GROUPS]
         else:  # the impacts themselves, of which only some are tried
@@ -158,7 +161,7 @@ def _off(key, number, size):
     return number * (1 + size)
 
 
-def _in_proportion(curves, solved, measure, caught):
+def _in_proportion(curves, solved, measure, caught, one_way):
     """Size that is caught, from one change of the distances in proportion to it, either way."""
     try:
         found = measure(curves)
@@ -175,7 +178,8 @@ def _in_proportion(curves, solved, measure, caught):
         gap = None if found.gap is None else found.gap + share * (other.gap - same.gap)
         return found._replace(residuals=Residuals(*parts), gap=gap)
 
-    return _words(size for size in SIZES if caught(off(size)) and caught(off(-size)))
+    ways = (1,) if one_way else (1, -1)
+    return _words(size for size in SIZES if all(caught(off(way * size)) for way in ways))
 
 
 def _by_trial(solved, measure, caught):

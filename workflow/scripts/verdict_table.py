@@ -7,8 +7,8 @@ from tabulate import tabulate
 
 COLUMNS = [
     "figure", "comparison", "verdict", "evidence", "reference", "points", "chi^2",
-    "degrees of freedom", "p", "rms [sigma]", "max [sigma]", "rms [axis units]", "found", "stated",
-    "allowed", "regression", "note", "reason",
+    "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
+    "rms [axis units]", "found", "stated", "allowed", "regression", "note", "reason",
 ]  # fmt: skip
 # Of the table of gates: the smallest change of each group that a comparison catches.
 GROUPS = ["zeta^2", "beta", "e", "mu"]

@@ -1,7 +1,7 @@
 """Fig. 5: tangential velocity at separation against incidence, e = 1."""
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import TypeAlias
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,8 +16,6 @@ from planarimpact.results import Rebound
 
 # Curves that only tell how far an uncertain parameter moves another one have fewer vertices.
 COARSER = 4
-
-_Model: TypeAlias = Callable[..., Rebound]
 
 
 def curves(
@@ -88,32 +86,35 @@ def curves(
     spring = rubber["stiffness_ratio"]
     groups = mass_ratio, stiffness_ratio
     exact = lumped.rebound(x, *groups, restitution)
-
-    def elastic(
-        incidence: ArrayLike, mass_ratio: float, stiffness_ratio: float, restitution: float = 1.0
-    ) -> Rebound:
-        return continuum.rebound(incidence, mass_ratio, stiffness_ratio, tolerance=tolerance)
-
+    shots = {"experiment": _shots(samples, at.get("angle", ()), experiment)}
+    for parameter, sigma in (uncertainty or {}).items():
+        for sign in SIGNS:
+            changed = experiment | {parameter: experiment[parameter] + sign * sigma}
+            shots[shifted("experiment", parameter, sign)] = _shots(samples // COARSER, (), changed)
+    elastic = _elastic(
+        {
+            "sphere": (x, *groups),
+            "rubber": (x, mass_ratio, spring),
+            "finite elements": (x, *_groups(finite_elements)[:2]),
+            **{name: (shot.x, *_groups(shot.sphere)[:2]) for name, shot in shots.items()},
+        },
+        tolerance,
+    )
     named = {
         "lumped": _sphere(x, exact, mass_ratio),
         "no tangential compliance": _velocity(
             x, rigid.rebound(x, mass_ratio, restitution=restitution)
         ),
-        "continuum": _sphere(x, elastic(x, *groups), mass_ratio),
+        "continuum": _sphere(x, elastic["sphere"], mass_ratio),
         "lumped, rubber": _velocity(x, lumped.rebound(x, mass_ratio, spring, restitution)),
-        "continuum, rubber": _velocity(x, elastic(x, mass_ratio, spring)),
+        "continuum, rubber": _velocity(x, elastic["rubber"]),
     }
-    models: dict[str, _Model] = {"lumped": lumped.rebound, "continuum": elastic}
-    for model, rebound in models.items():
-        found = rebound(x, **finite_elements)
-        named[f"{model}, finite elements"] = _sphere(x, found, finite_elements["mass_ratio"])
-        curve = f"{model}, experiment"
-        named[curve] = _experiment(samples, at.get("angle", ()), rebound, **experiment)
-        for parameter, sigma in (uncertainty or {}).items():
-            for sign in SIGNS:
-                changed = experiment | {parameter: experiment[parameter] + sign * sigma}
-                beside = _experiment(samples // COARSER, (), rebound, **changed)
-                named[shifted(curve, parameter, sign)] = beside
+    whole = {name: lumped.rebound(s.x, *_groups(s.sphere)) for name, s in shots.items()}
+    whole["finite elements"] = lumped.rebound(x, *_groups(finite_elements))
+    for model, found in (("lumped", whole), ("continuum", elastic)):
+        elements = _sphere(x, found["finite elements"], finite_elements["mass_ratio"])
+        named[f"{model}, finite elements"] = elements
+        named |= {f"{model}, {name}": _measured(s, found[name]) for name, s in shots.items()}
     if as_printed:
         velocity, _, _ = impact.rebound(x, *groups, restitution)
         named |= printed_curves.beside("", named["lumped"], velocity)
@@ -132,35 +133,71 @@ def _sphere(x: Array, rebound: Rebound, mass_ratio: float) -> Columns:
     }
 
 
-def _experiment(
-    samples: int,
-    nodes: ArrayLike,
-    model: _Model,
-    mass_ratio: float,
-    stiffness_ratio: float,
-    restitution: float,
-    friction: float,
-    speed: float,
-    radius: float,
-) -> Columns:
-    """What a free sphere without spin shows against its angle of incidence."""
-    groups = mass_ratio, stiffness_ratio, restitution
-    limits = [stiffness_ratio, mass_ratio, lumped.slip_throughout_limit(*groups)]
+class _Shots(NamedTuple):
+    """A free sphere without spin, shot at a plane under many angles [deg] from the normal."""
+
+    sphere: dict[str, float]
+    angle: Array
+
+    @property
+    def x(self) -> Array:
+        return np.tan(np.radians(self.angle)) / self.sphere["friction"]
+
+
+def _groups(parameters: dict[str, float]) -> tuple[float, float, float]:
+    return (
+        parameters["mass_ratio"],
+        parameters["stiffness_ratio"],
+        parameters["restitution"],
+    )
+
+
+def _shots(samples: int, nodes: ArrayLike, sphere: dict[str, float]) -> _Shots:
+    groups = _groups(sphere)
+    limits = [groups[1], groups[0], lumped.slip_throughout_limit(*groups)]
+    thresholds = np.degrees(np.arctan(sphere["friction"] * np.array(limits)))
     # The ratio of velocities has no value at normal incidence.
-    thresholds = np.degrees(np.arctan(friction * np.array(limits)))
-    angle = vertices((0.01, 89.9), samples, thresholds, nodes)
-    slope = np.tan(np.radians(angle))
-    x = slope / friction
-    rebound = model(x, *groups)
+    return _Shots(sphere, vertices((0.01, 89.9), samples, thresholds, nodes))
+
+
+def _elastic(asked: dict[str, tuple[Array, float, float]], tolerance: float) -> dict[str, Rebound]:
+    """The continuum for several spheres, each with its incidences, beta and zeta^2.
+
+    Solved together they take hardly longer than one of them.
+    """
+    x, beta, zeta2 = (
+        np.concatenate([np.broadcast_to(group[i], group[0].shape) for group in asked.values()])
+        for i in range(3)
+    )
+    found = continuum.rebound(x, beta, zeta2, tolerance=tolerance)
+    ends = np.cumsum([group[0].size for group in asked.values()])
+    parts = [
+        slice(end - group[0].size, end) for group, end in zip(asked.values(), ends, strict=True)
+    ]
+    return {
+        name: Rebound(
+            found.velocity[part],
+            found.peak_friction[part],
+            found.dissipation[part],
+            np.asarray(found.regime)[part],
+        )
+        for name, part in zip(asked, parts, strict=True)
+    }
+
+
+def _measured(shots: _Shots, rebound: Rebound) -> Columns:
+    """What is measured of a sphere against its angle of incidence."""
+    sphere, x = shots.sphere, shots.x
+    beta, friction, restitution = (sphere[key] for key in ("mass_ratio", "friction", "restitution"))
     change = x - rebound.velocity
-    centre = 1 - change / (mass_ratio * x)
-    unit = friction * speed * np.cos(np.radians(angle))
+    centre = 1 - change / (beta * x)
+    unit = friction * sphere["speed"] * np.cos(np.radians(shots.angle))
     return {
         **_velocity(x, rebound),
-        "angle [deg]": angle,
+        "angle [deg]": shots.angle,
         "centre_restitution [1]": centre,
-        "spin [rad/s]": (mass_ratio - 1) / mass_ratio * change * unit / radius,
-        "centre_rebound_angle [deg]": np.degrees(np.arctan(centre * slope / restitution)),
+        "spin [rad/s]": (beta - 1) / beta * change * unit / sphere["radius"],
+        "centre_rebound_angle [deg]": np.degrees(np.arctan(centre * friction * x / restitution)),
         "contact_rebound_angle [deg]": np.degrees(
             np.arctan(friction * rebound.velocity / restitution)
         ),

@@ -151,7 +151,7 @@ def rebound(
     velocities. With c = 0 it is `planarimpact.lumped.rebound` in other units, to 1e-12.
 
     The state at separation is continuous in all arguments but where the contact just fails to
-    separate: where mu |c| m2 > 1 it may come to N = 0 and rest there in the normal direction,
+    separate: where mu |c| m2 >= 1 it may come to N = 0 and rest there in the normal direction,
     and friction either lets it go or presses it in for another compression.
 
     Examples
