@@ -21,9 +21,9 @@ SCHEMAS = ROOT / "workflow/schemas"
 
 # Faults of a solver. Each is a change of what it is told, so that no part of it is trusted.
 FAULTS = {
+    "stiffness ratio off by 1e-10": {"stiffness_ratio": 1.21 + 1e-10},
     "stiffness ratio 2.5": {"stiffness_ratio": 2.5},
     "mass ratio 2.5": {"mass_ratio": 2.5},
-    "stiffness ratio off by 1e-10": {"stiffness_ratio": 1.21 + 1e-10},
     "restitution off by 10 %": {"restitution": lambda e: 0.9 * e},
     "friction doubled": {"friction": lambda mu: 2 * mu},
     "slip everywhere": {"friction": lambda mu: mu / 100},
@@ -38,6 +38,16 @@ BALANCES = {
 # No fault of its settings reaches them, nor what has a range: see test_columns.py.
 WITHOUT_FAULT = [*BALANCES, "stability-friction-limit"]
 COARSE = [f"fig{number}" for number in range(5, 10)]  # do with fewer samples
+LAWS = ("balance", "range", "contraction")
+SHORT = {  # studies of error, which no fault of the physics is meant for
+    "convergence": {
+        "steps": [16, 32],
+        "circles": [4, 8],
+        "fixed": {"steps": 16, "circles": 4},
+        "tolerance": 1e-3,
+        "samples": 2,
+    }
+}
 UNSOLVED = "as printed"  # curves that no fault of the physics is meant for
 
 
@@ -67,36 +77,31 @@ def series(inventory, tmp_path_factory):
 def verdicts(first_run, config, inventory, series, tmp_path_factory):
     """Verdicts of every comparison, by fault."""
     found = {}
-    for fault, change in FAULTS.items():
+    for figure in sorted({*run_plan.FIGURES} - {"trade"}):
         folder = tmp_path_factory.mktemp("curves")
-        for figure in run_plan.FIGURES:
-            if figure == "trade":
-                continue
-            path = str(folder / f"{figure}.csv")
-            right = judged_tables.read(first_run[0] / run_plan.table_of(figure))
-            faulty = _faulty_solver(
-                figure, change, [name for name in right if UNSOLVED not in name]
-            )
-            settings = run_plan.settings(config, inventory, figure) | sensitivity.SHORT.get(
-                figure, {}
-            )
-            if figure in COARSE:
-                settings["samples"] //= 5
-            settings.pop("as_printed", None)
-            nodes = _nodes(config, inventory, figure, folder)
+        path, comparisons = str(folder / f"{figure}.csv"), run_plan.comparisons(config, figure)
+        right = judged_tables.read(first_run[0] / run_plan.table_of(figure))
+        names = [name for name in right if UNSOLVED not in name]
+        settings = run_plan.settings(config, inventory, figure) | SHORT.get(figure, {})
+        if figure in COARSE:
+            settings["samples"] //= 5
+        settings.pop("as_printed", None)
+        nodes = _nodes(config, inventory, figure, folder)
+        left = set(comparisons)
+        for fault, change in FAULTS.items():
             with pytest.MonkeyPatch.context() as patch:
                 module = importlib.import_module(f"planarimpact.curves.{figure}")
-                patch.setattr(module, "curves", faulty)
+                patch.setattr(module, "curves", _faulty_solver(figure, change, names))
                 solve.solve(figure, settings, nodes, path)
+            references = run_plan.references(config, inventory, figure)
             rows = compare.compare(
-                figure,
-                run_plan.comparisons(config, figure),
-                run_plan.references(config, inventory, figure),
-                path,
-                series,
-                config["significance"],
+                figure, comparisons, references, path, series, config["significance"]
             )
-            found |= {(fault, row["comparison"]): row for row in rows}
+            found |= {(fault, row["comparison"]): row["verdict"] for row in rows}
+            left -= {row["comparison"] for row in rows if row["verdict"] in ("diverges", "awaited")}
+            left -= {name for name in left if comparisons[name]["metric"] in LAWS}
+            if not left:  # each has been tripped
+                break
     return found
 
 
@@ -155,7 +160,7 @@ def _names(*left_out):
 )
 def test_a_wrong_solver_trips_the_gate(name, verdicts):
     """That the right one passes is what the whole run says."""
-    found = [verdicts[fault, name]["verdict"] for fault in FAULTS]
+    found = {verdict for (_, comparison), verdict in verdicts.items() if comparison == name}
     if "awaited" in found:
         pytest.skip("awaited: its gate is tried with a made-up series in test_awaited_series.py")
     assert "diverges" in found, f"{name} passes with every fault: a check that cannot fail"
@@ -163,7 +168,7 @@ def test_a_wrong_solver_trips_the_gate(name, verdicts):
 
 def test_the_exact_tables_see_a_fault_of_1e_10(verdicts):
     for name in ("fig3-events", "fig6-rebound", "fig9-dissipation"):
-        assert verdicts["stiffness ratio off by 1e-10", name]["verdict"] == "diverges"
+        assert verdicts["stiffness ratio off by 1e-10", name] == "diverges"
 
 
 @pytest.mark.parametrize("name", BALANCES)

@@ -24,23 +24,15 @@ from planarimpact.comparison import Residuals, Verdict
 KEYS = [("stiffness_ratio", "poisson_ratio"), ("mass_ratio",), ("restitution",), ("friction",)]
 GROUPS = dict(zip(verdict_table.GROUPS, KEYS, strict=True))
 PRINTED = "as printed"  # in the names of curves
-UNTRIED = ("trade",)  # times take long; its errors are those of models that other figures show
+# Their solvers take long, and what they solve is in other figures too.
+UNTRIED = ("trade", "convergence")
 COARSER, FEWEST = 20, 10  # vertices
 STEP = 1e-4  # small enough for changes in proportion, large beside rounding
 SIZES = 10.0 ** np.arange(-15, -0.25, 0.1)
 # Parts of settings that hold physics of their own.
 PARTS = ("experiment", "finite_elements", "rubber", "throw", "points")
-# Studies of error are left out: no change of the physics is meant to be seen in them.
-SHORT = {
-    "convergence": {
-        "steps": [16, 32],
-        "circles": [4, 8],
-        "fixed": {"steps": 16, "circles": 4},
-        "tolerance": 1e-3,
-        "samples": 2,
-    },
-    "stability": {"most_phases": 2},
-}
+# Its balances are laws; their contacts are not followed through.
+SHORT = {"stability": {"most_phases": 2}}
 LAWS = ("balance", "range", "contraction")  # they hold whatever the parameters
 # Its digits are logarithms, which do not change in proportion: powers of ten are tried one by one,
 # on one of so many points.
