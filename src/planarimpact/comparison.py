@@ -308,7 +308,7 @@ def fact_residuals(found: float, fact: Mapping[str, Any]) -> Residuals:
 
 def _refuse_none(points: Array) -> None:
     if not len(points):
-        raise ValueError("no points in the window")
+        raise ValueError("no points")
 
 
 class ChiSquared(NamedTuple):
@@ -385,7 +385,8 @@ def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: fl
     """Incidences at which a contact no longer sticks at first, and at which it slips throughout.
 
     They are those of every model with Coulomb friction and both compliances (Stronge 1994, Eq. 11,
-    and where its Eq. 21 loses its root), and choose the points of a comparison.
+    and where its Eq. 21 loses its root), and choose the points of a comparison. A judge does not
+    ask the solver that it judges, so they are worked out here.
 
     Parameters
     ----------

@@ -70,22 +70,18 @@ def content_of_notebook(wildcards):
     return run_plan.content(*notebook_modules(wildcards), notebook, template)
 
 
-def of_figure(part):
-    """Input function: a part of what `run_plan.plan_of_figure` says of a figure."""
+def of_figure(part, plans=FIGURES, wildcard="figure"):
+    """Input function: a part of what `run_plan.plan_of_figure` says of a figure, or of another plan."""
 
     def found(wildcards):
-        return FIGURES[wildcards.figure][part]
+        return plans[getattr(wildcards, wildcard)][part]
 
     return found
 
 
-def of_judged(part):
+def of_judged(part, wildcard="judged"):
     """Input function: a part of what `run_plan.plan_of_judgement` says."""
-
-    def found(wildcards):
-        return JUDGED[wildcards.judged][part]
-
-    return found
+    return of_figure(part, JUDGED, wildcard)
 
 
 def sources(*files):

@@ -52,7 +52,7 @@ rule sensitivity:
         modules=of_figure("sensitivity"),
         tables=of_figure("tables"),
         curves="results/curves/{figure}.csv",
-        series=lambda wildcards: JUDGED[wildcards.figure]["series"],
+        series=of_judged("series", "figure"),
     output:
         "results/sensitivity/{figure}.csv",
     params:

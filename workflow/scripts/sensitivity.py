@@ -190,7 +190,7 @@ if "snakemake" in globals():
         given = snakemake.params  # noqa: F821
         csv_tables.write_rows(
             snakemake.output[0],  # noqa: F821
-            ["comparison", *GROUPS],
+            verdict_table.GATES,
             sensitivities(
                 snakemake.wildcards.figure,  # noqa: F821
                 given.settings,

@@ -12,6 +12,7 @@ COLUMNS = [
 ]  # fmt: skip
 # Of the table of gates: the smallest change of each group that a comparison catches.
 GROUPS = ["zeta^2", "beta", "e", "mu"]
+GATES = ["comparison", *GROUPS]
 ORDER = ["diverges", "differs as documented", "awaited", "agrees", "as before"]
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from planarimpact import annuli, continuum, lumped
 from planarimpact.arrays import Array
 from planarimpact.curves import Columns, Curves
-from planarimpact.curves.sampling import Nodes, vertices
+from planarimpact.curves.sampling import NO_NODES, Nodes, vertices
 
 
 def curves(
@@ -19,7 +19,7 @@ def curves(
     steps: Sequence[int],
     circles: Sequence[int],
     fixed: dict[str, int],
-    nodes: Nodes | None = None,
+    nodes: Nodes = NO_NODES,
 ) -> Curves:
     """Both methods against the finest answer, and the continuum where it is tabulated.
 
@@ -78,7 +78,7 @@ def curves(
         "annuli, steps": _errors(by_steps, "steps [1]", steps, exact),
     }
     for ratio in stiffness_ratio:
-        at = vertices((0.0, 10.0), 2, (nodes or {}).get("incidence", ()))
+        at = vertices((0.0, 10.0), 2, nodes.get("incidence", ()))
         velocity = continuum.rebound(at, mass_ratio, ratio).velocity
         columns = {"incidence [mu v2(0)]": at, "velocity [mu v2(0)]": velocity}
         named[f"continuum, zeta2 = {ratio:.4f}"] = columns

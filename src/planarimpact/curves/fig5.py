@@ -9,7 +9,7 @@ from planarimpact import continuum, lumped, rigid
 from planarimpact.arrays import Array, ArrayLike
 from planarimpact.curves import Columns, Curves
 from planarimpact.curves import as_printed as printed_curves
-from planarimpact.curves.sampling import SIGNS, Nodes, regime_names, shifted, vertices
+from planarimpact.curves.sampling import NO_NODES, SIGNS, Nodes, regime_names, shifted, vertices
 from planarimpact.printed import impact
 from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 from planarimpact.results import Rebound
@@ -29,7 +29,7 @@ def curves(
     experiment: dict[str, float],
     finite_elements: dict[str, float],
     uncertainty: Mapping[str, float] | None = None,
-    nodes: Nodes | None = None,
+    nodes: Nodes = NO_NODES,
     as_printed: bool = False,
 ) -> Curves:
     """The lumped model, its limit, the elastic continuum; the same for rubber, an experiment.
@@ -80,13 +80,12 @@ def curves(
     """
     limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution)
     printed = printed_limit(mass_ratio, restitution)
-    at = nodes or {}
-    extra = at.get("incidence", ())
+    extra = nodes.get("incidence", ())
     x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, printed, extra)
     spring = rubber["stiffness_ratio"]
     groups = mass_ratio, stiffness_ratio
     exact = lumped.rebound(x, *groups, restitution)
-    shots = {"experiment": _shots(samples, at.get("angle", ()), experiment)}
+    shots = {"experiment": _shots(samples, nodes.get("angle", ()), experiment)}
     for parameter, sigma in (uncertainty or {}).items():
         for sign in SIGNS:
             changed = experiment | {parameter: experiment[parameter] + sign * sigma}

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from planarimpact import lumped
 from planarimpact.curves import Curves
 from planarimpact.curves import as_printed as printed_curves
-from planarimpact.curves.sampling import Nodes, name, regime_names, vertices
+from planarimpact.curves.sampling import NO_NODES, Nodes, name, regime_names, vertices
 from planarimpact.printed import impact
 from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
@@ -16,7 +16,7 @@ def curves(
     incidence: Sequence[float],
     restitution: Sequence[float],
     samples: int,
-    nodes: Nodes | None = None,
+    nodes: Nodes = NO_NODES,
     as_printed: bool = False,
 ) -> Curves:
     """One curve for each coefficient of restitution.
@@ -47,7 +47,7 @@ def curves(
     >>> [float(curve["velocity [mu v2(0)]"][-1]) for curve in named.values()]
     [4.5, 1.0]
     """
-    extra = (nodes or {}).get("incidence", ())
+    extra = nodes.get("incidence", ())
     named = {}
     for e in restitution:
         limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)

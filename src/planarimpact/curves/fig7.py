@@ -8,7 +8,7 @@ from planarimpact import lumped, rigid
 from planarimpact.arrays import Array, ArrayLike
 from planarimpact.curves import Columns, Curves
 from planarimpact.curves import as_printed as printed_curves
-from planarimpact.curves.sampling import Nodes, name, vertices
+from planarimpact.curves.sampling import NO_NODES, Nodes, name, vertices
 from planarimpact.printed import impact
 from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
@@ -19,7 +19,7 @@ def curves(
     angle: Sequence[float],
     friction: Sequence[float],
     samples: int,
-    nodes: Nodes | None = None,
+    nodes: Nodes = NO_NODES,
     as_printed: bool = False,
 ) -> Curves:
     """Peak forces over m2 Omega S; they do not depend on restitution when omega > Omega.
@@ -54,7 +54,7 @@ def curves(
     """
     limit = float(lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, 1.0))
     thresholds = np.array([stiffness_ratio, mass_ratio, limit])
-    extra = (nodes or {}).get("angle", ())
+    extra = nodes.get("angle", ())
     theta = vertices(angle, samples, extra)
     named = {
         "normal": _force(theta, np.cos(np.radians(theta))),

@@ -6,7 +6,7 @@ import numpy as np
 
 from planarimpact import bodies, lumped
 from planarimpact.curves import Curves
-from planarimpact.curves.sampling import Nodes, vertices
+from planarimpact.curves.sampling import NO_NODES, Nodes, vertices
 
 
 def curves(
@@ -18,7 +18,7 @@ def curves(
     mass: float,
     ball: dict[str, float],
     samples: int,
-    nodes: Nodes | None = None,
+    nodes: Nodes = NO_NODES,
 ) -> Curves:
     """Peak forces at one speed of incidence.
 
@@ -59,7 +59,7 @@ def curves(
     )
     limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, 1.0)
     thresholds = np.array([stiffness_ratio, mass_ratio, limit])
-    extra = (nodes or {}).get("angle", ())
+    extra = nodes.get("angle", ())
     theta = vertices(angle, samples, np.degrees(np.arctan(friction * thresholds)), extra)
     x = np.tan(np.radians(theta)) / friction
     peak = lumped.rebound(x, mass_ratio, stiffness_ratio).peak_friction

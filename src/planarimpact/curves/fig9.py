@@ -7,7 +7,7 @@ import numpy as np
 from planarimpact import lumped, rigid
 from planarimpact.curves import Curves
 from planarimpact.curves import as_printed as printed_curves
-from planarimpact.curves.sampling import Nodes, name, vertices
+from planarimpact.curves.sampling import NO_NODES, Nodes, name, vertices
 from planarimpact.printed import impact
 from planarimpact.printed.slip import slip_throughout_limit as printed_limit
 
@@ -19,7 +19,7 @@ def curves(
     friction: Sequence[float],
     restitution: Sequence[float],
     samples: int,
-    nodes: Nodes | None = None,
+    nodes: Nodes = NO_NODES,
     as_printed: bool = False,
 ) -> Curves:
     """Dissipation by friction over m2 S^2/2, from two independent calculations.
@@ -51,7 +51,7 @@ def curves(
     >>> sorted(named)
     ['mu = 0.5, e = 1', 'no tangential compliance, mu = 0.5, e = 1']
     """
-    extra = (nodes or {}).get("angle", ())
+    extra = nodes.get("angle", ())
     named = {}
     for mu in friction:
         for e in restitution:

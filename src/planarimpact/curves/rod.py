@@ -7,7 +7,7 @@ import numpy as np
 from planarimpact import noncollinear
 from planarimpact.arrays import Array, ArrayLike
 from planarimpact.curves import Columns, Curves
-from planarimpact.curves.sampling import Nodes, name, regime_names, vertices
+from planarimpact.curves.sampling import NO_NODES, Nodes, name, regime_names, vertices
 from planarimpact.noncollinear import InverseMass, NoncollinearHistory, NoncollinearRebound, rigid
 from planarimpact.noncollinear.rigid import ImpulsiveRebound, Law
 
@@ -22,7 +22,7 @@ def curves(
     restitution: float,
     samples: int,
     contact: dict[str, float],
-    nodes: Nodes | None = None,
+    nodes: Nodes = NO_NODES,
 ) -> Curves:
     """Rebound against the tilt, compliant and rigid, and one contact that jams.
 
@@ -61,7 +61,7 @@ def curves(
     >>> float(named["rigid, Newton, v1/v2 = 0.6"]["kinetic_energy [K0]"].max().round(2))
     1.26
     """
-    angle = vertices(tilt, samples, jam_limits(friction), (nodes or {}).get("tilt", ()))
+    angle = vertices(tilt, samples, jam_limits(friction), nodes.get("tilt", ()))
     rod = slender_rod(angle)
     named = {}
     for ratio in velocity_ratio:

@@ -1,6 +1,7 @@
 """Where curves have their vertices."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import TypeAlias
 
 import numpy as np
@@ -11,6 +12,7 @@ from planarimpact.results import Regime
 
 # Points of reference tables, through which curves must pass: `{axis without its unit: points}`.
 Nodes: TypeAlias = Mapping[str, ArrayLike]
+NO_NODES: Nodes = MappingProxyType({})
 SIGNS = {1: "+", -1: "-"}
 
 
