@@ -235,12 +235,13 @@ def _compile(options: argparse.Namespace) -> None:
 
 def _scene(options: argparse.Namespace) -> None:
     try:
-        from planarimpact.scene import files, places  # here, as pandas takes its time
+        from planarimpact.scene import files as tables  # here, as pandas takes its time
+        from planarimpact.scene import places
     except ImportError as error:
         raise checks.InputError(str(error)) from None
     target = places.target(options.output)
-    progress = files.bar if sys.stderr.isatty() else None
-    solver = files.solve(
+    progress = tables.bar if sys.stderr.isatty() else None
+    solver = tables.solve(
         options.input, options.output, options.tolerance, options.skip_bad, progress=progress
     )
     # Nothing else may stand in a table on standard output.
@@ -264,14 +265,14 @@ def _say(words: str, file: TextIO | None) -> None:
 
 def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:
     columns: dict[str, ArrayLike] = {"model": list(ladder.MODELS)}
-    models = ladder.MODELS.values()
-    columns["cost"] = [model.cost for model in models]
+    every = ladder.MODELS.values()
+    columns["cost"] = [model.cost for model in every]
     columns["settings"] = [
-        " ".join(f"{key}={value}" for key, value in model.settings.items()) for model in models
+        " ".join(f"{key}={value}" for key, value in model.settings.items()) for model in every
     ]
-    columns["restitution"] = ["{:g} to {:g}".format(*model.restitution) for model in models]
-    columns["valid"] = [model.valid for model in models]
-    columns["source"] = [model.source for model in models]
+    columns["restitution"] = ["{:g} to {:g}".format(*model.restitution) for model in every]
+    columns["valid"] = [model.valid for model in every]
+    columns["source"] = [model.source for model in every]
     return columns
 
 
@@ -465,9 +466,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     scene.set_defaults(command=_scene)
 
-    models = commands.add_parser("models", help="list the models", description="The models.")
-    _add_output(models)
-    models.set_defaults(command=_table, columns=_models)
+    listing = commands.add_parser("models", help="list the models", description="The models.")
+    _add_output(listing)
+    listing.set_defaults(command=_table, columns=_models)
     return parser
 
 

@@ -13,10 +13,10 @@ import ledger_table
 from planarimpact import ledger
 
 
-def check(entries):
-    """Rows of the ledger's table, in its order."""
+def check(every):
+    """Rows of the ledger's table, an entry each, in its order."""
     tests = ledger_entries.checks()
-    return [_row(name, entry, tests.get(entry.get("check"), "")) for name, entry in entries.items()]
+    return [_row(name, entry, tests.get(entry.get("check"), "")) for name, entry in every.items()]
 
 
 def _row(name, entry, test):

@@ -5,15 +5,15 @@ import job
 import trade_table
 
 
-def write(curves, table, answers):
+def write(curves, table, cheapest):
     """Read the `curves` of the figure, write both tables; what a crash left goes into both."""
     rows = csv_tables.read_rows(curves)
     if "error" in rows[0]:
-        for path in (table, answers):
+        for path in (table, cheapest):
             csv_tables.write_rows(path, ["error"], [[rows[0]["error"]]])
         return
     every = [{"name": row.pop("curve"), **row} for row in trade_table.ordered(map(dict, rows))]
-    for path, found in ((table, every), (answers, trade_table.which_model(rows))):
+    for path, found in ((table, every), (cheapest, trade_table.which_model(rows))):
         csv_tables.write_rows(path, list(found[0]), [list(row.values()) for row in found])
 
 
