@@ -7,10 +7,10 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-import csv_tables
 import numpy as np
 
 from planarimpact import continuum, lumped
+from stronge1994 import csv_tables
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
