@@ -17,7 +17,11 @@ HOW_TO_MEND = "remove that file and run again"
 
 
 def fingerprint(path):
-    """Fingerprint of what a file holds."""
+    """Fingerprint of what a file holds, or a folder."""
+    if Path(path).is_dir():
+        files = [file for file in Path(path).rglob("*") if file.is_file()]
+        # Snakemake puts a file of its own into a folder that a job has made.
+        return fingerprint_of_all(str(file) for file in files if file.name[0] != ".")
     return hashlib.sha256(Path(path).read_bytes()).hexdigest()
 
 
@@ -66,7 +70,7 @@ def faults(made):
 
     def now(path):
         if path not in known:
-            known[path] = fingerprint(path) if Path(path).is_file() else None
+            known[path] = fingerprint(path) if Path(path).exists() else None
         return known[path]
 
     for path in made:

@@ -1,6 +1,7 @@
 """Files of the parameter study: NumPy's .npz, every array under its name and unit."""
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -57,10 +58,29 @@ def origin(path):
         return int(file["start"]), str(file["model"]), json.loads(str(file["settings"]))
 
 
+def span(points, chunk):
+    """First point of a chunk, and the point after its last.
+
+    Parameters
+    ----------
+    points : int
+        Of the whole grid.
+    chunk : str
+        As Snakemake's scattergather names it. All have as many points as can be.
+
+    Examples
+    --------
+    >>> span(10, "1-of-3"), span(10, "3-of-3")
+    ((0, 3), (6, 10))
+    """
+    number, of = map(int, chunk.split("-of-"))
+    return points * (number - 1) // of, points * number // of
+
+
 def solve(chunk, model, settings, grid, path):
-    """Solve the points of a `chunk`, `start-stop`, of a grid into a file."""
-    start, stop = map(int, chunk.split("-"))
+    """Solve the points of a `chunk` of a grid, such as `2-of-4`, into a file."""
     axes = study.axes_of(grid)
+    start, stop = span(math.prod(map(len, axes.values())), chunk)
     outputs = study.solve(models.get(model).rebound, axes, start, stop, **settings)
     write(path, model, settings, axes, outputs, start)
     print(f"{stop - start} points of {model}, from {start} on")
@@ -76,7 +96,7 @@ def gather(chunks, model, settings, grid, path):
     write(path, model, settings, axes, outputs)
     print(f"{outputs['velocity'].size} points of {model}")
     current = {Path(chunk) for chunk in chunks}
-    for path in {path for chunk in current for path in chunk.parent.glob("[0-9]*-*.npz")} - current:
+    for path in {path for chunk in current for path in chunk.parent.glob("*-of-*.npz")} - current:
         path.unlink()
 
 

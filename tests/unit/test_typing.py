@@ -53,7 +53,7 @@ print(noncollinear.rebound(1.0, 1.0, noncollinear.InverseMass(1.0, 0.0, 1.0), 0.
 """
 # Without an import of the modules: each is there, and is what it is.
 RIGHT += "import planarimpact\n\nfloat(planarimpact.lumped.rebound(1.0).velocity)\n"
-ROOMS = sorted(planarimpact._ROOMS - {"ground"})
+ROOMS = sorted({*planarimpact._ROOMS} - {"ground"})
 RIGHT += "".join(f"print(planarimpact.{name}.__name__)\n" for name in ROOMS)
 WRONG = """\
 import planarimpact

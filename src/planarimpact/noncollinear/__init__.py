@@ -45,6 +45,7 @@ __all__ = [
     "kinetic_energy",
     "motion_after",
     "rebound",
+    "rigid",
 ]
 
 # Impacts solved together: few enough for memory, enough to hide Python's overhead.

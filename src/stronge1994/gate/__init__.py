@@ -126,7 +126,8 @@ def faults_of_files(paths):
     Parameters
     ----------
     paths : iterable of str
-        Judged by their endings: tables, pictures, pages, notebooks, arrays.
+        Judged by their endings: tables, pictures, pages, notebooks, arrays; without
+        one, a folder of pages.
     """
     found = []
     for path in paths:
@@ -167,6 +168,13 @@ def _page(path):
     return "" if path.read_bytes().rstrip().endswith(b"</html>") else "it ends too early"
 
 
+def _folder(path):
+    cut = [page.name for page in path.rglob("*.html") if _page(page)]
+    if not any(path.iterdir()):
+        return "no pages"
+    return f"{cut[0]} ends too early" if cut else ""
+
+
 def _notebook(path):
     return "" if json.loads(path.read_bytes()).get("cells") else "no cells"
 
@@ -182,6 +190,7 @@ _LOOK = {
     ".png": _raster_picture,
     ".html": _page,
     ".ipynb": _notebook,
+    "": _folder,
     ".npz": _arrays,
 }
 

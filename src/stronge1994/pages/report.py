@@ -1,4 +1,4 @@
-"""Write the run as one page: verdicts, figures, provenance, ledger, tables, interface.
+"""Write the run as one page: verdicts, figures, provenance, ledger, tables.
 
 Reads what the run has written and solves nothing. A solver that crashed is a failing row, a picture
 and tables that say so. What cannot be shown is left out and named on top, with file and line; the
@@ -22,7 +22,7 @@ from stronge1994.drawings import house_style
 from stronge1994.drawings import residuals as draw_residuals
 from stronge1994.judging import verdict_table
 from stronge1994.ledger import outcome
-from stronge1994.pages import api_reference, docstring_html, ledger_page, templates
+from stronge1994.pages import ledger_page, templates
 from stronge1994.plan.config import SCENE
 
 MARKS = {
@@ -114,23 +114,11 @@ def page(
     str
     """
     names = {row["entry"] for row in ledger}
-    reference = tried("interface", {}, api_reference.modules)
-    functions = {
-        name: tried(title(name), [], api_reference.functions_of_figure, reference, name)
-        for name in (figures if reference else ())
-    }
-    known = api_reference.anchors(reference)
-
-    def docs(text, module):
-        link = lambda name: api_reference.target(name, module, reference, known)  # noqa: E731
-        return docstring_html.html(text, link)
-
     environment = templates.environment(Path(template).parent)
     environment.filters |= {
         "maths": ledger_page.linked_maths(names),
         "number": number,
         "quantity": draw_residuals.words,
-        "docs": docs,
         "sentence": sentence,
         "title_of": title,
     }
@@ -146,12 +134,10 @@ def page(
         verdict_meaning=MEANING,
         entry_of=_entry_of(names),
         figures=figures,
-        functions=functions,
         tables=tables,
         sources=sources,
         run=run,
         links=links,
-        reference=reference,
     )
 
 

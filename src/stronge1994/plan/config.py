@@ -5,6 +5,8 @@ from pathlib import Path
 from stronge1994 import reference_data
 from stronge1994.reference_data import strict_yaml
 
+# What a user edits: physics; tolerances and their reasons.
+FILES = ("workflow/config.yaml", "workflow/comparisons.yaml")
 FIGURES = [f"fig{number}" for number in range(2, 10)]
 FIGURES += ["micro_slip", "convergence", "trade", "superball", "stability", "rod"]
 SCENE = "scene_"  # before the name of a scene, among what is judged
@@ -18,6 +20,15 @@ SOURCES_OF_CURVES = {
 
 class ConfigError(Exception):
     """What the rules are made from is not admissible: config, a module, a file that they read."""
+
+
+def load(folder="."):
+    """The config of a checkout as its files have it."""
+    return {
+        key: value
+        for file in FILES
+        for key, value in reference_data.load_yaml(Path(folder) / file).items()
+    }
 
 
 def with_values(node):

@@ -1,4 +1,4 @@
-"""What the parameter study is, before it runs: its grid checked, its points in chunks."""
+"""What the parameter study is, before it runs: its grid, checked."""
 
 import math
 
@@ -14,13 +14,6 @@ def settings(config):
     study = config["study"]
     grid = {key: [config[key]] for key in SHARED} | study["grid"]
     return {"model": study["model"], "settings": study.get("settings", {}), "grid": grid}
-
-
-def chunks(config):
-    """Names of the chunks, `first point-point after the last`; as equal as they can be."""
-    points, number = count(config), config["study"]["chunks"]
-    ends = [points * i // number for i in range(number + 1)]
-    return [f"{start}-{stop}" for start, stop in zip(ends, ends[1:], strict=False)]
 
 
 def count(config):

@@ -110,7 +110,7 @@ def load_yaml(path):
     Parameters
     ----------
     path : str or Path
-        Of a source, a schema, a ledger or workflow/config.yaml.
+        Of a source, a schema, a ledger or a config.
 
     Returns
     -------
