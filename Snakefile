@@ -50,8 +50,8 @@ rule figures:
 rule measurements:
     """Pictures of error against time, measured on this machine, without judging."""
     input:
-        expand("results/curves/{figure}.csv", figure=run_plan.TIMED),
-        expand("figures/{figure}.{kind}", figure=run_plan.TIMED, kind=["svg", "png"]),
+        expand("results/curves/{figure}.csv", figure=plan.TIMED),
+        expand("figures/{figure}.{kind}", figure=plan.TIMED, kind=["svg", "png"]),
 
 
 rule notebooks:
@@ -88,7 +88,7 @@ include: "workflow/rules/study.smk"
 include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/explorer.smk"
 include: "workflow/rules/report.smk"
-include: "workflow/rules/judgement.smk"
+include: "workflow/rules/judging.smk"
 include: "workflow/rules/peers.smk"
 
 
@@ -102,11 +102,11 @@ rule all:
 
 if workflow.is_main_process:
     try:
-        judgement.refuse_unknown_results(MADE)
+        gate.refuse_unknown_results(MADE)
     except RuntimeError as error:
         raise refused(error)
 if STARTED_HERE:
-    judgement.drop_false_pass(MADE, config)
+    gate.drop_false_pass(MADE, config)
     BEFORE = closing.state()
 
 

@@ -14,18 +14,10 @@ from typing import Any, TextIO
 
 import numpy as np
 
-from planarimpact import (
-    __version__,
-    bodies,
-    checks,
-    continuum,
-    ladder,
-    lumped,
-    response,
-    whole_files,
-)
-from planarimpact.arrays import ArrayLike
-from planarimpact.results import ContinuumHistory, History, Rebound, Regime
+from planarimpact import __version__, bodies, continuum, lumped, models, response
+from planarimpact.ground import checks, files
+from planarimpact.ground.arrays import ArrayLike
+from planarimpact.ground.results import ContinuumHistory, History, Rebound, Regime
 
 WORDS = """
 What happens when a rough, elastic body strikes a surface at an angle?
@@ -142,7 +134,7 @@ def _table(options: argparse.Namespace) -> None:
     if options.output is None:
         sys.stdout.write(_text(options.columns(options), as_json))
         return
-    with whole_files.written(options.output) as partial:
+    with files.written(options.output) as partial:
         partial.write_text(_text(options.columns(options), as_json), encoding="utf-8")
 
 
@@ -175,7 +167,7 @@ def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
         _refuse_replacing(options)
         found = response.load(options.response)(x)
     else:
-        found = ladder.rebound(_model(options), x, **_groups(options), **_settings(options))
+        found = models.rebound(_model(options), x, **_groups(options), **_settings(options))
     regime = [Regime(code).name for code in found.regime]
     return _with_units(Rebound, {"incidence": x, **found._asdict(), "regime": regime})
 
@@ -221,7 +213,7 @@ def _compile(options: argparse.Namespace) -> None:
         raise checks.InputError("--set tolerance: a response has one tolerance, --tolerance")
     if Path(options.output).suffix.lower() != ".json":
         raise checks.InputError(f"{options.output}: allowed are names that end in .json")
-    with whole_files.written(options.output) as partial:  # a bad name is refused before any work
+    with files.written(options.output) as partial:  # a bad name is refused before any work
         built = response.compile(
             _model(options),
             incidence_max=options.incidence_max,
@@ -235,12 +227,13 @@ def _compile(options: argparse.Namespace) -> None:
 
 def _scene(options: argparse.Namespace) -> None:
     try:
-        from planarimpact.scene import files, places  # here, as pandas takes its time
+        from planarimpact.scene import files as tables
+        from planarimpact.scene import places
     except ImportError as error:
         raise checks.InputError(str(error)) from None
     target = places.target(options.output)
-    progress = files.bar if sys.stderr.isatty() else None
-    solver = files.solve(
+    progress = tables.bar if sys.stderr.isatty() else None
+    solver = tables.solve(
         options.input, options.output, options.tolerance, options.skip_bad, progress=progress
     )
     # Nothing else may stand in a table on standard output.
@@ -263,15 +256,15 @@ def _say(words: str, file: TextIO | None) -> None:
 
 
 def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:
-    columns: dict[str, ArrayLike] = {"model": list(ladder.MODELS)}
-    models = ladder.MODELS.values()
-    columns["cost"] = [model.cost for model in models]
+    columns: dict[str, ArrayLike] = {"model": list(models.MODELS)}
+    every = models.MODELS.values()
+    columns["cost"] = [model.cost for model in every]
     columns["settings"] = [
-        " ".join(f"{key}={value}" for key, value in model.settings.items()) for model in models
+        " ".join(f"{key}={value}" for key, value in model.settings.items()) for model in every
     ]
-    columns["restitution"] = ["{:g} to {:g}".format(*model.restitution) for model in models]
-    columns["valid"] = [model.valid for model in models]
-    columns["source"] = [model.source for model in models]
+    columns["restitution"] = ["{:g} to {:g}".format(*model.restitution) for model in every]
+    columns["valid"] = [model.valid for model in every]
+    columns["source"] = [model.source for model in every]
     return columns
 
 
@@ -306,7 +299,7 @@ def _settings(options: argparse.Namespace) -> dict[str, float]:
             settings[name] = number(value)
         except argparse.ArgumentTypeError as error:
             raise checks.InputError(f"--set {name}: {error}") from None
-    ladder.refuse_unknown(ladder.get(_model(options)), settings)
+    models.refuse_unknown(models.get(_model(options)), settings)
     return settings
 
 
@@ -348,7 +341,7 @@ def _text(columns: Mapping[str, ArrayLike], as_json: bool) -> str:
     """Columns of equal length as JSON or CSV."""
     plain = {name: np.asarray(values).tolist() for name, values in columns.items()}
     if as_json:
-        named = {name: [whole_files.or_null(x) for x in xs] for name, xs in plain.items()}
+        named = {name: [files.or_null(x) for x in xs] for name, xs in plain.items()}
         return json.dumps(named, indent=1) + "\n"
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
@@ -400,7 +393,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     rebound.add_argument("--friction", type=decimal, help="mu, above 0, for --angle")
     rebound.add_argument("--response", metavar="FILE", help="use what `compile` has written")
-    _add_model(rebound, list(ladder.MODELS))
+    _add_model(rebound, list(models.MODELS))
     _add_output(rebound)
     rebound.set_defaults(command=_table, columns=_rebound)
 
@@ -426,7 +419,7 @@ def _parser() -> argparse.ArgumentParser:
     compiled.add_argument("output", metavar="FILE", help="where to write it, JSON: NAME.json")
     compiled.add_argument("--tolerance", type=decimal, default=1e-6, help="[%(default)s]")
     compiled.add_argument("--incidence-max", type=decimal, default=20.0, help="[%(default)s]")
-    _add_model(compiled, list(ladder.MODELS))
+    _add_model(compiled, list(models.MODELS))
     compiled.set_defaults(command=_compile)
 
     scene = commands.add_parser(
@@ -465,9 +458,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     scene.set_defaults(command=_scene)
 
-    models = commands.add_parser("models", help="list the models", description="The models.")
-    _add_output(models)
-    models.set_defaults(command=_table, columns=_models)
+    listing = commands.add_parser("models", help="list the models", description="The models.")
+    _add_output(listing)
+    listing.set_defaults(command=_table, columns=_models)
     return parser
 
 

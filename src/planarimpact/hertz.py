@@ -9,8 +9,8 @@ velocity |v2(0)|, force its largest value, time d_max/|v2(0)| except where t_c i
 import numpy as np
 from scipy.special import betainc
 
-from planarimpact import checks
-from planarimpact.arrays import Array, ArrayLike
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, ArrayLike
 
 # Largest normal force in m2 v2(0)^2/d_max: the strain energy (2/5) F2max d_max is all there is.
 PEAK_FORCE = 1.25

@@ -6,9 +6,9 @@ configuration it never turns round. Light and dotted curves of Figs 5, 7 and 9.
 
 import numpy as np
 
-from planarimpact import checks
-from planarimpact.arrays import ArrayLike
-from planarimpact.results import Rebound, Regime
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import ArrayLike
+from planarimpact.ground.results import Rebound, Regime
 
 
 @checks.default_errors

@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact import checks, continuum
-from planarimpact.results import Rebound
+from planarimpact import continuum
+from planarimpact.ground import checks
+from planarimpact.ground.results import Rebound
 
 AnyArray = NDArray[Any]
 
@@ -35,7 +36,7 @@ def axes_of(grid: Mapping[str, Any]) -> dict[str, AnyArray]:
     Parameters
     ----------
     grid : dict
-        The four groups of `planarimpact.ladder` by name, each one number, ascending
+        The four groups of `planarimpact.models` by name, each one number, ascending
         numbers, or `{"from": a, "to": b, "points": n}`, n >= 2 evenly spread from a to b.
 
     Returns
@@ -124,7 +125,7 @@ def solve(
     Parameters
     ----------
     rebound : callable
-        That of a model of `planarimpact.ladder`.
+        That of a model of `planarimpact.models`.
     axes : dict of ndarray
         As `axes_of` returns them.
     start, stop : int
@@ -135,7 +136,7 @@ def solve(
     Returns
     -------
     dict of ndarray, shape (stop - start,)
-        velocity, peak_friction, dissipation and regime, as in `planarimpact.results.Rebound`.
+        velocity, peak_friction, dissipation and regime, as in `planarimpact.Rebound`.
 
     Raises
     ------

@@ -10,7 +10,8 @@ import time
 
 import numpy as np
 
-from planarimpact import annuli, continuum, lumped
+from planarimpact import continuum, lumped
+from planarimpact.continuum import annuli
 
 INCIDENCE = np.linspace(0.0, 10.0, 400)
 GROUPS = INCIDENCE, 3.5, 17 / 14

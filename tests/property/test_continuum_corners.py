@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from planarimpact import continuum, hertz, lumped
-from planarimpact.micro_slip import SpringRow
+from planarimpact.continuum.micro_slip import SpringRow
 
 STEPS = 1024, 2048, 4096
 SHARE = 0.1  # of a tolerance, to which the reference must agree with itself

@@ -4,7 +4,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planarimpact import annuli, continuum, lumped, micro_slip
+from planarimpact import continuum, lumped
+from planarimpact.continuum import annuli, micro_slip
 
 SHARE = st.floats(0.0, 1.2)  # of the limit of slip throughout
 MASS_RATIO = st.floats(1.0, 20.0)

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from mpmath import mp
 
-from planarimpact import Regime, lumped, slip_onset, stick_slip
+from planarimpact import Regime, lumped
+from planarimpact.lumped import slip_onset, stick_slip
 
 OUTPUTS = ("velocity", "peak_friction", "dissipation")
 RESTITUTION = 3  # its place among the parameters

@@ -12,7 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from planarimpact import annuli, continuum
+from planarimpact import continuum
+from planarimpact.continuum import annuli
 
 CIRCLES, STEPS = 128, 8192
 INCIDENCE = np.round(np.linspace(0.0, 10.0, 101), 1)

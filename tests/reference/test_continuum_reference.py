@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from planarimpact import Regime, annuli, cattaneo_mindlin, continuum, lumped
+from planarimpact import Regime, continuum, lumped
+from planarimpact.continuum import annuli, cattaneo_mindlin
 
 ROOT = Path(__file__).parents[2]
 STEEL, RUBBER = 17 / 14, 1.5

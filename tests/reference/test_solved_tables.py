@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-import reference_data
 import solved_tables
-import study_plan
 
 from planarimpact import lumped, rigid, scene, study
 from planarimpact.scene import choice, motion
+from stronge1994 import reference_data
+from stronge1994.plan import grid
 
 ROOT = Path(__file__).parents[2]
 CONFIG = reference_data.load_yaml(ROOT / "workflow/config.yaml")
@@ -39,7 +39,7 @@ def solved(name):
         tolerance = CONFIG["scenes"][name]["tolerance"]
         after = scene.solve(pd.read_csv(ROOT / f"data/scenes/{name}.csv"), tolerance)
         return after.iloc[table["row [1]"].astype(int) - 1].reset_index(drop=True)
-    axes = study.axes_of(study_plan.settings(CONFIG)["grid"])
+    axes = study.axes_of(grid.settings(CONFIG)["grid"])
     shape = [len(values) for values in axes.values()]
     found = study.solve(lumped.rebound, axes, 0, math.prod(shape))
     texts = {header.split(" [")[0]: table[header] for header in table.columns[:3]}
@@ -136,7 +136,7 @@ def test_a_cheaper_model_leaves_the_table(name, monkeypatch):
 
 def test_a_fault_in_one_chunk_leaves_the_table():
     found = solved("grid")
-    for chunk in study_plan.chunks(CONFIG):
+    for chunk in grid.chunks(CONFIG):
         start, stop = map(int, chunk.split("-"))
         inside = found["point"].between(start, stop - 1)
         assert {start, stop - 1} <= {*found["point"]}

@@ -16,7 +16,7 @@ import pandas as pd
 import pytest
 
 import planarimpact
-from planarimpact import InputError, continuum, ladder, lumped, response, scene
+from planarimpact import InputError, continuum, lumped, models, response, scene
 from planarimpact.__main__ import main
 from planarimpact.scene import files
 
@@ -86,7 +86,7 @@ def test_rebound_prints_what_the_model_says_with_units(model, settings, capsys):
     given = [f"--set={name}={value}" for name, value in settings.items()]
     assert main(["rebound", "--incidence", "0.5", "-2", "8", "--model", model, *given]) == 0
     fields = {n: f for n, f in REBOUND.items() if f != "reversals" or model == "continuum"}
-    exact = ladder.rebound(model, [0.5, -2.0, 8.0], **settings)
+    exact = models.rebound(model, [0.5, -2.0, 8.0], **settings)
     assert_are(columns_of(capsys.readouterr().out), fields, exact)
 
 
@@ -145,7 +145,7 @@ def test_angles_settings_and_json(capsys):
     found = json.loads(capsys.readouterr().out)
     incidence = found["incidence [mu v2(0)]"]
     assert incidence == pytest.approx([2.0])
-    assert found[VELOCITY] == [ladder.rebound("timestep.linear", incidence[0], steps=256)[0]]
+    assert found[VELOCITY] == [models.rebound("timestep.linear", incidence[0], steps=256)[0]]
     assert main([*command, "--model", "laws.smith"]) == 0
     assert json.loads(capsys.readouterr().out)["peak_friction [mu F2max]"] == [None]
 
@@ -215,7 +215,7 @@ def test_a_closed_standard_output_is_named(capsys, monkeypatch):
 
 def test_models_are_listed(capsys):
     assert main(["models"]) == 0
-    assert [row["model"] for row in rows_of(capsys.readouterr().out)] == list(ladder.MODELS)
+    assert [row["model"] for row in rows_of(capsys.readouterr().out)] == list(models.MODELS)
 
 
 REFUSED = [
@@ -257,7 +257,7 @@ REFUSED = [
 
 
 def test_a_bad_name_is_refused_before_any_work(capsys, tmp_path, monkeypatch):
-    monkeypatch.setattr(ladder, "rebound", lambda *_, **__: pytest.fail("it solves"))
+    monkeypatch.setattr(models, "rebound", lambda *_, **__: pytest.fail("it solves"))
     monkeypatch.setattr(response, "compile", lambda *_, **__: pytest.fail("it compiles"))
     for name in (tmp_path / "no" / "a.json", tmp_path / "a.txt", tmp_path):
         assert main(["rebound", "--incidence", "1", "--output", str(name)]) == 2

@@ -5,8 +5,8 @@ import pytest
 from scipy.optimize import minimize
 from scipy.stats import kstest
 
-from planarimpact import landmarks
-from planarimpact.comparison import (
+from stronge1994.judging import landmarks
+from stronge1994.judging.comparison import (
     Verdict,
     chi_squared,
     curve_residuals,

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from planarimpact import ConvergenceError, InputError, Regime, annuli, continuum, lumped
+from planarimpact import ConvergenceError, InputError, Regime, continuum, lumped
+from planarimpact.continuum import annuli
 
 
 def test_slip_throughout_is_exact():

@@ -3,19 +3,9 @@
 import numpy as np
 import pytest
 
-from planarimpact import (
-    annuli,
-    bodies,
-    cattaneo_mindlin,
-    continuum,
-    hertz,
-    ladder,
-    laws,
-    lumped,
-    micro_slip,
-    noncollinear,
-    response,
-)
+from planarimpact import bodies, continuum, hertz, lumped, models, noncollinear, response
+from planarimpact.continuum import annuli, cattaneo_mindlin, micro_slip
+from planarimpact.models import laws
 from planarimpact.noncollinear import rigid
 
 SMALL_AND_LARGE = np.array([1e-300, 0.0, 0.7, 2.3, 8.0, 1e150])
@@ -23,8 +13,8 @@ COARSE = {"continuum": {"tolerance": 1e-2}, "annuli": {"circles": 4, "steps": 16
 ROD = noncollinear.inverse_mass(1.0, 12**-0.5, offset=0.2, depth=0.4)
 TINY = 1e-300
 CALLS = {
-    name: lambda name=name: ladder.rebound(name, SMALL_AND_LARGE, **COARSE.get(name, {}))
-    for name in ladder.MODELS
+    name: lambda name=name: models.rebound(name, SMALL_AND_LARGE, **COARSE.get(name, {}))
+    for name in models.MODELS
 }
 CALLS |= {
     f"lumped.history {x:g}": lambda x=x: lumped.history(x, samples=9) for x in (TINY, 0.0, 2.3)

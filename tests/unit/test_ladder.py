@@ -5,13 +5,13 @@ import inspect
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Rebound, Regime, ladder
+from planarimpact import InputError, Rebound, Regime, models
 
 COARSE = {
     "continuum": {"tolerance": 1e-3},
     "annuli": {"circles": 6, "steps": 48},
 }
-MODELS = list(ladder.MODELS.values())
+MODELS = list(models.MODELS.values())
 ELASTIC = [model for model in MODELS if model.restitution == (1.0, 1.0)]
 SLIDING = [model for model in MODELS if model.sliding_limit is not None]
 X = np.array([[0.0, 0.5, 2.0], [3.4, 6.5, 9.0]])
@@ -37,7 +37,7 @@ def test_the_four_groups_go_by_position_or_name(model):
         restitution=1.0,
         **COARSE.get(model.name, {}),
     )
-    by_name = ladder.rebound(model.name, X, 3.0, 1.3, 1.0, **COARSE.get(model.name, {}))
+    by_name = models.rebound(model.name, X, 3.0, 1.3, 1.0, **COARSE.get(model.name, {}))
     for other in (named, by_name):
         for one, two in zip(result[:4], other[:4], strict=True):
             np.testing.assert_array_equal(one, two)
@@ -104,10 +104,10 @@ def test_it_slides_throughout_from_its_limit_on_and_not_below(model, groups):
 
 
 def test_the_limit_knows_the_settings():
-    limit = ladder.get("laws.brach").sliding_limit(3.5, 1.21, 1.0, tangential_restitution=0.75)
+    limit = models.get("laws.brach").sliding_limit(3.5, 1.21, 1.0, tangential_restitution=0.75)
     assert limit == 4.0
     settings = {"tangential_restitution": 0.75}
-    near = ladder.rebound("laws.brach", [limit, limit - 1e-6], **settings)
+    near = models.rebound("laws.brach", [limit, limit - 1e-6], **settings)
     assert near.regime.tolist() == [Regime.SLIP_THROUGHOUT, Regime.UNRESOLVED]
 
 
@@ -121,12 +121,12 @@ def test_kinks_are_incidences(model):
 @every_model
 def test_unknown_settings_are_refused(model):
     with pytest.raises(InputError, match=rf"magic = 1: {model.name} has (no|the) settings"):
-        ladder.rebound(model.name, 2.0, magic=1)
+        models.rebound(model.name, 2.0, magic=1)
 
 
 @every_model
 def test_the_entry_says_what_the_model_is(model):
-    assert ladder.get(model.name) is model
+    assert models.get(model.name) is model
     assert model.valid and model.source and model.rebound.__doc__
     assert model.cost in ("formula", "phases", "steps", "steps and circles")
     assert model.name.split(".")[0] == model.rebound.__module__.split(".")[-1]
@@ -135,12 +135,12 @@ def test_the_entry_says_what_the_model_is(model):
 @pytest.mark.parametrize("name", ["magic", "", "Lumped", None])
 def test_an_unknown_name_is_refused(name):
     with pytest.raises(InputError, match=f"model = {name!r}: allowed are rigid, .*annuli"):
-        ladder.get(name)
+        models.get(name)
 
 
 def test_the_reference_is_the_continuum_where_the_contact_is_elastic():
-    assert ladder.reference(1) == ladder.reference([1.0, 1.0]) == "continuum"
-    assert ladder.reference(0.5) == ladder.reference([1.0, 0.5]) == "lumped"
-    assert {ladder.reference(0), ladder.reference(1)} <= set(ladder.MODELS)
+    assert models.reference(1) == models.reference([1.0, 1.0]) == "continuum"
+    assert models.reference(0.5) == models.reference([1.0, 0.5]) == "lumped"
+    assert {models.reference(0), models.reference(1)} <= set(models.MODELS)
     with pytest.raises(InputError, match="restitution = 1.5"):
-        ladder.reference(1.5)
+        models.reference(1.5)

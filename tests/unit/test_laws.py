@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from planarimpact import InputError, Regime, continuum, laws
+from planarimpact import InputError, Regime, continuum
+from planarimpact.models import laws
 
 LAWS = [laws.brach, laws.smith, laws.bilbao]
 X = np.linspace(0, 8, 161)

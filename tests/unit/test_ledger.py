@@ -5,11 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from planarimpact import bodies, continuum, ledger, lumped, noncollinear, rigid
-from planarimpact.ledger import contact, finding
-from planarimpact.ledger.finding import Finding
-from planarimpact.printed import slip
-from planarimpact.results import EventKind
+from planarimpact import bodies, continuum, lumped, noncollinear, rigid
+from planarimpact.ground.results import EventKind
+from stronge1994 import ledger
+from stronge1994.ledger import contact, finding
+from stronge1994.ledger.finding import Finding
+from stronge1994.printed import slip
 
 RIGHT = {"verdict": "confirmed", "confirms": {"at_most": 1e-9}}
 ROUNDED = {"verdict": "confirmed within rounding", "confirms": {"value": 1.7, "rounding": 0.05}}

@@ -4,7 +4,9 @@ import high_precision
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Regime, lumped, many_phases, rigid, slip_onset, stick_slip
+from planarimpact import InputError, Regime, lumped, rigid
+from planarimpact.lumped import slip_onset, stick_slip
+from planarimpact.lumped.extremes import many_phases
 
 
 def impacts(rates, seed=1):

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from planarimpact import InputError, bodies, ladder, laws, noncollinear, response
+from planarimpact import InputError, bodies, models, noncollinear, response
 from planarimpact.bodies import Body, Material
+from planarimpact.models import laws
 
 HALF = np.ma.array([0.5, -1.0], mask=[False, True])
 WHOLE = np.ma.array([0.5, 0.75], mask=[False, False])
@@ -12,8 +13,8 @@ BALL = response.compile("lumped", incidence_max=9, tolerance=1e-3)
 ROD = noncollinear.inverse_mass(1.0, 1.0, offset=0.2, depth=0.4)
 TAKES = {
     "incidence": [BALL, BALL.velocity, BALL.peak_friction]
-    + [lambda x, name=name: ladder.rebound(name, x) for name in ("lumped", "rigid", "annuli")],
-    "restitution": [lambda e: ladder.rebound("lumped", 1.0, restitution=e)],
+    + [lambda x, name=name: models.rebound(name, x) for name in ("lumped", "rigid", "annuli")],
+    "restitution": [lambda e: models.rebound("lumped", 1.0, restitution=e)],
     "tangential_restitution": [lambda b: laws.brach(1.0, tangential_restitution=b)],
     "friction": [lambda mu: bodies.incidence(1.0, 1.0, mu)],
     "tangential": [lambda v: noncollinear.rebound(v, 1.0, ROD, 0.5)],

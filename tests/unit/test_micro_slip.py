@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import scipy.special
 
-from planarimpact import InputError, annuli, cattaneo_mindlin, hertz, micro_slip
+from planarimpact import InputError, hertz
+from planarimpact.continuum import annuli, cattaneo_mindlin, micro_slip
 
 PHASE = np.linspace(0.0, np.pi, 201)
 

@@ -5,7 +5,7 @@ import pytest
 
 from planarimpact import InputError, Regime, noncollinear
 from planarimpact.bodies import Motion
-from planarimpact.checks import ConvergenceError
+from planarimpact.ground.checks import ConvergenceError
 from planarimpact.noncollinear import InverseMass, rigid, solver, stick_end
 from planarimpact.noncollinear.phases import Groups, Slip, State
 

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from planarimpact import ConvergenceError, piecewise
+from planarimpact import ConvergenceError
+from planarimpact.response import piecewise
 
 END, KINK, TOLERANCE = 5.0, 1.7320508, 1e-9
 

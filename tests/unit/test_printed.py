@@ -5,10 +5,11 @@ import re
 import numpy as np
 import pytest
 
-from planarimpact import lumped, printed
-from planarimpact.checks import InputError
-from planarimpact.curves import fig5, fig6, fig7, fig9
-from planarimpact.printed import dissipation, dynamics, impact, peak_force, slip
+from planarimpact import lumped
+from planarimpact.ground.checks import InputError
+from stronge1994 import printed
+from stronge1994.curves import fig5, fig6, fig7, fig9
+from stronge1994.printed import dissipation, dynamics, impact, peak_force, slip
 
 BETA, ZETA2 = 3.5, 1.21
 

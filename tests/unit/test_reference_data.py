@@ -4,8 +4,9 @@ import itertools
 from pathlib import Path
 
 import pytest
-import reference_data
 import yaml
+
+from stronge1994 import reference_data
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")

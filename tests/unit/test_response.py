@@ -7,7 +7,7 @@ import pickle
 import numpy as np
 import pytest
 
-from planarimpact import ConvergenceError, InputError, Rebound, Regime, ladder, response
+from planarimpact import ConvergenceError, InputError, Rebound, Regime, models, response
 
 X = np.linspace(-9.5, 9.5, 2003)
 FINE, COARSE = 1e-9, 1e-3
@@ -52,7 +52,7 @@ def ball():
 def test_it_agrees_with_its_model_to_the_tolerance(model, tolerance, parameters):
     found = compiled(model, tolerance, **parameters)
     assert max(found.error_bound) <= tolerance == found.tolerance
-    result, exact = found(X), ladder.rebound(model, X, **found.parameters)
+    result, exact = found(X), models.rebound(model, X, **found.parameters)
     for field in ("velocity", "peak_friction"):
         error = np.abs(getattr(result, field) - getattr(exact, field))
         assert (np.isnan(getattr(exact, field)) == np.isnan(error)).all()
@@ -69,7 +69,7 @@ def test_it_agrees_with_its_model_to_the_tolerance(model, tolerance, parameters)
 @pytest.mark.parametrize("restitution", [1.0, 0.5, 0.0])
 def test_regimes_are_those_of_the_lumped_model(restitution):
     found = compiled("lumped", 1e-10, restitution=restitution)
-    exact = ladder.rebound("lumped", X, restitution=restitution)
+    exact = models.rebound("lumped", X, restitution=restitution)
     np.testing.assert_array_equal(found(X).regime, exact.regime)
 
 
@@ -78,7 +78,7 @@ def test_regimes_are_those_of_the_lumped_model(restitution):
 def test_sliding_is_exact_to_the_bit_for_any_incidence(model, beta):
     e = 1.0 if model == "continuum" else 0.3
     found = compiled(model, 1e-2, mass_ratio=beta, stiffness_ratio=0.9, restitution=e)
-    limit = float(ladder.get(model).sliding_limit(beta, 0.9, e))
+    limit = float(models.get(model).sliding_limit(beta, 0.9, e))
     assert (found.incidence_max == np.inf) == (limit <= 10)
     largest = min(found.incidence_max, 1e300)
     x = np.array([limit, np.nextafter(limit, 99), limit + 1, 1e9, 1e300])
@@ -277,27 +277,27 @@ def test_the_tolerance_is_given_once():
 def test_a_wrong_model_does_not_pass(monkeypatch):
     """Noise of 1e-6 is too much for 1e-10, and little enough for 1e-3."""
     rng = np.random.default_rng(5)
-    lumped = ladder.MODELS["lumped"]
+    lumped = models.MODELS["lumped"]
 
     def noisy(incidence, *groups):
         result = lumped.rebound(incidence, *groups)
         noise = 1e-6 * rng.standard_normal(np.shape(incidence))
         return result._replace(velocity=result.velocity + noise)
 
-    monkeypatch.setitem(ladder.MODELS, "lumped", lumped._replace(rebound=noisy))
+    monkeypatch.setitem(models.MODELS, "lumped", lumped._replace(rebound=noisy))
     with pytest.raises(ConvergenceError, match="too rough"):
         compiled("lumped", 1e-10)
     assert max(compiled("lumped", 1e-3).error_bound) <= 1e-3
 
 
 def test_a_model_that_jumps_does_not_pass(monkeypatch):
-    lumped = ladder.MODELS["lumped"]
+    lumped = models.MODELS["lumped"]
 
     def jumping(incidence, *groups):
         result = lumped.rebound(incidence, *groups)
         return result._replace(velocity=result.velocity + 1e-5 * (np.asarray(incidence) > 2.2))
 
-    monkeypatch.setitem(ladder.MODELS, "lumped", lumped._replace(rebound=jumping))
+    monkeypatch.setitem(models.MODELS, "lumped", lumped._replace(rebound=jumping))
     with pytest.raises(ConvergenceError):
         compiled("lumped", 1e-8)
 
@@ -307,7 +307,7 @@ def test_a_model_that_jumps_does_not_pass(monkeypatch):
 
 def test_sliding_loses_no_digits_of_dissipation():
     x = np.array([10.0, 1e16, 1e300])
-    found, exact = compiled("lumped"), ladder.rebound("lumped", x)
+    found, exact = compiled("lumped"), models.rebound("lumped", x)
     assert found(x).dissipation.tolist() == found.dissipation(x).tolist()
     np.testing.assert_allclose(found.dissipation(x), exact.dissipation, rtol=1e-15)
 
@@ -338,14 +338,14 @@ def test_a_regime_changes_where_that_of_the_model_does():
     found = response.compile("lumped", incidence_max=12, tolerance=1e-9, **groups)
     x = np.linspace(0.01, 12, 4000)
     low, high = x[:-1], x[1:]
-    codes = ladder.rebound("lumped", x, **groups).regime
+    codes = models.rebound("lumped", x, **groups).regime
     low, high = low[codes[1:] != codes[:-1]], high[codes[1:] != codes[:-1]]
-    first = ladder.rebound("lumped", low, **groups).regime
+    first = models.rebound("lumped", low, **groups).regime
     for _ in range(60):
         middle = (low + high) / 2
-        same = ladder.rebound("lumped", middle, **groups).regime == first
+        same = models.rebound("lumped", middle, **groups).regime == first
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     assert low.size == 5
     for near in (low - 1e-9, high + 1e-9):
-        exact = ladder.rebound("lumped", near, **groups).regime
+        exact = models.rebound("lumped", near, **groups).regime
         assert found(near).regime.tolist() == exact.tolist()

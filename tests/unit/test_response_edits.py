@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 
-from planarimpact import InputError, ladder, response
+from planarimpact import InputError, models, response
 
 # Tolerance and parameters, and how many edits there are to each one that is tried.
 CASES = {
@@ -34,7 +34,7 @@ def asked(model, parameters):
     end = compiled(model).pieces.end
     x = np.concatenate([np.linspace(0, end, 60), compiled(model).pieces.start, [1e-9, end + 1]])
     x = x[x <= compiled(model).incidence_max]
-    return x, ladder.rebound(model, x, **dict(parameters))
+    return x, models.rebound(model, x, **dict(parameters))
 
 
 @functools.cache

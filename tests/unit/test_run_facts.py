@@ -4,7 +4,8 @@ import shutil
 import subprocess
 
 import pytest
-import run_facts
+
+from stronge1994.pages import run_facts
 
 
 def test_the_commit_is_that_of_the_folder_whatever_git_is_told(tmp_path, monkeypatch):

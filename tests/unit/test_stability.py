@@ -4,10 +4,10 @@ import warnings
 
 import numpy as np
 import pytest
-import write_stability
 
 from planarimpact import lumped
-from planarimpact.curves import stability
+from stronge1994.curves import stability
+from stronge1994.pages import stability_table
 
 X = [0.0, 0.5, 2.0, 8.0]
 
@@ -121,8 +121,8 @@ def test_decades(points):
     impacts = stability.curves(points, 10)["impacts"]
     impacts["digits_lost [1]"][2] = 1.26
     rows = [
-        dict(zip(write_stability.COLUMNS, row, strict=True))
-        for row in write_stability.by_decade(impacts)
+        dict(zip(stability_table.COLUMNS, row, strict=True))
+        for row in stability_table.by_decade(impacts)
     ]
     spans = [
         (row["from [unit of quantity]"], row["to [unit of quantity]"], row["impacts [1]"])
@@ -131,4 +131,4 @@ def test_decades(points):
     ]
     assert spans == [("0", "0", 1), ("1e-1", "1e0", 1), ("1e0", "1e1", 2)]
     assert [row["digits_lost_most [1]"] for row in rows][:3] == ["0.0", "0.0", "1.3"]
-    assert {row["quantity"] for row in rows} == set(write_stability.QUANTITIES)
+    assert {row["quantity"] for row in rows} == set(stability_table.QUANTITIES)

@@ -6,19 +6,17 @@ import pickle
 import re
 from pathlib import Path
 
-import draw_study
-import drawing
-import gather_chunks
 import numpy as np
 import pytest
-import reference_data
-import run_plan
-import solve_chunk
-import study_files
-import study_plan
 
-from planarimpact import Regime, checks, continuum, ladder, lumped, study
-from planarimpact.results import Rebound
+from planarimpact import Regime, continuum, lumped, models, study
+from planarimpact.ground import checks
+from planarimpact.ground.results import Rebound
+from stronge1994 import reference_data, study_files
+from stronge1994.drawings import house_style
+from stronge1994.drawings import study as draw_study
+from stronge1994.plan import config as configuration
+from stronge1994.plan import grid as study_plan
 
 GRID = {
     "incidence": {"from": -1, "to": 8, "points": 7},
@@ -85,12 +83,12 @@ def test_an_impact_that_cannot_be_solved_is_named_by_its_part(axes):
     with pytest.raises(checks.ConvergenceError, match="points 5 to 9 of the grid: impact 3"):
         study.solve(failing, axes, 5, 9)
     with pytest.raises(checks.InputError, match=r"of the grid: restitution\[0\] = 0.0.*equal to 1"):
-        study.solve(ladder.get("continuum").rebound, axes, 0, 9)
+        study.solve(models.get("continuum").rebound, axes, 0, 9)
 
 
 def test_an_unsolved_impact_of_the_continuum_keeps_its_kind_and_is_a_point_of_the_grid():
     axes = study.axes_of(GRID | {"incidence": [1, 2, 3], "restitution": 1})
-    rebound = ladder.get("continuum").rebound
+    rebound = models.get("continuum").rebound
     with pytest.raises(continuum.Unsolved, match="points 4 to 6 of the grid: tolerance") as refusal:
         study.solve(rebound, axes, 4, 6, tolerance=1e-15)
     again = pickle.loads(pickle.dumps(refusal.value))
@@ -164,8 +162,8 @@ def test_parts_that_do_not_make_the_grid_are_refused(axes):
 def test_files_say_what_is_in_them(axes, tmp_path):
     chunks = [tmp_path / name for name in ("0-30.npz", "30-70.npz")]
     for chunk in chunks:
-        solve_chunk.solve(chunk.stem, "lumped", {}, GRID, chunk)
-    gather_chunks.gather(chunks, "lumped", {}, GRID, tmp_path / "study.npz")
+        study_files.solve(chunk.stem, "lumped", {}, GRID, chunk)
+    study_files.gather(chunks, "lumped", {}, GRID, tmp_path / "study.npz")
     with np.load(tmp_path / "study.npz") as file:
         assert str(file["model"]) == "lumped"
         assert file["velocity [mu v2(0)]"].shape == tuple(len(file[name]) for name in file["axes"])
@@ -184,9 +182,9 @@ def test_files_say_what_is_in_them(axes, tmp_path):
 
 def test_a_chunk_is_solved_by_the_model_and_settings_asked_for(axes, tmp_path):
     chunk = tmp_path / "0-70.npz"
-    solve_chunk.solve("0-70", "timestep.linear", {"steps": 32}, GRID, chunk)
+    study_files.solve("0-70", "timestep.linear", {"steps": 32}, GRID, chunk)
     _, outputs = study_files.read(chunk, "velocity")
-    expected = ladder.rebound("timestep.linear", **study.points(axes, 0, COUNT), steps=32)
+    expected = models.rebound("timestep.linear", **study.points(axes, 0, COUNT), steps=32)
     assert np.array_equal(outputs["velocity"], expected.velocity)
 
 
@@ -201,9 +199,9 @@ def test_a_chunk_is_solved_by_the_model_and_settings_asked_for(axes, tmp_path):
 def test_a_chunk_of_another_study_is_refused(model, settings, grid, words, tmp_path):
     """Snakemake knows it by its parameters, unless the files came without its records."""
     chunk = tmp_path / "0-70.npz"
-    solve_chunk.solve("0-70", model, settings, GRID | grid, chunk)
+    study_files.solve("0-70", model, settings, GRID | grid, chunk)
     with pytest.raises(checks.InputError, match=f"0-70.npz: {words}"):
-        gather_chunks.gather([chunk], "laws.brach", {}, GRID, tmp_path / "study.npz")
+        study_files.gather([chunk], "laws.brach", {}, GRID, tmp_path / "study.npz")
     assert not (tmp_path / "study.npz").exists()
 
 
@@ -218,7 +216,7 @@ def check(config):
     try:
         reference_data.refuse_invalid(config, SCHEMA, "config")
     except reference_data.SourceError as error:
-        raise run_plan.ConfigError(str(error)) from None
+        raise configuration.ConfigError(str(error)) from None
     study_plan.check(config)
 
 
@@ -259,16 +257,16 @@ def check(config):
     ],
 )
 def test_a_bad_study_is_refused(study, words):
-    with pytest.raises(run_plan.ConfigError, match=words):
+    with pytest.raises(configuration.ConfigError, match=words):
         check(changed(**study))
 
 
 def test_what_the_config_may_name_is_what_the_ladder_has():
     known = SCHEMA["properties"]["study"]["properties"]
-    assert known["model"]["enum"] == list(ladder.MODELS)
-    settings = {name for model in ladder.MODELS.values() for name in model.settings}
+    assert known["model"]["enum"] == list(models.MODELS)
+    settings = {name for model in models.MODELS.values() for name in model.settings}
     assert set(known["settings"]["properties"]) == settings
-    elastic = [name for name, model in ladder.MODELS.items() if model.restitution == (1.0, 1.0)]
+    elastic = [name for name, model in models.MODELS.items() if model.restitution == (1.0, 1.0)]
     assert list(study_plan.ELASTIC) == elastic
     assert set(known["grid"]["properties"]) == set(checks.RULES)
 
@@ -344,7 +342,7 @@ def test_a_map_names_a_regime_where_there_is_room_and_draws_a_boundary_once():
     regime[20:22] = Regime.SLIP_STICK_SLIP  # a line, but no room for a name
     regime[:1] = Regime.STICK  # the edge of the grid: neither
     panel = map_of(np.ones((40, 40)), regime)
-    assert (panel.get_xlabel(), panel.get_ylabel()) == (drawing.INCIDENCE, "restitution $e$")
+    assert (panel.get_xlabel(), panel.get_ylabel()) == (house_style.INCIDENCE, "restitution $e$")
     assert [text.get_text() for text in panel.texts] == ["stick-\nslip", "slip-\nthroughout"]
     paths = [path for lines in panel.collections[1:] for path in lines.get_paths()]
     assert [sorted(set(path.vertices[:, 0])) for path in paths] == [[19.5], [21.5]]

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import scipy.integrate
 
-from planarimpact import InputError, Regime, continuum, lumped, timestep
+from planarimpact import InputError, Regime, continuum, lumped
+from planarimpact.models import timestep
 
 LAWS = [timestep.linear, timestep.mindlin, timestep.mindlin_rescaled]
 HERTZIAN = LAWS[1:]

@@ -5,7 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from planarimpact import Regime, checks, timestep
+from planarimpact import Regime
+from planarimpact.ground import checks
+from planarimpact.models import timestep
 
 LAWS = [timestep.linear, timestep.mindlin, timestep.mindlin_rescaled]
 BETA = 3.5

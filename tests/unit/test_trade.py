@@ -5,14 +5,13 @@ import re
 from pathlib import Path
 from types import SimpleNamespace
 
-import csv_tables
-import draw_trade
 import pytest
-import trade_table
-import write_trade
 
-from planarimpact import InputError, ladder, response
-from planarimpact.curves import trade
+from planarimpact import InputError, models, response
+from stronge1994 import csv_tables
+from stronge1994.curves import trade
+from stronge1994.drawings import trade as draw_trade
+from stronge1994.trade import answers as trade_table
 
 REPORT = Path(__file__).parents[2] / "workflow/report"
 RMS, MAX = "rms_velocity [mu v2(0)]", "max_velocity [mu v2(0)]"
@@ -63,7 +62,7 @@ def test_exact_models_are_as_near_as_they_promise(named):
 def test_every_model_is_there_at_every_restitution_that_it_admits(named):
     for e in SETTINGS["restitution"]:
         found = {row["model"][0] for row in named.values() if row["restitution [1]"][0] == e}
-        admitted = {n for n, model in ladder.MODELS.items() if model.restitution[0] <= e}
+        admitted = {n for n, model in models.MODELS.items() if model.restitution[0] <= e}
         assert {n for n in found if not n.startswith("response")} == admitted
     assert "annuli, 4 circles, 512 steps, e = 1" in named
 
@@ -76,7 +75,7 @@ def test_laws_of_impulses_have_no_peak_friction_and_others_do(named):
 
 
 def test_a_velocity_that_is_no_number_shows():
-    exact = ladder.rebound("lumped", [1.0, 2.0])
+    exact = models.rebound("lumped", [1.0, 2.0])
     found = trade.errors(exact._replace(velocity=exact.velocity * float("nan")), exact)
     assert found[MAX] != found[MAX]  # NaN: the verdict `trade-solved` then diverges
 
@@ -288,7 +287,7 @@ def test_table_figure_and_captions_say_that_the_machine_was_busy(named, tmp_path
         figure = draw_trade.draw(csv_tables.read(path), SETTINGS, {})
         words = r"\nthe machine was busy: 2 of \d\d times are up to 2.5 times too long$"
         assert bool(re.search(words, figure.get_suptitle())) is said
-        write_trade.write(path, *tables)
+        trade_table.write(path, *tables)
         assert ("busy_100 [1]" in csv_tables.read_rows(tables[0])[0]) is said
     assert f"more than {trade.BUSY}" in (REPORT / "trade.rst").read_text()
     assert trade_table.BUSY in (REPORT / "which_model.rst").read_text()
@@ -297,7 +296,7 @@ def test_table_figure_and_captions_say_that_the_machine_was_busy(named, tmp_path
 def test_tables_are_written_and_keep_their_words(named, tmp_path):
     curves, table, answers = (tmp_path / f"{name}.csv" for name in ("curves", "table", "answers"))
     csv_tables.write(curves, named)
-    write_trade.write(curves, table, answers)
+    trade_table.write(curves, table, answers)
     written = csv_tables.read_rows(table)
     assert list(written[0])[0] == "name" and {r["name"] for r in written} == set(named)
     assert written[0]["restitution [1]"] == "1.0" and "rigid" in written[0]["name"]
@@ -308,5 +307,5 @@ def test_tables_are_written_and_keep_their_words(named, tmp_path):
 def test_a_crash_of_the_solver_leaves_tables_that_say_so(tmp_path):
     curves, table, answers = (tmp_path / f"{name}.csv" for name in ("curves", "table", "answers"))
     csv_tables.write_rows(curves, ["error"], [["ArithmeticError: oh"]])
-    write_trade.write(curves, table, answers)
+    trade_table.write(curves, table, answers)
     assert table.read_text() == answers.read_text() == "error\nArithmeticError: oh\n"

@@ -9,8 +9,8 @@ import threading
 
 import pytest
 
-from planarimpact.checks import InputError
-from planarimpact.whole_files import written
+from planarimpact.ground.checks import InputError
+from planarimpact.ground.files import written
 
 
 @pytest.fixture
@@ -109,7 +109,7 @@ def test_a_second_interrupt_does_not_interrupt_the_cleaning(path):
 # Two files at a time, as a page and its notebook are written.
 ENDED = """
 import signal, sys
-from planarimpact.whole_files import written
+from planarimpact.ground.files import written
 number = int(sys.argv[2])
 signal.signal(number, signal.SIG_DFL)  # whoever runs the tests may ignore it
 with written(sys.argv[1]) as partial, written(sys.argv[1] + ".other") as other:

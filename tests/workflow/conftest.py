@@ -11,9 +11,10 @@ from pathlib import Path
 
 import browser
 import pytest
-import reference_data
-import run_plan
-import write_explorer
+
+from stronge1994 import plan, reference_data
+from stronge1994.pages import explorer as write_explorer
+from stronge1994.plan import files
 
 ROOT = Path(__file__).parents[2]
 PARTS = ["Snakefile", "profiles", "workflow", "src", "data", "figures/README.md", ".gitignore"]
@@ -117,11 +118,11 @@ def finished(first_run, tmp_path):
 
 @pytest.fixture
 def copied_modules(tmp_path, monkeypatch):
-    """The modules in a folder of their own, where run_plan looks for them."""
+    """The modules in a folder of their own, where `plan.files` looks for them."""
     for part in ("src", "workflow"):
         shutil.copytree(ROOT / part, tmp_path / part)
-    monkeypatch.setattr(run_plan, "SRC", tmp_path / "src")
-    monkeypatch.setattr(run_plan, "SCRIPTS", tmp_path / "workflow/scripts")
+    monkeypatch.setattr(files, "SRC", tmp_path / "src")
+    monkeypatch.setattr(files, "SCRIPTS", tmp_path / "workflow/scripts")
     return tmp_path
 
 
@@ -131,7 +132,7 @@ def explorer(tmp_path_factory):
     path = tmp_path_factory.mktemp("explorer") / "explorer.html"
     config = reference_data.load_yaml(ROOT / "workflow/config.yaml")
     sources = sorted((ROOT / "workflow/explorer").iterdir())
-    text = write_explorer.page(run_plan.settings_of_explorer(config), sources)
+    text = write_explorer.page(plan.settings_of_explorer(config), sources)
     path.write_text(text, encoding="utf-8")
     return path
 

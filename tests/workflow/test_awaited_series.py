@@ -7,18 +7,17 @@ the others load, convert and compare as the jobs of a run do.
 import csv
 from pathlib import Path
 
-import compare
-import convert_series
-import csv_tables
-import draw_fig5
-import draw_fig8
 import numpy as np
 import pytest
-import reference_data
-import run_plan
 
 from planarimpact import continuum, lumped
-from planarimpact.curves import fig5, fig8
+from stronge1994 import csv_tables, plan, reference_data
+from stronge1994.curves import fig5, fig8
+from stronge1994.drawings import fig5 as draw_fig5
+from stronge1994.drawings import fig8 as draw_fig8
+from stronge1994.judging import compare
+from stronge1994.plan import config as configuration
+from stronge1994.reference_data import conversion
 
 ROOT = Path(__file__).parents[2]
 CONFIG = reference_data.load_yaml(ROOT / "workflow/config.yaml")
@@ -62,7 +61,7 @@ def curves(inventory, tmp_path_factory):
     folder, coarse = tmp_path_factory.mktemp("curves"), {"tolerance": 1e-2, "as_printed": False}
     for module, change in ((fig5, coarse), (fig8, {})):
         figure = module.__name__.rsplit(".", 1)[1]
-        settings = run_plan.settings(CONFIG, inventory, figure) | change
+        settings = plan.settings(CONFIG, inventory, figure) | change
         csv_tables.write(folder / f"{figure}.csv", module.curves(**settings))
     return folder
 
@@ -82,9 +81,9 @@ def judged(inventory, curves, tmp_path):
             words = words.replace(old, new)
         (folder / "source.yaml").write_text(words)
         found = inventory | {source: reference_data.load(folder, SCHEMA)}
-        convert_series.convert(found[source], folder / "series.csv")
+        conversion.convert(found[source], folder / "series.csv")
         entry = CONFIG["comparisons"][AWAITED[name]] | change
-        references = run_plan.references(CONFIG, found, figure)
+        references = plan.references(CONFIG, found, figure)
         tables = {source: folder / "series.csv"}
         path, significance = curves / f"{figure}.csv", CONFIG["significance"]
         rows = {AWAITED[name]: entry}
@@ -136,7 +135,7 @@ def test_every_awaited_comparison_is_tried_here(inventory):
         name: comparison
         for comparison, entry in CONFIG["comparisons"].items()
         if (name := entry.get("reference"))
-        and run_plan.reference(inventory, name)[1].get("kind") == "awaited"
+        and configuration.reference(inventory, name)[1].get("kind") == "awaited"
     }
     assert awaited == AWAITED
 
@@ -197,7 +196,7 @@ def test_a_point_just_outside_the_axes_is_drawn(module, name, inventory, curves)
         name: {"x": np.array([-0.05, 1.0]), "y": np.array([0.0, 0.1]), "sigma": (0.1, 0.1),
                "line": False, "parameters": {}}
     }  # fmt: skip
-    settings = run_plan.settings(CONFIG, inventory, figure)
+    settings = plan.settings(CONFIG, inventory, figure)
     drawn = module.draw(csv_tables.read(curves / f"{figure}.csv"), settings, points)
     assert drawn.axes[0].get_xlim()[0] == -0.05
 

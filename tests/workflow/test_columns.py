@@ -7,18 +7,14 @@ import importlib
 import re
 from pathlib import Path
 
-import compare
-import csv_tables
-import judged_tables
 import numpy as np
 import pytest
-import reference_data
-import run_plan
-import sensitivity
-import solve
-import study_files
 
-from planarimpact import checks, comparison
+from planarimpact.ground import checks
+from stronge1994 import csv_tables, plan, reference_data, study_files
+from stronge1994.curves import solving
+from stronge1994.judging import compare, comparison, judged_tables, sensitivity
+from stronge1994.plan import config as configuration
 
 ROOT = Path(__file__).parents[2]
 SCHEMAS = ROOT / "workflow/schemas"
@@ -43,8 +39,8 @@ NOT_SCALED = [r"convergence: .*: error .*"]
 
 def _diverges(name, path, series, only=None):
     """Whether a comparison of what is judged under a name diverges, or only one of them."""
-    references = run_plan.references(CONFIG, INVENTORY, name)
-    for title, entry in run_plan.comparisons(CONFIG, name).items():
+    references = plan.references(CONFIG, INVENTORY, name)
+    for title, entry in plan.comparisons(CONFIG, name).items():
         if only in (None, title):
             rows = compare.compare(
                 name, {title: entry}, references, path, series, CONFIG["significance"]
@@ -78,17 +74,17 @@ def _inputs(name):
     """Columns that are copies of what a scene or the study was given."""
     if name == "study":
         return {*checks.RULES, *map(study_files.column, checks.RULES)}
-    if name.startswith(run_plan.SCENE):
-        table = ROOT / f"data/scenes/{name.removeprefix(run_plan.SCENE)}.csv"
+    if name.startswith(configuration.SCENE):
+        table = ROOT / f"data/scenes/{name.removeprefix(configuration.SCENE)}.csv"
         return {"row [1]", *table.read_text(encoding="utf-8").splitlines()[0].split(",")}
     return set()
 
 
-@pytest.mark.parametrize("name", run_plan.judged(CONFIG))
+@pytest.mark.parametrize("name", configuration.judged(CONFIG))
 @pytest.mark.parametrize("factor", [1.3, -1.0])
 def test_no_column_can_be_scaled_or_flipped(name, factor, tables, monkeypatch):
     folder, series = tables
-    path = folder / run_plan.table_of(name)
+    path = folder / configuration.table_of(name)
     curves, missed = judged_tables.read(path), []
     for curve, column in _columns(name, curves, factor):
         wrong = curves | {curve: curves[curve] | {column: factor * curves[curve][column]}}
@@ -108,7 +104,7 @@ def test_no_column_can_be_scaled_or_flipped(name, factor, tables, monkeypatch):
 )
 def test_a_fault_between_the_points_of_reference_is_seen(name, curve, rows, tables, monkeypatch):
     folder, series = tables
-    path, column = folder / run_plan.table_of(name), "velocity [mu v2(0)]"
+    path, column = folder / configuration.table_of(name), "velocity [mu v2(0)]"
     curves = judged_tables.read(path)
     velocity = curves[curve][column].copy()
     velocity[rows] = -velocity[rows] - 0.1
@@ -127,12 +123,15 @@ def test_the_table_of_gates_tells_what_is_caught(name, tables, tmp_path):
     folder, series = tables
     rows = csv_tables.read_rows(folder / "results/gates.csv")
     sizes = {row["comparison"]: row for row in rows if row["comparison"].startswith(f"{name}-")}
-    assert set(sizes) == set(run_plan.comparisons(CONFIG, name))
-    module = importlib.import_module(f"planarimpact.curves.{name}")
-    nodes = run_plan.nodes_of(CONFIG, INVENTORY, name)
-    settings = run_plan.settings(CONFIG, INVENTORY, name) | solve.read_nodes(nodes)
+    assert set(sizes) == set(plan.comparisons(CONFIG, name))
+    module = importlib.import_module(f"stronge1994.curves.{name}")
+    nodes = plan.nodes_of(CONFIG, INVENTORY, name)
+    settings = plan.settings(CONFIG, INVENTORY, name) | solving.read_nodes(nodes)
     settings.pop("as_printed", None)
-    path, curves = tmp_path / "curves.csv", judged_tables.read(folder / run_plan.table_of(name))
+    path, curves = (
+        tmp_path / "curves.csv",
+        judged_tables.read(folder / configuration.table_of(name)),
+    )
     own = [curve for curve in curves if "printed" not in curve]
 
     def caught(title, group, size):

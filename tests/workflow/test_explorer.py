@@ -11,12 +11,11 @@ from pathlib import Path
 import browser
 import numpy as np
 import pytest
-import reference_data
-import run_plan
-import write_explorer
 from matplotlib.image import imread
 
 from planarimpact import bodies, lumped
+from stronge1994 import plan, reference_data
+from stronge1994.pages import explorer as write_explorer
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "workflow/explorer"
@@ -26,7 +25,7 @@ SLIDERS = list(write_explorer.LIMITS)
 
 @pytest.fixture(scope="module")
 def settings():
-    return run_plan.settings_of_explorer(reference_data.load_yaml(ROOT / "workflow/config.yaml"))
+    return plan.settings_of_explorer(reference_data.load_yaml(ROOT / "workflow/config.yaml"))
 
 
 @pytest.fixture(scope="module")
@@ -82,7 +81,7 @@ def test_a_slider_is_moved_by_keys_and_by_typing(slider, show):
 
 def test_a_preset_shows_the_impact_of_its_figure(show, presets):
     tab = show()
-    assert list(presets) == run_plan.EXPLORED
+    assert list(presets) == plan.EXPLORED
     for index, state in enumerate(presets.values()):
         tab.evaluate(f"document.querySelectorAll('.preset')[{index}].click()")
         assert tab.evaluate(f"document.querySelectorAll('.preset')[{index}].ariaPressed") == "true"
@@ -238,7 +237,7 @@ def test_nothing_is_wider_than_the_screen(width, show):
     tab = show("angle=89.9&friction=0.01", width=width)
     inside = "document.documentElement.scrollWidth <= innerWidth"
     assert tab.evaluate("innerWidth") == width and tab.evaluate(inside)
-    for index in range(len(run_plan.EXPLORED)):
+    for index in range(len(plan.EXPLORED)):
         tab.evaluate(f"document.querySelectorAll('.preset')[{index}].click()")
         assert tab.evaluate(inside)
 

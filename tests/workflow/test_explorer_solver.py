@@ -8,9 +8,9 @@ from pathlib import Path
 import browser
 import numpy as np
 import pytest
-import write_explorer
 
 from planarimpact import Regime, bodies, lumped, rigid
+from stronge1994.pages import explorer as write_explorer
 
 SOLVER = Path(__file__).parents[2] / "workflow/explorer/solver.js"
 SLIDERS = list(write_explorer.LIMITS)

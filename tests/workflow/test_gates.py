@@ -4,17 +4,15 @@ import csv
 import importlib
 from pathlib import Path
 
-import compare
-import convert_series
-import judged_tables
 import numpy as np
 import pytest
-import reference_data
-import run_plan
-import sensitivity
-import solve
 
 from planarimpact import lumped, noncollinear
+from stronge1994 import plan, reference_data
+from stronge1994.curves import solving
+from stronge1994.judging import compare, judged_tables, sensitivity
+from stronge1994.plan import config as configuration
+from stronge1994.reference_data import conversion
 
 ROOT = Path(__file__).parents[2]
 SCHEMAS = ROOT / "workflow/schemas"
@@ -69,7 +67,7 @@ def series(inventory, tmp_path_factory):
         n for n, s in inventory.items() if any(e["path"] for e in s.get("series", {}).values())
     ]
     for name in found:
-        convert_series.convert(inventory[name], folder / f"{name}.csv")
+        conversion.convert(inventory[name], folder / f"{name}.csv")
     return {name: str(folder / f"{name}.csv") for name in found}
 
 
@@ -77,12 +75,12 @@ def series(inventory, tmp_path_factory):
 def verdicts(first_run, config, inventory, series, tmp_path_factory):
     """Verdicts of every comparison, by fault."""
     found = {}
-    for figure in sorted({*run_plan.FIGURES} - {"trade"}):
+    for figure in sorted({*configuration.FIGURES} - {"trade"}):
         folder = tmp_path_factory.mktemp("curves")
-        path, comparisons = str(folder / f"{figure}.csv"), run_plan.comparisons(config, figure)
-        right = judged_tables.read(first_run[0] / run_plan.table_of(figure))
+        path, comparisons = str(folder / f"{figure}.csv"), plan.comparisons(config, figure)
+        right = judged_tables.read(first_run[0] / configuration.table_of(figure))
         names = [name for name in right if UNSOLVED not in name]
-        settings = run_plan.settings(config, inventory, figure) | SHORT.get(figure, {})
+        settings = plan.settings(config, inventory, figure) | SHORT.get(figure, {})
         if figure in COARSE:
             settings["samples"] //= 5
         settings.pop("as_printed", None)
@@ -90,10 +88,10 @@ def verdicts(first_run, config, inventory, series, tmp_path_factory):
         left = set(comparisons)
         for fault, change in FAULTS.items():
             with pytest.MonkeyPatch.context() as patch:
-                module = importlib.import_module(f"planarimpact.curves.{figure}")
+                module = importlib.import_module(f"stronge1994.curves.{figure}")
                 patch.setattr(module, "curves", _faulty_solver(figure, change, names))
-                solve.solve(figure, settings, nodes, path)
-            references = run_plan.references(config, inventory, figure)
+                solving.solve(figure, settings, nodes, path)
+            references = plan.references(config, inventory, figure)
             rows = compare.compare(
                 figure, comparisons, references, path, series, config["significance"]
             )
@@ -107,7 +105,7 @@ def verdicts(first_run, config, inventory, series, tmp_path_factory):
 
 def _nodes(config, inventory, figure, folder):
     """Reference tables of a figure; of a long one that is read whole, every fortieth row."""
-    nodes = run_plan.nodes_of(config, inventory, figure)
+    nodes = plan.nodes_of(config, inventory, figure)
     if None not in nodes.values():
         return nodes
     with open(*nodes, newline="", encoding="utf-8") as file:
@@ -120,7 +118,7 @@ def _nodes(config, inventory, figure, folder):
 
 def _faulty_solver(figure, change, names):
     """The curves of a figure with other physics, under the `names` that it has without a fault."""
-    original = importlib.import_module(f"planarimpact.curves.{figure}").curves
+    original = importlib.import_module(f"stronge1994.curves.{figure}").curves
 
     def curves(**settings):
         wrong = _changed(settings, change)
@@ -145,7 +143,7 @@ def _changed(settings, change):
 def _names(*left_out):
     """Comparisons of figures that are solved here: the trade takes long, see test_columns.py."""
     comparisons = reference_data.load_yaml(ROOT / "workflow/config.yaml")["comparisons"]
-    figures = {*run_plan.FIGURES} - {"trade"}
+    figures = {*configuration.FIGURES} - {"trade"}
     return [
         name
         for name, entry in comparisons.items()
@@ -182,8 +180,8 @@ def test_energy_that_does_not_balance_trips_the_gate(name, config, inventory, tm
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(model, "rebound", forgetful)
-        settings = run_plan.settings(config, inventory, figure)
-        solve.solve(figure, settings, _nodes(config, inventory, figure, tmp_path), path)
+        settings = plan.settings(config, inventory, figure)
+        solving.solve(figure, settings, _nodes(config, inventory, figure, tmp_path), path)
     rows = compare.compare(figure, {name: config["comparisons"][name]}, {}, path, {}, 0.01)
     assert [row["verdict"] for row in rows] == ["as before", "diverges"]
 
@@ -233,9 +231,9 @@ def _too_much_friction(history):
 def test_a_fault_anywhere_in_the_box_trips_the_gate(
     name, function, fault, config, inventory, tmp_path, monkeypatch
 ):
-    path, settings = tmp_path / "curves.csv", run_plan.settings(config, inventory, "stability")
+    path, settings = tmp_path / "curves.csv", plan.settings(config, inventory, "stability")
     monkeypatch.setattr(lumped, function, fault(getattr(lumped, function)))
-    solve.solve("stability", settings, _nodes(config, inventory, "stability", tmp_path), path)
+    solving.solve("stability", settings, _nodes(config, inventory, "stability", tmp_path), path)
     rows = compare.compare("stability", {name: config["comparisons"][name]}, {}, path, {}, 0.01)
     assert [row["verdict"] for row in rows] == ["as before", "diverges"]
 

@@ -5,19 +5,16 @@ import re
 import shutil
 from pathlib import Path
 
-import closing
-import csv_tables
-import gate
-import judgement
-import ledger_entries
-import ledger_table
 import pytest
-import records
-import reference_data
-import run_plan
-import verdict_table
-import write_report
 from conftest import ROOT
+
+from stronge1994 import csv_tables, gate, plan, records, reference_data
+from stronge1994.gate import closing
+from stronge1994.judging import verdict_table
+from stronge1994.ledger import entries as ledger_entries
+from stronge1994.ledger import outcome
+from stronge1994.pages import report as write_report
+from stronge1994.plan import config as configuration
 
 
 def test_every_file_of_a_run_is_asked_for(first_run):
@@ -44,7 +41,7 @@ def expected():
     sources = reference_data.load_all(ROOT / "data", schema)
     schema = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
     entries = ledger_entries.load(ROOT / "data/stronge1994/ledger.yaml", schema)
-    rows = run_plan.expected_rows(config, sources)
+    rows = plan.expected_rows(config, sources)
     return rows, {name: "check" in entry for name, entry in entries.items()}
 
 
@@ -63,7 +60,7 @@ def judged(first_run, expected, tmp_path, monkeypatch):
 
     def faults():
         page, problems = "figures/report.html", "results/problems.csv"
-        return gate.faults(judgement.TABLES, residuals, page, problems, made, *expected)
+        return gate.faults(gate.TABLES, residuals, page, problems, made, *expected)
 
     return faults, tmp_path, made
 
@@ -136,13 +133,13 @@ def test_the_report_must_show_every_comparison(judged):
 
 def test_passed_belongs_to_files_sources_and_config(judged):
     _, folder, made = judged
-    passed, config = folder / judgement.PASSED, {"mass_ratio": 3.5}
+    passed, config = folder / gate.PASSED, {"mass_ratio": 3.5}
 
     def kept():
-        judgement.drop_false_pass(made, config)
+        gate.drop_false_pass(made, config)
         return passed.exists()
 
-    true = judgement.words_of_pass(made, config)
+    true = gate.words_of_pass(made, config)
     for planted in ("", "PASSED", true[:-2]):
         passed.write_text(planted)
         assert not kept()
@@ -187,10 +184,10 @@ CHANGED_ROWS = [
 @pytest.mark.parametrize(("change", "words"), CHANGED_ROWS, ids=[w for _, w in CHANGED_ROWS])
 def test_rows_that_cannot_be_do_not_pass(expected, change, words):
     verdicts, ledger = good_rows(expected)
-    assert judgement.faults_of_tables(verdicts, ledger, *expected) == []
+    assert gate.faults_of_tables(verdicts, ledger, *expected) == []
     row = next(row for row in verdicts if row["comparison"] == "fig6-rebound")
     row[change[0]] = change[1]
-    assert any(words in f for f in judgement.faults_of_tables(verdicts, ledger, *expected))
+    assert any(words in f for f in gate.faults_of_tables(verdicts, ledger, *expected))
 
 
 @pytest.mark.parametrize("holds", ["no", "", "YES", None])
@@ -198,7 +195,7 @@ def test_entries_that_do_not_hold_do_not_pass(expected, holds):
     verdicts, ledger = good_rows(expected)
     row = next(row for row in ledger if row["entry"] == "eq-41")
     row["holds"] = holds
-    found = judgement.faults_of_tables(verdicts, ledger, *expected)
+    found = gate.faults_of_tables(verdicts, ledger, *expected)
     assert len(found) == 1 and "eq-41" in found[0]
 
 
@@ -219,7 +216,7 @@ def report(first_run, expected, tmp_path, monkeypatch):
         shutil.copytree(first_run[0] / folder, tmp_path / folder)
     monkeypatch.chdir(tmp_path)
     config = reference_data.load_yaml(ROOT / "workflow/config.yaml")
-    names = run_plan.FIGURES
+    names = configuration.FIGURES
 
     def written():
         write_report.write(
@@ -266,7 +263,7 @@ DAMAGE = [
         "verdicts.csv, line 2",
     ),
     ("results/ledger.csv", "", "results/ledger.csv"),
-    ("results/ledger.csv", ",".join(ledger_table.COLUMNS[1:]) + "\n", "column 'kind' is missing"),
+    ("results/ledger.csv", ",".join(outcome.COLUMNS[1:]) + "\n", "column 'kind' is missing"),
     ("results/trade.csv", "a,b\n1\n", "results/trade.csv, line 2"),
     ("results/residuals/fig5.csv", "comparison\nfig5-lumped-exact\n", "Fig. 5: "),
     ("results/residuals/fig5.csv", None, "residuals/fig5.csv"),

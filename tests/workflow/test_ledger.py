@@ -7,27 +7,26 @@ from collections import Counter
 from pathlib import Path
 
 import browser
-import check_ledger
-import ledger_entries
-import ledger_table
 import numpy as np
 import pytest
-import reference_data
-import write_ledger_page
 
-from planarimpact import bodies, continuum, laws, ledger, lumped, noncollinear, rigid
-from planarimpact.printed import dissipation, dynamics
+from planarimpact import bodies, continuum, lumped, noncollinear, rigid
+from planarimpact.models import laws
+from stronge1994 import ledger, reference_data
+from stronge1994.ledger import checking, entries, outcome
+from stronge1994.pages import ledger_page
+from stronge1994.printed import dissipation, dynamics
 
 ROOT = Path(__file__).parents[2]
 FILE = "data/stronge1994/ledger.yaml"
 SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
-ENTRIES = ledger_entries.load(ROOT / FILE, SCHEMA)
+ENTRIES = entries.load(ROOT / FILE, SCHEMA)
 EXECUTED = {name: entry for name, entry in ENTRIES.items() if "check" in entry}
 
 
 @pytest.fixture(scope="module")
 def rows():
-    return {row["entry"]: row for row in check_ledger.check(ENTRIES)}
+    return {row["entry"]: row for row in checking.check(ENTRIES)}
 
 
 def test_every_numbered_equation_has_an_executed_entry():
@@ -44,7 +43,7 @@ def test_a_wrong_entry_has_a_grade_and_a_cause_and_no_other_has():
         wrong = entry["verdict"] == "wrong"
         assert ("grade" in entry) == ("cause" in entry) == ("because" in entry) == wrong
         if wrong:
-            assert entry["grade"] in ledger_table.GRADES
+            assert entry["grade"] in outcome.GRADES
             assert entry["grade"] == "changes a result" or "reading" in entry
 
 
@@ -106,16 +105,14 @@ def test_a_stated_angle_has_the_tolerance_of_its_source(name):
 def shown_grades(html):
     """Numbers in the rows of the page's summary, by grade."""
     row = r'<span class="mark \w+">({})</span></td>\s*<td>(\d+)</td>'.format(
-        "|".join(ledger_table.GRADES)
+        "|".join(outcome.GRADES)
     )
     return {grade: int(count) for grade, count in re.findall(row, html)}
 
 
 def test_the_page_counts_grades_and_groups_by_cause(rows):
     symbols = reference_data.load_yaml(ROOT / FILE)["symbols"]
-    html = write_ledger_page.page(
-        list(rows.values()), symbols, ROOT / "workflow/report/ledger.html"
-    )
+    html = ledger_page.page(list(rows.values()), symbols, ROOT / "workflow/report/ledger.html")
     grades = Counter(entry["grade"] for entry in ENTRIES.values() if "grade" in entry)
     assert shown_grades(html) == grades
     assert f"{grades.total()} entries are wrong: " in html
@@ -130,14 +127,14 @@ def test_the_page_counts_grades_and_groups_by_cause(rows):
         for cause in causes
     }
     order = [re.findall(r'<span class="mark \w+">([^<]+)</span>', group)[0] for group in groups]
-    assert order == sorted(order, key=list(ledger_table.GRADES).index)
+    assert order == sorted(order, key=list(outcome.GRADES).index)
     assert 'href="#slip-throughout-limit"' in groups[0]
 
 
 def test_the_page_fits_a_phone(rows, tmp_path):
     page = tmp_path / "ledger.html"
     template = ROOT / "workflow/report/ledger.html"
-    page.write_text(write_ledger_page.page(list(rows.values()), "mu", template), encoding="utf-8")
+    page.write_text(ledger_page.page(list(rows.values()), "mu", template), encoding="utf-8")
     with browser.page() as tab:
         tab.resize(390, 800, mobile=True)
         tab.open(page.as_uri())
@@ -157,8 +154,8 @@ def test_the_readme_counts_grades_and_causes():
 
 
 def test_every_check_is_used():
-    assert {entry["check"] for entry in EXECUTED.values()} == set(ledger_entries.checks())
-    assert all(words.endswith(".") for words in ledger_entries.checks().values())
+    assert {entry["check"] for entry in EXECUTED.values()} == set(entries.checks())
+    assert all(words.endswith(".") for words in entries.checks().values())
 
 
 @pytest.mark.parametrize("name", EXECUTED)
@@ -349,7 +346,7 @@ def tripped():
             for (module, name), wrong in (slow | replacements).items():
                 patch.setattr(module, name, wrong)
             with np.errstate(all="ignore"):
-                rows = check_ledger.check(open_entries)
+                rows = checking.check(open_entries)
         for row in rows:
             # A check that only crashes with a fault has not compared anything.
             if row["holds"] == "no" and row["found"] not in ("", "nan"):
@@ -368,7 +365,7 @@ def test_a_wrong_formula_trips_the_entry(name, monkeypatch):
     module, function = OF_RIGID_BODIES[name]
     formula = getattr(module, function)
     monkeypatch.setattr(module, function, lambda *a, **k: 1.1 * np.asarray(formula(*a, **k)))
-    assert check_ledger.check({name: ENTRIES[name]})[0]["holds"] == "no"
+    assert checking.check({name: ENTRIES[name]})[0]["holds"] == "no"
 
 
 def test_a_formula_put_right_trips_its_entry(monkeypatch):
@@ -380,7 +377,7 @@ def test_a_formula_put_right_trips_its_entry(monkeypatch):
 
     monkeypatch.setattr(dynamics, "natural_frequencies", right)
     name = "formula-natural-frequencies"
-    row = check_ledger.check({name: ENTRIES[name]})[0]
+    row = checking.check({name: ENTRIES[name]})[0]
     assert row["holds"] == "no" and "recorded as wrong, found confirmed" in row["problem"]
 
 
@@ -389,7 +386,7 @@ def test_a_check_that_crashes_no_longer_holds(monkeypatch):
         raise ArithmeticError("oh")
 
     monkeypatch.setattr(lumped, "history", crash)
-    row = check_ledger.check({"eq-12": ENTRIES["eq-12"]})[0]
+    row = checking.check({"eq-12": ENTRIES["eq-12"]})[0]
     assert row["holds"] == "no" and row["problem"] == "ArithmeticError: oh"
 
 
@@ -497,7 +494,7 @@ def test_the_page_has_every_entry_and_needs_nothing_else(first_run):
 
 
 def test_formulas_become_readable():
-    html = write_ledger_page.mathematical
+    html = ledger_page.mathematical
     assert str(html("-zeta^2 < s, m/s")) == "−ζ<sup>2</sup> &lt; <i>s</i>, m/s"
     assert str(html("Omega ts")) == "Ω <i>t</i><sub>s</sub>"
     assert str(html("F2max of psi1 -> 0")) == (

@@ -9,9 +9,9 @@ import matplotlib
 import matplotlib.pyplot as plt
 import nbformat
 import pytest
-import run_notebook
 
-from planarimpact import stick_slip
+from planarimpact.lumped import stick_slip
+from stronge1994.pages import lectures as run_notebook
 
 ROOT = Path(__file__).parents[2]
 TEMPLATE = ROOT / "workflow/report/notebook.html"

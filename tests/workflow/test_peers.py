@@ -1,14 +1,14 @@
 """LAMMPS and pooltool: an optional target that says what is missing, and rows like the trade's."""
 
-import csv_tables
-import draw_peers
-import measure_peers
 import numpy as np
-import peers
 import pytest
 
-from planarimpact import lumped, timestep
-from planarimpact.curves import trade
+from planarimpact import lumped
+from planarimpact.models import timestep
+from stronge1994 import csv_tables
+from stronge1994.curves import trade
+from stronge1994.drawings import peers as draw_peers
+from stronge1994.trade import measurement, peers
 
 SETTINGS = {
     "mass_ratio": 3.5,
@@ -60,7 +60,7 @@ def test_without_them_the_target_succeeds_and_says_so(finished):
 
 
 def test_rows_have_errors_times_and_what_was_refused(pretended):
-    rows, notes = measure_peers.measure(**SETTINGS)
+    rows, notes = measurement.measure(**SETTINGS)
     assert not notes
     ours = rows["timestep.mindlin, 64 steps, e = 1"]
     theirs = rows["LAMMPS mindlin/force, 64 steps, e = 1"]
@@ -83,7 +83,7 @@ def test_bodies_that_lammps_does_not_have_are_named(pretended):
         ({"mass_ratio": 2.0}, "mass_ratio = 2: it has solid spheres"),
         ({"stiffness_ratio": 2.5}, "stiffness_ratio = 2.5: no material"),
     ):
-        rows, notes = measure_peers.measure(**SETTINGS | change)
+        rows, notes = measurement.measure(**SETTINGS | change)
         assert len(notes) == 1 and notes[0].startswith("lammps: ") and words in notes[0]
         assert "pooltool, e = 0.5" in rows
 
@@ -92,7 +92,7 @@ def test_figure_has_their_points_and_names_what_is_missing(pretended, tmp_path):
     settings = {**SETTINGS, **TRIED, "budget": 10.0}
     tables = {
         "curves": trade.curves(**settings),
-        "peers": measure_peers.measure(**SETTINGS)[0],
+        "peers": measurement.measure(**SETTINGS)[0],
         "none": {"pooltool": {"model": ["pooltool"], "installed": ["no"]}},
     }
     for name, named in tables.items():

@@ -8,11 +8,11 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-import csv_tables
 import numpy as np
 import pytest
 
 from planarimpact import continuum, lumped
+from stronge1994 import csv_tables
 
 ROOT = Path(__file__).parents[2]
 PATHS = [ROOT / "README.md", *sorted(ROOT.glob("[a-z]*/README.md")), ROOT / "data/scenes/README.md"]

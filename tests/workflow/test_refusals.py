@@ -6,11 +6,12 @@ A start of Snakemake checks what the functions here check; three whole starts sh
 import shutil
 from pathlib import Path
 
-import ledger_entries
 import pytest
-import reference_data
-import run_plan
-import study_plan
+
+from stronge1994 import reference_data
+from stronge1994.ledger import entries
+from stronge1994.plan import config as configuration
+from stronge1994.plan import grid
 
 ROOT = Path(__file__).parents[2]
 SCHEMAS = ROOT / "workflow/schemas"
@@ -21,7 +22,7 @@ CONFIG_SCHEMA = reference_data.load_yaml(SCHEMAS / "config.schema.yaml")
 @pytest.fixture(scope="module")
 def ledger():
     schema = reference_data.load_yaml(SCHEMAS / "ledger.schema.yaml")
-    return ledger_entries.load(ROOT / "data/stronge1994/ledger.yaml", schema)
+    return entries.load(ROOT / "data/stronge1994/ledger.yaml", schema)
 
 
 @pytest.fixture(scope="module")
@@ -36,9 +37,9 @@ def check(inventory, ledger, monkeypatch):
 
     def checked(change, data=inventory):
         config = reference_data.load_yaml("workflow/config.yaml")
-        config = run_plan.with_values(updated(config, change))
-        run_plan.check_config(config, CONFIG_SCHEMA, data, ledger)
-        study_plan.check(config)
+        config = configuration.with_values(updated(config, change))
+        configuration.check_config(config, CONFIG_SCHEMA, data, ledger)
+        grid.check(config)
 
     return checked
 
@@ -105,7 +106,7 @@ def test_the_config_itself_is_admitted(check):
 
 @pytest.mark.parametrize(("change", "words"), BAD_CONFIG)
 def test_bad_config_is_refused(change, words, check):
-    with pytest.raises(run_plan.ConfigError, match=f"^config: .*{words}") as refusal:
+    with pytest.raises(configuration.ConfigError, match=f"^config: .*{words}") as refusal:
         check(change)
     assert "\n" not in str(refusal.value)
 
@@ -171,12 +172,12 @@ MISREAD = [
 
 @pytest.mark.parametrize("arguments", MISREAD, ids=[" ".join(words) for words in MISREAD])
 def test_values_that_would_be_misread_are_refused(arguments):
-    with pytest.raises(run_plan.ConfigError, match="^--config "):
-        run_plan.refuse_misread_values(arguments)
+    with pytest.raises(configuration.ConfigError, match="^--config "):
+        configuration.refuse_misread_values(arguments)
 
 
 def test_values_that_mean_what_they_say_are_not_refused():
-    run_plan.refuse_misread_values(
+    configuration.refuse_misread_values(
         ["a=1.5", "b=-2e-3", "c={d: [0, 0.6, 1], e: true}", "f=nan", "g="]
     )
 
@@ -187,7 +188,7 @@ def test_missing_and_stray_series_are_refused(data, check):
     with pytest.raises(reference_data.SourceError, match="rebound.csv: missing"):
         reference_data.load_all(folder, SOURCE_SCHEMA)
     edit("chung_ooi2011/source.yaml", "  rebound:", "  rebounds:")
-    with pytest.raises(run_plan.ConfigError, match="'chung_ooi2011/rebound' is neither"):
+    with pytest.raises(configuration.ConfigError, match="'chung_ooi2011/rebound' is neither"):
         check({}, reference_data.load_all(folder, SOURCE_SCHEMA))
     (folder / "kharaz2001/more.csv").write_text("a\n")
     with pytest.raises(reference_data.SourceError, match="more.csv: no series of that name"):

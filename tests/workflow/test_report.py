@@ -13,20 +13,18 @@ from collections import Counter
 from html.parser import HTMLParser
 from pathlib import Path
 
-import api_reference
 import browser
-import docstring_html
-import draw_residuals
-import ledger_table
 import numpy as np
 import pytest
-import reference_data
-import run_facts
-import run_plan
-import verdict_table
-import write_ledger_page
-import write_report
 import yaml
+
+from stronge1994 import plan, reference_data
+from stronge1994.drawings import residuals as draw_residuals
+from stronge1994.judging import verdict_table
+from stronge1994.ledger import outcome
+from stronge1994.pages import api_reference, docstring_html, ledger_page, run_facts
+from stronge1994.pages import report as write_report
+from stronge1994.plan import config as configuration
 
 ROOT = Path(__file__).parents[2]
 CONFIG = reference_data.load_yaml(ROOT / "workflow/config.yaml")
@@ -120,10 +118,10 @@ def test_every_verdict_figure_source_and_function_is_there(first_run, page, text
         assert f"{row['verdict']} {row['comparison']} " in text
     counts = Counter(row["verdict"] for row in verdicts)
     assert all(f"{verdict} {count} " in text for verdict, count in counts.items())
-    for figure in run_plan.FIGURES:
+    for figure in configuration.FIGURES:
         assert {figure, f"config-{figure}"} <= set(page.ids)
         assert f"../results/curves/{figure}.csv" in page.links
-        module = importlib.import_module(f"planarimpact.curves.{figure}")
+        module = importlib.import_module(f"stronge1994.curves.{figure}")
         assert f"#{module.curves.__module__}.curves" in page.links
     for source in (ROOT / "data").glob("*/source.yaml"):
         stated = reference_data.load_yaml(source)
@@ -133,7 +131,9 @@ def test_every_verdict_figure_source_and_function_is_there(first_run, page, text
                 assert f"{source.parent.name}/{name}" in page.ids
                 assert (entry.get("digitised_by") or "") in text
     assert text.count("nobody yet: there are no points") == 3
-    assert {"planarimpact.lumped.rebound", "planarimpact.results.Rebound.of"} <= set(page.ids)
+    assert {"planarimpact.lumped.rebound", "planarimpact.ground.results.Rebound.of"} <= set(
+        page.ids
+    )
     assert "class Material(young_modulus: Numbers, poisson_ratio: Numbers)" in text
     ledger = Counter(row["verdict"] for row in rows_of(first_run[0] / "results/ledger.csv"))
     assert all(f"{count} are {verdict}" in text for verdict, count in ledger.items())
@@ -142,7 +142,7 @@ def test_every_verdict_figure_source_and_function_is_there(first_run, page, text
 def test_a_row_of_the_verdicts_says_what_was_allowed_and_why(first_run, report):
     results = first_run[0] / "results"
     names = {row["entry"] for row in rows_of(results / "ledger.csv")}
-    maths = write_ledger_page.linked_maths(names)
+    maths = ledger_page.linked_maths(names)
     text = report.read_text(encoding="utf-8")
     for row in rows_of(results / "verdicts.csv"):
         shown = text[text.index(f'<tr id="{row["comparison"]}"') :].split("</tr>")[0]
@@ -156,19 +156,19 @@ def test_a_row_of_the_verdicts_says_what_was_allowed_and_why(first_run, report):
         assert (f'<a href="#{entry}">' in shown) == (entry in names)
 
 
-@pytest.mark.parametrize("name", run_plan.FIGURES)
+@pytest.mark.parametrize("name", configuration.FIGURES)
 def test_a_figure_has_its_own_picture_words_verdicts_and_settings(first_run, report, name):
     text = report.read_text(encoding="utf-8")
     shown = text[text.index(f'<h3 id="{name}">') :].split("</details>")[0]
     svg = (report.parent / f"{name}.svg").read_bytes()
     assert base64.b64encode(svg).decode() in shown
     words = write_report.caption(ROOT / "workflow/report/figures.rst", name)
-    assert write_ledger_page.mathematical(words.split(". ")[0]) in shown
+    assert ledger_page.mathematical(words.split(". ")[0]) in shown
     verdicts = rows_of(first_run[0] / "results/verdicts.csv")
     mine = [row["comparison"] for row in verdicts if row["figure"] == name]
     assert re.findall(r'<td><a href="#([^"]*)">', shown) == mine
     settings = yaml.safe_load(html.unescape(shown.split("<pre>")[1].split("</pre>")[0]))
-    config = run_plan.with_values(CONFIG)
+    config = configuration.with_values(CONFIG)
     assert settings["figures"] == {name: config["figures"][name]}
     assert settings.get("comparisons", {}) == {
         comparison: entry
@@ -237,7 +237,7 @@ def doctored(*lapsed):
 
     With a `lapsed` entry of the ledger all comparisons agree.
     """
-    figures = [*run_plan.FIGURES]
+    figures = [*configuration.FIGURES]
 
     def row(figure, comparison, verdict, **cells):
         cells = {"figure": figure, "comparison": comparison, "verdict": verdict} | cells
@@ -268,7 +268,7 @@ def doctored(*lapsed):
     crashed = {"rows": [{"error": "ArithmeticError: <oh>"}], "caption": "Words."}
     return write_report.page(
         verdicts,
-        [dict.fromkeys(ledger_table.COLUMNS, "") | entry for entry in lapsed],
+        [dict.fromkeys(outcome.COLUMNS, "") | entry for entry in lapsed],
         shown,
         dict.fromkeys(("which_model", "trade", "stability", "gates"), crashed),
         CONFIG,
@@ -334,7 +334,7 @@ def test_strips_show_points_bounds_and_verdicts():
 @pytest.mark.parametrize("figure", ["fig3", "fig4", "fig6", "fig7", "fig8"])
 def test_functions_of_a_figure_are_those_that_it_calls(figure):
     inventory = reference_data.load_all(ROOT / "data", SCHEMA)
-    module = importlib.import_module(f"planarimpact.curves.{figure}")
+    module = importlib.import_module(f"stronge1994.curves.{figure}")
     reference = api_reference.modules()
     functions = {m["name"] for r in reference.values() for m in r["members"] if m["kind"] == "def"}
     called = set()
@@ -346,20 +346,20 @@ def test_functions_of_a_figure_are_those_that_it_calls(figure):
         if event == "call" and caller is not None:
             home = caller.f_globals.get("__name__", "")
             name = f"{frame.f_globals.get('__name__', '')}.{frame.f_code.co_name}"
-            if home.startswith("planarimpact.curves") and name in functions:
+            if home.startswith("stronge1994.curves") and name in functions:
                 called.add(name)
 
-    settings = run_plan.settings(CONFIG, inventory, figure)
+    settings = plan.settings(CONFIG, inventory, figure)
     sys.setprofile(watch)
     try:
         module.curves(**settings)
     finally:
         sys.setprofile(None)
-    called = {name for name in called if not name.startswith("planarimpact.curves.")}
+    called = {name for name in called if not name.startswith("stronge1994.curves.")}
     listed = api_reference.functions_of_figure(reference, figure)
     assert called and called <= set(listed)
     moved = api_reference.home("planarimpact.bodies.mass_ratio", reference)
-    assert moved == "planarimpact.masses.mass_ratio"
+    assert moved == "planarimpact.bodies.masses.mass_ratio"
     assert listed[0] == f"{module.curves.__module__}.curves"
 
 

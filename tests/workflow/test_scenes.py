@@ -2,12 +2,12 @@
 
 import re
 
-import csv_tables
-import draw_superball
 import pytest
 import scene_tables
 
-from planarimpact.curves import superball
+from stronge1994 import csv_tables
+from stronge1994.curves import superball
+from stronge1994.drawings import superball as draw_superball
 
 
 def test_every_scene_is_solved_and_explained(first_run):

@@ -14,9 +14,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import study_files
 
 from planarimpact import lumped, study
+from stronge1994 import study_files
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sinfo", "sbatch", "srun", "squeue", "scontrol")
 STARTING, RUNNING = 20, 120  # s, at most

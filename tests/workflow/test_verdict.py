@@ -8,9 +8,11 @@ import subprocess
 import sys
 import time
 
-import options
 import pytest
-import run_plan
+
+from stronge1994.gate import options
+from stronge1994.plan import config as configuration
+from stronge1994.plan import files
 
 # At the first start of a job it is killed without warning, later it fails.
 FAULT = """
@@ -108,10 +110,10 @@ BROKEN = [
 
 @pytest.mark.parametrize(("path", "text", "words"), BROKEN)
 def test_a_module_that_is_no_python_is_refused(copied_modules, path, text, words):
-    run_plan.refuse_unreadable_modules()
+    files.refuse_unreadable_modules()
     (copied_modules / path).write_bytes(text if isinstance(text, bytes) else text.encode())
-    with pytest.raises(run_plan.ConfigError, match=re.escape(words)):
-        run_plan.refuse_unreadable_modules()
+    with pytest.raises(configuration.ConfigError, match=re.escape(words)):
+        files.refuse_unreadable_modules()
 
 
 @pytest.mark.parametrize(
@@ -120,8 +122,8 @@ def test_a_module_that_is_no_python_is_refused(copied_modules, path, text, words
 )
 def test_a_notebook_that_is_none_is_refused(copied_modules, text):
     (copied_modules / "workflow/notebooks/choosing_a_model.ipynb").write_text(text)
-    with pytest.raises(run_plan.ConfigError, match=r"notebooks/choosing_a_model\.ipynb"):
-        run_plan.modules_of_notebook("choosing_a_model")
+    with pytest.raises(configuration.ConfigError, match=r"notebooks/choosing_a_model\.ipynb"):
+        files.modules_of_notebook("choosing_a_model")
 
 
 @pytest.mark.parametrize(
@@ -131,10 +133,10 @@ def test_a_notebook_that_is_none_is_refused(copied_modules, text):
 def test_a_source_that_is_lost_or_half_merged_is_refused(tmp_path, text, words):
     path = tmp_path / "page.js"
     path.write_text("let x = 1 << 7;\n")
-    assert run_plan.present(path) == path
+    assert files.present(path) == path
     path.unlink() if text is None else path.write_text(text)
-    with pytest.raises(run_plan.ConfigError, match=f"page.js: .*{words}"):
-        run_plan.present(path)
+    with pytest.raises(configuration.ConfigError, match=f"page.js: .*{words}"):
+        files.present(path)
 
 
 def test_a_finished_tree_with_a_broken_module_or_a_lost_source_is_refused(finished):

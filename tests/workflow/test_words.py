@@ -3,12 +3,11 @@
 import time
 from types import SimpleNamespace
 
-import closing
-import csv_tables
-import job
 import pytest
-import records
-import verdict_table
+
+from stronge1994 import csv_tables, job, records
+from stronge1994.gate import closing
+from stronge1994.judging import verdict_table
 
 VERDICT = {
     **dict.fromkeys(verdict_table.COLUMNS, ""),

@@ -1,37 +1,38 @@
 # Checked config and data before any work, and what the rules ask of them. All of it is worked out
 # here, once: the functions below only look it up.
-import closing
-import ledger_entries
-import study_plan
+from stronge1994.gate import closing
+from stronge1994.ledger import entries
+from stronge1994.plan import grid
+from stronge1994.plan.files import modules
 
 LEDGER = "data/stronge1994/ledger.yaml"
 NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
 try:
-    config = run_plan.with_values(config)
+    config = configuration.with_values(config)
     LEDGER_SCHEMA = reference_data.load_yaml("workflow/schemas/ledger.schema.yaml")
     SOURCES = reference_data.load_all("data", reference_data.load_yaml("workflow/schemas/source.schema.yaml"))
-    ENTRIES = ledger_entries.load(LEDGER, LEDGER_SCHEMA)
+    ENTRIES = entries.load(LEDGER, LEDGER_SCHEMA)
     SYMBOLS = reference_data.load_yaml(LEDGER)["symbols"]
     schema = reference_data.load_yaml("workflow/schemas/config.schema.yaml")
-    run_plan.check_config(config, schema, SOURCES, ENTRIES)
-    study_plan.check(config)
+    configuration.check_config(config, schema, SOURCES, ENTRIES)
+    grid.check(config)
     FIGURES = {
-        figure: run_plan.plan_of_figure(config, SOURCES, figure) for figure in run_plan.FIGURES
+        figure: plan.plan_of_figure(config, SOURCES, figure) for figure in configuration.FIGURES
     }
     JUDGED = {
-        name: run_plan.plan_of_judgement(config, SOURCES, name)
-        for name in run_plan.judged(config)
+        name: plan.plan_of_judgement(config, SOURCES, name)
+        for name in configuration.judged(config)
     }
-    EXPECTED_ROWS = run_plan.expected_rows(config, SOURCES)
-    NOTEBOOK_MODULES = {name: run_plan.modules_of_notebook(name) for name in NOTEBOOKS}
-except (reference_data.SourceError, run_plan.ConfigError) as error:
+    EXPECTED_ROWS = plan.expected_rows(config, SOURCES)
+    NOTEBOOK_MODULES = {name: files.modules_of_notebook(name) for name in NOTEBOOKS}
+except (reference_data.SourceError, ConfigError) as error:
     raise refused(error)
 
 EXPECTED_ENTRIES = {name: "check" in entry for name, entry in ENTRIES.items()}
-CHUNKS = study_plan.chunks(config)
+CHUNKS = grid.chunks(config)
 # Sources with whose series something is compared.
-COMPARED = sorted({source for plan in JUDGED.values() for source in plan["sources"]})
-UNTIMED = [figure for figure in FIGURES if figure not in run_plan.TIMED]
+COMPARED = sorted({source for told in JUDGED.values() for source in told["sources"]})
+UNTIMED = [figure for figure in FIGURES if figure not in plan.TIMED]
 # Every value that a wildcard has in a run.
 VALUES = {
     "figure": list(FIGURES),
@@ -52,26 +53,16 @@ wildcard_constraints:
     chunk=r"\d+-\d+",
 
 
-# Every rule has the fingerprint of what it reads of this repository as a parameter, `content`.
-# Snakemake runs a job again if an input is newer than its output: files from an archive or a backup
-# may be other ones and yet older.
-def content_of_source(wildcards):
-    return run_plan.content(*run_plan.modules("convert_series"), *files_of_source(wildcards))
-
-
-def content_of_scene(wildcards):
-    table = f"data/scenes/{wildcards.scene}.csv"
-    return run_plan.content(*run_plan.modules("solve_scene"), table)
-
-
-def content_of_notebook(wildcards):
-    notebook = f"workflow/notebooks/{wildcards.notebook}.ipynb"
-    template = "workflow/report/notebook.html"
-    return run_plan.content(*notebook_modules(wildcards), notebook, template)
+# Every rule has this as its parameter `content`. Snakemake runs a job again if an input is newer than
+# its output: files from an archive or a backup may be other ones and yet older.
+def content(wildcards, input):
+    """Fingerprint of what a job reads of this repository."""
+    ours = [path for path in input if path.startswith(("data/", "src/", "workflow/"))]
+    return files.content(*ours)
 
 
 def of_figure(part, plans=FIGURES, wildcard="figure"):
-    """Input function: a part of what `run_plan.plan_of_figure` says of a figure, or of another plan."""
+    """Input function: a part of what `plan.plan_of_figure` says of a figure, or of another plan."""
 
     def found(wildcards):
         return plans[getattr(wildcards, wildcard)][part]
@@ -80,15 +71,15 @@ def of_figure(part, plans=FIGURES, wildcard="figure"):
 
 
 def of_judged(part, wildcard="judged"):
-    """Input function: a part of what `run_plan.plan_of_judgement` says."""
+    """Input function: a part of what `plan.plan_of_judgement` says."""
     return of_figure(part, JUDGED, wildcard)
 
 
-def sources(*files):
+def sources(*paths):
     """Files of this repository that a rule reads, refused where one is missing."""
     try:
-        return run_plan.present(*files)
-    except run_plan.ConfigError as error:
+        return files.present(*paths)
+    except ConfigError as error:
         raise refused(error)
 
 
@@ -110,7 +101,7 @@ def all_cores(wildcards):
 
 
 def cores_reserved(wildcards):
-    return workflow.cores if wildcards.figure in run_plan.TIMED else 1
+    return workflow.cores if wildcards.figure in plan.TIMED else 1
 
 
 def source_of(wildcards):
@@ -123,4 +114,4 @@ def files_of_source(wildcards):
 
 
 # Checks are found by name: every module that holds some is an input.
-LEDGER_MODULES = [f"planarimpact.ledger.{module}" for module in ledger_entries.MODULES]
+LEDGER_MODULES = [f"stronge1994.ledger.{module}" for module in entries.MODULES]

@@ -6,7 +6,7 @@ rule curves:
     output:
         "results/curves/{figure}.csv",
     params:
-        content=of_figure("solver content"),
+        content=content,
         settings=of_figure("settings"),
         nodes=of_figure("nodes"),
     log:

@@ -13,7 +13,7 @@ rule draw:
         ),
         png="figures/{figure}.png",
     params:
-        content=of_figure("drawing content"),
+        content=content,
         settings=of_figure("settings"),
         overlays=of_figure("overlays"),
         sources=of_figure("sources"),

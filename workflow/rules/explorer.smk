@@ -6,7 +6,7 @@ EXPLORER_SOURCES = sources(*expand("workflow/explorer/{file}", file=EXPLORER_PAR
 rule explorer:
     """A page to play with one impact; it solves the lumped model itself."""
     input:
-        modules=run_plan.modules("write_explorer"),
+        modules=modules("write_explorer"),
         sources=EXPLORER_SOURCES,
     output:
         report(
@@ -16,8 +16,8 @@ rule explorer:
             labels={"page": "an impact to play with"},
         ),
     params:
-        content=run_plan.content(*run_plan.modules("write_explorer"), *EXPLORER_SOURCES),
-        settings=run_plan.settings_of_explorer(config),
+        content=content,
+        settings=plan.settings_of_explorer(config),
     log:
         "results/logs/explorer.log",
     benchmark:

@@ -6,15 +6,13 @@ PAGE_TEMPLATE = sources("workflow/report/ledger.html")
 rule ledger:
     """Run every entry of the paper's ledger against the exact solver; always succeeds."""
     input:
-        modules=run_plan.modules("check_ledger", *LEDGER_MODULES),
+        modules=modules("check_ledger", *LEDGER_MODULES),
         entries=LEDGER,
         facts=LEDGER_FACTS,
     output:
         "results/ledger.csv",
     params:
-        content=run_plan.content(
-            *run_plan.modules("check_ledger", *LEDGER_MODULES), LEDGER, LEDGER_FACTS
-        ),
+        content=content,
         schema=LEDGER_SCHEMA,
     log:
         "results/logs/ledger.log",
@@ -31,7 +29,7 @@ rule ledger:
 rule ledger_page:
     """The ledger as a page to read, with corrections and their derivations."""
     input:
-        modules=run_plan.modules("write_ledger_page"),
+        modules=modules("write_ledger_page"),
         template=PAGE_TEMPLATE,
         parts=PAGE_PARTS,
         table="results/ledger.csv",
@@ -43,7 +41,7 @@ rule ledger_page:
             labels={"page": "the paper verified"},
         ),
     params:
-        content=run_plan.content(*run_plan.modules("write_ledger_page"), PAGE_TEMPLATE, *PAGE_PARTS),
+        content=content,
         symbols=SYMBOLS,
     log:
         "results/logs/ledger_page.log",

@@ -16,7 +16,7 @@ rule notebook:
             labels={"lecture": "{notebook}"},
         ),
     params:
-        content=content_of_notebook,
+        content=content,
     log:
         "results/logs/notebook_{notebook}.log",
     benchmark:

@@ -5,12 +5,12 @@
 rule measure_peers:
     """Error and time of both codes, beside ours in the same process."""
     input:
-        modules=run_plan.modules("measure_peers"),
+        modules=modules("measure_peers"),
     output:
         "results/peers.csv",
     params:
-        content=run_plan.content(*run_plan.modules("measure_peers")),
-        settings=run_plan.settings_of_peers(config),
+        content=content,
+        settings=plan.settings_of_peers(config),
     log:
         "results/logs/measure_peers.log",
     benchmark:
@@ -27,7 +27,7 @@ rule measure_peers:
 rule draw_peers:
     """Error against time with the points of both codes."""
     input:
-        modules=run_plan.modules("draw_peers"),
+        modules=modules("draw_peers"),
         curves="results/curves/trade.csv",
         peers="results/peers.csv",
     output:
@@ -39,7 +39,7 @@ rule draw_peers:
         ),
         png="figures/trade_with_peers.png",
     params:
-        content=run_plan.content(*run_plan.modules("draw_peers")),
+        content=content,
         settings=FIGURES["trade"]["settings"],
     log:
         "results/logs/draw_peers.log",

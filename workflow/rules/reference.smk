@@ -1,12 +1,12 @@
 rule series:
     """Bring the series of one source into one table; WebPlotDigitizer's exports are converted."""
     input:
-        modules=run_plan.modules("convert_series"),
+        modules=modules("convert_series"),
         files=files_of_source,
     output:
         "results/series/{source}.csv",
     params:
-        content=content_of_source,
+        content=content,
         source=source_of,
     log:
         "results/logs/series_{source}.log",

@@ -19,7 +19,7 @@ REPORT_PARTS = sources(
 rule report:
     """The run as one page; always succeeds, whatever its verdicts, tables and modules."""
     input:
-        modules=run_plan.modules("write_report"),
+        modules=modules("write_report"),
         interface=REPORT_INTERFACE,
         template="workflow/report/report.html",
         captions="workflow/report/figures.rst",
@@ -33,9 +33,7 @@ rule report:
         page="figures/report.html",
         problems="results/problems.csv",
     params:
-        content=run_plan.content(
-            *run_plan.modules("write_report"), *REPORT_INTERFACE, *REPORT_PARTS
-        ),
+        content=content,
         figures=list(FIGURES),
         config={
             key: config[key]

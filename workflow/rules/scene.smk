@@ -1,12 +1,12 @@
 rule scene:
     """Solve a table of impacts, each by the cheapest model that is good enough."""
     input:
-        modules=run_plan.modules("solve_scene"),
+        modules=modules("solve_scene"),
         table="data/scenes/{scene}.csv",
     output:
         "results/scenes/{scene}.csv",
     params:
-        content=content_of_scene,
+        content=content,
         tolerance=scene_tolerance,
     log:
         "results/logs/scene_{scene}.log",

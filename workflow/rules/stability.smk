@@ -1,7 +1,7 @@
 rule stability:
     """Digits of the lumped model by decades of each parameter; always succeeds."""
     input:
-        modules=run_plan.modules("write_stability"),
+        modules=modules("write_stability"),
         curves="results/curves/stability.csv",
     output:
         report(
@@ -11,7 +11,7 @@ rule stability:
             labels={"table": "digits by decades of each parameter"},
         ),
     params:
-        content=run_plan.content(*run_plan.modules("write_stability")),
+        content=content,
     log:
         "results/logs/stability.log",
     benchmark:

@@ -6,12 +6,12 @@
 rule solve_chunk:
     """Solve some points of the study's grid, `start-stop`; the chunks know nothing of each other."""
     input:
-        modules=run_plan.modules("solve_chunk"),
+        modules=modules("solve_chunk"),
     output:
         "results/study/{chunk}.npz",
     params:
-        content=run_plan.content(*run_plan.modules("solve_chunk")),
-        settings=study_plan.settings(config),
+        content=content,
+        settings=grid.settings(config),
     log:
         "results/logs/study_{chunk}.log",
     benchmark:
@@ -27,13 +27,13 @@ rule solve_chunk:
 rule gather_chunks:
     """Put the chunks together in the shape of the grid."""
     input:
-        modules=run_plan.modules("gather_chunks"),
+        modules=modules("gather_chunks"),
         chunks=expand(rules.solve_chunk.output, chunk=CHUNKS),
     output:
         "results/study.npz",
     params:
-        content=run_plan.content(*run_plan.modules("gather_chunks")),
-        settings=study_plan.settings(config),
+        content=content,
+        settings=grid.settings(config),
     log:
         "results/logs/gather_chunks.log",
     benchmark:
@@ -49,7 +49,7 @@ rule gather_chunks:
 rule draw_study:
     """Draw maps of the rebound over the grid; never solves."""
     input:
-        modules=run_plan.modules("draw_study"),
+        modules=modules("draw_study"),
         study="results/study.npz",
     output:
         svg=report(
@@ -60,7 +60,7 @@ rule draw_study:
         ),
         png="figures/study.png",
     params:
-        content=run_plan.content(*run_plan.modules("draw_study")),
+        content=content,
     log:
         "results/logs/draw_study.log",
     benchmark:

@@ -1,7 +1,7 @@
 rule trade:
     """Error and time of every model as tables; always succeeds."""
     input:
-        modules=run_plan.modules("write_trade"),
+        modules=modules("write_trade"),
         curves="results/curves/trade.csv",
     output:
         table=report(
@@ -17,7 +17,7 @@ rule trade:
             labels={"table": "which model for which tolerance"},
         ),
     params:
-        content=run_plan.content(*run_plan.modules("write_trade")),
+        content=content,
     log:
         "results/logs/trade.log",
     benchmark:

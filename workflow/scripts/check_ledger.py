@@ -1,60 +1,9 @@
-"""Run every entry of the ledger against the exact solver: one row an entry.
+"""Run every entry of the ledger against the exact solver; always succeeds."""
 
-Always succeeds: an entry whose check crashes no longer holds, with the reason in `problem`.
-"""
+from stronge1994 import job
+from stronge1994.ledger import checking, entries, outcome
 
-import traceback
-
-import csv_tables
-import job
-import ledger_entries
-import ledger_table
-
-from planarimpact import ledger
-
-
-def check(entries):
-    """Rows of the ledger's table, in its order."""
-    tests = ledger_entries.checks()
-    return [_row(name, entry, tests.get(entry.get("check"), "")) for name, entry in entries.items()]
-
-
-def _row(name, entry, test):
-    row = dict.fromkeys(ledger_table.COLUMNS, "")
-    row |= {key: entry[key] for key in row if key in entry and key not in ("confirms", "holds")}
-    row |= {"entry": name, "test": test, "range": entry.get("holds", "")}
-    if "check" not in entry:
-        return row
-    row["confirms"] = _words(entry["confirms"])
-    row["between"] = " to ".join(f"{bound:g}" for bound in entry.get("between", []))
-    try:
-        finding = ledger.run(entry["check"])
-        judgement = ledger.judge(finding, entry)
-    except Exception as error:
-        traceback.print_exc()
-        return row | {"holds": "no", "problem": f"{type(error).__name__}: {error}"}
-    corrected = "" if finding.corrected is None else f"{finding.corrected:.2g}"
-    return row | {
-        "holds": "yes" if judgement.holds else "no",
-        "found": f"{finding.found:.6g}",
-        "corrected": corrected,
-        "problem": judgement.why,
-    }
-
-
-def _words(confirms):
-    if "value" in confirms:
-        return f"{confirms['value']:g} within {confirms['rounding']:g}"
-    (word, bound), *_ = confirms.items()
-    return f"{word.replace('_', ' ')} {bound:g}"
-
-
-if "snakemake" in globals():
-    with job.recorded(snakemake):  # noqa: F821
-        rows = check(ledger_entries.load(snakemake.input.entries, snakemake.params.schema))  # noqa: F821
-        csv_tables.write_rows(
-            snakemake.output[0],  # noqa: F821
-            ledger_table.COLUMNS,
-            [list(row.values()) for row in rows],
-        )
-        print(ledger_table.summary(rows))
+with job.recorded(snakemake):
+    rows = checking.check(entries.load(snakemake.input.entries, snakemake.params.schema))
+    outcome.write(snakemake.output[0], rows)
+    print(outcome.summary(rows))

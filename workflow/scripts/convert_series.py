@@ -1,22 +1,7 @@
-"""Bring the series of one source into one table with its own column names."""
+"""Bring the series of one source into one table."""
 
-import csv_tables
-import job
-import reference_data
+from stronge1994 import job
+from stronge1994.reference_data import conversion
 
-
-def convert(source, output):
-    """Write every series at hand of a loaded `source`."""
-    found = {
-        name: reference_data.read_series(name, series)
-        for name, series in source["series"].items()
-        if series["path"]
-    }
-    csv_tables.write(output, found, first="series")
-    for name, columns in found.items():
-        print(f"{name}: {len(next(iter(columns.values())))} points")
-
-
-if "snakemake" in globals():
-    with job.recorded(snakemake):  # noqa: F821
-        convert(snakemake.params.source, snakemake.output[0])  # noqa: F821
+with job.recorded(snakemake):
+    conversion.convert(snakemake.params.source, snakemake.output[0])

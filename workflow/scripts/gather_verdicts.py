@@ -1,15 +1,9 @@
 """Gather the verdicts of all figures into one table."""
 
-import csv_tables
-import job
-import verdict_table
+from stronge1994 import job
+from stronge1994.judging import verdict_table
 
-if "snakemake" in globals():
-    with job.recorded(snakemake):  # noqa: F821
-        rows = verdict_table.gather(snakemake.input.verdicts)  # noqa: F821
-        csv_tables.write_rows(
-            snakemake.output[0],  # noqa: F821
-            verdict_table.COLUMNS,
-            [[row[column] for column in verdict_table.COLUMNS] for row in rows],
-        )
-        print(verdict_table.text(rows))
+with job.recorded(snakemake):
+    rows = verdict_table.gather(snakemake.input.verdicts)
+    verdict_table.write(snakemake.output[0], rows, verdict_table.COLUMNS)
+    print(verdict_table.text(rows))

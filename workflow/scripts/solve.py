@@ -1,49 +1,8 @@
 """Solve the curves of one figure. A crash becomes a table that says so: a failed verdict."""
 
-import one_thread  # noqa: F401
+from stronge1994 import job, one_thread  # noqa: F401  (one thread: before numpy)
+from stronge1994.curves import solving
 
-# isort: split
-import importlib
-import traceback
-
-import csv_tables
-import job
-
-
-def solve(figure, settings, nodes, output):
-    """Write the curves of `figure`.
-
-    `nodes`, `{CSV of a reference table: its x column}`, are points that curves must pass through;
-    without a column it is the whole table, `points`.
-    """
-    try:
-        settings = settings | read_nodes(nodes)
-        named = importlib.import_module(f"planarimpact.curves.{figure}").curves(**settings)
-    except Exception as error:
-        traceback.print_exc()
-        csv_tables.write_rows(output, ["error"], [[f"{type(error).__name__}: {error}"]])
-        return
-    csv_tables.write(output, named)
-
-
-def read_nodes(nodes):
-    """Settings that hold the points of reference tables, `nodes` as for `solve`."""
-    points = {}
-    for path, column in nodes.items():
-        rows = csv_tables.read_rows(path)
-        if column is None:
-            names = {name.split(" [")[0]: name for name in rows[0]}
-            table = {short: [float(row[name]) for row in rows] for short, name in names.items()}
-            return {"points": table}
-        points.setdefault(column.split(" [")[0], set()).update(float(row[column]) for row in rows)
-    return {"nodes": {axis: sorted(found) for axis, found in points.items()}} if points else {}
-
-
-if "snakemake" in globals():
-    with job.recorded(snakemake):  # noqa: F821
-        solve(
-            snakemake.wildcards.figure,  # noqa: F821
-            snakemake.params.settings,  # noqa: F821
-            snakemake.params.nodes,  # noqa: F821
-            snakemake.output[0],  # noqa: F821
-        )
+with job.recorded(snakemake):
+    wanted = snakemake.params
+    solving.solve(snakemake.wildcards.figure, wanted.settings, wanted.nodes, snakemake.output[0])

@@ -1,14 +1,8 @@
-"""Solve one scene; which model took how many impacts, and why, goes to the log."""
-
-import job
+"""Solve one scene. Which model took how many impacts, and why, goes to the log."""
 
 from planarimpact.scene import files
+from stronge1994 import job
 
-if "snakemake" in globals():
-    with job.recorded(snakemake):  # noqa: F821
-        solver = files.solve(
-            snakemake.input.table,  # noqa: F821
-            snakemake.output[0],  # noqa: F821
-            snakemake.params.tolerance,  # noqa: F821
-        )
-        print(solver.explain())
+with job.recorded(snakemake):
+    solver = files.solve(snakemake.input.table, snakemake.output[0], snakemake.params.tolerance)
+    print(solver.explain())

@@ -17,9 +17,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact import checks
-from planarimpact.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.checks import ConvergenceError, InputError, checked
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.ground.checks import ConvergenceError, InputError, checked
+from planarimpact.ground.results import Regime
 from planarimpact.noncollinear.configuration import (
     InverseMass,
     checked_impact,
@@ -32,7 +33,6 @@ from planarimpact.noncollinear.configuration import (
 )
 from planarimpact.noncollinear.solver import Impacts, Phase, solve
 from planarimpact.noncollinear.timeline import NoncollinearHistory, timeline
-from planarimpact.results import Regime
 
 __all__ = [
     "InverseMass",

@@ -13,11 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact import checks
-from planarimpact.arrays import Array, ArrayLike, Numbers
 from planarimpact.bodies import Motion
-from planarimpact.checks import InputError, checked
-from planarimpact.quantities import finite, positive
+from planarimpact.bodies.quantities import finite, positive
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, ArrayLike, Numbers
+from planarimpact.ground.checks import InputError, checked
 
 
 class InverseMass(NamedTuple):

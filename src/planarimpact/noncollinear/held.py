@@ -26,7 +26,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from planarimpact.arrays import Array, Booleans, Numbers
+from planarimpact.ground.arrays import Array, Booleans, Numbers
 from planarimpact.noncollinear.phases import Groups, State
 
 # Share of the peak by which friction must push beyond it before compression goes on.

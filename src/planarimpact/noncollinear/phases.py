@@ -21,7 +21,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from planarimpact.arrays import Array, Numbers
+from planarimpact.ground.arrays import Array, Numbers
 
 
 class Groups(NamedTuple):

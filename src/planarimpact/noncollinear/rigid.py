@@ -26,8 +26,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.arrays import Array, ArrayLike, Booleans
-from planarimpact.checks import InputError, default_errors
+from planarimpact.ground.arrays import Array, ArrayLike, Booleans
+from planarimpact.ground.checks import InputError, default_errors
 from planarimpact.noncollinear.configuration import InverseMass, checked_impact, refuse_overflow
 
 

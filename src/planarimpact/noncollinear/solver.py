@@ -4,10 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.arrays import Array, Booleans, Integers
+from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.ground.results import Regime
 from planarimpact.noncollinear import held, stick_end
 from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
-from planarimpact.results import Regime
 
 # Phases of one contact; one that has more is given up rather than waited for.
 MOST_PHASES = 5_000

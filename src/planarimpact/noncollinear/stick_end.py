@@ -20,9 +20,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.arrays import Array, Booleans, Integers
+from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.lumped.slip_onset import sin_cos
 from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
-from planarimpact.slip_onset import sin_cos
 
 NOISE = 1e-15
 # Smaller than any force that matters; so a function that is 0 throughout has no zero.

@@ -4,11 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.arrays import Array
+from planarimpact.ground.arrays import Array
+from planarimpact.ground.results import Event, EventKind
 from planarimpact.noncollinear.held import Swing
 from planarimpact.noncollinear.phases import Slip
 from planarimpact.noncollinear.solver import Phase
-from planarimpact.results import Event, EventKind
 
 
 class NoncollinearHistory(NamedTuple):

@@ -1,6 +1,6 @@
 """Scenes: a table of impacts in, a table after them out, each solved no better than asked.
 
-A table is a pandas DataFrame, one impact a row; `planarimpact.scene.columns` lists the columns it
+A table is a pandas DataFrame, one impact a row; `columns` lists the columns it
 may have, with the unit of each in its header. A body is a solid sphere (radius and density), or
 anything with a mass, a radius of gyration and a centre of mass on the contact normal; the other
 one is the same, or a half-space at rest where it has no mass. States have two dimensions, or three

@@ -1,8 +1,8 @@
 """Which rung of the ladder solves the impacts of a pair: the cheapest whose error is small enough.
 
-The reference is `planarimpact.ladder.reference`: the continuum where the pair is elastic, else the
+The reference is `planarimpact.models.reference`: the continuum where the pair is elastic, else the
 lumped model. An error is the largest one of velocity (mu v2(0)) and peak friction (mu F2max); that
-of a cheaper model is measured, `planarimpact.scene.gaps`.
+of a cheaper model is measured, `gaps`.
 """
 
 from collections import Counter
@@ -11,10 +11,10 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import pandas as pd
 
-from planarimpact import continuum, ladder, lumped, response, rigid
-from planarimpact.arrays import Array, Integers, Numbers
+from planarimpact import continuum, lumped, models, response, rigid
+from planarimpact.ground.arrays import Array, Integers, Numbers
+from planarimpact.ground.results import Rebound
 from planarimpact.response import Response
-from planarimpact.results import Rebound
 from planarimpact.scene import gaps
 
 # Seconds for the first impact of a pair and for each further one, by tests/benchmarks/
@@ -174,7 +174,7 @@ def rung(
     (('lumped', 'solved'), ('continuum', 'compiled'))
     """
     groups = mass_ratio, stiffness_ratio, restitution
-    gap = {ladder.reference(restitution): 0.0}
+    gap = {models.reference(restitution): 0.0}
     for model in ("rigid", "lumped"):
         if model not in gap:
             gap[model] = _gap(model, *groups, tolerance)

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from planarimpact.arrays import Array, Booleans
-from planarimpact.checks import InputError
+from planarimpact.ground.arrays import Array, Booleans
+from planarimpact.ground.checks import InputError
 
 HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
 
@@ -102,7 +102,7 @@ def named(headers: Iterable[object]) -> dict[str, str]:
     >>> named(["radius [mm]"])
     Traceback (most recent call last):
     ...
-    planarimpact.checks.InputError: column 'radius [mm]': the unit of radius is [m]
+    planarimpact.InputError: column 'radius [mm]': the unit of radius is [m]
     """
     found = {}
     for text in map(str, headers):

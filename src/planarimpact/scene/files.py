@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from planarimpact.checks import InputError
+from planarimpact.ground.checks import InputError
 from planarimpact.scene import columns, places, reading, writing
 from planarimpact.scene.places import Place
 from planarimpact.scene.solver import Solver
@@ -29,7 +29,7 @@ def solve(
     Parameters
     ----------
     source, target : str or Path
-        Tables as `planarimpact.scene.solve` takes and returns them: `.csv`, `.csv.gz` or
+        Tables as `solve` takes and returns them: `.csv`, `.csv.gz` or
         `.parquet` by the ending of the name, the target also `.json`, an array of objects. `-` is
         standard input or output; it, pipes and devices are CSV, and a target of this kind has
         each piece as soon as it is solved.
@@ -53,9 +53,9 @@ def solve(
     Raises
     ------
     InputError
-        As `planarimpact.scene.solve`, or if a file is no table, or cannot be read or written.
+        As `solve`, or if a file is no table, or cannot be read or written.
     ConvergenceError
-        As `planarimpact.scene.solve`.
+        As `solve`.
     """
     read, result = places.source(source), places.target(target)
     bad = places.beside(result) if skip_bad else None

@@ -8,7 +8,7 @@ bodies. For e < 1 the reference is the lumped model, cheap enough to be asked ea
 import numpy as np
 
 from planarimpact import lumped, rigid
-from planarimpact.arrays import Array, ArrayLike
+from planarimpact.ground.arrays import Array, ArrayLike
 
 CHI = 0.5 * 2.0 ** (np.arange(41) / 8)
 # Over all incidences that stick at some time, to three decimals, rounded up. Made by

@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact import bodies
-from planarimpact.arrays import Array
 from planarimpact.bodies import Body, Material
+from planarimpact.ground.arrays import Array
 from planarimpact.scene.columns import AXES
 
 UNIT = 1e-6  # largest error of the length of a normal
@@ -56,7 +56,7 @@ def impacts(values: dict[str, Array]) -> Impacts:
     Parameters
     ----------
     values : dict of ndarray, shape (n,)
-        As `planarimpact.scene.columns.numbers` returns them, without bad rows.
+        As `columns.numbers` returns them, without bad rows.
 
     Returns
     -------

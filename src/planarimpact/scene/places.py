@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 from typing import NamedTuple
 
-from planarimpact.checks import InputError
+from planarimpact.ground.checks import InputError
 
 CSV, GZIP, PARQUET, JSON = ".csv", ".csv.gz", ".parquet", ".json"
 
@@ -45,7 +45,7 @@ def source(path: str | Path) -> Place:
     >>> source("shots.xlsx")
     Traceback (most recent call last):
     ...
-    planarimpact.checks.InputError: shots.xlsx: allowed are names that end in .csv, .csv.gz or \
+    planarimpact.InputError: shots.xlsx: allowed are names that end in .csv, .csv.gz or \
 .parquet, pipes, and - for standard input
     """
     return _place(path, ("-", "/dev/stdin"), 0, "standard input", (CSV, GZIP, PARQUET))

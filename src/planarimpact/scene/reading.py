@@ -17,7 +17,7 @@ from typing import TypeAlias
 import numpy as np
 import pandas as pd
 
-from planarimpact.checks import InputError
+from planarimpact.ground.checks import InputError
 from planarimpact.scene import columns, places
 from planarimpact.scene.places import Place
 

@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from planarimpact import bodies, checks, continuum, lumped
-from planarimpact.arrays import Array, Booleans, Integers, Numbers
-from planarimpact.checks import ConvergenceError, InputError
-from planarimpact.results import Rebound, Regime
+from planarimpact import bodies, continuum, lumped
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, Booleans, Integers, Numbers
+from planarimpact.ground.checks import ConvergenceError, InputError
+from planarimpact.ground.results import Rebound, Regime
 from planarimpact.scene import choice, columns, motion
 
 BLOCK = 2**17  # rows solved together: bounds the memory

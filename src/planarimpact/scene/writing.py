@@ -9,8 +9,8 @@ from typing import Any, TextIO, TypeAlias
 
 import pandas as pd
 
-from planarimpact import whole_files
-from planarimpact.checks import InputError
+from planarimpact.ground import files
+from planarimpact.ground.checks import InputError
 from planarimpact.scene import places
 from planarimpact.scene.places import Place
 
@@ -41,7 +41,7 @@ def appended(target: Place) -> Iterator[Write]:
         with ExitStack() as stack:
             opened = target.opened
             if not target.stream:
-                opened = str(stack.enter_context(whole_files.written(target.name)))
+                opened = str(stack.enter_context(files.written(target.name)))
             if target.kind == places.PARQUET:
                 yield stack.enter_context(_parquet(opened))
             else:
@@ -96,7 +96,7 @@ def _json(file: TextIO) -> Iterator[Write]:
     def write(table: pd.DataFrame) -> None:
         nonlocal before
         for row in table.astype(object).to_dict("records"):
-            plain = {name: whole_files.or_null(cell) for name, cell in row.items()}
+            plain = {name: files.or_null(cell) for name, cell in row.items()}
             file.write(before + json.dumps(plain, default=str))  # an id may be a date
             before = ",\n"
 

@@ -1,0 +1,20 @@
+from planarimpact import bodies as bodies
+from planarimpact import continuum as continuum
+from planarimpact import hertz as hertz
+from planarimpact import lumped as lumped
+from planarimpact import models as models
+from planarimpact import noncollinear as noncollinear
+from planarimpact import response as response
+from planarimpact import rigid as rigid
+from planarimpact import scene as scene
+from planarimpact import study as study
+from planarimpact.ground.checks import ConvergenceError as ConvergenceError
+from planarimpact.ground.checks import InputError as InputError
+from planarimpact.ground.results import ContinuumHistory as ContinuumHistory
+from planarimpact.ground.results import Event as Event
+from planarimpact.ground.results import EventKind as EventKind
+from planarimpact.ground.results import History as History
+from planarimpact.ground.results import Rebound as Rebound
+from planarimpact.ground.results import Regime as Regime
+
+__version__: str

@@ -1,0 +1,284 @@
+"""Physical bodies and materials, in SI units, to and from the groups that the models take.
+
+Collinear configurations only: each centre of mass lies on the contact normal. Arguments are
+numbers or arrays that broadcast; every refusal is an `InputError` with the field and its value.
+Scales are free: any for which the result is a number, from 1e-308 to 1e308, or it is refused.
+
+Signs. The normal velocity is positive while the body approaches, so it is positive before the
+impact and negative after it. The tangential velocity is positive in the incident direction (or
+any other, kept throughout). Spin is positive where it moves the contact point in that direction:
+v1 = tangential + radius spin, so rolling without slip, v1 = 0, is spin = -tangential/radius, and
+positive spin is backspin.
+
+What stands in `masses`, `materials` and `quantities` has
+the same names here.
+"""
+
+from functools import partial
+
+import numpy as np
+
+from planarimpact.bodies.masses import disc, effective_masses, mass_ratio, solid_sphere, thin_shell
+from planarimpact.bodies.materials import (
+    effective_modulus,
+    effective_radius,
+    effective_shear_modulus,
+    hertz_peak_force,
+    normal_frequency,
+    stiffness_ratio,
+)
+from planarimpact.bodies.quantities import (
+    HALF_SPACE,
+    Body,
+    Material,
+    Motion,
+    OutOfRange,
+    fields,
+    finite,
+    in_range,
+    not_negative,
+    positive,
+    quietly,
+)
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.checks import checked
+
+__all__ = [
+    "HALF_SPACE",
+    "Body",
+    "Material",
+    "Motion",
+    "OutOfRange",
+    "angle_of_incidence",
+    "contact_velocity",
+    "disc",
+    "effective_masses",
+    "effective_modulus",
+    "effective_radius",
+    "effective_shear_modulus",
+    "hertz_peak_force",
+    "incidence",
+    "incidence_from_angle",
+    "mass_ratio",
+    "normal_frequency",
+    "rebound_motion",
+    "solid_sphere",
+    "stiffness_ratio",
+    "thin_shell",
+]
+
+_angle = partial(
+    checked,
+    allowed="degrees between -90 and 90, exclusive",
+    low=np.nextafter(-90, 0),
+    high=np.nextafter(90, 0),
+)
+# The groups scale tangential velocities by mu: at mu = 0 they no longer hold v1.
+_friction = partial(
+    positive, "friction", allowed="finite numbers above 0 (without friction v1 stays as it is)"
+)
+
+
+@quietly
+def contact_velocity(
+    tangential: ArrayLike, normal: ArrayLike, spin: ArrayLike, radius: ArrayLike
+) -> tuple[Array, Array]:
+    """Velocity of the contact point of a body.
+
+    Parameters
+    ----------
+    tangential, normal : array_like
+        Velocity of the centre [m/s].
+    spin : array_like
+        [rad/s].
+    radius : array_like
+        Distance from the centre to the contact point [m], from 0.
+
+    Returns
+    -------
+    v1, v2 : ndarray of float64 or float
+        [m/s]: v1 = tangential + radius spin, v2 = normal.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Notes
+    -----
+    For two bodies take relative velocities of the centres, and add the other's radius times its
+    spin, in the same sense of turning, to v1.
+
+    Examples
+    --------
+    >>> [float(v) for v in contact_velocity(2.0, 1.0, -4.0, 0.5)]  # rolling
+    [0.0, 1.0]
+    """
+    tangential, normal, spin, radius = checks.broadcast(
+        tangential=finite("tangential", tangential),
+        normal=finite("normal", normal),
+        spin=finite("spin", spin),
+        radius=not_negative("radius", radius),
+    )
+    return in_range("v1", tangential + radius * spin, above=-1.0), normal.copy()[()]
+
+
+@checks.default_errors
+def incidence(v1: ArrayLike, v2: ArrayLike, friction: ArrayLike) -> Array:
+    """Incidence of an impact from the velocity of the contact point.
+
+    Parameters
+    ----------
+    v1 : array_like
+        Tangential velocity before impact [m/s].
+    v2 : array_like
+        Normal velocity before impact [m/s], above 0.
+    friction : array_like
+        mu, above 0.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        x = v1/(mu v2).
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Examples
+    --------
+    >>> round(float(incidence(3e200, 2e200, 0.5)), 12)
+    3.0
+    """
+    v1, v2 = finite("v1", v1), positive("v2", v2)
+    v1, v2, mu = checks.broadcast(v1=v1, v2=v2, friction=_friction(friction))
+    with np.errstate(over="ignore"):  # refused below; mu v2 could underflow where v1/v2 does not
+        return checks.incidence(v1 / v2 / mu)[()]
+
+
+@checks.default_errors
+def angle_of_incidence(incidence: ArrayLike, friction: ArrayLike) -> Array:
+    """Angle of incidence, from the normal.
+
+    Parameters
+    ----------
+    incidence : array_like
+        x = v1/(mu v2).
+    friction : array_like
+        mu, above 0.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        theta in degrees, tan(theta) = v1/v2 = mu x.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Examples
+    --------
+    >>> round(float(angle_of_incidence(2.0, 0.5)), 12)
+    45.0
+    """
+    x = checks.incidence(incidence)
+    x, mu = checks.broadcast(incidence=x, friction=_friction(friction))
+    with np.errstate(over="ignore"):  # the arctangent of inf is right
+        return np.degrees(np.arctan(mu * x))
+
+
+@checks.default_errors
+def incidence_from_angle(theta_deg: ArrayLike, friction: ArrayLike) -> Array:
+    """Incidence of an impact at an angle; the inverse of `angle_of_incidence`.
+
+    Parameters
+    ----------
+    theta_deg : array_like
+        Angle from the normal in degrees, between -90 and 90.
+    friction : array_like
+        mu, above 0.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        x = tan(theta)/mu.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Examples
+    --------
+    >>> round(float(incidence_from_angle(45.0, 0.5)), 12)
+    2.0
+    """
+    theta = _angle("theta_deg", theta_deg)
+    theta, mu = checks.broadcast(theta_deg=theta, friction=_friction(friction))
+    with np.errstate(over="ignore"):  # refused below
+        return checks.incidence(np.tan(np.radians(theta)) / mu)[()]
+
+
+@quietly
+def rebound_motion(
+    body: Body,
+    motion: Motion,
+    friction: ArrayLike,
+    rebound_velocity: ArrayLike,
+    restitution: ArrayLike,
+) -> Motion:
+    """Motion of one body after its impact on a half-space at rest.
+
+    The tangential impulse P1 = m1 (mu v2 w(tf) - v1) adds P1/M to the centre's velocity and
+    radius P1/(M k^2) to the spin; the normal velocity becomes -e times what it was.
+
+    Parameters
+    ----------
+    body : Body
+        The body [kg, m, m], of finite mass.
+    motion : Motion
+        Before impact [m/s, m/s, rad/s], with normal > 0.
+    friction, rebound_velocity, restitution : array_like
+        mu > 0, w(tf) = v1(tf)/(mu v2(0)) (the `velocity` of a `Rebound`), and e in [0, 1].
+
+    Returns
+    -------
+    Motion
+        After impact [m/s, m/s, rad/s], of ndarrays of float64 or floats.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Examples
+    --------
+    >>> ball = Body(mass=1.0, gyration=0.1, radius=0.1)
+    >>> after = rebound_motion(ball, Motion(1.0, 2.0, 0.0), 0.25, 0.0, 0.5)  # leaves rolling
+    >>> [round(float(v), 12) for v in after]
+    [0.5, -1.0, -5.0]
+    """
+    before = fields("motion", motion, Motion)
+    before["motion.normal"] = positive("motion.normal", motion.normal)  # it must approach
+    beta, _, gyration, radius, tangential, v2, spin, mu, w, e = checks.broadcast(
+        mass_ratio=mass_ratio(body),  # refuses an infinite mass
+        **fields("body", body, Body),
+        **before,
+        friction=_friction(friction),
+        rebound_velocity=finite("rebound_velocity", rebound_velocity),
+        restitution=checks.restitution(restitution),
+    )
+    v1, _ = contact_velocity(tangential, v2, spin, radius)
+    centre_change = (w * mu * v2 - v1) / beta  # P1/M: m1/M = 1/beta
+    spin_change = centre_change * (radius / gyration) / gyration
+    after = tangential + centre_change, -e * v2, spin + spin_change
+    names = (f"{field} after impact" for field in Motion._fields)
+    return Motion(*(in_range(name, v, above=-1.0) for name, v in zip(names, after, strict=True)))

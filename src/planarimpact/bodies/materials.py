@@ -1,0 +1,244 @@
+"""Stiffness of a contact: effective moduli of two bodies, and the forces that follow by Hertz.
+
+Stiffnesses are those of a circular contact of radius a: 2 a E* normally, 8 a G* tangentially
+(Mindlin). They leave out the coupling of pressure with tangential displacement, which vanishes
+where (1 - 2 nu)/G is the same for both bodies: for equal materials, where each body is
+incompressible or rigid, and for other pairs by chance.
+"""
+
+import numpy as np
+
+from planarimpact.bodies.quantities import (
+    Material,
+    all_positive,
+    fields,
+    in_range,
+    positive,
+    positive_or_infinite,
+    quietly,
+)
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, ArrayLike
+
+
+def _compliances(material: Material, other: Material | None) -> tuple[Array, Array]:
+    """1/E* and 1/G* [1/Pa]; a rigid counterbody (None) adds nothing to either."""
+    given = fields("material", material, Material)
+    if other is not None:
+        given |= fields("other", other, Material)
+    arrays = checks.broadcast(**given)
+    pairs = list(zip(arrays[::2], arrays[1::2], strict=True))
+    normal = np.sum([(1 - nu) * (1 + nu) / young for young, nu in pairs], axis=0)
+    tangential = np.sum([2 * (2 - nu) * (1 + nu) / young for young, nu in pairs], axis=0)
+    return in_range("1/E*", normal), in_range("1/G*", tangential)
+
+
+@quietly
+def effective_modulus(material: Material, other: Material | None = None) -> Array:
+    """Effective modulus of two elastic bodies in contact.
+
+    Parameters
+    ----------
+    material : Material
+        Of one body.
+    other : Material or None
+        Of the other; None is a rigid counterbody.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        E* [Pa]: 1/E* = sum (1 - nu^2)/E over both bodies.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Examples
+    --------
+    >>> round(float(effective_modulus(Material(380e9, 0.23), Material(70e9, 0.25)) / 1e9))
+    63
+    """
+    return in_range("E*", 1 / _compliances(material, other)[0])
+
+
+@quietly
+def effective_shear_modulus(material: Material, other: Material | None = None) -> Array:
+    """Effective shear modulus of two elastic bodies in contact.
+
+    Parameters
+    ----------
+    material : Material
+        Of one body.
+    other : Material or None
+        Of the other; None is a rigid counterbody.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        G* [Pa]: 1/G* = sum (2 - nu)/G over both bodies, G = E/(2 (1 + nu)).
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Examples
+    --------
+    >>> round(float(effective_shear_modulus(Material(380e9, 0.23), Material(70e9, 0.25)) / 1e9), 1)
+    13.5
+    """
+    return in_range("G*", 1 / _compliances(material, other)[1])
+
+
+@quietly
+def stiffness_ratio(material: Material, other: Material | None = None) -> Array:
+    """Stiffness ratio of two elastic bodies in contact, normal over tangential.
+
+    Parameters
+    ----------
+    material : Material
+        Of one body.
+    other : Material or None
+        Of the other; None is a rigid counterbody.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        zeta^2 = E*/(4 G*); (2 - nu)/(2 (1 - nu)) for a material against itself or a rigid
+        counterbody.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Examples
+    --------
+    >>> round(float(stiffness_ratio(Material(210e9, 0.3))), 4)
+    1.2143
+    >>> round(float(stiffness_ratio(Material(380e9, 0.23), Material(70e9, 0.25))), 3)
+    1.164
+    """
+    normal, tangential = _compliances(material, other)
+    return tangential / normal / 4
+
+
+@checks.default_errors
+def effective_radius(radius: ArrayLike, other: ArrayLike = np.inf) -> Array:
+    """Effective radius of two convex surfaces in contact.
+
+    Parameters
+    ----------
+    radius : array_like
+        Radius of curvature of one [m], above 0.
+    other : array_like
+        Of the other [m], above 0; infinite where it is flat.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        R [m]: 1/R = sum 1/radius.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Examples
+    --------
+    >>> float(effective_radius(0.02, 0.02))
+    0.01
+    """
+    first, second = checks.broadcast(
+        radius=positive("radius", radius), other=positive_or_infinite("other", other)
+    )
+    smaller, larger = np.minimum(first, second), np.maximum(first, second)
+    return smaller / (1 + smaller / larger)
+
+
+@quietly
+def hertz_peak_force(
+    mass: ArrayLike, speed: ArrayLike, effective_modulus: ArrayLike, effective_radius: ArrayLike
+) -> Array:
+    """Peak normal force of an elastic Hertz contact.
+
+    Parameters
+    ----------
+    mass : array_like
+        Normal effective mass m2 [kg], above 0.
+    speed : array_like
+        Normal speed of approach v2(0) [m/s], above 0.
+    effective_modulus : array_like
+        E* [Pa], above 0.
+    effective_radius : array_like
+        R [m], above 0.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        [N]: K d^(3/2) with K = (4/3) E* R^(1/2), at the depth d where the work (2/5) K d^(5/2)
+        is m2 v2^2/2.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Examples
+    --------
+    >>> round(float(hertz_peak_force(0.067, 0.05, 115e9, 0.0127)), 1)
+    77.2
+    """
+    m2, v2, modulus, radius = all_positive(
+        mass=mass,
+        speed=speed,
+        effective_modulus=effective_modulus,
+        effective_radius=effective_radius,
+    )
+    # v2^1.2, since v2^2 would overflow first.
+    force = (4 / 3 * modulus * np.sqrt(radius)) ** 0.4 * (1.25 * m2) ** 0.6 * v2**1.2
+    return in_range("peak force", force)
+
+
+@quietly
+def normal_frequency(peak_force: ArrayLike, mass: ArrayLike, speed: ArrayLike) -> Array:
+    """Frequency of the linear normal spring that has a given peak force.
+
+    Parameters
+    ----------
+    peak_force : array_like
+        [N], above 0.
+    mass : array_like
+        Normal effective mass m2 [kg], above 0.
+    speed : array_like
+        Normal speed of approach v2(0) [m/s] at which it has this force, above 0.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        Omega [rad/s], m2 Omega v2 = peak force.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Notes
+    -----
+    At any other speed Omega stays; forces are in newtons after multiplying N by m2 Omega v2, and
+    friction (as `Rebound.peak_friction`) by mu times that.
+
+    Examples
+    --------
+    >>> float(normal_frequency(peak_force=6.0, mass=1.5, speed=2.0))
+    2.0
+    """
+    force, m2, v2 = all_positive(peak_force=peak_force, mass=mass, speed=speed)
+    return in_range("frequency", force / m2 / v2)

@@ -1,0 +1,191 @@
+"""Partial slip of Hertz contact by the method of dimensionality reduction (Popov & Hess).
+
+The contact is mapped to a row of independent springs. The spring at radius r carries the normal
+force density (3/4)(d - r^2) and the tangential one (3/4)(u + c), where u is the tangential
+displacement of the body and c what the spring remembers: it stays while the spring sticks, and
+changes when the spring slides, at |u + c| = d - r^2. So c is confined to the cone
+
+    d - r^2 >= |u + c|,
+
+whose tip is at r^2 = d, c = -u. Over q = r^2 the cone has edges of slope 1 and -1: as the tip
+moves, what lies outside is brought to the nearer edge, and where contact grows without slip the
+tip itself draws c. After any motion in straight steps c is therefore a chain of straight pieces
+in q, and this module keeps its vertices: the row is not divided into springs, the answer to a
+path in straight steps is exact. Only an outer annulus can slip.
+
+Units: radius a_max, approach d_max, force its largest normal value (times mu for friction), and
+tangential displacement zeta^2 mu d_max, so that a contact of approach d slips as a whole when
+u has changed by d.
+"""
+
+import numpy as np
+
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, ArrayLike, Integers, Numbers
+
+
+class SpringRow:
+    """The rows of many contacts, moved together step by step.
+
+    Parameters
+    ----------
+    radius : ndarray, shape (n,)
+        Radius of contact at the start.
+    steps : int
+        How many times `move` will be called: room for the vertices.
+
+    Notes
+    -----
+    The row starts at u = 0 with every spring at the limit of friction, u + c = d - r^2: gross
+    slip, or no contact yet where the radius is 0.
+
+    Examples
+    --------
+    >>> row = SpringRow(np.zeros(1), steps=2)
+    >>> float(row.move(np.ones(1), np.zeros(1))[0])  # pressed straight down
+    0.0
+    >>> round(float(row.move(np.ones(1), np.full(1, 0.5))[0]), 9)  # 1 - (1 - 0.5)^(3/2)
+    0.646446609
+    """
+
+    def __init__(self, radius: Array, steps: int) -> None:
+        n = radius.size
+        self._column = np.arange(n)
+        self._top = np.ones(n, dtype=np.intp)  # index of each tip
+        # Vertices, innermost first: radius, c, and the integral of c over the radius up to there.
+        self._radius, self._memory, self._integral = np.zeros((3, steps + 2, n))
+        self._memory[0] = self._radius[1] = radius
+        self._memory[0] *= radius
+        self._integral[1] = _integral(0.0, self._memory[0], radius, 0.0)
+        self.stick_radius = np.zeros(n)
+
+    @property
+    def centre(self) -> Array:
+        """What the springs in the middle remember, which changes in gross slip alone."""
+        return self._memory[0]
+
+    def move(
+        self, radius: Array, displacement: Array, which: slice | Integers = slice(None)
+    ) -> Array:
+        """Move the tips in one straight step (in r^2, u); return the tangential force.
+
+        Parameters
+        ----------
+        radius, displacement : ndarray, shape (m,)
+            Radius of contact and u at the end of the step. Afterwards `stick_radius` holds the
+            radius inside which nothing slipped in this step.
+        which : slice or ndarray of int, shape (m,)
+            Contacts that move; all by default.
+
+        Returns
+        -------
+        ndarray, shape (m,)
+        """
+        column, top, memory = self._column[which], self._top[which], -displacement
+        highest, lowest = radius**2 + memory, memory - radius**2  # of c + q, of c - q
+        last = self._last_inside(column, top, highest, lowest)
+        slips, gross = last < top, last < 0
+        kept = np.maximum(last, 0)
+        left = np.minimum(last + 1, top)  # where slips: the innermost vertex to go
+        r, c, integral = (a[kept, column] for a in (self._radius, self._memory, self._integral))
+        edge_r, edge_c = _crossing(
+            r, c, self._radius[left, column], self._memory[left, column], highest, lowest
+        )
+        edge_r[gross] = 0.0
+        edge_c[gross] = np.clip(c, lowest, highest)[gross]
+        edge_r = np.where(slips, np.minimum(edge_r, radius), r)
+        edge_c = np.where(slips, edge_c, c)
+        integral = np.where(gross, 0.0, integral + _integral(r, c, edge_r, edge_c))
+        edge = np.where(slips, last + 1, last)
+        self._put(edge, column, edge_r, edge_c, integral)
+        integral = integral + _integral(edge_r, edge_c, radius, memory)
+        self._put(edge + 1, column, radius, memory, integral)
+        self._top[which] = edge + 1
+        self.stick_radius[which] = np.where(slips, edge_r, radius)
+        return 1.5 * (displacement * radius + integral)
+
+    def _last_inside(
+        self, column: Integers, top: Integers, highest: Array, lowest: Array
+    ) -> Integers:
+        """Index of the outermost vertex inside the new cone, -1 for none: inner ones are too."""
+        last, active = top.copy(), np.arange(top.size)
+        while active.size:
+            vertex = last[active], column[active]
+            q, c = self._radius[vertex] ** 2, self._memory[vertex]
+            active = active[(c + q > highest[active]) | (c - q < lowest[active])]
+            last[active] -= 1
+            active = active[last[active] >= 0]
+        return last
+
+    def _put(
+        self, index: Integers, column: Integers, radius: Array, memory: Array, integral: Array
+    ) -> None:
+        self._radius[index, column] = radius
+        self._memory[index, column] = memory
+        self._integral[index, column] = integral
+
+
+def _crossing(
+    r: Array, c: Array, outer_r: Array, outer_c: Array, highest: Array, lowest: Array
+) -> tuple[Array, Array]:
+    """Where the piece from a vertex inside the cone to one outside leaves it: radius and c."""
+    q, outer_q = r * r, outer_r * outer_r
+    with np.errstate(divide="ignore", invalid="ignore"):  # where there is no vertex inside
+        above = np.maximum(highest - (c + q), 0) / (outer_c + outer_q - (c + q))
+        below = np.maximum(c - q - lowest, 0) / (c - q - (outer_c - outer_q))
+    above = np.where(outer_c + outer_q > highest, above, 1.0)
+    below = np.where(outer_c - outer_q < lowest, below, 1.0)
+    q = q + np.minimum(above, below) * (outer_q - q)
+    return np.sqrt(q), np.where(above <= below, highest - q, lowest + q)
+
+
+def _integral(r: Numbers, c: Array, outer_r: Array, outer_c: Numbers) -> Array:
+    """Integral over the radius of a piece that is straight in r^2."""
+    total = r + outer_r
+    share = (outer_r + 2 * r) / (3 * np.where(total > 0, total, 1.0))
+    return (outer_r - r) * (c + (outer_c - c) * share)
+
+
+@checks.default_errors
+def friction(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, Array]:
+    """Tangential force along a given path of approach and displacement (quasi-static).
+
+    Parameters
+    ----------
+    radius : array_like, shape (steps,)
+        Radius of contact after each step, in a_max; 1e-6 to 1. No contact before the first step.
+    displacement : array_like, shape (steps,)
+        Tangential displacement of the body in zeta^2 mu d_max, counted from first contact.
+
+    Returns
+    -------
+    friction : ndarray, shape (steps,)
+        Tangential force in mu times the normal force at radius 1; positive for a positive
+        displacement of the body.
+    stick_radius : ndarray, shape (steps,)
+        Radius inside which the contact sticks, in a_max.
+
+    Raises
+    ------
+    InputError
+        If an argument is not finite or out of its range, or the shapes do not fit.
+
+    Notes
+    -----
+    Exact for a path that is straight, in r^2 and displacement, between its points. For a contact
+    pressed down and then pushed sideways it is the closed form of
+    `cattaneo_mindlin`.
+
+    Examples
+    --------
+    >>> force, stick = friction([1.0, 1.0], [0.0, 0.75])
+    >>> float(force[1]), float(stick[1])
+    (0.875, 0.5)
+    """
+    radius, displacement = checks.path(radius, displacement)
+    row = SpringRow(np.zeros(1), radius.size)
+    force, stick = np.empty((2, radius.size))
+    for step, point in enumerate(zip(radius[:, None], displacement[:, None], strict=True)):
+        force[step] = row.move(*point)[0]
+        stick[step] = row.stick_radius[0]
+    return force, stick

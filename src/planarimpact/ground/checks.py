@@ -1,0 +1,407 @@
+"""Refusals: what the package raises, and the checks of arguments before any work."""
+
+import math
+import reprlib
+from collections.abc import Collection, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planarimpact.ground.arrays import Array, ArrayLike, Numbers
+
+# Twice as much can still be represented.
+LARGEST = 8e307
+# Largest count of samples, circles or points: their tables still fit into a memory.
+MOST = 10_000_000
+
+# Decorates whatever users call: NumPy's own defaults, so that no answer depends on what the caller
+# has set by np.seterr or np.errstate, and an invalid operation that nobody foresaw still warns.
+default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
+
+_NUMBERS = int, float, np.integer, np.floating
+
+_BRIEF = reprlib.Repr()
+_BRIEF.maxlevel, _BRIEF.maxlist, _BRIEF.maxdict, _BRIEF.maxtuple = 1, 4, 4, 4
+_BRIEF.maxstring = _BRIEF.maxother = 60
+
+
+class InputError(ValueError):
+    """An argument outside what the model admits; names it, its value and what is allowed."""
+
+    __module__ = "planarimpact"  # where users find it, and what a traceback shows
+
+
+class ConvergenceError(ArithmeticError):
+    """A numerical method that did not reach what was asked of it; says how far it came."""
+
+    __module__ = "planarimpact"
+
+
+def brief(value: object) -> str:
+    """What a refusal shows of a value that may be long: its beginning and its end, in one line.
+
+    Examples
+    --------
+    >>> brief([1.5, "x", 3, 4, 5])
+    "[1.5, 'x', 3, 4, ...]"
+    """
+    return _BRIEF.repr(value).replace("\n", " ")
+
+
+def checked(
+    name: str,
+    value: ArrayLike,
+    allowed: str,
+    low: float = -math.inf,
+    high: float = math.inf,
+    open_low: bool = False,
+    infinite: bool = False,
+) -> Array:
+    """Return `value` as float64, or refuse it.
+
+    Parameters
+    ----------
+    name : str
+        The argument's name, for the message.
+    value : array_like of real numbers, any shape
+        What the caller gave. Booleans, strings, bytes and complex numbers are refused, in lists
+        too, and masked arrays of which an entry is masked.
+    allowed : str
+        What is allowed, in words, for the message.
+    low, high : float
+        Bounds, inclusive (`low` exclusive with `open_low`). NaN never passes.
+    infinite : bool
+        Whether an infinity within the bounds passes.
+
+    Returns
+    -------
+    ndarray of float64, same shape
+
+    Raises
+    ------
+    InputError
+        Naming the field, the first offending value (with its index in an array) and the rule.
+
+    Examples
+    --------
+    >>> float(checked("restitution", 1, "0 to 1", 0, 1))
+    1.0
+    >>> checked("restitution", [0.5, 1.5], "numbers from 0 to 1", 0, 1)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: restitution[1] = 1.5: allowed are numbers from 0 to 1
+    """
+    if _is_masked(value):
+        raise InputError(
+            f"{name} has masked entries: allowed are {allowed}; leave the masked entries out with "
+            "compressed(), or replace them with filled(value)"
+        )
+    try:
+        given = np.asarray(value)
+    except ValueError:
+        raise InputError(f"{name} = {brief(value)}: not a regular array of numbers") from None
+    if given.dtype == object and set(map(type, given.flat)) <= {int, float}:
+        given = _whole_numbers(name, given, allowed)
+    if given.dtype.kind not in "iuf" or _has_other(value):
+        raise InputError(f"{name} = {brief(value)}: allowed are {allowed}, as real numbers")
+    with np.errstate(invalid="ignore", over="ignore", under="ignore"):
+        numbers = given.astype(np.float64)
+        good = (numbers > low if open_low else numbers >= low) & (numbers <= high)
+    # What became infinite as float64 is not what was given.
+    good &= np.isfinite(numbers) | (np.isinf(given) & infinite)
+    if not good.all():
+        index = tuple(int(i) for i in np.argwhere(~good)[0])
+        where = f"[{', '.join(map(str, index))}]" if index else ""
+        raise InputError(f"{name}{where} = {float(numbers[index])!r}: allowed are {allowed}")
+    return numbers
+
+
+def _is_masked(value: object) -> bool:
+    """Whether NumPy's conversion would make data of masked entries, in lists of arrays too."""
+    if isinstance(value, (list, tuple)):
+        nested = list, tuple, np.ma.MaskedArray
+        return any(_is_masked(entry) for entry in value if isinstance(entry, nested))
+    return bool(np.ma.is_masked(value))
+
+
+def _whole_numbers(name: str, given: NDArray[np.object_], allowed: str) -> Array:
+    """Python's numbers as float64: NumPy has no integers as large as Python has."""
+    try:
+        return given.astype(np.float64)
+    except OverflowError:
+        raise InputError(
+            f"{name}: an integer is beyond the range of numbers, allowed are {allowed}"
+        ) from None
+
+
+def _has_other(value: object) -> bool:
+    """Whether NumPy's conversion would make numbers of booleans or bytes, in lists too."""
+    if isinstance(value, (bytearray, memoryview)):
+        return True
+    if isinstance(value, Sequence) and not isinstance(value, (str, bytes)):
+        kinds = set(map(type, value))  # the one look at every entry of a long list of numbers
+        unclear = {kind for kind in kinds if kind is bool or not issubclass(kind, _NUMBERS)}
+        return bool(unclear) and any(_has_other(x) for x in value if type(x) in unclear)
+    return isinstance(value, bool) or getattr(getattr(value, "dtype", None), "kind", "") == "b"
+
+
+def incidence(value: ArrayLike) -> Array:
+    """Check an incidence x = v1(0)/(mu v2(0)): any number whose work of friction is finite."""
+    rule = "finite numbers from -8e307 to 8e307 (the work of friction is up to twice as large)"
+    return checked("incidence", value, rule, -LARGEST, LARGEST)
+
+
+def mass_ratio(value: ArrayLike) -> Array:
+    """Check beta = m2/m1 >= 1: a free rigid body has beta = 1 + (x2/k)^2."""
+    rule = "finite numbers from 1 to 8e307 (a free body has 1 + (x2/k)^2)"
+    return checked("mass_ratio", value, rule, 1, LARGEST)
+
+
+def stiffness_ratio(value: ArrayLike) -> Array:
+    """Check zeta^2 > 0; its limit 0, no tangential compliance, is `planarimpact.rigid`."""
+    rule = "finite numbers above 0 (for no tangential compliance use planarimpact.rigid)"
+    return checked("stiffness_ratio", value, rule, 0, open_low=True)
+
+
+def restitution(value: ArrayLike) -> Array:
+    """Check the energetic coefficient of restitution, 0 <= e <= 1."""
+    return checked("restitution", value, "numbers from 0 to 1", 0, 1)
+
+
+def elastic(value: ArrayLike) -> Array:
+    """Check the restitution of a contact that is elastic whatever happens: e = 1."""
+    return checked("restitution", value, "numbers equal to 1, as this contact is elastic", 1, 1)
+
+
+# In the order of every model's call.
+RULES = {
+    "incidence": incidence,
+    "mass_ratio": mass_ratio,
+    "stiffness_ratio": stiffness_ratio,
+    "restitution": restitution,
+}
+
+
+def impact(*values: ArrayLike) -> tuple[Array, ...]:
+    """Check and broadcast the four groups of an impact, in the order that every model has.
+
+    Parameters
+    ----------
+    *values : array_like
+        incidence, mass_ratio, stiffness_ratio, restitution.
+
+    Returns
+    -------
+    tuple of ndarray of float64
+        In this order, of one shape.
+
+    Raises
+    ------
+    InputError
+        If a group is out of its range, or shapes do not broadcast.
+
+    Examples
+    --------
+    >>> [group.tolist() for group in impact([0.5, 2.0], 3.5, 1.21, 1)]
+    [[0.5, 2.0], [3.5, 3.5], [1.21, 1.21], [1.0, 1.0]]
+    """
+    named = zip(RULES, values, strict=True)
+    return broadcast(**{name: RULES[name](value) for name, value in named})
+
+
+def elastic_impact(*values: ArrayLike) -> tuple[Array, ...]:
+    """Check them as `impact` does for an elastic contact; e must be 1 and is left out.
+
+    Examples
+    --------
+    >>> [group.tolist() for group in elastic_impact(2.0, 3.5, 1.21, [1, 1])]
+    [[2.0, 2.0], [3.5, 3.5], [1.21, 1.21]]
+    """
+    elastic(values[-1])
+    return impact(*values)[:-1]
+
+
+def single(name: str, value: Array) -> float:
+    """Return a checked array that holds one number as float, or refuse it.
+
+    Examples
+    --------
+    >>> single("tolerance", checked("tolerance", [1e-3], "numbers"))
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: tolerance, shape (1,): allowed is one number
+    """
+    if value.ndim:
+        raise InputError(f"{name}, shape {value.shape}: allowed is one number")
+    return float(value)
+
+
+def number(
+    name: str,
+    value: ArrayLike,
+    allowed: str,
+    low: float = -math.inf,
+    high: float = math.inf,
+    open_low: bool = False,
+) -> float:
+    """Check one number as `checked` does arrays.
+
+    Examples
+    --------
+    >>> number("tolerance", 1, "numbers above 0", 0, open_low=True)
+    1.0
+    """
+    return single(name, checked(name, value, allowed, low, high, open_low))
+
+
+def count(name: str, value: int, least: int, most: int = MOST) -> int:
+    """Return a number of steps, circles or samples as int: an integer from `least` to `most`.
+
+    Examples
+    --------
+    >>> count("steps", 2.5, 1)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: steps = 2.5: allowed are integers from 1 to 10000000
+    """
+    integer = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    if not integer or not least <= value <= most:
+        raise InputError(f"{name} = {brief(value)}: allowed are integers from {least} to {most}")
+    return int(value)
+
+
+def record(name: str, value: Any, keys: Collection[str]) -> dict[str, Any]:
+    """Return a dict that was read from a file, if it has certain keys and no others.
+
+    Examples
+    --------
+    >>> record("error_bound", {"velocity": 0.1}, ["velocity", "peak_friction"])
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: error_bound has ['velocity']: allowed are velocity, \
+peak_friction
+    """
+    if not isinstance(value, dict) or set(value) != set(keys):
+        found = brief(list(value) if isinstance(value, dict) else value)
+        raise InputError(f"{name} has {found}: allowed are {', '.join(keys)}")
+    return value
+
+
+def listed(name: str, value: Any, shape: tuple[int, ...]) -> Array:
+    """Return nested lists of numbers that were read from a file as an array of this shape.
+
+    Parameters
+    ----------
+    name : str
+        For the message.
+    value : object
+        Lists, with ints and floats for entries, perhaps infinite or NaN: the caller's to refuse.
+    shape : tuple of int
+        Lengths of the lists, from the outermost on.
+
+    Returns
+    -------
+    ndarray of float64
+
+    Raises
+    ------
+    InputError
+        Naming the first entry or list that is something else.
+
+    Examples
+    --------
+    >>> listed("start", [0, 0.5], (2,)).tolist()
+    [0.0, 0.5]
+    >>> listed("start", [0, "0.5"], (2,))
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: start[1] = '0.5': allowed are numbers
+    """
+    _refuse_other_lists(name, value, shape)
+    try:
+        return np.array(value, dtype=np.float64)
+    except OverflowError:
+        raise InputError(f"{name}: an integer is beyond the range of numbers") from None
+
+
+def _refuse_other_lists(name: str, value: Any, shape: tuple[int, ...]) -> None:
+    if not shape:
+        if type(value) not in (int, float):
+            raise InputError(f"{name} = {brief(value)}: allowed are numbers")
+        return
+    if not isinstance(value, list) or len(value) != shape[0]:
+        raise InputError(f"{name} = {brief(value)}: allowed are lists of {shape[0]}")
+    for i, entry in enumerate(value):
+        _refuse_other_lists(f"{name}[{i}]", entry, shape[1:])
+
+
+def explicit_steps(steps: int, needed: Numbers, least: int, most: int) -> int:
+    """Return a number of explicit steps as int, if the tangential oscillation is stable with it.
+
+    Parameters
+    ----------
+    steps : int
+        From `least` to `most`.
+    needed : float or ndarray of float64
+        How many are needed for each impact, or infinity.
+    least, most : int
+
+    Raises
+    ------
+    InputError
+        If `steps` is no such number, or below one of those needed.
+
+    Examples
+    --------
+    >>> explicit_steps(64, 100.0, 3, 10**7)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: steps = 64: allowed are integers from 100 to 10000000 (with \
+fewer explicit steps the tangential oscillation is unstable)
+    """
+    steps = count("steps", steps, least, most)
+    fewest = float(np.max(needed, initial=least))
+    if not fewest <= most:
+        raise InputError(
+            f"steps = {steps}: for this mass_ratio and stiffness_ratio {fewest:.3g} explicit steps "
+            f"are needed, or the tangential oscillation is unstable; allowed are up to {most}"
+        )
+    if steps < fewest:
+        raise InputError(
+            f"steps = {steps}: allowed are integers from {math.ceil(fewest)} to {most} (with fewer "
+            "explicit steps the tangential oscillation is unstable)"
+        )
+    return steps
+
+
+def path(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, ...]:
+    """Check a path of contact: radii in a_max and displacements, as many of one as of the other.
+
+    Examples
+    --------
+    >>> [points.tolist() for points in path([0.5, 1.0], 0.25)]
+    [[0.5, 1.0], [0.25, 0.25]]
+    """
+    points = broadcast(
+        radius=checked("radius", radius, "numbers from 1e-6 to 1", 1e-6, 1),
+        displacement=checked("displacement", displacement, "numbers from -1e6 to 1e6", -1e6, 1e6),
+    )
+    if points[0].ndim != 1:
+        raise InputError(f"shape = {points[0].shape}: a path has one dimension")
+    return points
+
+
+def broadcast(**arguments: Array) -> tuple[Array, ...]:
+    """Broadcast checked arguments against each other, or say which shapes do not fit.
+
+    Examples
+    --------
+    >>> [a.shape for a in broadcast(incidence=np.zeros(3), restitution=np.ones(()))]
+    [(3,), (3,)]
+    """
+    try:
+        return np.broadcast_arrays(*arguments.values())
+    except ValueError:
+        shapes = ", ".join(f"{name} {np.shape(value)}" for name, value in arguments.items())
+        raise InputError(f"shapes do not broadcast: {shapes}") from None

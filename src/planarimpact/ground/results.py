@@ -1,0 +1,187 @@
+"""What every model returns, and the names of the contact regimes."""
+
+from enum import IntEnum, StrEnum
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+
+from planarimpact.ground.arrays import Array, Integers
+
+
+class Regime(IntEnum):
+    """The order of stick and slip during one contact.
+
+    The paper's three regimes are STICK_SLIP, SLIP_STICK_SLIP and SLIP_THROUGHOUT. The others
+    complete them: a contact that ends in stick (e = 0, or no tangential compliance), and
+    MULTIPLE, where stick comes back a second time. A normal impact, x = 0, is STICK. UNRESOLVED
+    is what a law of impulses alone says, and an impact that was given up.
+
+    Examples
+    --------
+    >>> Regime(2).name
+    'STICK_SLIP'
+    """
+
+    STICK = 0
+    SLIP_STICK = 1
+    STICK_SLIP = 2
+    SLIP_STICK_SLIP = 3
+    SLIP_THROUGHOUT = 4
+    MULTIPLE = 5
+    UNRESOLVED = 6
+
+
+class Rebound(NamedTuple):
+    """The state at separation, one entry an impact; scalars where all arguments were scalars.
+
+    Attributes
+    ----------
+    velocity : ndarray of float64 or float
+        w(tf) = v1(tf)/(mu v2(0)), tangential velocity of the contact point; positive in the
+        direction of a positive incidence, negative when it has turned round.
+    peak_friction : ndarray of float64 or float
+        Largest |F1| over the contact, in mu times the largest normal force (m2 Omega |v2(0)| where
+        the normal contact is linear); between 0 and 1. NaN where a law of impulses alone leaves
+        it open.
+    dissipation : ndarray of float64 or float
+        Work of friction in mu^2 m2 v2(0)^2, from the exact balance of tangential energy. For
+        e = 0 it includes the tangential strain energy that is lost at separation.
+    regime : ndarray of uint8 or Regime
+        Codes of `Regime`. In a contact with micro-slip, slip means gross slip, of the whole
+        contact, and stick that some of it sticks.
+    reversals : ndarray of int64, int or None
+        How often the tangential force changes its sign, as far as the steps of the solver tell;
+        None where the model does not count.
+    """
+
+    velocity: Array
+    peak_friction: Array
+    dissipation: Array
+    regime: Any  # an array of codes, or one Regime: two types with nothing in common
+    reversals: Integers | None = None
+
+    @classmethod
+    def of(
+        cls,
+        incidence: Array,
+        velocity: Array,
+        impulse: Array,
+        peak_friction: Array,
+        regime: Integers,
+        reversals: Integers | None = None,
+    ) -> Self:
+        """Put together what a solver found for |x|, flat, in the shape and sign of `incidence`.
+
+        `impulse` is that of friction, in mu m2 |v2(0)|. Times the mean velocity it is the work:
+        Stronge's theorem (the paper's footnote).
+        """
+        size = np.abs(incidence).reshape(-1)
+        work = impulse * (size / 2 + velocity / 2)
+        return cls.shaped(incidence, velocity, peak_friction, work, regime, reversals)
+
+    @classmethod
+    def shaped(
+        cls,
+        incidence: Array,
+        velocity: Array,
+        peak_friction: Array,
+        dissipation: Array,
+        regime: Integers,
+        reversals: Integers | None = None,
+    ) -> Self:
+        """As `of`, for a solver that knows the dissipation itself, to more digits.
+
+        `dissipation` is in mu^2 m2 v2(0)^2.
+        """
+        velocity = velocity * np.copysign(1.0, incidence.reshape(-1))
+        fields = velocity, peak_friction, dissipation, regime
+        if incidence.ndim == 0:
+            *numbers, code = (field[0] for field in fields)
+            count = None if reversals is None else int(reversals[0])
+            return cls._make([*numbers, Regime(int(code)), count])
+        counts = None if reversals is None else reversals.reshape(incidence.shape)
+        return cls._make([*(field.reshape(incidence.shape) for field in fields), counts])
+
+
+class EventKind(StrEnum):
+    """What happens at an event of a contact's history.
+
+    Examples
+    --------
+    >>> print(EventKind.STICK)
+    stick
+    """
+
+    CONTACT = "contact"
+    STICK = "stick"
+    SLIP = "slip"
+    RELOADING = "reloading"
+    MAXIMUM_COMPRESSION = "maximum compression"
+    SEPARATION = "separation"
+
+
+class Event(NamedTuple):
+    """One event: its kind, its time in t_c, and the state there (units as in `History`)."""
+
+    kind: EventKind
+    time: float
+    normal: float
+    friction: float
+    velocity: float
+    spring: float
+
+
+class History(NamedTuple):
+    """Forces and velocity over one contact; every event is a vertex.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        t/t_c, from 0 to 1 + e.
+    normal : ndarray, shape (n,)
+        Normal force F2 in m2 Omega |v2(0)|.
+    friction : ndarray, shape (n,)
+        Tangential force F1 in mu m2 Omega |v2(0)|; positive opposes a positive incidence.
+    velocity : ndarray, shape (n,)
+        w = v1/(mu v2(0)).
+    spring : ndarray, shape (n,)
+        Deflection of the tangential element in mu |v2(0)|/Omega; friction = spring/zeta^2.
+    events : tuple of Event
+        In order of time, from contact to separation; STICK and SLIP mark where a phase starts.
+    """
+
+    time: Array
+    normal: Array
+    friction: Array
+    velocity: Array
+    spring: Array
+    events: tuple[Event, ...]
+
+
+class ContinuumHistory(NamedTuple):
+    """Forces, velocity and the edge of stick over one contact of an elastic continuum.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        t/t_c, from 0 to 2; t_c is the time to maximum compression.
+    normal : ndarray, shape (n,)
+        Normal force F2 over its largest value.
+    friction : ndarray, shape (n,)
+        Tangential force F1 over mu times the largest normal force; positive opposes a positive
+        incidence.
+    velocity : ndarray, shape (n,)
+        w = v1/(mu v2(0)).
+    contact_radius : ndarray, shape (n,)
+        Radius of contact over its largest value.
+    stick_radius : ndarray, shape (n,)
+        Radius inside which the contact sticks, in the same unit: the radius of contact while
+        nothing slips, 0 in gross slip.
+    """
+
+    time: Array
+    normal: Array
+    friction: Array
+    velocity: Array
+    contact_radius: Array
+    stick_radius: Array

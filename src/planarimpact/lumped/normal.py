@@ -1,0 +1,47 @@
+"""Normal motion: compression and restitution of the linear normal element (Table 1).
+
+Each half is measured by one angle `eta` in [0, pi/2] that vanishes with the force. In
+compression eta = Omega t grows from 0; in restitution eta = Omega (tf - t)/e falls to 0. So the
+force is sin(eta) in both, and nothing is lost to rounding near separation, where both contact
+forces vanish. Units: force m2 Omega |v2(0)|, impulse m2 |v2(0)|, time t_c.
+"""
+
+import numpy as np
+
+from planarimpact.ground.arrays import Array, Numbers
+
+
+def force(eta: Numbers) -> Array:
+    """Normal force F2 at `eta` (Table 1), in m2 Omega |v2(0)|.
+
+    Examples
+    --------
+    >>> float(force(np.pi / 2))
+    1.0
+    """
+    return np.sin(eta)
+
+
+def impulse(eta: Numbers) -> Array:
+    """Impulse between `eta` and the nearer end of contact (Table 1), in m2 |v2(0)|.
+
+    From contact in compression; in restitution multiply by e: what is still to come.
+
+    Examples
+    --------
+    >>> round(float(impulse(np.pi / 2)), 12)
+    1.0
+    """
+    return 2 * np.sin(eta / 2) ** 2
+
+
+def time(eta: Numbers, restitution: float, in_restitution: bool) -> Array:
+    """Time t/t_c at `eta`: 0 at contact, 1 at maximum compression, 1 + e at separation.
+
+    Examples
+    --------
+    >>> float(time(np.pi / 4, 0.5, in_restitution=True))
+    1.25
+    """
+    share = np.asarray(eta) / (np.pi / 2)
+    return 1 + restitution * (1 - share) if in_restitution else share

@@ -1,0 +1,213 @@
+"""Where slip starts: the first instant of stick at which |T| reaches N.
+
+T = A sin(theta) with theta' = rate, N = sin(eta) in the angle `eta` of `normal`.
+The root is searched only where it is alone:
+
+* While T and N have one sign, (T'N - TN')' = (1 - rate^2) T N. So for rate > 1 the ratio T/N has
+  at most one extremum in each half-wave of T, a maximum; for rate <= 1 at most one, a minimum.
+* At slip -> stick T'N - TN' = 0. For rate > 1 the ratio then falls to the end of its half-wave:
+  the double zero of |T| - N, where a root finder would chatter, is never searched. For
+  rate <= 1 slip never turns into stick.
+* In compression with rate > 1, T^2 + (T'/rate)^2 is constant in stick while N^2 + (N'/rate)^2
+  grows, so slip cannot start there.
+* Slip cannot start while N exceeds A.
+"""
+
+import numpy as np
+
+from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.ground.checks import ConvergenceError
+
+HALF_PI = np.pi / 2
+# The root finder is cubic: after a step of this share of the bracket the root is at rounding.
+LAST_STEP = 1e-6
+# After some turns every other one halves the bracket: 40 halvings leave LAST_STEP^2 of it.
+FREE_TURNS = 8
+MOST_TURNS = 100
+# Distance of subnormal neighbours, between which there is nothing left to halve.
+SMALLEST = float(np.finfo(float).smallest_subnormal)
+# Beyond it rounding leaves the phase of an oscillation open.
+LARGEST_PHASE = 1e15
+
+
+def sin_cos(angle: Array) -> tuple[Array, Array]:
+    """Sine and cosine from one tangent, the cheapest function of the three.
+
+    Examples
+    --------
+    >>> [round(float(value), 12) for value in sin_cos(np.pi / 6)]
+    [0.5, 0.866025403784]
+    """
+    tangent = np.tan(angle / 2)
+    double = 2 / (1 + tangent * tangent)
+    return tangent * double, double - 1
+
+
+def in_restitution(
+    eta: Array, theta: Array, amplitude: Array, rate: Array
+) -> tuple[Array, Array, Array]:
+    """First eta' <= eta, falling, with sin(eta') = |amplitude sin(theta + rate (eta - eta'))|.
+
+    For rate > 1 and theta < pi the ratio |T|/N must be past its maximum, as it is at every start
+    of stick in this model and after compression: that half-wave is not searched.
+
+    Returns
+    -------
+    eta : ndarray
+        Angle at the onset.
+    rho : ndarray
+        theta there, from the start of its half-wave.
+    wave : ndarray
+        Number of the half-wave: T has the sign of sin(theta) = (-1)^wave.
+    """
+    rate = np.maximum(rate, np.finfo(float).tiny)
+    fast = rate > 1
+    highest = amplitude
+    slow = np.flatnonzero(~fast)
+    if slow.size:
+        end = theta[slow] + rate[slow] * eta[slow]
+        highest = amplitude.copy()  # T that still rises at the end stays below A, perhaps far
+        highest[slow] *= np.sin(np.minimum(end, HALF_PI))
+    reached = np.minimum(eta, np.arcsin(np.minimum(highest, 1.0)))  # no slip before
+    theta_reached = theta + rate * (eta - reached)
+    if theta_reached.max() > LARGEST_PHASE:
+        lost = theta_reached > LARGEST_PHASE
+        theta_reached = np.where(lost, 2 * np.pi + theta_reached % (2 * np.pi), theta_reached)
+    wave = np.floor(theta_reached / np.pi)
+    rho = theta_reached - wave * np.pi
+    (force, fall), (friction, swing) = sin_cos(reached), sin_cos(rho)
+    falling = rate * swing * force + friction * fall <= 0
+    passed = (wave == 0) | (falling & (rho > HALF_PI))
+    dip = np.flatnonzero(fast & ~passed & (rho > HALF_PI))
+    if dip.size:
+        met, reach = _reach_behind_crest(reached[dip], rho[dip], amplitude[dip], rate[dip])
+        passed[dip] = ~met
+    wave = wave + passed
+    if slow.size:  # one crossing, in the half-wave in which stick would end
+        end = theta_reached[slow] + rate[slow] * reached[slow]
+        wave[slow] = np.maximum(wave[slow] - passed[slow], np.ceil(end / np.pi) - 1)
+
+    start = np.maximum(theta_reached, wave * np.pi)
+    eta = np.maximum(reached - (start - theta_reached) / rate, 0.0)
+    rho = start - wave * np.pi
+    widest = np.where(fast, np.minimum(eta, (HALF_PI - rho) / rate), eta)
+    if dip.size:
+        widest[dip[met]] = reach[met]
+    advance = _crossing(eta, rho, amplitude, rate, np.maximum(widest, 0.0))
+    advance = np.minimum(advance, eta)  # rounding may put a root at separation behind it
+    return eta - advance, rho + rate * advance, wave
+
+
+def _crossing(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array) -> Array:
+    """Single zero in [0, widest] of sin(eta - a) - amplitude sin(rho + rate a), guarded."""
+    advance = np.zeros_like(eta)
+    last_step = LAST_STEP * widest
+    # The root may lie at the very end, where rounding puts it beyond.
+    lane, low, high, trial = np.arange(eta.size), advance, widest + last_step, advance
+    for turn in range(MOST_TURNS):
+        before = trial
+        force, fall = sin_cos(eta - before)
+        friction, swing = sin_cos(rho + rate * before)
+        friction, swing = friction * amplitude, swing * amplitude * rate
+        excess, descent = force - friction, fall + swing
+        above = excess > 0
+        if turn == 0:  # while N - |T| grows, what lies below zero is rounding
+            above |= descent < 0
+        low, high = np.where(above, before, low), np.where(above, high, before)
+        # The nearer root of the Taylor parabola; good also where the descent vanishes.
+        root = descent * descent - 2 * excess * (rate * rate * friction - force)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            trial = before + 2 * excess / (descent + np.sqrt(np.maximum(root, 0.0)))
+        inside = (trial >= low) & (trial <= high)
+        if turn >= FREE_TURNS and turn % 2:  # halve: rounding can throw `trial` to and fro
+            inside[:] = False
+        trial = np.where(inside, trial, (low + high) / 2)
+        moving = ~inside | (np.abs(trial - before) > last_step)
+        moving &= high - low > np.maximum(LAST_STEP * last_step, SMALLEST)
+        if moving.all():
+            continue
+        advance[lane] = trial
+        lane = lane[moving]
+        if not lane.size:
+            return advance
+        trial, low, high, last_step = (a[moving] for a in (trial, low, high, last_step))
+        eta, rho, amplitude, rate = eta[moving], rho[moving], amplitude[moving], rate[moving]
+    raise _lost(lane)
+
+
+def _reach_behind_crest(
+    eta: Array, rho: Array, amplitude: Array, rate: Array
+) -> tuple[Booleans, Array]:
+    """Whether a falling |T| whose ratio to N still rises meets N in this half-wave, and by when.
+
+    The ratio rises while turn = |T|'N - |T|N' > 0. If the contact ends before the half-wave, that
+    is to the end, where N vanishes alone. If not, the turn has one zero. Behind the crest of |T|
+    it falls and is convex, so Newton's iterates approach that zero from before, and the first one
+    with N <= |T| bounds the onset. They end at the rounding of `theta`, which for rate > 1 and a
+    half-wave that ends is the coarser of the two angles.
+
+    Where the half-wave ends just before the contact, the turn is the cube of the time to go but
+    for a constant: a step then still takes a third of that time, and the constant or rounding of
+    the turn ends the search long before `MOST_TURNS`.
+    """
+    met, reach = rate * eta <= np.pi - rho, eta.copy()
+    open_ = np.flatnonzero(~met)
+    if not open_.size:
+        return met, reach
+    eta, rho, amplitude, rate = eta[open_], rho[open_], amplitude[open_], rate[open_]
+    theta = rho
+    for _ in range(MOST_TURNS):
+        advance = (theta - rho) / rate
+        force, fall = sin_cos(eta - advance)
+        friction, swing = sin_cos(theta)
+        meets = force <= amplitude * friction
+        turn = rate * swing * force + friction * fall
+        bend = (rate - 1 / rate) * friction * force
+        moving = ~meets & (turn > 0) & (bend > 0)
+        step = np.divide(turn, bend, out=np.zeros_like(turn), where=moving)
+        before, theta = theta, np.minimum(theta + step, np.pi)
+        if (theta == before).all():
+            met[open_], reach[open_] = meets, advance
+            return met, reach
+    raise _lost(theta)
+
+
+def _lost(lanes: Array | Integers) -> ConvergenceError:
+    return ConvergenceError(f"{lanes.size} impacts: no onset of slip after {MOST_TURNS} turns")
+
+
+def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
+    """First eta > 0 with x/(zeta^2 rate) sin(rate eta) = sin(eta), for rate < 1.
+
+    The caller knows that T exceeds N at maximum compression. With u = eta^2, (T - N)/eta is
+    increasing and concave in u, so Newton's iterates from the left rise to the root; the first
+    that does not is at the rounding of u, or of T - N where they are close all along.
+
+    Parameters
+    ----------
+    x, zeta2, rate : ndarray
+        Incidence up to zeta^2, stiffness ratio, omega/Omega below 1.
+
+    Returns
+    -------
+    ndarray
+        Angle at the onset, 0 for x = zeta^2.
+
+    Examples
+    --------
+    >>> eta = in_compression(np.array([1.9]), np.array([2.0]), np.array([0.5]))
+    >>> bool(abs(1.9 * np.sin(eta / 2) - np.sin(eta))[0] < 1e-14)
+    True
+    """
+    amplitude, ratio = x / (zeta2 * rate), x / zeta2
+    u = np.minimum(6 * (1 - ratio) / (1 - ratio * rate * rate), HALF_PI**2)
+    for _ in range(MOST_TURNS):
+        eta = np.sqrt(u)
+        (friction, swing), (force, fall) = sin_cos(rate * eta), sin_cos(eta)
+        excess = amplitude * friction - force
+        slope = amplitude * (rate * eta * swing - friction) - eta * fall + force
+        step = np.divide(-2 * u * excess, slope, out=np.zeros_like(u), where=slope > 0)
+        before, u = u, np.clip(u + step, u, HALF_PI**2)
+        if (u == before).all():
+            return eta
+    raise _lost(u)

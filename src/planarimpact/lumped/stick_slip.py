@@ -1,0 +1,322 @@
+"""The phases of a lumped contact, and the order in which they follow each other.
+
+Units 1/Omega, |v2(0)|, mu |v2(0)| and m2 Omega |v2(0)| for time, normal and tangential velocity
+and normal force, with friction T in mu times that; omega^2 = beta/zeta^2:
+
+    w' = -beta T,   T = s/zeta^2,   stick: s' = w while |T| <= N,   slip: T = side N.
+
+In stick T = A sin(theta) and w = sqrt(beta zeta^2) A cos(theta): a phase is its amplitude A and
+its angle. Time runs as the angle `eta` of `normal`, in which theta has the rate
+omega in compression and e omega in restitution. Slip ends in closed form; where it starts,
+`slip_onset` finds.
+
+Errors do not grow: any two solutions approach each other in the tangential energy
+w^2/(2 beta) + zeta^2 T^2/2, and an event misplaced by epsilon moves the result by the order of
+epsilon^2.
+
+The work of friction in one slip is the normal impulse times the mean of the slip velocities at
+its ends. The sum of these, all positive, keeps its digits where x^2 - w^2 would lose them.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact.ground.arrays import Array, Integers, Numbers
+from planarimpact.ground.checks import ConvergenceError, InputError
+from planarimpact.ground.results import Regime
+from planarimpact.lumped import normal, slip_onset
+from planarimpact.lumped.extremes import many_phases
+from planarimpact.lumped.slip_onset import HALF_PI, sin_cos
+
+# Impacts that still alternate after so many sticks go on by `many_phases`.
+STICKS_BEFORE_SKIP = 16
+# A trace of more would take minutes.
+MOST_TRACED = 100_000
+
+
+class Impacts(NamedTuple):
+    """Groups of impacts with incidence x >= 0, arrays of one shape (n,)."""
+
+    x: Array
+    beta: Array
+    zeta2: Array
+    e: Array
+
+    def take(self, lanes: Integers) -> "Impacts":
+        """The impacts with these indices."""
+        return Impacts._make(field[lanes] for field in self)
+
+
+class Outcome(NamedTuple):
+    """What is known of each impact so far, arrays of shape (n,), filled in place."""
+
+    velocity: Array
+    peak_friction: Array
+    dissipation: Array
+    regime: Integers
+
+
+class Stick(NamedTuple):
+    """Impacts, by index, in stick in restitution from `eta` on: T = side amplitude sin(theta).
+
+    Arrays of their own, which may be changed in place.
+    """
+
+    lanes: Integers
+    eta: Array
+    theta: Array
+    amplitude: Array
+    side: Array
+
+
+class Phase(NamedTuple):
+    """Start of a phase of stick or slip within one half of the contact.
+
+    `side` is the direction of slip, or the sign of T for sin(theta) > 0 in stick; `velocity`
+    holds in slip, `amplitude` and `theta` in stick.
+    """
+
+    sticks: bool
+    in_restitution: bool
+    eta: Numbers
+    side: Numbers
+    velocity: Numbers = 0.0
+    amplitude: Numbers = 0.0
+    theta: Numbers = 0.0
+
+
+def restick_coefficient(beta: Array, zeta2: Array, e: Array) -> Array:
+    """K = e beta - zeta^2/e where positive, else 0.
+
+    Slip in restitution has the velocity C - K cos(eta), C constant; it can end only if K > 0.
+    """
+    excess = e * (e * beta) - zeta2
+    fast = excess > 0
+    return np.where(fast, excess, 0.0) / np.where(fast, e, 1.0)
+
+
+def slip_throughout_limit(beta: Array, zeta2: Array, e: Array) -> Array:
+    """Incidence from which slip never ends."""
+    return np.maximum(zeta2, beta + restick_coefficient(beta, zeta2, e))
+
+
+def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
+    """Outcome of impacts.
+
+    Parameters
+    ----------
+    impacts : Impacts
+    trace : list, optional
+        For a single impact: its phases are appended in order.
+
+    Returns
+    -------
+    Outcome
+
+    Raises
+    ------
+    InputError
+        If a trace would have more than 100 000 phases.
+
+    Examples
+    --------
+    >>> outcome = solve(Impacts(*np.array([[8.0], [3.5], [1.21], [1.0]])))
+    >>> float(outcome.velocity[0]), float(outcome.dissipation[0])
+    (1.0, 9.0)
+    """
+    x, beta, zeta2, e = impacts
+    impulse = 1 + e
+    change = impulse * beta
+    regime = np.full(x.shape, Regime.SLIP_THROUGHOUT, np.uint8)
+    outcome = Outcome(x - change, np.ones_like(x), impulse * (x - change / 2), regime)
+    sticks = x < slip_throughout_limit(beta, zeta2, e)
+    slips_to_restitution = (x > beta) & (x > zeta2)
+    early = np.flatnonzero(sticks & ~slips_to_restitution)
+    late = np.flatnonzero(sticks & slips_to_restitution)
+    if trace is not None and not early.size:
+        trace += [Phase(False, False, 0.0, 1.0, x), Phase(False, True, HALF_PI, 1.0, x - beta)]
+    if early.size:
+        stick = _from_compression(early, impacts.take(early), outcome, trace)
+        _alternate(stick, impacts, outcome, trace)
+    if late.size:
+        outcome.regime[late] = Regime.SLIP_STICK
+        stick = _after_late_slip(late, impacts.take(late), outcome)
+        _alternate(stick, impacts, outcome, trace)
+    # Rounding creates no energy.
+    np.minimum(np.maximum(outcome.velocity, -x), x, out=outcome.velocity)
+    np.maximum(outcome.dissipation, 0.0, out=outcome.dissipation)
+    return outcome
+
+
+def state(phase: Phase, eta: Array, beta: float, zeta2: float, e: float) -> tuple[Array, Array]:
+    """Friction and velocity of one phase at angles `eta` of its half.
+
+    Returns
+    -------
+    friction, velocity : ndarray, shape of eta
+    """
+    if phase.sticks:
+        omega = np.sqrt(beta / zeta2)
+        rate = omega * (e if phase.in_restitution else 1.0)
+        sine, cosine = sin_cos(phase.theta + rate * np.abs(eta - phase.eta))
+        force = phase.side * phase.amplitude
+        return force * sine, omega * zeta2 * force * cosine
+    passed = np.abs(normal.impulse(eta) - normal.impulse(phase.eta))
+    share = e if phase.in_restitution else 1.0
+    return phase.side * normal.force(eta), phase.velocity - phase.side * beta * share * passed
+
+
+def _tangent(slope: Array, gap: Array, rate: Array) -> tuple[Array, Array, Array]:
+    """Stick that starts with T = N and T' = N' = slope: amplitude, theta and eta there.
+
+    `gap` is 1 - |slope|, free of cancellation.
+    """
+    force = np.sqrt(gap * (1 + np.abs(slope)))
+    eta = np.arctan2(force, np.abs(slope))
+    return np.hypot(force, slope / rate), np.arctan2(rate * force, slope), eta
+
+
+def _from_compression(
+    lanes: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
+) -> Stick:
+    """Stick from the start, or after slip in compression, up to maximum compression.
+
+    Fills the outcome of contacts that end there or slip on; the others are returned.
+    """
+    x, beta, zeta2, e = impacts
+    omega = np.sqrt(beta / zeta2)
+    slips_first = x > zeta2
+    # Initial stick is tangent in the same way, with no force and T/N = x/zeta^2.
+    reach = np.where(slips_first, beta - zeta2, zeta2)
+    slope = np.where(slips_first, beta - x, x) / reach
+    gap = np.where(slips_first, x - zeta2, 0.0) / reach
+    amplitude, theta, eta = _tangent(slope, gap, omega)
+    if trace is not None:
+        trace += [Phase(False, False, 0.0, 1.0, x)] if slips_first[0] else []
+        trace.append(Phase(True, False, eta, 1.0, 0.0, amplitude, theta))
+    theta = theta + omega * (HALF_PI - eta)
+    sine, cosine = sin_cos(theta)
+    friction = amplitude * sine
+    outcome.velocity[lanes] = omega * zeta2 * amplitude * cosine
+    outcome.peak_friction[lanes] = np.where(theta < HALF_PI, friction, amplitude)
+    outcome.regime[lanes] = np.where(slips_first, Regime.SLIP_STICK, Regime.STICK)
+    outcome.dissipation[lanes] = gap * gap * reach / 2
+
+    broken = (omega < 1) & (friction > 1)
+    if broken.any():
+        where = np.flatnonzero(broken)
+        _break_in_compression(lanes[where], impacts.take(where), outcome, trace)
+    last = (e == 0) | (x == 0)
+    left = np.flatnonzero(last & ~broken)  # these lose the strain energy at separation
+    outcome.dissipation[lanes[left]] += zeta2[left] * friction[left] * friction[left] / 2
+    if trace is not None and last[0] and not broken[0]:
+        trace.append(Phase(True, True, HALF_PI, 1.0, 0.0, amplitude, theta))
+    on = np.flatnonzero(~(broken | last))
+    return Stick(lanes[on], np.full(on.size, HALF_PI), theta[on], amplitude[on], np.ones(on.size))
+
+
+def _break_in_compression(
+    lanes: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
+) -> None:
+    """Initial stick that breaks before maximum compression (omega < Omega) slips to the end."""
+    x, beta, zeta2, e = impacts
+    omega = np.sqrt(beta / zeta2)
+    eta = slip_onset.in_compression(x, zeta2, omega)
+    onset = x * np.cos(omega * eta)
+    passed = normal.impulse(eta)
+    compressed = onset - beta * (1 - passed)
+    final = onset - beta * (1 + e - passed)
+    work = (1 - passed) * (onset - zeta2 * (1 - passed) + compressed)
+    work += e * compressed + e * final + zeta2
+    outcome.velocity[lanes] = final
+    outcome.peak_friction[lanes] = 1.0
+    outcome.dissipation[lanes] = work / 2
+    outcome.regime[lanes] = Regime.STICK_SLIP
+    if trace is not None:
+        trace.append(Phase(False, False, eta, 1.0, onset))
+        trace.append(Phase(False, True, HALF_PI, 1.0, compressed))
+
+
+def _after_late_slip(lanes: Integers, impacts: Impacts, outcome: Outcome) -> Stick:
+    """Stick after a first slip that ended in restitution, at cos(eta) = (x - beta)/K."""
+    x, beta, zeta2, e = impacts
+    reach = restick_coefficient(beta, zeta2, e)
+    slope, gap = (beta - x) / reach, (reach + (beta - x)) / reach
+    work = x - zeta2 + (x - beta) + e * (beta - x) * slope
+    outcome.dissipation[lanes] = work / 2
+    amplitude, theta, eta = _tangent(slope, gap, e * np.sqrt(beta / zeta2))
+    return Stick(lanes, eta, theta, amplitude, np.ones_like(eta))
+
+
+def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None) -> None:
+    """Slip and stick in turn until every impact slides to separation; adds to the outcome."""
+    count = 0
+    while stick.lanes.size:
+        if count == STICKS_BEFORE_SKIP:
+            _skip(stick, impacts, outcome, trace)
+        lanes, amplitude = stick.lanes, stick.amplitude
+        beta, zeta2, e = (field[lanes] for field in impacts[1:])
+        omega = np.sqrt(beta / zeta2)
+        rate = e * omega
+        if count == 0:
+            most = _most_sticks(rate)
+        if count == most:
+            raise ConvergenceError(f"{lanes.size} impacts stick more often than they can")
+        eta, rho, wave = slip_onset.in_restitution(stick.eta, stick.theta, amplitude, rate)
+        side = np.where(wave % 2 == 0, stick.side, -stick.side)
+        onset = omega * zeta2 * amplitude * np.cos(rho)  # in the direction of slip
+        ahead = normal.impulse(eta)
+        final = onset - beta * e * ahead
+        outcome.velocity[lanes] = side * final
+        if trace is not None:
+            trace.append(Phase(True, True, stick.eta, stick.side, 0.0, amplitude, stick.theta))
+            trace.append(Phase(False, True, eta, side, side * onset))
+        if count == 0:
+            rising = (wave == 0) & (rho < HALF_PI)
+            crest = np.where(rising, normal.force(eta), amplitude)
+            slid = stick.eta < HALF_PI  # slip went through maximum compression, where N = 1
+            outcome.peak_friction[lanes] = np.where(slid, 1.0, crest)
+            outcome.regime[lanes] += np.uint8(Regime.STICK_SLIP - Regime.STICK)
+        # e times the slip velocity here and at separation. Where it would turn round, slip ends.
+        here, there = e * onset + zeta2 * (1 - ahead), e * final + zeta2
+        work = ahead * (here + there)
+        again = np.flatnonzero((rate > 1) & (there < 0))
+        excess = e[again] * (e[again] * beta[again]) - zeta2[again]
+        work[again] = here[again] * (here[again] / excess)
+        outcome.dissipation[lanes] += work / 2
+        # That slip ends at cos(eta) = 1 - gap.
+        gap = -there[again] / excess
+        amplitude, theta, eta = _tangent(gap - 1, gap, rate[again])
+        stick = Stick(lanes[again], eta, theta, amplitude, side[again])
+        outcome.regime[stick.lanes] = Regime.MULTIPLE
+        count += 1
+
+
+def _most_sticks(rate: Array) -> int:
+    """Each stick in restitution has a half-wave of T of its own, a part of it at the ends."""
+    return int(rate.max()) + 3
+
+
+def _skip(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None) -> None:
+    """Move sticks that have far to go close to separation; adds the work of slip on the way."""
+    beta, zeta2, e = (field[stick.lanes] for field in impacts[1:])
+    rate = e * np.sqrt(beta / zeta2)
+    far = np.flatnonzero(many_phases.worth_skipping(stick.eta, rate))
+    if not far.size:
+        return
+    if trace is not None:
+        phases = 2 * rate[0] * stick.eta[0] / np.pi
+        if phases > MOST_TRACED:
+            raise InputError(
+                f"stiffness_ratio = {float(zeta2[0])!r}: some {phases:.2g} phases in one contact; "
+                f"allowed are {MOST_TRACED} where each one is asked for"
+            )
+        return
+    rate, zeta2 = rate[far], zeta2[far]
+    eta, half_waves = many_phases.skip(stick.eta[far], rate)
+    amplitude, theta, eta = _tangent(-np.cos(eta), normal.impulse(eta), rate)
+    lost = zeta2 * (stick.amplitude[far] ** 2 - amplitude**2) / 2
+    outcome.dissipation[stick.lanes[far]] += lost
+    stick.eta[far], stick.theta[far], stick.amplitude[far] = eta, theta, amplitude
+    stick.side[far] *= np.where(half_waves % 2 == 0, 1.0, -1.0)

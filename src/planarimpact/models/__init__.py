@@ -1,0 +1,338 @@
+"""The ladder of models, from one formula to the elastic continuum, under one calling convention.
+
+Every rung is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)`,
+the four groups by position or name, its own settings by name, and returns a `Rebound`. What a
+rung costs and how far it is off is measured by the workflow (`results/trade.csv`), not promised
+here.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact import continuum, lumped, rigid
+from planarimpact.continuum import annuli
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import ArrayLike
+from planarimpact.ground.results import Rebound
+from planarimpact.models import laws, timestep
+
+
+class Model(NamedTuple):
+    """One rung.
+
+    Attributes
+    ----------
+    name : str
+        Module, and function where a module holds several.
+    rebound : callable
+        Its solver.
+    settings : dict
+        Its own settings and their defaults: what its accuracy and cost depend on.
+    cost : str
+        Class of cost: "formula", "phases" (a few phases in closed form), "steps", or "steps and
+        circles"; the last two grow with their settings.
+    restitution : (float, float)
+        Range of restitution that it admits.
+    valid : str
+        What it describes, and what it leaves out.
+    source : str
+        Where it comes from.
+    sliding_limit : callable or None
+        Incidence from which it slides throughout, w = x - (1 + e) beta, as a function of mass
+        ratio, stiffness ratio, restitution (numbers) and settings; None where it never does so
+        exactly.
+    kinks : callable
+        Incidences, by the same arguments, where its answer is known to bend; there may be more.
+    """
+
+    name: str
+    rebound: Callable[..., Rebound]
+    settings: dict[str, float]
+    cost: str
+    restitution: tuple[float, float]
+    valid: str
+    source: str
+    sliding_limit: Callable[..., float] | None
+    kinks: Callable[..., tuple[float, ...]]
+
+
+def get(name: str) -> Model:
+    """The model of a name.
+
+    Parameters
+    ----------
+    name : str
+        One of `MODELS`.
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    InputError
+        If there is none of that name.
+
+    Examples
+    --------
+    >>> get("lumped").cost
+    'phases'
+    >>> get("magic")
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, \
+laws.bilbao, lumped, timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, annuli
+    """
+    if not isinstance(name, str) or name not in MODELS:
+        raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
+    return MODELS[name]
+
+
+def rebound(
+    model: str,
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+    **settings: float,
+) -> Rebound:
+    """State at separation by the model of a name.
+
+    Parameters
+    ----------
+    model : str
+        One of `MODELS`.
+    incidence, mass_ratio, stiffness_ratio, restitution : array_like
+        The four groups; they broadcast.
+    **settings
+        Those of the model; what is left out has its default.
+
+    Returns
+    -------
+    Rebound
+
+    Raises
+    ------
+    InputError
+        If there is no such model or setting, or as the model does.
+
+    Examples
+    --------
+    >>> float(rebound("rigid", 8.0).velocity)
+    1.0
+    >>> rebound("lumped", 8.0, steps=4)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: steps = 4: lumped has no settings
+    """
+    chosen = get(model)
+    refuse_unknown(chosen, settings)
+    return chosen.rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
+
+
+def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
+    """Refuse settings that a model does not have.
+
+    Parameters
+    ----------
+    model : Model
+    settings : mapping
+        By name.
+
+    Raises
+    ------
+    InputError
+        Naming the first setting that it does not have, and those it has.
+
+    Examples
+    --------
+    >>> refuse_unknown(get("annuli"), {"circles": 8})
+    """
+    for key, value in settings.items():
+        if key not in model.settings:
+            known = f"the settings {', '.join(model.settings)}" if model.settings else "no settings"
+            raise checks.InputError(f"{key} = {checks.brief(value)}: {model.name} has {known}")
+
+
+def _all_impulse(beta: float, zeta2: float, e: float, **settings: float) -> float:
+    """All of the normal impulse turns into friction: that of a contact without compliance."""
+    return (1 + e) * beta
+
+
+def _brach_limit(
+    beta: float,
+    zeta2: float,
+    e: float,
+    tangential_restitution: float = laws.BRACH_TANGENTIAL_RESTITUTION,
+) -> float:
+    return (1 + e) * beta / (1 + tangential_restitution)
+
+
+def _compliant_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
+    return float(lumped.slip_throughout_limit(beta, zeta2, e))
+
+
+def _compliant_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
+    return zeta2, beta, _compliant_limit(beta, zeta2, e)
+
+
+def _no_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
+    return ()
+
+
+def _rigid_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
+    return beta, (1 + e) * beta
+
+
+def _limit_alone(limit: Callable[..., float]) -> Callable[..., tuple[float, ...]]:
+    return lambda *groups, **settings: (limit(*groups, **settings),)
+
+
+_ANY, _ELASTIC = (0.0, 1.0), (1.0, 1.0)
+_STEPPED = "fixed time step, as discrete-element codes have it"
+_IMPULSES = "impulses alone: no forces, no order of stick and slip"
+
+MODELS = {
+    model.name: model
+    for model in (
+        Model(
+            "rigid",
+            rigid.rebound,
+            {},
+            "formula",
+            _ANY,
+            "no tangential compliance: the contact never turns round",
+            "Stronge 1994, Eqs 34, 35, 41",
+            _all_impulse,
+            _rigid_kinks,
+        ),
+        Model(
+            "laws.smith",
+            laws.smith,
+            {},
+            "formula",
+            _ANY,
+            _IMPULSES + "; tends to a perfect bounce, w = -x, at small incidence",
+            "C. E. Smith, J. Appl. Mech. 58 (1991) 754-758",
+            _all_impulse,
+            _limit_alone(_all_impulse),
+        ),
+        Model(
+            "laws.brach",
+            laws.brach,
+            {"tangential_restitution": laws.BRACH_TANGENTIAL_RESTITUTION},
+            "formula",
+            _ANY,
+            _IMPULSES + "; two straight lines, the first with a constant to be fitted",
+            "O. R. Walton, in Particulate Two-Phase Flow, 1993; R. M. Brach, J. Appl. Mech. 56 "
+            "(1989) 133-138",
+            _brach_limit,
+            _limit_alone(_brach_limit),
+        ),
+        Model(
+            "laws.bilbao",
+            laws.bilbao,
+            {"tangential_restitution": laws.BILBAO_TANGENTIAL_RESTITUTION},
+            "formula",
+            _ANY,
+            _IMPULSES + "; an exponential with a constant to be fitted, our reconstruction",
+            "Bilbao et al. 1989, cited by Stronge 1994 without its formula",
+            None,
+            _no_kinks,
+        ),
+        Model(
+            "lumped",
+            lumped.rebound,
+            {},
+            "phases",
+            _ANY,
+            "linear springs, contact sticks and slips as a whole; exact to rounding",
+            "Stronge 1994",
+            _compliant_limit,
+            _compliant_kinks,
+        ),
+        Model(
+            "timestep.linear",
+            timestep.linear,
+            {"steps": timestep.STEPS},
+            "steps",
+            _ANY,
+            f"linear spring and slider, {_STEPPED}; tends to the lumped model",
+            "P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65",
+            None,
+            _compliant_kinks,
+        ),
+        Model(
+            "timestep.mindlin",
+            timestep.mindlin,
+            {"steps": timestep.STEPS},
+            "steps",
+            _ANY,
+            f"Hertz contact, friction in increments by Mindlin's stiffness, {_STEPPED}",
+            "R. D. Mindlin, J. Appl. Mech. 16 (1949) 259-268; as in LAMMPS, mindlin/force",
+            None,
+            _compliant_kinks,
+        ),
+        Model(
+            "timestep.mindlin_rescaled",
+            timestep.mindlin_rescaled,
+            {"steps": timestep.STEPS},
+            "steps",
+            _ANY,
+            "the same, the force rescaled with the radius of contact on unloading",
+            "C. Thornton et al., Powder Technology 233 (2013) 30-46; LAMMPS, mindlin_rescale/force",
+            None,
+            _compliant_kinks,
+        ),
+        Model(
+            "continuum",
+            continuum.rebound,
+            {"tolerance": 1e-6},
+            "steps",
+            _ELASTIC,
+            "elastic spheres with micro-slip, to a tolerance; no hysteresis",
+            "N. Maw et al., Wear 38 (1976) 101-114; V. L. Popov, M. Hess, Method of Dimensionality "
+            "Reduction in Contact Mechanics and Friction, Springer 2015",
+            _compliant_limit,
+            _compliant_kinks,
+        ),
+        Model(
+            "annuli",
+            annuli.rebound,
+            {"circles": 32, "steps": 512},
+            "steps and circles",
+            _ELASTIC,
+            "the same by the scheme of 1976, another solver: a check",
+            "N. Maw et al., Wear 38 (1976) 101-114",
+            None,
+            _compliant_kinks,
+        ),
+    )
+}
+
+
+def reference(restitution: ArrayLike) -> str:
+    """Name of the model that others are measured against at a restitution.
+
+    The continuum where the contact is elastic. There is none with hysteresis here, so for e < 1
+    it is the lumped model; how far that is from the continuum at e = 1,
+    `planarimpact.scene.gaps.elastic` tells: 0.21 for a solid sphere of Poisson's ratio 0.3.
+
+    Parameters
+    ----------
+    restitution : array_like
+        e, 0 to 1.
+
+    Returns
+    -------
+    str
+        "continuum" where all of them are 1, else "lumped".
+
+    Examples
+    --------
+    >>> reference(1.0), reference(0.9)
+    ('continuum', 'lumped')
+    """
+    return "continuum" if np.all(checks.restitution(restitution) == 1) else "lumped"

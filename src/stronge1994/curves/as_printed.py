@@ -1,0 +1,58 @@
+"""What the printed equations give, beside a curve of the exact solver: only where it differs."""
+
+import numpy as np
+
+from planarimpact.ground.arrays import ArrayLike, Booleans
+from stronge1994.curves import Columns, Curves
+
+# Below this the printed equations are the exact ones to rounding.
+SAME = 1e-9
+
+
+def beside(name: str, curve: Columns, printed: ArrayLike) -> Curves:
+    """Curves of the printed equations beside one exact curve.
+
+    Parameters
+    ----------
+    name : str
+        Of the exact curve, for instance `e = 0.5`; empty for the only one.
+    curve : dict
+        Its columns, `{header: array}`, shape (n,): first the axis, then the quantity.
+    printed : array_like, shape (n,)
+        The quantity as printed; nan where the printed equations have no solution.
+
+    Returns
+    -------
+    dict
+        `as printed, NAME` where the printed equations differ, and `no solution as printed, NAME`
+        where they have none, there with the exact quantity; each only if there is such a place.
+
+    Examples
+    --------
+    >>> exact = {"x": np.arange(4), "w": np.arange(4)}
+    >>> found = beside("e = 1", exact, [0, 1, 5, np.nan])
+    >>> {name: columns["x"].tolist() for name, columns in found.items()}
+    {'as printed, e = 1': [1, 2], 'no solution as printed, e = 1': [2, 3]}
+    """
+    (axis, x), (column, exact) = list(curve.items())[:2]
+    printed = np.asarray(printed)
+    missing = np.isnan(printed)
+    differs = ~missing & (np.abs(printed - exact) > SAME)
+    ending = f", {name}" if name else ""
+    found = {}
+    if differs.any():
+        # With the last point in common, where the two part.
+        kept = _with_neighbours(differs) & ~missing
+        found[f"as printed{ending}"] = {axis: x[kept], column: printed[kept]}
+    if missing.any():
+        kept = _with_neighbours(missing, after=False)
+        found[f"no solution as printed{ending}"] = {axis: x[kept], column: exact[kept]}
+    return found
+
+
+def _with_neighbours(chosen: Booleans, after: bool = True) -> Booleans:
+    grown = chosen.copy()
+    grown[:-1] |= chosen[1:]
+    if after:
+        grown[1:] |= chosen[:-1]
+    return grown

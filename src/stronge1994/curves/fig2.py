@@ -1,0 +1,36 @@
+"""Fig. 2: force against deflection of the normal and the tangential element."""
+
+import numpy as np
+
+from stronge1994.curves import Curves
+
+
+def curves(stiffness_ratio: float, restitution: float) -> Curves:
+    """Loading and unloading lines in the units of Table 1.
+
+    Parameters
+    ----------
+    stiffness_ratio, restitution : float
+        zeta^2 and e.
+
+    Returns
+    -------
+    dict
+        Curves `normal loading`, `normal unloading` (slope 1/e^2) and `tangential`
+        (slope 1/zeta^2), each with deflection and force.
+
+    Examples
+    --------
+    >>> unloading = curves(1.21, 0.5)["normal unloading"]
+    >>> unloading["deflection [v2(0)/Omega]"].tolist()  # 1 - e^2 remains
+    [1.0, 0.75]
+    """
+    lines = {
+        "normal loading": ([0.0, 1.0], [0.0, 1.0]),
+        "normal unloading": ([1.0, 1.0 - restitution**2], [1.0, 0.0]),
+        "tangential": ([-1.0, 1.0], [-1.0 / stiffness_ratio, 1.0 / stiffness_ratio]),
+    }
+    columns = ("deflection [v2(0)/Omega]", "force [m2 Omega v2(0)]")
+    return {
+        name: dict(zip(columns, map(np.array, line), strict=True)) for name, line in lines.items()
+    }

@@ -1,0 +1,63 @@
+"""Beyond the paper: where the contact sticks over the impact, and the forces of both models."""
+
+from collections.abc import Sequence
+
+from planarimpact import continuum, lumped
+from planarimpact.ground.results import ContinuumHistory, History
+from stronge1994.curves import Columns, Curves
+
+
+def curves(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    incidences: Sequence[float],
+    forces: Sequence[float],
+    samples: int,
+    tolerance: float,
+) -> Curves:
+    """Contacts of the elastic continuum, and of the lumped model where forces are compared.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio : float
+        beta and zeta^2; e = 1.
+    incidences : sequence of float
+        x = v1(0)/(mu v2(0)), a curve `continuum, x = ...` each.
+    forces : sequence of float
+        Incidences with a curve `lumped, x = ...` beside it.
+    samples : int
+        Instants of the lumped model, besides its events.
+    tolerance : float
+        Largest error of the continuum's friction and velocity.
+
+    Returns
+    -------
+    dict
+        Columns time, both forces, velocity; of the continuum also the radii of contact and stick.
+
+    Examples
+    --------
+    >>> list(curves(3.5, 1.21, [1.0], [1.0], 50, 1e-2))
+    ['continuum, x = 1', 'lumped, x = 1']
+    """
+    named = {}
+    for x in dict.fromkeys([*incidences, *forces]):
+        contact = continuum.history(x, mass_ratio, stiffness_ratio, tolerance)
+        named[f"continuum, x = {x:g}"] = {
+            **_columns(contact),
+            "contact_radius [a_max]": contact.contact_radius,
+            "stick_radius [a_max]": contact.stick_radius,
+        }
+    for x in forces:
+        whole = lumped.history(x, mass_ratio, stiffness_ratio, 1.0, samples)
+        named[f"lumped, x = {x:g}"] = _columns(whole)
+    return named
+
+
+def _columns(contact: ContinuumHistory | History) -> Columns:
+    return {
+        "time [t_c]": contact.time,
+        "normal_force [F2max]": contact.normal,
+        "friction_force [mu F2max]": contact.friction,
+        "velocity [mu v2(0)]": contact.velocity,
+    }

@@ -1,0 +1,132 @@
+"""Beyond the paper: correct digits of the lumped model all over its parameters, and their limit."""
+
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeVar
+
+import numpy as np
+
+from planarimpact import lumped
+from planarimpact.ground.arrays import Array
+from stronge1994.curves import Curves
+
+GROUPS = {
+    "incidence": "mu v2(0)",
+    "mass_ratio": "1",
+    "stiffness_ratio": "1",
+    "restitution": "1",
+}
+OUTPUTS = ("velocity", "peak_friction", "dissipation")
+ROUNDING = 2.0**-52
+# A hundred of the smallest numbers: below it float64 holds no two digits.
+FLOOR = 100 * 5e-324
+DIGITS = 16.0  # no more are counted
+
+
+_Result = TypeVar("_Result")
+
+
+def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
+    """Digits of every output at given impacts, and the balances of their contacts.
+
+    Parameters
+    ----------
+    points : dict of sequences of float
+        A table of exact answers: the groups of `lumped.rebound` and the outputs velocity,
+        peak_friction, dissipation by name; `condition_...` of each output, the sum of
+        abs(p d(output)/dp) over the groups p; phases.
+    most_phases : int
+        Contacts of 2 to so many phases are followed through, for their balances.
+
+    Returns
+    -------
+    dict
+        `impacts`: for each output the digits found, -log10 of its relative error, and those
+        that its condition allows where every number is rounded once, both cut to 0 ... 16;
+        `digits_lost`, how many fewer the worst output has than allowed. An impact that raises,
+        warns or gives NaN has no digits and loses 16.
+        `contacts`: by how much friction exceeds the Coulomb limit at its worst event; by how
+        much the work of friction along the contact differs from the balance of energy, over
+        the most work that friction could do there and the condition (0 for e = 0).
+
+    Examples
+    --------
+    >>> table = {"incidence": [8.0], "mass_ratio": [3.5], "stiffness_ratio": [1.21]}
+    >>> table |= {"restitution": [1.0], "velocity": [1.0], "peak_friction": [1.0]}
+    >>> table |= {"dissipation": [9.0], "condition_velocity": [18.5], "phases": [1]}
+    >>> table |= {"condition_peak_friction": [0.0], "condition_dissipation": [29.0]}
+    >>> curves(table, 10)["impacts"]["digits_lost [1]"].tolist()
+    [0.0]
+    """
+    table = {name: np.asarray(values, float) for name, values in points.items()}
+    groups = np.stack([table[name] for name in GROUPS])
+    labelled = {f"{name} [{unit}]": table[name] for name, unit in GROUPS.items()}
+    labelled["omega [Omega]"] = np.sqrt(table["mass_ratio"] / table["stiffness_ratio"])
+    labelled["phases [1]"] = table["phases"].astype(int)
+
+    columns, lost = {}, []
+    for name, found in zip(OUTPUTS, _solved(groups), strict=True):
+        digits = _digits(found, table[name], table[f"condition_{name}"])
+        columns[f"digits_{name} [1]"], columns[f"digits_allowed_{name} [1]"] = digits[:2]
+        lost.append(digits[2])
+    columns["digits_lost [1]"] = np.max(lost, axis=0)
+
+    few = (table["phases"] > 1) & (table["phases"] <= most_phases)
+    size = np.maximum(_most_work(*groups) + table["condition_dissipation"], FLOOR)
+    balances = [_balances(*row) for row in np.vstack([size, groups]).T[few]]
+    excess, residual = np.array(balances).reshape(-1, 2).T
+    followed = {name: values[few] for name, values in labelled.items()}
+    followed |= {"friction_excess [mu F2max]": excess, "energy_residual [1]": residual}
+    return {"impacts": labelled | columns, "contacts": followed}
+
+
+def _solved(groups: Array) -> Array:
+    """Outputs of impacts, shape (3, n); NaN for one that raises or warns, and for no other."""
+    found = _attempt(lambda: np.stack(lumped.rebound(*groups)[:3]))
+    if found is not None:
+        return found
+    if groups.shape[1] == 1:
+        return np.full((len(OUTPUTS), 1), np.nan)
+    return np.concatenate([_solved(half) for half in np.array_split(groups, 2, axis=1)], axis=1)
+
+
+def _attempt(call: Callable[[], _Result]) -> _Result | None:
+    """What a call returns; None if it raises or warns."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            return call()
+    except Exception:
+        return None
+
+
+def _digits(found: Array, exact: Array, condition: Array) -> tuple[Array, Array, Array]:
+    """Digits found, allowed and lost of one output."""
+    size = np.maximum(np.abs(exact), FLOOR)
+    error = np.abs(found - exact)
+    error = np.where(error <= FLOOR, 0.0, error)  # NaN stays
+    limit = ROUNDING * (np.abs(exact) + condition)
+    with np.errstate(divide="ignore", over="ignore"):
+        correct, allowed = -np.log10(error / size), -np.log10(limit / size)
+        lost = np.log10(error / np.maximum(limit, FLOOR))
+    lost = np.where(np.isnan(error), DIGITS, np.clip(lost, 0.0, DIGITS))
+    correct = np.where(np.isnan(error), 0.0, np.clip(correct, 0.0, DIGITS))
+    return correct + 0.0, np.clip(allowed, 0.0, DIGITS) + 0.0, lost  # no -0.0
+
+
+def _balances(size: float, x: float, beta: float, zeta2: float, e: float) -> tuple[float, float]:
+    """Excess of friction over the Coulomb limit, and residual of energy over `size`; at worst 1."""
+    groups = x, beta, zeta2, e
+    events = _attempt(lambda: lumped.history(x, beta, zeta2, e, samples=2).events)
+    gap = _attempt(lambda: lumped.friction_work(*groups) - lumped.rebound(*groups).dissipation)
+    if events is None or gap is None:
+        return 1.0, 1.0
+    excess = np.max([abs(event.friction) - event.normal for event in events], initial=0.0)
+    excess = np.nan_to_num(excess, nan=1.0)
+    # For e = 0 the tangential spring loses energy too.
+    return excess, 0.0 if e == 0 or abs(gap) <= FLOOR else min(1.0, float(abs(gap)) / size)
+
+
+def _most_work(x: Array, beta: Array, zeta2: Array, e: Array) -> Array:
+    """All tangential energy, or friction at its limit over the whole contact where that is less."""
+    return np.minimum(x, 2 * (1 + e) * beta) * (x / (2 * beta))

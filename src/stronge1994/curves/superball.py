@@ -1,0 +1,103 @@
+"""A superball thrown under a table: it comes back. Its path between floor and table."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from planarimpact import scene
+from planarimpact.scene.columns import header
+from stronge1994.curves import Curves
+
+TOLERANCE = 1e-6
+
+
+def curves(throw: dict[str, Any]) -> Curves:
+    """Path of a ball between a floor and the underside of a table, and each impact.
+
+    Parameters
+    ----------
+    throw : dict
+        `radius` [m], `density` [kg/m^3], `young_modulus` [Pa] and `poisson_ratio` of the ball,
+        `friction`, `restitution`; `velocity` [m/s] before the first impact, on the floor, along
+        and up; `spin` [rad/s] before it, positive where it moves the foot of the ball forward;
+        `gap` [m] between floor and table; `bounces`.
+
+    Returns
+    -------
+    dict
+        `path`: one row before the first impact, one at each, one after the last; velocity and spin
+        are those after it. They have the names and signs of a scene in space, x along the floor and
+        z up: spin_y is positive where the ball turns as if it rolled forward on the floor, and
+        -`spin` before the first impact. Gravity is left out: the throw is fast.
+
+    Examples
+    --------
+    >>> ball = {"radius": 0.025, "density": 1100.0, "young_modulus": 5e6, "poisson_ratio": 0.5}
+    >>> throw = {"friction": 0.8, "restitution": 0.9, "velocity": [6, -5], "spin": 0}
+    >>> path = curves(ball | throw | {"gap": 0.7, "bounces": 3})["path"]
+    >>> path["velocity_x [m/s]"].round(1).tolist()  # before, after each impact, at the end
+    [6.0, 3.4, -1.2, -2.9, -2.9]
+    """
+    before, after = impacts(**throw)
+    reach = throw["gap"] - 2 * throw["radius"]
+    along, up = (
+        np.append(before[f"velocity_{axis} [m/s]"][:1], after[f"velocity_{axis}_after [m/s]"])
+        for axis in "xz"
+    )
+    # From half way down to the floor, up, down ..., and half the way after the last.
+    height = np.resize([0.0, reach], len(after))
+    last = height[-1] + np.sign(up[-1]) * reach / 2
+    height = np.concatenate([[reach / 2], height, [last]])
+    flight = np.abs(np.diff(height)) / np.abs(up)
+    place = np.cumsum(np.concatenate([[0.0], along * flight]))
+    spin = np.append(before["spin_y [rad/s]"][:1], after["spin_y_after [rad/s]"])
+    path = {
+        "place [m]": place - place[1],
+        "height [m]": throw["radius"] + height,
+        "velocity_x [m/s]": np.append(along, along[-1]),
+        "velocity_z [m/s]": np.append(up, up[-1]),
+        "spin_y [rad/s]": np.append(spin, spin[-1]),
+        "regime": np.array(["before", *after["regime"], "after"]),
+    }
+    return {"path": path}
+
+
+def impacts(
+    friction: float,
+    restitution: float,
+    velocity: Sequence[float],
+    spin: float,
+    gap: float,
+    bounces: int,
+    **ball: float,
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """The impacts of a throw as a scene, each from the state after the one before, and its result.
+
+    Parameters
+    ----------
+    friction, restitution, velocity, spin, gap, bounces, **ball
+        As `throw` in `curves`.
+
+    Returns
+    -------
+    before, after : DataFrame
+        As `planarimpact.scene.solve` takes and returns them.
+    """
+    fixed = ball | {"friction": friction, "restitution": restitution}
+    state = {"velocity_x": velocity[0], "velocity_y": 0.0, "velocity_z": velocity[1]}
+    state |= {"spin_x": 0.0, "spin_y": -spin, "spin_z": 0.0}
+    solver, rows, results = scene.Solver(TOLERANCE), [], []
+    for bounce in range(bounces):
+        floor = bounce % 2 == 0
+        normal = {"normal_x": 0.0, "normal_y": 0.0, "normal_z": 1.0 if floor else -1.0}
+        row: dict[str, Any] = {
+            header(name): value for name, value in (fixed | state | normal).items()
+        }
+        row = {"id": f"{bounce + 1}, {'floor' if floor else 'table'}", **row}
+        rows.append(row)
+        results.append(solver.solve(pd.DataFrame([row])))
+        after = results[-1].iloc[0]
+        state = {name: float(after[header(name, "_after")]) for name in state}
+    return pd.DataFrame(rows), pd.concat(results, ignore_index=True)

@@ -1,0 +1,323 @@
+"""Beyond the paper: how far off each model of the ladder is, and what it costs on this machine."""
+
+import functools
+import time
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from planarimpact import models, response
+from planarimpact.ground.arrays import Array
+from planarimpact.ground.results import Rebound
+from planarimpact.models import Model
+from stronge1994.curves import Curves
+
+FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
+SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
+LUMPED_ACCURACY = 1e-12  # promised by `planarimpact.lumped`
+LUMPED_RESPONSE_TOLERANCE = 1e-10
+
+SEED = 1994
+REPEATS, ENOUGH = 25, 0.2  # medians are of so many calls, or of those begun in so many seconds
+# Wall time over CPU time beyond which the machine was busy: a time is a fifth too long, more than
+# it changes from run to run. A quiet machine stays below 1.05; as many other jobs as it has cores
+# make it 1.5 and more.
+BUSY = 1.2
+# One impact costs little less than so many solved together: the overhead of arrays.
+TOGETHER = 300
+
+
+def curves(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    incidence: Sequence[float],
+    samples: int,
+    restitution: Sequence[float],
+    tolerance: float,
+    steps: Sequence[int],
+    circles: Sequence[int],
+    tolerances: Sequence[float],
+    batches: Sequence[int],
+    budget: float,
+) -> Curves:
+    """Errors and times of every model that admits a restitution, a curve of one point each.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio : float
+        beta and zeta^2.
+    incidence : (float, float)
+        Range of x = v1(0)/(mu v2(0)).
+    samples : int
+        Incidences at which errors are taken, evenly spread over the range.
+    restitution : sequence of float
+        Energetic coefficients; `planarimpact.models.reference` says what errors are measured
+        against.
+    tolerance : float
+        Of that reference where it is the continuum.
+    steps, circles, tolerances : sequence
+        Settings that are tried. Of a model with two, annuli, the second keeps its default.
+    batches : sequence of int
+        Numbers of impacts that are solved together; times are for one of them.
+    budget : float
+        Seconds that a batch may take as predicted from the smaller one before; beyond, it is
+        left out.
+
+    Returns
+    -------
+    dict
+        `{"<model>, <settings>, e = <restitution>": {column: array of one}}`: model and settings;
+        errors, root mean square and largest, in velocity, peak friction (laws of impulses leave
+        it open) and dissipation; the error of the reference itself; times. "response of ..." is
+        compiled once, in `build_time`, and then evaluated. A time taken while the machine was busy
+        has a column beside it, `busy_<batch>` or `busy_build`: wall time over CPU time, which is
+        about how many times too long it is.
+
+    Examples
+    --------
+    >>> named = curves(3.5, 1.21, [0, 8], 9, [0.5], 1e-3, [16], [4], [1e-2], [1], 1.0)
+    >>> list(named)[3:6]
+    ['laws.bilbao, e = 0.5', 'lumped, e = 0.5', 'timestep.linear, 16 steps, e = 0.5']
+    >>> float(named["lumped, e = 0.5"]["max_velocity [mu v2(0)]"][0])
+    0.0
+    """
+    tried = {"steps": steps, "circles": circles, "tolerance": tolerances}
+    x = np.linspace(incidence[0], incidence[1], samples)
+    named = {}
+    for e in restitution:
+        groups = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio, "restitution": e}
+        exact, accuracy = reference(x, groups, tolerance)
+        contenders = [*_solved(groups, tried), *_compiled(groups, tolerances, incidence[1])]
+        for contender in contenders:
+            row = {
+                "model": contender.model,
+                "restitution [1]": e,
+                **{SETTINGS[key]: value for key, value in contender.settings.items()},
+                **errors(contender.rebound(x), exact),
+                "reference_error [mu v2(0)]": accuracy,
+                **contender.build_time,
+                **times(_stopwatch(contender.rebound), incidence, batches, budget),
+            }
+            named[_name(contender, e)] = {key: np.array([value]) for key, value in row.items()}
+    return named
+
+
+_Solver: TypeAlias = Callable[[Array], Rebound]
+
+
+class _Contender(NamedTuple):
+    """One model with its settings, as a function of the incidence alone."""
+
+    model: str
+    settings: dict[str, float]
+    rebound: _Solver
+    build_time: dict[str, float] = {}
+
+
+def _solved(groups: dict[str, float], tried: dict[str, Sequence[float]]) -> Iterator[_Contender]:
+    """Every model that admits the restitution, with each setting that is tried."""
+    for model in models.MODELS.values():
+        if _admits(model, groups["restitution"]):
+            for settings in _variants(model, tried):
+                yield _Contender(model.name, settings, _solver(model, groups, settings))
+
+
+def _admits(model: Model, restitution: float) -> bool:
+    low, high = model.restitution
+    return low <= restitution <= high
+
+
+def _variants(model: Model, tried: dict[str, Sequence[float]]) -> list[dict[str, float]]:
+    """Settings of a model: the first that is tried is varied, the others keep their defaults."""
+    known = {key: value for key, value in model.settings.items() if key in tried}
+    varied = next(iter(known), None)
+    return [known | {varied: value} for value in tried[varied]] if varied else [{}]
+
+
+def _solver(model: Model, groups: dict[str, float], settings: dict[str, float]) -> _Solver:
+    def rebound(x: Array) -> Rebound:
+        return model.rebound(x, **groups, **settings)
+
+    return rebound
+
+
+def _compiled(
+    groups: dict[str, float], tolerances: Sequence[float], incidence_max: float
+) -> Iterator[_Contender]:
+    """Responses of the exact models, compiled here."""
+    wanted = [("lumped", LUMPED_RESPONSE_TOLERANCE)]
+    if _admits(models.get("continuum"), groups["restitution"]):
+        wanted += [("continuum", tolerance) for tolerance in tolerances]
+    for model, tolerance in wanted:
+        watch = _Watch()
+        with watch:
+            made = response.compile(
+                model, incidence_max=incidence_max, tolerance=tolerance, **groups
+            )
+        build_time = {"build_time [s]": watch.wall[0]} | _busy("build", watch.over_cpu())
+        yield _Contender(f"response of {model}", {"tolerance": tolerance}, made, build_time)
+
+
+def _name(contender: _Contender, e: float) -> str:
+    words = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
+    settings = [words[key].format(value) for key, value in contender.settings.items()]
+    return ", ".join([contender.model, *settings, f"e = {e:g}"])
+
+
+def reference(x: Array, groups: dict[str, float], tolerance: float) -> tuple[Rebound, float]:
+    """What errors are measured against, and its own error in velocity.
+
+    Parameters
+    ----------
+    x : ndarray
+        Incidences.
+    groups : dict
+        mass_ratio, stiffness_ratio, restitution.
+    tolerance : float
+        Of the continuum, the reference where the contact is elastic.
+
+    Returns
+    -------
+    Rebound, float
+
+    Examples
+    --------
+    >>> groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 0.5}
+    >>> reference(np.array([8.0]), groups, 1e-3)[1]
+    1e-12
+    """
+    model = models.get(models.reference(groups["restitution"]))
+    if "tolerance" in model.settings:
+        return model.rebound(x, **groups, tolerance=tolerance), tolerance
+    return model.rebound(x, **groups), LUMPED_ACCURACY
+
+
+def errors(found: Rebound, exact: Rebound) -> dict[str, float]:
+    """Root mean square and largest error of each field that a model answers.
+
+    Parameters
+    ----------
+    found, exact : Rebound
+        Arrays of one length; NaN in a field, other than velocity, that `found` leaves open.
+
+    Returns
+    -------
+    dict
+        Columns of one number.
+
+    Examples
+    --------
+    >>> from planarimpact import rigid
+    >>> from planarimpact.models import laws
+    >>> x = np.array([1.0, 8.0])
+    >>> list(errors(laws.brach(x), rigid.rebound(x)))[:3]
+    ['rms_velocity [mu v2(0)]', 'max_velocity [mu v2(0)]', \
+'rms_dissipation [mu^2 m2 v2(0)^2]']
+    """
+    columns = {}
+    for field, unit in FIELDS.items():
+        gap = np.abs(getattr(found, field) - getattr(exact, field))
+        # A velocity that is no number is a fault, and must show.
+        if field == "velocity" or np.isfinite(gap).all():
+            columns[f"rms_{field} [{unit}]"] = np.sqrt(np.mean(gap**2))
+            columns[f"max_{field} [{unit}]"] = np.max(gap)
+    return columns
+
+
+def times(
+    seconds: Callable[[Array], float],
+    incidence: Sequence[float],
+    batches: Sequence[int],
+    budget: float,
+) -> dict[str, float]:
+    """Time of an impact in each batch, as far as the budget goes.
+
+    Parameters
+    ----------
+    seconds : callable
+        Solves incidences and returns how long that took.
+    incidence : (float, float)
+        Range of the incidences, which are random; the same ones in every run.
+    batches : sequence of int
+        Smaller ones are solved first, and left in.
+    budget : float
+        As in `curves`.
+
+    Returns
+    -------
+    dict
+        A column for each batch that was solved: the median time, over the batch. Where the machine
+        was busy, `busy_<batch>` follows: the median wall time of the calls over their CPU time.
+
+    Examples
+    --------
+    >>> times(lambda x: 0.001 * x.size, (0, 8), [1, 10, 10000], budget=0.1)
+    {'time_1 [s]': 0.001, 'time_10 [s]': 0.001}
+    """
+    random = np.random.default_rng(SEED)
+    low, high = incidence
+    seconds(random.uniform(low, high, 1))  # the first call pays for what is kept
+    columns: dict[str, float] = {}
+    before, alone = 1, 0.0
+    for batch in sorted(batches):
+        if alone * batch / max(before, TOGETHER) > budget:
+            break
+        taken: list[float] = []
+        watch = _Watch()
+        while len(taken) < REPEATS and sum(taken) < ENOUGH:
+            x = random.uniform(low, high, batch)
+            with watch:
+                taken.append(seconds(x))
+        median, over = float(np.median(taken)), watch.over_cpu()
+        columns |= {f"time_{batch} [s]": median / batch} | _busy(f"{batch}", over)
+        before, alone = batch, median / max(over, 1.0)  # a busy machine leaves no batch out
+    return columns
+
+
+def _busy(name: str, over_cpu: float) -> dict[str, float]:
+    """A column that says how busy the machine was, if it was."""
+    return {f"busy_{name} [1]": over_cpu} if over_cpu > BUSY else {}
+
+
+class _Watch:
+    """Wall and CPU time of blocks of code, to see whether the machine gave them a whole core."""
+
+    def __init__(self) -> None:
+        self.wall: list[float] = []
+        self.cpu: list[float] = []
+
+    def __enter__(self) -> None:
+        # The CPU clock is read first and last, so that it never shows less for want of reading it.
+        self._start = time.process_time(), time.perf_counter()
+
+    def __exit__(self, *_: object) -> None:
+        self.wall.append(time.perf_counter() - self._start[1])
+        self.cpu.append(time.process_time() - self._start[0])
+
+    def over_cpu(self) -> float:
+        """Median wall time over median CPU time.
+
+        Of calls shorter than a slice of time of the operating system most are not interrupted, and
+        the median is right beside any load. Calls shorter than a tick of the CPU clock show too
+        little CPU time: by one tick at most, which is added.
+        """
+        return float(np.median(self.wall) / (np.median(self.cpu) + _tick()))
+
+
+@functools.cache
+def _tick() -> float:
+    """Step of the CPU clock. It is measured: some systems state a finer one than they have."""
+    start = now = time.process_time()
+    while now == start:
+        now = time.process_time()
+    return now - start
+
+
+def _stopwatch(rebound: _Solver) -> Callable[[Array], float]:
+    def seconds(x: Array) -> float:
+        start = time.perf_counter()
+        rebound(x)
+        return time.perf_counter() - start
+
+    return seconds

@@ -1,0 +1,33 @@
+"""Draw one figure from its curves: SVG and PNG. Curves that failed become a picture saying so."""
+
+import importlib
+
+from stronge1994 import csv_tables, reference_data
+from stronge1994.drawings import house_style
+
+
+def draw(figure, settings, overlays, curves_path, series_paths, svg, png):
+    """Draw `figure`; `overlays` are its reference series at hand, and facts, by name."""
+    try:
+        curves = csv_tables.read(curves_path)
+    except csv_tables.Failed as error:
+        house_style.save(house_style.failure(f"{figure}: the solver failed: {error}"), svg, png)
+        return
+    points = {
+        name: _points(name, entry, series_paths[name.split("/")[0]]) if "kind" in entry else entry
+        for name, entry in overlays.items()
+    }
+    module = importlib.import_module(f"stronge1994.drawings.{figure}")
+    house_style.save(module.draw(curves, settings, points), svg, png)
+
+
+def _points(name, entry, path):
+    columns = csv_tables.read(path)[name.split("/")[1]]
+    return {
+        "x": columns[reference_data.column_name(entry["x"])],
+        "y": columns[reference_data.column_name(entry["y"])],
+        "sigma": (entry["x"]["sigma"], entry["y"]["sigma"]),
+        "line": entry.get("line", False),
+        "columns": columns,
+        "parameters": entry["parameters"],
+    }

@@ -1,0 +1,35 @@
+"""Beyond the paper: error of two methods for the continuum against resolution and time."""
+
+from stronge1994.drawings import house_style
+
+ERROR, ORDER, TIME = "error [mu v2(0)]", "observed_order [1]", "time [s]"
+METHODS = {
+    "row of springs": ("steps [1]", "o"),
+    "row of springs, extrapolated": ("steps [1]", "s"),
+    "annuli, circles": ("circles [1]", "^"),
+    "annuli, steps": ("steps [1]", "v"),
+}
+
+
+def draw(curves, settings, points):
+    """(a) Error against the number that is varied, (b) against the time of an impact."""
+    figure = house_style.new(3.6)
+    by_number, by_time = figure.subplots(1, 2, sharey=True)
+    entries = []
+    for (name, (number, marker)), (colour, dashes) in zip(
+        METHODS.items(), house_style.CYCLE, strict=False
+    ):
+        curve = curves[name]
+        style = {"color": colour, "linestyle": dashes, "marker": marker, "markerfacecolor": "white"}
+        label = f"{name}: order {curve[ORDER][0]:.1f}"
+        entries += by_number.loglog(curve[number], curve[ERROR], label=label, **style)
+        by_time.loglog(1e3 * curve[TIME], curve[ERROR], **style)
+    by_number.set(xlabel="(a) steps or circles", ylabel=r"error of $v_1(t_f)/\mu v_2(0)$")
+    by_time.set_xlabel("(b) time of an impact (ms)")
+    fixed = settings["fixed"]
+    kept = f"{fixed['circles']} circles where steps vary, {fixed['steps']} steps where circles do"
+    figure.suptitle(f"annuli: {kept}", fontsize=house_style.NOTE)
+    groups = entries[:2], entries[2:]
+    titles = "method of dimensionality reduction", "concentric annuli"
+    house_style.legend_below(figure, *groups, titles=titles)
+    return figure

@@ -1,0 +1,65 @@
+"""Fig. 2: force against deflection of the normal and the tangential element."""
+
+import numpy as np
+
+from stronge1994.drawings import house_style
+
+DEFLECTION, FORCE = "deflection [v2(0)/Omega]", "force [m2 Omega v2(0)]"
+
+
+def draw(curves, settings, points):
+    """One panel an element, with the paper's symbols on the axes."""
+    figure = house_style.new(2.7)
+    normal, tangential = figure.subplots(1, 2)
+    _draw_normal(normal, curves, settings["restitution"])
+    _draw_tangential(tangential, curves["tangential"], settings["stiffness_ratio"])
+    return figure
+
+
+def _draw_normal(axes, curves, e):
+    origin, peak = _ends(curves["normal loading"])
+    _, end = _ends(curves["normal unloading"])
+    axes.fill(*zip(origin, peak, end, strict=True), color=house_style.PALE, linewidth=0)
+    for name, dashes in (("normal loading", "-"), ("normal unloading", house_style.DASHES[1])):
+        line = curves[name]
+        axes.plot(line[DEFLECTION], line[FORCE], **(house_style.LUMPED | {"linestyle": dashes}))
+    _label_slope(axes, origin, peak, r"slope $\kappa$")
+    if e < 1:
+        _label_slope(axes, end, peak, r"slope $\kappa/e^2$", above=False)
+    axes.set_title(f"$e = {e:g}$, loss $1 - e^2 = {1 - e**2:.3g}$")
+    # The residual stands a line lower: at small e it comes close to the largest deflection.
+    ticks = {0: "0", end[0]: "\n" + r"$(1-e^2)\,u_2(t_c)$", peak[0]: r"$u_2(t_c)$"}
+    axes.set_xticks(list(ticks), list(ticks.values()))
+    axes.set_yticks([0, peak[1]], ["0", r"$\Omega m_2 v_2(0)$"])
+    axes.set(xlim=(0, 1.25 * peak[0]), ylim=(0, 1.25 * peak[1]))
+    axes.set(xlabel="normal deflection $u_2$", ylabel="normal force $F_2$")
+
+
+def _draw_tangential(axes, line, stiffness_ratio):
+    axes.axhline(0, **house_style.GUIDE)
+    axes.axvline(0, **house_style.GUIDE)
+    axes.plot(line[DEFLECTION], line[FORCE], **house_style.LUMPED)
+    _, end = _ends(line)
+    _label_slope(axes, (0, 0), end, r"slope $\kappa/\zeta^2$")
+    axes.set_title(rf"$\zeta^2 = {stiffness_ratio:g}$")
+    axes.set_xticks([0])
+    axes.set_yticks([0])
+    # One scale on both axes, as in the panel beside it: the slopes can be compared.
+    reach = 1.25 * max(end)
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
+    axes.set(xlabel="tangential deflection $u_1$", ylabel="tangential force $F_1$")
+
+
+def _ends(line):
+    """First and last point of a line."""
+    first, *_, last = zip(line[DEFLECTION], line[FORCE], strict=True)
+    return first, last
+
+
+def _label_slope(axes, start, end, text, above=True):
+    """Label along the middle of the line from `start` to `end`, turned with it."""
+    turned = {"rotation_mode": "anchor", "transform_rotates_text": True, "ha": "center"}
+    angle = np.degrees(np.arctan2(end[1] - start[1], end[0] - start[0]))
+    vertical = "bottom" if above else "top"
+    middle = np.mean([start, end], axis=0)
+    axes.text(*middle, text, rotation=angle, va=vertical, fontsize=house_style.NOTE, **turned)

@@ -1,0 +1,108 @@
+"""Figs 3 and 4: forces and tangential velocity during one contact, stick and slip above them."""
+
+import numpy as np
+from matplotlib.ticker import MultipleLocator
+
+from stronge1994.drawings import house_style
+
+TIME, VELOCITY = "time [t_c]", "velocity [mu v2(0)]"
+NORMAL, FRICTION = "normal_force [m2 Omega v2(0)]", "friction_force [mu m2 Omega v2(0)]"
+
+NORMAL_LINE = {"color": house_style.BLACK, "label": r"$F_2/m_2\Omega v_2(0)$"}
+# Broad and below: where the contact slips, the two forces are one line.
+FRICTION_LINE = {
+    "color": house_style.BLUE,
+    "linewidth": 2.4,
+    "zorder": 1.9,
+    "label": r"$F_1/\mu m_2\Omega v_2(0)$",
+}
+LIMIT_LINE = {"color": house_style.GREY, "linewidth": 0.6, "label": r"added here: limit $-\mu F_2$"}
+
+CROSS = {"color": house_style.BLACK, "markersize": 6, "clip_on": False}
+
+
+def draw(curves, settings, points):
+    """Bars of stick and slip, (a) both forces, (b) velocity; one pattern of line a restitution."""
+    figure = house_style.new(5.8)
+    heights = [0.42 * len(curves), 5, 4.4]
+    bars, forces, velocity = figure.subplots(3, 1, sharex=True, height_ratios=heights)
+    frequency = np.sqrt(settings["mass_ratio"] / settings["stiffness_ratio"])
+    bars.set_title(
+        rf"{house_style.INCIDENCE}$\;= {settings['incidence']:g}$,  "
+        rf"$\omega/\Omega = {frequency:.2f}$"
+    )
+    _draw_bars(bars, curves)
+    _draw_forces(forces, curves)
+    _draw_velocity(velocity, curves)
+    velocity.xaxis.set_major_locator(MultipleLocator(0.5))
+    velocity.set_xlim(0, max(2.0, *(curve[TIME][-1] for curve in curves.values())))
+    quantities = [house_style.key(**style) for style in (NORMAL_LINE, FRICTION_LINE, LIMIT_LINE)]
+    patterns = [
+        house_style.key(house_style.symbols(name), color=house_style.BLACK, linestyle=dashes)
+        for name, dashes in house_style.patterned(curves)
+    ]
+    cross = house_style.key("separation", linestyle="none", marker="x", **CROSS)
+    house_style.legend_below(figure, quantities, [*patterns, cross])
+    return figure
+
+
+def _draw_bars(axes, curves):
+    """A row a restitution: white while the contact sticks, grey while it slips."""
+    axes.set(ylim=(len(curves), 0))
+    axes.set_yticks(np.arange(len(curves)) + 0.5, [house_style.symbols(name) for name in curves])
+    axes.tick_params(length=0, labelbottom=False)
+    axes.spines[:].set_visible(False)
+    for row, curve in enumerate(curves.values()):
+        for start, end, state in _states(curve):
+            fill = "white" if state == "stick" else house_style.PALE
+            bar = {
+                "color": fill,
+                "edgecolor": house_style.BLACK,
+                "linewidth": 0.6,
+                "clip_on": False,
+            }
+            axes.barh(row + 0.5, end - start, 0.7, start, **bar)
+            # The word of a short last bar stands behind it; other short bars speak by their shade.
+            place = {"va": "center_baseline", "fontsize": house_style.NOTE}
+            if end - start > 0.15:
+                axes.text((start + end) / 2, row + 0.5, state, ha="center", **place)
+            elif end == curve[TIME][-1]:
+                axes.text(end + 0.02, row + 0.5, state, **place)
+
+
+def _states(curve):
+    """Phases of a contact: start, end, stick or slip."""
+    changes = np.flatnonzero(np.isin(curve["event"], ["stick", "slip"]))
+    for start, end in zip(changes, [*changes[1:], -1], strict=True):
+        yield curve[TIME][start], curve[TIME][end], str(curve["event"][start])
+
+
+def _draw_forces(axes, curves):
+    for time, dashes, columns in _lines(curves):
+        axes.plot(time, -columns[NORMAL], linestyle=dashes, **LIMIT_LINE)
+        axes.plot(time, columns[NORMAL], linestyle=dashes, **NORMAL_LINE)
+        axes.plot(time, columns[FRICTION], linestyle=dashes, **FRICTION_LINE)
+    axes.axhline(0, **house_style.GUIDE)
+    axes.axvline(1, **house_style.GUIDE)
+    axes.set(ylim=(-1.1, 1.1), yticks=np.linspace(-1, 1, 5), ylabel="(a) force")
+    below = {"xycoords": axes.get_xaxis_transform(), "va": "center", "fontsize": house_style.NOTE}
+    axes.annotate(r"compression $\leftarrow$", (0.98, -0.06), ha="right", **below)
+    axes.annotate(r"$\rightarrow$ restitution", (1.02, -0.06), ha="left", **below)
+
+
+def _draw_velocity(axes, curves):
+    for time, dashes, columns in _lines(curves):
+        axes.plot(time, columns[VELOCITY], linestyle=dashes, color=house_style.BLACK)
+        axes.plot(time[-1], columns[VELOCITY][-1], "x", **CROSS)
+    axes.axhline(0, **house_style.GUIDE)
+    axes.axvline(1, **house_style.GUIDE)
+    axes.set(xlabel="$t/t_c$", ylabel=r"(b) velocity $v_1(t)/\mu v_2(0)$")
+    axes.margins(y=0.1)
+
+
+def _lines(curves):
+    """Time, line pattern and columns of each curve; compression, common to all, only once."""
+    for index, (name, dashes) in enumerate(house_style.patterned(curves)):
+        drawn = curves[name][TIME] >= (1 if index else 0)
+        columns = {key: curves[name][key][drawn] for key in (TIME, NORMAL, FRICTION, VELOCITY)}
+        yield columns[TIME], dashes, columns

@@ -1,0 +1,35 @@
+"""Fig. 6: tangential velocity at separation against incidence, for several restitutions."""
+
+import math
+
+from stronge1994.drawings import house_style
+
+X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
+
+
+def draw(curves, settings, points):
+    """One curve a restitution, named where it leaves the axes, and what the print has instead."""
+    figure = house_style.new(3.8)
+    axes = figure.subplots()
+    axes.axhline(0, **house_style.GUIDE)
+    ends = []
+    exact = {name: curve for name, curve in curves.items() if name.startswith("e = ")}
+    for index, (name, curve) in enumerate(exact.items()):
+        colour, dashes = house_style.CYCLE[index % len(house_style.CYCLE)]
+        axes.plot(curve[X], curve[Y], color=colour, linestyle=dashes)
+        ends.append((curve[Y][-1], house_style.symbols(name), colour))
+    axes.set(xlim=settings["incidence"], xlabel=house_style.INCIDENCE, ylabel=house_style.REBOUND)
+    _label_ends(axes, ends)
+    added = house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")
+    if added:
+        house_style.legend_below(figure, added, titles=("added here",))
+    return figure
+
+
+def _label_ends(axes, ends):
+    """Names to the right of the axes, at the heights of the curves but kept apart."""
+    low, high = axes.get_ylim()
+    apart, last = 0.05 * (high - low), -math.inf
+    for y, text, colour in sorted(ends):
+        last = max(y, last + apart)
+        axes.text(1.01, last, text, transform=axes.get_yaxis_transform(), va="center", color=colour)

@@ -1,0 +1,101 @@
+"""Fig. 8: largest forces in newtons on the ball of Lewis & Rogers, and what is said of them."""
+
+import math
+
+from stronge1994.drawings import house_style
+
+X, Y = "angle [deg]", "peak_force [N]"
+TANGENTIAL = {"color": house_style.BLUE, "linestyle": house_style.DASHES[1], "linewidth": 1.4}
+LARGEST = {"color": house_style.VERMILLION, "marker": "o", "linestyle": "none"}
+# The paper enlarges tangential forces on an axis of their own.
+ENLARGED = 2
+# Angles of the largest tangential force: name of the fact, whose it is.
+STATED = {
+    "stronge1994/peak_angle_mu_0.18": r"model, {:g}$\degree$",
+    "lewis_rogers1988/peak_angle": r"measured, $\approx {:g}\degree$",
+}
+
+
+def draw(curves, settings, points):
+    """Normal force on the left axis, tangential on the right one, measurements if at hand."""
+    figure = house_style.new(5.0)
+    axes = figure.subplots()
+    enlarged = axes.twinx()
+    normal, friction = curves["normal"], curves["friction"]
+    paper = [
+        *axes.plot(normal[X], normal[Y], label=r"normal, $F_2^{max}$", **house_style.LUMPED),
+        *enlarged.plot(friction[X], friction[Y], label=r"tangential, $F_1^{max}$", **TANGENTIAL),
+        *_draw_measured(axes, enlarged, points),
+    ]
+    _set_axes(axes, enlarged, settings["angle"])
+    for force, part in (("normal", axes), ("friction", enlarged)):
+        if (name := f"lewis_rogers1988/{force}_force") in points:
+            house_style.let_in(part, points[name])
+    low, high = zip(axes.get_ylim(), (ENLARGED * y for y in enlarged.get_ylim()), strict=True)
+    axes.set_ylim(min(low), max(high))
+    enlarged.set_ylim(min(low) / ENLARGED, max(high) / ENLARGED)
+    paper.append(_draw_statements(enlarged, friction, points))
+    added = [_draw_largest(enlarged, friction)]
+    _draw_note(axes, settings)
+    house_style.legend_below(figure, paper, added, titles=("in the paper", "added here"))
+    return figure
+
+
+def _draw_measured(axes, enlarged, points):
+    """Draw the measurements of Lewis & Rogers; their entries of the legend."""
+    forces = {
+        "normal": (axes, house_style.BLACK, "o"),
+        "friction": (enlarged, house_style.BLUE, "s"),
+    }
+    entries = []
+    for force, (part, colour, marker) in forces.items():
+        style = {"color": colour, "marker": marker, "markerfacecolor": "white"}
+        label = f"{'tangential' if force == 'friction' else force}, Lewis & Rogers"
+        wanted = {f"lewis_rogers1988/{force}_force": (label, style)}
+        entries += house_style.references(part, points, wanted)
+    return entries
+
+
+def _set_axes(axes, enlarged, span):
+    top = 20 * math.ceil(max(axes.get_ylim()[1], ENLARGED * enlarged.get_ylim()[1]) / 20)
+    axes.set(ylim=(0, top), ylabel="largest normal force, N")
+    enlarged.set_ylim(0, top / ENLARGED)
+    enlarged.set_ylabel("largest tangential force, N", color=house_style.BLUE)
+    enlarged.tick_params(axis="y", colors=house_style.BLUE)
+    house_style.angle_axes(axes, span)
+
+
+def _draw_largest(axes, curve):
+    """Mark the largest tangential force and its angle."""
+    top = int(curve[Y].argmax())
+    angle, force = curve[X][top], curve[Y][top]
+    # Left of the point, away from the angles stated.
+    place = {"textcoords": "offset points", "ha": "right", "va": "bottom"}
+    text = rf"{angle:.1f}$\degree$"
+    axes.annotate(text, (angle, force), (2, 4), color=house_style.VERMILLION, **place)
+    return axes.plot(angle, force, label=r"largest $F_1^{max}$", **LARGEST)[0]
+
+
+def _draw_statements(axes, curve, points):
+    """Thin lines at the angles stated, from the axis to above the curve."""
+    height = 1.15 * curve[Y].max()
+    place = {"rotation": 90, "ha": "center", "va": "bottom", "fontsize": house_style.NOTE}
+    left, right = axes.get_xlim()
+    stated = {points[name]["value"]: text for name, text in STATED.items() if name in points}
+    inside = {angle: text for angle, text in stated.items() if left < angle < right}
+    for angle, text in inside.items():
+        axes.text(angle, 1.04 * height, text.format(angle), color=house_style.GREY, **place)
+    label = r"angles stated for $\mu = 0.18$: the paper; Lewis & Rogers"
+    return axes.vlines(list(inside), 0, height, label=label, **house_style.PRINTED)
+
+
+def _draw_note(axes, settings):
+    lines = [
+        rf"$\mu = {settings['friction']:g}$",
+        rf"$S = {settings['speed']:g}$ m/s",
+        f"{settings['mass']:g} kg",
+        "scale of force assumed:",
+        "Hertz at normal incidence",
+    ]
+    place = {"ha": "right", "va": "top", "transform": axes.transAxes}
+    axes.text(0.97, 0.96, "\n".join(lines), fontsize=house_style.NOTE, **place)

@@ -1,0 +1,274 @@
+"""House style of the figures: fonts, colours, what each line means, and the parts they share.
+
+Each draw_figN.py has one public function, `draw(curves, settings, points)`, that returns a Figure:
+
+- `curves`, what stronge1994.curves.figN returns: `{curve: {column: array}}`;
+- `settings`, the keywords it was called with, from which labels take their numbers;
+- `points`, the reference series at hand, `{"source/series": {...}}` with arrays `x` and `y`, their
+  `sigma`, `line` and the source's `parameters`, and stated facts, as in source.yaml.
+
+Importing this module sets matplotlib's defaults, once and for all figures: ticks are made late,
+at the drawing, so a style that holds only while a figure is put together would not reach them.
+What this repository adds to a figure of the paper stands in a part of the legend of its own.
+Colours (Okabe & Ito) differ in grey too, and no two curves differ by colour alone.
+"""
+
+import itertools
+import textwrap
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+WIDTH = 5.0  # inches; the type stays readable when a column of a journal shrinks it to 3.4
+NOTE = 7  # points: notes, brackets, labels at lines
+
+BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
+GREY, PALE = "0.5", "0.85"
+
+# Dotted is left out: it means "no tangential compliance".
+DASHES = ("-", (0, (5, 2)), (0, (7, 2, 1.5, 2)), (0, (3, 1.2)), (0, (7, 1.5, 1.5, 1.5, 1.5, 1.5)))
+COLOURS = (BLACK, BLUE, VERMILLION, GREEN, PURPLE)
+CYCLE = tuple(zip(COLOURS, DASHES, strict=True))
+
+LUMPED = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
+CONTINUUM = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
+RIGID = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zorder": 1.8}
+GUIDE = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9}
+PRINTED = {"color": GREY, "linewidth": 0.8}
+AS_PRINTED = {"color": PURPLE, "linestyle": "-", "linewidth": 0.9, "zorder": 2.2}
+UNSOLVED = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
+
+INCIDENCE = r"$v_1(0)/\mu v_2(0)$"
+REBOUND = r"$v_1(t_f)/\mu v_2(0)$"
+
+STYLE = {
+    "axes.linewidth": 0.7,
+    "axes.labelsize": 9,
+    "axes.titlesize": 9,
+    "errorbar.capsize": 1.5,
+    "figure.constrained_layout.h_pad": 0.05,
+    "figure.constrained_layout.w_pad": 0.05,
+    "font.family": "DejaVu Sans",  # comes with matplotlib: the same on every machine
+    "font.size": 8.5,
+    "hatch.color": "0.7",
+    "hatch.linewidth": 0.5,
+    "legend.fontsize": 7.5,
+    "legend.frameon": False,
+    "legend.handlelength": 2.9,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 4,
+    "mathtext.fontset": "dejavusans",
+    "svg.fonttype": "path",  # letters as shapes: the same in every viewer, without its fonts
+    "svg.hashsalt": "planarimpact",  # the same names inside the file at every run
+    "xtick.direction": "in",
+    "xtick.labelsize": 8,
+    "ytick.direction": "in",
+    "ytick.labelsize": 8,
+}
+matplotlib.rcdefaults()
+matplotlib.rcParams.update(STYLE)
+
+
+def new(height):
+    """Empty figure of the house's width and a height in inches."""
+    return Figure(figsize=(WIDTH, height), layout="constrained")
+
+
+def save(figure, svg, png=None):
+    """Write both files, the same bytes for the same figure.
+
+    Parameters
+    ----------
+    figure : Figure
+    svg, png : path or binary file
+        The second may be left out.
+    """
+    # The layout is solved in an order that changes from run to run, and with it the last bits.
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for axes in figure.axes:
+        axes.set_position(np.round(axes.get_position().bounds, 6))
+    figure.savefig(svg, format="svg", metadata={"Date": None})
+    if png:
+        figure.savefig(png, format="png", dpi=200)
+
+
+def failure(message):
+    """Figure of one plain sentence, drawn where curves are missing."""
+    figure = new(1.6)
+    # A dollar sign in an error message is not mathematics.
+    style = {"ha": "center", "va": "center", "color": VERMILLION, "parse_math": False}
+    figure.text(0.5, 0.5, textwrap.fill(message, 64), **style)
+    return figure
+
+
+def symbols(name):
+    """Name of a curve in mathematical type.
+
+    Examples
+    --------
+    >>> symbols("mu = 0.1")
+    '$\\\\mu = 0.1$'
+    """
+    return "$" + name.replace("mu", r"\mu") + "$"
+
+
+def patterned(items):
+    """Each item with a pattern of line."""
+    return zip(items, itertools.cycle(DASHES), strict=False)
+
+
+def key(label, **style):
+    """Entry of a legend without its curve."""
+    return Line2D([], [], label=label, **style)
+
+
+def legend_below(figure, *groups, titles=()):
+    """Legend under the axes, where it covers no curve whatever the physics: a column a group.
+
+    Parameters
+    ----------
+    figure : Figure
+    *groups : list of artists
+        Entries with labels.
+    titles : sequence of str, optional
+        Heading of each group.
+    """
+    blank = {"linestyle": "none"}
+    columns = [list(group) for group in groups]
+    for column, title in zip(columns, titles, strict=False):
+        column.insert(0, key(title, **blank))
+    # A legend fills column by column: short ones must be as long as the longest.
+    rows = max(map(len, columns))
+    for column in columns:
+        column += [key("", **blank)] * (rows - len(column))
+    handles = [handle for column in columns for handle in column]
+    place = {"loc": "outside lower center", "columnspacing": 3}
+    legend = figure.legend(handles=handles, ncols=len(columns), **place)
+    for text in legend.get_texts():
+        if text.get_text() in titles:
+            text.set_style("italic")
+
+
+def rigid(axes, x, y, compliant):
+    """Line of negligible tangential compliance, left out where the compliant curve is the same."""
+    axes.plot(x, np.where(np.isclose(y, compliant), np.nan, y), **RIGID)
+
+
+def as_printed(axes, curves, x, y, equations, patterns=None):
+    """Draw what the printed equations give, where they differ; entries of the legend.
+
+    Parameters
+    ----------
+    axes : Axes
+    curves : dict
+        All curves of a figure; those of `stronge1994.curves.as_printed` are known by their names.
+    x, y : str
+        Their columns.
+    equations : str
+        Which equations, for the legend.
+    patterns : dict, optional
+        Pattern of the line for names that end in a key.
+
+    Returns
+    -------
+    list of artists
+    """
+    kinds = {
+        "as printed": (f"{equations} as printed", AS_PRINTED),
+        "no solution as printed": ("no solution as printed", UNSOLVED),
+    }
+    entries = []
+    for kind, (label, style) in kinds.items():
+        chosen = {name: curve for name, curve in curves.items() if name.split(",")[0] == kind}
+        for name, curve in chosen.items():
+            ours = [dashes for end, dashes in (patterns or {}).items() if name.endswith(end)]
+            pattern = {"linestyle": ours[0]} if ours and kind == "as printed" else {}
+            axes.plot(curve[x], curve[y], **(style | pattern))
+        if chosen:
+            entries.append(key(label, **style))
+    return entries
+
+
+def measured(axes, series, **style):
+    """Reference points with error bars, or a line where the reference is one; its legend entry."""
+    if series["line"]:
+        return axes.plot(series["x"], series["y"], **style)[0]
+    x_error, y_error = series["sigma"]
+    bars = {"linestyle": "none", "elinewidth": 0.7, "markeredgewidth": 0.9, "zorder": 3}
+    return axes.errorbar(series["x"], series["y"], yerr=y_error, xerr=x_error, **(bars | style))
+
+
+def references(axes, points, wanted):
+    """Draw reference series on their axes; an entry of the legend each, also for awaited ones.
+
+    Parameters
+    ----------
+    axes : Axes
+    points : dict
+        As `draw` gets it.
+    wanted : dict
+        `{"source/series": (label, style)}`.
+
+    Returns
+    -------
+    list of artists
+    """
+    return [
+        measured(axes, points[name], label=label, **style)
+        if name in points
+        else key(f"{label}: awaited", linestyle="none")
+        for name, (label, style) in wanted.items()
+    ]
+
+
+def let_in(axes, series):
+    """Widen axes to points that were digitised just outside them, up to three sigmas.
+
+    Parameters
+    ----------
+    axes : Axes
+        With their limits set.
+    series : dict
+        As `draw` gets it.
+    """
+    for name, get, set_ in (
+        ("x", axes.get_xlim, axes.set_xlim),
+        ("y", axes.get_ylim, axes.set_ylim),
+    ):
+        (low, high), sigma = get(), series["sigma"]["xy".index(name)]
+        values = series[name]
+        near = values[(values >= low - 3 * sigma) & (values <= high + 3 * sigma)]
+        set_(min([low, *near]), max([high, *near]))
+
+
+def angle_axes(axes, span):
+    """Angles of incidence below, the ratio of velocities that they stand for above."""
+    axes.set(xlim=span, xlabel=r"angle of incidence $\theta$")
+    degrees = [angle for angle in range(0, 91, 30) if span[0] <= angle <= span[1]]
+    axes.set_xticks(degrees, [rf"${angle}\degree$" for angle in degrees])
+    ratios = np.array([0, 0.2, 0.4, 0.6, 1, 2, 4])
+    angles = np.degrees(np.arctan(ratios))
+    inside = (angles >= span[0]) & (angles <= span[1])
+    top = axes.secondary_xaxis("top")
+    top.set_xticks(angles[inside], [f"{ratio:g}" for ratio in ratios[inside]])
+    top.set_xlabel(r"$v_1(0)/v_2(0)$")
+
+
+def brackets(axes, spans):
+    """Brackets over the axes: `spans` holds (start, end, label) on the x axis."""
+    across = axes.get_xaxis_transform()
+    left, right = axes.get_xlim()
+    foot, top = 1.02, 1.045
+    for start, end, label in spans:
+        frame = [start, start, end, end], [foot, top, top, foot]
+        axes.plot(*frame, transform=across, clip_on=False, color=BLACK, linewidth=0.7)
+        # Letters that fit: 16 an inch in this size, on axes a little narrower than the figure.
+        letters = int((end - start) / (right - left) * WIDTH * 14)
+        if letters < max(map(len, label.split())):
+            continue
+        wrapped = textwrap.fill(label, letters)
+        place = {"ha": "center", "va": "bottom", "transform": across}
+        axes.text((start + end) / 2, top + 0.012, wrapped, fontsize=NOTE, **place)

@@ -1,0 +1,102 @@
+"""Beyond the paper: correct digits of the lumped model anywhere, beside those that can be had."""
+
+import matplotlib
+import numpy as np
+from matplotlib.colors import BoundaryNorm
+
+from stronge1994.drawings import house_style
+
+INCIDENCE, RESTITUTION, OMEGA = "incidence [mu v2(0)]", "restitution [1]", "omega [Omega]"
+KINDS = {"digits": "correct digits found", "digits_allowed": "allowed by the condition"}
+OUTPUTS = {
+    "dissipation": {"label": "dissipation", "marker": "s", "color": house_style.VERMILLION},
+    "peak_friction": {"label": "peak friction", "marker": "^", "color": house_style.BLUE},
+    "velocity": {"label": "velocity", "marker": "o", "color": house_style.BLACK},
+}
+MARK = {"linestyle": "none", "markersize": 2.6, "markerfacecolor": "none", "markeredgewidth": 0.6}
+LINE = {"color": house_style.BLACK, "linewidth": 0.7}
+# Lower edges of all cells but the first, which holds what is less, with what stands at them.
+OMEGAS = {10.0**k: f"$10^{{{k}}}$" if k % 3 == 0 else "" for k in range(-5, 7)}
+OMEGAS[1.0] = "1"
+RESTITUTIONS = {5e-324: "", 1e-16: "$10^{-16}$", 1e-8: "$10^{-8}$", 1e-4: "$10^{-4}$"}
+RESTITUTIONS |= {0.01: "0.01", 0.1: "0.1", 0.5: "0.5", 1.0: ""}
+INCIDENCES = {5e-324: ""}
+INCIDENCES |= {10.0**k: f"$10^{{{k}}}$" for k in (-16, -8, -4, -2, 0, 2, 4, 8)}
+INCIDENCES[1.0] = "1"
+
+LEVELS = np.arange(0, 17, 2)
+COLOURS = matplotlib.colormaps["cividis"]
+PLATE = {"facecolor": "white", "edgecolor": "none", "pad": 1.5}
+WORSE = 2  # digits, see the comparison `stability-digits`
+
+
+def draw(curves, settings, points):
+    """(a) to (d) Digits in cells of the box; (e) those found by those allowed, every impact."""
+    impacts = curves["impacts"]
+    figure = house_style.new(7.6)
+    grid = figure.add_gridspec(3, 2, height_ratios=[9, 12, 11])
+    maps = [[figure.add_subplot(grid[row, column]) for column in (0, 1)] for row in (0, 1)]
+    for row, name, edges in ((0, RESTITUTION, RESTITUTIONS), (1, INCIDENCE, INCIDENCES)):
+        for axes, kind, letter in zip(maps[row], KINDS, "abcd"[2 * row :], strict=False):
+            digits = np.min([impacts[f"{kind}_{output} [1]"] for output in OUTPUTS], axis=0)
+            mesh = _draw_map(axes, digits, (impacts[OMEGA], OMEGAS), (impacts[name], edges))
+            place = {"va": "top", "transform": axes.transAxes, "bbox": PLATE}
+            axes.text(0.04, 0.955, f"({letter})", **place)
+            axes.tick_params(labelbottom=row == 1, labelleft=axes is maps[row][0])
+    for axes, words in zip(maps[0], KINDS.values(), strict=True):
+        axes.set_title(words)
+    for axes in maps[1]:
+        axes.set_xlabel(r"$\omega/\Omega$")
+    maps[0][0].set_ylabel("restitution $e$")
+    maps[0][0].set_yticks(*_with_ends(maps[0][0], "0", "1"))
+    maps[1][0].set_ylabel(house_style.INCIDENCE)
+    maps[1][0].set_yticks(*_with_ends(maps[1][0], "0", ""))
+    bar = figure.colorbar(mesh, ax=sum(maps, []), ticks=LEVELS, aspect=40, pad=0.02)
+    bar.set_label("digits of the worst output, median of a cell")
+    marks, lines = _draw_scatter(figure.add_subplot(grid[2, :]), impacts)
+    house_style.legend_below(figure, marks, lines)
+    return figure
+
+
+def _draw_map(axes, digits, across, upright):
+    """Digits that half the impacts of each cell have; cells without impacts are hatched.
+
+    The least would show only that every cell has an output that passes through zero.
+    """
+    column, row = (np.digitize(values, list(edges)) for values, edges in (across, upright))
+    shape = len(upright[1]) + 1, len(across[1]) + 1
+    cells = np.full(shape, np.nan)
+    for cell in set(zip(row, column, strict=True)):
+        here = (row == cell[0]) & (column == cell[1])
+        cells[cell] = np.median(digits[here])
+    axes.patch.set(hatch="//////", edgecolor="0.7")
+    norm = BoundaryNorm(LEVELS, COLOURS.N)
+    seamless = {"edgecolors": "face", "linewidth": 0.3}
+    mesh = axes.pcolormesh(np.ma.masked_invalid(cells), cmap=COLOURS, norm=norm, **seamless)
+    axes.set_xticks(range(1, shape[1]), across[1].values())
+    axes.set_yticks(range(1, shape[0]), upright[1].values())
+    axes.tick_params(direction="out", length=2.5)
+    return mesh
+
+
+def _with_ends(axes, first, last):
+    """Ticks of a map with names for its first and last row, which stand for one number."""
+    labels = [label.get_text() for label in axes.get_yticklabels()]
+    places = axes.get_yticks().tolist()
+    return [0.5, *places, places[-1] + 0.5], [first, *labels, last]
+
+
+def _draw_scatter(axes, impacts):
+    """A mark for each pair of digits that occurs, to a tenth; entries of the legend."""
+    entries = []
+    for name, style in OUTPUTS.items():
+        pairs = np.stack([impacts[f"{kind}_{name} [1]"] for kind in ("digits_allowed", "digits")])
+        marks = np.unique(np.round(pairs, 1), axis=1)
+        entries += axes.plot(*marks, **MARK, **style)
+    ends = np.array([0, LEVELS[-1]])
+    lines = axes.plot(ends, ends, label="as many as allowed", **LINE)
+    dashed = LINE | {"linestyle": house_style.DASHES[1]}
+    lines += axes.plot(ends, ends - WORSE, label=f"{WORSE} digits fewer", **dashed)
+    axes.set(xlim=(-0.4, 16.4), ylim=(-0.8, 16.8), xticks=LEVELS, yticks=LEVELS[::2])
+    axes.set(xlabel="(e) digits allowed by the condition", ylabel="digits found")
+    return entries, lines

@@ -1,0 +1,149 @@
+"""The parameter study: maps of the rebound over its two longest axes, slices of the others.
+
+A study along one axis is a curve.
+"""
+
+import itertools
+
+import numpy as np
+from matplotlib.colors import Normalize
+from matplotlib.patches import Patch
+from scipy import ndimage
+
+from planarimpact import Regime
+from stronge1994.drawings import house_style
+
+SYMBOLS = {
+    "incidence": house_style.INCIDENCE,
+    "mass_ratio": "$m_2/m_1$",
+    "stiffness_ratio": r"$\zeta^2$",
+    "restitution": "$e$",
+}
+LABELS = SYMBOLS | {"restitution": "restitution $e$"}
+SLICES = 6  # that are drawn
+POINTS = 400  # along an axis: more cannot be seen
+COLOURS = "RdBu_r"
+ZERO = {"colors": house_style.BLACK, "linewidths": 1.4}
+BOUNDARY = {"colors": house_style.BLACK, "linewidths": 0.7, "linestyles": [(0, (4, 2))]}
+LEAST = 0.02  # share of a map that a regime must take to be shown: not the edge of the grid
+ROOM = 0.03  # of a panel, radius of the largest circle in a regime that is named
+NEGATIVE = {"hatch": "////", "edgecolor": "0.7", "linewidth": 0}  # blue and red are one in grey
+PLATE = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 1.0}
+
+
+def draw(axes, velocity, regime):
+    """Velocity at separation in colours, where it is zero, and where regimes meet.
+
+    Parameters
+    ----------
+    axes : dict of ndarray
+        The four groups, one dimension each.
+    velocity, regime : ndarray
+        Outputs over the grid, with a dimension for each axis.
+    """
+    names = list(axes)
+    across, upright = sorted(sorted(names, key=lambda name: -len(axes[name]))[:2], key=names.index)
+    if min(len(axes[across]), len(axes[upright])) < 2:
+        return _curve(axes, velocity.ravel())
+    others = [name for name in names if name not in (across, upright)]
+    slices = list(itertools.product(*(range(len(axes[name])) for name in others)))
+    shown = [slices[i] for i in _thinned(len(slices), SLICES)]
+    columns = min(len(shown), 2)
+    rows = -(-len(shown) // columns)
+    figure = house_style.new(0.9 + 2.3 * rows)
+    panels = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
+    limit = np.abs(velocity).max() or 1.0
+    for panel, places in zip(panels, shown, strict=False):
+        cut = dict(zip(others, places, strict=True))
+        cut |= {name: _thinned(len(axes[name]), POINTS) for name in (across, upright)}
+        grid = axes[across][cut[across]], axes[upright][cut[upright]]
+        where = np.ix_(*(np.atleast_1d(cut[name]) for name in names))
+        shape = len(grid[0]), len(grid[1])
+        values, codes = (field[where].reshape(shape).T for field in (velocity, regime))
+        colours = {"cmap": COLOURS, "norm": Normalize(-limit, limit)}
+        # As a picture inside the SVG: a hundred thousand cells are no drawing.
+        mesh = panel.pcolormesh(*grid, values, shading="nearest", rasterized=True, **colours)
+        if values.min() < 0 < values.max():
+            panel.contourf(*grid, values, [-limit, 0.0], colors="none", hatches=[NEGATIVE["hatch"]])
+            panel.contour(*grid, values, [0.0], **ZERO)
+        _draw_regimes(panel, grid, codes)
+        panel.set_title(_place(axes, cut, others))
+        panel.set(xlim=grid[0][[0, -1]], ylim=grid[1][[0, -1]])
+        panel.set(xlabel=LABELS[across], ylabel=LABELS[upright])
+        panel.label_outer()
+    for panel in panels[len(shown) :]:
+        panel.remove()
+    bar = figure.colorbar(mesh, ax=panels[: len(shown)], aspect=30, pad=0.02)
+    bar.set_label(house_style.REBOUND)
+    entries = [
+        house_style.key("zero", color=house_style.BLACK, linewidth=1.4),
+        Patch(facecolor="none", label="negative", **NEGATIVE),
+        house_style.key(
+            "regimes meet", color=house_style.BLACK, linewidth=0.7, linestyle=(0, (4, 2))
+        ),
+    ]
+    if len(shown) < len(slices):
+        words = f"{len(shown)} of {len(slices)} slices"
+        entries.append(house_style.key(words, linestyle="none"))
+    figure.legend(handles=entries, loc="outside lower center", ncols=len(entries))
+    return figure
+
+
+def _curve(axes, velocity):
+    """Velocity along the longest axis, where all others have one point."""
+    across = max(axes, key=lambda name: len(axes[name]))
+    figure = house_style.new(2.8)
+    panel = figure.subplots()
+    panel.axhline(0, **house_style.GUIDE)
+    panel.plot(
+        axes[across], velocity, color=house_style.BLACK, marker="." if len(velocity) < 9 else ""
+    )
+    others = [name for name in axes if name != across]
+    panel.set_title(_place(axes, dict.fromkeys(others, 0), others))
+    panel.set(xlabel=LABELS[across], ylabel=house_style.REBOUND)
+    return figure
+
+
+def _place(axes, cut, others):
+    """Where a slice lies, in words."""
+    return ", ".join(f"{SYMBOLS[name]} = {axes[name][cut[name]]:g}" for name in others)
+
+
+def _thinned(count, most):
+    """Up to `most` places of `count`, evenly spread, both ends among them."""
+    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
+
+
+def _draw_regimes(panel, grid, codes):
+    """Lines where regimes meet, and their names; those at the edge of the grid are left out."""
+    regimes = [code for code in np.unique(codes) if _is_large(codes == code)]
+    for code in regimes:
+        inside = codes == code
+        if _room(inside) >= ROOM and (inside.all() or len(regimes) > 1):
+            row, column = _middle(inside)
+            name = Regime(code).name.lower().replace("_", "-\n", 2).replace("_", "-")
+            place = {"ha": "center", "va": "center", "fontsize": house_style.NOTE, "bbox": PLATE}
+            panel.text(grid[0][column], grid[1][row], name, **place)
+        # Each line once, from the regime with the smaller code: two that overlap lose their dashes.
+        field = np.ma.masked_array(inside.astype(float), ~np.isin(codes, regimes) | (codes < code))
+        if field.min() < field.max():
+            panel.contour(*grid, field, [0.5], **BOUNDARY)
+
+
+def _is_large(inside):
+    """A region takes its share, and is more than a row or column of cells."""
+    thick = inside[1:, 1:] & inside[:-1, 1:] & inside[1:, :-1] & inside[:-1, :-1]
+    return thick.any() and inside.mean() >= LEAST
+
+
+def _room(inside):
+    """Radius of the largest circle in a region, in panels."""
+    cell = 1 / np.array(inside.shape)
+    return ndimage.distance_transform_edt(np.pad(inside, 1), sampling=cell).max()
+
+
+def _middle(inside):
+    """Row and column of the cell of a region that is nearest to its mean."""
+    cells = np.argwhere(inside)
+    apart = ((cells - cells.mean(axis=0)) / inside.shape) ** 2
+    return cells[apart.sum(axis=1).argmin()]

@@ -1,0 +1,69 @@
+"""What every job does: send its words to a log, show life, record what it read and wrote."""
+
+import contextlib
+import sys
+import threading
+import time
+from pathlib import Path
+
+from stronge1994 import records
+
+SIGN_OF_LIFE = 5.0  # s between two; most jobs end before the first
+
+
+@contextlib.contextmanager
+def log_to(path):
+    """Send output and errors of a block to a log file; an error also to the terminal, in a line.
+
+    A block that takes long says so on the terminal, and how long.
+    """
+    terminal, ended = sys.stderr, threading.Event()
+    watch = threading.Thread(target=_show_life, args=(Path(path), terminal, ended), daemon=True)
+    with open(path, "w", encoding="utf-8") as log:
+        watch.start()
+        try:
+            with contextlib.redirect_stdout(log), contextlib.redirect_stderr(log):
+                yield
+        except Exception as error:
+            words = f"{type(error).__name__}: {error}"
+            print(words, file=log)
+            print(f"{words} (log: {path})", file=terminal)
+            raise
+        finally:
+            ended.set()
+            watch.join()
+
+
+@contextlib.contextmanager
+def recorded(snakemake):
+    """Do a job of Snakemake: its words to its log, and a record of what it read and wrote.
+
+    Raises
+    ------
+    RuntimeError
+        If an input has changed meanwhile: nobody knows which version the job has read.
+    """
+    inputs = {path: records.fingerprint(path) for path in snakemake.input}
+    with log_to(snakemake.log[0]):
+        yield
+        for path, before in inputs.items():
+            if records.fingerprint(path) != before:
+                raise RuntimeError(f"{path} was edited while the job ran: run again")
+        records.write(snakemake.output, inputs)
+
+
+def _show_life(log, terminal, ended):
+    began, last_time = time.monotonic(), _last_time(log)
+    while not ended.wait(SIGN_OF_LIFE):
+        seconds = f"{time.monotonic() - began:.0f} s"
+        print(f"... {log.stem}: {seconds}{last_time}", file=terminal, flush=True)
+
+
+def _last_time(log):
+    """How long the job took in an earlier run, by its benchmark, in words."""
+    try:
+        with open(log.parents[1] / "benchmarks" / f"{log.stem}.tsv", encoding="utf-8") as file:
+            seconds = float(list(file)[1].split("\t")[0])
+    except (OSError, IndexError, ValueError):
+        return ""
+    return f" (the last time it took {seconds:.0f} s)"

@@ -1,0 +1,436 @@
+"""A computed curve against reference data: distances, landmarks, verdicts.
+
+A vertical residual is wrong near a kink or on a steep slope, where a perfect curve may seem
+several per cent off. So both axes are scaled by the uncertainties of the reference, and a
+point's distance is the shortest one to the polyline of the curve, in sigmas. Where the model is not
+meant to be exact, an allowance for its form joins the uncertainties first.
+"""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from enum import StrEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.stats import chi2, f
+
+from planarimpact.ground.arrays import Array, ArrayLike
+
+
+class Verdict(StrEnum):
+    """The outcome of one comparison; only DIVERGES fails a run.
+
+    UNCHANGED is said of a check that compares us with ourselves: it ran, it came out as before. It
+    guards against accidents and is evidence of nothing.
+
+    Examples
+    --------
+    >>> print(Verdict.DOCUMENTED)
+    differs as documented
+    """
+
+    AGREES = "agrees"
+    DOCUMENTED = "differs as documented"
+    DIVERGES = "diverges"
+    AWAITED = "awaited"
+    UNCHANGED = "as before"
+
+
+class Distance(NamedTuple):
+    """Distances of so many points: in sigmas, and root mean square in units of the y axis."""
+
+    rms: float
+    max: float
+    plain_rms: float
+    points: int
+
+
+class Residuals(NamedTuple):
+    """One distance a point, signed: positive where the reference lies above what was computed.
+
+    Attributes
+    ----------
+    x : ndarray, shape (n,)
+        Abscissae of the points.
+    sigmas : ndarray, shape (n,)
+        Distances in sigmas of the reference.
+    plain : ndarray, shape (n,)
+        Vertical distances in units of the y axis.
+
+    Examples
+    --------
+    >>> Residuals(np.zeros(2), np.array([3.0, -4.0]), np.array([0.3, -0.4])).summary().max
+    4.0
+    """
+
+    x: Array
+    sigmas: Array
+    plain: Array
+
+    def summary(self) -> Distance:
+        """Root mean squares, the largest distance, and the number of points."""
+        rms, plain_rms = (float(np.sqrt(np.mean(a**2))) for a in (self.sigmas, self.plain))
+        return Distance(rms, float(np.abs(self.sigmas).max()), plain_rms, len(self.sigmas))
+
+
+def distances_to_polyline(
+    x: ArrayLike,
+    y: ArrayLike,
+    line_x: ArrayLike,
+    line_y: ArrayLike,
+    sigma_x: float,
+    sigma_y: float,
+) -> Array:
+    """Shortest distance from each point to a polyline, in sigmas.
+
+    Parameters
+    ----------
+    x, y : array_like, shape (n,)
+        Points.
+    line_x, line_y : array_like, shape (m,), m >= 2
+        Vertices of the polyline, in order.
+    sigma_x, sigma_y : float
+        Uncertainties that scale the axes, above 0.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+
+    Raises
+    ------
+    ValueError
+        If the polyline has fewer than two vertices or a coordinate is not finite.
+
+    Examples
+    --------
+    >>> distances_to_polyline([1.0], [1.0], [0.0, 2.0], [0.0, 0.0], 1.0, 0.5).tolist()
+    [2.0]
+    """
+    points = np.stack([np.asarray(x, float) / sigma_x, np.asarray(y, float) / sigma_y], axis=1)
+    line = np.stack([np.asarray(line_x, float) / sigma_x, np.asarray(line_y, float) / sigma_y], 1)
+    if len(line) < 2:
+        raise ValueError(f"a polyline needs two vertices, here {len(line)}")
+    if not (np.isfinite(points).all() and np.isfinite(line).all()):
+        raise ValueError("a coordinate is not finite")
+    start, step = line[:-1], np.diff(line, axis=0)
+    squared = np.maximum((step**2).sum(axis=1), np.finfo(float).tiny)
+    nearest = np.empty(len(points))
+    for i, point in enumerate(points):
+        share = np.clip(((point - start) * step).sum(axis=1) / squared, 0.0, 1.0)
+        nearest[i] = np.hypot(*(point - start - share[:, None] * step).T).min()
+    return nearest
+
+
+def curve_residuals(
+    points: Sequence[ArrayLike],
+    curve: Sequence[ArrayLike],
+    sigma: tuple[float, float],
+    both_ways: bool = False,
+) -> Residuals:
+    """Distances of points from a curve, and with `both_ways` of the curve from the points' line.
+
+    Parameters
+    ----------
+    points, curve : (array_like, array_like)
+        x and y.
+    sigma : (float, float)
+        Uncertainties of the points.
+    both_ways : bool
+        The points are a dense line: each vertex of the curve within their span must lie near it
+        too, so that a spike of the curve between two points is seen.
+
+    Returns
+    -------
+    Residuals
+        Of the points, in order; with `both_ways` those of the curve's vertices follow.
+
+    Raises
+    ------
+    ValueError
+        If there are no points, or as in `distances_to_polyline`.
+
+    Examples
+    --------
+    >>> line = ([0.0, 1.0, 2.0], [0.0, 5.0, 0.0])
+    >>> curve_residuals(([0.0, 2.0], [-1.0, 0.0]), line, (1.0, 1.0)).sigmas.tolist()
+    [-1.0, 0.0]
+    >>> curve_residuals(([0.0, 2.0], [0.0, 0.0]), line, (1.0, 1.0), both_ways=True).summary().max
+    5.0
+    """
+    x, y = (np.asarray(axis, float) for axis in points)
+    line_x, line_y = (np.asarray(axis, float) for axis in curve)
+    _refuse_none(x)
+    found = _from_polyline(x, y, line_x, line_y, sigma)
+    if not both_ways:
+        return found
+    order = np.argsort(x)
+    inside = (line_x >= x.min()) & (line_x <= x.max())
+    back = _from_polyline(line_x[inside], line_y[inside], x[order], y[order], sigma)
+    # Seen from a vertex of the curve it is the reference that lies on the other side.
+    return Residuals(
+        np.concatenate([found.x, back.x]),
+        np.concatenate([found.sigmas, -back.sigmas]),
+        np.concatenate([found.plain, -back.plain]),
+    )
+
+
+def _from_polyline(
+    x: Array, y: Array, line_x: Array, line_y: Array, sigma: tuple[float, float]
+) -> Residuals:
+    nearest = distances_to_polyline(x, y, line_x, line_y, *sigma)
+    order = np.argsort(line_x, kind="stable")
+    above = y - np.interp(x, line_x[order], line_y[order])
+    return Residuals(x, np.copysign(nearest, above), above)
+
+
+def vertex_residuals(
+    points: tuple[ArrayLike, ArrayLike, Iterable[Any]],
+    vertices: tuple[ArrayLike, ArrayLike, Iterable[Any]],
+    sigma: tuple[float, float],
+) -> Residuals:
+    """Distance of each point from the nearest vertex with the same label.
+
+    Parameters
+    ----------
+    points, vertices : (array_like, array_like, array_like)
+        x, y and a label each; a tuple of words will do.
+    sigma : (float, float)
+        Uncertainties of the points.
+
+    Returns
+    -------
+    Residuals
+
+    Raises
+    ------
+    ValueError
+        If there are no points, or a point's label has no vertex.
+
+    Examples
+    --------
+    >>> vertices = ([0.0], [3.0], ["slip"])
+    >>> vertex_residuals(([0.0], [1.0], ["slip"]), vertices, (1.0, 1.0)).sigmas.tolist()
+    [-2.0]
+    """
+    x, y = (np.asarray(axis, float) for axis in points[:2])
+    vertex_x, vertex_y = (np.asarray(axis, float) for axis in vertices[:2])
+    _refuse_none(x)
+    of_label: dict[Any, list[int]] = {}
+    for index, label in enumerate(vertices[2]):
+        of_label.setdefault(label, []).append(index)
+    sigmas, above = np.empty(len(x)), np.empty(len(x))
+    for i, label in enumerate(points[2]):
+        if label not in of_label:
+            raise ValueError(f"the curves have no vertex '{label}'")
+        dx, dy = x[i] - vertex_x[of_label[label]], y[i] - vertex_y[of_label[label]]
+        distance = np.hypot(dx / sigma[0], dy / sigma[1])
+        above[i] = dy[distance.argmin()]
+        sigmas[i] = np.copysign(distance.min(), above[i])
+    return Residuals(x, sigmas, above)
+
+
+def difference_residuals(
+    x: ArrayLike, left: ArrayLike, right: ArrayLike, sigma: float
+) -> Residuals:
+    """Difference of two columns that must be equal, `left` less `right`, in units of `sigma`.
+
+    Raises
+    ------
+    ValueError
+        If the columns are empty.
+
+    Examples
+    --------
+    >>> difference_residuals([0.0, 1.0], [1.0, 2.0], [1.0, 2.5], 0.5).sigmas.tolist()
+    [0.0, -1.0]
+    """
+    gap = np.asarray(left, float) - np.asarray(right, float)
+    _refuse_none(gap)
+    return Residuals(np.asarray(x, float), gap / sigma, gap)
+
+
+def with_allowance(
+    sigma: tuple[float, float], allowance: tuple[float, float]
+) -> tuple[float, float]:
+    """Uncertainty of a point beside a model that may itself be off: root of the sum of squares.
+
+    Parameters
+    ----------
+    sigma : (float, float)
+        Of the points, in units of the x and the y axis.
+    allowance : (float, float)
+        How far the model may be off by its form, in the same units.
+
+    Returns
+    -------
+    (float, float)
+
+    Examples
+    --------
+    >>> with_allowance((0.0, 0.4), (0.1, 0.3))
+    (0.1, 0.5)
+    """
+    x, y = (math.hypot(*pair) for pair in zip(sigma, allowance, strict=True))
+    return x, y
+
+
+def fact_residuals(found: float, fact: Mapping[str, Any]) -> Residuals:
+    """Distance of a landmark from a stated fact, in the fact's own tolerance.
+
+    Parameters
+    ----------
+    found : float
+        The landmark.
+    fact : dict
+        `value` and `tolerance`, or `less_than`, or `greater_than`.
+
+    Returns
+    -------
+    Residuals
+        Of one point, the landmark itself; for an inequality 0 where it holds, else infinite.
+
+    Examples
+    --------
+    >>> fact_residuals(18.0, {"value": 20.0, "tolerance": 5.0}).sigmas.tolist()
+    [0.4]
+    >>> fact_residuals(0.5, {"less_than": 0.0}).sigmas.tolist()
+    [-inf]
+    """
+    stated = next(fact[key] for key in ("value", "less_than", "greater_than") if key in fact)
+    gap = stated - found
+    if "value" in fact:
+        sigmas = gap / fact["tolerance"]
+    else:
+        holds = gap > 0 if "less_than" in fact else gap < 0
+        sigmas = 0.0 if holds else math.copysign(math.inf, gap)
+    return Residuals(np.array([found]), np.array([sigmas]), np.array([gap]))
+
+
+def _refuse_none(points: Array) -> None:
+    if not len(points):
+        raise ValueError("no points")
+
+
+class ChiSquared(NamedTuple):
+    """How well points fit a curve to which nothing was fitted.
+
+    Attributes
+    ----------
+    value : float
+        Sum of squares of the distances in sigmas, correlated where a parameter moves them together.
+    degrees : int
+        Degrees of freedom: the number of points.
+    of_sigma : int or None
+        On how many independent values the sigmas rest; None where they are known.
+    p : float
+        Probability that chance alone gives a value as large: by the distribution of chi-squared,
+        or where the sigmas were estimated themselves by that of F.
+    """
+
+    value: float
+    degrees: int
+    of_sigma: int | None
+    p: float
+
+
+def chi_squared(
+    sigmas: ArrayLike, shifts: ArrayLike = (), of_sigma: int | None = None
+) -> ChiSquared:
+    """Chi-squared of distances, with the uncertainty of the curve's own parameters.
+
+    A parameter that is known to one sigma moves all points of the curve together, so the distances
+    have the covariance 1 + sum of J J^T, one J a parameter. That is what a fit of the parameters
+    gives that is held to their stated values with their stated sigmas.
+
+    Parameters
+    ----------
+    sigmas : array_like, shape (n,)
+        Signed distances of the points, in their own sigmas.
+    shifts : array_like, shape (k, n)
+        How much each distance changes with one sigma of each of k independent parameters.
+    of_sigma : int, optional
+        On how many independent values the sigmas rest, if they were estimated from a few.
+
+    Returns
+    -------
+    ChiSquared
+
+    Raises
+    ------
+    ValueError
+        If there are no points.
+
+    Examples
+    --------
+    >>> found = chi_squared([1.0, 2.0])
+    >>> found.value, found.degrees, round(found.p, 3)
+    (5.0, 2, 0.082)
+    >>> round(chi_squared([1.0, 1.0], [[3.0, 3.0]]).value, 3)  # one shift explains both
+    0.105
+    >>> round(chi_squared([1.0, 2.0], of_sigma=4).p, 3)  # the sigma itself may be too small
+    0.198
+    """
+    distance = np.asarray(sigmas, float)
+    _refuse_none(distance)
+    moved = np.asarray(shifts, float).reshape(-1, len(distance))
+    covariance = np.eye(len(distance)) + moved.T @ moved
+    value = float(distance @ np.linalg.solve(covariance, distance))
+    degrees = len(distance)
+    if of_sigma is None:
+        return ChiSquared(value, degrees, None, float(chi2.sf(value, degrees)))
+    return ChiSquared(value, degrees, of_sigma, float(f.sf(value / degrees, degrees, of_sigma)))
+
+
+def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: float) -> Array:
+    """Incidences at which a contact no longer sticks at first, and at which it slips throughout.
+
+    They are those of every model with Coulomb friction and both compliances (Stronge 1994, Eq. 11,
+    and where its Eq. 21 loses its root), and choose the points of a comparison. A judge does not
+    ask the solver that it judges, so they are worked out here.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio, restitution : float
+        beta, zeta^2 and e > 0.
+
+    Returns
+    -------
+    ndarray of float64, shape (2,)
+        In mu v2(0).
+
+    Examples
+    --------
+    >>> limits_of_regimes(3.5, 1.21, 1.0).round(2).tolist()
+    [1.21, 5.79]
+    """
+    beta, zeta2, e = mass_ratio, stiffness_ratio, restitution
+    return np.array([zeta2, beta + max(0.0, e * beta - zeta2 / e)])
+
+
+def judge(good: bool, documented: bool = False, unchanged: bool = True) -> Verdict:
+    """Verdict on a comparison.
+
+    Parameters
+    ----------
+    good : bool
+        The curve meets its reference: the probability p is large enough, or the distance is within
+        the tolerance.
+    documented : bool
+        A difference is known and explained. If there is none any more, that is a fault too.
+    unchanged : bool
+        What was found lies within the bounds of its regression test, if it has one.
+
+    Returns
+    -------
+    Verdict
+
+    Examples
+    --------
+    >>> print(judge(True), judge(False), judge(False, documented=True), sep="; ")
+    agrees; diverges; differs as documented
+    >>> print(judge(True, documented=True), judge(True, unchanged=False), sep="; ")
+    diverges; diverges
+    """
+    if not unchanged or good == documented:
+        return Verdict.DIVERGES
+    return Verdict.AGREES if good else Verdict.DOCUMENTED

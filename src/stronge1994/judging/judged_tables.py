@@ -1,0 +1,55 @@
+"""What a run judges, read as named curves: tables of figures, scenes, and the parameter study."""
+
+from pathlib import Path
+
+import numpy as np
+
+from stronge1994 import csv_tables
+
+
+def read(path):
+    """Curves that are judged, `{curve: {column: array}}`, all numbers finite.
+
+    Parameters
+    ----------
+    path : str
+        The table of a figure; of a scene, one curve `impacts` whose rows are numbered; or the
+        study, one curve `grid` with a row a point.
+
+    Raises
+    ------
+    csv_tables.Failed
+        If the solver left an error instead.
+    ValueError
+        If a number is not finite.
+    """
+    if Path(path).suffix == ".npz":
+        curves = {"grid": _points_of_study(path)}
+    elif Path(path).parent.name == "scenes":
+        curves = {"impacts": _impacts(path)}
+    else:
+        curves = csv_tables.read(path)
+    for curve, columns in curves.items():
+        for column, values in columns.items():
+            if values.dtype.kind == "f" and not np.isfinite(values).all():
+                raise ValueError(f"curve '{curve}', column '{column}' is not finite")
+    return curves
+
+
+def _impacts(path):
+    rows = csv_tables.read_rows(path)
+    columns = {name: csv_tables.values([row[name] for row in rows]) for name in rows[0]}
+    return {"row [1]": np.arange(1.0, len(rows) + 1)} | columns
+
+
+def _points_of_study(path):
+    with np.load(path) as file:
+        arrays = {name: file[name] for name in file.files if "[" in name}
+        axes = [str(name) for name in file["axes"]]
+    grid = np.meshgrid(*(arrays[name] for name in axes), indexing="ij")
+    columns = {
+        name: values.ravel()
+        for name, values in (arrays | dict(zip(axes, grid, strict=True))).items()
+    }
+    # The axes without their units too, as labels of a point.
+    return columns | {name.split(" [")[0]: columns[name] for name in axes}

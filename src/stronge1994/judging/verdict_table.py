@@ -1,0 +1,71 @@
+"""The verdicts of a run as one table, worst first, for files and for the terminal."""
+
+from collections import Counter
+
+from tabulate import tabulate
+
+from stronge1994 import csv_tables
+
+COLUMNS = [
+    "figure", "comparison", "verdict", "evidence", "reference", "points", "chi^2",
+    "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
+    "rms [axis units]", "found", "stated", "allowed", "regression", "note", "reason",
+]  # fmt: skip
+# Of the table of gates: the smallest change of each group that a comparison catches.
+GROUPS = ["zeta^2", "beta", "e", "mu"]
+GATES = ["comparison", *GROUPS]
+ORDER = ["diverges", "differs as documented", "awaited", "agrees", "as before"]
+
+
+def gather(paths):
+    """Rows of several tables, worst verdict first, else in the order of the figures.
+
+    A verdict that cannot be comes before all: the gate will name it.
+    """
+    rows = [row for path in paths for row in csv_tables.read_rows(path, COLUMNS)]
+    rank = {verdict: place for place, verdict in enumerate(ORDER)}
+    return sorted(rows, key=lambda row: rank.get(row["verdict"], -1))
+
+
+def failing(rows):
+    """Rows that fail a run."""
+    return [row for row in rows if row["verdict"] == "diverges"]
+
+
+def why(row):
+    """Why a row fails, in words."""
+    measured = _measured(row)
+    limits = f"{measured}; allowed is {_allowed(row)}" if measured else ""
+    return ": ".join(words for words in (row["note"], limits) if words)
+
+
+def _allowed(row):
+    """What a row must keep to: to agree, or where a difference is documented to stay as it was."""
+    if not row["regression"]:
+        return row["allowed"]
+    return f"a difference, and as before {row['regression']}"
+
+
+def text(rows):
+    """The table for a terminal, and how many rows have each verdict."""
+    cells = [
+        [row["verdict"], row["comparison"], _measured(row), _allowed(row), row["note"]]
+        for row in rows
+    ]
+    counts = Counter(row["verdict"] for row in rows)
+    headers = ["verdict", "comparison", "measured", "allowed", "note"]
+    table = tabulate(cells, headers, disable_numparse=True)
+    return f"{table}\n\n" + ", ".join(f"{counts[v]} {v}" for v in ORDER if counts[v])
+
+
+def _measured(row):
+    if row["found"]:
+        return f"{row['found']} (stated {row['stated']})"
+    if row["p"]:
+        return f"chi^2 {row['chi^2']} of {row['degrees of freedom']}, p = {row['p']}"
+    return f"rms {row['rms [sigma]']}, max {row['max [sigma]']}" if row["points"] else ""
+
+
+def write(path, rows, columns):
+    """Write rows, dicts that have these columns at least, in the order of the columns."""
+    csv_tables.write_rows(path, columns, [[row[column] for column in columns] for row in rows])

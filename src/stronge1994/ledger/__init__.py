@@ -1,0 +1,38 @@
+"""Checks of Stronge (1994), equation by equation and sentence by sentence.
+
+Every check is a function without arguments that compares one statement of the paper, as printed
+(`stronge1994.printed`), with the exact solver and returns a `Finding`. data/stronge1994/
+ledger.yaml has an entry for each: what the paper says, when it counts as true, the verdict, and
+the correction. `dynamics`, `slip`, `peak_force` and `dissipation` check the equations of one
+section each; the last two and `rebound` also the sentences.
+
+Entries need no example of their own: running them is what they are for.
+"""
+
+from importlib import import_module
+from importlib.util import find_spec
+
+from stronge1994.ledger.finding import Finding, Judgement, judge
+
+__all__ = ["Finding", "Judgement", "judge", "run"]
+
+
+def run(check: str) -> Finding:
+    """Run one check, named `module.function`.
+
+    Raises
+    ------
+    LookupError
+        If there is no such check.
+
+    Examples
+    --------
+    >>> run("rebound.rubber_stiffness_ratio").found
+    1.5
+    """
+    module, _, function = check.partition(".")
+    path = f"stronge1994.ledger.{module}"
+    found = getattr(import_module(path), function, None) if find_spec(path) else None
+    if found is None:
+        raise LookupError(f"there is no check {check}")
+    return found()

@@ -1,0 +1,45 @@
+"""Run every entry of the ledger against the exact solver: one row an entry.
+
+Always succeeds: an entry whose check crashes no longer holds, with the reason in `problem`.
+"""
+
+import traceback
+
+from stronge1994 import ledger
+from stronge1994.ledger import entries, outcome
+
+
+def check(every):
+    """Rows of the ledger's table, an entry each, in its order."""
+    tests = entries.checks()
+    return [_row(name, entry, tests.get(entry.get("check"), "")) for name, entry in every.items()]
+
+
+def _row(name, entry, test):
+    row = dict.fromkeys(outcome.COLUMNS, "")
+    row |= {key: entry[key] for key in row if key in entry and key not in ("confirms", "holds")}
+    row |= {"entry": name, "test": test, "range": entry.get("holds", "")}
+    if "check" not in entry:
+        return row
+    row["confirms"] = _words(entry["confirms"])
+    row["between"] = " to ".join(f"{bound:g}" for bound in entry.get("between", []))
+    try:
+        finding = ledger.run(entry["check"])
+        judgement = ledger.judge(finding, entry)
+    except Exception as error:
+        traceback.print_exc()
+        return row | {"holds": "no", "problem": f"{type(error).__name__}: {error}"}
+    corrected = "" if finding.corrected is None else f"{finding.corrected:.2g}"
+    return row | {
+        "holds": "yes" if judgement.holds else "no",
+        "found": f"{finding.found:.6g}",
+        "corrected": corrected,
+        "problem": judgement.why,
+    }
+
+
+def _words(confirms):
+    if "value" in confirms:
+        return f"{confirms['value']:g} within {confirms['rounding']:g}"
+    (word, bound), *_ = confirms.items()
+    return f"{word.replace('_', ' ')} {bound:g}"

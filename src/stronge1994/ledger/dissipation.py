@@ -1,0 +1,287 @@
+"""Checks of Eqs 36 to 41, and of what pp. 435 and 447 to 449 say of the energy lost."""
+
+from collections.abc import Iterable, Mapping
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from planarimpact import lumped, rigid
+from planarimpact.ground.arrays import Array, Numbers
+from planarimpact.ground.results import EventKind
+from stronge1994.ledger import contact
+from stronge1994.ledger.contact import Contact, State
+from stronge1994.ledger.dynamics import PLATE
+from stronge1994.ledger.finding import Finding, largest
+from stronge1994.printed import dissipation, slip
+
+# Of Fig. 9.
+FRICTIONS, RESTITUTIONS = (0.1, 0.5), (1.0, 0.5)
+ANGLES = np.linspace(0.0, 89.95, 17991)[1:]  # degrees
+
+
+def kinetic_energy() -> Finding:
+    """K0 over the kinetic energy of a rigid body, less 1, without spin and with it."""
+    mass, gyration, x2 = PLATE["mass"], PLATE["gyration"], PLATE["x2"]
+    v1, v2 = -0.8, -1.3
+    ratios = []
+    for clockwise in (0.0, 1.9, -0.4):
+        # Velocity of the centre: that of C less the part of turning, v = V + spin x r.
+        centre = v1 - clockwise * x2, v2
+        exact = mass * (centre[0] ** 2 + centre[1] ** 2 + (gyration * clockwise) ** 2) / 2
+        ratios.append(dissipation.kinetic_energy(mass, gyration, x2, v1, v2, clockwise) / exact)
+    return Finding(largest([np.array(ratios) - 1]))
+
+
+def hysteresis() -> Finding:
+    """Eqs 36 and 37 against the normal kinetic energy that the exact contact loses."""
+    gaps = []
+    for e, motion in contact.normal_motions():
+        found = motion.found
+        kinetic = found.m2 * found.v2**2 / 2
+        lost = kinetic - found.m2 * motion.velocity[-1] ** 2 / 2
+        gaps.append((dissipation.eq_36_hysteresis(found.m2, found.v2, e) - lost) / kinetic)
+        gaps.append(dissipation.eq_37_hysteresis_share(e) - lost / kinetic)
+    return Finding(largest(gaps))
+
+
+def _unit(found: Contact) -> float:
+    """Tangential kinetic energy m1 v1(0)^2/2, in which the gaps are measured."""
+    return found.m1 * found.v1**2 / 2
+
+
+def _exact(found: Contact) -> float:
+    """Exact dissipation by friction, in the paper's units."""
+    return float(found.rebound.dissipation) * found.m2 * found.velocity_scale**2
+
+
+def _spring(found: Contact, state: State) -> Array:
+    """Tangential strain energy in a state."""
+    return found.stiffness / found.stiffness_ratio * state.u1**2 / 2
+
+
+def friction_after_stick() -> Finding:
+    """Distance of Eq. 38 from the exact energy lost, over m1 v1(0)^2/2, after initial stick.
+
+    With that sign before the impulse, minus or the plus of the scan, which comes nearer.
+    Corrected: the minus, with s, and the tangential strain energy at t1.
+    """
+    printed: dict[int, list[Numbers]] = {-1: [], 1: []}
+    corrected = []
+    for found in contact.initial_stick():
+        onset, s = found.last(EventKind.SLIP), found.last_slip_direction
+        left, groups = found.impulse_left(onset.t), (found.friction, found.m1)
+        for sign, gaps in printed.items():
+            lost = dissipation.eq_38_friction(onset.v1, left, *groups, sign)
+            gaps.append((lost - _exact(found)) / _unit(found))
+        lost = dissipation.eq_38_friction(onset.v1, s * left, *groups, -1) + _spring(found, onset)
+        corrected.append((lost - _exact(found)) / _unit(found))
+    return Finding(_of_best_reading(printed), largest(corrected))
+
+
+def _of_best_reading(gaps: Mapping[Any, Iterable[Numbers]]) -> float:
+    """Largest distance under that reading of a formula which comes nearest."""
+    return min(largest(found) for found in gaps.values())
+
+
+def friction_after_stick_in_groups() -> Finding:
+    """Distance of Eq. 39 from the exact energy lost, over m1 v1(0)^2/2, after initial stick.
+
+    With the leading sign that comes nearer. In the corrected formula the sign is minus, s g1 takes
+    the place of g1, and mu^2 zeta^2 sin^2 of the angle of restitution at t1 is added.
+    """
+    printed: dict[int, list[Numbers]] = {-1: [], 1: []}
+    corrected = []
+    for found in contact.initial_stick():
+        onset, normal = found.last(EventKind.SLIP), found.m2 * found.v2**2
+        swing = np.cos(found.tangential_frequency * onset.t)
+        g1 = slip.impulse_ratio(onset.t, found.normal_frequency, found.restitution)
+        groups = found.mass_ratio, found.friction
+        lost = dissipation.eq_39_friction(found.incidence, swing, g1, *groups)
+        for sign, gaps in printed.items():
+            gaps.append((-sign * lost * normal / 2 - _exact(found)) / _unit(found))
+        signed = found.last_slip_direction * g1
+        lost = dissipation.eq_39_friction(found.incidence, swing, signed, *groups)
+        strain = found.stiffness_ratio * (found.friction * onset.force_2 / found.force_scale) ** 2
+        corrected.append(((lost + strain) * normal / 2 - _exact(found)) / _unit(found))
+    return Finding(_of_best_reading(printed), largest(corrected))
+
+
+def friction_of_two_slips() -> Finding:
+    """Distance of Eq. 40 from the exact energy lost, over m1 v1(0)^2/2, slip - stick - slip.
+
+    With the signs before v1(t2)^2, v1(t3)^2 and v1(tf)^2 that come nearest. Corrected: -, +, -, and
+    strain energy at t3 comes in, that at t2 goes out.
+    """
+    printed: dict[tuple[int, ...], list[Numbers]] = {
+        signs: [] for signs in product((-1, 1), repeat=3)
+    }
+    corrected = []
+    for found in contact.slip_stick_slip():
+        scale, unit = found.velocity_scale, _unit(found)
+        start, onset = found.first(EventKind.STICK), found.last(EventKind.SLIP)
+        w2, w3, final = start.v1 / scale, onset.v1 / scale, found.final_velocity / scale
+        speeds, groups = (found.incidence, w2, w3, final), (found.mass_ratio, found.friction)
+        for signs, gaps in printed.items():
+            lost = dissipation.eq_40_friction(*speeds, *groups, signs)
+            gaps.append((lost * found.m2 * found.v2**2 / 2 - _exact(found)) / unit)
+        strain = _spring(found, onset) - _spring(found, start)
+        corrected.append(printed[-1, 1, -1][-1] + strain / unit)
+    return Finding(_of_best_reading(printed), largest(corrected))
+
+
+def friction_of_slip_throughout() -> Finding:
+    """Eq. 41 against the exact energy lost above the printed limit."""
+    gaps = []
+    for found in contact.slip_throughout():
+        groups = found.incidence, found.mass_ratio, found.friction, found.restitution
+        lost = dissipation.eq_41_friction(*groups) * found.m2 * found.v2**2 / 2
+        gaps.append((lost - _exact(found)) / _unit(found))
+    return Finding(largest(gaps))
+
+
+def theorem() -> Finding:
+    """The footnote's D1 of the first slip less the work of friction on the particle.
+
+    Over m1 v1(0)^2/2, the work by quadrature along exact contacts. Corrected: less the tangential
+    strain energy gained.
+    """
+    printed, corrected = [], []
+    for x in (2.0, 3.0, 4.5):
+        found = contact.contact(x, samples=2001)
+        start = found.first(EventKind.STICK)
+        path, first = found.path, found.path.t <= start.t
+        on_body = contact.integral(found, path.force_1 * path.v1)[first][-1]
+        # F1 is proportional to u1, so the trapezoidal rule is exact.
+        on_spring = np.trapezoid(path.force_1[first], path.u1[first])
+        impulse = found.m1 * (start.v1 - found.v1)
+        lost = dissipation.footnote_theorem(found.v1, start.v1, impulse)
+        exact = -(on_body + on_spring)
+        printed.append((lost - exact) / _unit(found))
+        corrected.append((lost - _spring(found, start) - exact) / _unit(found))
+    return Finding(largest(printed), largest(corrected))
+
+
+def only_in_slip() -> Finding:
+    """Work of friction over the phases of slip against the exact balance of energy."""
+    gaps = []
+    for found in contact.with_stick():
+        groups = found.incidence, found.mass_ratio, found.stiffness_ratio, found.restitution
+        gap = lumped.friction_work(*groups) - found.rebound.dissipation
+        gaps.append(gap / (found.incidence**2 / (2 * found.mass_ratio)))
+    return Finding(largest(gaps))
+
+
+def body_velocity_alone() -> Finding:
+    """Work of friction with v1 alone over the last slip, over that with v1 + du1/dt.
+
+    The lowest ratio of those sampled over initial stick, sphere of the paper, e = 1; the sentence
+    has it 1.
+    """
+    ratios = []
+    for share in (0.02, 0.2, 0.4, 0.6, 0.8, 0.99):
+        found = contact.contact(share * contact.STIFFNESS_RATIO)
+        onset = found.last(EventKind.SLIP)
+        change = found.m1 * (onset.v1**2 - found.final_velocity**2) / 2
+        ratios.append(change / _exact(found))
+    return Finding(float(min(ratios)))
+
+
+def strain_recovered() -> Finding:
+    """Tangential strain energy at separation over that at the onset of the last slip, e > 0."""
+    shares = []
+    for found in contact.with_stick():
+        onset, end = found.last(EventKind.SLIP), found.last(EventKind.SEPARATION)
+        shares.append(_spring(found, end) / _spring(found, onset))
+    return Finding(largest(shares))
+
+
+def strain_decreases() -> Finding:
+    """Largest rise of either element's strain energy during the last slip, or what is left of it.
+
+    Over its value at the onset; the largest of those sampled that slip, stick and slip, e > 0.
+    """
+    rises = []
+    for found in contact.slip_stick_slip():
+        onset, end = found.last(EventKind.SLIP), found.last(EventKind.SEPARATION)
+        path = found.between(onset.t, end.t)
+        # What the normal element gives back: stiffness kappa/e^2 in restitution.
+        normal = found.restitution**2 * path.force_2**2 / (2 * found.stiffness)
+        for energy in (_spring(found, path), normal):
+            rises += [np.diff(energy).max() / energy[0], energy[-1] / energy[0]]
+    return Finding(float(max(rises)))
+
+
+def losses_decoupled() -> Finding:
+    """Spread of the hysteresis over m2 v2(0)^2/2 with incidence and zeta^2, collinear impact."""
+    spreads = []
+    for e in contact.RESTITUTIONS:
+        shares = []
+        for x, zeta2 in ((0.3, 1.21), (2.0, 1.21), (8.0, 1.21), (2.0, 0.5)):
+            found = contact.contact(x, contact.MASS_RATIO, zeta2, e, samples=2001)
+            impulse = contact.integral(found, found.path.force_2)
+            work = contact.integral(found, found.path.force_2 * (found.v2 + impulse / found.m2))
+            shares.append(-work[-1] / (found.m2 * found.v2**2 / 2))
+        spreads.append(np.ptp(shares))
+    return Finding(largest(spreads))
+
+
+def small_incidence() -> Finding:
+    """Largest share of m2 S^2/2 that friction takes up to 10 degrees: the axes of Fig. 9."""
+    small = ANGLES <= 10.0
+    shares = [_dissipated(mu, e)[small].max() for mu in FRICTIONS for e in RESTITUTIONS]
+    return Finding(float(max(shares)))
+
+
+def compliance_immaterial() -> Finding:
+    """Difference that tangential compliance makes to the dissipation above the printed limit."""
+    gaps = []
+    for e in contact.RESTITUTIONS:
+        x = slip.slip_throughout_limit(contact.MASS_RATIO, e) * np.array([1.0, 1.1, 3.0])
+        hard = rigid.rebound(x, contact.MASS_RATIO, restitution=e).dissipation
+        gaps.append(lumped.rebound(x, *contact.SPHERE, e).dissipation / hard - 1)
+    return Finding(largest(gaps))
+
+
+def _dissipated(friction: float, restitution: float) -> Array:
+    """Share of m2 S^2/2 that friction takes at each of ANGLES."""
+    theta = np.radians(ANGLES)
+    lost = lumped.rebound(np.tan(theta) / friction, *contact.SPHERE, restitution).dissipation
+    return 2 * (friction * np.cos(theta)) ** 2 * lost
+
+
+def angle_of_largest() -> Finding:
+    """Largest angle between most dissipation and the printed limit of slip throughout, degrees.
+
+    Over both frictions and restitutions of Fig. 9.
+    """
+    gaps = []
+    for mu in FRICTIONS:
+        for e in RESTITUTIONS:
+            limit = np.degrees(np.arctan(mu * slip.slip_throughout_limit(contact.MASS_RATIO, e)))
+            gaps.append(ANGLES[_dissipated(mu, e).argmax()] - limit)
+    return Finding(float(max(gaps)))
+
+
+def limited_by_restitution() -> Finding:
+    """Smallest gain of the largest share dissipated from one e to the next larger."""
+    shares = [
+        [_dissipated(mu, e).max() for e in np.linspace(0, 1, 11)] for mu in (0.1, 0.3, 0.5, 1.0)
+    ]
+    return Finding(float(np.min(np.diff(shares, axis=1))))
+
+
+def rigid_independence() -> Finding:
+    """Slip halted: dissipation over x^2 mu^2 m2 v2(0)^2/(2 beta), less 1, for all e.
+
+    Of the rigid limit and of the lumped model with zeta^2 = 1e-4, in units where mu cancels.
+    """
+    gaps, beta = [], contact.MASS_RATIO
+    for e in contact.RESTITUTIONS:
+        x = (1 + e) * beta * np.array([0.1, 0.5, 0.98])
+        for lost in (
+            rigid.rebound(x, beta, restitution=e),
+            lumped.rebound(x, beta, 1e-4, e),
+        ):
+            gaps.append(lost.dissipation / (x**2 / (2 * beta)) - 1)
+    return Finding(largest(gaps))

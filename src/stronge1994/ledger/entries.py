@@ -1,0 +1,122 @@
+"""The ledger of the paper: its entries, refused before any work where they cannot be run."""
+
+import ast
+import re
+from pathlib import Path
+
+from stronge1994 import reference_data
+
+PACKAGE = Path(__file__).parent
+MODULES = ("dynamics", "slip", "rebound", "peak_force", "dissipation")  # those that hold checks
+KINDS = ({"at_most"}, {"at_least"}, {"value", "rounding"}, {"fact"})
+REFERENCE = re.compile(r"\bsee ([a-z0-9]+(?:-[a-z0-9.]*[a-z0-9])+)")
+
+
+def load(path, schema):
+    """Entries of a ledger, `{name: entry}`, complete.
+
+    Each has its `kind` (equation or sentence), what the `cause` of a wrong one is in words
+    (`because`), and for a `fact` of source.yaml beside the ledger its value and tolerance.
+
+    Raises
+    ------
+    SourceError
+        Naming file, field, value and what is allowed.
+    """
+    ledger = reference_data.load_yaml(path)
+    reference_data.refuse_invalid(ledger, schema, path)
+    entries, known, facts = {}, checks(), _facts(path)
+    for kind in ("equations", "sentences"):
+        for name, entry in ledger[kind].items():
+            where = f"{path}: {kind}.{name}"
+            if name in entries:
+                raise reference_data.SourceError(f"{where}: the name is taken by an equation")
+            _refuse_contradiction(where, entry, known)
+            entries[name] = {"kind": kind[:-1], **_with_fact(where, entry, facts)}
+    _explain(path, entries, ledger["causes"])
+    for name, entry in entries.items():
+        for key, text in entry.items():
+            _refuse_dangling(f"{path}: {name}.{key}", text, entries)
+    return entries
+
+
+def _facts(path):
+    """Stated values of source.yaml beside a ledger, with their tolerances: `{name: confirms}`."""
+    facts = reference_data.load_yaml(Path(path).with_name("source.yaml")).get("facts", {})
+    return {
+        name: {"value": fact["value"], "rounding": fact["tolerance"]}
+        for name, fact in facts.items()
+        if {"value", "tolerance"} <= set(fact)
+    }
+
+
+def _with_fact(where, entry, facts):
+    """An entry with value and tolerance in place of the fact that it names."""
+    name = entry.get("confirms", {}).get("fact")
+    if name is None:
+        return entry
+    if name not in facts:
+        raise reference_data.SourceError(
+            f"{where}.confirms.fact = '{name}': allowed are the facts of source.yaml with value "
+            f"and tolerance: {', '.join(facts)}"
+        )
+    return entry | {"confirms": facts[name]}
+
+
+def _explain(path, entries, causes):
+    """Add to wrong entries their cause in words; refuse unknown causes, and unused ones."""
+    for name, entry in entries.items():
+        if "cause" in entry:
+            if entry["cause"] not in causes:
+                raise reference_data.SourceError(
+                    f"{path}: {name}.cause = '{entry['cause']}': allowed are the causes at the "
+                    f"head: {', '.join(causes)}"
+                )
+            entry["because"] = causes[entry["cause"]]
+    for cause in set(causes) - {entry.get("cause") for entry in entries.values()}:
+        raise reference_data.SourceError(f"{path}: causes.{cause}: no entry has this cause")
+
+
+def _refuse_contradiction(where, entry, known):
+    """Refuse an entry whose fields do not go together."""
+    problem = None
+    if entry["verdict"] == "not testable":
+        if {"check", "confirms", "between"} & set(entry):
+            problem = ".verdict = 'not testable' goes with a `why` alone, without check or bounds"
+    elif entry["check"] not in known:
+        problem = f".check: '{entry['check']}' is no function of stronge1994.ledger"
+    elif set(entry["confirms"]) not in KINDS:
+        problem = (
+            f".confirms = {entry['confirms']}: allowed are at_most, or at_least, or value with "
+            "rounding, or fact"
+        )
+    elif entry["verdict"] == "confirmed within rounding" and not (
+        {"value", "fact"} & set(entry["confirms"])
+    ):
+        problem = f".confirms = {entry['confirms']}: rounding is that of a `value`"
+    elif "between" in entry and entry["between"][0] > entry["between"][1]:
+        problem = f".between = {entry['between']}: the first number must be the smaller"
+    if problem:
+        raise reference_data.SourceError(where + problem)
+
+
+def _refuse_dangling(where, text, entries):
+    for name in REFERENCE.findall(text) if isinstance(text, str) else ():
+        if name not in entries:
+            raise reference_data.SourceError(f"{where}: 'see {name}': there is no such entry")
+
+
+def checks():
+    """Checks of stronge1994.ledger: `{module.function: its docstring in one line}`."""
+    found = {}
+    for module in MODULES:
+        for node in ast.parse((PACKAGE / f"{module}.py").read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.FunctionDef) and _is_check(node):
+                words = " ".join((ast.get_docstring(node) or "").split())
+                found[f"{module}.{node.name}"] = words
+    return found
+
+
+def _is_check(node):
+    arguments = node.args
+    return not node.name.startswith("_") and not (arguments.args or arguments.kwonlyargs)

@@ -1,0 +1,54 @@
+"""The table of what running the ledger's entries found."""
+
+from collections import Counter
+
+from stronge1994 import csv_tables
+
+COLUMNS = [
+    "kind", "entry", "holds", "verdict", "grade", "cause", "where", "says", "test", "found",
+    "confirms", "between", "corrected", "problem", "reading", "range", "correction", "derivation",
+    "because", "why",
+]  # fmt: skip
+# How much hangs on a wrong entry, gravest first, and in words that go on after their number.
+GRADES = {
+    "changes a result": "change a result",
+    "sign or misprint": "are signs or misprints (perhaps the scan's)",
+    "matter of judgement": "are matters of judgement",
+}
+
+
+def failing(rows):
+    """Rows whose recorded verdict no longer holds."""
+    return [row for row in rows if row["holds"] == "no"]
+
+
+def grades(rows):
+    """Numbers of wrong entries, gravest first: `{grade: number}`, those that there are."""
+    counts = Counter(row.get("grade") for row in rows)
+    return {grade: counts[grade] for grade in GRADES if counts[grade]}
+
+
+def grades_in_words(rows):
+    """The same as words.
+
+    >>> grades_in_words([{"grade": "changes a result"}, {"grade": ""}])
+    '1 change a result'
+    """
+    return ", ".join(f"{count} {GRADES[grade]}" for grade, count in grades(rows).items())
+
+
+def summary(rows):
+    """Lines for a terminal: counts, and each entry that no longer holds with its reason."""
+    counts = Counter(row["verdict"] for row in rows)
+    bad, graded = failing(rows), grades_in_words(rows)
+    words = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+    words += f"; of the wrong {graded}" if graded else ""
+    lines = [f"ledger of the paper: {words}; {len(bad)} no longer hold"]
+    for row in bad:
+        lines.append(f"  no longer holds: {row['entry']} ({row['where']}): {row['problem']}")
+    return "\n".join(lines)
+
+
+def write(path, rows):
+    """Write rows, dicts with the keys `COLUMNS` in their order."""
+    csv_tables.write_rows(path, COLUMNS, [list(row.values()) for row in rows])

@@ -1,0 +1,1 @@
+"""Pages to read: the report, the ledger, the lectures, the explorer."""

@@ -1,0 +1,125 @@
+"""Write the impact explorer: a page that solves the lumped model itself and needs nothing else."""
+
+import math
+from pathlib import Path
+
+from markupsafe import Markup
+
+from planarimpact import bodies
+from stronge1994.pages import templates
+
+# Of each slider: least, largest, step.
+LIMITS = {
+    "angle": (0, 89.9, 0.1),  # deg
+    "friction": (0.01, 2, 0.01),  # at 0 velocities over mu v2(0) have no meaning
+    "restitution": (0, 1, 0.01),
+    "poisson_ratio": (0, 0.5, 0.005),
+    "mass_ratio": (1, 10, 0.05),
+}
+BODIES = {
+    "solid sphere": bodies.solid_sphere(radius=1.0, density=1.0),
+    "thin shell": bodies.thin_shell(radius=1.0, mass=1.0),
+    "disc": bodies.disc(radius=1.0, mass=1.0),
+}
+# Figs 3 to 6 depend on v1(0)/(mu v2(0)) alone; a point on each curve of Figs 5 to 9.
+FRICTION = 0.5
+INCIDENCE = {"fig5": 3.0, "fig6": 2.0}
+ANGLE = {"fig7": 45.0, "fig8": 30.0, "fig9": 45.0}  # deg
+
+
+def presets(settings):
+    """States of the page's controls for figures of the paper and the superball.
+
+    Parameters
+    ----------
+    settings : dict
+        What `plan.settings_of_explorer` returns.
+
+    Returns
+    -------
+    dict
+        `{figure: {control: value}}`; without the impacts that the sliders cannot show.
+    """
+    shared = {
+        "poisson_ratio": _poisson_ratio(settings["stiffness_ratio"]),
+        "mass_ratio": settings["mass_ratio"],
+    }
+    figures = settings["figures"]
+    found = {}
+    stated = {figure: figures[figure]["incidence"] for figure in ("fig3", "fig4")}
+    for figure, incidence in {**stated, **INCIDENCE}.items():
+        angle = math.degrees(math.atan(FRICTION * incidence))
+        found[figure] = {"angle": angle, "friction": FRICTION}
+        found[figure]["restitution"] = _middle(figures[figure]["restitution"])
+    for figure in ("fig7", "fig8", "fig9"):
+        friction = figures[figure]["friction"]
+        friction = max(friction) if isinstance(friction, list) else friction
+        found[figure] = {"angle": ANGLE[figure], "friction": friction}
+        found[figure]["restitution"] = _middle(figures[figure].get("restitution", 1.0))
+    found = {figure: state | shared for figure, state in found.items()}
+    throw = figures["superball"]["throw"]
+    along, up = throw["velocity"]
+    found["superball"] = {
+        "angle": math.degrees(math.atan2(along + throw["radius"] * throw["spin"], -up)),
+        **{key: throw[key] for key in ("friction", "restitution", "poisson_ratio")},
+        "mass_ratio": _mass_ratios()["solid sphere"],
+    }
+    rounded = {
+        figure: {control: round(float(state[control]), 4) for control in LIMITS}
+        for figure, state in found.items()
+    }
+    return {figure: state for figure, state in rounded.items() if _within_limits(state)}
+
+
+def _middle(values):
+    """The middle one of several settings, the first of two."""
+    return values[(len(values) - 1) // 2] if isinstance(values, list) else values
+
+
+def _poisson_ratio(stiffness_ratio):
+    """nu of zeta^2 = (2 - nu)/(2 (1 - nu)); NaN where no material has it."""
+    return (stiffness_ratio - 1) / (stiffness_ratio - 0.5) if stiffness_ratio > 0.5 else math.nan
+
+
+def _mass_ratios():
+    return {name: round(float(bodies.mass_ratio(body)), 12) for name, body in BODIES.items()}
+
+
+def _within_limits(state):
+    return all(
+        LIMITS[control][0] <= value <= LIMITS[control][1] for control, value in state.items()
+    )
+
+
+def _address(state):
+    """What stands behind # in the page's address, but for the chart that is chosen."""
+    return "&".join(f"{control}={value:g}" for control, value in state.items())
+
+
+def page(settings, sources):
+    """The page as text.
+
+    Parameters
+    ----------
+    settings : dict
+        As for `presets`.
+    sources : sequence of path
+        The template explorer.html, and in the same folder the style and scripts that it names.
+
+    Returns
+    -------
+    str
+    """
+    texts = {Path(path).name: Markup(Path(path).read_text(encoding="utf-8")) for path in sources}
+    template = templates.environment(Path(sources[0]).parent).get_template("explorer.html")
+    return template.render(
+        limits=LIMITS,
+        presets={figure: _address(state) for figure, state in presets(settings).items()},
+        bodies=_mass_ratios(),
+        sources=texts,
+    )
+
+
+def write(path, settings, sources):
+    """Write the page that `page` returns."""
+    templates.write(path, page(settings, sources))

@@ -1,0 +1,337 @@
+"""Write the run as one page: verdicts, figures, provenance, ledger, tables, interface.
+
+Reads what the run has written and solves nothing. A solver that crashed is a failing row, a picture
+and tables that say so. What cannot be shown is left out and named on top, with file and line; the
+gate fails on it.
+"""
+
+import base64
+import io
+import re
+import traceback
+from collections import Counter
+from pathlib import Path
+from types import SimpleNamespace
+
+import jinja2
+import yaml
+from markupsafe import escape
+
+from stronge1994 import csv_tables, gate
+from stronge1994.drawings import house_style
+from stronge1994.drawings import residuals as draw_residuals
+from stronge1994.judging import verdict_table
+from stronge1994.ledger import outcome
+from stronge1994.pages import api_reference, docstring_html, ledger_page, templates
+from stronge1994.plan.config import SCENE
+
+MARKS = {
+    "diverges": "fails",
+    "differs as documented": "rounding",
+    "awaited": "not",
+    "agrees": "confirmed",
+    "as before": "not",
+}
+MEANING = {
+    "diverges": "outside its tolerance: the run fails",
+    "differs as documented": "a difference that is known, explained and as large as before",
+    "awaited": "the reference is not to be had yet",
+    "agrees": "with published points (p is large enough), or within the tolerance of its reference",
+    "as before": "it ran; this guards against accidents and is evidence of nothing",
+}
+SHARED = ("mass_ratio", "stiffness_ratio")
+ROOT = Path(__file__).parents[3]
+
+
+class Salvage:
+    """Calls functions, goes on where one fails, and keeps what to say of it.
+
+    Attributes
+    ----------
+    problems : list of str
+        What failed, the error, and the file and line where it happened.
+
+    Examples
+    --------
+    >>> salvage = Salvage()
+    >>> salvage("Fig. 5", "nothing", lambda: {}["curve"])
+    'nothing'
+    >>> salvage.problems[0].split(" (")[0]
+    "Fig. 5: KeyError: 'curve'"
+    """
+
+    def __init__(self):
+        self.problems = []
+
+    def __call__(self, what, otherwise, function, *arguments):
+        """What the function returns, or `otherwise`."""
+        try:
+            return function(*arguments)
+        except Exception as error:
+            traceback.print_exc()
+            self.problems.append(f"{what}: {type(error).__name__}: {error}{_place(error)}")
+            return otherwise
+
+
+def _place(error):
+    """Behind the words of an error, file and line where it arose: the last of this repository."""
+    frames = traceback.extract_tb(error.__traceback__)
+    ours = [f for f in frames if f.filename.startswith((str(ROOT / "workflow"), str(ROOT / "src")))]
+    return f" ({Path(ours[-1].filename).relative_to(ROOT)}, line {ours[-1].lineno})" if ours else ""
+
+
+def page(
+    verdicts, ledger, figures, tables, config, sources, run, symbols, links, template, faults, tried
+):
+    """The report.
+
+    Parameters
+    ----------
+    verdicts, ledger : list of dict
+        Rows of results/verdicts.csv and results/ledger.csv.
+    figures : dict
+        `{name: what figure() gave}`.
+    tables : dict
+        `{name: {"rows", "caption"}}` of `which_model`, `trade`, `stability`, `gates`.
+    config : dict
+        As it was in the run.
+    sources : dict
+        Contents of data/*/source.yaml.
+    run : dict
+        `versions`, `system`, `date`, `commit` and `times` of `run_facts`.
+    symbols : str
+        What stands in the ledger's formulas.
+    links : dict
+        `{file beside the report: what it is}`.
+    template : Path
+    faults : list of str
+        Why the run does not pass, as `judgement.faults_of_tables` says.
+    tried : Salvage
+        Calls what may fail; its problems so far are shown too.
+
+    Returns
+    -------
+    str
+    """
+    names = {row["entry"] for row in ledger}
+    reference = tried("interface", {}, api_reference.modules)
+    functions = {
+        name: tried(title(name), [], api_reference.functions_of_figure, reference, name)
+        for name in (figures if reference else ())
+    }
+    known = api_reference.anchors(reference)
+
+    def docs(text, module):
+        link = lambda name: api_reference.target(name, module, reference, known)  # noqa: E731
+        return docstring_html.html(text, link)
+
+    environment = templates.environment(Path(template).parent)
+    environment.filters |= {
+        "maths": ledger_page.linked_maths(names),
+        "number": number,
+        "quantity": draw_residuals.words,
+        "docs": docs,
+        "sentence": sentence,
+        "title_of": title,
+    }
+    return environment.get_template(Path(template).name).render(
+        ledger_page.words(ledger, symbols),
+        verdicts=verdicts,
+        significance=config["significance"],
+        faults=faults + tried.problems,
+        failing=verdict_table.failing(verdicts),
+        verdict_counts=Counter(row["verdict"] for row in verdicts),
+        evidence=Counter(row["evidence"] for row in verdicts if row["verdict"] == "agrees"),
+        marks=MARKS,
+        verdict_meaning=MEANING,
+        entry_of=_entry_of(names),
+        figures=figures,
+        functions=functions,
+        tables=tables,
+        sources=sources,
+        run=run,
+        links=links,
+        reference=reference,
+    )
+
+
+def without_details(faults):
+    """A page of faults alone, where the report itself cannot be written."""
+    items = "\n".join(f"<li>{escape(fault)}</li>" for fault in faults)
+    return (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Failed</title></head>'
+        "<body><h1>Planar impact of rough compliant bodies: report of a run</h1>\n"
+        "<p><b>FAILED</b> The report could not be written. The tables in results/ and the pictures "
+        f"beside this page are there.</p>\n<ul>\n{items}\n</ul></body></html>\n"
+    )
+
+
+def figure(name, svg, caption, residuals, verdicts, config):
+    """What the report shows of one figure.
+
+    Parameters
+    ----------
+    name : str
+    svg : bytes
+        Its picture.
+    caption : str
+    residuals : list of dict
+        Rows of results/residuals/FIGURE.csv.
+    verdicts : list of dict
+        Rows of results/verdicts.csv, those of other figures too.
+    config : dict
+        The config as it was in the run.
+
+    Returns
+    -------
+    dict
+    """
+    rows = [row for row in verdicts if row["figure"] == name]
+    entries = {c: e for c, e in config["comparisons"].items() if e["figure"] == name}
+    strips = draw_residuals.draw(residuals, entries, {row["comparison"]: row for row in rows})
+    return {
+        "title": title(name),
+        "picture": _embedded(svg),
+        "caption": caption,
+        "alt": re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip("."),
+        "rows": rows,
+        "has_residuals": bool(residuals),
+        "strips": _embedded(_svg(strips)) if strips else None,
+        "config": _yaml(
+            {key: config[key] for key in SHARED}
+            | {"figures": {name: config["figures"][name]}}
+            | ({"comparisons": entries} if entries else {})
+        ),
+    }
+
+
+def title(name):
+    """Name of a figure for a reader.
+
+    Examples
+    --------
+    >>> title("fig5"), title("micro_slip")
+    ('Fig. 5', 'Micro slip')
+    """
+    if name.startswith("fig"):
+        return f"Fig. {name.removeprefix('fig')}"
+    if name.startswith(SCENE):
+        return f"Scene: {name.removeprefix(SCENE).replace('_', ' ')}"
+    return name.replace("_", " ").capitalize()
+
+
+def caption(path, name):
+    """Caption of a figure or table, from the template that snakemake --report renders."""
+    wildcards = SimpleNamespace(figure=name)
+    template = jinja2.Template(Path(path).read_text(encoding="utf-8"))
+    return template.render(snakemake=SimpleNamespace(wildcards=wildcards)).strip()
+
+
+def number(text):
+    """A cell of a table with three digits at most; words stay.
+
+    Examples
+    --------
+    >>> number("0.123456"), number("1.56e+03"), number("lumped")
+    ('0.123', '1560', 'lumped')
+    """
+    try:
+        return f"{float(f'{float(text):.3g}'):g}"
+    except ValueError:
+        return text
+
+
+def sentence(text):
+    """A text with a capital letter at its head.
+
+    Examples
+    --------
+    >>> sentence("it must run")
+    'It must run'
+    """
+    return text[:1].upper() + text[1:]
+
+
+def _entry_of(names):
+    """Entry of the ledger that a row of the verdict table names, or None."""
+
+    def entry_of(row):
+        name = row["note"].removeprefix("ledger: ")
+        return name if name in names else None
+
+    return entry_of
+
+
+def _svg(figure):
+    file = io.BytesIO()
+    house_style.save(figure, file)
+    return file.getvalue()
+
+
+def _embedded(svg):
+    return f"data:image/svg+xml;base64,{base64.b64encode(svg).decode()}"
+
+
+class _Dumper(yaml.SafeDumper):
+    """Without the anchors that two equal entries would get."""
+
+    def ignore_aliases(self, data):
+        return True
+
+
+def _yaml(document):
+    style = {"sort_keys": False, "default_flow_style": None, "width": 96, "allow_unicode": True}
+    return yaml.dump(document, Dumper=_Dumper, **style)
+
+
+def write(output, problems, paths, residuals, svgs, captions, config, expected, **parts):
+    """Read the tables and pictures of a run and write the report, and what it could not show.
+
+    Parameters
+    ----------
+    output, problems : str
+        The report, and the table of what could not be shown.
+    paths : dict
+        `{name: file}` of the tables: `verdicts`, `ledger`, and those of the sections.
+    residuals, svgs : dict
+        `{figure: file}`.
+    captions : str
+        The template of the figures' captions; those of tables stand beside it.
+    config : dict
+    expected : (dict, dict)
+        Rows that the verdicts and the ledger must have, as `judgement.faults_of_tables` takes them.
+    **parts
+        `sources`, `run`, `symbols`, `links`, `template` as for `page`.
+    """
+    tried = Salvage()
+    read = csv_tables.read_rows
+    paths = dict(paths)
+    rows = tried("verdicts", [], read, paths.pop("verdicts"), verdict_table.COLUMNS)
+    ledger = tried("ledger", [], read, paths.pop("ledger"), outcome.COLUMNS)
+    faults = gate.faults_of_tables(rows, ledger, *expected)
+    rows = [row for row in rows if row["verdict"] in MARKS]
+    ledger = [row for row in ledger if row["verdict"] in ledger_page.STYLE]
+
+    def section(name):
+        text = caption(captions, name)
+        picture = Path(svgs[name]).read_bytes()
+        return figure(name, picture, text, read(residuals[name]), rows, config)
+
+    def table(name):
+        text = caption(Path(captions).with_name(f"{name}.rst"), name)
+        return {"rows": read(paths[name]), "caption": text}
+
+    figures = {name: tried(title(name), None, section, name) for name in svgs}
+    figures = {name: found for name, found in figures.items() if found}
+    tables = {name: tried(name, {"rows": [], "caption": ""}, table, name) for name in paths}
+    run = parts.pop("run")
+    run = {name: tried(name, missing, function) for name, (missing, function) in run.items()}
+    text = tried(
+        "report",
+        None,
+        lambda: page(
+            rows, ledger, figures, tables, config, run=run, faults=faults, tried=tried, **parts
+        ),
+    )
+    templates.write(output, without_details(faults + tried.problems) if text is None else text)
+    csv_tables.write_rows(problems, ["problem"], [[problem] for problem in tried.problems])

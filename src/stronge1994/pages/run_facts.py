@@ -1,0 +1,96 @@
+"""On what, from what and how long a run was made."""
+
+import csv
+import datetime
+import math
+import os
+import platform
+import subprocess
+from importlib import metadata
+from pathlib import Path
+
+PACKAGES = ("planarimpact", "numpy", "scipy", "matplotlib", "pandas", "snakemake")
+NO_COMMIT = "unknown: not a git checkout, or git is missing"
+
+
+def versions():
+    """Versions of Python and of the packages that a run uses, `{name: version}`."""
+    found = {"python": platform.python_version()}
+    for name in PACKAGES:
+        try:
+            found[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            found[name] = "not installed"
+    return found
+
+
+def system():
+    """Operating system and processor, without the name of the machine."""
+    return f"{platform.platform()}, {os.cpu_count()} processors"
+
+
+def date():
+    """Now, to the minute, in universal time."""
+    return f"{datetime.datetime.now(datetime.UTC):%d %B %Y, %H:%M} UTC"
+
+
+def commit(folder):
+    """Commit of a checkout, and whether something is not committed; words where there is none.
+
+    A folder that only lies inside some other checkout is none.
+    """
+    try:
+        root, name = _git(folder, "rev-parse", "--show-toplevel", "HEAD").split("\n")
+        if Path(root).resolve() != Path(folder).resolve():
+            return NO_COMMIT
+        changed = _git(folder, "status", "--porcelain")
+    except (OSError, subprocess.SubprocessError, ValueError):
+        return NO_COMMIT
+    return f"{name}, with uncommitted changes" if changed else name
+
+
+def _git(folder, *arguments):
+    # A hook of git, or a shell with GIT_DIR, would have it look into another repository.
+    environment = {key: value for key, value in os.environ.items() if not key.startswith("GIT_")}
+    found = subprocess.run(
+        ["git", "-C", str(folder), *arguments],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=20,
+        env=environment,
+    )
+    return found.stdout[:-1]
+
+
+def times(benchmarks):
+    """Seconds that each job took when it last ran, longest first: list of (job, seconds).
+
+    Parameters
+    ----------
+    benchmarks : Path
+        Folder with a table a job. One that another job is just writing, or that is damaged, is
+        left out.
+    """
+    found = []
+    for path in sorted(Path(benchmarks).glob("*.tsv")):
+        try:
+            with open(path, newline="", encoding="utf-8") as file:
+                row = next(csv.DictReader(file, delimiter="\t"))
+            seconds = float(row["s"])
+        except (OSError, StopIteration, LookupError, TypeError, ValueError, csv.Error):
+            continue
+        if math.isfinite(seconds):
+            found.append((path.stem, seconds))
+    return sorted(found, key=lambda job: -job[1])
+
+
+def everything():
+    """All of it, to be asked for later: `{name: (what stands there if it fails, function)}`."""
+    return {
+        "versions": ({}, versions),
+        "system": ("", system),
+        "date": ("", date),
+        "commit": ("", lambda: commit(".")),
+        "times": ([], lambda: times("results/benchmarks")),
+    }

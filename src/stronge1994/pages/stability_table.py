@@ -1,0 +1,74 @@
+"""Write the digits of the lumped model by decades of each parameter."""
+
+import numpy as np
+
+from stronge1994 import csv_tables
+
+GROUPS = ("incidence [mu v2(0)]", "mass_ratio [1]", "stiffness_ratio [1]", "restitution [1]")
+QUANTITIES = (*GROUPS, "omega [Omega]", "phases [1]")
+OUTPUTS = ("velocity", "peak_friction", "dissipation")
+COLUMNS = (
+    "quantity",
+    "from [unit of quantity]",
+    "to [unit of quantity]",
+    "impacts [1]",
+    "digits_median [1]",
+    "digits_allowed_median [1]",
+    "digits_least [1]",
+    "digits_allowed_least [1]",
+    "digits_lost_most [1]",
+)
+FAR = 16  # decades from 1; what lies farther is one row
+
+
+def by_decade(impacts):
+    """Digits of the worst output of the impacts in each decade of each quantity.
+
+    Parameters
+    ----------
+    impacts : dict of ndarray
+        Of results/curves/stability.csv.
+
+    Returns
+    -------
+    list of list
+        Rows with the cells of `COLUMNS`; an exact 0 has a row of its own.
+    """
+    digits, allowed = (
+        np.min([impacts[f"{kind}_{name} [1]"] for name in OUTPUTS], axis=0)
+        for kind in ("digits", "digits_allowed")
+    )
+    rows = []
+    for quantity in QUANTITIES:
+        values = impacts[quantity]
+        with np.errstate(divide="ignore"):
+            decades = np.floor(np.log10(values))
+        decades[values > 0] = np.clip(decades[values > 0], -FAR - 1, FAR)
+        for decade in np.unique(decades):
+            here = decades == decade
+            cells = [
+                f"{part(column[here]):.1f}"
+                for part in (np.median, np.min)
+                for column in (digits, allowed)
+            ]
+            lost = f"{np.max(impacts['digits_lost [1]'][here]):.1f}"
+            rows.append([quantity, *_span(decade), int(here.sum()), *cells, lost])
+    return rows
+
+
+def _span(decade):
+    """Ends of a decade in words."""
+    if decade == -np.inf:
+        return "0", "0"
+    low = "0" if decade < -FAR else f"1e{decade:.0f}"
+    return low, "inf" if decade >= FAR else f"1e{decade + 1:.0f}"
+
+
+def write(curves, table):
+    """Read the `curves` of the figure and write the table; what a crash left goes into it."""
+    try:
+        impacts = csv_tables.read(curves)["impacts"]
+    except csv_tables.Failed as error:
+        csv_tables.write_rows(table, ["error"], [[f"{error}"]])
+        return
+    csv_tables.write_rows(table, COLUMNS, by_decade(impacts))

@@ -1,0 +1,166 @@
+"""What the rules need to know before they run: settings, references, modules."""
+
+from stronge1994 import reference_data
+from stronge1994.plan.config import (
+    SOURCES_OF_CURVES,
+    judged,
+    reference,
+    table_of,
+)
+from stronge1994.plan.files import modules
+
+WITH_NODES = ["fig5", "fig6", "fig7", "fig8", "fig9", "convergence", "rod"]  # pass through points
+TIMED = ("convergence", "trade")  # measure time: nothing may run beside them
+EXPLORED = [f"fig{number}" for number in range(3, 10)] + ["superball"]  # impacts to play with
+# Groups that play no part: mass, in force against deflection; bodies or a table with their own.
+BOTH = ["mass_ratio", "stiffness_ratio"]
+WITHOUT = {"fig2": ["mass_ratio"], "superball": BOTH, "stability": BOTH, "rod": ["mass_ratio"]}
+
+
+def settings(config, inventory, figure):
+    """Settings of one figure: shared physics and its own, an experiment by its parameters."""
+    chosen = {
+        "mass_ratio": config["mass_ratio"],
+        "stiffness_ratio": config["stiffness_ratio"],
+        **config["figures"][figure],
+    }
+    for group in WITHOUT.get(figure, ()):
+        del chosen[group]
+    for key, needed in SOURCES_OF_CURVES.items():
+        if key in chosen:
+            stated = inventory[chosen[key]]["parameters"]
+            chosen[key] = {name: stated[name]["value"] for name in needed}
+            if key == "experiment":
+                chosen["uncertainty"] = {
+                    name: stated[name]["uncertainty"]
+                    for name in needed
+                    if stated[name]["uncertainty"]
+                }
+    return chosen
+
+
+def settings_of_peers(config):
+    """Impacts of figure `trade` on which other codes are tried."""
+    keys = ("incidence", "samples", "restitution", "tolerance")
+    chosen = {key: config["figures"]["trade"][key] for key in keys}
+    return {key: config[key] for key in ("mass_ratio", "stiffness_ratio")} | chosen
+
+
+def settings_of_explorer(config):
+    """Shared physics, and the impacts of the figures that the explorer offers."""
+    keys = ("incidence", "friction", "restitution", "throw")
+    figures = {
+        figure: {key: config["figures"][figure][key] for key in keys if key in settings}
+        for figure, settings in config["figures"].items()
+        if figure in EXPLORED
+    }
+    return {key: config[key] for key in ("mass_ratio", "stiffness_ratio")} | {"figures": figures}
+
+
+def comparisons(config, name):
+    """Comparisons of one figure, of a scene or of the study: `{name: entry}`."""
+    chosen = config["comparisons"].items()
+    return {title: dict(entry) for title, entry in chosen if entry["figure"] == name}
+
+
+def expected_rows(config, inventory):
+    """Rows that the table of verdicts must have: `{comparison: may it be awaited}`."""
+    rows = {f"{name}-solved": False for name in judged(config)}
+    for name in judged(config):
+        known = references(config, inventory, name)
+        for title, entry in comparisons(config, name).items():
+            series = known.get(entry.get("reference"), {})
+            rows[title] = series.get("kind") == "awaited" and not series["path"]
+    return rows
+
+
+def plan_of_judgement(config, inventory, name):
+    """What the rule that compares one figure, scene or study is told, and what it reads."""
+    sources = sources_of(config, inventory, name)
+    return {
+        "table": table_of(name),
+        "comparisons": comparisons(config, name),
+        "references": references(config, inventory, name),
+        "sources": sources,
+        "series": [f"results/series/{source}.csv" for source in sources],
+    }
+
+
+def plan_of_figure(config, inventory, figure):
+    """What the rules of one figure are told, and the files that they read.
+
+    It is asked for each figure before Snakemake looks at a rule: where an input function raises,
+    Snakemake drops the rule and takes its old output for a source file, without a word.
+    """
+    sources, tables = sources_of(config, inventory, figure), nodes_of(config, inventory, figure)
+    solver = modules("solve", f"stronge1994.curves.{figure}")
+    judging = modules("sensitivity", f"stronge1994.curves.{figure}")
+    drawing = modules("draw", f"stronge1994.drawings.{figure}")
+    return {
+        "solver": solver,
+        "drawing": drawing,
+        "sensitivity": judging,
+        "settings": settings(config, inventory, figure),
+        "nodes": tables,
+        "tables": list(tables),
+        "overlays": overlays(config, inventory, figure),
+        "sources": sources,
+        "series": [f"results/series/{source}.csv" for source in sources],
+    }
+
+
+def references(config, inventory, name):
+    """Series and facts that some comparisons name: `{source/entry: entry}`.
+
+    With the parameters of their source, which say where a regime begins.
+    """
+    named = [c["reference"] for c in comparisons(config, name).values() if "reference" in c]
+    found = {}
+    for full in named:
+        stated = inventory[full.split("/")[0]]["parameters"]
+        parameters = {key: parameter["value"] for key, parameter in stated.items()}
+        found[full] = reference(inventory, full)[1] | {"parameters": parameters}
+    return found
+
+
+def series_of(config, inventory, figure):
+    """Series at hand for one figure: `{source/series: entry}`, awaited ones left out."""
+    chosen = references(config, inventory, figure).items()
+    return {name: entry for name, entry in chosen if entry.get("path")}
+
+
+def sources_of(config, inventory, figure):
+    """Sources with series at hand for one figure, in order."""
+    return sorted({name.split("/")[0] for name in series_of(config, inventory, figure)})
+
+
+def overlays(config, inventory, figure):
+    """What to draw over one figure: measured series, with the parameters of their source, facts."""
+    named = references(config, inventory, figure).items()
+    chosen = {name: entry for name, entry in named if "statement" in entry}
+    for name, entry in series_of(config, inventory, figure).items():
+        if entry["kind"] != "computed":
+            chosen[name] = entry
+    return chosen
+
+
+def nodes_of(config, inventory, figure):
+    """Reference tables whose points the curves must pass through: `{path: column of x}`.
+
+    A column None stands for the whole table, of the figure that is given one.
+    """
+    if "points" in config["figures"][figure]:
+        _, table = reference(inventory, config["figures"][figure]["points"])
+        return {table["path"]: None}
+    if figure not in WITH_NODES:
+        return {}
+    exact = {
+        c.get("reference")
+        for c in comparisons(config, figure).values()
+        if c["metric"] == "vertices"
+    }
+    return {
+        entry["path"]: reference_data.column_name(entry["x"])
+        for name, entry in series_of(config, inventory, figure).items()
+        if name in exact and "event" not in entry.get("labels", [])
+    }

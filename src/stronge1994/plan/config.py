@@ -1,0 +1,158 @@
+"""The config: refused before any work where it is not admissible."""
+
+from pathlib import Path
+
+from stronge1994 import reference_data
+from stronge1994.reference_data import strict_yaml
+
+FIGURES = [f"fig{number}" for number in range(2, 10)]
+FIGURES += ["micro_slip", "convergence", "trade", "superball", "stability", "rod"]
+SCENE = "scene_"  # before the name of a scene, among what is judged
+# Curves of Fig. 5 that have the parameters of a source: which ones they need.
+SPHERE = ["mass_ratio", "stiffness_ratio", "restitution"]
+SOURCES_OF_CURVES = {
+    "experiment": [*SPHERE, "friction", "speed", "radius"],
+    "finite_elements": SPHERE,
+}
+
+
+class ConfigError(Exception):
+    """What the rules are made from is not admissible: config, a module, a file that they read."""
+
+
+def with_values(node):
+    """Numbers and truths for the texts that snakemake makes of them inside braces of --config."""
+    if isinstance(node, dict):
+        return {key: with_values(value) for key, value in node.items()}
+    if isinstance(node, list):
+        return [with_values(value) for value in node]
+    if isinstance(node, str) and node.lower() in ("true", "false"):
+        return node.lower() == "true"
+    if isinstance(node, str):
+        for tag, number in {"int": int, "float": float}.items():
+            if strict_yaml.NUMBERS[f"tag:yaml.org,2002:{tag}"].fullmatch(node):
+                return number(node)
+        if node.lower() in ("nan", "inf", "-inf"):  # to be refused as numbers, not as words
+            return float(node)
+    return node
+
+
+def refuse_misread_values(arguments):
+    """Refuse a --config whose values Snakemake would take for others, or that is there twice.
+
+    Parameters
+    ----------
+    arguments : sequence of str
+        `name=value`, as the user wrote them.
+    """
+    names = [text.partition("=")[0] for text in arguments]
+    for text, name in zip(arguments, names, strict=True):
+        if names.count(name) > 1:
+            raise ConfigError(f"--config {name}: it is there twice")
+        value = text.partition("=")[2]
+        try:
+            strict_yaml.load(f"{name}: {value}")
+        except ValueError as error:
+            raise ConfigError(f"--config {text}: {str(error).partition(': ')[2]}") from None
+
+
+def check_config(config, schema, inventory, ledger):
+    """Refuse an inadmissible config, naming the field, its value and what is allowed."""
+    try:
+        reference_data.refuse_invalid(config, schema, "config")
+    except reference_data.SourceError as error:
+        raise ConfigError(str(error)) from None
+    for figure, settings in config["figures"].items():
+        for key in ("incidence", "angle", "tilt"):
+            _ascending(f"config: figures.{figure}.{key}", settings.get(key))
+    for key in SOURCES_OF_CURVES:
+        source = config["figures"]["fig5"][key]
+        if source not in inventory:
+            raise ConfigError(
+                f"config: figures.fig5.{key}: '{source}' is not in data/; allowed are "
+                + ", ".join(inventory)
+            )
+    where, table = "config: figures.stability.points", config["figures"]["stability"]["points"]
+    if reference(inventory, table, where)[0] != "series":
+        raise ConfigError(f"{where}: '{table}' is no series")
+    for scene in config["scenes"]:
+        if not Path(f"data/scenes/{scene}.csv").is_file():
+            raise ConfigError(f"config: scenes.{scene}: there is no data/scenes/{scene}.csv")
+    for name, comparison in config["comparisons"].items():
+        if comparison["figure"] not in judged(config):
+            raise ConfigError(
+                f"config: comparisons.{name}.figure: '{comparison['figure']}' is not judged; "
+                "allowed are " + ", ".join(judged(config))
+            )
+        _check_comparison(f"config: comparisons.{name}", comparison, inventory)
+        entry = comparison.get("documented", {}).get("entry")
+        if entry is not None and entry not in ledger:
+            raise ConfigError(
+                f"config: comparisons.{name}.documented.entry: '{entry}' is not in the ledger; a "
+                "difference that does not concern the paper has a `note` instead"
+            )
+
+
+def _ascending(where, span):
+    if isinstance(span, list) and not span[0] < span[1]:
+        raise ConfigError(f"{where} = {span}: the first number must be the smaller")
+
+
+def _check_comparison(where, comparison, inventory):
+    metric = comparison["metric"]
+    columns = {
+        "balance": ("columns", "`columns`, two"),
+        "largest": ("largest", "`largest`, a column"),
+        "range": ("columns", "`columns` and their `range`"),
+        "contraction": ("columns", "`columns`, incidence and rebound"),
+    }
+    if metric in columns:
+        key, words = columns[metric]
+        if key not in comparison or (metric == "range" and "range" not in comparison):
+            raise ConfigError(f"{where}: metric {metric} needs {words}")
+        _ascending(f"{where}.range", comparison.get("range"))
+        return
+    if "reference" not in comparison:
+        raise ConfigError(f"{where}: metric {metric} needs `reference`")
+    kind, known = reference(inventory, comparison["reference"], where)
+    if (kind == "facts") != (metric == "landmark"):
+        raise ConfigError(f"{where}: metric {metric} does not go with one of the {kind}")
+    if metric == "landmark" and "landmark" not in comparison:
+        raise ConfigError(f"{where}: metric landmark needs `landmark`")
+    several = metric == "distance" and "curve" in known.get("labels", [])
+    if metric in ("distance", "landmark") and "curve" not in comparison and not several:
+        raise ConfigError(f"{where}: metric {metric} needs `curve`")
+    for label in comparison.get("points", {}):
+        if label not in known.get("labels", []):
+            raise ConfigError(f"{where}.points.{label}: no label of {comparison['reference']}")
+    for key, span in comparison.get("regression", {}).items():
+        _ascending(f"{where}.regression.{key}", span)
+
+
+def judged(config):
+    """Names of all that comparisons may judge: figures, scenes, the parameter study."""
+    return [*FIGURES, *(f"{SCENE}{name}" for name in config["scenes"]), "study"]
+
+
+def table_of(name):
+    """The file that is judged under a name.
+
+    Examples
+    --------
+    >>> table_of("fig5"), table_of("scene_superball")
+    ('results/curves/fig5.csv', 'results/scenes/superball.csv')
+    """
+    if name == "study":
+        return "results/study.npz"
+    if name.startswith(SCENE):
+        return f"results/scenes/{name.removeprefix(SCENE)}.csv"
+    return f"results/curves/{name}.csv"
+
+
+def reference(inventory, name, where="reference"):
+    """The series or fact `source/entry`: ("series" or "facts", its entry)."""
+    source, entry = name.split("/")
+    for kind in ("series", "facts"):
+        if entry in inventory.get(source, {}).get(kind, {}):
+            return kind, inventory[source][kind][entry]
+    raise ConfigError(f"{where}: '{name}' is neither a series nor a fact in data/")

@@ -1,0 +1,319 @@
+"""The reference data in data/: loaded, checked and refused with one clear message.
+
+A source is a folder with `source.yaml` (schema: workflow/schemas/source.schema.yaml) and one CSV
+a series. An awaited series becomes digitised when WebPlotDigitizer's export is dropped into the
+folder as `<series>.wpd.csv` and `digitised_by` in source.yaml says whose work it is.
+"""
+
+import codecs
+import csv
+import math
+import re
+import unicodedata
+from pathlib import Path
+
+import jsonschema
+
+from stronge1994.reference_data import digitiser_export, strict_yaml
+
+MOST_LINES = 10_000  # of a series
+OUTSIDE = 3  # sigmas; so far may a value lie outside the range of its axis
+LARGEST_SIGMA = 0.01  # of the range: the series here have a tenth to a half of it
+_NUMBERS = {
+    mark: re.compile(rf"[+-]?([0-9]+([{mark}][0-9]*)?|[{mark}][0-9]+)([eE][+-]?[0-9]+)?")
+    for mark in ".,"
+}
+
+# For JSON Schema 2.0 is an integer; for range() it is not.
+_Validator = jsonschema.validators.extend(
+    jsonschema.Draft202012Validator,
+    type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine(
+        "integer", lambda _, value: isinstance(value, int) and not isinstance(value, bool)
+    ),
+)
+
+
+class SourceError(Exception):
+    """Something in data/ is not as source.yaml or its schema says."""
+
+
+def load(folder, schema):
+    """Load and check one source.
+
+    Parameters
+    ----------
+    folder : Path
+        data/<source>.
+    schema : dict
+        The schema of source.yaml.
+
+    Returns
+    -------
+    dict
+        Contents of source.yaml; each series with its `path` (None while awaited).
+
+    Raises
+    ------
+    SourceError
+        Naming file, line, column and value.
+    """
+    path = folder / "source.yaml"
+    source = load_yaml(path)
+    refuse_invalid(source, schema, path)
+    for name, series in source.get("series", {}).items():
+        for where, axis in _named_axes(series):
+            _refuse_axis(f"{path}: series.{name}.{where}", axis)
+        series["path"] = _file_of(folder, name, series)
+        if series["path"]:
+            _refuse_other_number(f"{path}: series.{name}", series, read_series(name, series))
+    known = {"source.yaml", *(Path(s["path"]).name for s in _found(source))}
+    # A ledger may lie there, or what computes a series; a table by another ending would be ignored.
+    strays = sorted(
+        name for name in _visible(folder) - known if not name.endswith((".yaml", ".py"))
+    )
+    if strays:
+        names = ", ".join(_file_name(*item) for item in source.get("series", {}).items()) or "none"
+        raise SourceError(f"{folder / strays[0]}: no series of that name; allowed are {names}")
+    return source
+
+
+def _visible(folder):
+    """Names of what lies in a folder, without hidden files and words for readers."""
+    return {path.name for path in folder.iterdir() if not path.name.startswith((".", "README"))}
+
+
+def _refuse_other_number(where, series, columns):
+    """Refuse a file that was cut, or has points of which source.yaml knows nothing."""
+    found = len(next(iter(columns.values())))
+    if series["kind"] != "awaited" and found != series.get("points"):
+        raise SourceError(
+            f"{where}.points = {series.get('points')}: {series['path']} has {found} points"
+        )
+
+
+def _refuse_axis(where, axis):
+    """Refuse what the schema cannot: numbers of an axis that do not go together."""
+    low, high = axis["range"]
+    if not low < high:
+        raise SourceError(f"{where}.range = {axis['range']}: the first number must be the smaller")
+    most = LARGEST_SIGMA * (high - low)
+    if axis["sigma"] > most:
+        raise SourceError(
+            f"{where}.sigma = {axis['sigma']:g}: allowed is up to {most:g}, a hundredth of the "
+            f"range {low:g} to {high:g}; with more the series would judge nothing"
+        )
+
+
+def load_yaml(path):
+    """Read a YAML file: a mapping whose keys are texts, each once.
+
+    Parameters
+    ----------
+    path : str or Path
+        Of a source, a schema, a ledger or workflow/config.yaml.
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    SourceError
+        In one line, naming the file, and the line where there is one.
+    """
+    try:
+        return strict_yaml.load("".join(_lines(path)))
+    except ValueError as error:
+        raise SourceError(f"{path}, {error}") from None
+
+
+def _lines(path, most=math.inf):
+    """Lines of a text file in UTF-8, read one by one as they are asked for."""
+    try:
+        with open(path, "rb") as file:
+            for number, line in enumerate(file, start=1):
+                if number > most:
+                    raise SourceError(f"{path}: more than {most} lines; allowed are up to {most}")
+                yield _decoded(line, number, path)
+    except OSError as error:
+        raise SourceError(f"{path}: {error.strerror}") from None
+
+
+def _decoded(line, number, path):
+    where, advice = f"{path}, line {number}", "save the file as UTF-8"
+    if number == 1:
+        if line.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+            raise SourceError(f"{where}: the file is UTF-16; {advice}")
+        line = line.removeprefix(codecs.BOM_UTF8)
+    if b"\0" in line:
+        raise SourceError(f"{where}: a NUL byte; {advice}")
+    try:
+        return line.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise SourceError(
+            f"{where}: byte 0x{line[error.start]:02x} is no UTF-8; {advice}"
+        ) from None
+
+
+def load_all(data, schema):
+    """Load every source below the folder `data`: `{source: contents}`; `scenes` is none."""
+    folders = [Path(data, name) for name in sorted(_visible(Path(data)) - {"scenes"})]
+    for folder in folders:
+        if not (folder / "source.yaml").is_file():
+            raise SourceError(f"{folder}: no source: allowed are folders with a source.yaml")
+    return {folder.name: load(folder, schema) for folder in folders}
+
+
+def refuse_invalid(document, schema, name):
+    """Refuse a document that its schema does not admit, saying where and what."""
+    errors = sorted(
+        _Validator(schema).iter_errors(document), key=lambda e: [str(p) for p in e.path]
+    )
+    if errors:
+        where = ".".join(map(str, errors[0].path)) or "top level"
+        raise SourceError(f"{name}: {where}: {errors[0].message}")
+    for where, value in _leaves(document):
+        if isinstance(value, float) and not math.isfinite(value):
+            raise SourceError(f"{name}: {where}: {value} is not a finite number")
+
+
+def _leaves(node, where=""):
+    """Every value of a document with its dotted path."""
+    if isinstance(node, (dict, list)):
+        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
+            yield from _leaves(value, f"{where}.{key}" if where else f"{key}")
+    else:
+        yield where, node
+
+
+def column_name(axis):
+    """Column header of an axis, unit in brackets if it has one."""
+    return f"{axis['column']} [{axis['unit']}]" if axis["unit"] else axis["column"]
+
+
+def ordinates(series):
+    """The y axes of a series: one, or a list of them."""
+    return series["y"] if isinstance(series["y"], list) else [series["y"]]
+
+
+def _named_axes(series):
+    """All axes of a series, and where each stands in source.yaml."""
+    several = isinstance(series["y"], list)
+    yield "x", series["x"]
+    for place, axis in enumerate(ordinates(series)):
+        yield f"y.{place}" if several else "y", axis
+
+
+def read_series(name, series):
+    """Read one series, checked: `{column: list}` with numbers on its axes, words as labels.
+
+    Of several y axes a cell may be empty, where a curve has no such quantity: it becomes nan.
+
+    Parameters
+    ----------
+    name : str
+    series : dict
+        Its entry in source.yaml, with its `path`.
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    SourceError
+        Naming file, line, column and value.
+    """
+    path, labels = series["path"], series.get("labels", [])
+    axes = {column_name(axis): axis for _, axis in _named_axes(series)}
+    may_be_empty = {column_name(axis) for axis in series["y"]} if len(axes) > 2 else set()
+    header, mark, rows = _table(path, name, series)
+    for column in [*labels, *axes]:
+        if header.count(column) != 1:
+            problem = "is missing" if column not in header else "stands twice"
+            raise SourceError(f"{path}: column '{column}' {problem}; found {', '.join(header)}")
+    if not rows:
+        raise SourceError(f"{path}: no points")
+    columns = {column: [] for column in [*labels, *axes]}
+    for line, row in rows:
+        if len(row) != len(header):
+            raise SourceError(f"{path}, line {line}: {len(row)} cells where {len(header)} belong")
+        for column in columns:
+            cell = row[header.index(column)]
+            where = f"{path}, line {line}, column '{column}'"
+            if column in axes:
+                empty = column in may_be_empty and not cell
+                columns[column].append(
+                    math.nan if empty else _number(cell, mark, axes[column], where)
+                )
+            else:
+                columns[column].append(cell)
+    return columns
+
+
+def _table(path, name, series):
+    """Header of a series, its decimal mark, and its rows with the numbers of their lines."""
+    lines, exported = [], series["kind"] == "awaited"
+    for number, line in enumerate(_lines(path, MOST_LINES), start=1):
+        if "\t" in line:
+            allowed = "commas or semicolons" if exported else "commas"
+            raise SourceError(f"{path}, line {number}: a tab; cells are separated by {allowed}")
+        lines.append(line)
+    between = digitiser_export.separator(lines) if exported else ","
+    reader = csv.reader(lines, delimiter=between, strict=True)
+    try:
+        rows = [(reader.line_num, row) for row in reader]
+        if exported:
+            header = [column_name(series[axis]) for axis in ("x", "y")]
+            return header, *digitiser_export.points(rows, between, name)
+    except csv.Error as error:
+        raise SourceError(f"{path}, line {reader.line_num}: {error}") from None
+    except ValueError as error:
+        raise SourceError(f"{path}, {error}") from None
+    return (rows[0][1] if rows else []), ".", rows[1:]
+
+
+def _number(cell, mark, axis, where):
+    """A decimal number, at most a little outside the range of its axis.
+
+    float() would also take `1_000`, `nan` and digits of other scripts.
+    """
+    text = cell.strip(" ")
+    if not _NUMBERS[mark].fullmatch(text):
+        strange = [unicodedata.name(letter, "unnamed") for letter in text if not letter.isascii()]
+        named = f" ({strange[0].lower()})" if strange else ""
+        raise SourceError(f"{where}: {text!r}{named} is not a decimal number such as -0{mark}05")
+    value = float(text.replace(",", "."))
+    low, high = axis["range"]
+    beyond = OUTSIDE * axis["sigma"]
+    if not low - beyond <= value <= high + beyond:
+        raise SourceError(
+            f"{where}: {text} is outside {low:g} to {high:g} by more than {OUTSIDE} sigmas, "
+            f"{beyond:g}"
+        )
+    return value
+
+
+def _found(source):
+    return [series for series in source.get("series", {}).values() if series["path"]]
+
+
+def _file_name(name, series):
+    return f"{name}.wpd.csv" if series["kind"] == "awaited" else f"{name}.csv"
+
+
+def _file_of(folder, name, series):
+    """Path of a series; None for an awaited one whose export is not there."""
+    path = folder / _file_name(name, series)
+    if series["kind"] != "awaited":
+        if not path.is_file():
+            raise SourceError(f"{path}: missing, and {folder / 'source.yaml'} says it is there")
+        return str(path)
+    if not path.is_file():
+        return None
+    if (series["digitised_by"] or "").strip().lower() in ("", "null", "none", "nobody"):
+        raise SourceError(
+            f"{path}: whose work? Fill series.{name}.digitised_by in {folder / 'source.yaml'} "
+            "(who, when, with what)"
+        )
+    return str(path)

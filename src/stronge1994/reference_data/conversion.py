@@ -1,0 +1,15 @@
+"""Bring the series of one source into one table with its own column names."""
+
+from stronge1994 import csv_tables, reference_data
+
+
+def convert(source, output):
+    """Write every series at hand of a loaded `source`."""
+    found = {
+        name: reference_data.read_series(name, series)
+        for name, series in source["series"].items()
+        if series["path"]
+    }
+    csv_tables.write(output, found, first="series")
+    for name, columns in found.items():
+        print(f"{name}: {len(next(iter(columns.values())))} points")

@@ -1,0 +1,92 @@
+"""Files of the parameter study: NumPy's .npz, every array under its name and unit."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from planarimpact import Regime, models, study
+from planarimpact.ground import checks, files
+from planarimpact.study import OUTPUTS
+
+UNITS = {
+    "incidence": "mu v2(0)",
+    "mass_ratio": "1",
+    "stiffness_ratio": "1",
+    "restitution": "1",
+    "velocity": "mu v2(0)",
+    "peak_friction": "mu F2max",
+    "dissipation": "mu^2 m2 v2(0)^2",
+    "regime": "code",
+}
+
+
+def column(name):
+    """Name of an axis or output in a file, unit in brackets."""
+    return f"{name} [{UNITS[name]}]"
+
+
+def write(path, model, settings, axes, outputs, start=0):
+    """Write the outputs from the point `start` of a grid on, whole or not at all.
+
+    With them: the axes in the order of the dimensions, the model and its settings, and what the
+    codes of the regimes mean.
+    """
+    named = {column(name): value for name, value in (axes | outputs).items()}
+    words = {
+        "axes": [column(name) for name in axes],
+        "model": model,
+        "settings": json.dumps(settings),
+        "start": start,
+        "regimes": [f"{regime.value} {regime.name}" for regime in Regime],
+    }
+    with files.written(path) as partial, open(partial, "wb") as file:
+        np.savez(file, **words, **named)
+
+
+def read(path, *names):
+    """Axes of a study or of a chunk of it, and its outputs or those of some `names`."""
+    with np.load(path) as file:
+        axes = {name: file[column(name)] for name in checks.RULES}
+        return axes, {name: file[column(name)] for name in names or OUTPUTS}
+
+
+def origin(path):
+    """Number of the first point in a file, the model that solved it, and its settings."""
+    with np.load(path) as file:
+        return int(file["start"]), str(file["model"]), json.loads(str(file["settings"]))
+
+
+def solve(chunk, model, settings, grid, path):
+    """Solve the points of a `chunk`, `start-stop`, of a grid into a file."""
+    start, stop = map(int, chunk.split("-"))
+    axes = study.axes_of(grid)
+    outputs = study.solve(models.get(model).rebound, axes, start, stop, **settings)
+    write(path, model, settings, axes, outputs, start)
+    print(f"{stop - start} points of {model}, from {start} on")
+
+
+def gather(chunks, model, settings, grid, path):
+    """Read chunks of a grid, in order, into one file; a chunk of another study is refused.
+
+    Chunks of an earlier grid, which lie beside them, are removed: nothing will read them again.
+    """
+    axes = study.axes_of(grid)
+    outputs = study.gather(axes, (_part(chunk, model, settings, axes) for chunk in chunks))
+    write(path, model, settings, axes, outputs)
+    print(f"{outputs['velocity'].size} points of {model}")
+    current = {Path(chunk) for chunk in chunks}
+    for path in {path for chunk in current for path in chunk.parent.glob("[0-9]*-*.npz")} - current:
+        path.unlink()
+
+
+def _part(path, model, settings, axes):
+    start, *solver = origin(path)
+    found, outputs = read(path)
+    if not all(np.array_equal(found[name], axes[name]) for name in axes):
+        raise checks.InputError(f"{path}: it belongs to another grid")
+    if solver != [model, settings]:
+        raise checks.InputError(
+            f"{path}: solved by {solver[0]} {solver[1]}; allowed is {model} {settings}"
+        )
+    return start, outputs

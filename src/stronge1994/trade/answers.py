@@ -1,0 +1,148 @@
+"""Error against time as tables: every way sorted, and the cheapest to each tolerance."""
+
+import re
+
+from stronge1994 import csv_tables
+
+ERROR, RESTITUTION = "max_velocity [mu v2(0)]", "restitution [1]"
+REFERENCE_ERROR, BUILD_TIME = "reference_error [mu v2(0)]", "build_time [s]"
+BUSY_BUILD = "busy_build [1]"
+TIME = re.compile(r"time_(\d+) \[s\]")
+BUSY = "not known: the machine was busy"
+
+# From hardly a number to the rounding of the exact models; in mu v2(0).
+TOLERANCES = (0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 1e-9)
+
+
+def ordered(rows):
+    """Rows by restitution, the elastic first, then by error, the largest first."""
+    return sorted(rows, key=lambda row: (-float(row[RESTITUTION]), -float(row[ERROR])))
+
+
+def which_model(rows, tolerances=TOLERANCES):
+    """The cheapest way to meet each tolerance, for each restitution and size of batch.
+
+    Parameters
+    ----------
+    rows : sequence of dict of text
+        Of results/curves/trade.csv, with their name under `curve`.
+    tolerances : sequence of float
+        For the largest error of velocity. What the reference itself may be off counts as error.
+
+    Returns
+    -------
+    list of dict
+        For each batch the name, or "none"; its largest error; its time per impact, with that of
+        compilation, if any, spread over the batch. `BUSY` for a name where the cheapest may be one
+        that was timed on a busy machine: it took at least its CPU time, and nothing else took less.
+
+    Examples
+    --------
+    >>> row = {"restitution [1]": "1", "max_velocity [mu v2(0)]": "0.2", "build_time [s]": ""}
+    >>> row |= {"reference_error [mu v2(0)]": "1e-7", "time_10 [s]": "3e-5"}
+    >>> found = which_model([row | {"curve": "lumped, e = 1"}], [0.3, 0.1])
+    >>> [entry["model_10"] for entry in found]
+    ['lumped', 'none']
+    """
+    batches = [int(found[1]) for found in map(TIME.fullmatch, rows[0]) if found]
+    restitutions = sorted({row[RESTITUTION] for row in rows}, key=float, reverse=True)
+    table = []
+    for restitution in restitutions:
+        same = [row for row in rows if row[RESTITUTION] == restitution]
+        for tolerance in tolerances:
+            good = [row for row in same if _known_error(row) <= tolerance]
+            entry = {RESTITUTION: restitution, "tolerance [mu v2(0)]": f"{tolerance:g}"}
+            for batch in batches:
+                entry |= _cheapest(good, batch)
+            table.append(entry)
+    return table
+
+
+def whole_time(row, batch):
+    """Seconds for one of a batch of impacts, with its share of compilation; None if not measured.
+
+    Examples
+    --------
+    >>> whole_time({"time_10 [s]": "0.5", "build_time [s]": "20"}, 10)
+    2.5
+    """
+    time = row[f"time_{batch} [s]"]
+    return float(time) + float(row[BUILD_TIME] or 0) / batch if time else None
+
+
+def _least_time(row, batch):
+    """As `whole_time`, without what a busy machine may have added."""
+    times = {f"time_{batch} [s]": f"busy_{batch} [1]", BUILD_TIME: BUSY_BUILD}
+    freed = {
+        time: float(row[time] or 0) / float(row.get(busy) or 1) for time, busy in times.items()
+    }
+    return whole_time(freed, batch)
+
+
+def warning(rows):
+    """A sentence if the machine was busy while some of the times were taken, else no words.
+
+    Parameters
+    ----------
+    rows : sequence of dict
+        Of results/curves/trade.csv, as texts or numbers.
+
+    Examples
+    --------
+    >>> warning([{"time_1 [s]": 2.0, "busy_1 [1]": 1.9}, {"time_1 [s]": 1.0}])
+    'the machine was busy: 1 of 2 times are up to 1.9 times too long'
+    """
+    cells = [(key, cell) for row in rows for key, cell in row.items() if cell]
+    busy = [float(cell) for key, cell in cells if key.startswith("busy_")]
+    if not busy:
+        return ""
+    count = sum(key == BUILD_TIME or bool(TIME.fullmatch(key)) for key, _ in cells)
+    return (
+        f"the machine was busy: {len(busy)} of {count} times are up to {max(busy):.2g} times too "
+        "long"
+    )
+
+
+def _known_error(row):
+    return float(row[ERROR]) + float(row[REFERENCE_ERROR])
+
+
+def _cheapest(rows, batch):
+    """Cells for one batch."""
+    timed = [row for row in rows if whole_time(row, batch) is not None]
+    keys = f"model_{batch}", f"max_velocity_{batch} [mu v2(0)]", f"whole_time_{batch} [s]"
+    if not timed:
+        return dict(zip(keys, ("none", "", ""), strict=True))
+    best = min(timed, key=lambda row: _least_time(row, batch))
+    name, time = best["curve"].rsplit(", e = ", 1)[0], f"{whole_time(best, batch):.2g}"
+    cells = name, f"{float(best[ERROR]):.2g}", time
+    if time != f"{_least_time(best, batch):.2g}":
+        cells = BUSY, "", ""
+    return dict(zip(keys, cells, strict=True))
+
+
+def front(time, error):
+    """Indices of the Pareto front, from the fastest on: no other is as fast and as near.
+
+    Examples
+    --------
+    >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
+    [1, 2, 0]
+    """
+    found = []
+    for index in sorted(range(len(time)), key=lambda i: (time[i], error[i])):
+        if not found or error[index] < error[found[-1]]:
+            found.append(index)
+    return found
+
+
+def write(curves, table, cheapest):
+    """Read the `curves` of the figure, write both tables; what a crash left goes into both."""
+    rows = csv_tables.read_rows(curves)
+    if "error" in rows[0]:
+        for path in (table, cheapest):
+            csv_tables.write_rows(path, ["error"], [[rows[0]["error"]]])
+        return
+    every = [{"name": row.pop("curve"), **row} for row in ordered(map(dict, rows))]
+    for path, found in ((table, every), (cheapest, which_model(rows))):
+        csv_tables.write_rows(path, list(found[0]), [list(row.values()) for row in found])
