@@ -95,9 +95,10 @@ def test_the_package_is_consistently_typed(mypy):
 
 
 def test_users_profit_from_the_types(mypy, tmp_path):
-    """Examples, as in the README, pass; each wrong call is refused, by the installed package."""
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    examples = re.findall(r"```python\n(.*?)```", readme, flags=re.S)
+    """Examples, as in the READMEs, pass; each wrong call is refused, by the installed package."""
+    readmes = [ROOT / "README.md", ROOT / "src/README.md"]
+    texts = "\n".join(path.read_text(encoding="utf-8") for path in readmes)
+    examples = re.findall(r"```python\n(.*?)```", texts, flags=re.S)
     assert len(examples) >= 4
     examples.append(RIGHT)
     for i, text in enumerate([*examples, WRONG]):
