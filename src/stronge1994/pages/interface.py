@@ -1,6 +1,9 @@
 """The interface of the solver and of the printed formulas, as pages that pdoc makes."""
 
+import inspect
 from pathlib import Path
+from typing import Any
+from unittest import mock
 
 from planarimpact.ground import arrays
 
@@ -26,11 +29,16 @@ def write(folder: str) -> None:
     import pdoc  # here, as the rules ask for `documented` at every start
     import pdoc.render
 
-    plain = pdoc.doc.formatannotation
-    pdoc.doc.formatannotation = lambda annotation: _name(annotation) or plain(annotation)
+    plain = inspect.formatannotation
+
+    def named(annotation: Any, *arguments: Any) -> str:
+        return _name(annotation) or plain(annotation, *arguments)
+
     words = {"docformat": "numpy", "footer_text": "planarimpact", "include_undocumented": False}
     pdoc.render.configure(**words)
-    pdoc.pdoc(*DOCUMENTED, output_directory=Path(folder))
+    # pdoc has no option for how a type is written.
+    with mock.patch("inspect.formatannotation", named):
+        pdoc.pdoc(*DOCUMENTED, output_directory=Path(folder))
 
 
 def _name(annotation: object) -> str | None:
