@@ -2,11 +2,11 @@
 
 import functools
 import hashlib
-import io
 import json
 import modulefinder
 import os
 import re
+from collections.abc import Iterator
 from modulefinder import ModuleFinder
 from pathlib import Path
 from types import CodeType
@@ -81,8 +81,8 @@ def modules(*names: str, cells: str = "") -> list[str]:
         if not (SCRIPTS / f"{name}.py").is_file():
             finder.import_hook(name)
     if cells:
-        finder.load_module("cells", io.BytesIO(cells.encode()), "", ("", "rb", 1))
-    found |= {module.__file__ for module in finder.modules.values() if module.__file__}
+        finder.scan_code(compile(cells, "cells", "exec"), finder.add_module("cells"))
+    found |= {getattr(module, "__file__", None) or "" for module in finder.modules.values()} - {""}
     return sorted(os.path.relpath(file, SRC.parent) for file in found)
 
 
@@ -104,8 +104,8 @@ def modules_of_notebook(name: str) -> list[str]:
 class _Finder(ModuleFinder):
     """Finds what a module imports. Most rules share most modules: each is read once for all."""
 
-    def scan_opcodes(self, code: CodeType) -> list[tuple[str, tuple[Any, ...]]]:
-        return _scanned(code)
+    def scan_opcodes(self, co: CodeType) -> Iterator[tuple[str, tuple[Any, ...]]]:
+        return iter(_scanned(co))
 
 
 @functools.cache
