@@ -9,7 +9,7 @@ thousands of phases.
 
 import numpy as np
 
-from planarimpact.ground import checks
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, ArrayLike, Integers, Numbers
 from planarimpact.ground.results import Event, EventKind, History, Rebound
 from planarimpact.lumped import normal, stick_slip
@@ -141,7 +141,7 @@ def slip_throughout_limit(
     5.79
     """
     _, *groups = checks.impact(0.0, mass_ratio, stiffness_ratio, restitution)
-    return stick_slip.slip_throughout_limit(*groups)[()]
+    return sliding.limit(*groups)[()]
 
 
 @checks.default_errors

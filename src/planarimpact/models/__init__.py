@@ -13,7 +13,7 @@ import numpy as np
 
 from planarimpact import continuum, lumped, rigid
 from planarimpact.continuum import annuli
-from planarimpact.ground import checks
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import Rebound
 from planarimpact.models import laws, timestep
@@ -158,7 +158,7 @@ def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
 
 def _all_impulse(beta: float, zeta2: float, e: float, **settings: float) -> float:
     """All of the normal impulse turns into friction: that of a contact without compliance."""
-    return (1 + e) * beta
+    return sliding.change(beta, e)
 
 
 def _brach_limit(
@@ -167,7 +167,7 @@ def _brach_limit(
     e: float,
     tangential_restitution: float = laws.BRACH_TANGENTIAL_RESTITUTION,
 ) -> float:
-    return (1 + e) * beta / (1 + tangential_restitution)
+    return sliding.change(beta, e) / (1 + tangential_restitution)
 
 
 def _compliant_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
@@ -183,7 +183,7 @@ def _no_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[f
 
 
 def _rigid_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
-    return beta, (1 + e) * beta
+    return beta, sliding.change(beta, e)
 
 
 def _limit_alone(limit: Callable[..., float]) -> Callable[..., tuple[float, ...]]:

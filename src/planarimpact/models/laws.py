@@ -9,7 +9,7 @@ B = (1 + e) beta is the change of velocity of a contact that slides throughout.
 
 import numpy as np
 
-from planarimpact.ground import checks
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans
 from planarimpact.ground.results import Rebound, Regime
 
@@ -71,7 +71,7 @@ def brach(
         tangential_restitution, incidence, mass_ratio, stiffness_ratio, restitution
     )
     x, beta, e, b = (a.reshape(-1) for a in (np.abs(signed), beta, e, b))
-    change = _sliding_change(beta, e)
+    change = sliding.change(beta, e)
     slides = x >= change / (1 + b)
     velocity = np.where(slides, x - change, -b * x)
     return _rebound(signed, velocity, beta, e, slides)
@@ -120,7 +120,7 @@ def smith(
     """
     signed, beta, _, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     x, beta, e = (a.reshape(-1) for a in (np.abs(signed), beta, e))
-    change = _sliding_change(beta, e)
+    change = sliding.change(beta, e)
     slides = x >= change
     s = np.minimum(x / change, 1.0)
     reversed_part = 2 * (1 - s) / (1 + np.sqrt(1 + 4 * s * (1 - s)))
@@ -176,7 +176,7 @@ def bilbao(
     )
     x, beta, e, b = (a.reshape(-1) for a in (np.abs(signed), beta, e, b))
     with np.errstate(divide="ignore", over="ignore"):  # x = 0 or tiny: the exponential is 0
-        exponent = _sliding_change(beta, e) / (1 + b) / x
+        exponent = sliding.change(beta, e) / (1 + b) / x
     # As x less a change of velocity, all digits of x are kept where it is large.
     change = (1 + b) * (x * -np.expm1(-exponent))
     regime = np.where(x > 0, Regime.UNRESOLVED, Regime.STICK).astype(np.uint8)
@@ -190,12 +190,6 @@ def _groups(tangential_restitution: ArrayLike, *impact: ArrayLike) -> tuple[Arra
     )
     groups = dict(zip(checks.RULES, checks.impact(*impact), strict=True))
     return checks.broadcast(**groups, tangential_restitution=b)
-
-
-def _sliding_change(beta: Array, e: Array) -> Array:
-    """B = (1 + e) beta; it may be too large for a number, which is as good as any."""
-    with np.errstate(over="ignore"):
-        return (1 + e) * beta
 
 
 def _rebound(signed: Array, velocity: Array, beta: Array, e: Array, slides: Booleans) -> Rebound:

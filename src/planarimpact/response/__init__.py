@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from planarimpact import models
-from planarimpact.ground import checks, files
+from planarimpact.ground import checks, files, sliding
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.ground.results import Rebound, Regime
 from planarimpact.response import piecewise
@@ -235,7 +235,7 @@ class Response:
             np.clip(found, -size, size, out=found)
         if slides.any():
             e, beta = self.parameters["restitution"], self.parameters["mass_ratio"]
-            np.copyto(found, size - (1 + e) * beta, where=slides)
+            np.copyto(found, sliding.velocity(size, beta, e), where=slides)
         return found
 
     def save(self, path: str | Path) -> None:
