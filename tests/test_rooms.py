@@ -1,7 +1,8 @@
 """The architecture: which room may enter which, and by which door.
 
-A room is a file or a folder of `src/planarimpact` or `src/stronge1994`. It may use its own files and
-the rooms in its line here. pandas, matplotlib and jinja2 may be used only where a line has them.
+A room is a file or a folder of `src/planarimpact` or `src/stronge1994`. It may use its own
+files and the rooms in its line here. pandas, matplotlib and jinja2 may be used only where a line
+has them.
 """
 
 import ast
