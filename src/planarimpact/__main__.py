@@ -168,8 +168,8 @@ def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
         found = response.load(options.response)(x)
     else:
         found = models.rebound(_model(options), x, **_groups(options), **_settings(options))
-    regime = [Regime(code).name for code in found.regime]
-    return _with_units(Rebound, {"incidence": x, **found._asdict(), "regime": regime})
+    named = found._replace(regime=Regime.names(found.regime))
+    return _with_units(Rebound, {"incidence": x, **named._asdict()})
 
 
 def _refuse_replacing(options: argparse.Namespace) -> None:

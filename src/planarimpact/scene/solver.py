@@ -15,7 +15,6 @@ from planarimpact.ground.results import Rebound, Regime
 from planarimpact.scene import choice, columns, motion
 
 BLOCK = 2**17  # rows solved together: bounds the memory
-_REGIMES = [regime.name for regime in Regime]
 
 
 class Solver:
@@ -199,7 +198,7 @@ class Solver:
         return after | {
             "model": pd.Categorical.from_codes(model, models),
             "error [m/s]": error,
-            "regime": pd.Categorical.from_codes(regime, _REGIMES),
+            "regime": pd.Categorical.from_codes(regime, list(Regime.__members__)),
             "incidence": incidence,
             "peak_normal_force [N]": impacts.peak_normal,
             "peak_friction_force [N]": impacts.friction * peak * impacts.peak_normal,
