@@ -38,7 +38,7 @@ REPRODUCTION = {
     "reference_data": "csv_tables",
     "study_files": "planarimpact ground models study",
     "printed": "ground lumped",
-    "curves": "ground bodies rigid lumped continuum noncollinear models response scene pandas"
+    "curves": "planarimpact ground bodies rigid lumped continuum noncollinear models response scene pandas"
     " printed csv_tables",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
