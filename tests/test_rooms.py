@@ -38,8 +38,8 @@ REPRODUCTION = {
     "reference_data": "csv_tables",
     "study_files": "planarimpact ground models study",
     "printed": "ground lumped",
-    "curves": "planarimpact ground bodies rigid lumped continuum noncollinear models response scene pandas"
-    " printed csv_tables",
+    "curves": "planarimpact ground bodies rigid lumped continuum noncollinear models response scene"
+    " pandas printed csv_tables",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
     "judging": "ground curves csv_tables reference_data",

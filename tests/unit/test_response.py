@@ -16,7 +16,6 @@ CASES = [
     ("rigid", FINE, {"restitution": 0.3, "mass_ratio": 2.7}),
     ("laws.smith", FINE, {"restitution": 0.5}),
     ("laws.brach", FINE, {"tangential_restitution": 0.7}),
-    ("laws.bilbao", FINE, {"restitution": 0.5}),
     ("lumped", FINE, {}),
     ("lumped", FINE, {"mass_ratio": 8.0, "stiffness_ratio": 0.1}),
     ("lumped", FINE, {"restitution": 0.5}),
@@ -30,7 +29,7 @@ CASES = [
     ("annuli", 5e-2, {"circles": 4, "steps": 16}),
 ]
 SLIDING = ["rigid", "laws.smith", "laws.brach", "lumped", "continuum"]
-NEVER_SLIDING = ["laws.bilbao", "timestep.linear", "timestep.mindlin", "timestep.mindlin_rescaled"]
+NEVER_SLIDING = ["timestep.linear", "timestep.mindlin", "timestep.mindlin_rescaled"]
 
 
 def compiled(model="lumped", tolerance=COARSE, **parameters):
@@ -321,7 +320,7 @@ def test_settings_are_numbers(value):
 
 
 def test_a_refused_incidence_is_named_by_its_place():
-    law = response.compile("laws.bilbao", incidence_max=8, tolerance=1e-2)
+    law = response.compile("timestep.linear", incidence_max=8, tolerance=1e-2)
     with pytest.raises(InputError, match=r"incidence = 9.0: allowed are .* from -8 to 8"):
         law(9.0)
     with pytest.raises(InputError, match=r"incidence\[1, 0\] = nan: allowed are finite numbers$"):

@@ -82,8 +82,8 @@ def get(name: str) -> Model:
     >>> get("magic")
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, \
-laws.bilbao, lumped, timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, annuli
+    planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, lumped, \
+timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, annuli
     """
     if not isinstance(name, str) or name not in MODELS:
         raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
@@ -178,10 +178,6 @@ def _compliant_kinks(beta: float, zeta2: float, e: float, **settings: float) -> 
     return zeta2, beta, _compliant_limit(beta, zeta2, e)
 
 
-def _no_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
-    return ()
-
-
 def _rigid_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
     return beta, sliding.change(beta, e)
 
@@ -230,17 +226,6 @@ MODELS = {
             "(1989) 133-138",
             _brach_limit,
             _limit_alone(_brach_limit),
-        ),
-        Model(
-            "laws.bilbao",
-            laws.bilbao,
-            {"tangential_restitution": laws.BILBAO_TANGENTIAL_RESTITUTION},
-            "formula",
-            _ANY,
-            _IMPULSES + "; an exponential with a constant to be fitted, our reconstruction",
-            "Bilbao et al. 1989, cited by Stronge 1994 without its formula",
-            None,
-            _no_kinks,
         ),
         Model(
             "lumped",
