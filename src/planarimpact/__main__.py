@@ -432,8 +432,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     scene.add_argument(
         "input",
-        help="the table: a name that ends in .csv, .csv.gz or .parquet, a pipe, or - for standard "
-        "input; pipes are CSV",
+        help="the table: a name that ends in .csv or .csv.gz, a pipe, or - for standard input; "
+        "pipes are CSV",
     )
     scene.add_argument(
         "output",
