@@ -43,29 +43,8 @@ def velocity(phase: ArrayLike) -> Array:
 
 
 @checks.default_errors
-def pace(phase: ArrayLike) -> Array:
-    """Time for a unit of phase, dt/dphase.
-
-    Parameters
-    ----------
-    phase : array_like
-        0 to pi.
-
-    Returns
-    -------
-    ndarray of float64 or float
-
-    Examples
-    --------
-    >>> round(float(pace(np.pi / 2)), 9)  # 2 sqrt(2/5)
-    1.264911064
-    """
-    return state(phase)[1]
-
-
-@checks.default_errors
 def state(phase: ArrayLike) -> tuple[Array, Array, Array]:
-    """Radius of contact, `pace` and `velocity` at once.
+    """Radius of contact, time for a unit of phase dt/dphase, and `velocity` at once.
 
     Parameters
     ----------
@@ -78,7 +57,7 @@ def state(phase: ArrayLike) -> tuple[Array, Array, Array]:
 
     Examples
     --------
-    >>> [round(float(a), 9) for a in state(np.pi / 2)]
+    >>> [round(float(a), 9) for a in state(np.pi / 2)]  # the pace is 2 sqrt(2/5)
     [1.0, 1.264911064, 0.0]
     """
     phase = np.asarray(phase, dtype=float)

@@ -6,7 +6,7 @@ configuration it never turns round. Light and dotted curves of Figs 5, 7 and 9.
 
 import numpy as np
 
-from planarimpact.ground import checks
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import Rebound, Regime
 
@@ -53,7 +53,7 @@ def rebound(
     x, beta, e = (a.reshape(-1) for a in (np.abs(signed), beta, e))
     impulse_to_halt = x / beta
     slides = impulse_to_halt >= 1 + e
-    final = np.where(slides, x - (1 + e) * beta, 0.0)
+    final = np.where(slides, sliding.velocity(x, beta, e), 0.0)
     compressed = np.minimum(impulse_to_halt, 1.0)
     peak = np.sqrt(compressed * (2 - compressed))
     halted = np.where(x > 0, Regime.SLIP_STICK, Regime.STICK)

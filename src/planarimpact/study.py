@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact import continuum
 from planarimpact.ground import checks
 from planarimpact.ground.results import Rebound
 
@@ -161,7 +160,7 @@ def solve(
             found = rebound(**groups, **settings)
         except (checks.InputError, checks.ConvergenceError) as error:
             error.args = (f"points {first} to {last} of the grid: {error}",)
-            if isinstance(error, continuum.Unsolved):
+            if isinstance(error, checks.Unsolved):
                 error.impacts = first + error.impacts
             raise
         for name, field in fields.items():

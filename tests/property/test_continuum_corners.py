@@ -26,11 +26,11 @@ def plain(x, beta, zeta2, steps):
     slid = np.ones(x.size, bool)
     for n in range(steps):
         for phase in ((n + 0.25) * step, (n + 0.75) * step):
-            u = u + step / 2 * hertz.pace(phase) * w / zeta2
+            u = u + step / 2 * hertz.state(phase)[1] * w / zeta2
             if phase < (n + 0.5) * step:
                 middle = (n + 0.5) * step
                 force = row.move(np.full(x.size, np.sin(middle)), u)
-                w = w - step * 1.25 * beta * hertz.pace(middle) * force
+                w = w - step * 1.25 * beta * hertz.state(middle)[1] * force
         peak = np.maximum(peak, np.abs(force))
         gross = row.stick_radius == 0
         slips += gross & ~slid

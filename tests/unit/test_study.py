@@ -343,6 +343,6 @@ def test_a_map_names_a_regime_where_there_is_room_and_draws_a_boundary_once():
     regime[:1] = Regime.STICK  # the edge of the grid: neither
     panel = map_of(np.ones((40, 40)), regime)
     assert (panel.get_xlabel(), panel.get_ylabel()) == (house_style.INCIDENCE, "restitution $e$")
-    assert [text.get_text() for text in panel.texts] == ["stick-\nslip", "slip-\nthroughout"]
+    assert [text.get_text() for text in panel.texts] == ["stick-\nslip", "slip\nthroughout"]
     paths = [path for lines in panel.collections[1:] for path in lines.get_paths()]
     assert [sorted(set(path.vertices[:, 0])) for path in paths] == [[19.5], [21.5]]

@@ -34,15 +34,12 @@ from planarimpact.bodies.quantities import (
     Motion,
     OutOfRange,
     fields,
-    finite,
     in_range,
-    not_negative,
-    positive,
     quietly,
 )
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.checks import checked
+from planarimpact.ground.checks import checked, finite, not_negative, positive
 
 __all__ = [
     "HALF_SPACE",

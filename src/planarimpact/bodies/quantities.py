@@ -8,7 +8,7 @@ import numpy as np
 
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Numbers
-from planarimpact.ground.checks import InputError, checked
+from planarimpact.ground.checks import InputError, checked, finite, not_negative, positive
 
 
 class OutOfRange(InputError):
@@ -23,9 +23,6 @@ class OutOfRange(InputError):
         return type(self), (str(self), self.where)
 
 
-finite = partial(checked, allowed="finite numbers")
-not_negative = partial(checked, allowed="finite numbers from 0", low=0)
-positive = partial(checked, allowed="finite numbers above 0", low=0, open_low=True)
 positive_or_infinite = partial(
     checked, allowed="numbers above 0, or inf", low=0, open_low=True, infinite=True
 )

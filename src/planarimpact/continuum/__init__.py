@@ -12,10 +12,11 @@ it impacts that slide throughout.
 
 import numpy as np
 
-from planarimpact import hertz, lumped
+from planarimpact import hertz
 from planarimpact.continuum import tangential_motion
-from planarimpact.ground import checks
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.ground.checks import Unsolved
 from planarimpact.ground.results import ContinuumHistory, Rebound, Regime
 
 FIRST_STEPS = 16
@@ -29,24 +30,6 @@ BEST_ORDER = 4  # power of the steps with which an estimated error falls at best
 UNSURE = 2  # changes by the last doubling, within which a gross slip may yet come or go
 SECTIONS, GOLDEN = 24, 0.381966  # of the search for the peak: to 1e-5 of a step
 CELLS = 2**20  # steps times impacts solved together: bounds the memory to some 100 MB
-
-
-class Unsolved(checks.ConvergenceError):
-    """Some impacts of many have no answer within the tolerance.
-
-    Attributes
-    ----------
-    impacts : ndarray of int
-        Their indices in the flattened arguments.
-    """
-
-    def __init__(self, message: str, impacts: Integers) -> None:
-        super().__init__(message)
-        self.impacts = impacts
-
-    def __reduce__(self) -> tuple[type["Unsolved"], tuple[str, Integers]]:
-        """Pickle it by what it is made of: processes hand their errors on so."""
-        return type(self), (str(self), self.impacts)
 
 
 @checks.default_errors
@@ -226,7 +209,7 @@ def history(
         raise checks.InputError(f"shape = {signed.shape}: one contact takes scalars")
     x, beta, zeta2 = (a.reshape(1) for a in (np.abs(signed), beta, zeta2))
     slid = tangential_motion.gross_slip(x, beta, zeta2)
-    if x[0] < lumped.slip_throughout_limit(beta[0], zeta2[0]):
+    if x[0] < sliding.limit(beta[0], zeta2[0], 1.0):
         stuck = _settled_path(x, beta, zeta2, tolerance)
         slid = [np.concatenate([a[:-1], b]) for a, b in zip(slid, stuck, strict=True)]
     phase, friction, velocity, stick_radius = slid
@@ -248,8 +231,8 @@ def _at_limits(
 
     Velocity, impulse of friction, peak friction, regime, reversals.
     """
-    slides = x >= lumped.slip_throughout_limit(beta, zeta2)
-    velocity = np.where(slides, x - 2 * beta, 0.0)
+    slides = x >= sliding.limit(beta, zeta2, 1.0)
+    velocity = np.where(slides, sliding.velocity(x, beta, 1.0), 0.0)
     regime = np.where(x > 0, _UNSOLVED, Regime.STICK).astype(np.uint8)
     regime[slides] = Regime.SLIP_THROUGHOUT
     full = np.where(slides, 1.0, 0.0)

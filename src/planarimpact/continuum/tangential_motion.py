@@ -11,8 +11,9 @@ units these are: velocity mu |v2(0)|, force mu times the largest normal force, r
 
 import numpy as np
 
-from planarimpact import hertz, lumped
+from planarimpact import hertz
 from planarimpact.continuum.micro_slip import SpringRow
+from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array
 
 
@@ -63,7 +64,7 @@ def gross_slip(x: Array, beta: Array, zeta2: Array) -> list[Array]:
     1.0
     """
     end = np.full(1, np.pi)
-    if x[0] < lumped.slip_throughout_limit(beta[0], zeta2[0]):
+    if x[0] < sliding.limit(beta[0], zeta2[0], 1.0):
         end, _ = first_stick(x, beta, zeta2)
     phase = np.linspace(0.0, end[0], 129 if end[0] > 0 else 1)
     friction = np.sin(phase) ** 3 * (x[0] > 0)

@@ -3,12 +3,13 @@
 import math
 import reprlib
 from collections.abc import Collection, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
+from planarimpact.ground.arrays import Array, ArrayLike, Integers, Numbers
 
 # Twice as much can still be represented.
 LARGEST = 8e307
@@ -36,6 +37,26 @@ class ConvergenceError(ArithmeticError):
     """A numerical method that did not reach what was asked of it; says how far it came."""
 
     __module__ = "planarimpact"
+
+
+class Unsolved(ConvergenceError):
+    """Some impacts of many have no answer within the tolerance.
+
+    Attributes
+    ----------
+    impacts : ndarray of int
+        Their indices in the flattened arguments.
+    """
+
+    __module__ = "planarimpact.continuum"
+
+    def __init__(self, message: str, impacts: Integers) -> None:
+        super().__init__(message)
+        self.impacts = impacts
+
+    def __reduce__(self) -> tuple[type["Unsolved"], tuple[str, Integers]]:
+        """Pickle it by its arguments, so that another process can raise it again."""
+        return type(self), (str(self), self.impacts)
 
 
 def brief(value: object) -> str:
@@ -144,6 +165,11 @@ def _has_other(value: object) -> bool:
         unclear = {kind for kind in kinds if kind is bool or not issubclass(kind, _NUMBERS)}
         return bool(unclear) and any(_has_other(x) for x in value if type(x) in unclear)
     return isinstance(value, bool) or getattr(getattr(value, "dtype", None), "kind", "") == "b"
+
+
+finite = partial(checked, allowed="finite numbers")
+not_negative = partial(checked, allowed="finite numbers from 0", low=0)
+positive = partial(checked, allowed="finite numbers above 0", low=0, open_low=True)
 
 
 def incidence(value: ArrayLike) -> Array:

@@ -15,10 +15,10 @@ The root is searched only where it is alone:
 
 import numpy as np
 
+from planarimpact.ground.angles import HALF_PI, sin_cos
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.checks import ConvergenceError
 
-HALF_PI = np.pi / 2
 # The root finder is cubic: after a step of this share of the bracket the root is at rounding.
 LAST_STEP = 1e-6
 # After some turns every other one halves the bracket: 40 halvings leave LAST_STEP^2 of it.
@@ -28,19 +28,6 @@ MOST_TURNS = 100
 SMALLEST = float(np.finfo(float).smallest_subnormal)
 # Beyond it rounding leaves the phase of an oscillation open.
 LARGEST_PHASE = 1e15
-
-
-def sin_cos(angle: Array) -> tuple[Array, Array]:
-    """Sine and cosine from one tangent, the cheapest function of the three.
-
-    Examples
-    --------
-    >>> [round(float(value), 12) for value in sin_cos(np.pi / 6)]
-    [0.5, 0.866025403784]
-    """
-    tangent = np.tan(angle / 2)
-    double = 2 / (1 + tangent * tangent)
-    return tangent * double, double - 1
 
 
 def in_restitution(

@@ -22,12 +22,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from planarimpact.ground import sliding
+from planarimpact.ground.angles import HALF_PI, sin_cos
 from planarimpact.ground.arrays import Array, Integers, Numbers
 from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import Regime
 from planarimpact.lumped import normal, slip_onset
 from planarimpact.lumped.extremes import many_phases
-from planarimpact.lumped.slip_onset import HALF_PI, sin_cos
 
 # Impacts that still alternate after so many sticks go on by `many_phases`.
 STICKS_BEFORE_SKIP = 16
@@ -86,21 +87,6 @@ class Phase(NamedTuple):
     theta: Numbers = 0.0
 
 
-def restick_coefficient(beta: Array, zeta2: Array, e: Array) -> Array:
-    """K = e beta - zeta^2/e where positive, else 0.
-
-    Slip in restitution has the velocity C - K cos(eta), C constant; it can end only if K > 0.
-    """
-    excess = e * (e * beta) - zeta2
-    fast = excess > 0
-    return np.where(fast, excess, 0.0) / np.where(fast, e, 1.0)
-
-
-def slip_throughout_limit(beta: Array, zeta2: Array, e: Array) -> Array:
-    """Incidence from which slip never ends."""
-    return np.maximum(zeta2, beta + restick_coefficient(beta, zeta2, e))
-
-
 def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
     """Outcome of impacts.
 
@@ -126,11 +112,13 @@ def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
     (1.0, 9.0)
     """
     x, beta, zeta2, e = impacts
-    impulse = 1 + e
-    change = impulse * beta
-    regime = np.full(x.shape, Regime.SLIP_THROUGHOUT, np.uint8)
-    outcome = Outcome(x - change, np.ones_like(x), impulse * (x - change / 2), regime)
-    sticks = x < slip_throughout_limit(beta, zeta2, e)
+    outcome = Outcome(
+        sliding.velocity(x, beta, e),
+        np.ones_like(x),
+        sliding.work(x, beta, e),
+        np.full(x.shape, Regime.SLIP_THROUGHOUT, np.uint8),
+    )
+    sticks = x < sliding.limit(beta, zeta2, e)
     slips_to_restitution = (x > beta) & (x > zeta2)
     early = np.flatnonzero(sticks & ~slips_to_restitution)
     late = np.flatnonzero(sticks & slips_to_restitution)
@@ -241,7 +229,7 @@ def _break_in_compression(
 def _after_late_slip(lanes: Integers, impacts: Impacts, outcome: Outcome) -> Stick:
     """Stick after a first slip that ended in restitution, at cos(eta) = (x - beta)/K."""
     x, beta, zeta2, e = impacts
-    reach = restick_coefficient(beta, zeta2, e)
+    reach = sliding.restick_coefficient(beta, zeta2, e)
     slope, gap = (beta - x) / reach, (reach + (beta - x)) / reach
     work = x - zeta2 + (x - beta) + e * (beta - x) * slope
     outcome.dissipation[lanes] = work / 2

@@ -13,7 +13,7 @@ import numpy as np
 
 from planarimpact import continuum, lumped, rigid
 from planarimpact.continuum import annuli
-from planarimpact.ground import checks
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import Rebound
 from planarimpact.models import laws, timestep
@@ -82,8 +82,8 @@ def get(name: str) -> Model:
     >>> get("magic")
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, \
-laws.bilbao, lumped, timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, annuli
+    planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, lumped, \
+timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, annuli
     """
     if not isinstance(name, str) or name not in MODELS:
         raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
@@ -158,7 +158,7 @@ def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
 
 def _all_impulse(beta: float, zeta2: float, e: float, **settings: float) -> float:
     """All of the normal impulse turns into friction: that of a contact without compliance."""
-    return (1 + e) * beta
+    return sliding.change(beta, e)
 
 
 def _brach_limit(
@@ -167,7 +167,7 @@ def _brach_limit(
     e: float,
     tangential_restitution: float = laws.BRACH_TANGENTIAL_RESTITUTION,
 ) -> float:
-    return (1 + e) * beta / (1 + tangential_restitution)
+    return sliding.change(beta, e) / (1 + tangential_restitution)
 
 
 def _compliant_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
@@ -178,12 +178,8 @@ def _compliant_kinks(beta: float, zeta2: float, e: float, **settings: float) -> 
     return zeta2, beta, _compliant_limit(beta, zeta2, e)
 
 
-def _no_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
-    return ()
-
-
 def _rigid_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
-    return beta, (1 + e) * beta
+    return beta, sliding.change(beta, e)
 
 
 def _limit_alone(limit: Callable[..., float]) -> Callable[..., tuple[float, ...]]:
@@ -230,17 +226,6 @@ MODELS = {
             "(1989) 133-138",
             _brach_limit,
             _limit_alone(_brach_limit),
-        ),
-        Model(
-            "laws.bilbao",
-            laws.bilbao,
-            {"tangential_restitution": laws.BILBAO_TANGENTIAL_RESTITUTION},
-            "formula",
-            _ANY,
-            _IMPULSES + "; an exponential with a constant to be fitted, our reconstruction",
-            "Bilbao et al. 1989, cited by Stronge 1994 without its formula",
-            None,
-            _no_kinks,
         ),
         Model(
             "lumped",

@@ -19,7 +19,7 @@ import numpy as np
 
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.ground.checks import ConvergenceError, InputError, checked
+from planarimpact.ground.checks import ConvergenceError, InputError, checked, finite, positive
 from planarimpact.ground.results import Regime
 from planarimpact.noncollinear.configuration import (
     InverseMass,
@@ -301,8 +301,8 @@ def kinetic_energy(tangential: ArrayLike, normal: ArrayLike, inverse_mass: Inver
     """
     mass = fields_of(inverse_mass)
     v1, v2, a, c, b = checks.broadcast(
-        tangential=checked("tangential", tangential, "finite numbers"),
-        normal=checked("normal", normal, "finite numbers"),
+        tangential=finite("tangential", tangential),
+        normal=finite("normal", normal),
         **mass,
     )
     with np.errstate(over="ignore"):
@@ -327,7 +327,7 @@ def _checked(
         friction,
         restitution,
         stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
-        stiffness=checked("stiffness", stiffness, "finite numbers above 0", 0, open_low=True),
+        stiffness=positive("stiffness", stiffness),
     )
 
 

@@ -14,10 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.bodies import Motion
-from planarimpact.bodies.quantities import finite, positive
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Numbers
-from planarimpact.ground.checks import InputError, checked
+from planarimpact.ground.checks import InputError, checked, finite, not_negative, positive
 
 
 class InverseMass(NamedTuple):
@@ -142,7 +141,7 @@ def checked_impact(
     return checks.broadcast(
         tangential=finite("tangential", tangential),
         normal=checked("normal", normal, "finite numbers above 0 (approach)", 0, open_low=True),
-        friction=checked("friction", friction, "finite numbers from 0", 0),
+        friction=not_negative("friction", friction),
         restitution=checks.restitution(restitution),
         **others,
         **mass,

@@ -20,8 +20,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from planarimpact.ground.angles import sin_cos
 from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.lumped.slip_onset import sin_cos
 from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
 
 NOISE = 1e-15

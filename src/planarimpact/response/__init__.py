@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from planarimpact import models
-from planarimpact.ground import checks, files
+from planarimpact.ground import checks, files, sliding
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.ground.results import Rebound, Regime
 from planarimpact.response import piecewise
@@ -175,46 +175,6 @@ class Response:
             np.multiply(found, np.copysign(1.0, flat[part]), out=velocity[part])
         return velocity.reshape(x.shape)[()]
 
-    def peak_friction(self, incidence: ArrayLike) -> Array:
-        """Peak friction alone.
-
-        Parameters
-        ----------
-        incidence : array_like
-            As for a call, with the same refusals.
-
-        Returns
-        -------
-        ndarray of float64 or float
-            In mu times the largest normal force.
-
-        Examples
-        --------
-        >>> float(compile("lumped", incidence_max=9, tolerance=1e-9).peak_friction(4.0))
-        1.0
-        """
-        return self(incidence).peak_friction
-
-    def dissipation(self, incidence: ArrayLike) -> Array:
-        """Work of friction alone.
-
-        Parameters
-        ----------
-        incidence : array_like
-            As for a call, with the same refusals.
-
-        Returns
-        -------
-        ndarray of float64 or float
-            In mu^2 m2 v2(0)^2.
-
-        Examples
-        --------
-        >>> float(compile("lumped", incidence_max=9, tolerance=1e-9).dissipation(8.0))
-        9.0
-        """
-        return self(incidence).dissipation
-
     def _parts(self, x: Array) -> Iterator[tuple[slice, Array, Booleans, Integers, Array]]:
         """Parts of the impacts: slice, |x|, whether it slides, piece and its variable."""
         limit, flat = min(self.incidence_max, np.finfo(float).max), x.reshape(-1)
@@ -235,7 +195,7 @@ class Response:
             np.clip(found, -size, size, out=found)
         if slides.any():
             e, beta = self.parameters["restitution"], self.parameters["mass_ratio"]
-            np.copyto(found, size - (1 + e) * beta, where=slides)
+            np.copyto(found, sliding.velocity(size, beta, e), where=slides)
         return found
 
     def save(self, path: str | Path) -> None:

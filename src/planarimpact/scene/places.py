@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from planarimpact.ground.checks import InputError
 
-CSV, GZIP, PARQUET, JSON = ".csv", ".csv.gz", ".parquet", ".json"
+CSV, GZIP, JSON = ".csv", ".csv.gz", ".json"
 
 
 class Place(NamedTuple):
@@ -45,10 +45,10 @@ def source(path: str | Path) -> Place:
     >>> source("shots.xlsx")
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: shots.xlsx: allowed are names that end in .csv, .csv.gz or \
-.parquet, pipes, and - for standard input
+    planarimpact.InputError: shots.xlsx: allowed are names that end in .csv or .csv.gz, pipes, \
+and - for standard input
     """
-    return _place(path, ("-", "/dev/stdin"), 0, "standard input", (CSV, GZIP, PARQUET))
+    return _place(path, ("-", "/dev/stdin"), 0, "standard input", (CSV, GZIP))
 
 
 def target(path: str | Path) -> Place:
@@ -72,7 +72,7 @@ def target(path: str | Path) -> Place:
     >>> target("after.json").kind, target("-").stream
     ('.json', True)
     """
-    return _place(path, ("-", "/dev/stdout"), 1, "standard output", (CSV, GZIP, PARQUET, JSON))
+    return _place(path, ("-", "/dev/stdout"), 1, "standard output", (CSV, GZIP, JSON))
 
 
 def beside(target: Place) -> Place | None:
@@ -99,8 +99,6 @@ def _place(
     if flows:
         return Place(name, name, CSV, stream=True)
     if kind:
-        if kind == PARQUET:
-            _refuse_without_pyarrow(name)
         return Place(name, name, kind, stream=False)
     endings = f"{', '.join(kinds[:-1])} or {kinds[-1]}"
     raise InputError(f"{name}: allowed are names that end in {endings}, pipes, and - for {words}")
@@ -112,12 +110,3 @@ def _is_open(path: str | Path, number: int) -> bool:
         return os.path.samestat(os.stat(path), os.fstat(number))
     except OSError:  # either is not there
         return False
-
-
-def _refuse_without_pyarrow(name: str) -> None:
-    try:
-        import pyarrow  # noqa: F401 (whether it is there)
-    except ImportError:
-        raise InputError(
-            f"{name}: Parquet needs pyarrow: pip install pyarrow, or use CSV"
-        ) from None

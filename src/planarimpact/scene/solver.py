@@ -7,15 +7,14 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from planarimpact import bodies, continuum, lumped
-from planarimpact.ground import checks
+from planarimpact import bodies
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers, Numbers
 from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import Rebound, Regime
 from planarimpact.scene import choice, columns, motion
 
 BLOCK = 2**17  # rows solved together: bounds the memory
-_REGIMES = [regime.name for regime in Regime]
 
 
 class Solver:
@@ -133,8 +132,8 @@ class Solver:
         unit = impacts.friction * impacts.v2
         groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
         with np.errstate(over="ignore"):  # where friction stops any velocity that is a number
-            slides = impacts.v1 >= lumped.slip_throughout_limit(*groups) * unit
-            lost = (1 + impacts.restitution) * impacts.mass_ratio * unit
+            slides = impacts.v1 >= sliding.limit(*groups) * unit
+            lost = sliding.change(impacts.mass_ratio, impacts.restitution) * unit
         unsolved: dict[int, str] = {}
         velocity = impacts.v1 - np.where(slides, lost, 0.0)
         peak, error = np.ones(unit.size), np.zeros(unit.size)
@@ -172,7 +171,7 @@ class Solver:
                 if rung.way == "compiled":  # some of its impacts may have an answer
                     rung = rung._replace(way="solved")
                     continue
-                lost = error.impacts if isinstance(error, continuum.Unsolved) else slice(None)
+                lost = error.impacts if isinstance(error, checks.Unsolved) else slice(None)
                 without |= dict.fromkeys(left[lost].tolist(), str(error))
                 left = np.delete(left, lost)
 
@@ -199,7 +198,7 @@ class Solver:
         return after | {
             "model": pd.Categorical.from_codes(model, models),
             "error [m/s]": error,
-            "regime": pd.Categorical.from_codes(regime, _REGIMES),
+            "regime": pd.Categorical.from_codes(regime, list(Regime.__members__)),
             "incidence": incidence,
             "peak_normal_force [N]": impacts.peak_normal,
             "peak_friction_force [N]": impacts.friction * peak * impacts.peak_normal,

@@ -7,10 +7,10 @@ import numpy as np
 
 from planarimpact import continuum, lumped, rigid
 from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Rebound
+from planarimpact.ground.results import Rebound, Regime
 from stronge1994.curves import Columns, Curves
 from stronge1994.curves import as_printed as printed_curves
-from stronge1994.curves.sampling import NO_NODES, SIGNS, Nodes, regime_names, shifted, vertices
+from stronge1994.curves.sampling import NO_NODES, SIGNS, Nodes, shifted, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
 
@@ -127,7 +127,7 @@ def _velocity(x: Array, rebound: Rebound) -> Columns:
 def _sphere(x: Array, rebound: Rebound, mass_ratio: float) -> Columns:
     return {
         **_velocity(x, rebound),
-        "regime": regime_names(rebound.regime),
+        "regime": Regime.names(rebound.regime),
         "spin [mu v2(0)/R]": -(mass_ratio - 1) / mass_ratio * (x - rebound.velocity),
     }
 

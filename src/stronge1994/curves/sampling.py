@@ -6,9 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike, Integers
-from planarimpact.ground.results import Regime
-from stronge1994.curves import Column
+from planarimpact.ground.arrays import Array, ArrayLike
 
 # Points of reference tables, through which curves must pass: `{axis without its unit: points}`.
 Nodes: TypeAlias = Mapping[str, ArrayLike]
@@ -52,17 +50,6 @@ def name(symbol: str, value: float) -> str:
     'e = 0.5'
     """
     return f"{symbol} = {value:g}"
-
-
-def regime_names(codes: Integers) -> Column:
-    """Names of an array of `Regime` codes.
-
-    Examples
-    --------
-    >>> regime_names(np.array([2, 4])).tolist()
-    ['STICK_SLIP', 'SLIP_THROUGHOUT']
-    """
-    return np.array([regime.name for regime in Regime])[codes]
 
 
 def shifted(curve: str, parameter: str, sign: int) -> str:

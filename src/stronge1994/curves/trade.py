@@ -77,8 +77,8 @@ def curves(
     Examples
     --------
     >>> named = curves(3.5, 1.21, [0, 8], 9, [0.5], 1e-3, [16], [4], [1e-2], [1], 1.0)
-    >>> list(named)[3:6]
-    ['laws.bilbao, e = 0.5', 'lumped, e = 0.5', 'timestep.linear, 16 steps, e = 0.5']
+    >>> list(named)[2:5]
+    ['laws.brach, e = 0.5', 'lumped, e = 0.5', 'timestep.linear, 16 steps, e = 0.5']
     >>> float(named["lumped, e = 0.5"]["max_velocity [mu v2(0)]"][0])
     0.0
     """

@@ -4,18 +4,11 @@ import math
 
 import numpy as np
 
+from planarimpact import Regime
 from stronge1994.curves.fig5 import contact_velocities
 from stronge1994.drawings import house_style
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-REGIMES = {
-    "STICK": "stick",
-    "SLIP_STICK": "slip - stick",
-    "STICK_SLIP": "initial stick, terminal slip",
-    "SLIP_STICK_SLIP": "slip - stick - slip",
-    "SLIP_THROUGHOUT": "slip throughout",
-    "MULTIPLE": "repeated stick",
-}
 RUBBER = {"color": house_style.GREEN, "linestyle": "-", "linewidth": 1.0}
 SOFT_CONTINUUM = {"color": house_style.GREEN, "linestyle": house_style.DASHES[1], "linewidth": 1.0}
 EXPERIMENT = {"color": house_style.BLUE, "linestyle": "-", "linewidth": 0.7}
@@ -113,7 +106,7 @@ def _draw_regimes(axes, curve, right):
     bounds = [*x[starts], right]
     # Normal impact alone may stick throughout: a point has no bracket.
     spans = [
-        (start, end, REGIMES[regime[index]])
+        (start, end, Regime[regime[index]].words)
         for start, end, index in zip(bounds[:-1], bounds[1:], starts, strict=True)
         if end - start > 0.02 * right
     ]

@@ -3,8 +3,9 @@
 import numpy as np
 from matplotlib.patches import Arc, Patch
 
+from planarimpact import Regime
 from stronge1994.drawings import house_style
-from stronge1994.drawings.superball import SURFACE, WORDS
+from stronge1994.drawings.superball import SURFACE
 
 TILT, TIME = "tilt [deg]", "time [1/Omega]"
 ENERGY, JAMS = "kinetic_energy [K0]", "jams [1]"
@@ -86,9 +87,9 @@ def _draw_ribbon(axes, compliant, rigid, letters):
         frame = {"facecolor": shade, "edgecolor": house_style.BLACK, "linewidth": 0.6}
         axes.barh(0.5, end - start, 0.8, start, clip_on=False, **frame)
         # A bar too short for its word speaks by its shade.
-        if (end - start) / np.ptp(tilt) * letters > len(WORDS[regime]):
+        if (end - start) / np.ptp(tilt) * letters > len(words := Regime[regime].words):
             place = {"ha": "center", "va": "center_baseline", "fontsize": house_style.NOTE - 1}
-            axes.text((start + end) / 2, 0.5, WORDS[regime], **place)
+            axes.text((start + end) / 2, 0.5, words, **place)
     for row, curve in ((1.5, compliant), (2.5, rigid)):
         for start, end, jams in _spans(tilt, curve[JAMS]):
             if jams:

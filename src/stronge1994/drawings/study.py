@@ -121,7 +121,7 @@ def _draw_regimes(panel, grid, codes):
         inside = codes == code
         if _room(inside) >= ROOM and (inside.all() or len(regimes) > 1):
             row, column = _middle(inside)
-            name = Regime(code).name.lower().replace("_", "-\n", 2).replace("_", "-")
+            name = Regime(code).words.replace(" - ", "-\n").replace(" ", "\n")
             place = {"ha": "center", "va": "center", "fontsize": house_style.NOTE, "bbox": PLATE}
             panel.text(grid[0][column], grid[1][row], name, **place)
         # Each line once, from the regime with the smaller code: two that overlap lose their dashes.

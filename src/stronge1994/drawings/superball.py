@@ -3,18 +3,11 @@
 import numpy as np
 from matplotlib.patches import Circle, FancyArrowPatch
 
+from planarimpact import Regime
 from stronge1994.drawings import house_style
 
 PLACE, HEIGHT, SPIN = "place [m]", "height [m]", "spin_y [rad/s]"
 SURFACE = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
-WORDS = {
-    "STICK": "sticks",
-    "SLIP_STICK": "slips, sticks",
-    "STICK_SLIP": "sticks, slips",
-    "SLIP_STICK_SLIP": "slips, sticks, slips",
-    "SLIP_THROUGHOUT": "slips throughout",
-    "MULTIPLE": "sticks more than once",
-}
 
 
 def draw(curves, settings, points):
@@ -38,7 +31,7 @@ def draw(curves, settings, points):
         axes.text(
             np.clip(x, left + 0.25 * gap, right - 0.25 * gap),
             (-0.06 if y < gap / 2 else 1.06) * gap,
-            WORDS[regime],
+            Regime[regime].words,
             ha="center",
             va="center",
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5},

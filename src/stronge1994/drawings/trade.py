@@ -47,7 +47,6 @@ FAMILIES = {
     "rigid": FORMULA._replace(place=LOWER_LEFT),
     "laws.smith": FORMULA._replace(place=LEFT),
     "laws.brach": FORMULA._replace(place=UPPER_RIGHT),
-    "laws.bilbao": FORMULA._replace(place=UPPER_RIGHT),
     "lumped": Family("lumped, exact", "o", 3.5, house_style.BLACK, True, ABOVE),
     "timestep.linear": Family("linear spring", "s", 6, house_style.BLUE, False, BELOW),
     "timestep.mindlin": Family("Mindlin", "^", 5, house_style.VERMILLION, True, BELOW),
@@ -59,7 +58,7 @@ FAMILIES = {
     "response of lumped": Family("of lumped", "*", 7, house_style.BLACK, False, UPPER_RIGHT),
     "response of continuum": Family("of continuum", "*", 7, house_style.GREEN, True, UPPER_RIGHT),
 }
-NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach", "laws.bilbao": "Bilbao"}
+NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
 NAMES |= {"pooltool": "pooltool"}
 # One line each against the size of batch: what is left out runs beside one of them.
 GROWTH = {

@@ -341,8 +341,18 @@ def restitution_change_falls() -> Finding:
 def other_laws() -> Finding:
     """Largest part of full friction that the laws of Bilbao, Smith and Brach lack at x = 1e4."""
     gaps = []
-    for law in (laws.bilbao, laws.smith, laws.brach):
-        for e in contact.RESTITUTIONS:
-            velocity = law(1e4, *contact.SPHERE, e).velocity
+    for e in contact.RESTITUTIONS:
+        others = [law(1e4, *contact.SPHERE, e).velocity for law in (laws.smith, laws.brach)]
+        for velocity in (_bilbao(1e4, contact.MASS_RATIO, e), *others):
             gaps.append((1e4 - velocity) / contact.MASS_RATIO / (1 + e) - 1)
     return Finding(largest(gaps))
+
+
+def _bilbao(x: float, mass_ratio: float, e: float) -> Array:
+    """Velocity w = x - 2 x (1 - exp(-B/(2 x))), B = (1 + e) beta: our reconstruction.
+
+    Stronge cites Bilbao et al. (1989) for a velocity ratio that is exponential in mu v2/v1, and
+    prints no formula. This one is exponential in it and has both limits right: w = -x for small x,
+    w = x - B for large x.
+    """
+    return x - 2 * (x * -np.expm1(-((1 + e) * mass_ratio / 2 / x)))
