@@ -9,6 +9,7 @@ import one_thread  # noqa: F401
 # isort: split
 import functools
 import importlib
+import operator
 
 import compare
 import csv_tables
@@ -71,13 +72,15 @@ def sensitivities(figure, settings, nodes, path, comparisons, references, series
         curves = None
     if curves is None:
         return [[title, *[""] * len(GROUPS)] for title in comparisons]
-    solved = {group: _solver(figure, settings, group, curves) for group in GROUPS}
+    solve_once = _once(functools.partial(_solve, figure, curves), operator.eq)
+    solved = {group: _solver(solve_once, figure, settings, group) for group in GROUPS}
     rows = []
     for title, entry in comparisons.items():
         known = references.get(entry.get("reference"))
 
-        def measure(curves, entry=entry, known=known):
-            return compare.measure(entry, known, curves, series)
+        measure = _once(
+            functools.partial(compare.measure, entry, known, series_paths=series), operator.is_
+        )
 
         def caught(found, entry=entry, known=known):
             return compare.judge(entry, known, found, significance) == Verdict.DIVERGES
@@ -97,24 +100,42 @@ def sensitivities(figure, settings, nodes, path, comparisons, references, series
     return rows
 
 
-def _solver(figure, settings, group, curves):
-    """Curves with a group off by a size, under the names they have else; None without the group.
+def _once(function, same):
+    """A function of one argument, called once for all arguments that are the same."""
+    known = []
+
+    def answer(argument):
+        for before, found in known:
+            if same(before, argument):
+                return found
+        known.append((argument, function(argument)))
+        return known[-1][1]
+
+    return answer
+
+
+def _solve(figure, curves, settings):
+    """Curves of other settings, under the names that `curves` have.
 
     What the printed equations give is left as it is.
     """
     module = importlib.import_module(f"planarimpact.curves.{figure}")
+    own = [name for name in curves if "sigma" not in name and PRINTED not in name]
+    changed_ones = dict(zip(own, module.curves(**settings).values(), strict=True))
+    return {name: columns for name, columns in curves.items() if PRINTED in name} | changed_ones
+
+
+def _solver(solve_once, figure, settings, group):
+    """Curves by the size that a group is off by; None without the group."""
     if changed(settings, group, STEP) == settings:
         return None
 
-    @functools.cache
     def solved(size):
         wrong = changed(settings, group, size)
         wrong.pop("uncertainty", None)
         if figure == DIGITS:
             wrong["points"] = {key: column[::SPARSE] for key, column in wrong["points"].items()}
-        own = [name for name in curves if "sigma" not in name and PRINTED not in name]
-        changed_ones = dict(zip(own, module.curves(**wrong).values(), strict=True))
-        return {name: columns for name, columns in curves.items() if PRINTED in name} | changed_ones
+        return solve_once(wrong)
 
     return solved
 
