@@ -65,7 +65,8 @@ def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
     labelled["phases [1]"] = table["phases"].astype(int)
 
     columns, lost = {}, []
-    for name, found in zip(OUTPUTS, _solved(groups), strict=True):
+    solved = dict(zip(OUTPUTS, _solved(groups), strict=True))
+    for name, found in solved.items():
         digits = _digits(found, table[name], table[f"condition_{name}"])
         columns[f"digits_{name} [1]"], columns[f"digits_allowed_{name} [1]"] = digits[:2]
         lost.append(digits[2])
@@ -73,7 +74,8 @@ def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
 
     few = (table["phases"] > 1) & (table["phases"] <= most_phases)
     size = np.maximum(_most_work(*groups) + table["condition_dissipation"], FLOOR)
-    balances = [_balances(*row) for row in np.vstack([size, groups]).T[few]]
+    lost_energy = np.broadcast_to(solved["dissipation"], size.shape)
+    balances = [_balances(*row) for row in np.vstack([size, lost_energy, groups]).T[few]]
     excess, residual = np.array(balances).reshape(-1, 2).T
     followed = {name: values[few] for name, values in labelled.items()}
     followed |= {"friction_excess [mu F2max]": excess, "energy_residual [1]": residual}
@@ -114,13 +116,16 @@ def _digits(found: Array, exact: Array, condition: Array) -> tuple[Array, Array,
     return correct + 0.0, np.clip(allowed, 0.0, DIGITS) + 0.0, lost  # no -0.0
 
 
-def _balances(size: float, x: float, beta: float, zeta2: float, e: float) -> tuple[float, float]:
+def _balances(
+    size: float, dissipation: float, x: float, beta: float, zeta2: float, e: float
+) -> tuple[float, float]:
     """Excess of friction over the Coulomb limit, and residual of energy over `size`; at worst 1."""
     groups = x, beta, zeta2, e
     events = _attempt(lambda: lumped.history(x, beta, zeta2, e, samples=2).events)
-    gap = _attempt(lambda: lumped.friction_work(*groups) - lumped.rebound(*groups).dissipation)
-    if events is None or gap is None:
+    work = _attempt(lambda: lumped.friction_work(*groups))
+    if events is None or work is None or np.isnan(dissipation):
         return 1.0, 1.0
+    gap = work - dissipation
     excess = np.max([abs(event.friction) - event.normal for event in events], initial=0.0)
     excess = np.nan_to_num(excess, nan=1.0)
     # For e = 0 the tangential spring loses energy too.
