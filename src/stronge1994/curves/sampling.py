@@ -1,6 +1,6 @@
 """Where curves have their vertices."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -13,7 +13,6 @@ from stronge1994.curves import Column
 # Points of reference tables, through which curves must pass: `{axis without its unit: points}`.
 Nodes: TypeAlias = Mapping[str, ArrayLike]
 NO_NODES: Nodes = MappingProxyType({})
-SIGNS = {1: "+", -1: "-"}
 
 
 def vertices(span: Sequence[float], samples: int, *extra: ArrayLike) -> Array:
@@ -43,17 +42,6 @@ def vertices(span: Sequence[float], samples: int, *extra: ArrayLike) -> Array:
     return np.unique(points[(points >= low) & (points <= high)])
 
 
-def name(symbol: str, value: float) -> str:
-    """Name of a curve by a parameter, the same in curves and in reference data.
-
-    Examples
-    --------
-    >>> name("e", 0.50)
-    'e = 0.5'
-    """
-    return f"{symbol} = {value:g}"
-
-
 def regime_names(codes: Integers) -> Column:
     """Names of an array of `Regime` codes.
 
@@ -63,32 +51,3 @@ def regime_names(codes: Integers) -> Column:
     ['STICK_SLIP', 'SLIP_THROUGHOUT']
     """
     return np.array([regime.name for regime in Regime])[codes]
-
-
-def shifted(curve: str, parameter: str, sign: int) -> str:
-    """Name of a curve whose parameter is off by its uncertainty.
-
-    Examples
-    --------
-    >>> shifted("lumped, experiment", "friction", 1)
-    'lumped, experiment; friction + 1 sigma'
-    """
-    return f"{curve}; {parameter} {SIGNS[sign]} 1 sigma"
-
-
-def shifted_by(curve: str | None, names: Iterable[str]) -> list[tuple[str, str]]:
-    """Names of curves that differ from `curve` by the uncertainty of a parameter, up and down.
-
-    Examples
-    --------
-    >>> names = ["a", "b", "b; friction + 1 sigma", "b; friction - 1 sigma"]
-    >>> shifted_by("a", names), shifted_by("b", names)
-    ([], [('b; friction + 1 sigma', 'b; friction - 1 sigma')])
-    """
-    start, end = f"{curve}; ", f" {SIGNS[1]} 1 sigma"
-    own = [name for name in names if name.startswith(start) and name.endswith(end)]
-    parameters = [name.removeprefix(start).removesuffix(end) for name in own]
-    return [
-        (shifted(f"{curve}", parameter, 1), shifted(f"{curve}", parameter, -1))
-        for parameter in parameters
-    ]

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from stronge1994.curves.fig5 import contact_velocities
+from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994.drawings import house_style
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
@@ -97,6 +97,35 @@ def _contact_series(series):
     by_angle = np.subtract(contact_velocities(angle + angle_error, ratio, *groups), (x, y))
     by_ratio = np.subtract(contact_velocities(angle, ratio + ratio_error, *groups), (x, y))
     return {"x": x, "y": y, "sigma": np.hypot(by_angle, by_ratio), "line": False}
+
+
+def contact_velocities(
+    angle: ArrayLike, centre_restitution: ArrayLike, mass_ratio: float, friction: float
+) -> tuple[Array, Array]:
+    """Measured points of a sphere without spin in the axes of the figure.
+
+    Parameters
+    ----------
+    angle : array_like
+        Angle of incidence in degrees.
+    centre_restitution : array_like
+        Tangential velocity of the centre, after over before.
+    mass_ratio, friction : float
+        beta and mu.
+
+    Returns
+    -------
+    incidence, velocity : ndarray
+        x = tan(theta)/mu and w = x (beta e_t - (beta - 1)).
+
+    Examples
+    --------
+    >>> x, w = contact_velocities(45.0, 1.0, 3.5, 0.5)
+    >>> round(float(x), 9), round(float(w), 9)
+    (2.0, 2.0)
+    """
+    x = np.tan(np.radians(angle)) / friction
+    return x, x * (mass_ratio * np.asarray(centre_restitution) - (mass_ratio - 1))
 
 
 def _set_axes(axes, curve, left, right):

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.patches import Patch
 
-from stronge1994.curves.sampling import name
+from stronge1994.curve_names import name
 from stronge1994.drawings import house_style
 
 X, Y = "angle [deg]", "peak_force [m2 Omega S]"

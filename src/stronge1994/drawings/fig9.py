@@ -1,6 +1,6 @@
 """Fig. 9: share of the initial kinetic energy dissipated by friction."""
 
-from stronge1994.curves.sampling import name
+from stronge1994.curve_names import name
 from stronge1994.drawings import house_style
 
 X, Y = "angle [deg]", "friction_dissipation [m2 S^2/2]"

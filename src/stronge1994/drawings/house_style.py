@@ -21,6 +21,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from stronge1994 import curve_names
+
 WIDTH = 5.0  # inches; the type stays readable when a column of a journal shrinks it to 3.4
 NOTE = 7  # points: notes, brackets, labels at lines
 
@@ -177,15 +179,15 @@ def as_printed(axes, curves, x, y, equations, patterns=None):
     list of artists
     """
     kinds = {
-        "as printed": (f"{equations} as printed", AS_PRINTED),
-        "no solution as printed": ("no solution as printed", UNSOLVED),
+        curve_names.AS_PRINTED: (f"{equations} as printed", AS_PRINTED),
+        curve_names.NO_SOLUTION: ("no solution as printed", UNSOLVED),
     }
     entries = []
     for kind, (label, style) in kinds.items():
         chosen = {name: curve for name, curve in curves.items() if name.split(",")[0] == kind}
         for name, curve in chosen.items():
             ours = [dashes for end, dashes in (patterns or {}).items() if name.endswith(end)]
-            pattern = {"linestyle": ours[0]} if ours and kind == "as printed" else {}
+            pattern = {"linestyle": ours[0]} if ours and kind == curve_names.AS_PRINTED else {}
             axes.plot(curve[x], curve[y], **(style | pattern))
         if chosen:
             entries.append(key(label, **style))

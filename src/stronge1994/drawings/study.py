@@ -10,7 +10,7 @@ from matplotlib.colors import Normalize
 from matplotlib.patches import Patch
 from scipy import ndimage
 
-from planarimpact import Regime
+from planarimpact.ground.results import Regime
 from stronge1994.drawings import house_style
 
 SYMBOLS = {

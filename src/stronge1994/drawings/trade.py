@@ -5,7 +5,6 @@ from typing import NamedTuple
 import numpy as np
 
 from stronge1994.drawings import house_style
-from stronge1994.trade import answers
 
 ERROR, MODEL, RESTITUTION = "rms_velocity [mu v2(0)]", "model", "restitution [1]"
 STEPS, CIRCLES, TOLERANCE = "steps [1]", "circles [1]", "tolerance [mu v2(0)]"
@@ -99,10 +98,34 @@ def draw(curves, settings, points, families=FAMILIES):
     _draw_growth(growth, _of(rows, first), sorted(settings["batches"]))
     growth.set(title=f"(c) $e = {first:g}$", xlabel="impacts together", ylabel=TIME_WORDS)
     note = f"numbers at points: steps, circles or tolerance; (a), (b): {batch} impacts together"
-    notes = [note, answers.warning(rows)]
+    notes = [note, warning(rows)]
     figure.suptitle("\n".join(filter(None, notes)), fontsize=house_style.NOTE)
     _add_legend(figure)
     return figure
+
+
+def warning(rows):
+    """A sentence if the machine was busy while some of the times were taken, else no words.
+
+    Parameters
+    ----------
+    rows : sequence of dict
+        Of results/curves/trade.csv, as texts or numbers.
+
+    Examples
+    --------
+    >>> warning([{"time_1 [s]": 2.0, "busy_1 [1]": 1.9}, {"time_1 [s]": 1.0}])
+    'the machine was busy: 1 of 2 times are up to 1.9 times too long'
+    """
+    cells = [(key, cell) for row in rows for key, cell in row.items() if cell]
+    busy = [float(cell) for key, cell in cells if key.startswith("busy_")]
+    if not busy:
+        return ""
+    count = sum(key.endswith(" [s]") for key, _ in cells)
+    return (
+        f"the machine was busy: {len(busy)} of {count} times are up to {max(busy):.2g} times too "
+        "long"
+    )
 
 
 def shown_batch(settings):
@@ -168,12 +191,27 @@ def words_of(row):
     return NAMES.get(row[MODEL], "")
 
 
+def front(time, error):
+    """Indices of the Pareto front, from the fastest on: no other is as fast and as near.
+
+    Examples
+    --------
+    >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
+    [1, 2, 0]
+    """
+    found = []
+    for index in sorted(range(len(time)), key=lambda i: (time[i], error[i])):
+        if not found or error[index] < error[found[-1]]:
+            found.append(index)
+    return found
+
+
 def _draw_front(axes, time, error, edges, style):
     """Pareto front: what lies above and to the right of it is beaten in both."""
     (_, right), (_, top) = edges
-    front = answers.front(time, error)
-    x = [time[front[0]], *(time[i] for i in front), right]
-    y = [top, *(error[i] for i in front), error[front[-1]]]
+    best = front(time, error)
+    x = [time[best[0]], *(time[i] for i in best), right]
+    y = [top, *(error[i] for i in best), error[best[-1]]]
     axes.step(x, y, where="post", **style)
 
 

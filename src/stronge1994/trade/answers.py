@@ -79,30 +79,6 @@ def _least_time(row, batch):
     return whole_time(freed, batch)
 
 
-def warning(rows):
-    """A sentence if the machine was busy while some of the times were taken, else no words.
-
-    Parameters
-    ----------
-    rows : sequence of dict
-        Of results/curves/trade.csv, as texts or numbers.
-
-    Examples
-    --------
-    >>> warning([{"time_1 [s]": 2.0, "busy_1 [1]": 1.9}, {"time_1 [s]": 1.0}])
-    'the machine was busy: 1 of 2 times are up to 1.9 times too long'
-    """
-    cells = [(key, cell) for row in rows for key, cell in row.items() if cell]
-    busy = [float(cell) for key, cell in cells if key.startswith("busy_")]
-    if not busy:
-        return ""
-    count = sum(key == BUILD_TIME or bool(TIME.fullmatch(key)) for key, _ in cells)
-    return (
-        f"the machine was busy: {len(busy)} of {count} times are up to {max(busy):.2g} times too "
-        "long"
-    )
-
-
 def _known_error(row):
     return float(row[ERROR]) + float(row[REFERENCE_ERROR])
 
@@ -119,21 +95,6 @@ def _cheapest(rows, batch):
     if time != f"{_least_time(best, batch):.2g}":
         cells = BUSY, "", ""
     return dict(zip(keys, cells, strict=True))
-
-
-def front(time, error):
-    """Indices of the Pareto front, from the fastest on: no other is as fast and as near.
-
-    Examples
-    --------
-    >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
-    [1, 2, 0]
-    """
-    found = []
-    for index in sorted(range(len(time)), key=lambda i: (time[i], error[i])):
-        if not found or error[index] < error[found[-1]]:
-            found.append(index)
-    return found
 
 
 def write(curves, table, cheapest):
