@@ -1,10 +1,18 @@
 """Beyond the paper: error of every model against its time, and time against the size of batch."""
 
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from stronge1994.csv_tables import Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Points, Settings, Style
+
+_Row: TypeAlias = dict[str, Any]
+Place: TypeAlias = tuple[str, float, float]
 
 ERROR, MODEL, RESTITUTION = "rms_velocity [mu v2(0)]", "model", "restitution [1]"
 STEPS, CIRCLES, TOLERANCE = "steps [1]", "circles [1]", "tolerance [mu v2(0)]"
@@ -28,9 +36,9 @@ class Family(NamedTuple):
     size: float
     colour: str
     filled: bool
-    place: tuple | None
+    place: Place | None
 
-    def style(self):
+    def style(self) -> Style:
         """Keywords of its marker."""
         return {
             "marker": self.marker,
@@ -73,7 +81,9 @@ FRONT = {"color": house_style.BLACK, "linewidth": 0.6, "zorder": 0.9}
 FRONT_WITH_RESPONSES = FRONT | {"linestyle": (0, (4, 2))}
 
 
-def draw(curves, settings, points, families=FAMILIES):
+def draw(
+    curves: Curves, settings: Settings, points: Points, families: Mapping[str, Family] = FAMILIES
+) -> Figure:
     """(a) Error against time for the first restitution, (b) for the last, (c) time and batch.
 
     `families` may hold more than those of the legend. The title says so if times are too long.
@@ -104,7 +114,7 @@ def draw(curves, settings, points, families=FAMILIES):
     return figure
 
 
-def warning(rows):
+def warning(rows: Sequence[_Row]) -> str:
     """A sentence if the machine was busy while some of the times were taken, else no words.
 
     Parameters
@@ -128,21 +138,28 @@ def warning(rows):
     )
 
 
-def shown_batch(settings):
+def shown_batch(settings: Settings) -> int:
     """Size of the batch whose times stand beside errors: the middle one."""
     return sorted(settings["batches"])[len(settings["batches"]) // 2]
 
 
-def _of(rows, restitution):
+def _of(rows: Sequence[_Row], restitution: float) -> list[_Row]:
     return [row for row in rows if row[RESTITUTION] == restitution]
 
 
-def _title(letter, restitution):
+def _title(letter: str, restitution: float) -> str:
     against = "the elastic continuum" if restitution == 1 else "the lumped model"
     return f"({letter}) $e = {restitution:g}$, against {against}"
 
 
-def _draw_errors(axes, rows, batch, families, span, margin):
+def _draw_errors(
+    axes: Axes,
+    rows: Sequence[_Row],
+    batch: int,
+    families: Mapping[str, Family],
+    span: tuple[float, float],
+    margin: float,
+) -> None:
     """Points of a span of error with their labels, and both fronts; `margin` for labels."""
     timed = [row for row in rows if f"time_{batch} [s]" in row]
     if not timed:
@@ -162,7 +179,7 @@ def _draw_errors(axes, rows, batch, families, span, margin):
         _draw_front(axes, [time[i] for i in chosen], [error[i] for i in chosen], edges, style)
 
 
-def label(axes, at, words, place):
+def label(axes: Axes, at: Sequence[float], words: str, place: Place | None) -> None:
     """Write words beside a point, if there are any and a place for them."""
     if not words or place is None:
         return
@@ -180,7 +197,7 @@ def label(axes, at, words, place):
     )
 
 
-def words_of(row):
+def words_of(row: _Row) -> str:
     """What a point is called beside its family."""
     if STEPS in row and CIRCLES not in row:
         return f"{row[STEPS]:g}"
@@ -191,7 +208,7 @@ def words_of(row):
     return NAMES.get(row[MODEL], "")
 
 
-def front(time, error):
+def front(time: Sequence[float], error: Sequence[float]) -> list[int]:
     """Indices of the Pareto front, from the fastest on: no other is as fast and as near.
 
     Examples
@@ -199,14 +216,20 @@ def front(time, error):
     >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
     [1, 2, 0]
     """
-    found = []
+    found: list[int] = []
     for index in sorted(range(len(time)), key=lambda i: (time[i], error[i])):
         if not found or error[index] < error[found[-1]]:
             found.append(index)
     return found
 
 
-def _draw_front(axes, time, error, edges, style):
+def _draw_front(
+    axes: Axes,
+    time: Sequence[float],
+    error: Sequence[float],
+    edges: tuple[tuple[float, float], tuple[float, float]],
+    style: Style,
+) -> None:
     """Pareto front: what lies above and to the right of it is beaten in both."""
     (_, right), (_, top) = edges
     best = front(time, error)
@@ -215,7 +238,7 @@ def _draw_front(axes, time, error, edges, style):
     axes.step(x, y, where="post", **style)
 
 
-def _cut(rough, fine):
+def _cut(rough: Axes, fine: Axes) -> None:
     """Two scales of error, one above the other, read as one panel."""
     rough.set_ylim(bottom=CUT)
     fine.set_ylim(top=CUT)
@@ -228,7 +251,7 @@ def _cut(rough, fine):
         axes.plot([0, 1], [height, height], **marks, **place)
 
 
-def _draw_growth(axes, rows, batches):
+def _draw_growth(axes: Axes, rows: Sequence[_Row], batches: Sequence[int]) -> None:
     for model, dashes in GROWTH.items():
         family = FAMILIES[model]
         same = [row for row in rows if row[MODEL] == model]
@@ -240,7 +263,7 @@ def _draw_growth(axes, rows, batches):
         axes.loglog(known, time, linestyle=dashes, linewidth=0.9, **family.style())
 
 
-def _add_legend(figure):
+def _add_legend(figure: Figure) -> None:
     entries = {family.label: family for family in FAMILIES.values()}
     keys = [
         house_style.key(label, linestyle="none", **family.style())
