@@ -4,7 +4,6 @@ import os
 import re
 import sys
 import tempfile
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +14,6 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 from nbconvert import HTMLExporter
 from traitlets.config import Config
-
-from planarimpact.ground import files
 
 CELL_TIMEOUT = 120  # s
 SRC = Path(__file__).parents[2]
@@ -41,7 +38,7 @@ class ThisPython(AsyncKernelManager):
 
 
 def run(notebook: str, template: str, executed: str, page: str) -> None:
-    """Run `notebook` from its first cell to its last; write both results, or neither.
+    """Run `notebook` from its first cell to its last and write both results.
 
     Parameters
     ----------
@@ -78,9 +75,8 @@ def run(notebook: str, template: str, executed: str, page: str) -> None:
             raise NotebookError(f"{Path(notebook).name}: {str(error).splitlines()[0]}") from None
     exporter = HTMLExporter(template_file=str(template), exclude_anchor_links=True)
     texts = {executed: nbformat.writes(book) + "\n", page: exporter.from_notebook_node(book)[0]}
-    with ExitStack() as both:
-        for path, text in texts.items():
-            both.enter_context(files.written(path)).write_text(text, encoding="utf-8")
+    for path, text in texts.items():
+        Path(path).write_text(text, encoding="utf-8")
 
 
 def _environment(scratch: str) -> dict[str, str]:

@@ -1,10 +1,8 @@
-"""What all pages share: templates in one folder, and files written whole or not at all."""
+"""What all pages share: templates in one folder."""
 
 from pathlib import Path
 
 import jinja2
-
-from planarimpact.ground import files
 
 
 def environment(folder: str | Path) -> jinja2.Environment:
@@ -19,6 +17,5 @@ def environment(folder: str | Path) -> jinja2.Environment:
 
 
 def write(path: str, text: str) -> None:
-    """Write a page whole or not at all."""
-    with files.written(path) as partial:
-        partial.write_text(text, encoding="utf-8")
+    """Write a page."""
+    Path(path).write_text(text, encoding="utf-8")
