@@ -4,7 +4,9 @@ import contextlib
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any, TextIO
 
 from stronge1994 import records
 
@@ -12,7 +14,7 @@ SIGN_OF_LIFE = 5.0  # s between two; most jobs end before the first
 
 
 @contextlib.contextmanager
-def log_to(path):
+def log_to(path: str) -> Iterator[None]:
     """Send output and errors of a block to a log file; an error also to the terminal, in a line.
 
     A block that takes long says so on the terminal, and how long.
@@ -35,7 +37,7 @@ def log_to(path):
 
 
 @contextlib.contextmanager
-def recorded(snakemake):
+def recorded(snakemake: Any) -> Iterator[None]:
     """Do a job of Snakemake: its words to its log, and a record of what it read and wrote.
 
     Raises
@@ -52,14 +54,14 @@ def recorded(snakemake):
         records.write(snakemake.output, inputs)
 
 
-def _show_life(log, terminal, ended):
+def _show_life(log: Path, terminal: TextIO, ended: threading.Event) -> None:
     began, last_time = time.monotonic(), _last_time(log)
     while not ended.wait(SIGN_OF_LIFE):
         seconds = f"{time.monotonic() - began:.0f} s"
         print(f"... {log.stem}: {seconds}{last_time}", file=terminal, flush=True)
 
 
-def _last_time(log):
+def _last_time(log: Path) -> str:
     """How long the job took in an earlier run, by its benchmark, in words."""
     try:
         with open(log.parents[1] / "benchmarks" / f"{log.stem}.tsv", encoding="utf-8") as file:

@@ -7,7 +7,9 @@ restored from a backup, copied from a colleague, or edited while a job ran.
 import base64
 import hashlib
 import json
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 FOLDER = Path(".snakemake/records")
 # Snakemake's own, without which no change of a parameter is noticed; and of what it has in hand.
@@ -16,7 +18,7 @@ REPOSITORY = ("data", "src", "workflow")
 HOW_TO_MEND = "remove that file and run again"
 
 
-def fingerprint(path):
+def fingerprint(path: str | Path) -> str:
     """Fingerprint of what a file holds, or a folder."""
     if Path(path).is_dir():
         files = [file for file in Path(path).rglob("*") if file.is_file()]
@@ -25,13 +27,13 @@ def fingerprint(path):
     return hashlib.sha256(Path(path).read_bytes()).hexdigest()
 
 
-def fingerprint_of_all(paths):
+def fingerprint_of_all(paths: Iterable[str]) -> str:
     """One fingerprint of many files, and of their names."""
     lines = "".join(f"{fingerprint(path)} {path}\n" for path in sorted(paths))
     return hashlib.sha256(lines.encode()).hexdigest()
 
 
-def files_of_repository():
+def files_of_repository() -> list[str]:
     """Files that a run reads, or that belong to what it reads."""
     found = ["Snakefile"]
     for folder in REPOSITORY:
@@ -39,7 +41,7 @@ def files_of_repository():
     return found
 
 
-def write(outputs, inputs):
+def write(outputs: Iterable[str], inputs: Mapping[str, str]) -> None:
     """Keep what a job has written, and the fingerprints that its inputs had when it began.
 
     Parameters
@@ -54,7 +56,7 @@ def write(outputs, inputs):
         record.write_text(json.dumps({"sha256": fingerprint(path), "inputs": inputs}))
 
 
-def faults(made):
+def faults(made: Iterable[str]) -> list[str]:
     """Files that are not as their job left them, or were made from what is no longer there.
 
     Parameters
@@ -68,7 +70,7 @@ def faults(made):
     """
     known, found = {}, []
 
-    def now(path):
+    def now(path: str) -> str | None:
         if path not in known:
             known[path] = fingerprint(path) if Path(path).exists() else None
         return known[path]
@@ -84,7 +86,7 @@ def faults(made):
     return found
 
 
-def unknown(made):
+def unknown(made: Iterable[str]) -> list[str]:
     """Files that are there without Snakemake's records of how they were made."""
     return [
         path
@@ -95,18 +97,18 @@ def unknown(made):
     ]
 
 
-def _encoded(path):
+def _encoded(path: str) -> str:
     return base64.b64encode(path.encode()).decode()
 
 
-def _is_json(path):
+def _is_json(path: Path) -> bool:
     try:
         return bool(json.loads(path.read_text(encoding="utf-8")))
     except (OSError, ValueError):
         return False
 
 
-def _read(path):
+def _read(path: Path) -> dict[str, Any] | None:
     """A record; None where there is none that can be read."""
     try:
         record = json.loads(path.read_text(encoding="utf-8"))

@@ -2,13 +2,21 @@
 
 import json
 import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from planarimpact import Regime, models, study
-from planarimpact.ground import checks, files
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array
 from planarimpact.study import OUTPUTS
+from stronge1994.csv_tables import Column
+
+Axes: TypeAlias = dict[str, Array]
+Settings: TypeAlias = dict[str, Any]  # of a model
+Grid: TypeAlias = Mapping[str, Any]  # the part of the config that says where the points lie
 
 UNITS = {
     "incidence": "mu v2(0)",
@@ -22,43 +30,50 @@ UNITS = {
 }
 
 
-def column(name):
+def column(name: str) -> str:
     """Name of an axis or output in a file, unit in brackets."""
     return f"{name} [{UNITS[name]}]"
 
 
-def write(path, model, settings, axes, outputs, start=0):
-    """Write the outputs from the point `start` of a grid on, whole or not at all.
+def write(
+    path: str,
+    model: str,
+    settings: Settings,
+    axes: Axes,
+    outputs: Mapping[str, Column],
+    start: int = 0,
+) -> None:
+    """Write the outputs of a grid, or of the part of it that begins at the point `start`.
 
     With them: the axes in the order of the dimensions, the model and its settings, and what the
     codes of the regimes mean.
     """
-    named = {column(name): value for name, value in (axes | outputs).items()}
-    words = {
+    named: dict[str, Any] = {column(name): value for name, value in {**axes, **outputs}.items()}
+    words: dict[str, Any] = {
         "axes": [column(name) for name in axes],
         "model": model,
         "settings": json.dumps(settings),
         "start": start,
         "regimes": [f"{regime.value} {regime.name}" for regime in Regime],
     }
-    with files.written(path) as partial, open(partial, "wb") as file:
+    with open(path, "wb") as file:
         np.savez(file, **words, **named)
 
 
-def read(path, *names):
+def read(path: str, *names: str) -> tuple[Axes, dict[str, Column]]:
     """Axes of a study or of a chunk of it, and its outputs or those of some `names`."""
     with np.load(path) as file:
         axes = {name: file[column(name)] for name in checks.RULES}
         return axes, {name: file[column(name)] for name in names or OUTPUTS}
 
 
-def origin(path):
+def origin(path: str) -> tuple[int, str, Settings]:
     """Number of the first point in a file, the model that solved it, and its settings."""
     with np.load(path) as file:
         return int(file["start"]), str(file["model"]), json.loads(str(file["settings"]))
 
 
-def span(points, chunk):
+def span(points: int, chunk: str) -> tuple[int, int]:
     """First point of a chunk, and the point after its last.
 
     Parameters
@@ -77,7 +92,7 @@ def span(points, chunk):
     return points * (number - 1) // of, points * number // of
 
 
-def solve(chunk, model, settings, grid, path):
+def solve(chunk: str, model: str, settings: Settings, grid: Grid, path: str) -> None:
     """Solve the points of a `chunk` of a grid, such as `2-of-4`, into a file."""
     axes = study.axes_of(grid)
     start, stop = span(math.prod(map(len, axes.values())), chunk)
@@ -86,7 +101,7 @@ def solve(chunk, model, settings, grid, path):
     print(f"{stop - start} points of {model}, from {start} on")
 
 
-def gather(chunks, model, settings, grid, path):
+def gather(chunks: Sequence[str], model: str, settings: Settings, grid: Grid, path: str) -> None:
     """Read chunks of a grid, in order, into one file; a chunk of another study is refused.
 
     Chunks of an earlier grid, which lie beside them, are removed: nothing will read them again.
@@ -96,11 +111,11 @@ def gather(chunks, model, settings, grid, path):
     write(path, model, settings, axes, outputs)
     print(f"{outputs['velocity'].size} points of {model}")
     current = {Path(chunk) for chunk in chunks}
-    for path in {path for chunk in current for path in chunk.parent.glob("*-of-*.npz")} - current:
-        path.unlink()
+    for old in {old for chunk in current for old in chunk.parent.glob("*-of-*.npz")} - current:
+        old.unlink()
 
 
-def _part(path, model, settings, axes):
+def _part(path: str, model: str, settings: Settings, axes: Axes) -> tuple[int, dict[str, Column]]:
     start, *solver = origin(path)
     found, outputs = read(path)
     if not all(np.array_equal(found[name], axes[name]) for name in axes):

@@ -95,8 +95,8 @@ def test_too_few_steps_for_the_bodies_are_refused():
 def test_front_leaves_out_what_is_beaten():
     time = [1.0, 2.0, 2.0, 3.0, 4.0]
     error = [0.5, 0.5, 0.1, 0.2, 0.05]
-    assert trade_table.front(time, error) == [0, 2, 4]
-    assert trade_table.front([1.0], [0.0]) == [0]
+    assert draw_trade.front(time, error) == [0, 2, 4]
+    assert draw_trade.front([1.0], [0.0]) == [0]
 
 
 class Clock:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from planarimpact.ground.arrays import ArrayLike, Booleans
+from stronge1994.curve_names import AS_PRINTED, NO_SOLUTION
 from stronge1994.curves import Columns, Curves
 
 # Below this the printed equations are the exact ones to rounding.
@@ -43,10 +44,10 @@ def beside(name: str, curve: Columns, printed: ArrayLike) -> Curves:
     if differs.any():
         # With the last point in common, where the two part.
         kept = _with_neighbours(differs) & ~missing
-        found[f"as printed{ending}"] = {axis: x[kept], column: printed[kept]}
+        found[f"{AS_PRINTED}{ending}"] = {axis: x[kept], column: printed[kept]}
     if missing.any():
         kept = _with_neighbours(missing, after=False)
-        found[f"no solution as printed{ending}"] = {axis: x[kept], column: exact[kept]}
+        found[f"{NO_SOLUTION}{ending}"] = {axis: x[kept], column: exact[kept]}
     return found
 
 

@@ -8,9 +8,10 @@ import numpy as np
 from planarimpact import continuum, lumped, rigid
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.results import Rebound, Regime
+from stronge1994.curve_names import SIGNS, shifted
 from stronge1994.curves import Columns, Curves
 from stronge1994.curves import as_printed as printed_curves
-from stronge1994.curves.sampling import NO_NODES, SIGNS, Nodes, shifted, vertices
+from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
 
@@ -66,7 +67,7 @@ def curves(
         finite elements have the regime and the spin after impact, R spin/(mu v2(0)) in the
         direction of incidence negative; those of the experiment the quantities that are measured
         against the angle of incidence, and curves beside them with one parameter off by one sigma,
-        named by `sampling.shifted`.
+        named by `curve_names.shifted`.
 
     Examples
     --------
@@ -201,32 +202,3 @@ def _measured(shots: _Shots, rebound: Rebound) -> Columns:
             np.arctan(friction * rebound.velocity / restitution)
         ),
     }
-
-
-def contact_velocities(
-    angle: ArrayLike, centre_restitution: ArrayLike, mass_ratio: float, friction: float
-) -> tuple[Array, Array]:
-    """Measured points of a sphere without spin in the axes of the figure.
-
-    Parameters
-    ----------
-    angle : array_like
-        Angle of incidence in degrees.
-    centre_restitution : array_like
-        Tangential velocity of the centre, after over before.
-    mass_ratio, friction : float
-        beta and mu.
-
-    Returns
-    -------
-    incidence, velocity : ndarray
-        x = tan(theta)/mu and w = x (beta e_t - (beta - 1)).
-
-    Examples
-    --------
-    >>> x, w = contact_velocities(45.0, 1.0, 3.5, 0.5)
-    >>> round(float(x), 9), round(float(w), 9)
-    (2.0, 2.0)
-    """
-    x = np.tan(np.radians(angle)) / friction
-    return x, x * (mass_ratio * np.asarray(centre_restitution) - (mass_ratio - 1))

@@ -2,15 +2,20 @@
 
 import importlib
 import traceback
+from collections.abc import Mapping
+from typing import Any, TypeAlias
 
 from stronge1994 import csv_tables
 
+# CSV of a reference table: its x column; None stands for the whole table.
+Tables: TypeAlias = Mapping[str, str | None]
 
-def solve(figure, settings, nodes, output):
+
+def solve(figure: str, settings: dict[str, Any], nodes: Tables, output: str) -> None:
     """Write the curves of `figure`.
 
-    `nodes`, `{CSV of a reference table: its x column}`, are points that curves must pass through;
-    without a column it is the whole table, `points`.
+    `nodes` names reference tables whose points curves must pass through. A whole table is not for
+    curves to pass through: it becomes the setting `points`.
     """
     try:
         settings = settings | read_nodes(nodes)
@@ -22,9 +27,9 @@ def solve(figure, settings, nodes, output):
     csv_tables.write(output, named)
 
 
-def read_nodes(nodes):
+def read_nodes(nodes: Tables) -> dict[str, Any]:
     """Settings that hold the points of reference tables, `nodes` as for `solve`."""
-    points = {}
+    points: dict[str, set[float]] = {}
     for path, column in nodes.items():
         rows = csv_tables.read_rows(path)
         if column is None:

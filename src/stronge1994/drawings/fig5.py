@@ -3,23 +3,28 @@
 import math
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from planarimpact import Regime
-from stronge1994.curves.fig5 import contact_velocities
+from planarimpact.ground.arrays import Array, ArrayLike
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Entries, Points, Series, Settings, Style
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 RUBBER = {"color": house_style.GREEN, "linestyle": "-", "linewidth": 1.0}
 SOFT_CONTINUUM = {"color": house_style.GREEN, "linestyle": house_style.DASHES[1], "linewidth": 1.0}
 EXPERIMENT = {"color": house_style.BLUE, "linestyle": "-", "linewidth": 0.7}
 RUBBER_SPHERE = "johnson1983/rubber_sphere"
-RUBBER_POINTS = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
-ELEMENT_POINTS = {"color": house_style.VERMILLION, "marker": "s", "markerfacecolor": "white"}
-GLASS_POINTS = {"color": house_style.BLUE, "marker": "o", "markersize": 3}
+RUBBER_POINTS: Style = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
+ELEMENT_POINTS: Style = {"color": house_style.VERMILLION, "marker": "s", "markerfacecolor": "white"}
+GLASS_POINTS: Style = {"color": house_style.BLUE, "marker": "o", "markersize": 3}
 MEASURED_ANGLES = "kharaz2001/tangential_restitution"  # not in the axes of the figure
 
 
-def draw(curves, settings, points):
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """The paper's curves and series, and additions in a legend of their own."""
     figure = house_style.new(5.0)
     axes = figure.subplots()
@@ -42,7 +47,7 @@ def draw(curves, settings, points):
     return figure
 
 
-def _draw_paper(axes, curves, points, settings):
+def _draw_paper(axes: Axes, curves: Curves, points: Points, settings: Settings) -> Entries:
     """Draw what the paper's figure holds; its entries of the legend."""
     lumped = rf"lumped model, $\zeta^2 = {settings['stiffness_ratio']:g}$"
     rough = curves["no tangential compliance"]
@@ -57,7 +62,7 @@ def _draw_paper(axes, curves, points, settings):
     return entries + house_style.references(axes, points, series)
 
 
-def _draw_added(axes, curves, points, settings):
+def _draw_added(axes: Axes, curves: Curves, points: Points, settings: Settings) -> Entries:
     """Draw what this repository adds; its entries of the legend."""
     sphere, rubber = settings["experiment"], settings["rubber"]["stiffness_ratio"]
     groups = rf"$\zeta^2 = {sphere['stiffness_ratio']:g}$, $e = {sphere['restitution']:g}$"
@@ -77,11 +82,11 @@ def _draw_added(axes, curves, points, settings):
     return entries + house_style.references(axes, points, series)
 
 
-def _draw_curve(axes, curve, label, style):
+def _draw_curve(axes: Axes, curve: Columns, label: str, style: Style) -> Line2D:
     return axes.plot(curve[X], curve[Y], label=label, **style)[0]
 
 
-def _contact_series(series):
+def _contact_series(series: Series) -> Series:
     """Measurements against the angle in the axes of the figure, errors to first order."""
     groups = [series["parameters"][key] for key in ("mass_ratio", "friction")]
     angle, ratio = series["x"], series["y"]
@@ -92,14 +97,43 @@ def _contact_series(series):
     return {"x": x, "y": y, "sigma": np.hypot(by_angle, by_ratio), "line": False}
 
 
-def _set_axes(axes, curve, left, right):
+def contact_velocities(
+    angle: ArrayLike, centre_restitution: ArrayLike, mass_ratio: float, friction: float
+) -> tuple[Array, Array]:
+    """Measured points of a sphere without spin in the axes of the figure.
+
+    Parameters
+    ----------
+    angle : array_like
+        Angle of incidence in degrees.
+    centre_restitution : array_like
+        Tangential velocity of the centre, after over before.
+    mass_ratio, friction : float
+        beta and mu.
+
+    Returns
+    -------
+    incidence, velocity : ndarray
+        x = tan(theta)/mu and w = x (beta e_t - (beta - 1)).
+
+    Examples
+    --------
+    >>> x, w = contact_velocities(45.0, 1.0, 3.5, 0.5)
+    >>> round(float(x), 9), round(float(w), 9)
+    (2.0, 2.0)
+    """
+    x = np.tan(np.radians(angle)) / friction
+    return x, x * (mass_ratio * np.asarray(centre_restitution) - (mass_ratio - 1))
+
+
+def _set_axes(axes: Axes, curve: Columns, left: float, right: float) -> None:
     drawn = curve[Y][curve[X] <= right]
     low, high = min(-3.0, math.floor(drawn.min())), max(2.0, math.ceil(drawn[-1]))
     axes.set(xlim=(left, right), ylim=(low, high), xlabel=house_style.INCIDENCE)
     axes.set_ylabel(house_style.REBOUND)
 
 
-def _draw_regimes(axes, curve, right):
+def _draw_regimes(axes: Axes, curve: Columns, right: float) -> None:
     """Brackets and boundaries where the regime of the solver changes."""
     x, regime = (curve[column][curve[X] <= right] for column in (X, "regime"))
     starts = [0, *(np.flatnonzero(regime[1:] != regime[:-1]) + 1)]
@@ -115,7 +149,7 @@ def _draw_regimes(axes, curve, right):
         axes.axvline(start, **house_style.GUIDE)
 
 
-def _draw_printed_limit(axes, limit):
+def _draw_printed_limit(axes: Axes, limit: float) -> None:
     """The paper's limit of slip throughout, (1 + e) m2/m1, that its Eq. 21 contradicts."""
     left, right = axes.get_xlim()
     if left < limit < right:

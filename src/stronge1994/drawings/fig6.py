@@ -1,13 +1,19 @@
 """Fig. 6: tangential velocity at separation against incidence, for several restitutions."""
 
 import math
+from collections.abc import Iterable
 
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from stronge1994.csv_tables import Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Points, Settings
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 
 
-def draw(curves, settings, points):
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """One curve a restitution, named where it leaves the axes, and what the print has instead."""
     figure = house_style.new(3.8)
     axes = figure.subplots()
@@ -26,7 +32,7 @@ def draw(curves, settings, points):
     return figure
 
 
-def _label_ends(axes, ends):
+def _label_ends(axes: Axes, ends: Iterable[tuple[float, str, str]]) -> None:
     """Names to the right of the axes, at the heights of the curves but kept apart."""
     low, high = axes.get_ylim()
     apart, last = 0.05 * (high - low), -math.inf

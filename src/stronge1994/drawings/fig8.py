@@ -1,8 +1,15 @@
 """Fig. 8: largest forces in newtons on the ball of Lewis & Rogers, and what is said of them."""
 
 import math
+from collections.abc import Sequence
 
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Entries, Points, Settings
 
 X, Y = "angle [deg]", "peak_force [N]"
 TANGENTIAL = {"color": house_style.BLUE, "linestyle": house_style.DASHES[1], "linewidth": 1.4}
@@ -16,7 +23,7 @@ STATED = {
 }
 
 
-def draw(curves, settings, points):
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Normal force on the left axis, tangential on the right one, measurements if at hand."""
     figure = house_style.new(5.0)
     axes = figure.subplots()
@@ -41,7 +48,7 @@ def draw(curves, settings, points):
     return figure
 
 
-def _draw_measured(axes, enlarged, points):
+def _draw_measured(axes: Axes, enlarged: Axes, points: Points) -> Entries:
     """Draw the measurements of Lewis & Rogers; their entries of the legend."""
     forces = {
         "normal": (axes, house_style.BLACK, "o"),
@@ -56,7 +63,7 @@ def _draw_measured(axes, enlarged, points):
     return entries
 
 
-def _set_axes(axes, enlarged, span):
+def _set_axes(axes: Axes, enlarged: Axes, span: Sequence[float]) -> None:
     top = 20 * math.ceil(max(axes.get_ylim()[1], ENLARGED * enlarged.get_ylim()[1]) / 20)
     axes.set(ylim=(0, top), ylabel="largest normal force, N")
     enlarged.set_ylim(0, top / ENLARGED)
@@ -65,7 +72,7 @@ def _set_axes(axes, enlarged, span):
     house_style.angle_axes(axes, span)
 
 
-def _draw_largest(axes, curve):
+def _draw_largest(axes: Axes, curve: Columns) -> Artist:
     """Mark the largest tangential force and its angle."""
     top = int(curve[Y].argmax())
     angle, force = curve[X][top], curve[Y][top]
@@ -76,7 +83,7 @@ def _draw_largest(axes, curve):
     return axes.plot(angle, force, label=r"largest $F_1^{max}$", **LARGEST)[0]
 
 
-def _draw_statements(axes, curve, points):
+def _draw_statements(axes: Axes, curve: Columns, points: Points) -> Artist:
     """Thin lines at the angles stated, from the axis to above the curve."""
     height = 1.15 * curve[Y].max()
     place = {"rotation": 90, "ha": "center", "va": "bottom", "fontsize": house_style.NOTE}
@@ -89,7 +96,7 @@ def _draw_statements(axes, curve, points):
     return axes.vlines(list(inside), 0, height, label=label, **house_style.PRINTED)
 
 
-def _draw_note(axes, settings):
+def _draw_note(axes: Axes, settings: Settings) -> None:
     lines = [
         rf"$\mu = {settings['friction']:g}$",
         rf"$S = {settings['speed']:g}$ m/s",

@@ -15,11 +15,28 @@ Colours (Okabe & Ito) differ in grey too, and no two curves differ by colour alo
 
 import itertools
 import textwrap
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import IO, Any, TypeAlias, TypeVar
 
 import matplotlib
 import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+
+from planarimpact.ground.arrays import Array
+from stronge1994 import curve_names
+from stronge1994.csv_tables import Curves
+
+Style: TypeAlias = dict[str, Any]  # keywords of matplotlib
+Dashes: TypeAlias = str | tuple[float, tuple[float, ...]]  # a pattern of line
+File: TypeAlias = str | IO[bytes]
+Settings: TypeAlias = dict[str, Any]
+Series: TypeAlias = dict[str, Any]
+Points: TypeAlias = dict[str, Series]
+Entries: TypeAlias = list[Any]  # of a legend: artists, and containers of them
+_Item = TypeVar("_Item")
 
 WIDTH = 5.0  # inches; the type stays readable when a column of a journal shrinks it to 3.4
 NOTE = 7  # points: notes, brackets, labels at lines
@@ -28,17 +45,23 @@ BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E
 GREY, PALE = "0.5", "0.85"
 
 # Dotted is left out: it means "no tangential compliance".
-DASHES = ("-", (0, (5, 2)), (0, (7, 2, 1.5, 2)), (0, (3, 1.2)), (0, (7, 1.5, 1.5, 1.5, 1.5, 1.5)))
-COLOURS = (BLACK, BLUE, VERMILLION, GREEN, PURPLE)
+DASHES: tuple[Dashes, ...] = (
+    "-",
+    (0, (5, 2)),
+    (0, (7, 2, 1.5, 2)),
+    (0, (3, 1.2)),
+    (0, (7, 1.5, 1.5, 1.5, 1.5, 1.5)),
+)
+COLOURS: tuple[str, ...] = (BLACK, BLUE, VERMILLION, GREEN, PURPLE)
 CYCLE = tuple(zip(COLOURS, DASHES, strict=True))
 
-LUMPED = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
-CONTINUUM = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
-RIGID = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zorder": 1.8}
-GUIDE = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9}
-PRINTED = {"color": GREY, "linewidth": 0.8}
-AS_PRINTED = {"color": PURPLE, "linestyle": "-", "linewidth": 0.9, "zorder": 2.2}
-UNSOLVED = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
+LUMPED: Style = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
+CONTINUUM: Style = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
+RIGID: Style = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zorder": 1.8}
+GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9}
+PRINTED: Style = {"color": GREY, "linewidth": 0.8}
+AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 0.9, "zorder": 2.2}
+UNSOLVED: Style = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
 
 INCIDENCE = r"$v_1(0)/\mu v_2(0)$"
 REBOUND = r"$v_1(t_f)/\mu v_2(0)$"
@@ -71,12 +94,12 @@ matplotlib.rcdefaults()
 matplotlib.rcParams.update(STYLE)
 
 
-def new(height):
+def new(height: float) -> Figure:
     """Empty figure of the house's width and a height in inches."""
     return Figure(figsize=(WIDTH, height), layout="constrained")
 
 
-def save(figure, svg, png=None):
+def save(figure: Figure, svg: File, png: File | None = None) -> None:
     """Write both files, the same bytes for the same figure.
 
     Parameters
@@ -95,7 +118,7 @@ def save(figure, svg, png=None):
         figure.savefig(png, format="png", dpi=200)
 
 
-def failure(message):
+def failure(message: str) -> Figure:
     """Figure of one plain sentence, drawn where curves are missing."""
     figure = new(1.6)
     # A dollar sign in an error message is not mathematics.
@@ -104,7 +127,7 @@ def failure(message):
     return figure
 
 
-def symbols(name):
+def symbols(name: str) -> str:
     """Name of a curve in mathematical type.
 
     Examples
@@ -115,17 +138,17 @@ def symbols(name):
     return "$" + name.replace("mu", r"\mu") + "$"
 
 
-def patterned(items):
+def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
     """Each item with a pattern of line."""
     return zip(items, itertools.cycle(DASHES), strict=False)
 
 
-def key(label, **style):
+def key(label: str, **style: Any) -> Line2D:
     """Entry of a legend without its curve."""
     return Line2D([], [], label=label, **style)
 
 
-def legend_below(figure, *groups, titles=()):
+def legend_below(figure: Figure, *groups: Iterable[Artist], titles: Collection[str] = ()) -> None:
     """Legend under the axes, where it covers no curve whatever the physics: a column a group.
 
     Parameters
@@ -152,12 +175,19 @@ def legend_below(figure, *groups, titles=()):
             text.set_style("italic")
 
 
-def rigid(axes, x, y, compliant):
+def rigid(axes: Axes, x: Array, y: Array, compliant: Array) -> None:
     """Line of negligible tangential compliance, left out where the compliant curve is the same."""
     axes.plot(x, np.where(np.isclose(y, compliant), np.nan, y), **RIGID)
 
 
-def as_printed(axes, curves, x, y, equations, patterns=None):
+def as_printed(
+    axes: Axes,
+    curves: Curves,
+    x: str,
+    y: str,
+    equations: str,
+    patterns: Mapping[str, Dashes] | None = None,
+) -> Entries:
     """Draw what the printed equations give, where they differ; entries of the legend.
 
     Parameters
@@ -177,22 +207,22 @@ def as_printed(axes, curves, x, y, equations, patterns=None):
     list of artists
     """
     kinds = {
-        "as printed": (f"{equations} as printed", AS_PRINTED),
-        "no solution as printed": ("no solution as printed", UNSOLVED),
+        curve_names.AS_PRINTED: (f"{equations} as printed", AS_PRINTED),
+        curve_names.NO_SOLUTION: ("no solution as printed", UNSOLVED),
     }
     entries = []
     for kind, (label, style) in kinds.items():
         chosen = {name: curve for name, curve in curves.items() if name.split(",")[0] == kind}
         for name, curve in chosen.items():
             ours = [dashes for end, dashes in (patterns or {}).items() if name.endswith(end)]
-            pattern = {"linestyle": ours[0]} if ours and kind == "as printed" else {}
+            pattern = {"linestyle": ours[0]} if ours and kind == curve_names.AS_PRINTED else {}
             axes.plot(curve[x], curve[y], **(style | pattern))
         if chosen:
             entries.append(key(label, **style))
     return entries
 
 
-def measured(axes, series, **style):
+def measured(axes: Axes, series: Series, **style: Any) -> Artist:
     """Reference points with error bars, or a line where the reference is one; its legend entry."""
     if series["line"]:
         return axes.plot(series["x"], series["y"], **style)[0]
@@ -201,7 +231,7 @@ def measured(axes, series, **style):
     return axes.errorbar(series["x"], series["y"], yerr=y_error, xerr=x_error, **(bars | style))
 
 
-def references(axes, points, wanted):
+def references(axes: Axes, points: Points, wanted: Mapping[str, tuple[str, Style]]) -> Entries:
     """Draw reference series on their axes; an entry of the legend each, also for awaited ones.
 
     Parameters
@@ -224,7 +254,7 @@ def references(axes, points, wanted):
     ]
 
 
-def let_in(axes, series):
+def let_in(axes: Axes, series: Series) -> None:
     """Widen axes to points that were digitised just outside them, up to three sigmas.
 
     Parameters
@@ -244,7 +274,7 @@ def let_in(axes, series):
         set_(min([low, *near]), max([high, *near]))
 
 
-def angle_axes(axes, span):
+def angle_axes(axes: Axes, span: Sequence[float]) -> None:
     """Angles of incidence below, the ratio of velocities that they stand for above."""
     axes.set(xlim=span, xlabel=r"angle of incidence $\theta$")
     degrees = [angle for angle in range(0, 91, 30) if span[0] <= angle <= span[1]]
@@ -257,7 +287,7 @@ def angle_axes(axes, span):
     top.set_xlabel(r"$v_1(0)/v_2(0)$")
 
 
-def brackets(axes, spans):
+def brackets(axes: Axes, spans: Iterable[tuple[float, float, str]]) -> None:
     """Brackets over the axes: `spans` holds (start, end, label) on the x axis."""
     across = axes.get_xaxis_transform()
     left, right = axes.get_xlim()

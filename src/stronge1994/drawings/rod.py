@@ -1,10 +1,18 @@
 """Beyond the paper: a slender rod strikes with its tip; rebound, energy, a contact that jams."""
 
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Patch
 
 from planarimpact import Regime
+from planarimpact.ground.arrays import Array
+from stronge1994.csv_tables import Column, Columns, Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Entries, Points, Settings
 from stronge1994.drawings.superball import SURFACE
 
 TILT, TIME = "tilt [deg]", "time [1/Omega]"
@@ -21,7 +29,7 @@ JAM = {"facecolor": "white", "hatch": "//////", "edgecolor": "0.4", "linewidth":
 SHADES = {"STICK_SLIP": "white", "SLIP_STICK_SLIP": "0.93", "SLIP_THROUGHOUT": "0.8"}
 
 
-def draw(curves, settings, points):
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Over the tilt, a column a ratio of velocities: slip, (a, b) velocities, (c) energy; (d)."""
     figure = house_style.new(8.0)
     over_tilt, over_time = figure.subfigures(2, 1, height_ratios=[5.5, 2.5])
@@ -56,7 +64,7 @@ def draw(curves, settings, points):
     return figure
 
 
-def _draw_over_tilt(panels, curves, name, letters):
+def _draw_over_tilt(panels: Sequence[Axes], curves: Curves, name: str, letters: float) -> None:
     compliant, rigid, newton = (
         curves[f"{kind}{name}"] for kind in ("", "rigid, ", "rigid, Newton, ")
     )
@@ -76,7 +84,7 @@ def _draw_over_tilt(panels, curves, name, letters):
     panels[-1].set_xlim(compliant[TILT][[0, -1]])
 
 
-def _draw_ribbon(axes, compliant, rigid, letters):
+def _draw_ribbon(axes: Axes, compliant: Columns, rigid: Columns, letters: float) -> None:
     """Rows: order of stick and slip, where the compliant contact jams, where the rigid one."""
     axes.set(ylim=(3, 0))
     axes.tick_params(which="both", length=0, labelbottom=False)
@@ -96,14 +104,14 @@ def _draw_ribbon(axes, compliant, rigid, letters):
                 axes.barh(row, end - start, 0.8, start, **JAM)
 
 
-def _spans(x, labels):
+def _spans(x: Array, labels: Column) -> Iterator[tuple[float, float, Any]]:
     """Stretches of one label: start, end, label; a change counts half way."""
     changes = np.flatnonzero(labels[1:] != labels[:-1])
     edges = [x[0], *(x[changes] + x[changes + 1]) / 2, x[-1]]
     return zip(edges, edges[1:], labels[[*changes, -1]], strict=False)
 
 
-def _draw_contact(axes, curves, mu):
+def _draw_contact(axes: Axes, curves: Curves, mu: float) -> list[Entries]:
     """(d) Both forces against time, stick and slip above them; entries of the legend."""
     contact, smooth = curves["contact"], curves["contact, mu = 0"]
     normal = {"color": house_style.BLACK, "label": "$F_2$"}
@@ -121,7 +129,7 @@ def _draw_contact(axes, curves, mu):
     return [[house_style.key(**style)] for style in (normal, friction, free)]
 
 
-def _mark_events(axes, contact):
+def _mark_events(axes: Axes, contact: Columns) -> None:
     """Brackets of stick and slip; a slip jams if the body approaches faster at its end."""
     event, time, approach = contact["event"], contact[TIME], contact["normal_velocity [v2(0)]"]
     changes = np.flatnonzero(np.isin(event, ["stick", "slip"]))
@@ -137,14 +145,14 @@ def _mark_events(axes, contact):
     if spans[-1][1] - spans[-1][0] < 0.08 * time[-1]:
         axes.text(time[-1] * 1.01, 1.07, spans[-1][2], fontsize=house_style.NOTE, **place)
     for index in np.flatnonzero(event == "maximum compression"):
-        place = time[index], contact[NORMAL][index]
-        axes.plot(*place, "o", color=house_style.BLACK, markersize=3)
+        top = time[index], contact[NORMAL][index]
+        axes.plot(*top, "o", color=house_style.BLACK, markersize=3)
         offset = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center"}
-        axes.annotate("maximum compression", place, fontsize=house_style.NOTE, **offset)
+        axes.annotate("maximum compression", top, fontsize=house_style.NOTE, **offset)
     axes.margins(y=0.14)
 
 
-def _draw_rod(axes, contact):
+def _draw_rod(axes: Axes, contact: Mapping[str, float]) -> None:
     """Sketch of the rod on the surface, its tilt, and where its tip moves."""
     tilt, ratio = contact["tilt"], contact["velocity_ratio"]
     axes.set(xlim=(-0.8, 0.8), ylim=(-0.2, 1.1), aspect="equal", anchor="N")

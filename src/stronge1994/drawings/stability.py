@@ -1,10 +1,21 @@
 """Beyond the paper: correct digits of the lumped model anywhere, beside those that can be had."""
 
+from typing import TypeAlias
+
 import matplotlib
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import BoundaryNorm
+from matplotlib.figure import Figure
 
+from planarimpact.ground.arrays import Array
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Entries, Points, Settings
+
+# Values of all impacts, and the lower edges of the cells with what stands at them.
+Cells: TypeAlias = tuple[Array, dict[float, str]]
 
 INCIDENCE, RESTITUTION, OMEGA = "incidence [mu v2(0)]", "restitution [1]", "omega [Omega]"
 KINDS = {"digits": "correct digits found", "digits_allowed": "allowed by the condition"}
@@ -30,7 +41,7 @@ PLATE = {"facecolor": "white", "edgecolor": "none", "pad": 1.5}
 WORSE = 2  # digits, see the comparison `stability-digits`
 
 
-def draw(curves, settings, points):
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """(a) to (d) Digits in cells of the box; (e) those found by those allowed, every impact."""
     impacts = curves["impacts"]
     figure = house_style.new(7.6)
@@ -58,7 +69,7 @@ def draw(curves, settings, points):
     return figure
 
 
-def _draw_map(axes, digits, across, upright):
+def _draw_map(axes: Axes, digits: Array, across: Cells, upright: Cells) -> QuadMesh:
     """Digits that half the impacts of each cell have; cells without impacts are hatched.
 
     The least would show only that every cell has an output that passes through zero.
@@ -79,14 +90,14 @@ def _draw_map(axes, digits, across, upright):
     return mesh
 
 
-def _with_ends(axes, first, last):
+def _with_ends(axes: Axes, first: str, last: str) -> tuple[list[float], list[str]]:
     """Ticks of a map with names for its first and last row, which stand for one number."""
     labels = [label.get_text() for label in axes.get_yticklabels()]
     places = axes.get_yticks().tolist()
     return [0.5, *places, places[-1] + 0.5], [first, *labels, last]
 
 
-def _draw_scatter(axes, impacts):
+def _draw_scatter(axes: Axes, impacts: Columns) -> tuple[Entries, Entries]:
     """A mark for each pair of digits that occurs, to a tenth; entries of the legend."""
     entries = []
     for name, style in OUTPUTS.items():

@@ -4,13 +4,18 @@ A study along one axis is a curve.
 """
 
 import itertools
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from scipy import ndimage
 
-from planarimpact import Regime
+from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.ground.results import Regime
 from stronge1994.drawings import house_style
 
 SYMBOLS = {
@@ -31,7 +36,7 @@ NEGATIVE = {"hatch": "////", "edgecolor": "0.7", "linewidth": 0}  # blue and red
 PLATE = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 1.0}
 
 
-def draw(axes, velocity, regime):
+def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> Figure:
     """Velocity at separation in colours, where it is zero, and where regimes meet.
 
     Parameters
@@ -89,7 +94,7 @@ def draw(axes, velocity, regime):
     return figure
 
 
-def _curve(axes, velocity):
+def _curve(axes: Mapping[str, Array], velocity: Array) -> Figure:
     """Velocity along the longest axis, where all others have one point."""
     across = max(axes, key=lambda name: len(axes[name]))
     figure = house_style.new(2.8)
@@ -104,17 +109,17 @@ def _curve(axes, velocity):
     return figure
 
 
-def _place(axes, cut, others):
+def _place(axes: Mapping[str, Array], cut: Mapping[str, Any], others: Sequence[str]) -> str:
     """Where a slice lies, in words."""
     return ", ".join(f"{SYMBOLS[name]} = {axes[name][cut[name]]:g}" for name in others)
 
 
-def _thinned(count, most):
+def _thinned(count: int, most: int) -> Integers:
     """Up to `most` places of `count`, evenly spread, both ends among them."""
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
 
 
-def _draw_regimes(panel, grid, codes):
+def _draw_regimes(panel: Axes, grid: tuple[Array, Array], codes: Integers) -> None:
     """Lines where regimes meet, and their names; those at the edge of the grid are left out."""
     regimes = [code for code in np.unique(codes) if _is_large(codes == code)]
     for code in regimes:
@@ -130,19 +135,19 @@ def _draw_regimes(panel, grid, codes):
             panel.contour(*grid, field, [0.5], **BOUNDARY)
 
 
-def _is_large(inside):
+def _is_large(inside: Booleans) -> bool:
     """A region takes its share, and is more than a row or column of cells."""
     thick = inside[1:, 1:] & inside[:-1, 1:] & inside[1:, :-1] & inside[:-1, :-1]
-    return thick.any() and inside.mean() >= LEAST
+    return bool(thick.any() and inside.mean() >= LEAST)
 
 
-def _room(inside):
+def _room(inside: Booleans) -> float:
     """Radius of the largest circle in a region, in panels."""
     cell = 1 / np.array(inside.shape)
     return ndimage.distance_transform_edt(np.pad(inside, 1), sampling=cell).max()
 
 
-def _middle(inside):
+def _middle(inside: Booleans) -> Integers:
     """Row and column of the cell of a region that is nearest to its mean."""
     cells = np.argwhere(inside)
     apart = ((cells - cells.mean(axis=0)) / inside.shape) ** 2

@@ -1,11 +1,18 @@
 """Beyond the paper: error of every model against its time, and time against the size of batch."""
 
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from stronge1994.csv_tables import Curves
 from stronge1994.drawings import house_style
-from stronge1994.trade import answers
+from stronge1994.drawings.house_style import Points, Settings, Style
+
+_Row: TypeAlias = dict[str, Any]
+Place: TypeAlias = tuple[str, float, float]
 
 ERROR, MODEL, RESTITUTION = "rms_velocity [mu v2(0)]", "model", "restitution [1]"
 STEPS, CIRCLES, TOLERANCE = "steps [1]", "circles [1]", "tolerance [mu v2(0)]"
@@ -29,9 +36,9 @@ class Family(NamedTuple):
     size: float
     colour: str
     filled: bool
-    place: tuple | None
+    place: Place | None
 
-    def style(self):
+    def style(self) -> Style:
         """Keywords of its marker."""
         return {
             "marker": self.marker,
@@ -73,7 +80,9 @@ FRONT = {"color": house_style.BLACK, "linewidth": 0.6, "zorder": 0.9}
 FRONT_WITH_RESPONSES = FRONT | {"linestyle": (0, (4, 2))}
 
 
-def draw(curves, settings, points, families=FAMILIES):
+def draw(
+    curves: Curves, settings: Settings, points: Points, families: Mapping[str, Family] = FAMILIES
+) -> Figure:
     """(a) Error against time for the first restitution, (b) for the last, (c) time and batch.
 
     `families` may hold more than those of the legend. The title says so if times are too long.
@@ -98,27 +107,58 @@ def draw(curves, settings, points, families=FAMILIES):
     _draw_growth(growth, _of(rows, first), sorted(settings["batches"]))
     growth.set(title=f"(c) $e = {first:g}$", xlabel="impacts together", ylabel=TIME_WORDS)
     note = f"numbers at points: steps, circles or tolerance; (a), (b): {batch} impacts together"
-    notes = [note, answers.warning(rows)]
+    notes = [note, warning(rows)]
     figure.suptitle("\n".join(filter(None, notes)), fontsize=house_style.NOTE)
     _add_legend(figure)
     return figure
 
 
-def shown_batch(settings):
+def warning(rows: Sequence[_Row]) -> str:
+    """A sentence if the machine was busy while some of the times were taken, else no words.
+
+    Parameters
+    ----------
+    rows : sequence of dict
+        Of results/curves/trade.csv, as texts or numbers.
+
+    Examples
+    --------
+    >>> warning([{"time_1 [s]": 2.0, "busy_1 [1]": 1.9}, {"time_1 [s]": 1.0}])
+    'the machine was busy: 1 of 2 times are up to 1.9 times too long'
+    """
+    cells = [(key, cell) for row in rows for key, cell in row.items() if cell]
+    busy = [float(cell) for key, cell in cells if key.startswith("busy_")]
+    if not busy:
+        return ""
+    count = sum(key.endswith(" [s]") for key, _ in cells)
+    return (
+        f"the machine was busy: {len(busy)} of {count} times are up to {max(busy):.2g} times too "
+        "long"
+    )
+
+
+def shown_batch(settings: Settings) -> int:
     """Size of the batch whose times stand beside errors: the middle one."""
     return sorted(settings["batches"])[len(settings["batches"]) // 2]
 
 
-def _of(rows, restitution):
+def _of(rows: Sequence[_Row], restitution: float) -> list[_Row]:
     return [row for row in rows if row[RESTITUTION] == restitution]
 
 
-def _title(letter, restitution):
+def _title(letter: str, restitution: float) -> str:
     against = "the elastic continuum" if restitution == 1 else "the lumped model"
     return f"({letter}) $e = {restitution:g}$, against {against}"
 
 
-def _draw_errors(axes, rows, batch, families, span, margin):
+def _draw_errors(
+    axes: Axes,
+    rows: Sequence[_Row],
+    batch: int,
+    families: Mapping[str, Family],
+    span: tuple[float, float],
+    margin: float,
+) -> None:
     """Points of a span of error with their labels, and both fronts; `margin` for labels."""
     timed = [row for row in rows if f"time_{batch} [s]" in row]
     if not timed:
@@ -138,7 +178,7 @@ def _draw_errors(axes, rows, batch, families, span, margin):
         _draw_front(axes, [time[i] for i in chosen], [error[i] for i in chosen], edges, style)
 
 
-def label(axes, at, words, place):
+def label(axes: Axes, at: Sequence[float], words: str, place: Place | None) -> None:
     """Write words beside a point, if there are any and a place for them."""
     if not words or place is None:
         return
@@ -156,7 +196,7 @@ def label(axes, at, words, place):
     )
 
 
-def words_of(row):
+def words_of(row: _Row) -> str:
     """What a point is called beside its family."""
     if STEPS in row and CIRCLES not in row:
         return f"{row[STEPS]:g}"
@@ -167,16 +207,37 @@ def words_of(row):
     return NAMES.get(row[MODEL], "")
 
 
-def _draw_front(axes, time, error, edges, style):
+def front(time: Sequence[float], error: Sequence[float]) -> list[int]:
+    """Indices of the Pareto front, from the fastest on: no other is as fast and as near.
+
+    Examples
+    --------
+    >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
+    [1, 2, 0]
+    """
+    found: list[int] = []
+    for index in sorted(range(len(time)), key=lambda i: (time[i], error[i])):
+        if not found or error[index] < error[found[-1]]:
+            found.append(index)
+    return found
+
+
+def _draw_front(
+    axes: Axes,
+    time: Sequence[float],
+    error: Sequence[float],
+    edges: tuple[tuple[float, float], tuple[float, float]],
+    style: Style,
+) -> None:
     """Pareto front: what lies above and to the right of it is beaten in both."""
     (_, right), (_, top) = edges
-    front = answers.front(time, error)
-    x = [time[front[0]], *(time[i] for i in front), right]
-    y = [top, *(error[i] for i in front), error[front[-1]]]
+    best = front(time, error)
+    x = [time[best[0]], *(time[i] for i in best), right]
+    y = [top, *(error[i] for i in best), error[best[-1]]]
     axes.step(x, y, where="post", **style)
 
 
-def _cut(rough, fine):
+def _cut(rough: Axes, fine: Axes) -> None:
     """Two scales of error, one above the other, read as one panel."""
     rough.set_ylim(bottom=CUT)
     fine.set_ylim(top=CUT)
@@ -189,7 +250,7 @@ def _cut(rough, fine):
         axes.plot([0, 1], [height, height], **marks, **place)
 
 
-def _draw_growth(axes, rows, batches):
+def _draw_growth(axes: Axes, rows: Sequence[_Row], batches: Sequence[int]) -> None:
     for model, dashes in GROWTH.items():
         family = FAMILIES[model]
         same = [row for row in rows if row[MODEL] == model]
@@ -201,7 +262,7 @@ def _draw_growth(axes, rows, batches):
         axes.loglog(known, time, linestyle=dashes, linewidth=0.9, **family.style())
 
 
-def _add_legend(figure):
+def _add_legend(figure: Figure) -> None:
     entries = {family.label: family for family in FAMILIES.values()}
     keys = [
         house_style.key(label, linestyle="none", **family.style())

@@ -6,10 +6,14 @@ import json
 import shutil
 import zipfile
 import zlib
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 from stronge1994 import csv_tables, records
+from stronge1994.csv_tables import Row
 from stronge1994.judging import verdict_table
 from stronge1994.records import HOW_TO_MEND
 
@@ -19,7 +23,15 @@ TABLES = ("results/verdicts.csv", "results/ledger.csv")
 MAY_HAVE_NO_ROWS = {"residuals", "sensitivity", "problems"}
 
 
-def faults(tables, residuals, page, problems, made, comparisons, entries):
+def faults(
+    tables: tuple[str, str],
+    residuals: Iterable[str],
+    page: str,
+    problems: str,
+    made: Sequence[str],
+    comparisons: Mapping[str, bool],
+    entries: Mapping[str, bool],
+) -> list[str]:
     """Why the run must not pass, in words, one line a fault.
 
     Parameters
@@ -48,7 +60,12 @@ def faults(tables, residuals, page, problems, made, comparisons, entries):
     return found or records.faults(made)
 
 
-def faults_of_tables(verdicts, ledger, comparisons, entries):
+def faults_of_tables(
+    verdicts: Sequence[Row],
+    ledger: Sequence[Row],
+    comparisons: Mapping[str, bool],
+    entries: Mapping[str, bool],
+) -> list[str]:
     """Why a run must not pass, in words, one line a fault.
 
     Parameters
@@ -73,13 +90,13 @@ def faults_of_tables(verdicts, ledger, comparisons, entries):
     found = _miscounted(TABLES[0], "comparison", verdicts, comparisons)
     found += _miscounted(TABLES[1], "entry", ledger, entries)
     for row in verdicts:
-        name, verdict = row.get("comparison"), row.get("verdict")
+        name, verdict = row.get("comparison", ""), row.get("verdict")
         if verdict == "diverges":
             found.append(f"diverges: {name}: {verdict_table.why(row)}")
         elif verdict not in verdict_table.ORDER or (verdict == "awaited") != comparisons.get(name):
             found.append(f"{TABLES[0]}: {name} = {verdict!r} cannot be: {HOW_TO_MEND}")
     for row in ledger:
-        name, holds = row.get("entry"), row.get("holds")
+        name, holds = row.get("entry", ""), row.get("holds")
         if holds == "no":
             found.append(f"no longer holds: {name}: {row.get('problem')}")
         elif holds != ("yes" if entries.get(name) else ""):
@@ -87,7 +104,9 @@ def faults_of_tables(verdicts, ledger, comparisons, entries):
     return found
 
 
-def _miscounted(table, column, rows, expected):
+def _miscounted(
+    table: str, column: str, rows: Iterable[Row], expected: Collection[str]
+) -> list[str]:
     names = [row.get(column) for row in rows]
     return [
         f"{table}: {names.count(name)} rows of {name} where {int(name in expected)} belongs: "
@@ -97,22 +116,21 @@ def _miscounted(table, column, rows, expected):
     ]
 
 
-def faults_of_residuals(verdicts, paths):
+def faults_of_residuals(verdicts: Sequence[Row], paths: Iterable[str]) -> list[str]:
     """Tables of residuals that lack points which the verdicts rest on, a line each."""
-    counts = {}
+    counts: Counter[str] = Counter()
     for path in paths:
         for row in csv_tables.read_rows(path):
-            name = row.get("comparison")
-            counts[name] = counts.get(name, 0) + 1
+            counts[row.get("comparison", "")] += 1
     return [
-        f"results/residuals/{row['figure']}.csv: {counts.get(row['comparison'], 0)} points of "
+        f"results/residuals/{row['figure']}.csv: {counts[row['comparison']]} points of "
         f"{row['comparison']} where {row['points']} belong: {HOW_TO_MEND}"
         for row in verdicts
-        if int(row.get("points") or 0) != counts.get(row["comparison"], 0)
+        if int(row.get("points") or 0) != counts[row["comparison"]]
     ]
 
 
-def faults_of_report(page, comparisons):
+def faults_of_report(page: str, comparisons: Mapping[str, bool]) -> list[str]:
     """Comparisons that the report does not show, a line each."""
     text = Path(page).read_text(encoding="utf-8")
     return [
@@ -120,7 +138,7 @@ def faults_of_report(page, comparisons):
     ]
 
 
-def faults_of_files(paths):
+def faults_of_files(paths: Iterable[str]) -> list[str]:
     """Files that are missing, empty or cut, a line each.
 
     Parameters
@@ -143,7 +161,7 @@ def faults_of_files(paths):
 _UNREADABLE = OSError, ValueError, SyntaxError, csv.Error, zipfile.BadZipFile, zlib.error
 
 
-def _table(path):
+def _table(path: Path) -> str:
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file)) or [[]]
     ragged = [number for number, row in enumerate(rows, 2) if len(row) != len(header)]
@@ -154,32 +172,32 @@ def _table(path):
     return f"line {ragged[0]} is not as wide as the header" if ragged else ""
 
 
-def _vector_picture(path):
+def _vector_picture(path: Path) -> str:
     return "" if ElementTree.parse(path).getroot().tag.endswith("svg") else "no SVG"
 
 
-def _raster_picture(path):
+def _raster_picture(path: Path) -> str:
     data = path.read_bytes()
     whole = data.startswith(b"\x89PNG\r\n\x1a\n") and data.endswith(b"IEND\xaeB`\x82")
     return "" if whole else "no whole PNG"
 
 
-def _page(path):
+def _page(path: Path) -> str:
     return "" if path.read_bytes().rstrip().endswith(b"</html>") else "it ends too early"
 
 
-def _folder(path):
+def _folder(path: Path) -> str:
     cut = [page.name for page in path.rglob("*.html") if _page(page)]
     if not any(path.iterdir()):
         return "no pages"
     return f"{cut[0]} ends too early" if cut else ""
 
 
-def _notebook(path):
+def _notebook(path: Path) -> str:
     return "" if json.loads(path.read_bytes()).get("cells") else "no cells"
 
 
-def _arrays(path):
+def _arrays(path: Path) -> str:
     with zipfile.ZipFile(path) as file:
         return file.testzip() or ""
 
@@ -195,7 +213,7 @@ _LOOK = {
 }
 
 
-def words_of_pass(made, config):
+def words_of_pass(made: Sequence[str], config: Mapping[str, Any]) -> str:
     """What results/PASSED says: what it belongs to, and to nothing else.
 
     Parameters
@@ -214,7 +232,7 @@ def words_of_pass(made, config):
     )
 
 
-def drop_false_pass(made, config):
+def drop_false_pass(made: Sequence[str], config: Mapping[str, Any]) -> None:
     """Remove a results/PASSED that the gate did not write for what is there now."""
     try:
         if Path(PASSED).read_text(encoding="utf-8") == words_of_pass(made, config):
@@ -224,14 +242,14 @@ def drop_false_pass(made, config):
     drop_pass()
 
 
-def drop_pass():
+def drop_pass() -> None:
     """Remove results/PASSED, whatever it is."""
     if Path(PASSED).is_dir() and not Path(PASSED).is_symlink():
         shutil.rmtree(PASSED)
     Path(PASSED).unlink(missing_ok=True)
 
 
-def refuse_unknown_results(made):
+def refuse_unknown_results(made: Sequence[str]) -> None:
     """Refuse results of which Snakemake has no records: a change would go unnoticed.
 
     Raises

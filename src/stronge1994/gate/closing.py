@@ -3,11 +3,17 @@
 import re
 import shlex
 import shutil
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import TypeAlias
 
 from stronge1994 import csv_tables, gate
+from stronge1994.csv_tables import Row
 from stronge1994.judging import verdict_table
 from stronge1994.ledger import outcome
+
+# When a file was written, and its number in the file system; None where there is no file.
+Mark: TypeAlias = tuple[int, int] | None
 
 VERDICTS, LEDGER = gate.TABLES
 GATE_LOG = "results/logs/gate.log"
@@ -30,7 +36,7 @@ ON_REQUEST = "Terminating processes on user request"
 FAILED_JOB = re.compile(r"^Error in rule (\w+):", flags=re.M)
 
 
-def state():
+def state() -> dict[str, Mark]:
     """What tells later whether this run has written the tables, and the log of the gate, anew.
 
     Times will not do: a clock may be wrong, and a copy of a folder has new ones.
@@ -38,7 +44,7 @@ def state():
     return {path: _mark(path) for path in (VERDICTS, LEDGER, GATE_LOG)}
 
 
-def start(known):
+def start(known: Collection[str]) -> None:
     """Take away what would speak of an earlier run: its verdict, and words of jobs that are gone.
 
     Python's bytecode too: it takes a source of the same size and date for the same source.
@@ -59,7 +65,12 @@ def start(known):
                 path.unlink()
 
 
-def words(before, config=(), stopped=False, logs=()):
+def words(
+    before: Mapping[str, Mark],
+    config: Sequence[str] = (),
+    stopped: bool = False,
+    logs: Iterable[str] = (),
+) -> str:
     """The end of a run; older tables would mislead, so they are left out.
 
     Parameters
@@ -104,7 +115,7 @@ def words(before, config=(), stopped=False, logs=()):
     return "\n" + "\n".join(parts) + "\n"
 
 
-def _failed(faults):
+def _failed(faults: Iterable[str]) -> str:
     """Headline of a failed run, and its first faults."""
     faults = list(faults)
     shown = [f"  {fault}" for fault in faults[:SHOWN]]
@@ -113,7 +124,7 @@ def _failed(faults):
     return "\n".join([f"FAILED. Reasons: {len(faults)}", *shown])
 
 
-def _rows(path, columns):
+def _rows(path: str, columns: Iterable[str]) -> list[Row]:
     """Rows of a table; none where it cannot be read, which the gate has said."""
     try:
         return csv_tables.read_rows(path, columns)
@@ -121,7 +132,7 @@ def _rows(path, columns):
         return []
 
 
-def _stopped(logs):
+def _stopped(logs: Iterable[str]) -> list[str]:
     """Why a run ended early."""
     said = "".join(Path(log).read_text(encoding="utf-8", errors="replace") for log in logs)
     if ON_REQUEST in said:
@@ -130,7 +141,7 @@ def _stopped(logs):
     return [f"A job stopped: {names or 'see above'}.", *STOPPED]
 
 
-def _mark(path):
+def _mark(path: str) -> Mark:
     """Changes whenever a file is written anew; None where there is none."""
     try:
         stat = Path(path).stat()

@@ -2,6 +2,8 @@
 
 import contextlib
 import io
+from collections.abc import Sequence
+from typing import Any
 
 WHY = {
     "keep_incomplete": "half-made files would count as whole",
@@ -18,7 +20,7 @@ class OptionError(Exception):
     """An option is not allowed."""
 
 
-def is_dry(arguments):
+def is_dry(arguments: Sequence[str]) -> bool:
     """Whether a command line asks for a plan alone, which must change nothing.
 
     Parameters
@@ -29,7 +31,7 @@ def is_dry(arguments):
     return _parsed(arguments).dryrun
 
 
-def refuse_untrustworthy(arguments):
+def refuse_untrustworthy(arguments: Sequence[str]) -> None:
     """Refuse options, abbreviated or from a profile too, that make a verdict untrue.
 
     Parameters
@@ -52,7 +54,7 @@ def refuse_untrustworthy(arguments):
         raise OptionError("--rerun-triggers: not allowed here, old files would count as new")
 
 
-def _parsed(arguments):
+def _parsed(arguments: Sequence[str]) -> Any:
     """Options as Snakemake reads them, its profiles too."""
     from snakemake.cli import parse_args  # here: only the process that was started has it
 

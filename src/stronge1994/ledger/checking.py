@@ -4,18 +4,23 @@ Always succeeds: an entry whose check crashes no longer holds, with the reason i
 """
 
 import traceback
+from collections.abc import Mapping
 
 from stronge1994 import ledger
+from stronge1994.csv_tables import Row
 from stronge1994.ledger import entries, outcome
+from stronge1994.ledger.entries import Entry
 
 
-def check(every):
+def check(every: Mapping[str, Entry]) -> list[Row]:
     """Rows of the ledger's table, an entry each, in its order."""
     tests = entries.checks()
-    return [_row(name, entry, tests.get(entry.get("check"), "")) for name, entry in every.items()]
+    return [
+        _row(name, entry, tests.get(entry.get("check", ""), "")) for name, entry in every.items()
+    ]
 
 
-def _row(name, entry, test):
+def _row(name: str, entry: Entry, test: str) -> Row:
     row = dict.fromkeys(outcome.COLUMNS, "")
     row |= {key: entry[key] for key in row if key in entry and key not in ("confirms", "holds")}
     row |= {"entry": name, "test": test, "range": entry.get("holds", "")}
@@ -38,7 +43,7 @@ def _row(name, entry, test):
     }
 
 
-def _words(confirms):
+def _words(confirms: Mapping[str, float]) -> str:
     if "value" in confirms:
         return f"{confirms['value']:g} within {confirms['rounding']:g}"
     (word, bound), *_ = confirms.items()

@@ -1,8 +1,10 @@
 """The table of what running the ledger's entries found."""
 
 from collections import Counter
+from collections.abc import Sequence
 
 from stronge1994 import csv_tables
+from stronge1994.csv_tables import Row
 
 COLUMNS = [
     "kind", "entry", "holds", "verdict", "grade", "cause", "where", "says", "test", "found",
@@ -17,18 +19,18 @@ GRADES = {
 }
 
 
-def failing(rows):
+def failing(rows: Sequence[Row]) -> list[Row]:
     """Rows whose recorded verdict no longer holds."""
     return [row for row in rows if row["holds"] == "no"]
 
 
-def grades(rows):
+def grades(rows: Sequence[Row]) -> dict[str, int]:
     """Numbers of wrong entries, gravest first: `{grade: number}`, those that there are."""
     counts = Counter(row.get("grade") for row in rows)
     return {grade: counts[grade] for grade in GRADES if counts[grade]}
 
 
-def grades_in_words(rows):
+def grades_in_words(rows: Sequence[Row]) -> str:
     """The same as words.
 
     >>> grades_in_words([{"grade": "changes a result"}, {"grade": ""}])
@@ -37,7 +39,7 @@ def grades_in_words(rows):
     return ", ".join(f"{count} {GRADES[grade]}" for grade, count in grades(rows).items())
 
 
-def summary(rows):
+def summary(rows: Sequence[Row]) -> str:
     """Lines for a terminal: counts, and each entry that no longer holds with its reason."""
     counts = Counter(row["verdict"] for row in rows)
     bad, graded = failing(rows), grades_in_words(rows)
@@ -49,6 +51,6 @@ def summary(rows):
     return "\n".join(lines)
 
 
-def write(path, rows):
+def write(path: str, rows: Sequence[Row]) -> None:
     """Write rows, dicts with the keys `COLUMNS` in their order."""
     csv_tables.write_rows(path, COLUMNS, [list(row.values()) for row in rows])

@@ -1,12 +1,16 @@
 """Write the impact explorer: a page that solves the lumped model itself and needs nothing else."""
 
 import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any, TypeAlias
 
 from markupsafe import Markup
 
 from planarimpact import bodies
 from stronge1994.pages import templates
+
+State: TypeAlias = dict[str, float]  # of the controls, by their names
 
 # Of each slider: least, largest, step.
 LIMITS = {
@@ -27,7 +31,7 @@ INCIDENCE = {"fig5": 3.0, "fig6": 2.0}
 ANGLE = {"fig7": 45.0, "fig8": 30.0, "fig9": 45.0}  # deg
 
 
-def presets(settings):
+def presets(settings: Mapping[str, Any]) -> dict[str, State]:
     """States of the page's controls for figures of the paper and the superball.
 
     Parameters
@@ -71,32 +75,32 @@ def presets(settings):
     return {figure: state for figure, state in rounded.items() if _within_limits(state)}
 
 
-def _middle(values):
+def _middle(values: Any) -> Any:
     """The middle one of several settings, the first of two."""
     return values[(len(values) - 1) // 2] if isinstance(values, list) else values
 
 
-def _poisson_ratio(stiffness_ratio):
+def _poisson_ratio(stiffness_ratio: float) -> float:
     """nu of zeta^2 = (2 - nu)/(2 (1 - nu)); NaN where no material has it."""
     return (stiffness_ratio - 1) / (stiffness_ratio - 0.5) if stiffness_ratio > 0.5 else math.nan
 
 
-def _mass_ratios():
+def _mass_ratios() -> dict[str, float]:
     return {name: round(float(bodies.mass_ratio(body)), 12) for name, body in BODIES.items()}
 
 
-def _within_limits(state):
+def _within_limits(state: Mapping[str, float]) -> bool:
     return all(
         LIMITS[control][0] <= value <= LIMITS[control][1] for control, value in state.items()
     )
 
 
-def _address(state):
+def _address(state: Mapping[str, float]) -> str:
     """What stands behind # in the page's address, but for the chart that is chosen."""
     return "&".join(f"{control}={value:g}" for control, value in state.items())
 
 
-def page(settings, sources):
+def page(settings: Mapping[str, Any], sources: Sequence[str]) -> str:
     """The page as text.
 
     Parameters
@@ -120,6 +124,6 @@ def page(settings, sources):
     )
 
 
-def write(path, settings, sources):
+def write(path: str, settings: Mapping[str, Any], sources: Sequence[str]) -> None:
     """Write the page that `page` returns."""
     templates.write(path, page(settings, sources))

@@ -34,8 +34,7 @@ def write(folder: str) -> None:
     def named(annotation: Any, *arguments: Any) -> str:
         return _name(annotation) or plain(annotation, *arguments)
 
-    words = {"docformat": "numpy", "footer_text": "planarimpact", "include_undocumented": False}
-    pdoc.render.configure(**words)
+    pdoc.render.configure(docformat="numpy", footer_text="planarimpact", include_undocumented=False)
     # pdoc has no option for how a type is written.
     with mock.patch("inspect.formatannotation", named):
         pdoc.pdoc(*DOCUMENTED, output_directory=Path(folder))

@@ -4,8 +4,8 @@ import os
 import re
 import sys
 import tempfile
-from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import nbformat
 from jupyter_client.kernelspec import KernelSpec
@@ -14,8 +14,6 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 from nbconvert import HTMLExporter
 from traitlets.config import Config
-
-from planarimpact.ground import files
 
 CELL_TIMEOUT = 120  # s
 SRC = Path(__file__).parents[2]
@@ -30,7 +28,7 @@ class ThisPython(AsyncKernelManager):
     """The Python of this job is the only kernel, whatever a machine or a user has registered."""
 
     @property
-    def kernel_spec(self):
+    def kernel_spec(self) -> Any:
         words = ["-m", "ipykernel_launcher", "-f", "{connection_file}"]
         # Pictures stay sharp on paper and at any size, and are the same bytes at every run.
         words.append("--InlineBackend.figure_formats={'svg'}")
@@ -39,8 +37,8 @@ class ThisPython(AsyncKernelManager):
         return KernelSpec(argv=[sys.executable, *words], language="python")
 
 
-def run(notebook, template, executed, page):
-    """Run `notebook` from its first cell to its last; write both results, or neither.
+def run(notebook: str, template: str, executed: str, page: str) -> None:
+    """Run `notebook` from its first cell to its last and write both results.
 
     Parameters
     ----------
@@ -77,19 +75,18 @@ def run(notebook, template, executed, page):
             raise NotebookError(f"{Path(notebook).name}: {str(error).splitlines()[0]}") from None
     exporter = HTMLExporter(template_file=str(template), exclude_anchor_links=True)
     texts = {executed: nbformat.writes(book) + "\n", page: exporter.from_notebook_node(book)[0]}
-    with ExitStack() as both:
-        for path, text in texts.items():
-            both.enter_context(files.written(path)).write_text(text, encoding="utf-8")
+    for path, text in texts.items():
+        Path(path).write_text(text, encoding="utf-8")
 
 
-def _environment(scratch):
+def _environment(scratch: str) -> dict[str, str]:
     """The sources of this checkout, and nothing of the user's: no profile, no folder at home."""
     places = dict.fromkeys(("IPYTHONDIR", "JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR"), scratch)
     # Its numbers are checked by assertions, which PYTHONOPTIMIZE would leave out.
     return os.environ | {"PYTHONPATH": str(SRC), "PYTHONOPTIMIZE": ""} | places
 
 
-def _failure(book, error):
+def _failure(book: Any, error: Any) -> str:
     """Number of the cell that failed, its failing line, and the error."""
     number, cell = next(
         (n, cell)

@@ -6,14 +6,16 @@ import math
 import os
 import platform
 import subprocess
+from collections.abc import Callable
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 PACKAGES = ("planarimpact", "numpy", "scipy", "matplotlib", "pandas", "snakemake")
 NO_COMMIT = "unknown: not a git checkout, or git is missing"
 
 
-def versions():
+def versions() -> dict[str, str]:
     """Versions of Python and of the packages that a run uses, `{name: version}`."""
     found = {"python": platform.python_version()}
     for name in PACKAGES:
@@ -24,17 +26,17 @@ def versions():
     return found
 
 
-def system():
+def system() -> str:
     """Operating system and processor, without the name of the machine."""
     return f"{platform.platform()}, {os.cpu_count()} processors"
 
 
-def date():
+def date() -> str:
     """Now, to the minute, in universal time."""
     return f"{datetime.datetime.now(datetime.UTC):%d %B %Y, %H:%M} UTC"
 
 
-def commit(folder):
+def commit(folder: str | Path) -> str:
     """Commit of a checkout, and whether something is not committed; words where there is none.
 
     A folder that only lies inside some other checkout is none.
@@ -49,7 +51,7 @@ def commit(folder):
     return f"{name}, with uncommitted changes" if changed else name
 
 
-def _git(folder, *arguments):
+def _git(folder: str | Path, *arguments: str) -> str:
     # A hook of git, or a shell with GIT_DIR, would have it look into another repository.
     environment = {key: value for key, value in os.environ.items() if not key.startswith("GIT_")}
     found = subprocess.run(
@@ -63,7 +65,7 @@ def _git(folder, *arguments):
     return found.stdout[:-1]
 
 
-def times(benchmarks):
+def times(benchmarks: str | Path) -> list[tuple[str, float]]:
     """Seconds that each job took when it last ran, longest first: list of (job, seconds).
 
     Parameters
@@ -85,7 +87,7 @@ def times(benchmarks):
     return sorted(found, key=lambda job: -job[1])
 
 
-def everything():
+def everything() -> dict[str, tuple[Any, Callable[[], Any]]]:
     """All of it, to be asked for later: `{name: (what stands there if it fails, function)}`."""
     return {
         "versions": ({}, versions),

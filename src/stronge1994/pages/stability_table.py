@@ -1,8 +1,11 @@
 """Write the digits of the lumped model by decades of each parameter."""
 
+from typing import Any
+
 import numpy as np
 
 from stronge1994 import csv_tables
+from stronge1994.csv_tables import Columns
 
 GROUPS = ("incidence [mu v2(0)]", "mass_ratio [1]", "stiffness_ratio [1]", "restitution [1]")
 QUANTITIES = (*GROUPS, "omega [Omega]", "phases [1]")
@@ -21,7 +24,7 @@ COLUMNS = (
 FAR = 16  # decades from 1; what lies farther is one row
 
 
-def by_decade(impacts):
+def by_decade(impacts: Columns) -> list[list[Any]]:
     """Digits of the worst output of the impacts in each decade of each quantity.
 
     Parameters
@@ -56,7 +59,7 @@ def by_decade(impacts):
     return rows
 
 
-def _span(decade):
+def _span(decade: float) -> tuple[str, str]:
     """Ends of a decade in words."""
     if decade == -np.inf:
         return "0", "0"
@@ -64,7 +67,7 @@ def _span(decade):
     return low, "inf" if decade >= FAR else f"1e{decade + 1:.0f}"
 
 
-def write(curves, table):
+def write(curves: str, table: str) -> None:
     """Read the `curves` of the figure and write the table; what a crash left goes into it."""
     try:
         impacts = csv_tables.read(curves)["impacts"]

@@ -1,11 +1,11 @@
-"""What all pages share: templates in one folder, and files written whole or not at all."""
+"""What all pages share: templates in one folder."""
+
+from pathlib import Path
 
 import jinja2
 
-from planarimpact.ground import files
 
-
-def environment(folder):
+def environment(folder: str | Path) -> jinja2.Environment:
     """Environment for the templates of a folder; a name that they do not know is an error."""
     return jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder),
@@ -16,7 +16,6 @@ def environment(folder):
     )
 
 
-def write(path, text):
-    """Write a page whole or not at all."""
-    with files.written(path) as partial:
-        partial.write_text(text, encoding="utf-8")
+def write(path: str, text: str) -> None:
+    """Write a page."""
+    Path(path).write_text(text, encoding="utf-8")

@@ -10,11 +10,20 @@ import csv
 import math
 import re
 import unicodedata
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import jsonschema
 
 from stronge1994.reference_data import digitiser_export, strict_yaml
+from stronge1994.reference_data.digitiser_export import NumberedRow
+
+# As in source.yaml; a loaded series has its `path` too.
+Source: TypeAlias = dict[str, Any]
+Series: TypeAlias = Mapping[str, Any]
+Axis: TypeAlias = Mapping[str, Any]
+Schema: TypeAlias = Mapping[str, Any]
 
 MOST_LINES = 10_000  # of a series
 OUTSIDE = 3  # sigmas; so far may a value lie outside the range of its axis
@@ -37,7 +46,7 @@ class SourceError(Exception):
     """Something in data/ is not as source.yaml or its schema says."""
 
 
-def load(folder, schema):
+def load(folder: Path, schema: Schema) -> Source:
     """Load and check one source.
 
     Parameters
@@ -77,12 +86,12 @@ def load(folder, schema):
     return source
 
 
-def _visible(folder):
+def _visible(folder: Path) -> set[str]:
     """Names of what lies in a folder, without hidden files and words for readers."""
     return {path.name for path in folder.iterdir() if not path.name.startswith((".", "README"))}
 
 
-def _refuse_other_number(where, series, columns):
+def _refuse_other_number(where: str, series: Series, columns: Mapping[str, list[Any]]) -> None:
     """Refuse a file that was cut, or has points of which source.yaml knows nothing."""
     found = len(next(iter(columns.values())))
     if series["kind"] != "awaited" and found != series.get("points"):
@@ -91,7 +100,7 @@ def _refuse_other_number(where, series, columns):
         )
 
 
-def _refuse_axis(where, axis):
+def _refuse_axis(where: str, axis: Axis) -> None:
     """Refuse what the schema cannot: numbers of an axis that do not go together."""
     low, high = axis["range"]
     if not low < high:
@@ -104,7 +113,7 @@ def _refuse_axis(where, axis):
         )
 
 
-def load_yaml(path):
+def load_yaml(path: str | Path) -> dict[str, Any]:
     """Read a YAML file: a mapping whose keys are texts, each once.
 
     Parameters
@@ -127,7 +136,7 @@ def load_yaml(path):
         raise SourceError(f"{path}, {error}") from None
 
 
-def _lines(path, most=math.inf):
+def _lines(path: str | Path, most: float = math.inf) -> Iterator[str]:
     """Lines of a text file in UTF-8, read one by one as they are asked for."""
     try:
         with open(path, "rb") as file:
@@ -139,7 +148,7 @@ def _lines(path, most=math.inf):
         raise SourceError(f"{path}: {error.strerror}") from None
 
 
-def _decoded(line, number, path):
+def _decoded(line: bytes, number: int, path: str | Path) -> str:
     where, advice = f"{path}, line {number}", "save the file as UTF-8"
     if number == 1:
         if line.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
@@ -155,7 +164,7 @@ def _decoded(line, number, path):
         ) from None
 
 
-def load_all(data, schema):
+def load_all(data: str | Path, schema: Schema) -> dict[str, Source]:
     """Load every source below the folder `data`: `{source: contents}`; `scenes` is none."""
     folders = [Path(data, name) for name in sorted(_visible(Path(data)) - {"scenes"})]
     for folder in folders:
@@ -164,7 +173,7 @@ def load_all(data, schema):
     return {folder.name: load(folder, schema) for folder in folders}
 
 
-def refuse_invalid(document, schema, name):
+def refuse_invalid(document: Any, schema: Schema, name: str | Path) -> None:
     """Refuse a document that its schema does not admit, saying where and what."""
     errors = sorted(
         _Validator(schema).iter_errors(document), key=lambda e: [str(p) for p in e.path]
@@ -177,7 +186,7 @@ def refuse_invalid(document, schema, name):
             raise SourceError(f"{name}: {where}: {value} is not a finite number")
 
 
-def _leaves(node, where=""):
+def _leaves(node: Any, where: str = "") -> Iterator[tuple[str, Any]]:
     """Every value of a document with its dotted path."""
     if isinstance(node, (dict, list)):
         for key, value in node.items() if isinstance(node, dict) else enumerate(node):
@@ -186,17 +195,17 @@ def _leaves(node, where=""):
         yield where, node
 
 
-def column_name(axis):
+def column_name(axis: Axis) -> str:
     """Column header of an axis, unit in brackets if it has one."""
     return f"{axis['column']} [{axis['unit']}]" if axis["unit"] else axis["column"]
 
 
-def ordinates(series):
+def ordinates(series: Series) -> list[Axis]:
     """The y axes of a series: one, or a list of them."""
     return series["y"] if isinstance(series["y"], list) else [series["y"]]
 
 
-def _named_axes(series):
+def _named_axes(series: Series) -> Iterator[tuple[str, Axis]]:
     """All axes of a series, and where each stands in source.yaml."""
     several = isinstance(series["y"], list)
     yield "x", series["x"]
@@ -204,7 +213,7 @@ def _named_axes(series):
         yield f"y.{place}" if several else "y", axis
 
 
-def read_series(name, series):
+def read_series(name: str, series: Series) -> dict[str, list[Any]]:
     """Read one series, checked: `{column: list}` with numbers on its axes, words as labels.
 
     Of several y axes a cell may be empty, where a curve has no such quantity: it becomes nan.
@@ -234,7 +243,7 @@ def read_series(name, series):
             raise SourceError(f"{path}: column '{column}' {problem}; found {', '.join(header)}")
     if not rows:
         raise SourceError(f"{path}: no points")
-    columns = {column: [] for column in [*labels, *axes]}
+    columns: dict[str, list[Any]] = {column: [] for column in [*labels, *axes]}
     for line, row in rows:
         if len(row) != len(header):
             raise SourceError(f"{path}, line {line}: {len(row)} cells where {len(header)} belong")
@@ -251,7 +260,7 @@ def read_series(name, series):
     return columns
 
 
-def _table(path, name, series):
+def _table(path: str | Path, name: str, series: Series) -> tuple[list[str], str, list[NumberedRow]]:
     """Header of a series, its decimal mark, and its rows with the numbers of their lines."""
     lines, exported = [], series["kind"] == "awaited"
     for number, line in enumerate(_lines(path, MOST_LINES), start=1):
@@ -273,7 +282,7 @@ def _table(path, name, series):
     return (rows[0][1] if rows else []), ".", rows[1:]
 
 
-def _number(cell, mark, axis, where):
+def _number(cell: str, mark: str, axis: Axis, where: str) -> float:
     """A decimal number, at most a little outside the range of its axis.
 
     float() would also take `1_000`, `nan` and digits of other scripts.
@@ -294,15 +303,15 @@ def _number(cell, mark, axis, where):
     return value
 
 
-def _found(source):
+def _found(source: Source) -> list[Series]:
     return [series for series in source.get("series", {}).values() if series["path"]]
 
 
-def _file_name(name, series):
+def _file_name(name: str, series: Series) -> str:
     return f"{name}.wpd.csv" if series["kind"] == "awaited" else f"{name}.csv"
 
 
-def _file_of(folder, name, series):
+def _file_of(folder: Path, name: str, series: Series) -> str | None:
     """Path of a series; None for an awaited one whose export is not there."""
     path = folder / _file_name(name, series)
     if series["kind"] != "awaited":

