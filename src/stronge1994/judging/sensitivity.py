@@ -115,7 +115,8 @@ def sensitivities(
     return rows
 
 
-_Argument, _Result = TypeVar("_Argument"), TypeVar("_Result")
+_Argument = TypeVar("_Argument")
+_Result = TypeVar("_Result")
 _Solved: TypeAlias = Callable[[float], Curves]
 _Measure: TypeAlias = Callable[[Curves], Measured]
 _Caught: TypeAlias = Callable[[Measured], bool]
@@ -151,7 +152,7 @@ def _solve(figure: str, curves: Curves, settings: Settings) -> Curves:
 def _solver(
     solve: Callable[[Settings], Curves], figure: str, settings: Settings, group: str
 ) -> _Solved | None:
-    """Function that solves the curves with a group off by a size; None if there is no such group."""
+    """Function that solves curves with a group off by a size; None if there is no such group."""
     if changed(settings, group, STEP) == settings:
         return None
 
