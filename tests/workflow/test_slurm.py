@@ -20,7 +20,7 @@ from stronge1994 import study_files
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sinfo", "sbatch", "srun", "squeue", "scontrol")
 STARTING, RUNNING = 20, 120  # s, at most
-PROFILE = ["--profile", "workflow/profiles/slurm"]
+PROFILE = ["--profile", "profiles/slurm"]
 # One node that is this machine, whatever it has, and nothing that needs systemd or cgroups.
 CONFIG = """
 ClusterName=test
@@ -198,5 +198,5 @@ def test_a_bad_study_is_refused_before_slurm_is_asked(fresh):
     fresh.refuses(
         words, *PROFILE, "results/study.npz", "--config", "study={grid: {incidence: {from: 9}}}"
     )
-    entries = (fresh / "workflow/profiles/slurm/config.yaml").read_text()
+    entries = (fresh / "profiles/slurm/config.yaml").read_text()
     assert not re.search(r"\n\n(?!#)", entries), "an entry without a word on it"

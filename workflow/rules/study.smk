@@ -1,6 +1,6 @@
 # A grid of impacts, scattered into chunks, solved, gathered and drawn:
 #   snakemake --cores 2 study                       here
-#   snakemake --profile workflow/profiles/slurm study    on a cluster
+#   snakemake --profile profiles/slurm study    on a cluster
 
 
 rule solve_chunk:

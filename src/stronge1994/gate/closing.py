@@ -26,7 +26,7 @@ NEXT = [
 ]
 STOPPED = [
     "What it said is above, and in results/logs/. Mend it and type the same command again:",
-    "finished work is kept. README.md, Troubleshooting, has the usual causes.",
+    "finished work is kept. workflow/README.md, Troubleshooting, has the usual causes.",
 ]
 INTERRUPTED = (
     "Interrupted. Nothing needs mending: type the same command again, finished work is kept."
