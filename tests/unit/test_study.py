@@ -96,6 +96,20 @@ def test_an_unsolved_impact_of_the_continuum_keeps_its_kind_and_is_a_point_of_th
         assert error.impacts.tolist() == [4, 5] and str(error) == str(refusal.value)
 
 
+def test_an_unsolved_impact_is_a_point_of_the_grid_in_a_later_block_too(monkeypatch):
+    axes = study.axes_of(GRID | {"incidence": [1, 2, 3], "restitution": 1})
+    monkeypatch.setattr(study, "BLOCK", 2)
+
+    def rebound(incidence, *groups, **settings):
+        if (incidence == 3).any():
+            raise continuum.Unsolved("incidence = 3: no", np.flatnonzero(incidence == 3))
+        return lumped.rebound(incidence, *groups, **settings)
+
+    with pytest.raises(continuum.Unsolved, match="points 3 to 5 of the grid") as refusal:
+        study.solve(rebound, axes, 1, 6)
+    assert refusal.value.impacts.tolist() == [4]
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
