@@ -29,6 +29,7 @@ class ThisPython(AsyncKernelManager):
 
     @property
     def kernel_spec(self) -> Any:
+        """How this Python is started."""
         words = ["-m", "ipykernel_launcher", "-f", "{connection_file}"]
         # Pictures stay sharp on paper and at any size, and are the same bytes at every run.
         words.append("--InlineBackend.figure_formats={'svg'}")
