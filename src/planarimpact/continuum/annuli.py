@@ -1,12 +1,12 @@
 """Oblique impact of elastic spheres by concentric annuli, the scheme of Maw et al. (1976).
 
 Fixed concentric circles and the edge of contact divide the contact into annuli. The tangential
-traction is a sum of elliptic distributions over the circles, whose surface displacements are
-known in closed form. At every small step in time each annulus either sticks (its surface moves
-with the body) or slips (its traction is mu times the pressure). Trial decides which: a stuck
-annulus whose traction exceeds friction slips, and one that slips against its friction sticks. As in
-the original, traction and displacement have one direction, and the small part of the displacement
-that depends on the angle around the contact is left out.
+traction is a sum of elliptic distributions over the circles, whose surface displacements are known
+in closed form. At every small step in time each annulus either sticks (its surface moves with the
+body) or slips (its traction is mu times the pressure). Trial decides which: a stuck annulus whose
+traction exceeds friction slips, and one that slips against its friction sticks. As in the original,
+traction and displacement have one direction, and the small part of the displacement that depends on
+the angle around the contact is left out.
 
 This solver checks `planarimpact.continuum`, with which it shares no code. It is slower and less
 accurate. Units: radius a_max, time d_max/|v2(0)|, force its largest normal value (times mu for
@@ -26,7 +26,7 @@ CELLS = 2**18
 MOST_CIRCLES = 1000
 MOST_STEPS = 10**7
 MOST_TRIALS = 100
-# Fewest steps in a radian of the tangential oscillation. Explicit steps are unstable below some 0.6.
+# Fewest steps in a radian of the tangential oscillation. Below some 0.6 they are unstable.
 STEPS_A_RADIAN = 1
 ROUNDING = 1e-12
 # Bounds of the velocity over zeta^2 that is solved. Below the least the contact sticks to its last
