@@ -1,8 +1,8 @@
 """Normal motion of Hertz contact, elastic and frictionless, by one angle.
 
-The angle `phase` runs from 0 at contact over pi/2 at maximum compression to pi at separation; the
-radius of contact is its sine. In it the motion is smooth up to both ends of the contact, where
-forces vanish like a power of time that is no whole number. Units: radius a_max, approach d_max,
+The angle `phase` is 0 at contact, pi/2 at maximum compression and pi at separation. Its sine is the
+radius of contact. As a function of this angle the motion is smooth, also at both ends of the
+contact, where forces vanish like a broken power of time. Units: radius a_max, approach d_max,
 velocity |v2(0)|, force its largest value, time d_max/|v2(0)| except where t_c is named.
 """
 
@@ -12,7 +12,7 @@ from scipy.special import betainc
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
 
-# Largest normal force in m2 v2(0)^2/d_max: the strain energy (2/5) F2max d_max is all there is.
+# Largest normal force in m2 v2(0)^2/d_max, as the strain energy (2/5) F2max d_max is all energy.
 PEAK_FORCE = 1.25
 
 
@@ -116,7 +116,7 @@ def time(phase: ArrayLike) -> Array:
     """
     phase = np.asarray(phase, dtype=float)
     share, v = np.sin(phase) ** 5, velocity(phase)
-    # Two forms of one function, each where it loses nothing to rounding.
+    # These are two forms of one function. Each is used where it loses no digits.
     to_go = betainc(0.5, 0.4, np.minimum(v * v, 1.0))
     passed = np.where(share < 0.5, betainc(0.4, 0.5, np.clip(share, 0.0, 1.0)), 1 - to_go)
     return np.where(v >= 0, passed, 2 - passed)[()]

@@ -1,7 +1,7 @@
 """The limit of negligible tangential compliance (zeta^2 -> 0; Stronge 1994, Eqs 34, 35).
 
-The contact slides until friction has stopped it and then sticks for good; in a collinear
-configuration it never turns round. Light and dotted curves of Figs 5, 7 and 9.
+The contact slides until friction has stopped it, and then sticks until separation. In a collinear
+configuration it never turns round. These are the light and dotted curves of Figs 5, 7 and 9.
 """
 
 import numpy as np
@@ -22,15 +22,9 @@ def rebound(
 
     Parameters
     ----------
-    incidence : array_like
-        x = v1(0)/(mu v2(0)); any number to 8e307, negative for the mirror image.
-    mass_ratio : array_like
-        beta = m2/m1 >= 1.
-    stiffness_ratio : array_like
-        zeta^2 > 0; it plays no part, its limit being 0, and is there for the sake of one
-        calling convention.
-    restitution : array_like
-        Energetic coefficient e, 0 to 1.
+    incidence, mass_ratio, stiffness_ratio, restitution : array_like
+        As in `planarimpact.lumped.rebound`. The stiffness ratio has no effect: all models have the
+        same arguments.
 
     Returns
     -------

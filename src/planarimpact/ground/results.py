@@ -91,7 +91,7 @@ class Rebound(NamedTuple):
         regime: Integers,
         reversals: Integers | None = None,
     ) -> Self:
-        """Put together what a solver found for |x|, flat, in the shape and sign of `incidence`.
+        """The result for `incidence`, from what a solver found for |x|, in flat arrays.
 
         `impulse` is that of friction, in mu m2 |v2(0)|. Times the mean velocity it is the work:
         Stronge's theorem (the paper's footnote).
@@ -110,7 +110,7 @@ class Rebound(NamedTuple):
         regime: Integers,
         reversals: Integers | None = None,
     ) -> Self:
-        """As `of`, for a solver that knows the dissipation itself, to more digits.
+        """As `of`, for a solver that knows the dissipation to more digits.
 
         `dissipation` is in mu^2 m2 v2(0)^2.
         """

@@ -53,13 +53,13 @@ def rebound(
 
     Notes
     -----
-    Velocity, peak friction and dissipation are within a hundred times what rounding of the four
-    arguments does to them, in every regime, thresholds included; excepted is a dissipation below
-    1e-16 of the energy, where T and N fall together (zeta^2 next to beta, e = 1). The time does
-    not depend on the number of phases, which grows as omega/Omega: see `extremes.many_phases`.
-    Stronge's printed equations differ in two places: the limit of slip throughout (see
-    `slip_throughout_limit`) and the direction of the last slip, which at small e is the
-    incident one.
+    The errors of velocity, peak friction and dissipation are at most a hundred times the effect of
+    rounding the four arguments. This holds in every regime, and at the thresholds. The exception is
+    a dissipation below 1e-16 of the energy, where T and N fall together (zeta^2 next to beta,
+    e = 1). The time does not depend on the number of phases, which grows as omega/Omega: see
+    `extremes.many_phases`. Stronge's printed equations differ in two places: the limit of slip
+    throughout (see `slip_throughout_limit`) and the direction of the last slip, which at small e is
+    the incident one.
 
     Examples
     --------
@@ -87,9 +87,9 @@ def slip_throughout_limit(
 ) -> Array:
     """Smallest incidence that slides through the whole contact; all arguments broadcast.
 
-    x = beta + max(0, e beta - zeta^2/e), or zeta^2 where that is larger. The paper prints
-    (1 + e) beta (heading of Eq. 26), but its own condition for the end of the first slip,
-    Eq. 21, has no root above the value given here.
+    x = beta + max(0, e beta - zeta^2/e), or zeta^2 where that is larger; `ground.sliding` derives
+    it. The paper prints (1 + e) beta (heading of Eq. 26), but its own condition for the end of the
+    first slip, Eq. 21, has no root above the value given here.
 
     Parameters
     ----------
@@ -184,8 +184,8 @@ def friction_work(
 ) -> float:
     """Work of friction, integrated over the phases of slip: |F1| times the slip velocity.
 
-    A second way to `rebound(...).dissipation`, which comes from the balance of energy; the two
-    differ by what the tangential spring loses when e = 0.
+    This checks `rebound(...).dissipation`, which comes from the balance of energy. The two differ
+    by what the tangential spring loses when e = 0.
 
     Parameters
     ----------

@@ -1,9 +1,8 @@
-"""The ladder of models, from one formula to the elastic continuum, under one calling convention.
+"""Every model by its name, from one formula to the elastic continuum, with the same arguments.
 
-Every rung is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)`,
-the four groups by position or name, its own settings by name, and returns a `Rebound`. What a
-rung costs and how far it is off is measured by the workflow (`results/trade.csv`), not promised
-here.
+Each model is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)`,
+the four groups by position or name and its own settings by name. It returns a `Rebound`. The
+workflow measures what each model costs and how large its error is (`results/trade.csv`).
 """
 
 from collections.abc import Callable, Mapping
@@ -20,7 +19,7 @@ from planarimpact.models import laws, timestep
 
 
 class Model(NamedTuple):
-    """One rung.
+    """One model.
 
     Attributes
     ----------
@@ -29,10 +28,10 @@ class Model(NamedTuple):
     rebound : callable
         Its solver.
     settings : dict
-        Its own settings and their defaults: what its accuracy and cost depend on.
+        Its own settings and their defaults. Its accuracy and cost depend on them.
     cost : str
         Class of cost: "formula", "phases" (a few phases in closed form), "steps", or "steps and
-        circles"; the last two grow with their settings.
+        circles". The last two grow with the settings.
     restitution : (float, float)
         Range of restitution that it admits.
     valid : str
@@ -41,8 +40,8 @@ class Model(NamedTuple):
         Where it comes from.
     sliding_limit : callable or None
         Incidence from which it slides throughout, w = x - (1 + e) beta, as a function of mass
-        ratio, stiffness ratio, restitution (numbers) and settings; None where it never does so
-        exactly.
+        ratio, stiffness ratio, restitution (numbers) and settings. None if it never has that
+        velocity exactly.
     kinks : callable
         Incidences, by the same arguments, where its answer is known to bend; there may be more.
     """
@@ -105,9 +104,9 @@ def rebound(
     model : str
         One of `MODELS`.
     incidence, mass_ratio, stiffness_ratio, restitution : array_like
-        The four groups; they broadcast.
+        As in `planarimpact.lumped.rebound`.
     **settings
-        Those of the model; what is left out has its default.
+        Those of the model. Settings that are left out have their defaults.
 
     Returns
     -------
@@ -157,7 +156,7 @@ def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
 
 
 def _all_impulse(beta: float, zeta2: float, e: float, **settings: float) -> float:
-    """All of the normal impulse turns into friction: that of a contact without compliance."""
+    """Limit of a contact without compliance: friction takes all of the normal impulse."""
     return sliding.change(beta, e)
 
 
@@ -301,9 +300,9 @@ MODELS = {
 def reference(restitution: ArrayLike) -> str:
     """Name of the model that others are measured against at a restitution.
 
-    The continuum where the contact is elastic. There is none with hysteresis here, so for e < 1
-    it is the lumped model; how far that is from the continuum at e = 1,
-    `planarimpact.scene.gaps.elastic` tells: 0.21 for a solid sphere of Poisson's ratio 0.3.
+    It is the continuum where the contact is elastic. There is no continuum with hysteresis here, so
+    for e < 1 it is the lumped model. At e = 1 `planarimpact.scene.gaps.elastic` tells how far the
+    two are apart: 0.21 for a solid sphere of Poisson's ratio 0.3.
 
     Parameters
     ----------

@@ -1,10 +1,10 @@
 """Laws of impulses: velocity at separation without a history of the contact.
 
-Each law gives the tangential impulse as a function of the incidence alone, right where the contact
-slides throughout and by assumption below. None knows the tangential stiffness, so none can follow
-the curve between both ends. What happens during contact they leave open: there is no peak friction
-and no order of stick and slip, except in sliding throughout. Units as in `planarimpact.lumped`;
-B = (1 + e) beta is the change of velocity of a contact that slides throughout.
+Each law gives the tangential impulse as a function of the incidence alone. Where the contact slides
+throughout it is right, below that it is an assumption. No law knows the tangential stiffness, so
+none can follow the curve between both ends. No law tells what happens during contact: there is no
+peak friction and no order of stick and slip, except in slip throughout. Units as in
+`planarimpact.lumped`; B = (1 + e) beta is the change of velocity in slip throughout.
 """
 
 import numpy as np
@@ -31,14 +31,9 @@ def brach(
 
     Parameters
     ----------
-    incidence : array_like
-        x = v1(0)/(mu v2(0)); any finite number, negative for the mirror image.
-    mass_ratio : array_like
-        beta = m2/m1 >= 1.
-    stiffness_ratio : array_like
-        zeta^2 > 0; it plays no part and is there for the sake of one calling convention.
-    restitution : array_like
-        Energetic coefficient e, 0 to 1.
+    incidence, mass_ratio, stiffness_ratio, restitution : array_like
+        As in `planarimpact.lumped.rebound`. The stiffness ratio has no effect: all models have the
+        same arguments.
     tangential_restitution : array_like
         b, 0 to 1: the share of the tangential velocity that comes back, reversed. The default is
         the best for solid elastic spheres of Poisson's ratio 0.3.

@@ -1,4 +1,4 @@
-"""What the name of a table says: a kind of file by its ending, standard input or output, a pipe."""
+"""What the name of a table means: a kind of file, standard input or output, or a pipe."""
 
 import os
 from pathlib import Path
@@ -12,8 +12,8 @@ CSV, GZIP, JSON = ".csv", ".csv.gz", ".json"
 class Place(NamedTuple):
     """Where a table is read or written.
 
-    A stream is standard input or output, a pipe or a device: CSV whatever its name, and written to
-    straight, as it cannot be replaced by a file.
+    A stream is standard input or output, a pipe or a device. It is CSV whatever its name, and it is
+    written to directly, since no file can replace it.
     """
 
     name: str  # for messages
@@ -36,7 +36,7 @@ def source(path: str | Path) -> Place:
     Raises
     ------
     InputError
-        If the name says nothing that can be read.
+        If the name is none that can be read.
 
     Examples
     --------
@@ -65,7 +65,7 @@ def target(path: str | Path) -> Place:
     Raises
     ------
     InputError
-        If the name says nothing that can be written.
+        If the name is none that can be written.
 
     Examples
     --------
@@ -93,7 +93,7 @@ def _place(
     name = str(path)
     kind = next((kind for kind in kinds if name.lower().endswith(kind)), None)
     flows = Path(path).is_fifo() or Path(path).is_char_device()
-    # A file with a name of its own is read and written by that, whatever the shell has opened too.
+    # A file with a known ending is opened by its name, even if it is standard input or output too.
     if name in standard or ((flows or not kind) and _is_open(path, number)):
         return Place(words, number, CSV, stream=True)
     if flows:

@@ -1,7 +1,7 @@
 """Tables of scenes read piece by piece, from CSV.
 
-What pandas would mend in silence (a row too short, a name that is there twice) is refused by its
-line: commas are counted before pandas turns the text into numbers.
+pandas would silently accept a row that is too short, or a name that is there twice. Here both are
+refused with the number of their line: commas are counted before pandas reads the text.
 """
 
 import csv
@@ -76,8 +76,8 @@ def _parsed(text: str, types: dict[str, type[str]]) -> pd.DataFrame:
         io.BytesIO(text.encode()),
         index_col=False,
         dtype=types,
-        na_filter=False,  # empty cells and words such as NA stay what they are
-        low_memory=False,  # a column has one type
+        na_filter=False,  # empty cells and words such as NA stay as they are
+        low_memory=False,  # each column gets one type
     )
 
 

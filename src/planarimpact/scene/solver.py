@@ -14,7 +14,8 @@ from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import Rebound, Regime
 from planarimpact.scene import choice, columns, motion
 
-BLOCK = 2**17  # rows solved together: bounds the memory
+# Rows that are solved together: this bounds the memory.
+BLOCK = 2**17
 
 
 class Solver:
@@ -69,7 +70,7 @@ class Solver:
         return pd.concat(blocks) if len(blocks) > 1 else blocks[0]
 
     def explain(self) -> str:
-        """How many impacts went to which rung and why, in words, a line each.
+        """How many impacts each model solved and why, in words, a line for each.
 
         Returns
         -------
@@ -157,7 +158,7 @@ class Solver:
     def _answers(
         self, job: choice.Job, x: Array
     ) -> tuple[choice.Rung, tuple[Rebound, Numbers], Integers, dict[int, str]]:
-        """The rung, results and errors, which impacts they are of, and why others have none."""
+        """The rung, results and errors, which impacts they belong to, and why others have none."""
         rung, left = job.rung, np.arange(x.size)
         without: dict[int, str] = {}
         while True:
@@ -191,7 +192,7 @@ class Solver:
         if {"other_density", "other_mass"} & set(names):
             states |= {f"other_{k}": v for k, v in motion.columns_of(other, plane).items()}
         after = {columns.header(name, "_after"): values for name, values in states.items()}
-        # No friction, no incidence; with very little it is larger than any number.
+        # Without friction there is no incidence, with very little it is larger than any number.
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             incidence = impacts.v1 / (impacts.friction * impacts.v2)
         models = [choice.SLIDING.model, *choice.MODELS]

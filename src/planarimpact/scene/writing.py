@@ -16,12 +16,13 @@ from planarimpact.scene.places import Place
 
 Write: TypeAlias = Callable[[pd.DataFrame], None]
 
-LEVEL = 6  # of gzip, as the command has it: the highest takes five times as long
+# Level of gzip, the default of the command. The highest level takes five times as long.
+LEVEL = 6
 
 
 @contextmanager
 def appended(target: Place) -> Iterator[Write]:
-    """A function that appends tables to a target; a file gets its name when all are written.
+    """A function that appends tables to a target. A file gets its name when all are written.
 
     Parameters
     ----------
