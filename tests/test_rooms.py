@@ -34,19 +34,20 @@ REPRODUCTION = {
     "records": "",
     "one_thread": "",
     "job": "records",
-    "csv_tables": "ground",
+    "csv_tables": "",
+    "curve_names": "",
     "reference_data": "csv_tables",
-    "study_files": "planarimpact ground models study",
+    "study_files": "planarimpact ground models study csv_tables",
     "printed": "ground lumped",
     "curves": "planarimpact ground bodies rigid lumped continuum noncollinear models response scene"
-    " pandas printed csv_tables",
+    " pandas printed csv_tables curve_names",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
-    "judging": "ground curves csv_tables reference_data",
+    "judging": "ground curves csv_tables curve_names reference_data",
     "trade": "ground models curves csv_tables",
     "gate": "csv_tables records judging ledger",
     "plan": "ground models records reference_data",
-    "drawings": "planarimpact curves trade csv_tables reference_data matplotlib",
+    "drawings": "planarimpact ground trade csv_tables curve_names reference_data study_files matplotlib",
     "pages": "ground bodies csv_tables drawings gate judging ledger plan jinja2",
 }
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}

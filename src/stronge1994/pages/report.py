@@ -18,7 +18,6 @@ from typing import Any, TypeAlias
 import jinja2
 import yaml
 from markupsafe import escape
-from matplotlib.figure import Figure
 
 from stronge1994 import csv_tables, gate
 from stronge1994.csv_tables import Row
@@ -273,7 +272,7 @@ def _entry_of(names: Collection[str]) -> Callable[[Row], str | None]:
     return entry_of
 
 
-def _svg(figure: Figure) -> bytes:
+def _svg(figure: Any) -> bytes:
     file = io.BytesIO()
     house_style.save(figure, file)
     return file.getvalue()
