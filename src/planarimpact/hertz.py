@@ -2,8 +2,9 @@
 
 The angle `phase` is 0 at contact, pi/2 at maximum compression and pi at separation. Its sine is the
 radius of contact. As a function of this angle the motion is smooth, also at both ends of the
-contact, where forces vanish like a broken power of time. Units: radius a_max, approach d_max,
-velocity |v2(0)|, force its largest value, time d_max/|v2(0)| except where t_c is named.
+contact, where forces vanish like a power of time that is no whole number. Units: radius a_max,
+approach d_max, velocity |v2(0)|, force its largest value, time d_max/|v2(0)| except where t_c is
+named.
 """
 
 import numpy as np
