@@ -10,7 +10,7 @@ from planarimpact.ground.arrays import Array, ArrayLike, Integers
 from planarimpact.ground.results import Regime
 from stronge1994.curves import Column
 
-# Points of reference tables, through which curves must pass: `{axis without its unit: points}`.
+# Curves must pass through these points of reference tables: `{axis without its unit: points}`.
 Nodes: TypeAlias = Mapping[str, ArrayLike]
 NO_NODES: Nodes = MappingProxyType({})
 
