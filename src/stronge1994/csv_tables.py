@@ -1,6 +1,7 @@
-"""Named curves and series as CSV: first column the name, then one column a quantity and unit.
+"""Tables as CSV: named curves, and rows of any other kind.
 
-A solver that crashed leaves a table with the single column `error`.
+The first column of a table of curves has the name of the curve. Each other column is a quantity,
+its unit in brackets. A solver that crashed leaves a table with the single column `error`.
 """
 
 import csv

@@ -1,4 +1,4 @@
-"""What every job does: send its words to a log, show life, record what it read and wrote."""
+"""What every job does: write to a log, show that it is alive, record what it read and wrote."""
 
 import contextlib
 import sys
@@ -10,14 +10,15 @@ from typing import Any, TextIO
 
 from stronge1994 import records
 
-SIGN_OF_LIFE = 5.0  # s between two; most jobs end before the first
+# A job says every so many seconds that it is alive. Most jobs end before the first time.
+SIGN_OF_LIFE = 5.0
 
 
 @contextlib.contextmanager
 def log_to(path: str) -> Iterator[None]:
-    """Send output and errors of a block to a log file; an error also to the terminal, in a line.
+    """Send output and errors of a block to a log file; an error also to the terminal, in one line.
 
-    A block that takes long says so on the terminal, and how long.
+    A block that takes long says on the terminal how long it has taken so far.
     """
     terminal, ended = sys.stderr, threading.Event()
     watch = threading.Thread(target=_show_life, args=(Path(path), terminal, ended), daemon=True)
@@ -38,12 +39,12 @@ def log_to(path: str) -> Iterator[None]:
 
 @contextlib.contextmanager
 def recorded(snakemake: Any) -> Iterator[None]:
-    """Do a job of Snakemake: its words to its log, and a record of what it read and wrote.
+    """Do a job of Snakemake: its output goes to its log, and what it read and wrote is recorded.
 
     Raises
     ------
     RuntimeError
-        If an input has changed meanwhile: nobody knows which version the job has read.
+        If an input has changed meanwhile: then nobody knows which version the job has read.
     """
     inputs = {path: records.fingerprint(path) for path in snakemake.input}
     with log_to(snakemake.log[0]):

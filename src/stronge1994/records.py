@@ -1,7 +1,7 @@
-"""What every job read and wrote, by fingerprints: results that do not belong together are found.
+"""Fingerprints of what every job read and wrote, to find results that do not belong together.
 
-Snakemake knows that a file is older than what it was made from. It does not know that a file was
-restored from a backup, copied from a colleague, or edited while a job ran.
+Snakemake notices that a file is older than what it was made from. It does not notice that a file
+was restored from a backup, copied from a colleague, or edited while a job ran.
 """
 
 import base64
@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 FOLDER = Path(".snakemake/records")
-# Snakemake's own, without which no change of a parameter is noticed; and of what it has in hand.
+# Snakemake's own records: how a file was made, without which it notices no changed parameter, and
+# which files are not finished.
 METADATA, INCOMPLETE = Path(".snakemake/metadata"), Path(".snakemake/incomplete")
 REPOSITORY = ("data", "src", "workflow")
 HOW_TO_MEND = "remove that file and run again"
@@ -42,7 +43,7 @@ def files_of_repository() -> list[str]:
 
 
 def write(outputs: Iterable[str], inputs: Mapping[str, str]) -> None:
-    """Keep what a job has written, and the fingerprints that its inputs had when it began.
+    """Record what a job has written, and the fingerprints that its inputs had when it began.
 
     Parameters
     ----------
@@ -57,7 +58,7 @@ def write(outputs: Iterable[str], inputs: Mapping[str, str]) -> None:
 
 
 def faults(made: Iterable[str]) -> list[str]:
-    """Files that are not as their job left them, or were made from what is no longer there.
+    """Files that have changed since their job wrote them, or whose inputs have changed since then.
 
     Parameters
     ----------
@@ -66,7 +67,7 @@ def faults(made: Iterable[str]) -> list[str]:
     Returns
     -------
     list of str
-        In words, a line each.
+        One line for each file.
     """
     known, found = {}, []
 
@@ -109,7 +110,7 @@ def _is_json(path: Path) -> bool:
 
 
 def _read(path: Path) -> dict[str, Any] | None:
-    """A record; None where there is none that can be read."""
+    """A record; None if it is missing or damaged."""
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
         return record if {"sha256", "inputs"} <= set(record) else None

@@ -61,14 +61,14 @@ def write(
 
 
 def read(path: str, *names: str) -> tuple[Axes, dict[str, Column]]:
-    """Axes of a study or of a chunk of it, and its outputs or those of some `names`."""
+    """Axes of a study or of a part of it, and its outputs: all, or those named."""
     with np.load(path) as file:
         axes = {name: file[column(name)] for name in checks.RULES}
         return axes, {name: file[column(name)] for name in names or OUTPUTS}
 
 
 def origin(path: str) -> tuple[int, str, Settings]:
-    """Number of the first point in a file, the model that solved it, and its settings."""
+    """Number of the first point of a file, the model that solved it, and the model's settings."""
     with np.load(path) as file:
         return int(file["start"]), str(file["model"]), json.loads(str(file["settings"]))
 
@@ -102,9 +102,9 @@ def solve(chunk: str, model: str, settings: Settings, grid: Grid, path: str) -> 
 
 
 def gather(chunks: Sequence[str], model: str, settings: Settings, grid: Grid, path: str) -> None:
-    """Read chunks of a grid, in order, into one file; a chunk of another study is refused.
+    """Join the chunks of a grid, given in order, in one file. Chunks of another study are refused.
 
-    Chunks of an earlier grid, which lie beside them, are removed: nothing will read them again.
+    Chunks of an earlier grid in the same folder are removed: nothing will read them again.
     """
     axes = study.axes_of(grid)
     outputs = study.gather(axes, (_part(chunk, model, settings, axes) for chunk in chunks))

@@ -1,4 +1,4 @@
-"""The curves of the paper's figures: one module a figure, settings in, named curves out.
+"""The curves of the paper's figures: a module for each figure, settings in, named curves out.
 
 Each module has one function `curves`, whose keywords are the settings of that figure in
 `workflow/config.yaml` with the physics shared by all. It returns `{name: {column: array}}`; a

@@ -15,7 +15,8 @@ from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
 
-# Curves that only tell how far an uncertain parameter moves another one have fewer vertices.
+# Curves with a parameter off by one sigma only show how far it moves the others. They have this
+# many times fewer vertices.
 COARSER = 4
 
 
@@ -33,7 +34,7 @@ def curves(
     nodes: Nodes = NO_NODES,
     as_printed: bool = False,
 ) -> Curves:
-    """The lumped model, its limit, the elastic continuum; the same for rubber, an experiment.
+    """The lumped model, its limit and the elastic continuum, also for rubber and an experiment.
 
     Parameters
     ----------
@@ -62,12 +63,12 @@ def curves(
     Returns
     -------
     dict
-        `lumped`, `no tangential compliance`, `continuum`; `lumped` and `continuum` again for
-        `rubber`, `finite elements` and `experiment`. Those without such a word and those of the
-        finite elements have the regime and the spin after impact, R spin/(mu v2(0)) in the
-        direction of incidence negative; those of the experiment the quantities that are measured
-        against the angle of incidence, and curves beside them with one parameter off by one sigma,
-        named by `curve_names.shifted`.
+        `lumped`, `no tangential compliance` and `continuum`; also `lumped, ...` and
+        `continuum, ...` for `rubber`, `finite elements` and `experiment`. `lumped`, `continuum` and
+        the curves of the finite elements have the regime, and the spin after impact as
+        R spin/(mu v2(0)), negative in the direction of incidence. The curves of the experiment have
+        the quantities that are measured against the angle of incidence. Beside them are curves with
+        one parameter off by one sigma, named by `curve_names.shifted`.
 
     Examples
     --------
@@ -163,7 +164,7 @@ def _shots(samples: int, nodes: ArrayLike, sphere: dict[str, float]) -> _Shots:
 def _elastic(asked: dict[str, tuple[Array, float, float]], tolerance: float) -> dict[str, Rebound]:
     """The continuum for several spheres, each with its incidences, beta and zeta^2.
 
-    Solved together they take hardly longer than one of them.
+    They are solved together, which takes hardly longer than one of them alone.
     """
     x, beta, zeta2 = (
         np.concatenate([np.broadcast_to(group[i], group[0].shape) for group in asked.values()])

@@ -8,7 +8,7 @@ import numpy as np
 
 from planarimpact.ground.arrays import Array, ArrayLike
 
-# Points of reference tables, through which curves must pass: `{axis without its unit: points}`.
+# Curves must pass through these points of reference tables: `{axis without its unit: points}`.
 Nodes: TypeAlias = Mapping[str, ArrayLike]
 NO_NODES: Nodes = MappingProxyType({})
 

@@ -1,4 +1,4 @@
-"""Solve the curves of one figure. A crash becomes a table that says so: a failed verdict."""
+"""Solve the curves of one figure. A crash becomes a table with the error: a failed verdict."""
 
 import importlib
 import traceback
@@ -14,8 +14,8 @@ Tables: TypeAlias = Mapping[str, str | None]
 def solve(figure: str, settings: dict[str, Any], nodes: Tables, output: str) -> None:
     """Write the curves of `figure`.
 
-    `nodes` names reference tables whose points curves must pass through. A whole table is not for
-    curves to pass through: it becomes the setting `points`.
+    `nodes` names reference tables. Curves must pass through the points of their x columns; a whole
+    table becomes the setting `points` instead.
     """
     try:
         settings = settings | read_nodes(nodes)

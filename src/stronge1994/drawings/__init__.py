@@ -1,4 +1,7 @@
-"""Draw one figure from its curves: SVG and PNG. Curves that failed become a picture saying so."""
+"""Draw one figure from its curves, as SVG and PNG. If there are none, the picture says why.
+
+Nothing here solves: pictures are made from tables alone.
+"""
 
 import importlib
 from collections.abc import Mapping
@@ -17,7 +20,7 @@ def draw(
     svg: str,
     png: str,
 ) -> None:
-    """Draw `figure`; `overlays` are its reference series at hand, and facts, by name."""
+    """Draw `figure`; `overlays` holds the reference series that are not awaited, and facts."""
     try:
         curves = csv_tables.read(curves_path)
     except csv_tables.Failed as error:

@@ -16,7 +16,7 @@ METHODS = {
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """(a) Error against the number that is varied, (b) against the time of an impact."""
+    """Draw the error (a) against the number that is varied, (b) against the time of an impact."""
     figure = house_style.new(3.6)
     by_number, by_time = figure.subplots(1, 2, sharey=True)
     entries = []

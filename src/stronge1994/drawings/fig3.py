@@ -16,7 +16,7 @@ TIME, VELOCITY = "time [t_c]", "velocity [mu v2(0)]"
 NORMAL, FRICTION = "normal_force [m2 Omega v2(0)]", "friction_force [mu m2 Omega v2(0)]"
 
 NORMAL_LINE = {"color": house_style.BLACK, "label": r"$F_2/m_2\Omega v_2(0)$"}
-# Broad and below: where the contact slips, the two forces are one line.
+# This line is broad and below the other: where the contact slips, they coincide.
 FRICTION_LINE = {
     "color": house_style.BLUE,
     "linewidth": 2.4,
@@ -29,7 +29,7 @@ CROSS = {"color": house_style.BLACK, "markersize": 6, "clip_on": False}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Bars of stick and slip, (a) both forces, (b) velocity; one pattern of line a restitution."""
+    """Draw bars of stick and slip, (a) both forces and (b) velocity of each restitution."""
     figure = house_style.new(5.8)
     heights = [0.42 * len(curves), 5, 4.4]
     bars, forces, velocity = figure.subplots(3, 1, sharex=True, height_ratios=heights)
@@ -54,7 +54,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
 
 
 def _draw_bars(axes: Axes, curves: Curves) -> None:
-    """A row a restitution: white while the contact sticks, grey while it slips."""
+    """Draw a row for each restitution: white while the contact sticks, grey while it slips."""
     axes.set(ylim=(len(curves), 0))
     axes.set_yticks(np.arange(len(curves)) + 0.5, [house_style.symbols(name) for name in curves])
     axes.tick_params(length=0, labelbottom=False)
@@ -69,7 +69,7 @@ def _draw_bars(axes: Axes, curves: Curves) -> None:
                 "clip_on": False,
             }
             axes.barh(row + 0.5, end - start, 0.7, start, **bar)
-            # The word of a short last bar stands behind it; other short bars speak by their shade.
+            # A short last bar has its word behind it. Other short bars have only their shade.
             place = {"va": "center_baseline", "fontsize": house_style.NOTE}
             if end - start > 0.15:
                 axes.text((start + end) / 2, row + 0.5, state, ha="center", **place)
@@ -108,7 +108,7 @@ def _draw_velocity(axes: Axes, curves: Curves) -> None:
 
 
 def _lines(curves: Curves) -> Iterator[tuple[Array, Dashes, Columns]]:
-    """Time, line pattern and columns of each curve; compression, common to all, only once."""
+    """Time, line pattern and columns of each curve. Compression is the same for all: drawn once."""
     for index, (name, dashes) in enumerate(house_style.patterned(curves)):
         drawn = curves[name][TIME] >= (1 if index else 0)
         columns = {key: curves[name][key][drawn] for key in (TIME, NORMAL, FRICTION, VELOCITY)}

@@ -21,15 +21,16 @@ RUBBER_SPHERE = "johnson1983/rubber_sphere"
 RUBBER_POINTS: Style = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
 ELEMENT_POINTS: Style = {"color": house_style.VERMILLION, "marker": "s", "markerfacecolor": "white"}
 GLASS_POINTS: Style = {"color": house_style.BLUE, "marker": "o", "markersize": 3}
-MEASURED_ANGLES = "kharaz2001/tangential_restitution"  # not in the axes of the figure
+# These points are measured against the angle: they must be converted to the axes of the figure.
+MEASURED_ANGLES = "kharaz2001/tangential_restitution"
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """The paper's curves and series, and additions in a legend of their own."""
+    """Draw the paper's curves and series, and additions with their own part of the legend."""
     figure = house_style.new(5.0)
     axes = figure.subplots()
     printed = (1 + settings["restitution"]) * settings["mass_ratio"]
-    # As wide as in the paper, whose limit stands at 7 of 8, or wider by as much as the limit is.
+    # As wide as in the paper, 8 with the printed limit at 7; wider if the limit is larger.
     left, end = settings["incidence"]
     wide = max(8.0, printed * 8 / 7)
     right = wide if left < wide < end else end
@@ -48,7 +49,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
 
 
 def _draw_paper(axes: Axes, curves: Curves, points: Points, settings: Settings) -> Entries:
-    """Draw what the paper's figure holds; its entries of the legend."""
+    """Draw what the paper's figure holds, and return entries of the legend."""
     lumped = rf"lumped model, $\zeta^2 = {settings['stiffness_ratio']:g}$"
     rough = curves["no tangential compliance"]
     entries = [
@@ -63,7 +64,7 @@ def _draw_paper(axes: Axes, curves: Curves, points: Points, settings: Settings) 
 
 
 def _draw_added(axes: Axes, curves: Curves, points: Points, settings: Settings) -> Entries:
-    """Draw what this repository adds; its entries of the legend."""
+    """Draw what this repository adds, and return entries of the legend."""
     sphere, rubber = settings["experiment"], settings["rubber"]["stiffness_ratio"]
     groups = rf"$\zeta^2 = {sphere['stiffness_ratio']:g}$, $e = {sphere['restitution']:g}$"
     soft = rf"rubber, $\zeta^2 = {rubber:g}$"
@@ -87,7 +88,7 @@ def _draw_curve(axes: Axes, curve: Columns, label: str, style: Style) -> Line2D:
 
 
 def _contact_series(series: Series) -> Series:
-    """Measurements against the angle in the axes of the figure, errors to first order."""
+    """Measurements against the angle, converted to the axes of the figure with their errors."""
     groups = [series["parameters"][key] for key in ("mass_ratio", "friction")]
     angle, ratio = series["x"], series["y"]
     angle_error, ratio_error = series["sigma"]
@@ -134,11 +135,11 @@ def _set_axes(axes: Axes, curve: Columns, left: float, right: float) -> None:
 
 
 def _draw_regimes(axes: Axes, curve: Columns, right: float) -> None:
-    """Brackets and boundaries where the regime of the solver changes."""
+    """Draw brackets over the regimes of the solver, and lines where the regime changes."""
     x, regime = (curve[column][curve[X] <= right] for column in (X, "regime"))
     starts = [0, *(np.flatnonzero(regime[1:] != regime[:-1]) + 1)]
     bounds = [*x[starts], right]
-    # Normal impact alone may stick throughout: a point has no bracket.
+    # A regime may be one point, such as normal impact: it has no bracket.
     spans = [
         (start, end, Regime[regime[index]].words)
         for start, end, index in zip(bounds[:-1], bounds[1:], starts, strict=True)
@@ -150,7 +151,7 @@ def _draw_regimes(axes: Axes, curve: Columns, right: float) -> None:
 
 
 def _draw_printed_limit(axes: Axes, limit: float) -> None:
-    """The paper's limit of slip throughout, (1 + e) m2/m1, that its Eq. 21 contradicts."""
+    """Mark the paper's limit of slip throughout, (1 + e) m2/m1, which its Eq. 21 contradicts."""
     left, right = axes.get_xlim()
     if left < limit < right:
         place = {"transform": axes.get_xaxis_transform()}

@@ -14,7 +14,7 @@ X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """One curve a restitution, named where it leaves the axes, and what the print has instead."""
+    """Draw a curve for each restitution, named at its end, and what the printed equations give."""
     figure = house_style.new(3.8)
     axes = figure.subplots()
     axes.axhline(0, **house_style.GUIDE)
@@ -33,7 +33,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
 
 
 def _label_ends(axes: Axes, ends: Iterable[tuple[float, str, str]]) -> None:
-    """Names to the right of the axes, at the heights of the curves but kept apart."""
+    """Write names to the right of the axes, at the heights of the curves but not too close."""
     low, high = axes.get_ylim()
     apart, last = 0.05 * (high - low), -math.inf
     for y, text, colour in sorted(ends):

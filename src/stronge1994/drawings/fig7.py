@@ -18,7 +18,7 @@ SLIDING = {"facecolor": "none", "edgecolor": "0.75", "linewidth": 0, "hatch": "/
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Both peak forces; light without tangential compliance; hatched where slip never stops."""
+    """Draw both peak forces; dotted without tangential compliance, hatched if slip never stops."""
     figure = house_style.new(4.4)
     axes = figure.subplots()
     _draw_curve(axes, curves["normal"], house_style.LUMPED)
@@ -53,13 +53,13 @@ def _draw_curve(axes: Axes, curve: Columns, style: Style) -> None:
 
 
 def _label_lines(axes: Axes, lines: Sequence[tuple[str, Columns]]) -> None:
-    """Labels in the lines themselves, all where the lines lie furthest apart."""
+    """Write labels into the lines, at the angle where the lines are furthest apart."""
     left, right = axes.get_xlim()
-    # Inside the axes, where a label does not cross the frame.
+    # Away from both ends, where a label would cross the frame.
     angle = np.linspace(left, right, 361)[20:-20]
     forces = np.array([np.interp(angle, curve[X], curve[Y]) for _, curve in lines])
     normal = np.cos(np.radians(angle))
-    # The axis and the normal force count as neighbours of the lines.
+    # Labels must keep away from the axis and from the normal force too.
     gaps = np.diff(np.sort(np.vstack([0 * angle, forces, normal]), axis=0), axis=0)
     at = int(gaps.min(axis=0).argmax())
     box = {"facecolor": "white", "edgecolor": "none", "pad": 0.8}

@@ -14,9 +14,9 @@ from stronge1994.drawings.house_style import Entries, Points, Settings
 X, Y = "angle [deg]", "peak_force [N]"
 TANGENTIAL = {"color": house_style.BLUE, "linestyle": house_style.DASHES[1], "linewidth": 1.4}
 LARGEST = {"color": house_style.VERMILLION, "marker": "o", "linestyle": "none"}
-# The paper enlarges tangential forces on an axis of their own.
+# The paper draws tangential forces so many times larger, on a second axis.
 ENLARGED = 2
-# Angles of the largest tangential force: name of the fact, whose it is.
+# Stated angles of the largest tangential force: name of the fact, label.
 STATED = {
     "stronge1994/peak_angle_mu_0.18": r"model, {:g}$\degree$",
     "lewis_rogers1988/peak_angle": r"measured, $\approx {:g}\degree$",
@@ -24,7 +24,7 @@ STATED = {
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Normal force on the left axis, tangential on the right one, measurements if at hand."""
+    """Draw the normal force on the left axis, the tangential one on the right; measurements too."""
     figure = house_style.new(5.0)
     axes = figure.subplots()
     enlarged = axes.twinx()
@@ -49,7 +49,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
 
 
 def _draw_measured(axes: Axes, enlarged: Axes, points: Points) -> Entries:
-    """Draw the measurements of Lewis & Rogers; their entries of the legend."""
+    """Draw the measurements of Lewis & Rogers, and return entries of the legend."""
     forces = {
         "normal": (axes, house_style.BLACK, "o"),
         "friction": (enlarged, house_style.BLUE, "s"),
@@ -76,7 +76,7 @@ def _draw_largest(axes: Axes, curve: Columns) -> Artist:
     """Mark the largest tangential force and its angle."""
     top = int(curve[Y].argmax())
     angle, force = curve[X][top], curve[Y][top]
-    # Left of the point, away from the angles stated.
+    # To the left of the point: the stated angles are to the right.
     place = {"textcoords": "offset points", "ha": "right", "va": "bottom"}
     text = rf"{angle:.1f}$\degree$"
     axes.annotate(text, (angle, force), (2, 4), color=house_style.VERMILLION, **place)
@@ -84,7 +84,7 @@ def _draw_largest(axes: Axes, curve: Columns) -> Artist:
 
 
 def _draw_statements(axes: Axes, curve: Columns, points: Points) -> Artist:
-    """Thin lines at the angles stated, from the axis to above the curve."""
+    """Draw thin lines at the stated angles, from the axis to above the curve."""
     height = 1.15 * curve[Y].max()
     place = {"rotation": 90, "ha": "center", "va": "bottom", "fontsize": house_style.NOTE}
     left, right = axes.get_xlim()

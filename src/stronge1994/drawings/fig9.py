@@ -15,7 +15,7 @@ NOTE = "black, blue: exact balance of energy\n(correction of the printed figure)
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Colour and breadth tell friction, the pattern of the line restitution."""
+    """Draw each friction in its colour and line width, each restitution in its pattern of line."""
     figure = house_style.new(4.3)
     axes = figure.subplots()
     for mu, style in _strokes(settings["friction"]):
@@ -38,14 +38,14 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
 
 
 def _strokes(friction: Sequence[float]) -> Iterator[tuple[float, Style]]:
-    """Each coefficient of friction with its colour and breadth."""
+    """Each coefficient of friction with its colour and line width."""
     for index, mu in enumerate(friction):
         colour = house_style.COLOURS[index % len(house_style.COLOURS)]
         yield mu, {"color": colour, "linewidth": 0.9 + 0.7 * index}
 
 
 def _draw_rigid(axes: Axes, curves: Curves, settings: Settings) -> None:
-    """Line of no tangential compliance: where slip halts it is one line for all mu and e."""
+    """Draw no tangential compliance. Where slip stops, it is one line for all mu and e."""
     pair = f"{name('mu', max(settings['friction']))}, {name('e', max(settings['restitution']))}"
     rough = curves[f"no tangential compliance, {pair}"]
     house_style.rigid(axes, rough[X], rough[Y], curves[pair][Y])

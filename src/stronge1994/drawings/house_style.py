@@ -1,16 +1,17 @@
 """House style of the figures: fonts, colours, what each line means, and the parts they share.
 
-Each draw_figN.py has one public function, `draw(curves, settings, points)`, that returns a Figure:
+Each figN.py beside this file has one public function, `draw(curves, settings, points)`, which
+returns a Figure:
 
 - `curves`, what stronge1994.curves.figN returns: `{curve: {column: array}}`;
 - `settings`, the keywords it was called with, from which labels take their numbers;
-- `points`, the reference series at hand, `{"source/series": {...}}` with arrays `x` and `y`, their
-  `sigma`, `line` and the source's `parameters`, and stated facts, as in source.yaml.
+- `points`, the reference series that are not awaited, `{"source/series": {...}}` with arrays `x`
+  and `y`, their `sigma`, `line` and the source's `parameters`; and stated facts, as in source.yaml.
 
-Importing this module sets matplotlib's defaults, once and for all figures: ticks are made late,
-at the drawing, so a style that holds only while a figure is put together would not reach them.
-What this repository adds to a figure of the paper stands in a part of the legend of its own.
-Colours (Okabe & Ito) differ in grey too, and no two curves differ by colour alone.
+Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
+figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
+What this repository adds to a figure of the paper has its own part of the legend. The colours
+(Okabe & Ito) differ in grey too, and no two curves differ by colour alone.
 """
 
 import itertools
@@ -38,13 +39,15 @@ Points: TypeAlias = dict[str, Series]
 Entries: TypeAlias = list[Any]  # of a legend: artists, and containers of them
 _Item = TypeVar("_Item")
 
-WIDTH = 5.0  # inches; the type stays readable when a column of a journal shrinks it to 3.4
-NOTE = 7  # points: notes, brackets, labels at lines
+# Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
+WIDTH = 5.0
+# Size in points of notes, of words over brackets and of labels at lines.
+NOTE = 7
 
 BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
 GREY, PALE = "0.5", "0.85"
 
-# Dotted is left out: it means "no tangential compliance".
+# No pattern is dotted: a dotted line means "no tangential compliance".
 DASHES: tuple[Dashes, ...] = (
     "-",
     (0, (5, 2)),
@@ -100,7 +103,7 @@ def new(height: float) -> Figure:
 
 
 def save(figure: Figure, svg: File, png: File | None = None) -> None:
-    """Write both files, the same bytes for the same figure.
+    """Write both files. The same figure gives the same bytes.
 
     Parameters
     ----------
@@ -108,7 +111,8 @@ def save(figure: Figure, svg: File, png: File | None = None) -> None:
     svg, png : path or binary file
         The second may be left out.
     """
-    # The layout is solved in an order that changes from run to run, and with it the last bits.
+    # Matplotlib solves the layout in an order that changes from run to run, which changes the last
+    # bits. So the places are rounded.
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
     for axes in figure.axes:
@@ -119,7 +123,7 @@ def save(figure: Figure, svg: File, png: File | None = None) -> None:
 
 
 def failure(message: str) -> Figure:
-    """Figure of one plain sentence, drawn where curves are missing."""
+    """Figure of one sentence, drawn instead of curves that are missing."""
     figure = new(1.6)
     # A dollar sign in an error message is not mathematics.
     style = {"ha": "center", "va": "center", "color": VERMILLION, "parse_math": False}
@@ -128,7 +132,7 @@ def failure(message: str) -> Figure:
 
 
 def symbols(name: str) -> str:
-    """Name of a curve in mathematical type.
+    """Name of a curve in mathematical letters.
 
     Examples
     --------
@@ -139,17 +143,17 @@ def symbols(name: str) -> str:
 
 
 def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
-    """Each item with a pattern of line."""
+    """Each item with its own pattern of line."""
     return zip(items, itertools.cycle(DASHES), strict=False)
 
 
 def key(label: str, **style: Any) -> Line2D:
-    """Entry of a legend without its curve."""
+    """Entry of a legend for a line that is not drawn."""
     return Line2D([], [], label=label, **style)
 
 
 def legend_below(figure: Figure, *groups: Iterable[Artist], titles: Collection[str] = ()) -> None:
-    """Legend under the axes, where it covers no curve whatever the physics: a column a group.
+    """Legend below the axes, where it never covers a curve: one column for each group.
 
     Parameters
     ----------
@@ -163,7 +167,7 @@ def legend_below(figure: Figure, *groups: Iterable[Artist], titles: Collection[s
     columns = [list(group) for group in groups]
     for column, title in zip(columns, titles, strict=False):
         column.insert(0, key(title, **blank))
-    # A legend fills column by column: short ones must be as long as the longest.
+    # A legend is filled column by column, so all columns must be equally long.
     rows = max(map(len, columns))
     for column in columns:
         column += [key("", **blank)] * (rows - len(column))
@@ -176,7 +180,7 @@ def legend_below(figure: Figure, *groups: Iterable[Artist], titles: Collection[s
 
 
 def rigid(axes: Axes, x: Array, y: Array, compliant: Array) -> None:
-    """Line of negligible tangential compliance, left out where the compliant curve is the same."""
+    """Line without tangential compliance, left out where the compliant curve is the same."""
     axes.plot(x, np.where(np.isclose(y, compliant), np.nan, y), **RIGID)
 
 
@@ -188,7 +192,7 @@ def as_printed(
     equations: str,
     patterns: Mapping[str, Dashes] | None = None,
 ) -> Entries:
-    """Draw what the printed equations give, where they differ; entries of the legend.
+    """Draw what the printed equations give, and return entries of the legend.
 
     Parameters
     ----------
@@ -198,9 +202,9 @@ def as_printed(
     x, y : str
         Their columns.
     equations : str
-        Which equations, for the legend.
+        Their numbers, for the legend.
     patterns : dict, optional
-        Pattern of the line for names that end in a key.
+        Pattern of the line for curves whose name ends in a key.
 
     Returns
     -------
@@ -223,7 +227,7 @@ def as_printed(
 
 
 def measured(axes: Axes, series: Series, **style: Any) -> Artist:
-    """Reference points with error bars, or a line where the reference is one; its legend entry."""
+    """Draw points with error bars, or a line if the reference is one; its entry of the legend."""
     if series["line"]:
         return axes.plot(series["x"], series["y"], **style)[0]
     x_error, y_error = series["sigma"]
@@ -232,7 +236,7 @@ def measured(axes: Axes, series: Series, **style: Any) -> Artist:
 
 
 def references(axes: Axes, points: Points, wanted: Mapping[str, tuple[str, Style]]) -> Entries:
-    """Draw reference series on their axes; an entry of the legend each, also for awaited ones.
+    """Draw reference series; the legend has an entry for each, also for awaited ones.
 
     Parameters
     ----------
@@ -255,7 +259,7 @@ def references(axes: Axes, points: Points, wanted: Mapping[str, tuple[str, Style
 
 
 def let_in(axes: Axes, series: Series) -> None:
-    """Widen axes to points that were digitised just outside them, up to three sigmas.
+    """Widen axes to points that were digitised up to three sigmas outside them.
 
     Parameters
     ----------
@@ -275,7 +279,7 @@ def let_in(axes: Axes, series: Series) -> None:
 
 
 def angle_axes(axes: Axes, span: Sequence[float]) -> None:
-    """Angles of incidence below, the ratio of velocities that they stand for above."""
+    """Axis of angles of incidence below, and above it the ratios of velocities that they mean."""
     axes.set(xlim=span, xlabel=r"angle of incidence $\theta$")
     degrees = [angle for angle in range(0, 91, 30) if span[0] <= angle <= span[1]]
     axes.set_xticks(degrees, [rf"${angle}\degree$" for angle in degrees])
@@ -288,14 +292,14 @@ def angle_axes(axes: Axes, span: Sequence[float]) -> None:
 
 
 def brackets(axes: Axes, spans: Iterable[tuple[float, float, str]]) -> None:
-    """Brackets over the axes: `spans` holds (start, end, label) on the x axis."""
+    """Draw brackets over the axes: `spans` holds (start, end, label) on the x axis."""
     across = axes.get_xaxis_transform()
     left, right = axes.get_xlim()
     foot, top = 1.02, 1.045
     for start, end, label in spans:
         frame = [start, start, end, end], [foot, top, top, foot]
         axes.plot(*frame, transform=across, clip_on=False, color=BLACK, linewidth=0.7)
-        # Letters that fit: 16 an inch in this size, on axes a little narrower than the figure.
+        # So many letters fit: 16 to an inch in this size. The axes are narrower than the figure.
         letters = int((end - start) / (right - left) * WIDTH * 14)
         if letters < max(map(len, label.split())):
             continue

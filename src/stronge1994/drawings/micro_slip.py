@@ -17,7 +17,7 @@ LUMPED, CONTINUUM = "-", (0, (6, 2))
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """(a) Edge of contact and of stick; then both forces of both models, a panel an incidence."""
+    """Draw (a) radii of contact and stick; below, a panel of forces for each incidence."""
     forces = settings["forces"]
     figure = house_style.new(3.4 + 1.9 * len(forces))
     panels = figure.subplots(1 + len(forces), 1, sharex=True, height_ratios=[3] + [2] * len(forces))
@@ -39,7 +39,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
 
 
 def _draw_radii(axes: Axes, curves: Curves, incidences: Sequence[float]) -> Entries:
-    """Radius of contact, and inside it one of stick for each incidence; entries of the legend."""
+    """Draw the radius of contact and those of stick, and return entries of the legend."""
     first = curves[f"continuum, x = {incidences[0]:g}"]
     rim = {"color": house_style.BLACK, "linewidth": 0.6}
     entries = axes.plot(first[TIME], first[CONTACT], label="contact", **rim)

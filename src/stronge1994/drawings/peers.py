@@ -1,4 +1,4 @@
-"""The figure of error against time with the peers' points, and which of them is missing."""
+"""The figure of error against time with points of LAMMPS and pooltool."""
 
 from collections.abc import Mapping
 
@@ -13,7 +13,7 @@ from stronge1994.drawings.house_style import Settings
 
 CODES = {"lammps": "LAMMPS", "pooltool": "pooltool"}
 OTHER = draw_trade.Family("", "X", 5, house_style.BLACK, False, draw_trade.ABOVE)
-# LAMMPS' laws lie together in panel (a), and apart in (c) beside ours.
+# The laws of LAMMPS lie together in panel (a). Panel (c) shows them apart, beside our models.
 LAWS = {
     "LAMMPS mindlin": OTHER._replace(marker="<", label="mindlin", place=draw_trade.RIGHT),
     "LAMMPS mindlin/force": OTHER._replace(marker="^", label="mindlin/force"),
@@ -26,7 +26,7 @@ POOLTOOL = OTHER._replace(label="pooltool", place=draw_trade.LEFT)
 
 
 def draw(curves: Curves, peers: Curves, settings: Settings) -> Figure:
-    """Figure `trade` with the rows of `peers` that are not ours; its title names what is missing.
+    """Draw figure `trade` with the other codes; its title names those that are not installed.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def draw(curves: Curves, peers: Curves, settings: Settings) -> Figure:
 
 
 def _add_legend(axes: Axes, families: Mapping[str, draw_trade.Family]) -> None:
-    """Legend of the peers in the empty middle of panel (a)."""
+    """Write the legend of the other codes into the empty middle of panel (a)."""
     keys = [
         house_style.key(label, linestyle="none", **family.style())
         for label, family in families.items()
@@ -72,7 +72,7 @@ def _elastic(curves: Curves) -> Curves:
 
 
 def _draw_laws(axes: Axes, curves: Curves, batch: int) -> None:
-    """LAMMPS' laws and ours at the same steps: their errors on a plain scale, against time."""
+    """Draw errors of LAMMPS' laws and of ours against time, on a linear scale of error."""
     families = LAWS | {model: draw_trade.FAMILIES[model] for model in OURS}
     for curve in curves.values():
         row = {key: value[0] for key, value in curve.items()}

@@ -1,4 +1,4 @@
-"""Residuals of a figure as strips: one a curve and reference, with what is allowed shaded."""
+"""Residuals of a figure as strips, one for each curve and reference. What is allowed is shaded."""
 
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
@@ -19,8 +19,10 @@ Strip: TypeAlias = tuple[str, str, str]
 Bounds: TypeAlias = dict[str, tuple[float, float]]
 Entry: TypeAlias = Mapping[str, Any]  # a comparison of the config
 
-MOST_POINTS = 1000  # of a comparison; more would be a block of ink, and make the page heavy
-STRIP, LABEL = 0.55, 0.3  # inches: height of a strip, and of the label of its x axis
+# A comparison with more points is left out: it would be a block of ink, and a large file.
+MOST_POINTS = 1000
+# Inches: height of a strip, and of the label of its x axis.
+STRIP, LABEL = 0.55, 0.3
 MARKS = {
     "agrees": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
     "differs as documented": {"color": house_style.BLUE, "marker": "s", "markersize": 1.8},
@@ -34,7 +36,7 @@ RMS = {"color": house_style.GREEN, "linewidth": 0.9, "linestyle": "-", "zorder":
 def draw(
     residuals: Sequence[Row], comparisons: Mapping[str, Entry], verdicts: Mapping[str, Row]
 ) -> Figure | None:
-    """Strips of the comparisons of one figure that have a residual a point.
+    """Draw strips of the comparisons of one figure that have a residual for each point.
 
     Parameters
     ----------
@@ -53,7 +55,7 @@ def draw(
     strips = _strips(residuals, comparisons)
     if not strips:
         return None
-    # A label only below the last of several strips with the same axis.
+    # Of several strips with the same axis only the last has a label below it.
     axis = [quantity for _, _, quantity in strips]
     labelled = [i + 1 == len(axis) or axis[i + 1] != axis[i] for i in range(len(axis))]
     heights = [STRIP + LABEL * last for last in labelled]
@@ -96,7 +98,7 @@ def words(quantity: str) -> str:
 def _strips(
     residuals: Sequence[Row], comparisons: Mapping[str, Entry]
 ) -> dict[Strip, dict[str, Array]]:
-    """Points by strip and comparison; strips with the same axis next to each other."""
+    """Points by strip and comparison. Strips with the same axis follow each other."""
     found: dict[Strip, dict[str, list[tuple[float, float]]]] = {}
     counts = Counter(row["comparison"] for row in residuals)
     for row in residuals:
@@ -127,7 +129,7 @@ def _draw_comparison(axes: Axes, bounds: Bounds, x: Array, distance: Array, mark
 
 
 def _bounds(entry: Entry, row: Row) -> Bounds:
-    """What `rms` and `max` must lie between; chi-squared bounds all points together, and none."""
+    """Bounds of `rms` and `max`. Chi-squared gives none: it judges all points together."""
     known = entry.get("regression", {} if row["p"] else {"max": (0.0, 1.0)})
     return {key: span for key, span in known.items() if key in ("rms", "max")}
 

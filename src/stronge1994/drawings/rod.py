@@ -30,7 +30,7 @@ SHADES = {"STICK_SLIP": "white", "SLIP_STICK_SLIP": "0.93", "SLIP_THROUGHOUT": "
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Over the tilt, a column a ratio of velocities: slip, (a, b) velocities, (c) energy; (d)."""
+    """Draw (a, b) velocities and (c) energy over the tilt, a column for each ratio; (d) forces."""
     figure = house_style.new(8.0)
     over_tilt, over_time = figure.subfigures(2, 1, height_ratios=[5.5, 2.5])
     ratios = settings["velocity_ratio"]
@@ -43,7 +43,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         height_ratios=[0.8, 2, 2, 2],
     )
     for column, ratio in zip(panels.T, ratios, strict=True):
-        # 94 letters of the ribbon fit beside each other on all panels.
+        # 94 letters fit beside each other on the ribbons of all columns together.
         _draw_over_tilt(column, curves, f"v1/v2 = {ratio:g}", 94 / len(ratios))
         column[0].set_title(rf"$v_1(0)/v_2(0) = {ratio:g}$")
         column[-1].set_xlabel(r"tilt $\alpha$")
@@ -85,7 +85,7 @@ def _draw_over_tilt(panels: Sequence[Axes], curves: Curves, name: str, letters: 
 
 
 def _draw_ribbon(axes: Axes, compliant: Columns, rigid: Columns, letters: float) -> None:
-    """Rows: order of stick and slip, where the compliant contact jams, where the rigid one."""
+    """Draw three rows: stick and slip; jams of the compliant contact; jams of the rigid one."""
     axes.set(ylim=(3, 0))
     axes.tick_params(which="both", length=0, labelbottom=False)
     axes.spines[:].set_visible(False)
@@ -94,7 +94,7 @@ def _draw_ribbon(axes: Axes, compliant: Columns, rigid: Columns, letters: float)
         shade = SHADES.get(regime, "0.6")
         frame = {"facecolor": shade, "edgecolor": house_style.BLACK, "linewidth": 0.6}
         axes.barh(0.5, end - start, 0.8, start, clip_on=False, **frame)
-        # A bar too short for its word speaks by its shade.
+        # A bar that is too short for its word has only its shade.
         if (end - start) / np.ptp(tilt) * letters > len(words := Regime[regime].words):
             place = {"ha": "center", "va": "center_baseline", "fontsize": house_style.NOTE - 1}
             axes.text((start + end) / 2, 0.5, words, **place)
@@ -105,17 +105,17 @@ def _draw_ribbon(axes: Axes, compliant: Columns, rigid: Columns, letters: float)
 
 
 def _spans(x: Array, labels: Column) -> Iterator[tuple[float, float, Any]]:
-    """Stretches of one label: start, end, label; a change counts half way."""
+    """Parts with one label: start, end, label. They meet half way between two points."""
     changes = np.flatnonzero(labels[1:] != labels[:-1])
     edges = [x[0], *(x[changes] + x[changes + 1]) / 2, x[-1]]
     return zip(edges, edges[1:], labels[[*changes, -1]], strict=False)
 
 
 def _draw_contact(axes: Axes, curves: Curves, mu: float) -> list[Entries]:
-    """(d) Both forces against time, stick and slip above them; entries of the legend."""
+    """Draw (d) both forces against time, stick and slip above them; entries of the legend."""
     contact, smooth = curves["contact"], curves["contact, mu = 0"]
     normal = {"color": house_style.BLACK, "label": "$F_2$"}
-    # Broad and below: where the contact slips, the two forces are one line.
+    # This line is broad and below the other: where the contact slips, they coincide.
     friction = {"color": house_style.BLUE, "linewidth": 2.4, "zorder": 1.9, "label": r"$F_1/\mu$"}
     free = {"color": house_style.GREY, "linewidth": 0.9, "linestyle": house_style.DASHES[1]}
     free |= {"label": "$F_2$ without friction"}
@@ -130,7 +130,7 @@ def _draw_contact(axes: Axes, curves: Curves, mu: float) -> list[Entries]:
 
 
 def _mark_events(axes: Axes, contact: Columns) -> None:
-    """Brackets of stick and slip; a slip jams if the body approaches faster at its end."""
+    """Draw brackets of stick and slip. A slip jams if the body approaches faster at its end."""
     event, time, approach = contact["event"], contact[TIME], contact["normal_velocity [v2(0)]"]
     changes = np.flatnonzero(np.isin(event, ["stick", "slip"]))
     spans = []
@@ -153,7 +153,7 @@ def _mark_events(axes: Axes, contact: Columns) -> None:
 
 
 def _draw_rod(axes: Axes, contact: Mapping[str, float]) -> None:
-    """Sketch of the rod on the surface, its tilt, and where its tip moves."""
+    """Sketch the rod on the surface, its tilt, and the direction in which its tip moves."""
     tilt, ratio = contact["tilt"], contact["velocity_ratio"]
     axes.set(xlim=(-0.8, 0.8), ylim=(-0.2, 1.1), aspect="equal", anchor="N")
     axes.set(xticks=[], yticks=[])

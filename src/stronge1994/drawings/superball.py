@@ -15,7 +15,7 @@ SURFACE = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth":
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """The path of the ball's centre, the ball at each impact, and its spin between them."""
+    """Draw the path of the ball's centre and the ball at each impact. The legend has the spins."""
     path, throw = curves["path"], settings["throw"]
     radius, gap = throw["radius"], throw["gap"]
     place, height = path[PLACE], path[HEIGHT]
@@ -63,7 +63,7 @@ def _style(back: bool) -> Style:
 def _draw_flight(
     axes: Axes, number: int, start: tuple[float, float], end: tuple[float, float], last: bool
 ) -> None:
-    """A flight with its number near its start, where the paths have not crossed yet."""
+    """Draw a flight, with its number near its start, where the paths have not crossed yet."""
     style = _style(end[0] < start[0])
     tip = {"arrowstyle": "-|>", "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0 if last else 8}
     axes.add_patch(FancyArrowPatch(start, end, **tip, **style))

@@ -16,16 +16,20 @@ Place: TypeAlias = tuple[str, float, float]
 
 ERROR, MODEL, RESTITUTION = "rms_velocity [mu v2(0)]", "model", "restitution [1]"
 STEPS, CIRCLES, TOLERANCE = "steps [1]", "circles [1]", "tolerance [mu v2(0)]"
-FLOOR = 1e-12  # smaller errors are rounding, and drawn here
-CUT = 0.03  # rough models above, those that converge below, each on a scale of their own
+# Smaller errors are rounding; they are drawn here.
+FLOOR = 1e-12
+# The axis of error is cut here: rough models are above, those that converge below, each part with
+# its own scale.
+CUT = 0.03
 MICROSECONDS = 1e6
 ERROR_WORDS, TIME_WORDS = r"error of $v_1(t_f)/\mu v_2(0)$, rms", "time of an impact (µs)"
 
-# Where labels stand: horizontal alignment, and how far off in points.
+# Where labels are: horizontal alignment, and distances from the point.
 ABOVE, BELOW = ("center", 0, 4), ("center", 0, -10)
 RIGHT, LEFT = ("left", 5, -2.5), ("right", -5, -2.5)
 LOWER_LEFT = ("right", -4, -8)
-UPPER_RIGHT = ("left", 4, 2.5)  # a line of the front starts to the right of these
+# For points from which a line of the front goes to the right.
+UPPER_RIGHT = ("left", 4, 2.5)
 
 
 class Family(NamedTuple):
@@ -67,7 +71,7 @@ FAMILIES = {
 }
 NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
 NAMES |= {"pooltool": "pooltool"}
-# One line each against the size of batch: what is left out runs beside one of them.
+# These models have a line against the size of batch. The lines of the others would lie beside them.
 GROWTH = {
     "laws.brach": house_style.DASHES[0],
     "lumped": house_style.DASHES[0],
@@ -83,9 +87,9 @@ FRONT_WITH_RESPONSES = FRONT | {"linestyle": (0, (4, 2))}
 def draw(
     curves: Curves, settings: Settings, points: Points, families: Mapping[str, Family] = FAMILIES
 ) -> Figure:
-    """(a) Error against time for the first restitution, (b) for the last, (c) time and batch.
+    """Draw (a) error against time for the first restitution, (b) for the last, (c) time and batch.
 
-    `families` may hold more than those of the legend. The title says so if times are too long.
+    `families` may hold more than those of the legend. The title warns if the machine was busy.
     """
     rows = [{key: value[0] for key, value in curve.items()} for curve in curves.values()]
     first, last = settings["restitution"][0], settings["restitution"][-1]
@@ -138,7 +142,7 @@ def warning(rows: Sequence[_Row]) -> str:
 
 
 def shown_batch(settings: Settings) -> int:
-    """Size of the batch whose times stand beside errors: the middle one."""
+    """Size of the batch whose times are drawn against errors: the middle one."""
     return sorted(settings["batches"])[len(settings["batches"]) // 2]
 
 
@@ -159,7 +163,7 @@ def _draw_errors(
     span: tuple[float, float],
     margin: float,
 ) -> None:
-    """Points of a span of error with their labels, and both fronts; `margin` for labels."""
+    """Draw the points in a span of error, and both fronts; `margin` leaves room for labels."""
     timed = [row for row in rows if f"time_{batch} [s]" in row]
     if not timed:
         return
@@ -197,7 +201,7 @@ def label(axes: Axes, at: Sequence[float], words: str, place: Place | None) -> N
 
 
 def words_of(row: _Row) -> str:
-    """What a point is called beside its family."""
+    """Label of a point: the setting of its model, or its name."""
     if STEPS in row and CIRCLES not in row:
         return f"{row[STEPS]:g}"
     if CIRCLES in row:
@@ -208,7 +212,7 @@ def words_of(row: _Row) -> str:
 
 
 def front(time: Sequence[float], error: Sequence[float]) -> list[int]:
-    """Indices of the Pareto front, from the fastest on: no other is as fast and as near.
+    """Indices of the Pareto front, the fastest first: no other point is as fast and as accurate.
 
     Examples
     --------
@@ -229,7 +233,7 @@ def _draw_front(
     edges: tuple[tuple[float, float], tuple[float, float]],
     style: Style,
 ) -> None:
-    """Pareto front: what lies above and to the right of it is beaten in both."""
+    """Draw a Pareto front: a point above and to the right of it is worse in both."""
     (_, right), (_, top) = edges
     best = front(time, error)
     x = [time[best[0]], *(time[i] for i in best), right]
@@ -238,7 +242,7 @@ def _draw_front(
 
 
 def _cut(rough: Axes, fine: Axes) -> None:
-    """Two scales of error, one above the other, read as one panel."""
+    """Make one panel of two: both have the same axis of error, with different scales."""
     rough.set_ylim(bottom=CUT)
     fine.set_ylim(top=CUT)
     rough.tick_params(labelbottom=False, bottom=False, which="both")

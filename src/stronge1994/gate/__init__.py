@@ -1,4 +1,4 @@
-"""Is a run good? What its tables say, whether each row is there, and whether files are whole."""
+"""Is a run good? Its tables must say so, no row may be missing, and all files must be whole."""
 
 import csv
 import hashlib
@@ -19,7 +19,7 @@ from stronge1994.records import HOW_TO_MEND
 
 PASSED = "results/PASSED"
 TABLES = ("results/verdicts.csv", "results/ledger.csv")
-# Points of a figure are counted elsewhere: it may have none. A good report has no problems.
+# Tables that may be empty: a figure may have no points, and a good report has no problems.
 MAY_HAVE_NO_ROWS = {"residuals", "sensitivity", "problems"}
 
 
@@ -32,7 +32,7 @@ def faults(
     comparisons: Mapping[str, bool],
     entries: Mapping[str, bool],
 ) -> list[str]:
-    """Why the run must not pass, in words, one line a fault.
+    """Why the run must not pass, one line for each fault.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def faults(
     list of str
     """
     found = faults_of_files(made)
-    if found:  # what is cut cannot be counted
+    if found:  # rows of a damaged table cannot be counted
         return found
     verdicts, ledger = map(csv_tables.read_rows, tables)
     found = faults_of_tables(verdicts, ledger, comparisons, entries)
@@ -66,7 +66,7 @@ def faults_of_tables(
     comparisons: Mapping[str, bool],
     entries: Mapping[str, bool],
 ) -> list[str]:
-    """Why a run must not pass, in words, one line a fault.
+    """Why a run must not pass, by its tables, one line for each fault.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def _miscounted(
 
 
 def faults_of_residuals(verdicts: Sequence[Row], paths: Iterable[str]) -> list[str]:
-    """Tables of residuals that lack points which the verdicts rest on, a line each."""
+    """Tables of residuals without the points on which verdicts rest, one line for each."""
     counts: Counter[str] = Counter()
     for path in paths:
         for row in csv_tables.read_rows(path):
@@ -131,7 +131,7 @@ def faults_of_residuals(verdicts: Sequence[Row], paths: Iterable[str]) -> list[s
 
 
 def faults_of_report(page: str, comparisons: Mapping[str, bool]) -> list[str]:
-    """Comparisons that the report does not show, a line each."""
+    """Comparisons that the report does not show, one line for each."""
     text = Path(page).read_text(encoding="utf-8")
     return [
         f"{page}: it does not show {name}" for name in comparisons if f'id="{name}"' not in text
@@ -139,13 +139,13 @@ def faults_of_report(page: str, comparisons: Mapping[str, bool]) -> list[str]:
 
 
 def faults_of_files(paths: Iterable[str]) -> list[str]:
-    """Files that are missing, empty or cut, a line each.
+    """Files that are missing, empty or cut, one line for each.
 
     Parameters
     ----------
     paths : iterable of str
-        Judged by their endings: tables, pictures, pages, notebooks, arrays; without
-        one, a folder of pages.
+        Tables, pictures, pages, notebooks and arrays, which their endings tell apart. What has no
+        ending is a folder of pages.
     """
     found = []
     for path in paths:
@@ -214,7 +214,7 @@ _LOOK = {
 
 
 def words_of_pass(made: Sequence[str], config: Mapping[str, Any]) -> str:
-    """What results/PASSED says: what it belongs to, and to nothing else.
+    """What results/PASSED says: fingerprints of the run that it belongs to.
 
     Parameters
     ----------
@@ -250,7 +250,7 @@ def drop_pass() -> None:
 
 
 def refuse_unknown_results(made: Sequence[str]) -> None:
-    """Refuse results of which Snakemake has no records: a change would go unnoticed.
+    """Refuse results of which Snakemake has no records: it would not notice a change.
 
     Raises
     ------

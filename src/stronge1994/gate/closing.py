@@ -18,7 +18,8 @@ Mark: TypeAlias = tuple[int, int] | None
 VERDICTS, LEDGER = gate.TABLES
 GATE_LOG = "results/logs/gate.log"
 REPORT = "figures/report.html"
-SHOWN = 8  # faults that are named; the log has them all
+# So many faults are named; the log has them all.
+SHOWN = 8
 NEXT = [
     f"Look:     {REPORT}, open it in a browser; everything above, with its reasons",
     "Play:     figures/explorer.html",
@@ -31,23 +32,24 @@ STOPPED = [
 INTERRUPTED = (
     "Interrupted. Nothing needs mending: type the same command again, finished work is kept."
 )
-# What Snakemake's own log says of Ctrl-C, and of a job that failed.
+# Snakemake's own log says this after Ctrl-C, and after a job has failed.
 ON_REQUEST = "Terminating processes on user request"
 FAILED_JOB = re.compile(r"^Error in rule (\w+):", flags=re.M)
 
 
 def state() -> dict[str, Mark]:
-    """What tells later whether this run has written the tables, and the log of the gate, anew.
+    """Marks of the tables and of the gate's log, to see later whether this run has written them.
 
-    Times will not do: a clock may be wrong, and a copy of a folder has new ones.
+    Whether a file is newer than the start of the run would not do: a clock may be wrong, and a copy
+    of a folder has new times.
     """
     return {path: _mark(path) for path in (VERDICTS, LEDGER, GATE_LOG)}
 
 
 def start(known: Collection[str]) -> None:
-    """Take away what would speak of an earlier run: its verdict, and words of jobs that are gone.
+    """Remove what would mislead: the verdict of an earlier run, and logs of jobs that are gone.
 
-    Python's bytecode too: it takes a source of the same size and date for the same source.
+    Also Python's bytecode: Python takes a source of the same size and date for the same source.
 
     Parameters
     ----------
@@ -71,7 +73,7 @@ def words(
     stopped: bool = False,
     logs: Iterable[str] = (),
 ) -> str:
-    """The end of a run; older tables would mislead, so they are left out.
+    """What a run prints last. Tables of an earlier run would mislead, so they are left out.
 
     Parameters
     ----------
@@ -116,7 +118,7 @@ def words(
 
 
 def _failed(faults: Iterable[str]) -> str:
-    """Headline of a failed run, and its first faults."""
+    """Heading of a failed run, and its first faults."""
     faults = list(faults)
     shown = [f"  {fault}" for fault in faults[:SHOWN]]
     if len(faults) > SHOWN:
@@ -125,7 +127,7 @@ def _failed(faults: Iterable[str]) -> str:
 
 
 def _rows(path: str, columns: Iterable[str]) -> list[Row]:
-    """Rows of a table; none where it cannot be read, which the gate has said."""
+    """Rows of a table; none if it cannot be read, which the gate has said."""
     try:
         return csv_tables.read_rows(path, columns)
     except (OSError, ValueError):

@@ -1,4 +1,4 @@
-"""Options of Snakemake with which a run could look finished and not be."""
+"""Options of Snakemake that are refused: with them a run could look finished without being so."""
 
 import contextlib
 import io
@@ -21,7 +21,7 @@ class OptionError(Exception):
 
 
 def is_dry(arguments: Sequence[str]) -> bool:
-    """Whether a command line asks for a plan alone, which must change nothing.
+    """Whether a command line asks only for the plan of a run, which must change nothing.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def is_dry(arguments: Sequence[str]) -> bool:
 
 
 def refuse_untrustworthy(arguments: Sequence[str]) -> None:
-    """Refuse options, abbreviated or from a profile too, that make a verdict untrue.
+    """Refuse options that make a verdict untrue, also abbreviated ones and those of a profile.
 
     Parameters
     ----------
@@ -56,7 +56,8 @@ def refuse_untrustworthy(arguments: Sequence[str]) -> None:
 
 def _parsed(arguments: Sequence[str]) -> Any:
     """Options as Snakemake reads them, its profiles too."""
-    from snakemake.cli import parse_args  # here: only the process that was started has it
+    # Imported here: only the process that was started has this module.
+    from snakemake.cli import parse_args
 
     try:
         with contextlib.redirect_stderr(io.StringIO()):  # it has said which profile it uses

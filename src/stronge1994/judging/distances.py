@@ -16,7 +16,7 @@ from planarimpact.ground.arrays import Array, ArrayLike
 
 
 class Distance(NamedTuple):
-    """Distances of so many points: in sigmas, and root mean square in units of the y axis."""
+    """Distances of a number of points in sigmas; `plain_rms` is in units of the y axis."""
 
     rms: float
     max: float
@@ -25,7 +25,7 @@ class Distance(NamedTuple):
 
 
 class Residuals(NamedTuple):
-    """One distance a point, signed: positive where the reference lies above what was computed.
+    """A distance for each point: positive where the reference lies above what was computed.
 
     Attributes
     ----------
@@ -106,7 +106,7 @@ def curve_residuals(
     sigma: tuple[float, float],
     both_ways: bool = False,
 ) -> Residuals:
-    """Distances of points from a curve, and with `both_ways` of the curve from the points' line.
+    """Distances of points from a curve; with `both_ways` also of the curve from the points' line.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def curve_residuals(
     order = np.argsort(x)
     inside = (line_x >= x.min()) & (line_x <= x.max())
     back = _from_polyline(line_x[inside], line_y[inside], x[order], y[order], sigma)
-    # Seen from a vertex of the curve it is the reference that lies on the other side.
+    # These distances are seen from the curve, so their sign is the other one.
     return Residuals(
         np.concatenate([found.x, back.x]),
         np.concatenate([found.sigmas, -back.sigmas]),
@@ -231,7 +231,7 @@ def difference_residuals(
 def with_allowance(
     sigma: tuple[float, float], allowance: tuple[float, float]
 ) -> tuple[float, float]:
-    """Uncertainty of a point beside a model that may itself be off: root of the sum of squares.
+    """Uncertainty of a point and of the model together: root of the sum of squares.
 
     Parameters
     ----------

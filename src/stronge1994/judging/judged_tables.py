@@ -1,4 +1,4 @@
-"""What a run judges, read as named curves: tables of figures, scenes, and the parameter study."""
+"""Read what a run judges as named curves: tables of figures, scenes, and the parameter study."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from stronge1994.csv_tables import Columns, Curves
 
 
 def read(path: str) -> Curves:
-    """Curves that are judged, `{curve: {column: array}}`, all numbers finite.
+    """Curves that are judged, `{curve: {column: array}}`. All their numbers are finite.
 
     Parameters
     ----------

@@ -18,7 +18,7 @@ from stronge1994.judging import distances, landmarks
 from stronge1994.judging.distances import Residuals
 from stronge1994.judging.points import Entry, Reference, points, sigma
 
-# Two ways to one energy agree to this share of it; see the comparison's reason.
+# Two ways to compute one energy agree to this; see the reason of the comparison.
 BALANCE_SIGMA = 1e-12
 
 
@@ -28,12 +28,12 @@ class Measured(NamedTuple):
     Attributes
     ----------
     quantity : str
-        Column at which the points stand.
+        Column that says where the points lie.
     residuals : Residuals
     columns : list of str
         The column that each residual is of.
     shifts : ndarray, shape (k, n)
-        Change of the residuals with one sigma of each uncertain parameter.
+        Change of the residuals if one of the k uncertain parameters is off by one sigma.
     gap : float or None
         Of a landmark: found less stated.
     words : dict
@@ -187,7 +187,7 @@ def _landmark(entry: Entry, fact: Reference, curves: Curves) -> Measured:
 class _Table(NamedTuple):
     """Some columns of all curves that have them, one curve after the other."""
 
-    first: str  # the first column of numbers, at which the points stand
+    first: str  # the first column of numbers, which says where the points lie
     x: Array  # its values
     values: list[Array]  # of the columns asked for
 
@@ -234,9 +234,9 @@ def _range(entry: Entry, curves: Curves) -> Measured:
 
 
 def _contraction(entry: Entry, curves: Curves) -> Measured:
-    """How much further apart neighbours of a curve leave than they arrive, at most at each place.
+    """How much further apart neighbours of a curve leave than they arrive; the most at each place.
 
-    The printed equations need not keep to that.
+    The printed equations are left out: they need not keep to that.
     """
     x, y = entry["columns"]
     parts = []
@@ -245,7 +245,7 @@ def _contraction(entry: Entry, curves: Curves) -> Measured:
         if drawn and x in columns and y in columns:
             keys = [columns[label] for label in reversed(entry.get("labels", []))]
             order = np.lexsort([columns[x], *keys])
-            # Neighbours are of one curve: rows with other labels are none.
+            # Only rows with the same labels are neighbours.
             same = np.ones(len(order) - 1, bool)
             for key in keys:
                 same &= key[order][1:] == key[order][:-1]

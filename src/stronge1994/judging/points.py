@@ -14,7 +14,7 @@ from stronge1994.judging.distances import with_allowance
 # parameters of its source.
 Entry: TypeAlias = Mapping[str, Any]
 Reference: TypeAlias = Mapping[str, Any]
-# The two regimes' limits divide the axis into these parts.
+# The limits of the regimes divide the axis of incidence into these parts.
 PARTS = ("initial stick", "slip and stick", "slip throughout")
 
 
@@ -69,9 +69,9 @@ def _window(entry: Entry, known: Reference) -> tuple[float, float]:
 def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: float) -> Array:
     """Incidences at which a contact no longer sticks at first, and at which it slips throughout.
 
-    They are those of every model with Coulomb friction and both compliances (Stronge 1994, Eq. 11,
-    and where its Eq. 21 loses its root), and choose the points of a comparison. A judge does not
-    ask the solver that it judges, so they are worked out here.
+    Every model with Coulomb friction and both compliances has these limits (Stronge 1994, Eq. 11,
+    and the incidence beyond which its Eq. 21 has no root). They choose the points of a comparison.
+    A judge does not ask the solver that it judges, so they are computed here.
 
     Parameters
     ----------

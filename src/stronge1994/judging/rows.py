@@ -1,6 +1,6 @@
-"""Rows of the verdict table: one a comparison, and one a point in the table of residuals.
+"""Rows of the verdict table, one for each comparison, and of the table of residuals.
 
-Always succeeds: what cannot be compared diverges, with the reason in `note`.
+Comparing never fails: what cannot be compared diverges, with the reason in `note`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,7 +25,7 @@ EVIDENCE = {
     "law": "law or limit",
     "itself": "none: regression",
 }
-# Cells of the columns; `residuals` holds the row's points, one list each.
+# The cells of a row by `COLUMNS`. `residuals` holds rows of the table of residuals.
 VerdictRow: TypeAlias = dict[str, Any]
 
 

@@ -1,4 +1,4 @@
-"""The verdicts of a run as one table, worst first, for files and for the terminal."""
+"""The verdicts of a run as one table, the worst first, for files and for the terminal."""
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -22,7 +22,7 @@ ORDER = ["diverges", "differs as documented", "awaited", "agrees", "as before"]
 
 
 def gather(paths: Iterable[str]) -> list[Row]:
-    """Rows of several tables, worst verdict first, else in the order of the figures.
+    """Rows of several tables, the worst verdict first, otherwise in the order of the figures.
 
     A word that is no verdict comes before all others: the gate will name it.
     """
@@ -37,14 +37,14 @@ def failing(rows: Iterable[Row]) -> list[Row]:
 
 
 def why(row: Row) -> str:
-    """Why a row fails, in words."""
+    """Why a row fails."""
     measured = _measured(row)
     limits = f"{measured}; allowed is {_allowed(row)}" if measured else ""
     return ": ".join(words for words in (row["note"], limits) if words)
 
 
 def _allowed(row: Row) -> str:
-    """What a row must keep to: to agree, or where a difference is documented to stay as it was."""
+    """What a row must keep to; with a documented difference that it stays as it was."""
     if not row["regression"]:
         return row["allowed"]
     return f"a difference, and as before {row['regression']}"

@@ -15,8 +15,8 @@ from stronge1994.judging.points import Entry, Reference, is_published
 class Verdict(StrEnum):
     """The outcome of one comparison; only DIVERGES fails a run.
 
-    UNCHANGED is said of a check that compares us with ourselves: it ran, it came out as before. It
-    guards against accidents and is evidence of nothing.
+    UNCHANGED is the verdict of a check against an earlier result of this repository. It guards
+    against accidents and is evidence of nothing.
 
     Examples
     --------
@@ -37,14 +37,14 @@ class ChiSquared(NamedTuple):
     Attributes
     ----------
     value : float
-        Sum of squares of the distances in sigmas, correlated where a parameter moves them together.
+        Sum of squares of the distances in sigmas, with their correlations.
     degrees : int
         Degrees of freedom: the number of points.
     of_sigma : int or None
-        On how many independent values the sigmas rest; None where they are known.
+        Number of independent values from which the sigmas were estimated; None if they are known.
     p : float
-        Probability that chance alone gives a value as large: by the distribution of chi-squared,
-        or where the sigmas were estimated themselves by that of F.
+        Probability that chance alone gives a value as large. It follows the distribution of
+        chi-squared, or that of F if the sigmas were estimated.
     """
 
     value: float
@@ -58,9 +58,9 @@ def chi_squared(
 ) -> ChiSquared:
     """Chi-squared of distances, with the uncertainty of the curve's own parameters.
 
-    A parameter that is known to one sigma moves all points of the curve together, so the distances
-    have the covariance 1 + sum of J J^T, one J a parameter. That is what a fit of the parameters
-    gives that is held to their stated values with their stated sigmas.
+    An error of a parameter moves all points of the curve together. So the distances have the
+    covariance 1 + sum of J J^T, with one J for each parameter. A fit of the parameters gives the
+    same chi-squared, if it holds them to their stated values with their stated sigmas.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def chi_squared(
     shifts : array_like, shape (k, n)
         How much each distance changes with one sigma of each of k independent parameters.
     of_sigma : int, optional
-        On how many independent values the sigmas rest, if they were estimated from a few.
+        Number of independent values from which the sigmas were estimated, if they were.
 
     Returns
     -------

@@ -1,6 +1,6 @@
-"""Run every entry of the ledger against the exact solver: one row an entry.
+"""Run every entry of the ledger against the exact solver: one row for each entry.
 
-Always succeeds: an entry whose check crashes no longer holds, with the reason in `problem`.
+This never fails: an entry whose check crashes no longer holds, with the reason in `problem`.
 """
 
 import traceback
@@ -13,7 +13,7 @@ from stronge1994.ledger.entries import Entry
 
 
 def check(every: Mapping[str, Entry]) -> list[Row]:
-    """Rows of the ledger's table, an entry each, in its order."""
+    """Rows of the ledger's table, one for each entry, in the order of the ledger."""
     tests = entries.checks()
     return [
         _row(name, entry, tests.get(entry.get("check", ""), "")) for name, entry in every.items()

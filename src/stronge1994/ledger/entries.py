@@ -1,4 +1,4 @@
-"""The ledger of the paper: its entries, refused before any work where they cannot be run."""
+"""The ledger of the paper: its entries. Those that cannot be run are refused before any work."""
 
 import ast
 import re
@@ -11,16 +11,17 @@ from stronge1994 import reference_data
 Entry: TypeAlias = dict[str, Any]
 
 PACKAGE = Path(__file__).parent
-MODULES = ("dynamics", "slip", "rebound", "peak_force", "dissipation")  # those that hold checks
+# These modules hold the checks.
+MODULES = ("dynamics", "slip", "rebound", "peak_force", "dissipation")
 KINDS = ({"at_most"}, {"at_least"}, {"value", "rounding"}, {"fact"})
 REFERENCE = re.compile(r"\bsee ([a-z0-9]+(?:-[a-z0-9.]*[a-z0-9])+)")
 
 
 def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
-    """Entries of a ledger, `{name: entry}`, complete.
+    """Entries of a ledger, `{name: entry}`, with what stands elsewhere filled in.
 
-    Each has its `kind` (equation or sentence), what the `cause` of a wrong one is in words
-    (`because`), and for a `fact` of source.yaml beside the ledger its value and tolerance.
+    Each has its `kind` (equation or sentence). A wrong one has its `cause` in words too, `because`.
+    A `fact` of the source.yaml beside the ledger is replaced by its value and tolerance.
 
     Raises
     ------
@@ -45,7 +46,7 @@ def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
 
 
 def _facts(path: str | Path) -> dict[str, dict[str, float]]:
-    """Stated values of source.yaml beside a ledger, with their tolerances: `{name: confirms}`."""
+    """Stated values of the source.yaml beside a ledger, with tolerances: `{name: confirms}`."""
     facts = reference_data.load_yaml(Path(path).with_name("source.yaml")).get("facts", {})
     return {
         name: {"value": fact["value"], "rounding": fact["tolerance"]}
@@ -111,7 +112,7 @@ def _refuse_dangling(where: str, text: Any, entries: dict[str, Entry]) -> None:
 
 
 def checks() -> dict[str, str]:
-    """Checks of stronge1994.ledger: `{module.function: its docstring in one line}`."""
+    """All checks of this room: `{module.function: its docstring in one line}`."""
     found = {}
     for module in MODULES:
         for node in ast.parse((PACKAGE / f"{module}.py").read_text(encoding="utf-8")).body:

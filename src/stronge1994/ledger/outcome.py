@@ -11,7 +11,7 @@ COLUMNS = [
     "confirms", "between", "corrected", "problem", "reading", "range", "correction", "derivation",
     "because", "why",
 ]  # fmt: skip
-# How much hangs on a wrong entry, gravest first, and in words that go on after their number.
+# How grave a wrong entry is, the gravest first, and how a sentence goes on after their number.
 GRADES = {
     "changes a result": "change a result",
     "sign or misprint": "are signs or misprints (perhaps the scan's)",
@@ -25,13 +25,13 @@ def failing(rows: Sequence[Row]) -> list[Row]:
 
 
 def grades(rows: Sequence[Row]) -> dict[str, int]:
-    """Numbers of wrong entries, gravest first: `{grade: number}`, those that there are."""
+    """How many wrong entries have each grade, the gravest first: `{grade: number}`."""
     counts = Counter(row.get("grade") for row in rows)
     return {grade: counts[grade] for grade in GRADES if counts[grade]}
 
 
 def grades_in_words(rows: Sequence[Row]) -> str:
-    """The same as words.
+    """The numbers of `grades` in words.
 
     >>> grades_in_words([{"grade": "changes a result"}, {"grade": ""}])
     '1 change a result'

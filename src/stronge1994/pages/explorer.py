@@ -1,4 +1,4 @@
-"""Write the impact explorer: a page that solves the lumped model itself and needs nothing else."""
+"""Write the impact explorer: one page that solves the lumped model and needs no other file."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -12,10 +12,10 @@ from stronge1994.pages import templates
 
 State: TypeAlias = dict[str, float]  # of the controls, by their names
 
-# Of each slider: least, largest, step.
+# Each slider has a smallest value, a largest value and a step.
 LIMITS = {
     "angle": (0, 89.9, 0.1),  # deg
-    "friction": (0.01, 2, 0.01),  # at 0 velocities over mu v2(0) have no meaning
+    "friction": (0.01, 2, 0.01),  # for mu = 0 velocities over mu v2(0) have no meaning
     "restitution": (0, 1, 0.01),
     "poisson_ratio": (0, 0.5, 0.005),
     "mass_ratio": (1, 10, 0.05),
@@ -25,8 +25,9 @@ BODIES = {
     "thin shell": bodies.thin_shell(radius=1.0, mass=1.0),
     "disc": bodies.disc(radius=1.0, mass=1.0),
 }
-# Figs 3 to 6 depend on v1(0)/(mu v2(0)) alone; a point on each curve of Figs 5 to 9.
+# Figs 3 to 6 depend only on v1(0)/(mu v2(0)), so any friction will do.
 FRICTION = 0.5
+# Figs 5 to 9 are curves: the explorer opens at one point of each.
 INCIDENCE = {"fig5": 3.0, "fig6": 2.0}
 ANGLE = {"fig7": 45.0, "fig8": 30.0, "fig9": 45.0}  # deg
 
@@ -42,7 +43,7 @@ def presets(settings: Mapping[str, Any]) -> dict[str, State]:
     Returns
     -------
     dict
-        `{figure: {control: value}}`; without the impacts that the sliders cannot show.
+        `{figure: {control: value}}`; impacts that the sliders cannot show are left out.
     """
     shared = {
         "poisson_ratio": _poisson_ratio(settings["stiffness_ratio"]),
@@ -76,7 +77,7 @@ def presets(settings: Mapping[str, Any]) -> dict[str, State]:
 
 
 def _middle(values: Any) -> Any:
-    """The middle one of several settings, the first of two."""
+    """The middle one of several settings; the first if there are two."""
     return values[(len(values) - 1) // 2] if isinstance(values, list) else values
 
 
@@ -96,7 +97,7 @@ def _within_limits(state: Mapping[str, float]) -> bool:
 
 
 def _address(state: Mapping[str, float]) -> str:
-    """What stands behind # in the page's address, but for the chart that is chosen."""
+    """The part of the page's address after #, without the chosen chart."""
     return "&".join(f"{control}={value:g}" for control, value in state.items())
 
 

@@ -1,4 +1,4 @@
-"""Run one notebook and keep it twice: executed, and as a page that needs nothing else."""
+"""Run one notebook and write it twice: with its outputs, and as a page that needs no other file."""
 
 import os
 import re
@@ -15,7 +15,8 @@ from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernel
 from nbconvert import HTMLExporter
 from traitlets.config import Config
 
-CELL_TIMEOUT = 120  # s
+# A cell may take so many seconds.
+CELL_TIMEOUT = 120
 SRC = Path(__file__).parents[2]
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
@@ -25,7 +26,7 @@ class NotebookError(Exception):
 
 
 class ThisPython(AsyncKernelManager):
-    """The Python of this job is the only kernel, whatever a machine or a user has registered."""
+    """The Python of this job is the only kernel, whatever else is registered on this machine."""
 
     @property
     def kernel_spec(self) -> Any:
@@ -62,7 +63,7 @@ def run(notebook: str, template: str, executed: str, page: str) -> None:
             kernel_manager_class=ThisPython,
             config=Config({"ThisPython": place}),
             timeout=CELL_TIMEOUT,
-            # A kernel that ends by itself sometimes dies of its own sockets, and says so.
+            # A kernel that may end by itself sometimes fails while it closes its sockets.
             shutdown_kernel="immediate",
             record_timing=False,
             coalesce_streams=True,
@@ -81,9 +82,9 @@ def run(notebook: str, template: str, executed: str, page: str) -> None:
 
 
 def _environment(scratch: str) -> dict[str, str]:
-    """The sources of this checkout, and nothing of the user's: no profile, no folder at home."""
+    """Variables of the kernel: the sources of this checkout, and no settings of the user."""
     places = dict.fromkeys(("IPYTHONDIR", "JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR"), scratch)
-    # Its numbers are checked by assertions, which PYTHONOPTIMIZE would leave out.
+    # The lectures check their numbers by assertions, which PYTHONOPTIMIZE would switch off.
     return os.environ | {"PYTHONPATH": str(SRC), "PYTHONOPTIMIZE": ""} | places
 
 

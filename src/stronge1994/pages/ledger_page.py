@@ -1,4 +1,4 @@
-"""Write the ledger's table as a page to read: one HTML file that needs nothing else."""
+"""Write the ledger's table as a page to read: one HTML file that needs no other file."""
 
 import re
 from collections import Counter
@@ -43,7 +43,7 @@ GREEK = {
 }  # fmt: skip
 # A letter with an index: v1, F2, t_c, tf, ts, F2max, psi1, du1.
 INDEXED = re.compile(r"\b(d?)([vuFDKmxtgV]|psi)(\d|_c|f|b|a|(?<=t)s)(max)?(?![A-Za-z0-9])")
-# Symbols of one letter; those behind a slash are units, or tags.
+# Symbols of one letter. A letter after a slash is a unit or part of a tag, and stays.
 SYMBOL = re.compile(r"(?<![/<\w;])([eskxMS])(?![\w<>])|(?<!\w)(p)(?=\()")
 
 
@@ -72,9 +72,9 @@ def _indexed(match: re.Match[str]) -> str:
 
 
 def linked_maths(names: Collection[str]) -> Callable[[str], Markup]:
-    """Formulas of a text as HTML, with links to the entries of the ledger that it points to.
+    """Formulas of a text as HTML, with links to the entries of the ledger that it names.
 
-    These stand as "see NAME and NAME", "ledger: NAME", and after an equation and a comma.
+    Entries are named as "see NAME and NAME", as "ledger: NAME", and after an equation and a comma.
 
     >>> print(linked_maths({"eq-12"})("mu, see eq-12"))
     µ, see <a href="#eq-12">eq-12</a>
@@ -109,7 +109,7 @@ def words(rows: Sequence[Row], symbols: Mapping[str, str]) -> dict[str, Any]:
 
 
 def by_cause(rows: Sequence[Row]) -> dict[str, list[Row]]:
-    """Wrong rows by what they follow from, `{cause in words: rows}`, the gravest ones first."""
+    """Wrong rows by their cause, `{cause in words: rows}`, the gravest ones first."""
     order = list(outcome.GRADES)
     wrong = [row for row in rows if row.get("cause")]
     causes: dict[str, list[Row]] = {}

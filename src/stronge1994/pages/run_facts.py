@@ -1,4 +1,4 @@
-"""On what, from what and how long a run was made."""
+"""Facts about a run: versions, computer, date, commit, and how long its jobs took."""
 
 import csv
 import datetime
@@ -37,9 +37,9 @@ def date() -> str:
 
 
 def commit(folder: str | Path) -> str:
-    """Commit of a checkout, and whether something is not committed; words where there is none.
+    """Commit of a checkout, and whether something in it is not committed.
 
-    A folder that only lies inside some other checkout is none.
+    `NO_COMMIT` if there is none, also for a folder that only lies inside some other checkout.
     """
     try:
         root, name = _git(folder, "rev-parse", "--show-toplevel", "HEAD").split("\n")
@@ -52,7 +52,7 @@ def commit(folder: str | Path) -> str:
 
 
 def _git(folder: str | Path, *arguments: str) -> str:
-    # A hook of git, or a shell with GIT_DIR, would have it look into another repository.
+    # GIT_DIR, which hooks of git set, would make git look into another repository.
     environment = {key: value for key, value in os.environ.items() if not key.startswith("GIT_")}
     found = subprocess.run(
         ["git", "-C", str(folder), *arguments],
@@ -71,8 +71,8 @@ def times(benchmarks: str | Path) -> list[tuple[str, float]]:
     Parameters
     ----------
     benchmarks : Path
-        Folder with a table a job. One that another job is just writing, or that is damaged, is
-        left out.
+        Folder with a table for each job. Damaged ones are left out: another job may be writing
+        one.
     """
     found = []
     for path in sorted(Path(benchmarks).glob("*.tsv")):
@@ -88,7 +88,7 @@ def times(benchmarks: str | Path) -> list[tuple[str, float]]:
 
 
 def everything() -> dict[str, tuple[Any, Callable[[], Any]]]:
-    """All of it, to be asked for later: `{name: (what stands there if it fails, function)}`."""
+    """All facts, as functions to call later: `{name: (value if it fails, function)}`."""
     return {
         "versions": ({}, versions),
         "system": ("", system),

@@ -21,7 +21,8 @@ COLUMNS = (
     "digits_allowed_least [1]",
     "digits_lost_most [1]",
 )
-FAR = 16  # decades from 1; what lies farther is one row
+# What lies more than so many decades away from 1 is one row.
+FAR = 16
 
 
 def by_decade(impacts: Columns) -> list[list[Any]]:
@@ -35,7 +36,7 @@ def by_decade(impacts: Columns) -> list[list[Any]]:
     Returns
     -------
     list of list
-        Rows with the cells of `COLUMNS`; an exact 0 has a row of its own.
+        Rows with the cells of `COLUMNS`; the value 0 has a row of its own.
     """
     digits, allowed = (
         np.min([impacts[f"{kind}_{name} [1]"] for name in OUTPUTS], axis=0)
@@ -68,7 +69,7 @@ def _span(decade: float) -> tuple[str, str]:
 
 
 def write(curves: str, table: str) -> None:
-    """Read the `curves` of the figure and write the table; what a crash left goes into it."""
+    """Read the `curves` of the figure and write the table; the error of a crash goes into it."""
     try:
         impacts = csv_tables.read(curves)["impacts"]
     except csv_tables.Failed as error:

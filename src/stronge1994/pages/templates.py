@@ -6,7 +6,7 @@ import jinja2
 
 
 def environment(folder: str | Path) -> jinja2.Environment:
-    """Environment for the templates of a folder; a name that they do not know is an error."""
+    """Environment for the templates of a folder, in which an unknown name is an error."""
     return jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder),
         autoescape=True,

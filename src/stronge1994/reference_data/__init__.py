@@ -1,8 +1,8 @@
-"""The reference data in data/: loaded, checked and refused with one clear message.
+"""The reference data in data/: loaded and checked, or refused with one clear message.
 
 A source is a folder with `source.yaml` (schema: workflow/schemas/source.schema.yaml) and one CSV
-a series. An awaited series becomes digitised when WebPlotDigitizer's export is dropped into the
-folder as `<series>.wpd.csv` and `digitised_by` in source.yaml says whose work it is.
+for each series. An awaited series becomes digitised when WebPlotDigitizer's export is put into the
+folder as `<series>.wpd.csv`, and `digitised_by` in source.yaml says whose work it is.
 """
 
 import codecs
@@ -25,15 +25,18 @@ Series: TypeAlias = Mapping[str, Any]
 Axis: TypeAlias = Mapping[str, Any]
 Schema: TypeAlias = Mapping[str, Any]
 
-MOST_LINES = 10_000  # of a series
-OUTSIDE = 3  # sigmas; so far may a value lie outside the range of its axis
-LARGEST_SIGMA = 0.01  # of the range: the series here have a tenth to a half of it
+# A series has at most so many lines.
+MOST_LINES = 10_000
+# A value may lie outside the range of its axis by so many sigmas.
+OUTSIDE = 3
+# Largest sigma, as a share of the range of its axis. The series here have a tenth to a half of it.
+LARGEST_SIGMA = 0.01
 _NUMBERS = {
     mark: re.compile(rf"[+-]?([0-9]+([{mark}][0-9]*)?|[{mark}][0-9]+)([eE][+-]?[0-9]+)?")
     for mark in ".,"
 }
 
-# For JSON Schema 2.0 is an integer; for range() it is not.
+# JSON Schema takes 2.0 for an integer, but range() refuses it. So 2.0 is refused here too.
 _Validator = jsonschema.validators.extend(
     jsonschema.Draft202012Validator,
     type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine(
@@ -76,7 +79,8 @@ def load(folder: Path, schema: Schema) -> Source:
         if series["path"]:
             _refuse_other_number(f"{path}: series.{name}", series, read_series(name, series))
     known = {"source.yaml", *(Path(s["path"]).name for s in _found(source))}
-    # A ledger may lie there, or what computes a series; a table by another ending would be ignored.
+    # A ledger may lie there, or the program that computes a series. Any other file is refused: it
+    # may be a table with a wrong name, which would be ignored without a word.
     strays = sorted(
         name for name in _visible(folder) - known if not name.endswith((".yaml", ".py"))
     )
@@ -87,12 +91,12 @@ def load(folder: Path, schema: Schema) -> Source:
 
 
 def _visible(folder: Path) -> set[str]:
-    """Names of what lies in a folder, without hidden files and words for readers."""
+    """Names of what lies in a folder, without hidden files and READMEs."""
     return {path.name for path in folder.iterdir() if not path.name.startswith((".", "README"))}
 
 
 def _refuse_other_number(where: str, series: Series, columns: Mapping[str, list[Any]]) -> None:
-    """Refuse a file that was cut, or has points of which source.yaml knows nothing."""
+    """Refuse a file that has more or fewer points than source.yaml says."""
     found = len(next(iter(columns.values())))
     if series["kind"] != "awaited" and found != series.get("points"):
         raise SourceError(
@@ -101,7 +105,7 @@ def _refuse_other_number(where: str, series: Series, columns: Mapping[str, list[
 
 
 def _refuse_axis(where: str, axis: Axis) -> None:
-    """Refuse what the schema cannot: numbers of an axis that do not go together."""
+    """Refuse an axis whose numbers contradict each other, which a schema cannot see."""
     low, high = axis["range"]
     if not low < high:
         raise SourceError(f"{where}.range = {axis['range']}: the first number must be the smaller")
@@ -128,7 +132,7 @@ def load_yaml(path: str | Path) -> dict[str, Any]:
     Raises
     ------
     SourceError
-        In one line, naming the file, and the line where there is one.
+        In one line, naming the file, and where possible the line in it.
     """
     try:
         return strict_yaml.load("".join(_lines(path)))
@@ -137,7 +141,7 @@ def load_yaml(path: str | Path) -> dict[str, Any]:
 
 
 def _lines(path: str | Path, most: float = math.inf) -> Iterator[str]:
-    """Lines of a text file in UTF-8, read one by one as they are asked for."""
+    """Lines of a text file in UTF-8, read one by one."""
     try:
         with open(path, "rb") as file:
             for number, line in enumerate(file, start=1):
@@ -165,7 +169,7 @@ def _decoded(line: bytes, number: int, path: str | Path) -> str:
 
 
 def load_all(data: str | Path, schema: Schema) -> dict[str, Source]:
-    """Load every source below the folder `data`: `{source: contents}`; `scenes` is none."""
+    """Load every source in the folder `data`: `{source: contents}`. The folder `scenes` is none."""
     folders = [Path(data, name) for name in sorted(_visible(Path(data)) - {"scenes"})]
     for folder in folders:
         if not (folder / "source.yaml").is_file():
@@ -214,9 +218,9 @@ def _named_axes(series: Series) -> Iterator[tuple[str, Axis]]:
 
 
 def read_series(name: str, series: Series) -> dict[str, list[Any]]:
-    """Read one series, checked: `{column: list}` with numbers on its axes, words as labels.
+    """Read and check one series: `{column: list}`, numbers for its axes and words for its labels.
 
-    Of several y axes a cell may be empty, where a curve has no such quantity: it becomes nan.
+    If there are several y axes, some of their cells may be empty: these become nan.
 
     Parameters
     ----------

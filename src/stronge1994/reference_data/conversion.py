@@ -5,7 +5,7 @@ from stronge1994.reference_data import Source
 
 
 def convert(source: Source, output: str) -> None:
-    """Write every series at hand of a loaded `source`."""
+    """Write every series of a loaded `source` that is not awaited."""
     found = {
         name: reference_data.read_series(name, series)
         for name, series in source["series"].items()

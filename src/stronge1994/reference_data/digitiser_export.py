@@ -1,4 +1,4 @@
-"""WebPlotDigitizer's exports: one dataset without a header, or all of them under two lines.
+"""WebPlotDigitizer's exports: one dataset without a header, or all datasets below two lines.
 
 Where a browser writes decimal commas, WebPlotDigitizer separates the cells of one dataset by
 semicolons; all datasets together always have commas and decimal points.
@@ -12,8 +12,10 @@ from typing import TypeAlias
 NumberedRow: TypeAlias = tuple[int, list[str]]
 
 WHOLE = re.compile(r"[+-]?[0-9]+([eE][+-]?[0-9]+)?")
-NO_NUMBERS = ("nan", "inf", "infinity")  # words, but no names of columns
-UNNAMED = "Default Dataset"  # what WebPlotDigitizer calls it where the user has not
+# These words stand where a number belongs. They are not names of columns.
+NO_NUMBERS = ("nan", "inf", "infinity")
+# WebPlotDigitizer gives this name to a dataset that the user has not named.
+UNNAMED = "Default Dataset"
 SEPARATORS = {",": "commas", ";": "semicolons"}
 
 
@@ -29,7 +31,7 @@ def separator(lines: Sequence[str]) -> str:
 
 
 def points(rows: Iterable[NumberedRow], between: str, name: str) -> tuple[str, list[NumberedRow]]:
-    """Points of a dataset, and its decimal mark.
+    """Decimal mark of a dataset, and its points.
 
     Parameters
     ----------
@@ -111,14 +113,14 @@ def _is_word(cell: str) -> bool:
 
 
 def _guess(row: Sequence[str], width: int, between: str) -> str:
-    """Why a row may have another number of cells, in words."""
+    """Why a row may have the wrong number of cells."""
     if between == "," and len(row) > width and all(map(WHOLE.fullmatch, filter(None, row))):
         return "it looks like decimal commas: separate cells by semicolons, or write decimal points"
     return f"{SEPARATORS[between]} separate the cells of this file"
 
 
 def _decimal_mark(found: Iterable[NumberedRow]) -> str:
-    """The one that the points have; a cell with both is left to whoever reads the number."""
+    """The decimal mark of the points. A cell with both marks is refused later, as no number."""
     marks: dict[str, tuple[int, str]] = {}
     for line, pair in found:
         for cell in pair:

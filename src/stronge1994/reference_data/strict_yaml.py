@@ -1,8 +1,8 @@
 """YAML that is refused where PyYAML would lose something, crash, or fill the memory.
 
-PyYAML keeps the last of two equal keys without a word, ends with a ValueError at a date that does
-not exist, lets a few lines of aliases stand for more values than a memory holds, and reads 010 as
-8, 6:40 as 400 and 1_21 as 121.
+If a key stands twice, PyYAML keeps the last one without a word. A date that does not exist ends in
+a ValueError. A few lines of aliases can stand for more values than fit into memory. And 010 is read
+as 8, 6:40 as 400, 1_21 as 121.
 """
 
 import re
@@ -10,9 +10,11 @@ from typing import Any, NoReturn
 
 import yaml
 
-DEEPEST = 50  # levels; the documents of this project have ten
-MOST_VALUES = 100_000  # aliases written out; the largest document of this project has 2203
-# Numbers that mean the same to everybody; infinities and NaN are left to the schemas.
+# Most levels of a document. Those of this project have ten.
+DEEPEST = 50
+# Most values of a document, with aliases written out. The largest of this project has 2203.
+MOST_VALUES = 100_000
+# Numbers that every reader understands alike. Infinities and NaN are left to the schemas.
 NUMBERS = {
     "tag:yaml.org,2002:int": re.compile(r"[-+]?(0|[1-9][0-9]*)"),
     "tag:yaml.org,2002:float": re.compile(
@@ -62,14 +64,14 @@ def load(text: str) -> dict[str, Any]:
 
 
 class _Loader(yaml.SafeLoader):
-    """Checks the graph of nodes, in which an alias takes no room however much it stands for."""
+    """Counts while it reads: there an alias takes no memory, however much it stands for."""
 
     def __init__(self, stream: str) -> None:
         super().__init__(stream)
         self._level = self._values = 0
 
     def compose_node(self, parent: Any, index: Any) -> Any:
-        """Compose a node that is neither too deep nor one of too many."""
+        """Compose a node, unless it is too deep or there are too many."""
         event = self.peek_event()
         is_alias, before = isinstance(event, yaml.AliasEvent), self._values
         self._level += 1
@@ -118,7 +120,7 @@ class _Loader(yaml.SafeLoader):
         return node
 
     def construct_object(self, node: Any, deep: bool = False) -> Any:
-        """Build a value; what its text cannot be is refused, however PyYAML fails at it."""
+        """Build a value; a text that cannot be one is refused, in whichever way PyYAML fails."""
         try:
             return super().construct_object(node, deep)
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):

@@ -1,4 +1,4 @@
-"""Error against time as tables: every way sorted, and the cheapest to each tolerance."""
+"""Error against time as tables: all models in order, and the cheapest for each tolerance."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -13,31 +13,31 @@ BUSY_BUILD = "busy_build [1]"
 TIME = re.compile(r"time_(\d+) \[s\]")
 BUSY = "not known: the machine was busy"
 
-# From hardly a number to the rounding of the exact models; in mu v2(0).
+# In mu v2(0): from a very rough answer to the rounding of the exact models.
 TOLERANCES = (0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 1e-9)
 
 
 def ordered(rows: Sequence[Row]) -> list[Row]:
-    """Rows by restitution, the elastic first, then by error, the largest first."""
+    """Rows by restitution, elastic ones first, then by error, the largest first."""
     return sorted(rows, key=lambda row: (-float(row[RESTITUTION]), -float(row[ERROR])))
 
 
 def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -> list[Row]:
-    """The cheapest way to meet each tolerance, for each restitution and size of batch.
+    """The cheapest model that meets each tolerance, for each restitution and size of batch.
 
     Parameters
     ----------
     rows : sequence of dict of text
         Of results/curves/trade.csv, with their name under `curve`.
     tolerances : sequence of float
-        For the largest error of velocity. What the reference itself may be off counts as error.
+        For the largest error of velocity. The error of the reference itself is added to it.
 
     Returns
     -------
     list of dict
-        For each batch the name, or "none"; its largest error; its time per impact, with that of
-        compilation, if any, spread over the batch. `BUSY` for a name where the cheapest may be one
-        that was timed on a busy machine: it took at least its CPU time, and nothing else took less.
+        For each batch the name, or "none"; its largest error; its time per impact, with any time
+        of compilation spread over the batch. The name is `BUSY` where nobody can know: some model
+        was timed on a busy machine, and its CPU time alone is below the time of all others.
 
     Examples
     --------
@@ -74,7 +74,7 @@ def whole_time(row: Mapping[str, Any], batch: int) -> float | None:
 
 
 def _least_time(row: Row, batch: int) -> float:
-    """As `whole_time`, without what a busy machine may have added."""
+    """As `whole_time`, without the time that a busy machine may have added."""
     times = {f"time_{batch} [s]": f"busy_{batch} [1]", BUILD_TIME: BUSY_BUILD}
     time, build_time = (
         float(row[key] or 0) / float(row.get(busy) or 1) for key, busy in times.items()
@@ -101,7 +101,7 @@ def _cheapest(rows: Sequence[Row], batch: int) -> Row:
 
 
 def write(curves: str, table: str, cheapest: str) -> None:
-    """Read the `curves` of the figure, write both tables; what a crash left goes into both."""
+    """Read the `curves` of the figure and write both tables; both get the error of a crash."""
     rows = csv_tables.read_rows(curves)
     if "error" in rows[0]:
         for path in (table, cheapest):

@@ -19,8 +19,10 @@ _Row: TypeAlias = dict[str, Any]
 
 STEPS = (64, 256)
 BATCHES = (1, 1000)
-BUDGET = 10.0  # s
-SOLID_SPHERE = 3.5  # mass ratio of what LAMMPS throws
+# Seconds that a batch may take.
+BUDGET = 10.0
+# Mass ratio of the solid spheres that LAMMPS throws.
+SOLID_SPHERE = 3.5
 
 
 class Contender(NamedTuple):
@@ -39,7 +41,7 @@ def measure(
     restitution: Sequence[float],
     tolerance: float,
 ) -> tuple[dict[str, dict[str, list[Any]]], list[str]]:
-    """Rows of both codes, each after our model that it is compared with.
+    """Rows of both codes, each after the model of ours with which it is compared.
 
     Parameters
     ----------
@@ -144,7 +146,7 @@ def _row(contender: Contender, x: Array, exact: Array, incidence: Sequence[float
 
 
 def _velocities(w: Array) -> Rebound:
-    """A rebound of which nothing else is known."""
+    """A rebound of which only the velocity is known."""
     unknown = np.full_like(w, np.nan)
     return Rebound(w, unknown, unknown, unknown)
 

