@@ -35,7 +35,7 @@ LAYERS = [
         "figures/where_friction_turns_round.html": "killed before",
         "figures/fig3.png": "killed before",
         "results/residuals/fig4.csv": "failed before",
-        "results/sensitivity/fig2.csv": "failed behind",
+        "results/sensitivity/superball.csv": "failed behind",
         "results/trade.csv": "killed behind",
         "results/stability.csv": "failed behind",
     },
@@ -82,7 +82,7 @@ def test_a_job_that_is_killed_or_fails_never_passes(finished):
     for number, layer in enumerate(layers):
         said = finished.refuses_to_pass()
         stopped = set(re.findall(r"^Error in rule (\w+):", said, flags=re.M))
-        assert stopped == {made[path]["rule"] for path in layer}, said
+        assert stopped == {made[path]["rule"] for path in layer}
         assert "A job stopped: " in said and "finished work is kept" in said
         assert "No verdict in this run" in said
         # Tables of an earlier run are not printed as if they were of this one.
@@ -143,12 +143,13 @@ def test_a_run_that_is_killed_goes_on_and_what_is_gone_is_made_again(finished):
     (finished / f"data/{RUBBER}.wpd.csv").write_text(export(*made_up()))
     finished.edit(f"data/{JOHNSON}/source.yaml", UNSIGNED, SIGNED)
     finished.break_jobs({"gate": "killed behind"})
+    shutil.rmtree(finished / "imported")
     command = [sys.executable, "-m", "snakemake", "--cores", "2"]
     with open(finished / "words.txt", "w") as words:
         running = subprocess.Popen(
             command, cwd=finished.folder, stdout=words, stderr=words, start_new_session=True
         )
-        while passed.exists() and running.poll() is None:
+        while not (finished / "imported").exists() and running.poll() is None:
             time.sleep(0.02)
         os.killpg(running.pid, signal.SIGKILL)
         running.wait()
@@ -265,9 +266,7 @@ def test_results_without_records_are_refused(first_run, tmp_path, monkeypatch, k
     """A copy of a folder may leave hidden files out: then no change of physics would be noticed."""
     project = first_run[0]
     shutil.copytree(project / "results", tmp_path / "results")
-    for folder in {"metadata", "records"} - {kept}:
-        assert (project / ".snakemake" / folder).is_dir()
-    made = [path for path in project.records() if path.startswith("results")]
+    made = [path for path in project.records() if path.startswith("results/curves")]
     monkeypatch.chdir(tmp_path)
     if kept:
         shutil.copytree(project / ".snakemake" / kept, tmp_path / ".snakemake" / kept)
@@ -287,7 +286,7 @@ def test_a_start_refuses_results_without_records(fresh):
     (fresh / "results/curves").mkdir(parents=True)
     (fresh / "results/curves/fig6.csv").write_text("curve\n")
     (fresh / "results/PASSED").write_text("")
-    assert "fig6.csv: there, but how it was made is not known" in fresh.refuses_to_pass("--dry-run")
+    assert "fig6.csv: there, but how it was made is not known" in fresh.refuses_to_pass()
 
 
 # In tests of a process each takes a second: here as `snakemake` reads them.
@@ -314,6 +313,7 @@ def test_other_options_are_not_refused(monkeypatch):
 
 def test_a_profile_does_not_hide_what_is_not_allowed(tmp_path, monkeypatch):
     shutil.copytree(ROOT / "profiles", tmp_path / "profiles")
+    (tmp_path / "Snakefile").touch()
     monkeypatch.chdir(tmp_path)
     with open("profiles/default/config.yaml", "a") as file:
         file.write("rerun-triggers: [mtime]\n")
