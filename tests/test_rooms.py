@@ -47,7 +47,8 @@ REPRODUCTION = {
     "trade": "ground models curves csv_tables",
     "gate": "csv_tables records judging ledger",
     "plan": "ground models records reference_data",
-    "drawings": "planarimpact ground trade csv_tables curve_names reference_data study_files matplotlib",
+    "drawings": "planarimpact ground csv_tables curve_names reference_data study_files trade"
+    " matplotlib",
     "pages": "ground bodies csv_tables drawings gate judging ledger plan jinja2",
 }
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}

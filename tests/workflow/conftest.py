@@ -1,5 +1,6 @@
 """A copy of the project in a temporary folder, and one run of it that all tests share."""
 
+import base64
 import json
 import os
 import re
@@ -16,7 +17,8 @@ from stronge1994 import plan, reference_data
 from stronge1994.pages import explorer as write_explorer
 from stronge1994.plan import files
 
-ROOT = Path(__file__).parents[2]
+HERE = Path(__file__).parent
+ROOT = HERE.parents[1]
 PARTS = ["Snakefile", "profiles", "workflow", "src", "data", "figures/README.md", ".gitignore"]
 
 
@@ -40,9 +42,26 @@ class Project:
             timeout=TIMEOUT,
         )
 
+    def refuses_to_pass(self, *arguments):
+        """Run, and check that nothing says PASSED; what was printed."""
+        result = self.run(*arguments)
+        assert result.returncode != 0, result.stdout
+        assert "PASSED." not in result.stdout
+        assert not (self / "results/PASSED").exists()
+        return result.stdout
+
+    def passes(self, *arguments):
+        """Run, and check that all of it says PASSED; what was printed."""
+        result = self.run(*arguments)
+        assert result.returncode == 0 and "PASSED." in result.stdout, result.stdout
+        assert (self / "results/PASSED").exists()
+        return result.stdout
+
     def planned(self, *arguments):
         """Jobs that a run would do: `{message: reason}`, and how often each rule runs."""
-        words = self.run("--dry-run", *arguments).stdout
+        result = self.run("--dry-run", *arguments)
+        assert result.returncode == 0, result.stdout
+        words = result.stdout
         jobs = dict(re.findall(r"^Job \d+: (.*)\nReason: (.*)$", words, flags=re.M))
         table = words.split("Job stats:")[-1].split("total")[0]
         return jobs, {rule: int(n) for rule, n in re.findall(r"^(\w+) +(\d+)$", table, flags=re.M)}
@@ -54,13 +73,27 @@ class Project:
         assert old in text, (path, old)
         file.write_text(text.replace(old, new))
 
+    def records(self):
+        """What Snakemake keeps of each file that was made: rule, inputs, log."""
+        folder = self / ".snakemake/metadata"
+        files = [path for path in folder.rglob("*") if path.is_file()]
+        names = [base64.b64decode("".join(path.relative_to(folder).parts)) for path in files]
+        records = [json.loads(path.read_text(encoding="utf-8")) for path in files]
+        return {name.decode(): record for name, record in zip(names, records, strict=True)}
+
+    def break_jobs(self, how):
+        """Let jobs stop once, at their next start: `{name of the log: "killed before"}`, say."""
+        (self / "broken").mkdir(exist_ok=True)
+        for log, words in how.items():
+            (self / "broken" / log).write_text(words)
+
     def refuses(self, words, *arguments):
         """Check that a run is refused before any work, with these words (a pattern)."""
         result = self.run(*arguments)
         assert result.returncode != 0
         assert re.search(words, result.stdout), result.stdout
         assert "Traceback" not in result.stdout
-        assert not (self / "results").exists()
+        assert not (self / "results/logs").exists()
 
     def __truediv__(self, path):
         return self.folder / path
@@ -68,7 +101,7 @@ class Project:
 
 def copy_of(source, folder):
     """Copy the parts of a project that a run reads; with them what an earlier run has left."""
-    leftovers = ["results", "figures", ".snakemake"]
+    leftovers = ["results", "figures", ".snakemake", "imported"]
     for part in dict.fromkeys(PARTS + (leftovers if source != ROOT else [])):
         origin = source / part
         if origin.is_dir():
@@ -77,7 +110,15 @@ def copy_of(source, folder):
         elif origin.exists():
             (folder / part).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(origin, folder / part)
+    shutil.copy2(HERE / "job_start.py", folder / "src/sitecustomize.py")
     return Project(folder)
+
+
+def pytest_collection_modifyitems(items):
+    """What needs a whole run of the workflow is slow."""
+    for item in items:
+        if {"first_run", "cluster"} & set(getattr(item, "fixturenames", ())):
+            item.add_marker("slow")
 
 
 @pytest.fixture

@@ -1,10 +1,9 @@
 """Whoever owns the paper can fill an awaited series by dropping in an export: tried on a copy.
 
-The points are made up from the solver's own curves, and never enter data/. One test is a whole run;
-the others load, convert and compare as the jobs of a run do.
+The points are made up from the solver's own curves, and never enter data/. These tests
+load, convert and compare as the jobs of a run do; a whole run is in test_verdict.py.
 """
 
-import csv
 from pathlib import Path
 
 import numpy as np
@@ -92,22 +91,6 @@ def judged(inventory, curves, tmp_path):
     return row
 
 
-def test_an_export_dropped_in_is_converted_drawn_and_judged(finished):
-    x, w = made_up()
-    points = export([-0.05, *x], [0.0, *w])  # as digitised: the first beside the axis
-    (finished / f"data/{RUBBER}.wpd.csv").write_text(points)
-    finished.edit(f"data/{JOHNSON}/source.yaml", UNSIGNED, SIGNED)
-    result = finished.run()
-    assert result.returncode == 0, result.stdout
-    with open(finished / "results/verdicts/fig5.csv", newline="") as file:
-        rows = {row["comparison"]: row for row in csv.DictReader(file)}
-    assert rows["fig5-rubber-sphere"]["verdict"] == "agrees"
-    assert rows["fig5-rubber-sphere"]["points"] == "26"
-    table = (finished / f"results/series/{JOHNSON}.csv").read_text()
-    assert table.startswith("series,incidence [mu v2(0)],velocity [mu v2(0)]\nrubber_sphere,-0.05,")
-    assert "Drawing fig5" in result.stdout and "Drawing fig6" not in result.stdout
-
-
 @pytest.mark.parametrize("name", [None, "rubber_sphere"])
 def test_both_forms_of_an_export_agree_with_the_model(name, judged):
     row = judged(RUBBER, export(*made_up(), name))
@@ -191,7 +174,7 @@ def test_a_regime_chooses_its_points(regime, points, judged):
     [(draw_fig5, RUBBER), *((draw_fig8, name) for name in list(AWAITED)[1:])],
 )
 def test_a_point_just_outside_the_axes_is_drawn(module, name, inventory, curves):
-    figure = module.__name__.removeprefix("draw_")
+    figure = module.__name__.rpartition(".")[2]
     points = {
         name: {"x": np.array([-0.05, 1.0]), "y": np.array([0.0, 0.1]), "sigma": (0.1, 0.1),
                "line": False, "parameters": {}}

@@ -3,6 +3,7 @@
 Also what the table of gates says of the smallest changes.
 """
 
+import functools
 import importlib
 import re
 from pathlib import Path
@@ -36,11 +37,17 @@ NOT_HELD = {
 # An error has no value of its own, but it is never negative.
 NOT_SCALED = [r"convergence: .*: error .*"]
 
+READ = functools.cache(csv_tables.read)  # tables of reference, which each comparison reads again
 
-def _diverges(name, path, series, only=None):
-    """Whether a comparison of what is judged under a name diverges, or only one of them."""
+
+def _diverges(name, path, series, only=None, curve=None):
+    """Whether a comparison of what is judged under a name diverges, or only one of them.
+
+    Those of one `curve` come first.
+    """
     references = plan.references(CONFIG, INVENTORY, name)
-    for title, entry in plan.comparisons(CONFIG, name).items():
+    entries = plan.comparisons(CONFIG, name).items()
+    for title, entry in sorted(entries, key=lambda item: item[1].get("curve") != curve):
         if only in (None, title):
             rows = compare(name, {title: entry}, references, path, series, CONFIG["significance"])
             if any(row["verdict"] == "diverges" for row in rows):
@@ -84,10 +91,11 @@ def test_no_column_can_be_scaled_or_flipped(name, factor, tables, monkeypatch):
     folder, series = tables
     path = folder / configuration.table_of(name)
     curves, missed = judged_tables.read(path), []
+    monkeypatch.setattr(csv_tables, "read", READ)
     for curve, column in _columns(name, curves, factor):
         wrong = curves | {curve: curves[curve] | {column: factor * curves[curve][column]}}
         monkeypatch.setattr(judged_tables, "read", lambda _, wrong=wrong: wrong)
-        if not _diverges(name, path, series):
+        if not _diverges(name, path, series, curve=curve):
             missed.append((curve, column))
     assert missed == []
 
@@ -126,6 +134,8 @@ def test_the_table_of_gates_tells_what_is_caught(name, tables, tmp_path):
     nodes = plan.nodes_of(CONFIG, INVENTORY, name)
     settings = plan.settings(CONFIG, INVENTORY, name) | solving.read_nodes(nodes)
     settings.pop("as_printed", None)
+    if name in ("fig6", "fig7"):  # judged at the points of reference, whatever lies between
+        settings["samples"] //= 10
     path, curves = (
         tmp_path / "curves.csv",
         judged_tables.read(folder / configuration.table_of(name)),

@@ -1,6 +1,7 @@
 """Bad config, data and modules are refused before any work, in one line.
 
-A start of Snakemake checks what the functions here check; three whole starts show that it does.
+A start of Snakemake checks what the functions here check, and test_verdict.py more; a few whole
+starts show that it does.
 """
 
 import shutil
@@ -96,12 +97,19 @@ BAD_CONFIG = [
         r"regression.rms = \[3, 2\]: the first number must be the smaller",
     ),
     (comparison("convergence-errors", range=["1", "0"]), r"errors.range = \[1, 0\]"),
+    ({"scenes": {"nothing": {"tolerance": "1"}}}, "scenes.nothing: there is no data/scenes/noth"),
+    ({"scenes": {"superball": {"tolerance": "0"}}}, "superball.tolerance: 0 is less than"),
+    ({"scenes": {"superball": {"steps": "4"}}}, "scenes.superball: .*'steps' was unexpected"),
+    (figure("superball", throw={"bounces": "0"}), "bounces: 0 is less than"),
+    (figure("superball", throw={"velocity": ["1", "2"]}), "velocity.1: 2 is greater"),
+    (figure("trade", batches=["1"]), r"trade.batches: \[1\] is too short"),
     ({"study": {"grid": {"restitution": ["1", "0"]}}}, "study.grid.restitution = .*must ascend"),
 ]
 
 
 def test_the_config_itself_is_admitted(check):
     check({})
+    check(figure("fig6", as_printed="True"))
 
 
 @pytest.mark.parametrize(("change", "words"), BAD_CONFIG)
@@ -202,16 +210,22 @@ def test_source_without_provenance_is_refused(data):
         reference_data.load_all(folder, SOURCE_SCHEMA)
 
 
-def test_a_start_refuses_bad_config(fresh):
-    change = "figures={fig6: {as_printed: perhaps}}"
-    fresh.refuses("as_printed: 'perhaps' is not of type 'boolean'", "--config", change)
+# Whole starts of Snakemake, one for each place where it is refused; the rest is tried above.
+STARTS = [
+    ("stiffness_ratio: -1 is less than", ["--config", "stiffness_ratio=-1"]),
+    (
+        r"study.grid.incidence = \{'from': 9, .*: the numbers must ascend",
+        ["--config", "study={grid: {incidence: {from: 9}}}"],
+    ),
+    ("page.css: missing, and a rule reads it", []),
+]
 
 
-def test_a_start_refuses_bad_data(fresh):
-    fresh.edit("data/chung_ooi2011/rebound.csv", "0.586,-0.027", "0.586,-99")
-    fresh.refuses("rebound.csv, line 4, .*: -99 is outside -5 to 20")
-
-
-def test_a_start_refuses_a_module_that_is_no_python(fresh):
-    (fresh / "src/planarimpact/laws.py").write_text("x = = 2\n")
-    fresh.refuses("src/planarimpact/laws.py, line 1: invalid syntax")
+@pytest.mark.parametrize(("words", "arguments"), STARTS)
+def test_a_refused_start_does_nothing_and_has_not_passed(words, arguments, fresh):
+    (fresh / "results").mkdir()
+    (fresh / "results/PASSED").write_text("passed")
+    if not arguments:
+        (fresh / "workflow/report/page.css").unlink()
+    fresh.refuses(words, *arguments)
+    assert not (fresh / "results/PASSED").exists()

@@ -1,6 +1,5 @@
 """The errors that workflow/README.md explains come in its words, and end by what it says."""
 
-import base64
 import re
 from pathlib import Path
 
@@ -26,18 +25,3 @@ def test_another_folder(fresh):
 def test_braces_without_quotes(fresh):
     unquoted = ["figures={fig6:", "{restitution:", "[0,", "0.9]}}"]
     assert "quotes" in explained(fresh.run("--config", *unquoted))
-
-
-def test_a_killed_run(fresh):
-    table = "results/series/kharaz2001.csv"
-    assert fresh.run(table).returncode == 0
-    marks = fresh / ".snakemake"
-    (marks / "locks").mkdir(exist_ok=True)
-    (marks / "locks/0.output.lock").write_text(f"{table}\n")
-    assert "--unlock" in explained(fresh.run(table, "--force"))
-    assert fresh.run("--unlock").returncode == 0
-
-    (marks / "incomplete").mkdir(exist_ok=True)
-    (marks / "incomplete" / base64.b64encode(table.encode()).decode()).write_text("")
-    again = fresh.run(table)
-    assert again.returncode == 0 and "Reading the series" in again.stdout
