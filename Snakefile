@@ -11,6 +11,7 @@ include: "workflow/rules/refusals.smk"
 
 
 configfile: "workflow/config.yaml"
+configfile: "workflow/comparisons.yaml"
 
 
 include: "workflow/rules/common.smk"
@@ -34,6 +35,7 @@ localrules:
     gather_chunks,
     draw_study,
     explorer,
+    interface,
     report,
     gate,
 
@@ -64,7 +66,7 @@ rule notebooks:
 rule study:
     """The parameter study alone: its grid solved and drawn."""
     input:
-        expand("results/study/{chunk}.npz", chunk=CHUNKS),
+        gather.study("results/study/{scatteritem}.npz"),
         "results/study.npz",
         expand("figures/study.{kind}", kind=["svg", "png"]),
 

@@ -14,7 +14,6 @@ use, as some need SciPy or pandas, which take their time.
 """
 
 import importlib
-import pkgutil
 from types import ModuleType
 
 from planarimpact.ground.checks import ConvergenceError, InputError
@@ -27,7 +26,22 @@ from planarimpact.ground.results import (
     Regime,
 )
 
+# Rooms first, in the order of the words above. Type checkers find them in __init__.pyi.
+_ROOMS = [
+    "lumped",
+    "rigid",
+    "continuum",
+    "models",
+    "response",
+    "scene",
+    "study",
+    "bodies",
+    "noncollinear",
+    "hertz",
+    "ground",
+]
 __all__ = [
+    *_ROOMS,
     "ContinuumHistory",
     "ConvergenceError",
     "Event",
@@ -38,9 +52,6 @@ __all__ = [
     "Regime",
 ]
 __version__ = "0.1.0"
-
-# Type checkers find the rooms in __init__.pyi.
-_ROOMS = {room.name for room in pkgutil.iter_modules(__path__)} - {"__main__"}
 
 
 def __getattr__(name: str) -> ModuleType:

@@ -168,8 +168,8 @@ def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
         found = response.load(options.response)(x)
     else:
         found = models.rebound(_model(options), x, **_groups(options), **_settings(options))
-    regime = [Regime(code).name for code in found.regime]
-    return _with_units(Rebound, {"incidence": x, **found._asdict(), "regime": regime})
+    named = found._replace(regime=Regime.names(found.regime))
+    return _with_units(Rebound, {"incidence": x, **named._asdict()})
 
 
 def _refuse_replacing(options: argparse.Namespace) -> None:
@@ -432,8 +432,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     scene.add_argument(
         "input",
-        help="the table: a name that ends in .csv, .csv.gz or .parquet, a pipe, or - for standard "
-        "input; pipes are CSV",
+        help="the table: a name that ends in .csv or .csv.gz, a pipe, or - for standard input; "
+        "pipes are CSV",
     )
     scene.add_argument(
         "output",

@@ -1,9 +1,10 @@
 """Normal motion of Hertz contact, elastic and frictionless, by one angle.
 
-The angle `phase` runs from 0 at contact over pi/2 at maximum compression to pi at separation; the
-radius of contact is its sine. In it the motion is smooth up to both ends of the contact, where
-forces vanish like a power of time that is no whole number. Units: radius a_max, approach d_max,
-velocity |v2(0)|, force its largest value, time d_max/|v2(0)| except where t_c is named.
+The angle `phase` is 0 at contact, pi/2 at maximum compression and pi at separation. Its sine is the
+radius of contact. As a function of this angle the motion is smooth, also at both ends of the
+contact, where forces vanish like a power of time that is no whole number. Units: radius a_max,
+approach d_max, velocity |v2(0)|, force its largest value, time d_max/|v2(0)| except where t_c is
+named.
 """
 
 import numpy as np
@@ -12,7 +13,7 @@ from scipy.special import betainc
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
 
-# Largest normal force in m2 v2(0)^2/d_max: the strain energy (2/5) F2max d_max is all there is.
+# Largest normal force in m2 v2(0)^2/d_max, as the strain energy (2/5) F2max d_max is all energy.
 PEAK_FORCE = 1.25
 
 
@@ -43,29 +44,8 @@ def velocity(phase: ArrayLike) -> Array:
 
 
 @checks.default_errors
-def pace(phase: ArrayLike) -> Array:
-    """Time for a unit of phase, dt/dphase.
-
-    Parameters
-    ----------
-    phase : array_like
-        0 to pi.
-
-    Returns
-    -------
-    ndarray of float64 or float
-
-    Examples
-    --------
-    >>> round(float(pace(np.pi / 2)), 9)  # 2 sqrt(2/5)
-    1.264911064
-    """
-    return state(phase)[1]
-
-
-@checks.default_errors
 def state(phase: ArrayLike) -> tuple[Array, Array, Array]:
-    """Radius of contact, `pace` and `velocity` at once.
+    """Radius of contact, time for a unit of phase dt/dphase, and `velocity` at once.
 
     Parameters
     ----------
@@ -78,7 +58,7 @@ def state(phase: ArrayLike) -> tuple[Array, Array, Array]:
 
     Examples
     --------
-    >>> [round(float(a), 9) for a in state(np.pi / 2)]
+    >>> [round(float(a), 9) for a in state(np.pi / 2)]  # the pace is 2 sqrt(2/5)
     [1.0, 1.264911064, 0.0]
     """
     phase = np.asarray(phase, dtype=float)
@@ -137,7 +117,7 @@ def time(phase: ArrayLike) -> Array:
     """
     phase = np.asarray(phase, dtype=float)
     share, v = np.sin(phase) ** 5, velocity(phase)
-    # Two forms of one function, each where it loses nothing to rounding.
+    # These are two forms of one function. Each is used where it loses no digits.
     to_go = betainc(0.5, 0.4, np.minimum(v * v, 1.0))
     passed = np.where(share < 0.5, betainc(0.4, 0.5, np.clip(share, 0.0, 1.0)), 1 - to_go)
     return np.where(v >= 0, passed, 2 - passed)[()]

@@ -1,12 +1,12 @@
 """The limit of negligible tangential compliance (zeta^2 -> 0; Stronge 1994, Eqs 34, 35).
 
-The contact slides until friction has stopped it and then sticks for good; in a collinear
-configuration it never turns round. Light and dotted curves of Figs 5, 7 and 9.
+The contact slides until friction has stopped it, and then sticks until separation. In a collinear
+configuration it never turns round. These are the light and dotted curves of Figs 5, 7 and 9.
 """
 
 import numpy as np
 
-from planarimpact.ground import checks
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import Rebound, Regime
 
@@ -22,15 +22,9 @@ def rebound(
 
     Parameters
     ----------
-    incidence : array_like
-        x = v1(0)/(mu v2(0)); any number to 8e307, negative for the mirror image.
-    mass_ratio : array_like
-        beta = m2/m1 >= 1.
-    stiffness_ratio : array_like
-        zeta^2 > 0; it plays no part, its limit being 0, and is there for the sake of one
-        calling convention.
-    restitution : array_like
-        Energetic coefficient e, 0 to 1.
+    incidence, mass_ratio, stiffness_ratio, restitution : array_like
+        As in `planarimpact.lumped.rebound`. The stiffness ratio has no effect: all models have the
+        same arguments.
 
     Returns
     -------
@@ -53,7 +47,7 @@ def rebound(
     x, beta, e = (a.reshape(-1) for a in (np.abs(signed), beta, e))
     impulse_to_halt = x / beta
     slides = impulse_to_halt >= 1 + e
-    final = np.where(slides, x - (1 + e) * beta, 0.0)
+    final = np.where(slides, sliding.velocity(x, beta, e), 0.0)
     compressed = np.minimum(impulse_to_halt, 1.0)
     peak = np.sqrt(compressed * (2 - compressed))
     halted = np.where(x > 0, Regime.SLIP_STICK, Regime.STICK)

@@ -1,9 +1,9 @@
 """A parameter study: a grid over the four groups of an impact, solved part by part.
 
-The points of a grid are numbered as in C, the last axis fastest. A part, `start` to `stop`, needs
-no more of the grid than its axes, so parts can be solved anywhere and in any order. How a grid is
-divided may show in the last digits: the lumped model, which solves many impacts together, was
-found to move by up to 7e-16.
+The points of a grid are numbered as in C, with the last axis fastest. A part, `start` to `stop`,
+needs only the axes of the grid, so parts can be solved anywhere and in any order. The division of
+a grid may change the last digits: the lumped model, which solves many impacts together, was found
+to move by up to 7e-16.
 """
 
 import math
@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact import continuum
 from planarimpact.ground import checks
 from planarimpact.ground.results import Rebound
 
@@ -125,13 +124,13 @@ def solve(
     Parameters
     ----------
     rebound : callable
-        That of a model of `planarimpact.models`.
+        The `rebound` of a model of `planarimpact.models`.
     axes : dict of ndarray
         As `axes_of` returns them.
     start, stop : int
         As in `points`.
     **settings
-        Its own.
+        Settings of the model.
 
     Returns
     -------
@@ -141,8 +140,8 @@ def solve(
     Raises
     ------
     InputError, ConvergenceError
-        If there are no such points; or as the model does, with the points among which it
-        happened: `impacts`, where the error has them, are points of the grid.
+        If there are no such points; or as the model does. The message then names the points of
+        the block in which it happened. If the error has `impacts`, they are points of the grid.
 
     Examples
     --------
@@ -161,7 +160,7 @@ def solve(
             found = rebound(**groups, **settings)
         except (checks.InputError, checks.ConvergenceError) as error:
             error.args = (f"points {first} to {last} of the grid: {error}",)
-            if isinstance(error, continuum.Unsolved):
+            if isinstance(error, checks.Unsolved):
                 error.impacts = first + error.impacts
             raise
         for name, field in fields.items():
@@ -227,7 +226,7 @@ def gather(
 
 
 def _refuse_outside(shape: tuple[int, ...], start: int, stop: int) -> None:
-    """Refuse points that a grid of this shape has not."""
+    """Refuse points that a grid of this shape does not have."""
     whole = all(isinstance(n, (int, np.integer)) and not isinstance(n, bool) for n in (start, stop))
     count = math.prod(shape)
     if not whole or not 0 <= start < stop <= count:

@@ -1,23 +1,35 @@
-"""Named curves and series as CSV: first column the name, then one column a quantity and unit.
+"""Tables as CSV: named curves, and rows of any other kind.
 
-A solver that crashed leaves a table with the single column `error`.
+The first column of a table of curves has the name of the curve. Each other column is a quantity,
+its unit in brackets. A solver that crashed leaves a table with the single column `error`.
 """
 
 import csv
+from collections.abc import Iterable, Mapping, Sequence
+from os import PathLike
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
-from planarimpact.ground import files
+Column: TypeAlias = NDArray[Any]  # numbers, or words
+Columns: TypeAlias = dict[str, Column]
+Curves: TypeAlias = dict[str, Columns]
+# A row of any other table: its cells as text, by the names of the columns.
+Row: TypeAlias = dict[str, str]
+Path: TypeAlias = str | PathLike[str]
 
 
 class Failed(Exception):
     """The table holds the message of a solver that crashed."""
 
 
-def write(path, named, first="curve"):
+def write(
+    path: Path, named: Mapping[str, Mapping[str, Iterable[Any]]], first: str = "curve"
+) -> None:
     """Write `{name: {column: array}}`; a column that a curve lacks stays empty."""
     columns = list(dict.fromkeys(column for curve in named.values() for column in curve))
-    rows = []
+    rows: list[list[str]] = []
     for name, curve in named.items():
         cells = [
             [str(value.item() if hasattr(value, "item") else value) for value in curve[column]]
@@ -30,24 +42,21 @@ def write(path, named, first="curve"):
     write_rows(path, [first, *columns], rows)
 
 
-def write_rows(path, header, rows):
-    """Write a CSV whole or not at all."""
-    with (
-        files.written(path) as partial,
-        open(partial, "w", newline="", encoding="utf-8") as file,
-    ):
+def write_rows(path: Path, header: Sequence[str], rows: Iterable[Iterable[Any]]) -> None:
+    """Write a table of cells below a header."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(header)
         writer.writerows(rows)
 
 
-def read(path):
+def read(path: Path) -> Curves:
     """Read what `write` wrote: numbers as float64, words as text, empty columns left out."""
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file))
     if header == ["error"]:
         raise Failed(rows[0][0])
-    named = {}
+    named: Curves = {}
     for name in dict.fromkeys(row[0] for row in rows):
         part = [row for row in rows if row[0] == name]
         columns = zip(*(row[1:] for row in part), strict=True)
@@ -59,8 +68,8 @@ def read(path):
     return named
 
 
-def read_rows(path, columns=()):
-    """Rows of a table as dicts of text.
+def read_rows(path: Path, columns: Iterable[str] = ()) -> list[Row]:
+    """Rows of a table.
 
     Raises
     ------
@@ -78,7 +87,7 @@ def read_rows(path, columns=()):
     return [dict(zip(header, row, strict=True)) for row in rows]
 
 
-def values(column):
+def values(column: Sequence[str]) -> Column:
     """Cells of a column as float64; as text if one of them is no number."""
     try:
         return np.array([float(cell) for cell in column])

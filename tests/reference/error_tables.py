@@ -22,7 +22,7 @@ from table_files import Table
 GRID = Path(__file__).parents[2] / "data/elastic_continuum/rebound_grid.csv"
 INCIDENCES = np.linspace(0.0, 8.0, 81)
 STEPS = (16, 64, 256)
-BRACH, BILBAO = 0.40, 1.00  # tangential restitution: the values that the package documents
+BRACH = 0.40  # tangential restitution: the value that the package documents
 FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
 
 
@@ -40,7 +40,7 @@ def tables():
 
 
 def _errors(e, exact):
-    models = {"rigid": rigid, "laws.smith": smith, "laws.brach": brach, "laws.bilbao": bilbao}
+    models = {"rigid": rigid, "laws.smith": smith, "laws.brach": brach}
     models["lumped"] = lumped
     for name, law in LAWS.items():
         for steps in STEPS:
@@ -118,13 +118,6 @@ def smith(e):
         low, high = np.where(above, middle, low), np.where(above, high, middle)
     reversed_ = np.append(0.0, (low + high) / 2)
     return _law(np.where(change <= INCIDENCES, INCIDENCES - change, reversed_))
-
-
-def bilbao(e):
-    """Velocity ratio exponential in the reciprocal of the incidence."""
-    x, reach = INCIDENCES[1:], 1 + BILBAO
-    ratio = 1 - reach * (1 - np.exp(-(1 + e) * BETA / (reach * x)))
-    return _law(np.append(0.0, x * ratio))
 
 
 # Steps in time -------------------------------------------------------------------------------

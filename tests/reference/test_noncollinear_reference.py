@@ -136,6 +136,20 @@ def test_no_restitution_is_the_limit_for_any_body():
         assert (np.abs(little.tangential - limit.tangential) <= bound).all()
 
 
+@pytest.mark.parametrize(
+    "impact", [(-27.1, 0.1175, -0.32445, 8.75, 1.0), (18.6, 0.754, 0.6514, 2.74, 7.31)]
+)
+def test_friction_that_just_suffices_compresses_a_contact_again(impact):
+    """Held closed without restitution, then compressed beyond the earlier peak by less than 1 %."""
+    v1, mass_ratio, coupling, friction, stiffness_ratio = impact
+    mass = noncollinear.InverseMass(mass_ratio, coupling, 1.0)
+    limit, little = (
+        noncollinear.rebound(v1, 1.0, mass, friction, e, stiffness_ratio) for e in (0.0, 0.001)
+    )
+    assert abs(little.tangential - limit.tangential) < 1e-4
+    assert abs(little.peak_normal - limit.peak_normal) < 1e-4
+
+
 def test_a_wrong_solver_would_be_seen(monkeypatch):
     """The bound is no formality: a slightly wrong restitution, or work, breaks it."""
     impact = (2.0, 1.0, (1.0, 12**-0.5, 0.2, -0.4), 1.6, 0.5, 1.21, 50.0)

@@ -43,7 +43,7 @@ def test_histories_of_the_continuum_are_what_their_generator_computes():
 
 @pytest.mark.parametrize(("curve", "zeta2"), [("continuum", 1.21), ("continuum, rubber", 1.5)])
 def test_rebound_by_annuli_is_that_of_a_row_of_springs(curve, zeta2):
-    """To compute a row anew would take a minute; this method shares no code with the annuli.
+    """In place of the annuli themselves, which take longer and share no code with this method.
 
     2e-4 is 1e-4 for the table, its sigma, and 1e-4 for the springs: half as many springs and steps
     change velocities by that much.

@@ -234,10 +234,10 @@ REFUSED = [
     (["history", "--incidence", "1", "--model", "continuum", "--restitution", "0.5"], "is elastic"),
     (["compile", "no/ball.json"], "no/ball.json"),
     (["scene", "none.csv", "out.csv"], "none.csv: No such file"),
-    (["scene", "none.csv", "."], ".: allowed are names that end in .csv, .csv.gz, .parquet or"),
-    (["scene", "none.xlsx", "out.csv"], "none.xlsx: allowed are names that end in .csv, .csv.gz"),
-    (["scene", "none.json", "out.csv"], "none.json: allowed are names that end in .csv, .csv.gz"),
-    (["scene", "none.csv", "out"], "out: allowed are names that end in .csv, .csv.gz, .parquet or"),
+    (["scene", "none.csv", "."], ".: allowed are names that end in .csv, .csv.gz or"),
+    (["scene", "none.xlsx", "out.csv"], "none.xlsx: allowed are names that end in .csv or .csv.gz"),
+    (["scene", "none.json", "out.csv"], "none.json: allowed are names that end in .csv or .csv.gz"),
+    (["scene", "none.csv", "out"], "out: allowed are names that end in .csv, .csv.gz or"),
     (["rebound", "--incidence", "1", "--friction", "0.3"], "--friction: it does not apply"),
     (["models", "--output", "no/models.csv"], "there is no folder"),
     (["rebound", "--angle", "30"], "--angle: it needs --friction"),
@@ -522,7 +522,7 @@ def test_bad_rows_of_a_stream_are_listed_on_standard_error(table, capfd, standar
 
 
 def test_pipes_are_csv_whatever_they_are_called(table, capsys):
-    plain, named = table.with_name("plain.csv"), table.with_name("named.parquet")
+    plain, named = table.with_name("plain.csv"), table.with_name("named.json")
     files.solve(table, plain)
     os.mkfifo(named)
     inner, outer = os.pipe()  # as the shell's <(...)
@@ -538,7 +538,7 @@ def test_pipes_are_csv_whatever_they_are_called(table, capsys):
     assert shares == [(None, 2), (None, 4), (None, 5)]
     files.bar(*shares[-1])
     assert capsys.readouterr().err == "5 impacts\n"
-    assert sorted(os.listdir(table.parent)) == ["in.csv", "named.parquet", "plain.csv"]
+    assert sorted(os.listdir(table.parent)) == ["in.csv", "named.json", "plain.csv"]
 
 
 def test_gzip_in_and_out(table, capsys):
@@ -636,61 +636,6 @@ def test_a_result_in_json(table):
     table.write_text(table.read_text().splitlines()[0] + "\n")
     files.solve(table, out)
     assert json.loads(out.read_text()) == []
-
-
-def test_parquet_without_pyarrow_says_what_to_install(table, capsys, monkeypatch):
-    monkeypatch.setitem(sys.modules, "pyarrow", None)
-    assert main(["scene", str(table), str(table.with_name("out.parquet"))]) == 2
-    assert "pip install pyarrow" in capsys.readouterr().err
-
-
-def test_parquet(table):
-    pytest.importorskip("pyarrow", reason="pyarrow is not installed")
-    source, out = table.with_name("in.parquet"), table.with_name("out.parquet")
-    pd.read_csv(table).to_parquet(source)
-    files.solve(source, out, rows=2)
-    plain = table.with_name("out.csv")
-    files.solve(table, plain)
-    words = {"model": str, "regime": str}
-    tables = pd.read_parquet(out).astype(words), pd.read_csv(plain).astype(words)
-    pd.testing.assert_frame_equal(*tables, check_dtype=False, rtol=1e-12)
-
-
-def test_parquet_keeps_its_types(table):
-    pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
-    source, out = table.with_name("in.parquet"), table.with_name("out.parquet")
-    rows = pd.DataFrame([ROW] * 5).astype({"friction": "float32", "density [kg/m^3]": "int16"})
-    names = pyarrow.array([2**53 + 1, None, 3, 4, 5])
-    given = pyarrow.Table.from_pandas(rows).append_column("id", names)
-    pyarrow.parquet.write_table(given, source)
-    files.solve(source, out, rows=2)
-    found = pyarrow.parquet.read_table(out)
-    for name in given.column_names:
-        assert found[name].type == given[name].type and found[name].equals(given[name])
-    plain = table.with_name("out.csv")
-    files.solve(source, plain)
-    first, second, *_ = rows_of(plain.read_text())
-    assert (first["id"], second["id"]) == (f"{2**53 + 1}", "")
-    assert float(first["friction"]) == np.float32(0.3)
-    indexed = rows.set_axis([f"shot {n}" for n in range(5)])
-    for name in (None, "id"):  # a named index is a column of the file
-        indexed.rename_axis(name).to_parquet(source)
-        files.solve(source, plain)
-        assert rows_of(plain.read_text())[4].get("id") == (name and "shot 4")
-    dates = given.set_column(9, "id", pyarrow.array([None, 1, 2, 3, 4], pyarrow.date32()))
-    pyarrow.parquet.write_table(dates, source)
-    files.solve(source, table.with_name("out.json"))
-    shown = [row["id"] for row in json.loads(table.with_name("out.json").read_text())]
-    assert shown[:2] == [None, "1970-01-02"]
-
-
-def test_a_name_that_is_twice_in_parquet_is_refused(table):
-    pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
-    source = table.with_name("in.parquet")
-    given = pyarrow.Table.from_pandas(pd.DataFrame([ROW]))
-    pyarrow.parquet.write_table(given.append_column("friction", pyarrow.array([1])), source)
-    with pytest.raises(InputError, match="in.parquet: column 'friction' is there twice"):
-        files.solve(source, table.with_name("out.csv"))
 
 
 def test_a_reader_that_has_had_enough_is_no_error():

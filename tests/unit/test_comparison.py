@@ -5,17 +5,15 @@ import pytest
 from scipy.optimize import minimize
 from scipy.stats import kstest
 
-from stronge1994.judging import landmarks
-from stronge1994.judging.comparison import (
-    Verdict,
-    chi_squared,
+from stronge1994.judging import Verdict, landmarks
+from stronge1994.judging.distances import (
     curve_residuals,
     difference_residuals,
     distances_to_polyline,
     fact_residuals,
-    judge,
     vertex_residuals,
 )
+from stronge1994.judging.verdicts import chi_squared, verdict
 
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
 
@@ -93,7 +91,7 @@ def test_facts(found, fact, expected):
 
 
 @pytest.mark.parametrize(
-    ("good", "documented", "unchanged", "verdict"),
+    ("good", "documented", "unchanged", "expected"),
     [
         (True, False, True, Verdict.AGREES),
         (False, False, True, Verdict.DIVERGES),
@@ -103,8 +101,8 @@ def test_facts(found, fact, expected):
         (True, False, False, Verdict.DIVERGES),
     ],
 )
-def test_verdicts(good, documented, unchanged, verdict):
-    assert judge(good, documented, unchanged) == verdict
+def test_verdicts(good, documented, unchanged, expected):
+    assert verdict(good, documented, unchanged) == expected
 
 
 def test_chi_squared_is_that_of_a_fit_held_to_the_stated_parameters():

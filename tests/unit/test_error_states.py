@@ -35,7 +35,7 @@ CALLS |= {
         cattaneo_mindlin.unloading(0.0, TINY),
         cattaneo_mindlin.stick_radius(TINY),
     ),
-    "hertz": lambda: [f(TINY) for f in (hertz.velocity, hertz.pace, hertz.phase_at, hertz.time)],
+    "hertz": lambda: [f(TINY) for f in (hertz.velocity, hertz.state, hertz.phase_at, hertz.time)],
     "response": lambda: (
         response.compile("lumped", incidence_max=9, tolerance=1e-3)(SMALL_AND_LARGE),
         response.compile("lumped", incidence_max=1e-9, tolerance=1e-3).velocity(TINY),

@@ -13,7 +13,6 @@ from planarimpact import InputError, models, response
 CASES = {
     "lumped": (1e-4, {"mass_ratio": 3.0, "restitution": 0.5}, 1),
     "laws.brach": (1e-6, {"tangential_restitution": 0.7}, 1),  # no forces
-    "laws.bilbao": (1e-4, {"restitution": 0.5}, 1),  # never slides
     "timestep.linear": (1e-2, {"steps": 16}, 5),
     "continuum": (1e-2, {}, 11),  # has a tolerance of its own
 }

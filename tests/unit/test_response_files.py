@@ -12,7 +12,6 @@ X = np.linspace(-9.5, 9.5, 2003)
 CASES = [
     ("rigid", {"restitution": 0.3, "mass_ratio": 2.7}),
     ("laws.brach", {"tangential_restitution": 0.7}),
-    ("laws.bilbao", {"restitution": 0.5}),
     ("lumped", {"mass_ratio": 8.0, "stiffness_ratio": 0.1}),
     ("timestep.linear", {"steps": 16}),
 ]

@@ -96,6 +96,20 @@ def test_an_unsolved_impact_of_the_continuum_keeps_its_kind_and_is_a_point_of_th
         assert error.impacts.tolist() == [4, 5] and str(error) == str(refusal.value)
 
 
+def test_an_unsolved_impact_is_a_point_of_the_grid_in_a_later_block_too(monkeypatch):
+    axes = study.axes_of(GRID | {"incidence": [1, 2, 3], "restitution": 1})
+    monkeypatch.setattr(study, "BLOCK", 2)
+
+    def rebound(incidence, *groups, **settings):
+        if (incidence == 3).any():
+            raise continuum.Unsolved("incidence = 3: no", np.flatnonzero(incidence == 3))
+        return lumped.rebound(incidence, *groups, **settings)
+
+    with pytest.raises(continuum.Unsolved, match="points 3 to 5 of the grid") as refusal:
+        study.solve(rebound, axes, 1, 6)
+    assert refusal.value.impacts.tolist() == [4]
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
@@ -141,6 +155,7 @@ def test_points_outside_the_grid_are_refused(axes, span):
 def test_parts_that_do_not_make_the_grid_are_refused(axes):
     first, second = parts(axes, 0, 30, COUNT)
     short = {name: field[:-1] for name, field in second[1].items()}
+    long = {name: np.append(field, field[-1]) for name, field in second[1].items()}
     flat = second[1] | {"regime": second[1]["regime"].astype(float)}
     uneven = second[1] | {"velocity": second[1]["velocity"][1:]}
     for wrong, words in (
@@ -148,6 +163,7 @@ def test_parts_that_do_not_make_the_grid_are_refused(axes):
         ([second, first], "starts at point 30: allowed is 0"),
         ([first, first], "starts at point 0: allowed is 30"),
         ([first, (30, short)], "end at point 69"),
+        ([first, (30, long)], "the part from point 30 has .* up to 40 points"),
         ([first, (30, flat)], "the part from point 30 has .*regime .* float64"),
         ([first, (30, uneven)], "the part from point 30 has velocity"),
         ([first, second, (70, first[1])], "the part from point 70 has .* up to 0 points"),
@@ -343,6 +359,6 @@ def test_a_map_names_a_regime_where_there_is_room_and_draws_a_boundary_once():
     regime[:1] = Regime.STICK  # the edge of the grid: neither
     panel = map_of(np.ones((40, 40)), regime)
     assert (panel.get_xlabel(), panel.get_ylabel()) == (house_style.INCIDENCE, "restitution $e$")
-    assert [text.get_text() for text in panel.texts] == ["stick-\nslip", "slip-\nthroughout"]
+    assert [text.get_text() for text in panel.texts] == ["stick-\nslip", "slip\nthroughout"]
     paths = [path for lines in panel.collections[1:] for path in lines.get_paths()]
     assert [sorted(set(path.vertices[:, 0])) for path in paths] == [[19.5], [21.5]]

@@ -7,9 +7,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from planarimpact import InputError, models, response
+from planarimpact import InputError, continuum, models, response
 from stronge1994 import csv_tables
-from stronge1994.curves import trade
+from stronge1994.curves import convergence, trade
 from stronge1994.drawings import trade as draw_trade
 from stronge1994.trade import answers as trade_table
 
@@ -95,8 +95,8 @@ def test_too_few_steps_for_the_bodies_are_refused():
 def test_front_leaves_out_what_is_beaten():
     time = [1.0, 2.0, 2.0, 3.0, 4.0]
     error = [0.5, 0.5, 0.1, 0.2, 0.05]
-    assert trade_table.front(time, error) == [0, 2, 4]
-    assert trade_table.front([1.0], [0.0]) == [0]
+    assert draw_trade.front(time, error) == [0, 2, 4]
+    assert draw_trade.front([1.0], [0.0]) == [0]
 
 
 class Clock:
@@ -183,6 +183,35 @@ def test_a_busy_machine_leaves_no_batch_out(clock):
         *("time_1000 [s]", "busy_1000 [1]"),
         *("time_3000 [s]", "busy_3000 [1]"),
     }
+
+
+def test_one_impact_is_solved_more_often_than_a_batch_which_holds_many_incidences(clock):
+    fake, calls = clock(), []
+
+    def solve(x):
+        calls.append(x.size)
+        fake.pass_by(0.01, 1.0)
+        return 0.01
+
+    trade.times(solve, (0, 8), [1, 1000], 10.0)
+    assert 5 <= calls.count(1000) < calls.count(1) <= trade.REPEATS
+
+
+@pytest.mark.parametrize(("share", "busy"), [(1.0, None), (0.5, [2.0, 2.0])])
+def test_convergence_says_that_the_machine_was_busy(share, busy, clock, monkeypatch):
+    fake, fixed_steps = clock(), continuum.fixed_steps
+
+    def slow(*args, **kwargs):
+        fake.pass_by(0.24, share)
+        return fixed_steps(*args, **kwargs)
+
+    monkeypatch.setattr(continuum, "fixed_steps", slow)
+    few = {"samples": 3, "tolerance": 1e-3, "steps": [16, 32], "circles": [4, 8]}
+    named = convergence.curves(3.5, [1.21], **few, fixed={"steps": 16, "circles": 4})
+    springs, annuli = named["row of springs"], named["annuli, circles"]
+    assert springs["time [s]"] == pytest.approx([0.08, 0.08])
+    assert springs.get("busy_time [1]") == (busy and pytest.approx(busy))
+    assert "busy_time [1]" not in annuli
 
 
 def test_a_slow_compilation_on_a_busy_machine_says_so(clock, monkeypatch):

@@ -17,25 +17,13 @@ import planarimpact
 from stronge1994.plan import files
 
 ROOT = Path(__file__).parents[2]
+PACKAGE = "planarimpact"
 MODULES = [module.name for module in pkgutil.walk_packages(planarimpact.__path__, "planarimpact.")]
-# What the heading of the package recommends, with what stands beside it: no building blocks.
-API = [
-    "bodies",
-    "continuum",
-    "continuum.annuli",
-    "continuum.cattaneo_mindlin",
-    "continuum.micro_slip",
-    "hertz",
-    "lumped",
-    "models",
-    "models.laws",
-    "models.timestep",
-    "noncollinear",
-    "noncollinear.rigid",
-    "response",
-    "rigid",
-    "scene",
-]
+# What the heading of the package recommends.
+API = sorted(
+    set(re.findall(r"`([a-z_.]+)`", planarimpact.__doc__))
+    & {name.removeprefix("planarimpact.") for name in MODULES}
+)
 FRESH = """
 import sys
 import planarimpact
@@ -53,7 +41,7 @@ print(noncollinear.rebound(1.0, 1.0, noncollinear.InverseMass(1.0, 0.0, 1.0), 0.
 """
 # Without an import of the modules: each is there, and is what it is.
 RIGHT += "import planarimpact\n\nfloat(planarimpact.lumped.rebound(1.0).velocity)\n"
-ROOMS = sorted(planarimpact._ROOMS - {"ground"})
+ROOMS = sorted({*planarimpact._ROOMS} - {"ground"})
 RIGHT += "".join(f"print(planarimpact.{name}.__name__)\n" for name in ROOMS)
 WRONG = """\
 import planarimpact
@@ -95,10 +83,11 @@ def test_the_package_is_consistently_typed(mypy):
 
 
 def test_users_profit_from_the_types(mypy, tmp_path):
-    """Examples, as in the README, pass; each wrong call is refused, by the installed package."""
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    examples = re.findall(r"```python\n(.*?)```", readme, flags=re.S)
-    assert len(examples) >= 4
+    """Examples, as in the READMEs, pass; each wrong call is refused, by the installed package."""
+    readmes = [ROOT / "README.md", ROOT / "src/README.md"]
+    texts = "\n".join(path.read_text(encoding="utf-8") for path in readmes)
+    examples = re.findall(r"```python\n(.*?)```", texts, flags=re.S)
+    assert examples
     examples.append(RIGHT)
     for i, text in enumerate([*examples, WRONG]):
         (tmp_path / f"example_{i}.py").write_text(text, encoding="utf-8")
@@ -113,7 +102,6 @@ def test_modules_are_there_without_an_import_of_their_own():
     """And the package itself, of sources that are not installed, is there at once."""
     result = run("-c", FRESH, cwd=ROOT / "src")
     assert result.stdout == f"1.0 {planarimpact.__version__}\n", result.stderr
-    assert {name.split(".")[0] for name in API} <= set(planarimpact._ROOMS)
     for name in planarimpact._ROOMS:
         assert getattr(planarimpact, name).__name__ == f"planarimpact.{name}"
     with pytest.raises(AttributeError, match="module 'planarimpact' has no attribute 'lumpd'"):
@@ -131,103 +119,51 @@ def test_one_version():
     assert f"\nversion: {planarimpact.__version__}\n" in cited
 
 
-def public(module):
-    """Public functions of a module, or those that it names as such, and methods; by name."""
+def routines(module):
+    """Public functions of a module, and methods of its classes; by name."""
     names = getattr(module, "__all__", None) or [
         name
         for name, value in vars(module).items()
-        if not name.startswith("_") and getattr(value, "__module__", "") == module.__name__
+        if name[0] != "_" and getattr(value, "__module__", "") == module.__name__
     ]
-    found = {name: getattr(module, name) for name in names}
-    for name, value in list(found.items()):
-        if inspect.isclass(value) and value.__module__.startswith("planarimpact"):
-            for method, function in inspect.getmembers(value, inspect.isroutine):
-                if method in vars(value) and not method.startswith("_"):
-                    found[f"{name}.{method}"] = function
-    return {name: value for name, value in found.items() if callable(value)}
+    own = {name: getattr(module, name) for name in names}
+    methods = {
+        f"{name}.{method}": function
+        for name, value in own.items()
+        if inspect.isclass(value) and value.__module__.startswith(PACKAGE)
+        for method, function in vars(value).items()
+        if inspect.isroutine(function) and method[0] != "_"
+    }
+    return {n: f for n, f in own.items() if inspect.isroutine(f)} | methods
 
 
-def missing(function, sections):
-    """What a function lacks: annotations, a docstring, or sections of it."""
-    signature = inspect.signature(function)
-    arguments = [p for p in signature.parameters.values() if p.name not in ("self", "cls")]
-    lacks = [p.name for p in arguments if p.annotation is p.empty]
-    if signature.return_annotation is signature.empty:
-        lacks.append("return")
-    doc = inspect.getdoc(function) or ""
-    wanted = ["Parameters"] if arguments and sections else []
-    if sections and signature.return_annotation is not None:
-        wanted.append("Returns")
-    if sections == "all" and arguments:
-        wanted.append("Examples")
-    lacks += [name for name in wanted if not re.search(rf"^{name}\n-+$", doc, flags=re.M)]
-    return lacks if doc else [*lacks, "docstring"]
+@pytest.mark.parametrize("room", API)
+def test_what_is_recommended_is_documented_in_full(room):
+    """Ruff asks for a docstring and types. Here: for the sections that a caller needs.
+
+    A method may have its example in that of its class.
+    """
+    module = importlib.import_module(f"{PACKAGE}.{room}")
+    for name, function in routines(module).items():
+        signature = inspect.signature(function)
+        wanted = set() if signature.return_annotation is None else {"Returns"}
+        if set(signature.parameters) - {"self", "cls"}:
+            wanted |= {"Parameters"} if "." in name else {"Parameters", "Examples"}
+        found = re.findall(r"^(\w+)\n-+$", inspect.getdoc(function), flags=re.M)
+        assert wanted <= set(found), name
 
 
-def routines(module):
-    return {n: f for n, f in public(module).items() if inspect.isroutine(f)}
-
-
-@pytest.mark.parametrize("name", MODULES)
-def test_what_is_public_has_types_and_a_docstring(name):
-    module = importlib.import_module(name)
-    assert inspect.getdoc(module)
-    for value in filter(inspect.isclass, public(module).values()):
-        # A tuple without words of its own has those that Python makes up.
-        words = vars(value)["__doc__"]
-        assert words and not words.startswith(f"{value.__name__}("), value
-    lacks = {n: missing(f, sections=None) for n, f in routines(module).items()}
-    assert not {n: words for n, words in lacks.items() if words}
-
-
-@pytest.mark.parametrize("name", API)
-def test_what_is_recommended_is_documented_in_full(name):
-    """Methods have their examples in that of the class, if not of their own."""
-    found = routines(importlib.import_module(f"planarimpact.{name}"))
-    lacks = {n: missing(f, "most" if "." in n else "all") for n, f in found.items()}
-    assert lacks and not {n: words for n, words in lacks.items() if words}
-
-
-def test_what_is_missing_is_seen():
-    def bare(x):
-        pass
-
-    def half(x: float) -> float:
-        """Half of it.
-
-        Returns
-        -------
-        float
-        """
-        return x / 2
-
-    assert missing(bare, None) == ["x", "return", "docstring"]
-    assert missing(half, None) == []
-    assert missing(half, "all") == ["Parameters", "Examples"]
-
-
-@pytest.mark.parametrize("words", [["check"], ["format", "--check"]])
-def test_one_style(words):
-    result = run("-m", "ruff", *words, "--no-cache", "src", "tests", "workflow")
-    assert result.returncode == 0, result.stdout + result.stderr
-
-
-@pytest.mark.parametrize(
-    ("words", "text"),
-    [(["check"], "import os\n"), (["format", "--check"], "x  = 1\n")],
-)
-def test_another_style_is_refused(words, text):
-    result = run(
-        "-m", "ruff", *words, "--no-cache", "--stdin-filename", "src/other.py", "-", input=text
-    )
-    assert result.returncode == 1
+def test_one_style():
+    for words in (["check"], ["format", "--check"]):
+        result = run("-m", "ruff", *words, "--no-cache", ".")
+        assert result.returncode == 0, result.stdout + result.stderr
 
 
 def test_the_solver_needs_numpy_and_scipy_alone():
     names = [name for name in MODULES if not NEED_PANDAS.match(name)]
     result = run("-c", ALONE, *names)
     assert result.returncode == 0, result.stderr
-    assert f"{len(names)} modules" in result.stdout and len(names) > 30
+    assert f"{len(names)} modules" in result.stdout
     assert "pandas" in run("-c", ALONE, "planarimpact.scene").stderr
 
 

@@ -86,7 +86,7 @@ def judged(inventory, curves, tmp_path):
         tables = {source: folder / "series.csv"}
         path, significance = curves / f"{figure}.csv", CONFIG["significance"]
         rows = {AWAITED[name]: entry}
-        return compare.compare(figure, rows, references, path, tables, significance)[1]
+        return compare(figure, rows, references, path, tables, significance)[1]
 
     return row
 

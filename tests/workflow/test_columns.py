@@ -14,7 +14,7 @@ import pytest
 from planarimpact.ground import checks
 from stronge1994 import csv_tables, plan, reference_data, study_files
 from stronge1994.curves import solving
-from stronge1994.judging import compare, comparison, judged_tables, sensitivity
+from stronge1994.judging import compare, judged_tables, points, sensitivity
 from stronge1994.plan import config as configuration
 
 ROOT = Path(__file__).parents[2]
@@ -49,9 +49,7 @@ def _diverges(name, path, series, only=None, curve=None):
     entries = plan.comparisons(CONFIG, name).items()
     for title, entry in sorted(entries, key=lambda item: item[1].get("curve") != curve):
         if only in (None, title):
-            rows = compare.compare(
-                name, {title: entry}, references, path, series, CONFIG["significance"]
-            )
+            rows = compare(name, {title: entry}, references, path, series, CONFIG["significance"])
             if any(row["verdict"] == "diverges" for row in rows):
                 return True
     return False
@@ -162,7 +160,7 @@ def test_the_table_of_gates_tells_what_is_caught(name, tables, tmp_path):
 
 def test_sigmas_do_not_come_from_the_points_they_judge():
     """Finite elements: from points that nothing looks at; Kharaz et al.: from a second reader."""
-    limits = comparison.limits_of_regimes(3.5, 1.2143, 1.0)
+    limits = points.limits_of_regimes(3.5, 1.2143, 1.0)
     sheet = INVENTORY["chung_ooi2011"]["series"]["rebound"]
     columns = reference_data.read_series("rebound", sheet)
     x, w = (np.array(columns[reference_data.column_name(sheet[axis])]) for axis in "xy")

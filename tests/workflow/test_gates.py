@@ -92,9 +92,7 @@ def verdicts(first_run, config, inventory, series, tmp_path_factory):
                 patch.setattr(module, "curves", _faulty_solver(figure, change, names))
                 solving.solve(figure, settings, nodes, path)
             references = plan.references(config, inventory, figure)
-            rows = compare.compare(
-                figure, comparisons, references, path, series, config["significance"]
-            )
+            rows = compare(figure, comparisons, references, path, series, config["significance"])
             found |= {(fault, row["comparison"]): row["verdict"] for row in rows}
             left -= {row["comparison"] for row in rows if row["verdict"] in ("diverges", "awaited")}
             left -= {name for name in left if comparisons[name]["metric"] in LAWS}
@@ -182,7 +180,7 @@ def test_energy_that_does_not_balance_trips_the_gate(name, config, inventory, tm
         patch.setattr(model, "rebound", forgetful)
         settings = plan.settings(config, inventory, figure)
         solving.solve(figure, settings, _nodes(config, inventory, figure, tmp_path), path)
-    rows = compare.compare(figure, {name: config["comparisons"][name]}, {}, path, {}, 0.01)
+    rows = compare(figure, {name: config["comparisons"][name]}, {}, path, {}, 0.01)
     assert [row["verdict"] for row in rows] == ["as before", "diverges"]
 
 
@@ -234,7 +232,7 @@ def test_a_fault_anywhere_in_the_box_trips_the_gate(
     path, settings = tmp_path / "curves.csv", plan.settings(config, inventory, "stability")
     monkeypatch.setattr(lumped, function, fault(getattr(lumped, function)))
     solving.solve("stability", settings, _nodes(config, inventory, "stability", tmp_path), path)
-    rows = compare.compare("stability", {name: config["comparisons"][name]}, {}, path, {}, 0.01)
+    rows = compare("stability", {name: config["comparisons"][name]}, {}, path, {}, 0.01)
     assert [row["verdict"] for row in rows] == ["as before", "diverges"]
 
 
@@ -243,5 +241,5 @@ def test_curves_that_are_not_finite_diverge(config, inventory, series, tmp_path)
     path.write_text(
         "curve,incidence [mu v2(0)],velocity [mu v2(0)]\ne = 1,0.0,0.0\ne = 1,1.0,nan\n"
     )
-    rows = compare.compare("fig6", {}, {}, path, series, 0.01)
+    rows = compare("fig6", {}, {}, path, series, 0.01)
     assert rows[0]["verdict"] == "diverges" and "not finite" in rows[0]["note"]

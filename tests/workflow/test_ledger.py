@@ -288,7 +288,7 @@ FAULTS = {
         ),
     },
     "less friction by other laws": {
-        (laws, "bilbao"): distorted(laws.bilbao, velocity=lambda v, _: v * 1.1),
+        (laws, "smith"): distorted(laws.smith, velocity=lambda v, _: v * 1.1),
     },
     "continuum off": {
         (continuum, "rebound"): distorted(

@@ -20,7 +20,7 @@ from stronge1994 import study_files
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sinfo", "sbatch", "srun", "squeue", "scontrol")
 STARTING, RUNNING = 20, 120  # s, at most
-PROFILE = ["--profile", "workflow/profiles/slurm"]
+PROFILE = ["--profile", "profiles/slurm"]
 # One node that is this machine, whatever it has, and nothing that needs systemd or cgroups.
 CONFIG = """
 ClusterName=test
@@ -196,5 +196,5 @@ def test_the_study_goes_through_slurm(cluster, fresh):
 def test_the_profile_is_understood_without_slurm(fresh):
     _, counts = fresh.planned(*PROFILE, "results/study.npz")
     assert set(counts) == {"solve_chunk", "gather_chunks"}
-    entries = (fresh / "workflow/profiles/slurm/config.yaml").read_text()
+    entries = (fresh / "profiles/slurm/config.yaml").read_text()
     assert not re.search(r"\n\n(?!#)", entries), "an entry without a word on it"

@@ -1,9 +1,9 @@
-"""The errors that the README explains come in its words, and end by what it says."""
+"""The errors that workflow/README.md explains come in its words, and end by what it says."""
 
 import re
 from pathlib import Path
 
-README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+README = (Path(__file__).parents[2] / "workflow/README.md").read_text(encoding="utf-8")
 SECTION = README.split("## Troubleshooting")[1].split("\n## ")[0]
 
 

@@ -2,6 +2,7 @@
 # here, once: the functions below only look it up.
 from stronge1994.gate import closing
 from stronge1994.ledger import entries
+from stronge1994.pages import interface
 from stronge1994.plan import grid
 from stronge1994.plan.files import modules
 
@@ -29,10 +30,15 @@ except (reference_data.SourceError, ConfigError) as error:
     raise refused(error)
 
 EXPECTED_ENTRIES = {name: "check" in entry for name, entry in ENTRIES.items()}
-CHUNKS = grid.chunks(config)
 # Sources with whose series something is compared.
 COMPARED = sorted({source for told in JUDGED.values() for source in told["sources"]})
 UNTIMED = [figure for figure in FIGURES if figure not in plan.TIMED]
+
+
+scattergather:
+    study=config["study"]["chunks"],
+
+
 # Every value that a wildcard has in a run.
 VALUES = {
     "figure": list(FIGURES),
@@ -40,7 +46,7 @@ VALUES = {
     "source": COMPARED,
     "scene": list(config["scenes"]),
     "notebook": NOTEBOOKS,
-    "chunk": CHUNKS,
+    "scatteritem": gather.study("{scatteritem}"),
 }
 
 
@@ -50,7 +56,6 @@ wildcard_constraints:
     source="[a-z0-9_]+",
     scene="|".join(config["scenes"]) or "none",
     notebook="|".join(NOTEBOOKS) or "none",
-    chunk=r"\d+-\d+",
 
 
 # Every rule has this as its parameter `content`. Snakemake runs a job again if an input is newer than

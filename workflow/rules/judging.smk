@@ -113,6 +113,7 @@ MAKERS = [
     rules.draw_study,
     rules.notebook,
     rules.explorer,
+    rules.interface,
     rules.report,
 ]
 

@@ -8,7 +8,7 @@ from snakemake.exceptions import WorkflowError
 # The sources that the rules track, wherever else the packages may be installed: for this process,
 # and for the Python of every job.
 sys.path.insert(0, str(Path(workflow.basedir) / "src"))
-os.environ["PYTHONPATH"] = sys.path[0]
+os.environ.update(PYTHONPATH=sys.path[0])
 from stronge1994 import gate, plan, reference_data
 from stronge1994.gate import options
 from stronge1994.plan import config as configuration
@@ -31,7 +31,7 @@ if Path(workflow.basedir).resolve() != Path.cwd().resolve():
     raise WorkflowError(f"run Snakemake in the folder of its Snakefile: cd {workflow.basedir}")
 try:
     files.refuse_unreadable_modules()
-    for file in ("workflow/config.yaml", *workflow.config_settings.configfiles):
+    for file in (*configuration.FILES, *workflow.config_settings.configfiles):
         reference_data.load_yaml(file)
     if workflow.is_main_process:
         configuration.refuse_misread_values(workflow.config_settings.config_args or ())

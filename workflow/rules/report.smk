@@ -4,10 +4,10 @@ BESIDE = {
     **{f"{notebook}.html": f"Lecture: {notebook.replace('_', ' ')}" for notebook in NOTEBOOKS},
     "study.svg": "Parameter study",
     "ledger.html": "The paper verified, as a page of its own",
+    "interface/planarimpact.html": "Interface of the solver: what each function takes and returns",
 }
 
 
-REPORT_INTERFACE = sorted(str(path) for path in Path("src/planarimpact").rglob("*.py"))
 # The template, what it includes, and captions.
 REPORT_PARTS = sources(
     *expand("workflow/report/{part}.html", part=["report", "ledger_parts"]),
@@ -16,11 +16,30 @@ REPORT_PARTS = sources(
 )
 
 
+rule interface:
+    """What the functions of the solver take and return, as pages made from their docstrings."""
+    input:
+        modules=modules("write_interface", *interface.documented()),
+    output:
+        directory("figures/interface"),
+    params:
+        content=content,
+    log:
+        "results/logs/interface.log",
+    benchmark:
+        "results/benchmarks/interface.tsv"
+    message:
+        "Writing the interface of the solver"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/write_interface.py"
+
+
 rule report:
     """The run as one page; always succeeds, whatever its verdicts, tables and modules."""
     input:
         modules=modules("write_report"),
-        interface=REPORT_INTERFACE,
         template="workflow/report/report.html",
         captions="workflow/report/figures.rst",
         parts=REPORT_PARTS,

@@ -1,23 +1,23 @@
 # A grid of impacts, scattered into chunks, solved, gathered and drawn:
 #   snakemake --cores 2 study                       here
-#   snakemake --profile workflow/profiles/slurm study    on a cluster
+#   snakemake --profile profiles/slurm study    on a cluster
 
 
 rule solve_chunk:
-    """Solve some points of the study's grid, `start-stop`; the chunks know nothing of each other."""
+    """Solve some points of the study's grid; the chunks know nothing of each other."""
     input:
         modules=modules("solve_chunk"),
     output:
-        "results/study/{chunk}.npz",
+        "results/study/{scatteritem}.npz",
     params:
         content=content,
         settings=grid.settings(config),
     log:
-        "results/logs/study_{chunk}.log",
+        "results/logs/study_{scatteritem}.log",
     benchmark:
-        "results/benchmarks/study_{chunk}.tsv"
+        "results/benchmarks/study_{scatteritem}.tsv"
     message:
-        "Solving the points {wildcards.chunk} of the study"
+        "Solving the chunk {wildcards.scatteritem} of the study"
     conda:
         "../envs/planarimpact.yaml"
     script:
@@ -28,7 +28,7 @@ rule gather_chunks:
     """Put the chunks together in the shape of the grid."""
     input:
         modules=modules("gather_chunks"),
-        chunks=expand(rules.solve_chunk.output, chunk=CHUNKS),
+        chunks=gather.study(rules.solve_chunk.output),
     output:
         "results/study.npz",
     params:

@@ -1,10 +1,9 @@
 """Compare one table of a run with reference data; always succeeds."""
 
-from stronge1994 import job
-from stronge1994.judging import compare
+from stronge1994 import job, judging
 
 with job.recorded(snakemake):
-    rows = compare.compare(
+    rows = judging.compare(
         snakemake.wildcards.judged,
         snakemake.params.comparisons,
         snakemake.params.references,
@@ -12,4 +11,4 @@ with job.recorded(snakemake):
         dict(zip(snakemake.params.sources, snakemake.input.series, strict=True)),
         snakemake.params.significance,
     )
-    compare.write(rows, snakemake.output.verdicts, snakemake.output.residuals)
+    judging.write(rows, snakemake.output.verdicts, snakemake.output.residuals)

@@ -1,8 +1,8 @@
 """Physical bodies and materials, in SI units, to and from the groups that the models take.
 
 Collinear configurations only: each centre of mass lies on the contact normal. Arguments are
-numbers or arrays that broadcast; every refusal is an `InputError` with the field and its value.
-Scales are free: any for which the result is a number, from 1e-308 to 1e308, or it is refused.
+numbers or arrays that broadcast. Every refusal is an `InputError` with the field and its value. Any
+unit is possible; a result below 1e-308 or above 1e308 is refused.
 
 Signs. The normal velocity is positive while the body approaches, so it is positive before the
 impact and negative after it. The tangential velocity is positive in the incident direction (or
@@ -10,8 +10,7 @@ any other, kept throughout). Spin is positive where it moves the contact point i
 v1 = tangential + radius spin, so rolling without slip, v1 = 0, is spin = -tangential/radius, and
 positive spin is backspin.
 
-What stands in `masses`, `materials` and `quantities` has
-the same names here.
+All names of `masses`, `materials` and `quantities` that users need are here too.
 """
 
 from functools import partial
@@ -34,15 +33,12 @@ from planarimpact.bodies.quantities import (
     Motion,
     OutOfRange,
     fields,
-    finite,
     in_range,
-    not_negative,
-    positive,
     quietly,
 )
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.checks import checked
+from planarimpact.ground.checks import checked, finite, not_negative, positive
 
 __all__ = [
     "HALF_SPACE",

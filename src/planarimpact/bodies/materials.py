@@ -13,12 +13,12 @@ from planarimpact.bodies.quantities import (
     all_positive,
     fields,
     in_range,
-    positive,
     positive_or_infinite,
     quietly,
 )
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.checks import positive
 
 
 def _compliances(material: Material, other: Material | None) -> tuple[Array, Array]:

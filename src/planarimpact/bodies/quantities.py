@@ -8,7 +8,7 @@ import numpy as np
 
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Numbers
-from planarimpact.ground.checks import InputError, checked
+from planarimpact.ground.checks import InputError, checked, finite, not_negative, positive
 
 
 class OutOfRange(InputError):
@@ -19,13 +19,10 @@ class OutOfRange(InputError):
         self.where = where
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle it by what it is made of: processes hand their errors on so."""
+        """Pickle it by its arguments, so that another process can raise it again."""
         return type(self), (str(self), self.where)
 
 
-finite = partial(checked, allowed="finite numbers")
-not_negative = partial(checked, allowed="finite numbers from 0", low=0)
-positive = partial(checked, allowed="finite numbers above 0", low=0, open_low=True)
 positive_or_infinite = partial(
     checked, allowed="numbers above 0, or inf", low=0, open_low=True, infinite=True
 )
@@ -76,8 +73,7 @@ class Material(NamedTuple):
 class Body(NamedTuple):
     """A rigid body: mass [kg], radius of gyration [m], distance centre to contact point [m].
 
-    An infinite mass is one that the impact does not move, an infinite gyration one kept from
-    turning.
+    A body of infinite mass does not move, and one of infinite gyration does not turn.
     """
 
     mass: Numbers
@@ -94,10 +90,10 @@ class Motion(NamedTuple):
     spin: Numbers
 
 
-# Its radius plays no part, as nothing turns it; its curvature is the default of effective_radius.
+# It cannot turn, so its radius has no effect. Its curvature is the default of effective_radius.
 HALF_SPACE = Body(mass=np.inf, gyration=np.inf, radius=0.0)
 
-# Results are refused below, so that numpy need not warn, whatever the caller has set.
+# `in_range` refuses bad results, so NumPy need not warn, whatever the caller has set.
 quietly = np.errstate(over="ignore", invalid="ignore", divide="ignore", under="ignore")
 
 

@@ -1,52 +1,40 @@
 """Oblique impact of elastic spheres with micro-slip: the elastic continuum, e = 1.
 
-Hertz contact that slips in an outer annulus and sticks inside, as Maw, Barber & Fawcett (1976)
-describe it, by the method of dimensionality reduction. `planarimpact.hertz` gives the normal
-motion, `micro_slip` keeps the row of springs without dividing it, and
-`tangential_motion` integrates in steps. Here they are doubled until the answer,
-extrapolated once, meets the tolerance.
+A Hertz contact slips in an outer annulus and sticks inside, as Maw, Barber & Fawcett (1976)
+describe it. The method is that of dimensionality reduction. `planarimpact.hertz` gives the normal
+motion, `micro_slip` keeps a row of springs, and `tangential_motion` integrates in steps. Here the
+number of steps is doubled until the answer, extrapolated once, meets the tolerance.
 
-Exact, and left to no integration: gross slip from the start of contact, if there is any, and with
-it impacts that slide throughout.
+Gross slip from the start of contact needs no steps: its closed form is exact. So are impacts that
+slide throughout.
 """
 
 import numpy as np
 
-from planarimpact import hertz, lumped
+from planarimpact import hertz
 from planarimpact.continuum import tangential_motion
-from planarimpact.ground import checks
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.ground.checks import Unsolved
 from planarimpact.ground.results import ContinuumHistory, Rebound, Regime
 
 FIRST_STEPS = 16
 MOST_STEPS = 2**15
-# Of 7000 random impacts none had an error above 0.3 of the tolerance; the largest that a search
-# for the worst found was 0.9 of it.
+# Factor of the estimated error. With it none of 7000 random impacts had an error above 0.3 of the
+# tolerance, and a search for the worst impact found 0.9 of it.
 SAFETY = 5
-STEPS_A_RADIAN = 4  # of the tangential oscillation, before an error estimate is believed
-ROUNDING = 2.0**-48  # of the incidence, below which no error can be told
-BEST_ORDER = 4  # power of the steps with which an estimated error falls at best, as measured
-UNSURE = 2  # changes by the last doubling, within which a gross slip may yet come or go
-SECTIONS, GOLDEN = 24, 0.381966  # of the search for the peak: to 1e-5 of a step
-CELLS = 2**20  # steps times impacts solved together: bounds the memory to some 100 MB
-
-
-class Unsolved(checks.ConvergenceError):
-    """Some impacts of many have no answer within the tolerance.
-
-    Attributes
-    ----------
-    impacts : ndarray of int
-        Their indices in the flattened arguments.
-    """
-
-    def __init__(self, message: str, impacts: Integers) -> None:
-        super().__init__(message)
-        self.impacts = impacts
-
-    def __reduce__(self) -> tuple[type["Unsolved"], tuple[str, Integers]]:
-        """Pickle it by what it is made of: processes hand their errors on so."""
-        return type(self), (str(self), self.impacts)
+# An error estimate counts only with so many steps in each radian of the tangential oscillation.
+STEPS_A_RADIAN = 4
+# Errors below this share of the incidence cannot be told from rounding.
+ROUNDING = 2.0**-48
+# An estimated error falls at best with this power of the steps, as measured.
+BEST_ORDER = 4
+# A gross slip may still come or go if it is nearer than this many times the last change.
+UNSURE = 2
+# The golden section searches for the peak of friction, to 1e-5 of a step.
+SECTIONS, GOLDEN = 24, 0.381966
+# Steps times impacts solved together: this bounds the memory to some 100 MB.
+CELLS = 2**20
 
 
 @checks.default_errors
@@ -62,15 +50,10 @@ def rebound(
 
     Parameters
     ----------
-    incidence : array_like
-        x = v1(0)/(mu v2(0)), tangential over normal speed and friction. Any finite number;
-        a negative one gives the mirror image.
-    mass_ratio : array_like
-        beta = m2/m1 >= 1; 3.5 for a solid sphere on a half-space. Where it does not slide
-        throughout, at most 6.8e6 zeta^2: more tangential oscillations are not resolved.
-    stiffness_ratio : array_like
-        zeta^2 > 0, normal over tangential stiffness; (2 - nu)/(2 (1 - nu)) for equal materials.
-        In the variables of Maw et al. psi1 = x/zeta^2, chi = beta/(2 zeta^2).
+    incidence, mass_ratio, stiffness_ratio : array_like
+        As in `planarimpact.lumped.rebound`. Impacts that do not slide throughout need a mass ratio
+        up to 6.8e6 zeta^2: more tangential oscillations are not resolved. In the variables of Maw
+        et al. psi1 = x/zeta^2, chi = beta/(2 zeta^2).
     restitution : array_like
         1: the contact is elastic.
     tolerance : float
@@ -88,17 +71,17 @@ def rebound(
     InputError
         If an argument is not a finite real number in its range, or shapes do not broadcast.
     ConvergenceError
-        If the tolerance is not met with `MOST_STEPS` steps, or is seen to be out of their reach:
-        `impacts` holds the flat indices of all such impacts, the message tells of the first.
+        If the tolerance is not met with `MOST_STEPS` steps, or is out of their reach. `impacts`
+        holds the flat indices of all such impacts, the message describes the first.
 
     Notes
     -----
-    The error of the steps falls with their square, the extrapolated one with their power 2.5 on
-    average, as gross slip sets in with a root of time. The error is estimated, not bounded: five
-    times the largest of the last change of the extrapolated answer, a quarter of the change
-    before it and a quarter of what extrapolation corrects, all of that where one gross slip more
-    or less is within reach of the error. A reversal of friction shorter than a step, just below
-    slip throughout, is not counted.
+    The error of the steps falls with their square. The extrapolated error falls with their power
+    2.5 on average, as gross slip sets in with a root of time. The error is estimated, not bounded:
+    it is five times the largest of three numbers, the last change of the extrapolated answer, a
+    quarter of the change before it, and a quarter of what extrapolation corrects. All of the
+    correction counts where one gross slip more or less is within reach of the error. A reversal of
+    friction shorter than a step, just below slip throughout, is not counted.
 
     References
     ----------
@@ -144,8 +127,8 @@ def fixed_steps(
     incidence, mass_ratio, stiffness_ratio : array_like
         As in `rebound`.
     steps : int
-        2 to 32768, and at least pi times the root of beta/zeta^2 (twice that where
-        extrapolated): with fewer the tangential oscillation may grow. Even where extrapolated.
+        2 to 32768, and at least pi times the root of beta/zeta^2: with fewer the tangential
+        oscillation may grow. With `extrapolate` an even number, at least twice as large.
     extrapolate : bool
         Solve with half the steps too, and take away the part of the error that falls with their
         square.
@@ -211,7 +194,7 @@ def history(
     Notes
     -----
     Gross slip from the start is exact. At its threshold, x = zeta^2, every spring is at the limit
-    of friction while the contact begins to grow, and rounding decides the radius of stick there.
+    of friction as long as the contact grows, and rounding decides the radius of stick.
 
     Examples
     --------
@@ -226,7 +209,7 @@ def history(
         raise checks.InputError(f"shape = {signed.shape}: one contact takes scalars")
     x, beta, zeta2 = (a.reshape(1) for a in (np.abs(signed), beta, zeta2))
     slid = tangential_motion.gross_slip(x, beta, zeta2)
-    if x[0] < lumped.slip_throughout_limit(beta[0], zeta2[0]):
+    if x[0] < sliding.limit(beta[0], zeta2[0], 1.0):
         stuck = _settled_path(x, beta, zeta2, tolerance)
         slid = [np.concatenate([a[:-1], b]) for a, b in zip(slid, stuck, strict=True)]
     phase, friction, velocity, stick_radius = slid
@@ -244,12 +227,12 @@ _UNSOLVED = 255
 def _at_limits(
     x: Array, beta: Array, zeta2: Array
 ) -> tuple[Array, Array, Array, Integers, Integers]:
-    """Impacts with a closed form, and `_UNSOLVED` in place of the regime of all others.
+    """Velocity, impulse of friction, peak friction, regime and reversals of closed forms.
 
-    Velocity, impulse of friction, peak friction, regime, reversals.
+    All other impacts have `_UNSOLVED` in place of the regime.
     """
-    slides = x >= lumped.slip_throughout_limit(beta, zeta2)
-    velocity = np.where(slides, x - 2 * beta, 0.0)
+    slides = x >= sliding.limit(beta, zeta2, 1.0)
+    velocity = np.where(slides, sliding.velocity(x, beta, 1.0), 0.0)
     regime = np.where(x > 0, _UNSOLVED, Regime.STICK).astype(np.uint8)
     regime[slides] = Regime.SLIP_THROUGHOUT
     full = np.where(slides, 1.0, 0.0)
@@ -263,7 +246,7 @@ def _steps_needed(beta: Array, zeta2: Array) -> Array:
 
 
 def _refuse_hopeless(x: Array, beta: Array, zeta2: Array, tolerance: float) -> None:
-    """Refuse impacts of which it is known beforehand that no number of steps will do."""
+    """Refuse impacts that cannot reach the tolerance however many steps are taken."""
     needed = _steps_needed(beta, zeta2)
     unresolved = np.flatnonzero(needed > MOST_STEPS)
     if unresolved.size:
@@ -294,14 +277,16 @@ def _refine(
     lost, why = [], None
     todo, steps = np.arange(x.size), FIRST_STEPS
     while todo.size:
+        # A turn solves what is left with twice the steps, and estimates the error. Impacts leave
+        # when they have settled or when no number of steps up to MOST_STEPS can help.
         fine, number, near = _integrate_in_parts(x[todo], beta[todo], zeta2[todo], steps)
         correction = (fine - coarse[:, todo]) / 3
         better = fine + correction
         changed = np.abs(better - values[:, todo])
-        # A change may vanish by chance, where an event of the contact is resolved late: the one
-        # before it, less what a doubling gains, counts too, and a share of the correction. All of
-        # the correction counts where a gross slip may yet come or go: the velocity has a kink
-        # there, which steps displace, and no difference of answers on one side of it shows that.
+        # A change may be small by chance, where the steps resolve an event of the contact late. So
+        # the change before counts too, less what a doubling gains, and a share of the correction.
+        # All of the correction counts where a gross slip may still come or go: the velocity has a
+        # kink there. Steps displace the kink, and answers on one side of it do not show that.
         moved = np.abs(near - nearest[todo])
         unsure = (number[0] != counts[0, todo]) | (near <= UNSURE * moved)
         chances = change[:, todo] / 4, np.abs(correction) / np.where(unsure, 1, 4)
@@ -311,7 +296,7 @@ def _refine(
         resolved = steps >= _steps_needed(beta[todo], zeta2[todo])
         worst = estimate[:, todo].max(axis=0)  # NaN while there is no estimate yet
         settled = resolved & (worst <= tolerance)
-        # No refinement mends what is not finite.
+        # More steps do not help an answer that is not finite.
         beyond = ~np.isfinite(fine).all(axis=0) | (resolved & ~_in_reach(worst, tolerance, steps))
         if beyond.any() and not why:
             i, error = todo[beyond][0], worst[beyond][0]
@@ -320,14 +305,14 @@ def _refine(
         todo, steps = todo[~settled & ~beyond], 2 * steps
     if why:
         raise Unsolved(why, np.sort(lost))
-    # Rounding may carry an extrapolated value over the bounds that hold for the exact one.
+    # The exact values have these bounds. Extrapolation and rounding may exceed them.
     velocity, peak = np.clip(values[0], -x, x), np.clip(values[1], 0.0, 1.0)
     peak[(x > zeta2) & (x >= beta)] = 1.0  # gross slip from the start to maximum compression
     return velocity, peak, _regime(x, zeta2, counts[0]), counts[1]
 
 
 def _in_reach(error: Array, tolerance: float, steps: int) -> Booleans:
-    """Whether `MOST_STEPS` steps may bring an error within the tolerance, or none is known."""
+    """Whether `MOST_STEPS` steps may reduce an error to the tolerance; true for unknown errors."""
     if 2 * steps > MOST_STEPS:
         return error <= tolerance
     return ~(error * (steps / MOST_STEPS) ** BEST_ORDER > tolerance)
@@ -373,8 +358,8 @@ def _summary(
 def _nearest(reserve: Array, centre: Array, gross: Booleans) -> Array:
     """How far each contact is from one gross slip more or less, in the unit of the spring row.
 
-    The smallest displacement that kept it from a gross slip, or that it slid in one between two
-    sticks; 1, which no reserve exceeds, where there is neither.
+    This is the smallest displacement that was missing for a gross slip, or that the contact slid in
+    a gross slip between two sticks. It is 1, which no reserve exceeds, if there is neither.
     """
     here = reserve[1:-1]
     lowest = (here < reserve[:-2]) & (here <= reserve[2:]) & (here > ROUNDING)
@@ -399,14 +384,14 @@ def _sign_changes(force: Array) -> Integers:
 def _peak(phase: Array, force: Array, gross: Booleans) -> Array:
     """Largest force of each column, between the points too.
 
-    The deficit to as large a share of sin(phase)^3 is taken as a parabola. As gross slip sets in,
-    the one to all of it vanishes with the power 3/2 of the time left: there its power 2/3 is the
-    parabola, through three points before gross slip.
+    Between the points the force is a share of sin(phase)^3 less a parabola. As gross slip sets in,
+    the share is 1 and the deficit vanishes with the power 3/2 of the time left. There the power 2/3
+    of the deficit is the parabola, through three points before gross slip.
     """
     top = force.argmax(axis=0)
     lanes = np.arange(top.size)
     last = np.clip(top + 1, 2, len(force) - 2)
-    last -= gross[last, lanes]  # one point or two of gross slip may be near
+    last -= gross[last, lanes]  # up to two points of gross slip may be among the three
     last -= gross[last, lanes]
     slides = gross[last, lanes]
     last = np.maximum(last, 2)
@@ -449,7 +434,7 @@ def _settled_path(x: Array, beta: Array, zeta2: Array, tolerance: float) -> list
     while not why:
         steps *= 2
         fine = tangential_motion.path(x, beta, zeta2, steps)
-        # The error is a third of the change where it falls with the square of the steps.
+        # An error that falls with the square of the steps is a third of the change.
         change = max(np.max(np.abs(fine[i][::2] - coarse[i])) / 3 for i in (1, 2))
         resolved = steps >= _steps_needed(beta, zeta2)[0]
         if resolved and change <= tolerance:

@@ -1,15 +1,15 @@
 """Oblique impact of elastic spheres by concentric annuli, the scheme of Maw et al. (1976).
 
 Fixed concentric circles and the edge of contact divide the contact into annuli. The tangential
-traction is a sum of elliptic distributions over the circles, whose surface displacements are
-known in closed form. At every small step in time each annulus either sticks (its surface moves
-with the body) or slips (its traction is mu times the pressure); which, is found by trial: a stuck
-annulus whose traction exceeds friction slips, one that slips against its friction sticks. As in
-the original, traction and displacement have one direction, and the small part of the displacement
-that depends on the angle around the contact is left out.
+traction is a sum of elliptic distributions over the circles, whose surface displacements are known
+in closed form. At every small step in time each annulus either sticks (its surface moves with the
+body) or slips (its traction is mu times the pressure). Trial decides which: a stuck annulus whose
+traction exceeds friction slips, and one that slips against its friction sticks. As in the original,
+traction and displacement have one direction, and the small part of the displacement that depends on
+the angle around the contact is left out.
 
-Slower and less accurate than `planarimpact.continuum`, with which it shares no code: it is there
-to check it. Units: radius a_max, time d_max/|v2(0)|, force its largest normal value (times mu for
+This solver checks `planarimpact.continuum`, with which it shares no code. It is slower and less
+accurate. Units: radius a_max, time d_max/|v2(0)|, force its largest normal value (times mu for
 traction and friction), tangential displacement zeta^2 mu d_max.
 """
 
@@ -21,14 +21,16 @@ from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Integers
 from planarimpact.ground.results import Rebound, Regime
 
-CELLS = 2**18  # entries of the systems of equations solved together: bounds the memory
+# Entries of the systems of equations that are solved together: this bounds the memory.
+CELLS = 2**18
 MOST_CIRCLES = 1000
 MOST_STEPS = 10**7
 MOST_TRIALS = 100
-STEPS_A_RADIAN = 1  # of the tangential oscillation; explicit steps are unstable below some 0.6
+# Fewest steps in a radian of the tangential oscillation. Below some 0.6 they are unstable.
+STEPS_A_RADIAN = 1
 ROUNDING = 1e-12
-# Of velocity over zeta^2. Below the least, contact sticks to its last step and the answer is in
-# proportion to x; above the largest it slides throughout, whatever the number.
+# Bounds of the velocity over zeta^2 that is solved. Below the least the contact sticks to its last
+# step and the answer is in proportion to x. Above the largest it slides throughout.
 LEAST, LARGEST = 1e-100, 1e100
 
 
@@ -47,7 +49,7 @@ def rebound(
     Parameters
     ----------
     incidence, mass_ratio, stiffness_ratio, restitution : array_like
-        x, beta, zeta^2 and e = 1, as in `rebound`.
+        As in `planarimpact.continuum.rebound`.
     circles : int
         1 to 1000: circles over the largest contact, equally spaced.
     steps : int
@@ -57,7 +59,7 @@ def rebound(
     Returns
     -------
     Rebound
-        As `rebound`; peak_friction is the largest at a step.
+        As `planarimpact.continuum.rebound`; peak_friction is the largest at a step.
 
     Raises
     ------
@@ -68,9 +70,9 @@ def rebound(
 
     Notes
     -----
-    The error falls with the square of the number of circles and with the power 1.2 of the steps,
-    as a ring that comes into contact within a step is late; with the default numbers it is about
-    0.001 at most for a solid sphere.
+    The error falls with the square of the number of circles. It falls with the power 1.2 of the
+    steps only, since a ring that comes into contact within a step counts from the next one. With
+    the default numbers it is at most about 0.001 for a solid sphere.
 
     References
     ----------
@@ -215,7 +217,11 @@ class _Contact:
         return 2 / 3 * np.pi * circles**2 @ self._strength
 
     def _try(self, influence: Array, goal: Array, limit: Array) -> Array:
-        """Tractions that fit: stuck annuli reach their displacement, others slip, none exceeds."""
+        """Tractions such that stuck annuli move with the body and none exceeds friction.
+
+        Each turn of the loop solves for the tractions, and changes the state of annuli that do not
+        fit it. A contact leaves the loop when no state changes.
+        """
         annuli, contacts = goal.shape
         # Annuli are counted from within: those that were there keep their state.
         slip = np.zeros((annuli, contacts), dtype=np.int8)

@@ -1,9 +1,8 @@
 """Closed forms of partial slip under a constant normal force (Cattaneo 1938, Mindlin 1949).
 
-A Hertz contact is pushed sideways, back and forth, by less than it takes to slip. Yardstick for
-`micro_slip` and `annuli`. Units: force mu times the normal force,
-radius that of the contact, displacement the one at which the contact slips as a whole, zeta^2 mu
-times the approach.
+A Hertz contact is pushed sideways, back and forth, by less than it takes to slip as a whole. These
+forms check `micro_slip` and `annuli`. Units: force mu times the normal force, radius that of the
+contact, displacement the one at which the contact slips as a whole, zeta^2 mu times the approach.
 """
 
 import numpy as np
@@ -62,8 +61,8 @@ def unloading(displacement: ArrayLike, turned_at: ArrayLike) -> Array:
 
     Notes
     -----
-    Slip starts anew at the edge with twice the strength, as the traction there must change its
-    sign: the force falls by 2 f(change/2), with f of `friction`.
+    Slip starts again at the edge. The traction there must change its sign, that is by twice the
+    limit of friction. So the force falls by 2 f(change/2), with f of `friction`.
 
     Examples
     --------

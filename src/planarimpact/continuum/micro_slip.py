@@ -1,17 +1,17 @@
 """Partial slip of Hertz contact by the method of dimensionality reduction (Popov & Hess).
 
-The contact is mapped to a row of independent springs. The spring at radius r carries the normal
-force density (3/4)(d - r^2) and the tangential one (3/4)(u + c), where u is the tangential
-displacement of the body and c what the spring remembers: it stays while the spring sticks, and
-changes when the spring slides, at |u + c| = d - r^2. So c is confined to the cone
+The contact is mapped to a row of independent springs. The spring at radius r has the normal force
+density (3/4)(d - r^2) and the tangential one (3/4)(u + c). Here u is the tangential displacement of
+the body, and c is what the spring remembers: c stays while the spring sticks, and changes when it
+slides, at |u + c| = d - r^2. So c is confined to the cone
 
     d - r^2 >= |u + c|,
 
-whose tip is at r^2 = d, c = -u. Over q = r^2 the cone has edges of slope 1 and -1: as the tip
-moves, what lies outside is brought to the nearer edge, and where contact grows without slip the
-tip itself draws c. After any motion in straight steps c is therefore a chain of straight pieces
-in q, and this module keeps its vertices: the row is not divided into springs, the answer to a
-path in straight steps is exact. Only an outer annulus can slip.
+whose tip is at r^2 = d, c = -u. Over q = r^2 the cone has edges of slope 1 and -1. As the tip
+moves, every c outside the cone is brought to the nearer edge. Where the contact grows without slip,
+the tip itself draws c. After any motion in straight steps c is therefore a chain of straight pieces
+in q. This module keeps the vertices of that chain. The row is not divided into springs, so the
+answer to a path in straight steps is exact. Only an outer annulus can slip.
 
 Units: radius a_max, approach d_max, force its largest normal value (times mu for friction), and
 tangential displacement zeta^2 mu d_max, so that a contact of approach d slips as a whole when
@@ -81,21 +81,24 @@ class SpringRow:
         -------
         ndarray, shape (m,)
         """
+        # The new cone has its tip at c = -u. Vertices inside it stay; those outside have slipped.
         column, top, memory = self._column[which], self._top[which], -displacement
         highest, lowest = radius**2 + memory, memory - radius**2  # of c + q, of c - q
         last = self._last_inside(column, top, highest, lowest)
         slips, gross = last < top, last < 0
         kept = np.maximum(last, 0)
-        left = np.minimum(last + 1, top)  # where slips: the innermost vertex to go
+        left = np.minimum(last + 1, top)  # the innermost vertex outside, if there is one
         r, c, integral = (a[kept, column] for a in (self._radius, self._memory, self._integral))
         edge_r, edge_c = _crossing(
             r, c, self._radius[left, column], self._memory[left, column], highest, lowest
         )
+        # In gross slip no vertex stays: the chain starts anew on the edge of the cone, at r = 0.
         edge_r[gross] = 0.0
         edge_c[gross] = np.clip(c, lowest, highest)[gross]
         edge_r = np.where(slips, np.minimum(edge_r, radius), r)
         edge_c = np.where(slips, edge_c, c)
         integral = np.where(gross, 0.0, integral + _integral(r, c, edge_r, edge_c))
+        # The chain now ends with the point where it meets the edge, and the tip after it.
         edge = np.where(slips, last + 1, last)
         self._put(edge, column, edge_r, edge_c, integral)
         integral = integral + _integral(edge_r, edge_c, radius, memory)
@@ -109,6 +112,8 @@ class SpringRow:
     ) -> Integers:
         """Index of the outermost vertex inside the new cone, -1 for none: inner ones are too."""
         last, active = top.copy(), np.arange(top.size)
+        # Each turn looks at the outermost vertex that is left. A contact leaves the loop when that
+        # vertex is inside the cone, or when none is left. So the loop ends.
         while active.size:
             vertex = last[active], column[active]
             q, c = self._radius[vertex] ** 2, self._memory[vertex]
@@ -128,7 +133,10 @@ class SpringRow:
 def _crossing(
     r: Array, c: Array, outer_r: Array, outer_c: Array, highest: Array, lowest: Array
 ) -> tuple[Array, Array]:
-    """Where the piece from a vertex inside the cone to one outside leaves it: radius and c."""
+    """Where the piece from a vertex inside the cone to one outside leaves it: radius and c.
+
+    `above` and `below` are the shares of the piece up to the upper and to the lower edge.
+    """
     q, outer_q = r * r, outer_r * outer_r
     with np.errstate(divide="ignore", invalid="ignore"):  # where there is no vertex inside
         above = np.maximum(highest - (c + q), 0) / (outer_c + outer_q - (c + q))
@@ -173,8 +181,7 @@ def friction(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, Array]:
     Notes
     -----
     Exact for a path that is straight, in r^2 and displacement, between its points. For a contact
-    pressed down and then pushed sideways it is the closed form of
-    `cattaneo_mindlin`.
+    pressed down and then pushed sideways it is the closed form of `cattaneo_mindlin`.
 
     Examples
     --------

@@ -1,18 +1,23 @@
 """Tangential motion over a Hertz contact: gross slip first, which has a closed form, then steps.
 
-Stoermer-Verlet in equal steps of the phase of `planarimpact.hertz`, with the force of the row of
-springs of `micro_slip`. What is integrated is the difference from how the contact
-starts: with a share g = min(1, x/zeta^2) of the limit of friction everywhere, the displacement is
-g d and the velocity falls by g beta (1 - v). Gross slip is left out exactly, and whether a contact
-close to it slips or sticks is decided by its distance from it, which may be far smaller than the
-error of a step in the motion itself. Arguments have been checked by `planarimpact.continuum`, whose
-units these are: velocity mu |v2(0)|, force mu times the largest normal force, radius a_max.
+The method is Stoermer-Verlet in equal steps of the phase of `planarimpact.hertz`. The force is that
+of the row of springs of `micro_slip`.
+
+A contact starts with a share g = min(1, x/zeta^2) of the limit of friction at every radius. If that
+share stayed, the displacement would be g d, and the velocity would fall by g beta (1 - v). Only the
+difference from this motion is integrated. So gross slip is exact. Close to gross slip the distance
+from it decides whether the contact slips or sticks, and that distance may be far smaller than the
+error of a step in the whole motion.
+
+Arguments have been checked by `planarimpact.continuum`. The units are its own: velocity mu |v2(0)|,
+force mu times the largest normal force, radius a_max.
 """
 
 import numpy as np
 
-from planarimpact import hertz, lumped
+from planarimpact import hertz
 from planarimpact.continuum.micro_slip import SpringRow
+from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array
 
 
@@ -63,7 +68,7 @@ def gross_slip(x: Array, beta: Array, zeta2: Array) -> list[Array]:
     1.0
     """
     end = np.full(1, np.pi)
-    if x[0] < lumped.slip_throughout_limit(beta[0], zeta2[0]):
+    if x[0] < sliding.limit(beta[0], zeta2[0], 1.0):
         end, _ = first_stick(x, beta, zeta2)
     phase = np.linspace(0.0, end[0], 129 if end[0] > 0 else 1)
     friction = np.sin(phase) ** 3 * (x[0] > 0)
@@ -103,9 +108,12 @@ def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
     drag = share * beta
     kick = beta * hertz.PEAK_FORCE * step / 2
     bend = drag - share * zeta2
-    # Velocity less that of the start, displacement less that of the start, and friction wanting.
+    # Differences from the motion with the share g: `excess` of velocity, w - g beta v, `lead` of
+    # displacement, u - g d, and `lack` of friction, which is missing to that share.
     excess, lead, lack = velocity - drag * normal, np.zeros(x.size), np.zeros(x.size)
     for n in range(1, steps + 1):
+        # One step of Stoermer-Verlet: half a kick, a drift by the velocity in the middle, the new
+        # force, half a kick. `early` and `middle` are rates of `lead` by phase, `growth` that of d.
         early = pace * (excess + bend * normal) / zeta2
         growth = pace * normal
         excess = excess + kick * pace * lack
@@ -113,6 +121,7 @@ def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
         _, pace, normal = hertz.state(phase)
         middle = pace * (excess + bend * normal) / zeta2
         rates = (early, growth), (middle, pace * normal)
+        # The row first stops at the place within the step where slip ends, if there is one.
         _turn(row, phase - step / 2, step, share, lead - share * first, rates)
         lead = lead + step * middle
         phase = phase + step / 2
@@ -137,13 +146,15 @@ def _turn(
 ) -> None:
     """Move the row to where slip ends within a step, if it does.
 
-    Slip in the direction g goes on while g u - d grows. Where that has its top is remembered by
-    all that has slipped: to miss it between two steps would cost an error of their square that
-    depends on chance, which no extrapolation takes away. `rates` are those of the lead and of d,
-    by phase, at the start of the step and in its middle.
+    Slip in the direction g stops when g u - d is largest. Every slipped spring remembers that
+    value. A step over it leaves an error that varies irregularly, which extrapolation cannot
+    remove. `rates` are those of the lead and of d, by phase, at the start of the step and in its
+    middle.
     """
     (early, growth_early), (middle, growth_middle) = rates
     for direction in (1, -1):
+        # The rate of g u - d at both ends of the step, as a straight line through its values at the
+        # start and in the middle. Slip ends at the zero of that line, if it falls through zero.
         surplus = direction * share - 1
         at_start = direction * early + surplus * growth_early
         at_end = 2 * (direction * middle + surplus * growth_middle) - at_start

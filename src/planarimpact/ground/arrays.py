@@ -1,8 +1,8 @@
 """Names for the types of arguments and results.
 
-A function that takes ArrayLike returns an array of the broadcast shape. Where all arguments were
-scalars it returns one of numpy's scalars, which has the methods and operators of an array; to a
-type checker it is an array in either case.
+A function that takes ArrayLike returns an array of the broadcast shape. If all arguments are
+scalars, it returns a scalar of NumPy, which has the methods and operators of an array. For a type
+checker both are arrays.
 """
 
 from typing import TypeAlias
@@ -15,5 +15,5 @@ __all__ = ["Array", "ArrayLike", "Booleans", "Integers", "Numbers"]
 Array: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.integer]
 Booleans: TypeAlias = NDArray[np.bool_]
-# In what takes part in formulas unchecked: a number, or an array of them.
+# Arguments of formulas that do not check them: a number, or an array of numbers.
 Numbers: TypeAlias = float | Array

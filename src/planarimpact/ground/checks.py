@@ -3,20 +3,21 @@
 import math
 import reprlib
 from collections.abc import Collection, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
+from planarimpact.ground.arrays import Array, ArrayLike, Integers, Numbers
 
-# Twice as much can still be represented.
+# Largest incidence and mass ratio: twice as much is still a number.
 LARGEST = 8e307
-# Largest count of samples, circles or points: their tables still fit into a memory.
+# Largest count of samples, circles or points: their tables still fit into memory.
 MOST = 10_000_000
 
-# Decorates whatever users call: NumPy's own defaults, so that no answer depends on what the caller
-# has set by np.seterr or np.errstate, and an invalid operation that nobody foresaw still warns.
+# Decorates all functions that users call. With NumPy's defaults no answer depends on what the
+# caller has set by np.seterr or np.errstate, and an unexpected invalid operation still warns.
 default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
 
 _NUMBERS = int, float, np.integer, np.floating
@@ -27,19 +28,39 @@ _BRIEF.maxstring = _BRIEF.maxother = 60
 
 
 class InputError(ValueError):
-    """An argument outside what the model admits; names it, its value and what is allowed."""
+    """An argument that is not allowed. The message names it, its value and what is allowed."""
 
     __module__ = "planarimpact"  # where users find it, and what a traceback shows
 
 
 class ConvergenceError(ArithmeticError):
-    """A numerical method that did not reach what was asked of it; says how far it came."""
+    """A numerical method that did not reach the tolerance. The message says how far it came."""
 
     __module__ = "planarimpact"
 
 
+class Unsolved(ConvergenceError):
+    """Some impacts of many have no answer within the tolerance.
+
+    Attributes
+    ----------
+    impacts : ndarray of int
+        Their indices in the flattened arguments.
+    """
+
+    __module__ = "planarimpact.continuum"
+
+    def __init__(self, message: str, impacts: Integers) -> None:
+        super().__init__(message)
+        self.impacts = impacts
+
+    def __reduce__(self) -> tuple[type["Unsolved"], tuple[str, Integers]]:
+        """Pickle it by its arguments, so that another process can raise it again."""
+        return type(self), (str(self), self.impacts)
+
+
 def brief(value: object) -> str:
-    """What a refusal shows of a value that may be long: its beginning and its end, in one line.
+    """A value for a message, in one line; long values are shortened.
 
     Examples
     --------
@@ -108,7 +129,7 @@ def checked(
     with np.errstate(invalid="ignore", over="ignore", under="ignore"):
         numbers = given.astype(np.float64)
         good = (numbers > low if open_low else numbers >= low) & (numbers <= high)
-    # What became infinite as float64 is not what was given.
+    # A number that is infinite only as float64 was too large.
     good &= np.isfinite(numbers) | (np.isinf(given) & infinite)
     if not good.all():
         index = tuple(int(i) for i in np.argwhere(~good)[0])
@@ -144,6 +165,11 @@ def _has_other(value: object) -> bool:
         unclear = {kind for kind in kinds if kind is bool or not issubclass(kind, _NUMBERS)}
         return bool(unclear) and any(_has_other(x) for x in value if type(x) in unclear)
     return isinstance(value, bool) or getattr(getattr(value, "dtype", None), "kind", "") == "b"
+
+
+finite = partial(checked, allowed="finite numbers")
+not_negative = partial(checked, allowed="finite numbers from 0", low=0)
+positive = partial(checked, allowed="finite numbers above 0", low=0, open_low=True)
 
 
 def incidence(value: ArrayLike) -> Array:

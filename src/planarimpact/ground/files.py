@@ -13,7 +13,7 @@ from types import FrameType
 
 from planarimpact.ground.checks import InputError
 
-# What ends the process, with the handler that it has where nobody has set another.
+# Signals that end the process, each with its default handler.
 SIGNALS = {
     getattr(signal, name): handler
     for name, handler in (
@@ -39,8 +39,8 @@ def written(path: str | Path) -> Iterator[Path]:
     Yields
     ------
     Path
-        An empty file beside it that nobody else has. It outlives neither an error nor Ctrl-C,
-        nor SIGTERM or SIGHUP, which still end the process.
+        An empty file beside it that nobody else has. An error, Ctrl-C, SIGTERM or SIGHUP removes
+        it. The signals still end the process.
 
     Raises
     ------
@@ -87,10 +87,11 @@ class _Ended(BaseException):
 
 @contextmanager
 def _unwound_by_signals() -> Iterator[None]:
-    """Let signals that would end the process at once leave the block as an exception does first.
+    """Make signals that would end the process at once raise an exception in the block first.
 
-    Ctrl-C does so anyway: here that a second one does not interrupt the cleaning after the first.
-    Only those that nobody else handles, and only in the main thread, where Python allows it.
+    Ctrl-C does so anyway; it is among them so that a second one does not interrupt the cleaning
+    after the first. Signals that somebody else handles are left alone. Python allows this in the
+    main thread only.
     """
     main = threading.current_thread() is threading.main_thread()
     numbers = [n for n, handler in SIGNALS.items() if main and signal.getsignal(n) is handler]

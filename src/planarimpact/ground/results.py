@@ -4,6 +4,7 @@ from enum import IntEnum, StrEnum
 from typing import Any, NamedTuple, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planarimpact.ground.arrays import Array, Integers
 
@@ -14,12 +15,12 @@ class Regime(IntEnum):
     The paper's three regimes are STICK_SLIP, SLIP_STICK_SLIP and SLIP_THROUGHOUT. The others
     complete them: a contact that ends in stick (e = 0, or no tangential compliance), and
     MULTIPLE, where stick comes back a second time. A normal impact, x = 0, is STICK. UNRESOLVED
-    is what a law of impulses alone says, and an impact that was given up.
+    means that the order is not known: a law of impulses does not tell it, or the solver gave up.
 
     Examples
     --------
-    >>> Regime(2).name
-    'STICK_SLIP'
+    >>> Regime(2).name, Regime(2).words
+    ('STICK_SLIP', 'stick - slip')
     """
 
     STICK = 0
@@ -29,6 +30,26 @@ class Regime(IntEnum):
     SLIP_THROUGHOUT = 4
     MULTIPLE = 5
     UNRESOLVED = 6
+
+    @property
+    def words(self) -> str:
+        """The regime in the words of the paper, as pictures show it."""
+        if self is Regime.MULTIPLE:
+            return "repeated stick"
+        if self is Regime.SLIP_THROUGHOUT:
+            return "slip throughout"
+        return self.name.lower().replace("_", " - ")
+
+    @classmethod
+    def names(cls, codes: Integers) -> NDArray[np.str_]:
+        """Names of an array of codes.
+
+        Examples
+        --------
+        >>> Regime.names(np.array([2, 4])).tolist()
+        ['STICK_SLIP', 'SLIP_THROUGHOUT']
+        """
+        return np.array(list(cls.__members__))[codes]
 
 
 class Rebound(NamedTuple):
@@ -70,7 +91,7 @@ class Rebound(NamedTuple):
         regime: Integers,
         reversals: Integers | None = None,
     ) -> Self:
-        """Put together what a solver found for |x|, flat, in the shape and sign of `incidence`.
+        """The result for `incidence`, from what a solver found for |x|, in flat arrays.
 
         `impulse` is that of friction, in mu m2 |v2(0)|. Times the mean velocity it is the work:
         Stronge's theorem (the paper's footnote).
@@ -89,7 +110,7 @@ class Rebound(NamedTuple):
         regime: Integers,
         reversals: Integers | None = None,
     ) -> Self:
-        """As `of`, for a solver that knows the dissipation itself, to more digits.
+        """As `of`, for a solver that knows the dissipation to more digits.
 
         `dissipation` is in mu^2 m2 v2(0)^2.
         """

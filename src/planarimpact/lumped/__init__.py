@@ -2,28 +2,21 @@
 
 A linear normal element (stiffness kappa, kappa/e^2 in restitution) and a linear tangential
 element (kappa/zeta^2) join the body to a massless particle that sticks to the surface or slips
-on it with Coulomb friction. `stick_slip` holds the phases,
-`slip_onset` the search for the start of slip, `many_phases` a way past
-thousands of phases.
+on it with Coulomb friction. `stick_slip` holds the phases, `slip_onset` the search for the start of
+slip, `normal` the normal motion, `extremes` what makes groups of any size possible.
 """
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Integers, Numbers
+from planarimpact.ground import checks, sliding
+from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 from planarimpact.ground.results import Event, EventKind, History, Rebound
 from planarimpact.lumped import normal, stick_slip
+from planarimpact.lumped.extremes import scaling
+from planarimpact.lumped.stick_slip import Impacts
 
 # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
 CHUNK = 16384
-# Velocities scale with x, beta and zeta^2 together: sums of large ones must not overflow.
-LARGE, SHRINK = 1e300, 2.0**-40
-# Far below zeta^2 and sqrt(beta zeta^2) forces and velocity are proportional to the incidence:
-# a small one is lifted, lest the forces lose digits to underflow.
-SMALL, LINEAR, LIFT = 1e-100, 1e-20, 2.0**200
-# Stiffness ratios below this times beta count as this, lest squares of angles underflow: in stick
-# the velocity, of at most sqrt(beta zeta^2), is 0 to 1e-140 of beta.
-LEAST_STIFFNESS = 1e-280
 
 
 @checks.default_errors
@@ -60,14 +53,13 @@ def rebound(
 
     Notes
     -----
-    Velocity, peak friction and dissipation are within a hundred times what rounding of the four
-    arguments does to them, in every regime, thresholds included; excepted is a dissipation below
-    1e-16 of the energy, where T and N fall together (zeta^2 next to beta, e = 1). The time does
-    not depend on the number of phases, which grows as omega/Omega: see
-    `many_phases`.
-    Stronge's printed equations differ in two places: the limit of slip throughout (see
-    `slip_throughout_limit`) and the direction of the last slip, which at small e is the
-    incident one.
+    The errors of velocity, peak friction and dissipation are at most a hundred times the effect of
+    rounding the four arguments. This holds in every regime, and at the thresholds. The exception is
+    a dissipation below 1e-16 of the energy, where T and N fall together (zeta^2 next to beta,
+    e = 1). The time does not depend on the number of phases, which grows as omega/Omega: see
+    `extremes.many_phases`. Stronge's printed equations differ in two places: the limit of slip
+    throughout (see `slip_throughout_limit`) and the direction of the last slip, which at small e is
+    the incident one.
 
     Examples
     --------
@@ -84,30 +76,9 @@ def rebound(
     regime = np.empty(x.size, np.uint8)
     for start in range(0, x.size, CHUNK):
         part = slice(start, start + CHUNK)
-        outcome = _outcome(*(group[part] for group in groups))
+        outcome = scaling.solve(Impacts(*(group[part] for group in groups)))
         velocity[part], peak[part], work[part], regime[part] = outcome
     return Rebound.shaped(x, velocity, peak, work, regime)
-
-
-def _outcome(x: Array, beta: Array, zeta2: Array, e: Array) -> tuple[Array, Array, Array, Integers]:
-    """Outcome of impacts x >= 0 of any size; arrays of shape (n,)."""
-    largest = max(x.max(), beta.max(), zeta2.max())
-    ordinary = x.min() >= SMALL and largest <= LARGE
-    if ordinary and zeta2.min() >= LEAST_STIFFNESS * beta.max():
-        return stick_slip.solve(stick_slip.Impacts(x, beta, zeta2, e))
-    scale = _scale(x, beta, zeta2)
-    x, beta, zeta2 = scale * x, scale * beta, scale * zeta2
-    zeta2 = np.maximum(zeta2, LEAST_STIFFNESS * beta)
-    bound = LINEAR * np.minimum(zeta2, np.sqrt(beta) * np.sqrt(zeta2))
-    linear = (x < SMALL) & (LIFT * np.minimum(x, SMALL) < bound)
-    lift = np.where(linear, LIFT, 1.0)
-    velocity, peak, work, regime = stick_slip.solve(stick_slip.Impacts(lift * x, beta, zeta2, e))
-    return velocity / (scale * lift), peak / lift, work / lift / (scale * lift), regime
-
-
-def _scale(x: Array, beta: Array, zeta2: Array) -> Array:
-    """What to multiply x, beta and zeta^2 by, and all velocities with them."""
-    return np.where(np.maximum(np.maximum(x, beta), zeta2) > LARGE, SHRINK, 1.0)
 
 
 @checks.default_errors
@@ -116,9 +87,9 @@ def slip_throughout_limit(
 ) -> Array:
     """Smallest incidence that slides through the whole contact; all arguments broadcast.
 
-    x = beta + max(0, e beta - zeta^2/e), or zeta^2 where that is larger. The paper prints
-    (1 + e) beta (heading of Eq. 26), but its own condition for the end of the first slip,
-    Eq. 21, has no root above the value given here.
+    x = beta + max(0, e beta - zeta^2/e), or zeta^2 where that is larger; `ground.sliding` derives
+    it. The paper prints (1 + e) beta (heading of Eq. 26), but its own condition for the end of the
+    first slip, Eq. 21, has no root above the value given here.
 
     Parameters
     ----------
@@ -141,7 +112,7 @@ def slip_throughout_limit(
     5.79
     """
     _, *groups = checks.impact(0.0, mass_ratio, stiffness_ratio, restitution)
-    return stick_slip.slip_throughout_limit(*groups)[()]
+    return sliding.limit(*groups)[()]
 
 
 @checks.default_errors
@@ -213,8 +184,8 @@ def friction_work(
 ) -> float:
     """Work of friction, integrated over the phases of slip: |F1| times the slip velocity.
 
-    A second way to `rebound(...).dissipation`, which comes from the balance of energy; the two
-    differ by what the tangential spring loses when e = 0.
+    This checks `rebound(...).dissipation`, which comes from the balance of energy. The two differ
+    by what the tangential spring loses when e = 0.
 
     Parameters
     ----------
@@ -265,13 +236,12 @@ def _phases(
     checked = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     if checked[0].ndim:
         raise checks.InputError(f"shape = {checked[0].shape}: one contact takes scalars")
-    x, beta, zeta2, e = (a.reshape(1) for a in checked)
-    scale = _scale(x, beta, zeta2)
+    x, *groups = (a.reshape(1) for a in checked)
     mirror = float(np.copysign(1.0, x[0]))
-    x, beta, zeta2 = scale * x, scale * beta, scale * zeta2
-    zeta2 = np.maximum(zeta2, LEAST_STIFFNESS * beta)
+    impacts, scale = scaling.shrunk(Impacts(np.abs(x), *groups))
+    _, beta, zeta2, e = impacts
     trace: list[stick_slip.Phase] = []
-    stick_slip.solve(stick_slip.Impacts(np.abs(x), beta, zeta2, e), trace)
+    stick_slip.solve(impacts, trace)
     if e[0] == 0:  # separation at maximum compression
         trace = [phase for phase in trace if not phase.in_restitution]
     trace = [stick_slip.Phase._make(np.ravel(field)[0] for field in phase) for phase in trace]
@@ -281,8 +251,8 @@ def _phases(
         for phase, after in zip(trace, trace[1:], strict=False)
     ]
     ends.append(0.0 if trace[-1].in_restitution else np.pi / 2)
-    groups = float(beta[0]), float(zeta2[0]), float(e[0])
-    return mirror, float(scale[0]), groups, list(zip(trace, ends, strict=True))
+    ratios = float(beta[0]), float(zeta2[0]), float(e[0])
+    return mirror, float(scale[0]), ratios, list(zip(trace, ends, strict=True))
 
 
 def _angle(time: Array, e: float, in_restitution: bool) -> Array:

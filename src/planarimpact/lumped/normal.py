@@ -1,9 +1,9 @@
 """Normal motion: compression and restitution of the linear normal element (Table 1).
 
-Each half is measured by one angle `eta` in [0, pi/2] that vanishes with the force. In
-compression eta = Omega t grows from 0; in restitution eta = Omega (tf - t)/e falls to 0. So the
-force is sin(eta) in both, and nothing is lost to rounding near separation, where both contact
-forces vanish. Units: force m2 Omega |v2(0)|, impulse m2 |v2(0)|, time t_c.
+Both halves have one angle `eta` from 0 to pi/2, which vanishes with the force. In compression eta =
+Omega t grows from 0; in restitution eta = Omega (tf - t)/e falls to 0. So the force is sin(eta) in
+both, and no digits are lost near separation, where both contact forces vanish. Units: force m2
+Omega |v2(0)|, impulse m2 |v2(0)|, time t_c.
 """
 
 import numpy as np

@@ -15,32 +15,20 @@ The root is searched only where it is alone:
 
 import numpy as np
 
+from planarimpact.ground.angles import HALF_PI, sin_cos
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.checks import ConvergenceError
 
-HALF_PI = np.pi / 2
-# The root finder is cubic: after a step of this share of the bracket the root is at rounding.
+# The root finder is cubic: after a step below this share of the bracket, the root is exact to
+# rounding.
 LAST_STEP = 1e-6
-# After some turns every other one halves the bracket: 40 halvings leave LAST_STEP^2 of it.
+# After FREE_TURNS turns every other turn halves the bracket: 40 halvings leave LAST_STEP^2 of it.
 FREE_TURNS = 8
 MOST_TURNS = 100
-# Distance of subnormal neighbours, between which there is nothing left to halve.
+# The distance of two subnormal neighbours: there is no number left between them.
 SMALLEST = float(np.finfo(float).smallest_subnormal)
-# Beyond it rounding leaves the phase of an oscillation open.
+# Above this phase of an oscillation rounding hides the place within its period.
 LARGEST_PHASE = 1e15
-
-
-def sin_cos(angle: Array) -> tuple[Array, Array]:
-    """Sine and cosine from one tangent, the cheapest function of the three.
-
-    Examples
-    --------
-    >>> [round(float(value), 12) for value in sin_cos(np.pi / 6)]
-    [0.5, 0.866025403784]
-    """
-    tangent = np.tan(angle / 2)
-    double = 2 / (1 + tangent * tangent)
-    return tangent * double, double - 1
 
 
 def in_restitution(
@@ -60,33 +48,37 @@ def in_restitution(
     wave : ndarray
         Number of the half-wave: T has the sign of sin(theta) = (-1)^wave.
     """
+    # No slip starts while N exceeds the largest |T|: go on at once to where N has fallen to it.
     rate = np.maximum(rate, np.finfo(float).tiny)
     fast = rate > 1
     highest = amplitude
     slow = np.flatnonzero(~fast)
     if slow.size:
         end = theta[slow] + rate[slow] * eta[slow]
-        highest = amplitude.copy()  # T that still rises at the end stays below A, perhaps far
+        highest = amplitude.copy()  # a T that still rises at separation stays below A
         highest[slow] *= np.sin(np.minimum(end, HALF_PI))
-    reached = np.minimum(eta, np.arcsin(np.minimum(highest, 1.0)))  # no slip before
+    reached = np.minimum(eta, np.arcsin(np.minimum(highest, 1.0)))
     theta_reached = theta + rate * (eta - reached)
-    if theta_reached.max() > LARGEST_PHASE:
+    if theta_reached.max() > LARGEST_PHASE:  # any place within the period is as good
         lost = theta_reached > LARGEST_PHASE
         theta_reached = np.where(lost, 2 * np.pi + theta_reached % (2 * np.pi), theta_reached)
+    # The half-wave of the onset: this one, unless |T|/N falls here already (`passed`).
     wave = np.floor(theta_reached / np.pi)
     rho = theta_reached - wave * np.pi
     (force, fall), (friction, swing) = sin_cos(reached), sin_cos(rho)
     falling = rate * swing * force + friction * fall <= 0
     passed = (wave == 0) | (falling & (rho > HALF_PI))
+    # Where |T| falls but |T|/N still rises, the two must be followed to see whether they meet.
     dip = np.flatnonzero(fast & ~passed & (rho > HALF_PI))
     if dip.size:
         met, reach = _reach_behind_crest(reached[dip], rho[dip], amplitude[dip], rate[dip])
         passed[dip] = ~met
     wave = wave + passed
-    if slow.size:  # one crossing, in the half-wave in which stick would end
+    if slow.size:  # there is one crossing, in the half-wave in which stick would end
         end = theta_reached[slow] + rate[slow] * reached[slow]
         wave[slow] = np.maximum(wave[slow] - passed[slow], np.ceil(end / np.pi) - 1)
 
+    # For rate > 1 the crossing lies before the crest of that half-wave, where |T| = A exceeds N.
     start = np.maximum(theta_reached, wave * np.pi)
     eta = np.maximum(reached - (start - theta_reached) / rate, 0.0)
     rho = start - wave * np.pi
@@ -99,33 +91,38 @@ def in_restitution(
 
 
 def _crossing(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array) -> Array:
-    """Single zero in [0, widest] of sin(eta - a) - amplitude sin(rho + rate a), guarded."""
+    """The one zero a in [0, widest] of N - |T| = sin(eta - a) - amplitude sin(rho + rate a)."""
     advance = np.zeros_like(eta)
     last_step = LAST_STEP * widest
-    # The root may lie at the very end, where rounding puts it beyond.
+    # The bracket is a little wider: rounding may put a root at the very end beyond it.
     lane, low, high, trial = np.arange(eta.size), advance, widest + last_step, advance
     for turn in range(MOST_TURNS):
+        # A turn evaluates N - |T| and its slope at the trial, moves one end of the bracket there,
+        # and takes the next trial. It ends for a contact (a lane) when its step is small enough.
         before = trial
         force, fall = sin_cos(eta - before)
         friction, swing = sin_cos(rho + rate * before)
         friction, swing = friction * amplitude, swing * amplitude * rate
         excess, descent = force - friction, fall + swing
         above = excess > 0
-        if turn == 0:  # while N - |T| grows, what lies below zero is rounding
+        if turn == 0:  # while N - |T| grows the root is ahead: a negative value is rounding
             above |= descent < 0
         low, high = np.where(above, before, low), np.where(above, high, before)
-        # The nearer root of the Taylor parabola; good also where the descent vanishes.
+        # The nearer root of the Taylor parabola. It exists also where the slope vanishes.
         root = descent * descent - 2 * excess * (rate * rate * friction - force)
         with np.errstate(divide="ignore", invalid="ignore"):
             trial = before + 2 * excess / (descent + np.sqrt(np.maximum(root, 0.0)))
         inside = (trial >= low) & (trial <= high)
-        if turn >= FREE_TURNS and turn % 2:  # halve: rounding can throw `trial` to and fro
+        # Halve the bracket instead if the trial lies outside, and in every other late turn:
+        # rounding can throw the trial to and fro. The halvings end the loop in any case.
+        if turn >= FREE_TURNS and turn % 2:
             inside[:] = False
         trial = np.where(inside, trial, (low + high) / 2)
         moving = ~inside | (np.abs(trial - before) > last_step)
         moving &= high - low > np.maximum(LAST_STEP * last_step, SMALLEST)
         if moving.all():
             continue
+        # Lanes that are done keep this trial, and leave the arrays.
         advance[lane] = trial
         lane = lane[moving]
         if not lane.size:
@@ -140,15 +137,15 @@ def _reach_behind_crest(
 ) -> tuple[Booleans, Array]:
     """Whether a falling |T| whose ratio to N still rises meets N in this half-wave, and by when.
 
-    The ratio rises while turn = |T|'N - |T|N' > 0. If the contact ends before the half-wave, that
-    is to the end, where N vanishes alone. If not, the turn has one zero. Behind the crest of |T|
-    it falls and is convex, so Newton's iterates approach that zero from before, and the first one
-    with N <= |T| bounds the onset. They end at the rounding of `theta`, which for rate > 1 and a
-    half-wave that ends is the coarser of the two angles.
+    The ratio rises while turn = |T|'N - |T|N' > 0. If the contact ends before the half-wave does,
+    the ratio rises to the end, where N alone vanishes: they meet. Otherwise the turn has one zero.
+    Behind the crest of |T| the turn falls and is convex. So Newton's iterates approach its zero
+    from the left, and the first iterate with N <= |T| lies behind the onset. The iteration ends at
+    the rounding of `theta`. For rate > 1 and a half-wave that ends, `theta` is the coarser angle.
 
-    Where the half-wave ends just before the contact, the turn is the cube of the time to go but
-    for a constant: a step then still takes a third of that time, and the constant or rounding of
-    the turn ends the search long before `MOST_TURNS`.
+    If the half-wave ends just before the contact does, the turn is a constant plus the cube of the
+    time to go. A step then still takes a third of that time. The constant, or rounding of the turn,
+    ends the search long before `MOST_TURNS`.
     """
     met, reach = rate * eta <= np.pi - rho, eta.copy()
     open_ = np.flatnonzero(~met)
@@ -157,6 +154,8 @@ def _reach_behind_crest(
     eta, rho, amplitude, rate = eta[open_], rho[open_], amplitude[open_], rate[open_]
     theta = rho
     for _ in range(MOST_TURNS):
+        # One Newton step towards the zero of the turn, for lanes that have not met N and whose
+        # ratio still rises. `theta` never falls, so the loop ends when no lane moves.
         advance = (theta - rho) / rate
         force, fall = sin_cos(eta - advance)
         friction, swing = sin_cos(theta)
@@ -179,9 +178,9 @@ def _lost(lanes: Array | Integers) -> ConvergenceError:
 def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
     """First eta > 0 with x/(zeta^2 rate) sin(rate eta) = sin(eta), for rate < 1.
 
-    The caller knows that T exceeds N at maximum compression. With u = eta^2, (T - N)/eta is
-    increasing and concave in u, so Newton's iterates from the left rise to the root; the first
-    that does not is at the rounding of u, or of T - N where they are close all along.
+    T must exceed N at maximum compression. With u = eta^2, (T - N)/eta is increasing and concave in
+    u. So Newton's iterates that start left of the root rise to it. The first iterate that does not
+    rise has reached the rounding of u, or of T - N where T and N are close all along.
 
     Parameters
     ----------
@@ -202,6 +201,7 @@ def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
     amplitude, ratio = x / (zeta2 * rate), x / zeta2
     u = np.minimum(6 * (1 - ratio) / (1 - ratio * rate * rate), HALF_PI**2)
     for _ in range(MOST_TURNS):
+        # One Newton step in u, which never falls: the loop ends when no u rises any more.
         eta = np.sqrt(u)
         (friction, swing), (force, fall) = sin_cos(rate * eta), sin_cos(eta)
         excess = amplitude * friction - force

@@ -22,16 +22,17 @@ from typing import NamedTuple
 
 import numpy as np
 
+from planarimpact.ground import sliding
+from planarimpact.ground.angles import HALF_PI, sin_cos
 from planarimpact.ground.arrays import Array, Integers, Numbers
 from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import Regime
 from planarimpact.lumped import normal, slip_onset
 from planarimpact.lumped.extremes import many_phases
-from planarimpact.lumped.slip_onset import HALF_PI, sin_cos
 
-# Impacts that still alternate after so many sticks go on by `many_phases`.
+# An impact that still alternates after this many sticks may skip the rest by `many_phases`.
 STICKS_BEFORE_SKIP = 16
-# A trace of more would take minutes.
+# A trace of more phases would take minutes.
 MOST_TRACED = 100_000
 
 
@@ -86,21 +87,6 @@ class Phase(NamedTuple):
     theta: Numbers = 0.0
 
 
-def restick_coefficient(beta: Array, zeta2: Array, e: Array) -> Array:
-    """K = e beta - zeta^2/e where positive, else 0.
-
-    Slip in restitution has the velocity C - K cos(eta), C constant; it can end only if K > 0.
-    """
-    excess = e * (e * beta) - zeta2
-    fast = excess > 0
-    return np.where(fast, excess, 0.0) / np.where(fast, e, 1.0)
-
-
-def slip_throughout_limit(beta: Array, zeta2: Array, e: Array) -> Array:
-    """Incidence from which slip never ends."""
-    return np.maximum(zeta2, beta + restick_coefficient(beta, zeta2, e))
-
-
 def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
     """Outcome of impacts.
 
@@ -126,11 +112,13 @@ def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
     (1.0, 9.0)
     """
     x, beta, zeta2, e = impacts
-    impulse = 1 + e
-    change = impulse * beta
-    regime = np.full(x.shape, Regime.SLIP_THROUGHOUT, np.uint8)
-    outcome = Outcome(x - change, np.ones_like(x), impulse * (x - change / 2), regime)
-    sticks = x < slip_throughout_limit(beta, zeta2, e)
+    outcome = Outcome(
+        sliding.velocity(x, beta, e),
+        np.ones_like(x),
+        sliding.work(x, beta, e),
+        np.full(x.shape, Regime.SLIP_THROUGHOUT, np.uint8),
+    )
+    sticks = x < sliding.limit(beta, zeta2, e)
     slips_to_restitution = (x > beta) & (x > zeta2)
     early = np.flatnonzero(sticks & ~slips_to_restitution)
     late = np.flatnonzero(sticks & slips_to_restitution)
@@ -143,7 +131,7 @@ def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
         outcome.regime[late] = Regime.SLIP_STICK
         stick = _after_late_slip(late, impacts.take(late), outcome)
         _alternate(stick, impacts, outcome, trace)
-    # Rounding creates no energy.
+    # Rounding must not create energy.
     np.minimum(np.maximum(outcome.velocity, -x), x, out=outcome.velocity)
     np.maximum(outcome.dissipation, 0.0, out=outcome.dissipation)
     return outcome
@@ -170,7 +158,7 @@ def state(phase: Phase, eta: Array, beta: float, zeta2: float, e: float) -> tupl
 def _tangent(slope: Array, gap: Array, rate: Array) -> tuple[Array, Array, Array]:
     """Stick that starts with T = N and T' = N' = slope: amplitude, theta and eta there.
 
-    `gap` is 1 - |slope|, free of cancellation.
+    `gap` is 1 - |slope|, which the caller computes without cancellation.
     """
     force = np.sqrt(gap * (1 + np.abs(slope)))
     eta = np.arctan2(force, np.abs(slope))
@@ -182,12 +170,14 @@ def _from_compression(
 ) -> Stick:
     """Stick from the start, or after slip in compression, up to maximum compression.
 
-    Fills the outcome of contacts that end there or slip on; the others are returned.
+    Contacts that end there, or slip before and to the end, get their outcome. The others are
+    returned: they stick on in restitution.
     """
     x, beta, zeta2, e = impacts
     omega = np.sqrt(beta / zeta2)
     slips_first = x > zeta2
-    # Initial stick is tangent in the same way, with no force and T/N = x/zeta^2.
+    # Stick after slip starts with T = N and T' = N' = slope. Initial stick starts with no force and
+    # T/N = x/zeta^2, and has the same form with that slope.
     reach = np.where(slips_first, beta - zeta2, zeta2)
     slope = np.where(slips_first, beta - x, x) / reach
     gap = np.where(slips_first, x - zeta2, 0.0) / reach
@@ -208,7 +198,7 @@ def _from_compression(
         where = np.flatnonzero(broken)
         _break_in_compression(lanes[where], impacts.take(where), outcome, trace)
     last = (e == 0) | (x == 0)
-    left = np.flatnonzero(last & ~broken)  # these lose the strain energy at separation
+    left = np.flatnonzero(last & ~broken)  # they lose the strain energy of stick at separation
     outcome.dissipation[lanes[left]] += zeta2[left] * friction[left] * friction[left] / 2
     if trace is not None and last[0] and not broken[0]:
         trace.append(Phase(True, True, HALF_PI, 1.0, 0.0, amplitude, theta))
@@ -241,7 +231,7 @@ def _break_in_compression(
 def _after_late_slip(lanes: Integers, impacts: Impacts, outcome: Outcome) -> Stick:
     """Stick after a first slip that ended in restitution, at cos(eta) = (x - beta)/K."""
     x, beta, zeta2, e = impacts
-    reach = restick_coefficient(beta, zeta2, e)
+    reach = sliding.restick_coefficient(beta, zeta2, e)
     slope, gap = (beta - x) / reach, (reach + (beta - x)) / reach
     work = x - zeta2 + (x - beta) + e * (beta - x) * slope
     outcome.dissipation[lanes] = work / 2
@@ -250,7 +240,12 @@ def _after_late_slip(lanes: Integers, impacts: Impacts, outcome: Outcome) -> Sti
 
 
 def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None) -> None:
-    """Slip and stick in turn until every impact slides to separation; adds to the outcome."""
+    """Slip and stick in turn until every impact slides to separation; adds to the outcome.
+
+    Each turn of the loop takes a stick to its end, and the slip after it. Impacts whose slip lasts
+    to separation leave. The loop ends since each stick takes half a wave of T, and a contact has
+    room for `_most_sticks` of them.
+    """
     count = 0
     while stick.lanes.size:
         if count == STICKS_BEFORE_SKIP:
@@ -263,6 +258,7 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
             most = _most_sticks(rate)
         if count == most:
             raise ConvergenceError(f"{lanes.size} impacts stick more often than they can")
+        # The end of stick. If slip now lasts to separation, it ends with the velocity `final`.
         eta, rho, wave = slip_onset.in_restitution(stick.eta, stick.theta, amplitude, rate)
         side = np.where(wave % 2 == 0, stick.side, -stick.side)
         onset = omega * zeta2 * amplitude * np.cos(rho)  # in the direction of slip
@@ -272,20 +268,21 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
         if trace is not None:
             trace.append(Phase(True, True, stick.eta, stick.side, 0.0, amplitude, stick.theta))
             trace.append(Phase(False, True, eta, side, side * onset))
-        if count == 0:
+        if count == 0:  # N falls: no later stick or slip has more friction
             rising = (wave == 0) & (rho < HALF_PI)
             crest = np.where(rising, normal.force(eta), amplitude)
             slid = stick.eta < HALF_PI  # slip went through maximum compression, where N = 1
             outcome.peak_friction[lanes] = np.where(slid, 1.0, crest)
             outcome.regime[lanes] += np.uint8(Regime.STICK_SLIP - Regime.STICK)
-        # e times the slip velocity here and at separation. Where it would turn round, slip ends.
+        # e times the slip velocity here and at separation. It falls all the way if rate > 1: where
+        # it would be negative at separation, slip ends before and stick comes again.
         here, there = e * onset + zeta2 * (1 - ahead), e * final + zeta2
         work = ahead * (here + there)
         again = np.flatnonzero((rate > 1) & (there < 0))
         excess = e[again] * (e[again] * beta[again]) - zeta2[again]
         work[again] = here[again] * (here[again] / excess)
         outcome.dissipation[lanes] += work / 2
-        # That slip ends at cos(eta) = 1 - gap.
+        # The slip of these impacts ends at cos(eta) = 1 - gap; their next stick starts there.
         gap = -there[again] / excess
         amplitude, theta, eta = _tangent(gap - 1, gap, rate[again])
         stick = Stick(lanes[again], eta, theta, amplitude, side[again])
@@ -294,12 +291,16 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
 
 
 def _most_sticks(rate: Array) -> int:
-    """Each stick in restitution has a half-wave of T of its own, a part of it at the ends."""
+    """Most sticks in restitution: one for each half-wave of T, parts of them at both ends too."""
     return int(rate.max()) + 3
 
 
 def _skip(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None) -> None:
-    """Move sticks that have far to go close to separation; adds the work of slip on the way."""
+    """Move sticks that have far to go close to separation; adds the work of slip on the way.
+
+    `many_phases` gives the angle at which a later stick starts, and how many half-waves lie
+    between. The work is the tangential energy that is lost between the two starts of stick.
+    """
     beta, zeta2, e = (field[stick.lanes] for field in impacts[1:])
     rate = e * np.sqrt(beta / zeta2)
     far = np.flatnonzero(many_phases.worth_skipping(stick.eta, rate))

@@ -1,9 +1,8 @@
-"""The ladder of models, from one formula to the elastic continuum, under one calling convention.
+"""Every model by its name, from one formula to the elastic continuum, with the same arguments.
 
-Every rung is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)`,
-the four groups by position or name, its own settings by name, and returns a `Rebound`. What a
-rung costs and how far it is off is measured by the workflow (`results/trade.csv`), not promised
-here.
+Each model is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)`,
+the four groups by position or name and its own settings by name. It returns a `Rebound`. The
+workflow measures what each model costs and how large its error is (`results/trade.csv`).
 """
 
 from collections.abc import Callable, Mapping
@@ -13,14 +12,14 @@ import numpy as np
 
 from planarimpact import continuum, lumped, rigid
 from planarimpact.continuum import annuli
-from planarimpact.ground import checks
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import Rebound
 from planarimpact.models import laws, timestep
 
 
 class Model(NamedTuple):
-    """One rung.
+    """One model.
 
     Attributes
     ----------
@@ -29,10 +28,10 @@ class Model(NamedTuple):
     rebound : callable
         Its solver.
     settings : dict
-        Its own settings and their defaults: what its accuracy and cost depend on.
+        Its own settings and their defaults. Its accuracy and cost depend on them.
     cost : str
         Class of cost: "formula", "phases" (a few phases in closed form), "steps", or "steps and
-        circles"; the last two grow with their settings.
+        circles". The last two grow with the settings.
     restitution : (float, float)
         Range of restitution that it admits.
     valid : str
@@ -41,8 +40,8 @@ class Model(NamedTuple):
         Where it comes from.
     sliding_limit : callable or None
         Incidence from which it slides throughout, w = x - (1 + e) beta, as a function of mass
-        ratio, stiffness ratio, restitution (numbers) and settings; None where it never does so
-        exactly.
+        ratio, stiffness ratio, restitution (numbers) and settings. None if it never has that
+        velocity exactly.
     kinks : callable
         Incidences, by the same arguments, where its answer is known to bend; there may be more.
     """
@@ -82,8 +81,8 @@ def get(name: str) -> Model:
     >>> get("magic")
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, \
-laws.bilbao, lumped, timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, annuli
+    planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, lumped, \
+timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, annuli
     """
     if not isinstance(name, str) or name not in MODELS:
         raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
@@ -105,9 +104,9 @@ def rebound(
     model : str
         One of `MODELS`.
     incidence, mass_ratio, stiffness_ratio, restitution : array_like
-        The four groups; they broadcast.
+        As in `planarimpact.lumped.rebound`.
     **settings
-        Those of the model; what is left out has its default.
+        Those of the model. Settings that are left out have their defaults.
 
     Returns
     -------
@@ -157,8 +156,8 @@ def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
 
 
 def _all_impulse(beta: float, zeta2: float, e: float, **settings: float) -> float:
-    """All of the normal impulse turns into friction: that of a contact without compliance."""
-    return (1 + e) * beta
+    """Limit of a contact without compliance: friction takes all of the normal impulse."""
+    return sliding.change(beta, e)
 
 
 def _brach_limit(
@@ -167,7 +166,7 @@ def _brach_limit(
     e: float,
     tangential_restitution: float = laws.BRACH_TANGENTIAL_RESTITUTION,
 ) -> float:
-    return (1 + e) * beta / (1 + tangential_restitution)
+    return sliding.change(beta, e) / (1 + tangential_restitution)
 
 
 def _compliant_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
@@ -178,12 +177,8 @@ def _compliant_kinks(beta: float, zeta2: float, e: float, **settings: float) -> 
     return zeta2, beta, _compliant_limit(beta, zeta2, e)
 
 
-def _no_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
-    return ()
-
-
 def _rigid_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
-    return beta, (1 + e) * beta
+    return beta, sliding.change(beta, e)
 
 
 def _limit_alone(limit: Callable[..., float]) -> Callable[..., tuple[float, ...]]:
@@ -230,17 +225,6 @@ MODELS = {
             "(1989) 133-138",
             _brach_limit,
             _limit_alone(_brach_limit),
-        ),
-        Model(
-            "laws.bilbao",
-            laws.bilbao,
-            {"tangential_restitution": laws.BILBAO_TANGENTIAL_RESTITUTION},
-            "formula",
-            _ANY,
-            _IMPULSES + "; an exponential with a constant to be fitted, our reconstruction",
-            "Bilbao et al. 1989, cited by Stronge 1994 without its formula",
-            None,
-            _no_kinks,
         ),
         Model(
             "lumped",
@@ -316,9 +300,9 @@ MODELS = {
 def reference(restitution: ArrayLike) -> str:
     """Name of the model that others are measured against at a restitution.
 
-    The continuum where the contact is elastic. There is none with hysteresis here, so for e < 1
-    it is the lumped model; how far that is from the continuum at e = 1,
-    `planarimpact.scene.gaps.elastic` tells: 0.21 for a solid sphere of Poisson's ratio 0.3.
+    It is the continuum where the contact is elastic. There is no continuum with hysteresis here, so
+    for e < 1 it is the lumped model. At e = 1 `planarimpact.scene.gaps.elastic` tells how far the
+    two are apart: 0.21 for a solid sphere of Poisson's ratio 0.3.
 
     Parameters
     ----------

@@ -1,23 +1,21 @@
 """Laws of impulses: velocity at separation without a history of the contact.
 
-Each law gives the tangential impulse as a function of the incidence alone, right where the contact
-slides throughout and by assumption below. None knows the tangential stiffness, so none can follow
-the curve between both ends. What happens during contact they leave open: there is no peak friction
-and no order of stick and slip, except in sliding throughout. Units as in `planarimpact.lumped`;
-B = (1 + e) beta is the change of velocity of a contact that slides throughout.
+Each law gives the tangential impulse as a function of the incidence alone. Where the contact slides
+throughout it is right, below that it is an assumption. No law knows the tangential stiffness, so
+none can follow the curve between both ends. No law tells what happens during contact: there is no
+peak friction and no order of stick and slip, except in slip throughout. Units as in
+`planarimpact.lumped`; B = (1 + e) beta is the change of velocity in slip throughout.
 """
 
 import numpy as np
 
-from planarimpact.ground import checks
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans
 from planarimpact.ground.results import Rebound, Regime
 
 # Least squares of velocity against `planarimpact.continuum.rebound` at beta = 3.5, zeta^2 = 17/14
 # (Poisson's ratio 0.3), x = 0, 0.05 ... 8, among numbers from 0 to 1, rounded to two digits.
 BRACH_TANGENTIAL_RESTITUTION = 0.40
-# The fit runs into its bound: towards sliding the exponential has far too little friction.
-BILBAO_TANGENTIAL_RESTITUTION = 1.00
 
 
 @checks.default_errors
@@ -33,14 +31,9 @@ def brach(
 
     Parameters
     ----------
-    incidence : array_like
-        x = v1(0)/(mu v2(0)); any finite number, negative for the mirror image.
-    mass_ratio : array_like
-        beta = m2/m1 >= 1.
-    stiffness_ratio : array_like
-        zeta^2 > 0; it plays no part and is there for the sake of one calling convention.
-    restitution : array_like
-        Energetic coefficient e, 0 to 1.
+    incidence, mass_ratio, stiffness_ratio, restitution : array_like
+        As in `planarimpact.lumped.rebound`. The stiffness ratio has no effect: all models have the
+        same arguments.
     tangential_restitution : array_like
         b, 0 to 1: the share of the tangential velocity that comes back, reversed. The default is
         the best for solid elastic spheres of Poisson's ratio 0.3.
@@ -71,7 +64,7 @@ def brach(
         tangential_restitution, incidence, mass_ratio, stiffness_ratio, restitution
     )
     x, beta, e, b = (a.reshape(-1) for a in (np.abs(signed), beta, e, b))
-    change = _sliding_change(beta, e)
+    change = sliding.change(beta, e)
     slides = x >= change / (1 + b)
     velocity = np.where(slides, x - change, -b * x)
     return _rebound(signed, velocity, beta, e, slides)
@@ -120,67 +113,12 @@ def smith(
     """
     signed, beta, _, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     x, beta, e = (a.reshape(-1) for a in (np.abs(signed), beta, e))
-    change = _sliding_change(beta, e)
+    change = sliding.change(beta, e)
     slides = x >= change
     s = np.minimum(x / change, 1.0)
     reversed_part = 2 * (1 - s) / (1 + np.sqrt(1 + 4 * s * (1 - s)))
     velocity = np.where(slides, x - change, -reversed_part * x)
     return _rebound(signed, velocity, beta, e, slides)
-
-
-@checks.default_errors
-def bilbao(
-    incidence: ArrayLike,
-    mass_ratio: ArrayLike = 3.5,
-    stiffness_ratio: ArrayLike = 1.21,
-    restitution: ArrayLike = 1.0,
-    *,
-    tangential_restitution: ArrayLike = BILBAO_TANGENTIAL_RESTITUTION,
-) -> Rebound:
-    """Velocity ratio by an exponential of the reciprocal incidence: a reconstruction.
-
-    Parameters
-    ----------
-    incidence, mass_ratio, stiffness_ratio, restitution : array_like
-        As in `brach`.
-    tangential_restitution : array_like
-        b, 0 to 1: the share of the tangential velocity that comes back, reversed, where the
-        incidence is small. The default is the best of them for solid elastic spheres of
-        Poisson's ratio 0.3, and a poor one.
-
-    Returns
-    -------
-    Rebound
-        velocity; peak_friction is NaN and regime UNRESOLVED (STICK for x = 0): sliding throughout
-        is a limit that no incidence reaches.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a finite real number in its range, or shapes do not broadcast.
-
-    Notes
-    -----
-    Stronge (1994) cites Bilbao et al. (1989) for a velocity ratio that is exponential in
-    mu v2/v1, and prints no formula. This one is our reconstruction, not theirs:
-    w = x (1 - (1 + b)(1 - exp(-B/((1 + b) x)))), which has both limits right, -b x for small x
-    and x - B for large x. It nears the latter only with the reciprocal of x.
-
-    Examples
-    --------
-    >>> [round(float(w), 3) for w in bilbao([0.1, 8.0, 1e6]).velocity]
-    [-0.1, 2.33, 999993.0]
-    """
-    signed, beta, _, e, b = _groups(
-        tangential_restitution, incidence, mass_ratio, stiffness_ratio, restitution
-    )
-    x, beta, e, b = (a.reshape(-1) for a in (np.abs(signed), beta, e, b))
-    with np.errstate(divide="ignore", over="ignore"):  # x = 0 or tiny: the exponential is 0
-        exponent = _sliding_change(beta, e) / (1 + b) / x
-    # As x less a change of velocity, all digits of x are kept where it is large.
-    change = (1 + b) * (x * -np.expm1(-exponent))
-    regime = np.where(x > 0, Regime.UNRESOLVED, Regime.STICK).astype(np.uint8)
-    return Rebound.of(signed, x - change, change / beta, np.full(x.shape, np.nan), regime)
 
 
 def _groups(tangential_restitution: ArrayLike, *impact: ArrayLike) -> tuple[Array, ...]:
@@ -190,12 +128,6 @@ def _groups(tangential_restitution: ArrayLike, *impact: ArrayLike) -> tuple[Arra
     )
     groups = dict(zip(checks.RULES, checks.impact(*impact), strict=True))
     return checks.broadcast(**groups, tangential_restitution=b)
-
-
-def _sliding_change(beta: Array, e: Array) -> Array:
-    """B = (1 + e) beta; it may be too large for a number, which is as good as any."""
-    with np.errstate(over="ignore"):
-        return (1 + e) * beta
 
 
 def _rebound(signed: Array, velocity: Array, beta: Array, e: Array, slides: Booleans) -> Rebound:

@@ -1,23 +1,24 @@
 """Contact laws of discrete-element codes, integrated as they do it: in few equal steps in time.
 
-Velocity Verlet (leapfrog): half a kick of the velocities, a drift, forces from positions at the
-new time and velocities half a step old, half a kick. Tangential force is carried from step to
-step, grows by stiffness times displacement, and is cut back to mu times the normal force.
-Normal and tangential motion both have the error of the steps; there is no search for events.
+The method is velocity Verlet (leapfrog): half a kick of the velocities, a drift, forces from
+positions at the new time and velocities half a step old, half a kick. The tangential force is
+carried from step to step. It grows by stiffness times displacement, and is cut back to mu times the
+normal force. Normal and tangential motion both have the error of the steps. There is no search for
+events.
 
-The contact starts at a step. Where e < 1 all three laws lose normal energy in the paper's
-hysteretic spring (Walton & Braun's with latching): below the largest depth reached the normal
-force follows a line, or a Hertz curve, that is steeper by 1/e^2, so that restitution takes e times
-as long as compression. The step does not follow: restitution has e/(1 + e) of the steps, and where
-that is less than one the impulse of friction is wrong by up to 0.75 of what the largest force
+The contact starts at a step. For e < 1 all three laws lose normal energy in the paper's hysteretic
+spring (Walton & Braun's with latching): below the largest depth reached, the normal force follows a
+line, or a Hertz curve, that is steeper by 1/e^2. So restitution takes e times as long as
+compression. The length of the step stays the same: restitution has e/(1 + e) of the steps. If that
+is less than one step, the impulse of friction is wrong by up to 0.75 of what the largest force
 gives in a step. For e = 0 the contact ends with the step nearest to maximum compression. Codes
 often damp by a dashpot instead, which is another law.
 
-`Regime` is what the steps show. A last slip shorter than a step is not seen, and the contact is
-said to end in stick; nor is a stick shorter than a step. But a contact whose slip turns round,
-however often, and that was not seen to stick, counts as having stuck once. Hertz contact starts in
-slip from x = 2 zeta^2/3, not zeta^2, however many steps there are: the first one already has the
-stiffness of its end.
+`Regime` is what the steps show. They do not show a slip or a stick that is shorter than a step: if
+the last slip is so short, the contact is said to end in stick. But a contact whose slip turns
+round, and that was not seen to stick, counts as having stuck once. Hertz contact starts in slip
+from x = 2 zeta^2/3, not zeta^2, however many steps there are, because the first step already has
+the stiffness of its end.
 
 Units: m2 and |v2(0)|, times mu in tangential direction; time 1/Omega where the contact is linear,
 d_max/|v2(0)| where it is Hertzian.
@@ -35,7 +36,8 @@ from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers, Num
 from planarimpact.ground.results import Rebound, Regime
 
 STEPS = 64
-MOST_STEPS = 10**7  # some minutes
+# They take some minutes.
+MOST_STEPS = 10**7
 
 # Impacts solved together, as in `planarimpact.lumped`.
 CHUNK = 16384
@@ -43,8 +45,8 @@ CHUNK = 16384
 # Explicit steps are stable while an oscillation turns by no larger angle a step.
 STABLE_ANGLE = 2.0
 
-# Of velocity over zeta^2. Below the least, contact sticks to its last step and the answer is in
-# proportion to x; above the largest it slides throughout, whatever the number.
+# Bounds of the velocity over zeta^2 that is solved. Below the least the contact sticks to its last
+# step and the answer is in proportion to x. Above the largest it slides throughout.
 LEAST, LARGEST = 1e-100, 1e300
 
 
@@ -61,14 +63,8 @@ def linear(
 
     Parameters
     ----------
-    incidence : array_like
-        x = v1(0)/(mu v2(0)); any finite number, negative for the mirror image.
-    mass_ratio : array_like
-        beta = m2/m1 >= 1.
-    stiffness_ratio : array_like
-        zeta^2 > 0, normal stiffness in compression over tangential stiffness.
-    restitution : array_like
-        Energetic coefficient e, 0 to 1.
+    incidence, mass_ratio, stiffness_ratio, restitution : array_like
+        As in `planarimpact.lumped.rebound`.
     steps : int
         Over the exact duration of contact; 3 to 10^7, and at least (1 + e) pi/4 times the root
         of beta/zeta^2: with fewer the tangential oscillation turns by more than 2 in a step and
@@ -89,8 +85,8 @@ def linear(
 
     Notes
     -----
-    The bound of velocity is that of a contact that sticks throughout, to which each step is one
-    and the same linear map; that slip takes away from it, and adds nothing, was found by search.
+    The bound of velocity is that of a contact that sticks throughout, where each step is the same
+    linear map. That slip only lowers it was found by search, not proved.
     The error falls with the square of the steps, unevenly, as events fall between them. For a
     solid sphere at e = 1 and 64 steps it is 0.0008 (root mean square over x from 0 to 8) and 0.0026
     at most.
@@ -284,7 +280,7 @@ def _normal_motion(law: _Law, e: Array, steps: int) -> Iterator[_Instant]:
     compliance = np.maximum(e * e, 1e-300)
     depth, deepest = np.zeros((2, e.size))
     radius: Numbers = np.zeros(e.size)
-    velocity = np.ones(e.size)  # of approach, half a step ahead; no force yet slows it
+    velocity = np.ones(e.size)  # of approach, half a step ahead: no force has slowed it yet
     ended = np.zeros(e.size, bool)
     while True:
         depth = depth + step * velocity

@@ -1,11 +1,11 @@
 """Impact of a body whose centre is not on the contact normal (Stronge 1994, Eqs 1-5, 8, 9).
 
-The paper derives the coupled equations and then leaves them for the collinear case; here they are
+The paper derives the coupled equations and then solves the collinear case only. Here they are
 solved as they stand, with the contact of `planarimpact.lumped`: linear normal and tangential
-elements, Coulomb friction, energetic restitution. Normal and tangential motion are coupled, so
-compression may end and begin again, and friction may press the body into the surface faster than
-the normal force slows it (jam) until its point sticks. What comes after the compression of a
-contact without restitution is the limit e -> 0, in `held`.
+elements, Coulomb friction, energetic restitution. Normal and tangential motion are coupled. So
+compression may end and begin again. And friction may press the body into the surface faster than
+the normal force slows it (jam), until the contact point sticks. For a contact without restitution
+`held` has the limit e -> 0 of what follows compression.
 
 `inverse_mass` turns a body, or with `combined` two, into what `rebound` and `history` take. `rigid`
 has the same impact without compliance. `phases` and `stick_end` hold the closed forms and the
@@ -19,7 +19,7 @@ import numpy as np
 
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.ground.checks import ConvergenceError, InputError, checked
+from planarimpact.ground.checks import ConvergenceError, InputError, checked, finite, positive
 from planarimpact.ground.results import Regime
 from planarimpact.noncollinear.configuration import (
     InverseMass,
@@ -45,11 +45,12 @@ __all__ = [
     "kinetic_energy",
     "motion_after",
     "rebound",
+    "rigid",
 ]
 
 # Impacts solved together: few enough for memory, enough to hide Python's overhead.
 CHUNK = 65536
-# Beyond these the groups are of no body, and products of them would leave float64.
+# Groups beyond this belong to no body, and their products would leave float64.
 LARGEST = 1e50
 
 
@@ -116,7 +117,7 @@ def rebound(
         Energetic coefficient e, 0 to 1: the normal element has the stiffness kappa in
         compression and kappa/e^2 below its largest compression. e = 0 is the limit e -> 0: the
         contact lets go at a maximum of compression, unless it sticks there and friction holds it
-        closed (mu |c| m2 > 1); then it lets go when friction has fallen to zero.
+        closed (mu |c| m2 > 1). Then it lets go when friction has fallen to zero.
     stiffness_ratio : array_like
         zeta^2 > 0, normal over tangential stiffness.
     stiffness : array_like
@@ -138,11 +139,11 @@ def rebound(
     -----
     RuntimeWarning
         If impacts of an array are given up: their numbers are NaN, the others have theirs. The
-        warning names the flat indices; `numpy.isnan(result.tangential)` finds them. Given up is
-        what takes more than 5 000 phases of stick and slip, or as many steps in one of them:
-        where the tangential spring is very stiff, c^2 m1 m2 is within about 1e-7 of 1, or e is
-        small, but not 0, and mu |c| m2 > 1, so that friction holds the contact closed while it
-        rattles.
+        warning names the flat indices; `numpy.isnan(result.tangential)` finds them. An impact is
+        given up if it takes more than 5 000 phases of stick and slip, or as many steps in one of
+        them. This happens where the tangential spring is very stiff, where c^2 m1 m2 is within
+        about 1e-7 of 1, and where friction holds the contact closed (mu |c| m2 > 1) while it
+        rattles with a small e that is not 0.
 
     Notes
     -----
@@ -150,9 +151,9 @@ def rebound(
     is more, 1e-14/(1 - c^2 m1 m2) of it: near c^2 m1 m2 = 1 the energy is a small difference of
     velocities. With c = 0 it is `planarimpact.lumped.rebound` in other units, to 1e-12.
 
-    The state at separation is continuous in all arguments but where the contact just fails to
-    separate: where mu |c| m2 >= 1 it may come to N = 0 and rest there in the normal direction,
-    and friction either lets it go or presses it in for another compression.
+    The state at separation is continuous in all arguments, with one exception. Where
+    mu |c| m2 >= 1 the contact may come to N = 0 and rest there in the normal direction. Friction
+    then either lets it go or presses it in for another compression.
 
     Examples
     --------
@@ -272,8 +273,8 @@ def history(
 def kinetic_energy(tangential: ArrayLike, normal: ArrayLike, inverse_mass: InverseMass) -> Array:
     """Kinetic energy that a contact can change; arguments broadcast.
 
-    That of the motion which the contact point shares; what turns or moves a body about its
-    contact point stays as it is in an impact.
+    It is the energy of the motion of the contact point. An impact does not change the motion of a
+    body about its contact point.
 
     Parameters
     ----------
@@ -300,8 +301,8 @@ def kinetic_energy(tangential: ArrayLike, normal: ArrayLike, inverse_mass: Inver
     """
     mass = fields_of(inverse_mass)
     v1, v2, a, c, b = checks.broadcast(
-        tangential=checked("tangential", tangential, "finite numbers"),
-        normal=checked("normal", normal, "finite numbers"),
+        tangential=finite("tangential", tangential),
+        normal=finite("normal", normal),
         **mass,
     )
     with np.errstate(over="ignore"):
@@ -326,7 +327,7 @@ def _checked(
         friction,
         restitution,
         stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
-        stiffness=checked("stiffness", stiffness, "finite numbers above 0", 0, open_low=True),
+        stiffness=positive("stiffness", stiffness),
     )
 
 
@@ -353,7 +354,7 @@ def _groups(
 
 
 def _given_up(impacts: Impacts, lost: Integers) -> str:
-    """What to say of impacts that have too many phases, by their flat indices."""
+    """The message for impacts that have too many phases, by their flat indices."""
     first = dict(zip(impacts._fields, (float(field[lost[0]]) for field in impacts), strict=True))
     which = f"impact {lost[0]}" if lost.size == 1 else f"impacts {checks.brief(lost.tolist())}"
     return (

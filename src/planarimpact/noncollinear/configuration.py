@@ -1,4 +1,4 @@
-"""Bodies that strike off their centre: inverse mass at the contact point, and motion to and fro.
+"""Bodies that strike off their centre: inverse mass at the contact point, motion before and after.
 
 Axes and signs as in `planarimpact.bodies`: tangential velocities and forces along any one direction
 of the surface, normal velocities positive while the body approaches. The contact point lies at
@@ -14,10 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.bodies import Motion
-from planarimpact.bodies.quantities import finite, positive
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Numbers
-from planarimpact.ground.checks import InputError, checked
+from planarimpact.ground.checks import InputError, checked, finite, not_negative, positive
 
 
 class InverseMass(NamedTuple):
@@ -92,7 +91,7 @@ def combined(first: InverseMass, second: InverseMass) -> InverseMass:
     Raises
     ------
     InputError
-        If one is of no body, or shapes do not broadcast.
+        If no body has such an inverse mass, or shapes do not broadcast.
 
     Examples
     --------
@@ -118,7 +117,7 @@ def checked_inverse_mass(value: InverseMass) -> InverseMass:
         normal=positive("inverse_mass.normal", value.normal),
     )
     with np.errstate(over="ignore", under="ignore"):
-        # Of no body: one has 1/(m1 m2) - c^2 = (1 + (offset^2 + depth^2)/k^2)/M^2 > 0.
+        # Every body has 1/(m1 m2) - c^2 = (1 + (offset^2 + depth^2)/k^2)/M^2 > 0.
         definite = np.abs(coupling) / normal * (np.abs(coupling) / tangential) < 1
     if not definite.all():
         index = tuple(int(i) for i in np.argwhere(~definite)[0])
@@ -142,7 +141,7 @@ def checked_impact(
     return checks.broadcast(
         tangential=finite("tangential", tangential),
         normal=checked("normal", normal, "finite numbers above 0 (approach)", 0, open_low=True),
-        friction=checked("friction", friction, "finite numbers from 0", 0),
+        friction=not_negative("friction", friction),
         restitution=checks.restitution(restitution),
         **others,
         **mass,

@@ -1,25 +1,31 @@
 """After maximum compression without restitution: what a contact does in the limit e -> 0.
 
 The line of unloading has the stiffness kappa/e^2, so N follows the motion in a time of the order e,
-in which V does not change. Three things can happen to a contact that sticks with the friction F:
+in which V does not change. A contact that sticks with the friction F has three possible courses:
 
-- C F <= 0, or mu |C| <= 1: N falls to zero, at last in slip. It lets go, as one that slips does.
+- C F <= 0, or mu |C| <= 1: N falls to zero, at last in slip. The contact lets go, as one that slips
+  does.
 - Otherwise friction presses the body in with C F, and N swings about C F, at first with the
-  amplitude N - C F. A swing down to |F|/mu slips: N'' = (mu |C| - 1) N in the scaled time there, so
-  y'^2 - (mu |C| - 1) N^2 stays. N reaches zero, and the contact lets go, or turns at a smaller N.
-- Then the contact is held closed, y = 0 and C F in the mean of N. Its swings last: their energy
-  vanishes with e, their amplitude does not. F and V follow in the time of the tangential element,
+  amplitude N - C F. If a swing comes down to |F|/mu, the contact slips in a burst. There
+  N'' = (mu |C| - 1) N in the scaled time, so y^2 - (mu |C| - 1) N^2 stays constant. Either N
+  reaches zero and the contact lets go, or N turns at a smaller value.
+- If it has not let go, the contact is held closed: y = 0, and the mean of N is C F. Its swings
+  last: their energy vanishes with e, their amplitude does not. F and V follow in the time of the
+  tangential element,
 
     V' = -(beta - C^2) F,   zeta^2 F' = V.
 
-Where F grows, a swing ends at the peak of N, as reloading beyond it is slow: the amplitude is at
-most the distance of C F from the peak, and once that is gone, compression goes on from it. Where F
-falls, the swings come down to |F|/mu, and each slips a little. Each slip leaves N at
-its lowest, so friction falls by mu |C| times as much as it would in stick,
+What ends that course depends on F.
+
+- F grows: the swings may reach at most the peak of N, since reloading beyond it is slow. So the
+  amplitude is at most the distance of C F from the peak. When C F reaches the peak, compression
+  goes on from there.
+- F falls: the swings come down to |F|/mu, and each slips a little. Each slip leaves N at its
+  lowest, so friction falls by mu |C| times as much as it would in stick,
 
     zeta^2 F' = mu |C| V   (creep),
 
-and the amplitude stays (|C| - 1/mu) |F|. Friction and with it N fall to zero: it lets go.
+  and the amplitude stays (|C| - 1/mu) |F|. F falls to zero, and N with it: the contact lets go.
 """
 
 from typing import NamedTuple, Self
@@ -29,7 +35,7 @@ import numpy as np
 from planarimpact.ground.arrays import Array, Booleans, Numbers
 from planarimpact.noncollinear.phases import Groups, State
 
-# Share of the peak by which friction must push beyond it before compression goes on.
+# Compression goes on only if friction pushes N beyond its peak by more than this share of it.
 TIE = 1e-14
 
 
@@ -94,30 +100,35 @@ class Release(NamedTuple):
         """From the state at maximum compression and the force that `lowest_force` found."""
         beta, coupling, zeta2, mu, _ = groups
         peak = state.normal
-        # In the direction of friction, which presses the body in: F > 0, C > 0.
+        # From here on signs are those in the direction of friction, so that F > 0 and C > 0.
         side = np.where(state.friction < 0, -1.0, 1.0)
         first, velocity, push = side * state.friction, side * state.velocity, side * coupling
         gain = mu * push
         bursts = np.isfinite(lowest)
         force = np.where(bursts, mu * np.where(bursts, lowest, 0.0), first)
+        # Stick held closed is one oscillation of F and V. If F rises, `crest` is its largest value.
         stiffness = np.sqrt((beta - coupling * coupling) * zeta2)
         rises = velocity > 0
         crest = np.where(rises, np.hypot(force, velocity / stiffness), force)
         reloads = push * crest > peak * (1 + TIE)
-        # |F| at which swings of this amplitude come down to slip.
+        # The |F| at which the swings come down to |F|/mu, where slip begins. If F rises first, the
+        # swings are at its crest at most as large as the distance of C F from the peak.
         slips = np.where(bursts, force, _slips(peak, force, mu, push))
         slips = np.where(rises, np.minimum(slips, _slips(peak, crest, mu, push)), slips)
-        # Stick ends in creep, or at the peak while friction still grows.
+        # Stick ends at `last`: where N reaches its peak, or where creep begins. V is `speed` there,
+        # and the angle of the oscillation between start and end gives the time.
         last = np.where(reloads, peak / push, np.minimum(slips, crest))
         start = np.where(rises, 0.0, velocity)
         speed = np.sqrt(start * start + stiffness**2 * (crest - last) * (crest + last))
         angle = np.arctan2(velocity, stiffness * force)
         angle += np.where(reloads, -1.0, 1.0) * np.arctan2(speed, stiffness * last)
+        # Creep is an oscillation too, from `last` to the zero of F, where the contact lets go.
         creep_stiffness = np.sqrt(gain) * stiffness
         quarter = np.arctan2(creep_stiffness * last, gain * speed)
         falls = np.where(reloads, 0.0, 1.0)
         final = np.hypot(speed, falls * stiffness * last / np.sqrt(gain))
 
+        # The work of friction is the tangential strain energy that the burst and creep take away.
         turned = np.where(reloads, side, -side)
         lost = bursts * (first - force) * (first + force) + falls * last * last * (1 - 1 / gain)
         none = np.zeros_like(peak)
@@ -153,11 +164,14 @@ def lowest_force(state: State, groups: Groups) -> tuple[Booleans, Array]:
     """
     mu, peak = groups.friction, state.normal
     force, push = np.abs(state.friction), np.sign(state.friction) * groups.coupling
+    # Friction presses the body in. The first swing of N turns above N = F/mu, where slip begins, or
+    # the contact slips from there.
     jam = mu * push - 1
     presses = (force > 0) & (jam > 0)
     slides = force / np.where(presses, mu, 1.0)  # N where slip begins
     swings = 2 * push * force - peak >= slides
-    # Square of the scaled y there; N^2 falls by its share.
+    # The square of the scaled y where slip begins. y^2 - jam N^2 stays constant in slip, and y is 0
+    # where N turns; `left` is N^2 there, negative if N reaches zero before.
     square = (peak - 2 * push * force + slides) * (peak - slides)
     left = slides * slides - square / np.where(presses, jam, 1.0)
     held = presses & (swings | (left > 0))

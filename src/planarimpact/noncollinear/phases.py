@@ -6,13 +6,13 @@ approach, F friction, V tangential velocity, C = m2 c the coupling, beta = m2/m1
 
     y' = -N + C F,   V' = -beta F + C N,   stick: F' = V/zeta^2,   slip: F = g mu N.
 
-In compression N' = y. On the line of unloading N' = y/e^2; with time in units of e and y in units
-of e that is N' = y again, and V' gets the factor e: the `pace`, 1 in compression. So e may be
-as small as one likes.
+In compression N' = y. On the line of unloading N' = y/e^2. With time in units of e and y in units
+of e this is N' = y again, and V' gets the factor e. This factor is the `pace`, which is 1 in
+compression. So e may be as small as one likes.
 
 Slip. N, y and V depend on the normal impulse P alone: y and V are linear in P, N^2 is quadratic.
-Every event of slip is the root of a polynomial of degree one or two. 1 - g mu C, the
-effective normal inverse mass, may be negative: the body jams, its forces grow exponentially.
+Every event of slip is the root of a polynomial of degree one or two. The effective normal inverse
+mass 1 - g mu C may be negative: then the body jams, and its forces grow exponentially.
 
 Stick. N and zeta F/pace are two oscillators coupled by one symmetric matrix: two modes.
 """
@@ -119,7 +119,7 @@ class Slip(NamedTuple):
         forces = self.state.normal + normal_after
         half = impulse / np.where(forces > 0, forces, 1.0)
         rate = np.sqrt(np.abs(self.mass))
-        # An approach to N = 0 that is endless but for rounding takes as long as rounding lets it.
+        # An approach to N = 0 may take forever: rounding then decides how long it lasts.
         tangent = np.minimum(rate * half, np.nextafter(1.0, 0.0))
         angle = np.where(self.mass > 0, np.arctan(rate * half), np.arctanh(tangent))
         return 2 * np.where(rate * half > 1e-9, angle / np.maximum(rate, 1e-300), half)
@@ -156,7 +156,7 @@ class Stick(NamedTuple):
     """Stick from a state on, as two modes a cos(rate t) + b sin(rate t).
 
     `cosine` and `sine` turn modes into forces: N = cosine p + sine q, F scale = cosine q - sine p.
-    `p` and `q` hold (a, b), `sizes` what they were put together from, before any cancellation.
+    `p` and `q` hold (a, b). `sizes` are the sizes of the terms of p and q, before any cancellation.
     """
 
     cosine: Array

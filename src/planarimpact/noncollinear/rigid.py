@@ -8,17 +8,18 @@ ends is a matter of the law of restitution:
 - kinematic (Newton): the normal velocity is -e times what it was;
 - kinetic (Poisson): the impulse of restitution is e times that of compression.
 
-They agree where the direction of slip stays. Else only Newton's may create energy. Per unit of
-normal impulse the impact loses G = v2 + mu |v1| where it slides and G = v2 where it sticks. The
-slope of G is -(b - 2 g mu c + mu^2 a) in slip, a = 1/m1, b = 1/m2, g its direction, and
--(b - c^2/a) in stick: G falls always, and never more steeply after a halt than before, so it is
-convex.
+They agree if the direction of slip does not change. If it does, only Newton's law may create
+energy. Per unit of normal impulse the impact loses G = v2 + mu |v1| where it slides and G = v2
+where it sticks. With a = 1/m1, b = 1/m2 and the direction g of slip, the slope of G is
+-(b - 2 g mu c + mu^2 a) in slip and -(b - c^2/a) in stick. So G always falls, and never more
+steeply after a halt than before: G is convex.
 
 - Poisson's: G >= 0 at maximum compression, where v2 = 0. What restitution gives back is no more
   than e of the impulse that compression took, and by convexity no more than it lost:
   G(p + s) + G(p - s) >= 2 G(p) >= 0.
 - Stronge's: the normal force gives back e^2 of the work it took, and friction dissipates.
-- Newton's: restitution may take more impulse than compression did, where G < 0 has no balance.
+- Newton's: restitution may take more impulse than compression did, and nothing makes up for the
+  part of it where G < 0.
 """
 
 from enum import StrEnum

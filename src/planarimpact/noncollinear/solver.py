@@ -9,11 +9,11 @@ from planarimpact.ground.results import Regime
 from planarimpact.noncollinear import held, stick_end
 from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
 
-# Phases of one contact; one that has more is given up rather than waited for.
+# A contact with more phases than this is given up.
 MOST_PHASES = 5_000
-# Smaller restitutions than this leave the same tangential motion, to rounding.
+# All restitutions below this one leave the same tangential motion, to rounding.
 SMALLEST_PACE = 1e-50
-# Share by which two impulses differ that are equal but for rounding.
+# Two impulses that differ by less than this share are equal but for rounding.
 TIE = 1e-14
 
 
@@ -31,8 +31,7 @@ class Impacts(NamedTuple):
 class Outcome(NamedTuple):
     """What is known of each impact so far, arrays of shape (n,), filled in place.
 
-    `given_up` marks impacts with more phases or oscillations than are waited for: they have no
-    result.
+    `given_up` marks impacts with too many phases or oscillations: they have no result.
     """
 
     velocity: Array
@@ -55,10 +54,11 @@ class Phase(NamedTuple):
 
 
 class Contacts(NamedTuple):
-    """Contacts that go on, arrays of shape (n,): where in the batch, state, half, slip, history.
+    """Contacts that have not ended, arrays of shape (n,).
 
-    `direction` is that of slip, 0 in stick; `rising` whether in unloading the force has begun to
-    rise again; `peak` that at maximum compression so far.
+    `lanes` are their places in the batch, `unloading` tells the half of the contact. `direction` is
+    that of slip, 0 in stick. `rising` tells whether in unloading the force has begun to rise again.
+    `peak` is the normal force at maximum compression so far, `sticks` the number of sticks.
     """
 
     lanes: Integers
@@ -98,7 +98,7 @@ def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
 
 
 def _first(impacts: Impacts) -> Contacts:
-    """Contacts at their first instant: stick, unless the spring cannot follow."""
+    """Contacts at their first instant: they stick, unless the body outruns the spring."""
     velocity, mu, zeta2 = impacts.velocity, impacts.friction, impacts.stiffness_ratio
     size = velocity.size
     direction = np.where(velocity < 0, -1.0, 1.0)
@@ -106,7 +106,7 @@ def _first(impacts: Impacts) -> Contacts:
     all_lanes = np.arange(size)
     groups = _groups(impacts, all_lanes, np.zeros(size, bool))
     limit = mu * zeta2
-    # Where both forces leave zero together, what follows tells.
+    # At the limit itself both forces leave zero together. Then it slides if slip would get faster.
     grows = Slip.start(start, groups, direction).slope >= 0
     slides = (np.abs(velocity) > limit) | ((np.abs(velocity) == limit) & grows) | (mu == 0)
     return Contacts(
@@ -176,7 +176,8 @@ def _slide(
     separation = np.where(unloading, slip.separation(), np.inf)
     candidates = np.stack(
         [
-            # At once with another event, it is for the next phase to tell whether slip goes on.
+            # If it stops at the instant of another event, the other one comes first: the next phase
+            # then tells whether slip goes on.
             slip.stop() * (1 + TIE),
             np.where(unloading, separation, slip.turn()),
             np.where(unloading, slip.reload(contacts.peak), np.inf),
@@ -184,7 +185,8 @@ def _slide(
     )
     event = candidates.argmin(axis=0)
     impulse = candidates.min(axis=0)
-    endless = ~np.isfinite(impulse)  # by rounding, where C^2 is m2/m1 to the last digits
+    # No event: rounding does this where C^2 equals m2/m1 to the last digits.
+    endless = ~np.isfinite(impulse)
     outcome.given_up[contacts.lanes] = endless
     impulse = np.where(endless, 0.0, impulse)
     after = slip.after(impulse, separation)
@@ -195,7 +197,7 @@ def _slide(
     )
     lanes, mu = contacts.lanes, groups.friction
     after = after._replace(friction=contacts.direction * mu * after.normal)
-    # Within a reloading that stays below the earlier peak the force has a crest of its own.
+    # A reloading that stays below the earlier peak has a largest force of its own.
     crest = slip.turn()
     inside = (contacts.state.approach > 0) & (after.approach < 0) & unloading
     top = slip.after(np.where(inside, crest, 0.0), separation).normal
@@ -237,7 +239,7 @@ def _stick(
     slides = forward | backward
     mu = groups.friction
     normal = np.where(ends & unloading, 0.0, np.where(again, contacts.peak, after.normal))
-    # At the onset of slip the larger of the two forces is known to more digits.
+    # At the onset of slip |F| = mu N, and the larger of the two forces is known to more digits.
     normal = np.where(slides & (mu > 1), np.abs(after.friction) / np.maximum(mu, 1.0), normal)
     normal = np.maximum(normal, 0.0)
     after = State(
@@ -338,10 +340,10 @@ def _hold(
 
 
 def _settle(contacts: Contacts, e: Array, impacts: Impacts, outcome: Outcome) -> None:
-    """Write down contacts that separate, with the strain energy that is lost then.
+    """Write down the outcome of contacts that separate, with the strain energy that is lost.
 
-    A spring still holds friction where e = 0, or where mu is too large to tell the last slip from
-    separation.
+    At separation the tangential spring may still be strained: for e = 0, and where mu is so large
+    that the last slip cannot be told from separation.
     """
     lanes, state = contacts.lanes, contacts.state
     outcome.velocity[lanes] = state.velocity

@@ -1,36 +1,37 @@
 """Where stick ends: the first zero of several functions, each a sum of the two modes.
 
-The search advances from the left only, in steps that cannot jump a zero. With |f''| <= M such a
-step is the positive root of f + f' h - M h^2/2. Another one knows more: in stick every one obeys
+The search advances from the left only, in steps that cannot pass a zero. Two such steps are known,
+and the longer one is taken.
 
-    f'' + rate^2 f >= -load,
+- With |f''| <= M the step is the positive root h of f + f' h - M h^2/2.
+- In stick every function obeys f'' + rate^2 f >= -load. So f lies above the solution of the
+  equation as long as rate h < pi. The step goes to the zero of that solution, which is found by the
+  tangent of half its angle. This step is long where f is small throughout, as mu N - F is where N
+  and F fall together. For that function, the onset of slip in the direction g, rate^2 is
+  b + g mu C, where b is that of the tangential element alone. The right-hand side is k N, where
+  -k zeta^2 is the slope of `phases.Slip`.
 
-so f lies above the solution of the equation while rate h < pi; its zero is found by the tangent of
-half the angle. The longer of the two is taken: the second is long where f is small throughout, as
-mu N - F is where both fall together. For it, the onset of slip in the direction g, rate^2 =
-b + g mu C, b that of the tangential element alone, and the right-hand side is k N with -k zeta^2
-the slope of `phases.Slip`.
-
-A function may fall below zero by a rounding error, `NOISE` of its size, before it counts; then the
-zero itself is taken. So the double zero of f where slip has just ended, from which a search might
-chatter, is left behind at once: there k > 0, and no load.
+A function counts as below zero only if it is so by more than a rounding error, `NOISE` of its size.
+The search then takes the zero itself. So it leaves at once the double zero that f has where slip
+has just ended (there k > 0, and no load), and does not come back to it in ever smaller steps.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
+from planarimpact.ground.angles import sin_cos
 from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.lumped.slip_onset import sin_cos
 from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
 
 NOISE = 1e-15
-# Smaller than any force that matters; so a function that is 0 throughout has no zero.
+# Added to the noise, smaller than any force that matters: a function that is 0 throughout then has
+# no zero.
 NOTHING = 1e-50
-# The search is quadratic: after a step of this share of the faster mode's period it is done.
+# The search is quadratic: it is done after a step below this share of the faster mode's period.
 LAST_STEP = 1e-9
 STEPS = 5_000
-# Contacts that are done stay in the arrays until only this share of them is not.
+# Contacts that are done leave the arrays when less than this share of them is not done.
 KEEP = 0.7
 
 
@@ -151,10 +152,13 @@ def first_zero(which: Functions) -> tuple[Array, Integers]:
     time, open_ = np.zeros(lanes.size), np.ones(lanes.size, bool)
     bend = _bend(which)
     for _ in range(STEPS):
+        # A turn moves every contact by a step without a zero. The steps shrink towards the first
+        # zero, quadratically. A contact is done when its step is below LAST_STEP; one that takes
+        # more than STEPS steps keeps the index -1.
         value, slope = _values(which, time)
         step, nearest = _free_step(which, bend, value, slope)
         before, time = time, time + step
-        # Where time is so large that no shorter step changes it, that ends the search.
+        # The search also ends where rounding of a large time swallows the step.
         done = (step * np.maximum(which.rate_p, which.rate_q) <= LAST_STEP) | (time == before)
         last = np.flatnonzero(done & open_)
         if last.size:
@@ -163,6 +167,7 @@ def first_zero(which: Functions) -> tuple[Array, Integers]:
             found[lanes[last]] = np.maximum(before[last] + back, 0.0)
             index[lanes[last]] = nearest[last]
             open_[last] = False
+            # Contacts that are done leave the arrays when they are many.
             left = np.count_nonzero(open_)
             if not left:
                 return found, index
@@ -202,9 +207,9 @@ def _free_step(which: Functions, bend: Array, value: Array, slope: Array) -> tup
 
 
 def _to_zero(value: Array, slope: Array, bend: Array) -> Array:
-    """Last step, to the zero itself or, where two are close, as far as is sure to be short of it.
+    """Last step, to the zero itself or, where two zeros are close, surely not beyond the first.
 
-    To stop where the noise ends would add up over many phases.
+    To stop at the end of the noise instead would leave errors that add up over many phases.
     """
     over = np.sqrt(slope * slope + 2 * bend * np.abs(value)) - slope
     return np.where(slope < 0, 2 * value / np.where(slope < 0, over, 1.0), 0.0)
@@ -228,5 +233,5 @@ def _free_step_by_motion(value: Array, slope: Array, square: Array, load: Array)
         step = np.where(swings, step, np.arctanh(np.where(swings | never, 0.0, angle)))
     divisor = np.where(rate > 0, rate, 1.0)
     step = np.where(angle > 1e-6, 2 * step / divisor, 2 * half)
-    # Beyond half a period of a sinusoid the bound says nothing.
+    # The bound holds for half a period of a sinusoid and says nothing beyond.
     return np.where(never, np.where(swings, np.pi / divisor, np.inf), step)

@@ -30,9 +30,9 @@ class NoncollinearHistory(NamedTuple):
 
     Notes
     -----
-    Without restitution a contact that friction holds closed swings at once and without end
-    (`held`): the normal force is then its mean. There it jumps, and after a burst of slip friction
-    too: two vertices of one time. Creep, many short slips, counts as slip.
+    Without restitution, a contact that friction holds closed swings without end (`held`). The
+    normal force is then its mean. It jumps to that value, and after a burst of slip friction jumps
+    too: two vertices have the same time. Creep, which is many short slips, counts as slip.
     """
 
     time: Array
@@ -79,13 +79,14 @@ def timeline(
     for phase, start, end in zip(trace, np.append(0.0, ends[:-1]), ends, strict=True):
         first = sum(piece.shape[1] for piece in pieces)
         jumps = isinstance(phase.motion, Swing) and not (before and before.unloading)
-        # The end of a phase is the start of the next; before a jump it has its events.
+        # The end of a phase is the start of the next one. Events at a jump belong to the end.
         marks += [(kind, first - jumps) for kind in _kinds(phase, before)]
         if before and not jumps:
             starts.append(first)
         inside = grid[(grid > start) & (grid < end)]
         instants = np.concatenate([[start], inside, [end]])
-        # A phase of small e is too short for the difference of its instants.
+        # A phase in unloading with a small e is so short that the difference of its ends would lose
+        # digits.
         elapsed = np.concatenate([[0.0], (inside - start) / _pace(phase, e), [phase.duration]])
         state = phase.motion.at(elapsed)
         normal = np.maximum(state.normal, 0.0)

@@ -1,9 +1,8 @@
 """Compiled responses: the rebound of one pair of bodies as a table of polynomials.
 
 For given groups the rebound is a function of the incidence alone, smooth between a few kinks. A
-response holds it to a tolerance that is checked, and evaluates it in tens of nanoseconds an
-impact, whichever model it was made from. Slip throughout, where the model has it exactly, stays
-the formula that it is.
+response holds that function to a tolerance that is checked. It takes tens of nanoseconds an impact,
+whichever model it was made from. If the model has slip throughout exactly, its formula is kept.
 """
 
 import hashlib
@@ -17,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from planarimpact import models
-from planarimpact.ground import checks, files
+from planarimpact.ground import checks, files, sliding
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.ground.results import Rebound, Regime
 from planarimpact.response import piecewise
@@ -32,12 +31,18 @@ CONTENT = (
     "slides_from",
     "pieces",
 )
-CHUNK = 16384  # impacts evaluated together: they stay in the cache
-ROUNDING = 2.0**-48  # of the largest incidence that is fitted: no smaller error can be told
-NARROWEST = 1e-30  # of the span: a kink nearer to 0 is 0
-MODEL_SHARE = 1 / 2  # of the tolerance: the larger part is for what costs more
-FIT_SHARES = 1 / 4, 1 / 32  # of the tolerance, at the first try and the second
-COARSE = 1e-3  # tolerance of the model, where it has one, with which a file is compared at first
+# Impacts evaluated together: they stay in the cache.
+CHUNK = 16384
+# Errors below this share of the largest incidence that is fitted cannot be told from rounding.
+ROUNDING = 2.0**-48
+# A kink below this share of the span counts as 0.
+NARROWEST = 1e-30
+# Share of the tolerance for a model that has one of its own: it costs more than the fit.
+MODEL_SHARE = 1 / 2
+# Shares of the tolerance for the fit, at the first try and at the second.
+FIT_SHARES = 1 / 4, 1 / 32
+# A model with a tolerance is asked with this one first when a file is checked.
+COARSE = 1e-3
 
 
 class Bound(NamedTuple):
@@ -51,7 +56,7 @@ class Bound(NamedTuple):
 class Response:
     """The rebound of one pair of bodies as a function of incidence; made by `compile` or `load`.
 
-    Nothing of it can be changed.
+    It cannot be changed.
 
     Attributes
     ----------
@@ -65,9 +70,9 @@ class Response:
         What was asked for.
     error_bound : Bound
         What was found: twice the largest difference from the model between the points of the
-        fit, and the model's own tolerance where it has one. It is measured: in a model with
-        many kinks, one in time steps, some may hide between the points. It says nothing of the
-        regime, which changes to a hundredth of the tolerance where that of the model does.
+        fit, plus the model's own tolerance if it has one. It is measured, not proved: a model in
+        time steps has many kinks, and some may hide between the points. It does not hold for the
+        regime, which changes within a hundredth of the tolerance from where the model's does.
     slides_from : float
         Incidence from which the formula of slip throughout holds, or infinity.
     pieces : planarimpact.response.piecewise.Pieces
@@ -167,53 +172,14 @@ class Response:
         -1.0
         """
         x = incidence
-        if type(x) is not np.ndarray or x.dtype != np.float64:  # a subclass may have a mask
+        # A subclass of ndarray may have a mask, so only an ndarray itself needs no check here.
+        if type(x) is not np.ndarray or x.dtype != np.float64:
             x = checks.incidence(x)
         velocity, flat = np.empty(x.size), x.reshape(-1)
         for part, size, slides, piece, root in self._parts(x):
             found = self._velocity(size, slides, piece, root)
             np.multiply(found, np.copysign(1.0, flat[part]), out=velocity[part])
         return velocity.reshape(x.shape)[()]
-
-    def peak_friction(self, incidence: ArrayLike) -> Array:
-        """Peak friction alone.
-
-        Parameters
-        ----------
-        incidence : array_like
-            As for a call, with the same refusals.
-
-        Returns
-        -------
-        ndarray of float64 or float
-            In mu times the largest normal force.
-
-        Examples
-        --------
-        >>> float(compile("lumped", incidence_max=9, tolerance=1e-9).peak_friction(4.0))
-        1.0
-        """
-        return self(incidence).peak_friction
-
-    def dissipation(self, incidence: ArrayLike) -> Array:
-        """Work of friction alone.
-
-        Parameters
-        ----------
-        incidence : array_like
-            As for a call, with the same refusals.
-
-        Returns
-        -------
-        ndarray of float64 or float
-            In mu^2 m2 v2(0)^2.
-
-        Examples
-        --------
-        >>> float(compile("lumped", incidence_max=9, tolerance=1e-9).dissipation(8.0))
-        9.0
-        """
-        return self(incidence).dissipation
 
     def _parts(self, x: Array) -> Iterator[tuple[slice, Array, Booleans, Integers, Array]]:
         """Parts of the impacts: slice, |x|, whether it slides, piece and its variable."""
@@ -231,11 +197,11 @@ class Response:
     def _velocity(self, size: Array, slides: Booleans, piece: Integers, root: Array) -> Array:
         """Velocity at separation for |x|."""
         found = self._piecewise.value(0, piece, root)
-        if not self._gains:  # then rounding and the fit must not either
+        if not self._gains:  # then rounding and the fit must not create energy either
             np.clip(found, -size, size, out=found)
         if slides.any():
             e, beta = self.parameters["restitution"], self.parameters["mass_ratio"]
-            np.copyto(found, size - (1 + e) * beta, where=slides)
+            np.copyto(found, sliding.velocity(size, beta, e), where=slides)
         return found
 
     def save(self, path: str | Path) -> None:
@@ -276,27 +242,27 @@ _MAKER = object()
 
 
 def _made(*made_of: Any) -> Response:
-    """A response whose fields belong together: of `compile`, a checked file or another response."""
+    """A response of fields that belong together: from `compile`, a checked file or a response."""
     return Response(*(*made_of, _MAKER))
 
 
 @checks.default_errors
 def compile(model: str, *, incidence_max: float, tolerance: float, **parameters: float) -> Response:
-    """Compile the response of one pair of bodies by any model of the ladder.
+    """Compile the response of one pair of bodies by any model of `planarimpact.models`.
 
     Parameters
     ----------
     model : str
         Name of a model, `planarimpact.models.MODELS`.
     incidence_max : float
-        Largest |x| = |v1(0)|/(mu v2(0)) that it must answer, from 1e-9 on. Where the model slides
-        throughout from a smaller one on, all larger ones are answered.
+        Largest |x| = |v1(0)|/(mu v2(0)) that it must answer, from 1e-9 on. If the model slides
+        throughout from a smaller incidence on, the response answers every larger one.
     tolerance : float
         Largest error of velocity (mu v2(0)) and peak friction (mu F2max), 1e-11 to 1, and at
         least 4e-15 of the largest incidence that does not slide throughout by formula.
     **parameters
         mass_ratio, stiffness_ratio and restitution (defaults 3.5, 1.21, 1), numbers; and the
-        model's settings, but not a tolerance of its own, which is chosen here.
+        model's settings. A tolerance of the model is not among them: it is chosen here.
 
     Returns
     -------
@@ -307,8 +273,8 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
     InputError
         If an argument is not admissible, or the model has no such setting.
     ConvergenceError
-        If the model is too rough for the tolerance (one in time steps has a kink for each), or
-        does not reach it itself.
+        If the model is too rough for the tolerance (a model in time steps has a kink for each
+        step), or does not reach it itself.
 
     Examples
     --------
@@ -353,10 +319,10 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
 def load(path: str | Path) -> Response:
     """Read a response that `Response.save` wrote.
 
-    Whatever the file says is checked: that it follows from the question that was asked, and that
-    its pieces are those of the model, within the error bound, where `compile` measured that. A
-    model with a tolerance of its own is asked for coarse answers, one a piece; there the pieces
-    must also meet within the error bound.
+    All that the file says is checked. It must follow from the question that was asked, and its
+    pieces must agree with the model within the error bound, at the points where `compile` measured
+    it. A model with a tolerance of its own gives one coarse answer for each piece. Then the pieces
+    must also meet each other within the error bound.
 
     Parameters
     ----------
@@ -462,8 +428,8 @@ def _refuse_strangers(found: Response) -> None:
     if own is None:
         words = _disagreement(found, piecewise.MEASURED, found.parameters)
     else:
-        # A model with a tolerance takes long to be as exact. Few and coarse answers of it, and no
-        # jump from piece to piece, tell as much of the pieces; in doubt it is asked for its best.
+        # A model with a tolerance takes long for exact answers. A few coarse ones, and pieces that
+        # meet each other, are enough. In doubt the model is asked with its own tolerance.
         coarse, middle = {"tolerance": max(own, COARSE)}, np.zeros(1)
         words = _jump(found) or (
             _disagreement(found, middle, dict(found.parameters) | coarse)
@@ -531,7 +497,7 @@ def _asked(
     groups, settings = _parameters(chosen, parameters)
     if "tolerance" in chosen.settings:
         settings["tolerance"] = tolerance * MODEL_SHARE
-    # Of no impact at all it is no work: the model refuses what it does not admit.
+    # A call without impacts costs nothing, and the model refuses arguments that it does not admit.
     chosen.rebound(np.zeros(0), *groups.values(), **settings)
     slides = np.inf
     if chosen.sliding_limit is not None:

@@ -1,9 +1,9 @@
 """Functions of one variable by polynomials between kinks, to a tolerance that is checked.
 
-Right of a kink the rebound of a compliant contact often bends like (x - kink)^(3/2): a phase of
-slip grows from nothing there. In the root of the distance from the kink on its left it is smooth,
-so each piece is a polynomial in sqrt(x - kink). Kinks that are not known in advance show as pieces
-that must be halved again and again; they are located, and the fit is made anew between them.
+Right of a kink the rebound of a compliant contact often bends like (x - kink)^(3/2), since a phase
+of slip grows from nothing there. It is smooth in sqrt(x - kink). So each piece is a polynomial in
+that variable, with the nearest kink on its left. A kink that is not known in advance shows as
+pieces that must be halved again and again. It is located, and the fit is made anew beside it.
 """
 
 from collections.abc import Callable, Sequence
@@ -18,14 +18,21 @@ from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.checks import ConvergenceError, InputError
 
 DEGREE = 7
-FIRST = 2  # parts of every span to begin with: few large batches cost less than many small
-NARROW = 1e-3  # of the whole: a span that is not divided at first
-DEEP = 7  # halvings of a part after which a kink is looked for in it
-DEEPEST = 40  # halvings that locate one
-ROUNDS = 8  # of locating kinks
+# Each span begins with this many parts: few large batches cost less than many small ones.
+FIRST = 2
+# A span below this share of the whole begins with one part.
+NARROW = 1e-3
+# A part that was halved more often than this may contain a kink.
+DEEP = 7
+# So many halvings locate a kink.
+DEEPEST = 40
+# Kinks are located and the fit made anew at most so many times.
+ROUNDS = 8
 MOST_PIECES = 4096
-SAFETY = 2  # of the bound over the largest error found
-CELLS = 4096, 8192, 16384, 32768  # of the table that finds the piece of a point
+# The bound is the largest error found times this.
+SAFETY = 2
+# Sizes that are tried for the table that finds the piece of a point.
+CELLS = 4096, 8192, 16384, 32768
 
 # Values, shape (functions, n), and labels of points x, shape (n,).
 Function: TypeAlias = Callable[[Array], tuple[Array, Integers]]

@@ -1,11 +1,11 @@
-"""Scenes: a table of impacts in, a table after them out, each solved no better than asked.
+"""Scenes: a table of impacts is solved, each impact by the cheapest model that is good enough.
 
-A table is a pandas DataFrame, one impact a row; `columns` lists the columns it
-may have, with the unit of each in its header. A body is a solid sphere (radius and density), or
-anything with a mass, a radius of gyration and a centre of mass on the contact normal; the other
-one is the same, or a half-space at rest where it has no mass. States have two dimensions, or three
-for bodies whose radius of gyration is the same about every axis: they move in their plane of
-incidence.
+A table is a pandas DataFrame with one impact in each row. `columns` lists the columns that it may
+have, with the unit of each in its header. A body is a solid sphere (radius and density), or
+anything with a mass, a radius of gyration and a centre of mass on the contact normal. The other
+body is the same; if it has no mass, it is a half-space at rest. States have two dimensions. They
+may have three for bodies whose radius of gyration is the same about every axis: such bodies move in
+their plane of incidence.
 """
 
 try:
@@ -20,7 +20,7 @@ __all__ = ["Solver", "solve"]
 
 
 def solve(table: pd.DataFrame, tolerance: float = 1e-3) -> pd.DataFrame:
-    """Solve every impact of a table by the cheapest rung of the ladder that is good enough.
+    """Solve every impact of a table by the cheapest model that is good enough.
 
     Parameters
     ----------
@@ -28,9 +28,9 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3) -> pd.DataFrame:
         One impact a row; `python -m planarimpact scene --help` lists the columns.
     tolerance : float
         Largest error of the tangential velocity of contact at separation, in mu v2(0), and of
-        the peak friction, in mu times the peak normal force; 1e-10 to 1. It is measured against
-        the elastic continuum where restitution = 1, else against the lumped model: its own
-        distance from nature is not in it.
+        the peak friction, in mu times the peak normal force; 1e-10 to 1. The error is measured
+        against the elastic continuum where restitution = 1, else against the lumped model. How far
+        these are from nature is not part of it.
 
     Returns
     -------
@@ -46,8 +46,8 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3) -> pd.DataFrame:
         For what is no DataFrame, columns that are missing, unknown or do not go together, or a bad
         row, by its number.
     ConvergenceError
-        If the continuum does not reach the tolerance, by the row: solving many elastic pairs of
-        a mass ratio above 100 takes seconds, beyond some 10 000 the answer is mostly this.
+        If the continuum does not reach the tolerance, by the row. Many elastic pairs of a mass
+        ratio above 100 take seconds; above some 10 000 most of them end like this.
 
     Examples
     --------

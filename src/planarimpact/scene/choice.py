@@ -1,8 +1,9 @@
-"""Which rung of the ladder solves the impacts of a pair: the cheapest whose error is small enough.
+"""The model for the impacts of a pair, and the way to its answer: the cheapest that is good enough.
 
-The reference is `planarimpact.models.reference`: the continuum where the pair is elastic, else the
-lumped model. An error is the largest one of velocity (mu v2(0)) and peak friction (mu F2max); that
-of a cheaper model is measured, `gaps`.
+A model together with a way (solved, compiled, by formula) is a rung. The reference is
+`planarimpact.models.reference`: the continuum where the pair is elastic, else the lumped model. An
+error is the larger one of velocity (mu v2(0)) and peak friction (mu F2max). `gaps` has the measured
+errors of the cheaper models.
 """
 
 from collections import Counter
@@ -27,13 +28,20 @@ COST = {
     ("continuum", "solved"): (3e-2, 2e-4),
     ("continuum", "compiled"): (1e-1, 6e-8),
 }
-ORDINARY = 3.0  # beta/zeta^2 for which they hold; they grow with it
-FEW = 64  # impacts of a pair that are solved together with those of other pairs
-MOST = 0.99  # of the tolerance may be that of a cheaper model
-EXACT = 1e-12  # of the lumped model and of groups told apart at 12 digits, by mass ratio
-BELOW_ONE = 1 - 2.0**-41  # the largest number of these digits below 1
-FUTILE = 1e-4  # tolerance below which nobody tries the rigid limit
-FINE = 1e-9  # of a compiled lumped response, which costs little more than a coarse one
+# These costs hold for this beta/zeta^2, and grow with it.
+ORDINARY = 3.0
+# A pair with fewer impacts than this is solved together with other such pairs.
+FEW = 64
+# A cheaper model is taken if its error is below this share of the tolerance.
+MOST = 0.99
+# Error for a unit of the mass ratio, of the lumped model and of groups rounded to 12 digits.
+EXACT = 1e-12
+# The largest number below 1 among those of 12 digits.
+BELOW_ONE = 1 - 2.0**-41
+# The rigid limit is not tried for a tolerance below this one.
+FUTILE = 1e-4
+# Tolerance of a compiled lumped response, which costs little more than a coarse one.
+FINE = 1e-9
 
 
 # By model and groups.
@@ -94,7 +102,7 @@ def jobs(
     """
     groups = np.stack([mass_ratio, stiffness_ratio, restitution])[:, rows]
     rounded = _rounded(groups)
-    # Elastic is e = 1 alone, however many impacts there are: no other e is rounded to it.
+    # Only e = 1 is elastic, so no other e may be rounded to it.
     rounded[2] = np.where(groups[2] < 1, np.minimum(rounded[2], BELOW_ONE), rounded[2])
     code = np.zeros(rows.size, dtype=np.int64)
     for group in rounded:
@@ -182,7 +190,7 @@ def rung(
     oscillates = max(1.0, mass_ratio / stiffness_ratio / ORDINARY)
     for (model, way), (first, each) in COST.items():
         if gap.get(model, np.inf) <= MOST * tolerance:
-            # A compiled response has a kink for every half-wave, of which each costs more there.
+            # A compiled response has a kink for every half-wave of the tangential oscillation.
             if (model, way) == ("continuum", "solved"):
                 each = each * oscillates
             elif way == "compiled":

@@ -217,7 +217,7 @@ def _checked(series: pd.Series, column: Column) -> tuple[Array, Booleans]:
     is_number = types.is_integer_dtype(series) or types.is_float_dtype(series)
     if is_number and series.dtype.itemsize <= 8:
         values = series.to_numpy(dtype=float, na_value=np.nan)
-    else:  # words among them, numbers that float64 may not hold, or worse: cell by cell
+    else:  # words, numbers that float64 may not hold, or other objects: cell by cell
         values = np.array([_number(cell) for cell in series], dtype=float)
     good = values > column.low if column.open_low else values >= column.low
     good &= values <= column.high
@@ -227,9 +227,9 @@ def _checked(series: pd.Series, column: Column) -> tuple[Array, Booleans]:
 
 
 def _number(cell: Any) -> float:
-    """A cell that is a number, or the text of one in plain digits, else NaN.
+    """The number in a cell, or of its text in plain digits, else NaN.
 
-    Infinite is only what is called so: not a number that float64 cannot hold.
+    Only a cell that says so is infinite. A number that is too large for float64 is NaN.
     """
     text = str(cell)
     odd = isinstance(cell, (bool, np.bool_, complex)) or "_" in text or not text.isascii()

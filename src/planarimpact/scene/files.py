@@ -1,4 +1,4 @@
-"""Scenes from file to file, piece by piece: CSV, Parquet where pyarrow is installed, or JSON."""
+"""Scenes from file to file, piece by piece: from CSV to CSV or JSON."""
 
 import os
 import sys
@@ -29,10 +29,9 @@ def solve(
     Parameters
     ----------
     source, target : str or Path
-        Tables as `solve` takes and returns them: `.csv`, `.csv.gz` or
-        `.parquet` by the ending of the name, the target also `.json`, an array of objects. `-` is
-        standard input or output; it, pipes and devices are CSV, and a target of this kind has
-        each piece as soon as it is solved.
+        Tables as `solve` takes and returns them: `.csv` or `.csv.gz` by the ending of the name,
+        the target also `.json`, an array of objects. `-` is standard input or output; it, pipes
+        and devices are CSV, and a target of this kind has each piece as soon as it is solved.
     tolerance : float
         As there.
     skip_bad : bool
@@ -92,10 +91,10 @@ def _solved(
     try:
         for share, table in reading.pieces(source, rows):
             found = solver.solve(table, skip_bad)
-            if source.kind != places.PARQUET:  # of one type, whatever a piece has in it
-                names = columns.named(table.columns)
-                found = found.astype({names[name]: float for name in names.keys() & columns.KNOWN})
-            yield share, found
+            # A column has one type in all pieces, whatever a piece has in it.
+            names = columns.named(table.columns)
+            kinds = {names[name]: float for name in names.keys() & columns.KNOWN}
+            yield share, found.astype(kinds)
     except InputError as error:
         raise InputError(f"{source.name}: {error}") from None
     except OSError as error:

@@ -1,8 +1,8 @@
 """How far the cheaper models are from the reference: largest errors, as measured.
 
-At e = 1 the reference is the continuum. There every model here depends on x/zeta^2 and
-chi = beta/(2 zeta^2) alone, with velocities in zeta^2: one table over chi serves all pairs of
-bodies. For e < 1 the reference is the lumped model, cheap enough to be asked each time.
+At e = 1 the reference is the continuum. There, with velocities in units of zeta^2, every model here
+depends on x/zeta^2 and chi = beta/(2 zeta^2) alone. So one table over chi serves all pairs of
+bodies. For e < 1 the reference is the lumped model, which is cheap enough to be solved each time.
 """
 
 import numpy as np
@@ -43,7 +43,8 @@ PEAK_FRICTION = {
     ),
 }
 # fmt: on
-MARGIN = 1.1  # between the entries of the table, or the incidences that were asked
+# Factor for errors between the entries of the table, or between the incidences that were solved.
+MARGIN = 1.1
 SAMPLES = 257
 
 

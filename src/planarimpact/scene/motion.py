@@ -17,8 +17,10 @@ from planarimpact.bodies import Body, Material
 from planarimpact.ground.arrays import Array
 from planarimpact.scene.columns import AXES
 
-UNIT = 1e-6  # largest error of the length of a normal
-LARGEST_RATIO = 1e12  # of masses m2/m1: beyond it no digit of the rebound is sure
+# Largest error of the length of a normal.
+UNIT = 1e-6
+# Largest mass ratio m2/m1: beyond it no digit of the rebound is certain.
+LARGEST_RATIO = 1e12
 
 
 class State(NamedTuple):
@@ -145,8 +147,8 @@ def after(impacts: Impacts, tangential_velocity: Array) -> tuple[State, State]:
     body, other : State
     """
     change = (tangential_velocity - impacts.v1) / impacts.mass_ratio
-    # P1 = m1 (v1(tf) - v1(0)), m1 = m2/beta; P2 = (1 + e) m2 v2(0). Both over m2, so that they
-    # stay numbers whatever the units.
+    # P1 = m1 (v1(tf) - v1(0)), m1 = m2/beta; P2 = (1 + e) m2 v2(0). Both are divided by m2, so that
+    # they do not overflow in any units.
     impulse = change * impacts.tangent + (1 + impacts.restitution) * impacts.v2 * impacts.normal
     m2 = impacts.m2
     return (
@@ -158,7 +160,7 @@ def after(impacts: Impacts, tangential_velocity: Array) -> tuple[State, State]:
 def energy_lost(impacts: Impacts, tangential_velocity: Array) -> Array:
     """Kinetic energy lost by both bodies [J]: in the normal element, and tangentially."""
     e, v1, after = impacts.restitution, impacts.v1, tangential_velocity
-    # Masses first: a velocity squared is no number where the energy still is one.
+    # The masses come first: a square of a velocity may overflow where the energy does not.
     normal = (1 - e) * (1 + e) * (impacts.m2 / 2 * impacts.v2 * impacts.v2)
     m1 = impacts.m2 / impacts.mass_ratio
     return normal + m1 / 2 * (v1 - after) * (v1 + after)
@@ -185,7 +187,7 @@ def _body(values: dict[str, Array], prefix: str) -> Body:
     if f"{prefix}mass" not in values:
         return Body(np.full(count, np.inf), np.full(count, np.inf), np.zeros(count))
     mass, gyration = values[f"{prefix}mass"], values[f"{prefix}gyration"]
-    # What cannot move needs no arm, which may be infinite.
+    # A body that cannot move needs no arm. Its radius may be infinite.
     radius = np.where(np.isinf(mass) & np.isinf(gyration), 0.0, radius)
     return Body(mass, gyration, radius)
 
@@ -195,7 +197,7 @@ def _materials(values: dict[str, Array]) -> tuple[Material, Material | None]:
     if "other_young_modulus" not in values:
         return material, None
     young, poisson = values["other_young_modulus"], values["other_poisson_ratio"]
-    # A rigid counterbody adds no compliance: Young's modulus out of proportion does the same.
+    # A rigid counterbody adds no compliance. A very large Young's modulus has the same effect.
     young = np.where(np.isinf(young), np.finfo(float).max, young)
     return material, Material(young, poisson)
 

@@ -1,4 +1,4 @@
-"""What the name of a table says: a kind of file by its ending, standard input or output, a pipe."""
+"""What the name of a table means: a kind of file, standard input or output, or a pipe."""
 
 import os
 from pathlib import Path
@@ -6,14 +6,14 @@ from typing import NamedTuple
 
 from planarimpact.ground.checks import InputError
 
-CSV, GZIP, PARQUET, JSON = ".csv", ".csv.gz", ".parquet", ".json"
+CSV, GZIP, JSON = ".csv", ".csv.gz", ".json"
 
 
 class Place(NamedTuple):
     """Where a table is read or written.
 
-    A stream is standard input or output, a pipe or a device: CSV whatever its name, and written to
-    straight, as it cannot be replaced by a file.
+    A stream is standard input or output, a pipe or a device. It is CSV whatever its name, and it is
+    written to directly, since no file can replace it.
     """
 
     name: str  # for messages
@@ -36,7 +36,7 @@ def source(path: str | Path) -> Place:
     Raises
     ------
     InputError
-        If the name says nothing that can be read.
+        If the name is none that can be read.
 
     Examples
     --------
@@ -45,10 +45,10 @@ def source(path: str | Path) -> Place:
     >>> source("shots.xlsx")
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: shots.xlsx: allowed are names that end in .csv, .csv.gz or \
-.parquet, pipes, and - for standard input
+    planarimpact.InputError: shots.xlsx: allowed are names that end in .csv or .csv.gz, pipes, \
+and - for standard input
     """
-    return _place(path, ("-", "/dev/stdin"), 0, "standard input", (CSV, GZIP, PARQUET))
+    return _place(path, ("-", "/dev/stdin"), 0, "standard input", (CSV, GZIP))
 
 
 def target(path: str | Path) -> Place:
@@ -65,14 +65,14 @@ def target(path: str | Path) -> Place:
     Raises
     ------
     InputError
-        If the name says nothing that can be written.
+        If the name is none that can be written.
 
     Examples
     --------
     >>> target("after.json").kind, target("-").stream
     ('.json', True)
     """
-    return _place(path, ("-", "/dev/stdout"), 1, "standard output", (CSV, GZIP, PARQUET, JSON))
+    return _place(path, ("-", "/dev/stdout"), 1, "standard output", (CSV, GZIP, JSON))
 
 
 def beside(target: Place) -> Place | None:
@@ -93,14 +93,12 @@ def _place(
     name = str(path)
     kind = next((kind for kind in kinds if name.lower().endswith(kind)), None)
     flows = Path(path).is_fifo() or Path(path).is_char_device()
-    # A file with a name of its own is read and written by that, whatever the shell has opened too.
+    # A file with a known ending is opened by its name, even if it is standard input or output too.
     if name in standard or ((flows or not kind) and _is_open(path, number)):
         return Place(words, number, CSV, stream=True)
     if flows:
         return Place(name, name, CSV, stream=True)
     if kind:
-        if kind == PARQUET:
-            _refuse_without_pyarrow(name)
         return Place(name, name, kind, stream=False)
     endings = f"{', '.join(kinds[:-1])} or {kinds[-1]}"
     raise InputError(f"{name}: allowed are names that end in {endings}, pipes, and - for {words}")
@@ -112,12 +110,3 @@ def _is_open(path: str | Path, number: int) -> bool:
         return os.path.samestat(os.stat(path), os.fstat(number))
     except OSError:  # either is not there
         return False
-
-
-def _refuse_without_pyarrow(name: str) -> None:
-    try:
-        import pyarrow  # noqa: F401 (whether it is there)
-    except ImportError:
-        raise InputError(
-            f"{name}: Parquet needs pyarrow: pip install pyarrow, or use CSV"
-        ) from None

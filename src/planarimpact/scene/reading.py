@@ -1,7 +1,7 @@
-"""Tables of scenes read piece by piece: CSV, or Parquet where pyarrow is installed.
+"""Tables of scenes read piece by piece, from CSV.
 
-What pandas would mend in silence (a row too short, a name that is there twice) is refused by its
-line: commas are counted before pandas turns the text into numbers.
+pandas would silently accept a row that is too short, or a name that is there twice. Here both are
+refused with the number of their line: commas are counted before pandas reads the text.
 """
 
 import csv
@@ -41,20 +41,14 @@ def pieces(source: Place, rows: int) -> Iterator[Piece]:
     share : float or None
         0 to 1; None where nobody knows how much there is, as in a pipe.
     table : DataFrame
-        The first may be empty, and has its columns. Cells of CSV that are no numbers are text as it
-        stands; Parquet has the types of Arrow.
+        The first may be empty, and has its columns. Cells that are no numbers are text as it
+        stands.
 
     Raises
     ------
     InputError
         If the source is no table, by the number of its line.
     """
-    if source.kind == places.PARQUET:
-        return _parquet_pieces(source, rows)
-    return _csv_pieces(source, rows)
-
-
-def _csv_pieces(source: Place, rows: int) -> Iterator[Piece]:
     with _opened(source) as (lines, share):
         try:
             line, header = _header(lines)
@@ -82,8 +76,8 @@ def _parsed(text: str, types: dict[str, type[str]]) -> pd.DataFrame:
         io.BytesIO(text.encode()),
         index_col=False,
         dtype=types,
-        na_filter=False,  # empty cells and words such as NA stay what they are
-        low_memory=False,  # a column has one type
+        na_filter=False,  # empty cells and words such as NA stay as they are
+        low_memory=False,  # each column gets one type
     )
 
 
@@ -162,22 +156,3 @@ def _fitting(number: int, text: str, cells: int, width: int) -> str:
 
 def _unmatched(number: int, error: csv.Error) -> InputError:
     return InputError(f"line {number}: its quotation marks do not match ({error})")
-
-
-def _parquet_pieces(source: Place, rows: int) -> Iterator[Piece]:
-    from pyarrow import parquet  # here, as it takes its time
-
-    try:
-        file = parquet.ParquetFile(source.opened)
-    except ValueError as error:
-        raise InputError(f"no Parquet file: {error}") from None
-    # The index of a table that pandas has written, unless it has a name, is none of its columns.
-    names = [name for name in file.schema_arrow.names if not name.startswith("__index_level_")]
-    columns.named(names)  # pyarrow does not say which name is there twice
-    exact = {"types_mapper": pd.ArrowDtype, "ignore_metadata": True}
-    whole, so_far = max(file.metadata.num_rows, 1), 0
-    for batch in file.iter_batches(rows, columns=names):
-        so_far += batch.num_rows
-        yield so_far / whole, batch.to_pandas(**exact)
-    if not so_far:
-        yield 1.0, file.schema_arrow.empty_table().select(names).to_pandas(**exact)

@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from planarimpact import bodies, continuum, lumped
-from planarimpact.ground import checks
+from planarimpact import bodies
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers, Numbers
 from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import Rebound, Regime
 from planarimpact.scene import choice, columns, motion
 
-BLOCK = 2**17  # rows solved together: bounds the memory
-_REGIMES = [regime.name for regime in Regime]
+# Rows that are solved together: this bounds the memory.
+BLOCK = 2**17
 
 
 class Solver:
@@ -70,7 +70,7 @@ class Solver:
         return pd.concat(blocks) if len(blocks) > 1 else blocks[0]
 
     def explain(self) -> str:
-        """How many impacts went to which rung and why, in words, a line each.
+        """How many impacts each model solved and why, in words, a line for each.
 
         Returns
         -------
@@ -133,8 +133,8 @@ class Solver:
         unit = impacts.friction * impacts.v2
         groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
         with np.errstate(over="ignore"):  # where friction stops any velocity that is a number
-            slides = impacts.v1 >= lumped.slip_throughout_limit(*groups) * unit
-            lost = (1 + impacts.restitution) * impacts.mass_ratio * unit
+            slides = impacts.v1 >= sliding.limit(*groups) * unit
+            lost = sliding.change(impacts.mass_ratio, impacts.restitution) * unit
         unsolved: dict[int, str] = {}
         velocity = impacts.v1 - np.where(slides, lost, 0.0)
         peak, error = np.ones(unit.size), np.zeros(unit.size)
@@ -158,7 +158,7 @@ class Solver:
     def _answers(
         self, job: choice.Job, x: Array
     ) -> tuple[choice.Rung, tuple[Rebound, Numbers], Integers, dict[int, str]]:
-        """The rung, results and errors, which impacts they are of, and why others have none."""
+        """The rung, results and errors, which impacts they belong to, and why others have none."""
         rung, left = job.rung, np.arange(x.size)
         without: dict[int, str] = {}
         while True:
@@ -172,7 +172,7 @@ class Solver:
                 if rung.way == "compiled":  # some of its impacts may have an answer
                     rung = rung._replace(way="solved")
                     continue
-                lost = error.impacts if isinstance(error, continuum.Unsolved) else slice(None)
+                lost = error.impacts if isinstance(error, checks.Unsolved) else slice(None)
                 without |= dict.fromkeys(left[lost].tolist(), str(error))
                 left = np.delete(left, lost)
 
@@ -192,14 +192,14 @@ class Solver:
         if {"other_density", "other_mass"} & set(names):
             states |= {f"other_{k}": v for k, v in motion.columns_of(other, plane).items()}
         after = {columns.header(name, "_after"): values for name, values in states.items()}
-        # No friction, no incidence; with very little it is larger than any number.
+        # Without friction there is no incidence, with very little it is larger than any number.
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             incidence = impacts.v1 / (impacts.friction * impacts.v2)
         models = [choice.SLIDING.model, *choice.MODELS]
         return after | {
             "model": pd.Categorical.from_codes(model, models),
             "error [m/s]": error,
-            "regime": pd.Categorical.from_codes(regime, _REGIMES),
+            "regime": pd.Categorical.from_codes(regime, list(Regime.__members__)),
             "incidence": incidence,
             "peak_normal_force [N]": impacts.peak_normal,
             "peak_friction_force [N]": impacts.friction * peak * impacts.peak_normal,

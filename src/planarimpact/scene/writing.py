@@ -1,4 +1,4 @@
-"""Tables of scenes written piece by piece: CSV, JSON, or Parquet where pyarrow is installed."""
+"""Tables of scenes written piece by piece: CSV or JSON."""
 
 import gzip
 import io
@@ -16,12 +16,13 @@ from planarimpact.scene.places import Place
 
 Write: TypeAlias = Callable[[pd.DataFrame], None]
 
-LEVEL = 6  # of gzip, as the command has it: the highest takes five times as long
+# Level of gzip, the default of the command. The highest level takes five times as long.
+LEVEL = 6
 
 
 @contextmanager
 def appended(target: Place) -> Iterator[Write]:
-    """A function that appends tables to a target; a file gets its name when all are written.
+    """A function that appends tables to a target. A file gets its name when all are written.
 
     Parameters
     ----------
@@ -42,12 +43,9 @@ def appended(target: Place) -> Iterator[Write]:
             opened = target.opened
             if not target.stream:
                 opened = str(stack.enter_context(files.written(target.name)))
-            if target.kind == places.PARQUET:
-                yield stack.enter_context(_parquet(opened))
-            else:
-                file = stack.enter_context(_text(opened, target.kind))
-                manager = _json if target.kind == places.JSON else _csv
-                yield stack.enter_context(manager(file))
+            file = stack.enter_context(_text(opened, target.kind))
+            manager = _json if target.kind == places.JSON else _csv
+            yield stack.enter_context(manager(file))
     except BrokenPipeError:
         raise
     except OSError as error:
@@ -97,27 +95,8 @@ def _json(file: TextIO) -> Iterator[Write]:
         nonlocal before
         for row in table.astype(object).to_dict("records"):
             plain = {name: files.or_null(cell) for name, cell in row.items()}
-            file.write(before + json.dumps(plain, default=str))  # an id may be a date
+            file.write(before + json.dumps(plain))
             before = ",\n"
 
     yield write
     file.write("[]\n" if before == "[\n" else "\n]\n")
-
-
-@contextmanager
-def _parquet(path: str | int) -> Iterator[Write]:
-    import pyarrow  # here, as it takes its time
-    from pyarrow import parquet
-
-    with ExitStack() as stack:
-        writer: Any = None
-
-        def write(table: pd.DataFrame) -> None:
-            nonlocal writer
-            schema = None if writer is None else writer.schema
-            content = pyarrow.Table.from_pandas(table, schema, preserve_index=False)
-            if writer is None:
-                writer = stack.enter_context(parquet.ParquetWriter(path, content.schema))
-            writer.write_table(content)
-
-        yield write

@@ -1,14 +1,10 @@
-"""The curves of the paper's figures: one module a figure, settings in, named curves out.
+"""The curves of the paper's figures: a module for each figure, settings in, named curves out.
 
 Each module has one function `curves`, whose keywords are the settings of that figure in
 `workflow/config.yaml` with the physics shared by all. It returns `{name: {column: array}}`; a
 column's name carries its unit in brackets, S = (v1(0)^2 + v2(0)^2)^(1/2).
 """
 
-from typing import Any, TypeAlias
+from stronge1994.csv_tables import Column, Columns, Curves
 
-from numpy.typing import NDArray
-
-Column: TypeAlias = NDArray[Any]  # numbers, or words
-Columns: TypeAlias = dict[str, Column]
-Curves: TypeAlias = dict[str, Columns]
+__all__ = ["Column", "Columns", "Curves"]

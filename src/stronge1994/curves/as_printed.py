@@ -1,11 +1,12 @@
-"""What the printed equations give, beside a curve of the exact solver: only where it differs."""
+"""What the printed equations give, where it differs from a curve of the exact solver."""
 
 import numpy as np
 
 from planarimpact.ground.arrays import ArrayLike, Booleans
+from stronge1994.curve_names import AS_PRINTED, NO_SOLUTION
 from stronge1994.curves import Columns, Curves
 
-# Below this the printed equations are the exact ones to rounding.
+# A smaller difference is rounding.
 SAME = 1e-9
 
 
@@ -25,7 +26,7 @@ def beside(name: str, curve: Columns, printed: ArrayLike) -> Curves:
     -------
     dict
         `as printed, NAME` where the printed equations differ, and `no solution as printed, NAME`
-        where they have none, there with the exact quantity; each only if there is such a place.
+        where they have none; that one holds the exact quantity. Each only if there is such a place.
 
     Examples
     --------
@@ -41,12 +42,12 @@ def beside(name: str, curve: Columns, printed: ArrayLike) -> Curves:
     ending = f", {name}" if name else ""
     found = {}
     if differs.any():
-        # With the last point in common, where the two part.
+        # With the last point in common, at which the two curves part.
         kept = _with_neighbours(differs) & ~missing
-        found[f"as printed{ending}"] = {axis: x[kept], column: printed[kept]}
+        found[f"{AS_PRINTED}{ending}"] = {axis: x[kept], column: printed[kept]}
     if missing.any():
         kept = _with_neighbours(missing, after=False)
-        found[f"no solution as printed{ending}"] = {axis: x[kept], column: exact[kept]}
+        found[f"{NO_SOLUTION}{ending}"] = {axis: x[kept], column: exact[kept]}
     return found
 
 

@@ -7,14 +7,16 @@ import numpy as np
 
 from planarimpact import continuum, lumped, rigid
 from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Rebound
+from planarimpact.ground.results import Rebound, Regime
+from stronge1994.curve_names import SIGNS, shifted
 from stronge1994.curves import Columns, Curves
 from stronge1994.curves import as_printed as printed_curves
-from stronge1994.curves.sampling import NO_NODES, SIGNS, Nodes, regime_names, shifted, vertices
+from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
 
-# Curves that only tell how far an uncertain parameter moves another one have fewer vertices.
+# Curves with a parameter off by one sigma only show how far it moves the others. They have this
+# many times fewer vertices.
 COARSER = 4
 
 
@@ -32,7 +34,7 @@ def curves(
     nodes: Nodes = NO_NODES,
     as_printed: bool = False,
 ) -> Curves:
-    """The lumped model, its limit, the elastic continuum; the same for rubber, an experiment.
+    """The lumped model, its limit and the elastic continuum, also for rubber and an experiment.
 
     Parameters
     ----------
@@ -61,12 +63,12 @@ def curves(
     Returns
     -------
     dict
-        `lumped`, `no tangential compliance`, `continuum`; `lumped` and `continuum` again for
-        `rubber`, `finite elements` and `experiment`. Those without such a word and those of the
-        finite elements have the regime and the spin after impact, R spin/(mu v2(0)) in the
-        direction of incidence negative; those of the experiment the quantities that are measured
-        against the angle of incidence, and curves beside them with one parameter off by one sigma,
-        named by `sampling.shifted`.
+        `lumped`, `no tangential compliance` and `continuum`; also `lumped, ...` and
+        `continuum, ...` for `rubber`, `finite elements` and `experiment`. `lumped`, `continuum` and
+        the curves of the finite elements have the regime, and the spin after impact as
+        R spin/(mu v2(0)), negative in the direction of incidence. The curves of the experiment have
+        the quantities that are measured against the angle of incidence. Beside them are curves with
+        one parameter off by one sigma, named by `curve_names.shifted`.
 
     Examples
     --------
@@ -127,7 +129,7 @@ def _velocity(x: Array, rebound: Rebound) -> Columns:
 def _sphere(x: Array, rebound: Rebound, mass_ratio: float) -> Columns:
     return {
         **_velocity(x, rebound),
-        "regime": regime_names(rebound.regime),
+        "regime": Regime.names(rebound.regime),
         "spin [mu v2(0)/R]": -(mass_ratio - 1) / mass_ratio * (x - rebound.velocity),
     }
 
@@ -162,7 +164,7 @@ def _shots(samples: int, nodes: ArrayLike, sphere: dict[str, float]) -> _Shots:
 def _elastic(asked: dict[str, tuple[Array, float, float]], tolerance: float) -> dict[str, Rebound]:
     """The continuum for several spheres, each with its incidences, beta and zeta^2.
 
-    Solved together they take hardly longer than one of them.
+    They are solved together, which takes hardly longer than one of them alone.
     """
     x, beta, zeta2 = (
         np.concatenate([np.broadcast_to(group[i], group[0].shape) for group in asked.values()])
@@ -201,32 +203,3 @@ def _measured(shots: _Shots, rebound: Rebound) -> Columns:
             np.arctan(friction * rebound.velocity / restitution)
         ),
     }
-
-
-def contact_velocities(
-    angle: ArrayLike, centre_restitution: ArrayLike, mass_ratio: float, friction: float
-) -> tuple[Array, Array]:
-    """Measured points of a sphere without spin in the axes of the figure.
-
-    Parameters
-    ----------
-    angle : array_like
-        Angle of incidence in degrees.
-    centre_restitution : array_like
-        Tangential velocity of the centre, after over before.
-    mass_ratio, friction : float
-        beta and mu.
-
-    Returns
-    -------
-    incidence, velocity : ndarray
-        x = tan(theta)/mu and w = x (beta e_t - (beta - 1)).
-
-    Examples
-    --------
-    >>> x, w = contact_velocities(45.0, 1.0, 3.5, 0.5)
-    >>> round(float(x), 9), round(float(w), 9)
-    (2.0, 2.0)
-    """
-    x = np.tan(np.radians(angle)) / friction
-    return x, x * (mass_ratio * np.asarray(centre_restitution) - (mass_ratio - 1))

@@ -2,10 +2,11 @@
 
 from collections.abc import Sequence
 
-from planarimpact import lumped
+from planarimpact import Regime, lumped
+from stronge1994.curve_names import name
 from stronge1994.curves import Curves
 from stronge1994.curves import as_printed as printed_curves
-from stronge1994.curves.sampling import NO_NODES, Nodes, name, regime_names, vertices
+from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
 
@@ -59,7 +60,7 @@ def curves(
             "velocity [mu v2(0)]": rebound.velocity,
             "peak_friction_force [mu m2 Omega v2(0)]": rebound.peak_friction,
             "dissipation [mu^2 m2 v2(0)^2]": rebound.dissipation,
-            "regime": regime_names(rebound.regime),
+            "regime": Regime.names(rebound.regime),
         }
         if as_printed:
             velocity, _, _ = impact.rebound(x, mass_ratio, stiffness_ratio, e)

@@ -6,9 +6,10 @@ import numpy as np
 
 from planarimpact import lumped, rigid
 from planarimpact.ground.arrays import Array, ArrayLike
+from stronge1994.curve_names import name
 from stronge1994.curves import Columns, Curves
 from stronge1994.curves import as_printed as printed_curves
-from stronge1994.curves.sampling import NO_NODES, Nodes, name, vertices
+from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
 

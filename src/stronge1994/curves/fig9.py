@@ -5,9 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from planarimpact import lumped, rigid
+from stronge1994.curve_names import name
 from stronge1994.curves import Curves
 from stronge1994.curves import as_printed as printed_curves
-from stronge1994.curves.sampling import NO_NODES, Nodes, name, vertices
+from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
 

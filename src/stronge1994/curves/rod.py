@@ -4,12 +4,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from planarimpact import noncollinear
+from planarimpact import Regime, noncollinear
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.noncollinear import InverseMass, NoncollinearHistory, NoncollinearRebound, rigid
 from planarimpact.noncollinear.rigid import ImpulsiveRebound, Law
+from stronge1994.curve_names import name
 from stronge1994.curves import Columns, Curves
-from stronge1994.curves.sampling import NO_NODES, Nodes, name, regime_names, vertices
+from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 
 RIGID = {"rigid": Law.ENERGETIC, "rigid, Newton": Law.KINEMATIC}
 
@@ -73,7 +74,7 @@ def curves(
             "friction_work [K0]": found.friction_work / before,
             "hysteresis [K0]": found.hysteresis / before,
             "energy_dissipated [K0]": (found.friction_work + found.hysteresis) / before,
-            "regime": regime_names(found.regime),
+            "regime": Regime.names(found.regime),
         }
         for kind, law in RIGID.items():
             sudden = rigid.rebound(ratio, 1.0, rod, friction, restitution, law)

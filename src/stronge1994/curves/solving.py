@@ -1,16 +1,21 @@
-"""Solve the curves of one figure. A crash becomes a table that says so: a failed verdict."""
+"""Solve the curves of one figure. A crash becomes a table with the error: a failed verdict."""
 
 import importlib
 import traceback
+from collections.abc import Mapping
+from typing import Any, TypeAlias
 
 from stronge1994 import csv_tables
 
+# CSV of a reference table: its x column; None stands for the whole table.
+Tables: TypeAlias = Mapping[str, str | None]
 
-def solve(figure, settings, nodes, output):
+
+def solve(figure: str, settings: dict[str, Any], nodes: Tables, output: str) -> None:
     """Write the curves of `figure`.
 
-    `nodes`, `{CSV of a reference table: its x column}`, are points that curves must pass through;
-    without a column it is the whole table, `points`.
+    `nodes` names reference tables. Curves must pass through the points of their x columns; a whole
+    table becomes the setting `points` instead.
     """
     try:
         settings = settings | read_nodes(nodes)
@@ -22,9 +27,9 @@ def solve(figure, settings, nodes, output):
     csv_tables.write(output, named)
 
 
-def read_nodes(nodes):
+def read_nodes(nodes: Tables) -> dict[str, Any]:
     """Settings that hold the points of reference tables, `nodes` as for `solve`."""
-    points = {}
+    points: dict[str, set[float]] = {}
     for path, column in nodes.items():
         rows = csv_tables.read_rows(path)
         if column is None:

@@ -1,4 +1,4 @@
-"""Beyond the paper: correct digits of the lumped model all over its parameters, and their limit."""
+"""Beyond the paper: correct digits of the lumped model for all parameters, and their limit."""
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -18,9 +18,10 @@ GROUPS = {
 }
 OUTPUTS = ("velocity", "peak_friction", "dissipation")
 ROUNDING = 2.0**-52
-# A hundred of the smallest numbers: below it float64 holds no two digits.
+# Below this, a hundred times the smallest number, float64 cannot hold two digits.
 FLOOR = 100 * 5e-324
-DIGITS = 16.0  # no more are counted
+# No more digits than this are counted.
+DIGITS = 16.0
 
 
 _Result = TypeVar("_Result")
@@ -41,13 +42,13 @@ def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
     Returns
     -------
     dict
-        `impacts`: for each output the digits found, -log10 of its relative error, and those
-        that its condition allows where every number is rounded once, both cut to 0 ... 16;
+        `impacts`: for each output the digits found, -log10 of its relative error, and the digits
+        that its condition allows if every number is rounded once, both cut to 0 ... 16;
         `digits_lost`, how many fewer the worst output has than allowed. An impact that raises,
         warns or gives NaN has no digits and loses 16.
-        `contacts`: by how much friction exceeds the Coulomb limit at its worst event; by how
-        much the work of friction along the contact differs from the balance of energy, over
-        the most work that friction could do there and the condition (0 for e = 0).
+        `contacts`: how far friction exceeds the Coulomb limit at the worst event; how far the
+        work of friction along the contact differs from the balance of energy, divided by the
+        most work that friction could do there plus the condition (0 for e = 0).
 
     Examples
     --------
@@ -65,7 +66,8 @@ def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
     labelled["phases [1]"] = table["phases"].astype(int)
 
     columns, lost = {}, []
-    for name, found in zip(OUTPUTS, _solved(groups), strict=True):
+    solved = dict(zip(OUTPUTS, _solved(groups), strict=True))
+    for name, found in solved.items():
         digits = _digits(found, table[name], table[f"condition_{name}"])
         columns[f"digits_{name} [1]"], columns[f"digits_allowed_{name} [1]"] = digits[:2]
         lost.append(digits[2])
@@ -73,7 +75,8 @@ def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
 
     few = (table["phases"] > 1) & (table["phases"] <= most_phases)
     size = np.maximum(_most_work(*groups) + table["condition_dissipation"], FLOOR)
-    balances = [_balances(*row) for row in np.vstack([size, groups]).T[few]]
+    lost_energy = np.broadcast_to(solved["dissipation"], size.shape)
+    balances = [_balances(*row) for row in np.vstack([size, lost_energy, groups]).T[few]]
     excess, residual = np.array(balances).reshape(-1, 2).T
     followed = {name: values[few] for name, values in labelled.items()}
     followed |= {"friction_excess [mu F2max]": excess, "energy_residual [1]": residual}
@@ -81,7 +84,7 @@ def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
 
 
 def _solved(groups: Array) -> Array:
-    """Outputs of impacts, shape (3, n); NaN for one that raises or warns, and for no other."""
+    """Outputs of impacts, shape (3, n); NaN only for those that raise or warn."""
     found = _attempt(lambda: np.stack(lumped.rebound(*groups)[:3]))
     if found is not None:
         return found
@@ -114,13 +117,16 @@ def _digits(found: Array, exact: Array, condition: Array) -> tuple[Array, Array,
     return correct + 0.0, np.clip(allowed, 0.0, DIGITS) + 0.0, lost  # no -0.0
 
 
-def _balances(size: float, x: float, beta: float, zeta2: float, e: float) -> tuple[float, float]:
-    """Excess of friction over the Coulomb limit, and residual of energy over `size`; at worst 1."""
+def _balances(
+    size: float, dissipation: float, x: float, beta: float, zeta2: float, e: float
+) -> tuple[float, float]:
+    """Excess of friction over the Coulomb limit, and error of energy over `size`, at most 1."""
     groups = x, beta, zeta2, e
     events = _attempt(lambda: lumped.history(x, beta, zeta2, e, samples=2).events)
-    gap = _attempt(lambda: lumped.friction_work(*groups) - lumped.rebound(*groups).dissipation)
-    if events is None or gap is None:
+    work = _attempt(lambda: lumped.friction_work(*groups))
+    if events is None or work is None or np.isnan(dissipation):
         return 1.0, 1.0
+    gap = work - dissipation
     excess = np.max([abs(event.friction) - event.normal for event in events], initial=0.0)
     excess = np.nan_to_num(excess, nan=1.0)
     # For e = 0 the tangential spring loses energy too.
@@ -128,5 +134,5 @@ def _balances(size: float, x: float, beta: float, zeta2: float, e: float) -> tup
 
 
 def _most_work(x: Array, beta: Array, zeta2: Array, e: Array) -> Array:
-    """All tangential energy, or friction at its limit over the whole contact where that is less."""
+    """All tangential energy, or the work of friction at its limit throughout if that is less."""
     return np.minimum(x, 2 * (1 + e) * beta) * (x / (2 * beta))

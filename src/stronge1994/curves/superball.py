@@ -1,4 +1,4 @@
-"""A superball thrown under a table: it comes back. Its path between floor and table."""
+"""A superball that is thrown under a table comes back: its path between floor and table."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -46,7 +46,7 @@ def curves(throw: dict[str, Any]) -> Curves:
         np.append(before[f"velocity_{axis} [m/s]"][:1], after[f"velocity_{axis}_after [m/s]"])
         for axis in "xz"
     )
-    # From half way down to the floor, up, down ..., and half the way after the last.
+    # The path begins half way above the floor, and ends half way after the last impact.
     height = np.resize([0.0, reach], len(after))
     last = height[-1] + np.sign(up[-1]) * reach / 2
     height = np.concatenate([[reach / 2], height, [last]])

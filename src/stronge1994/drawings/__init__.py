@@ -1,13 +1,26 @@
-"""Draw one figure from its curves: SVG and PNG. Curves that failed become a picture saying so."""
+"""Draw one figure from its curves, as SVG and PNG. If there are none, the picture says why.
+
+Nothing here solves: pictures are made from tables alone.
+"""
 
 import importlib
+from collections.abc import Mapping
+from typing import Any
 
 from stronge1994 import csv_tables, reference_data
 from stronge1994.drawings import house_style
 
 
-def draw(figure, settings, overlays, curves_path, series_paths, svg, png):
-    """Draw `figure`; `overlays` are its reference series at hand, and facts, by name."""
+def draw(
+    figure: str,
+    settings: house_style.Settings,
+    overlays: Mapping[str, Mapping[str, Any]],
+    curves_path: str,
+    series_paths: Mapping[str, str],
+    svg: str,
+    png: str,
+) -> None:
+    """Draw `figure`; `overlays` holds the reference series that are not awaited, and facts."""
     try:
         curves = csv_tables.read(curves_path)
     except csv_tables.Failed as error:
@@ -21,7 +34,7 @@ def draw(figure, settings, overlays, curves_path, series_paths, svg, png):
     house_style.save(module.draw(curves, settings, points), svg, png)
 
 
-def _points(name, entry, path):
+def _points(name: str, entry: Mapping[str, Any], path: str) -> house_style.Series:
     columns = csv_tables.read(path)[name.split("/")[1]]
     return {
         "x": columns[reference_data.column_name(entry["x"])],

@@ -1,6 +1,10 @@
 """Beyond the paper: error of two methods for the continuum against resolution and time."""
 
+from matplotlib.figure import Figure
+
+from stronge1994.csv_tables import Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Points, Settings
 
 ERROR, ORDER, TIME = "error [mu v2(0)]", "observed_order [1]", "time [s]"
 METHODS = {
@@ -11,8 +15,8 @@ METHODS = {
 }
 
 
-def draw(curves, settings, points):
-    """(a) Error against the number that is varied, (b) against the time of an impact."""
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw the error (a) against the number that is varied, (b) against the time of an impact."""
     figure = house_style.new(3.6)
     by_number, by_time = figure.subplots(1, 2, sharey=True)
     entries = []

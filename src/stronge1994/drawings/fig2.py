@@ -1,14 +1,22 @@
 """Fig. 2: force against deflection of the normal and the tangential element."""
 
-import numpy as np
+from typing import TypeAlias
 
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Points, Settings
+
+Point: TypeAlias = tuple[float, float]
 
 DEFLECTION, FORCE = "deflection [v2(0)/Omega]", "force [m2 Omega v2(0)]"
 
 
-def draw(curves, settings, points):
-    """One panel an element, with the paper's symbols on the axes."""
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw one panel for each element, with the paper's symbols on the axes."""
     figure = house_style.new(2.7)
     normal, tangential = figure.subplots(1, 2)
     _draw_normal(normal, curves, settings["restitution"])
@@ -16,7 +24,7 @@ def draw(curves, settings, points):
     return figure
 
 
-def _draw_normal(axes, curves, e):
+def _draw_normal(axes: Axes, curves: Curves, e: float) -> None:
     origin, peak = _ends(curves["normal loading"])
     _, end = _ends(curves["normal unloading"])
     axes.fill(*zip(origin, peak, end, strict=True), color=house_style.PALE, linewidth=0)
@@ -27,7 +35,7 @@ def _draw_normal(axes, curves, e):
     if e < 1:
         _label_slope(axes, end, peak, r"slope $\kappa/e^2$", above=False)
     axes.set_title(f"$e = {e:g}$, loss $1 - e^2 = {1 - e**2:.3g}$")
-    # The residual stands a line lower: at small e it comes close to the largest deflection.
+    # The label of the remaining deflection is one line lower: at small e it would overlap the next.
     ticks = {0: "0", end[0]: "\n" + r"$(1-e^2)\,u_2(t_c)$", peak[0]: r"$u_2(t_c)$"}
     axes.set_xticks(list(ticks), list(ticks.values()))
     axes.set_yticks([0, peak[1]], ["0", r"$\Omega m_2 v_2(0)$"])
@@ -35,7 +43,7 @@ def _draw_normal(axes, curves, e):
     axes.set(xlabel="normal deflection $u_2$", ylabel="normal force $F_2$")
 
 
-def _draw_tangential(axes, line, stiffness_ratio):
+def _draw_tangential(axes: Axes, line: Columns, stiffness_ratio: float) -> None:
     axes.axhline(0, **house_style.GUIDE)
     axes.axvline(0, **house_style.GUIDE)
     axes.plot(line[DEFLECTION], line[FORCE], **house_style.LUMPED)
@@ -44,20 +52,20 @@ def _draw_tangential(axes, line, stiffness_ratio):
     axes.set_title(rf"$\zeta^2 = {stiffness_ratio:g}$")
     axes.set_xticks([0])
     axes.set_yticks([0])
-    # One scale on both axes, as in the panel beside it: the slopes can be compared.
+    # Both axes have one scale, as in the other panel, so that slopes can be compared.
     reach = 1.25 * max(end)
     axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
     axes.set(xlabel="tangential deflection $u_1$", ylabel="tangential force $F_1$")
 
 
-def _ends(line):
+def _ends(line: Columns) -> tuple[Point, Point]:
     """First and last point of a line."""
     first, *_, last = zip(line[DEFLECTION], line[FORCE], strict=True)
     return first, last
 
 
-def _label_slope(axes, start, end, text, above=True):
-    """Label along the middle of the line from `start` to `end`, turned with it."""
+def _label_slope(axes: Axes, start: Point, end: Point, text: str, above: bool = True) -> None:
+    """Write along the middle of the line from `start` to `end`, turned with it."""
     turned = {"rotation_mode": "anchor", "transform_rotates_text": True, "ha": "center"}
     angle = np.degrees(np.arctan2(end[1] - start[1], end[0] - start[0]))
     vertical = "bottom" if above else "top"

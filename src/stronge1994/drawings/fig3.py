@@ -1,15 +1,22 @@
 """Figs 3 and 4: forces and tangential velocity during one contact, stick and slip above them."""
 
+from collections.abc import Iterator
+
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
+from planarimpact.ground.arrays import Array
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Dashes, Points, Settings
 
 TIME, VELOCITY = "time [t_c]", "velocity [mu v2(0)]"
 NORMAL, FRICTION = "normal_force [m2 Omega v2(0)]", "friction_force [mu m2 Omega v2(0)]"
 
 NORMAL_LINE = {"color": house_style.BLACK, "label": r"$F_2/m_2\Omega v_2(0)$"}
-# Broad and below: where the contact slips, the two forces are one line.
+# This line is broad and below the other: where the contact slips, they coincide.
 FRICTION_LINE = {
     "color": house_style.BLUE,
     "linewidth": 2.4,
@@ -21,8 +28,8 @@ LIMIT_LINE = {"color": house_style.GREY, "linewidth": 0.6, "label": r"added here
 CROSS = {"color": house_style.BLACK, "markersize": 6, "clip_on": False}
 
 
-def draw(curves, settings, points):
-    """Bars of stick and slip, (a) both forces, (b) velocity; one pattern of line a restitution."""
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw bars of stick and slip, (a) both forces and (b) velocity of each restitution."""
     figure = house_style.new(5.8)
     heights = [0.42 * len(curves), 5, 4.4]
     bars, forces, velocity = figure.subplots(3, 1, sharex=True, height_ratios=heights)
@@ -46,8 +53,8 @@ def draw(curves, settings, points):
     return figure
 
 
-def _draw_bars(axes, curves):
-    """A row a restitution: white while the contact sticks, grey while it slips."""
+def _draw_bars(axes: Axes, curves: Curves) -> None:
+    """Draw a row for each restitution: white while the contact sticks, grey while it slips."""
     axes.set(ylim=(len(curves), 0))
     axes.set_yticks(np.arange(len(curves)) + 0.5, [house_style.symbols(name) for name in curves])
     axes.tick_params(length=0, labelbottom=False)
@@ -62,7 +69,7 @@ def _draw_bars(axes, curves):
                 "clip_on": False,
             }
             axes.barh(row + 0.5, end - start, 0.7, start, **bar)
-            # The word of a short last bar stands behind it; other short bars speak by their shade.
+            # A short last bar has its word behind it. Other short bars have only their shade.
             place = {"va": "center_baseline", "fontsize": house_style.NOTE}
             if end - start > 0.15:
                 axes.text((start + end) / 2, row + 0.5, state, ha="center", **place)
@@ -70,14 +77,14 @@ def _draw_bars(axes, curves):
                 axes.text(end + 0.02, row + 0.5, state, **place)
 
 
-def _states(curve):
+def _states(curve: Columns) -> Iterator[tuple[float, float, str]]:
     """Phases of a contact: start, end, stick or slip."""
     changes = np.flatnonzero(np.isin(curve["event"], ["stick", "slip"]))
     for start, end in zip(changes, [*changes[1:], -1], strict=True):
         yield curve[TIME][start], curve[TIME][end], str(curve["event"][start])
 
 
-def _draw_forces(axes, curves):
+def _draw_forces(axes: Axes, curves: Curves) -> None:
     for time, dashes, columns in _lines(curves):
         axes.plot(time, -columns[NORMAL], linestyle=dashes, **LIMIT_LINE)
         axes.plot(time, columns[NORMAL], linestyle=dashes, **NORMAL_LINE)
@@ -90,7 +97,7 @@ def _draw_forces(axes, curves):
     axes.annotate(r"$\rightarrow$ restitution", (1.02, -0.06), ha="left", **below)
 
 
-def _draw_velocity(axes, curves):
+def _draw_velocity(axes: Axes, curves: Curves) -> None:
     for time, dashes, columns in _lines(curves):
         axes.plot(time, columns[VELOCITY], linestyle=dashes, color=house_style.BLACK)
         axes.plot(time[-1], columns[VELOCITY][-1], "x", **CROSS)
@@ -100,8 +107,8 @@ def _draw_velocity(axes, curves):
     axes.margins(y=0.1)
 
 
-def _lines(curves):
-    """Time, line pattern and columns of each curve; compression, common to all, only once."""
+def _lines(curves: Curves) -> Iterator[tuple[Array, Dashes, Columns]]:
+    """Time, line pattern and columns of each curve. Compression is the same for all: drawn once."""
     for index, (name, dashes) in enumerate(house_style.patterned(curves)):
         drawn = curves[name][TIME] >= (1 if index else 0)
         columns = {key: curves[name][key][drawn] for key in (TIME, NORMAL, FRICTION, VELOCITY)}

@@ -3,35 +3,34 @@
 import math
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
-from stronge1994.curves.fig5 import contact_velocities
+from planarimpact import Regime
+from planarimpact.ground.arrays import Array, ArrayLike
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Entries, Points, Series, Settings, Style
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-REGIMES = {
-    "STICK": "stick",
-    "SLIP_STICK": "slip - stick",
-    "STICK_SLIP": "initial stick, terminal slip",
-    "SLIP_STICK_SLIP": "slip - stick - slip",
-    "SLIP_THROUGHOUT": "slip throughout",
-    "MULTIPLE": "repeated stick",
-}
 RUBBER = {"color": house_style.GREEN, "linestyle": "-", "linewidth": 1.0}
 SOFT_CONTINUUM = {"color": house_style.GREEN, "linestyle": house_style.DASHES[1], "linewidth": 1.0}
 EXPERIMENT = {"color": house_style.BLUE, "linestyle": "-", "linewidth": 0.7}
 RUBBER_SPHERE = "johnson1983/rubber_sphere"
-RUBBER_POINTS = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
-ELEMENT_POINTS = {"color": house_style.VERMILLION, "marker": "s", "markerfacecolor": "white"}
-GLASS_POINTS = {"color": house_style.BLUE, "marker": "o", "markersize": 3}
-MEASURED_ANGLES = "kharaz2001/tangential_restitution"  # not in the axes of the figure
+RUBBER_POINTS: Style = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
+ELEMENT_POINTS: Style = {"color": house_style.VERMILLION, "marker": "s", "markerfacecolor": "white"}
+GLASS_POINTS: Style = {"color": house_style.BLUE, "marker": "o", "markersize": 3}
+# These points are measured against the angle: they must be converted to the axes of the figure.
+MEASURED_ANGLES = "kharaz2001/tangential_restitution"
 
 
-def draw(curves, settings, points):
-    """The paper's curves and series, and additions in a legend of their own."""
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw the paper's curves and series, and additions with their own part of the legend."""
     figure = house_style.new(5.0)
     axes = figure.subplots()
     printed = (1 + settings["restitution"]) * settings["mass_ratio"]
-    # As wide as in the paper, whose limit stands at 7 of 8, or wider by as much as the limit is.
+    # As wide as in the paper, 8 with the printed limit at 7; wider if the limit is larger.
     left, end = settings["incidence"]
     wide = max(8.0, printed * 8 / 7)
     right = wide if left < wide < end else end
@@ -49,8 +48,8 @@ def draw(curves, settings, points):
     return figure
 
 
-def _draw_paper(axes, curves, points, settings):
-    """Draw what the paper's figure holds; its entries of the legend."""
+def _draw_paper(axes: Axes, curves: Curves, points: Points, settings: Settings) -> Entries:
+    """Draw what the paper's figure holds, and return entries of the legend."""
     lumped = rf"lumped model, $\zeta^2 = {settings['stiffness_ratio']:g}$"
     rough = curves["no tangential compliance"]
     entries = [
@@ -64,8 +63,8 @@ def _draw_paper(axes, curves, points, settings):
     return entries + house_style.references(axes, points, series)
 
 
-def _draw_added(axes, curves, points, settings):
-    """Draw what this repository adds; its entries of the legend."""
+def _draw_added(axes: Axes, curves: Curves, points: Points, settings: Settings) -> Entries:
+    """Draw what this repository adds, and return entries of the legend."""
     sphere, rubber = settings["experiment"], settings["rubber"]["stiffness_ratio"]
     groups = rf"$\zeta^2 = {sphere['stiffness_ratio']:g}$, $e = {sphere['restitution']:g}$"
     soft = rf"rubber, $\zeta^2 = {rubber:g}$"
@@ -84,12 +83,12 @@ def _draw_added(axes, curves, points, settings):
     return entries + house_style.references(axes, points, series)
 
 
-def _draw_curve(axes, curve, label, style):
+def _draw_curve(axes: Axes, curve: Columns, label: str, style: Style) -> Line2D:
     return axes.plot(curve[X], curve[Y], label=label, **style)[0]
 
 
-def _contact_series(series):
-    """Measurements against the angle in the axes of the figure, errors to first order."""
+def _contact_series(series: Series) -> Series:
+    """Measurements against the angle, converted to the axes of the figure with their errors."""
     groups = [series["parameters"][key] for key in ("mass_ratio", "friction")]
     angle, ratio = series["x"], series["y"]
     angle_error, ratio_error = series["sigma"]
@@ -99,21 +98,50 @@ def _contact_series(series):
     return {"x": x, "y": y, "sigma": np.hypot(by_angle, by_ratio), "line": False}
 
 
-def _set_axes(axes, curve, left, right):
+def contact_velocities(
+    angle: ArrayLike, centre_restitution: ArrayLike, mass_ratio: float, friction: float
+) -> tuple[Array, Array]:
+    """Measured points of a sphere without spin in the axes of the figure.
+
+    Parameters
+    ----------
+    angle : array_like
+        Angle of incidence in degrees.
+    centre_restitution : array_like
+        Tangential velocity of the centre, after over before.
+    mass_ratio, friction : float
+        beta and mu.
+
+    Returns
+    -------
+    incidence, velocity : ndarray
+        x = tan(theta)/mu and w = x (beta e_t - (beta - 1)).
+
+    Examples
+    --------
+    >>> x, w = contact_velocities(45.0, 1.0, 3.5, 0.5)
+    >>> round(float(x), 9), round(float(w), 9)
+    (2.0, 2.0)
+    """
+    x = np.tan(np.radians(angle)) / friction
+    return x, x * (mass_ratio * np.asarray(centre_restitution) - (mass_ratio - 1))
+
+
+def _set_axes(axes: Axes, curve: Columns, left: float, right: float) -> None:
     drawn = curve[Y][curve[X] <= right]
     low, high = min(-3.0, math.floor(drawn.min())), max(2.0, math.ceil(drawn[-1]))
     axes.set(xlim=(left, right), ylim=(low, high), xlabel=house_style.INCIDENCE)
     axes.set_ylabel(house_style.REBOUND)
 
 
-def _draw_regimes(axes, curve, right):
-    """Brackets and boundaries where the regime of the solver changes."""
+def _draw_regimes(axes: Axes, curve: Columns, right: float) -> None:
+    """Draw brackets over the regimes of the solver, and lines where the regime changes."""
     x, regime = (curve[column][curve[X] <= right] for column in (X, "regime"))
     starts = [0, *(np.flatnonzero(regime[1:] != regime[:-1]) + 1)]
     bounds = [*x[starts], right]
-    # Normal impact alone may stick throughout: a point has no bracket.
+    # A regime may be one point, such as normal impact: it has no bracket.
     spans = [
-        (start, end, REGIMES[regime[index]])
+        (start, end, Regime[regime[index]].words)
         for start, end, index in zip(bounds[:-1], bounds[1:], starts, strict=True)
         if end - start > 0.02 * right
     ]
@@ -122,8 +150,8 @@ def _draw_regimes(axes, curve, right):
         axes.axvline(start, **house_style.GUIDE)
 
 
-def _draw_printed_limit(axes, limit):
-    """The paper's limit of slip throughout, (1 + e) m2/m1, that its Eq. 21 contradicts."""
+def _draw_printed_limit(axes: Axes, limit: float) -> None:
+    """Mark the paper's limit of slip throughout, (1 + e) m2/m1, which its Eq. 21 contradicts."""
     left, right = axes.get_xlim()
     if left < limit < right:
         place = {"transform": axes.get_xaxis_transform()}

@@ -1,14 +1,20 @@
 """Fig. 6: tangential velocity at separation against incidence, for several restitutions."""
 
 import math
+from collections.abc import Iterable
 
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from stronge1994.csv_tables import Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Points, Settings
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 
 
-def draw(curves, settings, points):
-    """One curve a restitution, named where it leaves the axes, and what the print has instead."""
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw a curve for each restitution, named at its end, and what the printed equations give."""
     figure = house_style.new(3.8)
     axes = figure.subplots()
     axes.axhline(0, **house_style.GUIDE)
@@ -26,8 +32,8 @@ def draw(curves, settings, points):
     return figure
 
 
-def _label_ends(axes, ends):
-    """Names to the right of the axes, at the heights of the curves but kept apart."""
+def _label_ends(axes: Axes, ends: Iterable[tuple[float, str, str]]) -> None:
+    """Write names to the right of the axes, at the heights of the curves but not too close."""
     low, high = axes.get_ylim()
     apart, last = 0.05 * (high - low), -math.inf
     for y, text, colour in sorted(ends):

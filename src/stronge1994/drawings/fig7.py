@@ -1,18 +1,24 @@
 """Fig. 7: largest normal and tangential force against the angle of incidence."""
 
+from collections.abc import Sequence
+
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from stronge1994.curves.sampling import name
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.curve_names import name
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Points, Settings, Style
 
 X, Y = "angle [deg]", "peak_force [m2 Omega S]"
 TANGENTIAL = {"color": house_style.BLUE, "linestyle": house_style.DASHES[1]}
 SLIDING = {"facecolor": "none", "edgecolor": "0.75", "linewidth": 0, "hatch": "////"}
 
 
-def draw(curves, settings, points):
-    """Both peak forces; light without tangential compliance; hatched where slip never stops."""
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw both peak forces; dotted without tangential compliance, hatched if slip never stops."""
     figure = house_style.new(4.4)
     axes = figure.subplots()
     _draw_curve(axes, curves["normal"], house_style.LUMPED)
@@ -42,17 +48,18 @@ def draw(curves, settings, points):
     return figure
 
 
-def _draw_curve(axes, curve, style):
+def _draw_curve(axes: Axes, curve: Columns, style: Style) -> None:
     axes.plot(curve[X], curve[Y], **style)
 
 
-def _label_lines(axes, lines):
-    """Labels in the lines themselves, all where the lines lie furthest apart."""
-    # Inside the axes, where a label does not cross the frame.
-    angle = np.linspace(*axes.get_xlim(), 361)[20:-20]
+def _label_lines(axes: Axes, lines: Sequence[tuple[str, Columns]]) -> None:
+    """Write labels into the lines, at the angle where the lines are furthest apart."""
+    left, right = axes.get_xlim()
+    # Away from both ends, where a label would cross the frame.
+    angle = np.linspace(left, right, 361)[20:-20]
     forces = np.array([np.interp(angle, curve[X], curve[Y]) for _, curve in lines])
     normal = np.cos(np.radians(angle))
-    # The axis and the normal force count as neighbours of the lines.
+    # Labels must keep away from the axis and from the normal force too.
     gaps = np.diff(np.sort(np.vstack([0 * angle, forces, normal]), axis=0), axis=0)
     at = int(gaps.min(axis=0).argmax())
     box = {"facecolor": "white", "edgecolor": "none", "pad": 0.8}

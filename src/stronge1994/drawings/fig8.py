@@ -1,23 +1,30 @@
 """Fig. 8: largest forces in newtons on the ball of Lewis & Rogers, and what is said of them."""
 
 import math
+from collections.abc import Sequence
 
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Entries, Points, Settings
 
 X, Y = "angle [deg]", "peak_force [N]"
 TANGENTIAL = {"color": house_style.BLUE, "linestyle": house_style.DASHES[1], "linewidth": 1.4}
 LARGEST = {"color": house_style.VERMILLION, "marker": "o", "linestyle": "none"}
-# The paper enlarges tangential forces on an axis of their own.
+# The paper draws tangential forces so many times larger, on a second axis.
 ENLARGED = 2
-# Angles of the largest tangential force: name of the fact, whose it is.
+# Stated angles of the largest tangential force: name of the fact, label.
 STATED = {
     "stronge1994/peak_angle_mu_0.18": r"model, {:g}$\degree$",
     "lewis_rogers1988/peak_angle": r"measured, $\approx {:g}\degree$",
 }
 
 
-def draw(curves, settings, points):
-    """Normal force on the left axis, tangential on the right one, measurements if at hand."""
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw the normal force on the left axis, the tangential one on the right; measurements too."""
     figure = house_style.new(5.0)
     axes = figure.subplots()
     enlarged = axes.twinx()
@@ -41,8 +48,8 @@ def draw(curves, settings, points):
     return figure
 
 
-def _draw_measured(axes, enlarged, points):
-    """Draw the measurements of Lewis & Rogers; their entries of the legend."""
+def _draw_measured(axes: Axes, enlarged: Axes, points: Points) -> Entries:
+    """Draw the measurements of Lewis & Rogers, and return entries of the legend."""
     forces = {
         "normal": (axes, house_style.BLACK, "o"),
         "friction": (enlarged, house_style.BLUE, "s"),
@@ -56,7 +63,7 @@ def _draw_measured(axes, enlarged, points):
     return entries
 
 
-def _set_axes(axes, enlarged, span):
+def _set_axes(axes: Axes, enlarged: Axes, span: Sequence[float]) -> None:
     top = 20 * math.ceil(max(axes.get_ylim()[1], ENLARGED * enlarged.get_ylim()[1]) / 20)
     axes.set(ylim=(0, top), ylabel="largest normal force, N")
     enlarged.set_ylim(0, top / ENLARGED)
@@ -65,19 +72,19 @@ def _set_axes(axes, enlarged, span):
     house_style.angle_axes(axes, span)
 
 
-def _draw_largest(axes, curve):
+def _draw_largest(axes: Axes, curve: Columns) -> Artist:
     """Mark the largest tangential force and its angle."""
     top = int(curve[Y].argmax())
     angle, force = curve[X][top], curve[Y][top]
-    # Left of the point, away from the angles stated.
+    # To the left of the point: the stated angles are to the right.
     place = {"textcoords": "offset points", "ha": "right", "va": "bottom"}
     text = rf"{angle:.1f}$\degree$"
     axes.annotate(text, (angle, force), (2, 4), color=house_style.VERMILLION, **place)
     return axes.plot(angle, force, label=r"largest $F_1^{max}$", **LARGEST)[0]
 
 
-def _draw_statements(axes, curve, points):
-    """Thin lines at the angles stated, from the axis to above the curve."""
+def _draw_statements(axes: Axes, curve: Columns, points: Points) -> Artist:
+    """Draw thin lines at the stated angles, from the axis to above the curve."""
     height = 1.15 * curve[Y].max()
     place = {"rotation": 90, "ha": "center", "va": "bottom", "fontsize": house_style.NOTE}
     left, right = axes.get_xlim()
@@ -89,7 +96,7 @@ def _draw_statements(axes, curve, points):
     return axes.vlines(list(inside), 0, height, label=label, **house_style.PRINTED)
 
 
-def _draw_note(axes, settings):
+def _draw_note(axes: Axes, settings: Settings) -> None:
     lines = [
         rf"$\mu = {settings['friction']:g}$",
         rf"$S = {settings['speed']:g}$ m/s",

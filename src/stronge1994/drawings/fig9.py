@@ -1,14 +1,21 @@
 """Fig. 9: share of the initial kinetic energy dissipated by friction."""
 
-from stronge1994.curves.sampling import name
+from collections.abc import Iterator, Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from stronge1994.csv_tables import Curves
+from stronge1994.curve_names import name
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Entries, Points, Settings, Style
 
 X, Y = "angle [deg]", "friction_dissipation [m2 S^2/2]"
 NOTE = "black, blue: exact balance of energy\n(correction of the printed figure)"
 
 
-def draw(curves, settings, points):
-    """Colour and breadth tell friction, the pattern of the line restitution."""
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw each friction in its colour and line width, each restitution in its pattern of line."""
     figure = house_style.new(4.3)
     axes = figure.subplots()
     for mu, style in _strokes(settings["friction"]):
@@ -30,21 +37,21 @@ def draw(curves, settings, points):
     return figure
 
 
-def _strokes(friction):
-    """Each coefficient of friction with its colour and breadth."""
+def _strokes(friction: Sequence[float]) -> Iterator[tuple[float, Style]]:
+    """Each coefficient of friction with its colour and line width."""
     for index, mu in enumerate(friction):
         colour = house_style.COLOURS[index % len(house_style.COLOURS)]
         yield mu, {"color": colour, "linewidth": 0.9 + 0.7 * index}
 
 
-def _draw_rigid(axes, curves, settings):
-    """Line of no tangential compliance: where slip halts it is one line for all mu and e."""
+def _draw_rigid(axes: Axes, curves: Curves, settings: Settings) -> None:
+    """Draw no tangential compliance. Where slip stops, it is one line for all mu and e."""
     pair = f"{name('mu', max(settings['friction']))}, {name('e', max(settings['restitution']))}"
     rough = curves[f"no tangential compliance, {pair}"]
     house_style.rigid(axes, rough[X], rough[Y], curves[pair][Y])
 
 
-def _legend(settings, printed):
+def _legend(settings: Settings, printed: Entries) -> tuple[Entries, Entries, Entries]:
     frictions = [
         house_style.key(house_style.symbols(name("mu", mu)), **style)
         for mu, style in _strokes(settings["friction"])

@@ -1,44 +1,70 @@
 """House style of the figures: fonts, colours, what each line means, and the parts they share.
 
-Each draw_figN.py has one public function, `draw(curves, settings, points)`, that returns a Figure:
+Each figN.py beside this file has one public function, `draw(curves, settings, points)`, which
+returns a Figure:
 
 - `curves`, what stronge1994.curves.figN returns: `{curve: {column: array}}`;
 - `settings`, the keywords it was called with, from which labels take their numbers;
-- `points`, the reference series at hand, `{"source/series": {...}}` with arrays `x` and `y`, their
-  `sigma`, `line` and the source's `parameters`, and stated facts, as in source.yaml.
+- `points`, the reference series that are not awaited, `{"source/series": {...}}` with arrays `x`
+  and `y`, their `sigma`, `line` and the source's `parameters`; and stated facts, as in source.yaml.
 
-Importing this module sets matplotlib's defaults, once and for all figures: ticks are made late,
-at the drawing, so a style that holds only while a figure is put together would not reach them.
-What this repository adds to a figure of the paper stands in a part of the legend of its own.
-Colours (Okabe & Ito) differ in grey too, and no two curves differ by colour alone.
+Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
+figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
+What this repository adds to a figure of the paper has its own part of the legend. The colours
+(Okabe & Ito) differ in grey too, and no two curves differ by colour alone.
 """
 
 import itertools
 import textwrap
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import IO, Any, TypeAlias, TypeVar
 
 import matplotlib
 import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-WIDTH = 5.0  # inches; the type stays readable when a column of a journal shrinks it to 3.4
-NOTE = 7  # points: notes, brackets, labels at lines
+from planarimpact.ground.arrays import Array
+from stronge1994 import curve_names
+from stronge1994.csv_tables import Curves
+
+Style: TypeAlias = dict[str, Any]  # keywords of matplotlib
+Dashes: TypeAlias = str | tuple[float, tuple[float, ...]]  # a pattern of line
+File: TypeAlias = str | IO[bytes]
+Settings: TypeAlias = dict[str, Any]
+Series: TypeAlias = dict[str, Any]
+Points: TypeAlias = dict[str, Series]
+Entries: TypeAlias = list[Any]  # of a legend: artists, and containers of them
+_Item = TypeVar("_Item")
+
+# Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
+WIDTH = 5.0
+# Size in points of notes, of words over brackets and of labels at lines.
+NOTE = 7
 
 BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
 GREY, PALE = "0.5", "0.85"
 
-# Dotted is left out: it means "no tangential compliance".
-DASHES = ("-", (0, (5, 2)), (0, (7, 2, 1.5, 2)), (0, (3, 1.2)), (0, (7, 1.5, 1.5, 1.5, 1.5, 1.5)))
-COLOURS = (BLACK, BLUE, VERMILLION, GREEN, PURPLE)
+# No pattern is dotted: a dotted line means "no tangential compliance".
+DASHES: tuple[Dashes, ...] = (
+    "-",
+    (0, (5, 2)),
+    (0, (7, 2, 1.5, 2)),
+    (0, (3, 1.2)),
+    (0, (7, 1.5, 1.5, 1.5, 1.5, 1.5)),
+)
+COLOURS: tuple[str, ...] = (BLACK, BLUE, VERMILLION, GREEN, PURPLE)
 CYCLE = tuple(zip(COLOURS, DASHES, strict=True))
 
-LUMPED = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
-CONTINUUM = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
-RIGID = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zorder": 1.8}
-GUIDE = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9}
-PRINTED = {"color": GREY, "linewidth": 0.8}
-AS_PRINTED = {"color": PURPLE, "linestyle": "-", "linewidth": 0.9, "zorder": 2.2}
-UNSOLVED = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
+LUMPED: Style = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
+CONTINUUM: Style = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
+RIGID: Style = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zorder": 1.8}
+GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9}
+PRINTED: Style = {"color": GREY, "linewidth": 0.8}
+AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 0.9, "zorder": 2.2}
+UNSOLVED: Style = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
 
 INCIDENCE = r"$v_1(0)/\mu v_2(0)$"
 REBOUND = r"$v_1(t_f)/\mu v_2(0)$"
@@ -71,13 +97,13 @@ matplotlib.rcdefaults()
 matplotlib.rcParams.update(STYLE)
 
 
-def new(height):
+def new(height: float) -> Figure:
     """Empty figure of the house's width and a height in inches."""
     return Figure(figsize=(WIDTH, height), layout="constrained")
 
 
-def save(figure, svg, png=None):
-    """Write both files, the same bytes for the same figure.
+def save(figure: Figure, svg: File, png: File | None = None) -> None:
+    """Write both files. The same figure gives the same bytes.
 
     Parameters
     ----------
@@ -85,7 +111,8 @@ def save(figure, svg, png=None):
     svg, png : path or binary file
         The second may be left out.
     """
-    # The layout is solved in an order that changes from run to run, and with it the last bits.
+    # Matplotlib solves the layout in an order that changes from run to run, which changes the last
+    # bits. So the places are rounded.
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
     for axes in figure.axes:
@@ -95,8 +122,8 @@ def save(figure, svg, png=None):
         figure.savefig(png, format="png", dpi=200)
 
 
-def failure(message):
-    """Figure of one plain sentence, drawn where curves are missing."""
+def failure(message: str) -> Figure:
+    """Figure of one sentence, drawn instead of curves that are missing."""
     figure = new(1.6)
     # A dollar sign in an error message is not mathematics.
     style = {"ha": "center", "va": "center", "color": VERMILLION, "parse_math": False}
@@ -104,8 +131,8 @@ def failure(message):
     return figure
 
 
-def symbols(name):
-    """Name of a curve in mathematical type.
+def symbols(name: str) -> str:
+    """Name of a curve in mathematical letters.
 
     Examples
     --------
@@ -115,18 +142,18 @@ def symbols(name):
     return "$" + name.replace("mu", r"\mu") + "$"
 
 
-def patterned(items):
-    """Each item with a pattern of line."""
+def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
+    """Each item with its own pattern of line."""
     return zip(items, itertools.cycle(DASHES), strict=False)
 
 
-def key(label, **style):
-    """Entry of a legend without its curve."""
+def key(label: str, **style: Any) -> Line2D:
+    """Entry of a legend for a line that is not drawn."""
     return Line2D([], [], label=label, **style)
 
 
-def legend_below(figure, *groups, titles=()):
-    """Legend under the axes, where it covers no curve whatever the physics: a column a group.
+def legend_below(figure: Figure, *groups: Iterable[Artist], titles: Collection[str] = ()) -> None:
+    """Legend below the axes, where it never covers a curve: one column for each group.
 
     Parameters
     ----------
@@ -140,7 +167,7 @@ def legend_below(figure, *groups, titles=()):
     columns = [list(group) for group in groups]
     for column, title in zip(columns, titles, strict=False):
         column.insert(0, key(title, **blank))
-    # A legend fills column by column: short ones must be as long as the longest.
+    # A legend is filled column by column, so all columns must be equally long.
     rows = max(map(len, columns))
     for column in columns:
         column += [key("", **blank)] * (rows - len(column))
@@ -152,13 +179,20 @@ def legend_below(figure, *groups, titles=()):
             text.set_style("italic")
 
 
-def rigid(axes, x, y, compliant):
-    """Line of negligible tangential compliance, left out where the compliant curve is the same."""
+def rigid(axes: Axes, x: Array, y: Array, compliant: Array) -> None:
+    """Line without tangential compliance, left out where the compliant curve is the same."""
     axes.plot(x, np.where(np.isclose(y, compliant), np.nan, y), **RIGID)
 
 
-def as_printed(axes, curves, x, y, equations, patterns=None):
-    """Draw what the printed equations give, where they differ; entries of the legend.
+def as_printed(
+    axes: Axes,
+    curves: Curves,
+    x: str,
+    y: str,
+    equations: str,
+    patterns: Mapping[str, Dashes] | None = None,
+) -> Entries:
+    """Draw what the printed equations give, and return entries of the legend.
 
     Parameters
     ----------
@@ -168,32 +202,32 @@ def as_printed(axes, curves, x, y, equations, patterns=None):
     x, y : str
         Their columns.
     equations : str
-        Which equations, for the legend.
+        Their numbers, for the legend.
     patterns : dict, optional
-        Pattern of the line for names that end in a key.
+        Pattern of the line for curves whose name ends in a key.
 
     Returns
     -------
     list of artists
     """
     kinds = {
-        "as printed": (f"{equations} as printed", AS_PRINTED),
-        "no solution as printed": ("no solution as printed", UNSOLVED),
+        curve_names.AS_PRINTED: (f"{equations} as printed", AS_PRINTED),
+        curve_names.NO_SOLUTION: ("no solution as printed", UNSOLVED),
     }
     entries = []
     for kind, (label, style) in kinds.items():
         chosen = {name: curve for name, curve in curves.items() if name.split(",")[0] == kind}
         for name, curve in chosen.items():
             ours = [dashes for end, dashes in (patterns or {}).items() if name.endswith(end)]
-            pattern = {"linestyle": ours[0]} if ours and kind == "as printed" else {}
+            pattern = {"linestyle": ours[0]} if ours and kind == curve_names.AS_PRINTED else {}
             axes.plot(curve[x], curve[y], **(style | pattern))
         if chosen:
             entries.append(key(label, **style))
     return entries
 
 
-def measured(axes, series, **style):
-    """Reference points with error bars, or a line where the reference is one; its legend entry."""
+def measured(axes: Axes, series: Series, **style: Any) -> Artist:
+    """Draw points with error bars, or a line if the reference is one; its entry of the legend."""
     if series["line"]:
         return axes.plot(series["x"], series["y"], **style)[0]
     x_error, y_error = series["sigma"]
@@ -201,8 +235,8 @@ def measured(axes, series, **style):
     return axes.errorbar(series["x"], series["y"], yerr=y_error, xerr=x_error, **(bars | style))
 
 
-def references(axes, points, wanted):
-    """Draw reference series on their axes; an entry of the legend each, also for awaited ones.
+def references(axes: Axes, points: Points, wanted: Mapping[str, tuple[str, Style]]) -> Entries:
+    """Draw reference series; the legend has an entry for each, also for awaited ones.
 
     Parameters
     ----------
@@ -224,8 +258,8 @@ def references(axes, points, wanted):
     ]
 
 
-def let_in(axes, series):
-    """Widen axes to points that were digitised just outside them, up to three sigmas.
+def let_in(axes: Axes, series: Series) -> None:
+    """Widen axes to points that were digitised up to three sigmas outside them.
 
     Parameters
     ----------
@@ -244,8 +278,8 @@ def let_in(axes, series):
         set_(min([low, *near]), max([high, *near]))
 
 
-def angle_axes(axes, span):
-    """Angles of incidence below, the ratio of velocities that they stand for above."""
+def angle_axes(axes: Axes, span: Sequence[float]) -> None:
+    """Axis of angles of incidence below, and above it the ratios of velocities that they mean."""
     axes.set(xlim=span, xlabel=r"angle of incidence $\theta$")
     degrees = [angle for angle in range(0, 91, 30) if span[0] <= angle <= span[1]]
     axes.set_xticks(degrees, [rf"${angle}\degree$" for angle in degrees])
@@ -257,15 +291,15 @@ def angle_axes(axes, span):
     top.set_xlabel(r"$v_1(0)/v_2(0)$")
 
 
-def brackets(axes, spans):
-    """Brackets over the axes: `spans` holds (start, end, label) on the x axis."""
+def brackets(axes: Axes, spans: Iterable[tuple[float, float, str]]) -> None:
+    """Draw brackets over the axes: `spans` holds (start, end, label) on the x axis."""
     across = axes.get_xaxis_transform()
     left, right = axes.get_xlim()
     foot, top = 1.02, 1.045
     for start, end, label in spans:
         frame = [start, start, end, end], [foot, top, top, foot]
         axes.plot(*frame, transform=across, clip_on=False, color=BLACK, linewidth=0.7)
-        # Letters that fit: 16 an inch in this size, on axes a little narrower than the figure.
+        # So many letters fit: 16 to an inch in this size. The axes are narrower than the figure.
         letters = int((end - start) / (right - left) * WIDTH * 14)
         if letters < max(map(len, label.split())):
             continue

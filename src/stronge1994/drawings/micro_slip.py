@@ -1,6 +1,13 @@
 """Beyond the paper: radius of stick over the impact, and the forces of both models."""
 
+from collections.abc import Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from stronge1994.csv_tables import Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Entries, Points, Settings
 
 TIME, CONTACT, STICK = "time [t_c]", "contact_radius [a_max]", "stick_radius [a_max]"
 NORMAL, FRICTION = "normal_force [F2max]", "friction_force [mu F2max]"
@@ -9,8 +16,8 @@ FRICTION_LINE = {"color": house_style.BLUE, "linewidth": 1.4}
 LUMPED, CONTINUUM = "-", (0, (6, 2))
 
 
-def draw(curves, settings, points):
-    """(a) Edge of contact and of stick; then both forces of both models, a panel an incidence."""
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw (a) radii of contact and stick; below, a panel of forces for each incidence."""
     forces = settings["forces"]
     figure = house_style.new(3.4 + 1.9 * len(forces))
     panels = figure.subplots(1 + len(forces), 1, sharex=True, height_ratios=[3] + [2] * len(forces))
@@ -31,8 +38,8 @@ def draw(curves, settings, points):
     return figure
 
 
-def _draw_radii(axes, curves, incidences):
-    """Radius of contact, and inside it one of stick for each incidence; entries of the legend."""
+def _draw_radii(axes: Axes, curves: Curves, incidences: Sequence[float]) -> Entries:
+    """Draw the radius of contact and those of stick, and return entries of the legend."""
     first = curves[f"continuum, x = {incidences[0]:g}"]
     rim = {"color": house_style.BLACK, "linewidth": 0.6}
     entries = axes.plot(first[TIME], first[CONTACT], label="contact", **rim)
@@ -45,7 +52,7 @@ def _draw_radii(axes, curves, incidences):
     return entries
 
 
-def _draw_forces(axes, curves, x):
+def _draw_forces(axes: Axes, curves: Curves, x: float) -> None:
     for model, dashes in (("continuum", CONTINUUM), ("lumped", LUMPED)):
         curve = curves[f"{model}, x = {x:g}"]
         axes.plot(curve[TIME], curve[NORMAL], linestyle=dashes, **NORMAL_LINE)

@@ -1,12 +1,19 @@
-"""The figure of error against time with the peers' points, and which of them is missing."""
+"""The figure of error against time with points of LAMMPS and pooltool."""
+
+from collections.abc import Mapping
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from stronge1994 import csv_tables
+from stronge1994.csv_tables import Curves
 from stronge1994.drawings import house_style
 from stronge1994.drawings import trade as draw_trade
+from stronge1994.drawings.house_style import Settings
 
 CODES = {"lammps": "LAMMPS", "pooltool": "pooltool"}
 OTHER = draw_trade.Family("", "X", 5, house_style.BLACK, False, draw_trade.ABOVE)
-# LAMMPS' laws lie together in panel (a), and apart in (c) beside ours.
+# The laws of LAMMPS lie together in panel (a). Panel (c) shows them apart, beside our models.
 LAWS = {
     "LAMMPS mindlin": OTHER._replace(marker="<", label="mindlin", place=draw_trade.RIGHT),
     "LAMMPS mindlin/force": OTHER._replace(marker="^", label="mindlin/force"),
@@ -18,8 +25,8 @@ TOGETHER = OTHER._replace(marker="+", label="LAMMPS, in (c)", place=None)
 POOLTOOL = OTHER._replace(label="pooltool", place=draw_trade.LEFT)
 
 
-def draw(curves, peers, settings):
-    """Figure `trade` with the rows of `peers` that are not ours; its title names what is missing.
+def draw(curves: Curves, peers: Curves, settings: Settings) -> Figure:
+    """Draw figure `trade` with the other codes; its title names those that are not installed.
 
     Parameters
     ----------
@@ -50,8 +57,8 @@ def draw(curves, peers, settings):
     return figure
 
 
-def _add_legend(axes, families):
-    """Legend of the peers in the empty middle of panel (a)."""
+def _add_legend(axes: Axes, families: Mapping[str, draw_trade.Family]) -> None:
+    """Write the legend of the other codes into the empty middle of panel (a)."""
     keys = [
         house_style.key(label, linestyle="none", **family.style())
         for label, family in families.items()
@@ -60,12 +67,12 @@ def _add_legend(axes, families):
         axes.legend(handles=keys, loc="center", bbox_to_anchor=(0.42, 0.48), handlelength=1)
 
 
-def _elastic(curves):
+def _elastic(curves: Curves) -> Curves:
     return {name: row for name, row in curves.items() if row[draw_trade.RESTITUTION][0] == 1}
 
 
-def _draw_laws(axes, curves, batch):
-    """LAMMPS' laws and ours at the same steps: their errors on a plain scale, against time."""
+def _draw_laws(axes: Axes, curves: Curves, batch: int) -> None:
+    """Draw errors of LAMMPS' laws and of ours against time, on a linear scale of error."""
     families = LAWS | {model: draw_trade.FAMILIES[model] for model in OURS}
     for curve in curves.values():
         row = {key: value[0] for key, value in curve.items()}
@@ -88,7 +95,7 @@ def _draw_laws(axes, curves, batch):
     axes.set_title("(c) part of (a), with LAMMPS")
 
 
-def write(curves, peers, settings, svg, png):
+def write(curves: str, peers: str, settings: Settings, svg: str, png: str) -> None:
     """Draw the tables `curves` and `peers`; a solver that failed becomes a picture that says so."""
     try:
         figure = draw(csv_tables.read(curves), csv_tables.read(peers), settings)

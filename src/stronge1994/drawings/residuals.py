@@ -1,14 +1,28 @@
-"""Residuals of a figure as strips: one a curve and reference, with what is allowed shaded."""
+"""Residuals of a figure as strips, one for each curve and reference. What is allowed is shaded."""
 
 from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from planarimpact.ground.arrays import Array
+from stronge1994.csv_tables import Row
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Style
 
-MOST_POINTS = 1000  # of a comparison; more would be a block of ink, and make the page heavy
-STRIP, LABEL = 0.55, 0.3  # inches: height of a strip, and of the label of its x axis
+# Curve, reference and quantity of a strip.
+Strip: TypeAlias = tuple[str, str, str]
+Bounds: TypeAlias = dict[str, tuple[float, float]]
+Entry: TypeAlias = Mapping[str, Any]  # a comparison of the config
+
+# A comparison with more points is left out: it would be a block of ink, and a large file.
+MOST_POINTS = 1000
+# Inches: height of a strip, and of the label of its x axis.
+STRIP, LABEL = 0.55, 0.3
 MARKS = {
     "agrees": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
     "differs as documented": {"color": house_style.BLUE, "marker": "s", "markersize": 1.8},
@@ -19,8 +33,10 @@ RMS_ALLOWED = {"color": house_style.GREEN, "alpha": 0.35, "linewidth": 0, "zorde
 RMS = {"color": house_style.GREEN, "linewidth": 0.9, "linestyle": "-", "zorder": 1.9}
 
 
-def draw(residuals, comparisons, verdicts):
-    """Strips of the comparisons of one figure that have a residual a point.
+def draw(
+    residuals: Sequence[Row], comparisons: Mapping[str, Entry], verdicts: Mapping[str, Row]
+) -> Figure | None:
+    """Draw strips of the comparisons of one figure that have a residual for each point.
 
     Parameters
     ----------
@@ -39,7 +55,7 @@ def draw(residuals, comparisons, verdicts):
     strips = _strips(residuals, comparisons)
     if not strips:
         return None
-    # A label only below the last of several strips with the same axis.
+    # Of several strips with the same axis only the last has a label below it.
     axis = [quantity for _, _, quantity in strips]
     labelled = [i + 1 == len(axis) or axis[i + 1] != axis[i] for i in range(len(axis))]
     heights = [STRIP + LABEL * last for last in labelled]
@@ -62,12 +78,12 @@ def draw(residuals, comparisons, verdicts):
         axes.set_xlim(min(a.get_xlim()[0] for a in same), max(a.get_xlim()[1] for a in same))
     figure.supylabel(r"distance [$\sigma$]", fontsize=house_style.NOTE + 1)
     shown = {name for parts in strips.values() for name in parts}
-    bounds = set().union(*(_bounds(comparisons[name], verdicts[name]) for name in shown))
-    _add_legend(figure, {verdicts[name]["verdict"] for name in shown}, bounds)
+    limits = {key for name in shown for key in _bounds(comparisons[name], verdicts[name])}
+    _add_legend(figure, {verdicts[name]["verdict"] for name in shown}, limits)
     return figure
 
 
-def words(quantity):
+def words(quantity: str) -> str:
     """Name of a column for a reader.
 
     Examples
@@ -79,9 +95,12 @@ def words(quantity):
     return name.replace("_", " ") + bracket + unit.replace("mu ", "µ ")
 
 
-def _strips(residuals, comparisons):
-    """Points by strip and comparison; strips with the same axis next to each other."""
-    found, counts = {}, Counter(row["comparison"] for row in residuals)
+def _strips(
+    residuals: Sequence[Row], comparisons: Mapping[str, Entry]
+) -> dict[Strip, dict[str, Array]]:
+    """Points by strip and comparison. Strips with the same axis follow each other."""
+    found: dict[Strip, dict[str, list[tuple[float, float]]]] = {}
+    counts = Counter(row["comparison"] for row in residuals)
     for row in residuals:
         entry = comparisons[row["comparison"]]
         if entry["metric"] in ("distance", "vertices") and counts[row["comparison"]] <= MOST_POINTS:
@@ -95,7 +114,7 @@ def _strips(residuals, comparisons):
     }
 
 
-def _draw_comparison(axes, bounds, x, distance, mark):
+def _draw_comparison(axes: Axes, bounds: Bounds, x: Array, distance: Array, mark: Style) -> None:
     span = np.array([x.min(), x.max()])
     span = span if span[0] < span[1] else span + [-0.5, 0.5]
     if "max" in bounds:
@@ -109,13 +128,13 @@ def _draw_comparison(axes, bounds, x, distance, mark):
     axes.plot(x, distance, linestyle="none", **mark)
 
 
-def _bounds(entry, row):
-    """What `rms` and `max` must lie between; chi-squared bounds all points together, and none."""
+def _bounds(entry: Entry, row: Row) -> Bounds:
+    """Bounds of `rms` and `max`. Chi-squared gives none: it judges all points together."""
     known = entry.get("regression", {} if row["p"] else {"max": (0.0, 1.0)})
     return {key: span for key, span in known.items() if key in ("rms", "max")}
 
 
-def _add_legend(figure, verdicts, bounds):
+def _add_legend(figure: Figure, verdicts: Collection[str], bounds: Collection[str]) -> None:
     points = [
         house_style.key(verdict, linestyle="none", **mark)
         for verdict, mark in MARKS.items()

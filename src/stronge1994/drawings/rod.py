@@ -1,10 +1,19 @@
 """Beyond the paper: a slender rod strikes with its tip; rebound, energy, a contact that jams."""
 
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Patch
 
+from planarimpact import Regime
+from planarimpact.ground.arrays import Array
+from stronge1994.csv_tables import Column, Columns, Curves
 from stronge1994.drawings import house_style
-from stronge1994.drawings.superball import SURFACE, WORDS
+from stronge1994.drawings.house_style import Entries, Points, Settings
+from stronge1994.drawings.superball import SURFACE
 
 TILT, TIME = "tilt [deg]", "time [1/Omega]"
 ENERGY, JAMS = "kinetic_energy [K0]", "jams [1]"
@@ -20,8 +29,8 @@ JAM = {"facecolor": "white", "hatch": "//////", "edgecolor": "0.4", "linewidth":
 SHADES = {"STICK_SLIP": "white", "SLIP_STICK_SLIP": "0.93", "SLIP_THROUGHOUT": "0.8"}
 
 
-def draw(curves, settings, points):
-    """Over the tilt, a column a ratio of velocities: slip, (a, b) velocities, (c) energy; (d)."""
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw (a, b) velocities and (c) energy over the tilt, a column for each ratio; (d) forces."""
     figure = house_style.new(8.0)
     over_tilt, over_time = figure.subfigures(2, 1, height_ratios=[5.5, 2.5])
     ratios = settings["velocity_ratio"]
@@ -34,7 +43,7 @@ def draw(curves, settings, points):
         height_ratios=[0.8, 2, 2, 2],
     )
     for column, ratio in zip(panels.T, ratios, strict=True):
-        # 94 letters of the ribbon fit beside each other on all panels.
+        # 94 letters fit beside each other on the ribbons of all columns together.
         _draw_over_tilt(column, curves, f"v1/v2 = {ratio:g}", 94 / len(ratios))
         column[0].set_title(rf"$v_1(0)/v_2(0) = {ratio:g}$")
         column[-1].set_xlabel(r"tilt $\alpha$")
@@ -55,7 +64,7 @@ def draw(curves, settings, points):
     return figure
 
 
-def _draw_over_tilt(panels, curves, name, letters):
+def _draw_over_tilt(panels: Sequence[Axes], curves: Curves, name: str, letters: float) -> None:
     compliant, rigid, newton = (
         curves[f"{kind}{name}"] for kind in ("", "rigid, ", "rigid, Newton, ")
     )
@@ -75,8 +84,8 @@ def _draw_over_tilt(panels, curves, name, letters):
     panels[-1].set_xlim(compliant[TILT][[0, -1]])
 
 
-def _draw_ribbon(axes, compliant, rigid, letters):
-    """Rows: order of stick and slip, where the compliant contact jams, where the rigid one."""
+def _draw_ribbon(axes: Axes, compliant: Columns, rigid: Columns, letters: float) -> None:
+    """Draw three rows: stick and slip; jams of the compliant contact; jams of the rigid one."""
     axes.set(ylim=(3, 0))
     axes.tick_params(which="both", length=0, labelbottom=False)
     axes.spines[:].set_visible(False)
@@ -85,28 +94,28 @@ def _draw_ribbon(axes, compliant, rigid, letters):
         shade = SHADES.get(regime, "0.6")
         frame = {"facecolor": shade, "edgecolor": house_style.BLACK, "linewidth": 0.6}
         axes.barh(0.5, end - start, 0.8, start, clip_on=False, **frame)
-        # A bar too short for its word speaks by its shade.
-        if (end - start) / np.ptp(tilt) * letters > len(WORDS[regime]):
+        # A bar that is too short for its word has only its shade.
+        if (end - start) / np.ptp(tilt) * letters > len(words := Regime[regime].words):
             place = {"ha": "center", "va": "center_baseline", "fontsize": house_style.NOTE - 1}
-            axes.text((start + end) / 2, 0.5, WORDS[regime], **place)
+            axes.text((start + end) / 2, 0.5, words, **place)
     for row, curve in ((1.5, compliant), (2.5, rigid)):
         for start, end, jams in _spans(tilt, curve[JAMS]):
             if jams:
                 axes.barh(row, end - start, 0.8, start, **JAM)
 
 
-def _spans(x, labels):
-    """Stretches of one label: start, end, label; a change counts half way."""
+def _spans(x: Array, labels: Column) -> Iterator[tuple[float, float, Any]]:
+    """Parts with one label: start, end, label. They meet half way between two points."""
     changes = np.flatnonzero(labels[1:] != labels[:-1])
     edges = [x[0], *(x[changes] + x[changes + 1]) / 2, x[-1]]
     return zip(edges, edges[1:], labels[[*changes, -1]], strict=False)
 
 
-def _draw_contact(axes, curves, mu):
-    """(d) Both forces against time, stick and slip above them; entries of the legend."""
+def _draw_contact(axes: Axes, curves: Curves, mu: float) -> list[Entries]:
+    """Draw (d) both forces against time, stick and slip above them; entries of the legend."""
     contact, smooth = curves["contact"], curves["contact, mu = 0"]
     normal = {"color": house_style.BLACK, "label": "$F_2$"}
-    # Broad and below: where the contact slips, the two forces are one line.
+    # This line is broad and below the other: where the contact slips, they coincide.
     friction = {"color": house_style.BLUE, "linewidth": 2.4, "zorder": 1.9, "label": r"$F_1/\mu$"}
     free = {"color": house_style.GREY, "linewidth": 0.9, "linestyle": house_style.DASHES[1]}
     free |= {"label": "$F_2$ without friction"}
@@ -120,8 +129,8 @@ def _draw_contact(axes, curves, mu):
     return [[house_style.key(**style)] for style in (normal, friction, free)]
 
 
-def _mark_events(axes, contact):
-    """Brackets of stick and slip; a slip jams if the body approaches faster at its end."""
+def _mark_events(axes: Axes, contact: Columns) -> None:
+    """Draw brackets of stick and slip. A slip jams if the body approaches faster at its end."""
     event, time, approach = contact["event"], contact[TIME], contact["normal_velocity [v2(0)]"]
     changes = np.flatnonzero(np.isin(event, ["stick", "slip"]))
     spans = []
@@ -136,15 +145,15 @@ def _mark_events(axes, contact):
     if spans[-1][1] - spans[-1][0] < 0.08 * time[-1]:
         axes.text(time[-1] * 1.01, 1.07, spans[-1][2], fontsize=house_style.NOTE, **place)
     for index in np.flatnonzero(event == "maximum compression"):
-        place = time[index], contact[NORMAL][index]
-        axes.plot(*place, "o", color=house_style.BLACK, markersize=3)
+        top = time[index], contact[NORMAL][index]
+        axes.plot(*top, "o", color=house_style.BLACK, markersize=3)
         offset = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center"}
-        axes.annotate("maximum compression", place, fontsize=house_style.NOTE, **offset)
+        axes.annotate("maximum compression", top, fontsize=house_style.NOTE, **offset)
     axes.margins(y=0.14)
 
 
-def _draw_rod(axes, contact):
-    """Sketch of the rod on the surface, its tilt, and where its tip moves."""
+def _draw_rod(axes: Axes, contact: Mapping[str, float]) -> None:
+    """Sketch the rod on the surface, its tilt, and the direction in which its tip moves."""
     tilt, ratio = contact["tilt"], contact["velocity_ratio"]
     axes.set(xlim=(-0.8, 0.8), ylim=(-0.2, 1.1), aspect="equal", anchor="N")
     axes.set(xticks=[], yticks=[])

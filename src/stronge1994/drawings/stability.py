@@ -1,10 +1,21 @@
-"""Beyond the paper: correct digits of the lumped model anywhere, beside those that can be had."""
+"""Beyond the paper: correct digits of the lumped model, beside those that are possible."""
+
+from typing import TypeAlias
 
 import matplotlib
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import BoundaryNorm
+from matplotlib.figure import Figure
 
+from planarimpact.ground.arrays import Array
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Entries, Points, Settings
+
+# Values of all impacts, and the lower edges of the cells with what stands at them.
+Cells: TypeAlias = tuple[Array, dict[float, str]]
 
 INCIDENCE, RESTITUTION, OMEGA = "incidence [mu v2(0)]", "restitution [1]", "omega [Omega]"
 KINDS = {"digits": "correct digits found", "digits_allowed": "allowed by the condition"}
@@ -15,7 +26,7 @@ OUTPUTS = {
 }
 MARK = {"linestyle": "none", "markersize": 2.6, "markerfacecolor": "none", "markeredgewidth": 0.6}
 LINE = {"color": house_style.BLACK, "linewidth": 0.7}
-# Lower edges of all cells but the first, which holds what is less, with what stands at them.
+# Lower edges of the cells, each with its label. The first cell has none: it holds all below.
 OMEGAS = {10.0**k: f"$10^{{{k}}}$" if k % 3 == 0 else "" for k in range(-5, 7)}
 OMEGAS[1.0] = "1"
 RESTITUTIONS = {5e-324: "", 1e-16: "$10^{-16}$", 1e-8: "$10^{-8}$", 1e-4: "$10^{-4}$"}
@@ -27,11 +38,12 @@ INCIDENCES[1.0] = "1"
 LEVELS = np.arange(0, 17, 2)
 COLOURS = matplotlib.colormaps["cividis"]
 PLATE = {"facecolor": "white", "edgecolor": "none", "pad": 1.5}
-WORSE = 2  # digits, see the comparison `stability-digits`
+# So many digits may be lost, see the comparison `stability-digits`.
+WORSE = 2
 
 
-def draw(curves, settings, points):
-    """(a) to (d) Digits in cells of the box; (e) those found by those allowed, every impact."""
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw (a) to (d) digits in cells of the parameters, (e) digits found against those allowed."""
     impacts = curves["impacts"]
     figure = house_style.new(7.6)
     grid = figure.add_gridspec(3, 2, height_ratios=[9, 12, 11])
@@ -58,10 +70,10 @@ def draw(curves, settings, points):
     return figure
 
 
-def _draw_map(axes, digits, across, upright):
-    """Digits that half the impacts of each cell have; cells without impacts are hatched.
+def _draw_map(axes: Axes, digits: Array, across: Cells, upright: Cells) -> QuadMesh:
+    """Draw the median of the digits in each cell; cells without impacts are hatched.
 
-    The least would show only that every cell has an output that passes through zero.
+    The least would be misleading: in every cell some output passes through zero.
     """
     column, row = (np.digitize(values, list(edges)) for values, edges in (across, upright))
     shape = len(upright[1]) + 1, len(across[1]) + 1
@@ -79,15 +91,15 @@ def _draw_map(axes, digits, across, upright):
     return mesh
 
 
-def _with_ends(axes, first, last):
-    """Ticks of a map with names for its first and last row, which stand for one number."""
+def _with_ends(axes: Axes, first: str, last: str) -> tuple[list[float], list[str]]:
+    """Ticks of a map, with labels for its first and last row, which hold one number each."""
     labels = [label.get_text() for label in axes.get_yticklabels()]
     places = axes.get_yticks().tolist()
     return [0.5, *places, places[-1] + 0.5], [first, *labels, last]
 
 
-def _draw_scatter(axes, impacts):
-    """A mark for each pair of digits that occurs, to a tenth; entries of the legend."""
+def _draw_scatter(axes: Axes, impacts: Columns) -> tuple[Entries, Entries]:
+    """Draw a mark for each pair of digits that occurs, to a tenth; entries of the legend."""
     entries = []
     for name, style in OUTPUTS.items():
         pairs = np.stack([impacts[f"{kind}_{name} [1]"] for kind in ("digits_allowed", "digits")])

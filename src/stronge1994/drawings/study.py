@@ -4,13 +4,18 @@ A study along one axis is a curve.
 """
 
 import itertools
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from scipy import ndimage
 
-from planarimpact import Regime
+from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.ground.results import Regime
 from stronge1994.drawings import house_style
 
 SYMBOLS = {
@@ -20,19 +25,24 @@ SYMBOLS = {
     "restitution": "$e$",
 }
 LABELS = SYMBOLS | {"restitution": "restitution $e$"}
-SLICES = 6  # that are drawn
-POINTS = 400  # along an axis: more cannot be seen
+# At most so many slices are drawn.
+SLICES = 6
+# At most so many points along an axis are drawn: more could not be seen.
+POINTS = 400
 COLOURS = "RdBu_r"
 ZERO = {"colors": house_style.BLACK, "linewidths": 1.4}
 BOUNDARY = {"colors": house_style.BLACK, "linewidths": 0.7, "linestyles": [(0, (4, 2))]}
-LEAST = 0.02  # share of a map that a regime must take to be shown: not the edge of the grid
-ROOM = 0.03  # of a panel, radius of the largest circle in a regime that is named
-NEGATIVE = {"hatch": "////", "edgecolor": "0.7", "linewidth": 0}  # blue and red are one in grey
+# A regime is shown if it takes this share of a map: the edge of the grid does not count.
+LEAST = 0.02
+# A regime is named if a circle of this radius fits into it, in units of a panel.
+ROOM = 0.03
+# Negative velocities are hatched, because blue and red look alike in grey.
+NEGATIVE = {"hatch": "////", "edgecolor": "0.7", "linewidth": 0}
 PLATE = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 1.0}
 
 
-def draw(axes, velocity, regime):
-    """Velocity at separation in colours, where it is zero, and where regimes meet.
+def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> Figure:
+    """Draw the velocity at separation in colours, where it is zero, and where regimes meet.
 
     Parameters
     ----------
@@ -61,7 +71,7 @@ def draw(axes, velocity, regime):
         shape = len(grid[0]), len(grid[1])
         values, codes = (field[where].reshape(shape).T for field in (velocity, regime))
         colours = {"cmap": COLOURS, "norm": Normalize(-limit, limit)}
-        # As a picture inside the SVG: a hundred thousand cells are no drawing.
+        # As pixels inside the SVG: a hundred thousand cells would be too many shapes.
         mesh = panel.pcolormesh(*grid, values, shading="nearest", rasterized=True, **colours)
         if values.min() < 0 < values.max():
             panel.contourf(*grid, values, [-limit, 0.0], colors="none", hatches=[NEGATIVE["hatch"]])
@@ -89,8 +99,8 @@ def draw(axes, velocity, regime):
     return figure
 
 
-def _curve(axes, velocity):
-    """Velocity along the longest axis, where all others have one point."""
+def _curve(axes: Mapping[str, Array], velocity: Array) -> Figure:
+    """Draw the velocity along the only axis that has more than one point."""
     across = max(axes, key=lambda name: len(axes[name]))
     figure = house_style.new(2.8)
     panel = figure.subplots()
@@ -104,45 +114,46 @@ def _curve(axes, velocity):
     return figure
 
 
-def _place(axes, cut, others):
-    """Where a slice lies, in words."""
+def _place(axes: Mapping[str, Array], cut: Mapping[str, Any], others: Sequence[str]) -> str:
+    """Where a slice lies."""
     return ", ".join(f"{SYMBOLS[name]} = {axes[name][cut[name]]:g}" for name in others)
 
 
-def _thinned(count, most):
+def _thinned(count: int, most: int) -> Integers:
     """Up to `most` places of `count`, evenly spread, both ends among them."""
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
 
 
-def _draw_regimes(panel, grid, codes):
-    """Lines where regimes meet, and their names; those at the edge of the grid are left out."""
+def _draw_regimes(panel: Axes, grid: tuple[Array, Array], codes: Integers) -> None:
+    """Draw lines where regimes meet, and their names; none for regimes at the edge of the grid."""
     regimes = [code for code in np.unique(codes) if _is_large(codes == code)]
     for code in regimes:
         inside = codes == code
         if _room(inside) >= ROOM and (inside.all() or len(regimes) > 1):
             row, column = _middle(inside)
-            name = Regime(code).name.lower().replace("_", "-\n", 2).replace("_", "-")
+            name = Regime(code).words.replace(" - ", "-\n").replace(" ", "\n")
             place = {"ha": "center", "va": "center", "fontsize": house_style.NOTE, "bbox": PLATE}
             panel.text(grid[0][column], grid[1][row], name, **place)
-        # Each line once, from the regime with the smaller code: two that overlap lose their dashes.
+        # Each line is drawn once, by the regime with the smaller code: two lines on top of each
+        # other would fill the gaps between their dashes.
         field = np.ma.masked_array(inside.astype(float), ~np.isin(codes, regimes) | (codes < code))
         if field.min() < field.max():
             panel.contour(*grid, field, [0.5], **BOUNDARY)
 
 
-def _is_large(inside):
-    """A region takes its share, and is more than a row or column of cells."""
+def _is_large(inside: Booleans) -> bool:
+    """Whether a region takes its share, and is more than one row or column of cells."""
     thick = inside[1:, 1:] & inside[:-1, 1:] & inside[1:, :-1] & inside[:-1, :-1]
-    return thick.any() and inside.mean() >= LEAST
+    return bool(thick.any() and inside.mean() >= LEAST)
 
 
-def _room(inside):
+def _room(inside: Booleans) -> float:
     """Radius of the largest circle in a region, in panels."""
     cell = 1 / np.array(inside.shape)
     return ndimage.distance_transform_edt(np.pad(inside, 1), sampling=cell).max()
 
 
-def _middle(inside):
+def _middle(inside: Booleans) -> Integers:
     """Row and column of the cell of a region that is nearest to its mean."""
     cells = np.argwhere(inside)
     apart = ((cells - cells.mean(axis=0)) / inside.shape) ** 2

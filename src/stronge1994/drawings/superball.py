@@ -1,24 +1,21 @@
 """Beyond the paper: a superball thrown under a table comes back."""
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyArrowPatch
 
+from planarimpact import Regime
+from stronge1994.csv_tables import Curves
 from stronge1994.drawings import house_style
+from stronge1994.drawings.house_style import Points, Settings, Style
 
 PLACE, HEIGHT, SPIN = "place [m]", "height [m]", "spin_y [rad/s]"
 SURFACE = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
-WORDS = {
-    "STICK": "sticks",
-    "SLIP_STICK": "slips, sticks",
-    "STICK_SLIP": "sticks, slips",
-    "SLIP_STICK_SLIP": "slips, sticks, slips",
-    "SLIP_THROUGHOUT": "slips throughout",
-    "MULTIPLE": "sticks more than once",
-}
 
 
-def draw(curves, settings, points):
-    """The path of the ball's centre, the ball at each impact, and its spin between them."""
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw the path of the ball's centre and the ball at each impact. The legend has the spins."""
     path, throw = curves["path"], settings["throw"]
     radius, gap = throw["radius"], throw["gap"]
     place, height = path[PLACE], path[HEIGHT]
@@ -38,7 +35,7 @@ def draw(curves, settings, points):
         axes.text(
             np.clip(x, left + 0.25 * gap, right - 0.25 * gap),
             (-0.06 if y < gap / 2 else 1.06) * gap,
-            WORDS[regime],
+            Regime[regime].words,
             ha="center",
             va="center",
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5},
@@ -57,14 +54,16 @@ def draw(curves, settings, points):
     return figure
 
 
-def _style(back):
+def _style(back: bool) -> Style:
     if back:
         return {"color": house_style.VERMILLION, "linestyle": (0, (5, 2))}
     return {"color": house_style.BLUE, "linestyle": "-"}
 
 
-def _draw_flight(axes, number, start, end, last):
-    """A flight with its number near its start, where the paths have not crossed yet."""
+def _draw_flight(
+    axes: Axes, number: int, start: tuple[float, float], end: tuple[float, float], last: bool
+) -> None:
+    """Draw a flight, with its number near its start, where the paths have not crossed yet."""
     style = _style(end[0] < start[0])
     tip = {"arrowstyle": "-|>", "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0 if last else 8}
     axes.add_patch(FancyArrowPatch(start, end, **tip, **style))
@@ -79,6 +78,6 @@ def _draw_flight(axes, number, start, end, last):
     )
 
 
-def _plain(number, digits=0):
+def _plain(number: float, digits: int = 0) -> str:
     """A number with a proper minus sign, and without a negative zero."""
     return f"{np.round(number, digits) + 0.0:.{digits}f}".replace("-", "\N{MINUS SIGN}")

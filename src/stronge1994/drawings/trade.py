@@ -1,24 +1,35 @@
 """Beyond the paper: error of every model against its time, and time against the size of batch."""
 
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from stronge1994.csv_tables import Curves
 from stronge1994.drawings import house_style
-from stronge1994.trade import answers
+from stronge1994.drawings.house_style import Points, Settings, Style
+
+_Row: TypeAlias = dict[str, Any]
+Place: TypeAlias = tuple[str, float, float]
 
 ERROR, MODEL, RESTITUTION = "rms_velocity [mu v2(0)]", "model", "restitution [1]"
 STEPS, CIRCLES, TOLERANCE = "steps [1]", "circles [1]", "tolerance [mu v2(0)]"
-FLOOR = 1e-12  # smaller errors are rounding, and drawn here
-CUT = 0.03  # rough models above, those that converge below, each on a scale of their own
+# Smaller errors are rounding; they are drawn here.
+FLOOR = 1e-12
+# The axis of error is cut here: rough models are above, those that converge below, each part with
+# its own scale.
+CUT = 0.03
 MICROSECONDS = 1e6
 ERROR_WORDS, TIME_WORDS = r"error of $v_1(t_f)/\mu v_2(0)$, rms", "time of an impact (µs)"
 
-# Where labels stand: horizontal alignment, and how far off in points.
+# Where labels are: horizontal alignment, and distances from the point.
 ABOVE, BELOW = ("center", 0, 4), ("center", 0, -10)
 RIGHT, LEFT = ("left", 5, -2.5), ("right", -5, -2.5)
 LOWER_LEFT = ("right", -4, -8)
-UPPER_RIGHT = ("left", 4, 2.5)  # a line of the front starts to the right of these
+# For points from which a line of the front goes to the right.
+UPPER_RIGHT = ("left", 4, 2.5)
 
 
 class Family(NamedTuple):
@@ -29,9 +40,9 @@ class Family(NamedTuple):
     size: float
     colour: str
     filled: bool
-    place: tuple | None
+    place: Place | None
 
-    def style(self):
+    def style(self) -> Style:
         """Keywords of its marker."""
         return {
             "marker": self.marker,
@@ -47,7 +58,6 @@ FAMILIES = {
     "rigid": FORMULA._replace(place=LOWER_LEFT),
     "laws.smith": FORMULA._replace(place=LEFT),
     "laws.brach": FORMULA._replace(place=UPPER_RIGHT),
-    "laws.bilbao": FORMULA._replace(place=UPPER_RIGHT),
     "lumped": Family("lumped, exact", "o", 3.5, house_style.BLACK, True, ABOVE),
     "timestep.linear": Family("linear spring", "s", 6, house_style.BLUE, False, BELOW),
     "timestep.mindlin": Family("Mindlin", "^", 5, house_style.VERMILLION, True, BELOW),
@@ -59,9 +69,9 @@ FAMILIES = {
     "response of lumped": Family("of lumped", "*", 7, house_style.BLACK, False, UPPER_RIGHT),
     "response of continuum": Family("of continuum", "*", 7, house_style.GREEN, True, UPPER_RIGHT),
 }
-NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach", "laws.bilbao": "Bilbao"}
+NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
 NAMES |= {"pooltool": "pooltool"}
-# One line each against the size of batch: what is left out runs beside one of them.
+# These models have a line against the size of batch. The lines of the others would lie beside them.
 GROWTH = {
     "laws.brach": house_style.DASHES[0],
     "lumped": house_style.DASHES[0],
@@ -74,10 +84,12 @@ FRONT = {"color": house_style.BLACK, "linewidth": 0.6, "zorder": 0.9}
 FRONT_WITH_RESPONSES = FRONT | {"linestyle": (0, (4, 2))}
 
 
-def draw(curves, settings, points, families=FAMILIES):
-    """(a) Error against time for the first restitution, (b) for the last, (c) time and batch.
+def draw(
+    curves: Curves, settings: Settings, points: Points, families: Mapping[str, Family] = FAMILIES
+) -> Figure:
+    """Draw (a) error against time for the first restitution, (b) for the last, (c) time and batch.
 
-    `families` may hold more than those of the legend. The title says so if times are too long.
+    `families` may hold more than those of the legend. The title warns if the machine was busy.
     """
     rows = [{key: value[0] for key, value in curve.items()} for curve in curves.values()]
     first, last = settings["restitution"][0], settings["restitution"][-1]
@@ -99,28 +111,59 @@ def draw(curves, settings, points, families=FAMILIES):
     _draw_growth(growth, _of(rows, first), sorted(settings["batches"]))
     growth.set(title=f"(c) $e = {first:g}$", xlabel="impacts together", ylabel=TIME_WORDS)
     note = f"numbers at points: steps, circles or tolerance; (a), (b): {batch} impacts together"
-    notes = [note, answers.warning(rows)]
+    notes = [note, warning(rows)]
     figure.suptitle("\n".join(filter(None, notes)), fontsize=house_style.NOTE)
     _add_legend(figure)
     return figure
 
 
-def shown_batch(settings):
-    """Size of the batch whose times stand beside errors: the middle one."""
+def warning(rows: Sequence[_Row]) -> str:
+    """A sentence if the machine was busy while some of the times were taken, else no words.
+
+    Parameters
+    ----------
+    rows : sequence of dict
+        Of results/curves/trade.csv, as texts or numbers.
+
+    Examples
+    --------
+    >>> warning([{"time_1 [s]": 2.0, "busy_1 [1]": 1.9}, {"time_1 [s]": 1.0}])
+    'the machine was busy: 1 of 2 times are up to 1.9 times too long'
+    """
+    cells = [(key, cell) for row in rows for key, cell in row.items() if cell]
+    busy = [float(cell) for key, cell in cells if key.startswith("busy_")]
+    if not busy:
+        return ""
+    count = sum(key.endswith(" [s]") for key, _ in cells)
+    return (
+        f"the machine was busy: {len(busy)} of {count} times are up to {max(busy):.2g} times too "
+        "long"
+    )
+
+
+def shown_batch(settings: Settings) -> int:
+    """Size of the batch whose times are drawn against errors: the middle one."""
     return sorted(settings["batches"])[len(settings["batches"]) // 2]
 
 
-def _of(rows, restitution):
+def _of(rows: Sequence[_Row], restitution: float) -> list[_Row]:
     return [row for row in rows if row[RESTITUTION] == restitution]
 
 
-def _title(letter, restitution):
+def _title(letter: str, restitution: float) -> str:
     against = "the elastic continuum" if restitution == 1 else "the lumped model"
     return f"({letter}) $e = {restitution:g}$, against {against}"
 
 
-def _draw_errors(axes, rows, batch, families, span, margin):
-    """Points of a span of error with their labels, and both fronts; `margin` for labels."""
+def _draw_errors(
+    axes: Axes,
+    rows: Sequence[_Row],
+    batch: int,
+    families: Mapping[str, Family],
+    span: tuple[float, float],
+    margin: float,
+) -> None:
+    """Draw the points in a span of error, and both fronts; `margin` leaves room for labels."""
     timed = [row for row in rows if f"time_{batch} [s]" in row]
     if not timed:
         return
@@ -139,7 +182,7 @@ def _draw_errors(axes, rows, batch, families, span, margin):
         _draw_front(axes, [time[i] for i in chosen], [error[i] for i in chosen], edges, style)
 
 
-def label(axes, at, words, place):
+def label(axes: Axes, at: Sequence[float], words: str, place: Place | None) -> None:
     """Write words beside a point, if there are any and a place for them."""
     if not words or place is None:
         return
@@ -157,8 +200,8 @@ def label(axes, at, words, place):
     )
 
 
-def words_of(row):
-    """What a point is called beside its family."""
+def words_of(row: _Row) -> str:
+    """Label of a point: the setting of its model, or its name."""
     if STEPS in row and CIRCLES not in row:
         return f"{row[STEPS]:g}"
     if CIRCLES in row:
@@ -168,17 +211,38 @@ def words_of(row):
     return NAMES.get(row[MODEL], "")
 
 
-def _draw_front(axes, time, error, edges, style):
-    """Pareto front: what lies above and to the right of it is beaten in both."""
+def front(time: Sequence[float], error: Sequence[float]) -> list[int]:
+    """Indices of the Pareto front, the fastest first: no other point is as fast and as accurate.
+
+    Examples
+    --------
+    >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
+    [1, 2, 0]
+    """
+    found: list[int] = []
+    for index in sorted(range(len(time)), key=lambda i: (time[i], error[i])):
+        if not found or error[index] < error[found[-1]]:
+            found.append(index)
+    return found
+
+
+def _draw_front(
+    axes: Axes,
+    time: Sequence[float],
+    error: Sequence[float],
+    edges: tuple[tuple[float, float], tuple[float, float]],
+    style: Style,
+) -> None:
+    """Draw a Pareto front: a point above and to the right of it is worse in both."""
     (_, right), (_, top) = edges
-    front = answers.front(time, error)
-    x = [time[front[0]], *(time[i] for i in front), right]
-    y = [top, *(error[i] for i in front), error[front[-1]]]
+    best = front(time, error)
+    x = [time[best[0]], *(time[i] for i in best), right]
+    y = [top, *(error[i] for i in best), error[best[-1]]]
     axes.step(x, y, where="post", **style)
 
 
-def _cut(rough, fine):
-    """Two scales of error, one above the other, read as one panel."""
+def _cut(rough: Axes, fine: Axes) -> None:
+    """Make one panel of two: both have the same axis of error, with different scales."""
     rough.set_ylim(bottom=CUT)
     fine.set_ylim(top=CUT)
     rough.tick_params(labelbottom=False, bottom=False, which="both")
@@ -190,7 +254,7 @@ def _cut(rough, fine):
         axes.plot([0, 1], [height, height], **marks, **place)
 
 
-def _draw_growth(axes, rows, batches):
+def _draw_growth(axes: Axes, rows: Sequence[_Row], batches: Sequence[int]) -> None:
     for model, dashes in GROWTH.items():
         family = FAMILIES[model]
         same = [row for row in rows if row[MODEL] == model]
@@ -202,7 +266,7 @@ def _draw_growth(axes, rows, batches):
         axes.loglog(known, time, linestyle=dashes, linewidth=0.9, **family.style())
 
 
-def _add_legend(figure):
+def _add_legend(figure: Figure) -> None:
     entries = {family.label: family for family in FAMILIES.values()}
     keys = [
         house_style.key(label, linestyle="none", **family.style())

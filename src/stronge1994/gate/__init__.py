@@ -1,4 +1,4 @@
-"""Is a run good? What its tables say, whether each row is there, and whether files are whole."""
+"""Is a run good? Its tables must say so, no row may be missing, and all files must be whole."""
 
 import csv
 import hashlib
@@ -6,21 +6,33 @@ import json
 import shutil
 import zipfile
 import zlib
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 from stronge1994 import csv_tables, records
+from stronge1994.csv_tables import Row
 from stronge1994.judging import verdict_table
 from stronge1994.records import HOW_TO_MEND
 
 PASSED = "results/PASSED"
 TABLES = ("results/verdicts.csv", "results/ledger.csv")
-# Points of a figure are counted elsewhere: it may have none. A good report has no problems.
+# Tables that may be empty: a figure may have no points, and a good report has no problems.
 MAY_HAVE_NO_ROWS = {"residuals", "sensitivity", "problems"}
 
 
-def faults(tables, residuals, page, problems, made, comparisons, entries):
-    """Why the run must not pass, in words, one line a fault.
+def faults(
+    tables: tuple[str, str],
+    residuals: Iterable[str],
+    page: str,
+    problems: str,
+    made: Sequence[str],
+    comparisons: Mapping[str, bool],
+    entries: Mapping[str, bool],
+) -> list[str]:
+    """Why the run must not pass, one line for each fault.
 
     Parameters
     ----------
@@ -38,7 +50,7 @@ def faults(tables, residuals, page, problems, made, comparisons, entries):
     list of str
     """
     found = faults_of_files(made)
-    if found:  # what is cut cannot be counted
+    if found:  # rows of a damaged table cannot be counted
         return found
     verdicts, ledger = map(csv_tables.read_rows, tables)
     found = faults_of_tables(verdicts, ledger, comparisons, entries)
@@ -48,8 +60,13 @@ def faults(tables, residuals, page, problems, made, comparisons, entries):
     return found or records.faults(made)
 
 
-def faults_of_tables(verdicts, ledger, comparisons, entries):
-    """Why a run must not pass, in words, one line a fault.
+def faults_of_tables(
+    verdicts: Sequence[Row],
+    ledger: Sequence[Row],
+    comparisons: Mapping[str, bool],
+    entries: Mapping[str, bool],
+) -> list[str]:
+    """Why a run must not pass, by its tables, one line for each fault.
 
     Parameters
     ----------
@@ -73,13 +90,13 @@ def faults_of_tables(verdicts, ledger, comparisons, entries):
     found = _miscounted(TABLES[0], "comparison", verdicts, comparisons)
     found += _miscounted(TABLES[1], "entry", ledger, entries)
     for row in verdicts:
-        name, verdict = row.get("comparison"), row.get("verdict")
+        name, verdict = row.get("comparison", ""), row.get("verdict")
         if verdict == "diverges":
             found.append(f"diverges: {name}: {verdict_table.why(row)}")
         elif verdict not in verdict_table.ORDER or (verdict == "awaited") != comparisons.get(name):
             found.append(f"{TABLES[0]}: {name} = {verdict!r} cannot be: {HOW_TO_MEND}")
     for row in ledger:
-        name, holds = row.get("entry"), row.get("holds")
+        name, holds = row.get("entry", ""), row.get("holds")
         if holds == "no":
             found.append(f"no longer holds: {name}: {row.get('problem')}")
         elif holds != ("yes" if entries.get(name) else ""):
@@ -87,7 +104,9 @@ def faults_of_tables(verdicts, ledger, comparisons, entries):
     return found
 
 
-def _miscounted(table, column, rows, expected):
+def _miscounted(
+    table: str, column: str, rows: Iterable[Row], expected: Collection[str]
+) -> list[str]:
     names = [row.get(column) for row in rows]
     return [
         f"{table}: {names.count(name)} rows of {name} where {int(name in expected)} belongs: "
@@ -97,36 +116,36 @@ def _miscounted(table, column, rows, expected):
     ]
 
 
-def faults_of_residuals(verdicts, paths):
-    """Tables of residuals that lack points which the verdicts rest on, a line each."""
-    counts = {}
+def faults_of_residuals(verdicts: Sequence[Row], paths: Iterable[str]) -> list[str]:
+    """Tables of residuals without the points on which verdicts rest, one line for each."""
+    counts: Counter[str] = Counter()
     for path in paths:
         for row in csv_tables.read_rows(path):
-            name = row.get("comparison")
-            counts[name] = counts.get(name, 0) + 1
+            counts[row.get("comparison", "")] += 1
     return [
-        f"results/residuals/{row['figure']}.csv: {counts.get(row['comparison'], 0)} points of "
+        f"results/residuals/{row['figure']}.csv: {counts[row['comparison']]} points of "
         f"{row['comparison']} where {row['points']} belong: {HOW_TO_MEND}"
         for row in verdicts
-        if int(row.get("points") or 0) != counts.get(row["comparison"], 0)
+        if int(row.get("points") or 0) != counts[row["comparison"]]
     ]
 
 
-def faults_of_report(page, comparisons):
-    """Comparisons that the report does not show, a line each."""
+def faults_of_report(page: str, comparisons: Mapping[str, bool]) -> list[str]:
+    """Comparisons that the report does not show, one line for each."""
     text = Path(page).read_text(encoding="utf-8")
     return [
         f"{page}: it does not show {name}" for name in comparisons if f'id="{name}"' not in text
     ]
 
 
-def faults_of_files(paths):
-    """Files that are missing, empty or cut, a line each.
+def faults_of_files(paths: Iterable[str]) -> list[str]:
+    """Files that are missing, empty or cut, one line for each.
 
     Parameters
     ----------
     paths : iterable of str
-        Judged by their endings: tables, pictures, pages, notebooks, arrays.
+        Tables, pictures, pages, notebooks and arrays, which their endings tell apart. What has no
+        ending is a folder of pages.
     """
     found = []
     for path in paths:
@@ -142,7 +161,7 @@ def faults_of_files(paths):
 _UNREADABLE = OSError, ValueError, SyntaxError, csv.Error, zipfile.BadZipFile, zlib.error
 
 
-def _table(path):
+def _table(path: Path) -> str:
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file)) or [[]]
     ragged = [number for number, row in enumerate(rows, 2) if len(row) != len(header)]
@@ -153,25 +172,32 @@ def _table(path):
     return f"line {ragged[0]} is not as wide as the header" if ragged else ""
 
 
-def _vector_picture(path):
+def _vector_picture(path: Path) -> str:
     return "" if ElementTree.parse(path).getroot().tag.endswith("svg") else "no SVG"
 
 
-def _raster_picture(path):
+def _raster_picture(path: Path) -> str:
     data = path.read_bytes()
     whole = data.startswith(b"\x89PNG\r\n\x1a\n") and data.endswith(b"IEND\xaeB`\x82")
     return "" if whole else "no whole PNG"
 
 
-def _page(path):
+def _page(path: Path) -> str:
     return "" if path.read_bytes().rstrip().endswith(b"</html>") else "it ends too early"
 
 
-def _notebook(path):
+def _folder(path: Path) -> str:
+    cut = [page.name for page in path.rglob("*.html") if _page(page)]
+    if not any(path.iterdir()):
+        return "no pages"
+    return f"{cut[0]} ends too early" if cut else ""
+
+
+def _notebook(path: Path) -> str:
     return "" if json.loads(path.read_bytes()).get("cells") else "no cells"
 
 
-def _arrays(path):
+def _arrays(path: Path) -> str:
     with zipfile.ZipFile(path) as file:
         return file.testzip() or ""
 
@@ -182,12 +208,13 @@ _LOOK = {
     ".png": _raster_picture,
     ".html": _page,
     ".ipynb": _notebook,
+    "": _folder,
     ".npz": _arrays,
 }
 
 
-def words_of_pass(made, config):
-    """What results/PASSED says: what it belongs to, and to nothing else.
+def words_of_pass(made: Sequence[str], config: Mapping[str, Any]) -> str:
+    """What results/PASSED says: fingerprints of the run that it belongs to.
 
     Parameters
     ----------
@@ -205,7 +232,7 @@ def words_of_pass(made, config):
     )
 
 
-def drop_false_pass(made, config):
+def drop_false_pass(made: Sequence[str], config: Mapping[str, Any]) -> None:
     """Remove a results/PASSED that the gate did not write for what is there now."""
     try:
         if Path(PASSED).read_text(encoding="utf-8") == words_of_pass(made, config):
@@ -215,15 +242,15 @@ def drop_false_pass(made, config):
     drop_pass()
 
 
-def drop_pass():
+def drop_pass() -> None:
     """Remove results/PASSED, whatever it is."""
     if Path(PASSED).is_dir() and not Path(PASSED).is_symlink():
         shutil.rmtree(PASSED)
     Path(PASSED).unlink(missing_ok=True)
 
 
-def refuse_unknown_results(made):
-    """Refuse results of which Snakemake has no records: a change would go unnoticed.
+def refuse_unknown_results(made: Sequence[str]) -> None:
+    """Refuse results of which Snakemake has no records: it would not notice a change.
 
     Raises
     ------

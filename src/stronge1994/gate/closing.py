@@ -3,16 +3,23 @@
 import re
 import shlex
 import shutil
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import TypeAlias
 
 from stronge1994 import csv_tables, gate
+from stronge1994.csv_tables import Row
 from stronge1994.judging import verdict_table
 from stronge1994.ledger import outcome
+
+# When a file was written, and its number in the file system; None where there is no file.
+Mark: TypeAlias = tuple[int, int] | None
 
 VERDICTS, LEDGER = gate.TABLES
 GATE_LOG = "results/logs/gate.log"
 REPORT = "figures/report.html"
-SHOWN = 8  # faults that are named; the log has them all
+# So many faults are named; the log has them all.
+SHOWN = 8
 NEXT = [
     f"Look:     {REPORT}, open it in a browser; everything above, with its reasons",
     "Play:     figures/explorer.html",
@@ -20,28 +27,29 @@ NEXT = [
 ]
 STOPPED = [
     "What it said is above, and in results/logs/. Mend it and type the same command again:",
-    "finished work is kept. README.md, Troubleshooting, has the usual causes.",
+    "finished work is kept. workflow/README.md, Troubleshooting, has the usual causes.",
 ]
 INTERRUPTED = (
     "Interrupted. Nothing needs mending: type the same command again, finished work is kept."
 )
-# What Snakemake's own log says of Ctrl-C, and of a job that failed.
+# Snakemake's own log says this after Ctrl-C, and after a job has failed.
 ON_REQUEST = "Terminating processes on user request"
 FAILED_JOB = re.compile(r"^Error in rule (\w+):", flags=re.M)
 
 
-def state():
-    """What tells later whether this run has written the tables, and the log of the gate, anew.
+def state() -> dict[str, Mark]:
+    """Marks of the tables and of the gate's log, to see later whether this run has written them.
 
-    Times will not do: a clock may be wrong, and a copy of a folder has new ones.
+    Whether a file is newer than the start of the run would not do: a clock may be wrong, and a copy
+    of a folder has new times.
     """
     return {path: _mark(path) for path in (VERDICTS, LEDGER, GATE_LOG)}
 
 
-def start(known):
-    """Take away what would speak of an earlier run: its verdict, and words of jobs that are gone.
+def start(known: Collection[str]) -> None:
+    """Remove what would mislead: the verdict of an earlier run, and logs of jobs that are gone.
 
-    Python's bytecode too: it takes a source of the same size and date for the same source.
+    Also Python's bytecode: Python takes a source of the same size and date for the same source.
 
     Parameters
     ----------
@@ -59,8 +67,13 @@ def start(known):
                 path.unlink()
 
 
-def words(before, config=(), stopped=False, logs=()):
-    """The end of a run; older tables would mislead, so they are left out.
+def words(
+    before: Mapping[str, Mark],
+    config: Sequence[str] = (),
+    stopped: bool = False,
+    logs: Iterable[str] = (),
+) -> str:
+    """What a run prints last. Tables of an earlier run would mislead, so they are left out.
 
     Parameters
     ----------
@@ -104,8 +117,8 @@ def words(before, config=(), stopped=False, logs=()):
     return "\n" + "\n".join(parts) + "\n"
 
 
-def _failed(faults):
-    """Headline of a failed run, and its first faults."""
+def _failed(faults: Iterable[str]) -> str:
+    """Heading of a failed run, and its first faults."""
     faults = list(faults)
     shown = [f"  {fault}" for fault in faults[:SHOWN]]
     if len(faults) > SHOWN:
@@ -113,15 +126,15 @@ def _failed(faults):
     return "\n".join([f"FAILED. Reasons: {len(faults)}", *shown])
 
 
-def _rows(path, columns):
-    """Rows of a table; none where it cannot be read, which the gate has said."""
+def _rows(path: str, columns: Iterable[str]) -> list[Row]:
+    """Rows of a table; none if it cannot be read, which the gate has said."""
     try:
         return csv_tables.read_rows(path, columns)
     except (OSError, ValueError):
         return []
 
 
-def _stopped(logs):
+def _stopped(logs: Iterable[str]) -> list[str]:
     """Why a run ended early."""
     said = "".join(Path(log).read_text(encoding="utf-8", errors="replace") for log in logs)
     if ON_REQUEST in said:
@@ -130,7 +143,7 @@ def _stopped(logs):
     return [f"A job stopped: {names or 'see above'}.", *STOPPED]
 
 
-def _mark(path):
+def _mark(path: str) -> Mark:
     """Changes whenever a file is written anew; None where there is none."""
     try:
         stat = Path(path).stat()

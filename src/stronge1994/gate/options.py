@@ -1,7 +1,9 @@
-"""Options of Snakemake with which a run could look finished and not be."""
+"""Options of Snakemake that are refused: with them a run could look finished without being so."""
 
 import contextlib
 import io
+from collections.abc import Sequence
+from typing import Any
 
 WHY = {
     "keep_incomplete": "half-made files would count as whole",
@@ -18,8 +20,8 @@ class OptionError(Exception):
     """An option is not allowed."""
 
 
-def is_dry(arguments):
-    """Whether a command line asks for a plan alone, which must change nothing.
+def is_dry(arguments: Sequence[str]) -> bool:
+    """Whether a command line asks only for the plan of a run, which must change nothing.
 
     Parameters
     ----------
@@ -29,8 +31,8 @@ def is_dry(arguments):
     return _parsed(arguments).dryrun
 
 
-def refuse_untrustworthy(arguments):
-    """Refuse options, abbreviated or from a profile too, that make a verdict untrue.
+def refuse_untrustworthy(arguments: Sequence[str]) -> None:
+    """Refuse options that make a verdict untrue, also abbreviated ones and those of a profile.
 
     Parameters
     ----------
@@ -52,9 +54,10 @@ def refuse_untrustworthy(arguments):
         raise OptionError("--rerun-triggers: not allowed here, old files would count as new")
 
 
-def _parsed(arguments):
+def _parsed(arguments: Sequence[str]) -> Any:
     """Options as Snakemake reads them, its profiles too."""
-    from snakemake.cli import parse_args  # here: only the process that was started has it
+    # Imported here: only the process that was started has this module.
+    from snakemake.cli import parse_args
 
     try:
         with contextlib.redirect_stderr(io.StringIO()):  # it has said which profile it uses

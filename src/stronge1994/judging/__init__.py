@@ -1,1 +1,12 @@
-"""How far curves are from what they are compared with, and the verdict on it."""
+"""Judge a run: how far each table is from its references, and whether that is allowed.
+
+`compare` gives the rows of one table. It has three parts: `measure` finds distances, `judge` turns
+them into a verdict, and `rows` puts both into words. `verdict_table` gathers the rows of a run.
+`sensitivity` finds the smallest change of the physics that each comparison catches.
+"""
+
+from stronge1994.judging.metrics import Measured, measure
+from stronge1994.judging.rows import compare, write
+from stronge1994.judging.verdicts import Verdict, judge
+
+__all__ = ["Measured", "Verdict", "compare", "judge", "measure", "write"]

@@ -1,14 +1,15 @@
-"""What a run judges, read as named curves: tables of figures, scenes, and the parameter study."""
+"""Read what a run judges as named curves: tables of figures, scenes, and the parameter study."""
 
 from pathlib import Path
 
 import numpy as np
 
 from stronge1994 import csv_tables
+from stronge1994.csv_tables import Columns, Curves
 
 
-def read(path):
-    """Curves that are judged, `{curve: {column: array}}`, all numbers finite.
+def read(path: str) -> Curves:
+    """Curves that are judged, `{curve: {column: array}}`. All their numbers are finite.
 
     Parameters
     ----------
@@ -36,13 +37,13 @@ def read(path):
     return curves
 
 
-def _impacts(path):
+def _impacts(path: str) -> Columns:
     rows = csv_tables.read_rows(path)
     columns = {name: csv_tables.values([row[name] for row in rows]) for name in rows[0]}
     return {"row [1]": np.arange(1.0, len(rows) + 1)} | columns
 
 
-def _points_of_study(path):
+def _points_of_study(path: str) -> Columns:
     with np.load(path) as file:
         arrays = {name: file[name] for name in file.files if "[" in name}
         axes = [str(name) for name in file["axes"]]
@@ -51,5 +52,5 @@ def _points_of_study(path):
         name: values.ravel()
         for name, values in (arrays | dict(zip(axes, grid, strict=True))).items()
     }
-    # The axes without their units too, as labels of a point.
+    # Points are labelled by the axes, without their units.
     return columns | {name.split(" [")[0]: columns[name] for name in axes}

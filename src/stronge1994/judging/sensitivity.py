@@ -1,50 +1,72 @@
 """The smallest change of each group of the physics that a comparison catches.
 
-The curves are solved with each group off by a little; the distances change in proportion, and so
-they are extended until the verdict is `diverges`. Differences of curves do with fewer vertices.
+The curves are solved once more with each group off by a little. The distances change in proportion
+to it, so they are extrapolated until the verdict is `diverges`. Fewer vertices than in the figure
+are enough for that.
 """
 
 import functools
 import importlib
+import operator
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
+from stronge1994 import curve_names
+from stronge1994.csv_tables import Curves
 from stronge1994.curves import solving
-from stronge1994.judging import compare, judged_tables, verdict_table
-from stronge1994.judging.comparison import Residuals, Verdict
+from stronge1994.judging import judged_tables, verdict_table
+from stronge1994.judging.distances import Residuals
+from stronge1994.judging.metrics import Measured, measure
+from stronge1994.judging.points import Entry, Reference
+from stronge1994.judging.verdicts import Verdict, judge
 
-# What is changed, by the keys under which settings have it.
+Settings: TypeAlias = dict[str, Any]
+# The keys under which settings have each group.
 KEYS = [("stiffness_ratio", "poisson_ratio"), ("mass_ratio",), ("restitution",), ("friction",)]
 GROUPS = dict(zip(verdict_table.GROUPS, KEYS, strict=True))
-PRINTED = "as printed"  # in the names of curves
-# Their solvers take long, and what they solve is in other figures too.
+# Figures that are left out: their solvers take long, and what they solve is in other figures too.
 UNTRIED = ("trade", "convergence")
-COARSER, FEWEST = 20, 10  # vertices
-STEP = 1e-4  # small enough for changes in proportion, large beside rounding
+# A curve has this many times fewer vertices than in its figure, but at least `FEWEST`.
+COARSER, FEWEST = 20, 10
+# The groups are changed by this: distances change in proportion to it, and rounding is far smaller.
+STEP = 1e-4
+# Sizes of change that are tried on the extrapolated distances.
 SIZES = 10.0 ** np.arange(-15, -0.25, 0.1)
 # Parts of settings that hold physics of their own.
 PARTS = ("experiment", "finite_elements", "rubber", "throw", "points")
-# Its balances are laws; their contacts are not followed through.
+# The contacts of this figure serve balances alone, which are laws: most are not followed here.
 SHORT = {"stability": {"most_phases": 2}}
-LAWS = ("balance", "range", "contraction")  # they hold whatever the parameters
-# Its digits are logarithms, which do not change in proportion: powers of ten are tried one by one,
-# on one of so many points.
+# Metrics that hold whatever the parameters are.
+LAWS = ("balance", "range", "contraction")
+# The digits of this figure are logarithms, which do not change in proportion. So powers of ten are
+# tried one by one, on every point whose number is a multiple of `SPARSE`.
 DIGITS, SPARSE = "stability", 40
 TRIED = 10.0 ** np.arange(-15, -2)
 
 
-def sensitivities(figure, settings, nodes, path, comparisons, references, series, significance):
+def sensitivities(
+    figure: str,
+    settings: Settings,
+    nodes: solving.Tables,
+    path: str,
+    comparisons: Mapping[str, Entry],
+    references: Mapping[str, Reference],
+    series: Mapping[str, str],
+    significance: float,
+) -> list[list[str]]:
     """Rows of the table: what each comparison of one figure catches.
 
     Parameters
     ----------
     figure : str
     settings, nodes : dict
-        As `solve.solve` takes them.
+        As `curves.solving.solve` takes them.
     path : str
         The curves that were judged.
     comparisons, references, series, significance
-        As `compare.compare` takes them.
+        As `judging.compare` takes them.
 
     Returns
     -------
@@ -59,64 +81,96 @@ def sensitivities(figure, settings, nodes, path, comparisons, references, series
     if "as_printed" in settings:
         settings["as_printed"] = False
     try:
-        curves = None if figure in UNTRIED else judged_tables.read(path)
+        curves = {} if figure in UNTRIED else judged_tables.read(path)
     except Exception:  # the row `...-solved` says so
-        curves = None
-    if curves is None:
+        curves = {}
+    if not curves:
         return [[title, *[""] * len(GROUPS)] for title in comparisons]
-    solved = {group: _solver(figure, settings, group, curves) for group in GROUPS}
+    # A group that is off by nothing has the same curves as every other: they are solved once.
+    solve = _once(functools.partial(_solve, figure, curves), operator.eq)
+    solved = {group: _solver(solve, figure, settings, group) for group in GROUPS}
     rows = []
     for title, entry in comparisons.items():
-        known = references.get(entry.get("reference"))
+        known = references.get(entry.get("reference", ""))
 
-        def measure(curves, entry=entry, known=known):
-            return compare.measure(entry, known, curves, series)
+        measured: _Measure = _once(
+            functools.partial(measure, entry, known, series_paths=series), operator.is_
+        )
 
-        def caught(found, entry=entry, known=known):
-            return compare.judge(entry, known, found, significance) == Verdict.DIVERGES
+        def caught(found: Measured, entry: Entry = entry, known: Reference | None = known) -> bool:
+            return judge(entry, known, found, significance) == Verdict.DIVERGES
 
         if entry["metric"] in LAWS:
             sizes = ["none"] * len(GROUPS)
         elif figure != DIGITS:
             sizes = [
-                _in_proportion(curves, solved[group], measure, caught, one_way=group == "e")
+                _in_proportion(curves, solved[group], measured, caught, one_way=group == "e")
                 for group in GROUPS
             ]
         elif entry["metric"] == "largest":
-            sizes = [_by_trial(solved[group], measure, caught) for group in GROUPS]
+            sizes = [_by_trial(solved[group], measured, caught) for group in GROUPS]
         else:  # the impacts themselves, of which only some are tried
             sizes = [""] * len(GROUPS)
         rows.append([title, *sizes])
     return rows
 
 
-def _solver(figure, settings, group, curves):
-    """Curves with a group off by a size, under the names they have else; None without the group.
+_Argument = TypeVar("_Argument")
+_Result = TypeVar("_Result")
+_Solved: TypeAlias = Callable[[float], Curves]
+_Measure: TypeAlias = Callable[[Curves], Measured]
+_Caught: TypeAlias = Callable[[Measured], bool]
 
-    What the printed equations give is left as it is.
+
+def _once(
+    function: Callable[[_Argument], _Result], same: Callable[[_Argument, _Argument], bool]
+) -> Callable[[_Argument], _Result]:
+    """A function that is called once for all arguments that are the same."""
+    known: list[tuple[_Argument, _Result]] = []
+
+    def answer(argument: _Argument) -> _Result:
+        for before, found in known:
+            if same(before, argument):
+                return found
+        known.append((argument, function(argument)))
+        return known[-1][1]
+
+    return answer
+
+
+def _solve(figure: str, curves: Curves, settings: Settings) -> Curves:
+    """Curves of other settings, under the names that `curves` have.
+
+    Those of the printed equations are left as they are.
     """
     module = importlib.import_module(f"stronge1994.curves.{figure}")
+    printed = {name: curves[name] for name in curves if curve_names.is_printed(name)}
+    own = [name for name in curves if not curve_names.is_shifted(name) and name not in printed]
+    return printed | dict(zip(own, module.curves(**settings).values(), strict=True))
+
+
+def _solver(
+    solve: Callable[[Settings], Curves], figure: str, settings: Settings, group: str
+) -> _Solved | None:
+    """Function that solves curves with a group off by a size; None if there is no such group."""
     if changed(settings, group, STEP) == settings:
         return None
 
-    @functools.cache
-    def solved(size):
+    def solved(size: float) -> Curves:
         wrong = changed(settings, group, size)
         wrong.pop("uncertainty", None)
         if figure == DIGITS:
             wrong["points"] = {key: column[::SPARSE] for key, column in wrong["points"].items()}
-        own = [name for name in curves if "sigma" not in name and PRINTED not in name]
-        changed_ones = dict(zip(own, module.curves(**wrong).values(), strict=True))
-        return {name: columns for name, columns in curves.items() if PRINTED in name} | changed_ones
+        return solve(wrong)
 
     return solved
 
 
-def changed(settings, group, size):
-    """Settings with one group off: by that share of it, restitution by so much.
+def changed(settings: Settings, group: str, size: float) -> Settings:
+    """Settings with one group off by `size`, relative to the group; for restitution absolute.
 
-    Restitution is lowered, but 0 is raised. A stiffness ratio that follows from Poisson's ratio is
-    lowered, as 1/2 is the largest of these.
+    Restitution is lowered, but 0 is raised. Where Poisson's ratio gives the stiffness ratio, that
+    is lowered: it cannot be raised where Poisson's ratio is 1/2, the largest.
 
     Examples
     --------
@@ -125,7 +179,7 @@ def changed(settings, group, size):
     >>> changed({"throw": {"friction": 0.5}}, "mu", 0.5)
     {'throw': {'friction': 0.75}}
     """
-    wrong = {}
+    wrong: Settings = {}
     for key, value in settings.items():
         if key in PARTS:
             wrong[key] = changed(value, group, size)
@@ -137,7 +191,7 @@ def changed(settings, group, size):
     return wrong
 
 
-def _off(key, number, size):
+def _off(key: str, number: float, size: float) -> float:
     if key == "restitution":
         return number - size if number > size else number + size
     if key == "poisson_ratio":
@@ -146,33 +200,37 @@ def _off(key, number, size):
     return number * (1 + size)
 
 
-def _in_proportion(curves, solved, measure, caught, one_way):
-    """Size that is caught, from one change of the distances in proportion to it, either way."""
+def _in_proportion(
+    curves: Curves, solved: _Solved | None, measure: _Measure, caught: _Caught, one_way: bool
+) -> str:
+    """Size that is caught in either direction, by extrapolation from one small change."""
     try:
         found = measure(curves)
-        if not solved or all(PRINTED in column for column in found.columns):
+        if not solved or all(map(curve_names.is_printed, found.columns)):
             return ""
         same, other = measure(solved(0.0)), measure(solved(STEP))
-    except Exception:  # awaited, or failing for a reason that its own row gives
+    except Exception:  # the reference is awaited, or the row of the comparison gives the reason
         return ""
 
-    def off(size):
+    def off(size: float) -> Measured:
         share = size / STEP
         three = zip(found.residuals, same.residuals, other.residuals, strict=True)
         parts = [a + share * (c - b) for a, b, c in three]
-        gap = None if found.gap is None else found.gap + share * (other.gap - same.gap)
+        gap = found.gap
+        if gap is not None:
+            gap += share * ((other.gap or 0.0) - (same.gap or 0.0))
         return found._replace(residuals=Residuals(*parts), gap=gap)
 
     ways = (1,) if one_way else (1, -1)
     return _words(size for size in SIZES if all(caught(off(way * size)) for way in ways))
 
 
-def _by_trial(solved, measure, caught):
-    """Size that is caught, each tried."""
+def _by_trial(solved: _Solved | None, measure: _Measure, caught: _Caught) -> str:
+    """Size that is caught, by solving with each size."""
     if not solved:
         return ""
     return _words(size for size in TRIED if caught(measure(solved(float(size)))))
 
 
-def _words(sizes):
+def _words(sizes: Iterable[float]) -> str:
     return next((f"{size:.1g}" for size in sizes), "none")

@@ -1,52 +1,56 @@
-"""The verdicts of a run as one table, worst first, for files and for the terminal."""
+"""The verdicts of a run as one table, the worst first, for files and for the terminal."""
 
 from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 from tabulate import tabulate
 
 from stronge1994 import csv_tables
+from stronge1994.csv_tables import Row
 
 COLUMNS = [
     "figure", "comparison", "verdict", "evidence", "reference", "points", "chi^2",
     "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
     "rms [axis units]", "found", "stated", "allowed", "regression", "note", "reason",
 ]  # fmt: skip
-# Of the table of gates: the smallest change of each group that a comparison catches.
+# Groups of the physics. The table of gates has the smallest change of each that a comparison
+# catches.
 GROUPS = ["zeta^2", "beta", "e", "mu"]
 GATES = ["comparison", *GROUPS]
 ORDER = ["diverges", "differs as documented", "awaited", "agrees", "as before"]
 
 
-def gather(paths):
-    """Rows of several tables, worst verdict first, else in the order of the figures.
+def gather(paths: Iterable[str]) -> list[Row]:
+    """Rows of several tables, the worst verdict first, otherwise in the order of the figures.
 
-    A verdict that cannot be comes before all: the gate will name it.
+    A word that is no verdict comes before all others: the gate will name it.
     """
     rows = [row for path in paths for row in csv_tables.read_rows(path, COLUMNS)]
     rank = {verdict: place for place, verdict in enumerate(ORDER)}
     return sorted(rows, key=lambda row: rank.get(row["verdict"], -1))
 
 
-def failing(rows):
+def failing(rows: Iterable[Row]) -> list[Row]:
     """Rows that fail a run."""
     return [row for row in rows if row["verdict"] == "diverges"]
 
 
-def why(row):
-    """Why a row fails, in words."""
+def why(row: Row) -> str:
+    """Why a row fails."""
     measured = _measured(row)
     limits = f"{measured}; allowed is {_allowed(row)}" if measured else ""
     return ": ".join(words for words in (row["note"], limits) if words)
 
 
-def _allowed(row):
-    """What a row must keep to: to agree, or where a difference is documented to stay as it was."""
+def _allowed(row: Row) -> str:
+    """What a row must keep to; with a documented difference that it stays as it was."""
     if not row["regression"]:
         return row["allowed"]
     return f"a difference, and as before {row['regression']}"
 
 
-def text(rows):
+def text(rows: Sequence[Row]) -> str:
     """The table for a terminal, and how many rows have each verdict."""
     cells = [
         [row["verdict"], row["comparison"], _measured(row), _allowed(row), row["note"]]
@@ -58,7 +62,7 @@ def text(rows):
     return f"{table}\n\n" + ", ".join(f"{counts[v]} {v}" for v in ORDER if counts[v])
 
 
-def _measured(row):
+def _measured(row: Row) -> str:
     if row["found"]:
         return f"{row['found']} (stated {row['stated']})"
     if row["p"]:
@@ -66,6 +70,6 @@ def _measured(row):
     return f"rms {row['rms [sigma]']}, max {row['max [sigma]']}" if row["points"] else ""
 
 
-def write(path, rows, columns):
+def write(path: str, rows: Iterable[Mapping[str, Any]], columns: Sequence[str]) -> None:
     """Write rows, dicts that have these columns at least, in the order of the columns."""
     csv_tables.write_rows(path, columns, [[row[column] for column in columns] for row in rows])

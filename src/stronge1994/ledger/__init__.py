@@ -6,7 +6,7 @@ ledger.yaml has an entry for each: what the paper says, when it counts as true, 
 the correction. `dynamics`, `slip`, `peak_force` and `dissipation` check the equations of one
 section each; the last two and `rebound` also the sentences.
 
-Entries need no example of their own: running them is what they are for.
+Checks need no examples: a run of the ledger is one of each.
 """
 
 from importlib import import_module

@@ -1,21 +1,26 @@
-"""Run every entry of the ledger against the exact solver: one row an entry.
+"""Run every entry of the ledger against the exact solver: one row for each entry.
 
-Always succeeds: an entry whose check crashes no longer holds, with the reason in `problem`.
+This never fails: an entry whose check crashes no longer holds, with the reason in `problem`.
 """
 
 import traceback
+from collections.abc import Mapping
 
 from stronge1994 import ledger
+from stronge1994.csv_tables import Row
 from stronge1994.ledger import entries, outcome
+from stronge1994.ledger.entries import Entry
 
 
-def check(every):
-    """Rows of the ledger's table, an entry each, in its order."""
+def check(every: Mapping[str, Entry]) -> list[Row]:
+    """Rows of the ledger's table, one for each entry, in the order of the ledger."""
     tests = entries.checks()
-    return [_row(name, entry, tests.get(entry.get("check"), "")) for name, entry in every.items()]
+    return [
+        _row(name, entry, tests.get(entry.get("check", ""), "")) for name, entry in every.items()
+    ]
 
 
-def _row(name, entry, test):
+def _row(name: str, entry: Entry, test: str) -> Row:
     row = dict.fromkeys(outcome.COLUMNS, "")
     row |= {key: entry[key] for key in row if key in entry and key not in ("confirms", "holds")}
     row |= {"entry": name, "test": test, "range": entry.get("holds", "")}
@@ -38,7 +43,7 @@ def _row(name, entry, test):
     }
 
 
-def _words(confirms):
+def _words(confirms: Mapping[str, float]) -> str:
     if "value" in confirms:
         return f"{confirms['value']:g} within {confirms['rounding']:g}"
     (word, bound), *_ = confirms.items()

@@ -4,14 +4,15 @@ v1(0), v2(0) < 0, F2 > 0, F1 = (kappa/zeta^2) u1 and du1/dt = -v1 in stick. Scal
 numbers with no common factor, so that a formula with a wrong one cannot agree by accident.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 import numpy as np
 from scipy.integrate import cumulative_simpson
 
 from planarimpact import lumped
-from planarimpact.ground.arrays import Array, Numbers
+from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 from planarimpact.ground.results import Event, EventKind, History, Rebound
 from planarimpact.models import timestep
 from stronge1994.printed import dynamics
@@ -22,6 +23,26 @@ FRICTION, NORMAL_MASS, NORMAL_VELOCITY, STIFFNESS = 0.3, 1.7, -2.3, 5.9
 SPHERE = MASS_RATIO, STIFFNESS_RATIO = 3.5, 1.21
 PAIRS = (SPHERE, (MASS_RATIO, 1.5), (2.5, 1.1), (4.0, 1.2))
 RESTITUTIONS = (0.05, 0.15, 0.3, 0.6, 0.9, 1.0)
+
+_Answer = TypeVar("_Answer")
+_KNOWN: dict[tuple[Any, ...], Any] = {}
+
+
+def once(solver: Callable[..., _Answer], *groups: ArrayLike, **settings: float) -> _Answer:
+    """What a solver answers. Many checks ask the same question: it is solved for the first alone.
+
+    Nobody may change an answer. Another solver under the same name, in a test, is asked anew.
+
+    Examples
+    --------
+    >>> once(lumped.rebound, 1.0) is once(lumped.rebound, 1.0)
+    True
+    """
+    arrays = [np.asarray(group, float) for group in groups]
+    key = solver, *((array.shape, array.tobytes()) for array in arrays), *settings.items()
+    if key not in _KNOWN:
+        _KNOWN[key] = solver(*groups, **settings)
+    return _KNOWN[key]
 
 
 @dataclass(frozen=True)
@@ -119,7 +140,7 @@ class Contact:
     def rebound(self) -> Rebound:
         """What `lumped.rebound` finds: another way than the path's."""
         groups = self.mass_ratio, self.stiffness_ratio, self.restitution
-        return lumped.rebound(self.incidence, *groups)
+        return once(lumped.rebound, self.incidence, *groups)
 
     @property
     def final_velocity(self) -> float:
@@ -166,7 +187,7 @@ def contact(
     True
     """
     groups = incidence, mass_ratio, stiffness_ratio, restitution
-    return Contact(*groups, lumped.history(*groups, samples))
+    return Contact(*groups, once(lumped.history, *groups, samples=samples))
 
 
 def integral(found: Contact, values: Array) -> Array:
@@ -208,7 +229,7 @@ class NormalMotion:
 
 def without_micro_slip(incidence: Array) -> Rebound:
     """Rebound of the paper's sphere, e = 1, by a Hertz contact that slips as a whole; to 1e-3."""
-    return timestep.mindlin_rescaled(incidence, *SPHERE, steps=4096)
+    return once(timestep.mindlin_rescaled, incidence, *SPHERE, steps=4096)
 
 
 def normal_motions() -> Iterator[tuple[float, NormalMotion]]:

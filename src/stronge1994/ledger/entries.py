@@ -1,22 +1,27 @@
-"""The ledger of the paper: its entries, refused before any work where they cannot be run."""
+"""The ledger of the paper: its entries. Those that cannot be run are refused before any work."""
 
 import ast
 import re
+from collections.abc import Collection, Mapping
 from pathlib import Path
+from typing import Any, TypeAlias
 
 from stronge1994 import reference_data
 
+Entry: TypeAlias = dict[str, Any]
+
 PACKAGE = Path(__file__).parent
-MODULES = ("dynamics", "slip", "rebound", "peak_force", "dissipation")  # those that hold checks
+# These modules hold the checks.
+MODULES = ("dynamics", "slip", "rebound", "peak_force", "dissipation")
 KINDS = ({"at_most"}, {"at_least"}, {"value", "rounding"}, {"fact"})
 REFERENCE = re.compile(r"\bsee ([a-z0-9]+(?:-[a-z0-9.]*[a-z0-9])+)")
 
 
-def load(path, schema):
-    """Entries of a ledger, `{name: entry}`, complete.
+def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
+    """Entries of a ledger, `{name: entry}`, with what stands elsewhere filled in.
 
-    Each has its `kind` (equation or sentence), what the `cause` of a wrong one is in words
-    (`because`), and for a `fact` of source.yaml beside the ledger its value and tolerance.
+    Each has its `kind` (equation or sentence). A wrong one has its `cause` in words too, `because`.
+    A `fact` of the source.yaml beside the ledger is replaced by its value and tolerance.
 
     Raises
     ------
@@ -40,8 +45,8 @@ def load(path, schema):
     return entries
 
 
-def _facts(path):
-    """Stated values of source.yaml beside a ledger, with their tolerances: `{name: confirms}`."""
+def _facts(path: str | Path) -> dict[str, dict[str, float]]:
+    """Stated values of the source.yaml beside a ledger, with tolerances: `{name: confirms}`."""
     facts = reference_data.load_yaml(Path(path).with_name("source.yaml")).get("facts", {})
     return {
         name: {"value": fact["value"], "rounding": fact["tolerance"]}
@@ -50,7 +55,7 @@ def _facts(path):
     }
 
 
-def _with_fact(where, entry, facts):
+def _with_fact(where: str, entry: Entry, facts: Mapping[str, dict[str, float]]) -> Entry:
     """An entry with value and tolerance in place of the fact that it names."""
     name = entry.get("confirms", {}).get("fact")
     if name is None:
@@ -63,7 +68,7 @@ def _with_fact(where, entry, facts):
     return entry | {"confirms": facts[name]}
 
 
-def _explain(path, entries, causes):
+def _explain(path: str | Path, entries: dict[str, Entry], causes: Mapping[str, str]) -> None:
     """Add to wrong entries their cause in words; refuse unknown causes, and unused ones."""
     for name, entry in entries.items():
         if "cause" in entry:
@@ -77,7 +82,7 @@ def _explain(path, entries, causes):
         raise reference_data.SourceError(f"{path}: causes.{cause}: no entry has this cause")
 
 
-def _refuse_contradiction(where, entry, known):
+def _refuse_contradiction(where: str, entry: Entry, known: Collection[str]) -> None:
     """Refuse an entry whose fields do not go together."""
     problem = None
     if entry["verdict"] == "not testable":
@@ -100,14 +105,14 @@ def _refuse_contradiction(where, entry, known):
         raise reference_data.SourceError(where + problem)
 
 
-def _refuse_dangling(where, text, entries):
+def _refuse_dangling(where: str, text: Any, entries: dict[str, Entry]) -> None:
     for name in REFERENCE.findall(text) if isinstance(text, str) else ():
         if name not in entries:
             raise reference_data.SourceError(f"{where}: 'see {name}': there is no such entry")
 
 
-def checks():
-    """Checks of stronge1994.ledger: `{module.function: its docstring in one line}`."""
+def checks() -> dict[str, str]:
+    """All checks of this room: `{module.function: its docstring in one line}`."""
     found = {}
     for module in MODULES:
         for node in ast.parse((PACKAGE / f"{module}.py").read_text(encoding="utf-8")).body:
@@ -117,6 +122,6 @@ def checks():
     return found
 
 
-def _is_check(node):
+def _is_check(node: ast.FunctionDef) -> bool:
     arguments = node.args
     return not node.name.startswith("_") and not (arguments.args or arguments.kwonlyargs)

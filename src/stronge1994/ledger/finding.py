@@ -5,7 +5,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-# Numbers nearer than this are equal: rounding of a few hundred operations, and of quadrature.
+# Numbers nearer than this are equal. It leaves room for the rounding of a few hundred operations,
+# and for the error of quadrature.
 EXACT = 1e-9
 
 CONFIRMED, ROUNDED, WRONG = "confirmed", "confirmed within rounding", "wrong"
@@ -17,9 +18,9 @@ class Finding(NamedTuple):
     Attributes
     ----------
     found : float
-        For an equation the largest distance of the printed formula from the exact solver, of
-        those sampled, in the unit that the check names; for a sentence the number that decides it.
-        Between the samples there may be a larger one.
+        For an equation the largest distance of the printed formula from the exact solver among the
+        samples, in the unit that the check names. Between the samples it may be larger. For a
+        sentence the number that decides it.
     corrected : float or None
         The same for the corrected formula, where the printed one is wrong.
     """
@@ -29,7 +30,7 @@ class Finding(NamedTuple):
 
 
 class Judgement(NamedTuple):
-    """The verdict that a finding supports, whether the entry holds, and if not why."""
+    """The verdict that a finding supports, whether the entry holds, and why if it does not."""
 
     verdict: str
     holds: bool

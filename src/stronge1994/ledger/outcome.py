@@ -1,15 +1,17 @@
 """The table of what running the ledger's entries found."""
 
 from collections import Counter
+from collections.abc import Sequence
 
 from stronge1994 import csv_tables
+from stronge1994.csv_tables import Row
 
 COLUMNS = [
     "kind", "entry", "holds", "verdict", "grade", "cause", "where", "says", "test", "found",
     "confirms", "between", "corrected", "problem", "reading", "range", "correction", "derivation",
     "because", "why",
 ]  # fmt: skip
-# How much hangs on a wrong entry, gravest first, and in words that go on after their number.
+# How grave a wrong entry is, the gravest first, and how a sentence goes on after their number.
 GRADES = {
     "changes a result": "change a result",
     "sign or misprint": "are signs or misprints (perhaps the scan's)",
@@ -17,19 +19,19 @@ GRADES = {
 }
 
 
-def failing(rows):
+def failing(rows: Sequence[Row]) -> list[Row]:
     """Rows whose recorded verdict no longer holds."""
     return [row for row in rows if row["holds"] == "no"]
 
 
-def grades(rows):
-    """Numbers of wrong entries, gravest first: `{grade: number}`, those that there are."""
+def grades(rows: Sequence[Row]) -> dict[str, int]:
+    """How many wrong entries have each grade, the gravest first: `{grade: number}`."""
     counts = Counter(row.get("grade") for row in rows)
     return {grade: counts[grade] for grade in GRADES if counts[grade]}
 
 
-def grades_in_words(rows):
-    """The same as words.
+def grades_in_words(rows: Sequence[Row]) -> str:
+    """The numbers of `grades` in words.
 
     >>> grades_in_words([{"grade": "changes a result"}, {"grade": ""}])
     '1 change a result'
@@ -37,7 +39,7 @@ def grades_in_words(rows):
     return ", ".join(f"{count} {GRADES[grade]}" for grade, count in grades(rows).items())
 
 
-def summary(rows):
+def summary(rows: Sequence[Row]) -> str:
     """Lines for a terminal: counts, and each entry that no longer holds with its reason."""
     counts = Counter(row["verdict"] for row in rows)
     bad, graded = failing(rows), grades_in_words(rows)
@@ -49,6 +51,6 @@ def summary(rows):
     return "\n".join(lines)
 
 
-def write(path, rows):
+def write(path: str, rows: Sequence[Row]) -> None:
     """Write rows, dicts with the keys `COLUMNS` in their order."""
     csv_tables.write_rows(path, COLUMNS, [list(row.values()) for row in rows])

@@ -27,7 +27,7 @@ def _forces(model: Callable[[Array], Rebound], friction: float) -> Array:
 
 
 def _lumped(x: Array) -> Rebound:
-    return lumped.rebound(x, *contact.SPHERE)
+    return contact.once(lumped.rebound, x, *contact.SPHERE)
 
 
 def _rigid(x: Array) -> Rebound:

@@ -1,17 +1,21 @@
-"""Write the impact explorer: a page that solves the lumped model itself and needs nothing else."""
+"""Write the impact explorer: one page that solves the lumped model and needs no other file."""
 
 import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any, TypeAlias
 
 from markupsafe import Markup
 
 from planarimpact import bodies
 from stronge1994.pages import templates
 
-# Of each slider: least, largest, step.
+State: TypeAlias = dict[str, float]  # of the controls, by their names
+
+# Each slider has a smallest value, a largest value and a step.
 LIMITS = {
     "angle": (0, 89.9, 0.1),  # deg
-    "friction": (0.01, 2, 0.01),  # at 0 velocities over mu v2(0) have no meaning
+    "friction": (0.01, 2, 0.01),  # for mu = 0 velocities over mu v2(0) have no meaning
     "restitution": (0, 1, 0.01),
     "poisson_ratio": (0, 0.5, 0.005),
     "mass_ratio": (1, 10, 0.05),
@@ -21,13 +25,14 @@ BODIES = {
     "thin shell": bodies.thin_shell(radius=1.0, mass=1.0),
     "disc": bodies.disc(radius=1.0, mass=1.0),
 }
-# Figs 3 to 6 depend on v1(0)/(mu v2(0)) alone; a point on each curve of Figs 5 to 9.
+# Figs 3 to 6 depend only on v1(0)/(mu v2(0)), so any friction will do.
 FRICTION = 0.5
+# Figs 5 to 9 are curves: the explorer opens at one point of each.
 INCIDENCE = {"fig5": 3.0, "fig6": 2.0}
 ANGLE = {"fig7": 45.0, "fig8": 30.0, "fig9": 45.0}  # deg
 
 
-def presets(settings):
+def presets(settings: Mapping[str, Any]) -> dict[str, State]:
     """States of the page's controls for figures of the paper and the superball.
 
     Parameters
@@ -38,7 +43,7 @@ def presets(settings):
     Returns
     -------
     dict
-        `{figure: {control: value}}`; without the impacts that the sliders cannot show.
+        `{figure: {control: value}}`; impacts that the sliders cannot show are left out.
     """
     shared = {
         "poisson_ratio": _poisson_ratio(settings["stiffness_ratio"]),
@@ -71,32 +76,32 @@ def presets(settings):
     return {figure: state for figure, state in rounded.items() if _within_limits(state)}
 
 
-def _middle(values):
-    """The middle one of several settings, the first of two."""
+def _middle(values: Any) -> Any:
+    """The middle one of several settings; the first if there are two."""
     return values[(len(values) - 1) // 2] if isinstance(values, list) else values
 
 
-def _poisson_ratio(stiffness_ratio):
+def _poisson_ratio(stiffness_ratio: float) -> float:
     """nu of zeta^2 = (2 - nu)/(2 (1 - nu)); NaN where no material has it."""
     return (stiffness_ratio - 1) / (stiffness_ratio - 0.5) if stiffness_ratio > 0.5 else math.nan
 
 
-def _mass_ratios():
+def _mass_ratios() -> dict[str, float]:
     return {name: round(float(bodies.mass_ratio(body)), 12) for name, body in BODIES.items()}
 
 
-def _within_limits(state):
+def _within_limits(state: Mapping[str, float]) -> bool:
     return all(
         LIMITS[control][0] <= value <= LIMITS[control][1] for control, value in state.items()
     )
 
 
-def _address(state):
-    """What stands behind # in the page's address, but for the chart that is chosen."""
+def _address(state: Mapping[str, float]) -> str:
+    """The part of the page's address after #, without the chosen chart."""
     return "&".join(f"{control}={value:g}" for control, value in state.items())
 
 
-def page(settings, sources):
+def page(settings: Mapping[str, Any], sources: Sequence[str]) -> str:
     """The page as text.
 
     Parameters
@@ -120,6 +125,6 @@ def page(settings, sources):
     )
 
 
-def write(path, settings, sources):
+def write(path: str, settings: Mapping[str, Any], sources: Sequence[str]) -> None:
     """Write the page that `page` returns."""
     templates.write(path, page(settings, sources))

@@ -1,11 +1,11 @@
-"""Run one notebook and keep it twice: executed, and as a page that needs nothing else."""
+"""Run one notebook and write it twice: with its outputs, and as a page that needs no other file."""
 
 import os
 import re
 import sys
 import tempfile
-from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import nbformat
 from jupyter_client.kernelspec import KernelSpec
@@ -15,9 +15,8 @@ from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernel
 from nbconvert import HTMLExporter
 from traitlets.config import Config
 
-from planarimpact.ground import files
-
-CELL_TIMEOUT = 120  # s
+# A cell may take so many seconds.
+CELL_TIMEOUT = 120
 SRC = Path(__file__).parents[2]
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
@@ -27,10 +26,11 @@ class NotebookError(Exception):
 
 
 class ThisPython(AsyncKernelManager):
-    """The Python of this job is the only kernel, whatever a machine or a user has registered."""
+    """The Python of this job is the only kernel, whatever else is registered on this machine."""
 
     @property
-    def kernel_spec(self):
+    def kernel_spec(self) -> Any:
+        """How this Python is started."""
         words = ["-m", "ipykernel_launcher", "-f", "{connection_file}"]
         # Pictures stay sharp on paper and at any size, and are the same bytes at every run.
         words.append("--InlineBackend.figure_formats={'svg'}")
@@ -39,8 +39,8 @@ class ThisPython(AsyncKernelManager):
         return KernelSpec(argv=[sys.executable, *words], language="python")
 
 
-def run(notebook, template, executed, page):
-    """Run `notebook` from its first cell to its last; write both results, or neither.
+def run(notebook: str, template: str, executed: str, page: str) -> None:
+    """Run `notebook` from its first cell to its last and write both results.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def run(notebook, template, executed, page):
             kernel_manager_class=ThisPython,
             config=Config({"ThisPython": place}),
             timeout=CELL_TIMEOUT,
-            # A kernel that ends by itself sometimes dies of its own sockets, and says so.
+            # A kernel that may end by itself sometimes fails while it closes its sockets.
             shutdown_kernel="immediate",
             record_timing=False,
             coalesce_streams=True,
@@ -77,19 +77,18 @@ def run(notebook, template, executed, page):
             raise NotebookError(f"{Path(notebook).name}: {str(error).splitlines()[0]}") from None
     exporter = HTMLExporter(template_file=str(template), exclude_anchor_links=True)
     texts = {executed: nbformat.writes(book) + "\n", page: exporter.from_notebook_node(book)[0]}
-    with ExitStack() as both:
-        for path, text in texts.items():
-            both.enter_context(files.written(path)).write_text(text, encoding="utf-8")
+    for path, text in texts.items():
+        Path(path).write_text(text, encoding="utf-8")
 
 
-def _environment(scratch):
-    """The sources of this checkout, and nothing of the user's: no profile, no folder at home."""
+def _environment(scratch: str) -> dict[str, str]:
+    """Variables of the kernel: the sources of this checkout, and no settings of the user."""
     places = dict.fromkeys(("IPYTHONDIR", "JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR"), scratch)
-    # Its numbers are checked by assertions, which PYTHONOPTIMIZE would leave out.
+    # The lectures check their numbers by assertions, which PYTHONOPTIMIZE would switch off.
     return os.environ | {"PYTHONPATH": str(SRC), "PYTHONOPTIMIZE": ""} | places
 
 
-def _failure(book, error):
+def _failure(book: Any, error: Any) -> str:
     """Number of the cell that failed, its failing line, and the error."""
     number, cell = next(
         (n, cell)

@@ -1,11 +1,14 @@
-"""Write the ledger's table as a page to read: one HTML file that needs nothing else."""
+"""Write the ledger's table as a page to read: one HTML file that needs no other file."""
 
 import re
 from collections import Counter
+from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from markupsafe import Markup, escape
 
+from stronge1994.csv_tables import Row
 from stronge1994.ledger import outcome
 from stronge1994.pages import templates
 
@@ -40,11 +43,11 @@ GREEK = {
 }  # fmt: skip
 # A letter with an index: v1, F2, t_c, tf, ts, F2max, psi1, du1.
 INDEXED = re.compile(r"\b(d?)([vuFDKmxtgV]|psi)(\d|_c|f|b|a|(?<=t)s)(max)?(?![A-Za-z0-9])")
-# Symbols of one letter; those behind a slash are units, or tags.
+# Symbols of one letter. A letter after a slash is a unit or part of a tag, and stays.
 SYMBOL = re.compile(r"(?<![/<\w;])([eskxMS])(?![\w<>])|(?<!\w)(p)(?=\()")
 
 
-def mathematical(text):
+def mathematical(text: str) -> Markup:
     """The plain formulas of the ledger as HTML: Greek letters, indices, powers.
 
     >>> print(mathematical("zeta^2 F1(t2) < mu"))
@@ -61,17 +64,17 @@ def mathematical(text):
     return Markup(re.sub(r"(\d) deg\b", r"\1°", html.replace(" - ", " − ")))
 
 
-def _indexed(match):
+def _indexed(match: re.Match[str]) -> str:
     change, letter, index, largest = match.groups()
     name = GREEK.get(letter, f"<i>{letter}</i>")
     top = f"<sup>{largest}</sup>" if largest else ""
     return f"{change}{name}<sub>{index.strip('_')}</sub>{top}"
 
 
-def linked_maths(names):
-    """Formulas of a text as HTML, with links to the entries of the ledger that it points to.
+def linked_maths(names: Collection[str]) -> Callable[[str], Markup]:
+    """Formulas of a text as HTML, with links to the entries of the ledger that it names.
 
-    These stand as "see NAME and NAME", "ledger: NAME", and after an equation and a comma.
+    Entries are named as "see NAME and NAME", as "ledger: NAME", and after an equation and a comma.
 
     >>> print(linked_maths({"eq-12"})("mu, see eq-12"))
     µ, see <a href="#eq-12">eq-12</a>
@@ -79,7 +82,7 @@ def linked_maths(names):
     alternatives = "|".join(sorted(map(re.escape, names), key=len, reverse=True)) or "(?!)"
     link = re.compile(rf"(?:(?<=see )|(?<=and )|(?<=ledger: )|(?<=eq-\d\d, ))({alternatives})\b")
 
-    def maths(text):
+    def maths(text: str) -> Markup:
         parts = link.split(text)
         return Markup("").join(
             Markup('<a href="#{0}">{0}</a>').format(part) if part in names else mathematical(part)
@@ -89,7 +92,7 @@ def linked_maths(names):
     return maths
 
 
-def words(rows, symbols):
+def words(rows: Sequence[Row], symbols: Mapping[str, str]) -> dict[str, Any]:
     """What the templates need to show the ledger's rows; `symbols` explains their formulas."""
     counts = Counter(row["verdict"] for row in rows)
     return {
@@ -105,23 +108,23 @@ def words(rows, symbols):
     }
 
 
-def by_cause(rows):
-    """Wrong rows by what they follow from, `{cause in words: rows}`, the gravest ones first."""
+def by_cause(rows: Sequence[Row]) -> dict[str, list[Row]]:
+    """Wrong rows by their cause, `{cause in words: rows}`, the gravest ones first."""
     order = list(outcome.GRADES)
     wrong = [row for row in rows if row.get("cause")]
-    causes = {}
+    causes: dict[str, list[Row]] = {}
     for row in sorted(wrong, key=lambda row: order.index(row["grade"])):
         causes.setdefault(row["because"], []).append(row)
     return causes
 
 
-def page(rows, symbols, template):
+def page(rows: Sequence[Row], symbols: Mapping[str, str], template: str) -> str:
     """The page of the ledger's rows, by a template beside the parts that it includes."""
     environment = templates.environment(Path(template).parent)
     environment.filters["maths"] = linked_maths({row["entry"] for row in rows})
     return environment.get_template(Path(template).name).render(words(rows, symbols))
 
 
-def write(path, rows, symbols, template):
+def write(path: str, rows: Sequence[Row], symbols: Mapping[str, str], template: str) -> None:
     """Write the page that `page` returns."""
     templates.write(path, page(rows, symbols, template))

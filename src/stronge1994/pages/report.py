@@ -1,4 +1,4 @@
-"""Write the run as one page: verdicts, figures, provenance, ledger, tables, interface.
+"""Write the run as one page: verdicts, figures, provenance, ledger, tables.
 
 Reads what the run has written and solves nothing. A solver that crashed is a failing row, a picture
 and tables that say so. What cannot be shown is left out and named on top, with file and line; the
@@ -10,19 +10,22 @@ import io
 import re
 import traceback
 from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any, TypeAlias
 
 import jinja2
 import yaml
 from markupsafe import escape
 
 from stronge1994 import csv_tables, gate
+from stronge1994.csv_tables import Row
 from stronge1994.drawings import house_style
 from stronge1994.drawings import residuals as draw_residuals
 from stronge1994.judging import verdict_table
 from stronge1994.ledger import outcome
-from stronge1994.pages import api_reference, docstring_html, ledger_page, templates
+from stronge1994.pages import ledger_page, templates
 from stronge1994.plan.config import SCENE
 
 MARKS = {
@@ -39,6 +42,7 @@ MEANING = {
     "agrees": "with published points (p is large enough), or within the tolerance of its reference",
     "as before": "it ran; this guards against accidents and is evidence of nothing",
 }
+Shown: TypeAlias = dict[str, Any]  # what the template is given of a figure or a table
 SHARED = ("mass_ratio", "stiffness_ratio")
 ROOT = Path(__file__).parents[3]
 
@@ -60,10 +64,12 @@ class Salvage:
     "Fig. 5: KeyError: 'curve'"
     """
 
-    def __init__(self):
-        self.problems = []
+    def __init__(self) -> None:
+        self.problems: list[str] = []
 
-    def __call__(self, what, otherwise, function, *arguments):
+    def __call__(
+        self, what: str, otherwise: Any, function: Callable[..., Any], *arguments: Any
+    ) -> Any:
         """What the function returns, or `otherwise`."""
         try:
             return function(*arguments)
@@ -73,7 +79,7 @@ class Salvage:
             return otherwise
 
 
-def _place(error):
+def _place(error: Exception) -> str:
     """Behind the words of an error, file and line where it arose: the last of this repository."""
     frames = traceback.extract_tb(error.__traceback__)
     ours = [f for f in frames if f.filename.startswith((str(ROOT / "workflow"), str(ROOT / "src")))]
@@ -81,8 +87,19 @@ def _place(error):
 
 
 def page(
-    verdicts, ledger, figures, tables, config, sources, run, symbols, links, template, faults, tried
-):
+    verdicts: list[Row],
+    ledger: list[Row],
+    figures: Mapping[str, Shown],
+    tables: Mapping[str, Shown],
+    config: Mapping[str, Any],
+    sources: Mapping[str, Any],
+    run: Mapping[str, Any],
+    symbols: Mapping[str, str],
+    links: Mapping[str, str],
+    template: str | Path,
+    faults: list[str],
+    tried: Salvage,
+) -> str:
     """The report.
 
     Parameters
@@ -105,7 +122,7 @@ def page(
         `{file beside the report: what it is}`.
     template : Path
     faults : list of str
-        Why the run does not pass, as `judgement.faults_of_tables` says.
+        Why the run does not pass, as `gate.faults_of_tables` says.
     tried : Salvage
         Calls what may fail; its problems so far are shown too.
 
@@ -114,23 +131,11 @@ def page(
     str
     """
     names = {row["entry"] for row in ledger}
-    reference = tried("interface", {}, api_reference.modules)
-    functions = {
-        name: tried(title(name), [], api_reference.functions_of_figure, reference, name)
-        for name in (figures if reference else ())
-    }
-    known = api_reference.anchors(reference)
-
-    def docs(text, module):
-        link = lambda name: api_reference.target(name, module, reference, known)  # noqa: E731
-        return docstring_html.html(text, link)
-
     environment = templates.environment(Path(template).parent)
     environment.filters |= {
         "maths": ledger_page.linked_maths(names),
         "number": number,
         "quantity": draw_residuals.words,
-        "docs": docs,
         "sentence": sentence,
         "title_of": title,
     }
@@ -146,16 +151,14 @@ def page(
         verdict_meaning=MEANING,
         entry_of=_entry_of(names),
         figures=figures,
-        functions=functions,
         tables=tables,
         sources=sources,
         run=run,
         links=links,
-        reference=reference,
     )
 
 
-def without_details(faults):
+def without_details(faults: Iterable[str]) -> str:
     """A page of faults alone, where the report itself cannot be written."""
     items = "\n".join(f"<li>{escape(fault)}</li>" for fault in faults)
     return (
@@ -166,7 +169,14 @@ def without_details(faults):
     )
 
 
-def figure(name, svg, caption, residuals, verdicts, config):
+def figure(
+    name: str,
+    svg: bytes,
+    caption: str,
+    residuals: list[Row],
+    verdicts: list[Row],
+    config: Mapping[str, Any],
+) -> Shown:
     """What the report shows of one figure.
 
     Parameters
@@ -205,7 +215,7 @@ def figure(name, svg, caption, residuals, verdicts, config):
     }
 
 
-def title(name):
+def title(name: str) -> str:
     """Name of a figure for a reader.
 
     Examples
@@ -220,14 +230,14 @@ def title(name):
     return name.replace("_", " ").capitalize()
 
 
-def caption(path, name):
+def caption(path: str | Path, name: str) -> str:
     """Caption of a figure or table, from the template that snakemake --report renders."""
     wildcards = SimpleNamespace(figure=name)
     template = jinja2.Template(Path(path).read_text(encoding="utf-8"))
     return template.render(snakemake=SimpleNamespace(wildcards=wildcards)).strip()
 
 
-def number(text):
+def number(text: str) -> str:
     """A cell of a table with three digits at most; words stay.
 
     Examples
@@ -241,7 +251,7 @@ def number(text):
         return text
 
 
-def sentence(text):
+def sentence(text: str) -> str:
     """A text with a capital letter at its head.
 
     Examples
@@ -252,39 +262,49 @@ def sentence(text):
     return text[:1].upper() + text[1:]
 
 
-def _entry_of(names):
+def _entry_of(names: Collection[str]) -> Callable[[Row], str | None]:
     """Entry of the ledger that a row of the verdict table names, or None."""
 
-    def entry_of(row):
+    def entry_of(row: Row) -> str | None:
         name = row["note"].removeprefix("ledger: ")
         return name if name in names else None
 
     return entry_of
 
 
-def _svg(figure):
+def _svg(figure: Any) -> bytes:
     file = io.BytesIO()
     house_style.save(figure, file)
     return file.getvalue()
 
 
-def _embedded(svg):
+def _embedded(svg: bytes) -> str:
     return f"data:image/svg+xml;base64,{base64.b64encode(svg).decode()}"
 
 
 class _Dumper(yaml.SafeDumper):
     """Without the anchors that two equal entries would get."""
 
-    def ignore_aliases(self, data):
+    def ignore_aliases(self, data: Any) -> bool:
         return True
 
 
-def _yaml(document):
+def _yaml(document: Any) -> str:
     style = {"sort_keys": False, "default_flow_style": None, "width": 96, "allow_unicode": True}
     return yaml.dump(document, Dumper=_Dumper, **style)
 
 
-def write(output, problems, paths, residuals, svgs, captions, config, expected, **parts):
+def write(
+    output: str,
+    problems: str,
+    paths: Mapping[str, str],
+    residuals: Mapping[str, str],
+    svgs: Mapping[str, str],
+    captions: str,
+    config: Mapping[str, Any],
+    expected: tuple[Mapping[str, bool], Mapping[str, bool]],
+    **parts: Any,
+) -> None:
     """Read the tables and pictures of a run and write the report, and what it could not show.
 
     Parameters
@@ -299,31 +319,31 @@ def write(output, problems, paths, residuals, svgs, captions, config, expected, 
         The template of the figures' captions; those of tables stand beside it.
     config : dict
     expected : (dict, dict)
-        Rows that the verdicts and the ledger must have, as `judgement.faults_of_tables` takes them.
+        Rows that the verdicts and the ledger must have, as `gate.faults_of_tables` takes them.
     **parts
         `sources`, `run`, `symbols`, `links`, `template` as for `page`.
     """
     tried = Salvage()
     read = csv_tables.read_rows
-    paths = dict(paths)
-    rows = tried("verdicts", [], read, paths.pop("verdicts"), verdict_table.COLUMNS)
-    ledger = tried("ledger", [], read, paths.pop("ledger"), outcome.COLUMNS)
+    rows = tried("verdicts", [], read, paths["verdicts"], verdict_table.COLUMNS)
+    ledger = tried("ledger", [], read, paths["ledger"], outcome.COLUMNS)
     faults = gate.faults_of_tables(rows, ledger, *expected)
     rows = [row for row in rows if row["verdict"] in MARKS]
     ledger = [row for row in ledger if row["verdict"] in ledger_page.STYLE]
 
-    def section(name):
+    def section(name: str) -> Shown:
         text = caption(captions, name)
         picture = Path(svgs[name]).read_bytes()
         return figure(name, picture, text, read(residuals[name]), rows, config)
 
-    def table(name):
+    def table(name: str) -> Shown:
         text = caption(Path(captions).with_name(f"{name}.rst"), name)
         return {"rows": read(paths[name]), "caption": text}
 
     figures = {name: tried(title(name), None, section, name) for name in svgs}
     figures = {name: found for name, found in figures.items() if found}
-    tables = {name: tried(name, {"rows": [], "caption": ""}, table, name) for name in paths}
+    sections = [name for name in paths if name not in ("verdicts", "ledger")]
+    tables = {name: tried(name, {"rows": [], "caption": ""}, table, name) for name in sections}
     run = parts.pop("run")
     run = {name: tried(name, missing, function) for name, (missing, function) in run.items()}
     text = tried(

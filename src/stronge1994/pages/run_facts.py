@@ -1,4 +1,4 @@
-"""On what, from what and how long a run was made."""
+"""Facts about a run: versions, computer, date, commit, and how long its jobs took."""
 
 import csv
 import datetime
@@ -6,14 +6,16 @@ import math
 import os
 import platform
 import subprocess
+from collections.abc import Callable
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 PACKAGES = ("planarimpact", "numpy", "scipy", "matplotlib", "pandas", "snakemake")
 NO_COMMIT = "unknown: not a git checkout, or git is missing"
 
 
-def versions():
+def versions() -> dict[str, str]:
     """Versions of Python and of the packages that a run uses, `{name: version}`."""
     found = {"python": platform.python_version()}
     for name in PACKAGES:
@@ -24,20 +26,20 @@ def versions():
     return found
 
 
-def system():
+def system() -> str:
     """Operating system and processor, without the name of the machine."""
     return f"{platform.platform()}, {os.cpu_count()} processors"
 
 
-def date():
+def date() -> str:
     """Now, to the minute, in universal time."""
     return f"{datetime.datetime.now(datetime.UTC):%d %B %Y, %H:%M} UTC"
 
 
-def commit(folder):
-    """Commit of a checkout, and whether something is not committed; words where there is none.
+def commit(folder: str | Path) -> str:
+    """Commit of a checkout, and whether something in it is not committed.
 
-    A folder that only lies inside some other checkout is none.
+    `NO_COMMIT` if there is none, also for a folder that only lies inside some other checkout.
     """
     try:
         root, name = _git(folder, "rev-parse", "--show-toplevel", "HEAD").split("\n")
@@ -49,8 +51,8 @@ def commit(folder):
     return f"{name}, with uncommitted changes" if changed else name
 
 
-def _git(folder, *arguments):
-    # A hook of git, or a shell with GIT_DIR, would have it look into another repository.
+def _git(folder: str | Path, *arguments: str) -> str:
+    # GIT_DIR, which hooks of git set, would make git look into another repository.
     environment = {key: value for key, value in os.environ.items() if not key.startswith("GIT_")}
     found = subprocess.run(
         ["git", "-C", str(folder), *arguments],
@@ -63,14 +65,14 @@ def _git(folder, *arguments):
     return found.stdout[:-1]
 
 
-def times(benchmarks):
+def times(benchmarks: str | Path) -> list[tuple[str, float]]:
     """Seconds that each job took when it last ran, longest first: list of (job, seconds).
 
     Parameters
     ----------
     benchmarks : Path
-        Folder with a table a job. One that another job is just writing, or that is damaged, is
-        left out.
+        Folder with a table for each job. Damaged ones are left out: another job may be writing
+        one.
     """
     found = []
     for path in sorted(Path(benchmarks).glob("*.tsv")):
@@ -85,8 +87,8 @@ def times(benchmarks):
     return sorted(found, key=lambda job: -job[1])
 
 
-def everything():
-    """All of it, to be asked for later: `{name: (what stands there if it fails, function)}`."""
+def everything() -> dict[str, tuple[Any, Callable[[], Any]]]:
+    """All facts, as functions to call later: `{name: (value if it fails, function)}`."""
     return {
         "versions": ({}, versions),
         "system": ("", system),

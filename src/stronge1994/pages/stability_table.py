@@ -1,8 +1,11 @@
 """Write the digits of the lumped model by decades of each parameter."""
 
+from typing import Any
+
 import numpy as np
 
 from stronge1994 import csv_tables
+from stronge1994.csv_tables import Columns
 
 GROUPS = ("incidence [mu v2(0)]", "mass_ratio [1]", "stiffness_ratio [1]", "restitution [1]")
 QUANTITIES = (*GROUPS, "omega [Omega]", "phases [1]")
@@ -18,10 +21,11 @@ COLUMNS = (
     "digits_allowed_least [1]",
     "digits_lost_most [1]",
 )
-FAR = 16  # decades from 1; what lies farther is one row
+# What lies more than so many decades away from 1 is one row.
+FAR = 16
 
 
-def by_decade(impacts):
+def by_decade(impacts: Columns) -> list[list[Any]]:
     """Digits of the worst output of the impacts in each decade of each quantity.
 
     Parameters
@@ -32,7 +36,7 @@ def by_decade(impacts):
     Returns
     -------
     list of list
-        Rows with the cells of `COLUMNS`; an exact 0 has a row of its own.
+        Rows with the cells of `COLUMNS`; the value 0 has a row of its own.
     """
     digits, allowed = (
         np.min([impacts[f"{kind}_{name} [1]"] for name in OUTPUTS], axis=0)
@@ -56,7 +60,7 @@ def by_decade(impacts):
     return rows
 
 
-def _span(decade):
+def _span(decade: float) -> tuple[str, str]:
     """Ends of a decade in words."""
     if decade == -np.inf:
         return "0", "0"
@@ -64,8 +68,8 @@ def _span(decade):
     return low, "inf" if decade >= FAR else f"1e{decade + 1:.0f}"
 
 
-def write(curves, table):
-    """Read the `curves` of the figure and write the table; what a crash left goes into it."""
+def write(curves: str, table: str) -> None:
+    """Read the `curves` of the figure and write the table; the error of a crash goes into it."""
     try:
         impacts = csv_tables.read(curves)["impacts"]
     except csv_tables.Failed as error:

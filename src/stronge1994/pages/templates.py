@@ -1,12 +1,12 @@
-"""What all pages share: templates in one folder, and files written whole or not at all."""
+"""What all pages share: templates in one folder."""
+
+from pathlib import Path
 
 import jinja2
 
-from planarimpact.ground import files
 
-
-def environment(folder):
-    """Environment for the templates of a folder; a name that they do not know is an error."""
+def environment(folder: str | Path) -> jinja2.Environment:
+    """Environment for the templates of a folder, in which an unknown name is an error."""
     return jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder),
         autoescape=True,
@@ -16,7 +16,6 @@ def environment(folder):
     )
 
 
-def write(path, text):
-    """Write a page whole or not at all."""
-    with files.written(path) as partial:
-        partial.write_text(text, encoding="utf-8")
+def write(path: str, text: str) -> None:
+    """Write a page."""
+    Path(path).write_text(text, encoding="utf-8")

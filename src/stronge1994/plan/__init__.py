@@ -1,8 +1,13 @@
 """What the rules need to know before they run: settings, references, modules."""
 
+from typing import Any
+
 from stronge1994 import reference_data
 from stronge1994.plan.config import (
     SOURCES_OF_CURVES,
+    Config,
+    Entry,
+    Inventory,
     judged,
     reference,
     table_of,
@@ -17,7 +22,7 @@ BOTH = ["mass_ratio", "stiffness_ratio"]
 WITHOUT = {"fig2": ["mass_ratio"], "superball": BOTH, "stability": BOTH, "rod": ["mass_ratio"]}
 
 
-def settings(config, inventory, figure):
+def settings(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
     """Settings of one figure: shared physics and its own, an experiment by its parameters."""
     chosen = {
         "mass_ratio": config["mass_ratio"],
@@ -39,14 +44,14 @@ def settings(config, inventory, figure):
     return chosen
 
 
-def settings_of_peers(config):
+def settings_of_peers(config: Config) -> dict[str, Any]:
     """Impacts of figure `trade` on which other codes are tried."""
     keys = ("incidence", "samples", "restitution", "tolerance")
     chosen = {key: config["figures"]["trade"][key] for key in keys}
     return {key: config[key] for key in ("mass_ratio", "stiffness_ratio")} | chosen
 
 
-def settings_of_explorer(config):
+def settings_of_explorer(config: Config) -> dict[str, Any]:
     """Shared physics, and the impacts of the figures that the explorer offers."""
     keys = ("incidence", "friction", "restitution", "throw")
     figures = {
@@ -57,24 +62,24 @@ def settings_of_explorer(config):
     return {key: config[key] for key in ("mass_ratio", "stiffness_ratio")} | {"figures": figures}
 
 
-def comparisons(config, name):
+def comparisons(config: Config, name: str) -> dict[str, Entry]:
     """Comparisons of one figure, of a scene or of the study: `{name: entry}`."""
     chosen = config["comparisons"].items()
     return {title: dict(entry) for title, entry in chosen if entry["figure"] == name}
 
 
-def expected_rows(config, inventory):
+def expected_rows(config: Config, inventory: Inventory) -> dict[str, bool]:
     """Rows that the table of verdicts must have: `{comparison: may it be awaited}`."""
     rows = {f"{name}-solved": False for name in judged(config)}
     for name in judged(config):
         known = references(config, inventory, name)
         for title, entry in comparisons(config, name).items():
-            series = known.get(entry.get("reference"), {})
+            series = known.get(entry.get("reference", ""), {})
             rows[title] = series.get("kind") == "awaited" and not series["path"]
     return rows
 
 
-def plan_of_judgement(config, inventory, name):
+def plan_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
     """What the rule that compares one figure, scene or study is told, and what it reads."""
     sources = sources_of(config, inventory, name)
     return {
@@ -86,7 +91,7 @@ def plan_of_judgement(config, inventory, name):
     }
 
 
-def plan_of_figure(config, inventory, figure):
+def plan_of_figure(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
     """What the rules of one figure are told, and the files that they read.
 
     It is asked for each figure before Snakemake looks at a rule: where an input function raises,
@@ -109,7 +114,7 @@ def plan_of_figure(config, inventory, figure):
     }
 
 
-def references(config, inventory, name):
+def references(config: Config, inventory: Inventory, name: str) -> dict[str, Entry]:
     """Series and facts that some comparisons name: `{source/entry: entry}`.
 
     With the parameters of their source, which say where a regime begins.
@@ -123,18 +128,18 @@ def references(config, inventory, name):
     return found
 
 
-def series_of(config, inventory, figure):
+def series_of(config: Config, inventory: Inventory, figure: str) -> dict[str, Entry]:
     """Series at hand for one figure: `{source/series: entry}`, awaited ones left out."""
     chosen = references(config, inventory, figure).items()
     return {name: entry for name, entry in chosen if entry.get("path")}
 
 
-def sources_of(config, inventory, figure):
+def sources_of(config: Config, inventory: Inventory, figure: str) -> list[str]:
     """Sources with series at hand for one figure, in order."""
     return sorted({name.split("/")[0] for name in series_of(config, inventory, figure)})
 
 
-def overlays(config, inventory, figure):
+def overlays(config: Config, inventory: Inventory, figure: str) -> dict[str, Entry]:
     """What to draw over one figure: measured series, with the parameters of their source, facts."""
     named = references(config, inventory, figure).items()
     chosen = {name: entry for name, entry in named if "statement" in entry}
@@ -144,7 +149,7 @@ def overlays(config, inventory, figure):
     return chosen
 
 
-def nodes_of(config, inventory, figure):
+def nodes_of(config: Config, inventory: Inventory, figure: str) -> dict[str, str | None]:
     """Reference tables whose points the curves must pass through: `{path: column of x}`.
 
     A column None stands for the whole table, of the figure that is given one.

@@ -1,10 +1,18 @@
 """The config: refused before any work where it is not admissible."""
 
+from collections.abc import Collection, Iterable
 from pathlib import Path
+from typing import Any, TypeAlias
 
 from stronge1994 import reference_data
 from stronge1994.reference_data import strict_yaml
 
+Config: TypeAlias = dict[str, Any]  # what the config files hold
+Inventory: TypeAlias = dict[str, Any]  # `{source: contents of its source.yaml}`
+Entry: TypeAlias = dict[str, Any]  # a comparison of the config; a series or fact of a source
+
+# What a user edits: physics; tolerances and their reasons.
+FILES = ("workflow/config.yaml", "workflow/comparisons.yaml")
 FIGURES = [f"fig{number}" for number in range(2, 10)]
 FIGURES += ["micro_slip", "convergence", "trade", "superball", "stability", "rod"]
 SCENE = "scene_"  # before the name of a scene, among what is judged
@@ -20,7 +28,16 @@ class ConfigError(Exception):
     """What the rules are made from is not admissible: config, a module, a file that they read."""
 
 
-def with_values(node):
+def load(folder: str | Path = ".") -> Config:
+    """The config of a checkout as its files have it."""
+    return {
+        key: value
+        for file in FILES
+        for key, value in reference_data.load_yaml(Path(folder) / file).items()
+    }
+
+
+def with_values(node: Any) -> Any:
     """Numbers and truths for the texts that snakemake makes of them inside braces of --config."""
     if isinstance(node, dict):
         return {key: with_values(value) for key, value in node.items()}
@@ -37,7 +54,7 @@ def with_values(node):
     return node
 
 
-def refuse_misread_values(arguments):
+def refuse_misread_values(arguments: Collection[str]) -> None:
     """Refuse a --config whose values Snakemake would take for others, or that is there twice.
 
     Parameters
@@ -56,7 +73,9 @@ def refuse_misread_values(arguments):
             raise ConfigError(f"--config {text}: {str(error).partition(': ')[2]}") from None
 
 
-def check_config(config, schema, inventory, ledger):
+def check_config(
+    config: Config, schema: dict[str, Any], inventory: Inventory, ledger: Iterable[str]
+) -> None:
     """Refuse an inadmissible config, naming the field, its value and what is allowed."""
     try:
         reference_data.refuse_invalid(config, schema, "config")
@@ -93,12 +112,12 @@ def check_config(config, schema, inventory, ledger):
             )
 
 
-def _ascending(where, span):
+def _ascending(where: str, span: Any) -> None:
     if isinstance(span, list) and not span[0] < span[1]:
         raise ConfigError(f"{where} = {span}: the first number must be the smaller")
 
 
-def _check_comparison(where, comparison, inventory):
+def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> None:
     metric = comparison["metric"]
     columns = {
         "balance": ("columns", "`columns`, two"),
@@ -129,12 +148,12 @@ def _check_comparison(where, comparison, inventory):
         _ascending(f"{where}.regression.{key}", span)
 
 
-def judged(config):
+def judged(config: Config) -> list[str]:
     """Names of all that comparisons may judge: figures, scenes, the parameter study."""
     return [*FIGURES, *(f"{SCENE}{name}" for name in config["scenes"]), "study"]
 
 
-def table_of(name):
+def table_of(name: str) -> str:
     """The file that is judged under a name.
 
     Examples
@@ -149,7 +168,7 @@ def table_of(name):
     return f"results/curves/{name}.csv"
 
 
-def reference(inventory, name, where="reference"):
+def reference(inventory: Inventory, name: str, where: str = "reference") -> tuple[str, Entry]:
     """The series or fact `source/entry`: ("series" or "facts", its entry)."""
     source, entry = name.split("/")
     for kind in ("series", "facts"):

@@ -1,11 +1,16 @@
 """Files that a rule reads: the modules that it imports, and what they hold."""
 
-import ast
 import functools
 import hashlib
 import json
+import modulefinder
+import os
 import re
+from collections.abc import Iterator
+from modulefinder import ModuleFinder
 from pathlib import Path
+from types import CodeType
+from typing import Any
 
 from stronge1994 import records
 from stronge1994.plan.config import ConfigError
@@ -15,7 +20,7 @@ SCRIPTS = SRC.parent / "workflow/scripts"
 CONFLICT = re.compile(r"^(<<<<<<< |>>>>>>> )", flags=re.M)
 
 
-def refuse_unreadable_modules():
+def refuse_unreadable_modules() -> None:
     """Refuse a module that Python cannot read, whatever the target: its rule would be dropped."""
     for file in [*SCRIPTS.glob("*.py"), *SRC.rglob("*.py")]:
         try:
@@ -26,7 +31,7 @@ def refuse_unreadable_modules():
             raise ConfigError(f"{_shown(file)}: {error}") from None
 
 
-def content(*files):
+def content(*files: str) -> str:
     """Fingerprint of what files hold. One that is missing is left to whoever needs it."""
     digests = "".join(_digest(file) for file in files if Path(file).is_file())
     return hashlib.sha256(digests.encode()).hexdigest()
@@ -35,7 +40,7 @@ def content(*files):
 _digest = functools.cache(records.fingerprint)
 
 
-def present(*files):
+def present(*files: str) -> str | list[str]:
     """The files, if they are there; Snakemake would drop the rule that reads a missing one.
 
     One file comes back as it is, several as a list: what an input of a rule may be.
@@ -51,21 +56,37 @@ def present(*files):
     return list(files) if len(files) > 1 else files[0]
 
 
-def modules(*names):
-    """Files of some modules and of all they import: scripts beside this one, and planarimpact.
+def modules(*names: str, cells: str = "") -> list[str]:
+    """Files of some modules, and of all that they import of this repository.
 
-    Inputs of the rules, so that an edit reruns what it must and nothing more.
+    They are inputs of the rules, so that an edit reruns what it must and nothing more.
+
+    Parameters
+    ----------
+    *names : str
+        Scripts of workflow/scripts, or modules in dotted form.
+    cells : str, optional
+        Python text whose imports count too.
+
+    Returns
+    -------
+    list of str
+        Paths from the top folder, in order.
     """
-    found, todo = set(), [file for name in names for file in _files(name)]
-    while todo:
-        file = todo.pop()
-        if file not in found:
-            found.add(file)
-            todo += _imported(file)
-    return sorted(str(_shown(file)) for file in found)
+    finder = _Finder([str(SRC)])
+    found = {str(SCRIPTS / f"{name}.py") for name in names if (SCRIPTS / f"{name}.py").is_file()}
+    for script in found:
+        finder.run_script(script)
+    for name in names:
+        if not (SCRIPTS / f"{name}.py").is_file():
+            finder.import_hook(name)
+    if cells:
+        finder.scan_code(compile(cells, "cells", "exec"), finder.add_module("cells"))
+    found |= {getattr(module, "__file__", None) or "" for module in finder.modules.values()} - {""}
+    return sorted(os.path.relpath(file, SRC.parent) for file in found)
 
 
-def modules_of_notebook(name):
+def modules_of_notebook(name: str) -> list[str]:
     """As `modules`, of what runs a notebook of workflow/notebooks and of what it imports."""
     path = SCRIPTS.parent / "notebooks" / f"{name}.ipynb"
     try:
@@ -75,39 +96,26 @@ def modules_of_notebook(name):
         words = f"{type(error).__name__}: {error}"
         raise ConfigError(f"{_shown(path)}: not a notebook ({words})") from None
     try:
-        imported = [name for cell in cells for name in _imports(cell)]
+        return modules("run_notebook", cells="\n".join(cells))
     except (SyntaxError, ValueError) as error:
         raise ConfigError(f"{_shown(path)}: a cell is no Python: {error}") from None
-    return modules("run_notebook", *imported)
+
+
+class _Finder(ModuleFinder):
+    """Finds what a module imports. Most rules share most modules: each is read once for all."""
+
+    def scan_opcodes(self, co: CodeType) -> Iterator[tuple[str, tuple[Any, ...]]]:
+        return iter(_scanned(co))
 
 
 @functools.cache
-def _imported(file):
-    return [path for name in _imports(file.read_bytes()) for path in _files(name)]
+def _scanned(code: CodeType) -> list[tuple[str, tuple[Any, ...]]]:
+    return list(ModuleFinder().scan_opcodes(code))
 
 
-def _imports(text):
-    """Names that a Python text imports."""
-    names = []
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.Import):
-            names += [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            names += [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
-    return names
+modulefinder.compile = functools.cache(compile)  # type: ignore[attr-defined]
 
 
-def _shown(file):
+def _shown(file: Path) -> str:
     """A path of the repository, from its top folder."""
-    return file.relative_to(SRC.parent)
-
-
-def _files(name):
-    """Files that an import of `name` reads: its packages and itself, if they are ours."""
-    sibling = SCRIPTS / f"{name}.py"
-    if sibling.is_file():
-        return [sibling]
-    parts = name.split(".")
-    paths = [SRC.joinpath(*parts[: i + 1]) for i in range(len(parts))]
-    candidates = [p for path in paths for p in (path / "__init__.py", path.with_suffix(".py"))]
-    return [path for path in candidates if path.is_file()]
+    return str(file.relative_to(SRC.parent))

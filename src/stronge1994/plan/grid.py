@@ -1,35 +1,29 @@
-"""What the parameter study is, before it runs: its grid checked, its points in chunks."""
+"""What the parameter study is, before it runs: its grid, checked."""
 
 import math
+from typing import Any
 
-from stronge1994.plan.config import ConfigError
+from stronge1994.plan.config import Config, ConfigError
 
 MOST = 100_000_000  # points: the gathered study holds 25 bytes of each in memory
 ELASTIC = ("continuum", "annuli")  # models without hysteresis
 SHARED = ("mass_ratio", "stiffness_ratio")
 
 
-def settings(config):
+def settings(config: Config) -> dict[str, Any]:
     """Model, its settings and the whole grid: an axis left out has its shared value."""
     study = config["study"]
     grid = {key: [config[key]] for key in SHARED} | study["grid"]
     return {"model": study["model"], "settings": study.get("settings", {}), "grid": grid}
 
 
-def chunks(config):
-    """Names of the chunks, `first point-point after the last`; as equal as they can be."""
-    points, number = count(config), config["study"]["chunks"]
-    ends = [points * i // number for i in range(number + 1)]
-    return [f"{start}-{stop}" for start, stop in zip(ends, ends[1:], strict=False)]
-
-
-def count(config):
+def count(config: Config) -> int:
     """How many points the grid has."""
     axes = settings(config)["grid"].values()
     return math.prod(axis["points"] if isinstance(axis, dict) else len(axis) for axis in axes)
 
 
-def check(config):
+def check(config: Config) -> None:
     """Refuse a study that its schema cannot: naming the field, its value and what is allowed."""
     study = config["study"]
     for name, axis in study["grid"].items():

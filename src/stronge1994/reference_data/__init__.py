@@ -1,8 +1,8 @@
-"""The reference data in data/: loaded, checked and refused with one clear message.
+"""The reference data in data/: loaded and checked, or refused with one clear message.
 
 A source is a folder with `source.yaml` (schema: workflow/schemas/source.schema.yaml) and one CSV
-a series. An awaited series becomes digitised when WebPlotDigitizer's export is dropped into the
-folder as `<series>.wpd.csv` and `digitised_by` in source.yaml says whose work it is.
+for each series. An awaited series becomes digitised when WebPlotDigitizer's export is put into the
+folder as `<series>.wpd.csv`, and `digitised_by` in source.yaml says whose work it is.
 """
 
 import codecs
@@ -10,21 +10,33 @@ import csv
 import math
 import re
 import unicodedata
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import jsonschema
 
 from stronge1994.reference_data import digitiser_export, strict_yaml
+from stronge1994.reference_data.digitiser_export import NumberedRow
 
-MOST_LINES = 10_000  # of a series
-OUTSIDE = 3  # sigmas; so far may a value lie outside the range of its axis
-LARGEST_SIGMA = 0.01  # of the range: the series here have a tenth to a half of it
+# As in source.yaml; a loaded series has its `path` too.
+Source: TypeAlias = dict[str, Any]
+Series: TypeAlias = Mapping[str, Any]
+Axis: TypeAlias = Mapping[str, Any]
+Schema: TypeAlias = Mapping[str, Any]
+
+# A series has at most so many lines.
+MOST_LINES = 10_000
+# A value may lie outside the range of its axis by so many sigmas.
+OUTSIDE = 3
+# Largest sigma, as a share of the range of its axis. The series here have a tenth to a half of it.
+LARGEST_SIGMA = 0.01
 _NUMBERS = {
     mark: re.compile(rf"[+-]?([0-9]+([{mark}][0-9]*)?|[{mark}][0-9]+)([eE][+-]?[0-9]+)?")
     for mark in ".,"
 }
 
-# For JSON Schema 2.0 is an integer; for range() it is not.
+# JSON Schema takes 2.0 for an integer, but range() refuses it. So 2.0 is refused here too.
 _Validator = jsonschema.validators.extend(
     jsonschema.Draft202012Validator,
     type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine(
@@ -37,7 +49,7 @@ class SourceError(Exception):
     """Something in data/ is not as source.yaml or its schema says."""
 
 
-def load(folder, schema):
+def load(folder: Path, schema: Schema) -> Source:
     """Load and check one source.
 
     Parameters
@@ -67,7 +79,8 @@ def load(folder, schema):
         if series["path"]:
             _refuse_other_number(f"{path}: series.{name}", series, read_series(name, series))
     known = {"source.yaml", *(Path(s["path"]).name for s in _found(source))}
-    # A ledger may lie there, or what computes a series; a table by another ending would be ignored.
+    # A ledger may lie there, or the program that computes a series. Any other file is refused: it
+    # may be a table with a wrong name, which would be ignored without a word.
     strays = sorted(
         name for name in _visible(folder) - known if not name.endswith((".yaml", ".py"))
     )
@@ -77,13 +90,13 @@ def load(folder, schema):
     return source
 
 
-def _visible(folder):
-    """Names of what lies in a folder, without hidden files and words for readers."""
+def _visible(folder: Path) -> set[str]:
+    """Names of what lies in a folder, without hidden files and READMEs."""
     return {path.name for path in folder.iterdir() if not path.name.startswith((".", "README"))}
 
 
-def _refuse_other_number(where, series, columns):
-    """Refuse a file that was cut, or has points of which source.yaml knows nothing."""
+def _refuse_other_number(where: str, series: Series, columns: Mapping[str, list[Any]]) -> None:
+    """Refuse a file that has more or fewer points than source.yaml says."""
     found = len(next(iter(columns.values())))
     if series["kind"] != "awaited" and found != series.get("points"):
         raise SourceError(
@@ -91,8 +104,8 @@ def _refuse_other_number(where, series, columns):
         )
 
 
-def _refuse_axis(where, axis):
-    """Refuse what the schema cannot: numbers of an axis that do not go together."""
+def _refuse_axis(where: str, axis: Axis) -> None:
+    """Refuse an axis whose numbers contradict each other, which a schema cannot see."""
     low, high = axis["range"]
     if not low < high:
         raise SourceError(f"{where}.range = {axis['range']}: the first number must be the smaller")
@@ -104,13 +117,13 @@ def _refuse_axis(where, axis):
         )
 
 
-def load_yaml(path):
+def load_yaml(path: str | Path) -> dict[str, Any]:
     """Read a YAML file: a mapping whose keys are texts, each once.
 
     Parameters
     ----------
     path : str or Path
-        Of a source, a schema, a ledger or workflow/config.yaml.
+        Of a source, a schema, a ledger or a config.
 
     Returns
     -------
@@ -119,7 +132,7 @@ def load_yaml(path):
     Raises
     ------
     SourceError
-        In one line, naming the file, and the line where there is one.
+        In one line, naming the file, and where possible the line in it.
     """
     try:
         return strict_yaml.load("".join(_lines(path)))
@@ -127,8 +140,8 @@ def load_yaml(path):
         raise SourceError(f"{path}, {error}") from None
 
 
-def _lines(path, most=math.inf):
-    """Lines of a text file in UTF-8, read one by one as they are asked for."""
+def _lines(path: str | Path, most: float = math.inf) -> Iterator[str]:
+    """Lines of a text file in UTF-8, read one by one."""
     try:
         with open(path, "rb") as file:
             for number, line in enumerate(file, start=1):
@@ -139,7 +152,7 @@ def _lines(path, most=math.inf):
         raise SourceError(f"{path}: {error.strerror}") from None
 
 
-def _decoded(line, number, path):
+def _decoded(line: bytes, number: int, path: str | Path) -> str:
     where, advice = f"{path}, line {number}", "save the file as UTF-8"
     if number == 1:
         if line.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
@@ -155,8 +168,8 @@ def _decoded(line, number, path):
         ) from None
 
 
-def load_all(data, schema):
-    """Load every source below the folder `data`: `{source: contents}`; `scenes` is none."""
+def load_all(data: str | Path, schema: Schema) -> dict[str, Source]:
+    """Load every source in the folder `data`: `{source: contents}`. The folder `scenes` is none."""
     folders = [Path(data, name) for name in sorted(_visible(Path(data)) - {"scenes"})]
     for folder in folders:
         if not (folder / "source.yaml").is_file():
@@ -164,7 +177,7 @@ def load_all(data, schema):
     return {folder.name: load(folder, schema) for folder in folders}
 
 
-def refuse_invalid(document, schema, name):
+def refuse_invalid(document: Any, schema: Schema, name: str | Path) -> None:
     """Refuse a document that its schema does not admit, saying where and what."""
     errors = sorted(
         _Validator(schema).iter_errors(document), key=lambda e: [str(p) for p in e.path]
@@ -177,7 +190,7 @@ def refuse_invalid(document, schema, name):
             raise SourceError(f"{name}: {where}: {value} is not a finite number")
 
 
-def _leaves(node, where=""):
+def _leaves(node: Any, where: str = "") -> Iterator[tuple[str, Any]]:
     """Every value of a document with its dotted path."""
     if isinstance(node, (dict, list)):
         for key, value in node.items() if isinstance(node, dict) else enumerate(node):
@@ -186,17 +199,17 @@ def _leaves(node, where=""):
         yield where, node
 
 
-def column_name(axis):
+def column_name(axis: Axis) -> str:
     """Column header of an axis, unit in brackets if it has one."""
     return f"{axis['column']} [{axis['unit']}]" if axis["unit"] else axis["column"]
 
 
-def ordinates(series):
+def ordinates(series: Series) -> list[Axis]:
     """The y axes of a series: one, or a list of them."""
     return series["y"] if isinstance(series["y"], list) else [series["y"]]
 
 
-def _named_axes(series):
+def _named_axes(series: Series) -> Iterator[tuple[str, Axis]]:
     """All axes of a series, and where each stands in source.yaml."""
     several = isinstance(series["y"], list)
     yield "x", series["x"]
@@ -204,10 +217,10 @@ def _named_axes(series):
         yield f"y.{place}" if several else "y", axis
 
 
-def read_series(name, series):
-    """Read one series, checked: `{column: list}` with numbers on its axes, words as labels.
+def read_series(name: str, series: Series) -> dict[str, list[Any]]:
+    """Read and check one series: `{column: list}`, numbers for its axes and words for its labels.
 
-    Of several y axes a cell may be empty, where a curve has no such quantity: it becomes nan.
+    If there are several y axes, some of their cells may be empty: these become nan.
 
     Parameters
     ----------
@@ -234,7 +247,7 @@ def read_series(name, series):
             raise SourceError(f"{path}: column '{column}' {problem}; found {', '.join(header)}")
     if not rows:
         raise SourceError(f"{path}: no points")
-    columns = {column: [] for column in [*labels, *axes]}
+    columns: dict[str, list[Any]] = {column: [] for column in [*labels, *axes]}
     for line, row in rows:
         if len(row) != len(header):
             raise SourceError(f"{path}, line {line}: {len(row)} cells where {len(header)} belong")
@@ -251,7 +264,7 @@ def read_series(name, series):
     return columns
 
 
-def _table(path, name, series):
+def _table(path: str | Path, name: str, series: Series) -> tuple[list[str], str, list[NumberedRow]]:
     """Header of a series, its decimal mark, and its rows with the numbers of their lines."""
     lines, exported = [], series["kind"] == "awaited"
     for number, line in enumerate(_lines(path, MOST_LINES), start=1):
@@ -273,7 +286,7 @@ def _table(path, name, series):
     return (rows[0][1] if rows else []), ".", rows[1:]
 
 
-def _number(cell, mark, axis, where):
+def _number(cell: str, mark: str, axis: Axis, where: str) -> float:
     """A decimal number, at most a little outside the range of its axis.
 
     float() would also take `1_000`, `nan` and digits of other scripts.
@@ -294,15 +307,15 @@ def _number(cell, mark, axis, where):
     return value
 
 
-def _found(source):
+def _found(source: Source) -> list[Series]:
     return [series for series in source.get("series", {}).values() if series["path"]]
 
 
-def _file_name(name, series):
+def _file_name(name: str, series: Series) -> str:
     return f"{name}.wpd.csv" if series["kind"] == "awaited" else f"{name}.csv"
 
 
-def _file_of(folder, name, series):
+def _file_of(folder: Path, name: str, series: Series) -> str | None:
     """Path of a series; None for an awaited one whose export is not there."""
     path = folder / _file_name(name, series)
     if series["kind"] != "awaited":

@@ -1,10 +1,11 @@
 """Bring the series of one source into one table with its own column names."""
 
 from stronge1994 import csv_tables, reference_data
+from stronge1994.reference_data import Source
 
 
-def convert(source, output):
-    """Write every series at hand of a loaded `source`."""
+def convert(source: Source, output: str) -> None:
+    """Write every series of a loaded `source` that is not awaited."""
     found = {
         name: reference_data.read_series(name, series)
         for name, series in source["series"].items()

@@ -1,18 +1,25 @@
-"""WebPlotDigitizer's exports: one dataset without a header, or all of them under two lines.
+"""WebPlotDigitizer's exports: one dataset without a header, or all datasets below two lines.
 
 Where a browser writes decimal commas, WebPlotDigitizer separates the cells of one dataset by
 semicolons; all datasets together always have commas and decimal points.
 """
 
 import re
+from collections.abc import Iterable, Sequence
+from typing import TypeAlias
+
+# Number of a line, and its cells.
+NumberedRow: TypeAlias = tuple[int, list[str]]
 
 WHOLE = re.compile(r"[+-]?[0-9]+([eE][+-]?[0-9]+)?")
-NO_NUMBERS = ("nan", "inf", "infinity")  # words, but no names of columns
-UNNAMED = "Default Dataset"  # what WebPlotDigitizer calls it where the user has not
+# These words stand where a number belongs. They are not names of columns.
+NO_NUMBERS = ("nan", "inf", "infinity")
+# WebPlotDigitizer gives this name to a dataset that the user has not named.
+UNNAMED = "Default Dataset"
 SEPARATORS = {",": "commas", ";": "semicolons"}
 
 
-def separator(lines):
+def separator(lines: Sequence[str]) -> str:
     """What separates the cells of an export: "," or ";".
 
     Examples
@@ -23,8 +30,8 @@ def separator(lines):
     return ";" if any(";" in line for line in lines[:2]) else ","
 
 
-def points(rows, between, name):
-    """Points of a dataset, and its decimal mark.
+def points(rows: Iterable[NumberedRow], between: str, name: str) -> tuple[str, list[NumberedRow]]:
+    """Decimal mark of a dataset, and its points.
 
     Parameters
     ----------
@@ -60,7 +67,7 @@ semicolons, or write decimal points
     rows = [(line, row) for line, row in rows if any(row)]
     start, width = 0, 2
     if len(rows) > 1 and rows[1][1][:2] == ["X", "Y"]:
-        start, width = _place(*rows[:2], name)
+        start, width = _place(rows[0], rows[1], name)
         rows = rows[2:]
     elif rows and all(_is_word(cell) for cell in rows[0][1]):
         line, row = rows[0]
@@ -82,7 +89,7 @@ semicolons, or write decimal points
     return _decimal_mark(found), found
 
 
-def _place(names, axes, name):
+def _place(names: NumberedRow, axes: NumberedRow, name: str) -> tuple[int, int]:
     """First column of a dataset among several, and how many columns there are."""
     line, row = axes
     if row != ["X", "Y"] * (len(row) // 2):
@@ -101,20 +108,20 @@ def _place(names, axes, name):
     return 2 * (datasets.index(name) if name in datasets else 0), len(row)
 
 
-def _is_word(cell):
+def _is_word(cell: str) -> bool:
     return not cell or (cell[0].isalpha() and cell.lower() not in NO_NUMBERS)
 
 
-def _guess(row, width, between):
-    """Why a row may have another number of cells, in words."""
+def _guess(row: Sequence[str], width: int, between: str) -> str:
+    """Why a row may have the wrong number of cells."""
     if between == "," and len(row) > width and all(map(WHOLE.fullmatch, filter(None, row))):
         return "it looks like decimal commas: separate cells by semicolons, or write decimal points"
     return f"{SEPARATORS[between]} separate the cells of this file"
 
 
-def _decimal_mark(found):
-    """The one that the points have; a cell with both is left to whoever reads the number."""
-    marks = {}
+def _decimal_mark(found: Iterable[NumberedRow]) -> str:
+    """The decimal mark of the points. A cell with both marks is refused later, as no number."""
+    marks: dict[str, tuple[int, str]] = {}
     for line, pair in found:
         for cell in pair:
             if ("," in cell) != ("." in cell):

@@ -1,17 +1,20 @@
 """YAML that is refused where PyYAML would lose something, crash, or fill the memory.
 
-PyYAML keeps the last of two equal keys without a word, ends with a ValueError at a date that does
-not exist, lets a few lines of aliases stand for more values than a memory holds, and reads 010 as
-8, 6:40 as 400 and 1_21 as 121.
+If a key stands twice, PyYAML keeps the last one without a word. A date that does not exist ends in
+a ValueError. A few lines of aliases can stand for more values than fit into memory. And 010 is read
+as 8, 6:40 as 400, 1_21 as 121.
 """
 
 import re
+from typing import Any, NoReturn
 
 import yaml
 
-DEEPEST = 50  # levels; the documents of this project have ten
-MOST_VALUES = 100_000  # aliases written out; the largest document of this project has 2203
-# Numbers that mean the same to everybody; infinities and NaN are left to the schemas.
+# Most levels of a document. Those of this project have ten.
+DEEPEST = 50
+# Most values of a document, with aliases written out. The largest of this project has 2203.
+MOST_VALUES = 100_000
+# Numbers that every reader understands alike. Infinities and NaN are left to the schemas.
 NUMBERS = {
     "tag:yaml.org,2002:int": re.compile(r"[-+]?(0|[1-9][0-9]*)"),
     "tag:yaml.org,2002:float": re.compile(
@@ -21,7 +24,7 @@ NUMBERS = {
 TEXT, MERGE = "tag:yaml.org,2002:str", "tag:yaml.org,2002:merge"
 
 
-def load(text):
+def load(text: str) -> dict[str, Any]:
     """Read a document: a mapping with texts as keys, each once.
 
     Parameters
@@ -61,14 +64,14 @@ def load(text):
 
 
 class _Loader(yaml.SafeLoader):
-    """Checks the graph of nodes, in which an alias takes no room however much it stands for."""
+    """Counts while it reads: there an alias takes no memory, however much it stands for."""
 
-    def __init__(self, stream):
+    def __init__(self, stream: str) -> None:
         super().__init__(stream)
         self._level = self._values = 0
 
-    def compose_node(self, parent, index):
-        """Compose a node that is neither too deep nor one of too many."""
+    def compose_node(self, parent: Any, index: Any) -> Any:
+        """Compose a node, unless it is too deep or there are too many."""
         event = self.peek_event()
         is_alias, before = isinstance(event, yaml.AliasEvent), self._values
         self._level += 1
@@ -86,13 +89,13 @@ class _Loader(yaml.SafeLoader):
         self._level -= 1
         return node
 
-    def _refuse_too_much(self, level, mark):
+    def _refuse_too_much(self, level: int, mark: Any) -> None:
         if level > DEEPEST:
             _refuse(f"deeper than {DEEPEST} levels", mark)
         if self._values > MOST_VALUES:
             _refuse(f"more than {MOST_VALUES} values, with aliases written out", mark)
 
-    def compose_scalar_node(self, anchor):
+    def compose_scalar_node(self, anchor: Any) -> Any:
         """Compose a scalar of characters that a file can hold."""
         node = super().compose_scalar_node(anchor)
         for character in node.value:
@@ -102,7 +105,7 @@ class _Loader(yaml.SafeLoader):
             _refuse(f"{node.value[:60]!r} is no decimal number such as -0.05", node.start_mark)
         return node
 
-    def compose_mapping_node(self, anchor):
+    def compose_mapping_node(self, anchor: Any) -> Any:
         """Compose a mapping with every key once; what a merge brings may be overridden."""
         node = super().compose_mapping_node(anchor)
         known = set()
@@ -116,8 +119,8 @@ class _Loader(yaml.SafeLoader):
             known.add(key.value)
         return node
 
-    def construct_object(self, node, deep=False):
-        """Build a value; what its text cannot be is refused, however PyYAML fails at it."""
+    def construct_object(self, node: Any, deep: bool = False) -> Any:
+        """Build a value; a text that cannot be one is refused, in whichever way PyYAML fails."""
         try:
             return super().construct_object(node, deep)
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
@@ -125,15 +128,15 @@ class _Loader(yaml.SafeLoader):
             _refuse(f"{node.value[:60]!r} is no {kind}", node.start_mark)
 
 
-def _inside(node):
+def _inside(node: Any) -> list[Any]:
     if isinstance(node, yaml.MappingNode):
         return [child for pair in node.value for child in pair]
     return node.value if isinstance(node, yaml.SequenceNode) else []
 
 
-def _no_character(code):
+def _no_character(code: int) -> str:
     return f"U+{code:04X} is no character of a text"
 
 
-def _refuse(what, mark):
+def _refuse(what: str, mark: Any) -> NoReturn:
     raise yaml.constructor.ConstructorError(None, None, what, mark)

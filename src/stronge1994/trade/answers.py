@@ -1,8 +1,11 @@
-"""Error against time as tables: every way sorted, and the cheapest to each tolerance."""
+"""Error against time as tables: all models in order, and the cheapest for each tolerance."""
 
 import re
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from stronge1994 import csv_tables
+from stronge1994.csv_tables import Row
 
 ERROR, RESTITUTION = "max_velocity [mu v2(0)]", "restitution [1]"
 REFERENCE_ERROR, BUILD_TIME = "reference_error [mu v2(0)]", "build_time [s]"
@@ -10,31 +13,31 @@ BUSY_BUILD = "busy_build [1]"
 TIME = re.compile(r"time_(\d+) \[s\]")
 BUSY = "not known: the machine was busy"
 
-# From hardly a number to the rounding of the exact models; in mu v2(0).
+# In mu v2(0): from a very rough answer to the rounding of the exact models.
 TOLERANCES = (0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 1e-9)
 
 
-def ordered(rows):
-    """Rows by restitution, the elastic first, then by error, the largest first."""
+def ordered(rows: Sequence[Row]) -> list[Row]:
+    """Rows by restitution, elastic ones first, then by error, the largest first."""
     return sorted(rows, key=lambda row: (-float(row[RESTITUTION]), -float(row[ERROR])))
 
 
-def which_model(rows, tolerances=TOLERANCES):
-    """The cheapest way to meet each tolerance, for each restitution and size of batch.
+def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -> list[Row]:
+    """The cheapest model that meets each tolerance, for each restitution and size of batch.
 
     Parameters
     ----------
     rows : sequence of dict of text
         Of results/curves/trade.csv, with their name under `curve`.
     tolerances : sequence of float
-        For the largest error of velocity. What the reference itself may be off counts as error.
+        For the largest error of velocity. The error of the reference itself is added to it.
 
     Returns
     -------
     list of dict
-        For each batch the name, or "none"; its largest error; its time per impact, with that of
-        compilation, if any, spread over the batch. `BUSY` for a name where the cheapest may be one
-        that was timed on a busy machine: it took at least its CPU time, and nothing else took less.
+        For each batch the name, or "none"; its largest error; its time per impact, with any time
+        of compilation spread over the batch. The name is `BUSY` where nobody can know: some model
+        was timed on a busy machine, and its CPU time alone is below the time of all others.
 
     Examples
     --------
@@ -58,7 +61,7 @@ def which_model(rows, tolerances=TOLERANCES):
     return table
 
 
-def whole_time(row, batch):
+def whole_time(row: Mapping[str, Any], batch: int) -> float | None:
     """Seconds for one of a batch of impacts, with its share of compilation; None if not measured.
 
     Examples
@@ -70,44 +73,20 @@ def whole_time(row, batch):
     return float(time) + float(row[BUILD_TIME] or 0) / batch if time else None
 
 
-def _least_time(row, batch):
-    """As `whole_time`, without what a busy machine may have added."""
+def _least_time(row: Row, batch: int) -> float:
+    """As `whole_time`, without the time that a busy machine may have added."""
     times = {f"time_{batch} [s]": f"busy_{batch} [1]", BUILD_TIME: BUSY_BUILD}
-    freed = {
-        time: float(row[time] or 0) / float(row.get(busy) or 1) for time, busy in times.items()
-    }
-    return whole_time(freed, batch)
-
-
-def warning(rows):
-    """A sentence if the machine was busy while some of the times were taken, else no words.
-
-    Parameters
-    ----------
-    rows : sequence of dict
-        Of results/curves/trade.csv, as texts or numbers.
-
-    Examples
-    --------
-    >>> warning([{"time_1 [s]": 2.0, "busy_1 [1]": 1.9}, {"time_1 [s]": 1.0}])
-    'the machine was busy: 1 of 2 times are up to 1.9 times too long'
-    """
-    cells = [(key, cell) for row in rows for key, cell in row.items() if cell]
-    busy = [float(cell) for key, cell in cells if key.startswith("busy_")]
-    if not busy:
-        return ""
-    count = sum(key == BUILD_TIME or bool(TIME.fullmatch(key)) for key, _ in cells)
-    return (
-        f"the machine was busy: {len(busy)} of {count} times are up to {max(busy):.2g} times too "
-        "long"
+    time, build_time = (
+        float(row[key] or 0) / float(row.get(busy) or 1) for key, busy in times.items()
     )
+    return time + build_time / batch
 
 
-def _known_error(row):
+def _known_error(row: Row) -> float:
     return float(row[ERROR]) + float(row[REFERENCE_ERROR])
 
 
-def _cheapest(rows, batch):
+def _cheapest(rows: Sequence[Row], batch: int) -> Row:
     """Cells for one batch."""
     timed = [row for row in rows if whole_time(row, batch) is not None]
     keys = f"model_{batch}", f"max_velocity_{batch} [mu v2(0)]", f"whole_time_{batch} [s]"
@@ -121,28 +100,13 @@ def _cheapest(rows, batch):
     return dict(zip(keys, cells, strict=True))
 
 
-def front(time, error):
-    """Indices of the Pareto front, from the fastest on: no other is as fast and as near.
-
-    Examples
-    --------
-    >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
-    [1, 2, 0]
-    """
-    found = []
-    for index in sorted(range(len(time)), key=lambda i: (time[i], error[i])):
-        if not found or error[index] < error[found[-1]]:
-            found.append(index)
-    return found
-
-
-def write(curves, table, cheapest):
-    """Read the `curves` of the figure, write both tables; what a crash left goes into both."""
+def write(curves: str, table: str, cheapest: str) -> None:
+    """Read the `curves` of the figure and write both tables; both get the error of a crash."""
     rows = csv_tables.read_rows(curves)
     if "error" in rows[0]:
         for path in (table, cheapest):
             csv_tables.write_rows(path, ["error"], [[rows[0]["error"]]])
         return
-    every = [{"name": row.pop("curve"), **row} for row in ordered(map(dict, rows))]
+    every = [{"name": row.pop("curve"), **row} for row in ordered([dict(row) for row in rows])]
     for path, found in ((table, every), (cheapest, which_model(rows))):
         csv_tables.write_rows(path, list(found[0]), [list(row.values()) for row in found])

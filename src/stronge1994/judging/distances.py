@@ -1,43 +1,22 @@
-"""A computed curve against reference data: distances, landmarks, verdicts.
+"""How far a computed curve is from reference data.
 
-A vertical residual is wrong near a kink or on a steep slope, where a perfect curve may seem
-several per cent off. So both axes are scaled by the uncertainties of the reference, and a
-point's distance is the shortest one to the polyline of the curve, in sigmas. Where the model is not
-meant to be exact, an allowance for its form joins the uncertainties first.
+A vertical residual is wrong near a kink or on a steep slope: there even a perfect curve may be
+several per cent off. So both axes are scaled by the uncertainties of the reference. The distance of
+a point is the shortest one to the polyline of the curve, in sigmas. Where the model itself is only
+approximate, an allowance for its form is added to the uncertainties first.
 """
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from enum import StrEnum
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.stats import chi2, f
 
 from planarimpact.ground.arrays import Array, ArrayLike
 
 
-class Verdict(StrEnum):
-    """The outcome of one comparison; only DIVERGES fails a run.
-
-    UNCHANGED is said of a check that compares us with ourselves: it ran, it came out as before. It
-    guards against accidents and is evidence of nothing.
-
-    Examples
-    --------
-    >>> print(Verdict.DOCUMENTED)
-    differs as documented
-    """
-
-    AGREES = "agrees"
-    DOCUMENTED = "differs as documented"
-    DIVERGES = "diverges"
-    AWAITED = "awaited"
-    UNCHANGED = "as before"
-
-
 class Distance(NamedTuple):
-    """Distances of so many points: in sigmas, and root mean square in units of the y axis."""
+    """Distances of a number of points in sigmas; `plain_rms` is in units of the y axis."""
 
     rms: float
     max: float
@@ -46,7 +25,7 @@ class Distance(NamedTuple):
 
 
 class Residuals(NamedTuple):
-    """One distance a point, signed: positive where the reference lies above what was computed.
+    """A distance for each point: positive where the reference lies above what was computed.
 
     Attributes
     ----------
@@ -127,7 +106,7 @@ def curve_residuals(
     sigma: tuple[float, float],
     both_ways: bool = False,
 ) -> Residuals:
-    """Distances of points from a curve, and with `both_ways` of the curve from the points' line.
+    """Distances of points from a curve; with `both_ways` also of the curve from the points' line.
 
     Parameters
     ----------
@@ -166,7 +145,7 @@ def curve_residuals(
     order = np.argsort(x)
     inside = (line_x >= x.min()) & (line_x <= x.max())
     back = _from_polyline(line_x[inside], line_y[inside], x[order], y[order], sigma)
-    # Seen from a vertex of the curve it is the reference that lies on the other side.
+    # These distances are seen from the curve, so their sign is the other one.
     return Residuals(
         np.concatenate([found.x, back.x]),
         np.concatenate([found.sigmas, -back.sigmas]),
@@ -252,7 +231,7 @@ def difference_residuals(
 def with_allowance(
     sigma: tuple[float, float], allowance: tuple[float, float]
 ) -> tuple[float, float]:
-    """Uncertainty of a point beside a model that may itself be off: root of the sum of squares.
+    """Uncertainty of a point and of the model together: root of the sum of squares.
 
     Parameters
     ----------
@@ -309,128 +288,3 @@ def fact_residuals(found: float, fact: Mapping[str, Any]) -> Residuals:
 def _refuse_none(points: Array) -> None:
     if not len(points):
         raise ValueError("no points")
-
-
-class ChiSquared(NamedTuple):
-    """How well points fit a curve to which nothing was fitted.
-
-    Attributes
-    ----------
-    value : float
-        Sum of squares of the distances in sigmas, correlated where a parameter moves them together.
-    degrees : int
-        Degrees of freedom: the number of points.
-    of_sigma : int or None
-        On how many independent values the sigmas rest; None where they are known.
-    p : float
-        Probability that chance alone gives a value as large: by the distribution of chi-squared,
-        or where the sigmas were estimated themselves by that of F.
-    """
-
-    value: float
-    degrees: int
-    of_sigma: int | None
-    p: float
-
-
-def chi_squared(
-    sigmas: ArrayLike, shifts: ArrayLike = (), of_sigma: int | None = None
-) -> ChiSquared:
-    """Chi-squared of distances, with the uncertainty of the curve's own parameters.
-
-    A parameter that is known to one sigma moves all points of the curve together, so the distances
-    have the covariance 1 + sum of J J^T, one J a parameter. That is what a fit of the parameters
-    gives that is held to their stated values with their stated sigmas.
-
-    Parameters
-    ----------
-    sigmas : array_like, shape (n,)
-        Signed distances of the points, in their own sigmas.
-    shifts : array_like, shape (k, n)
-        How much each distance changes with one sigma of each of k independent parameters.
-    of_sigma : int, optional
-        On how many independent values the sigmas rest, if they were estimated from a few.
-
-    Returns
-    -------
-    ChiSquared
-
-    Raises
-    ------
-    ValueError
-        If there are no points.
-
-    Examples
-    --------
-    >>> found = chi_squared([1.0, 2.0])
-    >>> found.value, found.degrees, round(found.p, 3)
-    (5.0, 2, 0.082)
-    >>> round(chi_squared([1.0, 1.0], [[3.0, 3.0]]).value, 3)  # one shift explains both
-    0.105
-    >>> round(chi_squared([1.0, 2.0], of_sigma=4).p, 3)  # the sigma itself may be too small
-    0.198
-    """
-    distance = np.asarray(sigmas, float)
-    _refuse_none(distance)
-    moved = np.asarray(shifts, float).reshape(-1, len(distance))
-    covariance = np.eye(len(distance)) + moved.T @ moved
-    value = float(distance @ np.linalg.solve(covariance, distance))
-    degrees = len(distance)
-    if of_sigma is None:
-        return ChiSquared(value, degrees, None, float(chi2.sf(value, degrees)))
-    return ChiSquared(value, degrees, of_sigma, float(f.sf(value / degrees, degrees, of_sigma)))
-
-
-def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: float) -> Array:
-    """Incidences at which a contact no longer sticks at first, and at which it slips throughout.
-
-    They are those of every model with Coulomb friction and both compliances (Stronge 1994, Eq. 11,
-    and where its Eq. 21 loses its root), and choose the points of a comparison. A judge does not
-    ask the solver that it judges, so they are worked out here.
-
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, restitution : float
-        beta, zeta^2 and e > 0.
-
-    Returns
-    -------
-    ndarray of float64, shape (2,)
-        In mu v2(0).
-
-    Examples
-    --------
-    >>> limits_of_regimes(3.5, 1.21, 1.0).round(2).tolist()
-    [1.21, 5.79]
-    """
-    beta, zeta2, e = mass_ratio, stiffness_ratio, restitution
-    return np.array([zeta2, beta + max(0.0, e * beta - zeta2 / e)])
-
-
-def judge(good: bool, documented: bool = False, unchanged: bool = True) -> Verdict:
-    """Verdict on a comparison.
-
-    Parameters
-    ----------
-    good : bool
-        The curve meets its reference: the probability p is large enough, or the distance is within
-        the tolerance.
-    documented : bool
-        A difference is known and explained. If there is none any more, that is a fault too.
-    unchanged : bool
-        What was found lies within the bounds of its regression test, if it has one.
-
-    Returns
-    -------
-    Verdict
-
-    Examples
-    --------
-    >>> print(judge(True), judge(False), judge(False, documented=True), sep="; ")
-    agrees; diverges; differs as documented
-    >>> print(judge(True, documented=True), judge(True, unchanged=False), sep="; ")
-    diverges; diverges
-    """
-    if not unchanged or good == documented:
-        return Verdict.DIVERGES
-    return Verdict.AGREES if good else Verdict.DOCUMENTED

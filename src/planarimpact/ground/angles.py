@@ -1,0 +1,20 @@
+"""Sine and cosine of an angle at once."""
+
+import numpy as np
+
+from planarimpact.ground.arrays import Array
+
+HALF_PI = np.pi / 2
+
+
+def sin_cos(angle: Array) -> tuple[Array, Array]:
+    """Sine and cosine from one tangent, the cheapest function of the three.
+
+    Examples
+    --------
+    >>> [round(float(value), 12) for value in sin_cos(np.pi / 6)]
+    [0.5, 0.866025403784]
+    """
+    tangent = np.tan(angle / 2)
+    double = 2 / (1 + tangent * tangent)
+    return tangent * double, double - 1

@@ -1,0 +1,88 @@
+"""Slip throughout: a contact that slides from its first instant to separation.
+
+Units are those of every model: tangential velocity mu |v2(0)|, impulse of friction mu m2 |v2(0)|,
+normal velocity |v2(0)|, normal impulse m2 |v2(0)|.
+
+**The line.** While a contact slides, friction is mu times the normal force. Over the whole contact
+the normal impulse is 1 + e, so the impulse of friction is 1 + e too, and the velocity falls by beta
+times that: w(tf) = x - (1 + e) beta. This holds for every normal contact, linear or Hertz, and
+with or without tangential compliance.
+
+**Where it begins** with tangential compliance. The contact slides while the body outruns its
+tangential spring, w > s'. Friction keeps the deflection of the spring at s = zeta^2 N.
+
+- In compression, at the normal impulse p from 0 to 1, w = x - beta p and s' = zeta^2 (1 - p). The
+  difference is linear in p. It stays positive if x > zeta^2 (at p = 0) and x > beta (at p = 1).
+- In restitution N = sin(eta), and the angle eta falls from pi/2 to 0. The normal impulse is
+  1 + e cos(eta), so w = x - beta - e beta cos(eta), and s' = -zeta^2 cos(eta)/e. The difference is
+  x - beta - K cos(eta) with K = e beta - zeta^2/e. For K > 0 it is smallest at separation, so
+  x > beta + K is needed. For K <= 0 slip in restitution never ends.
+
+Elastic Hertz contact has the same limit, that of e = 1: there s = zeta^2 d and s' = zeta^2 v with
+the approach d and its rate v from 1 to -1, and w = x - beta (1 - v).
+"""
+
+from typing import TypeVar
+
+import numpy as np
+
+from planarimpact.ground.arrays import Array, Numbers
+
+_Number = TypeVar("_Number", float, Array)
+
+
+def change(beta: _Number, e: float | _Number) -> _Number:
+    """Fall of the tangential velocity, (1 + e) beta.
+
+    Examples
+    --------
+    >>> change(3.5, 1.0)
+    7.0
+    """
+    return (1 + e) * beta
+
+
+def velocity(x: Array, beta: _Number, e: float | _Number) -> Array:
+    """Velocity at separation, x - (1 + e) beta.
+
+    Examples
+    --------
+    >>> float(velocity(np.float64(8.0), 3.5, 1.0))
+    1.0
+    """
+    return x - change(beta, e)
+
+
+def work(x: Array, beta: _Number, e: float | _Number) -> Array:
+    """Work of friction: its impulse times the mean of the velocities before and after.
+
+    Examples
+    --------
+    >>> float(work(np.float64(8.0), 3.5, 1.0))
+    9.0
+    """
+    return (1 + e) * (x - change(beta, e) / 2)
+
+
+def restick_coefficient(beta: Array, zeta2: Array, e: Numbers) -> Array:
+    """K = e beta - zeta^2/e where positive, else 0.
+
+    Examples
+    --------
+    >>> [float(restick_coefficient(3.5, zeta2, 0.5)) for zeta2 in (0.75, 1.21)]
+    [0.25, 0.0]
+    """
+    excess = e * (e * beta) - zeta2
+    fast = excess > 0
+    return np.where(fast, excess, 0.0) / np.where(fast, e, 1.0)
+
+
+def limit(beta: Array, zeta2: Array, e: Numbers) -> Array:
+    """Incidence from which slip never ends: max(zeta^2, beta + K).
+
+    Examples
+    --------
+    >>> float(limit(3.5, 1.21, 1.0))
+    5.79
+    """
+    return np.maximum(zeta2, beta + restick_coefficient(beta, zeta2, e))

@@ -1,0 +1,293 @@
+"""The kinds of metric: what a comparison measures, and against what.
+
+Against a series of points: `distance` from a curve, or from its `vertices`. Against a stated fact:
+a `landmark` of a curve. Against a law, without a reference: two columns that must be equal
+(`balance`), one that must be small (`largest`), some that have a `range`, or neighbours that must
+not leave further apart than they arrive (`contraction`).
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from planarimpact.ground.arrays import Array
+from stronge1994 import curve_names, reference_data
+from stronge1994.csv_tables import Column, Columns, Curves
+from stronge1994.judging import distances, landmarks
+from stronge1994.judging.distances import Residuals
+from stronge1994.judging.points import Entry, Reference, points, sigma
+
+# Two ways to compute one energy agree to this; see the reason of the comparison.
+BALANCE_SIGMA = 1e-12
+
+
+class Measured(NamedTuple):
+    """How far curves are from what a comparison names.
+
+    Attributes
+    ----------
+    quantity : str
+        Column that says where the points lie.
+    residuals : Residuals
+    columns : list of str
+        The column that each residual is of.
+    shifts : ndarray, shape (k, n)
+        Change of the residuals if one of the k uncertain parameters is off by one sigma.
+    gap : float or None
+        Of a landmark: found less stated.
+    words : dict
+        Of a landmark: both in words.
+    """
+
+    quantity: str
+    residuals: Residuals
+    columns: list[str]
+    shifts: Array = np.zeros((0, 0))
+    gap: float | None = None
+    words: dict[str, str] = {}
+
+
+def measure(
+    entry: Entry, known: Reference | None, curves: Curves, series_paths: Mapping[str, str]
+) -> Measured:
+    """Distances of one comparison.
+
+    Parameters
+    ----------
+    entry : dict
+        Of the config.
+    known : dict or None
+        Its reference.
+    curves : dict
+        As `judged_tables.read` gives them.
+    series_paths : dict
+        `{source: table of its series}`.
+
+    Returns
+    -------
+    Measured
+
+    Raises
+    ------
+    ValueError
+        Saying what is missing.
+    """
+    if entry["metric"] in _LAWS:
+        return _LAWS[entry["metric"]](entry, curves)
+    if known is None:
+        raise ValueError("the reference is not there")
+    if entry["metric"] == "landmark":
+        return _landmark(entry, known, curves)
+    find = _from_curve if entry["metric"] == "distance" else _from_vertices
+    series = points(entry, known, series_paths)
+    residuals, columns = find(entry, known, curves, series)
+    # The curve is solved again with each uncertain parameter off by one sigma, up and down.
+    shifts = [
+        (upper[0].sigmas - lower[0].sigmas) / 2
+        for upper, lower in (
+            [find({**entry, "curve": name}, known, curves, series) for name in pair]
+            for pair in curve_names.shifted_by(entry.get("curve"), curves)
+        )
+    ]
+    x = reference_data.column_name(known["x"])
+    return Measured(x, residuals, columns, np.reshape(shifts, (len(shifts), len(columns))))
+
+
+# Distances, and the column that each of them is of.
+_Found: TypeAlias = tuple[Residuals, list[str]]
+
+
+def _from_curve(entry: Entry, known: Reference, curves: Curves, series: Columns) -> _Found:
+    """Distances from the polyline of the named curve, or of each point's own."""
+    x = reference_data.column_name(known["x"])
+    parts: list[Residuals] = []
+    columns: list[str] = []
+    names = [entry["curve"]] if "curve" in entry else dict.fromkeys(series["curve"])
+    for name in names:
+        own = slice(None) if "curve" in entry else series["curve"] == name
+        for axis in reference_data.ordinates(known):
+            y = reference_data.column_name(axis)
+            at, value = series[x][own], series[y][own]
+            there = ~np.isnan(value)
+            if there.any():
+                line = _columns_of(curves, name, x, y)
+                where, scale = (at[there], value[there]), sigma(entry, known["x"], axis)
+                part = distances.curve_residuals(where, line, scale, known.get("line", False))
+                parts.append(part)
+                columns += [f"{y} of {name}"] * len(part.x)
+    return _joined(parts), columns
+
+
+def _from_vertices(entry: Entry, known: Reference, curves: Curves, series: Columns) -> _Found:
+    """Distances from the vertices with the same labels."""
+    x, labels = reference_data.column_name(known["x"]), known.get("labels", [])
+    labelled = [
+        (columns, _labels(columns | {"curve": np.full(len(columns[x]), name)}, labels))
+        for name, columns in _chosen(entry, curves).items()
+        if x in columns
+    ]
+    words = _labels(series, labels)
+    parts: list[Residuals] = []
+    columns: list[str] = []
+    for axis in reference_data.ordinates(known):
+        y = reference_data.column_name(axis)
+        there = ~np.isnan(series[y])
+        if there.any():
+            own = [word for word, inside in zip(words, there, strict=True) if inside]
+            where = series[x][there], series[y][there], own
+            vertices, scale = _vertices(labelled, x, y), sigma(entry, known["x"], axis)
+            parts.append(distances.vertex_residuals(where, vertices, scale))
+            columns += [f"{y} of {word}" if word else y for word in own]
+    return _joined(parts), columns
+
+
+def _joined(parts: Iterable[Residuals]) -> Residuals:
+    return Residuals(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+
+
+def _vertices(
+    labelled: Iterable[tuple[Columns, list[str]]], x: str, y: str
+) -> tuple[Array, Array, list[str]]:
+    """Vertices of all curves that have both columns: x, y, labels."""
+    holders = [(columns, words) for columns, words in labelled if y in columns]
+    if not holders:
+        raise ValueError(f"no curve has the columns '{x}' and '{y}'")
+    return (
+        np.concatenate([columns[x] for columns, _ in holders]),
+        np.concatenate([columns[y] for columns, _ in holders]),
+        [word for _, words in holders for word in words],
+    )
+
+
+def _labels(columns: Columns, labels: Iterable[str]) -> list[str]:
+    """Labels of each row in one word; rows without labels have an empty one."""
+    if not labels:
+        return [""] * len(next(iter(columns.values())))
+    return [", ".join(map(str, words)) for words in zip(*(columns[k] for k in labels), strict=True)]
+
+
+def _landmark(entry: Entry, fact: Reference, curves: Curves) -> Measured:
+    """A landmark against a stated fact."""
+    where = entry["landmark"]
+    options = [where[key] for key in ("regime", "level", "at") if key in where]
+    names = [where["x"], "regime" if "regime" in where else where["y"]]
+    find = getattr(landmarks, where["kind"])
+    found = find(*_columns_of(curves, entry["curve"], *names), *options)
+    unit = "" if fact["unit"] == "1" else f" {fact['unit']}"
+    signs = {"value": "", "less_than": "< ", "greater_than": "> "}
+    stated = "".join(f"{sign}{fact[key]:g}{unit}" for key, sign in signs.items() if key in fact)
+    gap = found - fact["value"] if "value" in fact else None
+    quantity = names[1] if where["kind"] == "value_at" else names[0]
+    words = {"found": f"{found:.4g}", "stated": stated}
+    residuals = distances.fact_residuals(found, fact)
+    return Measured(quantity, residuals, [quantity], gap=gap, words=words)
+
+
+class _Table(NamedTuple):
+    """Some columns of all curves that have them, one curve after the other."""
+
+    first: str  # the first column of numbers, which says where the points lie
+    x: Array  # its values
+    values: list[Array]  # of the columns asked for
+
+
+def _together(entry: Entry, curves: Curves, names: list[str]) -> _Table:
+    holders = [
+        columns
+        for columns in _chosen(entry, curves).values()
+        if all(name in columns for name in names)
+    ]
+    if not holders:
+        raise ValueError(f"no curve has the columns {names}")
+    places = [_first_of_numbers(columns) for columns in holders]
+    x = np.concatenate([columns[name] for columns, name in zip(holders, places, strict=True)])
+    values = [np.concatenate([columns[name] for columns in holders]) for name in names]
+    return _Table(places[0], x, values)
+
+
+def _balance(entry: Entry, curves: Curves) -> Measured:
+    """Two columns that must be equal."""
+    names = entry["columns"]
+    first, x, (left, right) = _together(entry, curves, names)
+    residuals = distances.difference_residuals(x, left, right, BALANCE_SIGMA)
+    return Measured(first, residuals, [names[0]] * len(x))
+
+
+def _largest(entry: Entry, curves: Curves) -> Measured:
+    """A column that must be small."""
+    name = entry["largest"]
+    first, x, (values,) = _together(entry, curves, [name])
+    residuals = distances.difference_residuals(x, values, np.zeros(len(x)), 1.0)
+    return Measured(first, residuals, [name] * len(x))
+
+
+def _range(entry: Entry, curves: Curves) -> Measured:
+    """Columns whose values must lie in a range: distances from its middle, in half its width."""
+    names, (low, high) = entry["columns"], entry["range"]
+    first, x, values = _together(entry, curves, names)
+    found = np.concatenate(values)
+    middle = np.full(len(found), (low + high) / 2)
+    at = np.tile(x, len(names))
+    residuals = distances.difference_residuals(at, found, middle, (high - low) / 2)
+    return Measured(first, residuals, np.repeat(names, len(x)).tolist())
+
+
+def _contraction(entry: Entry, curves: Curves) -> Measured:
+    """How much further apart neighbours of a curve leave than they arrive; the most at each place.
+
+    The printed equations are left out: they need not keep to that.
+    """
+    x, y = entry["columns"]
+    parts = []
+    for name, columns in curves.items():
+        drawn = not (curve_names.is_printed(name) or curve_names.is_shifted(name))
+        if drawn and x in columns and y in columns:
+            keys = [columns[label] for label in reversed(entry.get("labels", []))]
+            order = np.lexsort([columns[x], *keys])
+            # Only rows with the same labels are neighbours.
+            same = np.ones(len(order) - 1, bool)
+            for key in keys:
+                same &= key[order][1:] == key[order][:-1]
+            arrive, leave = (np.abs(np.diff(columns[axis][order]))[same] for axis in (x, y))
+            excess = np.maximum(leave - arrive, 0.0)
+            parts.append(Residuals(columns[x][order][1:][same], excess, excess))
+    if not parts:
+        raise ValueError(f"no curve has the columns {entry['columns']}")
+    places, where = np.unique(np.concatenate([part.x for part in parts]), return_inverse=True)
+    excess = np.zeros(len(places))
+    np.maximum.at(excess, where, np.concatenate([part.plain for part in parts]))
+    return Measured(x, Residuals(places, excess, excess), [y] * len(places))
+
+
+_LAWS: dict[str, Callable[[Entry, Curves], Measured]] = {
+    "balance": _balance,
+    "largest": _largest,
+    "range": _range,
+    "contraction": _contraction,
+}
+
+
+def _first_of_numbers(columns: Columns) -> str:
+    return next(name for name, values in columns.items() if values.dtype.kind == "f")
+
+
+def _chosen(entry: Entry, curves: Curves) -> Curves:
+    """The one curve that the comparison names, or all of them."""
+    if "curve" not in entry:
+        return curves
+    return {entry["curve"]: _named(curves, entry["curve"])}
+
+
+def _named(curves: Curves, name: str) -> Columns:
+    if name not in curves:
+        raise ValueError(f"no curve '{name}'; the figure has {', '.join(curves)}")
+    return curves[name]
+
+
+def _columns_of(curves: Curves, name: str, *columns: str) -> list[Column]:
+    curve = _named(curves, name)
+    missing = [column for column in columns if column not in curve]
+    if missing:
+        raise ValueError(f"curve '{name}' has no column '{missing[0]}'")
+    return [curve[column] for column in columns]

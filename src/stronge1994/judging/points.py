@@ -1,0 +1,92 @@
+"""Which points of a reference a comparison is about, and how uncertain they are."""
+
+from collections.abc import Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from planarimpact.ground.arrays import Array
+from stronge1994 import csv_tables, reference_data
+from stronge1994.csv_tables import Columns
+from stronge1994.judging.distances import with_allowance
+
+# A comparison of the config, and what it names: a series or a fact of source.yaml, with the
+# parameters of its source.
+Entry: TypeAlias = Mapping[str, Any]
+Reference: TypeAlias = Mapping[str, Any]
+# The limits of the regimes divide the axis of incidence into these parts.
+PARTS = ("initial stick", "slip and stick", "slip throughout")
+
+
+def kind(known: Reference | None) -> str:
+    """Kind of a reference: a series has its own; else `fact`, or `law` without a reference."""
+    return "law" if known is None else known.get("kind", "fact")
+
+
+def is_published(known: Reference | None) -> bool:
+    """Whether a reference holds points that somebody has published."""
+    return kind(known) in ("digitised", "awaited")
+
+
+def points(entry: Entry, known: Reference, series_paths: Mapping[str, str]) -> Columns:
+    """Columns of the reference in the regime and with the labels that the comparison asks for."""
+    source, name = entry["reference"].split("/")
+    series = csv_tables.read(series_paths[source])[name]
+    x = series[reference_data.column_name(known["x"])]
+    low, high = _window(entry, known)
+    chosen = (x >= low) & (x < high)
+    for label, word in entry.get("points", {}).items():
+        chosen &= series[label] == word
+    if "curve" in entry and "curve" in known.get("labels", []):
+        chosen &= series["curve"] == entry["curve"]
+    if not chosen.any():
+        raise ValueError("the reference has no such points")
+    return {column: values[chosen] for column, values in series.items()}
+
+
+def sigma(entry: Entry, x: Mapping[str, Any], y: Mapping[str, Any]) -> tuple[float, float]:
+    """Uncertainty on both axes, with the allowance for the model if the comparison has one."""
+    both, allowance = (x["sigma"], y["sigma"]), entry.get("allowance")
+    if allowance is None:
+        return both
+    return with_allowance(both, (allowance["x"], allowance["y"]))
+
+
+def _window(entry: Entry, known: Reference) -> tuple[float, float]:
+    """Where a regime begins and ends on the axis of the reference, by its source's parameters."""
+    if "regime" not in entry:
+        return -np.inf, np.inf
+    stated = known["parameters"]
+    keys = ("mass_ratio", "stiffness_ratio", "restitution")
+    limits = limits_of_regimes(*(stated[key] for key in keys))
+    if known["x"]["column"] == "angle":
+        limits = np.degrees(np.arctan(stated["friction"] * limits))
+    ends = [-np.inf, *limits, np.inf]
+    place = PARTS.index(entry["regime"])
+    return ends[place], ends[place + 1]
+
+
+def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: float) -> Array:
+    """Incidences at which a contact no longer sticks at first, and at which it slips throughout.
+
+    Every model with Coulomb friction and both compliances has these limits (Stronge 1994, Eq. 11,
+    and the incidence beyond which its Eq. 21 has no root). They choose the points of a comparison.
+    A judge does not ask the solver that it judges, so they are computed here.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio, restitution : float
+        beta, zeta^2 and e > 0.
+
+    Returns
+    -------
+    ndarray of float64, shape (2,)
+        In mu v2(0).
+
+    Examples
+    --------
+    >>> limits_of_regimes(3.5, 1.21, 1.0).round(2).tolist()
+    [1.21, 5.79]
+    """
+    beta, zeta2, e = mass_ratio, stiffness_ratio, restitution
+    return np.array([zeta2, beta + max(0.0, e * beta - zeta2 / e)])

@@ -1,0 +1,152 @@
+"""Rows of the verdict table, one for each comparison, and of the table of residuals.
+
+Comparing never fails: what cannot be compared diverges, with the reason in `note`.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from stronge1994 import csv_tables
+from stronge1994.judging import judged_tables
+from stronge1994.judging.metrics import Measured, measure
+from stronge1994.judging.points import Entry, Reference, is_published, kind, sigma
+from stronge1994.judging.verdict_table import COLUMNS
+from stronge1994.judging.verdicts import Verdict, chi_squared_of, judge
+
+RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
+# What a row rests on, by the kind of its reference.
+EVIDENCE = {
+    "digitised": "published points",
+    "awaited": "published points",
+    "computed": "independent computation",
+    "fact": "stated value",
+    "law": "law or limit",
+    "itself": "none: regression",
+}
+# The cells of a row by `COLUMNS`. `residuals` holds rows of the table of residuals.
+VerdictRow: TypeAlias = dict[str, Any]
+
+
+def compare(
+    name: str,
+    comparisons: Mapping[str, Entry],
+    references: Mapping[str, Reference],
+    path: str,
+    series_paths: Mapping[str, str],
+    significance: float,
+) -> list[VerdictRow]:
+    """Rows of the verdict table, the first on the table itself.
+
+    Parameters
+    ----------
+    name : str
+        Of a figure, `scene_` and that of a scene, or `study`.
+    comparisons : dict
+        `{name: entry of the config}`.
+    references : dict
+        `{source/entry: series or fact of source.yaml, with the source's parameters}`.
+    path : str
+        The table.
+    series_paths : dict
+        `{source: table of its series}`.
+    significance : float
+        Published points agree if p is above it.
+
+    Returns
+    -------
+    list of dict
+        `residuals` holds rows of the table of residuals, the other keys are `COLUMNS`.
+    """
+    problem, curves = "", {}
+    try:
+        curves = judged_tables.read(path)
+    except Exception as error:
+        problem = f"no curves: {error}"
+    solved = Verdict.DIVERGES if problem else Verdict.UNCHANGED
+    facts: VerdictRow = {"evidence": EVIDENCE["itself"], "reason": "it must run"}
+    rows = [_row(name, f"{name}-solved", solved, note=problem, **facts)]
+    for title, entry in comparisons.items():
+        known = references.get(entry.get("reference", ""))
+        facts = {"reference": entry.get("reference", ""), "reason": entry["reason"]}
+        facts["evidence"] = EVIDENCE[kind(known)]
+        if known is not None and kind(known) == "awaited" and not known["path"]:
+            rows.append(_row(name, title, Verdict.AWAITED, note=known["figure"], **facts))
+            continue
+        try:
+            if problem:
+                raise ValueError(problem)
+            found = measure(entry, known, curves, series_paths)
+            verdict = judge(entry, known, found, significance)
+            facts |= _numbers(entry, known, found, significance) | found.words
+            points = zip(found.residuals.x.tolist(), found.residuals.sigmas.tolist(), strict=True)
+            facts["residuals"] = [[title, found.quantity, *point] for point in points]
+            note = _note(entry, found, verdict)
+        except Exception as error:
+            verdict, note = Verdict.DIVERGES, f"{error}"
+        rows.append(_row(name, title, verdict, note=note, **facts))
+    return rows
+
+
+def _note(entry: Entry, found: Measured, verdict: Verdict) -> str:
+    """What is known of a difference; of a new one, where it is largest."""
+    documented = entry.get("documented", {})
+    known: str = (
+        f"ledger: {documented['entry']}" if "entry" in documented else documented.get("note", "")
+    )
+    sigmas = np.abs(found.residuals.sigmas)
+    if verdict != Verdict.DIVERGES or len(sigmas) == 1:
+        return known
+    worst = int(sigmas.argmax())
+    place = f"largest for {found.columns[worst]} at {found.quantity} = {found.residuals.x[worst]:g}"
+    return "; ".join(words for words in (known, place) if words)
+
+
+def _numbers(
+    entry: Entry, known: Reference | None, found: Measured, significance: float
+) -> VerdictRow:
+    distance = found.residuals.summary()
+    cells: VerdictRow = {
+        "points": distance.points,
+        "rms [sigma]": f"{distance.rms:.3g}",
+        "max [sigma]": f"{distance.max:.3g}",
+        "rms [axis units]": f"{distance.plain_rms:.3g}",
+        "allowed": _allowed(entry, known, significance),
+        "regression": ", ".join(
+            f"{low:g} <= {key} <= {high:g}"
+            for key, (low, high) in entry.get("regression", {}).items()
+        ),
+    }
+    if known is not None and is_published(known):
+        chi2 = chi_squared_of(known, found)
+        cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
+        cells["degrees of sigma"] = chi2.of_sigma or ""
+        cells["p"] = f"{chi2.p:.2g}"
+    return cells
+
+
+def _allowed(entry: Entry, known: Reference | None, significance: float) -> str:
+    if "range" in entry:
+        return "{:g} to {:g}".format(*entry["range"])
+    if known is None or not is_published(known):
+        return f"max <= {entry.get('limit', 1.0):g}"
+    words = f"p > {significance:g}"
+    if "allowance" not in entry:
+        return words
+    axes = known["x"], known["y"]
+    sizes = zip(axes, sigma(entry, *axes), strict=True)
+    unit = ", ".join(f"{axis['column']} {size:.3g} {axis['unit']}" for axis, size in sizes)
+    return f"{words}; 1 is {unit}: allowance for the model and sigma together".replace("_", " ")
+
+
+def _row(figure: str, name: str, verdict: Verdict, **cells: Any) -> VerdictRow:
+    row = dict.fromkeys(COLUMNS, "")
+    return row | {"figure": figure, "comparison": name, "verdict": str(verdict)} | cells
+
+
+def write(rows: Sequence[VerdictRow], verdicts: str, residuals: str) -> None:
+    """Write both tables of the `rows` that `compare` gave."""
+    csv_tables.write_rows(verdicts, COLUMNS, [[row[column] for column in COLUMNS] for row in rows])
+    points = [point for row in rows for point in row.get("residuals", [])]
+    csv_tables.write_rows(residuals, RESIDUALS, points)

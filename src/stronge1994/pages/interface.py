@@ -1,0 +1,46 @@
+"""The interface of the solver and of the printed formulas, as pages that pdoc makes."""
+
+import inspect
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+from planarimpact.ground import arrays
+
+SRC = Path(__file__).parents[2]
+# What has users: the solver, the paper's formulas, and the curves that use both.
+DOCUMENTED = ("planarimpact", "stronge1994.printed", "stronge1994.ledger", "stronge1994.curves")
+
+
+def documented() -> list[str]:
+    """Modules that may have a page, in dotted form."""
+    folders = [SRC.joinpath(*package.split(".")) for package in DOCUMENTED]
+    found = [path for folder in folders for path in sorted(folder.rglob("*.py"))]
+    names = [path.relative_to(SRC).with_suffix("").parts for path in found]
+    return [
+        ".".join(part for part in parts if part != "__init__")
+        for parts in names
+        if "__main__" not in parts
+    ]
+
+
+def write(folder: str) -> None:
+    """Write the pages into a folder."""
+    import pdoc  # here, as the rules ask for `documented` at every start
+    import pdoc.render
+
+    plain = inspect.formatannotation
+
+    def named(annotation: Any, *arguments: Any) -> str:
+        return _name(annotation) or plain(annotation, *arguments)
+
+    pdoc.render.configure(docformat="numpy", footer_text="planarimpact", include_undocumented=False)
+    # pdoc has no option for how a type is written.
+    with mock.patch("inspect.formatannotation", named):
+        pdoc.pdoc(*DOCUMENTED, output_directory=Path(folder))
+
+
+def _name(annotation: object) -> str | None:
+    """What our sources call a type: NumPy's own words for ArrayLike fill a screen."""
+    named = {name: getattr(arrays, name) for name in arrays.__all__}
+    return next((name for name, known in named.items() if annotation == known), None)

@@ -1,0 +1,129 @@
+"""The architecture: which room may enter which, and by which door.
+
+A room is a file or a folder of `src/planarimpact` or `src/stronge1994`. It may use its own
+files and the rooms in its line here. pandas, matplotlib and jinja2 may be used only where a line
+has them.
+"""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+SRC = Path(__file__).parents[1] / "src"
+
+# The solver. Models of contact do not know each other; nothing here knows the reproduction.
+SOLVER = {
+    "ground": "",
+    "hertz": "ground",
+    "rigid": "ground",
+    "lumped": "ground",
+    "continuum": "ground hertz",
+    "bodies": "ground",
+    "noncollinear": "ground bodies",
+    "models": "ground hertz rigid lumped continuum",
+    "response": "ground models",
+    "study": "ground",
+    "scene": "ground bodies rigid lumped continuum models response pandas",
+    "__init__": "ground",
+    "__main__": "planarimpact ground bodies lumped continuum models response scene",
+}
+# The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
+REPRODUCTION = {
+    "__init__": "",
+    "records": "",
+    "one_thread": "",
+    "job": "records",
+    "csv_tables": "",
+    "curve_names": "",
+    "reference_data": "csv_tables",
+    "study_files": "planarimpact ground models study csv_tables",
+    "printed": "ground lumped",
+    "curves": "planarimpact ground bodies rigid lumped continuum noncollinear models response scene"
+    " pandas printed csv_tables curve_names",
+    "ledger": "ground bodies rigid lumped continuum noncollinear models"
+    " printed csv_tables reference_data judging",
+    "judging": "ground curves csv_tables curve_names reference_data",
+    "trade": "ground models curves csv_tables",
+    "gate": "csv_tables records judging ledger",
+    "plan": "ground models records reference_data",
+    "drawings": "planarimpact ground csv_tables curve_names reference_data study_files trade"
+    " matplotlib",
+    "pages": "ground bodies csv_tables drawings gate judging ledger plan jinja2",
+}
+ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
+# A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and
+# of the reproduction has a door of its own.
+SIDE_DOORS = {
+    "continuum.annuli",  # the second method, a check of the first
+    "models.laws",
+    "models.timestep",
+    "noncollinear.rigid",
+    "scene.columns",
+    "scene.files",
+    "scene.places",
+}
+
+
+def trespasses(package, room, source):
+    """Imports of a file of a room that the tables above do not allow."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.ImportFrom):
+            targets = [f"{node.module}.{alias.name}" for alias in node.names]
+        elif isinstance(node, ast.Import):
+            targets = [alias.name for alias in node.names]
+        else:
+            continue
+        for target in targets:
+            top, *inner = target.split(".")
+            name = inner[0] if inner and inner[0] in ROOMS.get(top, ()) else top
+            if (top == package and name == room) or not (top in ROOMS or _is_listed(top)):
+                continue
+            if name not in ROOMS[package][room].split():
+                yield f"{room} may not enter {name}"
+            file = SRC.joinpath(top, *inner[:2])
+            enters = len(inner) > 1 and (file.is_dir() or file.with_suffix(".py").is_file())
+            if top == "planarimpact" and name != "ground" and enters:
+                door = ".".join(inner[:2])
+                if door not in SIDE_DOORS:
+                    yield f"{room} may not enter {door}: it is no door"
+
+
+def _is_listed(name):
+    """Whether a package from outside is one that the tables give to some rooms only."""
+    return any(name in words.split() for rooms in ROOMS.values() for words in rooms.values())
+
+
+@pytest.mark.parametrize("package", ROOMS)
+def test_every_room_has_its_line(package):
+    found = {path.stem for path in (SRC / package).glob("[!.]*") if path.suffix in ("", ".py")}
+    assert found - {"__pycache__", "py"} == set(ROOMS[package])
+
+
+@pytest.mark.parametrize(("package", "room"), [(p, room) for p in ROOMS for room in ROOMS[p]])
+def test_rooms_enter_only_where_they_may(package, room):
+    files = [SRC / package / f"{room}.py", *(SRC / package / room).rglob("*.py")]
+    found = [
+        f"{path}: {words}"
+        for path in files
+        if path.exists()
+        for words in trespasses(package, room, path.read_text(encoding="utf-8"))
+    ]
+    assert not found
+
+
+@pytest.mark.parametrize(
+    ("package", "room", "source"),
+    [
+        ("planarimpact", "continuum", "from planarimpact import hertz, lumped"),
+        ("planarimpact", "lumped", "def late():\n    import planarimpact.rigid"),
+        ("planarimpact", "models", "from planarimpact.continuum import tangential_motion"),
+        ("planarimpact", "response", "import pandas as pd"),
+        ("planarimpact", "study", "from stronge1994 import records"),
+        ("stronge1994", "drawings", "from planarimpact.lumped import rebound"),
+        ("stronge1994", "curves", "from planarimpact.lumped.stick_slip import solve"),
+        ("stronge1994", "judging", "import matplotlib.pyplot as plt"),
+    ],
+)
+def test_a_trespass_is_seen(package, room, source):
+    assert list(trespasses(package, room, source))
