@@ -8,6 +8,7 @@ import subprocess
 from collections import Counter
 from pathlib import Path
 
+import pytest
 from conftest import ROOT
 
 from stronge1994.plan.config import FIGURES
@@ -78,6 +79,7 @@ def test_a_second_run_has_nothing_to_do(finished):
     assert "Nothing to be done" in finished.run().stdout
 
 
+@pytest.mark.slow
 def test_lint_is_clean(fresh):
     result = fresh.run("--lint")
     assert result.returncode == 0, result.stdout
