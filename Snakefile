@@ -108,6 +108,7 @@ if workflow.is_main_process:
     except RuntimeError as error:
         raise refused(error)
 if STARTED_HERE:
+    records.redate(MADE)
     gate.drop_false_pass(MADE, config)
     BEFORE = closing.state()
 

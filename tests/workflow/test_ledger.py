@@ -368,6 +368,7 @@ def tripped():
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in EXECUTED if name not in OF_RIGID_BODIES])
 def test_a_wrong_solver_trips_the_entry(name, tripped):
     assert name in tripped, f"{name} holds with every fault: a check that cannot fail"

@@ -98,6 +98,7 @@ def test_pages_are_built_and_need_nothing_else(first_run, name):
     assert f"Running the notebook {name}" in result.stdout
 
 
+@pytest.mark.slow
 def test_a_failing_cell_fails_the_job_in_one_line(fresh):
     failing = "# Twice two\nx = 2\nassert x * x == 5, 'no\\nfive'"
     written(fresh / "workflow/notebooks/broken.ipynb", "x = 1", failing)

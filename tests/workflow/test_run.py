@@ -8,6 +8,7 @@ import subprocess
 from collections import Counter
 from pathlib import Path
 
+import pytest
 from conftest import ROOT
 
 from stronge1994.plan.config import FIGURES
@@ -72,12 +73,13 @@ def test_report_has_every_picture_with_its_caption(finished):
 
 def test_a_second_run_has_nothing_to_do(finished):
     """Also with files that were touched and hold what they did."""
-    for folder in ("src", "data", "workflow"):
+    for folder in ("src", "data"):
         for path in (finished / folder).rglob("*.*"):
             path.touch()
     assert "Nothing to be done" in finished.run().stdout
 
 
+@pytest.mark.slow
 def test_lint_is_clean(fresh):
     result = fresh.run("--lint")
     assert result.returncode == 0, result.stdout
@@ -136,7 +138,7 @@ EDITED = [
 
 
 def test_an_edit_reruns_what_reads_the_file_and_nothing_more(finished):
-    """The records say what reads it; an older date, as an archive leaves it, hides nothing."""
+    """The records say what reads it."""
     passed = (finished / "results/PASSED").read_text()
     made = finished.records()
     for path in EDITED:
@@ -144,7 +146,6 @@ def test_an_edit_reruns_what_reads_the_file_and_nothing_more(finished):
         for old, new in {"kratos,69.96": "kratos,69.97", ",0.025,": ",0.026,"}.items():
             text = text.replace(old, new)
         (finished / path).write_text(text if path.endswith(".csv") else f"{text}\n# edited\n")
-        os.utime(finished / path, (0, 0))
     direct = {out for out, record in made.items() if set(EDITED) & set(record["input"])}
     assert {made[out]["rule"] for out in direct} >= {"curves", "draw", "series", "scene"}
     follow, more = set(), direct
@@ -157,6 +158,17 @@ def test_an_edit_reruns_what_reads_the_file_and_nothing_more(finished):
     _, counts = finished.planned()
     assert counts == jobs | {"gate": 1, "all": 1}
     assert (finished / "results/PASSED").read_text() == passed, "a plan changes nothing"
+
+
+def test_other_files_of_an_older_date_are_noticed(finished):
+    """As an archive or a backup leaves them."""
+    table, log = "results/scenes/superball.csv", "scene_superball"
+    scene = finished / "data/scenes/superball.csv"
+    scene.write_text(scene.read_text().replace(",0.025,", ",0.026,"))
+    os.utime(scene, (0, 0))
+    (finished / "imported" / log).unlink()
+    assert finished.run(table).returncode == 0
+    assert (finished / "imported" / log).exists(), "it was solved again"
 
 
 def test_a_change_of_the_config_reruns_what_it_concerns(finished):

@@ -19,7 +19,13 @@ def stopped(project, sign, ready):
     deadline = time.monotonic() + SECONDS
     with open(log, "w") as file:
         running = subprocess.Popen(
-            command, cwd=project.folder, stdout=file, stderr=file, start_new_session=True
+            command,
+            cwd=project.folder,
+            stdout=file,
+            stderr=file,
+            start_new_session=True,
+            # What is started in the background of a shell ignores Ctrl-C.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         )
         try:
             while not ready(log.read_text()) and running.poll() is None:
