@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import minimize
 from scipy.stats import kstest
 
+from planarimpact import lumped
 from stronge1994.judging import Verdict, landmarks
 from stronge1994.judging.distances import (
     curve_residuals,
@@ -146,6 +147,13 @@ def test_not_a_number_is_not_probable():
 def test_difference_of_columns():
     found = difference_residuals([0.0, 1.0], [1.0, 2.0], [1.0, 2.5], 0.25)
     assert found.x.tolist() == [0.0, 1.0] and found.sigmas.tolist() == [0.0, -2.0]
+
+
+@pytest.mark.parametrize("e", [1.0, 0.7, 0.3])
+def test_limits_of_regimes_are_those_of_the_solver(e):
+    """They are worked out apart, so that no judge asks what it judges."""
+    limits = limits_of_regimes(3.5, 1.21, e)
+    assert limits == pytest.approx([1.21, lumped.slip_throughout_limit(3.5, 1.21, e)], rel=1e-14)
 
 
 def test_landmarks():

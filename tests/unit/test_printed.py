@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from planarimpact import lumped
+from planarimpact import lumped, rigid
 from planarimpact.ground.checks import InputError
 from stronge1994 import printed
 from stronge1994.curves import fig5, fig6, fig7, fig9
@@ -56,6 +56,22 @@ def test_peaks_hold_up_to_beta_only():
     _, peak, _ = impact.rebound(x, BETA, ZETA2, 1.0)
     gap = np.abs(peak - lumped.rebound(x, BETA, ZETA2, 1.0).peak_friction)
     assert (gap[:4] < 1e-12).all() and (gap[4:] > 0.01).all()
+
+
+def test_peak_without_tangential_compliance_is_that_of_the_rigid_contact():
+    """Eq. 34, where slip halts in compression."""
+    slope, mu = np.array([0.1, 0.6, 1.2]), 0.5
+    exact = mu * np.cos(np.arctan(slope)) * rigid.rebound(slope / mu, BETA).peak_friction
+    np.testing.assert_allclose(peak_force.eq_34_friction(slope, mu, BETA), exact, rtol=1e-13)
+
+
+@pytest.mark.parametrize("cosine", [-2.0, 0.5])
+@pytest.mark.parametrize("sine", [-1.0, 0.0, 3.0])
+@pytest.mark.parametrize("end", [0.3, 2.0, 5.0])
+def test_the_largest_force_is_that_of_a_dense_line(cosine, sine, end):
+    angle = np.linspace(0, end, 10_001)
+    dense = np.abs(cosine * np.cos(angle) + sine * np.sin(angle)).max()
+    assert impact._largest(cosine, sine, end) == pytest.approx(dense, rel=1e-6)
 
 
 def test_mirror_image_and_inelastic_limit():
