@@ -102,13 +102,19 @@ rule all:
         MADE,
 
 
+# Snakemake runs a job again if an input is newer than its output. Files from an archive or a backup
+# may be other ones and yet older, so what they hold is a parameter of every rule.
+for maker in workflow.rules:
+    if maker.output:
+        maker.set_params(content=content_of(maker))
+
+
 if workflow.is_main_process:
     try:
         gate.refuse_unknown_results(MADE)
     except RuntimeError as error:
         raise refused(error)
 if STARTED_HERE:
-    records.redate(MADE)
     gate.drop_false_pass(MADE, config)
     BEFORE = closing.state()
 

@@ -87,21 +87,6 @@ def faults(made: Iterable[str]) -> list[str]:
     return found
 
 
-def redate(made: Iterable[str]) -> None:
-    """Give today's date to files of the repository that hold something else than a job has read.
-
-    Snakemake goes by dates first: files from an archive may be other ones and yet older.
-    """
-    records = filter(None, (_read(FOLDER / f"{path}.json") for path in made))
-    read = {item for record in records for item in record["inputs"].items()}
-    ours = {
-        path for path, _ in read if path.partition("/")[0] in REPOSITORY and Path(path).is_file()
-    }
-    now = {path: fingerprint(path) for path in ours}
-    for path in {path for path, before in read if now.get(path, before) != before}:
-        Path(path).touch()
-
-
 def unknown(made: Iterable[str]) -> list[str]:
     """Files that are there without Snakemake's records of how they were made."""
     return [

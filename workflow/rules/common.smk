@@ -58,12 +58,18 @@ wildcard_constraints:
     notebook="|".join(NOTEBOOKS) or "none",
 
 
-# Every rule has this as its parameter `content`. Snakemake runs a job again if an input is newer than
-# its output: files from an archive or a backup may be other ones and yet older.
-def content(wildcards, input):
-    """Fingerprint of what a job reads of this repository."""
-    ours = [path for path in input if path.startswith(("data/", "src/", "workflow/"))]
-    return files.content(*ours)
+def content_of(maker):
+    """Function that gives the fingerprint of what a job of a rule reads of this repository."""
+
+    def found(wildcards):
+        given = [
+            part.apply_wildcards(wildcards) if isinstance(part, str) else part(wildcards)
+            for part in maker.input
+        ]
+        paths = [path for part in given for path in ([part] if isinstance(part, str) else part)]
+        return files.content(*(p for p in paths if p.startswith(("data/", "src/", "workflow/"))))
+
+    return found
 
 
 def of_figure(part, plans=FIGURES, wildcard="figure"):

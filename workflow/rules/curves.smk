@@ -6,7 +6,6 @@ rule curves:
     output:
         "results/curves/{figure}.csv",
     params:
-        content=content,
         settings=of_figure("settings"),
         nodes=of_figure("nodes"),
     log:

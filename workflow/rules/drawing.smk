@@ -13,7 +13,6 @@ rule draw:
         ),
         png="figures/{figure}.png",
     params:
-        content=content,
         settings=of_figure("settings"),
         overlays=of_figure("overlays"),
         sources=of_figure("sources"),

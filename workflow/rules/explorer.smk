@@ -16,7 +16,6 @@ rule explorer:
             labels={"page": "an impact to play with"},
         ),
     params:
-        content=content,
         settings=plan.settings_of_explorer(config),
     log:
         "results/logs/explorer.log",

@@ -8,7 +8,6 @@ rule compare:
         verdicts="results/verdicts/{judged}.csv",
         residuals="results/residuals/{judged}.csv",
     params:
-        content=content,
         comparisons=of_judged("comparisons"),
         references=of_judged("references"),
         sources=of_judged("sources"),
@@ -32,8 +31,6 @@ rule verdicts:
         verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
     output:
         "results/verdicts.csv",
-    params:
-        content=content,
     log:
         "results/logs/verdicts.log",
     benchmark:
@@ -56,7 +53,6 @@ rule sensitivity:
     output:
         "results/sensitivity/{figure}.csv",
     params:
-        content=content,
         settings=of_figure("settings"),
         nodes=of_figure("nodes"),
         judged=lambda wildcards: JUDGED[wildcards.figure],
@@ -80,8 +76,6 @@ rule gates:
         parts=expand("results/sensitivity/{figure}.csv", figure=FIGURES),
     output:
         "results/gates.csv",
-    params:
-        content=content,
     log:
         "results/logs/gates.log",
     benchmark:
@@ -137,7 +131,6 @@ rule gate:
     output:
         "results/PASSED",
     params:
-        content=content,
         comparisons=EXPECTED_ROWS,
         entries=EXPECTED_ENTRIES,
         config=config,

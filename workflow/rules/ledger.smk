@@ -12,7 +12,6 @@ rule ledger:
     output:
         "results/ledger.csv",
     params:
-        content=content,
         schema=LEDGER_SCHEMA,
     log:
         "results/logs/ledger.log",
@@ -41,7 +40,6 @@ rule ledger_page:
             labels={"page": "the paper verified"},
         ),
     params:
-        content=content,
         symbols=SYMBOLS,
     log:
         "results/logs/ledger_page.log",

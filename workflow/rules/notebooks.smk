@@ -15,8 +15,6 @@ rule notebook:
             category="Teaching",
             labels={"lecture": "{notebook}"},
         ),
-    params:
-        content=content,
     log:
         "results/logs/notebook_{notebook}.log",
     benchmark:

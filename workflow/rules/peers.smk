@@ -9,7 +9,6 @@ rule measure_peers:
     output:
         "results/peers.csv",
     params:
-        content=content,
         settings=plan.settings_of_peers(config),
     log:
         "results/logs/measure_peers.log",
@@ -39,7 +38,6 @@ rule draw_peers:
         ),
         png="figures/trade_with_peers.png",
     params:
-        content=content,
         settings=FIGURES["trade"]["settings"],
     log:
         "results/logs/draw_peers.log",

@@ -6,7 +6,6 @@ rule series:
     output:
         "results/series/{source}.csv",
     params:
-        content=content,
         source=source_of,
     log:
         "results/logs/series_{source}.log",

@@ -9,7 +9,7 @@ from snakemake.exceptions import WorkflowError
 # and for the Python of every job.
 sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 os.environ.update(PYTHONPATH=sys.path[0])
-from stronge1994 import gate, plan, records, reference_data
+from stronge1994 import gate, plan, reference_data
 from stronge1994.gate import options
 from stronge1994.plan import config as configuration
 from stronge1994.plan import files

@@ -22,8 +22,6 @@ rule interface:
         modules=modules("write_interface", *interface.documented()),
     output:
         directory("figures/interface"),
-    params:
-        content=content,
     log:
         "results/logs/interface.log",
     benchmark:
@@ -52,7 +50,6 @@ rule report:
         page="figures/report.html",
         problems="results/problems.csv",
     params:
-        content=content,
         figures=list(FIGURES),
         config={
             key: config[key]

@@ -6,7 +6,6 @@ rule scene:
     output:
         "results/scenes/{scene}.csv",
     params:
-        content=content,
         tolerance=scene_tolerance,
     log:
         "results/logs/scene_{scene}.log",

@@ -10,8 +10,6 @@ rule stability:
             category="Stability",
             labels={"table": "digits by decades of each parameter"},
         ),
-    params:
-        content=content,
     log:
         "results/logs/stability.log",
     benchmark:

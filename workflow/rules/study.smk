@@ -10,7 +10,6 @@ rule solve_chunk:
     output:
         "results/study/{scatteritem}.npz",
     params:
-        content=content,
         settings=grid.settings(config),
     log:
         "results/logs/study_{scatteritem}.log",
@@ -32,7 +31,6 @@ rule gather_chunks:
     output:
         "results/study.npz",
     params:
-        content=content,
         settings=grid.settings(config),
     log:
         "results/logs/gather_chunks.log",
@@ -59,8 +57,6 @@ rule draw_study:
             labels={"figure": "rebound over the grid"},
         ),
         png="figures/study.png",
-    params:
-        content=content,
     log:
         "results/logs/draw_study.log",
     benchmark:

@@ -16,8 +16,6 @@ rule trade:
             category="Trade",
             labels={"table": "which model for which tolerance"},
         ),
-    params:
-        content=content,
     log:
         "results/logs/trade.log",
     benchmark:
