@@ -7,6 +7,7 @@ from stronge1994.drawings import house_style
 from stronge1994.drawings.house_style import Points, Settings
 
 ERROR, ORDER, TIME = "error [mu v2(0)]", "observed_order [1]", "time [s]"
+BUSY = "busy_time [1]"
 METHODS = {
     "row of springs": ("steps [1]", "o"),
     "row of springs, extrapolated": ("steps [1]", "s"),
@@ -32,7 +33,10 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     by_time.set_xlabel("(b) time of an impact (ms)")
     fixed = settings["fixed"]
     kept = f"{fixed['circles']} circles where steps vary, {fixed['steps']} steps where circles do"
-    figure.suptitle(f"annuli: {kept}", fontsize=house_style.NOTE)
+    busy = max([1.0, *(max(curve[BUSY]) for curve in curves.values() if BUSY in curve)])
+    warning = f"\nthe machine was busy: times are up to {busy:.2g} times too long"
+    words = f"annuli: {kept}{warning if busy > 1 else ''}"
+    figure.suptitle(words, fontsize=house_style.NOTE)
     groups = entries[:2], entries[2:]
     titles = "method of dimensionality reduction", "concentric annuli"
     house_style.legend_below(figure, *groups, titles=titles)
