@@ -13,8 +13,9 @@ from pathlib import Path
 import browser
 import pytest
 
-from stronge1994 import plan, reference_data
+from stronge1994 import plan
 from stronge1994.pages import explorer as write_explorer
+from stronge1994.plan import config as configuration
 from stronge1994.plan import files
 
 HERE = Path(__file__).parent
@@ -171,7 +172,7 @@ def copied_modules(tmp_path, monkeypatch):
 def explorer(tmp_path_factory):
     """The explorer page, written as a run writes it."""
     path = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    config = reference_data.load_yaml(ROOT / "workflow/config.yaml")
+    config = configuration.load(ROOT)
     sources = sorted((ROOT / "workflow/explorer").iterdir())
     text = write_explorer.page(plan.settings_of_explorer(config), sources)
     path.write_text(text, encoding="utf-8")

@@ -19,7 +19,7 @@ from stronge1994.plan import config as configuration
 from stronge1994.reference_data import conversion
 
 ROOT = Path(__file__).parents[2]
-CONFIG = reference_data.load_yaml(ROOT / "workflow/config.yaml")
+CONFIG = configuration.load(ROOT)
 CONFIG_SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/config.schema.yaml")
 SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
 UNSIGNED, SIGNED = "digitised_by: null", "digitised_by: a test, with made-up points"

@@ -19,7 +19,7 @@ from stronge1994.plan import config as configuration
 
 ROOT = Path(__file__).parents[2]
 SCHEMAS = ROOT / "workflow/schemas"
-CONFIG = reference_data.load_yaml(ROOT / "workflow/config.yaml")
+CONFIG = configuration.load(ROOT)
 INVENTORY = reference_data.load_all(
     ROOT / "data", reference_data.load_yaml(SCHEMAS / "source.schema.yaml")
 )

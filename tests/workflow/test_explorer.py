@@ -14,8 +14,9 @@ import pytest
 from matplotlib.image import imread
 
 from planarimpact import bodies, lumped
-from stronge1994 import plan, reference_data
+from stronge1994 import plan
 from stronge1994.pages import explorer as write_explorer
+from stronge1994.plan import config as configuration
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "workflow/explorer"
@@ -25,7 +26,7 @@ SLIDERS = list(write_explorer.LIMITS)
 
 @pytest.fixture(scope="module")
 def settings():
-    return plan.settings_of_explorer(reference_data.load_yaml(ROOT / "workflow/config.yaml"))
+    return plan.settings_of_explorer(configuration.load(ROOT))
 
 
 @pytest.fixture(scope="module")

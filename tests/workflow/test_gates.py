@@ -51,7 +51,7 @@ UNSOLVED = "as printed"  # curves that no fault of the physics is meant for
 
 @pytest.fixture(scope="module")
 def config():
-    return reference_data.load_yaml(ROOT / "workflow/config.yaml")
+    return configuration.load(ROOT)
 
 
 @pytest.fixture(scope="module")
@@ -140,7 +140,7 @@ def _changed(settings, change):
 
 def _names(*left_out):
     """Comparisons of figures that are solved here: the trade takes long, see test_columns.py."""
-    comparisons = reference_data.load_yaml(ROOT / "workflow/config.yaml")["comparisons"]
+    comparisons = configuration.load(ROOT)["comparisons"]
     figures = {*configuration.FIGURES} - {"trade"}
     return [
         name

@@ -36,7 +36,7 @@ def test_every_file_of_a_run_is_asked_for(first_run):
 @pytest.fixture(scope="module")
 def expected():
     """Rows that the tables of a run must have."""
-    config = reference_data.load_yaml(ROOT / "workflow/config.yaml")
+    config = configuration.load(ROOT)
     schema = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
     sources = reference_data.load_all(ROOT / "data", schema)
     schema = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
@@ -215,7 +215,7 @@ def report(first_run, expected, tmp_path, monkeypatch):
     for folder in ("results", "figures"):
         shutil.copytree(first_run[0] / folder, tmp_path / folder)
     monkeypatch.chdir(tmp_path)
-    config = reference_data.load_yaml(ROOT / "workflow/config.yaml")
+    config = configuration.load(ROOT)
     names = configuration.FIGURES
 
     def written():

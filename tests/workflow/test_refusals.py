@@ -37,7 +37,7 @@ def check(inventory, ledger, monkeypatch):
     monkeypatch.chdir(ROOT)
 
     def checked(change, data=inventory):
-        config = reference_data.load_yaml("workflow/config.yaml")
+        config = configuration.load()
         config = configuration.with_values(updated(config, change))
         configuration.check_config(config, CONFIG_SCHEMA, data, ledger)
         grid.check(config)

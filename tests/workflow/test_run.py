@@ -174,7 +174,7 @@ def test_other_files_of_an_older_date_are_noticed(finished):
 def test_a_change_of_the_config_reruns_what_it_concerns(finished):
     """A tolerance compares again; that of a scene solves it, the study's grid the study."""
     file, old = "workflow/config.yaml", "rms: [717.0, 791.0]"
-    finished.edit(file, old, old.replace("7.0", "6.0"))
+    finished.edit("workflow/comparisons.yaml", old, old.replace("7.0", "6.0"))
     finished.edit(file, "superball: {tolerance: 1.0e-6}", "superball: {tolerance: 0.1}")
     _, counts = finished.planned("--config", "study={grid: {incidence: {points: 100}}}")
     once = ["scene", "sensitivity", "verdicts", "gates", "report", "gate", "all"]

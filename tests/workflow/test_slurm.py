@@ -1,6 +1,7 @@
 """The study on a private cluster of one node: real daemons, in a folder that is thrown away."""
 
 import getpass
+import math
 import os
 import re
 import shutil
@@ -185,9 +186,9 @@ def test_the_study_goes_through_slurm(cluster, fresh):
     ):
         assert all(part in job for job in jobs), (part, jobs)
     axes, outputs = study_files.read(fresh / "results/study.npz")
-    ends = [tuple(map(int, path.stem.split("-"))) for path in fresh.folder.glob("results/study/*")]
-    assert len(ends) == 2
-    here = ((start, study.solve(lumped.rebound, axes, start, stop)) for start, stop in sorted(ends))
+    assert len(list(fresh.folder.glob("results/study/*"))) == 2
+    points = math.prod(map(len, axes.values()))
+    here = [(0, study.solve(lumped.rebound, axes, 0, points))]
     for name, field in study.gather(axes, here).items():
         assert np.array_equal(field, outputs[name]), name
 

@@ -324,14 +324,13 @@ def test_a_profile_does_not_hide_what_is_not_allowed(tmp_path, monkeypatch):
         options.refuse_untrustworthy(["another program", "--what"])
 
 
-def test_words_of_vanished_jobs_and_chunks_are_gone(finished):
-    for path in ("results/benchmarks/curves_fig99.tsv", "results/study/0-7.npz"):
-        (finished / path).write_text("old")
+def test_words_and_chunks_of_another_number_of_chunks_are_gone(finished):
     few = "study={chunks: 2, grid: {incidence: {points: 20}}}"
     assert finished.run("study", "--config", few).returncode == 0
-    assert not (finished / "results/benchmarks/curves_fig99.tsv").exists()
-    names = sorted(path.name for path in (finished / "results/study").iterdir())
-    assert names == ["0-4020.npz", "4020-8040.npz"]
-    # What jobs said about the chunks of the old grid goes with them.
-    left = {path.name for path in (finished / "results/benchmarks").glob("study_*")}
-    assert left == {"study_0-4020.tsv", "study_4020-8040.tsv"}
+    made = {path for path, r in finished.records().items() if r["rule"] == "solve_chunk"}
+    left = sorted(path.stem for path in (finished / "results/study").iterdir())
+    assert left == ["1-of-2", "2-of-2"]
+    assert {f"results/study/{chunk}.npz" for chunk in left} <= made
+    for folder in ("benchmarks", "logs"):
+        words = {path.stem for path in (finished / "results" / folder).glob("study_*")}
+        assert words == {f"study_{chunk}" for chunk in left}
