@@ -14,6 +14,7 @@ from stronge1994.judging.distances import (
     fact_residuals,
     vertex_residuals,
 )
+from stronge1994.judging.points import limits_of_regimes
 from stronge1994.judging.verdicts import chi_squared, verdict
 
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))

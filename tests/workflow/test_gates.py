@@ -75,7 +75,7 @@ def series(inventory, tmp_path_factory):
 def verdicts(first_run, config, inventory, series, tmp_path_factory):
     """Verdicts of every comparison, by fault."""
     found = {}
-    for figure in sorted({*configuration.FIGURES} - {"trade"}):
+    for figure in sorted({*configuration.load(ROOT)["figures"]} - {"trade"}):
         folder = tmp_path_factory.mktemp("curves")
         path, comparisons = str(folder / f"{figure}.csv"), plan.comparisons(config, figure)
         right = judged_tables.read(first_run[0] / configuration.table_of(figure))
@@ -141,7 +141,7 @@ def _changed(settings, change):
 def _names(*left_out):
     """Comparisons of figures that are solved here: the trade takes long, see test_columns.py."""
     comparisons = configuration.load(ROOT)["comparisons"]
-    figures = {*configuration.FIGURES} - {"trade"}
+    figures = {*configuration.load(ROOT)["figures"]} - {"trade"}
     return [
         name
         for name, entry in comparisons.items()

@@ -216,7 +216,7 @@ def report(first_run, expected, tmp_path, monkeypatch):
         shutil.copytree(first_run[0] / folder, tmp_path / folder)
     monkeypatch.chdir(tmp_path)
     config = configuration.load(ROOT)
-    names = configuration.FIGURES
+    names = list(configuration.load(ROOT)["figures"])
 
     def written():
         write_report.write(
@@ -284,21 +284,11 @@ def test_the_report_survives_a_damaged_table(report, path, text, words):
     assert any(words in html.unescape(line) for line in page.splitlines() if "<li>" in line)
 
 
-def test_the_report_survives_a_figure_without_curves(report, copied_modules, monkeypatch):
-    (copied_modules / "src/planarimpact/curves/fig6.py").write_text('"""Fig. 6."""\n')
-    package = copied_modules / "src/planarimpact"
-    monkeypatch.setattr(write_report.api_reference, "PACKAGE", package)
-    monkeypatch.setattr(write_report.api_reference.modules, "__defaults__", (package,))
-    page, problems = report[0]()
-    assert len(problems) == 1 and problems[0].startswith("Fig. 6: KeyError: 'curves' (workflow/")
-    assert "<title>Failed" in page and "Fig. 9" in page
-
-
 def test_the_report_survives_itself(report, monkeypatch):
     """Where the page cannot be made at all, a short one says why."""
     monkeypatch.setitem(write_report.MEANING, "agrees", None)
     monkeypatch.delitem(write_report.MARKS, "awaited")
-    monkeypatch.setattr(write_report.docstring_html, "html", lambda *_: 1 / 0)
+    monkeypatch.setattr(write_report.ledger_page, "words", lambda *_: 1 / 0)
     page, problems = report[0]()
     assert "FAILED" in page and "ZeroDivisionError" in page
     assert problems[-1].startswith("report: ZeroDivisionError")

@@ -11,7 +11,9 @@ from pathlib import Path
 import pytest
 from conftest import ROOT
 
-from stronge1994.plan.config import FIGURES
+from stronge1994.plan import config as configuration
+
+FIGURES = list(configuration.load(ROOT)["figures"])
 
 
 def verdicts(project):

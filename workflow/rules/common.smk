@@ -18,7 +18,7 @@ try:
     configuration.check_config(config, schema, SOURCES, ENTRIES)
     grid.check(config)
     FIGURES = {
-        figure: plan.plan_of_figure(config, SOURCES, figure) for figure in configuration.FIGURES
+        figure: plan.plan_of_figure(config, SOURCES, figure) for figure in config["figures"]
     }
     JUDGED = {
         name: plan.plan_of_judgement(config, SOURCES, name)

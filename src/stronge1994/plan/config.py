@@ -13,8 +13,6 @@ Entry: TypeAlias = dict[str, Any]  # a comparison of the config; a series or fac
 
 # What a user edits: physics; tolerances and their reasons.
 FILES = ("workflow/config.yaml", "workflow/comparisons.yaml")
-FIGURES = [f"fig{number}" for number in range(2, 10)]
-FIGURES += ["micro_slip", "convergence", "trade", "superball", "stability", "rod"]
 SCENE = "scene_"  # before the name of a scene, among what is judged
 # Curves of Fig. 5 that have the parameters of a source: which ones they need.
 SPHERE = ["mass_ratio", "stiffness_ratio", "restitution"]
@@ -150,7 +148,7 @@ def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> No
 
 def judged(config: Config) -> list[str]:
     """Names of all that comparisons may judge: figures, scenes, the parameter study."""
-    return [*FIGURES, *(f"{SCENE}{name}" for name in config["scenes"]), "study"]
+    return [*config["figures"], *(f"{SCENE}{name}" for name in config["scenes"]), "study"]
 
 
 def table_of(name: str) -> str:
