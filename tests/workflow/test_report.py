@@ -181,8 +181,8 @@ def test_provenance_and_what_lies_beside_are_there(page, text):
 def test_it_fits_a_phone_and_links_unfold_what_they_lead_to(report):
     with browser.page() as tab:
         tab.resize(360, 800, mobile=True)
-        tab.open(f"{report.as_uri()}#planarimpact.lumped.rebound")
-        for name in ("planarimpact.lumped.rebound", "planarimpact.rigid"):
+        tab.open(f"{report.as_uri()}#config-fig5")
+        for name in ("config-fig5", "config-rod"):
             tab.evaluate(f"location.hash = '{name}'; new Promise((go) => setTimeout(go, 50))")
             assert tab.evaluate(f"document.getElementById('{name}').closest('details').open")
         tab.evaluate(
