@@ -7,7 +7,7 @@ from snakemake.utils import min_version
 min_version("9.0")
 
 
-include: "workflow/rules/refusals.smk"
+include: "workflow/rules/start.smk"
 
 
 configfile: "workflow/config.yaml"

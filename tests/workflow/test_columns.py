@@ -1,6 +1,6 @@
 """Every column that a run judges is held by something independent: none can be scaled or flipped.
 
-Also what the table of gates says of the smallest changes.
+Also what the table of sensitivity says of the smallest changes.
 """
 
 import functools
@@ -124,10 +124,10 @@ TRIED = ["fig2", "fig3", "fig6", "fig7", "micro_slip", "superball"]
 
 
 @pytest.mark.parametrize("name", TRIED)
-def test_the_table_of_gates_tells_what_is_caught(name, tables, tmp_path):
+def test_the_table_of_sensitivity_tells_what_is_caught(name, tables, tmp_path):
     """A change twice as large is caught in truth; one of a third is not, one way at least."""
     folder, series = tables
-    rows = csv_tables.read_rows(folder / "results/gates.csv")
+    rows = csv_tables.read_rows(folder / "results/sensitivity.csv")
     sizes = {row["comparison"]: row for row in rows if row["comparison"].startswith(f"{name}-")}
     assert set(sizes) == set(plan.comparisons(CONFIG, name))
     module = importlib.import_module(f"stronge1994.curves.{name}")

@@ -224,7 +224,14 @@ def report(first_run, expected, tmp_path, monkeypatch):
             "results/problems.csv",
             {
                 name: f"results/{name}.csv"
-                for name in ("verdicts", "ledger", "trade", "which_model", "stability", "gates")
+                for name in (
+                    "verdicts",
+                    "ledger",
+                    "trade",
+                    "which_model",
+                    "stability",
+                    "sensitivity",
+                )
             },
             {name: f"results/residuals/{name}.csv" for name in names},
             {name: f"figures/{name}.svg" for name in names},

@@ -264,7 +264,7 @@ def doctored(*lapsed):
         verdicts,
         [dict.fromkeys(outcome.COLUMNS, "") | entry for entry in lapsed],
         shown,
-        dict.fromkeys(("which_model", "trade", "stability", "gates"), crashed),
+        dict.fromkeys(("which_model", "trade", "stability", "sensitivity"), crashed),
         CONFIG,
         {},
         {"versions": {}, "system": "", "date": "", "commit": "", "times": []},

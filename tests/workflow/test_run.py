@@ -179,7 +179,7 @@ def test_a_change_of_the_config_reruns_what_it_concerns(finished):
     finished.edit("workflow/comparisons.yaml", old, old.replace("7.0", "6.0"))
     finished.edit(file, "superball: {tolerance: 1.0e-6}", "superball: {tolerance: 0.1}")
     _, counts = finished.planned("--config", "study={grid: {incidence: {points: 100}}}")
-    once = ["scene", "sensitivity", "verdicts", "gates", "report", "gate", "all"]
+    once = ["scene", "sensitivity", "verdicts", "gather_sensitivity", "report", "gate", "all"]
     once += ["gather_chunks", "draw_study"]
     assert counts == dict.fromkeys(once, 1) | {"compare": 3, "solve_chunk": 4}
 

@@ -41,7 +41,7 @@ LAYERS = [
     },
     {
         "results/verdicts/scene_superball.csv": "killed behind",
-        "results/gates.csv": "failed before",
+        "results/sensitivity.csv": "failed before",
         "results/study.npz": "failed behind",
         "figures/ledger.html": "killed before",
     },
@@ -211,7 +211,7 @@ def test_a_source_that_is_lost_or_half_merged_is_refused(tmp_path, text, words):
 
 @pytest.fixture
 def start(copied_modules, monkeypatch):
-    """What a start of Snakemake does first, in this process: workflow/rules/refusals.smk."""
+    """What a start of Snakemake does first, in this process: workflow/rules/start.smk."""
     for part in ("profiles", "data"):
         shutil.copytree(ROOT / part, copied_modules / part)
     monkeypatch.chdir(copied_modules)
@@ -224,8 +224,8 @@ def start(copied_modules, monkeypatch):
         workflow = SimpleNamespace(
             basedir=str(folder), is_main_process=True, config_settings=settings
         )
-        text = (copied_modules / "workflow/rules/refusals.smk").read_text()
-        exec(compile(text, "refusals.smk", "exec"), {"workflow": workflow})
+        text = (copied_modules / "workflow/rules/start.smk").read_text()
+        exec(compile(text, "start.smk", "exec"), {"workflow": workflow})
 
     return started
 

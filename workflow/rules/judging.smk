@@ -69,23 +69,23 @@ rule sensitivity:
         "../scripts/sensitivity.py"
 
 
-rule gates:
+rule gather_sensitivity:
     """One table of the smallest change that each comparison catches."""
     input:
-        modules=modules("gather_gates"),
+        modules=modules("gather_sensitivity"),
         parts=expand("results/sensitivity/{figure}.csv", figure=FIGURES),
     output:
-        "results/gates.csv",
+        "results/sensitivity.csv",
     log:
-        "results/logs/gates.log",
+        "results/logs/gather_sensitivity.log",
     benchmark:
-        "results/benchmarks/gates.tsv"
+        "results/benchmarks/gather_sensitivity.tsv"
     message:
         "Gathering what the comparisons catch"
     conda:
         "../envs/planarimpact.yaml"
     script:
-        "../scripts/gather_gates.py"
+        "../scripts/gather_sensitivity.py"
 
 
 # Every rule whose files a run makes: the gate asks for all of them, wanted by others or not.
@@ -96,7 +96,7 @@ MAKERS = [
     rules.compare,
     rules.verdicts,
     rules.sensitivity,
-    rules.gates,
+    rules.gather_sensitivity,
     rules.ledger,
     rules.ledger_page,
     rules.trade,

@@ -12,7 +12,7 @@ BESIDE = {
 REPORT_PARTS = sources(
     *expand("workflow/report/{part}.html", part=["report", "ledger_parts"]),
     *expand("workflow/report/{part}.css", part=["page", "report"]),
-    *expand("workflow/report/{part}.rst", part=["figures", "trade", "which_model", "stability", "gates"]),
+    *expand("workflow/report/{part}.rst", part=["figures", "trade", "which_model", "stability", "sensitivity"]),
 )
 
 
@@ -45,7 +45,7 @@ rule report:
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
-        tables=[*rules.trade.output, *rules.stability.output, "results/gates.csv"],
+        tables=[*rules.trade.output, *rules.stability.output, "results/sensitivity.csv"],
     output:
         page="figures/report.html",
         problems="results/problems.csv",

@@ -15,4 +15,4 @@ with job.recorded(snakemake):
         dict(zip(judged["sources"], snakemake.input.series, strict=True)),
         snakemake.params.significance,
     )
-    csv_tables.write_rows(snakemake.output[0], verdict_table.GATES, rows)
+    csv_tables.write_rows(snakemake.output[0], verdict_table.SENSITIVITY, rows)

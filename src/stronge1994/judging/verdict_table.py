@@ -14,10 +14,10 @@ COLUMNS = [
     "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
     "rms [axis units]", "found", "stated", "allowed", "regression", "note", "reason",
 ]  # fmt: skip
-# Groups of the physics. The table of gates has the smallest change of each that a comparison
+# Groups of the physics. The table of sensitivity has the smallest change of each that a comparison
 # catches.
 GROUPS = ["zeta^2", "beta", "e", "mu"]
-GATES = ["comparison", *GROUPS]
+SENSITIVITY = ["comparison", *GROUPS]
 ORDER = ["diverges", "differs as documented", "awaited", "agrees", "as before"]
 
 

@@ -109,7 +109,7 @@ def page(
     figures : dict
         `{name: what figure() gave}`.
     tables : dict
-        `{name: {"rows", "caption"}}` of `which_model`, `trade`, `stability`, `gates`.
+        `{name: {"rows", "caption"}}` of `which_model`, `trade`, `stability`, `sensitivity`.
     config : dict
         As it was in the run.
     sources : dict
