@@ -14,7 +14,6 @@ import time
 from pathlib import Path
 
 PROJECT = Path(__file__).parents[1]
-OURS = ("planarimpact", "stronge1994")
 
 
 def _name():
@@ -27,9 +26,11 @@ def _name():
 
 
 def _note(event, arguments):
-    if event == "import" and arguments[0].partition(".")[0] in OURS:
+    """Python tells of each code that it executes: the body of a module has its file's name."""
+    path = Path(getattr(arguments[0], "co_filename", "")) if event == "exec" else Path()
+    if path.is_relative_to(PROJECT / "src"):
         with open(PROJECT / "imported" / JOB, "a", encoding="utf-8") as file:
-            file.write(f"{arguments[0]}\n")
+            file.write(f"{path.relative_to(PROJECT)}\n")
 
 
 def _stop(how):

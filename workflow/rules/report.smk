@@ -20,6 +20,7 @@ rule interface:
     """What the functions of the solver take and return, as pages made from their docstrings."""
     input:
         modules=modules("write_interface", *interface.documented()),
+        names="src/planarimpact/__init__.pyi",
     output:
         directory("figures/interface"),
     log:
