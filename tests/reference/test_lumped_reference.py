@@ -35,7 +35,9 @@ def thresholds(beta, zeta2, e):
     return [float(x) for x in near if 0 <= x <= 20]
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize(
+    "seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 8))]
+)
 def test_random_impacts_against_40_digits(seed):
     rng = np.random.default_rng(seed)
     for _ in range(400):

@@ -77,6 +77,7 @@ def mypy(tmp_path_factory):
     return check
 
 
+@pytest.mark.slow
 def test_the_package_is_consistently_typed(mypy):
     result = mypy()
     assert result.returncode == 0, result.stdout + result.stderr
