@@ -63,7 +63,7 @@ def test_the_two_methods_agree(name):
 def test_the_two_methods_agree_in_forces_and_losses():
     """The table of data/elastic_continuum, by annuli, within the sigmas of its source."""
     x, *columns = read("elastic_continuum/rebound_grid.csv").T
-    found = continuum.rebound(x, 3.5, 1.21)
+    found = continuum.rebound(x, 3.5, 1.21, tolerance=5e-6)
     for name, column, sigma in zip(found._fields, columns, (1e-4, 2e-5, 2e-5), strict=False):
         assert np.max(np.abs(getattr(found, name) - column)) <= sigma, name
 
@@ -114,7 +114,7 @@ def test_the_two_methods_agree_elsewhere():
 
 def test_error_falls_with_the_square_of_the_steps_and_better_extrapolated():
     x = np.linspace(0.1, 5.7, 60)
-    exact = continuum.fixed_steps(x, 3.5, STEEL, 8192, True)
+    exact = continuum.fixed_steps(x, 3.5, STEEL, 4096, True)
     errors = []
     for steps in (64, 128, 256, 512, 1024):
         answers = [continuum.fixed_steps(x, 3.5, STEEL, steps, better) for better in (0, 1)]

@@ -117,7 +117,7 @@ def test_groups_that_no_steps_resolve_are_refused_at_once():
 
 def test_dissipation_keeps_its_digits_at_huge_incidence():
     for solver in (continuum.rebound, annuli.rebound):
-        assert solver(1e17).dissipation == pytest.approx(2e17)
+        assert solver(1e17).dissipation == pytest.approx(2e17, rel=1e-7)
 
 
 @pytest.mark.parametrize("x", [1.21, 1.2100001, 2.0, 5.7899999])

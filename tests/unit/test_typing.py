@@ -83,6 +83,7 @@ def test_the_package_is_consistently_typed(mypy):
     assert result.returncode == 0, result.stdout + result.stderr
 
 
+@pytest.mark.slow
 def test_users_profit_from_the_types(mypy, tmp_path):
     """Examples, as in the README, pass; each wrong call is refused, by the installed package."""
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -189,6 +190,7 @@ def setuptools_version():
         return 0
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(setuptools_version() < 77, reason="a wheel is built by setuptools 77 or later")
 def test_a_wheel_holds_the_package_and_nothing_else(tmp_path):
     source = tmp_path / "source"
