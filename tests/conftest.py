@@ -1,7 +1,7 @@
 """Profiles of Hypothesis, for every test of a property.
 
 `house` tries the same few examples each time, so that the suite is quick and never fails by
-chance. `long` tries fifty times as many at random, and takes an hour:
+chance. `long` tries 75 times as many at random, and takes an hour:
 
     python -m pytest -n 0 tests/property --hypothesis-profile=long
 
@@ -16,8 +16,8 @@ from hypothesis import settings
 # solve small systems of equations, then take ten times as long.
 from stronge1994 import one_thread  # noqa: F401
 
-EXAMPLES = 150
+EXAMPLES = 100
 
 settings.register_profile("house", max_examples=EXAMPLES, deadline=None, derandomize=True)
-settings.register_profile("long", max_examples=50 * EXAMPLES, deadline=None)
+settings.register_profile("long", max_examples=75 * EXAMPLES, deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "house"))

@@ -20,7 +20,7 @@ def groups_of(share, beta, zeta2):
     return share * lumped.slip_throughout_limit(beta, zeta2), beta, zeta2
 
 
-@settings(max_examples=EXAMPLES // 30)  # of many impacts, which cost hardly more than one
+@settings(max_examples=EXAMPLES // 20)  # of many impacts, which cost hardly more than one
 @given(st.lists(IMPACT, min_size=TOGETHER, max_size=TOGETHER))
 def test_friction_never_creates_energy(impacts):
     x, beta, zeta2 = groups_of(*np.array(impacts).T)
@@ -30,7 +30,7 @@ def test_friction_never_creates_energy(impacts):
     assert ((result.peak_friction >= 0) & (result.peak_friction <= 1)).all()
 
 
-@settings(max_examples=EXAMPLES // 5)  # of a hundred instants and more
+@settings(max_examples=EXAMPLES // 4)  # of a hundred instants and more
 @given(IMPACT)
 def test_history_keeps_coulombs_law_and_the_balance_of_momentum(impact):
     x, beta, zeta2 = map(float, groups_of(*impact))
@@ -52,7 +52,7 @@ def test_tractions_stay_within_friction_on_any_path(path):
     assert ((stick >= 0) & (stick <= radius)).all()
 
 
-@settings(max_examples=EXAMPLES // 3)
+@settings(max_examples=EXAMPLES // 2)
 @given(PATH, st.integers(1, 6))
 def test_straight_steps_may_be_divided(path, parts):
     """The row is exact for straight steps in r^2 and u, however they are cut."""
@@ -64,7 +64,7 @@ def test_straight_steps_may_be_divided(path, parts):
     np.testing.assert_allclose(cut[parts - 1 :: parts], whole, atol=1e-9)
 
 
-@settings(max_examples=EXAMPLES // 50)
+@settings(max_examples=EXAMPLES // 30)
 @given(st.lists(st.tuples(SHARE, st.floats(1.0, 8.0), st.floats(0.3, 5.0)), min_size=7, max_size=7))
 def test_annuli_find_the_same(impacts):
     x, beta, zeta2 = groups_of(*np.array(impacts).T)

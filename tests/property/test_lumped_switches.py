@@ -144,6 +144,7 @@ def test_no_answer_differs_from_its_neighbours(jumps):
     assert (jumps <= condition * (STEP + ALLOWED * ULP)).all()
 
 
+@pytest.mark.slow
 def test_suspicious_answers_against_40_digits(impacts, jumps):
     x, beta, zeta2, e = impacts
     quick = (e * np.sqrt(beta / zeta2) < 12) & (e > 1e-6)  # for the reference

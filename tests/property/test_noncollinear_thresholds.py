@@ -8,6 +8,7 @@ come that close: what rounding spoils there is some ulps wide.
 import warnings
 
 import numpy as np
+import pytest
 
 from planarimpact import lumped, noncollinear
 from planarimpact.noncollinear import InverseMass
@@ -80,6 +81,7 @@ def both_sound(*sides):
     return np.all(bodies, axis=0) & ((sides[0][4] == 0) == (sides[1][4] == 0))
 
 
+@pytest.mark.slow
 def test_a_threshold_is_a_kink_not_a_jump():
     groups, varied = thresholds(2, 600, regimes, draw, both_sound)
     assert varied.size > 100
@@ -102,6 +104,7 @@ def test_a_threshold_is_a_kink_not_a_jump():
         assert not bad.any(), (step, groups[:, bad].T[:3].tolist(), second[bad][:3])
 
 
+@pytest.mark.slow
 def test_without_coupling_its_thresholds_are_those_of_the_collinear_model():
     def collinear(rng, count):
         beta, zeta2 = 1 + 9 * rng.random(count) ** 2, 10 ** rng.uniform(-1, 1, count)

@@ -21,6 +21,8 @@ GROUPS = st.tuples(MASS_RATIO, STIFFNESS_RATIO, RESTITUTION)
 TOLERANCE, LARGEST = 1e-10, 20.0
 ROUNDING = 1e-14  # of x - (1 + e) beta and of the model
 NEAR = 1e-10  # of a change of regime
+# Each compiles a response and asks it some four hundred times.
+FEWER = settings(max_examples=settings.default.max_examples // 2)
 
 
 def compiled(groups, tolerance=TOLERANCE):
@@ -62,6 +64,7 @@ def assert_within_the_bound(found, x, groups):
     np.testing.assert_array_equal(found.velocity(x), result.velocity)
 
 
+@FEWER
 @given(GROUPS, SEED)
 def test_the_error_bound_holds_everywhere(groups, seed):
     found = compiled(groups)
@@ -73,7 +76,7 @@ def test_the_error_bound_holds_everywhere(groups, seed):
     assert_within_the_bound(found, np.concatenate([starts, np.nextafter(starts, 0)]), groups)
 
 
-@settings(max_examples=settings.default.max_examples // 2)
+@FEWER
 @given(GROUPS, SEED)
 def test_the_regime_is_that_of_the_model_or_a_neighbour(groups, seed):
     found, x = compiled(groups), incidences(groups, seed)
@@ -84,6 +87,7 @@ def test_the_regime_is_that_of_the_model_or_a_neighbour(groups, seed):
         assert found(one).regime in lumped.rebound(near, *groups).regime, one
 
 
+@FEWER
 @given(GROUPS, SEED, st.sampled_from([1e-10, 1e-3, 1e-1]))
 def test_friction_never_creates_energy(groups, seed, tolerance):
     """However coarse the response."""

@@ -63,7 +63,7 @@ def test_the_two_methods_agree(name):
 def test_the_two_methods_agree_in_forces_and_losses():
     """The table of data/elastic_continuum, by annuli, within the sigmas of its source."""
     x, *columns = read("elastic_continuum/rebound_grid.csv").T
-    found = continuum.rebound(x, 3.5, 1.21)
+    found = continuum.rebound(x, 3.5, 1.21, tolerance=5e-6)
     for name, column, sigma in zip(found._fields, columns, (1e-4, 2e-5, 2e-5), strict=False):
         assert np.max(np.abs(getattr(found, name) - column)) <= sigma, name
 
@@ -114,7 +114,7 @@ def test_the_two_methods_agree_elsewhere():
 
 def test_error_falls_with_the_square_of_the_steps_and_better_extrapolated():
     x = np.linspace(0.1, 5.7, 60)
-    exact = continuum.fixed_steps(x, 3.5, STEEL, 8192, True)
+    exact = continuum.fixed_steps(x, 3.5, STEEL, 4096, True)
     errors = []
     for steps in (64, 128, 256, 512, 1024):
         answers = [continuum.fixed_steps(x, 3.5, STEEL, steps, better) for better in (0, 1)]
@@ -235,7 +235,9 @@ def assert_met(seed, finest, *tolerances):
             assert np.max(error) <= tolerance, (tolerance, field)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(
+    "seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2))]
+)
 def test_a_coarse_tolerance_is_met_over_the_box(seed):
     """The own error of the exact answer is fifty times smaller at least."""
     assert_met(seed, 2e-5, 1e-2, 1e-3)
@@ -256,6 +258,7 @@ def test_the_end_of_slip_within_a_step_is_not_missed():
         assert abs(continuum.fixed_steps(*groups, steps, True) - exact.velocity) < 1e-5
 
 
+@pytest.mark.slow
 def test_the_estimate_survives_a_change_that_vanishes_by_chance():
     """From 256 to 512 steps the extrapolated answer moves by 1e-6, and is wrong by 3.4e-4."""
     groups = 8.823256960990886, 18.56038953662075, 0.3168530116148592

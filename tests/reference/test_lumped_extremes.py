@@ -6,6 +6,7 @@ from pathlib import Path
 
 import extreme_tables
 import numpy as np
+import pytest
 
 TABLE = Path(__file__).parents[2] / "data/lumped_extremes/impacts.csv"
 
@@ -17,6 +18,7 @@ def rows():
     return found
 
 
+@pytest.mark.slow
 def test_rows_are_what_the_reference_computes():
     cheap = [row for row in rows() if int(row[-1]) < 30]
     for row in cheap[::60]:

@@ -25,6 +25,7 @@ GENERATORS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("source", GENERATORS)
 def test_tables_in_data_are_what_their_generator_computes(source):
     generator, *settings = GENERATORS[source]
@@ -35,6 +36,7 @@ def test_tables_in_data_are_what_their_generator_computes(source):
         assert not table_files.differing(path, table, *settings), name
 
 
+@pytest.mark.slow
 def test_histories_of_the_continuum_are_what_their_generator_computes():
     path = ROOT / "data/elastic_continuum/micro_slip_instants.csv"
     table = continuum_tables.tables()["micro_slip_instants"]

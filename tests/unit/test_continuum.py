@@ -1,10 +1,15 @@
 """The elastic continuum: exact limits, shapes, refusals."""
 
+import functools
+
 import numpy as np
 import pytest
 
 from planarimpact import ConvergenceError, InputError, Regime, continuum, lumped
 from planarimpact.continuum import annuli
+
+# What is tested of them here does not depend on how exact they are.
+COARSE = {continuum.rebound: {"tolerance": 1e-3}, annuli.rebound: {"circles": 8, "steps": 64}}
 
 
 def test_slip_throughout_is_exact():
@@ -21,7 +26,7 @@ def test_nothing_happens_at_normal_incidence():
 
 
 def test_gross_slip_to_maximum_compression_has_full_friction():
-    assert (continuum.rebound([3.5, 4.5, 5.5]).peak_friction == 1).all()
+    assert (continuum.rebound([3.5, 4.5, 5.5], tolerance=1e-4).peak_friction == 1).all()
 
 
 def test_the_limit_of_slip_throughout_is_crossed_without_a_jump():
@@ -32,6 +37,7 @@ def test_the_limit_of_slip_throughout_is_crossed_without_a_jump():
 
 @pytest.mark.parametrize("solver", [continuum.rebound, annuli.rebound])
 def test_results_have_the_shape_of_the_arguments(solver):
+    solver = functools.partial(solver, **COARSE[solver])
     result = solver([[0.5], [2.0], [-2.0]], 3.5, [1.21, 1.5])
     assert all(field.shape == (3, 2) for field in result)
     np.testing.assert_allclose(result.velocity[1], -result.velocity[2], atol=1e-12)
@@ -43,17 +49,17 @@ def test_results_have_the_shape_of_the_arguments(solver):
 
 @pytest.mark.parametrize("solver", [continuum.rebound, annuli.rebound])
 def test_many_impacts_are_solved_in_parts(solver, monkeypatch):
-    x = np.linspace(0.1, 5.0, 3)
-    whole = solver(x)
+    x, coarse = np.linspace(0.1, 5.0, 3), COARSE[solver]
+    whole = solver(x, **coarse)
     monkeypatch.setattr(continuum, "CELLS", 100)
-    monkeypatch.setattr(annuli, "CELLS", 2 * 32**2)
-    np.testing.assert_allclose(solver(x).velocity, whole.velocity, atol=1e-14)
+    monkeypatch.setattr(annuli, "CELLS", 2 * 8**2)
+    np.testing.assert_allclose(solver(x, **coarse).velocity, whole.velocity, atol=1e-14)
 
 
 def test_history_ends_where_rebound_does():
     for x in (0.0, 0.7, 2.5, -2.5, 7.0):
         contact = continuum.history(x)
-        assert abs(contact.velocity[-1] - continuum.rebound(x).velocity) <= 1e-4
+        assert abs(contact.velocity[-1] - continuum.rebound(x, tolerance=1e-5).velocity) <= 1e-4
         assert contact.velocity[0] == x and contact.time[0] == 0 and contact.time[-1] == 2
         assert (np.diff(contact.time) > 0).all() and len(contact.time) >= 129
         assert (contact.stick_radius <= contact.contact_radius).all()
@@ -68,6 +74,12 @@ def test_a_tolerance_out_of_reach_is_refused(monkeypatch):
         continuum.rebound(2.0, tolerance=1e-12)
     with pytest.raises(ConvergenceError, match="at incidence = 2, mass_ratio = 3.5"):
         continuum.history(2.0, tolerance=1e-12)
+
+
+def test_extrapolation_saves_steps(monkeypatch):
+    """Where it leaves a share of the error that falls with the square of the steps, 512 are few."""
+    monkeypatch.setattr(continuum, "MOST_STEPS", 512)
+    continuum.rebound(np.linspace(0.2, 5.6, 28), tolerance=1e-4)
 
 
 def test_annuli_without_an_answer_say_so(monkeypatch):
@@ -105,12 +117,12 @@ def test_groups_that_no_steps_resolve_are_refused_at_once():
 
 def test_dissipation_keeps_its_digits_at_huge_incidence():
     for solver in (continuum.rebound, annuli.rebound):
-        assert solver(1e17).dissipation == pytest.approx(2e17)
+        assert solver(1e17).dissipation == pytest.approx(2e17, rel=1e-7)
 
 
 @pytest.mark.parametrize("x", [1.21, 1.2100001, 2.0, 5.7899999])
 def test_time_of_a_history_never_stands_still(x):
-    assert (np.diff(continuum.history(x, tolerance=1e-6).time) > 0).all()
+    assert (np.diff(continuum.history(x, tolerance=1e-5).time) > 0).all()
 
 
 def test_a_solver_gone_wrong_gives_up_at_once(monkeypatch):

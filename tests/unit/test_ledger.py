@@ -149,6 +149,7 @@ def test_no_sign_saves_the_deflection_in_stick():
     assert found.found > 1 and found.corrected < 1e-12
 
 
+@pytest.mark.slow
 def test_readings_quote_what_a_kept_direction_costs():
     """Eqs 15 and 24 taken for s = -1 too; with s = +1 they are exact.
 

@@ -67,6 +67,7 @@ def test_jump_agrees_with_the_phases(monkeypatch):
     assert (jumped.velocity != followed.velocity).any()  # it did jump
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("e", "rate", "x"), [(1.0, 1310.0, 3.0), (0.5, 1350.0, 3.49)])
 def test_jump_against_40_digits(monkeypatch, e, rate, x):
     zeta2 = (e / rate) ** 2 * 3.5

@@ -70,8 +70,12 @@ def test_regimes_are_those_of_the_lumped_model(restitution):
     np.testing.assert_array_equal(found(X).regime, exact.regime)
 
 
-@pytest.mark.parametrize("model", SLIDING)
-@pytest.mark.parametrize("beta", [1.0, 3.5, 7.3])
+# At 7.3 some slide throughout only beyond the largest incidence; the continuum, slow there, is left
+# out.
+@pytest.mark.parametrize(
+    ("model", "beta"),
+    [(m, b) for m in SLIDING for b in (1.0, 3.5, 7.3) if (m, b) != ("continuum", 7.3)],
+)
 def test_sliding_is_exact_to_the_bit_for_any_incidence(model, beta):
     e = 1.0 if model == "continuum" else 0.3
     found = compiled(model, 1e-2, mass_ratio=beta, stiffness_ratio=0.9, restitution=e)

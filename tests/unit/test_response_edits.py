@@ -101,7 +101,12 @@ def is_right(found):
     return np.mean(answer.regime == exact.regime[: answer.regime.size]) > 0.95
 
 
-@pytest.mark.parametrize("model", CASES)
+SLOW = "timestep.linear", "continuum"
+
+
+@pytest.mark.parametrize(
+    "model", [pytest.param(m, marks=[pytest.mark.slow] * (m in SLOW)) for m in CASES]
+)
 def test_what_was_edited_is_refused_by_name_or_still_right(model, tmp_path):
     path, refused = tmp_path / "edited.json", 0
     tried = list(edited(content_of(model, tmp_path)))[:: CASES[model][2]]

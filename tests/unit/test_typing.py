@@ -77,11 +77,13 @@ def mypy(tmp_path_factory):
     return check
 
 
+@pytest.mark.slow
 def test_the_package_is_consistently_typed(mypy):
     result = mypy()
     assert result.returncode == 0, result.stdout + result.stderr
 
 
+@pytest.mark.slow
 def test_users_profit_from_the_types(mypy, tmp_path):
     """Examples, as in the READMEs, pass; each wrong call is refused, by the installed package."""
     readmes = [ROOT / "README.md", ROOT / "src/README.md"]
@@ -189,6 +191,7 @@ def setuptools_version():
         return 0
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(setuptools_version() < 77, reason="a wheel is built by setuptools 77 or later")
 def test_a_wheel_holds_the_package_and_nothing_else(tmp_path):
     source = tmp_path / "source"
