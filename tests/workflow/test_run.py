@@ -12,7 +12,7 @@ import pytest
 
 from stronge1994.plan import config as configuration
 
-FIGURES = list(configuration.load(ROOT)["figures"])
+FIGURES = list(configuration.load(Path(__file__).parents[2])["figures"])
 
 
 def verdicts(project):
