@@ -151,10 +151,11 @@ def test_difference_of_columns():
 
 
 @pytest.mark.parametrize("e", [1.0, 0.7, 0.3])
-def test_limits_of_regimes_are_those_of_the_solver(e):
+@pytest.mark.parametrize("zeta2", [1.21, 3.4, 5.0])  # 5.0 is above the mass ratio
+def test_limits_of_regimes_are_those_of_the_solver(zeta2, e):
     """They are worked out apart, so that no judge asks what it judges."""
-    limits = limits_of_regimes(3.5, 1.21, e)
-    assert limits == pytest.approx([1.21, lumped.slip_throughout_limit(3.5, 1.21, e)], rel=1e-14)
+    limits = limits_of_regimes(3.5, zeta2, e)
+    assert limits == pytest.approx([zeta2, lumped.slip_throughout_limit(3.5, zeta2, e)], rel=1e-14)
 
 
 def test_landmarks():

@@ -1,6 +1,9 @@
 """Where slip starts: the first instant of stick at which |T| reaches N.
 
-T = A sin(theta) with theta' = rate, N = sin(eta) in the angle `eta` of `normal`.
+T = A sin(theta) and N = sin(eta), with the angle `eta` of `normal`. A prime is the derivative with
+respect to the time, counted as `eta`: eta' = 1 in compression and -1 in restitution, where `eta`
+falls to 0; theta' = rate. A half-wave of T lies between two zeros of T.
+
 The root is searched only where it is alone:
 
 * While T and N have one sign, (T'N - TN')' = (1 - rate^2) T N. So for rate > 1 the ratio T/N has
@@ -34,10 +37,13 @@ LARGEST_PHASE = 1e15
 def in_restitution(
     eta: Array, theta: Array, amplitude: Array, rate: Array
 ) -> tuple[Array, Array, Array]:
-    """First eta' <= eta, falling, with sin(eta') = |amplitude sin(theta + rate (eta - eta'))|.
+    """Where slip starts in restitution: stick starts at `eta`, and |T| reaches N at an angle below.
 
-    For rate > 1 and theta < pi the ratio |T|/N must be past its maximum, as it is at every start
-    of stick in this model and after compression: that half-wave is not searched.
+    T has the angle `theta` at the start. `eta` falls by the advance a, and `theta` grows by rate a.
+    The advance found is the first with sin(eta - a) = |amplitude sin(theta + rate a)|.
+
+    For rate > 1 and theta < pi the ratio |T|/N must be past its maximum. It is so at every start
+    of stick in this model, and after compression. So that half-wave is not searched.
 
     Returns
     -------
@@ -62,21 +68,28 @@ def in_restitution(
     if theta_reached.max() > LARGEST_PHASE:  # any place within the period is as good
         lost = theta_reached > LARGEST_PHASE
         theta_reached = np.where(lost, 2 * np.pi + theta_reached % (2 * np.pi), theta_reached)
-    # The half-wave of the onset: this one, unless |T|/N falls here already (`passed`).
-    wave = np.floor(theta_reached / np.pi)
-    rho = theta_reached - wave * np.pi
+    # For rate > 1 the half-wave of the onset is the present one or the next. It is the next where
+    # |T|/N is past its maximum (`passed`): in the first half-wave always, later where it falls.
+    present = np.floor(theta_reached / np.pi)
+    rho = theta_reached - present * np.pi
     (force, fall), (friction, swing) = sin_cos(reached), sin_cos(rho)
-    falling = rate * swing * force + friction * fall <= 0
-    passed = (wave == 0) | (falling & (rho > HALF_PI))
-    # Where |T| falls but |T|/N still rises, the two must be followed to see whether they meet.
+    falling = rate * swing * force + friction * fall <= 0  # (|T|'N - |T|N')/A; N' = -cos(eta)
+    passed = (present == 0) | (falling & (rho > HALF_PI))
+    # Behind the crest of |T|, where |T| falls, |T|/N may still rise. Then |T| may meet N in this
+    # half-wave or miss it.
     dip = np.flatnonzero(fast & ~passed & (rho > HALF_PI))
     if dip.size:
-        met, reach = _reach_behind_crest(reached[dip], rho[dip], amplitude[dip], rate[dip])
+        met, latest = _meets_behind_crest(reached[dip], rho[dip], amplitude[dip], rate[dip])
         passed[dip] = ~met
-    wave = wave + passed
-    if slow.size:  # there is one crossing, in the half-wave in which stick would end
+    wave = present + passed
+    if slow.size:
+        # For rate <= 1 slip starts in the half-wave in which stick would reach separation. Where
+        # stick or a half-wave starts, |T|/N is at most 1; its only extremum after is a minimum. If
+        # the half-wave ends before separation, T = 0 there: the ratio has stayed below 1. In the
+        # half-wave of separation N vanishes first: the ratio grows without bound, so it crosses 1
+        # once.
         end = theta_reached[slow] + rate[slow] * reached[slow]
-        wave[slow] = np.maximum(wave[slow] - passed[slow], np.ceil(end / np.pi) - 1)
+        wave[slow] = np.maximum(present[slow], np.ceil(end / np.pi) - 1)
 
     # For rate > 1 the crossing lies before the crest of that half-wave, where |T| = A exceeds N.
     start = np.maximum(theta_reached, wave * np.pi)
@@ -84,7 +97,7 @@ def in_restitution(
     rho = start - wave * np.pi
     widest = np.where(fast, np.minimum(eta, (HALF_PI - rho) / rate), eta)
     if dip.size:
-        widest[dip[met]] = reach[met]
+        widest[dip[met]] = latest[met]
     advance = _crossing(eta, rho, amplitude, rate, np.maximum(widest, 0.0))
     advance = np.minimum(advance, eta)  # rounding may put a root at separation behind it
     return eta - advance, rho + rate * advance, wave
@@ -97,21 +110,22 @@ def _crossing(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Arr
     # The bracket is a little wider: rounding may put a root at the very end beyond it.
     lane, low, high, trial = np.arange(eta.size), advance, widest + last_step, advance
     for turn in range(MOST_TURNS):
-        # A turn evaluates N - |T| and its slope at the trial, moves one end of the bracket there,
-        # and takes the next trial. It ends for a contact (a lane) when its step is small enough.
+        # A turn evaluates the margin N - |T| and how fast it falls (`descent`) at the trial, moves
+        # one end of the bracket there, and takes the next trial. A contact (a lane) is done when
+        # its step is small enough.
         before = trial
         force, fall = sin_cos(eta - before)
         friction, swing = sin_cos(rho + rate * before)
         friction, swing = friction * amplitude, swing * amplitude * rate
-        excess, descent = force - friction, fall + swing
-        above = excess > 0
-        if turn == 0:  # while N - |T| grows the root is ahead: a negative value is rounding
-            above |= descent < 0
-        low, high = np.where(above, before, low), np.where(above, high, before)
+        margin, descent = force - friction, fall + swing
+        ahead = margin > 0
+        if turn == 0:  # while the margin grows the root is ahead: a negative value is rounding
+            ahead |= descent < 0
+        low, high = np.where(ahead, before, low), np.where(ahead, high, before)
         # The nearer root of the Taylor parabola. It exists also where the slope vanishes.
-        root = descent * descent - 2 * excess * (rate * rate * friction - force)
+        root = descent * descent - 2 * margin * (rate * rate * friction - force)
         with np.errstate(divide="ignore", invalid="ignore"):
-            trial = before + 2 * excess / (descent + np.sqrt(np.maximum(root, 0.0)))
+            trial = before + 2 * margin / (descent + np.sqrt(np.maximum(root, 0.0)))
         inside = (trial >= low) & (trial <= high)
         # Halve the bracket instead if the trial lies outside, and in every other late turn:
         # rounding can throw the trial to and fro. The halvings end the loop in any case.
@@ -132,42 +146,62 @@ def _crossing(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Arr
     raise _lost(lane)
 
 
-def _reach_behind_crest(
+def _meets_behind_crest(
     eta: Array, rho: Array, amplitude: Array, rate: Array
 ) -> tuple[Booleans, Array]:
-    """Whether a falling |T| whose ratio to N still rises meets N in this half-wave, and by when.
+    """Whether a falling |T| whose ratio to N still rises meets N in this half-wave, for rate > 1.
 
-    The ratio rises while turn = |T|'N - |T|N' > 0. If the contact ends before the half-wave does,
-    the ratio rises to the end, where N alone vanishes: they meet. Otherwise the turn has one zero.
-    Behind the crest of |T| the turn falls and is convex. So Newton's iterates approach its zero
-    from the left, and the first iterate with N <= |T| lies behind the onset. The iteration ends at
-    the rounding of `theta`. For rate > 1 and a half-wave that ends, `theta` is the coarser angle.
+    |T| = A sin(theta), where theta counts from the start of the half-wave, lies behind the crest:
+    it grows from `rho` > pi/2 to pi. The ratio |T|/N is at most 1 at the start. It rises while
 
-    If the half-wave ends just before the contact does, the turn is a constant plus the cube of the
-    time to go. A step then still takes a third of that time. The constant, or rounding of the turn,
-    ends the search long before `MOST_TURNS`.
+        rise = (|T|'N - |T|N')/A > 0.
+
+    1. The rise falls all along, since rise' = (1 - rate^2) |T| N/A < 0.
+    2. The contact may end before the half-wave does. There N = 0, so the rise is still positive:
+       the ratio rises all the way, without bound. So |T| meets N.
+    3. Else the half-wave ends first. There T = 0 and |T|' < 0, so the rise is negative: it has one
+       zero before, where the ratio is largest. |T| meets N if the ratio is 1 or more there.
+    4. That zero is searched by Newton's method. Both |T| and N fall, so rise' grows: the rise is
+       convex. A tangent of a convex curve lies below it. So no step of Newton goes past the zero,
+       and at every trial the ratio has only risen so far. If N <= |T| at a trial, there is one
+       onset before it, and the trial is the end of the bracket for `_crossing`.
+
+    The search moves theta. It ends when rounding hides a step in theta: the next trial would be the
+    same.
+
+    Newton's method is slow where the half-wave ends just before the contact does. There T and N are
+    nearly proportional to the time to go, so rise' is like its square, and the rise is like its
+    cube plus a small constant. A step then takes a third of the time to go. The constant, or
+    rounding of the rise, ends the search long before `MOST_TURNS`.
+
+    Returns
+    -------
+    met : ndarray of bool
+        Whether |T| meets N.
+    latest : ndarray
+        Where it does: an advance at or behind the onset.
     """
-    met, reach = rate * eta <= np.pi - rho, eta.copy()
+    met, latest = rate * eta <= np.pi - rho, eta.copy()
     open_ = np.flatnonzero(~met)
     if not open_.size:
-        return met, reach
+        return met, latest
     eta, rho, amplitude, rate = eta[open_], rho[open_], amplitude[open_], rate[open_]
     theta = rho
     for _ in range(MOST_TURNS):
-        # One Newton step towards the zero of the turn, for lanes that have not met N and whose
+        # One Newton step towards the zero of the rise, for lanes that have not met N and whose
         # ratio still rises. `theta` never falls, so the loop ends when no lane moves.
         advance = (theta - rho) / rate
         force, fall = sin_cos(eta - advance)
         friction, swing = sin_cos(theta)
         meets = force <= amplitude * friction
-        turn = rate * swing * force + friction * fall
-        bend = (rate - 1 / rate) * friction * force
-        moving = ~meets & (turn > 0) & (bend > 0)
-        step = np.divide(turn, bend, out=np.zeros_like(turn), where=moving)
+        rise = rate * swing * force + friction * fall
+        descent = (rate - 1 / rate) * friction * force  # minus the derivative of rise by theta
+        moving = ~meets & (rise > 0) & (descent > 0)
+        step = np.divide(rise, descent, out=np.zeros_like(rise), where=moving)
         before, theta = theta, np.minimum(theta + step, np.pi)
         if (theta == before).all():
-            met[open_], reach[open_] = meets, advance
-            return met, reach
+            met[open_], latest[open_] = meets, advance
+            return met, latest
     raise _lost(theta)
 
 
@@ -179,8 +213,9 @@ def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
     """First eta > 0 with x/(zeta^2 rate) sin(rate eta) = sin(eta), for rate < 1.
 
     T must exceed N at maximum compression. With u = eta^2, (T - N)/eta is increasing and concave in
-    u. So Newton's iterates that start left of the root rise to it. The first iterate that does not
-    rise has reached the rounding of u, or of T - N where T and N are close all along.
+    u: its tangents lie above it. So Newton's iterates that start left of the root rise to it. The
+    first one starts from u = 0. The first iterate that does not rise has reached the rounding of u,
+    or of T - N where T and N are close all along.
 
     Parameters
     ----------
@@ -199,14 +234,16 @@ def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
     True
     """
     amplitude, ratio = x / (zeta2 * rate), x / zeta2
+    # The zero of the tangent at u = 0.
     u = np.minimum(6 * (1 - ratio) / (1 - ratio * rate * rate), HALF_PI**2)
     for _ in range(MOST_TURNS):
         # One Newton step in u, which never falls: the loop ends when no u rises any more.
         eta = np.sqrt(u)
         (friction, swing), (force, fall) = sin_cos(rate * eta), sin_cos(eta)
-        excess = amplitude * friction - force
-        slope = amplitude * (rate * eta * swing - friction) - eta * fall + force
-        step = np.divide(-2 * u * excess, slope, out=np.zeros_like(u), where=slope > 0)
+        lead = amplitude * friction - force  # T - N
+        # 2 eta^3 times the derivative of (T - N)/eta by u.
+        slope_eta3 = amplitude * (rate * eta * swing - friction) - eta * fall + force
+        step = np.divide(-2 * u * lead, slope_eta3, out=np.zeros_like(u), where=slope_eta3 > 0)
         before, u = u, np.clip(u + step, u, HALF_PI**2)
         if (u == before).all():
             return eta

@@ -14,8 +14,11 @@ Errors do not grow: any two solutions approach each other in the tangential ener
 w^2/(2 beta) + zeta^2 T^2/2, and an event misplaced by epsilon moves the result by the order of
 epsilon^2.
 
-The work of friction in one slip is the normal impulse times the mean of the slip velocities at
-its ends. The sum of these, all positive, keeps its digits where x^2 - w^2 would lose them.
+While the contact slides, s = side zeta^2 N. So s' is side zeta^2 cos(eta) in compression and
+-side zeta^2 cos(eta)/e in restitution. The velocity of slip is w - s'. In each half of the contact
+it is linear in the normal impulse (see `sliding`). So the work of friction in one half is the
+normal impulse of the slip, times the mean of the slip velocities at its ends. The sum of these,
+all positive, keeps its digits where x^2 - w^2 would lose them.
 """
 
 from typing import NamedTuple
@@ -177,10 +180,11 @@ def _from_compression(
     omega = np.sqrt(beta / zeta2)
     slips_first = x > zeta2
     # Stick after slip starts with T = N and T' = N' = slope. Initial stick starts with no force and
-    # T/N = x/zeta^2, and has the same form with that slope.
-    reach = np.where(slips_first, beta - zeta2, zeta2)
-    slope = np.where(slips_first, beta - x, x) / reach
-    gap = np.where(slips_first, x - zeta2, 0.0) / reach
+    # T' = x/zeta^2, and has the same form with that slope. Slip in compression has the velocity
+    # x - beta + (beta - zeta^2) cos(eta), so it ends where cos(eta) = slope.
+    coefficient = np.where(slips_first, beta - zeta2, zeta2)
+    slope = np.where(slips_first, beta - x, x) / coefficient
+    gap = np.where(slips_first, x - zeta2, 0.0) / coefficient
     amplitude, theta, eta = _tangent(slope, gap, omega)
     if trace is not None:
         trace += [Phase(False, False, 0.0, 1.0, x)] if slips_first[0] else []
@@ -191,7 +195,8 @@ def _from_compression(
     outcome.velocity[lanes] = omega * zeta2 * amplitude * cosine
     outcome.peak_friction[lanes] = np.where(theta < HALF_PI, friction, amplitude)
     outcome.regime[lanes] = np.where(slips_first, Regime.SLIP_STICK, Regime.STICK)
-    outcome.dissipation[lanes] = gap * gap * reach / 2
+    # The first slip has the normal impulse `gap`; its velocity falls from x - zeta^2 to 0.
+    outcome.dissipation[lanes] = gap * gap * coefficient / 2
 
     broken = (omega < 1) & (friction > 1)
     if broken.any():
@@ -213,26 +218,31 @@ def _break_in_compression(
     x, beta, zeta2, e = impacts
     omega = np.sqrt(beta / zeta2)
     eta = slip_onset.in_compression(x, zeta2, omega)
-    onset = x * np.cos(omega * eta)
+    w_onset = x * np.cos(omega * eta)
     passed = normal.impulse(eta)
-    compressed = onset - beta * (1 - passed)
-    final = onset - beta * (1 + e - passed)
-    work = (1 - passed) * (onset - zeta2 * (1 - passed) + compressed)
-    work += e * compressed + e * final + zeta2
-    outcome.velocity[lanes] = final
+    w_compressed = w_onset - beta * (1 - passed)
+    w_final = w_onset - beta * (1 + e - passed)
+    # Twice the work: normal impulse times both slip velocities at its ends. In compression the
+    # impulse is 1 - passed; s' falls from zeta^2 (1 - passed) to 0. In restitution the impulse is
+    # e; s' falls from 0 to -zeta^2/e.
+    work = (1 - passed) * (w_onset - zeta2 * (1 - passed) + w_compressed)
+    work += e * w_compressed + e * w_final + zeta2
+    outcome.velocity[lanes] = w_final
     outcome.peak_friction[lanes] = 1.0
     outcome.dissipation[lanes] = work / 2
     outcome.regime[lanes] = Regime.STICK_SLIP
     if trace is not None:
-        trace.append(Phase(False, False, eta, 1.0, onset))
-        trace.append(Phase(False, True, HALF_PI, 1.0, compressed))
+        trace.append(Phase(False, False, eta, 1.0, w_onset))
+        trace.append(Phase(False, True, HALF_PI, 1.0, w_compressed))
 
 
 def _after_late_slip(lanes: Integers, impacts: Impacts, outcome: Outcome) -> Stick:
     """Stick after a first slip that ended in restitution, at cos(eta) = (x - beta)/K."""
     x, beta, zeta2, e = impacts
-    reach = sliding.restick_coefficient(beta, zeta2, e)
-    slope, gap = (beta - x) / reach, (reach + (beta - x)) / reach
+    coefficient = sliding.restick_coefficient(beta, zeta2, e)
+    slope, gap = (beta - x) / coefficient, (coefficient + (beta - x)) / coefficient
+    # Twice the work. In compression the impulse is 1, and the slip velocity falls from x - zeta^2
+    # to x - beta. In restitution the impulse is e cos(eta) = -e slope, and it falls to 0.
     work = x - zeta2 + (x - beta) + e * (beta - x) * slope
     outcome.dissipation[lanes] = work / 2
     amplitude, theta, eta = _tangent(slope, gap, e * np.sqrt(beta / zeta2))
@@ -243,8 +253,8 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
     """Slip and stick in turn until every impact slides to separation; adds to the outcome.
 
     Each turn of the loop takes a stick to its end, and the slip after it. Impacts whose slip lasts
-    to separation leave. The loop ends since each stick takes half a wave of T, and a contact has
-    room for `_most_sticks` of them.
+    to separation leave. The loop ends since a stick and its slip together take about a half-wave of
+    T, and a contact has room for fewer than `_most_sticks` of these.
     """
     count = 0
     while stick.lanes.size:
@@ -258,32 +268,38 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
             most = _most_sticks(rate)
         if count == most:
             raise ConvergenceError(f"{lanes.size} impacts stick more often than they can")
-        # The end of stick. If slip now lasts to separation, it ends with the velocity `final`.
+        # The end of stick: slip starts with the velocity `w_onset`. If it lasts to separation, it
+        # ends with `w_final`. Both count in the direction of slip.
         eta, rho, wave = slip_onset.in_restitution(stick.eta, stick.theta, amplitude, rate)
         side = np.where(wave % 2 == 0, stick.side, -stick.side)
-        onset = omega * zeta2 * amplitude * np.cos(rho)  # in the direction of slip
+        w_onset = omega * zeta2 * amplitude * np.cos(rho)
         ahead = normal.impulse(eta)
-        final = onset - beta * e * ahead
-        outcome.velocity[lanes] = side * final
+        w_final = w_onset - beta * e * ahead
+        outcome.velocity[lanes] = side * w_final
         if trace is not None:
             trace.append(Phase(True, True, stick.eta, stick.side, 0.0, amplitude, stick.theta))
-            trace.append(Phase(False, True, eta, side, side * onset))
+            trace.append(Phase(False, True, eta, side, side * w_onset))
         if count == 0:  # N falls: no later stick or slip has more friction
             rising = (wave == 0) & (rho < HALF_PI)
             crest = np.where(rising, normal.force(eta), amplitude)
             slid = stick.eta < HALF_PI  # slip went through maximum compression, where N = 1
             outcome.peak_friction[lanes] = np.where(slid, 1.0, crest)
+            # Slip follows: STICK becomes STICK_SLIP, and SLIP_STICK becomes SLIP_STICK_SLIP. By the
+            # order of the codes both are the same step.
             outcome.regime[lanes] += np.uint8(Regime.STICK_SLIP - Regime.STICK)
-        # e times the slip velocity here and at separation. It falls all the way if rate > 1: where
-        # it would be negative at separation, slip ends before and stick comes again.
-        here, there = e * onset + zeta2 * (1 - ahead), e * final + zeta2
-        work = ahead * (here + there)
-        again = np.flatnonzero((rate > 1) & (there < 0))
-        excess = e[again] * (e[again] * beta[again]) - zeta2[again]
-        work[again] = here[again] * (here[again] / excess)
+        # e times the slip velocity v = w + zeta^2 cos(eta)/e, at the onset and at separation.
+        ev_onset, ev_final = e * w_onset + zeta2 * (1 - ahead), e * w_final + zeta2
+        # Twice the work, if slip lasts to separation: the impulse is e times `ahead`.
+        work = ahead * (ev_onset + ev_final)
+        # If rate > 1, e v falls all the way: by e_k = e^2 beta - zeta^2 if cos(eta) grows by 1.
+        # Where it would be negative at separation, slip ends before: when cos(eta) has grown by
+        # ev_onset/e_k. Then stick comes again.
+        again = np.flatnonzero((rate > 1) & (ev_final < 0))
+        e_k = e[again] * (e[again] * beta[again]) - zeta2[again]
+        work[again] = ev_onset[again] * (ev_onset[again] / e_k)
         outcome.dissipation[lanes] += work / 2
         # The slip of these impacts ends at cos(eta) = 1 - gap; their next stick starts there.
-        gap = -there[again] / excess
+        gap = -ev_final[again] / e_k
         amplitude, theta, eta = _tangent(gap - 1, gap, rate[again])
         stick = Stick(lanes[again], eta, theta, amplitude, side[again])
         outcome.regime[stick.lanes] = Regime.MULTIPLE
@@ -291,7 +307,12 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
 
 
 def _most_sticks(rate: Array) -> int:
-    """Most sticks in restitution: one for each half-wave of T, parts of them at both ends too."""
+    """A number of sticks in restitution that no impact reaches: it ends a loop gone wrong.
+
+    In restitution the phase of T grows by rate pi/2, that is rate/2 half-waves. A stick and its
+    slip together take about one (`many_phases` says how nearly). With a part of one at both ends
+    there are some rate/2 + 2 sticks. The bound need not be sharp: it is about twice as large.
+    """
     return int(rate.max()) + 3
 
 

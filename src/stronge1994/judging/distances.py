@@ -211,7 +211,7 @@ def vertex_residuals(
 def difference_residuals(
     x: ArrayLike, left: ArrayLike, right: ArrayLike, sigma: float
 ) -> Residuals:
-    """Difference of two columns that must be equal, `left` less `right`, in units of `sigma`.
+    """Difference of two columns that must be equal, `left` minus `right`, in units of `sigma`.
 
     Raises
     ------

@@ -35,9 +35,9 @@ class Measured(NamedTuple):
     shifts : ndarray, shape (k, n)
         Change of the residuals if one of the k uncertain parameters is off by one sigma.
     gap : float or None
-        Of a landmark: found less stated.
-    words : dict
-        Of a landmark: both in words.
+        Of a landmark: the value found minus the stated one.
+    texts : dict
+        Of a landmark: both values as a page shows them, `found` and `stated`.
     """
 
     quantity: str
@@ -45,7 +45,7 @@ class Measured(NamedTuple):
     columns: list[str]
     shifts: Array = np.zeros((0, 0))
     gap: float | None = None
-    words: dict[str, str] = {}
+    texts: dict[str, str] = {}
 
 
 def measure(
@@ -83,13 +83,11 @@ def measure(
     series = points(entry, known, series_paths)
     residuals, columns = find(entry, known, curves, series)
     # The curve is solved again with each uncertain parameter off by one sigma, up and down.
-    shifts = [
-        (upper[0].sigmas - lower[0].sigmas) / 2
-        for upper, lower in (
-            [find({**entry, "curve": name}, known, curves, series) for name in pair]
-            for pair in curve_names.shifted_by(entry.get("curve"), curves)
-        )
-    ]
+    shifts = []
+    for up, down in curve_names.shifted_by(entry.get("curve"), curves):
+        upper, _ = find({**entry, "curve": up}, known, curves, series)
+        lower, _ = find({**entry, "curve": down}, known, curves, series)
+        shifts.append((upper.sigmas - lower.sigmas) / 2)
     x = reference_data.column_name(known["x"])
     return Measured(x, residuals, columns, np.reshape(shifts, (len(shifts), len(columns))))
 
@@ -111,9 +109,13 @@ def _from_curve(entry: Entry, known: Reference, curves: Curves, series: Columns)
             at, value = series[x][own], series[y][own]
             there = ~np.isnan(value)
             if there.any():
-                line = _columns_of(curves, name, x, y)
-                where, scale = (at[there], value[there]), sigma(entry, known["x"], axis)
-                part = distances.curve_residuals(where, line, scale, known.get("line", False))
+                polyline = _columns_of(curves, name, x, y)
+                part = distances.curve_residuals(
+                    (at[there], value[there]),
+                    polyline,
+                    sigma(entry, known["x"], axis),
+                    both_ways=known.get("line", False),
+                )
                 parts.append(part)
                 columns += [f"{y} of {name}"] * len(part.x)
     return _joined(parts), columns
@@ -121,24 +123,24 @@ def _from_curve(entry: Entry, known: Reference, curves: Curves, series: Columns)
 
 def _from_vertices(entry: Entry, known: Reference, curves: Curves, series: Columns) -> _Found:
     """Distances from the vertices with the same labels."""
-    x, labels = reference_data.column_name(known["x"]), known.get("labels", [])
+    x, label_columns = reference_data.column_name(known["x"]), known.get("labels", [])
     labelled = [
-        (columns, _labels(columns | {"curve": np.full(len(columns[x]), name)}, labels))
+        (columns, _labels(columns | {"curve": np.full(len(columns[x]), name)}, label_columns))
         for name, columns in _chosen(entry, curves).items()
         if x in columns
     ]
-    words = _labels(series, labels)
+    labels = _labels(series, label_columns)
     parts: list[Residuals] = []
     columns: list[str] = []
     for axis in reference_data.ordinates(known):
         y = reference_data.column_name(axis)
         there = ~np.isnan(series[y])
         if there.any():
-            own = [word for word, inside in zip(words, there, strict=True) if inside]
-            where = series[x][there], series[y][there], own
+            own = [label for label, inside in zip(labels, there, strict=True) if inside]
+            labelled_points = series[x][there], series[y][there], own
             vertices, scale = _vertices(labelled, x, y), sigma(entry, known["x"], axis)
-            parts.append(distances.vertex_residuals(where, vertices, scale))
-            columns += [f"{y} of {word}" if word else y for word in own]
+            parts.append(distances.vertex_residuals(labelled_points, vertices, scale))
+            columns += [f"{y} of {label}" if label else y for label in own]
     return _joined(parts), columns
 
 
@@ -150,38 +152,39 @@ def _vertices(
     labelled: Iterable[tuple[Columns, list[str]]], x: str, y: str
 ) -> tuple[Array, Array, list[str]]:
     """Vertices of all curves that have both columns: x, y, labels."""
-    holders = [(columns, words) for columns, words in labelled if y in columns]
+    holders = [(columns, labels) for columns, labels in labelled if y in columns]
     if not holders:
         raise ValueError(f"no curve has the columns '{x}' and '{y}'")
     return (
         np.concatenate([columns[x] for columns, _ in holders]),
         np.concatenate([columns[y] for columns, _ in holders]),
-        [word for _, words in holders for word in words],
+        [label for _, labels in holders for label in labels],
     )
 
 
-def _labels(columns: Columns, labels: Iterable[str]) -> list[str]:
-    """Labels of each row in one word; rows without labels have an empty one."""
-    if not labels:
+def _labels(columns: Columns, label_columns: Iterable[str]) -> list[str]:
+    """A label for each row: its entries in the label columns. Without such columns it is empty."""
+    if not label_columns:
         return [""] * len(next(iter(columns.values())))
-    return [", ".join(map(str, words)) for words in zip(*(columns[k] for k in labels), strict=True)]
+    rows = zip(*(columns[name] for name in label_columns), strict=True)
+    return [", ".join(map(str, row)) for row in rows]
 
 
 def _landmark(entry: Entry, fact: Reference, curves: Curves) -> Measured:
     """A landmark against a stated fact."""
-    where = entry["landmark"]
-    options = [where[key] for key in ("regime", "level", "at") if key in where]
-    names = [where["x"], "regime" if "regime" in where else where["y"]]
-    find = getattr(landmarks, where["kind"])
+    landmark = entry["landmark"]
+    options = [landmark[key] for key in ("regime", "level", "at") if key in landmark]
+    names = [landmark["x"], "regime" if "regime" in landmark else landmark["y"]]
+    find = getattr(landmarks, landmark["kind"])
     found = find(*_columns_of(curves, entry["curve"], *names), *options)
     unit = "" if fact["unit"] == "1" else f" {fact['unit']}"
     signs = {"value": "", "less_than": "< ", "greater_than": "> "}
     stated = "".join(f"{sign}{fact[key]:g}{unit}" for key, sign in signs.items() if key in fact)
     gap = found - fact["value"] if "value" in fact else None
-    quantity = names[1] if where["kind"] == "value_at" else names[0]
-    words = {"found": f"{found:.4g}", "stated": stated}
+    quantity = names[1] if landmark["kind"] == "value_at" else names[0]
+    texts = {"found": f"{found:.4g}", "stated": stated}
     residuals = distances.fact_residuals(found, fact)
-    return Measured(quantity, residuals, [quantity], gap=gap, words=words)
+    return Measured(quantity, residuals, [quantity], gap=gap, texts=texts)
 
 
 class _Table(NamedTuple):
@@ -254,9 +257,9 @@ def _contraction(entry: Entry, curves: Curves) -> Measured:
             parts.append(Residuals(columns[x][order][1:][same], excess, excess))
     if not parts:
         raise ValueError(f"no curve has the columns {entry['columns']}")
-    places, where = np.unique(np.concatenate([part.x for part in parts]), return_inverse=True)
+    places, place_of = np.unique(np.concatenate([part.x for part in parts]), return_inverse=True)
     excess = np.zeros(len(places))
-    np.maximum.at(excess, where, np.concatenate([part.plain for part in parts]))
+    np.maximum.at(excess, place_of, np.concatenate([part.plain for part in parts]))
     return Measured(x, Residuals(places, excess, excess), [y] * len(places))
 
 

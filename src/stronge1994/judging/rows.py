@@ -79,7 +79,7 @@ def compare(
                 raise ValueError(problem)
             found = measure(entry, known, curves, series_paths)
             verdict = judge(entry, known, found, significance)
-            facts |= _numbers(entry, known, found, significance) | found.words
+            facts |= _numbers(entry, known, found, significance) | found.texts
             points = zip(found.residuals.x.tolist(), found.residuals.sigmas.tolist(), strict=True)
             facts["residuals"] = [[title, found.quantity, *point] for point in points]
             note = _note(entry, found, verdict)
