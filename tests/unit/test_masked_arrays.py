@@ -12,7 +12,7 @@ WHOLE = np.ma.array([0.5, 0.75], mask=[False, False])
 BALL = response.compile("lumped", incidence_max=9, tolerance=1e-3)
 ROD = noncollinear.inverse_mass(1.0, 1.0, offset=0.2, depth=0.4)
 TAKES = {
-    "incidence": [BALL, BALL.velocity, BALL.peak_friction]
+    "incidence": [BALL, BALL.velocity]
     + [lambda x, name=name: models.rebound(name, x) for name in ("lumped", "rigid", "annuli")],
     "restitution": [lambda e: models.rebound("lumped", 1.0, restitution=e)],
     "tangential_restitution": [lambda b: laws.brach(1.0, tangential_restitution=b)],
