@@ -11,7 +11,7 @@ import solved_tables
 
 from planarimpact import lumped, rigid, scene, study
 from planarimpact.scene import choice, motion
-from stronge1994 import reference_data
+from stronge1994 import reference_data, study_files
 from stronge1994.plan import grid
 
 ROOT = Path(__file__).parents[2]
@@ -136,8 +136,9 @@ def test_a_cheaper_model_leaves_the_table(name, monkeypatch):
 
 def test_a_fault_in_one_chunk_leaves_the_table():
     found = solved("grid")
-    for chunk in grid.chunks(CONFIG):
-        start, stop = map(int, chunk.split("-"))
+    chunks = CONFIG["study"]["chunks"]
+    for number in range(1, chunks + 1):
+        start, stop = study_files.span(grid.count(CONFIG), f"{number}-of-{chunks}")
         inside = found["point"].between(start, stop - 1)
         assert {start, stop - 1} <= {*found["point"]}
         for column in ("velocity [mu v2(0)]", "peak_friction [mu F2max]"):

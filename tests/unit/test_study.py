@@ -26,7 +26,7 @@ GRID = {
 }
 COUNT = 70
 WORKFLOW = Path(__file__).parents[2] / "workflow"
-CONFIG = reference_data.load_yaml(WORKFLOW / "config.yaml")
+CONFIG = configuration.load(WORKFLOW.parent)
 SCHEMA = reference_data.load_yaml(WORKFLOW / "schemas/config.schema.yaml")
 
 
@@ -176,7 +176,7 @@ def test_parts_that_do_not_make_the_grid_are_refused(axes):
 
 
 def test_files_say_what_is_in_them(axes, tmp_path):
-    chunks = [tmp_path / name for name in ("0-30.npz", "30-70.npz")]
+    chunks = [tmp_path / name for name in ("1-of-2.npz", "2-of-2.npz")]
     for chunk in chunks:
         study_files.solve(chunk.stem, "lumped", {}, GRID, chunk)
     study_files.gather(chunks, "lumped", {}, GRID, tmp_path / "study.npz")
@@ -186,19 +186,19 @@ def test_files_say_what_is_in_them(axes, tmp_path):
         assert list(file["axes"])[0] == "incidence [mu v2(0)]"
         assert "4 SLIP_THROUGHOUT" in file["regimes"]
     found, outputs = study_files.read(tmp_path / "study.npz")
-    expected = study.gather(axes, parts(axes, 0, 30, COUNT))
+    expected = study.gather(axes, parts(axes, 0, COUNT // 2, COUNT))
     assert all(np.array_equal(outputs[name], expected[name]) for name in expected)
     assert all(np.array_equal(found[name], axes[name]) for name in axes)
     assert sorted(path.name for path in tmp_path.iterdir()) == [
-        "0-30.npz",
-        "30-70.npz",
+        "1-of-2.npz",
+        "2-of-2.npz",
         "study.npz",
     ]
 
 
 def test_a_chunk_is_solved_by_the_model_and_settings_asked_for(axes, tmp_path):
-    chunk = tmp_path / "0-70.npz"
-    study_files.solve("0-70", "timestep.linear", {"steps": 32}, GRID, chunk)
+    chunk = tmp_path / "1-of-1.npz"
+    study_files.solve("1-of-1", "timestep.linear", {"steps": 32}, GRID, chunk)
     _, outputs = study_files.read(chunk, "velocity")
     expected = models.rebound("timestep.linear", **study.points(axes, 0, COUNT), steps=32)
     assert np.array_equal(outputs["velocity"], expected.velocity)
@@ -214,9 +214,9 @@ def test_a_chunk_is_solved_by_the_model_and_settings_asked_for(axes, tmp_path):
 )
 def test_a_chunk_of_another_study_is_refused(model, settings, grid, words, tmp_path):
     """Snakemake knows it by its parameters, unless the files came without its records."""
-    chunk = tmp_path / "0-70.npz"
-    study_files.solve("0-70", model, settings, GRID | grid, chunk)
-    with pytest.raises(checks.InputError, match=f"0-70.npz: {words}"):
+    chunk = tmp_path / "1-of-1.npz"
+    study_files.solve("1-of-1", model, settings, GRID | grid, chunk)
+    with pytest.raises(checks.InputError, match=f"1-of-1.npz: {words}"):
         study_files.gather([chunk], "laws.brach", {}, GRID, tmp_path / "study.npz")
     assert not (tmp_path / "study.npz").exists()
 
@@ -288,12 +288,12 @@ def test_what_the_config_may_name_is_what_the_ladder_has():
 
 
 def test_chunks_cover_the_grid_once_and_axes_left_out_are_shared():
+    points = study_plan.count(changed())
+    assert points == 321 * 201 * 2
     for chunks in (1, 3, 4, 97):
-        config = changed(chunks=chunks)
-        spans = [tuple(map(int, name.split("-"))) for name in study_plan.chunks(config)]
-        assert len(spans) == chunks
+        spans = [study_files.span(points, f"{i}-of-{chunks}") for i in range(1, chunks + 1)]
         assert [start for start, _ in spans] == [0] + [stop for _, stop in spans[:-1]]
-        assert spans[-1][1] == study_plan.count(config) == 321 * 201 * 2
+        assert spans[-1][1] == points
     assert study_plan.settings(changed())["grid"]["mass_ratio"] == [CONFIG["mass_ratio"]]
     check(changed(model="continuum", settings={"tolerance": 1e-3}, grid={"restitution": [1]}))
 
