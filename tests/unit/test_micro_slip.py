@@ -93,6 +93,13 @@ def test_bad_input_is_named(call, words):
         call()
 
 
+def test_hertz_time_keeps_its_digits_at_maximum_compression():
+    """There one form of it, the incomplete beta function of 1 less a square, has none left."""
+    near = np.pi / 2 + np.array([-1e-7, 1e-7])
+    passed = (near - np.pi / 2) * hertz.pace(np.pi / 2) / 1.4716375921623508  # in t_c
+    np.testing.assert_allclose(hertz.time(near) - 1, passed, rtol=1e-7)
+
+
 def test_hertz_time_has_all_digits_near_both_ends():
     """Near an end time is that of constant velocity: t = d_max sin(phase)^2/v2(0)."""
     phase = np.array([1e-4, 1e-6])
