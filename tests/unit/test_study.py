@@ -277,7 +277,7 @@ def test_a_bad_study_is_refused(study, words):
         check(changed(**study))
 
 
-def test_what_the_config_may_name_is_what_the_ladder_has():
+def test_what_the_config_may_name_is_what_there_is():
     known = SCHEMA["properties"]["study"]["properties"]
     assert known["model"]["enum"] == list(models.MODELS)
     settings = {name for model in models.MODELS.values() for name in model.settings}

@@ -1,4 +1,4 @@
-"""Beyond the paper: how far off each model of the ladder is, and what it costs on this machine."""
+"""Beyond the paper: how far off each model is, and what it costs on this machine."""
 
 import functools
 import time

@@ -1,4 +1,4 @@
-"""Every model of the ladder keeps the one convention, and what its entry says of it."""
+"""Every model keeps the one convention, and what its entry says of it."""
 
 import inspect
 
