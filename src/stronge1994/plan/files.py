@@ -113,6 +113,7 @@ def _scanned(code: CodeType) -> list[tuple[str, tuple[Any, ...]]]:
     return list(ModuleFinder().scan_opcodes(code))
 
 
+# A finder compiles what it reads; it has no method of its own for that.
 modulefinder.compile = functools.cache(compile)  # type: ignore[attr-defined]
 
 
