@@ -4,7 +4,3 @@ Each module has one function `curves`, whose keywords are the settings of that f
 `workflow/config.yaml` with the physics shared by all. It returns `{name: {column: array}}`; a
 column's name carries its unit in brackets, S = (v1(0)^2 + v2(0)^2)^(1/2).
 """
-
-from stronge1994.csv_tables import Column, Columns, Curves
-
-__all__ = ["Column", "Columns", "Curves"]

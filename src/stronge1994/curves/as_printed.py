@@ -3,8 +3,8 @@
 import numpy as np
 
 from planarimpact.ground.arrays import ArrayLike, Booleans
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import AS_PRINTED, NO_SOLUTION
-from stronge1994.curves import Columns, Curves
 
 # A smaller difference is rounding.
 SAME = 1e-9

@@ -7,7 +7,7 @@ import numpy as np
 from planarimpact import continuum, lumped
 from planarimpact.continuum import annuli
 from planarimpact.ground.arrays import Array
-from stronge1994.curves import Columns, Curves
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.curves.trade import BUSY, Watch
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from stronge1994.curves import Curves
+from stronge1994.csv_tables import Curves
 
 
 def curves(stiffness_ratio: float, restitution: float) -> Curves:

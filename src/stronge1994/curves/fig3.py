@@ -6,8 +6,8 @@ import numpy as np
 
 from planarimpact import lumped
 from planarimpact.ground.results import History
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import name
-from stronge1994.curves import Columns, Curves
 
 
 def curves(

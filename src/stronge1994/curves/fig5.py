@@ -8,8 +8,8 @@ import numpy as np
 from planarimpact import continuum, lumped, rigid
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.results import Rebound, Regime
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import SIGNS, shifted
-from stronge1994.curves import Columns, Curves
 from stronge1994.curves import as_printed as printed_curves
 from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact

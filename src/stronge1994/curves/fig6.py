@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from planarimpact import Regime, lumped
+from stronge1994.csv_tables import Curves
 from stronge1994.curve_names import name
-from stronge1994.curves import Curves
 from stronge1994.curves import as_printed as printed_curves
 from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact

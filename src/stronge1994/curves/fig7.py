@@ -6,8 +6,8 @@ import numpy as np
 
 from planarimpact import lumped, rigid
 from planarimpact.ground.arrays import Array, ArrayLike
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import name
-from stronge1994.curves import Columns, Curves
 from stronge1994.curves import as_printed as printed_curves
 from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from planarimpact import bodies, lumped
-from stronge1994.curves import Curves
+from stronge1994.csv_tables import Curves
 from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 
 

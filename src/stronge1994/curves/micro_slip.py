@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from planarimpact import continuum, lumped
 from planarimpact.ground.results import ContinuumHistory, History
-from stronge1994.curves import Columns, Curves
+from stronge1994.csv_tables import Columns, Curves
 
 
 def curves(

@@ -8,8 +8,8 @@ from planarimpact import Regime, noncollinear
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.noncollinear import InverseMass, NoncollinearHistory, NoncollinearRebound, rigid
 from planarimpact.noncollinear.rigid import ImpulsiveRebound, Law
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import name
-from stronge1994.curves import Columns, Curves
 from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 
 RIGID = {"rigid": Law.ENERGETIC, "rigid, Newton": Law.KINEMATIC}

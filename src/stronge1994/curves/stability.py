@@ -8,7 +8,7 @@ import numpy as np
 
 from planarimpact import lumped
 from planarimpact.ground.arrays import Array
-from stronge1994.curves import Curves
+from stronge1994.csv_tables import Curves
 
 GROUPS = {
     "incidence": "mu v2(0)",

@@ -8,7 +8,7 @@ import pandas as pd
 
 from planarimpact import scene
 from planarimpact.scene.columns import header
-from stronge1994.curves import Curves
+from stronge1994.csv_tables import Curves
 
 TOLERANCE = 1e-6
 

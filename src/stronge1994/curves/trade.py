@@ -11,7 +11,7 @@ from planarimpact import models, response
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound
 from planarimpact.models import Model
-from stronge1994.curves import Curves
+from stronge1994.csv_tables import Curves
 
 FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
 SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
