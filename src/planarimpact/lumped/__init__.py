@@ -17,6 +17,8 @@ from planarimpact.lumped.stick_slip import Impacts
 
 # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
 CHUNK = 16384
+# Nodes and weights of Gauss on -1 to 1, for the work of friction within a phase.
+QUADRATURE = np.polynomial.legendre.leggauss(20)
 
 
 @checks.default_errors
@@ -211,7 +213,7 @@ def friction_work(
     """
     _, scale, groups, phases = _phases(incidence, mass_ratio, stiffness_ratio, restitution)
     _, zeta2, e = groups
-    nodes, weights = np.polynomial.legendre.leggauss(20)
+    nodes, weights = QUADRATURE
     work = 0.0
     for phase, eta_end in phases:
         if phase.sticks:

@@ -23,6 +23,8 @@ import matplotlib
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -117,9 +119,11 @@ def save(figure: Figure, svg: File, png: File | None = None) -> None:
     figure.set_layout_engine("none")
     for axes in figure.axes:
         axes.set_position(np.round(axes.get_position().bounds, 6))
-    figure.savefig(svg, format="svg", metadata={"Date": None})
+    # `Figure.savefig` would draw once more, unseen, to solve a layout that is solved.
+    FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
     if png:
-        figure.savefig(png, format="png", dpi=200)
+        figure.dpi = 200
+        FigureCanvasAgg(figure).print_png(png)
 
 
 def failure(message: str) -> Figure:
