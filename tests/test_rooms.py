@@ -47,8 +47,7 @@ REPRODUCTION = {
     "trade": "ground models curves csv_tables",
     "gate": "csv_tables records judging ledger",
     "plan": "ground models records reference_data",
-    "drawings": "planarimpact ground csv_tables curve_names reference_data study_files trade"
-    " matplotlib",
+    "drawings": "planarimpact ground csv_tables curve_names reference_data study_files matplotlib",
     "pages": "ground bodies csv_tables drawings gate judging ledger plan jinja2",
 }
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
