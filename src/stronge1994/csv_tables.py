@@ -50,6 +50,11 @@ def write_rows(path: Path, header: Sequence[str], rows: Iterable[Iterable[Any]])
         writer.writerows(rows)
 
 
+def write_table(path: Path, rows: Iterable[Mapping[str, Any]], columns: Sequence[str]) -> None:
+    """Write rows that have these columns at least, in the order of the columns."""
+    write_rows(path, columns, [[row[column] for column in columns] for row in rows])
+
+
 def read(path: Path) -> Curves:
     """Read what `write` wrote: numbers as float64, words as text, empty columns left out."""
     with open(path, newline="", encoding="utf-8") as file:

@@ -147,6 +147,6 @@ def _row(figure: str, name: str, verdict: Verdict, **cells: Any) -> VerdictRow:
 
 def write(rows: Sequence[VerdictRow], verdicts: str, residuals: str) -> None:
     """Write both tables of the `rows` that `compare` gave."""
-    csv_tables.write_rows(verdicts, COLUMNS, [[row[column] for column in COLUMNS] for row in rows])
+    csv_tables.write_table(verdicts, rows, COLUMNS)
     points = [point for row in rows for point in row.get("residuals", [])]
     csv_tables.write_rows(residuals, RESIDUALS, points)

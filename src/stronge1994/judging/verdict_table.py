@@ -1,8 +1,7 @@
 """The verdicts of a run as one table, the worst first, for files and for the terminal."""
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Sequence
 
 from tabulate import tabulate
 
@@ -68,8 +67,3 @@ def _measured(row: Row) -> str:
     if row["p"]:
         return f"chi^2 {row['chi^2']} of {row['degrees of freedom']}, p = {row['p']}"
     return f"rms {row['rms [sigma]']}, max {row['max [sigma]']}" if row["points"] else ""
-
-
-def write(path: str, rows: Iterable[Mapping[str, Any]], columns: Sequence[str]) -> None:
-    """Write rows, dicts that have these columns at least, in the order of the columns."""
-    csv_tables.write_rows(path, columns, [[row[column] for column in columns] for row in rows])

@@ -3,7 +3,6 @@
 from collections import Counter
 from collections.abc import Sequence
 
-from stronge1994 import csv_tables
 from stronge1994.csv_tables import Row
 
 COLUMNS = [
@@ -49,8 +48,3 @@ def summary(rows: Sequence[Row]) -> str:
     for row in bad:
         lines.append(f"  no longer holds: {row['entry']} ({row['where']}): {row['problem']}")
     return "\n".join(lines)
-
-
-def write(path: str, rows: Sequence[Row]) -> None:
-    """Write rows, dicts with the keys `COLUMNS` in their order."""
-    csv_tables.write_rows(path, COLUMNS, [list(row.values()) for row in rows])

@@ -123,8 +123,3 @@ def page(settings: Mapping[str, Any], sources: Sequence[str]) -> str:
         bodies=_mass_ratios(),
         sources=texts,
     )
-
-
-def write(path: str, settings: Mapping[str, Any], sources: Sequence[str]) -> None:
-    """Write the page that `page` returns."""
-    templates.write(path, page(settings, sources))

@@ -123,8 +123,3 @@ def page(rows: Sequence[Row], symbols: Mapping[str, str], template: str) -> str:
     environment = templates.environment(Path(template).parent)
     environment.filters["maths"] = linked_maths({row["entry"] for row in rows})
     return environment.get_template(Path(template).name).render(words(rows, symbols))
-
-
-def write(path: str, rows: Sequence[Row], symbols: Mapping[str, str], template: str) -> None:
-    """Write the page that `page` returns."""
-    templates.write(path, page(rows, symbols, template))

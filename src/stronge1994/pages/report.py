@@ -353,5 +353,6 @@ def write(
             rows, ledger, figures, tables, config, run=run, faults=faults, tried=tried, **parts
         ),
     )
-    templates.write(output, without_details(faults + tried.problems) if text is None else text)
+    text = without_details(faults + tried.problems) if text is None else text
+    Path(output).write_text(text, encoding="utf-8")
     csv_tables.write_rows(problems, ["problem"], [[problem] for problem in tried.problems])

@@ -14,8 +14,3 @@ def environment(folder: str | Path) -> jinja2.Environment:
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-
-
-def write(path: str, text: str) -> None:
-    """Write a page."""
-    Path(path).write_text(text, encoding="utf-8")
