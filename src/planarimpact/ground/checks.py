@@ -200,6 +200,21 @@ def elastic(value: ArrayLike) -> Array:
     return checked("restitution", value, "numbers equal to 1, as this contact is elastic", 1, 1)
 
 
+def loss(value: str, allowed: tuple[str, ...]) -> str:
+    """Check the name of what takes the normal energy below e = 1.
+
+    Examples
+    --------
+    >>> loss("magic", ("hysteretic", "viscous"))
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: loss = 'magic': allowed are hysteretic, viscous
+    """
+    if not isinstance(value, str) or value not in allowed:
+        raise InputError(f"loss = {brief(value)}: allowed are {', '.join(allowed)}")
+    return value
+
+
 # In the order of every model's call.
 RULES = {
     "incidence": incidence,

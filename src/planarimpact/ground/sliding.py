@@ -20,6 +20,12 @@ tangential spring, w > s'. Friction keeps the deflection of the spring at s = ze
 
 Elastic Hertz contact has the same limit, that of e = 1: there s = zeta^2 d and s' = zeta^2 v with
 the approach d and its rate v from 1 to -1, and w = x - beta (1 - v).
+
+**Where both directions lose energy alike** the ratio of stiffnesses is zeta^2 from the first instant
+to the last: viscous elements with one relaxation time, and an elastic-plastic sphere, which unloads
+elastically. There s = zeta^2 d throughout, and v falls from 1 to -e. The difference of w and s' is
+x - beta + (beta - zeta^2) v, linear in v. It stays positive if x > zeta^2 (at v = 1) and
+x > beta + e (beta - zeta^2) (at v = -e).
 """
 
 from typing import TypeVar
@@ -86,3 +92,17 @@ def limit(beta: Array, zeta2: Array, e: Numbers) -> Array:
     5.79
     """
     return np.maximum(zeta2, beta + restick_coefficient(beta, zeta2, e))
+
+
+def limit_alike(beta: Array, zeta2: Array, e: Numbers) -> Array:
+    """Incidence from which slip never ends where both directions lose energy alike.
+
+    max(zeta^2, beta + e (beta - zeta^2)), as the head of this module derives it. For e = 1 it is
+    `limit`.
+
+    Examples
+    --------
+    >>> float(limit_alike(3.5, 1.21, 1.0)), round(float(limit_alike(3.5, 1.21, 0.5)), 9)
+    (5.79, 4.645)
+    """
+    return np.maximum(zeta2, beta + e * (beta - zeta2))
