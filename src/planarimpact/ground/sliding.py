@@ -21,8 +21,8 @@ tangential spring, w > s'. Friction keeps the deflection of the spring at s = ze
 Elastic Hertz contact has the same limit, that of e = 1: there s = zeta^2 d and s' = zeta^2 v with
 the approach d and its rate v from 1 to -1, and w = x - beta (1 - v).
 
-**Where both directions lose energy alike** the ratio of stiffnesses is zeta^2 from the first instant
-to the last: viscous elements with one relaxation time, and an elastic-plastic sphere, which unloads
+**Where both directions lose energy alike** the ratio of stiffnesses is zeta^2 from first to last:
+viscous elements with one relaxation time, and an elastic-plastic sphere, which unloads
 elastically. There s = zeta^2 d throughout, and v falls from 1 to -e. The difference of w and s' is
 x - beta + (beta - zeta^2) v, linear in v. It stays positive if x > zeta^2 (at v = 1) and
 x > beta + e (beta - zeta^2) (at v = -e).
