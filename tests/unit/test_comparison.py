@@ -15,7 +15,7 @@ from stronge1994.judging.distances import (
     vertex_residuals,
 )
 from stronge1994.judging.points import limits_of_regimes
-from stronge1994.judging.verdicts import chi_squared, verdict
+from stronge1994.judging.verdicts import verdict
 
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
 
