@@ -121,7 +121,10 @@ def motion_with(model, restitution):
     if restitution == 1.0:
         parameter = high if model == "continuum.plastic" else low
     else:
-        off = lambda logarithm: make(np.exp(logarithm)).restitution - restitution
+
+        def off(logarithm):
+            return make(np.exp(logarithm)).restitution - restitution
+
         parameter = np.exp(brentq(off, np.log(low), np.log(high), xtol=1e-10))
     return make(parameter), parameter
 
@@ -247,14 +250,11 @@ class _Pair:
         normal = max(d + self.tau * v, 0.0)
         limit = self.zeta2 * normal
         relax = -np.expm1(-dt / self.tau)
-        half = -np.expm1(-dt / 2 / self.tau)
-        # The deflection at the middle of the step where it sticks, and where it slips.
-        stick = self.s + w * dt / 2
-        wanted = stick + self.tau * w
+        # What friction would be if it stuck to the middle of the step.
+        wanted = self.s + w * dt / 2 + self.tau * w
         held = np.clip(wanted, -limit, limit)
         slips = np.abs(wanted) > limit
         if keep:
             slipped = self.s + (held - self.s) * relax
             self.s = np.where(slips, slipped, self.s + w * dt)
-        del half
         return held / self.zeta2

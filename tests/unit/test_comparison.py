@@ -6,6 +6,7 @@ from scipy.optimize import minimize
 from scipy.stats import kstest
 
 from planarimpact import lumped
+from stronge1994.goodness import chi_squared
 from stronge1994.judging import Verdict, landmarks
 from stronge1994.judging.distances import (
     curve_residuals,

@@ -4,7 +4,7 @@ Experiments state one number for the tangential rebound, beta_0: minus the slope
 fits w(x) where the contact does not slide. It is computed here as it was measured.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,6 +16,7 @@ from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import EACH, SIGNS, name, shifted
+from stronge1994.curves.sampling import vertices
 
 MODELS = (
     "continuum.viscous",
@@ -96,7 +97,7 @@ def curves(
     # Each parameter is lowered by its sigma: e cannot be raised where it is 1.
     lowered = [] if uncertainty is None else pairs.lowered(points, materials, uncertainty)
     zeta2 = _like(contact["poisson_ratio"])
-    x = np.linspace(*incidence, samples)
+    x = vertices(incidence, samples)
     named: Curves = {}
     for model in MODELS:
 
@@ -187,11 +188,12 @@ def _like(nu: float) -> float:
 
 
 def _fitted(
-    solve: Any, beta: float, groups: Sequence[_Contacts], fit: Mapping[str, Any]
+    solve: Callable[..., Array], beta: float, groups: Sequence[_Contacts], fit: Mapping[str, Any]
 ) -> list[Array]:
     """beta_0 of several groups of contacts, which are solved together."""
-    whole = _Contacts(*(np.concatenate(parts) for parts in zip(*groups, strict=True)))
-    ends = fit["reach"] * sliding.change(beta, whole.restitution)
+    whole = _Contacts(*map(np.concatenate, zip(*groups, strict=True)))
+    e = whole.restitution
+    ends = fit["reach"] * sliding.change(np.full_like(e, beta), e)
     share = np.linspace(0.0, 1.0, fit["solved"])
     x = ends[:, None] * share
     w = solve(x, beta, whole.stiffness_ratio[:, None], whole.restitution[:, None])

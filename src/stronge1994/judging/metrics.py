@@ -126,10 +126,11 @@ def _from_curve(entry: Entry, known: Reference, curves: Curves, series: Columns)
 def _from_vertices(entry: Entry, known: Reference, curves: Curves, series: Columns) -> _Found:
     """Distances from the vertices with the same labels."""
     x, label_columns = reference_data.column_name(known["x"]), known.get("labels", [])
+    needed = {x, *label_columns} - {"curve"}
     labelled = [
         (columns, _labels(columns | {"curve": np.full(len(columns[x]), name)}, label_columns))
         for name, columns in _chosen(entry, curves).items()
-        if x in columns
+        if needed <= set(columns)
     ]
     labels = _labels(series, label_columns)
     parts: list[Residuals] = []

@@ -46,8 +46,10 @@ def points(entry: Entry, known: Reference, series_paths: Mapping[str, str]) -> C
 
 def printed_sigma(known: Reference, series: Columns) -> tuple[Array, Array]:
     """Uncertainties of each point of a stated series on both axes."""
-    names = [f"{reference_data.sigma_column(known[axis])}" for axis in "xy"]
-    return series[names[0]], series[names[1]]
+    x, y = (series[f"{reference_data.sigma_column(known[axis])}"] for axis in "xy")
+    if not (x.all() and y.all()):
+        raise ValueError("a point that is compared has an uncertainty of 0")
+    return x, y
 
 
 def sigma(entry: Entry, x: Mapping[str, Any], y: Mapping[str, Any]) -> tuple[float, float]:

@@ -74,7 +74,10 @@ def materials(stated: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     def column(key: str) -> dict[str, list[float]]:
         return {part: [stated[f"{name}_{part}"][key] for name in names] for part in PROPERTIES}
 
-    return {"materials": {"material": names} | column("value"), "uncertainty": column("uncertainty")}
+    return {
+        "materials": {"material": names} | column("value"),
+        "uncertainty": column("uncertainty"),
+    }
 
 
 def settings_of_peers(config: Config) -> dict[str, Any]:

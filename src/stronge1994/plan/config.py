@@ -138,7 +138,9 @@ def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> No
     if metric == "landmark" and "landmark" not in comparison:
         raise ConfigError(f"{where}: metric landmark needs `landmark`")
     if known.get("kind") == "stated" and (metric != "vertices" or "allowance" in comparison):
-        raise ConfigError(f"{where}: a stated series goes with metric vertices, without `allowance`")
+        raise ConfigError(
+            f"{where}: a stated series goes with metric vertices, without `allowance`"
+        )
     several = metric == "distance" and "curve" in known.get("labels", [])
     if metric in ("distance", "landmark") and "curve" not in comparison and not several:
         raise ConfigError(f"{where}: metric {metric} needs `curve`")
