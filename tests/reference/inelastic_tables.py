@@ -22,8 +22,8 @@ E = [0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
 NU = [0.2, 0.5]
 CONTACT_E, CONTACT_NU = 0.6, 0.3
 INCIDENCES = [0.5 * i for i in range(1, 17)]
-# Impacts of a fit. None of them is interpolated.
-IMPACTS = 120
+# Impacts of a fit, and how many of them are solved; the others lie on chords.
+IMPACTS, SOLVED = 3000, 121
 STEPS, SPRINGS = 1600, 400
 
 
@@ -70,7 +70,8 @@ def slope(model, zeta2, e):
     """beta_0 of the lines that fit best, over incidences spread evenly from 0 to (1 + e) beta."""
     reach = (1 + e) * BETA
     x = reach * (np.arange(IMPACTS) + 0.5) / IMPACTS
-    w = velocities(model, x, zeta2, e)
+    solved = np.linspace(0, reach, SOLVED)
+    w = np.interp(x, solved, velocities(model, solved, zeta2, e))
 
     def squares(beta_0):
         return np.sum((w - np.maximum(-beta_0 * x, x - reach)) ** 2)

@@ -25,8 +25,10 @@ MODELS = (
     "lumped.plastic",
     "lumped",
 )
+# Slopes that are tried before the best is refined. Friction never pushes, so no |w| is above x.
+TRIED = np.linspace(-1.0, 1.0, 201)
 # Impacts of a fit, so many that their number plays no part.
-FITTED = 400
+FITTED = 2000
 E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
 PARAMETERS = f"{EACH}pair's parameters"
 
@@ -218,7 +220,6 @@ def tangential_restitution(x: ArrayLike, w: ArrayLike, beta: float, e: float) ->
     """beta_0 of the two lines that fit rebounds best: w = max(-beta_0 x, x - (1 + e) beta).
 
     The line of slip throughout is known, so beta_0 is all that is fitted, by least squares of w.
-    The first impacts belong to the one line, the others to that of slip.
 
     Parameters
     ----------
@@ -237,7 +238,11 @@ def tangential_restitution(x: ArrayLike, w: ArrayLike, beta: float, e: float) ->
     0.4
     """
     x, w = np.asarray(x, float), np.asarray(w, float)
-    # For each number of impacts on the first line: its slope, and the squares that it leaves.
-    slopes = -np.cumsum(w * x) / np.cumsum(x**2)
-    lines = np.maximum(-slopes[:, None] * x, sliding.velocity(x, beta, e))
-    return float(slopes[np.sum((w - lines) ** 2, axis=1).argmin()])
+    slip = sliding.velocity(x, beta, e)
+    squares = [np.sum((w - np.maximum(-slope * x, slip)) ** 2) for slope in TRIED]
+    found, before = float(TRIED[np.argmin(squares)]), np.nan
+    # The impacts above the line of slip give a slope, and this tells which impacts they are.
+    while found != before:
+        first, before = -found * x > slip, found
+        found = -float(np.sum(w[first] * x[first]) / np.sum(x[first] ** 2))
+    return found
