@@ -358,3 +358,25 @@ def test_only_newtons_law_creates_energy():
     # Energies near the singular mass are differences: 1/(1 - 0.999^2) = 500 roundings.
     assert largest[rigid.Law.ENERGETIC] <= 1e-12 and largest[rigid.Law.KINETIC] <= 1e-12
     assert largest[rigid.Law.KINEMATIC] > 10
+
+
+def test_plastic_loss_stiffens_the_tangential_element_by_the_square_of_e():
+    rod = noncollinear.inverse_mass(1.0, 12**-0.5, offset=0.2, depth=0.4)
+    plastic = noncollinear.rebound(0.2, 1.0, rod, 0.3, 0.6, 1.21, loss="plastic")
+    assert plastic == noncollinear.rebound(0.2, 1.0, rod, 0.3, 0.6, 0.36 * 1.21)
+    assert plastic.tangential != noncollinear.rebound(0.2, 1.0, rod, 0.3, 0.6, 1.21).tangential
+    history = noncollinear.history(0.2, 1.0, rod, 0.3, 0.6, 1.21, loss="plastic")
+    assert history.tangential[-1] == pytest.approx(plastic.tangential, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("loss", "e", "words"),
+    [
+        ("viscous", 0.5, "loss = 'viscous': allowed are hysteretic, plastic"),
+        ("plastic", 0.0, "restitution = 0: with loss = 'plastic' allowed are numbers above 0"),
+    ],
+)
+def test_losses_that_do_not_make_sense_are_refused(loss, e, words):
+    rod = noncollinear.inverse_mass(1.0, 12**-0.5, offset=0.2, depth=0.4)
+    with pytest.raises(InputError, match=words):
+        noncollinear.rebound(1.0, 1.0, rod, 0.3, e, 1.21, loss=loss)

@@ -63,6 +63,7 @@ def test_every_model_is_there_at_every_restitution_that_it_admits(named):
     for e in SETTINGS["restitution"]:
         found = {row["model"][0] for row in named.values() if row["restitution [1]"][0] == e}
         admitted = {n for n, model in models.MODELS.items() if model.restitution[0] <= e}
+        admitted -= {n for n in admitted if n.endswith((".viscous", ".plastic"))}
         assert {n for n in found if not n.startswith("response")} == admitted
     assert "annuli, 4 circles, 512 steps, e = 1" in named
 

@@ -6,6 +6,7 @@ workflow measures what each model costs and how large its error is (`results/tra
 """
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -30,8 +31,8 @@ class Model(NamedTuple):
     settings : dict
         Its own settings and their defaults. Its accuracy and cost depend on them.
     cost : str
-        Class of cost: "formula", "phases" (a few phases in closed form), "steps", or "steps and
-        circles". The last two grow with the settings.
+        Class of cost: "formula", "phases" (a few phases in closed form), "steps", "steps and
+        springs", or "steps and circles". The last three grow with the settings.
     restitution : (float, float)
         Range of restitution that it admits.
     valid : str
@@ -82,7 +83,8 @@ def get(name: str) -> Model:
     Traceback (most recent call last):
     ...
     planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, lumped, \
-timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, annuli
+timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, continuum.viscous, \
+continuum.plastic, annuli
     """
     if not isinstance(name, str) or name not in MODELS:
         raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
@@ -177,6 +179,14 @@ def _compliant_kinks(beta: float, zeta2: float, e: float, **settings: float) -> 
     return zeta2, beta, _compliant_limit(beta, zeta2, e)
 
 
+def _alike_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
+    return float(sliding.limit_alike(np.asarray(beta), np.asarray(zeta2), e))
+
+
+def _alike_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
+    return zeta2, beta, _alike_limit(beta, zeta2, e)
+
+
 def _rigid_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
     return beta, sliding.change(beta, e)
 
@@ -186,6 +196,7 @@ def _limit_alone(limit: Callable[..., float]) -> Callable[..., tuple[float, ...]
 
 
 _ANY, _ELASTIC = (0.0, 1.0), (1.0, 1.0)
+_LOSSY = (continuum.LEAST_RESTITUTION, 1.0)
 _STEPPED = "fixed time step, as discrete-element codes have it"
 _IMPULSES = "impulses alone: no forces, no order of stick and slip"
 
@@ -272,8 +283,8 @@ MODELS = {
         ),
         Model(
             "continuum",
-            continuum.rebound,
-            {"tolerance": 1e-6},
+            partial(continuum.rebound, tolerance=continuum.ELASTIC_TOLERANCE),
+            {"tolerance": continuum.ELASTIC_TOLERANCE},
             "steps",
             _ELASTIC,
             "elastic spheres with micro-slip, to a tolerance; no hysteresis",
@@ -281,6 +292,29 @@ MODELS = {
             "Reduction in Contact Mechanics and Friction, Springer 2015",
             _compliant_limit,
             _compliant_kinks,
+        ),
+        Model(
+            "continuum.viscous",
+            partial(continuum.rebound, loss="viscous", tolerance=continuum.LOSSY_TOLERANCE),
+            {"tolerance": continuum.LOSSY_TOLERANCE},
+            "steps and springs",
+            _LOSSY,
+            "Kelvin-Voigt spheres with micro-slip, to a tolerance; one relaxation time",
+            "V. L. Popov, E. Willert, M. Hess, Facta Univ. Mech. Eng. 16 (2018) 141-156; G. "
+            "Kuwabara, K. Kono, Jpn. J. Appl. Phys. 26 (1987) 1230-1233",
+            _alike_limit,
+            _alike_kinks,
+        ),
+        Model(
+            "continuum.plastic",
+            partial(continuum.rebound, loss="plastic", tolerance=continuum.LOSSY_TOLERANCE),
+            {"tolerance": continuum.LOSSY_TOLERANCE},
+            "steps and springs",
+            _LOSSY,
+            "elastic-plastic spheres with micro-slip, to a tolerance; contained yielding",
+            "C. Thornton, J. Appl. Mech. 64 (1997) 383-386",
+            _alike_limit,
+            _alike_kinks,
         ),
         Model(
             "annuli",

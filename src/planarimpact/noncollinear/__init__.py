@@ -48,6 +48,7 @@ __all__ = [
     "rigid",
 ]
 
+LOSSES = "hysteretic", "plastic"
 # Impacts solved together: few enough for memory, enough to hide Python's overhead.
 CHUNK = 65536
 # Groups beyond this belong to no body, and their products would leave float64.
@@ -102,6 +103,8 @@ def rebound(
     restitution: ArrayLike = 1.0,
     stiffness_ratio: ArrayLike = 1.21,
     stiffness: ArrayLike = 1.0,
+    *,
+    loss: str = "hysteretic",
 ) -> NoncollinearRebound:
     """State at separation; all arguments broadcast.
 
@@ -122,6 +125,12 @@ def rebound(
         zeta^2 > 0, normal over tangential stiffness.
     stiffness : array_like
         kappa [N/m] of the normal element; it scales forces and duration, nothing else.
+    loss : str
+        "hysteretic", the paper's: the tangential stiffness is kappa/zeta^2. "plastic": it is
+        kappa/(e^2 zeta^2), as zeta^2 is a ratio of elastic stiffnesses and the elastic one of the
+        normal element is that of unloading, kappa/e^2; e above 0. There is no viscous loss here: a
+        normal dashpot leaves the contact with forces that pull, and where a coupled contact lets go
+        and closes again under them is not solved.
 
     Returns
     -------
@@ -168,7 +177,7 @@ def rebound(
     True
     """
     arguments = _checked(
-        tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness
+        tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
     )
     v1, v2, coupling, m2, e, kappa, impacts = _groups(arguments)
     pieces = [
@@ -222,12 +231,14 @@ def history(
     stiffness_ratio: float = 1.21,
     stiffness: float = 1.0,
     samples: int = 400,
+    *,
+    loss: str = "hysteretic",
 ) -> NoncollinearHistory:
     """Forces and velocities over one contact.
 
     Parameters
     ----------
-    tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness
+    tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
         As in `rebound`; scalars.
     samples : int
         At least 2: instants evenly spread over the contact. Events come on top, so that every
@@ -254,7 +265,7 @@ def history(
     """
     samples = checks.count("samples", samples, 2)
     arguments = _checked(
-        tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness
+        tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
     )
     if arguments[0].ndim:
         raise InputError(f"shape = {arguments[0].shape}: one contact takes scalars")
@@ -319,8 +330,10 @@ def _checked(
     restitution: ArrayLike,
     stiffness_ratio: ArrayLike,
     stiffness: ArrayLike,
+    loss: str,
 ) -> tuple[Array, ...]:
-    return checked_impact(
+    checks.loss(loss, LOSSES)
+    v1, v2, mu, e, zeta2, *others = checked_impact(
         tangential,
         normal,
         inverse_mass,
@@ -329,6 +342,14 @@ def _checked(
         stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
         stiffness=positive("stiffness", stiffness),
     )
+    if loss == "plastic":
+        if not e.all():
+            raise InputError(
+                "restitution = 0: with loss = 'plastic' allowed are numbers above 0 (for no "
+                "tangential compliance use noncollinear.rigid)"
+            )
+        zeta2 = e * (e * zeta2)
+    return v1, v2, mu, e, zeta2, *others
 
 
 def _groups(

@@ -1,0 +1,166 @@
+"""Steps doubled until the answer, extrapolated once, meets a tolerance."""
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+
+from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.ground.checks import Unsolved
+from planarimpact.ground.results import Regime
+
+# Values, counts of gross slips and of reversals, and how near one slip more or less is.
+Solved: TypeAlias = tuple[Array, Integers, Array]
+
+# An error estimate counts only with so many steps in each radian of the tangential oscillation.
+STEPS_A_RADIAN = 4
+# Errors below this share of the incidence cannot be told from rounding.
+ROUNDING = 2.0**-48
+# An estimated error falls at best with this power of the steps, as measured.
+BEST_ORDER = 4
+# A gross slip may still come or go if it is nearer than this many times the last change.
+UNSURE = 2
+
+
+def steps_needed(beta: Array, zeta2: Array) -> Array:
+    """Steps that resolve the tangential oscillation: a contact has sqrt(beta/zeta^2)/2 of it."""
+    with np.errstate(over="ignore"):
+        return STEPS_A_RADIAN * np.pi * (np.sqrt(beta) / np.sqrt(zeta2))
+
+
+def refuse_hopeless(x: Array, beta: Array, zeta2: Array, tolerance: float, most: int) -> None:
+    """Refuse impacts that cannot reach the tolerance however many steps are taken."""
+    needed = steps_needed(beta, zeta2)
+    unresolved = np.flatnonzero(needed > most)
+    if unresolved.size:
+        first = unresolved[0]
+        raise Unsolved(
+            f"stiffness_ratio = {zeta2[first]:g} at mass_ratio = {beta[first]:g}: the tangential "
+            f"oscillation needs {needed[first]:.3g} steps, allowed are {most}",
+            unresolved,
+        )
+    blurred = np.flatnonzero(ROUNDING * x > tolerance)
+    if blurred.size:
+        error = ROUNDING * x[blurred[0]]
+        raise Unsolved(
+            f"tolerance = {tolerance:g}: at incidence = {x[blurred[0]]:g} rounding alone may be "
+            f"more, {error:.1e}",
+            blurred,
+        )
+
+
+def refine(
+    groups: tuple[Array, ...],
+    tolerance: float,
+    integrate: Callable[[tuple[Array, ...], int], Solved],
+    first: int,
+    most: int,
+    safety: float,
+) -> tuple[Array, Integers]:
+    """Values and counts of impacts, with steps doubled until velocity and peak settle.
+
+    Parameters
+    ----------
+    groups : tuple of ndarray, shape (n,)
+        Incidence, mass ratio, stiffness ratio, and what else `integrate` wants.
+    tolerance : float
+    integrate : callable
+        With groups of some impacts and a number of steps, returns the values (k, m), velocity and
+        peak friction first; the counts of gross slips and of reversals (2, m); and how far each
+        contact is from one gross slip more or less (m,).
+    first, most : int
+        Steps to begin and to end with.
+    safety : float
+        Factor of the estimated error.
+
+    Returns
+    -------
+    values : ndarray, shape (k, n)
+    counts : ndarray, shape (2, n)
+
+    Raises
+    ------
+    Unsolved
+        If the tolerance is not met.
+    """
+    x, beta, zeta2 = groups[:3]
+    refuse_hopeless(x, beta, zeta2, tolerance, most)
+    values = np.zeros((3, x.size))  # if there is nothing to do
+    counts, nearest = np.zeros((2, x.size), dtype=np.int64), np.full(x.size, np.nan)
+    lost, why = [], None
+    todo, steps = np.arange(x.size), first
+    while todo.size:
+        # A turn solves what is left with twice the steps, and estimates the error. Impacts leave
+        # when they have settled or when no number of steps up to `most` can help.
+        fine, number, near = integrate(tuple(group[todo] for group in groups), steps)
+        if steps == first:
+            values = np.zeros((len(fine), x.size))
+            coarse, change = np.full((2, len(fine), x.size), np.nan)
+        correction = (fine - coarse[:, todo]) / 3
+        better = fine + correction
+        changed = np.abs(better - values[:, todo])
+        # A change may be small by chance, where the steps resolve an event of the contact late. So
+        # the change before counts too, less what a doubling gains, and a share of the correction.
+        # All of the correction counts where a gross slip may still come or go: the velocity has a
+        # kink there. Steps displace the kink, and answers on one side of it do not show that.
+        moved = np.abs(near - nearest[todo])
+        unsure = (number[0] != counts[0, todo]) | (near <= UNSURE * moved)
+        chances = change[:, todo] / 4, np.abs(correction) / np.where(unsure, 1, 4)
+        estimate = safety * np.maximum(changed, np.maximum(*chances))
+        coarse[:, todo], values[:, todo], change[:, todo] = fine, better, changed
+        counts[:, todo], nearest[todo] = number, near
+        resolved = steps >= steps_needed(beta[todo], zeta2[todo])
+        worst = estimate[:2].max(axis=0)  # NaN while there is no estimate yet
+        settled = resolved & (worst <= tolerance)
+        # More steps do not help an answer that is not finite.
+        beyond = ~np.isfinite(fine).all(axis=0) | (
+            resolved & ~in_reach(worst, tolerance, steps, most)
+        )
+        if beyond.any() and not why:
+            i, error = todo[beyond][0], worst[beyond][0]
+            why = not_met(x[i], beta[i], zeta2[i], tolerance, steps, error, most)
+        lost += todo[beyond].tolist()
+        todo, steps = todo[~settled & ~beyond], 2 * steps
+    if why:
+        raise Unsolved(why, np.sort(lost))
+    return values, counts
+
+
+def in_reach(error: Array, tolerance: float, steps: int, most: int) -> Booleans:
+    """Whether `most` steps may reduce an error to the tolerance; true for unknown errors."""
+    if 2 * steps > most:
+        return error <= tolerance
+    return ~(error * (steps / most) ** BEST_ORDER > tolerance)
+
+
+def not_met(
+    x: float, beta: float, zeta2: float, tolerance: float, steps: int, error: float, most: int
+) -> str:
+    """Words for an impact that does not meet the tolerance."""
+    beyond = f", and out of reach of {most}" if steps < most else ""
+    return (
+        f"tolerance = {tolerance:g}: not met with {steps} steps{beyond}, at incidence = {x:g}, "
+        f"mass_ratio = {beta:g}, stiffness_ratio = {zeta2:g}; estimated error {error:.1e}"
+    )
+
+
+def in_parts(count: int, together: int, solve: Callable[[slice], Solved]) -> Solved:
+    """What an `integrate` of `refine` returns, solved for so many impacts at a time."""
+    parts = [slice(start, start + together) for start in range(0, max(count, 1), together)]
+    values, counts, nearest = zip(*(solve(part) for part in parts), strict=True)
+    return np.concatenate(values, axis=1), np.concatenate(counts, axis=1), np.concatenate(nearest)
+
+
+def sign_changes(force: Array) -> Integers:
+    """How often each column changes sign; zeros do not count."""
+    sign = np.sign(force)
+    # Carry the last sign over zeros.
+    held = np.maximum.accumulate(np.where(sign != 0, np.arange(len(sign))[:, None], 0), axis=0)
+    sign = np.take_along_axis(sign, held, axis=0)
+    return np.sum(sign[1:] * sign[:-1] < 0, axis=0)
+
+
+def regime(x: Array, zeta2: Array, gross_slips: Integers) -> Integers:
+    """Regime by the start of contact and the number of gross slips after stick."""
+    usual = np.where(x > zeta2, Regime.SLIP_STICK_SLIP, Regime.STICK_SLIP)
+    return np.where(gross_slips > 1, Regime.MULTIPLE, usual)
