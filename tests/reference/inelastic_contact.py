@@ -95,6 +95,7 @@ def plastic_motion(yield_radius):
 
     motion = _two_phases(loading, unloading, lambda top: lambda d, v: d - residual(top)[1])
     motion.radius, motion.rest = residual(motion.phases[0].y[0, -1])
+    motion.loading = loading
     return motion
 
 
@@ -212,14 +213,12 @@ class _Viscous(_Row):
 class _Plastic(_Row):
     def friction(self, start, dt, u, _, keep):
         d, v, loads = self._state(start + dt / 2)
-        if loads:
-            a2, limit = d, self._cut_pressure(d)
-        else:
-            radius = self.motion.radius
-            left = max(d - self.motion.rest, 0.0)
-            a2, limit = radius * left, np.maximum(left - self.r**2 / radius, 0.0)
+        radius = self.motion.radius
+        a2 = d if loads else radius * max(d - self.motion.rest, 0.0)
+        # The pressure has Hertz' shape at all times, with the force and radius of Thornton's law.
+        force = self.motion.loading(d, 0.0) if loads else 4 / 3 * a2**1.5 / radius
         share = self._share(np.sqrt(a2))
-        limit = self.zeta2 * limit
+        limit = self.zeta2 * np.maximum(a2 - self.r**2, 0.0) * force / max(4 / 3 * a2**1.5, 1e-300)
         memory = -np.repeat(u[:, None], len(self.r), 1) if self.c is None else self.c
         memory = np.where(share > 0, memory, -u[:, None])
         wanted = u[:, None] + memory
@@ -227,18 +226,6 @@ class _Plastic(_Row):
         if keep:
             self.c = memory + held - wanted
         return 2 * self.width * (held * share).sum(1) / self.zeta2
-
-    def _cut_pressure(self, a2):
-        """Normal force density of each spring: the transform of Hertz' pressure, cut at p_y."""
-        inside = np.maximum(a2 - self.r**2, 0.0)
-        cut2 = a2 - self.parameter**2  # where Hertz' pressure is that of yield
-        if cut2 <= 0:
-            return inside
-        beyond = np.maximum(cut2 - self.r**2, 0.0)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            angle = np.arcsin(np.sqrt(np.where(inside > 0, beyond / inside, 0.0)))
-        outer = inside * (np.pi / 2 - angle - np.sin(angle) * np.cos(angle))
-        return 2 / np.pi * (2 * self.parameter * np.sqrt(beyond) + outer)
 
 
 class _Pair:

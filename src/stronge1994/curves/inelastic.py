@@ -196,15 +196,15 @@ def _fitted(
     whole = _Contacts(*map(np.concatenate, zip(*groups, strict=True)))
     e = whole.restitution
     ends = fit["reach"] * sliding.change(np.full_like(e, beta), e)
-    share = np.linspace(0.0, 1.0, fit["solved"])
-    x = ends[:, None] * share
-    w = solve(x, beta, whole.stiffness_ratio[:, None], whole.restitution[:, None])
+    x = ends[:, None] * np.linspace(0.0, 1.0, fit["solved"])
+    # Contacts that differ by friction alone have the same rebounds.
+    groups_of_rebound = np.stack([whole.stiffness_ratio, e], axis=1)
+    _, first, same = np.unique(groups_of_rebound, axis=0, return_index=True, return_inverse=True)
+    w = solve(x[first], beta, whole.stiffness_ratio[first, None], e[first, None])[same.ravel()]
     beta_0 = np.empty(len(ends))
     for i, end in enumerate(ends):
         at = _impacts(end, float(whole.friction[i]), fit["evenly"])
-        beta_0[i] = tangential_restitution(
-            at, CubicSpline(x[i], w[i])(at), beta, float(whole.restitution[i])
-        )
+        beta_0[i] = tangential_restitution(at, CubicSpline(x[i], w[i])(at), beta, float(e[i]))
     return np.split(beta_0, np.cumsum([len(group.restitution) for group in groups])[:-1])
 
 
