@@ -11,7 +11,9 @@ for the relaxation, and a constant. The coefficients follow from the differentia
 Where a phase ends is found by a march that cannot pass a root. For a sum f, M bounds |f''| for all
 later times: an oscillator p'' + d p' + c p = 0 never gains c p^2 + p'^2, so neither does that of p'',
 and a real exponential falls. So f + f' h - M h^2/2 is a lower bound of f, and the march only ever
-steps to its first zero. It comes to a simple root quadratically, from below.
+steps to its first zero. It comes to a simple root quadratically, from below. Where two nearly equal
+oscillators cancel, so that f is small for long, M bounds |f''| for a while only, by Taylor's series
+of their sum.
 """
 
 from typing import NamedTuple
@@ -20,6 +22,8 @@ from mpmath import mp
 
 GUARD_DIGITS = 40  # nearly equal exponents, at critical damping, cost half of them
 MOST_STEPS = 20_000
+# A step shorter than SMALL asks Taylor's series for a bound that holds for a while, LONGEST at most.
+SMALL, LONGEST, ORDER = 0.01, 0.3, 24
 
 
 class Event(NamedTuple):
@@ -73,6 +77,21 @@ class Sum:
                 total += abs(value)
         return total
 
+    def local_bend(self, time):
+        """A bound of the second derivative over a span of time from now on, as a function of it."""
+        swings = [pair for name in self.stiffness for pair in self.terms.get(name, [])]
+        rest = mp.fsum(abs(self._block(n, time, 2)) for n in self.terms if n not in self.stiffness)
+        last = mp.zero
+        for name in self.stiffness:
+            value, slope = (self._block(name, time, ORDER + k) for k in (2, 3))
+            last += mp.sqrt(value**2 + slope**2 / self.stiffness[name])
+        now, sizes = [(a * p**2 * mp.exp(p * time), p) for a, p in swings], []
+        for k in range(ORDER):
+            sizes.append(abs(mp.re(mp.fsum(a for a, _ in now))) / mp.factorial(k))
+            now = [(a * p, p) for a, p in now]
+        sizes.append(last / mp.factorial(ORDER))
+        return lambda span: rest + mp.polyval(sizes[::-1], span)
+
     def plus(self, other, factor):
         terms = {name: list(pairs) for name, pairs in self.terms.items()}
         for name, pairs in other.terms.items():
@@ -118,6 +137,13 @@ def _first_root(f, end, tiny):
         if not bend:
             return None
         step = (slope + mp.sqrt(slope**2 + 2 * bend * value)) / bend
+        if step < SMALL:
+            span, bound = LONGEST, f.local_bend(time)
+            while span > step:
+                near = bound(span)
+                free = (slope + mp.sqrt(slope**2 + 2 * near * value)) / near if near else span
+                step = max(step, min(span, free))
+                span /= 10
         step = max(step, mp.sqrt(tiny))  # two roots as close as this are none
         time += step
         if time >= end:
@@ -220,7 +246,7 @@ class _Impact:
                     body.stiffness,
                 ).plus(spring.rate(), -side)
                 span, following = _first_root(gap, left, self.tiny), side
-                if first and span is None and gap(mp.zero) < 0:
+                if first and span is None and gap(mp.zero) < -self.tiny:
                     raise ArithmeticError("slip against its direction")
             until = left if span is None else span
             if not sticks:

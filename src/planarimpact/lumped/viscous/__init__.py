@@ -232,25 +232,26 @@ def _alternate(
     """Stick and slip in turn until every impact slides to separation; adds to the outcome.
 
     A stick that follows slip lasts at least to the next zero of T, or its slip to separation. So
-    there are no more sticks than half-waves of T, and two.
+    there are no more sticks than half-waves of T, and two: `most` is more than that.
     """
     side, count = np.ones(lanes.size), 0
     while lanes.size:
         pair, ahead = stick.pair, stick.ahead
         if count == 0:
-            most = 3 + float(np.max(pair.rate * pair.duration)) * pair.tangential_under / np.pi
+            most = 8 + float(np.max(pair.rate * pair.duration)) * pair.tangential_under / np.pi
         if count > most:
             raise ConvergenceError(f"{lanes.size} impacts stick more often than they can")
-        time, sign = stick_end(stick, at_contact and count == 0)
+        end, sign = stick_end(stick, at_contact and count == 0)
+        time = ahead - end
         _, velocity = pair.stick(stick.friction, stick.velocity, time)
         _raise_peak(outcome.peak_friction, lanes, stick, time)
         if trace is not None:
             fields = stick.friction[0], stick.velocity[0]
-            trace.append(Phase(True, ahead[0], ahead[0] - time[0], side[0], *fields, 0.0))
+            trace.append(Phase(True, ahead[0], end[0], side[0], *fields, 0.0))
         # The onset of slip, from now on mirrored to direction +1.
         side = side * sign
         velocity = velocity * sign
-        ahead = ahead - time
+        ahead = end
         force, v = pair.motion(ahead)
         impulse = pair.impulse_ahead(ahead, v)
         layer = pair.zeta2 * v - velocity

@@ -51,10 +51,13 @@ Function = Callable[[Integers, Array], tuple[Array, Array, Array]]
 # which the slope changes by less than LAST_BEND of itself.
 LAST_STEP, LAST_BEND = 1e-6, 1e-5
 # No smaller step is taken, as a share of the bracket: it would be rounding.
-LEAST_STEP = 1e-16
+LEAST_STEP = 1e-15
 # After FREE_TURNS turns every other turn halves the bracket.
 FREE_TURNS = 10
 MOST_TURNS = 200
+# A slip velocity that falls below 0 by less, as a share of its terms, is rounding. Where b is next
+# to 1, the forces of stick and slip differ by rounding only, and nothing else tells them apart.
+ROUNDING = 1e-15
 
 
 def crossing(function: Function, low: Array, high: Array) -> Array:
@@ -151,19 +154,26 @@ class Stick:
                 here = np.arctanh(np.minimum(rise * pair.rate / fall, 1.0)) / pair.rate
         return np.where(rises, here, zero + self.crest_after_zero())
 
-    def forces(self, sign: Array, time: Array) -> tuple[Array, Array, Array, Array]:
-        """`sign` T, its rate, N, and v at these times."""
+    def swing(self, sign: Array, time: Array) -> tuple[Array, Array]:
+        """`sign` T, and its rate, at these times."""
         pair = self.pair
         friction, velocity = pair.stick(self.friction, self.velocity, time)
-        swing = velocity / pair.zeta2 - 2 * pair.gamma * friction
-        return sign * friction, sign * swing, *pair.motion(self.ahead - time)
+        return sign * friction, sign * (velocity / pair.zeta2 - 2 * pair.gamma * friction)
+
+    def forces(self, sign: Array, time: Array) -> tuple[Array, Array, Array, Array]:
+        """`sign` T, its rate, N, and v at these times."""
+        return *self.swing(sign, time), *self.pair.motion(self.ahead - time)
 
     def margin(self, sign: Array) -> Function:
-        """N - |T|, in a half-wave where T has this sign."""
+        """N - |T|, in a half-wave where T has this sign; the time is minus the time to separation.
+
+        So it keeps its digits near separation, where both forces vanish.
+        """
 
         def function(lanes: Integers, time: Array) -> tuple[Array, Array, Array]:
             part, pair = _part(self, lanes)
-            friction, swing, force, v = part.forces(sign[lanes], time)
+            friction, swing = part.swing(sign[lanes], part.ahead + time)
+            force, v = pair.motion(-time)
             tau = 2 * pair.xi
             fall = v - tau * force
             bend = 2 * pair.gamma * swing + pair.b * friction - tau * fall - force
@@ -193,7 +203,7 @@ def _part(stick: Stick, lanes: Integers) -> tuple[Stick, Elements]:
 
 
 def stick_end(stick: Stick, at_contact: bool) -> tuple[Array, Array]:
-    """First time at which |T| reaches N, and the sign of T there.
+    """Time to separation when |T| first reaches N, and the sign of T there.
 
     Parameters
     ----------
@@ -203,7 +213,7 @@ def stick_end(stick: Stick, at_contact: bool) -> tuple[Array, Array]:
 
     Returns
     -------
-    time, sign : ndarray
+    ahead, sign : ndarray
     """
     pair, ahead = stick.pair, stick.ahead
     low, high, sign = np.zeros_like(ahead), ahead.copy(), np.ones_like(ahead)
@@ -238,8 +248,7 @@ def stick_end(stick: Stick, at_contact: bool) -> tuple[Array, Array]:
         start[lanes] = end[lanes]
         end[lanes] += half[lanes]
         sign[lanes] *= -1
-    time = crossing(stick.margin(sign), low, high)
-    return np.minimum(time, ahead), sign
+    return np.maximum(-crossing(stick.margin(sign), low - ahead, high - ahead), 0.0), sign
 
 
 def _before_highest(
@@ -342,7 +351,7 @@ def slip_end(slip: Slip) -> tuple[Integers, Array]:
     pair, ahead = slip.pair, slip.ahead
     high = ahead.copy()
     end = slip.constant - slip.k * pair.e + slip.layer * slip.fade(ahead)
-    stops = end < 0
+    stops = end < -ROUNDING * (pair.beta + pair.zeta2 + np.abs(slip.constant))
     # Else it may stop and would start again before separation, if it falls at t_M.
     turn = ahead - pair.turn_ahead()
     dips = ~stops & (slip.k > 0) & (turn > 0) & (slip.layer < 0)
