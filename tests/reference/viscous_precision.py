@@ -5,15 +5,16 @@ Written from the equations of motion alone, independently of the package, to pro
     u'' + tau u' + u = 0,  N = u + tau u';   w' = -beta T,  s + tau s' = zeta^2 T,
     stick: s' = w while |T| <= N;            slip in direction g: T = g N.
 
-In a phase every quantity is a sum of exponentials, two for each oscillator, which may be complex, one
-for the relaxation, and a constant. The coefficients follow from the differential equations term by term.
+In a phase every quantity is a sum of exponentials, two for each oscillator, which may be complex,
+one for the relaxation, and a constant. The coefficients follow from the differential equations,
+term by term.
 
 Where a phase ends is found by a march that cannot pass a root. For a sum f, M bounds |f''| for all
-later times: an oscillator p'' + d p' + c p = 0 never gains c p^2 + p'^2, so neither does that of p'',
-and a real exponential falls. So f + f' h - M h^2/2 is a lower bound of f, and the march only ever
-steps to its first zero. It comes to a simple root quadratically, from below. Where two nearly equal
-oscillators cancel, so that f is small for long, M bounds |f''| for a while only, by Taylor's series
-of their sum.
+later times: an oscillator p'' + d p' + c p = 0 never gains c p^2 + p'^2, p'' obeys the same
+equation, and a real exponential falls. So f + f' h - M h^2/2 is a lower bound of f, and the march
+only ever steps to its first zero. It comes to a simple root quadratically, from below. Where two
+nearly equal oscillators cancel, so that f is small for long, M bounds |f''| for a while only, by
+Taylor's series of their sum.
 """
 
 from typing import NamedTuple
@@ -22,7 +23,7 @@ from mpmath import mp
 
 GUARD_DIGITS = 40  # nearly equal exponents, at critical damping, cost half of them
 MOST_STEPS = 20_000
-# A step shorter than SMALL asks Taylor's series for a bound that holds for a while, LONGEST at most.
+# A step shorter than SMALL asks Taylor's series for a bound for a while, LONGEST at most.
 SMALL, LONGEST, ORDER = 0.01, 0.3, 24
 
 
@@ -38,7 +39,7 @@ class Event(NamedTuple):
 
 
 class Answer(NamedTuple):
-    """Outcome of one impact. Tangential work and energy in mu^2 m2 v2(0)^2, normal in m2 v2(0)^2."""
+    """Outcome of one impact; tangential energies in mu^2 m2 v2(0)^2, normal ones in m2 v2(0)^2."""
 
     velocity: mp.mpf
     peak_friction: mp.mpf  # in mu times `peak_normal`
@@ -90,7 +91,7 @@ class Sum:
             sizes.append(abs(mp.re(mp.fsum(a for a, _ in now))) / mp.factorial(k))
             now = [(a * p, p) for a, p in now]
         sizes.append(last / mp.factorial(ORDER))
-        return lambda span: rest + mp.polyval(sizes[::-1], span)
+        return lambda span: rest + mp.fsum(a * span**k for k, a in enumerate(sizes))
 
     def plus(self, other, factor):
         terms = {name: list(pairs) for name, pairs in self.terms.items()}
@@ -134,8 +135,8 @@ def _first_root(f, end, tiny):
             if slope < 0:
                 return time
             value = max(value, mp.zero)
-        if not bend:
-            return None
+        if max(abs(value), abs(slope), bend) <= tiny:
+            return None  # f vanishes throughout: x = zeta^2 = beta
         step = (slope + mp.sqrt(slope**2 + 2 * bend * value)) / bend
         if step < SMALL:
             span, bound = LONGEST, f.local_bend(time)
@@ -230,9 +231,7 @@ class _Impact:
                 relaxing = {"normal": forced, "layer": [(rest, -1 / self.tau)]}
                 spring = Sum(relaxing, force.stiffness)
                 friction = Sum({"normal": [(side * a, p) for a, p in pairs]}, force.stiffness)
-            events.append(
-                Event("stick" if sticks else "slip", time, here, friction(mp.zero), w, s)
-            )
+            events.append(Event("stick" if sticks else "slip", time, here, friction(mp.zero), w, s))
             if sticks:
                 roots = [_first_root(force.plus(friction, -g), left, self.tiny) for g in (1, -1)]
                 span, following = min(
@@ -284,6 +283,8 @@ class _Impact:
         values = [abs(friction(mp.zero)), abs(friction(until))]
         rate = friction.rate()
         sign = mp.sign(rate(mp.zero))
-        rate = Sum({n: [(sign * a, p) for a, p in c] for n, c in rate.terms.items()}, rate.stiffness)
+        rate = Sum(
+            {n: [(sign * a, p) for a, p in c] for n, c in rate.terms.items()}, rate.stiffness
+        )
         top = self._far(rate, until)
         self.friction = max(self.friction, *values, abs(friction(top)) if top else mp.zero)

@@ -33,7 +33,7 @@ import numpy as np
 from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.checks import ConvergenceError
-from planarimpact.ground.results import Regime
+from planarimpact.ground.results import Event, EventKind, History, Regime
 from planarimpact.lumped.stick_slip import Impacts, Outcome
 from planarimpact.lumped.viscous.elements import Elements, damping_ratio, elements, phase_angle
 from planarimpact.lumped.viscous.searches import Slip, Stick, crossing, slip_end, stick_end
@@ -117,7 +117,12 @@ def solve(impacts: Impacts) -> Outcome:
     >>> float(outcome.velocity[0])  # x - (1 + e) beta
     2.75
     """
-    outcome = Outcome(*(np.empty_like(impacts.x) for _ in range(3)), np.empty(impacts.x.size, "u1"))
+    outcome = Outcome(
+        np.empty_like(impacts.x),
+        np.empty_like(impacts.x),
+        np.empty_like(impacts.x),
+        np.empty(impacts.x.size, np.uint8),
+    )
     for lanes, pair in _alike(impacts):
         found = _solve_alike(impacts.x[lanes], pair, None)
         for field, values in zip(outcome, found, strict=True):
@@ -131,6 +136,47 @@ def phases(impacts: Impacts) -> tuple[Elements, list[Phase]]:
     [(_, pair)] = _alike(impacts)
     _solve_alike(impacts.x, pair, trace)
     return pair, trace
+
+
+def history(mirror: float, impacts: Impacts, samples: int) -> History:
+    """Forces, velocity and spring over one contact with e < 1; `mirror` is the sign of x.
+
+    Examples
+    --------
+    >>> contact = history(1.0, Impacts(*np.array([[1.0], [3.5], [1.21], [0.5]])), 5)
+    >>> [float(contact.time[0]), float(contact.time[-1])], bool(contact.normal[0] > 0)
+    ([0.0, 2.0], True)
+    """
+    pair, trace = phases(impacts)
+    largest, half = peak_normal(pair)[0], pair.duration[0] / 2
+    grid = np.linspace(2.0, 0.0, samples) * half
+
+    def column(phase: Phase, ahead: Array) -> Array:
+        normal, friction, velocity, spring = state(phase, pair, ahead)
+        forces = normal / largest, mirror * friction / largest
+        return np.stack([2.0 - ahead / half, *forces, mirror * velocity, mirror * spring])
+
+    def event(kind: EventKind, values: Array) -> Event:
+        return Event(kind, *(float(value) for value in values))
+
+    columns, events = [], []
+    for phase in trace:
+        inside = grid[(grid < phase.ahead) & (grid > phase.ahead_end)]
+        compressed = phase.ahead >= half > phase.ahead_end
+        middle = [half] if compressed else []
+        ahead = np.concatenate([[phase.ahead], inside, middle, [phase.ahead_end]])
+        columns.append(column(phase, np.sort(np.unique(ahead))[::-1]))
+        kinds = [EventKind.STICK if phase.sticks else EventKind.SLIP]
+        if phase is trace[0]:
+            kinds.insert(0, EventKind.CONTACT)
+        events += [event(kind, columns[-1][:, 0]) for kind in kinds]
+        if compressed:
+            values = column(phase, np.array([half]))[:, 0]
+            events.append(event(EventKind.MAXIMUM_COMPRESSION, values))
+    events.append(event(EventKind.SEPARATION, columns[-1][:, -1]))
+    joined = [piece[:, :-1] for piece in columns[:-1]] + columns[-1:]
+    time, normal, friction, velocity, spring = np.concatenate(joined, axis=1)
+    return History(time, normal, friction, velocity, spring, tuple(events))
 
 
 def state(phase: Phase, pair: Elements, ahead: Array) -> tuple[Array, Array, Array, Array]:
@@ -196,8 +242,10 @@ def _solve_alike(x: Array, pair: Elements, trace: list[Phase] | None) -> Outcome
     )
     sticks = x < sliding.limit_alike(beta, zeta2, e)
     early, late = np.flatnonzero(sticks & (x <= zeta2)), np.flatnonzero(sticks & (x > zeta2))
-    if trace is not None and not early.size:
+    if trace is not None and not sticks[0]:
         trace.append(Phase(False, pair.duration[0], 0.0, 1.0, 0.0, x[0], 0.0))
+    if trace is not None and x[0] == 0:
+        trace.append(Phase(True, pair.duration[0], 0.0, 1.0, 0.0, 0.0, 0.0))
     if early.size:
         part, start = pair.take(early), x[early]
         for field in outcome[:3]:
@@ -206,7 +254,12 @@ def _solve_alike(x: Array, pair: Elements, trace: list[Phase] | None) -> Outcome
         friction = 2 * part.xi * start / part.zeta2
         moves = np.flatnonzero(start > 0)
         if moves.size < early.size:
-            early, part, start, friction = early[moves], part.take(moves), start[moves], friction[moves]
+            early, part, start, friction = (
+                early[moves],
+                part.take(moves),
+                start[moves],
+                friction[moves],
+            )
         _alternate(early, Stick(part, part.duration, friction, start), True, outcome, trace)
     if late.size:
         part, start = pair.take(late), x[late]
@@ -215,6 +268,8 @@ def _solve_alike(x: Array, pair: Elements, trace: list[Phase] | None) -> Outcome
         ahead = part.duration - time
         force, _ = part.motion(ahead)
         v = (part.beta - start) / slip.k
+        if trace is not None:
+            trace.append(Phase(False, part.duration[0], ahead[0], 1.0, 0.0, start[0], 0.0))
         outcome.dissipation[late] = (start - part.zeta2) * (start - part.zeta2) / (2 * slip.k)
         outcome.peak_friction[late] = np.where(ahead <= part.crest_ahead(), 1.0, 0.0)
         outcome.regime[late] = Regime.SLIP_STICK
@@ -301,7 +356,7 @@ def _work(
     slip: Slip, end: Array, impulse: Array, force: Array, v: Array, force_end: Array, v_end: Array
 ) -> Array:
     """Work of friction in slips that start with D = 0, with the normal impulse of each."""
-    pair, tau = slip.pair, 2 * slip.pair.xi
+    tau = 2 * slip.pair.xi
     fade = slip.fade(slip.ahead - end)
     mean = (slip.constant + slip.k * v_end - slip.layer) / 2
     weighted = tau * (force - force_end * fade) + tau * tau * (v - v_end * fade)

@@ -203,7 +203,7 @@ def elements(normal_under: bool, tangential_under: bool, groups: tuple[Array, ..
     >>> e = np.array([0.5])
     >>> pair = elements(True, True, (np.array([3.5]), np.array([1.21]), e, phase_angle(e)[0]))
     >>> [round(float(value[0]), 12) for value in pair.motion(pair.duration)]  # tau, 1
-    [0.430905637188, 1.0]
+    [0.510551275297, 1.0]
     """
     beta, zeta2, e, angle = groups
     frequency = np.sin(angle) if normal_under else np.sinh(angle)

@@ -25,9 +25,9 @@ where N = 0 and N' < 0, W > 0. This leaves few cases:
 The maximum is the only zero of W between bounds that are known. No search needs the start of a
 phase, where |T| = N: chatter cannot occur.
 
-**Slip stops** where the slip velocity D = A + k v + B y vanishes, with k = beta - zeta^2, v the rate
-of compression, y = exp(-t/tau); see `planarimpact.lumped.viscous`. It is 0 at the start, D' >= 0
-there, and
+**Slip stops** where the slip velocity D = A + k v + B y vanishes, with k = beta - zeta^2, the rate
+of compression v, and y = exp(-t/tau); see `planarimpact.lumped.viscous`. At the start D = 0 and
+D' >= 0, and
 
     D' = y (C - k N/y),   C = -B/tau,   (N/y)' = (N + tau N')/(tau y):
 
@@ -243,7 +243,7 @@ def stick_end(stick: Stick, at_contact: bool) -> tuple[Array, Array]:
         )
         high[lanes] = np.where(met, top, ahead[lanes])
         low[lanes] = np.where(met, start[lanes], unmet_low)
-        # Without an onset before the maximum, the search goes on behind it or in the next half-wave.
+        # No onset up to the maximum: the search goes on behind it, or in the next half-wave.
         lanes = lanes[~met & (end[lanes] < ahead[lanes])]
         start[lanes] = end[lanes]
         end[lanes] += half[lanes]
