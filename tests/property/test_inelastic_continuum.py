@@ -249,12 +249,14 @@ def test_viscous_springs_share_the_energy_with_friction(e, monkeypatch):
     x = np.array([0.3, 0.8, 1.1])  # these stick first, so that every step is booked
     groups = np.full((3, x.size), [[BETA], [ZETA2], [e]])
     off = []
-    for steps in (1024, 2048):
+    for steps in (512, 1024, 2048):
         losses.clear()
         found = inelastic.path(x, *groups, "viscous", steps)
         lost = (x**2 - found.velocity[-1] ** 2) / (2 * BETA)
         off.append(found.work + ZETA2 * losses[-1] - lost)
-    np.testing.assert_allclose(off[1] + (off[1] - off[0]) / 3, 0, atol=1e-6)
+    # The bookkeeping at the edge has an error of first order, the steps one of second order.
+    second = [b + (b - a) / 3 for a, b in zip(off, off[1:], strict=False)]
+    np.testing.assert_allclose(2 * second[1] - second[0], 0, atol=1e-6)
 
 
 @pytest.mark.parametrize("loss", LOSSES)
