@@ -5,8 +5,9 @@ import pytest
 import viscous_precision
 from mpmath import mp
 
-from planarimpact import EventKind, InputError, Regime, lumped, rigid
+from planarimpact import ConvergenceError, EventKind, InputError, Regime, lumped, rigid
 from planarimpact.lumped import viscous
+from planarimpact.lumped.viscous import searches
 
 X = np.linspace(0, 20, 401)
 GROUPS = [(3.5, 1.21, 0.8), (8.0, 0.1, 0.97), (2.5, 1.5, 0.01), (1.0, 10.0, 0.3), (8.0, 0.5, 0.1)]
@@ -252,6 +253,26 @@ def test_bad_input_is_named(arguments, words):
         for call in (lumped.history, lumped.friction_work):
             with pytest.raises(InputError, match=words):
                 call(**groups)
+
+
+def test_a_search_that_finds_no_end_says_so(monkeypatch):
+    assert np.isfinite(lumped.rebound(2.5, 3.5, 1.21, 0.5, loss="viscous").velocity)
+    monkeypatch.setattr(searches, "MOST_TURNS", 1)
+    with pytest.raises(ConvergenceError, match="1 impacts: no end of a phase after 1 turns"):
+        lumped.rebound(2.5, 3.5, 1.21, 0.5, loss="viscous")
+
+
+def test_next_to_resonance_rounding_starts_no_stick():
+    """T and N are in proportion there, all along: stick and slip differ by rounding only."""
+    near = 1 + np.concatenate([-np.geomspace(1e-16, 1e-3, 200), np.geomspace(1e-16, 1e-3, 200)])
+    for e in (0.01, np.exp(-2), 0.5, 0.999, 1 - 1e-12):
+        for beta in (1.0, 3.5, 5.119047748496251):
+            zeta2 = np.append(beta * near, beta)
+            for x in (0.3 * zeta2, zeta2, np.nextafter(zeta2, 0)):
+                result = lumped.rebound(x, beta, zeta2, e, loss="viscous")
+                stuck = -e * x  # the limit of equal ratios
+                away = np.append(np.abs(near - 1), 0)
+                assert (np.abs(result.velocity - stuck) <= 20 * (away + 1e-15) * beta).all()
 
 
 def test_the_whole_range_is_solved():
