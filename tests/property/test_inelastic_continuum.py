@@ -222,7 +222,7 @@ def test_viscous_springs_share_the_energy_with_friction(e, monkeypatch):
             self.last = step, start, end
             return super().move(k, step, pace, start, end)
 
-        def settle(self):
+        def settle(self, k):
             step, start, end = self.last
             tau = self._motion.tau
             count = min(len(self._memory), len(self._next[0]))
@@ -241,7 +241,7 @@ def test_viscous_springs_share_the_energy_with_friction(e, monkeypatch):
             left = self._memory[count:] + start[0]  # the spring that falls off in this step
             self.spent += 2 * np.sum(weight * mean, axis=0) * step
             self.spent += np.sum(width[count : len(self._memory)] * left**2, axis=0)
-            work = super().settle()
+            work = super().settle(k)
             losses.append(self.spent)
             return work
 
@@ -296,3 +296,18 @@ def test_bad_input_is_named(arguments, words):
             continue
         with pytest.raises(InputError, match=words):
             solve(2.0, **arguments)
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+@pytest.mark.parametrize("x", [0.0, 0.8, -2.0, 4.6, 4.7, 9.0])
+def test_a_history_ends_where_the_rebound_does(loss, x):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        contact = continuum.history(x, restitution=0.5, loss=loss, tolerance=1e-3)
+    after = solved(x, e=0.5, loss=loss, tolerance=1e-3)
+    assert contact.velocity[-1] == pytest.approx(after.velocity, abs=2e-3)
+    assert np.abs(contact.friction).max() == pytest.approx(after.peak_friction, abs=5e-3)
+    assert (np.abs(contact.friction) <= contact.normal + 1e-12).all()
+    assert (np.diff(contact.time) > 0).all() and (
+        contact.stick_radius <= contact.contact_radius
+    ).all()

@@ -28,8 +28,9 @@ from planarimpact.ground.checks import ConvergenceError, Unsolved
 from planarimpact.ground.results import Regime
 
 LOSSES = {"viscous": KelvinVoigt, "plastic": Thornton}
-# Friction is gross slip if it is within this share of its limit: more than rounding.
-GROSS = 1 - 1e-12
+# Friction within this share of its limit is gross slip. Near separation less stick than that cannot
+# be told from rounding.
+GROSS = 1 - 1e-6
 FIRST_STEPS, MOST_STEPS = 32, 2**12
 # Factor of the estimated error.
 SAFETY = 2
@@ -37,7 +38,10 @@ SAFETY = 2
 CELLS = 2**15
 # The peak of friction is sought at so many places of a few steps.
 SAMPLES = 49
-BISECTIONS = 30
+# Places within a step where the peak just after gross slip is sought.
+PLACES = 24
+# It is sought for two instants and a share of the steps.
+AFTER = 48
 
 
 class Path(NamedTuple):
@@ -54,6 +58,8 @@ class Path(NamedTuple):
     start, force, peak : ndarray, shape (n,)
         Time when gross slip from the start ends, friction then, and the largest friction up to
         then.
+    searched : bool
+        Whether that peak has been sought after then too, for two instants.
     work : ndarray, shape (n,)
         Work of friction.
     """
@@ -67,6 +73,7 @@ class Path(NamedTuple):
     start: Array
     force: Array
     peak: Array
+    searched: bool
     work: Array
 
 
@@ -133,7 +140,7 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
     Parameters
     ----------
     x, beta, zeta2, e : ndarray, shape (n,)
-        Impacts that do not slide throughout, x > 0; e below 1.
+        x > 0; e below 1.
     loss : str
         One of `LOSSES`.
     steps : int
@@ -152,8 +159,10 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
     motion = LOSSES[loss](e, steps // 2)
     # Gross slip from the start ends at this normal velocity, at once for x <= zeta^2.
     slips = x > zeta2
-    last = motion.grip(x, beta, zeta2)
+    last = np.maximum(motion.grip(x, beta, zeta2), -e)
     start, approach, slid = (np.where(slips, a, 0.0) for a in motion.when(last))
+    throughout = x >= sliding.limit_alike(beta, zeta2, e)
+    start = np.where(throughout, 2 * motion.time[-1], start)  # never
     # The largest force of that slip.
     peak = np.where(last > motion.velocity_at_largest_force, slid, motion.largest_force)
     row = _Row(motion)
@@ -164,12 +173,17 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
         np.where(slips, x - beta * (1 - last), x),
     )
     force, began = np.zeros(x.size), start == 0
+    # Time, approach, normal velocity, displacement and its rate when slip ends, and at some
+    # instants after that; and how many of them are known.
+    knots = np.zeros((3 + steps // AFTER, 5, x.size))
+    knots[:] = start, approach, last, u, w / zeta2
+    known = np.ones(x.size, dtype=np.intp)
     work = _work_sliding(x, beta, zeta2, -last, loss)
     for k in range(1, steps + 1):
         before, after = motion.time[k - 1 : k + 1]
         begins = ~began & (after > start)
         if begins.any():
-            row.slide(begins, motion.sliding_deflection(approach, last, k), last, u)
+            row.slide(begins, approach, last, u)
             force = np.where(begins, slid, force)
             if not motion.viscous:  # the springs hold strain, which no friction has taken yet
                 work -= begins * zeta2 * row.strain()
@@ -184,9 +198,17 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
             new = row.move(k, step, pace, (u, w / zeta2), (moved, ahead / zeta2))
             ahead = w - beta * step * (force + new) / 2
         u, w, force = moved, np.where(began, ahead, w), np.where(began, new, force)
-        work += zeta2 * row.settle() * began
+        work += zeta2 * row.settle(k) * began
         friction[k, began], velocity[k, began] = force[began], w[began]
         stick_radius[k] = np.where(began, row.stick_radius, 0.0)
+        if not motion.viscous and (began & (known < len(knots))).any():
+            which = np.flatnonzero(began & (known < len(knots)))
+            here = np.array([after, motion.approach[k], motion.velocity[k], u, w / zeta2])
+            knots[known[which], :, which] = here[:, which].T
+            known[which] += 1
+    if not motion.viscous:
+        soon = slips & (last > 0) & (known == len(knots))
+        peak = np.maximum(peak, np.where(soon, _peak_after_slip(motion, knots), 0.0))
     largest = motion.largest_force
     radius = np.concatenate([motion.radius, motion.radius[-2::-1]]) / motion.radius[-1]
     return Path(
@@ -199,6 +221,7 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
         start / motion.time[steps // 2],
         slid / largest,
         np.where(slips, peak, 0.0) / largest,
+        not motion.viscous,
         work,
     )
 
@@ -219,7 +242,7 @@ def contact(
         change = max(np.max(np.abs(a[::2] - b)) / 3 for a, b in pairs)
         resolved = steps >= refinement.steps_needed(beta, zeta2)[0]
         if resolved and change <= tolerance:
-            return [column[:, 0] for column in fine[:-4]]
+            return [column[:, 0] for column in fine[:6]]
         if resolved and not refinement.in_reach(np.asarray(change), tolerance, steps, MOST_STEPS):
             why = refinement.not_met(x[0], beta[0], zeta2[0], tolerance, steps, change, MOST_STEPS)
         coarse = fine
@@ -246,44 +269,54 @@ def _summary(found: Path) -> Solved:
     lower = size[top - 1, column] > size[top + 1, column]
     around = top + np.arange(-1, 3)[:, None] - lower
     late = [(found.time[k, column], size[k, column]) for k in around]
-    peak = np.maximum(
-        _top_after_slip(found, first), np.where(around[0] >= first, _top(late), size[top, column])
-    )
+    early = [(found.time[k, column], size[k, column]) for k in (first, first + 1)]
+    peak = np.where(around[0] >= first, _top(late), size[top, column])
+    if found.searched:
+        past = around[0] >= first + len(found.time) // AFTER // 2
+        peak = np.where(past | (found.start == 0), peak, size[top, column])
+    else:
+        peak = np.maximum(peak, _top([(found.start, np.abs(found.force)), *early]))
     values = np.stack([found.velocity[-1], np.maximum(peak, found.peak), found.work])
     return values, counts, np.ones(slips.size)
 
 
-def _top_after_slip(found: Path, first: Integers) -> Array:
-    """Largest friction between the end of gross slip from the start and two instants later.
+def _peak_after_slip(motion: NormalMotion, knots: Array) -> Array:
+    """Largest friction soon after gross slip of elastic springs, by the limits in between.
 
-    What friction lacks to its limit grows like a power of the time since then: springs stick one
-    after the other, or all at once.
+    Friction grows on, turns and falls within a step, as one spring after the other sticks. Then
+    each keeps c, the least value that limit less displacement has had. Approach and displacement
+    are cubics between the knots.
     """
-    column = np.arange(first.size)
-    late = found.time[first, column] <= found.start  # slip lasts nearly until separation
-    time = [np.where(late, k, found.time[first + k - 1, column] - found.start) for k in (1, 2)]
-    limit = [found.normal[k, column] for k in (first, first + 1)]
-    lack = [
-        np.maximum(limit[n] - np.abs(found.friction[first + n, column]), 1e-300) for n in (0, 1)
-    ]
-    # Stick spreads over the springs in some duration, and from then on each lacks a parabola: the
-    # cubes of `_spread`, or a square where all stick at once.
-    low, high = np.full((2, *late.shape), [[1e-6], [1.0]]) * time[1]
-    for _ in range(BISECTIONS):
-        middle = (low + high) / 2
-        short = _spread(time[1], middle) * lack[0] < lack[1] * _spread(time[0], middle)
-        low, high = np.where(short, middle, low), np.where(short, high, middle)
-    # The normal force is a parabola through three points.
-    slopes = [(force - np.abs(found.force)) / t for force, t in zip(limit, time, strict=True)]
-    bend = (slopes[1] - slopes[0]) / (time[1] - time[0])
-    passed = np.linspace(0.0, 1.0, SAMPLES)[:, None] * time[1]
-    normal = np.abs(found.force) + passed * (slopes[0] + bend * (passed - time[0]))
-    shape = _spread(passed, high) / _spread(time[1], high)
-    return np.where(late | (found.start == 0), 0.0, np.max(normal - lack[1] * shape, axis=0))
+    count = len(motion.radius)
+    width = motion.width.copy()
+    width[0] /= 2
+    limit = motion.sliding_deflection(knots[0, 1], knots[0, 2], count)
+    memory = limit - knots[0, 3]
+    points = [(knots[0, 0], motion.force_at(knots[0, 1], knots[0, 2]))]
+    for left, right in zip(knots, knots[1:], strict=False):
+        step = right[0] - left[0]
+        for share in np.linspace(0.0, 1.0, 1 + max(2, PLACES // len(knots)))[1:]:
+            approach = _cubic(share, left[1], right[1], step * left[2], step * right[2])
+            velocity = left[2] + share * (right[2] - left[2])
+            u = _cubic(share, left[3], right[3], step * left[4], step * right[4])
+            limit = motion.sliding_deflection(approach, velocity, count)
+            memory = np.minimum(memory, limit - u)
+            whole = np.sum(width * limit, axis=0)
+            lack = np.sum(width * (limit - u - memory), axis=0)
+            force = motion.force_at(approach, velocity)
+            force = force * (1 - lack / np.where(whole > 0, whole, 1.0))
+            points.append((left[0] + share * step, force))
+    times, forces = (np.array(column) for column in zip(*points, strict=True))
+    top = np.clip(np.argmax(forces, axis=0), 1, len(forces) - 2)
+    column = np.arange(top.size)
+    return _top([(times[k, column], forces[k, column]) for k in (top - 1, top, top + 1)])
 
 
-def _spread(time: Array, duration: Array) -> Array:
-    return time**3 - np.maximum(time - duration, 0.0) ** 3
+def _cubic(share: float, before: Array, after: Array, rise: Array, fall: Array) -> Array:
+    """Cubic through two values with two changes by the step, at a share of the step."""
+    change = after - before
+    bend = 3 * change - 2 * rise - fall + share * (rise + fall - 2 * change)
+    return before + share * (rise + share * bend)
 
 
 def _top(points: list[tuple[Array, Array]]) -> Array:
@@ -323,16 +356,19 @@ class _Row:
         # Memory c, limit L and tangential density of the springs that touch.
         self._memory, self._limit, self._density = np.zeros((3, 1, n))
         self._next = self._memory, self._limit, self._density
+        self._since = np.zeros(n)  # approach at the last instant
         self._slips = np.zeros((1, n), dtype=bool)
 
-    def slide(self, which: Booleans, deflection: Array, velocity: Array, u: Array) -> None:
-        """Put contacts in the state of gross slip at a deflection and a normal velocity."""
-        count = min(len(self._memory), len(deflection))
+    def slide(self, which: Booleans, approach: Array, velocity: Array, u: Array) -> None:
+        """Put contacts in the state of gross slip at an approach and a normal velocity."""
+        count = len(self._memory)
+        self._since = np.where(which, approach, self._since)
+        deflection = self._motion.sliding_deflection(approach, velocity, count)
         limit = deflection + self._motion.tau * velocity
         for mine, new in zip(
             (self._memory, self._limit, self._density), (deflection - u, limit, limit), strict=True
         ):
-            mine[:count, which] = new[:count, which]
+            mine[:, which] = new[:, which]
 
     def move(
         self,
@@ -354,9 +390,7 @@ class _Row:
         if motion.viscous:
             memory, density = _relaxed(*parts, pull, later, step, motion.tau)
         else:
-            wanted = (
-                self._turned(parts, (motion.velocity[k] - pace) * step, step, start, end) + later
-            )
+            wanted = self._turned(k, parts, step, pace, start, end) + later
             density = np.clip(wanted, -limit[:count], limit[:count])
             memory = density - later
         if count < len(limit):  # a spring comes into contact, without deflection
@@ -367,42 +401,53 @@ class _Row:
 
     def _turned(
         self,
+        k: int,
         parts: tuple[Array, Array, Array],
-        slowing: Array,
         step: Array,
+        pace: Array,
         start: tuple[Array, Array],
         end: tuple[Array, Array],
     ) -> Array:
         """Memory after slip that ends within a step.
 
-        Slip in direction g stops when g u - d is largest. Every slipped spring remembers that
-        value. Between the ends of the step g u - d is a parabola, as the rates of both are known.
+        Slip in direction g stops when g u less the limit is largest. Every slipped spring remembers
+        that value. In the step it is a parabola, through its values at both ends and in the middle.
         A step over its top leaves an error that varies irregularly, which extrapolation cannot
         remove.
         """
         memory, limit, limit_after = parts
+        motion, count = self._motion, len(memory)
         grown = limit_after[-1] - limit[-1]  # what the limit gains at the edge, and less inside
+        slowing = (motion.velocity[k] - pace) * step
+        between: Array | None = None
         for side in (1.0, -1.0):
             early, late = (side * rate * step for _, rate in (start, end))
             bend = slowing + early - late
             # A spring turns if the rate of its limit lies between those of the body.
             turns = (early > np.minimum(grown, 0.0) - bend) & (late < np.maximum(grown, 0.0) + bend)
             which = np.flatnonzero(turns & (early > late))
-            if which.size:
-                c, u, later = memory[:, which], start[0][which], end[0][which]
-                gains = limit_after[:, which] - limit[:, which]
-                rising = grown[which] > 0
-                share = np.where(rising, gains / np.where(rising, grown[which], 1.0), 1.0)
-                bulge = np.maximum(share * slowing[which] + (early - late)[which], 1e-300)
-                before = side * (c + u) - limit[:, which]
-                change = side * (later - u) - gains
-                part = np.clip(0.5 + change / bulge, 0.0, 1.0)
-                top = before + part * (change + (1 - part) * bulge / 2)
-                memory = memory if memory is not parts[0] else memory.copy()
-                memory[:, which] = c - side * np.maximum(top, 0.0)
+            if not which.size:
+                continue
+            if between is None:
+                approach = _cubic(
+                    0.5, self._since, motion.approach[k], step * pace, step * motion.velocity[k]
+                )
+                between = motion.sliding_deflection(
+                    approach, (pace + motion.velocity[k]) / 2, count
+                )
+                halfway = _cubic(0.5, start[0], end[0], step * start[1], step * end[1])
+                memory = memory.copy()
+            c = parts[0][:, which]
+            before = side * (c + start[0][which]) - limit[:, which]
+            middle = side * (c + halfway[which]) - between[:, which]
+            after = side * (c + end[0][which]) - limit_after[:, which]
+            bulge = np.maximum(8 * middle - 4 * (before + after), 1e-300)
+            part = np.clip(0.5 + (after - before) / bulge, 0.0, 1.0)
+            top = before + part * (after - before + (1 - part) * bulge / 2)
+            memory[:, which] -= side * np.maximum(top, 0.0)
         return memory
 
-    def settle(self) -> Array:
+    def settle(self, k: int) -> Array:
         """Keep the last trial; return the work of friction over zeta^2 in its step."""
         memory, _, density = self._next
         count = min(len(memory), len(self._memory))
@@ -416,6 +461,7 @@ class _Row:
         inner = self._motion.radius[np.where(stuck, len(density) - 1, first), column]
         self.stick_radius = inner
         self._memory, self._limit, self._density = self._next
+        self._since = self._motion.approach[k]
         return work
 
     def strain(self) -> Array:

@@ -111,10 +111,20 @@ class Thornton(NormalMotion):
 
     def sliding_deflection(self, approach: Array, velocity: Array, count: int) -> Array:
         """As in `NormalMotion`: the density of the normal force."""
+        depth, blunt = self._contact(approach, velocity)
+        return blunt * np.maximum(depth - self.radius[:count] ** 2, 0.0)
+
+    def force_at(self, approach: Array, velocity: Array) -> Array:
+        """As in `NormalMotion`."""
+        depth, blunt = self._contact(approach, velocity)
+        return 4 / 3 * blunt * depth**1.5
+
+    def _contact(self, approach: Array, velocity: Array) -> tuple[Array, Array]:
+        """Square of the radius of contact, and bluntness."""
         largest, blunt = self.radius[-1] ** 2, self._blunt[-1]
         depth = np.where(velocity > 0, approach, largest - (largest - approach) / blunt)
-        blunt = np.where(velocity > 0, self._bluntness(depth), blunt)
-        return blunt * np.maximum(depth - self.radius[:count] ** 2, 0.0)
+        depth = np.clip(depth, 0.0, largest)
+        return depth, np.where(velocity > 0, self._bluntness(depth), blunt)
 
     def grip(self, x: Array, beta: Array, zeta2: Array) -> Array:
         """As in `NormalMotion`: where w = zeta^2 v, or zeta^2 b v in plastic compression."""
