@@ -36,6 +36,7 @@ REPRODUCTION = {
     "job": "records",
     "csv_tables": "",
     "curve_names": "",
+    "goodness": "ground",
     "reference_data": "csv_tables",
     "study_files": "planarimpact ground models study csv_tables",
     "printed": "ground lumped",
@@ -43,11 +44,12 @@ REPRODUCTION = {
     " pandas printed csv_tables curve_names",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
-    "judging": "ground curves csv_tables curve_names reference_data",
+    "judging": "ground curves csv_tables curve_names goodness reference_data",
     "trade": "ground models curves csv_tables",
     "gate": "csv_tables records judging ledger",
     "plan": "ground models records reference_data",
-    "drawings": "planarimpact ground csv_tables curve_names reference_data study_files matplotlib",
+    "drawings": "planarimpact ground csv_tables curve_names goodness reference_data study_files"
+    " matplotlib",
     "pages": "ground bodies csv_tables drawings gate judging ledger plan jinja2",
 }
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}

@@ -163,7 +163,7 @@ def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
     else:
         x = bodies.incidence_from_angle(options.angle, options.friction)
     if options.response is not None:
-        _refuse_given(options, ["model", "setting", *GROUPS], "a response has its own")
+        _refuse_given(options, ["model", "loss", "setting", *GROUPS], "a response has its own")
         _refuse_replacing(options)
         found = response.load(options.response)(x)
     else:
@@ -186,15 +186,15 @@ def _refuse_replacing(options: argparse.Namespace) -> None:
 def _history(options: argparse.Namespace) -> dict[str, ArrayLike]:
     groups = _groups(options)
     found: History | ContinuumHistory
-    if _model(options) == "continuum":
+    model, _, loss = _model(options).partition(".")
+    if model == "continuum":
         _refuse_given(options, ["samples"], "the continuum has a tolerance instead")
-        checks.elastic(groups.pop("restitution", 1.0))
         given = {} if options.tolerance is None else {"tolerance": options.tolerance}
-        found = continuum.history(options.incidence, **groups, **given)
+        found = continuum.history(options.incidence, **groups, **given, loss=loss or None)
     else:
         _refuse_given(options, ["tolerance"], "the lumped model is exact")
         given = {} if options.samples is None else {"samples": options.samples}
-        found = lumped.history(options.incidence, **groups, **given)
+        found = lumped.history(options.incidence, **groups, **given, loss=loss or "hysteretic")
     return _with_units(type(found), found._asdict())
 
 
@@ -269,7 +269,15 @@ def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:
 
 
 def _model(options: argparse.Namespace) -> str:
-    return options.model or "lumped"
+    """Name of the model, with the loss if one is given that is not the model's own."""
+    name = options.model or "lumped"
+    if options.loss is None or (name, options.loss) == ("lumped", "hysteretic"):
+        return name
+    losses = [other.partition(".")[2] for other in models.MODELS if other.startswith(name + ".")]
+    if name not in ("lumped", "continuum") or options.loss not in losses:
+        allowed = "are " + ", ".join(losses) if losses else "is none"
+        raise checks.InputError(f"--loss {options.loss}: with model {name} allowed {allowed}")
+    return f"{name}.{options.loss}"
 
 
 def _groups(options: argparse.Namespace) -> dict[str, Any]:
@@ -466,6 +474,11 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_model(parser: argparse.ArgumentParser, names: list[str], settings: bool = True) -> None:
     parser.add_argument("--model", choices=names, help="[lumped]")
+    parser.add_argument(
+        "--loss",
+        choices=sorted({*lumped.LOSSES, *continuum.LOSSES}),
+        help="what takes the energy below e = 1: of lumped [hysteretic] and continuum",
+    )
     for name, (value, words) in GROUPS.items():
         option = "--" + name.replace("_", "-")
         parser.add_argument(option, type=decimal, help=f"{words} [{value}]")

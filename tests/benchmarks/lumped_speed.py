@@ -33,6 +33,7 @@ def main():
     x = rng.uniform(0, 10, COUNT)
     slow = rng.uniform(0, 5.3, COUNT)
     beta, zeta2 = rng.uniform(1, 8, COUNT), 10 ** rng.uniform(-1, 1, COUNT)
+    e = rng.uniform(0.01, 1, COUNT)
     unit = nanoseconds(lambda: np.sin(x) + np.cos(x))
     print(f"one sine and one cosine: {unit:.1f} ns")
     cases = {
@@ -44,6 +45,12 @@ def main():
         ),
         "mass ratio 1 to 8, stiffness ratio 0.1 to 10, incidence 0 to 10": lambda: lumped.rebound(
             x, beta, zeta2, 0.9
+        ),
+        "the same, two viscous elements": lambda: lumped.rebound(
+            x, beta, zeta2, 0.9, loss="viscous"
+        ),
+        "the same, restitution 0.01 to 1": lambda: lumped.rebound(
+            x, beta, zeta2, e, loss="viscous"
         ),
         "no tangential compliance": lambda: rigid.rebound(x, 3.5, 1.21, 0.9),
     }

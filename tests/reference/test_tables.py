@@ -7,6 +7,7 @@ import closed_form_tables
 import continuum_tables
 import error_tables
 import exact_tables
+import inelastic_tables
 import numpy as np
 import printed_tables
 import pytest
@@ -22,6 +23,7 @@ GENERATORS = {
     "closed_forms": (closed_form_tables, 1, 0.0),
     "slender_rod": (rod_tables, 4, 1.1e-10),
     "model_errors": (error_tables, 1, 1.1e-12),
+    "inelastic_models": (inelastic_tables, 7, 1.1e-5),
 }
 
 

@@ -6,6 +6,7 @@ from scipy.optimize import minimize
 from scipy.stats import kstest
 
 from planarimpact import lumped
+from stronge1994.goodness import chi_squared
 from stronge1994.judging import Verdict, landmarks
 from stronge1994.judging.distances import (
     curve_residuals,
@@ -15,7 +16,7 @@ from stronge1994.judging.distances import (
     vertex_residuals,
 )
 from stronge1994.judging.points import limits_of_regimes
-from stronge1994.judging.verdicts import chi_squared, verdict
+from stronge1994.judging.verdicts import verdict
 
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
 

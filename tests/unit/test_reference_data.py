@@ -238,3 +238,54 @@ def test_each_key_is_compared_with_few_others(tmp_path, monkeypatch):
     path.write_text("\n".join(f"k{i}: text" for i in range(300)))
     assert len(reference_data.load_yaml(path)) == 300
     assert len(compared) < 10 * 300
+
+
+PRINTED = {
+    "kind": "stated",
+    "x": {"column": "e", "unit": "1", "sigma": "e_uncertainty", "range": [0, 1]},
+    "y": {"column": "b", "unit": "1", "sigma": "b_uncertainty", "range": [-1, 1]},
+    "given": [{"column": "mu", "unit": "1", "sigma": "mu_uncertainty", "range": [0, 2]}],
+    "labels": ["pair"],
+}
+PRINTED_HEADER = "pair,e [1],e_uncertainty [1],b [1],b_uncertainty [1],mu [1],mu_uncertainty [1]\n"
+
+
+def printed(folder, text):
+    """The columns of a stated series that holds this text."""
+    path = folder / "pairs.csv"
+    path.write_text(text)
+    return reference_data.read_series("pairs", {"path": str(path), **PRINTED})
+
+
+def test_stated_values_have_uncertainties_of_their_own(tmp_path):
+    found = printed(tmp_path, f"{PRINTED_HEADER}glass,0.9,0.01,0.4,0.3,0.1,0.00\n")
+    assert found["b_uncertainty [1]"] == [0.3] and found["mu [1]"] == [0.1]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (f"{PRINTED_HEADER}glass,1.01,0.01,0.4,0.1,0.1,0\n", "'e .1.': 1.01 is outside 0 to 1"),
+        (f"{PRINTED_HEADER}glass,0.9,-0.01,0.4,0.1,0.1,0\n", "'e_uncertainty .*-0.01 is outside"),
+        (f"{PRINTED_HEADER}glass,0.9,0.01,0.4,,0.1,0\n", "'b_uncertainty .*'' is not a decimal"),
+        (f"{PRINTED_HEADER}glass,0.9,0.01,0.4,0.1,9,0\n", "'mu .1.': 9 is outside 0 to 2"),
+        ("pair,e [1]\nglass,0.9\n", "column 'b .1.' is missing"),
+    ],
+)
+def test_bad_stated_values_are_refused(text, words, tmp_path):
+    with pytest.raises(reference_data.SourceError, match=words):
+        printed(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    ("source", "old", "new"),
+    [
+        ("cornell1999", "sigma: restitution_uncertainty", "sigma: 0.01"),
+        ("kharaz2001", "sigma: 0.0016", "sigma: printed"),
+    ],
+)
+def test_uncertainties_are_columns_of_stated_series_alone(source, old, new):
+    text = (ROOT / f"data/{source}/source.yaml").read_text(encoding="utf-8")
+    assert old in text
+    with pytest.raises(reference_data.SourceError, match=r"sigma: .* is not of type"):
+        reference_data.refuse_invalid(yaml.safe_load(text.replace(old, new, 1)), SCHEMA, source)

@@ -78,6 +78,16 @@ BAD_CONFIG = [
     (figure("fig5", tolerance="0"), "figures.fig5.tolerance: 0 is less than the minimum"),
     (figure("convergence", steps=["32", "33"]), "figures.convergence.steps.1: 33 is not a mult"),
     (comparison("fig5-continuum-maw", reference="maw1976/no"), "'maw1976/no' is neither"),
+    (figure("inelastic", points="maw1976/slip_throughout_limit"), "limit' is no series"),
+    (figure("inelastic", fit={"evenly": "speed"}), "fit.evenly: 'speed' is not one of"),
+    (
+        comparison("inelastic-lumped-pairs", metric="distance"),
+        "a stated series goes with metric vertices",
+    ),
+    (
+        comparison("inelastic-lumped-pairs", allowance={"x": "0", "y": "1"}),
+        "a stated series goes with metric vertices, without `allowance`",
+    ),
     (figure("stability", points="maw1976/slip_throughout_limit"), "limit' is no series"),
     (comparison("fig5-continuum-maw", tolerance="3"), "'tolerance' was unexpected"),
     ({"significance": "0"}, "significance: 0 is less than or equal to the minimum of 0"),

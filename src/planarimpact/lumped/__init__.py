@@ -4,6 +4,15 @@ A linear normal element (stiffness kappa, kappa/e^2 in restitution) and a linear
 element (kappa/zeta^2) join the body to a massless particle that sticks to the surface or slips
 on it with Coulomb friction. `stick_slip` holds the phases, `slip_onset` the search for the start of
 slip, `normal` the normal motion, `extremes` what makes groups of any size possible.
+
+The keyword `loss` says what takes the normal energy where e < 1. At e = 1 all are the same model.
+
+- "hysteretic": the paper's element, of which only the normal direction loses energy.
+- "plastic": as the paper's, but with the elastic normal stiffness in the ratio. The elastic
+  stiffness of the hysteretic element is the one of unloading, kappa/e^2, so the tangential one is
+  kappa/(e^2 zeta^2): e^2 zeta^2 takes the place of zeta^2.
+- "viscous": a dashpot beside the spring in both directions, with one relaxation time. `viscous`
+  holds it.
 """
 
 import numpy as np
@@ -11,10 +20,12 @@ import numpy as np
 from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 from planarimpact.ground.results import Event, EventKind, History, Rebound
-from planarimpact.lumped import normal, stick_slip
+from planarimpact.lumped import normal, stick_slip, viscous
 from planarimpact.lumped.extremes import scaling
 from planarimpact.lumped.stick_slip import Impacts
 
+# What may take the normal energy.
+LOSSES = ("hysteretic", "plastic", "viscous")
 # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
 CHUNK = 16384
 # Nodes and weights of Gauss on -1 to 1, for the work of friction within a phase.
@@ -27,6 +38,8 @@ def rebound(
     mass_ratio: ArrayLike = 3.5,
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
+    *,
+    loss: str = "hysteretic",
 ) -> Rebound:
     """State at separation; all arguments broadcast.
 
@@ -41,17 +54,25 @@ def rebound(
         zeta^2 > 0, normal over tangential stiffness; (2 - nu)/(2 (1 - nu)) for elastic spheres.
     restitution : array_like
         Energetic coefficient e, 0 to 1 (Eq. 5).
+    loss : str
+        "hysteretic" (the paper's), "plastic" or "viscous": what takes the normal energy.
 
     Returns
     -------
     Rebound
         velocity, peak_friction, dissipation, regime, in the broadcast shape (scalars for
-        scalars); velocity has the sign of `incidence` where the direction is kept.
+        scalars); velocity has the sign of `incidence` where the direction is kept. With viscous
+        loss the peak is in mu times the largest normal force of that very impact, and the
+        dissipation is the work of friction alone: what the tangential dashpot takes, and the
+        strain left in the tangential spring at separation, are lost besides.
 
     Raises
     ------
     InputError
-        If an argument is not a finite real number in its range, or shapes do not broadcast.
+        If an argument is not a finite real number in its range, or shapes do not broadcast. With
+        viscous loss and e < 1 the range is smaller: restitution from 1e-6 (a viscous element does
+        not stop a body for good), mass ratio to 1e6, stiffness ratio from 1e-4 to 1e6 times the
+        mass ratio.
 
     Notes
     -----
@@ -63,6 +84,9 @@ def rebound(
     throughout (see `slip_throughout_limit`) and the direction of the last slip, which at small e is
     the incident one.
 
+    With viscous loss the errors are at most 1e-12: of the velocity beside max(1, x, beta), of the
+    peak beside 1, of the dissipation beside x^2/(2 beta) or, if that is smaller, (1 + e) x.
+
     Examples
     --------
     >>> from planarimpact import Regime
@@ -71,21 +95,60 @@ def rebound(
     ['STICK_SLIP', 'SLIP_STICK_SLIP', 'SLIP_THROUGHOUT']
     >>> float(result.velocity[2])  # x - (1 + e) beta
     1.0
+    >>> losses = ("hysteretic", "plastic", "viscous")
+    >>> [round(float(rebound(2.0, restitution=0.8, loss=loss).velocity), 6) for loss in losses]
+    [-1.068366, -0.293096, -0.349825]
     """
+    checks.loss(loss, LOSSES)
     x, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     groups = [np.abs(x).reshape(-1), *(group.reshape(-1) for group in groups)]
+    if loss == "viscous":
+        return Rebound.shaped(x, *_viscous(Impacts(*groups)))
+    if loss == "plastic":
+        groups[2] = _plastic(groups[2], groups[3])
+    velocity, peak, work, regime = _hysteretic(Impacts(*groups))
+    return Rebound.shaped(x, velocity, peak, work, regime)
+
+
+def _hysteretic(impacts: Impacts) -> stick_slip.Outcome:
+    """Outcome of impacts x >= 0, arrays of shape (n,), chunk by chunk."""
+    x = impacts.x
     velocity, peak, work = (np.empty(x.size) for _ in range(3))
     regime = np.empty(x.size, np.uint8)
     for start in range(0, x.size, CHUNK):
         part = slice(start, start + CHUNK)
-        outcome = scaling.solve(Impacts(*(group[part] for group in groups)))
+        outcome = scaling.solve(Impacts(*(group[part] for group in impacts)))
         velocity[part], peak[part], work[part], regime[part] = outcome
-    return Rebound.shaped(x, velocity, peak, work, regime)
+    return stick_slip.Outcome(velocity, peak, work, regime)
+
+
+def _viscous(impacts: Impacts) -> stick_slip.Outcome:
+    """As `_hysteretic`; where e = 1 the elements are the same."""
+    damped = impacts.e < 1
+    if not damped.any():
+        return _hysteretic(impacts)
+    lost = impacts if damped.all() else impacts.take(np.flatnonzero(damped))
+    viscous.check_range(lost)
+    if lost is impacts:
+        return viscous.solve(impacts)
+    outcome = _hysteretic(impacts)
+    for field, values in zip(outcome, viscous.solve(lost), strict=True):
+        field[damped] = values
+    return outcome
+
+
+def _plastic(stiffness_ratio: Array, restitution: Array) -> Array:
+    """e^2 zeta^2, rounded as in `sliding.restick_coefficient`."""
+    return restitution * (restitution * stiffness_ratio)
 
 
 @checks.default_errors
 def slip_throughout_limit(
-    mass_ratio: ArrayLike = 3.5, stiffness_ratio: ArrayLike = 1.21, restitution: ArrayLike = 1.0
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+    *,
+    loss: str = "hysteretic",
 ) -> Array:
     """Smallest incidence that slides through the whole contact; all arguments broadcast.
 
@@ -93,9 +156,16 @@ def slip_throughout_limit(
     it. The paper prints (1 + e) beta (heading of Eq. 26), but its own condition for the end of the
     first slip, Eq. 21, has no root above the value given here.
 
+    With plastic loss e^2 zeta^2 stands for zeta^2: max(e^2 zeta^2, beta + e max(0, beta - zeta^2)).
+    With viscous loss it is max(zeta^2, beta + e (beta - zeta^2)). The two are the same for
+    zeta^2 <= beta. For a softer tangential element, viscous contact starts in stick up to zeta^2,
+    and plastic contact up to e^2 zeta^2 only; from beta on that slip lasts.
+
     Parameters
     ----------
     mass_ratio, stiffness_ratio, restitution : array_like
+        As in `rebound`; with viscous loss of any size, and the limit at e = 0 is that of small e.
+    loss : str
         As in `rebound`.
 
     Returns
@@ -112,9 +182,16 @@ def slip_throughout_limit(
     --------
     >>> float(slip_throughout_limit(3.5, 1.21, 1.0))
     5.79
+    >>> [float(slip_throughout_limit(3.5, 5.0, 0.5, loss=loss)) for loss in ("plastic", "viscous")]
+    [3.5, 5.0]
     """
-    _, *groups = checks.impact(0.0, mass_ratio, stiffness_ratio, restitution)
-    return sliding.limit(*groups)[()]
+    checks.loss(loss, LOSSES)
+    _, beta, zeta2, e = checks.impact(0.0, mass_ratio, stiffness_ratio, restitution)
+    if loss == "viscous":
+        return sliding.limit_alike(beta, zeta2, e)[()]
+    if loss == "plastic":
+        zeta2 = _plastic(zeta2, e)
+    return sliding.limit(beta, zeta2, e)[()]
 
 
 @checks.default_errors
@@ -124,6 +201,8 @@ def history(
     stiffness_ratio: float = 1.21,
     restitution: float = 1.0,
     samples: int = 400,
+    *,
+    loss: str = "hysteretic",
 ) -> History:
     """Forces and velocity over one contact (Figs 3 and 4).
 
@@ -134,11 +213,16 @@ def history(
     samples : int
         At least 2: instants evenly spread over the contact. Events come on top, so that every
         one is a vertex.
+    loss : str
+        As in `rebound`.
 
     Returns
     -------
     History
-        time in t_c, normal, friction, velocity, spring, events.
+        time in t_c, normal, friction, velocity, spring, events. With viscous loss t_c is that of
+        the impact, half of its contact; the normal force is in its largest value, friction in mu
+        times that; and the spring is no longer in proportion to friction. There both forces jump
+        at contact, as the dashpots act at once.
 
     Raises
     ------
@@ -155,7 +239,11 @@ def history(
     1.5
     """
     samples = checks.count("samples", samples, 2)
-    mirror, scale, groups, phases = _phases(incidence, mass_ratio, stiffness_ratio, restitution)
+    checks.loss(loss, LOSSES)
+    mirror, impacts = _one(incidence, mass_ratio, stiffness_ratio, restitution, loss)
+    if loss == "viscous" and impacts.e[0] < 1:
+        return viscous.history(mirror, impacts, samples)
+    scale, groups, phases = _phases(impacts)
     zeta2, e = groups[1] / scale, groups[2]
     grid = np.linspace(0.0, 1.0 + e, samples)
     columns, events, before = [], [], None
@@ -183,16 +271,21 @@ def friction_work(
     mass_ratio: float = 3.5,
     stiffness_ratio: float = 1.21,
     restitution: float = 1.0,
+    *,
+    loss: str = "hysteretic",
 ) -> float:
     """Work of friction, integrated over the phases of slip: |F1| times the slip velocity.
 
     This checks `rebound(...).dissipation`, which comes from the balance of energy. The two differ
-    by what the tangential spring loses when e = 0.
+    by what the tangential spring loses when e = 0. With viscous loss and e < 1 both are the same
+    closed integral.
 
     Parameters
     ----------
     incidence, mass_ratio, stiffness_ratio, restitution : float
         As in `rebound`; scalars.
+    loss : str
+        As in `rebound`.
 
     Returns
     -------
@@ -211,7 +304,11 @@ def friction_work(
     >>> bool(abs(friction_work(2.0) - balance) < 1e-14)
     True
     """
-    _, scale, groups, phases = _phases(incidence, mass_ratio, stiffness_ratio, restitution)
+    checks.loss(loss, LOSSES)
+    _, impacts = _one(incidence, mass_ratio, stiffness_ratio, restitution, loss)
+    if loss == "viscous" and impacts.e[0] < 1:
+        return float(viscous.solve(impacts).dissipation[0])
+    scale, groups, phases = _phases(impacts)
     _, zeta2, e = groups
     nodes, weights = QUADRATURE
     work = 0.0
@@ -228,19 +325,30 @@ def friction_work(
     return work / scale
 
 
-def _phases(
-    incidence: float, mass_ratio: float, stiffness_ratio: float, restitution: float
-) -> tuple[float, float, tuple[float, float, float], list[tuple[stick_slip.Phase, Numbers]]]:
-    """One impact: mirror sign, scale, (beta, zeta^2, e), and its phases, each with its last eta.
-
-    Ratios and velocities have been multiplied by the scale.
-    """
+def _one(
+    incidence: float, mass_ratio: float, stiffness_ratio: float, restitution: float, loss: str
+) -> tuple[float, Impacts]:
+    """Mirror sign and groups of one impact, as the solver of this loss takes them."""
     checked = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     if checked[0].ndim:
         raise checks.InputError(f"shape = {checked[0].shape}: one contact takes scalars")
-    x, *groups = (a.reshape(1) for a in checked)
-    mirror = float(np.copysign(1.0, x[0]))
-    impacts, scale = scaling.shrunk(Impacts(np.abs(x), *groups))
+    x, beta, zeta2, e = (a.reshape(1) for a in checked)
+    if loss == "plastic":
+        zeta2 = _plastic(zeta2, e)
+    impacts = Impacts(np.abs(x), beta, zeta2, e)
+    if loss == "viscous" and e[0] < 1:
+        viscous.check_range(impacts)
+    return float(np.copysign(1.0, x[0])), impacts
+
+
+def _phases(
+    impacts: Impacts,
+) -> tuple[float, tuple[float, float, float], list[tuple[stick_slip.Phase, Numbers]]]:
+    """One impact: scale, (beta, zeta^2, e), and its phases, each with its last eta.
+
+    Ratios and velocities have been multiplied by the scale.
+    """
+    impacts, scale = scaling.shrunk(impacts)
     _, beta, zeta2, e = impacts
     trace: list[stick_slip.Phase] = []
     stick_slip.solve(impacts, trace)
@@ -254,7 +362,7 @@ def _phases(
     ]
     ends.append(0.0 if trace[-1].in_restitution else np.pi / 2)
     ratios = float(beta[0]), float(zeta2[0]), float(e[0])
-    return mirror, float(scale[0]), ratios, list(zip(trace, ends, strict=True))
+    return float(scale[0]), ratios, list(zip(trace, ends, strict=True))
 
 
 def _angle(time: Array, e: float, in_restitution: bool) -> Array:

@@ -83,8 +83,8 @@ def get(name: str) -> Model:
     Traceback (most recent call last):
     ...
     planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, lumped, \
-timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, continuum, continuum.viscous, \
-continuum.plastic, annuli
+lumped.plastic, lumped.viscous, timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, \
+continuum, continuum.viscous, continuum.plastic, annuli
     """
     if not isinstance(name, str) or name not in MODELS:
         raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
@@ -179,6 +179,12 @@ def _compliant_kinks(beta: float, zeta2: float, e: float, **settings: float) -> 
     return zeta2, beta, _compliant_limit(beta, zeta2, e)
 
 
+def _lumped_limit(loss: str) -> Callable[..., float]:
+    return lambda beta, zeta2, e, **_: float(
+        lumped.slip_throughout_limit(beta, zeta2, e, loss=loss)
+    )
+
+
 def _alike_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
     return float(sliding.limit_alike(np.asarray(beta), np.asarray(zeta2), e))
 
@@ -247,6 +253,28 @@ MODELS = {
             "Stronge 1994",
             _compliant_limit,
             _compliant_kinks,
+        ),
+        Model(
+            "lumped.plastic",
+            partial(lumped.rebound, loss="plastic"),
+            {},
+            "phases",
+            _ANY,
+            "with e^2 zeta^2 for zeta^2, a ratio of elastic stiffnesses; exact to rounding",
+            "Stronge 1994, with the elastic stiffness of unloading in the ratio",
+            _lumped_limit("plastic"),
+            lambda beta, zeta2, e: (e * e * zeta2, beta, _lumped_limit("plastic")(beta, zeta2, e)),
+        ),
+        Model(
+            "lumped.viscous",
+            partial(lumped.rebound, loss="viscous"),
+            {},
+            "phases",
+            (lumped.viscous.LEAST_RESTITUTION, 1.0),
+            "two Kelvin-Voigt elements of one relaxation time; exact to 1e-12",
+            "T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469, for the normal element",
+            _alike_limit,
+            _alike_kinks,
         ),
         Model(
             "timestep.linear",

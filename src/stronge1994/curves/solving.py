@@ -33,8 +33,8 @@ def read_nodes(nodes: Tables) -> dict[str, Any]:
     for path, column in nodes.items():
         rows = csv_tables.read_rows(path)
         if column is None:
-            names = {name.split(" [")[0]: name for name in rows[0]}
-            table = {short: [float(row[name]) for row in rows] for short, name in names.items()}
+            columns = {name: csv_tables.values([row[name] for row in rows]) for name in rows[0]}
+            table = {name.split(" [")[0]: column.tolist() for name, column in columns.items()}
             return {"points": table}
         points.setdefault(column.split(" [")[0], set()).update(float(row[column]) for row in rows)
     return {"nodes": {axis: sorted(found) for axis, found in points.items()}} if points else {}

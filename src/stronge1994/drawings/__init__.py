@@ -36,10 +36,14 @@ def draw(
 
 def _points(name: str, entry: Mapping[str, Any], path: str) -> house_style.Series:
     columns = csv_tables.read(path)[name.split("/")[1]]
+    printed = [reference_data.sigma_column(entry[axis]) for axis in "xy"]
     return {
         "x": columns[reference_data.column_name(entry["x"])],
         "y": columns[reference_data.column_name(entry["y"])],
-        "sigma": (entry["x"]["sigma"], entry["y"]["sigma"]),
+        "sigma": tuple(
+            entry[axis]["sigma"] if column is None else columns[column]
+            for axis, column in zip("xy", printed, strict=True)
+        ),
         "line": entry.get("line", False),
         "columns": columns,
         "parameters": entry["parameters"],

@@ -165,7 +165,7 @@ def _from_polyline(
 def vertex_residuals(
     points: tuple[ArrayLike, ArrayLike, Iterable[Any]],
     vertices: tuple[ArrayLike, ArrayLike, Iterable[Any]],
-    sigma: tuple[float, float],
+    sigma: tuple[ArrayLike, ArrayLike],
 ) -> Residuals:
     """Distance of each point from the nearest vertex with the same label.
 
@@ -173,8 +173,8 @@ def vertex_residuals(
     ----------
     points, vertices : (array_like, array_like, array_like)
         x, y and a label each; a tuple of words will do.
-    sigma : (float, float)
-        Uncertainties of the points.
+    sigma : (array_like, array_like)
+        Uncertainties of the points: a number, or one for each point.
 
     Returns
     -------
@@ -198,11 +198,12 @@ def vertex_residuals(
     for index, label in enumerate(vertices[2]):
         of_label.setdefault(label, []).append(index)
     sigmas, above = np.empty(len(x)), np.empty(len(x))
+    sigma_x, sigma_y = (np.broadcast_to(np.asarray(axis, float), x.shape) for axis in sigma)
     for i, label in enumerate(points[2]):
         if label not in of_label:
             raise ValueError(f"the curves have no vertex '{label}'")
         dx, dy = x[i] - vertex_x[of_label[label]], y[i] - vertex_y[of_label[label]]
-        distance = np.hypot(dx / sigma[0], dy / sigma[1])
+        distance = np.hypot(dx / sigma_x[i], dy / sigma_y[i])
         above[i] = dy[distance.argmin()]
         sigmas[i] = np.copysign(distance.min(), above[i])
     return Residuals(x, sigmas, above)

@@ -7,16 +7,16 @@ not leave further apart than they arrive (`contraction`).
 """
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array
+from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994 import curve_names, reference_data
 from stronge1994.csv_tables import Column, Columns, Curves
 from stronge1994.judging import distances, landmarks
 from stronge1994.judging.distances import Residuals
-from stronge1994.judging.points import Entry, Reference, points, sigma
+from stronge1994.judging.points import Entry, Reference, kind, points, printed_sigma, sigma
 
 # Two ways to compute one energy agree to this; see the reason of the comparison.
 BALANCE_SIGMA = 1e-12
@@ -87,7 +87,9 @@ def measure(
     for up, down in curve_names.shifted_by(entry.get("curve"), curves):
         upper, _ = find({**entry, "curve": up}, known, curves, series)
         lower, _ = find({**entry, "curve": down}, known, curves, series)
-        shifts.append((upper.sigmas - lower.sigmas) / 2)
+        shift = (upper.sigmas - lower.sigmas) / 2
+        # An error of a parameter moves all points together, unless each point has its own.
+        shifts += list(np.diag(shift)) if curve_names.EACH in up else [shift]
     x = reference_data.column_name(known["x"])
     return Measured(x, residuals, columns, np.reshape(shifts, (len(shifts), len(columns))))
 
@@ -124,10 +126,11 @@ def _from_curve(entry: Entry, known: Reference, curves: Curves, series: Columns)
 def _from_vertices(entry: Entry, known: Reference, curves: Curves, series: Columns) -> _Found:
     """Distances from the vertices with the same labels."""
     x, label_columns = reference_data.column_name(known["x"]), known.get("labels", [])
+    needed = {x, *label_columns} - {"curve"}
     labelled = [
         (columns, _labels(columns | {"curve": np.full(len(columns[x]), name)}, label_columns))
         for name, columns in _chosen(entry, curves).items()
-        if x in columns
+        if needed <= set(columns)
     ]
     labels = _labels(series, label_columns)
     parts: list[Residuals] = []
@@ -138,10 +141,18 @@ def _from_vertices(entry: Entry, known: Reference, curves: Curves, series: Colum
         if there.any():
             own = [label for label, inside in zip(labels, there, strict=True) if inside]
             labelled_points = series[x][there], series[y][there], own
-            vertices, scale = _vertices(labelled, x, y), sigma(entry, known["x"], axis)
+            vertices, scale = _vertices(labelled, x, y), _scale(entry, known, axis, series)
             parts.append(distances.vertex_residuals(labelled_points, vertices, scale))
             columns += [f"{y} of {label}" if label else y for label in own]
     return _joined(parts), columns
+
+
+def _scale(
+    entry: Entry, known: Reference, axis: Mapping[str, Any], series: Columns
+) -> tuple[ArrayLike, ArrayLike]:
+    if kind(known) == "stated":
+        return printed_sigma(known, series)
+    return sigma(entry, known["x"], axis)
 
 
 def _joined(parts: Iterable[Residuals]) -> Residuals:

@@ -25,7 +25,7 @@ def kind(known: Reference | None) -> str:
 
 def is_published(known: Reference | None) -> bool:
     """Whether a reference holds points that somebody has published."""
-    return kind(known) in ("digitised", "awaited")
+    return kind(known) in ("digitised", "stated", "awaited")
 
 
 def points(entry: Entry, known: Reference, series_paths: Mapping[str, str]) -> Columns:
@@ -42,6 +42,14 @@ def points(entry: Entry, known: Reference, series_paths: Mapping[str, str]) -> C
     if not chosen.any():
         raise ValueError("the reference has no such points")
     return {column: values[chosen] for column, values in series.items()}
+
+
+def printed_sigma(known: Reference, series: Columns) -> tuple[Array, Array]:
+    """Uncertainties of each point of a stated series on both axes."""
+    x, y = (series[f"{reference_data.sigma_column(known[axis])}"] for axis in "xy")
+    if not (x.all() and y.all()):
+        raise ValueError("a point that is compared has an uncertainty of 0")
+    return x, y
 
 
 def sigma(entry: Entry, x: Mapping[str, Any], y: Mapping[str, Any]) -> tuple[float, float]:

@@ -19,6 +19,7 @@ RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
 # What a row rests on, by the kind of its reference.
 EVIDENCE = {
     "digitised": "published points",
+    "stated": "published points",
     "awaited": "published points",
     "computed": "independent computation",
     "fact": "stated value",

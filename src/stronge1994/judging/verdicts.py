@@ -2,12 +2,9 @@
 
 from collections.abc import Mapping
 from enum import StrEnum
-from typing import Any, NamedTuple
+from typing import Any
 
-import numpy as np
-from scipy.special import chdtrc, fdtrc
-
-from planarimpact.ground.arrays import ArrayLike
+from stronge1994.goodness import ChiSquared, chi_squared
 from stronge1994.judging.metrics import Measured
 from stronge1994.judging.points import Entry, Reference, is_published
 
@@ -29,77 +26,6 @@ class Verdict(StrEnum):
     DIVERGES = "diverges"
     AWAITED = "awaited"
     UNCHANGED = "as before"
-
-
-class ChiSquared(NamedTuple):
-    """How well points fit a curve to which nothing was fitted.
-
-    Attributes
-    ----------
-    value : float
-        Sum of squares of the distances in sigmas, with their correlations.
-    degrees : int
-        Degrees of freedom: the number of points.
-    of_sigma : int or None
-        Number of independent values from which the sigmas were estimated; None if they are known.
-    p : float
-        Probability that chance alone gives a value as large. It follows the distribution of
-        chi-squared, or that of F if the sigmas were estimated.
-    """
-
-    value: float
-    degrees: int
-    of_sigma: int | None
-    p: float
-
-
-def chi_squared(
-    sigmas: ArrayLike, shifts: ArrayLike = (), of_sigma: int | None = None
-) -> ChiSquared:
-    """Chi-squared of distances, with the uncertainty of the curve's own parameters.
-
-    An error of a parameter moves all points of the curve together. So the distances have the
-    covariance 1 + sum of J J^T, with one J for each parameter. A fit of the parameters gives the
-    same chi-squared, if it holds them to their stated values with their stated sigmas.
-
-    Parameters
-    ----------
-    sigmas : array_like, shape (n,)
-        Signed distances of the points, in their own sigmas.
-    shifts : array_like, shape (k, n)
-        How much each distance changes with one sigma of each of k independent parameters.
-    of_sigma : int, optional
-        Number of independent values from which the sigmas were estimated, if they were.
-
-    Returns
-    -------
-    ChiSquared
-
-    Raises
-    ------
-    ValueError
-        If there are no points.
-
-    Examples
-    --------
-    >>> found = chi_squared([1.0, 2.0])
-    >>> found.value, found.degrees, round(found.p, 3)
-    (5.0, 2, 0.082)
-    >>> round(chi_squared([1.0, 1.0], [[3.0, 3.0]]).value, 3)  # one shift explains both
-    0.105
-    >>> round(chi_squared([1.0, 2.0], of_sigma=4).p, 3)  # the sigma itself may be too small
-    0.198
-    """
-    distance = np.asarray(sigmas, float)
-    if not len(distance):
-        raise ValueError("no points")
-    moved = np.asarray(shifts, float).reshape(-1, len(distance))
-    covariance = np.eye(len(distance)) + moved.T @ moved
-    value = float(distance @ np.linalg.solve(covariance, distance))
-    degrees = len(distance)
-    if of_sigma is None:
-        return ChiSquared(value, degrees, None, float(chdtrc(degrees, value)))
-    return ChiSquared(value, degrees, of_sigma, float(fdtrc(degrees, of_sigma, value / degrees)))
 
 
 def chi_squared_of(known: Reference, found: Measured) -> ChiSquared:

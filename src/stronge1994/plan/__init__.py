@@ -1,5 +1,6 @@
 """What the rules need to know before they run: settings, references, modules."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from stronge1994 import reference_data
@@ -19,7 +20,15 @@ TIMED = ("convergence", "trade")  # measure time: nothing may run beside them
 EXPLORED = [f"fig{number}" for number in range(3, 10)] + ["superball"]  # impacts to play with
 # Groups that play no part: mass, in force against deflection; bodies or a table with their own.
 BOTH = ["mass_ratio", "stiffness_ratio"]
-WITHOUT = {"fig2": ["mass_ratio"], "superball": BOTH, "stability": BOTH, "rod": ["mass_ratio"]}
+WITHOUT = {
+    "fig2": ["mass_ratio"],
+    "superball": BOTH,
+    "stability": BOTH,
+    "rod": ["mass_ratio"],
+    "inelastic": ["stiffness_ratio"],
+}
+# Properties of a material. Their parameters in source.yaml begin with its name.
+PROPERTIES = ("young_modulus", "poisson_ratio")
 
 
 def settings(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
@@ -41,7 +50,34 @@ def settings(config: Config, inventory: Inventory, figure: str) -> dict[str, Any
                     for name in needed
                     if stated[name]["uncertainty"]
                 }
+    if figure == "inelastic":
+        chosen |= materials(inventory[chosen["points"].split("/")[0]]["parameters"])
     return chosen
+
+
+def materials(stated: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """Settings that hold the materials among the parameters of a source, and one sigma of each.
+
+    Examples
+    --------
+    >>> number = {"value": 70e9, "uncertainty": 1e9}
+    >>> ratio = {"value": 0.22, "uncertainty": 0.02}
+    >>> found = materials({"float_glass_young_modulus": number, "float_glass_poisson_ratio": ratio})
+    >>> found["materials"]
+    {'material': ['float_glass'], 'young_modulus': [70000000000.0], 'poisson_ratio': [0.22]}
+    >>> found["uncertainty"]["poisson_ratio"]
+    [0.02]
+    """
+    end = f"_{PROPERTIES[0]}"
+    names = [name.removesuffix(end) for name in stated if name.endswith(end)]
+
+    def column(key: str) -> dict[str, list[float]]:
+        return {part: [stated[f"{name}_{part}"][key] for name in names] for part in PROPERTIES}
+
+    return {
+        "materials": {"material": names} | column("value"),
+        "uncertainty": column("uncertainty"),
+    }
 
 
 def settings_of_peers(config: Config) -> dict[str, Any]:

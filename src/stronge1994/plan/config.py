@@ -89,9 +89,10 @@ def check_config(
                 f"config: figures.fig5.{key}: '{source}' is not in data/; allowed are "
                 + ", ".join(inventory)
             )
-    where, table = "config: figures.stability.points", config["figures"]["stability"]["points"]
-    if reference(inventory, table, where)[0] != "series":
-        raise ConfigError(f"{where}: '{table}' is no series")
+    for figure, settings in config["figures"].items():
+        where, table = f"config: figures.{figure}.points", settings.get("points")
+        if table is not None and reference(inventory, table, where)[0] != "series":
+            raise ConfigError(f"{where}: '{table}' is no series")
     for scene in config["scenes"]:
         if not Path(f"data/scenes/{scene}.csv").is_file():
             raise ConfigError(f"config: scenes.{scene}: there is no data/scenes/{scene}.csv")
@@ -136,6 +137,10 @@ def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> No
         raise ConfigError(f"{where}: metric {metric} does not go with one of the {kind}")
     if metric == "landmark" and "landmark" not in comparison:
         raise ConfigError(f"{where}: metric landmark needs `landmark`")
+    if known.get("kind") == "stated" and (metric != "vertices" or "allowance" in comparison):
+        raise ConfigError(
+            f"{where}: a stated series goes with metric vertices, without `allowance`"
+        )
     several = metric == "distance" and "curve" in known.get("labels", [])
     if metric in ("distance", "landmark") and "curve" not in comparison and not several:
         raise ConfigError(f"{where}: metric {metric} needs `curve`")

@@ -109,6 +109,8 @@ def _refuse_axis(where: str, axis: Axis) -> None:
     low, high = axis["range"]
     if not low < high:
         raise SourceError(f"{where}.range = {axis['range']}: the first number must be the smaller")
+    if isinstance(axis["sigma"], str):
+        return
     most = LARGEST_SIGMA * (high - low)
     if axis["sigma"] > most:
         raise SourceError(
@@ -215,6 +217,21 @@ def _named_axes(series: Series) -> Iterator[tuple[str, Axis]]:
     yield "x", series["x"]
     for place, axis in enumerate(ordinates(series)):
         yield f"y.{place}" if several else "y", axis
+    for place, axis in enumerate(series.get("given", [])):
+        yield f"given.{place}", axis
+
+
+def sigma_column(axis: Axis) -> str | None:
+    """Column header of the uncertainties of a stated series; None where one number holds for all.
+
+    Examples
+    --------
+    >>> sigma_column({"unit": "1", "sigma": "friction_uncertainty"})
+    'friction_uncertainty [1]'
+    """
+    if not isinstance(axis["sigma"], str):
+        return None
+    return column_name({"column": axis["sigma"], "unit": axis["unit"]})
 
 
 def read_series(name: str, series: Series) -> dict[str, list[Any]]:
@@ -239,7 +256,13 @@ def read_series(name: str, series: Series) -> dict[str, list[Any]]:
     """
     path, labels = series["path"], series.get("labels", [])
     axes = {column_name(axis): axis for _, axis in _named_axes(series)}
-    may_be_empty = {column_name(axis) for axis in series["y"]} if len(axes) > 2 else set()
+    several = isinstance(series["y"], list)
+    may_be_empty = {column_name(axis) for axis in series["y"]} if several else set()
+    for axis in list(axes.values()):
+        low, high = axis["range"]
+        printed = sigma_column(axis)
+        if printed:
+            axes[printed] = {"range": [0.0, high - low], "sigma": 0.0}
     header, mark, rows = _table(path, name, series)
     for column in [*labels, *axes]:
         if header.count(column) != 1:
@@ -298,7 +321,8 @@ def _number(cell: str, mark: str, axis: Axis, where: str) -> float:
         raise SourceError(f"{where}: {text!r}{named} is not a decimal number such as -0{mark}05")
     value = float(text.replace(",", "."))
     low, high = axis["range"]
-    beyond = OUTSIDE * axis["sigma"]
+    # Values with an uncertainty of their own were printed: they lie in the range.
+    beyond = 0.0 if isinstance(axis["sigma"], str) else OUTSIDE * axis["sigma"]
     if not low - beyond <= value <= high + beyond:
         raise SourceError(
             f"{where}: {text} is outside {low:g} to {high:g} by more than {OUTSIDE} sigmas, "

@@ -170,6 +170,8 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
         if begins.any():
             row.slide(begins, motion.sliding_deflection(approach, last, k), last, u)
             force = np.where(begins, slid, force)
+            if not motion.viscous:  # the springs hold strain, which no friction has taken yet
+                work -= begins * zeta2 * row.strain()
             began |= begins
         step = np.where(began, after - np.maximum(before, start), 0.0)
         pace = np.where(begins, last, motion.velocity[k - 1])
@@ -230,7 +232,7 @@ def _summary(found: Path) -> Solved:
     """
     size = np.abs(found.friction)
     gross = (size >= GROSS * found.normal)[1:-1]
-    slips = np.sum(gross[1:] & ~gross[:-1], axis=0) + gross[0]
+    slips = np.sum(gross[1:] & ~gross[:-1], axis=0)
     counts = np.stack([slips, refinement.sign_changes(found.friction)])
     # The largest force is that of gross slip from the start, or comes just after that, or lies near
     # the instant that has the largest.
@@ -265,7 +267,7 @@ def _work_sliding(x: Array, beta: Array, zeta2: Array, e: Array, loss: str) -> A
     """Work of friction in slip from the start, until the normal velocity is -e.
 
     Friction mu F2 acts on the velocity w - zeta^2 v of the springs, w = x - beta (1 - v). With
-    plastic loss this is for e the restitution alone, where no spring is left deflected.
+    plastic loss this is all that the body loses: strain is included, which is 0 at separation.
     """
     if loss == "plastic":
         return sliding.work(x, beta, e)
@@ -381,6 +383,12 @@ class _Row:
         self.stick_radius = inner
         self._memory, self._limit, self._density = self._next
         return work
+
+    def strain(self) -> Array:
+        """Strain energy over zeta^2 of elastic springs, whose density is their deflection."""
+        width = self._motion.width[: len(self._density)]
+        squares = width * self._density**2
+        return 2 * (np.sum(squares, axis=0) - squares[0] / 2) / 2
 
     def _sum(self, k: int) -> Array:
         """Friction at instant k: mu times the normal force times the share of the limits."""

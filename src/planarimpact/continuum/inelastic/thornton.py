@@ -32,6 +32,8 @@ PLACES = 33
 COMPRESSION = 0.4 * beta_function(0.4, 0.5)
 # Strain energy of Hertz's law, in d^(5/2).
 ENERGY = 8 / 15
+# Largest approach of elastic impact, to the power 5/2.
+FULL = 1 / (2 * ENERGY)
 
 
 class Thornton(NormalMotion):
@@ -86,7 +88,7 @@ class Thornton(NormalMotion):
         """Time, velocity and force at an approach in compression."""
         elastic = np.minimum(depth, self._yields)
         v = np.sqrt(1 - 2 * ENERGY * elastic**2.5)
-        time = self._elastic_time(v)
+        time = FULL**0.4 * COMPRESSION * hertz.time(np.arcsin(np.sqrt(elastic) / FULL**0.2))
         plastic = depth > self._yields
         over = np.clip((depth - self._centre) / self._reach, 0.0, 1.0)
         harmonic = np.sqrt((1 - over) * (1 + over))
@@ -95,11 +97,6 @@ class Thornton(NormalMotion):
         force = np.where(plastic, self._rate**2 * (depth - self._centre), 4 / 3 * elastic**1.5)
         v = np.where(plastic, self._rate * self._reach * harmonic, v)
         return np.where(plastic, time + later, time), v, force
-
-    def _elastic_time(self, velocity: Array) -> Array:
-        """Time at a velocity while compression is elastic."""
-        scale = (1 / (2 * ENERGY)) ** 0.4 * COMPRESSION
-        return scale * hertz.time(hertz.phase_at(velocity))
 
     def _bluntness(self, depth: Array) -> Array:
         """Force over that of Hertz's law at the same radius of contact, in compression."""

@@ -1,0 +1,298 @@
+"""The continuum below e = 1 against limits, closed forms, other integrations, conservation laws."""
+
+import warnings
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+from scipy.optimize import brentq
+
+from planarimpact import InputError, Regime, continuum
+from planarimpact.continuum import inelastic
+from planarimpact.continuum.inelastic import kelvin_voigt, thornton
+from planarimpact.ground import sliding
+
+LOSSES = list(continuum.LOSSES)
+EXACT = {"rtol": 1e-11, "atol": 1e-13}
+BETA, ZETA2 = 3.5, 1.21
+
+
+def solved(x, beta=BETA, zeta2=ZETA2, e=0.6, loss="viscous", tolerance=1e-4):
+    return continuum.rebound(x, beta, zeta2, e, loss=loss, tolerance=tolerance)
+
+
+def spray(rng, n):
+    """Groups and incidences near every threshold: zeta^2, beta and slip throughout."""
+    beta, zeta2 = rng.uniform(1, 8, n), rng.uniform(0.8, 2.0, n)
+    e = np.where(rng.random(n) < 0.2, 1 - 10 ** rng.uniform(-9, -2, n), rng.uniform(0.3, 1, n))
+    limit = sliding.limit_alike(beta, zeta2, e)
+    near = np.choose(rng.integers(0, 4, n), [zeta2, beta, limit, limit * rng.random(n)])
+    x = near * (1 + 10 ** rng.uniform(-12, -1, n) * rng.choice([-1, 1], n))
+    return x, beta, zeta2, e
+
+
+# ---- the normal motion ----
+
+
+@pytest.mark.parametrize("tau", [1e-4, 0.05, 0.3, 1.0, 3.0])
+def test_restitution_of_viscous_spheres_by_integration_in_time(tau):
+    """Kuwabara & Kono in loading, F = (4/3) D^(3/2) in unloading, by SciPy and in plain time."""
+
+    def force(d, v):
+        if v > 0:
+            return 4 / 3 * (max(d, 0) ** 1.5 + 1.5 * tau * max(d, 0) ** 0.5 * v)
+        return 4 / 3 * max(d + tau * v, 0.0) ** 1.5
+
+    def stop(event):
+        event.terminal, event.direction = True, -1
+        return event
+
+    def slopes(_, y):
+        return [y[1], -force(*y)]
+
+    # The first instants by a series: F is not differentiable at d = 0.
+    early = 1e-7
+    start = [early - 2 * tau * (4 / 15) * early**2.5, 1 - 2 * tau * (2 / 3) * early**1.5]
+    ends = stop(lambda _, y: y[1]), stop(lambda _, y: y[0] + tau * y[1])
+    loading = solve_ivp(slopes, (0, 50), start, events=ends[0], method="DOP853", **EXACT)
+    after = [loading.y[0, -1], 0.0]
+    unloading = solve_ivp(slopes, (0, 500), after, events=ends[1], method="DOP853", **EXACT)
+    found = kelvin_voigt.restitution(np.array([tau]))
+    assert found == pytest.approx(-unloading.y[1, -1], abs=1e-8)
+    back = kelvin_voigt.relaxation_time(found)
+    assert back == pytest.approx(tau, rel=1e-9)
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_the_normal_motion_obeys_newton_and_the_springs_carry_its_force(loss):
+    e = np.array([0.999999, 0.9, 0.6, 0.3, 0.1])
+    motion = inelastic.LOSSES[loss](e, 2048)
+    np.testing.assert_allclose(motion.velocity[-1], -e, atol=1e-11)
+    np.testing.assert_allclose(np.trapezoid(motion.force, motion.time, axis=0), 1 + e, atol=1e-6)
+    np.testing.assert_allclose(
+        np.cumsum(
+            (motion.velocity[1:] + motion.velocity[:-1]) / 2 * np.diff(motion.time, axis=0), 0
+        ),
+        motion.approach[1:],
+        atol=2e-6 * motion.approach.max(),
+    )
+    assert (np.diff(motion.time, axis=0) > 0).all()
+    for k in (100, 1500, 2048, 3000, 4000):
+        count = motion.edge(k) + 1
+        width = motion.width[:count].copy()
+        width[[0, -1]] /= 2
+        np.testing.assert_allclose(
+            2 * np.sum(width * motion.density(k), axis=0), motion.force[k], rtol=1e-4
+        )
+        time, approach, force = motion.when(motion.velocity[k])
+        np.testing.assert_allclose(time, motion.time[k], atol=1e-9)
+        np.testing.assert_allclose(approach, motion.approach[k], atol=1e-9)
+        np.testing.assert_allclose(force, motion.force[k], rtol=1e-6)
+
+
+@pytest.mark.parametrize("yield_velocity", [0.001, 0.05, 0.4, 0.99])
+def test_restitution_of_elastic_plastic_spheres_is_the_work_of_their_forces(yield_velocity):
+    """Thornton's closed form against the energies of loading and unloading, by quadrature."""
+    d_yield = (15 / 16 * yield_velocity**2) ** 0.4
+
+    def loading(d):
+        if d <= d_yield:
+            return 4 / 3 * d**1.5
+        # pi p_y with p_y = (2/pi) sqrt(d_y), the largest pressure of Hertz at d_y.
+        return 4 / 3 * d_yield**1.5 + 2 * np.sqrt(d_yield) * (d - d_yield)
+
+    def work(d):
+        return quad(loading, 0, d, points=[min(d_yield, d)], epsabs=1e-13, limit=200)[0]
+
+    largest = brentq(lambda d: work(d) - 0.5, 1e-3, 1e3, xtol=1e-13)
+    radius = 4 / 3 * largest**1.5 / loading(largest)  # R_p
+    back = quad(lambda z: 4 / 3 * np.sqrt(radius) * z**1.5, 0, largest / radius, epsabs=1e-13)[0]
+    found = thornton.restitution(np.array([yield_velocity]))
+    assert found == pytest.approx(np.sqrt(2 * back), abs=1e-9)
+    assert thornton.yield_velocity(found) == pytest.approx(yield_velocity, rel=1e-9)
+
+
+# ---- limits ----
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_without_loss_it_is_the_elastic_continuum(loss):
+    x = np.array([0.3, 1.2, 1.3, 2.0, 3.4, 4.5])
+    elastic = continuum.rebound(x, tolerance=1e-7)
+    groups = np.full((3, x.size), [[BETA], [ZETA2], [1 - 1e-9]])
+    coarse, fine = (inelastic.path(x, *groups, loss, steps).velocity[-1] for steps in (512, 1024))
+    np.testing.assert_allclose(fine + (fine - coarse) / 3, elastic.velocity, atol=1e-6)
+    near = solved(x, e=1 - 1e-9, loss=loss, tolerance=1e-4)
+    np.testing.assert_allclose(near.peak_friction, elastic.peak_friction, atol=1e-4)
+    np.testing.assert_allclose(near.dissipation, elastic.dissipation, atol=3e-4)
+    np.testing.assert_array_equal(near.regime, elastic.regime)
+    mixed = continuum.rebound(x, restitution=[1, 1, 1, 0.8, 0.8, 1], loss=loss)
+    np.testing.assert_allclose(
+        mixed.velocity[[0, 1, 2, 5]], elastic.velocity[[0, 1, 2, 5]], atol=1e-4
+    )
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+@pytest.mark.parametrize(("beta", "zeta2", "e"), [(3.5, 1.21, 0.6), (8, 0.8, 0.3), (1.2, 2.0, 0.7)])
+def test_slip_throughout_begins_where_the_derivation_says(loss, beta, zeta2, e):
+    limit = float(sliding.limit_alike(beta, zeta2, e))
+    over = solved(np.array([limit, limit + 3]), beta, zeta2, e, loss)
+    np.testing.assert_array_equal(over.velocity, np.array([limit, limit + 3]) - (1 + e) * beta)
+    assert (over.peak_friction == 1).all() and (over.regime == Regime.SLIP_THROUGHOUT).all()
+    under = solved(limit - 1e-6, beta, zeta2, e, loss, 1e-5)
+    assert under.velocity == pytest.approx(limit - (1 + e) * beta, abs=2e-5)
+    assert under.regime != Regime.SLIP_THROUGHOUT
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_the_contact_starts_in_stick_up_to_zeta2(loss):
+    for x, sticks in ((ZETA2 * 0.98, True), (ZETA2 * 1.02, False)):
+        contact = continuum.history(x, restitution=0.6, loss=loss, tolerance=1e-3)
+        early = slice(1, 4)
+        share = contact.friction[early] / contact.normal[early]
+        assert (share < 0.999).all() if sticks else (share > 1 - 1e-12).all()
+
+
+def no_slip_ratio(beta, zeta2, motion):
+    """w(tf)/x where friction never limits: every spring follows the body from its first touch.
+
+    The displacement at first touch, integrated over the radius, replaces the springs.
+    """
+    tau = float(motion.tau[0])
+    time, radius = motion.time[:, 0], np.concatenate([motion.radius, motion.radius[-2::-1]])[:, 0]
+    middle = len(motion.radius) - 1
+
+    def slopes(t, y, memory):
+        w, u, kept = y
+        a = np.interp(t, time, radius)
+        if memory is not None:
+            kept = np.interp(a, *memory)
+        force = 2 * (a * (u + tau * w / zeta2) - kept) / zeta2
+        grows = np.interp(t, time[: middle + 1], rate)
+        return [-beta * zeta2 * force, w / zeta2, u * grows]
+
+    rate = np.gradient(radius[: middle + 1], time[: middle + 1])
+    loading = solve_ivp(
+        slopes,
+        (0, time[middle]),
+        [1.0, 0.0, 0.0],
+        args=(None,),
+        t_eval=time[: middle + 1],
+        rtol=1e-8,
+    )
+    memory = radius[: middle + 1], loading.y[2]
+    start = [*loading.y[:2, -1], 0.0]
+    return solve_ivp(slopes, (time[middle], time[-1]), start, args=(memory,), rtol=1e-8).y[0, -1]
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+@pytest.mark.parametrize(("beta", "zeta2", "e"), [(3.5, 1.21, 0.7), (6.0, 0.9, 0.4)])
+def test_with_endless_friction_the_response_is_linear(loss, beta, zeta2, e):
+    motion = inelastic.LOSSES[loss](np.array([e]), 4000)
+    x = 1e-5
+    found = solved(x, beta, zeta2, e, loss, 1e-8 * 100).velocity / x
+    assert found == pytest.approx(no_slip_ratio(beta, zeta2, motion), abs=3e-3)
+
+
+# ---- conservation ----
+
+
+@pytest.mark.parametrize("e", [0.95, 0.6, 0.3])
+def test_elastic_springs_keep_the_energy_that_friction_leaves(e):
+    """With plastic loss: slip times its limit, spring by spring, is what the body loses."""
+    x = np.array([0.4, 1.1, 1.5, 2.5, 3.2, 3.8])
+    groups = np.full((3, x.size), [[BETA], [ZETA2], [e]])
+    coarse, fine = (inelastic.path(x, *groups, "plastic", steps) for steps in (256, 512))
+    work, w = (
+        b + (b - a) / 3
+        for a, b in ((coarse.work, fine.work), (coarse.velocity[-1], fine.velocity[-1]))
+    )
+    np.testing.assert_allclose(work, (x**2 - w**2) / (2 * BETA), atol=1e-6)
+
+
+@pytest.mark.parametrize("e", [0.9, 0.6, 0.35])
+def test_viscous_springs_share_the_energy_with_friction(e, monkeypatch):
+    """Friction, the dashpots, the strain left in springs that fall off: all that the body loses."""
+    losses = []
+
+    class Booked(inelastic._Row):
+        spent = 0.0
+
+        def move(self, k, step, pace, start, end):
+            self.last = step, start, end
+            return super().move(k, step, pace, start, end)
+
+        def settle(self):
+            step, start, end = self.last
+            tau = self._motion.tau
+            count = min(len(self._memory), len(self._next[0]))
+            width = self._motion.width
+            # (density - q)/tau is the rate of q; the dashpot takes tau times its square.
+            flows = [
+                (density[:count] - memory[:count] - u) ** 2 / tau
+                for density, memory, (u, _) in (
+                    (self._density, self._memory, start),
+                    (self._next[2], self._next[0], end),
+                )
+            ]
+            mean = (flows[0] + flows[1]) / 2
+            weight = width[:count].copy()
+            weight[0] /= 2
+            left = self._memory[count:] + start[0]  # the spring that falls off in this step
+            self.spent += 2 * np.sum(weight * mean, axis=0) * step
+            self.spent += np.sum(width[count : len(self._memory)] * left**2, axis=0)
+            work = super().settle()
+            losses.append(self.spent)
+            return work
+
+    monkeypatch.setattr(inelastic, "_Row", Booked)
+    x = np.array([0.3, 0.8, 1.1])  # these stick first, so that every step is booked
+    groups = np.full((3, x.size), [[BETA], [ZETA2], [e]])
+    off = []
+    for steps in (512, 1024, 2048):
+        losses.clear()
+        found = inelastic.path(x, *groups, "viscous", steps)
+        lost = (x**2 - found.velocity[-1] ** 2) / (2 * BETA)
+        off.append(found.work + ZETA2 * losses[-1] - lost)
+    # The bookkeeping at the edge has an error of first order, the steps one of second order.
+    second = [b + (b - a) / 3 for a, b in zip(off, off[1:], strict=False)]
+    np.testing.assert_allclose(2 * second[1] - second[0], 0, atol=1e-6)
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_no_impact_of_a_spray_around_the_thresholds_gains_energy_or_fails(loss):
+    x, beta, zeta2, e = spray(np.random.default_rng(11), 300)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = solved(x, beta, zeta2, e, loss, 1e-3)
+    assert np.isfinite(found.velocity).all()
+    lost = (x**2 - found.velocity**2) / (2 * beta)
+    assert (found.dissipation <= lost + 1e-3 * (1 + x)).all()
+    assert (found.dissipation >= -1e-3).all()
+    assert ((found.peak_friction >= 0) & (found.peak_friction <= 1)).all()
+    # Velocity is continuous: on both sides of each threshold it is the same.
+    beside = solved(x * (1 + 1e-9), beta, zeta2, e, loss, 1e-3)
+    np.testing.assert_allclose(beside.velocity, found.velocity, atol=2e-3)
+    np.testing.assert_allclose(beside.peak_friction, found.peak_friction, atol=2e-3)
+
+
+# ---- input ----
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"restitution": 0.9}, "restitution = 0.9: .* needs a loss, viscous or plastic"),
+        ({"restitution": 0.9, "loss": "magic"}, "loss = 'magic': allowed are viscous, plastic"),
+        ({"restitution": 1.0, "loss": ["viscous"]}, "loss = .*: allowed are viscous, plastic"),
+        ({"restitution": 0.05, "loss": "viscous"}, "restitution = 0.05: .* from 0.1 to 1"),
+        ({"restitution": [0.5, 0.0], "loss": "plastic"}, "restitution = 0.0: .* from 0.1 to 1"),
+        ({"restitution": 0.5, "loss": "plastic", "tolerance": 0}, "tolerance = 0"),
+    ],
+)
+def test_bad_input_is_named(arguments, words):
+    for solve in (continuum.rebound, continuum.history):
+        if np.ndim(arguments["restitution"]) and solve is continuum.history:
+            continue
+        with pytest.raises(InputError, match=words):
+            solve(2.0, **arguments)

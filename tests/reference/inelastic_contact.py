@@ -1,0 +1,247 @@
+"""Contacts that lose energy, stepped through time: a second code for what the solver computes.
+
+Two continua, rows of springs by the method of dimensionality reduction: viscoelastic (springs and
+dashpots of one relaxation time) and elastic-plastic (Thornton 1997). And the lumped model of two
+Kelvin-Voigt elements. The solver has faster ways to all three; no code is shared.
+
+The effective mass m2, the incident normal velocity and the stiffness of the normal element are 1;
+in the continua also the effective radius and the modulus E*. Tangential displacements are divided
+by mu, so that the normal force itself limits friction.
+"""
+
+import functools
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+EXACT = {"rtol": 1e-10, "atol": 1e-12, "method": "DOP853"}
+LONGEST = 1e3  # time after which a contact has surely ended
+
+
+class Normal:
+    """The normal motion of one contact: `end`, and deflection and velocity at some times."""
+
+    def __init__(self, phases):
+        self.phases = phases
+        self.end = phases[-1].t[-1]
+        self.restitution = -phases[-1].y[1, -1]
+        self.turn = phases[0].t[-1]
+
+    def at(self, time):
+        """Deflections and velocities."""
+        first, *later = self.phases
+        state = first.sol(np.minimum(time, self.turn))
+        if later:
+            state = np.where(time <= self.turn, state, later[0].sol(np.maximum(time, self.turn)))
+        return state
+
+
+def _until(force, gap, start, time):
+    """Follow d' = v, v' = -force(d, v) until gap(d, v) falls through zero."""
+
+    def over(_, state):
+        return gap(*state)
+
+    over.terminal, over.direction = True, -1
+    motion = solve_ivp(
+        lambda _, s: [s[1], -force(*s)],
+        (time, time + LONGEST),
+        start,
+        events=over,
+        dense_output=True,
+        **EXACT,
+    )
+    return motion
+
+
+def _two_phases(loading, unloading, over):
+    """Loading until the velocity vanishes, unloading as `unloading(greatest deflection)` has it."""
+    first = _until(loading, lambda d, v: v, [0.0, 1.0], 0.0)
+    top, time = first.y[0, -1], first.t[-1]
+    # The velocity is set to zero: a remainder of the root could pass for loading.
+    second = _until(unloading(top), over(top), [top, 0.0], time)
+    return Normal([first, second])
+
+
+def viscous_motion(tau):
+    """Loading and unloading of a viscoelastic sphere."""
+
+    def force(d, v):
+        drive = max(d + tau * v, 0.0)
+        a2 = max(min(d, drive) if v < 0 else d, 0.0)
+        return 2 * np.sqrt(a2) * (drive - a2 / 3)
+
+    return _two_phases(force, lambda _: force, lambda _: lambda d, v: d + tau * v)
+
+
+def plastic_motion(yield_radius):
+    """Loading and unloading of a sphere that yields where its radius of contact reaches a value."""
+
+    def loading(d, _):
+        d = max(d, 0.0)
+        if d <= yield_radius**2:
+            return 4 / 3 * d**1.5
+        # Slope pi p_y with the yield pressure p_y = 2 a_y/pi.
+        return 4 / 3 * yield_radius**3 + 2 * yield_radius * (d - yield_radius**2)
+
+    def unloading(top):
+        radius, rest = residual(top)
+        return lambda d, _: 4 / 3 * np.sqrt(radius) * max(d - rest, 0.0) ** 1.5
+
+    def residual(top):
+        radius = 4 / 3 * top**1.5 / loading(top, 0.0)
+        return radius, top - top / radius
+
+    motion = _two_phases(loading, unloading, lambda top: lambda d, v: d - residual(top)[1])
+    motion.radius, motion.rest = residual(motion.phases[0].y[0, -1])
+    motion.loading = loading
+    return motion
+
+
+def kelvin_voigt_motion(damping):
+    """Loading and unloading of a spring and a dashpot, N = u + 2 xi u', while they press."""
+
+    def force(u, v):
+        return u + 2 * damping * v
+
+    return _two_phases(force, lambda _: force, lambda _: force)
+
+
+MOTIONS = {
+    "continuum.viscous": (viscous_motion, 1e-9, 20.0),
+    "continuum.plastic": (plastic_motion, 1e-4, 1.2),
+    "lumped.viscous": (kelvin_voigt_motion, 1e-9, 20.0),
+}
+
+
+@functools.cache
+def motion_with(model, restitution):
+    """The normal motion with a coefficient of restitution, and the parameter that gives it."""
+    make, low, high = MOTIONS[model]
+    if restitution == 1.0:
+        parameter = high if model == "continuum.plastic" else low
+    else:
+
+        def off(logarithm):
+            return make(np.exp(logarithm)).restitution - restitution
+
+        parameter = np.exp(brentq(off, np.log(low), np.log(high), xtol=1e-10))
+    return make(parameter), parameter
+
+
+def rebound(model, x, beta, zeta2, restitution, steps=600, springs=200):
+    """Tangential velocities after impact.
+
+    Parameters
+    ----------
+    model : str
+        One of `MOTIONS`.
+    x : array_like, shape (n,)
+        Incidences.
+    beta, zeta2, restitution : float
+    steps, springs : int
+        Of time, and over the radius of a continuum. Errors fall with the square of the steps.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        In mu v2(0).
+    """
+    motion, parameter = motion_with(model, float(restitution))
+    row = {"continuum.viscous": _Viscous, "continuum.plastic": _Plastic, "lumped.viscous": _Pair}
+    contact = row[model](motion, parameter, zeta2, springs)
+    w = np.array(x, float)
+    u, before = np.zeros_like(w), np.zeros_like(w)
+    # The steps meet the instant of greatest compression, where some forces jump.
+    share = max(2, round(steps * motion.turn / motion.end))
+    times = np.concatenate(
+        [
+            np.linspace(0, motion.turn, share + 1)[:-1],
+            np.linspace(motion.turn, motion.end, max(2, steps - share) + 1),
+        ]
+    )
+    for start, end in zip(times, times[1:], strict=False):
+        dt = end - start
+        middle = u + w * dt / 2
+        # Friction may depend on the velocity at the middle of the step: one correction.
+        friction = contact.friction(start, dt, middle, w - beta * before * dt / 2, keep=False)
+        friction = contact.friction(start, dt, middle, w - beta * friction * dt / 2, keep=True)
+        w_new = w - beta * friction * dt
+        u += (w + w_new) * dt / 2
+        w, before = w_new, friction
+    return w
+
+
+class _Row:
+    """A row of springs, each with what it remembers, c: its deflection is U + c where it sticks."""
+
+    def __init__(self, motion, parameter, zeta2, springs):
+        self.motion, self.parameter, self.zeta2 = motion, parameter, zeta2
+        radius = np.sqrt(motion.at(np.array([motion.turn]))[0, 0])
+        self.width = radius / springs
+        self.r = (np.arange(springs) + 0.5) * self.width
+        self.c = None
+
+    def _state(self, time):
+        d, v = self.motion.at(np.array([time]))[:, 0]
+        return max(d, 0.0), v, time <= self.motion.turn
+
+    def _share(self, radius):
+        """How much of each spring's width lies inside the contact."""
+        return np.clip((radius - self.r) / self.width + 0.5, 0.0, 1.0)
+
+
+class _Viscous(_Row):
+    def friction(self, start, dt, u, w, keep):
+        tau = self.parameter
+        d, v, loads = self._state(start + dt / 2)
+        drive = max(d + tau * v, 0.0)
+        share = self._share(np.sqrt(d if loads else min(d, drive)))
+        limit = self.zeta2 * np.maximum(drive - self.r**2, 0.0)
+        pull = (u + tau * w)[:, None]
+        # A spring that has not touched yet has no deflection.
+        memory = -np.repeat(u[:, None], len(self.r), 1) if self.c is None else self.c
+        memory = np.where(share > 0, memory, -u[:, None])
+        wanted = pull + memory
+        held = np.clip(wanted, -limit, limit)
+        if keep:  # what is beyond the limit relaxes
+            self.c = memory + (held - wanted) * -np.expm1(-dt / tau)
+        return 2 * self.width * (held * share).sum(1) / self.zeta2
+
+
+class _Plastic(_Row):
+    def friction(self, start, dt, u, _, keep):
+        d, v, loads = self._state(start + dt / 2)
+        radius = self.motion.radius
+        a2 = d if loads else radius * max(d - self.motion.rest, 0.0)
+        # The pressure has Hertz' shape at all times, with the force and radius of Thornton's law.
+        force = self.motion.loading(d, 0.0) if loads else 4 / 3 * a2**1.5 / radius
+        share = self._share(np.sqrt(a2))
+        limit = self.zeta2 * np.maximum(a2 - self.r**2, 0.0) * force / max(4 / 3 * a2**1.5, 1e-300)
+        memory = -np.repeat(u[:, None], len(self.r), 1) if self.c is None else self.c
+        memory = np.where(share > 0, memory, -u[:, None])
+        wanted = u[:, None] + memory
+        held = np.clip(wanted, -limit, limit)
+        if keep:
+            self.c = memory + held - wanted
+        return 2 * self.width * (held * share).sum(1) / self.zeta2
+
+
+class _Pair:
+    def __init__(self, motion, damping, zeta2, _):
+        self.motion, self.tau, self.zeta2, self.s = motion, 2 * damping, zeta2, 0.0
+
+    def friction(self, start, dt, _, w, keep):
+        d, v = self.motion.at(np.array([start + dt / 2]))[:, 0]
+        normal = max(d + self.tau * v, 0.0)
+        limit = self.zeta2 * normal
+        relax = -np.expm1(-dt / self.tau)
+        # What friction would be if it stuck to the middle of the step.
+        wanted = self.s + w * dt / 2 + self.tau * w
+        held = np.clip(wanted, -limit, limit)
+        slips = np.abs(wanted) > limit
+        if keep:
+            slipped = self.s + (held - self.s) * relax
+            self.s = np.where(slips, slipped, self.s + w * dt)
+        return held / self.zeta2

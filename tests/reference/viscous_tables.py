@@ -1,0 +1,134 @@
+"""Write the table of data/lumped_viscous: impacts of two viscous elements, with their energy.
+
+python tests/reference/viscous_tables.py data/lumped_viscous
+"""
+
+import math
+import random
+import sys
+from functools import partial
+
+import table_files
+import viscous_precision
+from mpmath import mp
+
+CRITICAL = math.exp(-2)  # restitution of a critically damped normal element
+DISTANCES = (1e-12, 1e-9, 1e-6, 1e-3)
+OUTPUTS = ("velocity", "peak_friction", "dissipation")
+HEADER = [
+    "incidence [mu v2(0)]",
+    "mass_ratio [1]",
+    "stiffness_ratio [1]",
+    "restitution [1]",
+    "velocity [mu v2(0)]",
+    "peak_friction [mu F2max]",
+    "dissipation [mu^2 m2 v2(0)^2]",
+    "tangential_viscous [mu^2 m2 v2(0)^2]",
+    "tangential_strain_left [mu^2 m2 v2(0)^2]",
+    "phases [1]",
+]
+# Impacts elsewhere, and at or beside a threshold or a switch of course.
+ELSEWHERE, BESIDE, SWITCHES = 400, 600, 12
+
+
+def points():
+    """Impacts of the table, each once; the same on every machine."""
+    dice = random.Random(2007)
+    found = [_anywhere(dice) for _ in range(ELSEWHERE)]
+    while len(found) < ELSEWHERE + BESIDE:
+        point = _beside(dice)
+        if _in_box(point):
+            found.append(point)
+    for _ in range(SWITCHES):
+        found += filter(_in_box, _around_switch(dice))
+    return list(dict.fromkeys(found))
+
+
+def thresholds(beta, zeta2, e):
+    """Incidences at which the order of phases changes, or another model says so."""
+    return [zeta2, beta, max(zeta2, beta + e * (beta - zeta2)), (1 + e) * beta]
+
+
+def row(point):
+    """One impact: groups as float64, outputs with 20 digits."""
+    answer = viscous_precision.rebound(*point)
+    outputs = [getattr(answer, name) for name in OUTPUTS]
+    energies = answer.tangential_viscous, answer.tangential_strain
+    return [*point, *outputs, *energies, float(len(answer.events) - 1)]
+
+
+def course(point):
+    """Order of phases, and direction of the last slip."""
+    events = viscous_precision.rebound(*point).events[:-1]
+    return [event.kind for event in events], mp.sign(events[-1].friction)
+
+
+def tables():
+    """`{name: Table}`."""
+    return {"impacts": table_files.Table(HEADER, [partial(row, point) for point in points()])}
+
+
+def _anywhere(dice):
+    beta, zeta2 = 1 + 7 * dice.random(), 10 ** (2 * dice.random() - 1)
+    x = _one_of([20 * dice.random(), 4 * dice.random(), 10 ** (-12 * dice.random())], dice)
+    return tuple(map(_rounded, (x, beta, zeta2))) + (_restitution(dice),)
+
+
+def _restitution(dice):
+    near_one = 1 - 10 ** (-1 - 13 * dice.random())
+    spread = 0.01 + 0.99 * dice.random()
+    return _one_of([_rounded(spread), _rounded(10 ** (-2 * dice.random())), near_one], dice)
+
+
+def _beside(dice):
+    e = _one_of([CRITICAL, math.nextafter(1, 0), _restitution(dice), _restitution(dice)], dice)
+    e = _near(e, dice) if e < 0.9 else e
+    beta = _rounded(_one_of([1.0, 3.5, 8.0, 1 + 7 * dice.random()], dice))
+    with mp.workdps(60):
+        xi = float(viscous_precision.damping_ratio(mp.mpf(e)))
+    spread = _rounded(10 ** (2 * dice.random() - 1))
+    # Tangential critical damping, resonance, and elsewhere.
+    zeta2 = _near(_one_of([beta * xi * xi, beta, spread, spread], dice), dice)
+    places = thresholds(beta, zeta2, e)
+    x = _near(_one_of([*places, _rounded(places[2] * dice.random())], dice), dice)
+    return x, beta, zeta2, e
+
+
+def _around_switch(dice):
+    """Neighbouring incidences of different courses, and more on both sides."""
+    while True:
+        _, beta, zeta2, e = _anywhere(dice)
+        high = thresholds(beta, zeta2, e)[2]
+        low, high = sorted(_rounded(high * dice.random()) for _ in range(2))
+        first = course((low, beta, zeta2, e))
+        if first != course((high, beta, zeta2, e)):
+            break
+    while math.nextafter(low, high) < high:
+        middle = low + (high - low) / 2
+        same = course((middle, beta, zeta2, e)) == first
+        low, high = (middle, high) if same else (low, middle)
+    sides = [low * (1 - d) for d in DISTANCES] + [high * (1 + d) for d in DISTANCES]
+    return [(x, beta, zeta2, e) for x in (low, high, *sides)]
+
+
+def _near(value, dice):
+    beside = math.nextafter(value, 0), math.nextafter(value, math.inf)
+    away = value * (1 + _one_of([-1, 1], dice) * _one_of(DISTANCES, dice))
+    return _one_of([value, *beside, away], dice)
+
+
+def _in_box(point):
+    x, beta, zeta2, e = point
+    return 0 <= x <= 20 and 1 <= beta <= 8 and 0.1 <= zeta2 <= 10 and 0.01 <= e < 1
+
+
+def _rounded(value):
+    return float(f"{value:.6g}")
+
+
+def _one_of(values, dice):
+    return values[int(len(values) * dice.random())]
+
+
+if __name__ == "__main__":
+    table_files.write(sys.argv[1], tables())
