@@ -95,7 +95,7 @@ def sources(*paths):
 
 
 # Only `snakemake --report` reads them all.
-CAPTIONS = ["explorer", "figures", "ledger", "notebooks", "peers", "stability", "study", "trade"]
+CAPTIONS = ["explorer", "figures", "ledger", "letter", "notebooks", "peers", "stability", "study", "trade"]
 sources(*expand("workflow/report/{caption}.rst", caption=[*CAPTIONS, "which_model"]))
 
 

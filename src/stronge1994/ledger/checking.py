@@ -13,10 +13,13 @@ from stronge1994.ledger.entries import Entry
 from stronge1994.ledger.in_nature import Values
 
 
-def check(every: Mapping[str, Entry]) -> list[Row]:
-    """Rows of the ledger's table, one for each entry, in the order of the ledger."""
+def check(every: Mapping[str, Entry], measured: Mapping[str, Values] | None = None) -> list[Row]:
+    """Rows of the ledger's table, one for each entry, in the order of the ledger.
+
+    `measured` is what `measure` found; without it the measures are taken here.
+    """
     tests = entries.checks()
-    measured = measure(every)
+    measured = measure(every) if measured is None else measured
     return [
         _with_nature(_row(name, entry, tests.get(entry.get("check", ""), "")), entry, measured)
         for name, entry in every.items()

@@ -7,7 +7,7 @@ It is open where neither can tell. This verdict and that of the equations never 
 
 import ast
 import string
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -21,6 +21,8 @@ from stronge1994.ledger.nature_models import LOSSES, MODELS, model
 
 STANDS, FAILS, DEPENDS, OPEN = "stands", "fails", "depends on the loss", "open"
 VERDICTS = (STANDS, FAILS, DEPENDS, OPEN)
+# Of the table of measures.
+COLUMNS = ["measure", "what", *MODELS]
 
 
 class Values(NamedTuple):
@@ -131,6 +133,20 @@ def cells(claim: Mapping[str, Any], confirms: str, measured: Mapping[str, Values
         "nature_true_if": confirms,
         "nature_found": ", ".join(f"{kind} {number:.3g}" for kind, number in found.items()),
     }
+
+
+def rows(measured: Mapping[str, Values]) -> list[Row]:
+    """Rows of the table of measures."""
+    return [
+        {"measure": name, "what": measures()[name]}
+        | {kind: f"{number:.12g}" for kind, number in found._asdict().items()}
+        for name, found in measured.items()
+    ]
+
+
+def read(table: Sequence[Row]) -> dict[str, Values]:
+    """What measures found, from the rows of their table."""
+    return {row["measure"]: Values(*(float(row[kind]) for kind in MODELS)) for row in table}
 
 
 def needed(claims: Collection[Mapping[str, Any]]) -> list[str]:

@@ -3,16 +3,16 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
-import numpy as np
-
 from planarimpact import continuum, lumped
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import ContinuumHistory, History, Rebound
 from stronge1994.ledger import contact
 
 PAPER, REPAIRED = "paper", "repaired"
 LOSSES = ("viscous", "plastic")
 MODELS = (PAPER, REPAIRED, *LOSSES)
+# The loss of the paper's model, and that of the same model with e^2 zeta^2 in place of zeta^2.
+LUMPED = {PAPER: "hysteretic", REPAIRED: "plastic"}
 # Error of the continua. It is small beside every bound of the ledger.
 TOLERANCE = 1e-3
 
@@ -27,30 +27,26 @@ class Model(NamedTuple):
 def model(name: str) -> Model:
     """One of `MODELS`.
 
-    The repaired model is the paper's with e^2 zeta^2 in place of zeta^2: zeta^2 is a ratio of
-    elastic stiffnesses, and the elastic normal stiffness of the paper's contact is that of its
-    unloading, kappa/e^2.
+    In the repaired model e^2 zeta^2 takes the place of zeta^2. That is a ratio of elastic
+    stiffnesses, and the elastic normal stiffness of the paper's contact is that of unloading,
+    kappa/e^2.
 
     Examples
     --------
     >>> [round(float(model(name).rebound(3.0, 0.5).velocity), 1) for name in MODELS]
     [-2.0, -0.6, -0.4, -0.6]
     """
-    beta, zeta2 = contact.SPHERE
     if name in LOSSES:
         return Model(
             lambda x, e: contact.once(
-                continuum.rebound, x, beta, zeta2, e, loss=name, tolerance=TOLERANCE
+                continuum.rebound, x, *contact.SPHERE, e, loss=name, tolerance=TOLERANCE
             ),
             lambda x, e: contact.once(
-                continuum.history, x, beta, zeta2, e, loss=name, tolerance=TOLERANCE
+                continuum.history, x, *contact.SPHERE, e, loss=name, tolerance=TOLERANCE
             ),
         )
-
-    def ratio(e: ArrayLike) -> Array:
-        return zeta2 * np.square(e) if name == REPAIRED else np.full_like(e, zeta2, float)
-
+    loss = LUMPED[name]
     return Model(
-        lambda x, e: contact.once(lumped.rebound, x, beta, ratio(e), e),
-        lambda x, e: contact.once(lumped.history, x, beta, ratio(e), e, samples=513),
+        lambda x, e: contact.once(lumped.rebound, x, *contact.SPHERE, e, loss=loss),
+        lambda x, e: contact.once(lumped.history, x, *contact.SPHERE, e, loss=loss, samples=513),
     )
