@@ -8,7 +8,5 @@ with job.recorded(snakemake):
     measured = checking.measure(every)
     rows = checking.check(every, measured)
     csv_tables.write_table(snakemake.output.table, rows, outcome.COLUMNS)
-    csv_tables.write_table(
-        snakemake.output.measures, in_nature.rows(measured), in_nature.COLUMNS
-    )
+    csv_tables.write_table(snakemake.output.measures, in_nature.rows(measured), in_nature.COLUMNS)
     print(outcome.summary(rows))

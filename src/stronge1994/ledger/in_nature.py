@@ -1,8 +1,9 @@
-"""The second verdict of an entry, "in nature": what two continua say of it beside the equations.
+"""The second verdict of an entry, "in nature": what two continua say of it.
 
-One continuum loses its energy in a viscous material, the other in one that yields. A sentence stands
-if it is true for both, and fails if it is false for both. If they disagree, it depends on the loss.
-It is open where neither can tell. This verdict and that of the equations never change each other.
+One continuum loses its energy in a viscous material, the other in one that yields. A sentence
+stands if it is true for both, and fails if it is false for both. If they disagree, it depends on
+the loss. It is open where neither can tell. This verdict and that of the equations never change
+each other.
 """
 
 import ast
@@ -42,7 +43,7 @@ def measure(name: str) -> Values:
 
     Examples
     --------
-    >>> round(measure("limit_half").paper, 9)
+    >>> round(measure("limit_half").paper, 3)
     3.5
     """
     return Values(*(getattr(nature, name)(model(kind)) for kind in MODELS))

@@ -23,6 +23,8 @@ FEW = (0.5, 0.6, 0.8, 1.0)
 STICK, SLIP = (0.3, 1.0), (1.5, 2.0, 2.5, 3.4)
 # The restitution of the least elastic pair that was measured.
 LEAST_MEASURED = 0.6
+# Above this incidence, (1 + e) m2/m1 at e = 1, all models have the same rebound.
+WITH_STICK = 2 * contact.MASS_RATIO
 
 
 def peak_spread(model: Model) -> float:
@@ -97,7 +99,7 @@ def reversal_half(model: Model) -> float:
 
 def _reversal(model: Model, e: float) -> float:
     velocity = model.rebound(INCIDENCE, RESTITUTIONS[:, None]).velocity
-    return float(-velocity[np.flatnonzero(RESTITUTIONS == e)[0]].min())
+    return float(-velocity[np.flatnonzero(e == RESTITUTIONS)[0]].min())
 
 
 def limit_gap(model: Model) -> float:
@@ -132,7 +134,7 @@ def kept_after_stick(model: Model) -> float:
 
 
 def kept_after_slip(model: Model) -> float:
-    """Share of contacts that slip, stick and slip whose last slip runs in the incident direction."""
+    """Share of contacts with a second slip, after stick, that runs in the incident direction."""
     return _kept(model, SLIP)
 
 
@@ -189,8 +191,8 @@ def from_plastic(model: Model) -> float:
 
 
 def _from(model: Model, loss: str, e: float) -> float:
-    """Over mu v2(0), for incidences below 7."""
-    x = INCIDENCE[INCIDENCE < 7]
+    """Over mu v2(0), for incidences below `WITH_STICK`."""
+    x = INCIDENCE[INCIDENCE < WITH_STICK]
     gap = model.rebound(x, e).velocity - _model(loss).rebound(x, e).velocity
     return float(np.sqrt(np.mean(gap**2)))
 

@@ -34,7 +34,7 @@ def model(name: str) -> Model:
     Examples
     --------
     >>> [round(float(model(name).rebound(3.0, 0.5).velocity), 1) for name in MODELS]
-    [-2.0, -0.6, -0.4, -0.6]
+    [-2.0, -0.6, -0.6, -0.6]
     """
     if name in LOSSES:
         return Model(

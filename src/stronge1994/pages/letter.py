@@ -14,7 +14,7 @@ from stronge1994 import csv_tables
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.drawings import inelastic
 from stronge1994.goodness import ChiSquared
-from stronge1994.ledger import in_nature
+from stronge1994.ledger import contact, in_nature, nature
 from stronge1994.ledger.in_nature import Values
 from stronge1994.pages import ledger_page, templates
 
@@ -25,7 +25,7 @@ MODELS = {
     "continuum.viscous": "continuum, viscous",
     "continuum.plastic": "continuum, yields",
 }
-E, BETA_0, FRICTION = "restitution", "tangential_restitution", "friction"
+E, BETA_0 = "restitution", "tangential_restitution"
 
 
 class Pair(NamedTuple):
@@ -53,12 +53,10 @@ def pairs(curves: Curves, measured: Columns) -> list[Pair]:
     for model in MODELS:
         columns = curves[f"{model}, pairs"]
         computed[model] = dict(zip(columns["pair"], columns[f"{BETA_0} [1]"], strict=True))
-    columns = [measured[key] for key in ("pair", *(f"{key} [1]" for key in (E, BETA_0)))]
+    keys = "pair", f"{E} [1]", f"{BETA_0} [1]", f"{BETA_0}_uncertainty [1]"
     found = [
         Pair(name, e, beta_0, sigma, {model: computed[model][name] for model in MODELS})
-        for name, e, beta_0, sigma in zip(
-            *columns, measured[f"{BETA_0}_uncertainty [1]"], strict=True
-        )
+        for name, e, beta_0, sigma in zip(*(measured[key] for key in keys), strict=True)
     ]
     return sorted(found, key=lambda pair: pair.restitution)
 
@@ -81,9 +79,7 @@ def fits(curves: Curves, measured: Columns) -> list[Fit]:
 
 def _series(measured: Columns) -> dict[str, Any]:
     """Measured pairs as the figure has them."""
-    x, y = (
-        (measured[f"{key} [1]"], measured[f"{key}_uncertainty [1]"]) for key in (E, BETA_0)
-    )
+    x, y = ((measured[f"{key} [1]"], measured[f"{key}_uncertainty [1]"]) for key in (E, BETA_0))
     return {"x": x[0], "y": y[0], "sigma": (x[1], y[1]), "columns": measured}
 
 
@@ -138,6 +134,10 @@ def page(
         fits=of_models,
         fit={fit.model: fit for fit in of_models},
         picture=templates.embedded(svg),
+        sphere=contact.SPHERE,
+        lossy=nature.RESTITUTIONS.min(),
+        measured_down_to=nature.LEAST_MEASURED,
+        incidence_below=nature.WITH_STICK,
     )
 
 
