@@ -126,7 +126,7 @@ def test_the_page_counts_grades_and_groups_by_cause(rows):
     grades = Counter(entry["grade"] for entry in ENTRIES.values() if "grade" in entry)
     assert shown_grades(html) == grades
     assert f"{grades.total()} entries are wrong: " in html
-    table = html[html.index("What is wrong, by cause") : html.index("<h2>Equations")]
+    table = html[html.index("What is wrong, by cause") : html.index('<h2 id="in-nature">')]
     groups = re.findall(r"<tbody>(.*?)</tbody>", table, flags=re.S)
     by_cause = {
         frozenset(re.findall(r'href="#([^"]+)"', group.partition("</tr>")[2])) for group in groups
@@ -583,7 +583,7 @@ BAD_LEDGER = [
         "in_nature.says: 'peak_spread.water' is no measure",
     ),
     ("viscous: [0.08, 0.13]", "viscous: [0.13, 0.08]", "between.viscous = .*must be the smaller"),
-    ("      verdict: stands\n", "      verdict: true\n", "True is not one of"),
+    ("      verdict: stands\n", "      verdict: fails\n", "in_nature: 'between' is a required"),
     (
         "check: slip.velocity_at_slip",
         "check: slip.speed",

@@ -279,7 +279,7 @@ def doctored(*lapsed):
 def test_a_diverging_run_looks_like_one():
     page = doctored()
     text = " ".join(" ".join(Page(page).words).split())
-    first = "FAILED 2 of 15 comparisons diverge."
+    first = "FAILED 2 of 16 comparisons diverge."
     assert text.index(first) < text.index("A rough, elastic body")
     assert "PASSED" not in text
     table = page[page.index('<table class="grid verdicts">') :].split("</table>")[0]
