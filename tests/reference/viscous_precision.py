@@ -131,14 +131,17 @@ def _first_root(f, end, tiny):
     time = mp.zero
     for _ in range(MOST_STEPS):
         value, slope, bend = f(time), f(time, 1), f.bend(time)
+        if max(abs(value), abs(slope), bend) <= tiny:
+            return None  # f vanishes throughout: x = zeta^2 = beta
         if value <= tiny:
             if slope < 0:
                 return time
             value = max(value, mp.zero)
-        if max(abs(value), abs(slope), bend) <= tiny:
-            return None  # f vanishes throughout: x = zeta^2 = beta
+        if not bend:
+            return None  # f is constant: x > zeta^2 = beta
         step = (slope + mp.sqrt(slope**2 + 2 * bend * value)) / bend
-        if step < SMALL:
+        at_root = slope < 0 and slope**2 > 8 * bend * value  # the bend no longer matters
+        if step < SMALL and not at_root:
             span, bound = LONGEST, f.local_bend(time)
             while span > step:
                 near = bound(span)

@@ -28,7 +28,7 @@ HEADER = [
     "phases [1]",
 ]
 # Impacts elsewhere, and at or beside a threshold or a switch of course.
-ELSEWHERE, BESIDE, SWITCHES = 400, 600, 12
+ELSEWHERE, BESIDE, SWITCHES = 300, 400, 8
 
 
 def points():

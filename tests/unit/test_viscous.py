@@ -5,8 +5,9 @@ import pytest
 import viscous_precision
 from mpmath import mp
 
-from planarimpact import EventKind, InputError, Regime, lumped, rigid
+from planarimpact import ConvergenceError, EventKind, InputError, Regime, lumped, rigid
 from planarimpact.lumped import viscous
+from planarimpact.lumped.viscous import searches
 
 X = np.linspace(0, 20, 401)
 GROUPS = [(3.5, 1.21, 0.8), (8.0, 0.1, 0.97), (2.5, 1.5, 0.01), (1.0, 10.0, 0.3), (8.0, 0.5, 0.1)]
@@ -147,7 +148,7 @@ def test_contact_that_never_slips_against_a_matrix_exponential(groups):
 
 def test_normal_impact_leaves_no_tangential_velocity():
     for contact in (
-        lumped.rebound(0.0, restitution=[1e-6, 0.1, 0.9, 1 - 1e-16], loss="viscous"),
+        lumped.rebound(0.0, restitution=[1e-3, 0.1, 0.9, 1 - 1e-16], loss="viscous"),
         lumped.rebound(0.0, restitution=[0.0, 0.1, 0.9, 1 - 1e-16], loss="plastic"),
     ):
         assert not contact.velocity.any() and not contact.dissipation.any()
@@ -238,7 +239,7 @@ def test_restitution_of_a_kelvin_voigt_element():
     [
         ({"loss": "magic"}, "loss = 'magic': allowed are hysteretic, plastic, viscous"),
         ({"loss": None}, "loss = None"),
-        ({"restitution": 0.0}, "restitution = 0.0: allowed are numbers from 1e-06 to 1 where loss"),
+        ({"restitution": 0.0}, "restitution = 0.0: allowed are numbers from 0.001 to 1 where loss"),
         ({"restitution": [0.5, 1e-9]}, "restitution = 1e-09"),
         ({"mass_ratio": 1e7}, "mass_ratio = 10000000.0: allowed are numbers up to 1e.06"),
         ({"stiffness_ratio": 1e-6}, "stiffness_ratio = 1e-06: allowed are 0.0001 to 1e.06 times"),
@@ -254,11 +255,31 @@ def test_bad_input_is_named(arguments, words):
                 call(**groups)
 
 
+def test_a_search_that_finds_no_end_says_so(monkeypatch):
+    assert np.isfinite(lumped.rebound(2.5, 3.5, 1.21, 0.5, loss="viscous").velocity)
+    monkeypatch.setattr(searches, "MOST_TURNS", 1)
+    with pytest.raises(ConvergenceError, match="1 impacts: no end of a phase after 1 turns"):
+        lumped.rebound(2.5, 3.5, 1.21, 0.5, loss="viscous")
+
+
+def test_next_to_resonance_rounding_starts_no_stick():
+    """T and N are in proportion there, all along: stick and slip differ by rounding only."""
+    near = 1 + np.concatenate([-np.geomspace(1e-16, 1e-3, 200), np.geomspace(1e-16, 1e-3, 200)])
+    for e in (0.01, np.exp(-2), 0.5, 0.999, 1 - 1e-12):
+        for beta in (1.0, 3.5, 5.119047748496251):
+            zeta2 = np.append(beta * near, beta)
+            for x in (0.3 * zeta2, zeta2, np.nextafter(zeta2, 0)):
+                result = lumped.rebound(x, beta, zeta2, e, loss="viscous")
+                stuck = -e * x  # the limit of equal ratios
+                away = np.append(np.abs(near - 1), 0)
+                assert (np.abs(result.velocity - stuck) <= 20 * (away + 1e-15) * beta).all()
+
+
 def test_the_whole_range_is_solved():
     """Warnings are errors here."""
     x = np.array([0.0, 5e-324, 1e-300, 1e-100, 1e-9, 1.0, 30.0, 1e6, 1e100, 8e307])
     beta, share = np.array([1.0, 3.5, 1e6]), np.array([1e-4, 1e-2, 0.5, 1.0, 2.0, 1e3, 1e6])
-    e = np.array([1e-6, 1e-3, np.exp(-2), 0.5, 0.99, 1 - 1e-9, np.nextafter(1, 0)])
+    e = np.array([1e-3, 0.03, np.exp(-2), 0.5, 0.99, 1 - 1e-9, np.nextafter(1, 0)])
     x, beta, share, e = np.meshgrid(x, beta, share, e, indexing="ij")
     result = lumped.rebound(x, beta, share * beta, e, loss="viscous")
     assert (np.abs(result.velocity) <= x).all() and np.isfinite(result.dissipation).all()

@@ -70,7 +70,7 @@ def rebound(
     ------
     InputError
         If an argument is not a finite real number in its range, or shapes do not broadcast. With
-        viscous loss and e < 1 the range is smaller: restitution from 1e-6 (a viscous element does
+        viscous loss and e < 1 the range is smaller: restitution from 1e-3 (a viscous element does
         not stop a body for good), mass ratio to 1e6, stiffness ratio from 1e-4 to 1e6 times the
         mass ratio.
 

@@ -37,6 +37,7 @@ SAFETY = 2
 CELLS = 2**15
 # The peak of friction is sought at so many places of a few steps.
 SAMPLES = 49
+BISECTIONS = 30
 
 
 class Path(NamedTuple):
@@ -240,16 +241,49 @@ def _summary(found: Path) -> Solved:
     first = np.clip(np.sum(found.time <= found.start, axis=0), 1, len(size) - 3)
     # A point too near to the first one would make the polynomial through them steep.
     step = found.time[first, column] - found.time[first - 1, column]
-    first += found.time[first, column] - found.start < step / 8
-    early = [(found.time[k, column], size[k, column]) for k in (first, first + 1)]
-    early.insert(0, (found.start, np.abs(found.force)))
+    first += found.time[first, column] - found.start < step / 2
     top = np.clip(np.argmax(size, axis=0), 2, len(size) - 3)
     lower = size[top - 1, column] > size[top + 1, column]
     around = top + np.arange(-1, 3)[:, None] - lower
     late = [(found.time[k, column], size[k, column]) for k in around]
-    peak = np.maximum(_top(early), np.where(around[0] >= first, _top(late), size[top, column]))
+    peak = np.maximum(
+        _top_after_slip(found, first), np.where(around[0] >= first, _top(late), size[top, column])
+    )
     values = np.stack([found.velocity[-1], np.maximum(peak, found.peak), found.work])
     return values, counts, np.ones(slips.size)
+
+
+def _top_after_slip(found: Path, first: Integers) -> Array:
+    """Largest friction between the end of gross slip from the start and two instants later.
+
+    What friction lacks to its limit grows like a power of the time since then: springs stick one
+    after the other, or all at once.
+    """
+    column = np.arange(first.size)
+    late = found.time[first, column] <= found.start  # slip lasts nearly until separation
+    time = [np.where(late, k, found.time[first + k - 1, column] - found.start) for k in (1, 2)]
+    limit = [found.normal[k, column] for k in (first, first + 1)]
+    lack = [
+        np.maximum(limit[n] - np.abs(found.friction[first + n, column]), 1e-300) for n in (0, 1)
+    ]
+    # Stick spreads over the springs in some duration, and from then on each lacks a parabola: the
+    # cubes of `_spread`, or a square where all stick at once.
+    low, high = np.full((2, *late.shape), [[1e-6], [1.0]]) * time[1]
+    for _ in range(BISECTIONS):
+        middle = (low + high) / 2
+        short = _spread(time[1], middle) * lack[0] < lack[1] * _spread(time[0], middle)
+        low, high = np.where(short, middle, low), np.where(short, high, middle)
+    # The normal force is a parabola through three points.
+    slopes = [(force - np.abs(found.force)) / t for force, t in zip(limit, time, strict=True)]
+    bend = (slopes[1] - slopes[0]) / (time[1] - time[0])
+    passed = np.linspace(0.0, 1.0, SAMPLES)[:, None] * time[1]
+    normal = np.abs(found.force) + passed * (slopes[0] + bend * (passed - time[0]))
+    shape = _spread(passed, high) / _spread(time[1], high)
+    return np.where(late | (found.start == 0), 0.0, np.max(normal - lack[1] * shape, axis=0))
+
+
+def _spread(time: Array, duration: Array) -> Array:
+    return time**3 - np.maximum(time - duration, 0.0) ** 3
 
 
 def _top(points: list[tuple[Array, Array]]) -> Array:

@@ -42,12 +42,12 @@ from planarimpact.lumped.viscous.searches import Slip, Stick, crossing, slip_end
 CHUNK = 16384
 # The range of the solver. A contact has at most some hundred half-waves of T, and all products
 # keep their digits.
-LEAST_RESTITUTION = 1e-6
+LEAST_RESTITUTION = 1e-3
 LARGEST_MASS_RATIO = 1e6
 LEAST_SHARE, LARGEST_SHARE = 1e-4, 1e6  # of the stiffness ratio in the mass ratio
-LEAST_INCIDENCE = 1e-100
-# A slip that is short beside 1, tau and 1/tau: the closed form of its work would cancel.
-SHORT = 0.1
+# The closed form of the work of a slip cancels where this is short beside tau and 1/tau: then the
+# nodes of Gauss, with which nothing cancels, leave an error below rounding.
+SHORT = 1.0
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
@@ -75,7 +75,7 @@ def check_range(impacts: Impacts) -> None:
     >>> check_range(Impacts(*np.array([[1.0], [3.5], [1.21], [0.0]])))
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: restitution = 0.0: allowed are numbers from 1e-06 to 1 where \
+    planarimpact.InputError: restitution = 0.0: allowed are numbers from 0.001 to 1 where \
 loss='viscous' (a viscous element stops no body at once)
     """
     _, beta, zeta2, e = impacts
@@ -361,7 +361,6 @@ def _work(
     mean = (slip.constant + slip.k * v_end - slip.layer) / 2
     weighted = tau * (force - force_end * fade) + tau * tau * (v - v_end * fade)
     work = impulse * mean + slip.layer * weighted / (1 + 2 * tau * tau)
-    # A short slip: all terms but the last digits cancel.
     time = slip.ahead - end
     short = np.flatnonzero(time * np.maximum(tau, 1 / tau) < SHORT)
     if short.size:

@@ -42,8 +42,8 @@ LEAST_FREQUENCY = 1e-150
 TURNS = 7
 # Below this delta^2 the derivative of delta cot(delta) is taken from its series.
 SERIES = 1e-4
-# The impulse of a time shorter than this is taken from a series, of which ten terms suffice.
-SHORT = 0.1
+# The impulse of a time shorter than this is taken from a series, of which TERMS suffice.
+SHORT, TERMS = 1.0, 17
 
 
 def phase_angle(restitution: Array) -> tuple[Array, Booleans]:
@@ -153,7 +153,7 @@ class Elements(NamedTuple):
             # e n a^(k+1)/(k+1)!.
             before, now = np.zeros_like(time), np.ones_like(time)
             power, total = time, np.zeros_like(time)
-            for order in range(2, 12):
+            for order in range(2, TERMS + 2):
                 power = power * time / order
                 total += now * power
                 before, now = now, tau * now - before

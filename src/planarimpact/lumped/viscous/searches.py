@@ -50,7 +50,7 @@ Function = Callable[[Integers, Array], tuple[Array, Array, Array]]
 # The root finder is cubic. It is done after a step that is below LAST_STEP of the bracket, over
 # which the slope changes by less than LAST_BEND of itself.
 LAST_STEP, LAST_BEND = 1e-6, 1e-5
-# No smaller step is taken, as a share of the bracket: it would be rounding.
+# A smaller step is rounding, as a share of the bracket or of the time itself.
 LEAST_STEP = 1e-15
 # After FREE_TURNS turns every other turn halves the bracket.
 FREE_TURNS = 10
@@ -80,7 +80,7 @@ def crossing(function: Function, low: Array, high: Array) -> Array:
     found = high.copy()
     if not found.size:
         return found
-    lane, trial, width = np.arange(high.size), high, high - low
+    lane, trial, width = np.arange(high.size), high, np.maximum(high - low, 0.0)
     for turn in range(MOST_TURNS):
         before = trial
         value, slope, bend = function(lane, before)
@@ -95,11 +95,12 @@ def crossing(function: Function, low: Array, high: Array) -> Array:
             small = (np.abs(step) <= LAST_STEP * width) & (
                 np.abs(bend * step) <= LAST_BEND * np.abs(slope)
             )
-        small |= np.abs(step) <= LEAST_STEP * width
+        least = LEAST_STEP * np.maximum(width, np.abs(before))
+        small |= np.abs(step) <= least
         if turn >= FREE_TURNS and turn % 2:
             inside[:] = False
         trial = np.where(inside, trial, (low + high) / 2)
-        moving = (~inside | ~small) & (high - low > LEAST_STEP * width)
+        moving = (~inside | ~small) & (high - low > least)
         if moving.all():
             continue
         # Lanes that are done keep this trial, and leave the arrays.
