@@ -75,7 +75,7 @@ def test_histories_are_those_of_a_row_of_springs():
         rows = list(csv.reader(file))[1:]
     for curve in dict.fromkeys(row[0] for row in rows):
         time, *columns = np.array([row[1:] for row in rows if row[0] == curve], float).T
-        found = continuum.history(float(curve.split("= ")[1]), 3.5, 1.21, 1e-5)
+        found = continuum.history(float(curve.split("= ")[1]), 3.5, 1.21, tolerance=1e-5)
         for name, column, sigma in zip(found._fields[1:], columns, HISTORY_SIGMA, strict=True):
             between = np.interp(time, found.time, getattr(found, name))
             assert np.max(np.abs(between - column)) <= sigma, (curve, name)

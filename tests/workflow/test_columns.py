@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from planarimpact import lumped
 from planarimpact.ground import checks
 from stronge1994 import csv_tables, plan, reference_data, study_files
-from stronge1994.curves import solving
+from stronge1994.curves import inelastic, solving
 from stronge1994.judging import compare, judged_tables, points, sensitivity
 from stronge1994.plan import config as configuration
 
@@ -105,6 +106,7 @@ def test_no_column_can_be_scaled_or_flipped(name, factor, tables, monkeypatch):
     [
         ("fig5", "lumped", slice(703, 704)),
         ("fig6", "e = 0", [300]),
+        ("inelastic", "continuum.viscous, e = 0.6", [37]),
         ("study", "grid", range(1010, 1150)),
     ],
 )
@@ -117,6 +119,25 @@ def test_a_fault_between_the_points_of_reference_is_seen(name, curve, rows, tabl
     wrong = curves | {curve: curves[curve] | {column: velocity}}
     monkeypatch.setattr(judged_tables, "read", lambda _: wrong)
     assert _diverges(name, path, series, only=f"{name}-contraction")
+
+
+@pytest.mark.parametrize("power", [1, 0, -2])
+def test_a_wrong_repair_of_the_lumped_model_is_seen(power, tables, monkeypatch):
+    """The repaired model has e^2 zeta^2; here e has another power."""
+    folder, series = tables
+    path, model = folder / configuration.table_of("inelastic"), "lumped.plastic"
+    settings = plan.settings(CONFIG, INVENTORY, "inelastic")
+    settings |= solving.read_nodes(plan.nodes_of(CONFIG, INVENTORY, "inelastic"))
+    monkeypatch.setattr(inelastic, "MODELS", (model,))
+    monkeypatch.setattr(
+        inelastic.models,
+        "rebound",
+        lambda _, x, beta, zeta2, e: lumped.rebound(x, beta, np.power(e, power) * zeta2, e),
+    )
+    wrong = judged_tables.read(path) | inelastic.curves(**settings)
+    monkeypatch.setattr(judged_tables, "read", lambda _: wrong)
+    for name in (f"{model}-pairs", "pairs", "rebound", "tangential-restitution"):
+        assert _diverges("inelastic", path, series, only=f"inelastic-{name}"), name
 
 
 SLIDING = "chung_ooi2011/rebound"

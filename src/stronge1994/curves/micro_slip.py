@@ -42,7 +42,7 @@ def curves(
     """
     named = {}
     for x in dict.fromkeys([*incidences, *forces]):
-        contact = continuum.history(x, mass_ratio, stiffness_ratio, tolerance)
+        contact = continuum.history(x, mass_ratio, stiffness_ratio, tolerance=tolerance)
         named[f"continuum, x = {x:g}"] = {
             **_columns(contact),
             "contact_radius [a_max]": contact.contact_radius,
