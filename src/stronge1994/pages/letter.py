@@ -150,7 +150,8 @@ def _distance(pair: Pair) -> float:
 def without_numbers(why: Exception) -> str:
     """What stands in place of the letter where a solver failed, which the gate reports."""
     return (
-        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Failed</title></head>'
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width"><title>Failed</title></head>'
         f"<body><h1>Below e = 1</h1>\n<p>This page could not be written: {escape(why)}. "
         'The <a href="report.html">report</a> says more.</p></body></html>\n'
     )
