@@ -30,6 +30,7 @@ localrules:
     compare,
     verdicts,
     ledger_page,
+    letter,
     trade,
     stability,
     gather_chunks,
@@ -83,6 +84,7 @@ include: "workflow/rules/curves.smk"
 include: "workflow/rules/reference.smk"
 include: "workflow/rules/drawing.smk"
 include: "workflow/rules/ledger.smk"
+include: "workflow/rules/letter.smk"
 include: "workflow/rules/trade.smk"
 include: "workflow/rules/stability.smk"
 include: "workflow/rules/scene.smk"

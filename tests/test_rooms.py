@@ -50,7 +50,7 @@ REPRODUCTION = {
     "plan": "ground models records reference_data",
     "drawings": "planarimpact ground csv_tables curve_names goodness reference_data study_files"
     " matplotlib",
-    "pages": "ground bodies csv_tables drawings gate judging ledger plan jinja2",
+    "pages": "ground bodies csv_tables drawings gate goodness judging ledger plan jinja2",
 }
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and

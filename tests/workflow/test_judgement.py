@@ -39,7 +39,7 @@ def expected():
     schema = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
     entries = ledger_entries.load(ROOT / "data/stronge1994/ledger.yaml", schema)
     rows = plan.expected_rows(config, sources)
-    return rows, {name: "check" in entry for name, entry in entries.items()}
+    return rows, {name: ledger_entries.is_run(entry) for name, entry in entries.items()}
 
 
 @pytest.fixture

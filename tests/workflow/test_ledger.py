@@ -14,8 +14,9 @@ import pytest
 from planarimpact import bodies, continuum, lumped, noncollinear, rigid
 from planarimpact.models import laws
 from stronge1994 import ledger, reference_data
-from stronge1994.ledger import checking, entries, outcome
+from stronge1994.ledger import checking, entries, in_nature, outcome
 from stronge1994.pages import ledger_page
+from stronge1994.plan import config as configuration
 from stronge1994.printed import dissipation, dynamics
 
 ROOT = Path(__file__).parents[2]
@@ -23,6 +24,12 @@ FILE = "data/stronge1994/ledger.yaml"
 SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
 ENTRIES = entries.load(ROOT / FILE, SCHEMA)
 EXECUTED = {name: entry for name, entry in ENTRIES.items() if "check" in entry}
+CLAIMS = {name: entry["in_nature"] for name, entry in ENTRIES.items() if "in_nature" in entry}
+# What follows from the paper's equations alone.
+BY_EQUATIONS = {
+    name: {key: value for key, value in entry.items() if key != "in_nature"}
+    for name, entry in EXECUTED.items()
+}
 
 
 @pytest.fixture(scope="module")
@@ -119,7 +126,7 @@ def test_the_page_counts_grades_and_groups_by_cause(rows):
     grades = Counter(entry["grade"] for entry in ENTRIES.values() if "grade" in entry)
     assert shown_grades(html) == grades
     assert f"{grades.total()} entries are wrong: " in html
-    table = html[html.index("What is wrong, by cause") : html.index("<h2>Equations")]
+    table = html[html.index("What is wrong, by cause") : html.index('<h2 id="in-nature">')]
     groups = re.findall(r"<tbody>(.*?)</tbody>", table, flags=re.S)
     by_cause = {
         frozenset(re.findall(r'href="#([^"]+)"', group.partition("</tr>")[2])) for group in groups
@@ -350,7 +357,7 @@ def remembering(model):
 @pytest.fixture(scope="module")
 def tripped():
     """The first fault that trips each entry."""
-    found, open_entries = {}, dict(EXECUTED)
+    found, open_entries = {}, dict(BY_EQUATIONS)
     slow = {(continuum, n): remembering(getattr(continuum, n)) for n in ("rebound", "history")}
     for fault, replacements in {"everything": EVERYTHING, **FAULTS}.items():
         with pytest.MonkeyPatch.context() as patch:
@@ -412,7 +419,171 @@ def test_an_entry_that_no_longer_holds_is_named_on_the_page(rows, monkeypatch):
     assert pages[1].count("no longer holds") > pages[0].count("no longer holds")
 
 
+def test_every_measure_in_nature_is_used():
+    assert set(in_nature.needed(CLAIMS.values())) == set(in_nature.measures())
+    assert all(words.endswith(".") for words in in_nature.measures().values())
+
+
+def test_the_second_verdict_never_changes_the_first(rows):
+    """Counts of the first are those without it, and each entry keeps what its equations gave."""
+    with_both = Counter(row["verdict"] for row in rows.values())
+    assert with_both == Counter(entry["verdict"] for entry in ENTRIES.values())
+    assert {name: row["in_nature"] for name, row in rows.items() if row["in_nature"]} == {
+        name: claim["verdict"] for name, claim in CLAIMS.items()
+    }
+    name = "restitution-leaves-peak"
+    alone = checking.check({name: BY_EQUATIONS[name]})[0]
+    assert all(rows[name][key] == alone[key] for key in alone if "nature" not in key)
+
+
+def test_a_sentence_about_restitution_has_a_second_verdict():
+    """The words of the paper in our words, and the limit (1 + e) m2/m1."""
+    speaks_of_e = re.compile(
+        r"\brestitution\b|\binternal dissipation\b|\(1 \+ e\)|whatever e\b|\be\^2\b"
+    )
+    sentences = {name for name, entry in ENTRIES.items() if entry["kind"] == "sentence"}
+    found = {name for name in sentences if speaks_of_e.search(ENTRIES[name]["says"])}
+    # A definition, the shape of a formula, when slip begins, and the work of the elements.
+    others = {"hysteresis-caption", "slip-in-restitution", "stored-work"}
+    assert found - others <= set(CLAIMS)
+
+
+@pytest.fixture(scope="module")
+def measured(first_run):
+    """What the measures in nature found in a run."""
+    with open(first_run[0] / "results/in_nature.csv", newline="") as file:
+        return in_nature.read(list(csv.DictReader(file)))
+
+
+JUDGED_CLAIMS = [name for name, claim in CLAIMS.items() if "check" in claim]
+
+
+@pytest.mark.parametrize("name", JUDGED_CLAIMS)
+def test_a_wrong_claim_in_nature_does_not_hold(name, measured):
+    """Each verdict but the right one, and numbers outside the bounds on either side."""
+    claim = CLAIMS[name]
+    assert in_nature.judge(claim, measured).holds
+    for verdict in {in_nature.STANDS, in_nature.FAILS, in_nature.DEPENDS} - {claim["verdict"]}:
+        assert not in_nature.judge(claim | {"verdict": verdict}, measured).holds
+    found = measured[claim["check"]]
+    for loss in in_nature.LOSSES:
+        for wrong in (-9.0, 9.0, np.nan):
+            other = measured | {claim["check"]: found._replace(**{loss: wrong})}
+            held = in_nature.judge(claim, other).holds
+            # A sentence that stands has one bound, on the side where it would be false.
+            assert not held or claim["verdict"] == in_nature.STANDS and not np.isnan(wrong)
+    if claim["verdict"] == in_nature.STANDS:
+        sides = [found._replace(viscous=wrong) for wrong in (-9.0, 9.0)]
+        held = [in_nature.judge(claim, measured | {claim["check"]: f}).holds for f in sides]
+        assert sorted(held) == [False, True]
+
+
+# Continua that are wrong below e = 1, each a set of replacements.
+WRONG_CONTINUA = {
+    "loss plays no part": {
+        (continuum, "rebound"): altered(continuum.rebound, restitution=np.ones_like),
+        (continuum, "history"): altered(continuum.history, restitution=lambda e: 1.0),
+    },
+    "the paper's model": {
+        (continuum, "rebound"): lambda *groups, **_: lumped.rebound(*groups),
+        (continuum, "history"): lambda *groups, **_: lumped.history(*groups, samples=257),
+    },
+    "late": {
+        (continuum, "rebound"): distorted(
+            continuum.rebound,
+            velocity=lambda v, _: v + 0.1,
+            dissipation=lambda d, a: d * (2 - np.asarray(a["restitution"])) ** 2,
+            regime=lambda r, _: np.zeros_like(r),
+        ),
+        (continuum, "history"): distorted(
+            continuum.history, time=lambda t, _: t * 1.2, friction=lambda f, _: np.abs(f)
+        ),
+    },
+}
+
+
+@pytest.fixture(scope="module")
+def contradicted():
+    """The claims in nature that each wrong continuum contradicts."""
+    claims = {name: {"in_nature": CLAIMS[name]} for name in JUDGED_CLAIMS}
+    found = set()
+    for replacements in WRONG_CONTINUA.values():
+        with pytest.MonkeyPatch.context() as patch:
+            for (module, name), wrong in replacements.items():
+                patch.setattr(module, name, wrong)
+            numbers = checking.measure(claims)
+        found |= {n for n in JUDGED_CLAIMS if not in_nature.judge(CLAIMS[n], numbers).holds}
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", JUDGED_CLAIMS)
+def test_a_wrong_continuum_contradicts_the_claim(name, contradicted):
+    assert name in contradicted, f"{name} holds with every fault: a measure that cannot fail"
+
+
+def test_a_wrong_claim_in_nature_fails_the_run(finished):
+    """Restitution changes the largest friction; whoever writes that it does not is told so."""
+    path = finished / FILE
+    text = path.read_text(encoding="utf-8")
+    start = text.index("      check: peak_spread")
+    claim = text[start:].split("      says:")[0]
+    path.write_text(
+        text.replace(claim, claim.split("      verdict")[0] + "      verdict: stands\n"),
+        encoding="utf-8",
+    )
+    said = finished.refuses_to_pass()
+    name = "restitution-leaves-peak"
+    assert f"no longer holds: {name}: in nature: recorded as stands, found fails" in said
+    assert "1 no longer hold" in said
+    page = (finished / "figures/ledger.html").read_text(encoding="utf-8")
+    article = page[page.index(f'<article id="{name}">') :].split("</article>")[0]
+    assert ">no longer holds<" in article and ">confirmed<" in article
+
+
+def test_a_measure_that_crashes_no_longer_holds(monkeypatch):
+    def crash(*args, **kwargs):
+        raise ArithmeticError("oh")
+
+    monkeypatch.setattr(continuum, "rebound", crash)
+    name = "limit-falls-with-losses"
+    row = checking.check({name: ENTRIES[name]})[0]
+    assert row["holds"] == "no" and row["found"]
+    assert row["problem"] == "in nature: limit_fall found no number"
+
+
+def test_comparisons_that_the_ledger_names_are_judged_by_the_run(first_run):
+    named = {
+        name
+        for claim in CLAIMS.values()
+        for name in re.findall(r"\binelastic-[a-z.]+-pairs", claim["says"])
+    }
+    assert named
+    with open(first_run[0] / "results/verdicts.csv", newline="") as file:
+        verdicts = {row["comparison"]: row["verdict"] for row in csv.DictReader(file)}
+    assert named <= set(configuration.load(ROOT)["comparisons"])
+    for name in named:
+        wanted = "agrees" if "continuum" in name else "differs as documented"
+        assert verdicts[name] == wanted, name
+
+
+def test_slip_throughout_begins_in_nature_where_its_words_say(measured):
+    beta, zeta2 = 3.5, 1.21
+    for loss in in_nature.LOSSES:
+        assert getattr(measured["limit_half"], loss) == pytest.approx(
+            beta + 0.5 * (beta - zeta2), abs=1e-3
+        )
+
+
 BAD_LEDGER = [
+    ("check: peak_spread", "check: peak", "in_nature.check: 'peak' is no measure"),
+    (
+        "{peak_spread.viscous:.2f}",
+        "{peak_spread.water:.2f}",
+        "in_nature.says: 'peak_spread.water' is no measure",
+    ),
+    ("viscous: [0.08, 0.13]", "viscous: [0.13, 0.08]", "between.viscous = .*must be the smaller"),
+    ("      verdict: stands\n", "      verdict: fails\n", "in_nature: 'between' is a required"),
     (
         "check: slip.velocity_at_slip",
         "check: slip.speed",

@@ -46,6 +46,7 @@ LAYERS = [
         "results/sensitivity.csv": "failed before",
         "results/study.npz": "failed behind",
         "figures/ledger.html": "killed before",
+        "figures/below_e_1.html": "killed behind",
     },
     {
         "results/verdicts.csv": "failed behind",

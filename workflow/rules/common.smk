@@ -29,7 +29,7 @@ try:
 except (reference_data.SourceError, ConfigError) as error:
     raise refused(error)
 
-EXPECTED_ENTRIES = {name: "check" in entry for name, entry in ENTRIES.items()}
+EXPECTED_ENTRIES = {name: entries.is_run(entry) for name, entry in ENTRIES.items()}
 # Sources with whose series something is compared.
 COMPARED = sorted({source for told in JUDGED.values() for source in told["sources"]})
 UNTIMED = [figure for figure in FIGURES if figure not in plan.TIMED]
@@ -95,7 +95,7 @@ def sources(*paths):
 
 
 # Only `snakemake --report` reads them all.
-CAPTIONS = ["explorer", "figures", "ledger", "notebooks", "peers", "stability", "study", "trade"]
+CAPTIONS = ["explorer", "figures", "ledger", "letter", "notebooks", "peers", "stability", "study", "trade"]
 sources(*expand("workflow/report/{caption}.rst", caption=[*CAPTIONS, "which_model"]))
 
 

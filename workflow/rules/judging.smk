@@ -99,6 +99,7 @@ MAKERS = [
     rules.gather_sensitivity,
     rules.ledger,
     rules.ledger_page,
+    rules.letter,
     rules.trade,
     rules.stability,
     rules.scene,

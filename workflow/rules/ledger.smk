@@ -10,7 +10,8 @@ rule ledger:
         entries=LEDGER,
         facts=LEDGER_FACTS,
     output:
-        "results/ledger.csv",
+        table="results/ledger.csv",
+        measures="results/in_nature.csv",
     params:
         schema=LEDGER_SCHEMA,
     log:

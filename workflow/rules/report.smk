@@ -4,6 +4,7 @@ BESIDE = {
     **{f"{notebook}.html": f"Lecture: {notebook.replace('_', ' ')}" for notebook in NOTEBOOKS},
     "study.svg": "Parameter study",
     "ledger.html": "The paper verified, as a page of its own",
+    "below_e_1.html": "A letter to the author: does his model apply below e = 1?",
     "interface/planarimpact.html": "Interface of the solver: what each function takes and returns",
 }
 

@@ -6,6 +6,9 @@ ledger.yaml has an entry for each: what the paper says, when it counts as true, 
 the correction. `dynamics`, `slip`, `peak_force` and `dissipation` check the equations of one
 section each; the last two and `rebound` also the sentences.
 
+What the paper says of restitution has a second verdict, "in nature", which never changes the first.
+`nature` measures it on the models of `nature_models`, and `in_nature` judges.
+
 Checks need no examples: a run of the ledger is one of each.
 """
 

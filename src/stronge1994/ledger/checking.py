@@ -8,21 +8,41 @@ from collections.abc import Mapping
 
 from stronge1994 import ledger
 from stronge1994.csv_tables import Row
-from stronge1994.ledger import entries, outcome
+from stronge1994.ledger import entries, in_nature, outcome
 from stronge1994.ledger.entries import Entry
+from stronge1994.ledger.in_nature import Values
 
 
-def check(every: Mapping[str, Entry]) -> list[Row]:
-    """Rows of the ledger's table, one for each entry, in the order of the ledger."""
+def check(every: Mapping[str, Entry], measured: Mapping[str, Values] | None = None) -> list[Row]:
+    """Rows of the ledger's table, one for each entry, in the order of the ledger.
+
+    `measured` is what `measure` found; without it the measures are taken here.
+    """
     tests = entries.checks()
+    measured = measure(every) if measured is None else measured
     return [
-        _row(name, entry, tests.get(entry.get("check", ""), "")) for name, entry in every.items()
+        _with_nature(_row(name, entry, tests.get(entry.get("check", ""), "")), entry, measured)
+        for name, entry in every.items()
     ]
+
+
+def measure(every: Mapping[str, Entry]) -> dict[str, Values]:
+    """What the measures find that the claims in nature need; nan where one crashes."""
+    claims = [entry["in_nature"] for entry in every.values() if "in_nature" in entry]
+    found = {}
+    for name in in_nature.needed(claims):
+        try:
+            found[name] = in_nature.measure(name)
+        except Exception:
+            traceback.print_exc()
+            found[name] = in_nature.NOTHING
+    return found
 
 
 def _row(name: str, entry: Entry, test: str) -> Row:
     row = dict.fromkeys(outcome.COLUMNS, "")
-    row |= {key: entry[key] for key in row if key in entry and key not in ("confirms", "holds")}
+    same = set(entry) - {"confirms", "holds", "between", "in_nature"}
+    row |= {key: entry[key] for key in row if key in same}
     row |= {"entry": name, "test": test, "range": entry.get("holds", "")}
     if "check" not in entry:
         return row
@@ -43,8 +63,25 @@ def _row(name: str, entry: Entry, test: str) -> Row:
     }
 
 
+def _with_nature(row: Row, entry: Entry, measured: Mapping[str, Values]) -> Row:
+    """A row with the verdict in nature. The entry holds if each of its verdicts does."""
+    if "in_nature" not in entry:
+        return row
+    claim = entry["in_nature"]
+    row = row | in_nature.cells(claim, _words(claim.get("confirms", {})), measured)
+    judgement = in_nature.judge(claim, measured)
+    if "check" in claim and judgement.holds:
+        return row | {"holds": row["holds"] or "yes"}
+    if judgement.holds:
+        return row
+    problems = [row["problem"], judgement.why]
+    return row | {"holds": "no", "problem": "; ".join(filter(None, problems))}
+
+
 def _words(confirms: Mapping[str, float]) -> str:
     if "value" in confirms:
         return f"{confirms['value']:g} within {confirms['rounding']:g}"
+    if not confirms:
+        return ""
     (word, bound), *_ = confirms.items()
     return f"{word.replace('_', ' ')} {bound:g}"

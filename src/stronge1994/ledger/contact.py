@@ -28,7 +28,7 @@ _Answer = TypeVar("_Answer")
 _KNOWN: dict[tuple[Any, ...], Any] = {}
 
 
-def once(solver: Callable[..., _Answer], *groups: ArrayLike, **settings: float) -> _Answer:
+def once(solver: Callable[..., _Answer], *groups: ArrayLike, **settings: float | str) -> _Answer:
     """What a solver answers. Many checks ask the same question: it is solved for the first alone.
 
     Nobody may change an answer. Another solver under the same name, in a test, is asked anew.

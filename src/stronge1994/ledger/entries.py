@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from stronge1994 import reference_data
+from stronge1994.ledger import in_nature
 
 Entry: TypeAlias = dict[str, Any]
 
@@ -37,10 +38,12 @@ def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
             if name in entries:
                 raise reference_data.SourceError(f"{where}: the name is taken by an equation")
             _refuse_contradiction(where, entry, known)
+            _refuse_unmeasured(f"{where}.in_nature", entry.get("in_nature"))
             entries[name] = {"kind": kind[:-1], **_with_fact(where, entry, facts)}
     _explain(path, entries, ledger["causes"])
     for name, entry in entries.items():
-        for key, text in entry.items():
+        texts = entry | {"in_nature": entry.get("in_nature", {}).get("says")}
+        for key, text in texts.items():
             _refuse_dangling(f"{path}: {name}.{key}", text, entries)
     return entries
 
@@ -103,6 +106,30 @@ def _refuse_contradiction(where: str, entry: Entry, known: Collection[str]) -> N
         problem = f".between = {entry['between']}: the first number must be the smaller"
     if problem:
         raise reference_data.SourceError(where + problem)
+
+
+def _refuse_unmeasured(where: str, claim: Mapping[str, Any] | None) -> None:
+    """Refuse a verdict in nature on what nothing measures, or with bounds that cannot be met."""
+    if claim is None:
+        return
+    problem = None
+    unknown = in_nature.unknown_numbers(claim["says"])
+    if unknown:
+        problem = f".says: '{unknown[0]}' is no measure of stronge1994.ledger.nature with a model"
+    elif "check" in claim and claim["check"] not in in_nature.measures():
+        problem = f".check: '{claim['check']}' is no measure of stronge1994.ledger.nature"
+    elif len(claim.get("confirms", {"": 0})) != 1:
+        problem = f".confirms = {claim['confirms']}: allowed are at_most, or at_least"
+    for loss, (low, high) in claim.get("between", {}).items():
+        if low > high:
+            problem = f".between.{loss} = [{low}, {high}]: the first number must be the smaller"
+    if problem:
+        raise reference_data.SourceError(where + problem)
+
+
+def is_run(entry: Entry) -> bool:
+    """Whether a run tests something of an entry: a verdict by the equations, or one in nature."""
+    return "check" in entry or "check" in entry.get("in_nature", {})
 
 
 def _refuse_dangling(where: str, text: Any, entries: dict[str, Entry]) -> None:

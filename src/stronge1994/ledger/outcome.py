@@ -8,7 +8,7 @@ from stronge1994.csv_tables import Row
 COLUMNS = [
     "kind", "entry", "holds", "verdict", "grade", "cause", "where", "says", "test", "found",
     "confirms", "between", "corrected", "problem", "reading", "range", "correction", "derivation",
-    "because", "why",
+    "because", "why", "in_nature", "nature", "nature_test", "nature_found", "nature_true_if",
 ]  # fmt: skip
 # How grave a wrong entry is, the gravest first, and how a sentence goes on after their number.
 GRADES = {

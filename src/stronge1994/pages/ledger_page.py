@@ -9,7 +9,7 @@ from typing import Any
 from markupsafe import Markup, escape
 
 from stronge1994.csv_tables import Row
-from stronge1994.ledger import outcome
+from stronge1994.ledger import in_nature, outcome
 from stronge1994.pages import templates
 
 STYLE = {
@@ -36,6 +36,18 @@ GRADE_MEANING = {
     "elsewhere, or asks for it",
     "matter of judgement": "approximate words, or a sentence that stands under another fair "
     "reading, which the entry names",
+}
+NATURE_STYLE = {
+    in_nature.STANDS: "stands",
+    in_nature.FAILS: "contradicted",
+    in_nature.DEPENDS: "depends",
+    in_nature.OPEN: "unknown",
+}
+NATURE_MEANING = {
+    in_nature.STANDS: "true with either loss",
+    in_nature.FAILS: "false with either loss",
+    in_nature.DEPENDS: "true with one loss, false with the other",
+    in_nature.OPEN: "neither contact can tell",
 }
 GREEK = {
     "mu": "µ", "zeta": "ζ", "beta": "β", "Omega": "Ω", "omega": "ω", "kappa": "κ", "pi": "π",
@@ -95,8 +107,14 @@ def linked_maths(names: Collection[str]) -> Callable[[str], Markup]:
 def words(rows: Sequence[Row], symbols: Mapping[str, str]) -> dict[str, Any]:
     """What the templates need to show the ledger's rows; `symbols` explains their formulas."""
     counts = Counter(row["verdict"] for row in rows)
+    of_nature = [row for row in rows if row.get("in_nature")]
+    in_words = Counter(row["in_nature"] for row in of_nature)
     return {
         "entries": rows,
+        "of_nature": of_nature,
+        "nature_counts": {verdict: in_words[verdict] for verdict in NATURE_STYLE},
+        "nature_style": NATURE_STYLE,
+        "nature_meaning": NATURE_MEANING,
         "symbols": symbols,
         "lapsed": outcome.failing(rows),
         "counts": {verdict: counts[verdict] for verdict in STYLE if counts[verdict]},

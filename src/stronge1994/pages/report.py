@@ -5,7 +5,6 @@ and tables that say so. What cannot be shown is left out and named on top, with 
 gate fails on it.
 """
 
-import base64
 import io
 import re
 import traceback
@@ -201,12 +200,12 @@ def figure(
     strips = draw_residuals.draw(residuals, entries, {row["comparison"]: row for row in rows})
     return {
         "title": title(name),
-        "picture": _embedded(svg),
+        "picture": templates.embedded(svg),
         "caption": caption,
         "alt": re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip("."),
         "rows": rows,
         "has_residuals": bool(residuals),
-        "strips": _embedded(_svg(strips)) if strips else None,
+        "strips": templates.embedded(_svg(strips)) if strips else None,
         "config": _yaml(
             {key: config[key] for key in SHARED}
             | {"figures": {name: config["figures"][name]}}
@@ -276,10 +275,6 @@ def _svg(figure: Any) -> bytes:
     file = io.BytesIO()
     house_style.save(figure, file)
     return file.getvalue()
-
-
-def _embedded(svg: bytes) -> str:
-    return f"data:image/svg+xml;base64,{base64.b64encode(svg).decode()}"
 
 
 class _Dumper(yaml.SafeDumper):

@@ -1,5 +1,6 @@
-"""What all pages share: templates in one folder."""
+"""What all pages share: templates in one folder, and pictures that need no other file."""
 
+import base64
 from pathlib import Path
 
 import jinja2
@@ -14,3 +15,14 @@ def environment(folder: str | Path) -> jinja2.Environment:
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
+
+
+def embedded(svg: bytes) -> str:
+    """Address of a picture that holds the picture itself.
+
+    Examples
+    --------
+    >>> embedded(b"<svg/>")
+    'data:image/svg+xml;base64,PHN2Zy8+'
+    """
+    return f"data:image/svg+xml;base64,{base64.b64encode(svg).decode()}"
