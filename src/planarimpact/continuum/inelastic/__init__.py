@@ -208,7 +208,9 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
             known[which] += 1
     if not motion.viscous:
         soon = slips & (last > 0) & (known == len(knots))
-        peak = np.maximum(peak, np.where(soon, _peak_after_slip(motion, knots), 0.0))
+        with np.errstate(divide="ignore", invalid="ignore"):  # where it is not sought
+            later = _peak_after_slip(motion, knots)
+        peak = np.maximum(peak, np.where(soon, later, 0.0))
     largest = motion.largest_force
     radius = np.concatenate([motion.radius, motion.radius[-2::-1]]) / motion.radius[-1]
     return Path(
