@@ -215,7 +215,7 @@ def test_viscous_springs_share_the_energy_with_friction(e, monkeypatch):
     """Friction, the dashpots, the strain left in springs that fall off: all that the body loses."""
     losses = []
 
-    class Booked(inelastic._Row):
+    class Booked(inelastic.SpringRow):
         spent = 0.0
 
         def move(self, k, step, pace, start, end):
@@ -245,7 +245,7 @@ def test_viscous_springs_share_the_energy_with_friction(e, monkeypatch):
             losses.append(self.spent)
             return work
 
-    monkeypatch.setattr(inelastic, "_Row", Booked)
+    monkeypatch.setattr(inelastic, "SpringRow", Booked)
     x = np.array([0.3, 0.8, 1.1])  # these stick first, so that every step is booked
     groups = np.full((3, x.size), [[BETA], [ZETA2], [e]])
     off = []

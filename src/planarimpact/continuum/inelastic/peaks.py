@@ -1,0 +1,99 @@
+"""The largest friction of a contact, between the instants too."""
+
+import numpy as np
+
+from planarimpact.continuum.inelastic.normal_motion import NormalMotion
+from planarimpact.continuum.inelastic.springs import cubic
+from planarimpact.ground.arrays import Array
+
+# Places where a polynomial through a few instants is looked at.
+SAMPLES = 49
+# Places where friction is worked out soon after gross slip from the start, and for how long: two
+# instants and this share of the steps.
+PLACES, AFTER = 24, 1 / 48
+
+
+def instants_after(steps: int) -> int:
+    """Instants after gross slip from the start for which `after_slip` works."""
+    return 2 + int(steps * AFTER)
+
+
+def largest(
+    time: Array, friction: Array, start: Array, force: Array, peak: Array, searched: int
+) -> Array:
+    """Largest friction of each contact.
+
+    Parameters
+    ----------
+    time, friction : ndarray, shape (steps + 1, n)
+    start, force : ndarray, shape (n,)
+        When gross slip from the start ends, and friction then.
+    peak : ndarray, shape (n,)
+        Largest friction up to then, or as far as it has been sought.
+    searched : int
+        How many instants after that the search has covered.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+    """
+    size = np.abs(friction)
+    column = np.arange(start.size)
+    first = np.clip(np.sum(time <= start, axis=0), 1, len(size) - 3)
+    # A point too near to the first one would make the polynomial through them steep.
+    step = time[first, column] - time[first - 1, column]
+    first += time[first, column] - start < step / 2
+    top = np.clip(np.argmax(size, axis=0), 2, len(size) - 3)
+    lower = size[top - 1, column] > size[top + 1, column]
+    around = top + np.arange(-1, 3)[:, None] - lower
+    # A polynomial must not reach over the kink where gross slip ends.
+    smooth = around[0] >= first + np.where(start > 0, searched // 2, 0)
+    late = [(time[k, column], size[k, column]) for k in around]
+    found = np.maximum(peak, np.where(smooth, _highest(late), size[top, column]))
+    if searched:
+        return found
+    early = [(time[k, column], size[k, column]) for k in (first, first + 1)]
+    return np.maximum(found, _highest([(start, np.abs(force)), *early]))
+
+
+def after_slip(motion: NormalMotion, knots: Array) -> Array:
+    """Largest friction soon after gross slip of elastic springs, by the limits in between.
+
+    Friction grows on, turns and falls within a step, as one spring after the other sticks. Then
+    each keeps c, the least value that limit less displacement has had. Approach and displacement
+    are cubics between the knots.
+    """
+    count = len(motion.radius)
+    width = motion.width.copy()
+    width[0] /= 2
+    limit = motion.sliding_deflection(knots[0, 1], knots[0, 2], count)
+    memory = limit - knots[0, 3]
+    points = [(knots[0, 0], motion.force_at(knots[0, 1], knots[0, 2]))]
+    for left, right in zip(knots, knots[1:], strict=False):
+        step = right[0] - left[0]
+        for share in np.linspace(0.0, 1.0, 1 + max(2, PLACES // len(knots)))[1:]:
+            approach = cubic(share, left[1], right[1], step * left[2], step * right[2])
+            velocity = left[2] + share * (right[2] - left[2])
+            u = cubic(share, left[3], right[3], step * left[4], step * right[4])
+            limit = motion.sliding_deflection(approach, velocity, count)
+            memory = np.minimum(memory, limit - u)
+            whole = np.sum(width * limit, axis=0)
+            lack = np.sum(width * (limit - u - memory), axis=0)
+            force = motion.force_at(approach, velocity)
+            force = force * (1 - lack / np.where(whole > 0, whole, 1.0))
+            points.append((left[0] + share * step, force))
+    times, forces = (np.array(column) for column in zip(*points, strict=True))
+    top = np.clip(np.argmax(forces, axis=0), 1, len(forces) - 2)
+    column = np.arange(top.size)
+    return _highest([(times[k, column], forces[k, column]) for k in (top - 1, top, top + 1)])
+
+
+def _highest(points: list[tuple[Array, Array]]) -> Array:
+    """Largest value between the first and the last point of a polynomial through all of them."""
+    times = [time for time, _ in points]
+    grid = times[0] + np.linspace(0.0, 1.0, SAMPLES)[:, None] * (times[-1] - times[0])
+    value = np.zeros_like(grid)
+    for time, height in points:
+        factors = [(grid - other) / (time - other) for other in times if other is not time]
+        value += height * np.prod(factors, axis=0)
+    return value.max(axis=0)
