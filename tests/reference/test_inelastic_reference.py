@@ -7,8 +7,9 @@ from inelastic_contact import rebound as stepped
 from planarimpact import continuum
 from planarimpact.ground import sliding
 
-# Error of the second code, extrapolated from 800 and 1600 steps: with twice as many steps its
-# answers change by up to 3.4e-4 (e = 0.9, next to x = zeta^2), with four times as many by 2e-5 more.
+# Error of the second code, extrapolated from 800 and 1600 steps. With twice as many steps its
+# answers change by up to 3.4e-4 (e = 0.9, next to x = zeta^2), with four times as many by 2e-5
+# more.
 SECOND_CODE = 5e-4
 CASES = [(0.9, 3.5, 1.21), (0.35, 2.5, 0.9), (0.7, 7.5, 0.85), (0.5, 1.2, 1.9)]
 
