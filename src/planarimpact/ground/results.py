@@ -158,7 +158,7 @@ class History(NamedTuple):
     Attributes
     ----------
     time : ndarray, shape (n,)
-        t/t_c, from 0 to 1 + e.
+        t/t_c, from 0 to 1 + e, with viscous loss to 2; t_c is the time of compression.
     normal : ndarray, shape (n,)
         Normal force F2 in m2 Omega |v2(0)|.
     friction : ndarray, shape (n,)
@@ -166,7 +166,8 @@ class History(NamedTuple):
     velocity : ndarray, shape (n,)
         w = v1/(mu v2(0)).
     spring : ndarray, shape (n,)
-        Deflection of the tangential element in mu |v2(0)|/Omega; friction = spring/zeta^2.
+        Deflection of the tangential element in mu |v2(0)|/Omega: zeta^2 friction,
+        with plastic loss e^2 zeta^2 friction, with viscous loss what the dashpot leaves of it.
     events : tuple of Event
         In order of time, from contact to separation; STICK and SLIP mark where a phase starts.
     """
@@ -180,12 +181,12 @@ class History(NamedTuple):
 
 
 class ContinuumHistory(NamedTuple):
-    """Forces, velocity and the edge of stick over one contact of an elastic continuum.
+    """Forces, velocity and the edge of stick over one contact of a continuum.
 
     Attributes
     ----------
     time : ndarray, shape (n,)
-        t/t_c, from 0 to 2; t_c is the time to maximum compression.
+        t/t_c, from 0 to separation, 2 where e = 1; t_c is the time of compression.
     normal : ndarray, shape (n,)
         Normal force F2 over its largest value.
     friction : ndarray, shape (n,)

@@ -219,10 +219,8 @@ def history(
     Returns
     -------
     History
-        time in t_c, normal, friction, velocity, spring, events. With viscous loss t_c is that of
-        the impact, half of its contact; the normal force is in its largest value, friction in mu
-        times that; and the spring is no longer in proportion to friction. There both forces jump
-        at contact, as the dashpots act at once.
+        time in t_c, normal, friction, velocity, spring, events. With viscous loss t_c is half of
+        the contact, and both forces jump at contact, as the dashpots act at once.
 
     Raises
     ------

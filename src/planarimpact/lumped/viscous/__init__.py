@@ -148,13 +148,13 @@ def history(mirror: float, impacts: Impacts, samples: int) -> History:
     ([0.0, 2.0], True)
     """
     pair, trace = phases(impacts)
-    largest, half = peak_normal(pair)[0], pair.duration[0] / 2
+    half = pair.duration[0] / 2
     grid = np.linspace(2.0, 0.0, samples) * half
 
     def column(phase: Phase, ahead: Array) -> Array:
         normal, friction, velocity, spring = state(phase, pair, ahead)
-        forces = normal / largest, mirror * friction / largest
-        return np.stack([2.0 - ahead / half, *forces, mirror * velocity, mirror * spring])
+        mirrored = mirror * friction, mirror * velocity, mirror * spring
+        return np.stack([2.0 - ahead / half, normal, *mirrored])
 
     def event(kind: EventKind, values: Array) -> Event:
         return Event(kind, *(float(value) for value in values))
