@@ -11,11 +11,10 @@ import functools
 import sys
 
 import annuli_tables
-import exact_tables
 import numpy as np
 import spring_row
 import table_files
-from exact_tables import ANGLE, BETA, HERTZ_FORCES, INCIDENCE, RUBBER, SHOT, VELOCITY, ZETA2
+from exact_tables import BETA, HERTZ_FORCES, INCIDENCE, RUBBER, VELOCITY, ZETA2
 from mpmath import mp
 from table_files import Table
 
@@ -24,8 +23,6 @@ INCIDENCES += (3.5, 3.7, 4.0, 4.3, 4.6, 5.0, 5.2, 5.4, 5.6, 5.7, 5.8, 6.0, 7.0, 
 INCIDENCES += (14.0,)
 # Of what data/model_errors measures errors against.
 GRID = tuple(round(0.1 * k, 1) for k in range(81))
-ANGLES = (0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 15.0, 18.0, 20.0, 22.0, 25.0)
-ANGLES += (27.0, 28.0, 30.0, 35.0, 50.0, 70.0)
 COURSES = (0.5, 1.0, 2.5, 4.5)  # incidences of the histories
 INSTANTS = tuple(round(0.1 * k, 1) for k in range(1, 20))
 SPRINGS, STEPS = 4000, 16000
@@ -38,7 +35,6 @@ def tables():
     return {
         "rebound_grid": _grid(),
         "fig5_rebound": _fig5(),
-        "fig5_experiment": _fig5_experiment(),
         "micro_slip_instants": _micro_slip(),
     }
 
@@ -91,24 +87,6 @@ def _sphere(curve, x, zeta2, spins):
     velocity = found.velocity[at.index(x)]
     spin = digits(-5 / 7 * (x - velocity), 5) if spins else None
     return [curve, x, digits(velocity, 5), spin]
-
-
-def shot_incidences():
-    """Incidences of the angles."""
-    return tuple(float(mp.tan(mp.radians(a)) / mp.mpf(SHOT["friction"])) for a in ANGLES)
-
-
-def _fig5_experiment():
-    rows = [functools.partial(_shot, angle) for angle in ANGLES]
-    return Table(["curve", ANGLE, *exact_tables.SHOT_HEADER], rows)
-
-
-def _shot(angle):
-    found = by_annuli(SHOT["stiffness_ratio"], shot_incidences())
-    x = mp.tan(mp.radians(angle)) / mp.mpf(SHOT["friction"])
-    velocity = mp.mpf(float(found.velocity[ANGLES.index(angle)]))
-    first, *columns = exact_tables.shot_columns(angle, x, velocity)
-    return ["continuum, experiment", angle, first, *(digits(c, 6) for c in columns)]
 
 
 # Histories -----------------------------------------------------------------------------------

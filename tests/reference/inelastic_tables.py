@@ -10,8 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import yaml
+from exact_tables import ANGLE, INCIDENCE, SHOT, SHOT_HEADER, VELOCITY, ZETA2, shot_columns
 from high_precision import rebound as exact_rebound
-from inelastic_contact import MOTIONS, rebound
+from inelastic_contact import MOTIONS, impact, rebound
+from mpmath import mp
 from scipy.optimize import minimize_scalar
 from table_files import Table, write
 
@@ -25,6 +27,18 @@ INCIDENCES = [0.5 * i for i in range(1, 17)]
 # Impacts of a fit, and how many of them are solved; the others lie on chords.
 IMPACTS, SOLVED = 3000, 121
 STEPS, SPRINGS = 1600, 400
+# Of the continua in Figs 5, 6 and 9: solved with half of each too, and extrapolated, as errors are
+# in proportion to the step.
+FINE_STEPS, FINE_SPRINGS = 6400, 1600
+CONTINUA = MODELS[:2]
+ANGLES = [0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 15.0, 18.0, 20.0, 22.0, 25.0]
+ANGLES += [27.0, 28.0, 30.0, 35.0, 50.0, 70.0]
+FIGURES_E = 0.5
+FIG6_INCIDENCES = [0.25 * i for i in range(1, 18)] + [4.5, 4.6, 4.7, 5.0, 6.0, 7.0, 8.0]
+FIG9_ANGLES = {
+    0.1: [float(k) for k in (2, 4, 6, 7, 9, 11, 13, 15, 17, 19, 22, 24, 27, 30, 50, 75)],
+    0.5: [float(k) for k in (5, 15, 25, 31, 35, 40, 45, 50, 55, 60, 64, 66, 70, 75, 85)],
+}
 
 
 def tables():
@@ -46,6 +60,23 @@ def tables():
         "pairs": Table(
             ["curve", "pair", "restitution [1]", "tangential_restitution [1]"],
             [functools.partial(_of_pair, model, pair) for model in MODELS for pair in _pairs()],
+        ),
+        "fig5_experiment": Table(
+            ["curve", ANGLE, *SHOT_HEADER],
+            [functools.partial(_shot, model, angle) for model in CONTINUA for angle in ANGLES],
+        ),
+        "fig6_rebound": Table(
+            ["curve", INCIDENCE, VELOCITY],
+            [functools.partial(_fig6, model, x) for model in CONTINUA for x in FIG6_INCIDENCES],
+        ),
+        "fig9_dissipation": Table(
+            ["curve", ANGLE, "friction_dissipation [m2 S^2/2]"],
+            [
+                functools.partial(_fig9, model, mu, angle)
+                for model in CONTINUA
+                for mu, angles in FIG9_ANGLES.items()
+                for angle in angles
+            ],
         ),
     }
 
@@ -81,6 +112,43 @@ def slope(model, zeta2, e):
     near = scan[np.argmin([squares(b) for b in scan])]
     bounds = (near - 0.005, near + 0.005)
     return float(minimize_scalar(squares, bounds=bounds, options={"xatol": 1e-9}).x)
+
+
+@functools.cache
+def extrapolated(model, zeta2, e, x):
+    """Velocities and works of friction of a continuum, solved together for incidences `x`."""
+    fine, coarse = (
+        np.array(impact(model, x, BETA, zeta2, e, FINE_STEPS // n, FINE_SPRINGS // n))
+        for n in (1, 2)
+    )
+    return 2 * fine - coarse
+
+
+def _shot(model, angle):
+    tangents = [mp.tan(mp.radians(a)) / mp.mpf(SHOT["friction"]) for a in ANGLES]
+    groups = SHOT["stiffness_ratio"], SHOT["restitution"]
+    velocities, _ = extrapolated(model, *groups, tuple(map(float, tangents)))
+    place = ANGLES.index(angle)
+    first, *columns = shot_columns(angle, tangents[place], mp.mpf(float(velocities[place])))
+    return [f"{model}, experiment", angle, first, *(digits(c, 6) for c in columns)]
+
+
+def _fig6(model, x):
+    velocities, _ = extrapolated(model, ZETA2, FIGURES_E, tuple(FIG6_INCIDENCES))
+    return [f"{model}, e = {FIGURES_E:g}", x, digits(velocities[FIG6_INCIDENCES.index(x)], 6)]
+
+
+def _fig9(model, mu, angle):
+    theta = np.radians(FIG9_ANGLES[mu])
+    _, work = extrapolated(model, ZETA2, FIGURES_E, tuple((np.tan(theta) / mu).tolist()))
+    place = FIG9_ANGLES[mu].index(angle)
+    lost = 2 * (mu * np.cos(theta[place])) ** 2 * work[place]
+    return [f"{model}, mu = {mu:g}, e = {FIGURES_E:g}", angle, digits(lost, 6)]
+
+
+def digits(number, places):
+    """A number rounded to decimal places, without -0."""
+    return round(float(number), places) + 0.0
 
 
 def _at_incidence(model, x):

@@ -5,12 +5,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact import continuum, lumped, rigid
+from planarimpact import continuum, lumped, models, rigid
+from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.results import Rebound, Regime
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import SIGNS, shifted
 from stronge1994.curves import as_printed as printed_curves
+from stronge1994.curves import continua
 from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
@@ -27,6 +29,7 @@ def curves(
     restitution: float,
     samples: int,
     tolerance: float,
+    loss_tolerance: float,
     rubber: dict[str, float],
     experiment: dict[str, float],
     finite_elements: dict[str, float],
@@ -34,7 +37,7 @@ def curves(
     nodes: Nodes = NO_NODES,
     as_printed: bool = False,
 ) -> Curves:
-    """The lumped model, its limit and the elastic continuum, also for rubber and an experiment.
+    """The lumped model, its limit and the elastic continuum; an experiment with loss.
 
     Parameters
     ----------
@@ -46,10 +49,12 @@ def curves(
         Evenly spread vertices; thresholds come on top.
     tolerance : float
         Largest error of the elastic continuum, which has e = 1 whatever the restitution.
+    loss_tolerance : float
+        Largest error of the continua that lose energy, those of the experiment.
     rubber : dict
         `stiffness_ratio` of Johnson's rubber sphere.
     experiment : dict
-        An elastic sphere shot at a plane without spin: `mass_ratio`, `stiffness_ratio`,
+        A sphere shot at a plane without spin: `mass_ratio`, `stiffness_ratio`,
         `restitution`, `friction`, `speed` (m/s), `radius` (m).
     finite_elements : dict
         Of a finite-element solution: `mass_ratio`, `stiffness_ratio`, `restitution`.
@@ -64,11 +69,12 @@ def curves(
     -------
     dict
         `lumped`, `no tangential compliance` and `continuum`; also `lumped, ...` and
-        `continuum, ...` for `rubber`, `finite elements` and `experiment`. `lumped`, `continuum` and
-        the curves of the finite elements have the regime, and the spin after impact as
-        R spin/(mu v2(0)), negative in the direction of incidence. The curves of the experiment have
-        the quantities that are measured against the angle of incidence. Beside them are curves with
-        one parameter off by one sigma, named by `curve_names.shifted`.
+        `continuum, ...` for `rubber` and `finite elements`; and for the experiment `lumped,
+        experiment` and, for each of `continua.MODELS`, `MODEL, experiment`. `lumped`,
+        `continuum` and the curves of the finite elements have the regime, and the spin after impact
+        as R spin/(mu v2(0)), negative in the direction of incidence. The curves of the experiment
+        have the quantities that are measured against the angle of incidence. Beside them are curves
+        with one parameter off by one sigma, named by `curve_names.shifted`.
 
     Examples
     --------
@@ -76,7 +82,7 @@ def curves(
     ...               speed=3.9, radius=0.0025)
     >>> elements = dict(mass_ratio=3.5, stiffness_ratio=1.2143, restitution=1.0)
     >>> rubber = {"stiffness_ratio": 1.5}
-    >>> named = curves(3.5, 1.21, (0, 8), 1.0, 9, 1e-4, rubber, sphere, elements)
+    >>> named = curves(3.5, 1.21, (0, 8), 1.0, 9, 1e-4, 1e-3, rubber, sphere, elements)
     >>> float(named["lumped"]["velocity [mu v2(0)]"][-1])
     1.0
     """
@@ -97,7 +103,6 @@ def curves(
             "sphere": (x, *groups),
             "rubber": (x, mass_ratio, spring),
             "finite elements": (x, *_groups(finite_elements)[:2]),
-            **{name: (shot.x, *_groups(shot.sphere)[:2]) for name, shot in shots.items()},
         },
         tolerance,
     )
@@ -110,12 +115,15 @@ def curves(
         "lumped, rubber": _velocity(x, lumped.rebound(x, mass_ratio, spring, restitution)),
         "continuum, rubber": _velocity(x, elastic["rubber"]),
     }
-    whole = {name: lumped.rebound(s.x, *_groups(s.sphere)) for name, s in shots.items()}
-    whole["finite elements"] = lumped.rebound(x, *_groups(finite_elements))
-    for model, found in (("lumped", whole), ("continuum", elastic)):
-        elements = _sphere(x, found["finite elements"], finite_elements["mass_ratio"])
+    whole = lumped.rebound(x, *_groups(finite_elements))
+    for model, found in (("lumped", whole), ("continuum", elastic["finite elements"])):
+        elements = _sphere(x, found, finite_elements["mass_ratio"])
         named[f"{model}, finite elements"] = elements
-        named |= {f"{model}, {name}": _measured(s, found[name]) for name, s in shots.items()}
+    for model in ("lumped", *continua.MODELS):
+        own = {"tolerance": loss_tolerance} if model in continua.MODELS else {}
+        for name, shot in shots.items():
+            rebound = models.rebound(model, shot.x, *_groups(shot.sphere), **own)
+            named[f"{model}, {name}"] = _measured(shot, rebound)
     if as_printed:
         velocity, _, _ = impact.rebound(x, *groups, restitution)
         named |= printed_curves.beside("", named["lumped"], velocity)
@@ -155,7 +163,9 @@ def _groups(parameters: dict[str, float]) -> tuple[float, float, float]:
 
 def _shots(samples: int, nodes: ArrayLike, sphere: dict[str, float]) -> _Shots:
     groups = _groups(sphere)
-    limits = [groups[1], groups[0], lumped.slip_throughout_limit(*groups)]
+    beta, zeta2, e = (np.array(group) for group in groups)
+    alike = sliding.limit_alike(beta, zeta2, e)
+    limits = [zeta2, beta, lumped.slip_throughout_limit(*groups), alike]
     thresholds = np.degrees(np.arctan(sphere["friction"] * np.array(limits)))
     # The ratio of velocities has no value at normal incidence.
     return _Shots(sphere, vertices((0.01, 89.9), samples, thresholds, nodes))

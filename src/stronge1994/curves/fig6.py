@@ -1,11 +1,13 @@
 """Fig. 6: tangential velocity at separation against incidence, for several restitutions."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from planarimpact import Regime, lumped
 from stronge1994.csv_tables import Curves
 from stronge1994.curve_names import name
 from stronge1994.curves import as_printed as printed_curves
+from stronge1994.curves import continua as lossy
 from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
@@ -17,6 +19,7 @@ def curves(
     incidence: Sequence[float],
     restitution: Sequence[float],
     samples: int,
+    continua: Mapping[str, Any] | None = None,
     nodes: Nodes = NO_NODES,
     as_printed: bool = False,
 ) -> Curves:
@@ -32,6 +35,8 @@ def curves(
         Coefficients e, one curve each, named `e = ...`.
     samples : int
         Evenly spread vertices; thresholds come on top.
+    continua : dict, optional
+        Continua that lose energy, drawn beside them, see `continua.beside`.
     nodes : dict, optional
         More vertices, of `incidence`.
     as_printed : bool
@@ -40,7 +45,8 @@ def curves(
     Returns
     -------
     dict
-        Columns incidence, velocity, peak friction, dissipation, regime.
+        Columns incidence, velocity, peak friction, dissipation, regime; of the continua, named
+        `continuum.viscous, e = ...`, incidence and velocity.
 
     Examples
     --------
@@ -65,4 +71,7 @@ def curves(
         if as_printed:
             velocity, _, _ = impact.rebound(x, mass_ratio, stiffness_ratio, e)
             named |= printed_curves.beside(name("e", e), named[name("e", e)], velocity)
+    x = vertices(incidence, samples, stiffness_ratio, mass_ratio, extra)
+    for title, found in lossy.beside(continua, x, mass_ratio, stiffness_ratio):
+        named[title] = {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": found.velocity}
     return named

@@ -14,7 +14,7 @@ X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Draw a curve for each restitution, named at its end, and what the printed equations give."""
+    """Draw a curve for each restitution, named at its end, the continua and printed equations."""
     figure = house_style.new(3.8)
     axes = figure.subplots()
     axes.axhline(0, **house_style.GUIDE)
@@ -27,6 +27,8 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     axes.set(xlim=settings["incidence"], xlabel=house_style.INCIDENCE, ylabel=house_style.REBOUND)
     _label_ends(axes, ends)
     added = house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")
+    values = house_style.restitutions(settings["continua"]["restitution"])
+    added += house_style.lossy(axes, curves, X, Y, values)
     if added:
         house_style.legend_below(figure, added, titles=("added here",))
     return figure

@@ -33,7 +33,9 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         axes.set_ylim(bottom=0)
     else:
         axes.text(0.03, 0.96, NOTE, va="top", transform=axes.transAxes, fontsize=house_style.NOTE)
-    house_style.legend_below(figure, *_legend(settings, printed))
+    values = house_style.restitutions(settings["continua"]["restitution"])
+    added = printed + house_style.lossy(axes, curves, X, Y, values)
+    house_style.legend_below(figure, *_legend(settings, added))
     return figure
 
 
@@ -51,7 +53,7 @@ def _draw_rigid(axes: Axes, curves: Curves, settings: Settings) -> None:
     house_style.rigid(axes, rough[X], rough[Y], curves[pair][Y])
 
 
-def _legend(settings: Settings, printed: Entries) -> tuple[Entries, Entries, Entries]:
+def _legend(settings: Settings, added: Entries) -> tuple[Entries, Entries, Entries]:
     frictions = [
         house_style.key(house_style.symbols(name("mu", mu)), **style)
         for mu, style in _strokes(settings["friction"])
@@ -62,5 +64,5 @@ def _legend(settings: Settings, printed: Entries) -> tuple[Entries, Entries, Ent
         )
         for e, dashes in house_style.patterned(settings["restitution"])
     ]
-    others = [house_style.key("no tangential compliance", **house_style.RIGID), *printed]
+    others = [house_style.key("no tangential compliance", **house_style.RIGID), *added]
     return frictions, restitutions, others

@@ -66,6 +66,17 @@ RIGID: Style = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zo
 GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9}
 PRINTED: Style = {"color": GREY, "linewidth": 0.8}
 AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 0.9, "zorder": 2.2}
+# Light and thin: continua that lose energy, beside the curves of a figure of the paper.
+LOSSY: dict[str, tuple[str, Style]] = {
+    "continuum.viscous": (
+        "continuum, viscoelastic",
+        {"color": "#56B4E9", "linestyle": DASHES[4], "linewidth": 0.8, "zorder": 1.9},
+    ),
+    "continuum.plastic": (
+        "continuum, elastic-plastic",
+        {"color": "#E69F00", "linestyle": DASHES[3], "linewidth": 0.8, "zorder": 1.9},
+    ),
+}
 UNSOLVED: Style = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
 
 INCIDENCE = r"$v_1(0)/\mu v_2(0)$"
@@ -151,6 +162,17 @@ def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
     return zip(items, itertools.cycle(DASHES), strict=False)
 
 
+def restitutions(values: Iterable[float]) -> str:
+    """Words for some restitutions.
+
+    Examples
+    --------
+    >>> restitutions([0.5, 0.8])
+    '$e = 0.5, 0.8$'
+    """
+    return f"$e = {', '.join(f'{e:g}' for e in values)}$"
+
+
 def key(label: str, **style: Any) -> Line2D:
     """Entry of a legend for a line that is not drawn."""
     return Line2D([], [], label=label, **style)
@@ -227,6 +249,39 @@ def as_printed(
             axes.plot(curve[x], curve[y], **(style | pattern))
         if chosen:
             entries.append(key(label, **style))
+    return entries
+
+
+def lossy(axes: Axes, curves: Curves, x: str, y: str, words: str, end: str = "") -> Entries:
+    """Draw the continua that lose energy, and return entries of the legend.
+
+    Parameters
+    ----------
+    axes : Axes
+    curves : dict
+        All curves of a figure; the continua are known by the beginnings of their names.
+    x, y : str
+        Their columns.
+    words : str
+        What the legend adds to the name of each model.
+    end : str
+        Only curves whose names end so.
+
+    Returns
+    -------
+    list of artists
+    """
+    entries = []
+    for model, (label, style) in LOSSY.items():
+        own = [
+            curve
+            for name, curve in curves.items()
+            if name.startswith(f"{model}, ") and name.endswith(end)
+        ]
+        for curve in own:
+            axes.plot(curve[x], curve[y], **style)
+        if own:
+            entries.append(key(f"{label}, {words}", **style))
     return entries
 
 

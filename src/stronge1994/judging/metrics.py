@@ -250,12 +250,15 @@ def _range(entry: Entry, curves: Curves) -> Measured:
 def _contraction(entry: Entry, curves: Curves) -> Measured:
     """How much further apart neighbours of a curve leave than they arrive; the most at each place.
 
-    The printed equations are left out: they need not keep to that.
+    The printed equations are left out: they need not keep to that. So are curves whose names do
+    not begin as the comparison says.
     """
     x, y = entry["columns"]
+    beginning = entry.get("beginning", "")
     parts = []
     for name, columns in curves.items():
         drawn = not (curve_names.is_printed(name) or curve_names.is_shifted(name))
+        drawn &= name.startswith(beginning)
         if drawn and x in columns and y in columns:
             keys = [columns[label] for label in reversed(entry.get("labels", []))]
             order = np.lexsort([columns[x], *keys])

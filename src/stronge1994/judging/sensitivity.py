@@ -35,7 +35,16 @@ STEP = 1e-4
 # Sizes of change that are tried on the extrapolated distances.
 SIZES = 10.0 ** np.arange(-15, -0.25, 0.1)
 # Parts of settings that hold physics of their own.
-PARTS = ("experiment", "finite_elements", "rubber", "throw", "points", "materials", "contact")
+PARTS = (
+    "experiment",
+    "finite_elements",
+    "rubber",
+    "throw",
+    "points",
+    "materials",
+    "contact",
+    "continua",
+)
 # The contacts of this figure serve balances alone, which are laws: most are not followed here.
 SHORT = {"stability": {"most_phases": 2}}
 # Metrics that hold whatever the parameters are.

@@ -1,0 +1,40 @@
+"""Continua that lose energy, drawn light beside the curves of the paper's model."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from planarimpact import models
+from planarimpact.ground.arrays import ArrayLike
+from planarimpact.ground.results import Rebound
+from stronge1994.curve_names import name
+
+# What loses the energy: one relaxation time in shear and compression, or yield.
+MODELS = ("continuum.viscous", "continuum.plastic")
+
+
+def beside(
+    continua: Mapping[str, Any] | None, x: ArrayLike, mass_ratio: float, stiffness_ratio: float
+) -> Iterator[tuple[str, Rebound]]:
+    """Names of curves and the rebounds of each continuum at each restitution.
+
+    Parameters
+    ----------
+    continua : dict, optional
+        `models`, `restitution` and `tolerance`, as in config.yaml; none are solved without it.
+    x : array_like, shape (n,)
+        Incidences.
+    mass_ratio, stiffness_ratio : float
+
+    Examples
+    --------
+    >>> settings = {"models": ["continuum.viscous"], "restitution": [0.5], "tolerance": 1e-3}
+    >>> [(name, found.velocity.tolist()) for name, found in beside(settings, [6.0], 3.5, 1.21)]
+    [('continuum.viscous, e = 0.5', [0.75])]
+    """
+    if continua:
+        for e in continua["restitution"]:
+            for model in continua["models"]:
+                found = models.rebound(
+                    model, x, mass_ratio, stiffness_ratio, e, tolerance=continua["tolerance"]
+                )
+                yield f"{model}, {name('e', e)}", found
