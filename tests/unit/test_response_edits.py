@@ -116,7 +116,7 @@ def test_what_was_edited_is_refused_by_name_or_still_right(model, tmp_path):
             found = response.load(path)
         except InputError as error:
             assert str(error).startswith(f"{path}: ") and "\n" not in str(error), words
-            assert len(str(error)) < 400, words
+            assert len(str(error)) < 500, words  # the names of all models are 200 of them
             refused += 1
         else:
             assert is_right(found), words

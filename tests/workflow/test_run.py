@@ -45,7 +45,7 @@ def test_a_good_run_passes_and_leaves_everything(first_run):
 def test_headers_carry_units(first_run):
     for figure in FIGURES:
         header = (first_run[0] / f"results/curves/{figure}.csv").read_text().splitlines()[0]
-        words = {"curve", "event", "regime", "model"}
+        words = {"curve", "event", "regime", "model", "pair", "body", "other"}
         assert all("[" in name for name in header.split(",") if name not in words), header
 
 

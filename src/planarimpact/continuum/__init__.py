@@ -101,7 +101,7 @@ def rebound(
     """
     signed, beta, zeta2, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     allowed = _tolerance(tolerance, ELASTIC_TOLERANCE if loss is None else LOSSY_TOLERANCE)
-    _refuse_without_loss(e, loss)
+    _refuse_lossy(restitution, loss)
     x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
     velocity, peak, work = (np.empty(x.size) for _ in range(3))
     regime, reversals = (np.empty(x.size, np.int64) for _ in range(2))
@@ -210,7 +210,7 @@ def history(
     """
     signed, beta, zeta2, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     tolerance = _tolerance(tolerance, 0.0)
-    _refuse_without_loss(e, loss)
+    _refuse_lossy(restitution, loss)
     if signed.ndim:
         raise checks.InputError(f"shape = {signed.shape}: one contact takes scalars")
     x, beta, zeta2, e = (a.reshape(1) for a in (np.abs(signed), beta, zeta2, e))
@@ -233,20 +233,13 @@ def _tolerance(given: float | None, default: float) -> float:
     return checks.number("tolerance", value, "numbers above 0", 0, open_low=True)
 
 
-def _refuse_without_loss(e: Array, loss: str | None) -> None:
-    """Refuse impacts that lose energy and do not say how, or too much of it."""
-    if loss is not None:
-        checks.loss(loss, LOSSES)
-    lossy = e[e < 1]
-    if not lossy.size:
-        return
-    first = float(lossy.flat[0])
+def _refuse_lossy(restitution: ArrayLike, loss: str | None) -> None:
+    """Refuse impacts that lose energy and do not say how, or that lose too much."""
     if loss is None:
-        raise checks.InputError(
-            f"restitution = {first}: allowed are numbers equal to 1, as this contact is elastic; "
-            f"below 1 it needs a loss, {' or '.join(LOSSES)}"
-        )
-    if lossy.min() < LEAST_RESTITUTION:
-        raise checks.InputError(
-            f"restitution = {lossy.min()}: allowed are numbers from {LEAST_RESTITUTION} to 1"
-        )
+        words = f"below 1 it needs a loss, {' or '.join(LOSSES)}"
+        allowed = f"numbers equal to 1, as this contact is elastic; {words}"
+        checks.checked("restitution", restitution, allowed, 1, 1)
+        return
+    checks.loss(loss, LOSSES)
+    allowed = f"numbers from {LEAST_RESTITUTION} to 1, with a loss"
+    checks.checked("restitution", restitution, allowed, LEAST_RESTITUTION, 1)

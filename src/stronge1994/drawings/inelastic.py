@@ -139,8 +139,8 @@ def side_by_side(x: Array) -> Array:
 
     Examples
     --------
-    >>> side_by_side(np.array([0.9, 0.97, 0.9])).round(4).tolist()
-    [0.8972, 0.97, 0.9027]
+    >>> side_by_side(np.array([0.9, 0.97, 0.9])).round(3).tolist()
+    [0.897, 0.97, 0.903]
     """
     moved, order = x.copy(), np.argsort(x, kind="stable")
     for same in np.split(order, np.flatnonzero(np.diff(x[order]) > APART) + 1):
