@@ -89,11 +89,13 @@ def test_bad_groups_are_refused():
         impact.rebound([1.0], BETA, ZETA2, 1.5)
 
 
+CONTINUA = {"models": ["continuum.plastic"], "restitution": [0.5], "tolerance": 1e-2}
 CURVES = {
     fig5: dict(
         incidence=(0, 14),
         restitution=0.5,
         tolerance=1e-2,
+        loss_tolerance=1e-2,
         rubber={"stiffness_ratio": 1.5},
         experiment=dict(
             mass_ratio=3.5, stiffness_ratio=1.164, restitution=0.98, friction=0.092, speed=3.9,
@@ -101,9 +103,9 @@ CURVES = {
         ),
         finite_elements=dict(mass_ratio=3.5, stiffness_ratio=1.2143, restitution=1.0),
     ),
-    fig6: dict(incidence=(0, 8), restitution=[0.5]),
+    fig6: dict(incidence=(0, 8), restitution=[0.5], continua=CONTINUA),
     fig7: dict(angle=(0, 90), friction=[0.5]),
-    fig9: dict(angle=(0, 90), friction=[0.5], restitution=[0.5]),
+    fig9: dict(angle=(0, 90), friction=[0.5], restitution=[0.5], continua=CONTINUA),
 }  # fmt: skip
 
 

@@ -76,6 +76,8 @@ BAD_CONFIG = [
     (figure("fig5", incidence=["8", "0"]), r"figures.fig5.incidence = \[8, 0\]"),
     (figure("fig5", experiment="nobody"), "'nobody' is not in data/; allowed are"),
     (figure("fig5", tolerance="0"), "figures.fig5.tolerance: 0 is less than the minimum"),
+    (figure("fig6", continua={"restitution": ["0.2"]}), "restitution.0: 0.2 is less than the min"),
+    (figure("fig9", continua={"models": ["lumped"]}), "continua.models.0: 'lumped' is not one of"),
     (figure("convergence", steps=["32", "33"]), "figures.convergence.steps.1: 33 is not a mult"),
     (comparison("fig5-continuum-maw", reference="maw1976/no"), "'maw1976/no' is neither"),
     (figure("inelastic", points="maw1976/slip_throughout_limit"), "limit' is no series"),
@@ -120,6 +122,7 @@ BAD_CONFIG = [
 def test_the_config_itself_is_admitted(check):
     check({})
     check(figure("fig6", as_printed="True"))
+    check(figure("fig9", continua={"models": []}))
 
 
 @pytest.mark.parametrize(("change", "words"), BAD_CONFIG)

@@ -77,7 +77,8 @@ def _draw_added(axes: Axes, curves: Curves, points: Points, settings: Settings) 
         MEASURED_ANGLES: ("alumina on glass (Kharaz et al.)", GLASS_POINTS),
         "chung_ooi2011/rebound": ("finite elements (Chung & Ooi)", ELEMENT_POINTS),
     }
-    entries += house_style.lossy(axes, curves, X, Y, groups, "experiment")
+    restitution = house_style.restitutions([sphere["restitution"]])
+    entries += house_style.lossy(axes, curves, X, Y, restitution, "experiment")
     entries += house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")
     if MEASURED_ANGLES in points:
         points = points | {MEASURED_ANGLES: _contact_series(points[MEASURED_ANGLES])}
