@@ -64,7 +64,7 @@ def test_the_work_of_friction_is_the_energy_that_elastic_springs_lose():
     """The second code follows the slip of each spring; the balance of energy knows of none.
 
     Elastic-plastic spheres have elastic springs sideways, empty at separation. Twice the steps
-    change the extrapolated velocity and work by 1e-4.
+    change the extrapolated velocity by 5e-5.
     """
     x = np.array([0.3, 1.0, 2.0, 3.5, 6.0])
     groups = 3.5, 1.21, 0.5
@@ -73,7 +73,7 @@ def test_the_work_of_friction_is_the_energy_that_elastic_springs_lose():
         for steps in (800, 400)
     )
     velocity, work = 2 * fine - coarse
-    np.testing.assert_allclose(work, (x**2 - velocity**2) / 7, rtol=0, atol=3e-4)
+    np.testing.assert_allclose(work, (x**2 - velocity**2) / 7, rtol=0, atol=1e-4)
 
 
 def test_a_changed_cell_is_seen(tmp_path):
