@@ -32,3 +32,14 @@ def test_a_wrong_stiffness_ratio_is_seen_by_the_second_code():
     second = stepped("continuum.viscous", np.array([2.0]), 3.5, 1.21, 0.6)
     wrong = continuum.rebound(2.0, 3.5, 1.21 * 1.02, 0.6, loss="viscous")
     assert abs(wrong.velocity - second[0]) > 5 * SECOND_CODE
+
+
+@pytest.mark.parametrize("loss", continuum.LOSSES)
+def test_slip_throughout_begins_where_it_does_in_the_second_code(loss):
+    """The second code knows no limit: it has the line from there on, and not below."""
+    e, beta, zeta2 = 0.5, 3.5, 1.21
+    limit = float(sliding.limit_alike(beta, zeta2, e))
+    x = limit * np.array([0.9, 1.0, 1.02, 1.3])
+    off = stepped(f"continuum.{loss}", x, beta, zeta2, e) - sliding.velocity(x, beta, e)
+    assert abs(off[0]) > 0.01
+    np.testing.assert_allclose(off[1:], 0, atol=1e-3)

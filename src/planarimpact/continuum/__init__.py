@@ -72,10 +72,10 @@ def rebound(
     -----
     The error of the steps falls with their square. The extrapolated error falls with their power
     2.5 on average, as gross slip sets in with a root of time. The error is estimated, not bounded:
-    it is five times the largest of three numbers, the last change of the extrapolated answer, a
-    quarter of the change before it, and a quarter of what extrapolation corrects. All of the
-    correction counts where one gross slip more or less is within reach of the error. A reversal of
-    friction shorter than a step, just below slip throughout, is not counted.
+    it is five times, with a loss twice, the largest of three numbers, the last change of the
+    extrapolated answer, a quarter of the change before it, and a quarter of what extrapolation
+    corrects. All of the correction counts where one gross slip more or less is within reach of the
+    error. A reversal of friction shorter than a step, just below slip throughout, is not counted.
 
     The dissipation is the work of friction. With viscous loss the tangential motion also loses
     energy in the material, and at separation some strain is left.

@@ -22,6 +22,7 @@ from stronge1994.pages import ledger_page, templates
 MODELS = {
     "lumped": "your model",
     "lumped.plastic": "your model with e^2 zeta^2",
+    "lumped.viscous": "two viscous elements",
     "continuum.viscous": "continuum, viscous",
     "continuum.plastic": "continuum, yields",
 }
@@ -39,12 +40,16 @@ class Pair(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """Chi-squared of a model over all pairs, and over all but the least elastic one."""
+    """Chi-squared of a model over the pairs.
+
+    All of them; the others than the least elastic one; and those of the others that are lossy.
+    """
 
     model: str
     words: str
     every: ChiSquared
     others: ChiSquared
+    lossy: ChiSquared
 
 
 def pairs(curves: Curves, measured: Columns) -> list[Pair]:
@@ -63,16 +68,11 @@ def pairs(curves: Curves, measured: Columns) -> list[Pair]:
 
 def fits(curves: Curves, measured: Columns) -> list[Fit]:
     """How well each model fits the measured pairs."""
-    elastic = measured[f"{E} [1]"] > measured[f"{E} [1]"].min()
+    e = measured[f"{E} [1]"]
+    chosen = np.full(e.size, True), e > e.min(), (e > e.min()) & (e < 1)
+    parts = [_series({key: cells[which] for key, cells in measured.items()}) for which in chosen]
     return [
-        Fit(
-            model,
-            words,
-            inelastic.goodness(curves, model, _series(measured)),
-            inelastic.goodness(
-                curves, model, _series({key: cells[elastic] for key, cells in measured.items()})
-            ),
-        )
+        Fit(model, words, *(inelastic.goodness(curves, model, part) for part in parts))
         for model, words in MODELS.items()
     ]
 

@@ -241,7 +241,8 @@ def contact(
 def _summary(found: Path) -> Solved:
     """Raw velocity, peak and work; counts of gross slips after stick and of reversals; ones.
 
-    The last stands for how far a contact is from one gross slip more or less, which is not known.
+    The last stands for how far a contact is from one gross slip more or less. That is not known
+    here, so only a change of the count tells `refinement.refine` that one came or went.
     """
     size = np.abs(found.friction)
     gross = (size >= GROSS * found.normal)[1:-1]
