@@ -21,6 +21,7 @@ from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.ground.checks import ConvergenceError, InputError, checked, finite, positive
 from planarimpact.ground.results import Regime
+from planarimpact.noncollinear import rigid
 from planarimpact.noncollinear.configuration import (
     InverseMass,
     checked_impact,
