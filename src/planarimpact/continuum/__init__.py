@@ -13,10 +13,10 @@ slide throughout.
 import numpy as np
 
 from planarimpact import hertz
-from planarimpact.continuum import elastic, inelastic
+from planarimpact.continuum import elastic, inelastic, refinement
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.checks import Unsolved
+from planarimpact.ground.checks import Unsolved as Unsolved
 from planarimpact.ground.results import ContinuumHistory, Rebound
 
 LOSSES = tuple(inelastic.LOSSES)
@@ -108,14 +108,11 @@ def rebound(
     for is_elastic in (True, False):
         rows = np.flatnonzero((e == 1) == is_elastic)
         groups = x[rows], beta[rows], zeta2[rows]
-        try:
+        with refinement.counted_among(rows):
             if is_elastic:
                 found = elastic.rebound(*groups, allowed)
             else:
                 found = inelastic.rebound(*groups, e[rows], allowed, loss or "")
-        except Unsolved as error:
-            error.impacts = rows[error.impacts]
-            raise
         velocity[rows], peak[rows], work[rows], regime[rows], reversals[rows] = found
     return Rebound.shaped(signed, velocity, peak, work, regime.astype(np.uint8), reversals)
 

@@ -6,7 +6,6 @@ from planarimpact.continuum import refinement, tangential_motion
 from planarimpact.continuum.refinement import Solved
 from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.ground.checks import Unsolved
 from planarimpact.ground.results import Regime
 
 FIRST_STEPS, MOST_STEPS = 16, 2**15
@@ -46,13 +45,10 @@ def rebound(
     velocity, impulse, peak, regime, reversals = _at_limits(x, beta, zeta2)
     rest = np.flatnonzero(regime == _UNSOLVED)
     groups = x[rest], beta[rest], zeta2[rest]
-    try:
+    with refinement.counted_among(rest):
         values, counts = refinement.refine(
             groups, tolerance, _integrate, FIRST_STEPS, MOST_STEPS, SAFETY
         )
-    except Unsolved as error:
-        error.impacts = rest[error.impacts]
-        raise
     # The exact values have these bounds. Extrapolation and rounding may exceed them.
     velocity[rest] = np.clip(values[0], -groups[0], groups[0])
     full = (groups[0] > groups[2]) & (groups[0] >= groups[1])
@@ -84,8 +80,15 @@ def contact(x: Array, beta: Array, zeta2: Array, tolerance: float) -> list[Array
     """Phase, friction, velocity and radius of stick over one contact, each of shape (m,)."""
     slid = tangential_motion.gross_slip(x, beta, zeta2)
     if x[0] < sliding.limit(beta[0], zeta2[0], 1.0):
-        stuck = _settled_path(x, beta, zeta2, tolerance)
-        slid = [np.concatenate([a[:-1], b]) for a, b in zip(slid, stuck, strict=True)]
+        # Friction and velocity are judged.
+        stuck = refinement.settled_path(
+            lambda steps: list(tangential_motion.path(x, beta, zeta2, steps)),
+            (1, 2),
+            (x, beta, zeta2),
+            tolerance,
+            MOST_STEPS,
+        )
+        slid = [np.concatenate([a[:-1], b[:, 0]]) for a, b in zip(slid, stuck, strict=False)]
     return slid
 
 
@@ -183,22 +186,3 @@ def _peak(phase: Array, force: Array, gross: Booleans) -> Array:
         rises = between(left) < between(right)
         low, high = np.where(rises, left, low), np.where(rises, high, right)
     return between((low + high) / 2)
-
-
-def _settled_path(x: Array, beta: Array, zeta2: Array, tolerance: float) -> list[Array]:
-    """Path of one contact after gross slip, as fine as the tolerance asks."""
-    refinement.refuse_hopeless(x, beta, zeta2, tolerance, MOST_STEPS)
-    why, steps = None, 128
-    coarse = tangential_motion.path(x, beta, zeta2, steps)
-    while not why:
-        steps *= 2
-        fine = tangential_motion.path(x, beta, zeta2, steps)
-        # An error that falls with the square of the steps is a third of the change.
-        change = max(np.max(np.abs(fine[i][::2] - coarse[i])) / 3 for i in (1, 2))
-        resolved = steps >= refinement.steps_needed(beta, zeta2)[0]
-        if resolved and change <= tolerance:
-            return [a[:, 0] for a in fine[:4]]
-        if resolved and not refinement.in_reach(np.asarray(change), tolerance, steps, MOST_STEPS):
-            why = refinement.not_met(x[0], beta[0], zeta2[0], tolerance, steps, change, MOST_STEPS)
-        coarse = fine
-    raise checks.ConvergenceError(why)

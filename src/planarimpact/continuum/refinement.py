@@ -1,12 +1,13 @@
 """Steps doubled until the answer, extrapolated once, meets a tolerance."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import TypeAlias
 
 import numpy as np
 
 from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.ground.checks import Unsolved
+from planarimpact.ground.checks import ConvergenceError, Unsolved
 from planarimpact.ground.results import Regime
 
 # Values, counts of gross slips and of reversals, and how near one slip more or less is.
@@ -142,6 +143,61 @@ def not_met(
         f"tolerance = {tolerance:g}: not met with {steps} steps{beyond}, at incidence = {x:g}, "
         f"mass_ratio = {beta:g}, stiffness_ratio = {zeta2:g}; estimated error {error:.1e}"
     )
+
+
+def settled_path(
+    solve: Callable[[int], Sequence[Array]],
+    judged: tuple[int, int],
+    groups: tuple[Array, Array, Array],
+    tolerance: float,
+    most: int,
+) -> Sequence[Array]:
+    """Columns over one contact, as fine as the tolerance asks.
+
+    Parameters
+    ----------
+    solve : callable
+        Columns of shape (steps + 1, 1) for a number of steps. The instants of a coarse path are
+        among those of one with twice the steps.
+    judged : (int, int)
+        The columns that must meet the tolerance.
+    groups : tuple of ndarray, shape (1,)
+        Incidence, mass ratio, stiffness ratio.
+    tolerance : float
+    most : int
+        Steps to end with.
+
+    Raises
+    ------
+    ConvergenceError
+        If the tolerance is not met.
+    """
+    x, beta, zeta2 = groups
+    refuse_hopeless(x, beta, zeta2, tolerance, most)
+    why, steps = None, 128
+    coarse = solve(steps)
+    while not why:
+        steps *= 2
+        fine = solve(steps)
+        # An error that falls with the square of the steps is a third of the change.
+        change = max(np.max(np.abs(fine[i][::2] - coarse[i])) / 3 for i in judged)
+        resolved = steps >= steps_needed(beta, zeta2)[0]
+        if resolved and change <= tolerance:
+            return fine
+        if resolved and not in_reach(np.asarray(change), tolerance, steps, most):
+            why = not_met(x[0], beta[0], zeta2[0], tolerance, steps, change, most)
+        coarse = fine
+    raise ConvergenceError(why)
+
+
+@contextmanager
+def counted_among(rows: Integers) -> Iterator[None]:
+    """Impacts that are not solved are named by their places among all, not among these rows."""
+    try:
+        yield
+    except Unsolved as error:
+        error.impacts = rows[error.impacts]
+        raise
 
 
 def in_parts(count: int, together: int, solve: Callable[[slice], Solved]) -> Solved:

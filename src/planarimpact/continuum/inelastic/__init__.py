@@ -25,7 +25,6 @@ from planarimpact.continuum.inelastic.thornton import Thornton
 from planarimpact.continuum.refinement import Solved
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Integers
-from planarimpact.ground.checks import ConvergenceError, Unsolved
 from planarimpact.ground.results import Regime
 
 LOSSES = {"viscous": KelvinVoigt, "plastic": Thornton}
@@ -105,13 +104,10 @@ def rebound(
 
         return refinement.in_parts(x.size, max(32, CELLS // steps), solve)
 
-    try:
+    with refinement.counted_among(rest):
         values, counts = refinement.refine(
             groups, tolerance, integrate, FIRST_STEPS, MOST_STEPS, SAFETY
         )
-    except Unsolved as error:
-        error.impacts = rest[error.impacts]
-        raise
     # The exact values have these bounds. Extrapolation and rounding may exceed them.
     velocity[rest] = np.clip(values[0], -x[rest], x[rest])
     peak[rest], work[rest] = np.clip(values[1], 0.0, 1.0), values[2]
@@ -163,7 +159,8 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
     force, began = np.zeros(x.size), start == 0
     # Time, approach, normal velocity, displacement and its rate when slip ends, and at some
     # instants after that; and how many of them are known.
-    knots = np.zeros((1 + peaks.instants_after(steps), 5, x.size))
+    searched = 0 if motion.viscous else peaks.instants_after(steps)
+    knots = np.zeros((1 + searched, 5, x.size))
     knots[:] = start, approach, last, u, w / zeta2
     known = np.ones(x.size, dtype=np.intp)
     work = _work_sliding(x, beta, zeta2, -last, loss)
@@ -189,17 +186,16 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
         work += zeta2 * row.settle(k) * began
         friction[k, began], velocity[k, began] = force[began], w[began]
         stick_radius[k] = np.where(began, row.stick_radius, 0.0)
-        if not motion.viscous and (began & (known < len(knots))).any():
-            which = np.flatnonzero(began & (known < len(knots)))
+        which = np.flatnonzero(began & (known < len(knots)))
+        if which.size:
             here = np.array([after, motion.approach[k], motion.velocity[k], u, w / zeta2])
             knots[known[which], :, which] = here[:, which].T
             known[which] += 1
-    if not motion.viscous:
+    if isinstance(motion, Thornton):
         soon = slips & (last > 0) & (known == len(knots))
         with np.errstate(divide="ignore", invalid="ignore"):  # where it is not sought
             later = peaks.after_slip(motion, knots)
         peak = np.maximum(peak, np.where(soon, later, 0.0))
-    searched = 0 if motion.viscous else peaks.instants_after(steps)
     peak = peaks.largest(motion.time, friction, start, slid, peak, searched)
     largest = motion.largest_force
     radius = np.concatenate([motion.radius, motion.radius[-2::-1]]) / motion.radius[-1]
@@ -219,23 +215,14 @@ def contact(
     x: Array, beta: Array, zeta2: Array, e: Array, loss: str, tolerance: float
 ) -> list[Array]:
     """One contact, its arguments of shape (1,): columns of `Path` up to the radius of stick."""
-    refinement.refuse_hopeless(x, beta, zeta2, tolerance, MOST_STEPS)
-    steps, why = 128, None
-    coarse = path(x, beta, zeta2, e, loss, steps)
-    while not why:
-        steps *= 2
-        fine = path(x, beta, zeta2, e, loss, steps)
-        # An error that falls with the square of the steps is a third of the change. The instants of
-        # a coarse path are among those of a fine one.
-        pairs = (fine.friction, coarse.friction), (fine.velocity, coarse.velocity)
-        change = max(np.max(np.abs(a[::2] - b)) / 3 for a, b in pairs)
-        resolved = steps >= refinement.steps_needed(beta, zeta2)[0]
-        if resolved and change <= tolerance:
-            return [column[:, 0] for column in fine[:-2]]
-        if resolved and not refinement.in_reach(np.asarray(change), tolerance, steps, MOST_STEPS):
-            why = refinement.not_met(x[0], beta[0], zeta2[0], tolerance, steps, change, MOST_STEPS)
-        coarse = fine
-    raise ConvergenceError(why)
+    fine = refinement.settled_path(
+        lambda steps: path(x, beta, zeta2, e, loss, steps),
+        (Path._fields.index("friction"), Path._fields.index("velocity")),
+        (x, beta, zeta2),
+        tolerance,
+        MOST_STEPS,
+    )
+    return [column[:, 0] for column in fine[:-2]]
 
 
 def _summary(found: Path) -> Solved:

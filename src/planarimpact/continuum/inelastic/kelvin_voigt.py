@@ -92,12 +92,6 @@ class KelvinVoigt(NormalMotion):
         """As in `NormalMotion`: d - r^2, as q + tau q' = D - r^2."""
         return approach - self.radius[:count] ** 2
 
-    def force_at(self, approach: Array, velocity: Array) -> Array:
-        """As in `NormalMotion`."""
-        depth = approach + self.tau * velocity
-        edge = np.sqrt(np.where(velocity > 0, approach, depth))
-        return 2 * edge * (depth - edge * edge / 3)
-
     def when(self, velocity: Array) -> tuple[Array, Array, Array]:
         """As in `NormalMotion`."""
         compression, after = self._halves

@@ -49,10 +49,6 @@ class NormalMotion(ABC):
         """Deflection over zeta^2 of the innermost springs in slip from the start, (count, m)."""
 
     @abstractmethod
-    def force_at(self, approach: Array, velocity: Array) -> Array:
-        """Normal force, shape (m,)."""
-
-    @abstractmethod
     def when(self, velocity: Array) -> tuple[Array, Array, Array]:
         """Time, approach and normal force at a velocity from 1 to -e, shape (m,)."""
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from planarimpact.continuum.inelastic.normal_motion import NormalMotion
 from planarimpact.continuum.inelastic.springs import cubic
+from planarimpact.continuum.inelastic.thornton import Thornton
 from planarimpact.ground.arrays import Array
 
 # Places where a polynomial through a few instants is looked at.
@@ -56,7 +56,7 @@ def largest(
     return np.maximum(found, _highest([(start, np.abs(force)), *early]))
 
 
-def after_slip(motion: NormalMotion, knots: Array) -> Array:
+def after_slip(motion: Thornton, knots: Array) -> Array:
     """Largest friction soon after gross slip of elastic springs, by the limits in between.
 
     Friction grows on, turns and falls within a step, as one spring after the other sticks. Then

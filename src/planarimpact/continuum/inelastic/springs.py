@@ -132,7 +132,7 @@ class SpringRow:
         """Strain energy over zeta^2 of elastic springs, whose density is their deflection."""
         width = self._motion.width[: len(self._density)]
         squares = width * self._density**2
-        return 2 * (np.sum(squares, axis=0) - squares[0] / 2) / 2
+        return np.sum(squares, axis=0) - squares[0] / 2
 
     def _sum(self, k: int) -> Array:
         """Friction at instant k: mu times the normal force times the share of the limits."""

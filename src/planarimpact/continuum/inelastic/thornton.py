@@ -115,7 +115,7 @@ class Thornton(NormalMotion):
         return blunt * np.maximum(depth - self.radius[:count] ** 2, 0.0)
 
     def force_at(self, approach: Array, velocity: Array) -> Array:
-        """As in `NormalMotion`."""
+        """Normal force, shape (m,)."""
         depth, blunt = self._contact(approach, velocity)
         return 4 / 3 * blunt * depth**1.5
 
