@@ -6,7 +6,9 @@
 - `models`: every model by its name, with those that others use (`models.laws`, `models.timestep`).
 - `response`: compiles any of them. `scene`: solves tables of impacts. `study`: solves grids.
 - `bodies`: from physical bodies to the groups that all models take. `noncollinear`: bodies that
-  strike off their centre. `hertz`: the normal contact of elastic spheres.
+  strike off their centre.
+- `normal_impact.hertz`, `normal_impact.kelvin_voigt`, `normal_impact.thornton`: head-on impact of
+  spheres, elastic, viscous and plastic.
 - `ground`: what all of these stand on.
 
 `import planarimpact` is enough: `planarimpact.lumped` and the others are imported at their first
@@ -37,7 +39,7 @@ _ROOMS = [
     "study",
     "bodies",
     "noncollinear",
-    "hertz",
+    "normal_impact",
     "ground",
 ]
 __all__ = [

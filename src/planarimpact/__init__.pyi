@@ -1,9 +1,9 @@
 from planarimpact import bodies as bodies
 from planarimpact import continuum as continuum
-from planarimpact import hertz as hertz
 from planarimpact import lumped as lumped
 from planarimpact import models as models
 from planarimpact import noncollinear as noncollinear
+from planarimpact import normal_impact as normal_impact
 from planarimpact import response as response
 from planarimpact import rigid as rigid
 from planarimpact import scene as scene

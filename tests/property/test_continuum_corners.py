@@ -8,8 +8,9 @@ one more gross slip sets in as the incidence changes.
 import numpy as np
 import pytest
 
-from planarimpact import continuum, hertz, lumped
+from planarimpact import continuum, lumped
 from planarimpact.continuum.micro_slip import SpringRow
+from planarimpact.normal_impact import hertz
 
 STEPS = 1024, 2048, 4096
 SHARE = 0.1  # of a tolerance, to which the reference must agree with itself

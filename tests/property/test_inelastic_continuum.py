@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 
 from planarimpact import InputError, Regime, continuum
 from planarimpact.continuum import inelastic
-from planarimpact.continuum.inelastic import kelvin_voigt, thornton
 from planarimpact.ground import sliding
+from planarimpact.normal_impact import kelvin_voigt, thornton
 
 LOSSES = list(continuum.LOSSES)
 EXACT = {"rtol": 1e-11, "atol": 1e-13}

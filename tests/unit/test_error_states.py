@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from planarimpact import bodies, continuum, hertz, lumped, models, noncollinear, response
+from planarimpact import bodies, continuum, lumped, models, noncollinear, response
 from planarimpact.continuum import annuli, cattaneo_mindlin, micro_slip
 from planarimpact.models import laws
 from planarimpact.noncollinear import rigid
+from planarimpact.normal_impact import hertz
 
 SMALL_AND_LARGE = np.array([1e-300, 0.0, 0.7, 2.3, 8.0, 1e150])
 COARSE = {"continuum": {"tolerance": 1e-2}, "annuli": {"circles": 4, "steps": 16}}

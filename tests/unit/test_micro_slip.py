@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 import scipy.special
 
-from planarimpact import InputError, hertz
+from planarimpact import InputError
 from planarimpact.continuum import annuli, cattaneo_mindlin, micro_slip
+from planarimpact.normal_impact import hertz
 
 PHASE = np.linspace(0.0, np.pi, 201)
 

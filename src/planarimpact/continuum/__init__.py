@@ -2,7 +2,7 @@
 
 A Hertz contact slips in an outer annulus and sticks inside, as Maw, Barber & Fawcett (1976)
 describe it. The method is that of dimensionality reduction: a row of springs. `elastic` holds the
-case e = 1, with the normal motion of `planarimpact.hertz`, the springs of `micro_slip` and the
+case e = 1, with the normal motion of `normal_impact.hertz`, the springs of `micro_slip` and the
 steps of `tangential_motion`. `inelastic` holds two ways to lose energy below e = 1. `refinement`
 doubles the number of steps until the answer, extrapolated once, meets the tolerance.
 
@@ -12,12 +12,12 @@ slide throughout.
 
 import numpy as np
 
-from planarimpact import hertz
 from planarimpact.continuum import elastic, inelastic, refinement
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.checks import Unsolved as Unsolved
 from planarimpact.ground.results import ContinuumHistory, Rebound
+from planarimpact.normal_impact import hertz
 
 LOSSES = tuple(inelastic.LOSSES)
 # Below this restitution most contacts need more steps than are allowed.

@@ -1,7 +1,7 @@
 """Tangential motion over a Hertz contact: gross slip first, which has a closed form, then steps.
 
-The method is Stoermer-Verlet in equal steps of the phase of `planarimpact.hertz`. The force is that
-of the row of springs of `micro_slip`.
+The method is Stoermer-Verlet in equal steps of the phase of `normal_impact.hertz`. The force is
+that of the row of springs of `micro_slip`.
 
 A contact starts with a share g = min(1, x/zeta^2) of the limit of friction at every radius. If that
 share stayed, the displacement would be g d, and the velocity would fall by g beta (1 - v). Only the
@@ -15,10 +15,10 @@ force mu times the largest normal force, radius a_max.
 
 import numpy as np
 
-from planarimpact import hertz
 from planarimpact.continuum.micro_slip import SpringRow
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array
+from planarimpact.normal_impact import hertz
 
 
 def first_stick(x: Array, beta: Array, zeta2: Array) -> tuple[Array, Array]:

@@ -30,10 +30,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact import hertz
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers, Numbers
 from planarimpact.ground.results import Rebound, Regime
+from planarimpact.normal_impact import hertz
 
 STEPS = 64
 # They take some minutes.

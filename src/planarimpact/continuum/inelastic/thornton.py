@@ -1,9 +1,4 @@
-"""Normal impact of elastic-plastic spheres by Thornton's law (J. Appl. Mech. 64 (1997) 383-386).
-
-Hertz's law holds until the largest pressure is p_y, at the approach d_y. From there the pressure is
-Hertz's, cut at p_y, so that F = F_y + pi p_y (d - d_y). Unloading is elastic, with Hertz's law of
-the radius R_p = R F_e/F_max, where F_e is the force of Hertz's law at the largest approach. The
-coefficient of restitution depends on the ratio of the yield velocity to the velocity alone.
+"""Springs of elastic-plastic spheres: the law of `normal_impact.thornton` with a row of springs.
 
 Friction is at most mu times the pressure, so the pressure itself is needed. Thornton has two, and
 at maximum compression they do not agree: the cut one, and that of Hertz with the radius R_p. If
@@ -12,28 +7,17 @@ energy. So here the pressure is Hertz's at all times, with the force and the rad
 Thornton's law. Its density is b (a^2 - r^2), with the bluntness b = F/F_e(a). At e = 0.6 the
 velocity of rebound then differs by 0.02 mu v2(0) from that of a sphere that is pressed in with the
 cut pressure and unloads elastically from there, and by 0.08 from that with a jump.
-
-Units as in `normal_motion`: E* = 1, R = 1, m2 = 1, |v2(0)| = 1, so that Hertz's force is
-(4/3) d^(3/2).
 """
 
 import numpy as np
-from scipy.special import beta as beta_function
 
-from planarimpact import hertz
 from planarimpact.continuum.inelastic.normal_motion import NormalMotion
 from planarimpact.ground.arrays import Array
+from planarimpact.normal_impact import hertz
+from planarimpact.normal_impact import thornton as law
 
-# Halvings of the yield velocity, to the last bit of a number.
-BISECTIONS = 60
 # Places where the start of stick in plastic compression is sought before it is homed in.
 PLACES = 33
-# Time of compression in Hertz's law, in d_max/v.
-COMPRESSION = 0.4 * beta_function(0.4, 0.5)
-# Strain energy of Hertz's law, in d^(5/2).
-ENERGY = 8 / 15
-# Largest approach of elastic impact, to the power 5/2.
-FULL = 1 / (2 * ENERGY)
 
 
 class Thornton(NormalMotion):
@@ -57,15 +41,10 @@ class Thornton(NormalMotion):
 
     def __init__(self, restitution: Array, intervals: int) -> None:
         self._e = restitution
-        self._yields = (yield_velocity(restitution) ** 2 / (2 * ENERGY)) ** 0.4
+        self._law = law.compression(restitution)
         self.tau = np.zeros_like(restitution)
-        # In the plastic part of compression the motion is harmonic, about the approach `_centre`.
-        self._rate = np.sqrt(2 * np.sqrt(self._yields))
-        self._centre = self._yields / 3
-        at_yield = 1 - 2 * ENERGY * self._yields**2.5
-        self._reach = np.hypot(self._yields - self._centre, np.sqrt(at_yield) / self._rate)
-        largest = self._centre + self._reach
-        self.largest_force = self._rate**2 * self._reach
+        largest = self._law.largest_approach()
+        self.largest_force = self._law.largest_force()
         self.velocity_at_largest_force = np.zeros_like(largest)
         angle = np.linspace(0.0, np.pi / 2, intervals + 1)[:, None]
         self.radius = np.sqrt(largest) * np.sin(angle)
@@ -74,9 +53,9 @@ class Thornton(NormalMotion):
         depth = self.radius**2
         depth[-1] = largest
         back = depth[-2::-1]
-        time, velocity, force = self._loading(depth)
+        time, velocity, force = self._law.at(depth)
         blunt = self._bluntness(depth)
-        self._unloading = blunt[-1] * largest / restitution * COMPRESSION
+        self._unloading = blunt[-1] * largest / restitution * hertz.COMPRESSION
         phase = np.pi - angle[-2::-1]
         self.time = np.concatenate([time, time[-1] + self._unloading * (hertz.time(phase) - 1)])
         self.velocity = np.concatenate([velocity, restitution * hertz.velocity(phase)])
@@ -84,25 +63,11 @@ class Thornton(NormalMotion):
         self.force = np.concatenate([force, 4 / 3 * blunt[-1] * back**1.5])
         self._blunt = np.concatenate([blunt, np.broadcast_to(blunt[-1], back.shape)])
 
-    def _loading(self, depth: Array) -> tuple[Array, Array, Array]:
-        """Time, velocity and force at an approach in compression."""
-        elastic = np.minimum(depth, self._yields)
-        v = np.sqrt(1 - 2 * ENERGY * elastic**2.5)
-        time = FULL**0.4 * COMPRESSION * hertz.time(np.arcsin(np.sqrt(elastic) / FULL**0.2))
-        plastic = depth > self._yields
-        over = np.clip((depth - self._centre) / self._reach, 0.0, 1.0)
-        harmonic = np.sqrt((1 - over) * (1 + over))
-        start = np.arcsin((self._yields - self._centre) / self._reach)
-        later = (np.arccos(harmonic) - start) / self._rate
-        force = np.where(plastic, self._rate**2 * (depth - self._centre), 4 / 3 * elastic**1.5)
-        v = np.where(plastic, self._rate * self._reach * harmonic, v)
-        return np.where(plastic, time + later, time), v, force
-
     def _bluntness(self, depth: Array) -> Array:
         """Force over that of Hertz's law at the same radius of contact, in compression."""
-        hertzian = 4 / 3 * np.maximum(depth, self._yields) ** 1.5
-        plastic = self._rate**2 * (depth - self._centre) / hertzian
-        return np.where(depth > self._yields, plastic, 1.0)
+        hertzian = 4 / 3 * np.maximum(depth, self._law.yields) ** 1.5
+        plastic = self._law.rate**2 * (depth - self._law.centre) / hertzian
+        return np.where(depth > self._law.yields, plastic, 1.0)
 
     def density(self, instant: int) -> Array:
         """As in `NormalMotion`: b (a^2 - r^2)."""
@@ -129,7 +94,7 @@ class Thornton(NormalMotion):
     def grip(self, x: Array, beta: Array, zeta2: Array) -> Array:
         """As in `NormalMotion`: where w = zeta^2 v, or zeta^2 b v in plastic compression."""
         alike = super().grip(x, beta, zeta2)
-        plastic = np.sqrt(np.maximum(1 - 2 * ENERGY * self._yields**2.5, 0.0))
+        plastic = np.sqrt(np.maximum(1 - 2 * hertz.ENERGY * self._law.yields**2.5, 0.0))
         # The springs at the edge gain most, b v. Look for the first time when the body is slower,
         # between the end of elastic compression and the time when the body stands still.
         latest = np.clip((beta - x) / beta, 0.0, plastic)
@@ -141,7 +106,7 @@ class Thornton(NormalMotion):
         row = np.maximum(np.argmax(lead(places) <= 0, axis=0), 1)
         column = np.arange(x.size)
         high, low = places[row - 1, column], places[row, column]
-        for _ in range(BISECTIONS):
+        for _ in range(law.BISECTIONS):
             middle = (low + high) / 2
             ahead = lead(middle) > 0
             low, high = np.where(ahead, low, middle), np.where(ahead, middle, high)
@@ -149,56 +114,25 @@ class Thornton(NormalMotion):
 
     def _slowed(self, velocity: Array) -> Array:
         """Bluntness at a velocity in plastic compression."""
-        share = np.clip(velocity / (self._rate * self._reach), 0.0, 1.0)
-        return self._bluntness(self._centre + self._reach * np.sqrt((1 - share) * (1 + share)))
+        share = np.clip(velocity / (self._law.rate * self._law.reach), 0.0, 1.0)
+        return self._bluntness(
+            self._law.centre + self._law.reach * np.sqrt((1 - share) * (1 + share))
+        )
 
     def when(self, velocity: Array) -> tuple[Array, Array, Array]:
         """As in `NormalMotion`."""
         largest = self.radius[-1] ** 2
         # Elastic compression, plastic compression, restitution.
-        elastic = ((1 - np.clip(velocity, 0.0, 1.0) ** 2) / (2 * ENERGY)) ** 0.4
-        share = np.clip(velocity / (self._rate * self._reach), 0.0, 1.0)
-        plastic = self._centre + self._reach * np.sqrt((1 - share) * (1 + share))
-        depth = np.where(elastic > self._yields, plastic, elastic)
+        elastic = ((1 - np.clip(velocity, 0.0, 1.0) ** 2) / (2 * hertz.ENERGY)) ** 0.4
+        plastic = self._law.plastic_approach(velocity)
+        depth = np.where(elastic > self._law.yields, plastic, elastic)
         phase = hertz.phase_at(np.clip(velocity / self._e, -1.0, 0.0))
         later = self.time[len(self.radius) - 1] + self._unloading * (hertz.time(phase) - 1)
         radius = np.sin(phase)
-        time, _, force = self._loading(depth)
+        time, _, force = self._law.at(depth)
         early = velocity > 0
         return (
             np.where(early, time, later),
             np.where(early, depth, largest - self._blunt[-1] * largest * (1 - radius**2)),
             np.where(early, force, self.largest_force * radius**3),
         )
-
-
-def restitution(yield_velocity: Array) -> Array:
-    """Coefficient of restitution at a ratio of the yield velocity to the velocity of impact.
-
-    Parameters
-    ----------
-    yield_velocity : ndarray
-        v_y/v, 0 to 1.
-
-    Notes
-    -----
-    Thornton (1997), Eq. 44: the energy of unloading over that of the impact.
-
-    Examples
-    --------
-    >>> restitution(np.array([1.0, 0.1])).round(4)
-    array([1.    , 0.6586])
-    """
-    square = yield_velocity**2
-    slowness = yield_velocity / (yield_velocity + 2 * np.sqrt(1.2 - square / 5))
-    return np.sqrt(1.2 * np.sqrt(3) * (1 - square / 6)) * slowness**0.25
-
-
-def yield_velocity(restitution_wanted: Array) -> Array:
-    """Ratio of the yield velocity to the velocity of impact, the inverse of `restitution`."""
-    low, high = np.zeros_like(restitution_wanted), np.ones_like(restitution_wanted)
-    for _ in range(BISECTIONS):
-        middle = (low + high) / 2
-        below = restitution(middle) < restitution_wanted
-        low, high = np.where(below, middle, low), np.where(below, high, middle)
-    return high

@@ -8,6 +8,7 @@ named.
 """
 
 import numpy as np
+from scipy.special import beta as beta_function
 from scipy.special import betainc
 
 from planarimpact.ground import checks
@@ -15,6 +16,12 @@ from planarimpact.ground.arrays import Array, ArrayLike
 
 # Largest normal force in m2 v2(0)^2/d_max, as the strain energy (2/5) F2max d_max is all energy.
 PEAK_FORCE = 1.25
+# Time of compression, in d_max/v.
+COMPRESSION = 0.4 * beta_function(0.4, 0.5)
+# The following are in the units of `normal_impact`. Strain energy, in d^(5/2).
+ENERGY = 8 / 15
+# Largest approach, to the power 5/2.
+FULL = 1 / (2 * ENERGY)
 
 
 @checks.default_errors
