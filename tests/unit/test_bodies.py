@@ -5,6 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
+from scipy.special import beta
 
 from planarimpact import InputError, bodies, lumped
 from planarimpact.bodies import HALF_SPACE, Body, Material, Motion
@@ -149,6 +150,90 @@ def test_arrays_broadcast():
     assert np.ndim(bodies.incidence(1.0, 1.0, 0.5)) == 0
 
 
+STEEL = {"mass": 0.0327, "effective_modulus": 115e9, "effective_radius": 0.01}
+LAWS = {
+    "viscous": (bodies.viscous_restitution, bodies.relaxation_time),
+    "plastic": (bodies.plastic_restitution, bodies.yield_pressure),
+}
+
+
+def test_a_little_damping_takes_what_hertz_motion_would_lose():
+    """1 - e is the loss over twice the energy of impact, and the force 2 tau d^(1/2) d' takes it.
+
+    Along Hertz's motion, v^2 = 1 - (16/15) d^(5/2), in compression and in restitution.
+    """
+    slope = 4 * 0.4 * beta(0.6, 1.5) * (15 / 16) ** 0.6
+    unit = (0.0327 / (115e9 * np.sqrt(0.01))) ** 0.4  # L/v2 at 1 m/s
+    shares = np.array([1e-4, 1e-6])
+    lost = 1 - bodies.viscous_restitution(1.0, shares * unit, **STEEL)
+    # The next term of the series has the power 3/2.
+    assert np.all(np.abs(lost / (slope * shares) - 1) < 2 * np.sqrt(shares))
+    faster = 1 - bodies.viscous_restitution(32.0, 1e-6 * unit, **STEEL)
+    assert faster / lost[1] == pytest.approx(2.0, rel=2e-3)
+
+
+def test_yield_begins_at_the_yield_speed():
+    """There the largest pressure of Hertz, 3 F/(2 pi a^2), is the yield pressure."""
+    pressure = np.array([1e8, 2e9, 1e10])
+    speed = bodies.yield_speed(pressure, **STEEL)
+    force = bodies.hertz_peak_force(speed=speed, **STEEL)
+    radius = (3 * force * 0.01 / (4 * 115e9)) ** (1 / 3)
+    np.testing.assert_allclose(3 * force / (2 * np.pi * radius**2), pressure, rtol=1e-13)
+    assert (bodies.plastic_restitution(speed, pressure, **STEEL) == 1).all()
+    assert (bodies.plastic_restitution(0.9 * speed, pressure, **STEEL) == 1).all()
+    assert (bodies.plastic_restitution(1.01 * speed, pressure, **STEEL) < 1).all()
+    assert bodies.yield_pressure(1.0, speed, **STEEL) == pytest.approx(pressure, rel=1e-13)
+
+
+@pytest.mark.parametrize("loss", LAWS)
+def test_restitution_at_one_speed_gives_the_material_and_back(loss):
+    law, inverse = LAWS[loss]
+    e = np.array([[1.0], [1 - 1e-9], [0.9], [0.5], [0.022]])
+    speed = np.array([1e-4, 1.0, 300.0])
+    found = law(speed, inverse(e, speed, **STEEL), **STEEL)
+    np.testing.assert_allclose(found, np.broadcast_to(e, (5, 3)), rtol=0, atol=1e-10)
+    assert (np.diff(law(speed, inverse(0.7, 1.0, **STEEL), **STEEL)) < 0).all()
+    assert bodies.relaxation_time(1.0, 2.0, **STEEL) == 0
+
+
+@pytest.mark.parametrize("loss", LAWS)
+def test_the_size_of_a_ball_does_not_matter_only_its_speed(loss):
+    """Mass grows with the third power of the radius; times grow with the radius."""
+    law, inverse = LAWS[loss]
+    material = inverse(0.7, 1.0, **STEEL)
+    if loss == "viscous":
+        material = 5 * material
+    large = {"mass": 125 * 0.0327, "effective_modulus": 115e9, "effective_radius": 5 * 0.01}
+    assert law(1.0, material, **large) == pytest.approx(0.7, abs=1e-10)
+
+
+@pytest.mark.parametrize("loss", LAWS)
+def test_peak_force_of_a_loss_begins_with_that_of_hertz(loss):
+    hertz = bodies.hertz_peak_force(speed=2.0, **STEEL)
+    e = np.array([1.0, 1 - 1e-12, 0.999])
+    force = bodies.peak_force(speed=2.0, restitution=e, loss=loss, **STEEL)
+    assert force[0] == hertz and force[1] == pytest.approx(hertz, rel=1e-6)
+    assert 0.998 * hertz < force[2] < hertz
+
+
+def test_no_extreme_makes_an_elastic_impact_of_what_cannot_be_computed():
+    extreme = {"mass": 1e-300, "effective_modulus": 1e300, "effective_radius": 1e-300}
+    with pytest.raises(bodies.OutOfRange, match="beyond the range of numbers"):
+        bodies.plastic_restitution(1.0, 1e-300, **extreme)
+    extreme = {"mass": 1e300, "effective_modulus": 1e-300, "effective_radius": 1e-300}
+    with pytest.raises(bodies.OutOfRange, match="beyond the range of numbers"):
+        bodies.viscous_restitution(1e-300, 1.0, **extreme)
+    assert bodies.plastic_restitution(1.0, 1e300, **STEEL) == 1
+
+
+def test_a_relaxation_time_beyond_the_law_is_named_with_its_place():
+    with pytest.raises(bodies.OutOfRange, match="relaxation_time = 0.1: allowed are .* 0.022"):
+        bodies.viscous_restitution(1.0, [1e-7, 0.1], **STEEL)
+    with pytest.raises(bodies.OutOfRange) as refusal:
+        bodies.viscous_restitution(1.0, [1e-7, 0.1], **STEEL)
+    assert refusal.value.where.tolist() == [False, True]
+
+
 def changed(body):
     body.mass[0] = -1.0
     return body
@@ -190,6 +275,22 @@ def test_what_is_made_keeps_its_fields_as_given():
         (lambda: bodies.solid_sphere(-0.1, 1.0), "radius", "-0.1"),
         (lambda: bodies.hertz_peak_force(1.0, 0.0, 1e9, 0.1), "speed", "0.0"),
         (lambda: bodies.normal_frequency(1.0, 1.0, np.nan), "speed", "nan"),
+        (lambda: bodies.viscous_restitution(1, -1e-6, **STEEL), "relaxation_time", "-1e-06"),
+        (lambda: bodies.viscous_restitution(0, 1e-6, **STEEL), "speed", "0.0"),
+        (lambda: bodies.plastic_restitution(1, 0, **STEEL), "yield_pressure", "0.0"),
+        (lambda: bodies.yield_speed(np.inf, **STEEL), "yield_pressure", "inf"),
+        (lambda: bodies.relaxation_time(1.1, 1.0, **STEEL), "restitution", "1.1: allowed are num"),
+        (lambda: bodies.yield_pressure([1, 0.02], 1, **STEEL), "restitution[1]", "0.02: allowed"),
+        (
+            lambda: bodies.peak_force(speed=1, restitution=0.0, loss="viscous", **STEEL),
+            "restitution",
+            "0.0: allowed are numbers from 0.022 to 1",
+        ),
+        (
+            lambda: bodies.peak_force(speed=1, restitution=0.5, loss="magic", **STEEL),
+            "loss",
+            "'magic': allowed are viscous, plastic",
+        ),
         (
             lambda: bodies.rebound_motion(STEEL_BALL, Motion(1, 0, 0), 0.1, 0, 1),
             "motion.normal",

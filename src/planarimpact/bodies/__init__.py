@@ -10,7 +10,7 @@ any other, kept throughout). Spin is positive where it moves the contact point i
 v1 = tangential + radius spin, so rolling without slip, v1 = 0, is spin = -tangential/radius, and
 positive spin is backspin.
 
-All names of `masses`, `materials` and `quantities` that users need are here too.
+All names of `masses`, `materials`, `quantities` and `restitution` that users need are here too.
 """
 
 from functools import partial
@@ -36,6 +36,14 @@ from planarimpact.bodies.quantities import (
     in_range,
     quietly,
 )
+from planarimpact.bodies.restitution import (
+    peak_force,
+    plastic_restitution,
+    relaxation_time,
+    viscous_restitution,
+    yield_pressure,
+    yield_speed,
+)
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.checks import checked, finite, not_negative, positive
@@ -58,10 +66,16 @@ __all__ = [
     "incidence_from_angle",
     "mass_ratio",
     "normal_frequency",
+    "peak_force",
+    "plastic_restitution",
     "rebound_motion",
+    "relaxation_time",
     "solid_sphere",
     "stiffness_ratio",
     "thin_shell",
+    "viscous_restitution",
+    "yield_pressure",
+    "yield_speed",
 ]
 
 _angle = partial(

@@ -12,7 +12,7 @@ from planarimpact.ground.checks import InputError, checked, finite, not_negative
 
 
 class OutOfRange(InputError):
-    """A result that is too large or too small for a number; `where` says which of an array."""
+    """A result beyond the range of numbers or of a law; `where` says which of an array."""
 
     def __init__(self, message: str, where: Booleans) -> None:
         super().__init__(message)

@@ -22,6 +22,7 @@ COMPRESSION = 0.4 * beta_function(0.4, 0.5)
 ENERGY = 8 / 15
 # Largest approach, to the power 5/2.
 FULL = 1 / (2 * ENERGY)
+LARGEST_FORCE = PEAK_FORCE / FULL**0.4
 
 
 @checks.default_errors

@@ -24,14 +24,16 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 
 from planarimpact.ground.arrays import Array, Integers
+from planarimpact.normal_impact import hertz
 
-__all__ = ["relaxation_time", "restitution"]
+__all__ = ["largest_force", "relaxation_time", "restitution"]
 
 # Steps of either half. They make restitution right to 1e-10.
 STEPS = 512
-# Relaxation times that are tabulated: restitution 1 to 0.02.
+# Largest relaxation time of the tables. Restitution is 0.0216 there.
 SLOWEST = 8.0
-# Degree of restitution as a polynomial in the root of tau: it is right to rounding.
+# Degree of restitution and of the largest force as polynomials in the root of tau. Restitution is
+# right to 1e-10, the force to 1e-6 of Hertz's.
 DEGREE = 48
 # Newton's method doubles the digits. It starts with two of them or more.
 NEWTON = 8
@@ -45,19 +47,20 @@ def restitution(relaxation_time: Array) -> Array:
     Parameters
     ----------
     relaxation_time : ndarray, shape (m,)
-        From 0.
+        0 to `SLOWEST`.
 
     Returns
     -------
     ndarray, shape (m,)
+        1 at 0, then falling.
 
     Examples
     --------
     >>> restitution(np.array([0.0, 0.5])).round(6)
     array([1.     , 0.46894])
     """
-    _, after = _both(relaxation_time)
-    return -after.last[1]
+    found = np.minimum(_restitutions()(np.sqrt(relaxation_time)), 1.0)
+    return np.where(relaxation_time > 0, found, 1.0)
 
 
 def relaxation_time(restitution: Array) -> Array:
@@ -76,7 +79,7 @@ def relaxation_time(restitution: Array) -> Array:
     >>> relaxation_time(np.array([0.8])).round(6)
     array([0.123491])
     """
-    table = _table()
+    table = _restitutions()
     slope = table.deriv()
     root = np.sqrt((1 - restitution) / (2 * restitution))
     for _ in range(NEWTON):
@@ -84,10 +87,43 @@ def relaxation_time(restitution: Array) -> Array:
     return root * root
 
 
+def largest_force(restitution: Array) -> Array:
+    """Largest normal force, over that of an elastic impact (Hertz).
+
+    Parameters
+    ----------
+    restitution : ndarray, shape (m,)
+        From `normal_impact.LEAST_RESTITUTION` to 1.
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        It is least, 0.77, at e = 0.46, as damping shortens the approach. For smaller e the viscous
+        force at the start of contact is the largest. It has no bound as e approaches 0.
+
+    Examples
+    --------
+    >>> largest_force(np.array([1.0, 0.8, 0.5, 0.1])).round(3)
+    array([1.   , 0.887, 0.773, 1.339])
+    """
+    found = _largest_forces()(np.sqrt(relaxation_time(restitution)))
+    return np.where(restitution < 1, found, 1.0)
+
+
 @cache
-def _table() -> Chebyshev:
+def _restitutions() -> Chebyshev:
     """Restitution against the root of the relaxation time."""
-    return Chebyshev.interpolate(lambda y: restitution(y * y), DEGREE, [0.0, np.sqrt(SLOWEST)])
+    return _tabulated(lambda tau: -_both(tau)[1].last[1])
+
+
+@cache
+def _largest_forces() -> Chebyshev:
+    """Largest force over Hertz's, against the root of the relaxation time."""
+    return _tabulated(lambda tau: at_largest_force(_both(tau)[0], tau)[0] / hertz.LARGEST_FORCE)
+
+
+def _tabulated(values: Callable[[Array], Array]) -> Chebyshev:
+    return Chebyshev.interpolate(lambda y: values(y * y), DEGREE, [0.0, np.sqrt(SLOWEST)])
 
 
 @lru_cache(maxsize=16)

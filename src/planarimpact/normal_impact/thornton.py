@@ -15,7 +15,7 @@ import numpy as np
 from planarimpact.ground.arrays import Array
 from planarimpact.normal_impact import hertz
 
-__all__ = ["restitution", "yield_velocity"]
+__all__ = ["largest_force", "restitution", "yield_velocity"]
 
 # Halvings of the yield velocity, to the last bit of a number.
 BISECTIONS = 60
@@ -80,6 +80,27 @@ def compression(restitution: Array) -> Compression:
     centre = yields / 3
     at_yield = np.sqrt(np.maximum(1 - 2 * hertz.ENERGY * yields**2.5, 0.0))  # the velocity
     return Compression(yields, rate, centre, np.hypot(yields - centre, at_yield / rate))
+
+
+def largest_force(restitution: Array) -> Array:
+    """Largest normal force, over that of an elastic impact (Hertz).
+
+    Parameters
+    ----------
+    restitution : ndarray, shape (m,)
+        From `normal_impact.LEAST_RESTITUTION` to 1.
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        It falls with restitution: what yields is softer.
+
+    Examples
+    --------
+    >>> largest_force(np.array([1.0, 0.8, 0.5])).round(3)
+    array([1.   , 0.815, 0.551])
+    """
+    return compression(restitution).largest_force() / hertz.LARGEST_FORCE
 
 
 def restitution(yield_velocity: Array) -> Array:

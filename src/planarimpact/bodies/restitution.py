@@ -1,0 +1,358 @@
+"""Restitution from the material: e as a function of speed, for bodies that lose normal energy.
+
+Two laws of normal impact, those of `planarimpact.normal_impact`. A viscous body has a relaxation
+time, and e falls slowly with speed. A plastic body has a yield pressure: it is elastic up to the
+yield speed, and then e falls with speed. Each function holds for a contact of two spheres, by
+effective mass, modulus and radius.
+"""
+
+import numpy as np
+
+from planarimpact.bodies.materials import hertz_peak_force
+from planarimpact.bodies.quantities import OutOfRange, all_positive, in_range, quietly
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.checks import checked, not_negative, positive
+from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, kelvin_voigt, thornton
+
+LOSSES = tuple(LAWS)
+
+
+@quietly
+def viscous_restitution(
+    speed: ArrayLike,
+    relaxation_time: ArrayLike,
+    mass: ArrayLike,
+    effective_modulus: ArrayLike,
+    effective_radius: ArrayLike,
+) -> Array:
+    """Coefficient of restitution of viscous spheres with a relaxation time.
+
+    Parameters
+    ----------
+    speed : array_like
+        Normal speed of approach v2(0) [m/s], above 0.
+    relaxation_time : array_like
+        tau [s], from 0: stress = modulus (strain + tau strain rate), alike in shear and
+        compression. It is the A of Brilliantov et al.
+    mass : array_like
+        Normal effective mass m2 [kg], above 0.
+    effective_modulus : array_like
+        E* [Pa], above 0.
+    effective_radius : array_like
+        R [m], above 0.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        e, 0.022 to 1, right to 1e-10; 1 without relaxation.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or e is below 0.022.
+
+    Notes
+    -----
+    The force is (4/3) E* R^(1/2) (d^(3/2) + (3/2) tau d^(1/2) d') at the approach d, until the
+    contact would pull; there it ends. All depends on tau v2/L with the length
+    L = (m2 v2^2/(E* R^(1/2)))^(2/5), and e = 1 - 1.94 tau v2/L for a small loss. So 1 - e grows
+    like the fifth root of the speed.
+
+    References
+    ----------
+    G. Kuwabara, K. Kono, Jpn. J. Appl. Phys. 26 (1987) 1230-1233.
+
+    Examples
+    --------
+    >>> ball = {"mass": 0.005, "effective_modulus": 4e9, "effective_radius": 0.01}
+    >>> [round(float(viscous_restitution(v, 5e-6, **ball)), 3) for v in (0.1, 1.0, 10.0)]
+    [0.874, 0.812, 0.727]
+    """
+    v2, tau, m2, modulus, radius = checks.broadcast(
+        speed=positive("speed", speed),
+        relaxation_time=not_negative("relaxation_time", relaxation_time),
+        mass=positive("mass", mass),
+        effective_modulus=positive("effective_modulus", effective_modulus),
+        effective_radius=positive("effective_radius", effective_radius),
+    )
+    unit = _unit_of_time(v2, m2, modulus, radius)
+    longest = kelvin_voigt.relaxation_time(np.array(LEAST_RESTITUTION)) * unit
+    lost = np.atleast_1d(tau > longest)
+    if lost.any():
+        value, allowed = (np.atleast_1d(a)[lost][0] for a in (tau, longest))
+        words = f"allowed are numbers up to {allowed:.4g} here, where restitution is"
+        raise OutOfRange(f"relaxation_time = {value:g}: {words} {LEAST_RESTITUTION}", lost)
+    return kelvin_voigt.restitution(tau / unit)[()]
+
+
+@quietly
+def relaxation_time(
+    restitution: ArrayLike,
+    speed: ArrayLike,
+    mass: ArrayLike,
+    effective_modulus: ArrayLike,
+    effective_radius: ArrayLike,
+) -> Array:
+    """Relaxation time from restitution at one speed, the inverse of `viscous_restitution`.
+
+    Parameters
+    ----------
+    restitution : array_like
+        e at this speed, 0.022 to 1.
+    speed, mass, effective_modulus, effective_radius : array_like
+        As in `viscous_restitution`.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        tau [s], 0 where e = 1.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Examples
+    --------
+    >>> ball = {"mass": 0.005, "effective_modulus": 4e9, "effective_radius": 0.01}
+    >>> tau = relaxation_time(0.8, 1.0, **ball)
+    >>> round(float(viscous_restitution(1.0, tau, **ball)), 9)
+    0.8
+    """
+    e, v2, m2, modulus, radius = _known(
+        restitution, speed, mass, effective_modulus, effective_radius
+    )
+    found = kelvin_voigt.relaxation_time(e) * _unit_of_time(v2, m2, modulus, radius)
+    return in_range("relaxation time", np.where(e < 1, found, 0.0), above=-1.0)[()]
+
+
+@quietly
+def yield_speed(
+    yield_pressure: ArrayLike,
+    mass: ArrayLike,
+    effective_modulus: ArrayLike,
+    effective_radius: ArrayLike,
+) -> Array:
+    """Normal speed of impact from which elastic-plastic spheres yield.
+
+    Parameters
+    ----------
+    yield_pressure : array_like
+        p_y [Pa], above 0: the largest pressure that the contact carries. It lies between 1.6 times
+        the yield stress, where yield begins below the surface, and 3 times, where the whole contact
+        yields (Johnson, Contact Mechanics, 1985).
+    mass, effective_modulus, effective_radius : array_like
+        As in `viscous_restitution`.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        v_y [m/s].
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Notes
+    -----
+    At the radius of contact a_y = pi p_y R/(2 E*) the pressure of Hertz in the centre is p_y. The
+    approach is d_y = a_y^2/R there, and m2 v_y^2/2 = (8/15) E* R^(1/2) d_y^(5/2).
+
+    References
+    ----------
+    C. Thornton, J. Appl. Mech. 64 (1997) 383-386.
+
+    Examples
+    --------
+    >>> round(float(yield_speed(2e9, 0.0327, 115e9, 0.01)), 3)  # steel
+    0.239
+    """
+    pressure, m2, modulus, radius = all_positive(
+        yield_pressure=yield_pressure,
+        mass=mass,
+        effective_modulus=effective_modulus,
+        effective_radius=effective_radius,
+    )
+    return in_range("yield speed", _yield_speed(pressure, m2, modulus, radius))[()]
+
+
+@quietly
+def plastic_restitution(
+    speed: ArrayLike,
+    yield_pressure: ArrayLike,
+    mass: ArrayLike,
+    effective_modulus: ArrayLike,
+    effective_radius: ArrayLike,
+) -> Array:
+    """Coefficient of restitution of elastic-plastic spheres with a yield pressure.
+
+    Parameters
+    ----------
+    speed : array_like
+        Normal speed of approach v2(0) [m/s], above 0.
+    yield_pressure : array_like
+        p_y [Pa] as in `yield_speed`, above 0.
+    mass, effective_modulus, effective_radius : array_like
+        As in `viscous_restitution`.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        e: 1 up to the yield speed. Far above it e falls like v2^(-1/4).
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    References
+    ----------
+    C. Thornton, J. Appl. Mech. 64 (1997) 383-386, Eq. 44.
+
+    Examples
+    --------
+    >>> steel = {"mass": 0.0327, "effective_modulus": 115e9, "effective_radius": 0.01}
+    >>> [round(float(plastic_restitution(v, 2e9, **steel)), 3) for v in (0.1, 1.0, 10.0)]
+    [1.0, 0.804, 0.465]
+    """
+    v2, pressure, m2, modulus, radius = all_positive(
+        speed=speed,
+        yield_pressure=yield_pressure,
+        mass=mass,
+        effective_modulus=effective_modulus,
+        effective_radius=effective_radius,
+    )
+    # A yield speed that is infinite as a number is above any speed.
+    share = np.minimum(_yield_speed(pressure, m2, modulus, radius) / v2, 1.0)
+    e = np.where(share == 1, 1.0, np.minimum(thornton.restitution(share), 1.0))
+    return in_range("restitution", e)[()]
+
+
+@quietly
+def yield_pressure(
+    restitution: ArrayLike,
+    speed: ArrayLike,
+    mass: ArrayLike,
+    effective_modulus: ArrayLike,
+    effective_radius: ArrayLike,
+) -> Array:
+    """Yield pressure from restitution at one speed, the inverse of `plastic_restitution`.
+
+    Parameters
+    ----------
+    restitution : array_like
+        e at this speed, 0.022 to 1.
+    speed, mass, effective_modulus, effective_radius : array_like
+        As in `viscous_restitution`.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        p_y [Pa]; where e = 1 the least one, at which yield begins with this speed.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Examples
+    --------
+    >>> steel = {"mass": 0.0327, "effective_modulus": 115e9, "effective_radius": 0.01}
+    >>> pressure = yield_pressure(0.8, 1.0, **steel)
+    >>> round(float(plastic_restitution(1.0, pressure, **steel)), 9)
+    0.8
+    """
+    e, v2, m2, modulus, radius = _known(
+        restitution, speed, mass, effective_modulus, effective_radius
+    )
+    fastest = v2 * np.where(e < 1, thornton.yield_velocity(e), 1.0)
+    root = np.sqrt(15 / 16) * fastest * np.sqrt(m2 / modulus / radius) / radius
+    return in_range("yield pressure", 2 / np.pi * modulus * root**0.4)[()]
+
+
+@quietly
+def peak_force(
+    mass: ArrayLike,
+    speed: ArrayLike,
+    effective_modulus: ArrayLike,
+    effective_radius: ArrayLike,
+    restitution: ArrayLike,
+    loss: str,
+) -> Array:
+    """Peak normal force of spheres that lose normal energy.
+
+    Parameters
+    ----------
+    mass, speed, effective_modulus, effective_radius : array_like
+        As in `hertz_peak_force`.
+    restitution : array_like
+        e, 0.022 to 1.
+    loss : str
+        "viscous" or "plastic".
+
+    Returns
+    -------
+    ndarray of float64 or float
+        [N]. That of Hertz where e = 1. Below, a plastic contact has a smaller one. A viscous one
+        has a smaller one down to e = 0.19, and a larger one for more loss.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    Notes
+    -----
+    The laws are those of `viscous_restitution` and `plastic_restitution`.
+
+    Examples
+    --------
+    >>> steel = {"mass": 0.0327, "effective_modulus": 115e9, "effective_radius": 0.01, "speed": 1}
+    >>> losses = ["viscous", "plastic"]
+    >>> round(float(hertz_peak_force(**steel)))
+    1742
+    >>> [round(float(peak_force(**steel, restitution=0.5, loss=loss))) for loss in losses]
+    [1347, 960]
+    """
+    law = LAWS[checks.loss(loss, LOSSES)]
+    e, v2, m2, modulus, radius = _known(
+        restitution, speed, mass, effective_modulus, effective_radius
+    )
+    factor = np.where(e < 1, law.largest_force(e), 1.0)
+    return in_range("peak force", factor * hertz_peak_force(m2, v2, modulus, radius))[()]
+
+
+def _known(
+    restitution: ArrayLike,
+    speed: ArrayLike,
+    mass: ArrayLike,
+    effective_modulus: ArrayLike,
+    effective_radius: ArrayLike,
+) -> tuple[Array, ...]:
+    """Restitution from the least that the laws have, and what it belongs to, broadcast."""
+    allowed = f"numbers from {LEAST_RESTITUTION} to 1"
+    return checks.broadcast(
+        restitution=checked("restitution", restitution, allowed, LEAST_RESTITUTION, 1),
+        speed=positive("speed", speed),
+        mass=positive("mass", mass),
+        effective_modulus=positive("effective_modulus", effective_modulus),
+        effective_radius=positive("effective_radius", effective_radius),
+    )
+
+
+def _unit_of_time(v2: Array, m2: Array, modulus: Array, radius: Array) -> Array:
+    """L/v2 [s], of powers that do not overflow before it does."""
+    unit = m2**0.4 / modulus**0.4 / radius**0.2 / v2**0.2
+    return in_range("unit of relaxation time", unit)
+
+
+def _yield_speed(pressure: Array, m2: Array, modulus: Array, radius: Array) -> Array:
+    share = np.pi / 2 * (pressure / modulus)  # a_y/R
+    return np.sqrt(16 / 15 * modulus / m2 * radius) * radius * share**2.5
