@@ -29,7 +29,11 @@ Columns, with units in the header, separated by commas; the order is free, all o
   radius [m]              distance from centre to contact point, and radius of curvature
   density [kg/m^3]        of a solid sphere; or else mass [kg] and gyration [m]
   young_modulus [Pa], poisson_ratio
-  friction, restitution   of the pair
+  friction                of the pair
+  restitution             of the pair; or else what gives it at the speed of each impact:
+    relaxation_time [s] of viscous bodies, or yield_pressure [Pa] of plastic ones
+  loss                    viscous or plastic: what takes the energy below restitution 1; only beside
+                          restitution, viscous if left out
   the state before, in a plane:
     velocity_tangential [m/s], velocity_normal [m/s], positive towards the surface,
     spin [rad/s], positive where it moves the contact point of this body forward (backspin)
@@ -42,7 +46,8 @@ The other body, if it is no rigid half-space at rest, has the same columns with 
 its velocities and spin have the directions of the first one's: positive other_spin turns the same
 way round. A material alone makes it an elastic half-space; masses, radii of gyration and Young's
 moduli may be inf.
-The result has all these columns as they are, and then those of the state after.
+The result has all these columns as they are, and then those of the state after. Restitution is 0.1
+or more, except where the contact slides throughout. Forces are NaN where it is below 0.022.
 Example:
   radius [m],density [kg/m^3],young_modulus [Pa],poisson_ratio,friction,restitution,\
 velocity_tangential [m/s],velocity_normal [m/s],spin [rad/s]

@@ -1,6 +1,7 @@
 """Scenes: columns, plane and space, energy, blocks, and the choice of a rung."""
 
 import importlib
+import itertools
 import sys
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import pandas as pd
 import pytest
 
 from planarimpact import ConvergenceError, InputError, bodies, lumped, scene
-from planarimpact.scene import choice, columns, gaps, solver
+from planarimpact.scene import choice, columns, gaps, motion, solver
 
 STEEL = {
     "radius [m]": 0.01,
@@ -65,9 +66,8 @@ def test_plane_scene_is_the_solver_with_bodies():
     wanted = bodies.rebound_motion(ball, motion, 0.3, found.velocity, 0.8)
     names = ["velocity_tangential_after [m/s]", "velocity_normal_after [m/s]", "spin_after [rad/s]"]
     np.testing.assert_allclose([after[name] for name in names], wanted, rtol=1e-11)
-    force = bodies.hertz_peak_force(
-        ball.mass, 2.0, bodies.effective_modulus(bodies.Material(207e9, 0.3)), 0.01
-    )
+    modulus = bodies.effective_modulus(bodies.Material(207e9, 0.3))
+    force = bodies.peak_force(ball.mass, 2.0, modulus, 0.01, 0.8, "viscous")
     assert after["peak_normal_force [N]"] == pytest.approx(force, rel=1e-13)
     share = 0.3 * found.peak_friction
     assert after["peak_friction_force [N]"] == pytest.approx(share * force, rel=1e-11)
@@ -111,8 +111,11 @@ def test_rotated_axes_rotate_the_result(restitution):
             np.testing.assert_allclose(turn @ before, after, rtol=1e-9, atol=1e-9)
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.02, 0.3, 2.0])
-@pytest.mark.parametrize("restitution", [0.0, 0.6, 1.0])
+@pytest.mark.parametrize(
+    ("friction", "restitution"),
+    # Only contacts that slide throughout may have e = 0.
+    [*itertools.product([0.0, 0.02, 0.3, 2.0], [0.1, 0.6, 1.0]), (0.0, 0.0), (0.3, 0.0)],
+)
 def test_momentum_and_energy_of_two_bodies(friction, restitution):
     rows = table(
         STEEL, SPACE, OTHER, OTHER_SPACE, NORMAL, friction=friction, restitution=restitution
@@ -204,6 +207,23 @@ BAD_COLUMNS = [
     (STEEL | SPACE | without(NORMAL, "normal_y"), "normal_y: missing"),
     (STEEL | PLANE | {"other_mass [kg]": 1.0}, r"other_radius \[m\]: missing"),
     (STEEL | PLANE | {"other_poisson_ratio": 0.3}, r"other_young_modulus \[Pa\]: missing"),
+    (
+        without(STEEL, "restitution") | PLANE,
+        r"columns: needed is exactly one of restitution, relaxation_time \[s\], yield_pressure",
+    ),
+    (
+        STEEL | PLANE | {"yield_pressure [Pa]": 1e9},
+        r"columns restitution, yield_pressure \[Pa\]: needed is exactly one of",
+    ),
+    (
+        without(STEEL, "restitution") | PLANE | {"yield_pressure [Pa]": 1e9, "loss": "plastic"},
+        r"column loss: allowed only beside restitution, as yield_pressure \[Pa\] is always plas",
+    ),
+    (
+        without(STEEL, "restitution") | PLANE | {"relaxation_time [s]": 0.0, "loss": "viscous"},
+        r"column loss: allowed only .* relaxation_time \[s\] is always viscous",
+    ),
+    (STEEL | PLANE | {"loss [J]": "plastic"}, "the unit of loss is none"),
 ]
 
 
@@ -229,6 +249,11 @@ BAD_CELLS = [
     ("radius [m]", "０.０１", r"radius \[m\] = '０.０１': allowed are"),
     ("velocity_normal [m/s]", "fast", "= 'fast': allowed are finite numbers"),
     ("spin [rad/s]", 1e308, "too large or too small"),
+    (
+        "restitution",
+        0.0999,
+        "restitution = 0.0999: allowed are numbers from 0.1 where",
+    ),
     ("friction", 1e308, r"friction = 1e\+308 times normal velocity .* = 2 is too large a number"),
 ]
 
@@ -245,6 +270,93 @@ def test_a_bad_row_is_named_or_left_out(name, value, words):
     after = remembered.solve(rows, skip_bad=True)
     assert list(after.index) == [0, 1, 3]
     assert remembered.rows == 4 and [number for number, _ in remembered.bad] == [3]
+
+
+def of_material(**material):
+    return table(without(STEEL, "restitution"), PLANE, material)
+
+
+@pytest.mark.parametrize(
+    ("header", "value", "law", "loss"),
+    [
+        ("relaxation_time [s]", 1e-6, bodies.viscous_restitution, "viscous"),
+        ("yield_pressure [Pa]", 2e9, bodies.plastic_restitution, "plastic"),
+    ],
+)
+def test_the_material_gives_restitution_at_the_speed_of_each_impact(header, value, law, loss):
+    speeds = np.array([0.05, 0.5, 5.0])
+    rows = of_material(**{header: value}).loc[[0] * 3]
+    values, _ = inputs(rows.assign(**{"velocity_normal [m/s]": speeds}))
+    found = motion.impacts(values)
+    ball = bodies.solid_sphere(0.01, 7800.0)
+    contact = ball.mass, bodies.effective_modulus(bodies.Material(207e9, 0.3)), 0.01
+    e = law(speeds, value, *contact)
+    assert (np.diff(e) < 0).all() and e[2] < 0.9
+    np.testing.assert_allclose(found.restitution, e, rtol=1e-13)
+    assert found.plastic.tolist() == [loss == "plastic"] * 3
+    force = bodies.peak_force(ball.mass, speeds, *contact[1:], e, loss)
+    np.testing.assert_allclose(found.peak_normal, force, rtol=1e-9)
+    wanted = rows.assign(**{"velocity_normal [m/s]": speeds, "restitution": e, "loss": loss})
+    same, _ = inputs(wanted.drop(columns=header))
+    for one, other in zip(motion.impacts(same), found, strict=True):
+        np.testing.assert_allclose(np.stack(one), np.stack(other), rtol=1e-9, atol=1e-12)
+
+
+def inputs(rows):
+    """Values and problems of a table, as the solver reads them."""
+    return columns.numbers(rows, columns.named(rows.columns))
+
+
+def test_each_row_has_the_loss_of_its_word():
+    words = ["viscous", " plastic ", "plastic"]
+    rows = table(STEEL, PLANE).loc[[0] * 3].assign(loss=words, restitution=[0.5, 0.5, 1.0])
+    values, problems = inputs(rows)
+    assert not problems and [columns.LOSSES[int(k)] for k in values["loss"]] == [
+        word.strip() for word in words
+    ]
+    found = motion.impacts(values)
+    assert found.plastic.tolist() == [False, True, True]
+    hertz = found.peak_normal[2]
+    assert (found.peak_normal[:2] / hertz).round(3).tolist() == [0.773, 0.551]
+    as_category = inputs(rows.astype({"loss": "category"}))[0]
+    np.testing.assert_array_equal(as_category["loss"], values["loss"])
+
+
+@pytest.mark.parametrize("word", ["magic", "", None, 1, "Viscous", "viscous, plastic"])
+def test_a_wrong_loss_is_named_by_its_row(word):
+    rows = table(STEEL, PLANE).loc[[0] * 3].assign(loss=["viscous", word, "plastic"])
+    with pytest.raises(InputError, match="row 2: loss = .*: allowed are viscous, plastic"):
+        scene.solve(rows)
+
+
+def test_a_relaxation_time_beyond_the_law_is_a_bad_row():
+    rows = of_material().loc[[0] * 4].assign(**{"relaxation_time [s]": [1e-6, 1.0, 0.0, 1.0]})
+    rows["velocity_normal [m/s]"] = [2.0, 2.0, 2.0, -2.0]
+    found = scene.Solver()
+    after = found.solve(rows, skip_bad=True)
+    assert after["velocity_normal_after [m/s]"].iloc[1] == -2.0  # e = 1 without relaxation
+    (first, long), (last, away) = found.bad
+    assert (first, last) == (2, 4) and "must approach" in away
+    assert long.startswith("relaxation_time = 1: allowed are numbers up to ")
+
+
+@pytest.mark.parametrize("loss", columns.LOSSES)
+def test_little_restitution_is_for_contacts_that_slide(loss):
+    """Forces are those of the law as far as it goes, and then NaN."""
+    e = np.array([0.0, 0.021, 0.022, 0.05, 0.1])
+    rows = table(STEEL, PLANE, loss=loss).loc[[0] * e.size].assign(restitution=e)
+    sticks, slides = (motion.impacts(inputs(rows.assign(friction=mu))[0]) for mu in (0.3, 0.01))
+    assert slides.restitution.tolist() == sticks.restitution.tolist() == e.tolist()
+    assert slides.mass_ratio[0] == pytest.approx(3.5)
+    assert motion.slides_throughout(slides).all() and not motion.slides_throughout(sticks).any()
+    assert motion.problems(slides) == {}
+    words = "restitution = 0.05: allowed are numbers from 0.1 where the contact sticks at some time"
+    problems = motion.problems(sticks)
+    assert list(problems) == [0, 1, 2, 3] and problems[3] == words
+    assert np.isnan(slides.peak_normal).tolist() == [True, True, False, False, False]
+    with_loss = {"viscous": [2.676, 1.852, 1.339], "plastic": [0.045, 0.087, 0.152]}[loss]
+    elastic = motion.impacts(inputs(rows.assign(restitution=1.0))[0]).peak_normal[0]
+    assert (slides.peak_normal[2:] / elastic).round(3).tolist() == with_loss
 
 
 EXTREMES = [
@@ -352,7 +464,8 @@ def test_two_bodies_by_hand():
     assert after["other_velocity_tangential_after [m/s]"] == pytest.approx(-impulse / 0.05)
     assert after["other_spin_after [rad/s]"] == pytest.approx(0.02 * impulse / 0.05 / 0.013**2)
     modulus = bodies.effective_modulus(*materials)
-    force = bodies.hertz_peak_force(m2, 2.0, modulus, bodies.effective_radius(0.01, 0.02))
+    radius = bodies.effective_radius(0.01, 0.02)
+    force = bodies.peak_force(m2, 2.0, modulus, radius, 0.8, "viscous")
     assert after["peak_normal_force [N]"] == pytest.approx(force)
 
 

@@ -37,6 +37,7 @@ from planarimpact.bodies.quantities import (
     quietly,
 )
 from planarimpact.bodies.restitution import (
+    LEAST_RESTITUTION,
     peak_force,
     plastic_restitution,
     relaxation_time,
@@ -50,6 +51,7 @@ from planarimpact.ground.checks import checked, finite, not_negative, positive
 
 __all__ = [
     "HALF_SPACE",
+    "LEAST_RESTITUTION",
     "Body",
     "Material",
     "Motion",

@@ -9,9 +9,12 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
+from planarimpact import continuum
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.ground.checks import InputError
 
+# What takes the normal energy below e = 1: the words of the column `loss`.
+LOSSES = continuum.LOSSES
 HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
 
 
@@ -51,7 +54,12 @@ OTHER = {
 PAIR = {
     "friction": Column("", "finite numbers from 0", low=0),
     "restitution": Column("", "numbers from 0 to 1", low=0, high=1),
+    "relaxation_time": Column("s", "finite numbers from 0", low=0),
+    "yield_pressure": _above("Pa"),
+    "loss": Column("", ", ".join(LOSSES)),
 }
+# A table has one of these: restitution, or a property of the material that gives it.
+LOSS_OF = {"restitution": None, "relaxation_time": "viscous", "yield_pressure": "plastic"}
 PLANE = {
     "velocity_tangential": Column("m/s", _FINITE),
     "velocity_normal": Column("m/s", _FINITE),
@@ -124,7 +132,8 @@ def named(headers: Iterable[object]) -> dict[str, str]:
 
 def _refuse_incomplete(names: set[str]) -> None:
     """Refuse a table whose columns do not make up bodies and a state."""
-    _need(names, ["radius", "young_modulus", "poisson_ratio", "friction", "restitution"])
+    _need(names, ["radius", "young_modulus", "poisson_ratio", "friction"])
+    _refuse_restitution(names)
     _need_one_of(names, "density", ("mass", "gyration"))
     if names & (set(OTHER) - {"other_young_modulus", "other_poisson_ratio", "other_radius"}):
         _need(names, ["other_radius"])
@@ -144,6 +153,18 @@ def _refuse_incomplete(names: set[str]) -> None:
     if wrong:
         dimensions = "three" if space else "two"
         raise InputError(f"columns {_listed(wrong)}: the state has {dimensions} dimensions")
+
+
+def _refuse_restitution(names: set[str]) -> None:
+    """Refuse a table that does not say restitution in one way."""
+    given = names & set(LOSS_OF)
+    if len(given) != 1:
+        there = f" {_listed(given)}" if given else ""
+        raise InputError(f"columns{there}: needed is exactly one of {_listed(LOSS_OF)}")
+    (name,) = given
+    if "loss" in names and LOSS_OF[name]:
+        words = f"{header(name)} is always {LOSS_OF[name]}"
+        raise InputError(f"column loss: allowed only beside restitution, as {words}")
 
 
 def _need(names: set[str], wanted: Iterable[str]) -> None:
@@ -180,7 +201,7 @@ def numbers(table: pd.DataFrame, names: dict[str, str]) -> tuple[dict[str, Array
     Returns
     -------
     values : dict of ndarray
-        By name.
+        By name; `loss` as the position of the word in `LOSSES`.
     problems : dict
         `{position: words}`, the first problem of every bad row, positions from 0.
     """
@@ -190,7 +211,8 @@ def numbers(table: pd.DataFrame, names: dict[str, str]) -> tuple[dict[str, Array
         if name == LABEL:
             continue
         column = KNOWN[name]
-        values[name], bad = _checked(table[text], column)
+        check = _losses if name == "loss" else partial(_checked, column=column)
+        values[name], bad = check(table[text])
         for position in np.flatnonzero(bad).tolist():
             cell = table[text].iloc[position]
             shown = repr(cell) if isinstance(cell, str) else str(cell)
@@ -224,6 +246,13 @@ def _checked(series: pd.Series, column: Column) -> tuple[Array, Booleans]:
     if not column.infinite:
         good &= np.isfinite(values)
     return values, ~good
+
+
+def _losses(series: pd.Series) -> tuple[Array, Booleans]:
+    """Position in `LOSSES` of the word in each cell, and which are no such words."""
+    known = {word: position for position, word in enumerate(LOSSES)}
+    values = np.array([known.get(str(cell).strip(), -1) for cell in series], dtype=float)
+    return values, values < 0
 
 
 def _number(cell: Any) -> float:

@@ -12,10 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact import bodies
+from planarimpact import bodies, continuum
 from planarimpact.bodies import Body, Material
-from planarimpact.ground.arrays import Array
-from planarimpact.scene.columns import AXES
+from planarimpact.ground import sliding
+from planarimpact.ground.arrays import Array, Booleans
+from planarimpact.scene.columns import AXES, LOSSES
 
 # Largest error of the length of a normal.
 UNIT = 1e-6
@@ -46,10 +47,11 @@ class Impacts(NamedTuple):
     v2: Array  # normal velocity of approach [m/s]
     friction: Array
     restitution: Array
+    plastic: Booleans  # which loss, else viscous; without a meaning where e = 1
     m2: Array  # normal effective mass [kg]
     mass_ratio: Array
     stiffness_ratio: Array
-    peak_normal: Array  # largest normal force by Hertz [N]
+    peak_normal: Array  # largest normal force by the law of the loss [N], NaN where it has none
 
 
 def impacts(values: dict[str, Array]) -> Impacts:
@@ -58,7 +60,8 @@ def impacts(values: dict[str, Array]) -> Impacts:
     Parameters
     ----------
     values : dict of ndarray, shape (n,)
-        As `columns.numbers` returns them, without bad rows.
+        As `columns.numbers` returns them, without bad rows; with `loss` where `restitution` is
+        given.
 
     Returns
     -------
@@ -68,7 +71,13 @@ def impacts(values: dict[str, Array]) -> Impacts:
     Raises
     ------
     OutOfRange
-        If a mass, a mass ratio or a force is beyond the range of numbers; it says where.
+        If a mass, a mass ratio or a force is beyond the range of numbers, or a relaxation time
+        beyond its law; it says where.
+
+    Notes
+    -----
+    Both laws give peak forces from `bodies.LEAST_RESTITUTION` on. Below it they are NaN: a viscous
+    one grows without a bound as e approaches 0, and a plastic one falls to 0.
     """
     with np.errstate(over="ignore", invalid="ignore"):  # `problems` finds what is not finite
         body, other = _body(values, ""), _body(values, "other_")
@@ -80,6 +89,7 @@ def impacts(values: dict[str, Array]) -> Impacts:
         sideways = relative - along * normal
         v1, v2 = np.hypot(np.hypot(*sideways[:2]), sideways[2]), -along
         _, m2 = bodies.effective_masses(body, other)
+        restitution, plastic, peak_normal = _normal_impact(values, m2, v2)
         return Impacts(
             body,
             other,
@@ -90,12 +100,20 @@ def impacts(values: dict[str, Array]) -> Impacts:
             v1,
             v2,
             values["friction"],
-            values["restitution"],
+            restitution,
+            plastic,
             m2,
             bodies.mass_ratio(body, other),
             bodies.stiffness_ratio(*_materials(values)),
-            _peak_normal(values, m2, v2),
+            peak_normal,
         )
+
+
+def slides_throughout(impacts: Impacts) -> Booleans:
+    """Whether each impact slides from first to last, whatever the loss."""
+    groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
+    with np.errstate(over="ignore"):  # where friction stops any velocity that is a number
+        return impacts.v1 >= sliding.limit_alike(*groups) * (impacts.friction * impacts.v2)
 
 
 def problems(impacts: Impacts) -> dict[int, str]:
@@ -105,12 +123,12 @@ def problems(impacts: Impacts) -> dict[int, str]:
     --------
     >>> steel = {"young_modulus": 207e9, "poisson_ratio": 0.3, "radius": 0.01, "density": 7800.0}
     >>> state = {"velocity_tangential": 1.0, "velocity_normal": -1.0, "spin": 0.0}
-    >>> row = steel | state | {"friction": 0.1, "restitution": 0.5}
+    >>> row = steel | state | {"friction": 0.1, "restitution": 0.5, "loss": 0}
     >>> problems(impacts({name: np.array([value]) for name, value in row.items()}))
     {0: 'normal velocity of approach = -1: the bodies must approach each other'}
     """
     length = np.sqrt(np.sum(impacts.normal**2, axis=0))
-    numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.peak_normal, impacts.v1
+    numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.v1
     with np.errstate(over="ignore", invalid="ignore"):
         energy = impacts.m2 * impacts.v2 * impacts.v2 + impacts.m2 * impacts.v1 * impacts.v1
         unit = impacts.friction * impacts.v2
@@ -125,6 +143,10 @@ def problems(impacts: Impacts) -> dict[int, str]:
     for i in np.flatnonzero(finite & np.isinf(unit)):
         words = f"times normal velocity of approach = {impacts.v2[i]:g} is too large a number"
         found[int(i)] = f"friction = {impacts.friction[i]:g} {words} to compute with"
+    least = continuum.LEAST_RESTITUTION
+    for i in np.flatnonzero((impacts.restitution < least) & ~slides_throughout(impacts)):
+        words = f"allowed are numbers from {least} where the contact sticks at some time"
+        found[int(i)] = f"restitution = {impacts.restitution[i]}: {words}"
     for i in np.flatnonzero(impacts.mass_ratio > LARGEST_RATIO):
         words = f"allowed are numbers up to {LARGEST_RATIO:g}"
         found[int(i)] = f"mass ratio m2/m1 = {impacts.mass_ratio[i]:g}: {words}"
@@ -243,8 +265,27 @@ def _largest_turn(impacts: Impacts, body: Body) -> Array:
     return change * (body.radius / body.gyration) / body.gyration
 
 
-def _peak_normal(values: dict[str, Array], m2: Array, v2: Array) -> Array:
+def _normal_impact(values: dict[str, Array], m2: Array, v2: Array) -> tuple[Array, Booleans, Array]:
+    """Restitution, whether the loss is plastic, and the largest normal force by its law."""
     radius = bodies.effective_radius(values["radius"], values.get("other_radius", np.inf))
     modulus = bodies.effective_modulus(*_materials(values))
-    approaching = np.where((v2 > 0) & np.isfinite(v2), v2, 1.0)  # others are refused later
-    return bodies.hertz_peak_force(m2, approaching, modulus, radius)
+    approaches = (v2 > 0) & np.isfinite(v2)  # others are refused later
+    speed = np.where(approaches, v2, 1.0)
+    contact = m2, modulus, radius
+    if "relaxation_time" in values:
+        tau = np.where(approaches, values["relaxation_time"], 0.0)
+        e, loss = bodies.viscous_restitution(speed, tau, *contact), np.zeros(v2.size)
+    elif "yield_pressure" in values:
+        pressure = values["yield_pressure"]
+        e, loss = bodies.plastic_restitution(speed, pressure, *contact), np.ones(v2.size)
+    else:
+        e, loss = values["restitution"], values["loss"]
+    known = e >= bodies.LEAST_RESTITUTION
+    peak = np.full(v2.size, np.nan)
+    for position, word in enumerate(LOSSES):
+        mine = known & (loss == position)
+        if mine.any():
+            # All impacts are computed, so that a refusal finds its place.
+            force = bodies.peak_force(m2, speed, modulus, radius, np.where(mine, e, 1.0), word)
+            peak = np.where(mine, force, peak)
+    return e, loss == LOSSES.index("plastic"), peak

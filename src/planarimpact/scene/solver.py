@@ -84,6 +84,7 @@ class Solver:
 
     def _block(self, table: pd.DataFrame, names: dict[str, str], skip_bad: bool) -> pd.DataFrame:
         values, problems = columns.numbers(table, names)
+        values.setdefault("loss", np.zeros(len(table)))  # viscous
         good = np.ones(len(table), dtype=bool)
         good[list(problems)] = False
         impacts = self._impacts(values, good, problems)
