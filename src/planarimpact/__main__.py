@@ -15,7 +15,7 @@ from typing import Any, TextIO
 import numpy as np
 
 from planarimpact import __version__, bodies, continuum, lumped, models, response
-from planarimpact.ground import checks, files
+from planarimpact.ground import checks, files, sliding
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import ContinuumHistory, History, Rebound, Regime
 
@@ -83,6 +83,8 @@ UNITS: dict[type, dict[str, str]] = {
 NUMBER = re.compile(
     r"[+-]?((?P<digits>\d+\.?\d*|\.\d+)(e[+-]?\d+)?|inf|infinity|nan)", re.ASCII | re.IGNORECASE
 )
+# `models` takes errors at so many incidences.
+INCIDENCES = 65
 WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
 GROUPS = {
     "mass_ratio": (3.5, "m2/m1: 3.5 for a solid sphere, 2.5 for a thin shell, 3 for a disc"),
@@ -239,7 +241,12 @@ def _scene(options: argparse.Namespace) -> None:
     target = places.target(options.output)
     progress = tables.bar if sys.stderr.isatty() else None
     solver = tables.solve(
-        options.input, options.output, options.tolerance, options.skip_bad, progress=progress
+        options.input,
+        options.output,
+        options.tolerance,
+        options.skip_bad,
+        progress=progress,
+        loss=options.loss,
     )
     # Nothing else may stand in a table on standard output.
     words = sys.stderr if target == places.target("-") else sys.stdout
@@ -252,6 +259,8 @@ def _scene(options: argparse.Namespace) -> None:
             _say(f"row {row}, left out: {problem}", sys.stderr)
     if options.explain:
         _say(solver.explain(), words)
+    elif solver.assumed:
+        _say(f"{tables.ASSUMED}; --loss chooses", sys.stderr)
 
 
 def _say(words: str, file: TextIO | None) -> None:
@@ -270,7 +279,35 @@ def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:
     columns["restitution"] = ["{:g} to {:g}".format(*model.restitution) for model in every]
     columns["valid"] = [model.valid for model in every]
     columns["source"] = [model.source for model in every]
+    if options.restitution is not None:
+        return columns | _distances(options)
+    _refuse_given(options, ["loss", "mass_ratio", "stiffness_ratio"], "without --restitution")
     return columns
+
+
+def _distances(options: argparse.Namespace) -> dict[str, ArrayLike]:
+    """Errors of every model against the continuum, and how much of them can be seen."""
+    groups = {name: value for name, (value, _) in GROUPS.items()} | _groups(options)
+    loss = options.loss or continuum.LOSSES[0]
+    name = models.reference(groups["restitution"], loss)
+    limit = sliding.limit_alike(*(np.asarray(group) for group in groups.values()))
+    x = np.linspace(0.0, float(limit), INCIDENCES)
+    # A tenth of what the continuum promises, so that its own error shows too.
+    tolerance = models.get(name).settings["tolerance"] / 10
+    exact = models.rebound(name, x, **groups, tolerance=tolerance).velocity
+    spread = models.input_spread(f"continuum.{loss}", x, **groups, tolerance=1e-3)
+    columns: dict[str, list[float]] = {f"{word} [mu v2(0)]": [] for word in ("rms", "max")}
+    columns["seen [1]"] = []
+    for model in models.MODELS.values():
+        low, high = model.restitution
+        error = np.full(x.size, np.nan)
+        if low <= groups["restitution"] <= high:
+            error = np.abs(model.rebound(x, **groups).velocity - exact)
+        seen = np.mean(error > spread) if np.isfinite(error).all() else np.nan
+        numbers = np.sqrt(np.mean(error**2)), np.max(error), seen
+        for column, value in zip(columns.values(), numbers, strict=True):
+            column.append(float(f"{value:.2g}"))
+    return dict(columns)
 
 
 def _model(options: argparse.Namespace) -> str:
@@ -458,7 +495,13 @@ def _parser() -> argparse.ArgumentParser:
         type=decimal,
         default=1e-3,
         help="largest error: of the tangential velocity as a share of friction times normal speed, "
-        "of friction as a share of its limit [%(default)s]; elastic pairs reach some 1e-8",
+        "of friction as a share of its limit [%(default)s]; elastic pairs reach some 1e-8, others "
+        "1e-5",
+    )
+    scene.add_argument(
+        "--loss",
+        choices=continuum.LOSSES,
+        help="what takes the energy below e = 1, where the table has no column for it [viscous]",
     )
     scene.add_argument(
         "--explain", action="store_true", help="say which model took how many, and why"
@@ -471,7 +514,18 @@ def _parser() -> argparse.ArgumentParser:
     )
     scene.set_defaults(command=_scene)
 
-    listing = commands.add_parser("models", help="list the models", description="The models.")
+    listing = commands.add_parser(
+        "models",
+        help="list the models",
+        description="The models. With --restitution each has its error in velocity, root mean "
+        "square and largest, against the continuum with the loss, over all incidences that stick "
+        "at some time. seen is the share of them where the error is larger than what uncertain "
+        "inputs hide, if restitution is known to 0.02 and friction to 10 %.",
+    )
+    listing.add_argument(
+        "--loss", choices=continuum.LOSSES, help="what takes the energy below e = 1 [viscous]"
+    )
+    _add_groups(listing)
     _add_output(listing)
     listing.set_defaults(command=_table, columns=_models)
     return parser
@@ -484,9 +538,7 @@ def _add_model(parser: argparse.ArgumentParser, names: list[str], settings: bool
         choices=sorted({*lumped.LOSSES, *continuum.LOSSES}),
         help="what takes the energy below e = 1: of lumped [hysteretic] and continuum",
     )
-    for name, (value, words) in GROUPS.items():
-        option = "--" + name.replace("_", "-")
-        parser.add_argument(option, type=decimal, help=f"{words} [{value}]")
+    _add_groups(parser)
     if settings:
         parser.add_argument(
             "--set",
@@ -496,6 +548,12 @@ def _add_model(parser: argparse.ArgumentParser, names: list[str], settings: bool
             metavar="NAME=NUMBER",
             help="a setting of the model, see `models`",
         )
+
+
+def _add_groups(parser: argparse.ArgumentParser) -> None:
+    for name, (value, words) in GROUPS.items():
+        option = "--" + name.replace("_", "-")
+        parser.add_argument(option, type=decimal, help=f"{words} [{value}]")
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:

@@ -142,9 +142,11 @@ def test_an_unknown_name_is_refused(name):
         models.get(name)
 
 
-def test_the_reference_is_the_continuum_where_the_contact_is_elastic():
-    assert models.reference(1) == models.reference([1.0, 1.0]) == "continuum"
-    assert models.reference(0.5) == models.reference([1.0, 0.5]) == "lumped"
-    assert {models.reference(0), models.reference(1)} <= set(models.MODELS)
+def test_the_reference_is_a_continuum():
+    assert models.reference(1, "plastic") == models.reference(1.0) == "continuum"
+    for loss in ("viscous", "plastic"):
+        assert models.reference(0.999, loss) == f"continuum.{loss}" in models.MODELS
+    with pytest.raises(InputError, match="loss = 'hysteretic': allowed are viscous, plastic"):
+        models.reference(0.5, "hysteretic")
     with pytest.raises(InputError, match="restitution = 1.5"):
         models.reference(1.5)

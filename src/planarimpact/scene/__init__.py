@@ -19,7 +19,7 @@ from planarimpact.scene.solver import Solver
 __all__ = ["Solver", "solve"]
 
 
-def solve(table: pd.DataFrame, tolerance: float = 1e-3) -> pd.DataFrame:
+def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None) -> pd.DataFrame:
     """Solve every impact of a table by the cheapest model that is good enough.
 
     Parameters
@@ -29,16 +29,24 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3) -> pd.DataFrame:
     tolerance : float
         Largest error of the tangential velocity of contact at separation, in mu v2(0), and of
         the peak friction, in mu times the peak normal force; 1e-10 to 1. The error is measured
-        against the elastic continuum where restitution = 1, else against the lumped model. How far
-        these are from nature is not part of it.
+        against the continuum: the elastic one where restitution = 1, else the viscous or the
+        plastic one. Elastic pairs reach some 1e-8, others 1e-5. How far a continuum is from nature
+        is not part of it; `model_form` is a first measure of that.
+    loss : str, optional
+        What takes the normal energy where restitution is below 1: "viscous" (polymers, rubber) or
+        "plastic" (metals that yield). A table may have a column of this name instead. Where nobody
+        says, it is viscous. A table with the column relaxation_time is viscous, one with
+        yield_pressure plastic.
 
     Returns
     -------
     DataFrame
         `table` with its index and columns, and then: the state after, named as before with
-        `_after`; `model`; `error` of the tangential velocity [m/s]; `regime`; `incidence`
-        v1(0)/(mu v2(0)), inf or NaN without friction; largest normal force (Hertz, elastic in
-        compression whatever e) and friction [N]; `energy_lost [J]`.
+        `_after`; restitution and loss, where the table does not have them; `model`; `error` of the
+        tangential velocity [m/s]; `model_form`, how far that velocity would move with the other
+        loss, to about 0.01 mu v2(0) [m/s], NaN where that is not known; `regime`; `incidence`
+        v1(0)/(mu v2(0)), inf or NaN without friction; largest normal force, by the normal law of
+        the loss, and friction [N]; `energy_lost [J]`.
 
     Raises
     ------
@@ -46,8 +54,8 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3) -> pd.DataFrame:
         For what is no DataFrame, columns that are missing, unknown or do not go together, or a bad
         row, by its number.
     ConvergenceError
-        If the continuum does not reach the tolerance, by the row. Many elastic pairs of a mass
-        ratio above 100 take seconds; above some 10 000 most of them end like this.
+        If the continuum does not reach the tolerance, by the row. Many pairs of a mass ratio
+        above 100 take seconds; above some 10 000 most of them end like this.
 
     Examples
     --------
@@ -65,8 +73,8 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3) -> pd.DataFrame:
     ...         "spin [rad/s]": 0.0,
     ...     }
     ... )
-    >>> after = solve(table)
+    >>> after = solve(table, loss="plastic")
     >>> after[["velocity_tangential_after [m/s]", "regime"]].values.tolist()[1]
     [2.64, 'SLIP_THROUGHOUT']
     """
-    return Solver(tolerance).solve(table)
+    return Solver(tolerance, loss).solve(table)

@@ -1,9 +1,11 @@
 """The model for the impacts of a pair, and the way to its answer: the cheapest that is good enough.
 
 A model together with a way (solved, compiled, by formula) is a rung. The reference is
-`planarimpact.models.reference`: the continuum where the pair is elastic, else the lumped model. An
-error is the larger one of velocity (mu v2(0)) and peak friction (mu F2max). `gaps` has the measured
-errors of the cheaper models.
+`planarimpact.models.reference`: the continuum, elastic or with the loss of the pair. An error is
+the larger one of velocity (mu v2(0)) and peak friction (mu F2max). For e = 1 `gaps` has the
+measured errors of the cheaper models. For e < 1 they are not tried: a compiled continuum is as
+fast, and for a solid sphere at e = 0.8 the lumped model of the same loss is up to 0.2 (viscous) and
+0.5 (plastic) off.
 """
 
 from collections import Counter
@@ -13,7 +15,8 @@ import numpy as np
 import pandas as pd
 
 from planarimpact import continuum, lumped, models, response, rigid
-from planarimpact.ground.arrays import Array, Integers, Numbers
+from planarimpact.ground import sliding
+from planarimpact.ground.arrays import Array, Booleans, Integers, Numbers
 from planarimpact.ground.results import Rebound
 from planarimpact.response import Response
 from planarimpact.scene import gaps
@@ -27,7 +30,14 @@ COST = {
     ("lumped", "compiled"): (2e-2, 6e-8),
     ("continuum", "solved"): (3e-2, 2e-4),
     ("continuum", "compiled"): (1e-1, 6e-8),
+    ("continuum.viscous", "solved"): (3e-2, 6e-4),
+    ("continuum.viscous", "compiled"): (4e-1, 6e-8),
+    ("continuum.plastic", "solved"): (3e-2, 6e-4),
+    ("continuum.plastic", "compiled"): (3e-1, 6e-8),
 }
+# Below this restitution the peak friction of plastic spheres bends sharply, and compiling takes so
+# many times as long.
+SHARP, SHARPLY = 0.75, 30.0
 # These costs hold for this beta/zeta^2, and grow with it.
 ORDINARY = 3.0
 # A pair with fewer impacts than this is solved together with other such pairs.
@@ -38,8 +48,6 @@ MOST = 0.99
 EXACT = 1e-12
 # The largest number below 1 among those of 12 digits.
 BELOW_ONE = 1 - 2.0**-41
-# The rigid limit is not tried for a tolerance below this one.
-FUTILE = 1e-4
 # Tolerance of a compiled lumped response, which costs little more than a coarse one.
 FINE = 1e-9
 
@@ -67,10 +75,18 @@ class Job(NamedTuple):
     rows: Integers
     groups: tuple[Numbers, ...]
     pair: str
+    alike: bool  # whether all of them are one pair, but for rounding
+
+    def of(self, which: Integers) -> "Job":
+        """The same job for some of its impacts."""
+        groups = tuple(g if isinstance(g, float) else g[which] for g in self.groups)
+        return self._replace(rows=self.rows[which], groups=groups)
 
 
 REFERENCE = "the model that all others are measured against"
-MODELS = ("rigid", "lumped", "continuum")
+# Of elastic, viscous and plastic pairs.
+REFERENCES = ("continuum", *(f"continuum.{loss}" for loss in continuum.LOSSES))
+MODELS = ("rigid", "lumped", *REFERENCES)
 SLIDING = Rung("slip throughout", "formula", 0.0, "exact, whatever the reference")
 
 
@@ -78,16 +94,19 @@ def jobs(
     mass_ratio: Array,
     stiffness_ratio: Array,
     restitution: Array,
+    plastic: Booleans,
     rows: Integers,
     tolerance: float,
     responses: Responses,
-    seen: Counter[tuple[float, ...]],
+    seen: Counter[tuple[str, tuple[float, ...]]],
 ) -> list[Job]:
     """Divide impacts that do not slide throughout among the rungs, pair by pair.
 
     Parameters
     ----------
     mass_ratio, stiffness_ratio, restitution : ndarray, shape (n,)
+    plastic : ndarray of bool, shape (n,)
+        Whether the loss is plastic. It has no meaning for e = 1.
     rows : ndarray of int
         Those of them that are to be solved.
     tolerance : float
@@ -104,7 +123,8 @@ def jobs(
     rounded = _rounded(groups)
     # Only e = 1 is elastic, so no other e may be rounded to it.
     rounded[2] = np.where(groups[2] < 1, np.minimum(rounded[2], BELOW_ONE), rounded[2])
-    code = np.zeros(rows.size, dtype=np.int64)
+    kinds = np.where(groups[2] == 1, 0, np.where(plastic[rows], 2, 1))
+    code = kinds.astype(np.int64)
     for group in rounded:
         own, values = pd.factorize(group)
         code, _ = pd.factorize(code * len(values) + own)
@@ -116,14 +136,14 @@ def jobs(
             few.append(member)
             continue
         beta, zeta2, e = rounded[:, member[0]].tolist()
-        pair = beta, zeta2, e
+        pair, reference = (beta, zeta2, e), REFERENCES[kinds[member[0]]]
         name = "m2/m1 = {:.4g}, zeta^2 = {:.4g}, e = {:.4g}".format(*pair)
-        seen[pair] += member.size
-        taken = rung(*pair, tolerance, seen[pair], responses)
+        seen[reference, pair] += member.size
+        taken = rung(*pair, tolerance, seen[reference, pair], reference, responses)
         own = pair if taken.way == "compiled" else tuple(groups[:, member])
-        found.append(Job(taken, rows[member], own, name))
+        found.append(Job(taken, rows[member], own, name, True))
     if few:
-        found += _together(groups, rows, np.concatenate(few), tolerance)
+        found += _together(groups, kinds, rows, np.concatenate(few), tolerance)
     return found
 
 
@@ -133,21 +153,22 @@ def _rounded(groups: Array) -> Array:
     return ((bits + 2**11) & -(2**12)).view(np.float64)
 
 
-def _together(groups: Array, rows: Integers, members: Integers, tolerance: float) -> list[Job]:
+def _together(
+    groups: Array, kinds: Integers, rows: Integers, members: Integers, tolerance: float
+) -> list[Job]:
     """Jobs for impacts of pairs that have few each."""
-    elastic = groups[2][members] == 1
-    gap = np.where(elastic, gaps.elastic("lumped", *groups[:2, members]), 0.0)
+    elastic = kinds[members] == 0
+    gap = gaps.elastic("lumped", *groups[:2, members])
     coarse = elastic & (gap <= MOST * tolerance)
     largest = float(np.max(gap[coarse], initial=0.0))
-    kinds = (
-        (~elastic, Rung("lumped", "solved", 0.0, REFERENCE)),
-        (coarse, Rung("lumped", "solved", largest, "differs by less than allowed, as measured")),
-        (elastic & ~coarse, Rung("continuum", "solved", 0.0, REFERENCE)),
-    )
+    chosen = [(coarse, Rung("lumped", "solved", largest, "differs by less than allowed"))]
+    for kind, reference in enumerate(REFERENCES):
+        same = (kinds[members] == kind) & ~coarse
+        chosen.append((same, Rung(reference, "solved", 0.0, REFERENCE)))
     return [
-        Job(rung, rows[members[chosen]], tuple(groups[:, members[chosen]]), "pairs of few impacts")
-        for chosen, rung in kinds
-        if chosen.any()
+        Job(rung, rows[some], tuple(groups[:, some]), "pairs of few impacts", False)
+        for some, rung in ((members[of], rung) for of, rung in chosen)
+        if some.size
     ]
 
 
@@ -157,6 +178,7 @@ def rung(
     restitution: float,
     tolerance: float,
     count: int,
+    reference: str = "continuum",
     responses: Responses | None = None,
 ) -> Rung:
     """The cheapest rung for impacts of one pair that do not slide throughout.
@@ -167,6 +189,8 @@ def rung(
     tolerance : float
     count : int
         How many: compiling pays for many.
+    reference : str
+        One of `REFERENCES`.
     responses : dict, optional
         Those compiled so far, as `solve` keeps them.
 
@@ -176,40 +200,31 @@ def rung(
 
     Examples
     --------
-    >>> rung(3.5, 1.21, 0.9, 1e-3, 10**3)[:2], rung(3.5, 1.21, 0.9, 1e-3, 10**6)[:2]
-    (('lumped', 'solved'), ('lumped', 'compiled'))
     >>> rung(3.5, 1.21, 1.0, 0.3, 100)[:2], rung(3.5, 1.21, 1.0, 1e-3, 1000)[:2]
     (('lumped', 'solved'), ('continuum', 'compiled'))
+    >>> rung(3.5, 1.21, 0.9, 1e-3, 100, "continuum.viscous")[:2]
+    ('continuum.viscous', 'solved')
     """
     groups = mass_ratio, stiffness_ratio, restitution
-    gap = {models.reference(restitution): 0.0}
-    for model in ("rigid", "lumped"):
-        if model not in gap:
-            gap[model] = _gap(model, *groups, tolerance)
+    gap = {reference: 0.0}
+    if restitution == 1:
+        gap |= {name: float(gaps.elastic(name, *groups[:2])) for name in ("rigid", "lumped")}
     costs = []
     oscillates = max(1.0, mass_ratio / stiffness_ratio / ORDINARY)
     for (model, way), (first, each) in COST.items():
         if gap.get(model, np.inf) <= MOST * tolerance:
             # A compiled response has a kink for every half-wave of the tangential oscillation.
-            if (model, way) == ("continuum", "solved"):
+            if model in REFERENCES and way == "solved":
                 each = each * oscillates
             elif way == "compiled":
-                first = first * (oscillates**2 if model == "continuum" else oscillates**0.5)
+                first = first * (oscillates**2 if model in REFERENCES else oscillates**0.5)
+                sharp = model == "continuum.plastic" and restitution < SHARP
+                first = first * (SHARPLY if sharp else 1.0)
             ready = way == "compiled" and (model, *groups) in (responses or {})
             costs.append(((0.0 if ready else first) + count * each, model, way))
     _, model, way = min(costs)
     why = f"differs by {gap[model]:.2g} at most, as measured" if gap[model] else REFERENCE
     return Rung(model, way, gap[model], why)
-
-
-def _gap(
-    model: str, mass_ratio: float, stiffness_ratio: float, restitution: float, tolerance: float
-) -> float:
-    if restitution == 1:
-        return float(gaps.elastic(model, mass_ratio, stiffness_ratio))
-    if tolerance < FUTILE:
-        return np.inf
-    return gaps.inelastic(mass_ratio, stiffness_ratio, restitution)
 
 
 def solve(
@@ -247,8 +262,8 @@ def solve(
             responses[key] = _compiled(*key, tolerance)
         error = rung.error + max(responses[key].error_bound) + EXACT * mass_ratio
         return responses[key](incidence), error
-    if rung.model == "continuum":
-        return continuum.rebound(incidence, *groups, tolerance=tolerance), tolerance
+    if rung.model in REFERENCES:
+        return models.rebound(rung.model, incidence, *groups, tolerance=tolerance), tolerance
     model = {"lumped": lumped, "rigid": rigid}[rung.model]
     return model.rebound(incidence, *groups), rung.error + EXACT * np.asarray(mass_ratio)
 
@@ -256,8 +271,9 @@ def solve(
 def _compiled(
     model: str, mass_ratio: float, stiffness_ratio: float, restitution: float, tolerance: float
 ) -> Response:
-    limit = float(lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution))
-    wanted = tolerance if model == "continuum" else min(tolerance, FINE)
+    beta, zeta2 = np.asarray(mass_ratio), np.asarray(stiffness_ratio)
+    limit = float(sliding.limit_alike(beta, zeta2, restitution))
+    wanted = tolerance if model in REFERENCES else min(tolerance, FINE)
     return response.compile(
         model,
         incidence_max=limit,

@@ -11,6 +11,7 @@ import pandas as pd
 from planarimpact.ground.checks import InputError
 from planarimpact.scene import columns, places, reading, writing
 from planarimpact.scene.places import Place
+from planarimpact.scene.solver import ASSUMED as ASSUMED
 from planarimpact.scene.solver import Solver
 
 ROWS = 250_000  # read, solved and written at a time
@@ -23,6 +24,7 @@ def solve(
     skip_bad: bool = False,
     rows: int = ROWS,
     progress: Callable[[float | None, int], None] | None = None,
+    loss: str | None = None,
 ) -> Solver:
     """Solve the scene of one file into another, which appears whole or not at all.
 
@@ -43,6 +45,8 @@ def solve(
     progress : callable, optional
         Called with the share that is done, 0 to 1, or None where nobody knows it, and the impacts
         so far.
+    loss : str, optional
+        As in `solve`.
 
     Returns
     -------
@@ -67,7 +71,7 @@ def solve(
         raise InputError(
             f"{bad.name}: it is a link to the result; bad rows need a file of their own"
         )
-    solver = Solver(tolerance)
+    solver = Solver(tolerance, loss)
     with ExitStack() as stack:
         write_bad = stack.enter_context(writing.appended(bad)) if bad else None
         with writing.appended(result) as write:

@@ -12,10 +12,17 @@ from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers, Numbers
 from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import Rebound, Regime
-from planarimpact.scene import choice, columns, motion
+from planarimpact.scene import choice, columns, model_form, motion
 
 # Rows that are solved together: this bounds the memory.
 BLOCK = 2**17
+# What takes the energy below e = 1 where a table does not say.
+LOSS = "viscous"
+
+
+# Columns that stand in place of restitution. Each has its loss.
+MATERIAL = ("relaxation_time", "yield_pressure")
+ASSUMED = f"restitution below 1: the loss is taken to be {LOSS}, as none was given"
 
 
 class Solver:
@@ -24,24 +31,31 @@ class Solver:
     Parameters
     ----------
     tolerance : float
-        As in `solve`.
+    loss : str, optional
+        Both as in `solve`.
 
     Attributes
     ----------
+    assumed : bool
+        Whether an impact was solved with the loss "viscous" because none was given.
     bad : list of (int, str)
         Rows left out with `skip_bad`, by number from 1 over all tables, and why.
     rows : int
         Rows read so far.
     """
 
-    def __init__(self, tolerance: float = 1e-3) -> None:
+    def __init__(self, tolerance: float = 1e-3, loss: str | None = None) -> None:
         allowed = "numbers from 1e-10 to 1"
         self.tolerance = checks.number("tolerance", tolerance, allowed, 1e-10, 1)
+        self._loss = loss if loss is None else checks.loss(loss, columns.LOSSES)
+        self.assumed = False
         self.bad: list[tuple[int, str]] = []
         self.rows = 0
         self._responses: choice.Responses = {}
-        self._seen: Counter[tuple[float, ...]] = Counter()
+        self._seen: Counter[tuple[str, tuple[float, ...]]] = Counter()
         self._taken: Counter[tuple[choice.Rung, str]] = Counter()
+        self._curves: model_form.Curves = {}
+        self._differences = model_form.Summary()
 
     @checks.default_errors
     def solve(self, table: pd.DataFrame, skip_bad: bool = False) -> pd.DataFrame:
@@ -79,12 +93,17 @@ class Solver:
         lines = [f"{self.rows - len(self.bad)} impacts, tolerance {self.tolerance:g}"]
         for (rung, pair), count in self._taken.most_common():
             way = rung.model if rung.way == "formula" else f"{rung.model}, {rung.way}"
-            lines.append(f"{count:>10}  {way:<20}  {pair}: {rung.why}")
-        return "\n".join(lines)
+            lines.append(f"{count:>10}  {way:<27}  {pair}: {rung.why}")
+        if self.assumed:
+            lines.append(ASSUMED)
+        return "\n".join(lines + self._differences.words())
 
     def _block(self, table: pd.DataFrame, names: dict[str, str], skip_bad: bool) -> pd.DataFrame:
+        self._refuse_two_losses(names)
         values, problems = columns.numbers(table, names)
-        values.setdefault("loss", np.zeros(len(table)))  # viscous
+        if "restitution" in names and "loss" not in names:
+            code = columns.LOSSES.index(self._loss or LOSS)
+            values["loss"] = np.full(len(table), float(code))
         good = np.ones(len(table), dtype=bool)
         good[list(problems)] = False
         impacts = self._impacts(values, good, problems)
@@ -106,6 +125,14 @@ class Solver:
         self.rows += len(table)
         found = table[good].assign(**result)
         return found[~np.isin(positions, list(unsolved))] if unsolved else found
+
+    def _refuse_two_losses(self, names: dict[str, str]) -> None:
+        for name in ("loss", *MATERIAL):
+            if self._loss is not None and name in names:
+                raise InputError(
+                    f"loss = {self._loss!r}: it does not apply, as the column {names[name]!r} says "
+                    "what takes the energy"
+                )
 
     def _impacts(
         self, values: dict[str, Array], good: Booleans, problems: dict[int, str]
@@ -134,27 +161,38 @@ class Solver:
         unit = impacts.friction * impacts.v2
         groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
         with np.errstate(over="ignore"):  # where friction stops any velocity that is a number
-            slides = impacts.v1 >= sliding.limit(*groups) * unit
+            slides = impacts.v1 >= sliding.limit_alike(*groups) * unit
             lost = sliding.change(impacts.mass_ratio, impacts.restitution) * unit
         unsolved: dict[int, str] = {}
         velocity = impacts.v1 - np.where(slides, lost, 0.0)
         peak, error = np.ones(unit.size), np.zeros(unit.size)
         regime = np.full(unit.size, Regime.SLIP_THROUGHOUT, np.uint8)
+        form = np.zeros(unit.size)
         model = np.zeros(unit.size, np.intp)
         if slides.any():
             self._taken[choice.SLIDING, "all pairs"] += int(np.sum(slides))
         stick = np.flatnonzero(~slides)
-        for job in choice.jobs(*groups, stick, self.tolerance, self._responses, self._seen):
+        jobs = choice.jobs(
+            *groups, impacts.plastic, stick, self.tolerance, self._responses, self._seen
+        )
+        for job in jobs:
             x = impacts.v1[job.rows] / unit[job.rows]
             rung, (found, known), left, without = self._answers(job, x)
             unsolved |= {int(job.rows[i]): words for i, words in without.items()}
-            rows = job.rows[left]
+            part = job.of(left)._replace(rung=rung)
+            rows = part.rows
             velocity[rows] = found.velocity * unit[rows]
             peak[rows], regime[rows] = found.peak_friction, found.regime
             error[rows] = known * unit[rows]
+            difference = model_form.difference(part, x[left], found.velocity, self._curves)
+            form[rows] = np.abs(difference) * unit[rows]
             model[rows] = 1 + choice.MODELS.index(rung.model)
             self._taken[rung, job.pair] += rows.size
-        return self._columns(impacts, names, velocity, peak, error, regime, model), unsolved
+            if rung.model in choice.REFERENCES[1:]:
+                self._differences.add(difference)
+                self.assumed |= self._loss is None and not {"loss", *MATERIAL} & set(names)
+        found_columns = velocity, peak, error, form, regime, model
+        return self._columns(impacts, names, *found_columns), unsolved
 
     def _answers(
         self, job: choice.Job, x: Array
@@ -184,6 +222,7 @@ class Solver:
         velocity: Array,
         peak: Array,
         error: Array,
+        form: Array,
         regime: Integers,
         model: Integers,
     ) -> dict[str, Any]:
@@ -197,9 +236,15 @@ class Solver:
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             incidence = impacts.v1 / (impacts.friction * impacts.v2)
         models = [choice.SLIDING.model, *choice.MODELS]
+        if "restitution" not in names:
+            after |= {"restitution": impacts.restitution}
+        if "loss" not in names:
+            code = np.where(impacts.restitution < 1, impacts.plastic, -1)
+            after |= {"loss": pd.Categorical.from_codes(code, columns.LOSSES)}
         return after | {
             "model": pd.Categorical.from_codes(model, models),
             "error [m/s]": error,
+            "model_form [m/s]": form,
             "regime": pd.Categorical.from_codes(regime, list(Regime.__members__)),
             "incidence": incidence,
             "peak_normal_force [N]": impacts.peak_normal,

@@ -2,12 +2,12 @@
 
 import functools
 import time
-from collections.abc import Callable, Iterator, Sequence
-from typing import NamedTuple, TypeAlias
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from planarimpact import models, response
+from planarimpact import continuum, models, response
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound
 from planarimpact.models import Model
@@ -15,8 +15,9 @@ from stronge1994.csv_tables import Curves
 
 FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
 SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
-LUMPED_ACCURACY = 1e-12  # promised by `planarimpact.lumped`
 LUMPED_RESPONSE_TOLERANCE = 1e-10
+# Of the spread, of which two digits matter.
+SPREAD_TOLERANCE = 1e-3
 
 SEED = 1994
 # Medians are of so many calls, or of those begun in so many seconds. The incidence decides how long
@@ -40,10 +41,15 @@ def curves(
     steps: Sequence[int],
     circles: Sequence[int],
     tolerances: Sequence[float],
+    inelastic: Mapping[str, Any],
     batches: Sequence[int],
     budget: float,
 ) -> Curves:
     """Errors and times of every model that admits a restitution, a curve of one point each.
+
+    For e = 1 the errors are those against the elastic continuum. For e < 1 every model is measured
+    twice, against the viscous and against the plastic continuum. So the error of the other
+    continuum is what the wrong loss costs.
 
     Parameters
     ----------
@@ -54,12 +60,13 @@ def curves(
     samples : int
         Incidences at which errors are taken, evenly spread over the range.
     restitution : sequence of float
-        Energetic coefficients; `planarimpact.models.reference` says what errors are measured
-        against.
+        Energetic coefficients.
     tolerance : float
-        Of that reference where it is the continuum.
+        Of the reference, the continuum.
     steps, circles, tolerances : sequence
         Settings that are tried. Of a model with two, annuli, the second keeps its default.
+    inelastic : dict
+        `tolerance` and `tolerances` in place of these for e < 1.
     batches : sequence of int
         Numbers of impacts that are solved together; times are for one of them.
     budget : float
@@ -69,39 +76,61 @@ def curves(
     Returns
     -------
     dict
-        `{"<model>, <settings>, e = <restitution>": {column: array of one}}`: model and settings;
-        errors, root mean square and largest, in velocity, peak friction (laws of impulses leave
-        it open) and dissipation; the error of the reference itself; times. "response of ..." is
-        compiled once, in `build_time`, and then evaluated. A time taken while the machine was busy
-        has a column beside it, `busy_<batch>` or `busy_build`: wall time over CPU time, which is
-        about how many times too long it is.
+        `{"<model>, <settings>, e = <restitution>, <loss>": {column: array of one}}`: model,
+        settings and loss; errors, root mean square and largest, in velocity, peak friction
+        (laws of impulses leave it open) and dissipation; the error of the reference itself; the
+        spread of its velocity under uncertain inputs, see `input_spread`, root mean square over all
+        incidences and over those that stick at first; `seen`, the share of incidences where the
+        error of the model is larger than that spread; times. "response of ..." is compiled once, in
+        `build_time`, and then evaluated. A time taken while the machine was busy has a column
+        beside it, `busy_<batch>` or `busy_build`: wall time over CPU time, which is about how many
+        times too long it is.
 
     Examples
     --------
-    >>> named = curves(3.5, 1.21, [0, 8], 9, [0.5], 1e-3, [16], [4], [1e-2], [1], 1.0)
-    >>> list(named)[2:5]
-    ['laws.brach, e = 0.5', 'lumped, e = 0.5', 'timestep.linear, 16 steps, e = 0.5']
-    >>> float(named["lumped, e = 0.5"]["max_velocity [mu v2(0)]"][0])
-    0.0
+    >>> inelastic = {"tolerance": 1e-2, "tolerances": [1e-2]}
+    >>> named = curves(3.5, 1.21, [0, 8], 9, [0.8], 1, [16], [4], [1], inelastic, [1], 1.0)
+    >>> list(named)[2:4]
+    ['laws.brach, e = 0.8, viscous', 'lumped, e = 0.8, viscous']
+    >>> wrong = named["continuum.plastic, tolerance 0.01, e = 0.8, viscous"]
+    >>> round(float(wrong["max_velocity [mu v2(0)]"][0]), 1)
+    0.3
     """
-    tried = {"steps": steps, "circles": circles, "tolerance": tolerances}
     x = np.linspace(incidence[0], incidence[1], samples)
     named = {}
     for e in restitution:
         groups = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio, "restitution": e}
-        exact, accuracy = reference(x, groups, tolerance)
-        contenders = [*_solved(groups, tried), *_compiled(groups, tolerances, incidence[1])]
-        for contender in contenders:
-            row = {
-                "model": contender.model,
-                "restitution [1]": e,
-                **{SETTINGS[key]: value for key, value in contender.settings.items()},
-                **errors(contender.rebound(x), exact),
-                "reference_error [mu v2(0)]": accuracy,
-                **contender.build_time,
-                **times(_stopwatch(contender.rebound), incidence, batches, budget),
+        wanted = {"tolerance": tolerance, "tolerances": tolerances} if e == 1 else inelastic
+        tried = {"steps": steps, "circles": circles, "tolerance": wanted["tolerances"]}
+        timed = []
+        for contender in _contenders(groups, tried, incidence[1]):
+            seconds = times(_stopwatch(contender.rebound), incidence, batches, budget)
+            timed.append((contender, contender.rebound(x), contender.build_time | seconds))
+        for loss in continuum.LOSSES if e < 1 else ("",):
+            exact = reference(x, groups, wanted["tolerance"], loss)
+            spread = input_spread(x, groups, loss)
+            sticks = x <= stiffness_ratio
+            against = {
+                "reference_error [mu v2(0)]": wanted["tolerance"],
+                "input_spread [mu v2(0)]": root_mean_square(spread),
+                "input_spread_stick [mu v2(0)]": root_mean_square(spread[sticks]),
             }
-            named[_name(contender, e)] = {key: np.array([value]) for key, value in row.items()}
+            for contender, found, seconds in timed:
+                # What the wrong loss costs does not depend on the tolerance.
+                coarsest = contender.settings.get("tolerance", np.inf) >= max(wanted["tolerances"])
+                if _loss(contender.model) not in ("", loss) and not coarsest:
+                    continue
+                row = {
+                    "model": contender.model,
+                    "restitution [1]": e,
+                    "loss": loss,
+                    **{SETTINGS[key]: value for key, value in contender.settings.items()},
+                    **errors(found, exact),
+                    "seen [1]": float(np.mean(np.abs(found.velocity - exact.velocity) > spread)),
+                    **against,
+                    **seconds,
+                }
+                named[_name(contender, e, loss)] = {k: np.array([v]) for k, v in row.items()}
     return named
 
 
@@ -117,19 +146,35 @@ class _Contender(NamedTuple):
     build_time: dict[str, float] = {}
 
 
-def _solved(groups: dict[str, float], tried: dict[str, Sequence[float]]) -> Iterator[_Contender]:
-    """Every model that admits the restitution, with each setting that is tried."""
+def _contenders(
+    groups: dict[str, float], tried: dict[str, Sequence[float]], incidence_max: float
+) -> Iterator[_Contender]:
+    """Every model that admits the restitution, with each setting that is tried, and responses."""
+    elastic = groups["restitution"] == 1
+    compiled = [("lumped", LUMPED_RESPONSE_TOLERANCE)] if elastic else []
     for model in models.MODELS.values():
-        # The reference at e < 1 has the paper's loss; other losses are not errors of it.
-        other_loss = model.name.endswith((".viscous", ".plastic"))
-        if _admits(model, groups["restitution"]) and not other_loss:
-            for settings in _variants(model, tried):
-                yield _Contender(model.name, settings, _solver(model, groups, settings))
+        low, high = model.restitution
+        # For e = 1 a model with a loss is the same as the model without.
+        if not low <= groups["restitution"] <= high or (elastic and _loss(model.name)):
+            continue
+        for settings in _variants(model, tried):
+            yield _Contender(model.name, settings, _solver(model, groups, settings))
+            if model.name.startswith("continuum"):
+                compiled.append((model.name, settings["tolerance"]))
+    for name, tolerance in compiled:
+        watch = Watch()
+        with watch:
+            made = response.compile(
+                name, incidence_max=incidence_max, tolerance=tolerance, **groups
+            )
+        build_time = {"build_time [s]": watch.wall[0]} | _busy("build", watch.over_cpu())
+        yield _Contender(f"response of {name}", {"tolerance": tolerance}, made, build_time)
 
 
-def _admits(model: Model, restitution: float) -> bool:
-    low, high = model.restitution
-    return low <= restitution <= high
+def _loss(model: str) -> str:
+    """The loss in the name of a model, "" where it has none or is elastic."""
+    loss = model.rpartition(".")[2]
+    return loss if loss in continuum.LOSSES else ""
 
 
 def _variants(model: Model, tried: dict[str, Sequence[float]]) -> list[dict[str, float]]:
@@ -146,31 +191,14 @@ def _solver(model: Model, groups: dict[str, float], settings: dict[str, float]) 
     return rebound
 
 
-def _compiled(
-    groups: dict[str, float], tolerances: Sequence[float], incidence_max: float
-) -> Iterator[_Contender]:
-    """Responses of the exact models, compiled here."""
-    wanted = [("lumped", LUMPED_RESPONSE_TOLERANCE)]
-    if _admits(models.get("continuum"), groups["restitution"]):
-        wanted += [("continuum", tolerance) for tolerance in tolerances]
-    for model, tolerance in wanted:
-        watch = Watch()
-        with watch:
-            made = response.compile(
-                model, incidence_max=incidence_max, tolerance=tolerance, **groups
-            )
-        build_time = {"build_time [s]": watch.wall[0]} | _busy("build", watch.over_cpu())
-        yield _Contender(f"response of {model}", {"tolerance": tolerance}, made, build_time)
-
-
-def _name(contender: _Contender, e: float) -> str:
+def _name(contender: _Contender, e: float, loss: str) -> str:
     words = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
     settings = [words[key].format(value) for key, value in contender.settings.items()]
-    return ", ".join([contender.model, *settings, f"e = {e:g}"])
+    return ", ".join([contender.model, *settings, f"e = {e:g}", *filter(None, [loss])])
 
 
-def reference(x: Array, groups: dict[str, float], tolerance: float) -> tuple[Rebound, float]:
-    """What errors are measured against, and its own error in velocity.
+def reference(x: Array, groups: dict[str, float], tolerance: float, loss: str) -> Rebound:
+    """What errors are measured against.
 
     Parameters
     ----------
@@ -179,22 +207,56 @@ def reference(x: Array, groups: dict[str, float], tolerance: float) -> tuple[Reb
     groups : dict
         mass_ratio, stiffness_ratio, restitution.
     tolerance : float
-        Of the continuum, the reference where the contact is elastic.
+        Of this continuum.
+    loss : str
+        "viscous" or "plastic"; without meaning for e = 1.
 
     Returns
     -------
-    Rebound, float
+    Rebound
 
     Examples
     --------
     >>> groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 0.5}
-    >>> reference(np.array([8.0]), groups, 1e-3)[1]
-    1e-12
+    >>> float(reference(np.array([8.0]), groups, 1e-3, "plastic").velocity[0])
+    2.75
     """
-    model = models.get(models.reference(groups["restitution"]))
-    if "tolerance" in model.settings:
-        return model.rebound(x, **groups, tolerance=tolerance), tolerance
-    return model.rebound(x, **groups), LUMPED_ACCURACY
+    name = models.reference(groups["restitution"], loss or continuum.LOSSES[0])
+    return models.rebound(name, x, **groups, tolerance=tolerance)
+
+
+def input_spread(x: Array, groups: dict[str, float], loss: str) -> Array:
+    """Root mean square change of the velocity if e is known to 0.02 and mu to 10 %.
+
+    Parameters
+    ----------
+    x, groups, loss
+        As in `reference`. For e = 1 lower values of e are those of the viscous continuum.
+
+    Returns
+    -------
+    ndarray
+        mu v2(0), at each incidence.
+
+    Examples
+    --------
+    >>> groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 1.0}
+    >>> input_spread(np.array([8.0]), groups, "").round(2)
+    array([0.7])
+    """
+    name = f"continuum.{loss or continuum.LOSSES[0]}"
+    return models.input_spread(name, x, **groups, tolerance=SPREAD_TOLERANCE)
+
+
+def root_mean_square(values: Array) -> float:
+    """Root mean square; NaN of none.
+
+    Examples
+    --------
+    >>> root_mean_square(np.array([3.0, -3.0]))
+    3.0
+    """
+    return float(np.sqrt(np.mean(np.square(values)))) if values.size else float("nan")
 
 
 def errors(found: Rebound, exact: Rebound) -> dict[str, float]:
@@ -224,7 +286,7 @@ def errors(found: Rebound, exact: Rebound) -> dict[str, float]:
         gap = np.abs(getattr(found, field) - getattr(exact, field))
         # A velocity that is no number is a fault, and must show.
         if field == "velocity" or np.isfinite(gap).all():
-            columns[f"rms_{field} [{unit}]"] = np.sqrt(np.mean(gap**2))
+            columns[f"rms_{field} [{unit}]"] = root_mean_square(gap)
             columns[f"max_{field} [{unit}]"] = np.max(gap)
     return columns
 

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.gridspec import SubplotSpec
 
 from stronge1994.csv_tables import Curves
 from stronge1994.drawings import house_style
@@ -15,19 +16,27 @@ _Row: TypeAlias = dict[str, Any]
 Place: TypeAlias = tuple[str, float, float]
 
 ERROR, MODEL, RESTITUTION = "rms_velocity [mu v2(0)]", "model", "restitution [1]"
+SPREAD, SPREAD_STICK = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
 STEPS, CIRCLES, TOLERANCE = "steps [1]", "circles [1]", "tolerance [mu v2(0)]"
+LOSSES = (".viscous", ".plastic")
 # Smaller errors are rounding; they are drawn here.
 FLOOR = 1e-12
 # The axis of error is cut here: rough models are above, those that converge below, each part with
 # its own scale.
 CUT = 0.03
 MICROSECONDS = 1e6
+# Room for labels left of the fastest model, as a share of the axis of time: of the wide panel and
+# of the others.
+MARGINS = 0.12, 0.3
+HIDDEN_WORDS = (
+    "grey: e known to 0.02 and $\\mu$ to 10 % move $v_1(t_f)$ so much, from impacts that stick at "
+    "first to all"
+)
 ERROR_WORDS, TIME_WORDS = r"error of $v_1(t_f)/\mu v_2(0)$, rms", "time of an impact (µs)"
 
 # Where labels are: horizontal alignment, and distances from the point.
 ABOVE, BELOW = ("center", 0, 4), ("center", 0, -10)
 RIGHT, LEFT = ("left", 5, -2.5), ("right", -5, -2.5)
-LOWER_LEFT = ("right", -4, -8)
 # For points from which a line of the front goes to the right.
 UPPER_RIGHT = ("left", 4, 2.5)
 
@@ -55,19 +64,47 @@ class Family(NamedTuple):
 
 FORMULA = Family("formula", "D", 3.5, house_style.GREY, True, RIGHT)
 FAMILIES = {
-    "rigid": FORMULA._replace(place=LOWER_LEFT),
+    "rigid": FORMULA._replace(place=LEFT),
     "laws.smith": FORMULA._replace(place=LEFT),
     "laws.brach": FORMULA._replace(place=UPPER_RIGHT),
-    "lumped": Family("lumped, exact", "o", 3.5, house_style.BLACK, True, ABOVE),
+    "lumped": Family("lumped, as in the paper", "o", 3.5, house_style.BLACK, True, ABOVE),
     "timestep.linear": Family("linear spring", "s", 6, house_style.BLUE, False, BELOW),
     "timestep.mindlin": Family("Mindlin", "^", 5, house_style.VERMILLION, True, BELOW),
     "timestep.mindlin_rescaled": Family(
         "Mindlin, rescaled", "v", 5, house_style.PURPLE, False, ABOVE
     ),
+    "lumped.viscous": Family("lumped, viscous", "P", 5, house_style.BLUE, True, None),
+    "lumped.plastic": Family("lumped, plastic", "P", 5, house_style.VERMILLION, True, None),
     "continuum": Family("continuum", "o", 5, house_style.GREEN, False, LEFT),
+    "continuum.viscous": Family("continuum, viscous", "o", 5, house_style.BLUE, False, LEFT),
+    "continuum.plastic": Family("continuum, plastic", "o", 5, house_style.VERMILLION, False, LEFT),
     "annuli": Family("annuli", "h", 5.5, house_style.BLUE, True, RIGHT),
-    "response of lumped": Family("of lumped", "*", 7, house_style.BLACK, False, UPPER_RIGHT),
-    "response of continuum": Family("of continuum", "*", 7, house_style.GREEN, True, UPPER_RIGHT),
+    "response of lumped": Family("lumped", "*", 7, house_style.BLACK, False, UPPER_RIGHT),
+    "response of continuum": Family("continuum", "*", 7, house_style.GREEN, True, UPPER_RIGHT),
+    "response of continuum.viscous": Family(
+        "continuum, viscous", "*", 7, house_style.BLUE, True, UPPER_RIGHT
+    ),
+    "response of continuum.plastic": Family(
+        "continuum, plastic", "*", 7, house_style.VERMILLION, True, UPPER_RIGHT
+    ),
+}
+LEGEND = {
+    "closed form": ("rigid", "lumped", "lumped.viscous", "lumped.plastic"),
+    "in steps": (
+        "timestep.linear",
+        "timestep.mindlin",
+        "timestep.mindlin_rescaled",
+        "annuli",
+        "continuum",
+        "continuum.viscous",
+        "continuum.plastic",
+    ),
+    "compiled responses": (
+        "response of lumped",
+        "response of continuum",
+        "response of continuum.viscous",
+        "response of continuum.plastic",
+    ),
 }
 NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
 NAMES |= {"pooltool": "pooltool"}
@@ -80,6 +117,8 @@ GROWTH = {
     "annuli": house_style.DASHES[3],
     "response of continuum": house_style.DASHES[4],
 }
+# The part of the answer that uncertain inputs hide.
+HIDDEN = {"color": "0.9", "linewidth": 0, "zorder": 0.5}
 FRONT = {"color": house_style.BLACK, "linewidth": 0.6, "zorder": 0.9}
 FRONT_WITH_RESPONSES = FRONT | {"linestyle": (0, (4, 2))}
 
@@ -87,33 +126,40 @@ FRONT_WITH_RESPONSES = FRONT | {"linestyle": (0, (4, 2))}
 def draw(
     curves: Curves, settings: Settings, points: Points, families: Mapping[str, Family] = FAMILIES
 ) -> Figure:
-    """Draw (a) error against time for the first restitution, (b) for the last, (c) time and batch.
+    """Draw error against time for the first restitution and the last, and time against batch.
 
-    `families` may hold more than those of the legend. The title warns if the machine was busy.
+    A restitution below 1 has a panel for each loss. `families` may hold more than those of the
+    legend. The title warns if the machine was busy.
     """
     rows = [{key: value[0] for key, value in curve.items()} for curve in curves.values()]
-    first, last = settings["restitution"][0], settings["restitution"][-1]
+    ends = settings["restitution"][0], settings["restitution"][-1]
+    cases = {_case(row): None for e in ends for row in rows if row[RESTITUTION] == e}
     batch = shown_batch(settings)
-    figure = house_style.new(7.8)
-    grid = figure.add_gridspec(2, 2, height_ratios=[3.5, 2.8], width_ratios=[6, 5])
-    for letter, place, restitution, margin in (
-        ("a", grid[0, :], first, 0.12),
-        ("b", grid[1, 0], last, 0.33),
-    ):
-        rough, fine = place.subgridspec(2, 1, height_ratios=[3, 4]).subplots(sharex=True)
+    figure = house_style.new(8.6)
+    grid = figure.add_gridspec(3, 2, height_ratios=[4, 4, 3])
+    cells = grid[0, :], grid[1, 0], grid[1, 1]
+    for number, (cell, case) in enumerate(zip(cells, cases, strict=False)):
+        same = [row for row in rows if _case(row) == case]
+        if number:  # more steps do not change an error here, and would hide other points
+            some = sorted({row[STEPS] for row in same if STEPS in row})
+            same = [row for row in same if row.get(STEPS) in (None, some[len(some) // 2])]
+        rough, fine = cell.subgridspec(2, 1).subplots(sharex=True)
         for axes, span in ((rough, (CUT, np.inf)), (fine, (0, CUT))):
-            _draw_errors(axes, _of(rows, restitution), batch, families, span, margin)
+            _draw_errors(axes, same, batch, families, span, MARGINS[min(number, 1)])
         _cut(rough, fine)
-        rough.set_title(_title(letter, restitution))
-        fine.set_ylabel(ERROR_WORDS, y=0.9)
+        rough.set_title(_title("abc"[number], *case))
         fine.set_xlabel(TIME_WORDS)
-    growth = figure.add_subplot(grid[1, 1])
-    _draw_growth(growth, _of(rows, first), sorted(settings["batches"]))
-    growth.set(title=f"(c) $e = {first:g}$", xlabel="impacts together", ylabel=TIME_WORDS)
-    note = f"numbers at points: steps, circles or tolerance; (a), (b): {batch} impacts together"
-    notes = [note, warning(rows)]
+        if number < 2:
+            fine.set_ylabel(ERROR_WORDS, y=1.0)
+    below = grid[2, :].subgridspec(1, 2, width_ratios=[2, 3])
+    growth = figure.add_subplot(below[0])
+    first = [row for row in rows if _case(row) == next(iter(cases))]
+    _draw_growth(growth, first, sorted(settings["batches"]))
+    growth.set(title=f"(d) $e = {ends[0]:g}$", xlabel="impacts together", ylabel=TIME_WORDS)
+    note = f"numbers at points: steps, circles or tolerance; errors: {batch} impacts together"
+    notes = [note, HIDDEN_WORDS, warning(rows)]
     figure.suptitle("\n".join(filter(None, notes)), fontsize=house_style.NOTE)
-    _add_legend(figure)
+    _add_legend(figure, below[1])
     return figure
 
 
@@ -146,13 +192,13 @@ def shown_batch(settings: Settings) -> int:
     return sorted(settings["batches"])[len(settings["batches"]) // 2]
 
 
-def _of(rows: Sequence[_Row], restitution: float) -> list[_Row]:
-    return [row for row in rows if row[RESTITUTION] == restitution]
+def _case(row: _Row) -> tuple[float, str]:
+    """Restitution and loss of the reference."""
+    return row[RESTITUTION], row.get("loss", "")
 
 
-def _title(letter: str, restitution: float) -> str:
-    against = "the elastic continuum" if restitution == 1 else "the lumped model"
-    return f"({letter}) $e = {restitution:g}$, against {against}"
+def _title(letter: str, restitution: float, loss: str) -> str:
+    return f"({letter}) $e = {restitution:g}$, {loss or 'elastic'} continuum"
 
 
 def _draw_errors(
@@ -163,7 +209,7 @@ def _draw_errors(
     span: tuple[float, float],
     margin: float,
 ) -> None:
-    """Draw the points in a span of error, and both fronts; `margin` leaves room for labels."""
+    """Draw the points in a span of error, both fronts, and what uncertain inputs hide."""
     timed = [row for row in rows if f"time_{batch} [s]" in row]
     if not timed:
         return
@@ -174,6 +220,7 @@ def _draw_errors(
             family = families[row[MODEL]]
             axes.plot(*at, linestyle="none", **family.style())
             label(axes, at, words_of(row), family.place)
+    axes.axhspan(timed[0][SPREAD_STICK], timed[0][SPREAD], **HIDDEN)
     left = min(time) * (min(time) / max(time)) ** margin
     edges = (left, max(time) * 3), (min(error) / 5, max(error) * 5)
     axes.set(xscale="log", yscale="log", xlim=edges[0], ylim=edges[1])
@@ -194,7 +241,7 @@ def label(axes: Axes, at: Sequence[float], words: str, place: Place | None) -> N
         textcoords="offset points",
         ha=alignment,
         fontsize=house_style.NOTE - 0.5,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3},
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3, "alpha": 0.6},
         zorder=1,
         annotation_clip=True,
     )
@@ -202,6 +249,11 @@ def label(axes: Axes, at: Sequence[float], words: str, place: Place | None) -> N
 
 def words_of(row: _Row) -> str:
     """Label of a point: the setting of its model, or its name."""
+    if loss := row.get("loss"):
+        if row[MODEL].endswith(LOSSES) and not row[MODEL].endswith(loss):
+            return "other loss" if row[MODEL].startswith("continuum") else ""
+        if STEPS in row or row[MODEL] == "laws.brach":
+            return ""
     if STEPS in row and CIRCLES not in row:
         return f"{row[STEPS]:g}"
     if CIRCLES in row:
@@ -266,18 +318,27 @@ def _draw_growth(axes: Axes, rows: Sequence[_Row], batches: Sequence[int]) -> No
         axes.loglog(known, time, linestyle=dashes, linewidth=0.9, **family.style())
 
 
-def _add_legend(figure: Figure) -> None:
-    entries = {family.label: family for family in FAMILIES.values()}
-    keys = [
-        house_style.key(label, linestyle="none", **family.style())
-        for label, family in entries.items()
-    ]
+def _add_legend(figure: Figure, cell: SubplotSpec) -> None:
+    axes = figure.add_subplot(cell)
+    axes.axis("off")
     fronts = [
         house_style.key("Pareto front", **FRONT),
         house_style.key("with responses", **FRONT_WITH_RESPONSES),
     ]
-    blank = house_style.key("", linestyle="none")
-    groups = keys[:2], keys[2:7], [*keys[7:], blank, *fronts]
-    house_style.legend_below(
-        figure, *groups, titles=("closed form", "in steps", "compiled responses")
+    entries = []
+    for title, models in LEGEND.items():
+        entries.append(house_style.key(title, linestyle="none"))
+        for model in models:
+            family = FAMILIES[model]
+            entries.append(house_style.key(family.label, linestyle="none", **family.style()))
+    legend = axes.legend(
+        handles=[*entries, *fronts],
+        loc="center",
+        ncols=2,
+        fontsize=house_style.NOTE,
+        handlelength=1.4,
+        columnspacing=1,
     )
+    for text in legend.get_texts():
+        if text.get_text() in LEGEND:
+            text.set_style("italic")

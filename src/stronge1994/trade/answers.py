@@ -7,7 +7,8 @@ from typing import Any
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Row
 
-ERROR, RESTITUTION = "max_velocity [mu v2(0)]", "restitution [1]"
+ERROR, RESTITUTION, LOSS = "max_velocity [mu v2(0)]", "restitution [1]", "loss"
+SPREAD = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
 REFERENCE_ERROR, BUILD_TIME = "reference_error [mu v2(0)]", "build_time [s]"
 BUSY_BUILD = "busy_build [1]"
 TIME = re.compile(r"time_(\d+) \[s\]")
@@ -18,12 +19,12 @@ TOLERANCES = (0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 1e-9)
 
 
 def ordered(rows: Sequence[Row]) -> list[Row]:
-    """Rows by restitution, elastic ones first, then by error, the largest first."""
-    return sorted(rows, key=lambda row: (-float(row[RESTITUTION]), -float(row[ERROR])))
+    """Rows by restitution, elastic ones first, by loss, and by error, the largest first."""
+    return sorted(rows, key=lambda row: (-float(row[RESTITUTION]), row[LOSS], -float(row[ERROR])))
 
 
 def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -> list[Row]:
-    """The cheapest model that meets each tolerance, for each restitution and size of batch.
+    """The cheapest model that meets each tolerance, for each restitution, loss and size of batch.
 
     Parameters
     ----------
@@ -35,30 +36,44 @@ def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -
     Returns
     -------
     list of dict
-        For each batch the name, or "none"; its largest error; its time per impact, with any time
-        of compilation spread over the batch. The name is `BUSY` where nobody can know: some model
-        was timed on a busy machine, and its CPU time alone is below the time of all others.
+        `other_loss`, the largest error of the continuum with the other loss; the spread of the
+        answer under uncertain inputs, see `stronge1994.curves.trade`. For each batch the name, or
+        "none"; its largest error; its time per impact, with any time of compilation spread over the
+        batch. The name is `BUSY` where nobody can know: some model was timed on a busy machine, and
+        its CPU time alone is below the time of all others.
 
     Examples
     --------
     >>> row = {"restitution [1]": "1", "max_velocity [mu v2(0)]": "0.2", "build_time [s]": ""}
-    >>> row |= {"reference_error [mu v2(0)]": "1e-7", "time_10 [s]": "3e-5"}
+    >>> row |= {"reference_error [mu v2(0)]": "1e-7", "time_10 [s]": "3e-5", "loss": ""}
+    >>> row |= {"model": "lumped"} | dict.fromkeys(SPREAD, "0.4")
     >>> found = which_model([row | {"curve": "lumped, e = 1"}], [0.3, 0.1])
     >>> [entry["model_10"] for entry in found]
     ['lumped', 'none']
     """
     batches = [int(found[1]) for found in map(TIME.fullmatch, rows[0]) if found]
-    restitutions = sorted({row[RESTITUTION] for row in rows}, key=float, reverse=True)
+    cases = {(row[RESTITUTION], row[LOSS]): None for row in ordered(rows)}
     table = []
-    for restitution in restitutions:
-        same = [row for row in rows if row[RESTITUTION] == restitution]
+    for restitution, loss in cases:
+        same = [row for row in rows if (row[RESTITUTION], row[LOSS]) == (restitution, loss)]
         for tolerance in tolerances:
             good = [row for row in same if _known_error(row) <= tolerance]
-            entry = {RESTITUTION: restitution, "tolerance [mu v2(0)]": f"{tolerance:g}"}
+            entry = {RESTITUTION: restitution, LOSS: loss, "tolerance [mu v2(0)]": f"{tolerance:g}"}
+            entry |= {"other_loss [mu v2(0)]": _other_loss(same)}
+            entry |= {key: f"{float(same[0][key]):.2g}" for key in SPREAD}
             for batch in batches:
                 entry |= _cheapest(good, batch)
             table.append(entry)
     return table
+
+
+def _other_loss(rows: Sequence[Row]) -> str:
+    """Largest error of the continuum with the other loss, "" for an elastic contact."""
+    for row in rows:
+        loss = row[LOSS]
+        if loss and row["model"].startswith("continuum.") and row["model"] != f"continuum.{loss}":
+            return f"{float(row[ERROR]):.2g}"
+    return ""
 
 
 def whole_time(row: Mapping[str, Any], batch: int) -> float | None:
