@@ -46,8 +46,9 @@ The other body, if it is no rigid half-space at rest, has the same columns with 
 its velocities and spin have the directions of the first one's: positive other_spin turns the same
 way round. A material alone makes it an elastic half-space; masses, radii of gyration and Young's
 moduli may be inf.
-The result has all these columns as they are, and then those of the state after. Restitution is 0.1
-or more, except where the contact slides throughout. Forces are NaN where it is below 0.022.
+Restitution is 0.1 or more, except where the contact slides throughout. Below 0.022 the forces are
+not known: they are NaN.
+The result has all these columns as they are, and then those of the state after.
 Example:
   radius [m],density [kg/m^3],young_modulus [Pa],poisson_ratio,friction,restitution,\
 velocity_tangential [m/s],velocity_normal [m/s],spin [rad/s]

@@ -16,6 +16,8 @@ from planarimpact.ground.checks import checked, not_negative, positive
 from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, kelvin_voigt, thornton
 
 LOSSES = tuple(LAWS)
+# A relaxation time that `relaxation_time` has found is not refused for its last digits.
+ROUNDING = 1e-12
 
 
 @quietly
@@ -78,12 +80,12 @@ def viscous_restitution(
     )
     unit = _unit_of_time(v2, m2, modulus, radius)
     longest = kelvin_voigt.relaxation_time(np.array(LEAST_RESTITUTION)) * unit
-    lost = np.atleast_1d(tau > longest)
+    lost = np.atleast_1d(tau > longest * (1 + ROUNDING))
     if lost.any():
         value, allowed = (np.atleast_1d(a)[lost][0] for a in (tau, longest))
         words = f"allowed are numbers up to {allowed:.4g} here, where restitution is"
         raise OutOfRange(f"relaxation_time = {value:g}: {words} {LEAST_RESTITUTION}", lost)
-    return kelvin_voigt.restitution(tau / unit)[()]
+    return np.maximum(kelvin_voigt.restitution(tau / unit), LEAST_RESTITUTION)[()]
 
 
 @quietly
@@ -141,8 +143,8 @@ def yield_speed(
     ----------
     yield_pressure : array_like
         p_y [Pa], above 0: the largest pressure that the contact carries. It lies between 1.6 times
-        the yield stress, where yield begins below the surface, and 3 times, where the whole contact
-        yields (Johnson, Contact Mechanics, 1985).
+        the yield stress, where yield begins below the surface, and about 3 times, where the whole
+        contact yields (Johnson, Contact Mechanics, 1985).
     mass, effective_modulus, effective_radius : array_like
         As in `viscous_restitution`.
 
@@ -325,7 +327,8 @@ def peak_force(
     e, v2, m2, modulus, radius = _known(
         restitution, speed, mass, effective_modulus, effective_radius
     )
-    factor = np.where(e < 1, law.largest_force(e), 1.0)
+    distinct, which = np.unique(e, return_inverse=True)  # of many impacts most have the same few
+    factor = np.where(distinct < 1, law.largest_force(distinct), 1.0)[which].reshape(e.shape)
     return in_range("peak force", factor * hertz_peak_force(m2, v2, modulus, radius))[()]
 
 
