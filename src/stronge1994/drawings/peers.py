@@ -13,10 +13,10 @@ from stronge1994.drawings import trade as draw_trade
 from stronge1994.drawings.house_style import Settings
 
 CODES = {"lammps": "LAMMPS", "pooltool": "pooltool"}
-OTHER = draw_trade.Family("", "X", 5, house_style.BLACK, False, draw_trade.ABOVE)
-# The laws of LAMMPS lie together in panel (a). Panel (c) shows them apart, beside our models.
+OTHER = draw_trade.Family("", "X", 5, house_style.BLACK, False, draw_trade.RIGHT)
+# The laws of LAMMPS lie together in panel (a). Panel (c) shows them apart, at the right of ours.
 LAWS = {
-    "LAMMPS mindlin": OTHER._replace(marker="<", label="mindlin", place=draw_trade.RIGHT),
+    "LAMMPS mindlin": OTHER._replace(marker="<", label="mindlin"),
     "LAMMPS mindlin/force": OTHER._replace(marker="^", label="mindlin/force"),
     "LAMMPS mindlin_rescale": OTHER._replace(marker=">", label="mindlin_rescale"),
     "LAMMPS mindlin_rescale/force": OTHER._replace(marker="v", label="mindlin_rescale/force"),
