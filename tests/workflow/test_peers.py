@@ -70,7 +70,8 @@ def test_without_them_the_target_succeeds_and_says_so(finished):
         ("lammps", "no"),
         ("pooltool", "no"),
     ]
-    assert (finished / "figures/trade_with_peers.svg").stat().st_size > 1000
+    for picture in ("trade_with_peers", "peers"):
+        assert (finished / f"figures/{picture}.svg").stat().st_size > 1000
 
 
 def test_rows_have_errors_times_and_what_was_refused(pretended):
@@ -170,6 +171,8 @@ def test_poisson_ratio_is_that_of_the_stiffness_ratio():
 def test_damping_refuses_what_lammps_does_not_have():
     with pytest.raises(ValueError, match="style = 'magic': allowed are coeff_restitution, tsuji"):
         peers.damping_for(0.5, "magic", 64)
+    with pytest.raises(ValueError, match="restitution = 0: allowed are numbers above 0, up to 1"):
+        peers.damping_for(0.0, peers.DEFAULT, 64)
 
 
 @needs_lammps

@@ -40,7 +40,6 @@ MARKERS = (
     {"marker": "o", "markersize": 3.6, "markerfacecolor": "white"},
     {"marker": "s", "markersize": 3.4, "markerfacecolor": "0.65"},
     {"marker": "^", "markersize": 3.8, "markerfacecolor": house_style.BLACK},
-    {"marker": "D", "markersize": 3.2, "markerfacecolor": house_style.BLACK},
 )
 TICKS = (0.05, 0.1, 0.2, 0.5, 1)
 # Inches of a line of the second figure, and of all that is above and below its lines.
@@ -148,7 +147,7 @@ def draw_errors(peers: Curves) -> Figure:
     figure = house_style.new(FRAME + LINE * len(lines))
     both = figure.subplots(1, 2, sharex=True, sharey=True)
     values = sorted({row[E] for row in rows}, reverse=True)
-    styles = dict(zip(values, MARKERS, strict=False))
+    styles = {e: MARKERS[i] for i, e in enumerate(values)}
     for axes, (loss, title) in zip(both, PANELS.items(), strict=True):
         _draw_loss(axes, [row for row in rows if row[LOSS] == loss], lines, styles)
         axes.set_title(title)
@@ -174,9 +173,11 @@ def draw_errors(peers: Curves) -> Figure:
         house_style.key(f"$e = {e:g}$", linestyle="none", color=house_style.BLACK, **style)
         for e, style in styles.items()
     ]
-    figure.legend(handles=keys, loc="outside upper center", ncols=len(keys), handlelength=1)
+    legend = figure.legend(
+        handles=keys, loc="outside upper center", ncols=len(keys), handlelength=1
+    )
     if missing:
-        figure.suptitle(f"not installed: {missing}", fontsize=house_style.NOTE)
+        legend.set_title(f"not installed: {missing}", {"size": house_style.NOTE})
     return figure
 
 

@@ -27,9 +27,9 @@ BUDGET = 10.0
 # Mass ratio of the solid spheres that LAMMPS throws.
 SOLID_SPHERE = 3.5
 
-# What users of LAMMPS choose below e = 1: law, steps, and words of `peers.damping_for`. The first
-# four differ by the law alone. The others change one thing each, but for the last: an example of
-# LAMMPS' manual.
+# What users of LAMMPS choose below e = 1: law, steps, and arguments of `peers.damping_for`. The
+# first four differ by the law alone, the others are mindlin/force with another damping or more
+# steps. The last is an example of LAMMPS' manual.
 _FORCE = "mindlin/force"
 DAMPED: tuple[tuple[str, int, dict[str, Any]], ...] = (
     *((law, 64, {"style": peers.DEFAULT}) for law in peers.LAWS),
@@ -124,7 +124,8 @@ def measure(
         try:
             for e in restitution:
                 for rivals in contenders(x, mass_ratio, stiffness_ratio, e):
-                    rows |= _rows_of(rivals, x, e, references(e), incidence)
+                    for name, row in _rows_of(rivals, x, e, references(e), incidence).items():
+                        rows.setdefault(name, row)
         except ValueError as error:
             notes.append(f"{code}: {error}")
     return {name: {key: [cell] for key, cell in row.items()} for name, row in rows.items()}, notes
@@ -181,9 +182,9 @@ def _pooltool(
 def _alone(
     x: Array, mass_ratio: float, stiffness_ratio: float, restitution: float
 ) -> Iterator[tuple[Contender, ...]]:
-    """Models of ours with a loss, which no other code has."""
+    """Models of ours below e = 1. The lumped model has its row already if pooltool is installed."""
     if restitution < 1:
-        for name in ("lumped.viscous", "lumped.plastic", *LOSSES.values()):
+        for name in ("lumped", "lumped.viscous", "lumped.plastic", *LOSSES.values()):
             settings = models.get(name).settings
             yield (_ours(name, mass_ratio, stiffness_ratio, restitution, settings),)
 

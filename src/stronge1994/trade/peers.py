@@ -163,7 +163,7 @@ def damping_for(
     Raises
     ------
     ValueError
-        If there is no such style.
+        If there is no such style, or the restitution is out of range.
     ImportError
         If LAMMPS is not installed and a search is needed.
 
@@ -172,6 +172,8 @@ def damping_for(
     >>> damping_for(0.7, "coeff_restitution", 64).number
     0.7
     """
+    if not 0 < restitution <= 1:
+        raise ValueError(f"restitution = {restitution:g}: allowed are numbers above 0, up to 1")
     if style in NOMINAL:
         return Damping(style, restitution, tangential, limited)
     if style != DEFAULT:
@@ -213,8 +215,8 @@ def lammps_impacts(
     friction, poisson_ratio : float
         mu, above 0, and nu; zeta^2 = (2 - nu)/(2 (1 - nu)) follows from LAMMPS' material law.
     damping : Damping
-        None, as it is left out. Unless it is limited, the contact pulls at its end, and LAMMPS
-        lets friction act as if that pull pressed.
+        `UNDAMPED` if left out. A damped contact pulls at its end unless the damping is limited,
+        and LAMMPS lets friction act as if that pull pressed.
 
     Returns
     -------
