@@ -24,7 +24,7 @@ rule measure_peers:
 
 
 rule draw_peers:
-    """Error against time with the points of both codes."""
+    """Error against time with the points of both codes, and errors below e = 1."""
     input:
         modules=modules("draw_peers"),
         curves="results/curves/trade.csv",
@@ -37,6 +37,13 @@ rule draw_peers:
             labels={"figure": "with LAMMPS and pooltool"},
         ),
         png="figures/trade_with_peers.png",
+        errors_svg=report(
+            "figures/peers.svg",
+            caption="../report/peers.rst",
+            category="Trade",
+            labels={"figure": "LAMMPS and pooltool below e = 1"},
+        ),
+        errors_png="figures/peers.png",
     params:
         settings=FIGURES["trade"]["settings"],
     log:

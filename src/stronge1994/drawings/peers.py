@@ -1,6 +1,7 @@
-"""The figure of error against time with points of LAMMPS and pooltool."""
+"""LAMMPS and pooltool: error against time for e = 1, and errors below e = 1 for each loss."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -12,10 +13,10 @@ from stronge1994.drawings import trade as draw_trade
 from stronge1994.drawings.house_style import Settings
 
 CODES = {"lammps": "LAMMPS", "pooltool": "pooltool"}
-OTHER = draw_trade.Family("", "X", 5, house_style.BLACK, False, draw_trade.ABOVE)
-# The laws of LAMMPS lie together in panel (a). Panel (c) shows them apart, beside our models.
+OTHER = draw_trade.Family("", "X", 5, house_style.BLACK, False, draw_trade.RIGHT)
+# The laws of LAMMPS lie together in panel (a). Panel (c) shows them apart, at the right of ours.
 LAWS = {
-    "LAMMPS mindlin": OTHER._replace(marker="<", label="mindlin", place=draw_trade.RIGHT),
+    "LAMMPS mindlin": OTHER._replace(marker="<", label="mindlin"),
     "LAMMPS mindlin/force": OTHER._replace(marker="^", label="mindlin/force"),
     "LAMMPS mindlin_rescale": OTHER._replace(marker=">", label="mindlin_rescale"),
     "LAMMPS mindlin_rescale/force": OTHER._replace(marker="v", label="mindlin_rescale/force"),
@@ -24,9 +25,40 @@ OURS = ("timestep.mindlin", "timestep.mindlin_rescaled")
 TOGETHER = OTHER._replace(marker="+", label="LAMMPS, in (c)", place=None)
 POOLTOOL = OTHER._replace(label="pooltool", place=draw_trade.LEFT)
 
+ERROR, E, LOSS = draw_trade.ERROR, draw_trade.RESTITUTION, "loss"
+STEPS, USUAL_STEPS = draw_trade.STEPS, 64
+# The continuum of each panel.
+PANELS = {"viscous": "(a) viscous loss", "plastic": "(b) plastic loss"}
+# Words for models of ours. Each continuum is drawn in the panel of the other.
+OUR_WORDS = {
+    "lumped": "lumped: the paper",
+    "continuum.viscous": "continuum of the other loss",
+    "continuum.plastic": "continuum of the other loss",
+}
+# How the points of the restitutions are drawn, from the largest on.
+MARKERS = (
+    {"marker": "o", "markersize": 3.6, "markerfacecolor": "white"},
+    {"marker": "s", "markersize": 3.4, "markerfacecolor": "0.65"},
+    {"marker": "^", "markersize": 3.8, "markerfacecolor": house_style.BLACK},
+)
+TICKS = (0.05, 0.1, 0.2, 0.5, 1)
+# Inches of a line of the second figure, and of all that is above and below its lines.
+LINE, FRAME = 0.22, 1.1
+# Points of two restitutions are so many lines apart, so that none hides another.
+APART = 0.27
+
+_Row: TypeAlias = dict[str, Any]
+
+
+class _Line(NamedTuple):
+    """A line of the second figure: a heading, or a code with its settings."""
+
+    words: str
+    heading: bool = False
+
 
 def draw(curves: Curves, peers: Curves, settings: Settings) -> Figure:
-    """Draw figure `trade` with the other codes; its title names those that are not installed.
+    """Draw figure `trade` with the other codes at e = 1; its title names those not installed.
 
     Parameters
     ----------
@@ -41,7 +73,7 @@ def draw(curves: Curves, peers: Curves, settings: Settings) -> Figure:
     theirs = {
         name: row
         for name, row in peers.items()
-        if row["model"][0] in codes and draw_trade.ERROR in row
+        if row["model"][0] in codes and ERROR in row and row[E][0] == 1
     }
     figure = draw_trade.draw(curves | theirs, settings, {}, draw_trade.FAMILIES | codes)
     models = {row["model"][0] for row in theirs.values()}
@@ -50,11 +82,14 @@ def draw(curves: Curves, peers: Curves, settings: Settings) -> Figure:
         axes = figure.axes[-1]
         axes.clear()
         _draw_laws(axes, _elastic(curves | theirs), draw_trade.shown_batch(settings))
-    missing = [label for code, label in CODES.items() if code in peers]
-    if missing:
-        words = f"not installed: {', '.join(missing)}\n{figure.get_suptitle()}"
+    if missing := _missing(peers):
+        words = f"not installed: {missing}\n{figure.get_suptitle()}"
         figure.suptitle(words, fontsize=house_style.NOTE)
     return figure
+
+
+def _missing(peers: Curves) -> str:
+    return ", ".join(label for code, label in CODES.items() if code in peers)
 
 
 def _add_legend(axes: Axes, families: Mapping[str, draw_trade.Family]) -> None:
@@ -95,10 +130,139 @@ def _draw_laws(axes: Axes, curves: Curves, batch: int) -> None:
     axes.set_title("(c) part of (a), with LAMMPS")
 
 
-def write(curves: str, peers: str, settings: Settings, svg: str, png: str) -> None:
-    """Draw the tables `curves` and `peers`; a solver that failed becomes a picture that says so."""
+def draw_errors(peers: Curves) -> Figure:
+    """Draw the errors below e = 1 of each code and model, a panel for each loss.
+
+    Parameters
+    ----------
+    peers : dict
+        Of results/peers.csv. If no code is installed, the figure says so.
+    """
+    rows = [{key: value[0] for key, value in row.items()} for row in peers.values()]
+    rows = [row for row in rows if row.get(LOSS) in PANELS and ERROR in row]
+    missing = _missing(peers)
+    if not rows:
+        return house_style.failure(f"not installed: {missing}" if missing else "no errors")
+    lines = _lines(rows)
+    figure = house_style.new(FRAME + LINE * len(lines))
+    both = figure.subplots(1, 2, sharex=True, sharey=True)
+    values = sorted({row[E] for row in rows}, reverse=True)
+    styles = {e: MARKERS[i] for i, e in enumerate(values)}
+    for axes, (loss, title) in zip(both, PANELS.items(), strict=True):
+        _draw_loss(axes, [row for row in rows if row[LOSS] == loss], lines, styles)
+        axes.set_title(title)
+    ticks = [place for place, line in enumerate(lines) if not line.heading]
+    both[0].set_yticks(ticks, [lines[place].words for place in ticks], fontsize=house_style.NOTE)
+    both[0].tick_params(axis="y", length=0)
+    both[1].tick_params(axis="y", length=0)
+    for place, line in enumerate(lines):
+        if line.heading:
+            at = {"xytext": (-4, 0), "textcoords": "offset points", "ha": "right", "va": "center"}
+            both[0].annotate(
+                line.words,
+                (0, place),
+                xycoords=both[0].get_yaxis_transform(),
+                fontsize=house_style.NOTE,
+                style="italic",
+                **at,
+            )
+    both[0].set_ylim(len(lines) - 0.4, -0.6)
+    words = r"error of $v_1(t_f)/\mu v_2(0)$ against the continuum, rms over the incidences"
+    figure.supxlabel(words, fontsize=8.5)
+    keys = [
+        house_style.key(f"$e = {e:g}$", linestyle="none", color=house_style.BLACK, **style)
+        for e, style in styles.items()
+    ]
+    legend = figure.legend(
+        handles=keys, loc="outside upper center", ncols=len(keys), handlelength=1
+    )
+    if missing:
+        legend.set_title(f"not installed: {missing}", {"size": house_style.NOTE})
+    return figure
+
+
+def _lines(rows: Sequence[_Row]) -> list[_Line]:
+    """Lines from the top: LAMMPS, pooltool, ours, each below its heading."""
+    groups: dict[str, list[str]] = {
+        "LAMMPS, viscoelastic and $x_t = 0$ unless said": [],
+        "pooltool": [],
+        "planarimpact": [],
+    }
+    theirs, pooltool, ours = groups.values()
+    for row in rows:
+        model = row[draw_trade.MODEL]
+        group = theirs if model.startswith("LAMMPS") else pooltool if model == "pooltool" else ours
+        if _words(row) not in group:
+            group.append(_words(row))
+    lines = []
+    for heading, group in groups.items():
+        if group:
+            lines += [_Line(heading, heading=True), *map(_Line, group)]
+    return lines
+
+
+def _words(row: _Row) -> str:
+    """Words for the code and settings of a row.
+
+    Examples
+    --------
+    >>> _words({"model": "LAMMPS mindlin, viscoelastic, xt = 0.5", "steps [1]": 256.0})
+    'mindlin, $x_t = 0.5$, 256 steps'
+    >>> _words({"model": "pooltool"})
+    "the paper's model"
+    """
+    model: str = row[draw_trade.MODEL]
+    if model == "pooltool":
+        return "the paper's model"
+    if not model.startswith("LAMMPS "):
+        words = OUR_WORDS.get(model, model)
+    else:
+        law, style, tangential, *rest = model.removeprefix("LAMMPS ").split(", ")
+        known = [] if style == "viscoelastic" else [style]
+        known += [] if tangential == "xt = 0" else [f"${tangential.replace('xt', 'x_t')}$"]
+        words = ", ".join([law, *known, *rest])
+    steps = row.get(STEPS, USUAL_STEPS)
+    return words if steps == USUAL_STEPS else f"{words}, {steps:g} steps"
+
+
+def _draw_loss(
+    axes: Axes, rows: Sequence[_Row], lines: Sequence[_Line], styles: Mapping[float, Any]
+) -> None:
+    places = {line.words: place for place, line in enumerate(lines) if not line.heading}
+    for words, place in places.items():
+        errors = {row[E]: row[ERROR] for row in rows if _words(row) == words}
+        heights = {e: place + (i - (len(styles) - 1) / 2) * APART for i, e in enumerate(styles)}
+        known = [e for e in styles if e in errors]
+        points = [errors[e] for e in known], [heights[e] for e in known]
+        axes.plot(*points, color=house_style.GREY, linewidth=0.6, zorder=1)
+        for e, error, height in zip(known, *points, strict=True):
+            marker = {"color": house_style.BLACK, "markeredgewidth": 0.8, **styles[e]}
+            axes.plot(error, height, linestyle="none", **marker)
+    axes.set_xscale("log")
+    axes.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
+    axes.minorticks_off()
+    for tick in TICKS:
+        axes.axvline(tick, **house_style.GUIDE)
+
+
+def write(
+    curves: str, peers: str, settings: Settings, pictures: Sequence[str], errors: Sequence[str]
+) -> None:
+    """Draw the tables `curves` and `peers`; a solver that failed becomes a picture that says so.
+
+    Parameters
+    ----------
+    curves, peers : str
+        Files.
+    settings : dict
+        Of the figure `trade`.
+    pictures, errors : (str, str)
+        SVG and PNG of `draw`, and of `draw_errors`.
+    """
     try:
-        figure = draw(csv_tables.read(curves), csv_tables.read(peers), settings)
+        theirs = csv_tables.read(peers)
+        figures = [draw(csv_tables.read(curves), theirs, settings), draw_errors(theirs)]
     except csv_tables.Failed as error:
-        figure = house_style.failure(f"trade: the solver failed: {error}")
-    house_style.save(figure, svg, png)
+        figures = [house_style.failure(f"trade: the solver failed: {error}")] * 2
+    house_style.save(figures[0], *pictures)
+    house_style.save(figures[1], *errors)

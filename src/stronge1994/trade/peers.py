@@ -1,9 +1,9 @@
 """Two published codes on the impacts of planarimpact: LAMMPS and pooltool.
 
 `lammps_impacts` lets spheres strike a plane in LAMMPS. Its tangential laws are those of
-discrete-element codes, with a fixed step; compare it with `planarimpact.continuum`.
-`pooltool_impacts` calls pooltool's own implementation of Stronge's lumped model; compare it with
-`planarimpact.lumped`.
+discrete-element codes, with a fixed step; compare it with `planarimpact.continuum`, elastic or with
+a loss. `pooltool_impacts` calls pooltool's own implementation of Stronge's lumped model; compare it
+with `planarimpact.lumped`.
 
 Both take x = v1(0)/(mu v2(0)) and return w = v1(tf)/(mu v2(0)) of the contact point, positive in
 the incident direction. Neither package is a dependency: workflow/envs/peers.txt installs them.
@@ -18,14 +18,19 @@ import sys
 import time
 import types
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from scipy import optimize
 
 from planarimpact.ground.arrays import Array, ArrayLike
 
 REQUIREMENTS = "workflow/envs/peers.txt"
 LAWS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
+# LAMMPS is told the restitution for two styles of damping, and a coefficient for its default. The
+# styles left out here have a force at the first touch, which no Hertzian contact has.
+NOMINAL = ("coeff_restitution", "tsuji")
+DEFAULT = "viscoelastic"
 
 # Spheres have mass 1, radius 1 and normal speed 1. On a flat wall the answer does not depend on the
 # overlap; it is small beside the radius as in a real impact.
@@ -74,6 +79,118 @@ def poisson_ratio_of(stiffness_ratio: float) -> float:
     return (2 * stiffness_ratio - 2) / (2 * stiffness_ratio - 1)
 
 
+class Damping(NamedTuple):
+    """What `fix wall/gran granular` is told about the loss of energy.
+
+    Attributes
+    ----------
+    style : str
+        One of `NOMINAL`, or `DEFAULT`: the word after `damping`.
+    number : float
+        The number after Young's modulus: for a style in `NOMINAL` a restitution, above 0 and at
+        most 1; for `DEFAULT` eta_n0 in 1/(time length), where mass, radius and normal speed of the
+        sphere are 1.
+    tangential : float
+        x_gamma,t: the tangential damping over the normal one.
+    limited : bool
+        Whether `limit_damping` keeps the normal force from pulling.
+    """
+
+    style: str = "coeff_restitution"
+    number: float = 1.0  # restitution 1: the damping is exactly zero
+    tangential: float = 0.0
+    limited: bool = False
+
+    def words(self) -> str:
+        """Short name.
+
+        Examples
+        --------
+        >>> Damping("tsuji", 0.5, tangential=1.0, limited=True).words()
+        'tsuji, xt = 1, limited'
+        """
+        return f"{self.style}, xt = {self.tangential:g}{', limited' if self.limited else ''}"
+
+
+UNDAMPED = Damping()
+
+
+class Impacts(NamedTuple):
+    """What LAMMPS makes of some impacts.
+
+    Attributes
+    ----------
+    velocity : ndarray
+        w of each impact.
+    restitution : float
+        Normal speed after the impact over that before it, the same for all.
+    run_seconds, total_seconds : float
+        Wall-clock time of LAMMPS' `run`, and of everything from its start to its end.
+    """
+
+    velocity: Array
+    restitution: float
+    run_seconds: float
+    total_seconds: float
+
+
+def damping_for(
+    restitution: float,
+    style: str,
+    steps: int,
+    *,
+    tangential: float = 0.0,
+    limited: bool = False,
+) -> Damping:
+    """The damping of a user who wants this restitution.
+
+    A style in `NOMINAL` is told the restitution itself, and may deliver another. For `DEFAULT` a
+    search over impacts along the normal finds the coefficient that delivers it.
+
+    Parameters
+    ----------
+    restitution : float
+        Kinematic coefficient, above 0 and at most 1.
+    style, tangential, limited
+        As in `Damping`.
+    steps : int
+        Time steps in one Hertzian contact, those of the impacts that follow.
+
+    Returns
+    -------
+    Damping
+
+    Raises
+    ------
+    ValueError
+        If there is no such style, or the restitution is out of range.
+    ImportError
+        If LAMMPS is not installed and a search is needed.
+
+    Examples
+    --------
+    >>> damping_for(0.7, "coeff_restitution", 64).number
+    0.7
+    """
+    if not 0 < restitution <= 1:
+        raise ValueError(f"restitution = {restitution:g}: allowed are numbers above 0, up to 1")
+    if style in NOMINAL:
+        return Damping(style, restitution, tangential, limited)
+    if style != DEFAULT:
+        raise ValueError(f"style = {style!r}: allowed are {', '.join((*NOMINAL, DEFAULT))}")
+
+    def excess(number: float) -> float:
+        damping = Damping(style, number, tangential, limited)
+        found = lammps_impacts(0.0, LAWS[0], steps, damping=damping)
+        return found.restitution - restitution
+
+    high = 1.0
+    while excess(high) > 0:
+        high *= 2
+    number = float(optimize.brentq(excess, 0.0, high, rtol=1e-9)) if restitution < 1 else 0.0
+    return Damping(style, number, tangential, limited)
+
+
 def lammps_impacts(
     incidence: ArrayLike,
     law: str,
@@ -81,8 +198,8 @@ def lammps_impacts(
     *,
     friction: float = 0.3,
     poisson_ratio: float = 0.3,
-    restitution: float = 1.0,
-) -> tuple[Array, float, float]:
+    damping: Damping = UNDAMPED,
+) -> Impacts:
     """Solid spheres that strike a plane of their own material, all in one simulation.
 
     Parameters
@@ -97,16 +214,13 @@ def lammps_impacts(
         Time steps in one Hertzian contact.
     friction, poisson_ratio : float
         mu, above 0, and nu; zeta^2 = (2 - nu)/(2 (1 - nu)) follows from LAMMPS' material law.
-    restitution : float
-        Kinematic coefficient, above 0. Below 1 it is LAMMPS' viscous `coeff_restitution`, which
-        lengthens the contact and lets it pull at the end: not Stronge's energetic element.
+    damping : Damping
+        `UNDAMPED` if left out. A damped contact pulls at its end unless the damping is limited,
+        and LAMMPS lets friction act as if that pull pressed.
 
     Returns
     -------
-    velocity : ndarray
-        w of each impact.
-    run_seconds, total_seconds : float
-        Wall-clock time of LAMMPS' `run`, and of everything from its start to its end.
+    Impacts
 
     Raises
     ------
@@ -122,13 +236,15 @@ def lammps_impacts(
     start = time.perf_counter()
     simulation = lammps.lammps(cmdargs=["-log", "none", "-screen", "none", "-nocite"])
     try:
-        contact = _set_up(simulation, incidence, law, friction, poisson_ratio, restitution)
+        contact = _set_up(simulation, incidence, law, friction, poisson_ratio, damping)
         simulation.command(f"timestep {contact / steps:.17g}")
         run_seconds = _run_until_apart(simulation, steps)
         velocity = _contact_velocity(simulation) / friction
+        # The plane is flat, so every sphere has the same normal motion.
+        delivered = float(simulation.numpy.extract_atom("v")[0, 2])
     finally:
         simulation.close()
-    return velocity, run_seconds, time.perf_counter() - start
+    return Impacts(velocity, delivered, run_seconds, time.perf_counter() - start)
 
 
 def pooltool_impacts(
@@ -195,7 +311,7 @@ def _set_up(
     law: str,
     friction: float,
     poisson_ratio: float,
-    restitution: float,
+    damping: Damping,
 ) -> float:
     """Spheres that touch the plane z = 0; returns the duration of a Hertzian contact."""
     count = incidence.size
@@ -236,9 +352,9 @@ def _set_up(
             f"set group all diameter {2 * RADIUS}",
             f"set group all density {density:.17g}",
             "fix motion all nve/sphere",
-            # The damping of restitution 1 is exactly zero.
-            f"fix wall all wall/gran granular hertz/material {young:.17g} {restitution} "
-            f"{poisson_ratio} tangential {law} NULL 0.0 {friction} damping coeff_restitution "
+            f"fix wall all wall/gran granular hertz/material {young:.17g} {damping.number:.17g} "
+            f"{poisson_ratio} tangential {law} NULL {damping.tangential} {friction} "
+            f"damping {damping.style} {'limit_damping ' if damping.limited else ''}"
             "zplane 0.0 NULL",
             "thermo_style custom step",
         ]
