@@ -1,8 +1,7 @@
 """Planar impact of rough compliant bodies, after W. J. Stronge (1994).
 
-- `lumped`: the paper's model, solved to rounding, and two more that lose energy in both directions.
-  Measurements contradict the paper's loss of energy, e < 1. `rigid`: the limit without tangential
-  compliance.
+- `lumped`: the paper's model, solved to rounding, and two variants that lose energy in other ways.
+  Measurements contradict the paper's below e = 1. `rigid`: its limit without tangential compliance.
 - `continuum`: spheres with micro-slip, elastic or with a loss of energy, to a tolerance.
   `continuum.annuli` solves the elastic one by a second method that shares no code with the first.
 - `models`: every model by its name, with those that others use (`models.laws`, `models.timestep`).
