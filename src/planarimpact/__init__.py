@@ -1,8 +1,9 @@
 """Planar impact of rough compliant bodies, after W. J. Stronge (1994).
 
-- `lumped`: the paper's model, solved exactly. `rigid`: its limit without tangential compliance.
-- `continuum`: the elastic contact with micro-slip, to a tolerance; `continuum.annuli` solves it by
-  a second method that shares no code with the first.
+- `lumped`: the paper's model, solved to rounding, and two variants that lose energy in other ways.
+  Measurements contradict the paper's below e = 1. `rigid`: its limit without tangential compliance.
+- `continuum`: spheres with micro-slip, elastic or with a loss of energy, to a tolerance.
+  `continuum.annuli` solves the elastic one by a second method that shares no code with the first.
 - `models`: every model by its name, with those that others use (`models.laws`, `models.timestep`).
 - `response`: compiles any of them. `scene`: solves tables of impacts. `study`: solves grids.
 - `bodies`: from physical bodies to the groups that all models take. `noncollinear`: bodies that

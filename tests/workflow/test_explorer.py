@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from planarimpact import bodies, lumped
+from planarimpact import bodies, continuum, lumped
 from stronge1994 import plan
 from stronge1994.pages import explorer as write_explorer
 from stronge1994.plan import config as configuration
@@ -119,6 +119,10 @@ def test_words_about_two_presets_hold(presets, settings):
     groups = state["mass_ratio"], settings["stiffness_ratio"]
     lossy, elastic = lumped.rebound(x, *groups, [state["restitution"], 1.0]).velocity
     assert lossy < elastic < 0, "raise e to 1: thrown back less"
+    for loss in continuum.LOSSES:
+        e = [state["restitution"], 1.0]
+        lossy, elastic = continuum.rebound(x, *groups, e, loss=loss, tolerance=1e-2).velocity
+        assert elastic < lossy, "measured contacts do the opposite, and so do the continua"
     state = presets["superball"]
     x, e = math.tan(math.radians(state["angle"])) / state["friction"], state["restitution"]
     w = lumped.rebound(x, 3.5, 1.5, e).velocity
@@ -142,6 +146,25 @@ def test_what_the_sliders_cannot_show_is_not_offered(stiffness_ratio, settings):
     changed = settings | {"stiffness_ratio": stiffness_ratio}
     assert list(write_explorer.presets(changed)) == ["superball"]
     assert "Superball" in write_explorer.page(changed, SOURCES)
+
+
+@pytest.mark.parametrize(("e", "cautions"), [(0.99, True), (0.0, True), (1.0, False)])
+def test_below_e_1_it_says_that_measurements_contradict_it(e, cautions, show):
+    tab = show(f"restitution={e}")
+    style = "getComputedStyle(document.getElementById('caution')).visibility"
+    assert tab.evaluate(style) == ("visible" if cautions else "hidden")
+    assert "measurements contradict it" in text(tab, "caution")
+
+
+def test_what_is_left_out_is_as_large_as_it_says():
+    x = np.linspace(0, 7, 71)
+    for e, losses, said in ((1.0, [None], 0.2), (0.8, continuum.LOSSES, 0.7)):
+        paper = lumped.rebound(x, stiffness_ratio=17 / 14, restitution=e).velocity
+        for loss in losses:
+            real = continuum.rebound(x, 3.5, 17 / 14, e, loss=loss, tolerance=1e-3).velocity
+            assert round(np.abs(paper - real).max(), 1) == said
+    page = (FOLDER / "explorer.html").read_text(encoding="utf-8")
+    assert "up to 0.2 for <i>e</i> = 1 and by up to 0.7" in page
 
 
 @pytest.mark.parametrize(
@@ -274,7 +297,9 @@ def test_the_page_needs_nothing_else(explorer):
     page = explorer.read_text(encoding="utf-8")
     assert len(page.encode()) < 150_000
     assert "http:" not in page and "https:" not in page and "@import" not in page
-    assert re.findall(r"""(?:src|href)\s*=\s*["']?([^"'\s>]*)""", page) == ["data:,"]
+    # The letter is not loaded: it is a link to the page beside this one.
+    addresses = re.findall(r"""(?:src|href)\s*=\s*["']?([^"'\s>]*)""", page)
+    assert addresses == ["data:,", "below_e_1.html"]
 
 
 def test_a_run_writes_this_page(first_run, explorer):

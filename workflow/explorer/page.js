@@ -167,6 +167,8 @@
     impact = solved();
     t = Math.min(t, 1 + state.restitution);
     element("sentence").textContent = words.sentence(impact);
+    // Hidden, it keeps its place: nothing jumps while the slider is moved.
+    element("caution").classList.toggle("idle", impact.e === 1);
     scales = {
       forces: charts.forces(element("forces"), width, impact),
       velocity: charts.velocity(element("velocity"), width, impact),

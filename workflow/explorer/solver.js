@@ -1,6 +1,6 @@
 "use strict";
 
-// The exact lumped solver of planarimpact (lumped, stick_slip, slip_onset, normal, rigid), for one
+// The lumped solver of planarimpact (lumped, stick_slip, slip_onset, normal, rigid), for one
 // impact at a time: the same formulas under the same names, without the Python package's way past
 // thousands of phases. Equations are those of Stronge (1994) where they are named.
 //

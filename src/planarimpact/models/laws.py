@@ -1,10 +1,10 @@
 """Laws of impulses: velocity at separation without a history of the contact.
 
-Each law gives the tangential impulse as a function of the incidence alone. Where the contact slides
-throughout it is right, below that it is an assumption. No law knows the tangential stiffness, so
-none can follow the curve between both ends. No law tells what happens during contact: there is no
-peak friction and no order of stick and slip, except in slip throughout. Units as in
-`planarimpact.lumped`; B = (1 + e) beta is the change of velocity in slip throughout.
+Each law gives the tangential impulse as a function of the incidence alone. From some incidence on
+it is the line of slip throughout, as in every model; below that it is an assumption. No law knows
+the tangential stiffness, so none can follow the curve between both ends. No law tells what happens
+during contact: there is no peak friction and no order of stick and slip, except in slip throughout.
+Units as in `planarimpact.lumped`; B = (1 + e) beta is the change of velocity in slip throughout.
 """
 
 import numpy as np

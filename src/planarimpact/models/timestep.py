@@ -11,8 +11,9 @@ spring (Walton & Braun's with latching): below the largest depth reached, the no
 line, or a Hertz curve, that is steeper by 1/e^2. So restitution takes e times as long as
 compression. The length of the step stays the same: restitution has e/(1 + e) of the steps. If that
 is less than one step, the impulse of friction is wrong by up to 0.75 of what the largest force
-gives in a step. For e = 0 the contact ends with the step nearest to maximum compression. Codes
-often damp by a dashpot instead, which is another law.
+gives in a step. Measurements contradict this spring, see `planarimpact.lumped`. For e = 0 the
+contact ends with the step nearest to maximum compression. Codes often damp by a dashpot instead,
+which is another law.
 
 `Regime` is what the steps show. They do not show a slip or a stick that is shorter than a step: if
 the last slip is so short, the contact is said to end in stick. But a contact whose slip turns
@@ -66,7 +67,7 @@ def linear(
     incidence, mass_ratio, stiffness_ratio, restitution : array_like
         As in `planarimpact.lumped.rebound`.
     steps : int
-        Over the exact duration of contact; 3 to 10^7, and at least (1 + e) pi/4 times the root
+        Over the duration of contact; 3 to 10^7, and at least (1 + e) pi/4 times the root
         of beta/zeta^2: with fewer the tangential oscillation turns by more than 2 in a step and
         grows. With this least number it may still create energy: |velocity| up to
         (2 steps + 1) |x|. With more it is at most |x|/sqrt(1 - r^2), r = least number/steps.
@@ -87,9 +88,9 @@ def linear(
     -----
     The bound of velocity is that of a contact that sticks throughout, where each step is the same
     linear map. That slip only lowers it was found by search, not proved.
-    The error falls with the square of the steps, unevenly, as events fall between them. For a
+    The error of the steps falls with their square, unevenly, as events fall between them. For a
     solid sphere at e = 1 and 64 steps it is 0.0008 (root mean square over x from 0 to 8) and 0.0026
-    at most.
+    at most, against the lumped model. It is not the error of that model.
 
     References
     ----------
@@ -99,8 +100,8 @@ def linear(
     Examples
     --------
     >>> from planarimpact import lumped
-    >>> exact = lumped.rebound(2.0).velocity
-    >>> bool(abs(linear(2.0).velocity - exact) < 1e-3)
+    >>> limit = lumped.rebound(2.0).velocity
+    >>> bool(abs(linear(2.0).velocity - limit) < 1e-3)
     True
     """
     return _rebound(LINEAR, incidence, mass_ratio, stiffness_ratio, restitution, steps)
@@ -125,7 +126,7 @@ def mindlin(
         zeta^2 > 0, normal stiffness dF2/d(depth) of an elastic contact over Mindlin's tangential
         stiffness 8 a G*; (2 - nu)/(2 (1 - nu)) for equal materials.
     steps : int
-        Over the exact duration of contact; 3 to 10^7, and at least 1.0076 (1 + e) times the root
+        Over the duration of contact; 3 to 10^7, and at least 1.0076 (1 + e) times the root
         of beta/zeta^2: with fewer the tangential oscillation turns by more than 2 in a step and
         grows. Close to that number it may still create energy: |velocity| = 11 |x| was found with
         the least number, many steps and e near 0; 1.8 |x| with twice as many.

@@ -2,7 +2,8 @@
 
 For given groups the rebound is a function of the incidence alone, smooth between a few kinks. A
 response holds that function to a tolerance that is checked. It takes tens of nanoseconds an impact,
-whichever model it was made from. If the model has slip throughout exactly, its formula is kept.
+whichever model it was made from. If the model slides throughout from some incidence on, that
+formula is kept. Its error is measured against the model, not against nature.
 """
 
 import hashlib
@@ -428,7 +429,7 @@ def _refuse_strangers(found: Response) -> None:
     if own is None:
         words = _disagreement(found, piecewise.MEASURED, found.parameters)
     else:
-        # A model with a tolerance takes long for exact answers. A few coarse ones, and pieces that
+        # A model with a tolerance takes long for a small one. A few coarse ones, and pieces that
         # meet each other, are enough. In doubt the model is asked with its own tolerance.
         coarse, middle = {"tolerance": max(own, COARSE)}, np.zeros(1)
         words = _jump(found) or (

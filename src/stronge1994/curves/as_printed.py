@@ -1,4 +1,4 @@
-"""What the printed equations give, where it differs from a curve of the exact solver."""
+"""What the printed equations give, where it differs from a curve of the paper's model."""
 
 import numpy as np
 
@@ -11,12 +11,12 @@ SAME = 1e-9
 
 
 def beside(name: str, curve: Columns, printed: ArrayLike) -> Curves:
-    """Curves of the printed equations beside one exact curve.
+    """Curves of the printed equations beside one curve of the model that they are to solve.
 
     Parameters
     ----------
     name : str
-        Of the exact curve, for instance `e = 0.5`; empty for the only one.
+        Of the model's curve, for instance `e = 0.5`; empty for the only one.
     curve : dict
         Its columns, `{header: array}`, shape (n,): first the axis, then the quantity.
     printed : array_like, shape (n,)
@@ -26,7 +26,8 @@ def beside(name: str, curve: Columns, printed: ArrayLike) -> Curves:
     -------
     dict
         `as printed, NAME` where the printed equations differ, and `no solution as printed, NAME`
-        where they have none; that one holds the exact quantity. Each only if there is such a place.
+        where they have none; that one holds the model's quantity. Each only if there is such a
+        place.
 
     Examples
     --------

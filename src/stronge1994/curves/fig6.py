@@ -23,7 +23,7 @@ def curves(
     nodes: Nodes = NO_NODES,
     as_printed: bool = False,
 ) -> Curves:
-    """One curve for each coefficient of restitution.
+    """One curve of the paper's model for each coefficient of restitution.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Beyond the paper: correct digits of the lumped model for all parameters, and their limit."""
+"""Beyond the paper: with how many digits the lumped model is solved, for all parameters."""
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -33,8 +33,8 @@ def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
     Parameters
     ----------
     points : dict of sequences of float
-        A table of exact answers: the groups of `lumped.rebound` and the outputs velocity,
-        peak_friction, dissipation by name; `condition_...` of each output, the sum of
+        A table of answers of many digits: the groups of `lumped.rebound` and the outputs
+        velocity, peak_friction, dissipation by name; `condition_...` of each output, the sum of
         abs(p d(output)/dp) over the groups p; phases.
     most_phases : int
         Contacts of 2 to so many phases are followed through, for their balances.

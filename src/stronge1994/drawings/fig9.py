@@ -11,7 +11,7 @@ from stronge1994.drawings import house_style
 from stronge1994.drawings.house_style import Entries, Points, Settings, Style
 
 X, Y = "angle [deg]", "friction_dissipation [m2 S^2/2]"
-NOTE = "black, blue: exact balance of energy\n(correction of the printed figure)"
+NOTE = "black, blue: the model's balance of energy\n(correction of the printed figure)"
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:

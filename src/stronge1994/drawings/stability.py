@@ -1,4 +1,4 @@
-"""Beyond the paper: correct digits of the lumped model, beside those that are possible."""
+"""Beyond the paper: digits of the lumped model's solution, beside those that are possible."""
 
 from typing import TypeAlias
 

@@ -1,7 +1,8 @@
 """Checks of Stronge (1994), equation by equation and sentence by sentence.
 
 Every check is a function without arguments that compares one statement of the paper, as printed
-(`stronge1994.printed`), with the exact solver and returns a `Finding`. data/stronge1994/
+(`stronge1994.printed`), with the paper's own model and returns a `Finding`. The model is solved to
+rounding by `planarimpact.lumped`: "exact" means that, and says nothing of nature. data/stronge1994/
 ledger.yaml has an entry for each: what the paper says, when it counts as true, the verdict, and
 the correction. `dynamics`, `slip`, `peak_force` and `dissipation` check the equations of one
 section each; the last two and `rebound` also the sentences.

@@ -1,4 +1,4 @@
-"""Run every entry of the ledger against the exact solver: one row for each entry.
+"""Run every entry of the ledger against the paper's model: one row for each entry.
 
 This never fails: an entry whose check crashes no longer holds, with the reason in `problem`.
 """

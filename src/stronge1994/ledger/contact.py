@@ -1,4 +1,4 @@
-"""One contact, solved exactly, in the symbols and signs of the paper.
+"""One contact of the paper's model, solved to rounding, in the symbols and signs of the paper.
 
 v1(0), v2(0) < 0, F2 > 0, F1 = (kappa/zeta^2) u1 and du1/dt = -v1 in stick. Scales are arbitrary
 numbers with no common factor, so that a formula with a wrong one cannot agree by accident.
@@ -58,7 +58,7 @@ class State:
 
 @dataclass(frozen=True)
 class Contact:
-    """An exact contact: parameters of the paper, and states along it."""
+    """A contact of the paper's model: its parameters, and states along it."""
 
     incidence: float
     mass_ratio: float

@@ -18,7 +18,7 @@ class Finding(NamedTuple):
     Attributes
     ----------
     found : float
-        For an equation the largest distance of the printed formula from the exact solver among the
+        For an equation the largest distance of the printed formula from the paper's model among the
         samples, in the unit that the check names. Between the samples it may be larger. For a
         sentence the number that decides it.
     corrected : float or None

@@ -1,4 +1,4 @@
-"""Write the impact explorer: one page that solves the lumped model and needs no other file."""
+"""Write the impact explorer: one page that solves the paper's model and needs no other file."""
 
 import math
 from collections.abc import Mapping, Sequence
