@@ -22,6 +22,7 @@ THROW = {
     "poisson_ratio": 0.5,
     "friction": 0.8,
     "restitution": 0.9,
+    "loss": "viscous",
     "velocity": [6.0, -5.0],
     "spin": 0.0,
     "gap": 0.7,
@@ -41,7 +42,7 @@ def shot_peening(count=200):
         "spin [rad/s]": rng.normal(0, 2000, count).round(0),
     }
     shot = {"radius [m]": rng.uniform(0.3e-3, 0.6e-3, count).round(6)}
-    pair = {"friction": 0.3, "restitution": 0.5}
+    pair = {"friction": 0.3, "restitution": 0.5, "loss": "plastic"}
     return pd.DataFrame(shot | steel | target | pair | state)
 
 
@@ -69,6 +70,7 @@ def billiard_cushion():
                     "other_poisson_ratio": 0.5,
                     "friction": 0.2,
                     "restitution": 0.85,
+                    "loss": "viscous",
                     "velocity_x [m/s]": round(speed * along, 6),
                     "velocity_y [m/s]": round(speed * into, 6),
                     "velocity_z [m/s]": 0.0,

@@ -87,7 +87,8 @@ REFERENCE = "the model that all others are measured against"
 # Of elastic, viscous and plastic pairs.
 REFERENCES = ("continuum", *(f"continuum.{loss}" for loss in continuum.LOSSES))
 MODELS = ("rigid", "lumped", *REFERENCES)
-SLIDING = Rung("slip throughout", "formula", 0.0, "exact, whatever the reference")
+SLIDING = Rung("slip throughout", "formula", 0.0, "Coulomb's line, the same in every model")
+HEAD_ON = Rung("head-on", "formula", 0.0, "no tangential motion, the same in every model")
 
 
 def jobs(

@@ -82,7 +82,7 @@ def difference(job: Job, incidence: Array, velocity: Array, known: Curves) -> Ar
     viscous, plastic = REFERENCES[1:]
     other = plastic if job.rung.model == viscous else viscous
     if not job.alike:
-        return _velocity(other, incidence, *job.groups) - velocity
+        return _velocity(other, incidence, *map(np.asarray, job.groups)) - velocity
     pair = [float(np.reshape(group, -1)[0]) for group in job.groups]
     key = other, pair[0], pair[1], pair[2]
     if key not in known:

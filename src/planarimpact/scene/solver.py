@@ -20,8 +20,8 @@ BLOCK = 2**17
 LOSS = "viscous"
 
 
-# Columns that stand in place of restitution. Each has its loss.
-MATERIAL = ("relaxation_time", "yield_pressure")
+# Columns from which the loss is known.
+SAYS_LOSS = ("loss", *(name for name, loss in columns.LOSS_OF.items() if loss))
 ASSUMED = f"restitution below 1: the loss is taken to be {LOSS}, as none was given"
 
 
@@ -127,7 +127,7 @@ class Solver:
         return found[~np.isin(positions, list(unsolved))] if unsolved else found
 
     def _refuse_two_losses(self, names: dict[str, str]) -> None:
-        for name in ("loss", *MATERIAL):
+        for name in SAYS_LOSS:
             if self._loss is not None and name in names:
                 raise InputError(
                     f"loss = {self._loss!r}: it does not apply, as the column {names[name]!r} says "
@@ -160,18 +160,18 @@ class Solver:
         """Columns of the result, and what has none: `{position: words}`."""
         unit = impacts.friction * impacts.v2
         groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
-        with np.errstate(over="ignore"):  # where friction stops any velocity that is a number
-            slides = impacts.v1 >= sliding.limit_alike(*groups) * unit
+        slides, head_on = motion.slides_throughout(impacts), motion.head_on(impacts)
+        with np.errstate(over="ignore"):
             lost = sliding.change(impacts.mass_ratio, impacts.restitution) * unit
         unsolved: dict[int, str] = {}
         velocity = impacts.v1 - np.where(slides, lost, 0.0)
-        peak, error = np.ones(unit.size), np.zeros(unit.size)
-        regime = np.full(unit.size, Regime.SLIP_THROUGHOUT, np.uint8)
-        form = np.zeros(unit.size)
-        model = np.zeros(unit.size, np.intp)
-        if slides.any():
-            self._taken[choice.SLIDING, "all pairs"] += int(np.sum(slides))
-        stick = np.flatnonzero(~slides)
+        peak, error, form = slides.astype(float), np.zeros(unit.size), np.zeros(unit.size)
+        regime = np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK).astype(np.uint8)
+        model = np.where(slides, 0, 1)
+        for rung, impact in ((choice.SLIDING, slides), (choice.HEAD_ON, head_on)):
+            if impact.any():
+                self._taken[rung, "all pairs"] += int(np.sum(impact))
+        stick = np.flatnonzero(~slides & ~head_on)
         jobs = choice.jobs(
             *groups, impacts.plastic, stick, self.tolerance, self._responses, self._seen
         )
@@ -186,11 +186,11 @@ class Solver:
             error[rows] = known * unit[rows]
             difference = model_form.difference(part, x[left], found.velocity, self._curves)
             form[rows] = np.abs(difference) * unit[rows]
-            model[rows] = 1 + choice.MODELS.index(rung.model)
+            model[rows] = 2 + choice.MODELS.index(rung.model)
             self._taken[rung, job.pair] += rows.size
             if rung.model in choice.REFERENCES[1:]:
                 self._differences.add(difference)
-                self.assumed |= self._loss is None and not {"loss", *MATERIAL} & set(names)
+                self.assumed |= self._loss is None and not set(SAYS_LOSS) & set(names)
         found_columns = velocity, peak, error, form, regime, model
         return self._columns(impacts, names, *found_columns), unsolved
 
@@ -235,7 +235,7 @@ class Solver:
         # Without friction there is no incidence, with very little it is larger than any number.
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             incidence = impacts.v1 / (impacts.friction * impacts.v2)
-        models = [choice.SLIDING.model, *choice.MODELS]
+        models = [choice.SLIDING.model, choice.HEAD_ON.model, *choice.MODELS]
         if "restitution" not in names:
             after |= {"restitution": impacts.restitution}
         if "loss" not in names:

@@ -10,7 +10,7 @@ from planarimpact import scene
 from planarimpact.scene.columns import header
 from stronge1994.csv_tables import Curves
 
-TOLERANCE = 1e-6
+TOLERANCE = 1e-4
 
 
 def curves(throw: dict[str, Any]) -> Curves:
@@ -20,7 +20,7 @@ def curves(throw: dict[str, Any]) -> Curves:
     ----------
     throw : dict
         `radius` [m], `density` [kg/m^3], `young_modulus` [Pa] and `poisson_ratio` of the ball,
-        `friction`, `restitution`; `velocity` [m/s] before the first impact, on the floor, along
+        `friction`, `restitution` and `loss`, as in a scene; `velocity` [m/s] before the first impact, on the floor, along
         and up; `spin` [rad/s] before it, positive where it moves the foot of the ball forward;
         `gap` [m] between floor and table; `bounces`.
 
@@ -35,10 +35,11 @@ def curves(throw: dict[str, Any]) -> Curves:
     Examples
     --------
     >>> ball = {"radius": 0.025, "density": 1100.0, "young_modulus": 5e6, "poisson_ratio": 0.5}
-    >>> throw = {"friction": 0.8, "restitution": 0.9, "velocity": [6, -5], "spin": 0}
-    >>> path = curves(ball | throw | {"gap": 0.7, "bounces": 3})["path"]
+    >>> throw = {"friction": 0.8, "restitution": 0.9, "loss": "viscous"}
+    >>> throw |= {"velocity": [6, -5], "spin": 0, "gap": 0.7, "bounces": 3}
+    >>> path = curves(ball | throw)["path"]
     >>> path["velocity_x [m/s]"].round(1).tolist()  # before, after each impact, at the end
-    [6.0, 3.4, -1.2, -2.9, -2.9]
+    [6.0, 3.6, -0.5, -2.0, -2.0]
     """
     before, after = impacts(**throw)
     reach = throw["gap"] - 2 * throw["radius"]
@@ -67,6 +68,7 @@ def curves(throw: dict[str, Any]) -> Curves:
 def impacts(
     friction: float,
     restitution: float,
+    loss: str,
     velocity: Sequence[float],
     spin: float,
     gap: float,
@@ -77,7 +79,7 @@ def impacts(
 
     Parameters
     ----------
-    friction, restitution, velocity, spin, gap, bounces, **ball
+    friction, restitution, loss, velocity, spin, gap, bounces, **ball
         As `throw` in `curves`.
 
     Returns
@@ -85,7 +87,8 @@ def impacts(
     before, after : DataFrame
         As `planarimpact.scene.solve` takes and returns them.
     """
-    fixed = ball | {"friction": friction, "restitution": restitution}
+    fixed: dict[str, Any] = ball | {"friction": friction, "restitution": restitution}
+    fixed["loss"] = loss
     state = {"velocity_x": velocity[0], "velocity_y": 0.0, "velocity_z": velocity[1]}
     state |= {"spin_x": 0.0, "spin_y": -spin, "spin_z": 0.0}
     solver, rows, results = scene.Solver(TOLERANCE), [], []

@@ -100,24 +100,25 @@ def curves(
     named = {}
     for e in restitution:
         groups = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio, "restitution": e}
-        wanted = {"tolerance": tolerance, "tolerances": tolerances} if e == 1 else inelastic
-        tried = {"steps": steps, "circles": circles, "tolerance": wanted["tolerances"]}
+        own = {"tolerance": tolerance, "tolerances": tolerances} if e == 1 else inelastic
+        accuracy, wanted = float(own["tolerance"]), list(own["tolerances"])
+        tried = {"steps": steps, "circles": circles, "tolerance": wanted}
         timed = []
         for contender in _contenders(groups, tried, incidence[1]):
             seconds = times(_stopwatch(contender.rebound), incidence, batches, budget)
             timed.append((contender, contender.rebound(x), contender.build_time | seconds))
         for loss in continuum.LOSSES if e < 1 else ("",):
-            exact = reference(x, groups, wanted["tolerance"], loss)
+            exact = reference(x, groups, accuracy, loss)
             spread = input_spread(x, groups, loss)
             sticks = x <= stiffness_ratio
             against = {
-                "reference_error [mu v2(0)]": wanted["tolerance"],
+                "reference_error [mu v2(0)]": accuracy,
                 "input_spread [mu v2(0)]": root_mean_square(spread),
                 "input_spread_stick [mu v2(0)]": root_mean_square(spread[sticks]),
             }
             for contender, found, seconds in timed:
                 # What the wrong loss costs does not depend on the tolerance.
-                coarsest = contender.settings.get("tolerance", np.inf) >= max(wanted["tolerances"])
+                coarsest = contender.settings.get("tolerance", np.inf) >= max(wanted)
                 if _loss(contender.model) not in ("", loss) and not coarsest:
                     continue
                 row = {

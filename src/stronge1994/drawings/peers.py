@@ -22,7 +22,7 @@ LAWS = {
     "LAMMPS mindlin_rescale/force": OTHER._replace(marker="v", label="mindlin_rescale/force"),
 }
 OURS = ("timestep.mindlin", "timestep.mindlin_rescaled")
-TOGETHER = OTHER._replace(marker="+", label="LAMMPS, in (c)", place=None)
+TOGETHER = OTHER._replace(marker="+", label="LAMMPS, in (d)", place=None)
 POOLTOOL = OTHER._replace(label="pooltool", place=draw_trade.LEFT)
 
 ERROR, E, LOSS = draw_trade.ERROR, draw_trade.RESTITUTION, "loss"
@@ -79,7 +79,7 @@ def draw(curves: Curves, peers: Curves, settings: Settings) -> Figure:
     models = {row["model"][0] for row in theirs.values()}
     _add_legend(figure.axes[1], {codes[model].label: codes[model] for model in sorted(models)})
     if models & set(LAWS):
-        axes = figure.axes[-1]
+        axes = next(axes for axes in figure.axes if axes.get_label() == draw_trade.GROWTH_PANEL)
         axes.clear()
         _draw_laws(axes, _elastic(curves | theirs), draw_trade.shown_batch(settings))
     if missing := _missing(peers):
@@ -127,7 +127,7 @@ def _draw_laws(axes: Axes, curves: Curves, batch: int) -> None:
     axes.set(
         ylim=(low, low + 1.7 * (high - low)), xlabel=draw_trade.TIME_WORDS, ylabel="error, rms"
     )
-    axes.set_title("(c) part of (a), with LAMMPS")
+    axes.set_title("(d) part of (a), with LAMMPS")
 
 
 def draw_errors(peers: Curves) -> Figure:

@@ -108,6 +108,7 @@ LEGEND = {
 }
 NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
 NAMES |= {"pooltool": "pooltool"}
+GROWTH_PANEL = "growth"
 # These models have a line against the size of batch. The lines of the others would lie beside them.
 GROWTH = {
     "laws.brach": house_style.DASHES[0],
@@ -152,7 +153,7 @@ def draw(
         if number < 2:
             fine.set_ylabel(ERROR_WORDS, y=1.0)
     below = grid[2, :].subgridspec(1, 2, width_ratios=[2, 3])
-    growth = figure.add_subplot(below[0])
+    growth = figure.add_subplot(below[0], label=GROWTH_PANEL)
     first = [row for row in rows if _case(row) == next(iter(cases))]
     _draw_growth(growth, first, sorted(settings["batches"]))
     growth.set(title=f"(d) $e = {ends[0]:g}$", xlabel="impacts together", ylabel=TIME_WORDS)
