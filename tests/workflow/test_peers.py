@@ -171,7 +171,7 @@ def test_poisson_ratio_is_that_of_the_stiffness_ratio():
 def test_damping_refuses_what_lammps_does_not_have():
     with pytest.raises(ValueError, match="style = 'magic': allowed are coeff_restitution, tsuji"):
         peers.damping_for(0.5, "magic", 64)
-    with pytest.raises(ValueError, match="restitution = 0: allowed are numbers above 0, up to 1"):
+    with pytest.raises(ValueError, match="restitution = 0: allowed are numbers between 0 and 1"):
         peers.damping_for(0.0, peers.DEFAULT, 64)
 
 

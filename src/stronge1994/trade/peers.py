@@ -150,7 +150,7 @@ def damping_for(
     Parameters
     ----------
     restitution : float
-        Kinematic coefficient, above 0 and at most 1.
+        Kinematic coefficient, above 0 and below 1.
     style, tangential, limited
         As in `Damping`.
     steps : int
@@ -172,8 +172,8 @@ def damping_for(
     >>> damping_for(0.7, "coeff_restitution", 64).number
     0.7
     """
-    if not 0 < restitution <= 1:
-        raise ValueError(f"restitution = {restitution:g}: allowed are numbers above 0, up to 1")
+    if not 0 < restitution < 1:
+        raise ValueError(f"restitution = {restitution:g}: allowed are numbers between 0 and 1")
     if style in NOMINAL:
         return Damping(style, restitution, tangential, limited)
     if style != DEFAULT:
@@ -187,7 +187,7 @@ def damping_for(
     high = 1.0
     while excess(high) > 0:
         high *= 2
-    number = float(optimize.brentq(excess, 0.0, high, rtol=1e-9)) if restitution < 1 else 0.0
+    number = float(optimize.brentq(excess, 0.0, high, rtol=1e-9))
     return Damping(style, number, tangential, limited)
 
 
