@@ -48,11 +48,19 @@ way round. A material alone makes it an elastic half-space; masses, radii of gyr
 moduli may be inf.
 Restitution is 0.1 or more, except where the contact slides throughout. Below 0.022 the forces are
 not known: they are NaN.
-The result has all these columns as they are, and then those of the state after.
+The result has all these columns as they are, and then
+  the state after, named as before with _after; restitution and loss, where they are not given
+  contact_velocity_after [m/s]  of the contact point, in the direction of incidence
+  model, regime           which one solved the impact; the order of stick and slip
+  error_bound [m/s]       of the contact velocity, against the continuum: what is guaranteed
+  model_form [m/s]        how far the contact velocity would move with the other loss; its sign
+                          changes, so that it may be 0 by accident
+  incidence               tangential over normal speed of the contact point, over friction
+  peak_normal_force [N], peak_friction_force [N], energy_lost [J]
 Example:
-  radius [m],density [kg/m^3],young_modulus [Pa],poisson_ratio,friction,restitution,\
+  radius [m],density [kg/m^3],young_modulus [Pa],poisson_ratio,friction,restitution,loss,\
 velocity_tangential [m/s],velocity_normal [m/s],spin [rad/s]
-  0.01,7800,207e9,0.3,0.2,0.8,0.5,1,0
+  0.01,7800,207e9,0.3,0.2,0.8,plastic,0.5,1,0
 """
 # Units of the columns that are written, by what has them; words have none.
 UNITS: dict[type, dict[str, str]] = {
@@ -520,8 +528,10 @@ def _parser() -> argparse.ArgumentParser:
         help="list the models",
         description="The models. With --restitution each has its error in velocity, root mean "
         "square and largest, against the continuum with the loss, over all incidences that stick "
-        "at some time. seen is the share of them where the error is larger than what uncertain "
-        "inputs hide, if restitution is known to 0.02 and friction to 10 %.",
+        "at some time; nan where it does not take this restitution. The continuum itself has the "
+        "error of its default tolerance. Errors of restitution of 0.02 and of friction of 10 % "
+        "move the answer, too: seen is the share of incidences where the error of the model is "
+        "larger than that.",
     )
     listing.add_argument(
         "--loss", choices=continuum.LOSSES, help="what takes the energy below e = 1 [viscous]"

@@ -47,7 +47,7 @@ def viscous_restitution(
     Returns
     -------
     ndarray of float64 or float
-        e, 0.022 to 1, right to 1e-10; 1 without relaxation.
+        e, 0.022 to 1, solved to 1e-10; 1 without relaxation.
 
     Raises
     ------
