@@ -12,7 +12,7 @@ import numpy as np
 import yaml
 from exact_tables import ANGLE, INCIDENCE, SHOT, SHOT_HEADER, VELOCITY, ZETA2, shot_columns
 from high_precision import rebound as exact_rebound
-from inelastic_contact import MOTIONS, impact, rebound
+from inelastic_contact import MOTIONS, Impact, impact, rebound
 from mpmath import mp
 from scipy.optimize import minimize_scalar
 from table_files import Table, write
@@ -116,31 +116,31 @@ def slope(model, zeta2, e):
 
 @functools.cache
 def extrapolated(model, zeta2, e, x):
-    """Velocities and works of friction of a continuum, solved together for incidences `x`."""
+    """Velocities, works of friction and peak frictions of a continuum, for incidences `x`."""
     fine, coarse = (
         np.array(impact(model, x, BETA, zeta2, e, FINE_STEPS // n, FINE_SPRINGS // n))
         for n in (1, 2)
     )
-    return 2 * fine - coarse
+    return Impact(*(2 * fine - coarse))
 
 
 def _shot(model, angle):
     tangents = [mp.tan(mp.radians(a)) / mp.mpf(SHOT["friction"]) for a in ANGLES]
     groups = SHOT["stiffness_ratio"], SHOT["restitution"]
-    velocities, _ = extrapolated(model, *groups, tuple(map(float, tangents)))
+    velocities = extrapolated(model, *groups, tuple(map(float, tangents))).velocity
     place = ANGLES.index(angle)
     first, *columns = shot_columns(angle, tangents[place], mp.mpf(float(velocities[place])))
     return [f"{model}, experiment", angle, first, *(digits(c, 6) for c in columns)]
 
 
 def _fig6(model, x):
-    velocities, _ = extrapolated(model, ZETA2, FIGURES_E, tuple(FIG6_INCIDENCES))
+    velocities = extrapolated(model, ZETA2, FIGURES_E, tuple(FIG6_INCIDENCES)).velocity
     return [f"{model}, e = {FIGURES_E:g}", x, digits(velocities[FIG6_INCIDENCES.index(x)], 6)]
 
 
 def _fig9(model, mu, angle):
     theta = np.radians(FIG9_ANGLES[mu])
-    _, work = extrapolated(model, ZETA2, FIGURES_E, tuple((np.tan(theta) / mu).tolist()))
+    work = extrapolated(model, ZETA2, FIGURES_E, tuple((np.tan(theta) / mu).tolist())).work
     place = FIG9_ANGLES[mu].index(angle)
     lost = 2 * (mu * np.cos(theta[place])) ** 2 * work[place]
     return [f"{model}, mu = {mu:g}, e = {FIGURES_E:g}", angle, digits(lost, 6)]
