@@ -31,7 +31,7 @@ class Impact(NamedTuple):
 class Normal:
     """The normal motion of one contact: `end`, and deflection and velocity at some times.
 
-    `peak` is the largest normal force. Its unit is (E* sqrt(R))^0.4 m2^0.6 v2(0)^1.2 in a continuum.
+    `peak` is the largest normal force, in a continuum in (E* sqrt(R))^0.4 m2^0.6 v2(0)^1.2.
     """
 
     def __init__(self, phases):
@@ -84,7 +84,9 @@ def viscous_motion(tau):
         a2 = max(min(d, drive) if v < 0 else d, 0.0)
         return 2 * np.sqrt(a2) * (drive - a2 / 3)
 
-    return _with_peak(_two_phases(force, lambda _: force, lambda _: lambda d, v: d + tau * v), force)
+    return _with_peak(
+        _two_phases(force, lambda _: force, lambda _: lambda d, v: d + tau * v), force
+    )
 
 
 def plastic_motion(yield_radius):
