@@ -77,7 +77,7 @@ rule peers:
     input:
         "results/curves/trade.csv",
         "results/peers.csv",
-        expand("figures/trade_with_peers.{kind}", kind=["svg", "png"]),
+        expand("figures/{figure}.{kind}", figure=["trade_with_peers", "peers"], kind=["svg", "png"]),
 
 
 include: "workflow/rules/curves.smk"

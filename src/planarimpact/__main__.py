@@ -200,7 +200,7 @@ def _history(options: argparse.Namespace) -> dict[str, ArrayLike]:
         given = {} if options.tolerance is None else {"tolerance": options.tolerance}
         found = continuum.history(options.incidence, **groups, **given, loss=loss or None)
     else:
-        _refuse_given(options, ["tolerance"], "the lumped model is exact")
+        _refuse_given(options, ["tolerance"], "the lumped model is solved to rounding")
         given = {} if options.samples is None else {"samples": options.samples}
         found = lumped.history(options.incidence, **groups, **given, loss=loss or "hysteretic")
     return _with_units(type(found), found._asdict())

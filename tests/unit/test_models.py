@@ -5,7 +5,7 @@ import inspect
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Rebound, Regime, models
+from planarimpact import InputError, Rebound, Regime, lumped, models
 
 COARSE = {
     "continuum": {"tolerance": 1e-3},
@@ -150,3 +150,27 @@ def test_the_reference_is_a_continuum():
         models.reference(0.5, "hysteretic")
     with pytest.raises(InputError, match="restitution = 1.5"):
         models.reference(1.5)
+
+
+@pytest.mark.parametrize("x", [0.5, 2.0, 4.0, 9.0])
+def test_spread_of_uncertain_inputs_is_that_of_random_ones(x):
+    """40 000 random e and mu: their root mean square is known to 0.4 %."""
+    rng = np.random.default_rng(1)
+    e = np.clip(rng.normal(0.8, 0.02, 40_000), 0, 1)
+    ratio = rng.normal(1.0, 0.1, e.size)  # of friction to what it is believed to be
+    moved = ratio * lumped.rebound(x / ratio, 3.5, 1.21, e).velocity
+    change = moved - lumped.rebound(x, 3.5, 1.21, 0.8).velocity
+    found = models.input_spread("lumped", x, 3.5, 1.21, 0.8)
+    assert found == pytest.approx(np.sqrt(np.mean(change**2)), rel=0.05)
+
+
+def test_inputs_that_are_certain_have_no_spread_and_bad_errors_are_refused():
+    certain = {"restitution_error": 0.0, "friction_error": 0.0}
+    assert not models.input_spread("lumped", [0.5, 2.0, 8.0], **certain).any()
+    # Restitution does not exceed 1, and the continuum with a loss ends at 0.1.
+    assert models.input_spread("lumped", 8.0, friction_error=0.0) > 0
+    assert models.input_spread("continuum.viscous", 3.0, restitution=0.1, tolerance=1e-2) > 0
+    with pytest.raises(InputError, match="friction_error = 0.6: allowed are numbers from 0 to 0.5"):
+        models.input_spread("lumped", 1.0, friction_error=0.6)
+    with pytest.raises(InputError, match="restitution_error = -1"):
+        models.input_spread("lumped", 1.0, restitution_error=-1)

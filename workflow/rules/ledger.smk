@@ -4,7 +4,7 @@ PAGE_TEMPLATE = sources("workflow/report/ledger.html")
 
 
 rule ledger:
-    """Run every entry of the paper's ledger against the exact solver; always succeeds."""
+    """Run every entry of the paper's ledger against the paper's model, solved to rounding; always succeeds."""
     input:
         modules=modules("check_ledger", *LEDGER_MODULES),
         entries=LEDGER,

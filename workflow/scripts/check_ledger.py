@@ -1,4 +1,4 @@
-"""Run every entry of the ledger against the exact solver; always succeeds."""
+"""Run every entry of the ledger against the paper's model; always succeeds."""
 
 from stronge1994 import csv_tables, job
 from stronge1994.ledger import checking, entries, in_nature, outcome

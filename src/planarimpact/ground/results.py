@@ -65,7 +65,7 @@ class Rebound(NamedTuple):
         the normal contact is linear); between 0 and 1. NaN where a law of impulses alone leaves
         it open.
     dissipation : ndarray of float64 or float
-        Work of friction in mu^2 m2 v2(0)^2, from the exact balance of tangential energy. For
+        Work of friction in mu^2 m2 v2(0)^2, from the balance of tangential energy. For
         e = 0 it includes the tangential strain energy that is lost at separation.
     regime : ndarray of uint8 or Regime
         Codes of `Regime`. In a contact with micro-slip, slip means gross slip, of the whole

@@ -97,7 +97,7 @@ def _solved(
             found = solver.solve(table, skip_bad)
             # A column has one type in all pieces, whatever a piece has in it.
             names = columns.named(table.columns)
-            kinds = {names[name]: float for name in names.keys() & columns.KNOWN}
+            kinds = {names[name]: float for name in (names.keys() & columns.KNOWN) - {"loss"}}
             yield share, found.astype(kinds)
     except InputError as error:
         raise InputError(f"{source.name}: {error}") from None

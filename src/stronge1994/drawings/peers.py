@@ -14,14 +14,13 @@ from stronge1994.drawings.house_style import Settings
 
 CODES = {"lammps": "LAMMPS", "pooltool": "pooltool"}
 OTHER = draw_trade.Family("", "X", 5, house_style.BLACK, False, draw_trade.RIGHT)
-# The laws of LAMMPS lie together in panel (a). Panel (c) shows them apart, at the right of ours.
+# The laws of LAMMPS lie together in panel (a). Panel (d) shows them apart.
 LAWS = {
     "LAMMPS mindlin": OTHER._replace(marker="<", label="mindlin"),
     "LAMMPS mindlin/force": OTHER._replace(marker="^", label="mindlin/force"),
     "LAMMPS mindlin_rescale": OTHER._replace(marker=">", label="mindlin_rescale"),
     "LAMMPS mindlin_rescale/force": OTHER._replace(marker="v", label="mindlin_rescale/force"),
 }
-OURS = ("timestep.mindlin", "timestep.mindlin_rescaled")
 TOGETHER = OTHER._replace(marker="+", label="LAMMPS, in (d)", place=None)
 POOLTOOL = OTHER._replace(label="pooltool", place=draw_trade.LEFT)
 
@@ -107,13 +106,12 @@ def _elastic(curves: Curves) -> Curves:
 
 
 def _draw_laws(axes: Axes, curves: Curves, batch: int) -> None:
-    """Draw errors of LAMMPS' laws and of ours against time, on a linear scale of error."""
-    families = LAWS | {model: draw_trade.FAMILIES[model] for model in OURS}
+    """Draw errors of LAMMPS' laws against time, on a linear scale of error."""
     for curve in curves.values():
         row = {key: value[0] for key, value in curve.items()}
         time = row.get(f"time_{batch} [s]")
-        if row[draw_trade.MODEL] in families and time is not None:
-            family = families[row[draw_trade.MODEL]]
+        if row[draw_trade.MODEL] in LAWS and time is not None:
+            family = LAWS[row[draw_trade.MODEL]]
             at = draw_trade.MICROSECONDS * time, row[draw_trade.ERROR]
             axes.semilogx(*at, linestyle="none", **family.style())
             draw_trade.label(axes, at, draw_trade.words_of(row), family.place)
@@ -121,13 +119,13 @@ def _draw_laws(axes: Axes, curves: Curves, batch: int) -> None:
         house_style.key(family.label, linestyle="none", **family.style())
         for family in LAWS.values()
     ]
-    axes.legend(handles=keys, title="LAMMPS", loc="upper left", handlelength=1)
-    axes.margins(x=0.22, y=0.15)
+    axes.legend(handles=keys, loc="upper left", handlelength=1, fontsize=house_style.NOTE)
+    axes.margins(x=1.0, y=0.15)  # so wide that there are two powers of ten
     low, high = axes.get_ylim()
     axes.set(
-        ylim=(low, low + 1.7 * (high - low)), xlabel=draw_trade.TIME_WORDS, ylabel="error, rms"
+        ylim=(low, low + 2 * (high - low)), xlabel=draw_trade.TIME_WORDS, ylabel="error, rms"
     )
-    axes.set_title("(d) part of (a), with LAMMPS")
+    axes.set_title("(d) LAMMPS, part of (a)")
 
 
 def draw_errors(peers: Curves) -> Figure:

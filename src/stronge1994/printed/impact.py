@@ -75,7 +75,7 @@ def _solved(
 
 
 def _instants(x: float, beta: float, zeta2: float, e: float) -> Instants | None:
-    """Instants of the exact contact, None where its first slip never ends."""
+    """Instants of the contact of the model, None where its first slip never ends."""
     events = lumped.history(x, beta, zeta2, e, samples=2).events
     stick = next((event.time for event in events if event.kind == EventKind.STICK), None)
     if stick is None:
