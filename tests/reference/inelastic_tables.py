@@ -8,11 +8,11 @@ import functools
 import sys
 from pathlib import Path
 
+import inelastic_contact
 import numpy as np
 import yaml
 from exact_tables import ANGLE, INCIDENCE, RUBBER, SHOT, SHOT_HEADER, VELOCITY, ZETA2, shot_columns
 from high_precision import rebound as exact_rebound
-from inelastic_contact import MOTIONS, Impact, impact, rebound
 from mpmath import mp
 from scipy.optimize import minimize_scalar
 from table_files import Table, write
@@ -103,8 +103,7 @@ def velocities(model, x, zeta2, e):
     # Without loss a Kelvin-Voigt element is a spring, and its relaxation has no steps.
     if model in ("lumped", "lumped.plastic") or (model == "lumped.viscous" and e == 1):
         return np.array([float(exact_rebound(float(v), BETA, zeta2, e, 15).velocity) for v in x])
-    assert model in MOTIONS
-    return rebound(model, x, BETA, zeta2, e, STEPS, SPRINGS)
+    return inelastic_contact.rebound(model, x, BETA, zeta2, e, STEPS, SPRINGS)
 
 
 def like(nu):
@@ -131,20 +130,15 @@ def slope(model, zeta2, e):
 
 @functools.cache
 def extrapolated(model, zeta2, e, x):
-    """Velocities, works of friction and peak frictions of a continuum, for incidences `x`."""
-    fine, coarse = (
-        np.array(impact(model, x, BETA, zeta2, e, FINE_STEPS // n, FINE_SPRINGS // n))
-        for n in (1, 2)
-    )
-    return Impact(*(2 * fine - coarse))
+    """A continuum for incidences `x`, which are solved together."""
+    return inelastic_contact.extrapolated(model, x, BETA, zeta2, e, FINE_STEPS, FINE_SPRINGS)
 
 
 def _on_grid(model, x):
     # Alone, so that a test can compute a few rows.
     found = extrapolated(model, ZETA2, GRID_E, (x,))
-    # Friction is no larger than its limit; an extrapolated one may be, by its own error.
-    numbers = found.velocity[0], min(found.peak_friction[0], 1.0), found.work[0]
-    return [f"{model}, e = {GRID_E:g}", x, *(digits(number, 6) for number in numbers)]
+    numbers = found.velocity, found.peak_friction, found.work
+    return [f"{model}, e = {GRID_E:g}", x, *(digits(number[0], 6) for number in numbers)]
 
 
 def _bounce(row):

@@ -25,7 +25,7 @@ ROOT = Path(__file__).parents[2]
 SCENES = ("shot_peening", "billiard_cushion", "superball")
 DIGITS = 40
 # Of the second code; solved with half of each too, and extrapolated.
-STEPS, SPRINGS = 3200, 800
+STEPS, SPRINGS = 6400, 1600
 REGIMES = ("STICK", "SLIP_STICK", "STICK_SLIP", "SLIP_STICK_SLIP", "SLIP_THROUGHOUT", "MULTIPLE")
 SPACE = tuple(f"{kind}_{axis}" for kind in ("velocity", "spin") for axis in "xyz")
 PLANE = ("velocity_tangential", "velocity_normal", "spin")
@@ -39,7 +39,7 @@ RESTITUTIONS = (0.0, 0.005, 0.15, 0.5, 0.59, 0.9, 1.0)
 
 
 def scene_table(name, step=1):
-    """Every `step`-th impact of a scene: header, and rows of text, numbers to 12 digits."""
+    """Every `step`-th impact of a scene: header, and rows of text, numbers to 14 digits."""
     with open(ROOT / f"data/scenes/{name}.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))[::step]
     with mp.workdps(DIGITS + 10):
@@ -50,7 +50,7 @@ def scene_table(name, step=1):
     header = ["regime", "row [1]", *(name for name in answers[0] if name != "regime")]
     for index, answer in enumerate(answers):
         answer["row [1]"] = str(1 + step * index)
-    return header, [[_text(answer[name], 12) for name in header] for answer in answers]
+    return header, [[_text(answer[name], 14) for name in header] for answer in answers]
 
 
 class Groups(NamedTuple):
@@ -62,38 +62,42 @@ class Groups(NamedTuple):
     restitution: mp.mpf
     loss: str
 
-    def regime(self):
-        """The order of stick and slip, by where slip begins and where it never ends."""
-        x, beta, zeta2, e, _ = self
-        if x >= max(zeta2, beta + e * (beta - zeta2)):
+    def slides(self):
+        """Whether slip never ends."""
+        _, beta, zeta2, e, _ = self
+        return self.incidence >= max(zeta2, beta + e * (beta - zeta2))
+
+    def regime(self, gross_slips):
+        """The order of stick and slip: gross slips are counted, the last one may be too short."""
+        if self.slides():
             return "SLIP_THROUGHOUT"
-        if x == 0:
+        if self.incidence == 0:
             return "STICK"
-        return "STICK_SLIP" if x <= zeta2 else "SLIP_STICK_SLIP"
+        at_first = self.incidence > self.stiffness_ratio
+        if gross_slips > 1 + at_first:
+            return "MULTIPLE"
+        return "SLIP_STICK_SLIP" if at_first else "STICK_SLIP"
 
 
 def _rebounds(impacts):
-    """Velocity after each impact in mu v2(0), and peak friction in mu F2max.
+    """Velocity after each impact in mu v2(0), peak friction in mu F2max, and regime.
 
     Those that slide throughout have the impulse of Coulomb's friction; the second code solves the
     others, of one pair together.
     """
-    found = [(g.incidence - (1 + g.restitution) * g.mass_ratio, mp.one) for g in impacts]
+    found = [(g.incidence - (1 + g.restitution) * g.mass_ratio, mp.one, 1) for g in impacts]
     pairs = {}
     for place, groups in enumerate(impacts):
-        if groups.regime() != "SLIP_THROUGHOUT":
+        if not groups.slides():
             pair = f"continuum.{groups.loss}", *map(float, groups[1:4])
             pairs.setdefault(pair, []).append(place)
-    for pair, places in pairs.items():
+    for (model, *pair), places in pairs.items():
         x = [float(impacts[place].incidence) for place in places]
-        fine, coarse = (
-            np.array(inelastic_contact.impact(pair[0], x, *pair[1:], STEPS // n, SPRINGS // n))
-            for n in (1, 2)
-        )
-        velocity, _, peak = 2 * fine - coarse
-        for place, w, largest in zip(places, velocity, np.minimum(peak, 1.0), strict=True):
-            found[place] = mp.mpf(float(w)), mp.mpf(float(largest))
-    return found
+        solved = inelastic_contact.extrapolated(model, x, *pair, STEPS, SPRINGS)
+        columns = solved.velocity, solved.peak_friction, solved.gross_slips
+        for place, *numbers in zip(places, *columns, strict=True):
+            found[place] = tuple(mp.mpf(float(number)) for number in numbers)
+    return [(w, peak, g.regime(slips)) for g, (w, peak, slips) in zip(impacts, found, strict=True)]
 
 
 class _Impact:
@@ -137,7 +141,7 @@ class _Impact:
         """Kinetic energy."""
         return (self.mass * _dot(velocity, velocity) + self.inertia * _dot(spin, spin)) / 2
 
-    def after(self, w, peak_friction):
+    def after(self, w, peak_friction, regime):
         """`{column of the result: number or regime}`, from the rebound without units."""
         e, friction = self.row["restitution"], self.row["friction"]
         impulse = _plus(
@@ -150,7 +154,7 @@ class _Impact:
         after = [*map(_plus, before, self.changes(impulse))]
         peak = self._peak_normal()
         return _columns(*after, "normal_x" in self.row) | {
-            "regime": self.groups.regime(),
+            "regime": regime,
             "incidence": self.groups.incidence,
             "peak_normal_force [N]": peak,
             "peak_friction_force [N]": friction * peak_friction * peak,
