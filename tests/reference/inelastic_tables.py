@@ -128,22 +128,24 @@ def slope(model, zeta2, e):
     return float(minimize_scalar(squares, bounds=bounds, options={"xatol": 1e-9}).x)
 
 
-@functools.cache
 def extrapolated(model, zeta2, e, x):
-    """A continuum for incidences `x`, which are solved together."""
-    return inelastic_contact.extrapolated(model, x, BETA, zeta2, e, FINE_STEPS, FINE_SPRINGS)
+    """One impact of a continuum: alone, so that a test can compute a few rows of a table."""
+    found = inelastic_contact.extrapolated(
+        model, [float(x)], BETA, zeta2, e, FINE_STEPS, FINE_SPRINGS
+    )
+    return inelastic_contact.Impact(*(column[0] for column in found))
 
 
 def _on_grid(model, x):
-    # Alone, so that a test can compute a few rows.
-    found = extrapolated(model, ZETA2, GRID_E, (x,))
+    found = extrapolated(model, ZETA2, GRID_E, x)
     numbers = found.velocity, found.peak_friction, found.work
-    return [f"{model}, e = {GRID_E:g}", x, *(digits(number[0], 6) for number in numbers)]
+    return [f"{model}, e = {GRID_E:g}", x, *(digits(number, 6) for number in numbers)]
 
 
 def _bounce(row):
-    place, height, along, up, spin = ball_path(*[0.0] * BOUNCES)[row]
-    return ["path", digits(place, 6), height, digits(along, 6), up, digits(spin, 4)]
+    places = (6, 9, 6, 9, 4)
+    row = ball_path(*[0.0] * BOUNCES)[row]
+    return ["path", *(digits(number, n) for number, n in zip(row, places, strict=True))]
 
 
 @functools.cache
@@ -172,7 +174,7 @@ def ball_path(*errors):
         side = -1 if bounce % 2 == 0 else 1  # of the contact: below or above the centre
         contact = along + side * radius * spin
         x = contact / (mu * abs(up))
-        w = extrapolated("continuum.viscous", RUBBER, e, (abs(x),)).velocity[0]
+        w = extrapolated("continuum.viscous", RUBBER, e, abs(x)).velocity
         change = contact - mu * abs(up) * (np.sign(x) * w + error)
         # Friction's impulse over the mass; it turns the ball by 5/2 of it over the radius.
         impulse = change / BETA
@@ -188,24 +190,21 @@ def ball_path(*errors):
 
 
 def _shot(model, angle):
-    tangents = [mp.tan(mp.radians(a)) / mp.mpf(SHOT["friction"]) for a in ANGLES]
-    groups = SHOT["stiffness_ratio"], SHOT["restitution"]
-    velocities = extrapolated(model, *groups, tuple(map(float, tangents))).velocity
-    place = ANGLES.index(angle)
-    first, *columns = shot_columns(angle, tangents[place], mp.mpf(float(velocities[place])))
+    x = mp.tan(mp.radians(angle)) / mp.mpf(SHOT["friction"])
+    w = extrapolated(model, SHOT["stiffness_ratio"], SHOT["restitution"], x).velocity
+    first, *columns = shot_columns(angle, x, mp.mpf(float(w)))
     return [f"{model}, experiment", angle, first, *(digits(c, 6) for c in columns)]
 
 
 def _fig6(model, x):
-    velocities = extrapolated(model, ZETA2, FIGURES_E, tuple(FIG6_INCIDENCES)).velocity
-    return [f"{model}, e = {FIGURES_E:g}", x, digits(velocities[FIG6_INCIDENCES.index(x)], 6)]
+    w = extrapolated(model, ZETA2, FIGURES_E, x).velocity
+    return [f"{model}, e = {FIGURES_E:g}", x, digits(w, 6)]
 
 
 def _fig9(model, mu, angle):
-    theta = np.radians(FIG9_ANGLES[mu])
-    work = extrapolated(model, ZETA2, FIGURES_E, tuple((np.tan(theta) / mu).tolist())).work
-    place = FIG9_ANGLES[mu].index(angle)
-    lost = 2 * (mu * np.cos(theta[place])) ** 2 * work[place]
+    theta = np.radians(angle)
+    work = extrapolated(model, ZETA2, FIGURES_E, np.tan(theta) / mu).work
+    lost = 2 * (mu * np.cos(theta)) ** 2 * work
     return [f"{model}, mu = {mu:g}, e = {FIGURES_E:g}", angle, digits(lost, 6)]
 
 
