@@ -20,9 +20,9 @@ def curves(throw: dict[str, Any]) -> Curves:
     ----------
     throw : dict
         `radius` [m], `density` [kg/m^3], `young_modulus` [Pa] and `poisson_ratio` of the ball,
-        `friction`, `restitution` and `loss`, as in a scene; `velocity` [m/s] before the first impact, on the floor, along
-        and up; `spin` [rad/s] before it, positive where it moves the foot of the ball forward;
-        `gap` [m] between floor and table; `bounces`.
+        `friction`, `restitution` and `loss`, as in a scene; `velocity` [m/s] before the first
+        impact, on the floor, along and up; `spin` [rad/s] before it, positive where it moves the
+        foot of the ball forward; `gap` [m] between floor and table; `bounces`.
 
     Returns
     -------

@@ -100,7 +100,8 @@ def curves(
     named = {}
     for e in restitution:
         groups = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio, "restitution": e}
-        own = {"tolerance": tolerance, "tolerances": tolerances} if e == 1 else inelastic
+        elastic: Mapping[str, Any] = {"tolerance": tolerance, "tolerances": tolerances}
+        own = elastic if e == 1 else inelastic
         accuracy, wanted = float(own["tolerance"]), list(own["tolerances"])
         tried = {"steps": steps, "circles": circles, "tolerance": wanted}
         timed = []

@@ -122,9 +122,7 @@ def _draw_laws(axes: Axes, curves: Curves, batch: int) -> None:
     axes.legend(handles=keys, loc="upper left", handlelength=1, fontsize=house_style.NOTE)
     axes.margins(x=1.0, y=0.15)  # so wide that there are two powers of ten
     low, high = axes.get_ylim()
-    axes.set(
-        ylim=(low, low + 2 * (high - low)), xlabel=draw_trade.TIME_WORDS, ylabel="error, rms"
-    )
+    axes.set(ylim=(low, low + 2 * (high - low)), xlabel=draw_trade.TIME_WORDS, ylabel="error, rms")
     axes.set_title("(d) LAMMPS, part of (a)")
 
 
