@@ -2,8 +2,9 @@
 
     python tests/reference/error_tables.py data/model_errors
 
-For e = 1 against the elastic continuum, data/elastic_continuum/rebound_grid.csv; for e = 0.5
-against the lumped model with 40 digits. The models are written anew from their definitions.
+For e = 1 against the elastic continuum, data/elastic_continuum/rebound_grid.csv; for e = 0.8
+against the viscous and against the plastic one, data/inelastic_models/rebound_grid.csv. The models
+are written anew from their definitions.
 """
 
 import csv
@@ -14,12 +15,15 @@ from pathlib import Path
 from typing import NamedTuple
 
 import exact_tables
+import inelastic_tables
 import numpy as np
 import table_files
+import viscous_precision
 from exact_tables import BETA, ZETA2
 from table_files import Table
 
-GRID = Path(__file__).parents[2] / "data/elastic_continuum/rebound_grid.csv"
+DATA = Path(__file__).parents[2] / "data"
+LOSSES = ("viscous", "plastic")
 INCIDENCES = np.linspace(0.0, 8.0, 81)
 STEPS = (16, 64, 256)
 BRACH = 0.40  # tangential restitution: the value that the package documents
@@ -36,24 +40,43 @@ class Answer(NamedTuple):
 
 def tables():
     """All tables, `{name: Table}`."""
-    return {"elastic": _errors(1.0, continuum()), "inelastic": _errors(0.5, lumped(0.5))}
+    models = {"rigid": rigid, "laws.smith": smith, "laws.brach": brach, "lumped": lumped}
+    steps = {
+        f"timestep.{name}, {steps} steps": functools.partial(leapfrog, law, steps)
+        for name, law in LAWS.items()
+        for steps in STEPS
+    }
+    response = {"response of lumped, tolerance 1e-10": lumped}
+    springs = {"lumped.plastic": lumped_plastic, "lumped.viscous": lumped_viscous}
+    below, wrong = [], []
+    for loss, other in (LOSSES, LOSSES[::-1]):
+        against = inelastic_tables.GRID_E, lossy(loss), f", {loss}"
+        below += _rows(models | springs | steps, *against)
+        wrong += _rows(
+            {f"continuum.{other}, tolerance 0.001": functools.partial(lossy, other)}, *against
+        )
+    return {
+        "elastic": _table(_rows(models | steps | response, 1.0, continuum(), "")),
+        "inelastic": _table(below),
+        "wrong_loss": _table(wrong),
+    }
 
 
-def _errors(e, exact):
-    models = {"rigid": rigid, "laws.smith": smith, "laws.brach": brach}
-    models["lumped"] = lumped
-    for name, law in LAWS.items():
-        for steps in STEPS:
-            models[f"timestep.{name}, {steps} steps"] = functools.partial(leapfrog, law, steps)
-    models["response of lumped, tolerance 1e-10"] = lumped
-    rows = [functools.partial(_row, name, model, e, exact) for name, model in models.items()]
+def _rows(models, e, exact, ending):
+    return [
+        functools.partial(_row, f"{name}, e = {e:g}{ending}", model, e, exact)
+        for name, model in models.items()
+    ]
+
+
+def _table(rows):
     columns = [
         f"{kind}_{name} [{unit}]" for name, unit in FIELDS.items() for kind in ("rms", "max")
     ]
     return Table(["curve", "restitution [1]", *columns], rows)
 
 
-def _row(name, model, e, exact):
+def _row(curve, model, e, exact):
     cells = []
     for found, right in zip(model(e), exact, strict=True):
         if found is None:
@@ -61,7 +84,7 @@ def _row(name, model, e, exact):
         else:
             gap = np.abs(found - right)
             cells += [round(float(np.sqrt(np.mean(gap**2))), 12), round(float(gap.max()), 12)]
-    return [f"{name}, e = {e:g}", e, *cells]
+    return [curve, e, *cells]
 
 
 # What errors are measured against ------------------------------------------------------------
@@ -69,17 +92,46 @@ def _row(name, model, e, exact):
 
 def continuum():
     """The elastic continuum by annuli, from its table."""
-    with open(GRID, newline="", encoding="utf-8") as file:
-        rows = np.array(list(csv.reader(file))[1:], float)
-    if not np.allclose(rows[:, 0], INCIDENCES, rtol=0, atol=1e-12):
-        raise SystemExit(f"{GRID}: other incidences")
-    return Answer(*rows[:, 1:].T)
+    return _grid(DATA / "elastic_continuum/rebound_grid.csv")
+
+
+def lossy(loss, e=inelastic_tables.GRID_E):
+    """The continuum of a loss by springs stepped through time, from its table."""
+    curve = f"continuum.{loss}, e = {e:g}"
+    return _grid(DATA / "inelastic_models/rebound_grid.csv", curve)
+
+
+def _grid(path, curve=None):
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = [row[-4:] for row in csv.reader(file) if curve in (None, row[0])]
+    numbers = np.array(rows if curve else rows[1:], float)
+    if not np.allclose(numbers[:, 0], INCIDENCES, rtol=0, atol=1e-12):
+        raise SystemExit(f"{path}: other incidences")
+    return Answer(*numbers[:, 1:].T)
+
+
+# Springs -------------------------------------------------------------------------------------
 
 
 @functools.cache
-def lumped(e):
+def lumped(e, zeta2=ZETA2):
     """The lumped model with 40 digits."""
-    found = [exact_tables.solve(float(x), BETA, ZETA2, e) for x in INCIDENCES]
+    return _of_each(lambda x: exact_tables.solve(x, BETA, zeta2, e))
+
+
+def lumped_plastic(e):
+    """The lumped model of the elastic unloading: e^2 zeta^2."""
+    return lumped(e, e * e * ZETA2)
+
+
+@functools.cache
+def lumped_viscous(e):
+    """Two Kelvin-Voigt elements, with 15 digits."""
+    return _of_each(lambda x: viscous_precision.rebound(x, BETA, ZETA2, e, 15))
+
+
+def _of_each(solve):
+    found = [solve(float(x)) for x in INCIDENCES]
     fields = ([float(getattr(answer, name)) for answer in found] for name in FIELDS)
     return Answer(*map(np.array, fields))
 

@@ -34,8 +34,6 @@ BALL = {
     "young_modulus": 207e9,
     "poisson_ratio": 0.3,
 }
-# The ball that is thrown under a table.
-THROW = {"radius": 0.025, "friction": 0.8, "restitution": 0.9, "velocity": (6, -5), "gap": 0.7}
 # The kinds of event as the package names them.
 KINDS = {"compression ends": "maximum compression"}
 FRICTIONS = (0.1, 0.2, 0.4, 0.6, 0.8, 1.0)  # of Fig. 7
@@ -63,7 +61,6 @@ def tables():
         "fig8_peak_force": _fig8(),
         "fig9_dissipation": _fig9(),
         "micro_slip_events": _micro_slip(),
-        "superball": _superball(),
     }
     return found
 
@@ -392,45 +389,6 @@ def _dissipation(curve, mu, e, angle, work):
         share * answer.dissipation,
         share * answer.friction_work if work else None,
     ]
-
-
-# A ball under a table ------------------------------------------------------------------------
-
-
-def _superball():
-    path = superball_path()
-    rows = [functools.partial(list, ["path", *place]) for place in path]
-    header = ["place [m]", "height [m]", "velocity_x [m/s]", "velocity_z [m/s]", "spin_y [rad/s]"]
-    return Table(["curve", *header], rows)
-
-
-def superball_path():
-    """Rows place, height, velocity along and up, spin: before, after three impacts, and at the end.
-
-    Without gravity. On the floor the point of contact moves with v - R spin, on the underside of
-    the table with v + R spin, spin positive where the ball turns as if it rolled on the floor.
-    """
-    radius, mu, e = (mp.mpf(THROW[key]) for key in ("radius", "friction", "restitution"))
-    along, up = map(mp.mpf, THROW["velocity"])
-    reach = mp.mpf(THROW["gap"]) - 2 * radius
-    height, spin, place = mp.zero, mp.zero, mp.zero
-    rows = [[-reach / 2 / abs(up) * along, reach / 2, along, up, spin]]
-    for bounce in range(3):
-        side = -1 if bounce % 2 == 0 else 1  # of the contact: below or above the centre
-        contact = along + side * radius * spin
-        x = contact / (mu * abs(up))
-        change = contact - mu * abs(up) * solve(x, BETA, RUBBER, THROW["restitution"]).velocity
-        # Friction's impulse over the mass; it turns the ball by 5/2 of it over the radius.
-        impulse = change / mp.mpf(BETA)
-        along -= impulse
-        spin -= side * impulse * mp.mpf(5) / 2 / radius
-        up *= -e
-        rows.append([place, height, along, up, spin])
-        last = bounce == 2
-        place += along * (reach / 2 if last else reach) / abs(up)
-        height = reach / 2 if last else reach - height
-    rows.append([place, height, along, up, spin])
-    return [[place, radius + height, *rest] for place, height, *rest in rows]
 
 
 if __name__ == "__main__":

@@ -10,17 +10,31 @@ by mu, so that the normal force itself limits friction.
 """
 
 import functools
+from typing import NamedTuple
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 
 EXACT = {"rtol": 1e-10, "atol": 1e-12, "method": "DOP853"}
 LONGEST = 1e3  # time after which a contact has surely ended
+SHORT = 0.01  # of the duration: what is no gross slip
+
+
+class Impact(NamedTuple):
+    """What `impact` returns, of each incidence."""
+
+    velocity: np.ndarray  # tangential, at separation, in mu v2(0)
+    work: np.ndarray  # of friction, in mu^2 m2 v2(0)^2; 0 for the lumped model: it is not asked
+    peak_friction: np.ndarray  # largest friction of all steps, in mu times the largest normal force
+    gross_slips: np.ndarray  # how often the whole contact slides, see `_runs`
 
 
 class Normal:
-    """The normal motion of one contact: `end`, and deflection and velocity at some times."""
+    """The normal motion of one contact: `end`, and deflection and velocity at some times.
+
+    `peak` is the largest normal force, in a continuum in (E* sqrt(R))^0.4 m2^0.6 v2(0)^1.2.
+    """
 
     def __init__(self, phases):
         self.phases = phases
@@ -72,7 +86,9 @@ def viscous_motion(tau):
         a2 = max(min(d, drive) if v < 0 else d, 0.0)
         return 2 * np.sqrt(a2) * (drive - a2 / 3)
 
-    return _two_phases(force, lambda _: force, lambda _: lambda d, v: d + tau * v)
+    return _with_peak(
+        _two_phases(force, lambda _: force, lambda _: lambda d, v: d + tau * v), force
+    )
 
 
 def plastic_motion(yield_radius):
@@ -95,7 +111,7 @@ def plastic_motion(yield_radius):
 
     motion = _two_phases(loading, unloading, lambda top: lambda d, v: d - residual(top)[1])
     motion.radius, motion.rest = residual(motion.phases[0].y[0, -1])
-    motion.loading = loading
+    motion.loading, motion.peak = loading, loading(motion.phases[0].y[0, -1], 0.0)
     return motion
 
 
@@ -105,7 +121,18 @@ def kelvin_voigt_motion(damping):
     def force(u, v):
         return u + 2 * damping * v
 
-    return _two_phases(force, lambda _: force, lambda _: force)
+    return _with_peak(_two_phases(force, lambda _: force, lambda _: force), force)
+
+
+def _with_peak(motion, force):
+    """A motion with its largest force, which a dashpot puts before the greatest compression."""
+
+    def pull(time):
+        return -force(*motion.at(time))
+
+    highest = minimize_scalar(pull, bounds=(0.0, motion.turn), options={"xatol": 1e-10})
+    motion.peak = -highest.fun
+    return motion
 
 
 MOTIONS = {
@@ -130,13 +157,23 @@ def motion_with(model, restitution):
     return make(parameter), parameter
 
 
+def extrapolated(model, x, beta, zeta2, restitution, steps, springs):
+    """As `impact`, with what half of the steps and springs say of the error: it falls with them."""
+    fine, coarse = (
+        impact(model, x, beta, zeta2, restitution, steps // n, springs // n) for n in (1, 2)
+    )
+    velocity, work, peak = (2 * a - b for a, b in zip(fine[:3], coarse[:3], strict=True))
+    # Friction is no larger than its limit; an extrapolated one may be, by its own error.
+    return Impact(velocity, work, np.minimum(peak, 1.0), fine.gross_slips)
+
+
 def rebound(model, x, beta, zeta2, restitution, steps=600, springs=200):
     """Tangential velocities after impact, as `impact` takes its arguments."""
-    return impact(model, x, beta, zeta2, restitution, steps, springs)[0]
+    return impact(model, x, beta, zeta2, restitution, steps, springs).velocity
 
 
 def impact(model, x, beta, zeta2, restitution, steps=600, springs=200):
-    """Tangential velocities after impact, and the work of friction.
+    """Velocity, work of friction, largest friction and gross slips of some impacts.
 
     Parameters
     ----------
@@ -150,14 +187,14 @@ def impact(model, x, beta, zeta2, restitution, steps=600, springs=200):
 
     Returns
     -------
-    velocities, work : ndarray, shape (n,)
-        In mu v2(0), and in mu^2 m2 v2(0)^2: zeros for the lumped model, of which it is not asked.
+    Impact
+        Arrays of shape (n,).
     """
     motion, parameter = motion_with(model, float(restitution))
     row = {"continuum.viscous": _Viscous, "continuum.plastic": _Plastic, "lumped.viscous": _Pair}
     contact = row[model](motion, parameter, zeta2, springs)
     w = np.array(x, float)
-    u, before = np.zeros_like(w), np.zeros_like(w)
+    u, before, largest = np.zeros_like(w), np.zeros_like(w), np.zeros_like(w)
     # The steps meet the instant of greatest compression, where some forces jump.
     share = max(2, round(steps * motion.turn / motion.end))
     times = np.concatenate(
@@ -166,16 +203,34 @@ def impact(model, x, beta, zeta2, restitution, steps=600, springs=200):
             np.linspace(motion.turn, motion.end, max(2, steps - share) + 1),
         ]
     )
-    for start, end in zip(times, times[1:], strict=False):
-        dt = end - start
+    middles, slides = (times[:-1] + times[1:]) / 2, []
+    for dt, (d, v), loads in zip(
+        np.diff(times), motion.at(middles).T, middles <= motion.turn, strict=True
+    ):
+        normal = max(d, 0.0), v, loads
         middle = u + w * dt / 2
         # Friction may depend on the velocity at the middle of the step: one correction.
-        friction = contact.friction(start, dt, middle, w - beta * before * dt / 2, keep=False)
-        friction = contact.friction(start, dt, middle, w - beta * friction * dt / 2, keep=True)
+        friction = contact.friction(normal, dt, middle, w - beta * before * dt / 2, keep=False)
+        friction = contact.friction(normal, dt, middle, w - beta * friction * dt / 2, keep=True)
         w_new = w - beta * friction * dt
         u += (w + w_new) * dt / 2
-        w, before = w_new, friction
-    return w, contact.work
+        w, before, largest = w_new, friction, np.maximum(largest, np.abs(friction))
+        slides.append(contact.slides)
+    runs = [_runs(column, times / motion.end) for column in np.transpose(slides)]
+    return Impact(w, contact.work + np.zeros_like(w), largest / motion.peak, np.array(runs))
+
+
+def _runs(slides, times):
+    """How often `slides` is true for a while; interruptions shorter than `SHORT` are none.
+
+    A contact that hardly slides flickers: in some steps its last spring still sticks.
+    """
+    changes = np.flatnonzero(np.diff(np.concatenate([[False], slides, [False]])))
+    starts, ends = times[changes[::2]], times[changes[1::2]]
+    if not starts.size:
+        return 0
+    apart = starts[1:] - ends[:-1] > SHORT
+    return np.sum(ends[np.append(apart, True)] - starts[np.append(True, apart)] > SHORT)
 
 
 class _Row:
@@ -190,13 +245,11 @@ class _Row:
 
     def _slide(self, before, after, held, share):
         """Keep what the springs remember, and add the work of friction where that has changed."""
+        inside = np.count_nonzero(share == 1)
+        self.slides = (after != before)[:, :inside].all(1) & (inside > 0)
         slid = before - after
         self.work = self.work + 2 * self.width * (held * share * slid).sum(1) / self.zeta2
         self.c = after
-
-    def _state(self, time):
-        d, v = self.motion.at(np.array([time]))[:, 0]
-        return max(d, 0.0), v, time <= self.motion.turn
 
     def _share(self, radius):
         """How much of each spring's width lies inside the contact."""
@@ -204,9 +257,9 @@ class _Row:
 
 
 class _Viscous(_Row):
-    def friction(self, start, dt, u, w, keep):
+    def friction(self, normal, dt, u, w, keep):
         tau = self.parameter
-        d, v, loads = self._state(start + dt / 2)
+        d, v, loads = normal
         drive = max(d + tau * v, 0.0)
         share = self._share(np.sqrt(d if loads else min(d, drive)))
         limit = self.zeta2 * np.maximum(drive - self.r**2, 0.0)
@@ -223,8 +276,8 @@ class _Viscous(_Row):
 
 
 class _Plastic(_Row):
-    def friction(self, start, dt, u, _, keep):
-        d, v, loads = self._state(start + dt / 2)
+    def friction(self, normal, dt, u, _, keep):
+        d, v, loads = normal
         radius = self.motion.radius
         a2 = d if loads else radius * max(d - self.motion.rest, 0.0)
         # The pressure has Hertz' shape at all times, with the force and radius of Thornton's law.
@@ -245,16 +298,16 @@ class _Pair:
         self.motion, self.tau, self.zeta2, self.s = motion, 2 * damping, zeta2, 0.0
         self.work = 0.0
 
-    def friction(self, start, dt, _, w, keep):
-        d, v = self.motion.at(np.array([start + dt / 2]))[:, 0]
-        normal = max(d + self.tau * v, 0.0)
-        limit = self.zeta2 * normal
+    def friction(self, normal, dt, _, w, keep):
+        d, v, _ = normal
+        limit = self.zeta2 * max(d + self.tau * v, 0.0)
         relax = -np.expm1(-dt / self.tau)
         # What friction would be if it stuck to the middle of the step.
         wanted = self.s + w * dt / 2 + self.tau * w
         held = np.clip(wanted, -limit, limit)
         slips = np.abs(wanted) > limit
         if keep:
+            self.slides = slips
             slipped = self.s + (held - self.s) * relax
             self.s = np.where(slips, slipped, self.s + w * dt)
         return held / self.zeta2

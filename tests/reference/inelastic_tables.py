@@ -1,6 +1,6 @@
 """Tables of data/inelastic_models: five models of loss, each by a second code.
 
-python tests/reference/inelastic_tables.py data/inelastic_models
+python tests/reference/inelastic_tables.py data/inelastic_models [table ...]
 """
 
 import csv
@@ -8,11 +8,11 @@ import functools
 import sys
 from pathlib import Path
 
+import inelastic_contact
 import numpy as np
 import yaml
-from exact_tables import ANGLE, INCIDENCE, SHOT, SHOT_HEADER, VELOCITY, ZETA2, shot_columns
+from exact_tables import ANGLE, INCIDENCE, RUBBER, SHOT, SHOT_HEADER, VELOCITY, ZETA2, shot_columns
 from high_precision import rebound as exact_rebound
-from inelastic_contact import MOTIONS, impact, rebound
 from mpmath import mp
 from scipy.optimize import minimize_scalar
 from table_files import Table, write
@@ -27,13 +27,21 @@ INCIDENCES = [0.5 * i for i in range(1, 17)]
 # Impacts of a fit, and how many of them are solved; the others lie on chords.
 IMPACTS, SOLVED = 3000, 121
 STEPS, SPRINGS = 1600, 400
-# Of the continua in Figs 5, 6 and 9: solved with half of each too, and extrapolated, as errors are
-# in proportion to the step.
+# Of the grid, of the ball under a table, and of the continua in Figs 5, 6 and 9: solved with half
+# of each too, and extrapolated, as errors are in proportion to the step.
 FINE_STEPS, FINE_SPRINGS = 6400, 1600
 CONTINUA = MODELS[:2]
 ANGLES = [0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 15.0, 18.0, 20.0, 22.0, 25.0]
 ANGLES += [27.0, 28.0, 30.0, 35.0, 50.0, 70.0]
 FIGURES_E = 0.5
+# Of what data/model_errors measures errors against.
+GRID_E = 0.8
+GRID_OUTPUTS = ["peak_friction [mu F2max]", "dissipation [mu^2 m2 v2(0)^2]"]
+GRID = [round(0.1 * k, 1) for k in range(81)]
+# The ball that is thrown under a table.
+THROW = {"radius": 0.025, "friction": 0.8, "restitution": 0.9, "velocity": (6.0, -5.0), "gap": 0.7}
+BOUNCES = 3
+PATH = ["place [m]", "height [m]", "velocity_x [m/s]", "velocity_z [m/s]", "spin_y [rad/s]"]
 FIG6_INCIDENCES = [0.25 * i for i in range(1, 18)] + [4.5, 4.6, 4.7, 5.0, 6.0, 7.0, 8.0]
 FIG9_ANGLES = {
     0.1: [float(k) for k in (2, 4, 6, 7, 9, 11, 13, 15, 17, 19, 22, 24, 27, 30, 50, 75)],
@@ -47,6 +55,13 @@ def tables():
         "rebound": Table(
             ["curve", "incidence [mu v2(0)]", "velocity [mu v2(0)]"],
             [functools.partial(_at_incidence, model, x) for model in MODELS for x in INCIDENCES],
+        ),
+        "rebound_grid": Table(
+            ["curve", INCIDENCE, VELOCITY, *GRID_OUTPUTS],
+            [functools.partial(_on_grid, model, x) for model in CONTINUA for x in GRID],
+        ),
+        "superball": Table(
+            ["curve", *PATH], [functools.partial(_bounce, row) for row in range(BOUNCES + 2)]
         ),
         "tangential_restitution": Table(
             ["curve", "restitution [1]", "tangential_restitution [1]"],
@@ -88,8 +103,7 @@ def velocities(model, x, zeta2, e):
     # Without loss a Kelvin-Voigt element is a spring, and its relaxation has no steps.
     if model in ("lumped", "lumped.plastic") or (model == "lumped.viscous" and e == 1):
         return np.array([float(exact_rebound(float(v), BETA, zeta2, e, 15).velocity) for v in x])
-    assert model in MOTIONS
-    return rebound(model, x, BETA, zeta2, e, STEPS, SPRINGS)
+    return inelastic_contact.rebound(model, x, BETA, zeta2, e, STEPS, SPRINGS)
 
 
 def like(nu):
@@ -114,35 +128,83 @@ def slope(model, zeta2, e):
     return float(minimize_scalar(squares, bounds=bounds, options={"xatol": 1e-9}).x)
 
 
-@functools.cache
 def extrapolated(model, zeta2, e, x):
-    """Velocities and works of friction of a continuum, solved together for incidences `x`."""
-    fine, coarse = (
-        np.array(impact(model, x, BETA, zeta2, e, FINE_STEPS // n, FINE_SPRINGS // n))
-        for n in (1, 2)
+    """One impact of a continuum: alone, so that a test can compute a few rows of a table."""
+    found = inelastic_contact.extrapolated(
+        model, [float(x)], BETA, zeta2, e, FINE_STEPS, FINE_SPRINGS
     )
-    return 2 * fine - coarse
+    return inelastic_contact.Impact(*(column[0] for column in found))
+
+
+def _on_grid(model, x):
+    found = extrapolated(model, ZETA2, GRID_E, x)
+    numbers = found.velocity, found.peak_friction, found.work
+    return [f"{model}, e = {GRID_E:g}", x, *(digits(number, 6) for number in numbers)]
+
+
+def _bounce(row):
+    places = (6, 9, 6, 9, 4)
+    row = ball_path(*[0.0] * BOUNCES)[row]
+    return ["path", *(digits(number, n) for number, n in zip(row, places, strict=True))]
+
+
+@functools.cache
+def ball_path(*errors):
+    """Path of the ball that is thrown under a table: before, after each impact, and at the end.
+
+    Without gravity. On the floor the point of contact moves with v - R spin, on the underside of
+    the table with v + R spin, spin positive where the ball turns as if it rolled on the floor.
+
+    Parameters
+    ----------
+    *errors : float
+        Added to the velocity of contact after each impact, in mu v2(0): for how errors add up.
+
+    Returns
+    -------
+    list of tuple
+        Place and height [m], velocity along and up [m/s], spin [rad/s].
+    """
+    radius, mu, e = (THROW[key] for key in ("radius", "friction", "restitution"))
+    along, up = THROW["velocity"]
+    reach = THROW["gap"] - 2 * radius
+    height, spin, place = 0.0, 0.0, 0.0
+    rows = [(-reach / 2 / abs(up) * along, reach / 2, along, up, spin)]
+    for bounce, error in enumerate(errors):
+        side = -1 if bounce % 2 == 0 else 1  # of the contact: below or above the centre
+        contact = along + side * radius * spin
+        x = contact / (mu * abs(up))
+        w = extrapolated("continuum.viscous", RUBBER, e, abs(x)).velocity
+        change = contact - mu * abs(up) * (np.sign(x) * w + error)
+        # Friction's impulse over the mass; it turns the ball by 5/2 of it over the radius.
+        impulse = change / BETA
+        along -= impulse
+        spin -= side * impulse * 5 / 2 / radius
+        up *= -e
+        rows.append((place, height, along, up, spin))
+        share = 0.5 if bounce == len(errors) - 1 else 1.0
+        place += along * share * reach / abs(up)
+        height += np.sign(up) * share * reach
+    rows.append((place, height, along, up, spin))
+    return [(place, radius + height, *rest) for place, height, *rest in rows]
 
 
 def _shot(model, angle):
-    tangents = [mp.tan(mp.radians(a)) / mp.mpf(SHOT["friction"]) for a in ANGLES]
-    groups = SHOT["stiffness_ratio"], SHOT["restitution"]
-    velocities, _ = extrapolated(model, *groups, tuple(map(float, tangents)))
-    place = ANGLES.index(angle)
-    first, *columns = shot_columns(angle, tangents[place], mp.mpf(float(velocities[place])))
+    x = mp.tan(mp.radians(angle)) / mp.mpf(SHOT["friction"])
+    w = extrapolated(model, SHOT["stiffness_ratio"], SHOT["restitution"], x).velocity
+    first, *columns = shot_columns(angle, x, mp.mpf(float(w)))
     return [f"{model}, experiment", angle, first, *(digits(c, 6) for c in columns)]
 
 
 def _fig6(model, x):
-    velocities, _ = extrapolated(model, ZETA2, FIGURES_E, tuple(FIG6_INCIDENCES))
-    return [f"{model}, e = {FIGURES_E:g}", x, digits(velocities[FIG6_INCIDENCES.index(x)], 6)]
+    w = extrapolated(model, ZETA2, FIGURES_E, x).velocity
+    return [f"{model}, e = {FIGURES_E:g}", x, digits(w, 6)]
 
 
 def _fig9(model, mu, angle):
-    theta = np.radians(FIG9_ANGLES[mu])
-    _, work = extrapolated(model, ZETA2, FIGURES_E, tuple((np.tan(theta) / mu).tolist()))
-    place = FIG9_ANGLES[mu].index(angle)
-    lost = 2 * (mu * np.cos(theta[place])) ** 2 * work[place]
+    theta = np.radians(angle)
+    work = extrapolated(model, ZETA2, FIGURES_E, np.tan(theta) / mu).work
+    lost = 2 * (mu * np.cos(theta)) ** 2 * work
     return [f"{model}, mu = {mu:g}, e = {FIGURES_E:g}", angle, digits(lost, 6)]
 
 
@@ -191,4 +253,5 @@ def _ratio(pair):
 
 
 if __name__ == "__main__":
-    write(sys.argv[1], tables())
+    folder, *names = sys.argv[1:]
+    write(folder, {name: table for name, table in tables().items() if name in names or not names})

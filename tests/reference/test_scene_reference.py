@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 import scene_tables
 
-from planarimpact import bodies, continuum, lumped, rigid, scene
+from planarimpact import bodies, continuum, lumped, models, rigid, scene
 from planarimpact.scene import gaps
 
 DATA = Path(__file__).parents[2] / "data" / "scenes"
@@ -92,6 +92,61 @@ def test_a_wrong_rung_breaks_the_tolerance(monkeypatch):
     monkeypatch.setattr(gaps, "MARGIN", 1e-3)
     velocity, _, _ = errors(known, scene.solve(known.rows, 1e-2))
     assert velocity.max() > 2e-2
+
+
+@pytest.mark.slow
+def test_gaps_hold_between_the_entries_of_their_table():
+    rng = np.random.default_rng(4)
+    for chi in 0.5 * 2.0 ** rng.uniform(0, 4, 5):
+        for name, model in (("lumped", lumped), ("rigid", rigid)):
+            found = gap_tables.largest(model, chi)
+            assert max(found) <= gaps.elastic(name, 2 * chi, 1.0) + 1e-3
+
+
+@pytest.mark.slow
+def test_gaps_are_not_idle():
+    """They are near the largest error: at most a fifth more, over the table."""
+    for place in (8, 16, 24, 32):
+        chi = gaps.CHI[place]
+        assert gaps.elastic("lumped", 2 * chi, 1.0) <= 1.2 * max(gap_tables.largest(lumped, chi))
+
+
+@pytest.mark.parametrize("name", list(scene_tables.SCENES))
+def test_example_scenes_are_made_as_stated(name):
+    made, there = scene_tables.SCENES[name](), pd.read_csv(DATA / f"{name}.csv")
+    pd.testing.assert_frame_equal(made, there, rtol=1e-9, check_dtype=False)
+    assert len(scene.solve(there)) == len(there)
+
+
+def test_a_wrong_rung_breaks_the_tolerance(monkeypatch):
+    """The test above can fail: a table of gaps that promises too much lets a coarse model in."""
+    known = solved("elastic, many of each")
+    monkeypatch.setattr(gaps, "MARGIN", 1e-3)
+    velocity, _, _ = errors(known, scene.solve(known.rows, 1e-2))
+    assert velocity.max() > 2e-2
+
+
+@pytest.mark.parametrize("name", ["many of each", "few of each", "viscous material"])
+def test_a_wrong_loss_breaks_the_tolerance(name, monkeypatch):
+    """So does the continuum of the other loss."""
+    elastic, viscous, plastic = choice.REFERENCES
+    monkeypatch.setattr(choice, "REFERENCES", (elastic, plastic, viscous))
+    known = solved(name)
+    velocity, _, _ = errors(known, scene.solve(known.rows, 1e-2))
+    assert velocity.max() > 5e-2
+
+
+def test_the_lumped_model_of_the_loss_breaks_the_tolerance(monkeypatch):
+    """So does the lumped model, with either loss."""
+    known = solved("few of each")
+    monkeypatch.setattr(models, "rebound", lumped_instead)
+    velocity, _, _ = errors(known, scene.solve(known.rows, 1e-2))
+    for loss in continuum.LOSSES:
+        assert velocity[known.rows["loss"] == loss].max() > 5e-2
+
+
+def lumped_instead(model, *groups, tolerance):
+    return lumped.rebound(*groups, loss=model.partition(".")[2] or "hysteretic")
 
 
 @pytest.mark.slow
