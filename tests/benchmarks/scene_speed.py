@@ -1,11 +1,11 @@
 """Scenes: a million impacts of 20 material pairs at tolerance 1e-3, on one core, and the memory.
 
-OMP_NUM_THREADS=1 python tests/benchmarks/scene_speed.py [loss=LOSS] [elastic share of the pairs] ...
-OMP_NUM_THREADS=1 python tests/benchmarks/scene_speed.py yield
+OMP_NUM_THREADS=1 python tests/benchmarks/scene_speed.py [loss=LOSS] [share | yield] ...
 
-Without a loss, half of the inelastic pairs are viscous and half plastic. With `yield`, 20 000 impacts
-have a yield pressure in place of restitution, so that no two of them have the same restitution. Times
-are those of the processor, and in brackets those of the clock.
+`share` is the elastic share of the pairs, by default 0.5. Without a loss, half of the other pairs
+are viscous and half plastic. With `yield`, 20 000 impacts have a yield pressure in place of
+restitution, so that no two of them that yield have the same. Times are those of the processor, and
+in brackets those of the clock.
 """
 
 import resource
