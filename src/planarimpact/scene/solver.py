@@ -37,7 +37,7 @@ class Solver:
     Attributes
     ----------
     assumed : bool
-        Whether an impact was solved with the loss "viscous" because none was given.
+        Whether there was an impact below e = 1 whose loss was not given: it was taken as viscous.
     bad : list of (int, str)
         Rows left out with `skip_bad`, by number from 1 over all tables, and why.
     rows : int
@@ -190,7 +190,9 @@ class Solver:
             self._taken[rung, job.pair] += rows.size
             if rung.model in choice.REFERENCES[1:]:
                 self._differences.add(difference)
-                self.assumed |= self._loss is None and not set(SAYS_LOSS) & set(names)
+        # Peak normal forces depend on the loss, whatever model takes the tangential motion.
+        unsaid = self._loss is None and not set(SAYS_LOSS) & set(names)
+        self.assumed |= unsaid and bool((impacts.restitution < 1).any())
         found_columns = velocity, peak, error, form, regime, model
         return self._columns(impacts, names, *found_columns), unsolved
 

@@ -27,6 +27,36 @@ POOLTOOL = OTHER._replace(label="pooltool", place=draw_trade.LEFT)
 ERROR, E, LOSS = draw_trade.ERROR, draw_trade.RESTITUTION, "loss"
 STEPS, USUAL_STEPS = draw_trade.STEPS, 64
 # The continuum of each panel.
+PANELS = {"viscous": "(a) viscous continuum", "plastic": "(b) elastic-plastic continuum"}
+# Words for models of ours. Each continuum is drawn in the panel of the other.
+OUR_WORDS = {
+    "lumped": "lumped: the paper",
+    "continuum.viscous": "continuum of the other loss",
+    "continuum.plastic": "continuum of the other loss",
+}
+# How the points of the restitutions are drawn, from the largest on.
+MARKERS = (
+    {"marker": "o", "markersize": 4.5, "markerfacecolor": "white"},
+    {"marker": "s", "markersize": 4, "markerfacecolor": "0.65"},
+    {"marker": "^", "markersize": 4.5, "markerfacecolor": house_style.BLACK},
+    {"marker": "D", "markersize": 3.5, "markerfacecolor": house_style.BLACK},
+)
+TICKS = (0.05, 0.1, 0.2, 0.5, 1)
+# Inches of a line of the second figure, and of all that is above and below its lines.
+LINE, FRAME = 0.19, 1.25
+
+_Row: TypeAlias = dict[str, Any]
+
+
+class _Line(NamedTuple):
+    """A line of the second figure: a heading, or a code with its settings."""
+
+    words: str
+    heading: bool = False
+
+ERROR, E, LOSS = draw_trade.ERROR, draw_trade.RESTITUTION, "loss"
+STEPS, USUAL_STEPS = draw_trade.STEPS, 64
+# The continuum of each panel.
 PANELS = {"viscous": "(a) viscous loss", "plastic": "(b) plastic loss"}
 # Words for models of ours. Each continuum is drawn in the panel of the other.
 OUR_WORDS = {
@@ -234,6 +264,117 @@ def _draw_loss(
         for e, error, height in zip(known, *points, strict=True):
             marker = {"color": house_style.BLACK, "markeredgewidth": 0.8, **styles[e]}
             axes.plot(error, height, linestyle="none", **marker)
+    axes.set_xscale("log")
+    axes.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
+    axes.minorticks_off()
+    for tick in TICKS:
+        axes.axvline(tick, **house_style.GUIDE)
+
+
+def draw_errors(peers: Curves) -> Figure:
+    """Draw the errors below e = 1 of each code and model, a panel for each loss.
+
+    Parameters
+    ----------
+    peers : dict
+        Of results/peers.csv. If no code is installed, the figure says so.
+    """
+    rows = [{key: value[0] for key, value in row.items()} for row in peers.values()]
+    rows = [row for row in rows if row.get(LOSS) in PANELS and ERROR in row]
+    missing = _missing(peers)
+    if not rows:
+        return house_style.failure(f"not installed: {missing}" if missing else "no errors")
+    lines = _lines(rows)
+    figure = house_style.new(FRAME + LINE * len(lines))
+    both = figure.subplots(1, 2, sharex=True, sharey=True)
+    values = sorted({row[E] for row in rows}, reverse=True)
+    styles = dict(zip(values, MARKERS, strict=False))
+    for axes, (loss, title) in zip(both, PANELS.items(), strict=True):
+        _draw_loss(axes, [row for row in rows if row[LOSS] == loss], lines, styles)
+        axes.set_title(title, fontsize=8.5)
+    ticks = [place for place, line in enumerate(lines) if not line.heading]
+    both[0].set_yticks(ticks, [lines[place].words for place in ticks], fontsize=house_style.NOTE)
+    both[0].tick_params(axis="y", length=0)
+    both[1].tick_params(axis="y", length=0)
+    for place, line in enumerate(lines):
+        if line.heading:
+            at = {"xytext": (-4, 0), "textcoords": "offset points", "ha": "right", "va": "center"}
+            both[0].annotate(
+                line.words,
+                (0, place),
+                xycoords=both[0].get_yaxis_transform(),
+                fontsize=house_style.NOTE,
+                style="italic",
+                **at,
+            )
+    both[0].set_ylim(len(lines) - 0.4, -0.6)
+    figure.supxlabel(r"error of $v_1(t_f)/\mu v_2(0)$, rms over the incidences", fontsize=8.5)
+    keys = [
+        house_style.key(f"$e = {e:g}$", linestyle="none", color=house_style.BLACK, **style)
+        for e, style in styles.items()
+    ]
+    figure.legend(handles=keys, loc="outside upper center", ncols=len(keys), handlelength=1)
+    if missing:
+        figure.suptitle(f"not installed: {missing}", fontsize=house_style.NOTE)
+    return figure
+
+
+def _lines(rows: Sequence[_Row]) -> list[_Line]:
+    """Lines from the top: LAMMPS, pooltool, ours, each below its heading."""
+    groups: dict[str, list[str]] = {
+        "LAMMPS, viscoelastic and $x_t = 0$ unless said": [],
+        "pooltool": [],
+        "planarimpact": [],
+    }
+    theirs, pooltool, ours = groups.values()
+    for row in rows:
+        model = row[draw_trade.MODEL]
+        group = theirs if model.startswith("LAMMPS") else pooltool if model == "pooltool" else ours
+        if _words(row) not in group:
+            group.append(_words(row))
+    lines = []
+    for heading, group in groups.items():
+        if group:
+            lines += [_Line(heading, heading=True), *map(_Line, group)]
+    return lines
+
+
+def _words(row: _Row) -> str:
+    """Words for the code and settings of a row.
+
+    Examples
+    --------
+    >>> _words({"model": "LAMMPS mindlin, viscoelastic, xt = 0.5", "steps [1]": 256.0})
+    'mindlin, $x_t = 0.5$, 256 steps'
+    >>> _words({"model": "pooltool"})
+    "the paper's model"
+    """
+    model = row[draw_trade.MODEL]
+    if model == "pooltool":
+        return "the paper's model"
+    if not model.startswith("LAMMPS "):
+        words = OUR_WORDS.get(model, model)
+    else:
+        law, style, tangential, *rest = model.removeprefix("LAMMPS ").split(", ")
+        known = [] if style == "viscoelastic" else [style]
+        known += [] if tangential == "xt = 0" else [f"${tangential.replace('xt', 'x_t')}$"]
+        words = ", ".join([law, *known, *rest])
+    steps = row.get(STEPS, USUAL_STEPS)
+    return words if steps == USUAL_STEPS else f"{words}, {steps:g} steps"
+
+
+def _draw_loss(
+    axes: Axes, rows: Sequence[_Row], lines: Sequence[_Line], styles: Mapping[float, Any]
+) -> None:
+    places = {line.words: place for place, line in enumerate(lines) if not line.heading}
+    for words, place in places.items():
+        errors = {row[E]: row[ERROR] for row in rows if _words(row) == words}
+        axes.plot(
+            list(errors.values()), [place] * len(errors), color="0.75", linewidth=0.8, zorder=1
+        )
+        for e, error in errors.items():
+            marker = {"color": house_style.BLACK, "markeredgewidth": 0.8, **styles[e]}
+            axes.plot(error, place, linestyle="none", zorder=2 + 0.1 * e, **marker)
     axes.set_xscale("log")
     axes.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
     axes.minorticks_off()
