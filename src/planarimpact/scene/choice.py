@@ -87,7 +87,7 @@ REFERENCE = "the continuum of such pairs, which errors are measured against"
 # Of elastic, viscous and plastic pairs.
 REFERENCES = ("continuum", *(f"continuum.{loss}" for loss in continuum.LOSSES))
 MODELS = ("rigid", "lumped", *REFERENCES)
-SLIDING = Rung("slip throughout", "formula", 0.0, "Coulomb's line, the same in every compliant model")
+SLIDING = Rung("slip throughout", "formula", 0.0, "Coulomb's line, as in every compliant model")
 HEAD_ON = Rung("head-on", "formula", 0.0, "no tangential motion, the same in every model")
 
 
