@@ -426,7 +426,7 @@ def test_the_result_has_the_table_and_then_what_follows(table, rows):
     with open(out, encoding="utf-8", newline="") as file:
         found = list(csv.DictReader(file))
     assert [row["id"] for row in found] == IDS
-    assert list(found[0])[:10] == list(given[0]) and len(found[0]) == 22
+    assert list(found[0])[:10] == list(given[0]) and len(found[0]) == 23
     for name in ROW:
         assert {float(row[name]) for row in found} == {given[0][name]}
 

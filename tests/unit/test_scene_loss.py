@@ -120,7 +120,7 @@ def test_columns_say_what_the_table_does_not():
     assert own["loss"].tolist() == [" plastic "] * 5
     for found in (plain, own):
         assert list(found.columns).count("loss") == list(found.columns).count("restitution") == 1
-        assert found.columns.get_loc(FORM) == found.columns.get_loc("error [m/s]") + 1
+        assert found.columns.get_loc(FORM) == found.columns.get_loc("error_bound [m/s]") + 1
 
 
 @pytest.mark.parametrize("loss", continuum.LOSSES)
@@ -264,7 +264,7 @@ def test_head_on_any_restitution_has_an_answer(loss):
     e = np.array([0.0, 1e-12, 0.05, 0.5, 1.0])
     after = scene.solve(table([0.0] * e.size, restitution=e), loss=loss)
     assert set(after["model"]) == {"head-on"} and set(after["regime"]) == {"STICK"}
-    assert (after[[AFTER, "spin_after [rad/s]", "error [m/s]", FORM]] == 0).all(axis=None)
+    assert (after[[AFTER, "spin_after [rad/s]", "error_bound [m/s]", FORM]] == 0).all(axis=None)
     np.testing.assert_allclose(after["velocity_normal_after [m/s]"], -e, atol=1e-15)
     np.testing.assert_allclose(after["energy_lost [J]"] / after["energy_lost [J]"][0], 1 - e**2)
 

@@ -27,8 +27,8 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None)
     table : DataFrame
         One impact a row; `python -m planarimpact scene --help` lists the columns.
     tolerance : float
-        Largest error of the tangential velocity of contact at separation, in mu v2(0), and of
-        the peak friction, in mu times the peak normal force; 1e-10 to 1. The error is measured
+        Largest error of the velocity of the contact point at separation, in mu v2(0), and of the
+        peak friction, in mu times the peak normal force; 1e-10 to 1. The error is measured
         against the continuum: the elastic one where restitution = 1, else the viscous or the
         plastic one. Elastic pairs reach some 1e-8, others 1e-5. How far a continuum is from nature
         is not part of it; `model_form` is a first measure of that.
@@ -42,11 +42,12 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None)
     -------
     DataFrame
         `table` with its index and columns, and then: the state after, named as before with
-        `_after`; restitution and loss, where the table does not have them; `model`; `error` of the
-        tangential velocity [m/s]; `model_form`, how far that velocity would move with the other
-        loss, to about 0.01 mu v2(0) [m/s], NaN where that is not known; `regime`; `incidence`
-        v1(0)/(mu v2(0)), inf or NaN without friction; largest normal force, by the normal law of
-        the loss, and friction [N]; `energy_lost [J]`.
+        `_after`; restitution and loss, where the table does not have them; the velocity of the
+        contact point after the impact, in the direction of incidence [m/s]; `model`; `error_bound`,
+        the largest error of that velocity against the continuum [m/s]; `model_form`, how far it
+        would move with the other loss, to about 0.01 mu v2(0) [m/s], NaN where that is not known;
+        `regime`; `incidence` v1(0)/(mu v2(0)), inf or NaN without friction; largest normal force,
+        by the normal law of the loss, and friction [N]; `energy_lost [J]`.
 
     Raises
     ------

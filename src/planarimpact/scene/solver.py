@@ -244,8 +244,9 @@ class Solver:
             code = np.where(impacts.restitution < 1, impacts.plastic, -1)
             after |= {"loss": pd.Categorical.from_codes(code, columns.LOSSES)}
         return after | {
+            "contact_velocity_after [m/s]": velocity,
             "model": pd.Categorical.from_codes(model, models),
-            "error [m/s]": error,
+            "error_bound [m/s]": error,
             "model_form [m/s]": form,
             "regime": pd.Categorical.from_codes(regime, list(Regime.__members__)),
             "incidence": incidence,
