@@ -115,10 +115,16 @@ def test_restitution_of_elastic_plastic_spheres_is_the_work_of_their_forces(yiel
 # ---- limits ----
 
 
-@pytest.mark.parametrize("loss", LOSSES)
-def test_without_loss_it_is_the_elastic_continuum(loss):
+@pytest.fixture(scope="module")
+def elastic():
+    """Incidences, and the elastic continuum at them to a tenth of what is asked for below."""
     x = np.array([0.3, 1.2, 1.3, 2.0, 3.4, 4.5])
-    elastic = continuum.rebound(x, tolerance=1e-7)
+    return x, continuum.rebound(x, tolerance=1e-7)
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_without_loss_it_is_the_elastic_continuum(loss, elastic):
+    x, elastic = elastic
     groups = np.full((3, x.size), [[BETA], [ZETA2], [1 - 1e-9]])
     coarse, fine = (inelastic.path(x, *groups, loss, steps).velocity[-1] for steps in (512, 1024))
     np.testing.assert_allclose(fine + (fine - coarse) / 3, elastic.velocity, atol=1e-6)

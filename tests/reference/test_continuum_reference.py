@@ -235,18 +235,15 @@ def assert_met(seed, finest, *tolerances):
             assert np.max(error) <= tolerance, (tolerance, field)
 
 
-@pytest.mark.parametrize(
-    "seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2))]
-)
-def test_a_coarse_tolerance_is_met_over_the_box(seed):
+def test_a_coarse_tolerance_is_met_over_the_box():
     """The own error of the exact answer is fifty times smaller at least."""
-    assert_met(seed, 2e-5, 1e-2, 1e-3)
+    assert_met(0, 2e-5, 1e-2, 1e-3)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
-def test_a_fine_tolerance_is_met_over_the_box(seed):
-    assert_met(seed, 2e-6, 1e-4)
+def test_coarse_and_fine_tolerances_are_met_over_the_box(seed):
+    assert_met(seed, 2e-6, *((1e-4,) if seed == 0 else (1e-2, 1e-3, 1e-4)))
 
 
 def test_the_end_of_slip_within_a_step_is_not_missed():
@@ -262,6 +259,6 @@ def test_the_end_of_slip_within_a_step_is_not_missed():
 def test_the_estimate_survives_a_change_that_vanishes_by_chance():
     """From 256 to 512 steps the extrapolated answer moves by 1e-6, and is wrong by 3.4e-4."""
     groups = 8.823256960990886, 18.56038953662075, 0.3168530116148592
-    exact = continuum.fixed_steps(*groups, 8192, True)
+    exact = continuum.fixed_steps(*groups, 4096, True)  # 8192 steps change it by 3e-8
     for tolerance in (1e-3, 5e-4, 3e-4, 1e-4):
         assert abs(continuum.rebound(*groups, tolerance=tolerance).velocity - exact) <= tolerance

