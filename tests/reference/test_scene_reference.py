@@ -112,7 +112,11 @@ def errors(known, after):
     rows, unit, velocity, peak, _ = known
     contact = after["velocity_tangential_after [m/s]"] + 0.01 * after["spin_after [rad/s]"]
     force = after["peak_friction_force [N]"] / after["peak_normal_force [N]"] / rows["friction"]
-    return np.abs(contact / unit - velocity), np.abs(force - peak), after["error_bound [m/s]"] / unit
+    return (
+        np.abs(contact / unit - velocity),
+        np.abs(force - peak),
+        after["error_bound [m/s]"] / unit,
+    )
 
 
 # Kinds of pairs, impacts, pairs, the largest mass ratio, and where their restitution comes from.

@@ -44,13 +44,6 @@ rule draw_peers:
             labels={"figure": "LAMMPS and pooltool below e = 1"},
         ),
         errors_png="figures/peers.png",
-        errors_svg=report(
-            "figures/peers.svg",
-            caption="../report/peers.rst",
-            category="Trade",
-            labels={"figure": "LAMMPS and pooltool below e = 1"},
-        ),
-        errors_png="figures/peers.png",
     params:
         settings=FIGURES["trade"]["settings"],
     log:

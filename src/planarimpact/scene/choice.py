@@ -38,6 +38,9 @@ COST = {
 # Below this restitution the peak friction of plastic spheres bends sharply, and compiling takes so
 # many times as long.
 SHARP, SHARPLY = 0.75, 30.0
+# Above this beta/zeta^2 peak friction has more bends, and compiling a continuum takes so many times
+# as long.
+BENT, BENDS = 5.5, 20.0
 # These costs hold for this beta/zeta^2, and grow with it.
 ORDINARY = 3.0
 # A pair with fewer impacts than this is solved together with other such pairs.
@@ -219,8 +222,10 @@ def rung(
                 each = each * oscillates
             elif way == "compiled":
                 first = first * (oscillates**2 if model in REFERENCES else oscillates**0.5)
-                sharp = model == "continuum.plastic" and restitution < SHARP
-                first = first * (SHARPLY if sharp else 1.0)
+                if model == "continuum.plastic" and restitution < SHARP:
+                    first = first * SHARPLY
+                if model in REFERENCES and mass_ratio > BENT * stiffness_ratio:
+                    first = first * BENDS
             ready = way == "compiled" and (model, *groups) in (responses or {})
             costs.append(((0.0 if ready else first) + count * each, model, way))
     _, model, way = min(costs)

@@ -251,6 +251,9 @@ class Solver:
             "regime": pd.Categorical.from_codes(regime, list(Regime.__members__)),
             "incidence": incidence,
             "peak_normal_force [N]": impacts.peak_normal,
-            "peak_friction_force [N]": impacts.friction * peak * impacts.peak_normal,
+            # Without friction there is none, also where the normal force is not known.
+            "peak_friction_force [N]": np.where(
+                peak > 0, impacts.friction * peak * impacts.peak_normal, 0.0
+            ),
             "energy_lost [J]": motion.energy_lost(impacts, velocity),
         }

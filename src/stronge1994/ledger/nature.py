@@ -23,8 +23,8 @@ FEW = (0.5, 0.6, 0.8, 1.0)
 STICK, SLIP = (0.3, 1.0), (1.5, 2.0, 2.5, 3.4)
 # The restitution of the least elastic pair that was measured.
 LEAST_MEASURED = 0.6
-# Of the search for the limit of slip throughout. One call for many incidences costs hardly more than
-# one for a few.
+# Of the search for the limit of slip throughout. One call for many incidences costs hardly more
+# than one for a few.
 SEARCHED, AT_ONCE, SEARCHES = (3.0, 8.0), 40, 3
 # Above this incidence, (1 + e) m2/m1 at e = 1, all models have the same rebound.
 WITH_STICK = 2 * contact.MASS_RATIO
@@ -122,7 +122,7 @@ def limit_fall(model: Model) -> float:
 
 
 def _limits(model: Model) -> Array:
-    """Incidence from which a contact slides throughout, for each restitution, in ever finer grids."""
+    """Incidence from which a contact slides throughout, by restitution, in ever finer grids."""
     low, high = (np.full(len(FEW), edge) for edge in SEARCHED)
     for _ in range(SEARCHES):
         x = np.linspace(low, high, AT_ONCE + 2)
