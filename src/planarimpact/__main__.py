@@ -31,7 +31,8 @@ Columns, with units in the header, separated by commas; the order is free, all o
   young_modulus [Pa], poisson_ratio
   friction                of the pair
   restitution             of the pair; or else what gives it at the speed of each impact:
-    relaxation_time [s] of viscous bodies, or yield_pressure [Pa] of plastic ones
+    relaxation_time [s] of viscous bodies, or yield_pressure [Pa] of plastic ones, the largest
+    pressure that the contact carries; planarimpact.bodies finds both from e at one speed
   loss                    viscous or plastic: what takes the energy below restitution 1; only beside
                           restitution, viscous if left out
   the state before, in a plane:

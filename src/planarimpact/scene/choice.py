@@ -45,6 +45,7 @@ BENT, BENDS = 5.5, 20.0
 ORDINARY = 3.0
 # A pair with fewer impacts than this is solved together with other such pairs.
 FEW = 64
+FEW_OF_EACH = f"fewer than {FEW} impacts of each m2/m1, zeta^2 and e"
 # A cheaper model is taken if its error is below this share of the tolerance.
 MOST = 0.99
 # Error for a unit of the mass ratio, of the lumped model and of groups rounded to 12 digits.
@@ -86,7 +87,7 @@ class Job(NamedTuple):
         return self._replace(rows=self.rows[which], groups=groups)
 
 
-REFERENCE = "the continuum of such pairs, which errors are measured against"
+REFERENCE = "errors are measured against it"
 # Of elastic, viscous and plastic pairs.
 REFERENCES = ("continuum", *(f"continuum.{loss}" for loss in continuum.LOSSES))
 MODELS = ("rigid", "lumped", *REFERENCES)
@@ -170,7 +171,7 @@ def _together(
         same = (kinds[members] == kind) & ~coarse
         chosen.append((same, Rung(reference, "solved", 0.0, REFERENCE)))
     return [
-        Job(rung, rows[some], tuple(groups[:, some]), "pairs of few impacts", False)
+        Job(rung, rows[some], tuple(groups[:, some]), FEW_OF_EACH, False)
         for some, rung in ((members[of], rung) for of, rung in chosen)
         if some.size
     ]
@@ -230,6 +231,8 @@ def rung(
             costs.append(((0.0 if ready else first) + count * each, model, way))
     _, model, way = min(costs)
     why = f"differs by {gap[model]:.2g} at most, as measured" if gap[model] else REFERENCE
+    if way == "solved" and not gap[model]:
+        why += "; compiling it would take longer"
     return Rung(model, way, gap[model], why)
 
 

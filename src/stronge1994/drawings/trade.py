@@ -88,8 +88,15 @@ FAMILIES = {
         "continuum, plastic", "*", 7, house_style.VERMILLION, True, UPPER_RIGHT
     ),
 }
+# Two columns of equal length.
 LEGEND = {
     "closed form": ("rigid", "lumped", "lumped.viscous", "lumped.plastic"),
+    "compiled responses": (
+        "response of lumped",
+        "response of continuum",
+        "response of continuum.viscous",
+        "response of continuum.plastic",
+    ),
     "in steps": (
         "timestep.linear",
         "timestep.mindlin",
@@ -98,12 +105,6 @@ LEGEND = {
         "continuum",
         "continuum.viscous",
         "continuum.plastic",
-    ),
-    "compiled responses": (
-        "response of lumped",
-        "response of continuum",
-        "response of continuum.viscous",
-        "response of continuum.plastic",
     ),
 }
 NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
