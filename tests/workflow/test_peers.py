@@ -26,6 +26,7 @@ SETTINGS = {
 }
 TRADE = {key: value for key, value in SETTINGS.items() if key != "lossy_tolerance"}
 TRIED = {"steps": [16, 64], "circles": [4], "tolerances": [1e-2], "batches": [1, 1000]}
+TRIED["inelastic"] = {"tolerance": 1e-2, "tolerances": [1e-2]}
 
 needs_lammps = pytest.mark.skipif(bool(peers.missing("lammps")), reason="needs LAMMPS")
 needs_pooltool = pytest.mark.skipif(bool(peers.missing("pooltool")), reason="needs pooltool")
@@ -141,7 +142,7 @@ def test_bodies_that_lammps_does_not_have_are_named(monkeypatch):
 
 def test_figure_has_their_points_and_names_what_is_missing(measured, tmp_path, monkeypatch):
     monkeypatch.setattr(trade, "ENOUGH", 0.01)
-    settings = {**TRADE, **TRIED, "budget": 10.0}
+    settings = {**TRADE, **TRIED, "restitution": [1.0], "budget": 10.0}
     tables = {
         "curves": trade.curves(**settings),
         "peers": measured[0],
@@ -154,7 +155,7 @@ def test_figure_has_their_points_and_names_what_is_missing(measured, tmp_path, m
     assert "not installed" not in figure.get_suptitle()
     legends = [axes.get_legend() for axes in figure.axes if axes.get_legend()]
     labels = {text.get_text() for legend in legends for text in legend.get_texts()}
-    assert {"LAMMPS, in (c)", "pooltool", "mindlin/force"} <= labels
+    assert {draw_peers.TOGETHER.label, "pooltool", "mindlin/force"} <= labels
     figure = draw_peers.draw(read["curves"], read["none"], settings)
     assert "not installed: pooltool" in figure.get_suptitle()
     figure = draw_peers.draw_errors(read["peers"])

@@ -45,7 +45,7 @@ def test_a_good_run_passes_and_leaves_everything(first_run):
 def test_headers_carry_units(first_run):
     for figure in FIGURES:
         header = (first_run[0] / f"results/curves/{figure}.csv").read_text().splitlines()[0]
-        words = {"curve", "event", "regime", "model", "pair", "body", "other"}
+        words = {"curve", "event", "regime", "model", "loss", "pair", "body", "other"}
         assert all("[" in name for name in header.split(",") if name not in words), header
 
 
@@ -159,7 +159,7 @@ def test_a_change_of_the_config_reruns_what_it_concerns(finished):
     """A tolerance compares again; that of a scene solves it, the study's grid the study."""
     file, old = "workflow/config.yaml", "rms: [717.0, 791.0]"
     finished.edit("workflow/comparisons.yaml", old, old.replace("7.0", "6.0"))
-    finished.edit(file, "superball: {tolerance: 1.0e-6}", "superball: {tolerance: 0.1}")
+    finished.edit(file, "superball: {tolerance: 1.0e-4}", "superball: {tolerance: 0.1}")
     _, counts = finished.planned("--config", "study={grid: {incidence: {points: 100}}}")
     once = ["scene", "sensitivity", "verdicts", "gather_sensitivity", "report", "gate", "all"]
     once += ["gather_chunks", "draw_study"]
