@@ -44,8 +44,10 @@ def scene_table(name, step=1):
         rows = list(csv.DictReader(file))[::step]
     with mp.workdps(DIGITS + 10):
         impacts = [_Impact({key.split(" [")[0]: text for key, text in row.items()}) for row in rows]
-        rebounds = _rebounds([impact.groups for impact in impacts])
-        answers = [impact.after(*found) for impact, found in zip(impacts, rebounds, strict=True)]
+        groups = [impact.groups for impact in impacts]
+        others = [other for other, *_ in _rebounds([g.with_other_loss() for g in groups])]
+        rebounds = zip(impacts, others, _rebounds(groups), strict=True)
+        answers = [impact.after(other, *found) for impact, other, found in rebounds]
     # A word cannot be measured: as a label the regime must be the same.
     header = ["regime", "row [1]", *(name for name in answers[0] if name != "regime")]
     for index, answer in enumerate(answers):
@@ -66,6 +68,10 @@ class Groups(NamedTuple):
         """Whether slip never ends."""
         _, beta, zeta2, e, _ = self
         return self.incidence >= max(zeta2, beta + e * (beta - zeta2))
+
+    def with_other_loss(self):
+        """The same impact of bodies that lose the energy in the other way."""
+        return self._replace(loss={"viscous": "plastic", "plastic": "viscous"}[self.loss])
 
     def regime(self, gross_slips):
         """The order of stick and slip: gross slips are counted, the last one may be too short."""
@@ -141,19 +147,23 @@ class _Impact:
         """Kinetic energy."""
         return (self.mass * _dot(velocity, velocity) + self.inertia * _dot(spin, spin)) / 2
 
-    def after(self, w, peak_friction, regime):
-        """`{column of the result: number or regime}`, from the rebound without units."""
+    def after(self, other, w, peak_friction, regime):
+        """`{column of the result: number or regime}`, from the rebound without units.
+
+        `other` is the velocity with the other loss.
+        """
         e, friction = self.row["restitution"], self.row["friction"]
+        unit = friction * self.approach
         impulse = _plus(
             _times((1 + e) * self.approach / self.give, self.normal),
-            _times(
-                (w * friction * self.approach - self.speed) / self.give_tangential, self.tangent
-            ),
+            _times((w * unit - self.speed) / self.give_tangential, self.tangent),
         )
         before = self.velocity, self.spin
         after = [*map(_plus, before, self.changes(impulse))]
         peak = self._peak_normal()
         return _columns(*after, "normal_x" in self.row) | {
+            "contact_velocity_after [m/s]": w * unit,
+            "model_form [m/s]": abs(other - w) * unit,
             "regime": regime,
             "incidence": self.groups.incidence,
             "peak_normal_force [N]": peak,

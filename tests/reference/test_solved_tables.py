@@ -23,6 +23,7 @@ SOURCE = {
 NAMES = [*solved_tables.SCENES, "grid"]
 # Zero throughout, as the ball stays in its plane: a factor or sign cannot show.
 ZERO = {"superball": {"velocity_y_after [m/s]", "spin_x_after [rad/s]", "spin_z_after [rad/s]"}}
+ZERO["billiard_cushion"] = {"model_form [m/s]"}  # all slide throughout
 
 
 def stated(name):

@@ -34,9 +34,9 @@ MODELS = {
     for (name, words, colour, hatch), dashes in house_style.patterned(
         (
             ("lumped", "lumped, as in the paper", house_style.BLACK, ""),
-            ("lumped.plastic", "lumped, repaired", house_style.VERMILLION, "....."),
+            ("lumped.plastic", "lumped, repaired", house_style.VERMILLION, "xxxxx"),
             ("lumped.viscous", "lumped, Kelvin–Voigt", house_style.BLUE, "\\\\\\\\\\"),
-            ("continuum.plastic", "continuum, elastic-plastic", house_style.VERMILLION, "-----"),
+            ("continuum.plastic", "continuum, elastic-plastic", house_style.VERMILLION, "xxxxx"),
             ("continuum.viscous", "continuum, viscoelastic", house_style.BLUE, "/////"),
         )
     )
