@@ -36,7 +36,7 @@ MODELS = {
             ("lumped", "lumped, as in the paper", house_style.BLACK, ""),
             ("lumped.plastic", "lumped, repaired", house_style.VERMILLION, "xxxxx"),
             ("lumped.viscous", "lumped, Kelvin–Voigt", house_style.BLUE, "\\\\\\\\\\"),
-            ("continuum.plastic", "continuum, elastic-plastic", house_style.VERMILLION, "xxxxx"),
+            ("continuum.plastic", "continuum, elastic-plastic", house_style.VERMILLION, "-----"),
             ("continuum.viscous", "continuum, viscoelastic", house_style.BLUE, "/////"),
         )
     )
