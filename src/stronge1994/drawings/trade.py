@@ -243,7 +243,7 @@ def label(axes: Axes, at: Sequence[float], words: str, place: Place | None) -> N
         textcoords="offset points",
         ha=alignment,
         fontsize=house_style.NOTE - 0.5,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3, "alpha": 0.6},
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3, "alpha": 0.85},
         zorder=1,
         annotation_clip=True,
     )
