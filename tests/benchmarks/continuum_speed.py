@@ -2,7 +2,7 @@
 
     OMP_NUM_THREADS=1 python tests/benchmarks/continuum_speed.py
 
-Prints the time at each tolerance, its largest true error, and its ratio to the exact lumped model
+Prints the time at each tolerance, its largest true error, and its ratio to the lumped model
 on the same 400 incidences in the same run; the same for annuli. Below e = 1 it does so for each
 loss, and compiles a response at tolerance 1e-4.
 """

@@ -1,4 +1,4 @@
-"""The printed formulas put together as the paper does, against the exact solver where they hold."""
+"""The printed formulas put together as the paper does, against the solver where they hold."""
 
 import re
 

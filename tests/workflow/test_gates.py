@@ -1,4 +1,4 @@
-"""Each comparison passes with the exact solver, and a wrong solver trips it."""
+"""Each comparison passes with the right solver, and a wrong solver trips it."""
 
 import csv
 import importlib

@@ -34,7 +34,7 @@ BY_EQUATIONS = {
 
 @pytest.fixture(scope="module")
 def rows(first_run):
-    """What a run with the exact solver has found."""
+    """What a run with the right solver has found."""
     with open(first_run[0] / "results/ledger.csv", newline="") as file:
         return {row["entry"]: row for row in csv.DictReader(file)}
 

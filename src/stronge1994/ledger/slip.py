@@ -29,7 +29,7 @@ def boundary(holds: Callable[[float], bool], low: float, high: float) -> float:
 
 
 def slips_throughout_from(mass_ratio: float, stiffness_ratio: float, restitution: float) -> float:
-    """Incidence from which the exact solver never sticks, by bisection of its regimes.
+    """Incidence from which the solver never sticks, by bisection of its regimes.
 
     Examples
     --------
@@ -67,7 +67,7 @@ def _sticks_at_first(mass_ratio: float, stiffness_ratio: float, x: float) -> boo
 
 
 def initial_stick_limit() -> Finding:
-    """Eq. 11 against the incidence at which the regime of the exact solver changes."""
+    """Eq. 11 against the incidence at which the regime of the solver changes."""
     gaps = []
     for beta, zeta2 in contact.PAIRS:
         limit = boundary(partial(_sticks_at_first, beta, zeta2), 1e-3 * zeta2, 2 * zeta2)

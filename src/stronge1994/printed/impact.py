@@ -2,8 +2,8 @@
 
 The ranges are those of its headings: initial stick up to zeta^2, slip throughout from
 (1 + e) beta, slip - stick - slip between. Where the printed equations have no solution, because
-Eq. 21 has no root, the answer is nan. The instants at which slip begins come from the exact
-solver, which meets Eqs 10, 21 and 23 (their roots are not in doubt; the ledger tests them).
+Eq. 21 has no root, the answer is nan. The instants at which slip begins come from the solver
+`lumped`, which meets Eqs 10, 21 and 23 (their roots are not in doubt; the ledger tests them).
 """
 
 from typing import NamedTuple
