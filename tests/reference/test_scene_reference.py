@@ -22,9 +22,9 @@ BESIDE = (1e-15, 1e-9, 1e-6, 1e-3)
 ELASTIC, LOSSY = 1e-5, 1e-4
 
 # Losses and restitutions of pairs. Plastic pairs below e = 0.75 take many seconds to compile.
-SMOOTH = [("viscous", 0.99), ("viscous", 0.6), ("plastic", 0.99), ("plastic", 0.9)]
+SMOOTH = [("viscous", 0.99), ("viscous", 0.6), ("plastic", 0.9)]
 SHARP = [("viscous", 0.3), ("plastic", 0.6), ("plastic", 0.3)]
-ALL = [*SMOOTH, *SHARP, ("viscous", 0.9), ("viscous", 1.0)]
+ALL = [*SMOOTH, *SHARP, ("viscous", 0.9), ("plastic", 0.99), ("viscous", 1.0)]
 # What a table may have in place of restitution; e is about 0.6 to 0.8 and 0.35 to 1.
 MATERIALS = {"relaxation_time [s]": ("viscous", 2e-5), "yield_pressure [Pa]": ("plastic", 5e7)}
 
@@ -123,9 +123,9 @@ def errors(known, after):
 # Pairs of a mass ratio above 5 zeta^2 take many seconds to compile.
 SCENES = {
     "elastic, many of each": ([("viscous", 1.0)], 300, 3, 7.0),
-    "many of each": (SMOOTH, 360, 4, 5.0),
+    "many of each": (SMOOTH, 270, 3, 5.0),
     "many of each, sharp": (SHARP, 300, 3, 7.0),
-    "few of each": (ALL, 150, 50, 7.0),
+    "few of each": (ALL, 108, 54, 7.0),
     "viscous material": (ALL, 80, 10, 7.0, "relaxation_time [s]"),
     "plastic material": (ALL, 80, 10, 7.0, "yield_pressure [Pa]"),
 }
@@ -167,7 +167,7 @@ def test_a_wrong_rung_breaks_the_tolerance(monkeypatch):
     assert velocity.max() > 2e-2
 
 
-@pytest.mark.parametrize("name", ["many of each", "few of each", "viscous material"])
+@pytest.mark.parametrize("name", ["few of each", "viscous material"])
 def test_a_wrong_loss_breaks_the_tolerance(name, monkeypatch):
     """So does the continuum of the other loss."""
     elastic, viscous, plastic = choice.REFERENCES
