@@ -26,7 +26,7 @@ GENERATORS = {
     "closed_forms": (closed_form_tables, 1, 0.0),
     "slender_rod": (rod_tables, 4, 1.1e-10),
     "model_errors": (error_tables, 1, 1.1e-12),
-    "inelastic_models": (inelastic_tables, 25, 1.1e-5),
+    "inelastic_models": (inelastic_tables, 40, 1.1e-5),
 }
 
 

@@ -20,7 +20,7 @@ SETTINGS = {
     "mass_ratio": 3.5,
     "stiffness_ratio": 1.21,
     "incidence": [0.0, 8.0],
-    "samples": 161,
+    "samples": 81,
     "restitution": [1.0, 0.8],
     "tolerance": 1e-5,
     "steps": [16, 64],
