@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
+from operator import itemgetter
 from typing import Any
 
 from stronge1994 import csv_tables
@@ -39,8 +40,9 @@ def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -
         `other_loss`, the largest error of the continuum with the other loss; the spread of the
         answer under uncertain inputs, see `stronge1994.curves.trade`. For each batch the name, or
         "none"; its largest error; its time per impact, with any time of compilation spread over the
-        batch. The name is `BUSY` where nobody can know: some model was timed on a busy machine, and
-        its CPU time alone is below the time of all others.
+        batch, or nothing where that was taken on a busy machine. The name is `BUSY` where nobody
+        can know: the CPU time of some model alone is below the time of all others, but its own time
+        is not.
 
     Examples
     --------
@@ -103,15 +105,17 @@ def _known_error(row: Row) -> float:
 
 def _cheapest(rows: Sequence[Row], batch: int) -> Row:
     """Cells for one batch."""
-    timed = [row for row in rows if whole_time(row, batch) is not None]
     keys = f"model_{batch}", f"max_velocity_{batch} [mu v2(0)]", f"whole_time_{batch} [s]"
+    times = [(_least_time(row, batch), whole_time(row, batch), row) for row in rows]
+    timed = sorted(((least, time, row) for least, time, row in times if time), key=itemgetter(0))
     if not timed:
         return dict(zip(keys, ("none", "", ""), strict=True))
-    best = min(timed, key=lambda row: _least_time(row, batch))
-    name, time = best["curve"].rsplit(", e = ", 1)[0], f"{whole_time(best, batch):.2g}"
-    cells = name, f"{float(best[ERROR]):.2g}", time
-    if time != f"{_least_time(best, batch):.2g}":
-        cells = BUSY, "", ""
+    (least, time, best), *others = timed
+    quiet = f"{time:.2g}" == f"{least:.2g}"
+    if not quiet and others and others[0][0] < time:
+        return dict(zip(keys, (BUSY, "", ""), strict=True))
+    name = best["curve"].rsplit(", e = ", 1)[0]
+    cells = name, f"{float(best[ERROR]):.2g}", f"{time:.2g}" if quiet else ""
     return dict(zip(keys, cells, strict=True))
 
 
