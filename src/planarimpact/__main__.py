@@ -300,8 +300,7 @@ def _distances(options: argparse.Namespace) -> dict[str, ArrayLike]:
     groups = {name: value for name, (value, _) in GROUPS.items()} | _groups(options)
     loss = options.loss or continuum.LOSSES[0]
     name = models.reference(groups["restitution"], loss)
-    limit = sliding.limit_alike(*(np.asarray(group) for group in groups.values()))
-    x = np.linspace(0.0, float(limit), INCIDENCES)
+    x = np.linspace(0.0, float(sliding.limit_alike(*groups.values())), INCIDENCES)
     # A tenth of what the continuum promises, so that its own error shows too.
     tolerance = models.get(name).settings["tolerance"] / 10
     exact = models.rebound(name, x, **groups, tolerance=tolerance).velocity

@@ -94,7 +94,7 @@ def limit(beta: Array, zeta2: Array, e: Numbers) -> Array:
     return np.maximum(zeta2, beta + restick_coefficient(beta, zeta2, e))
 
 
-def limit_alike(beta: Array, zeta2: Array, e: Numbers) -> Array:
+def limit_alike(beta: Numbers, zeta2: Numbers, e: Numbers) -> Array:
     """Incidence from which slip never ends where both directions lose energy alike.
 
     max(zeta^2, beta + e (beta - zeta^2)), as the head of this module derives it. For e = 1 it is

@@ -262,7 +262,7 @@ def _lumped_limit(loss: str) -> Callable[..., float]:
 
 
 def _alike_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
-    return float(sliding.limit_alike(np.asarray(beta), np.asarray(zeta2), e))
+    return float(sliding.limit_alike(beta, zeta2, e))
 
 
 def _alike_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:

@@ -9,13 +9,14 @@ fast, and for a solid sphere at e = 0.8 the lumped model of the same loss is up 
 """
 
 from collections import Counter
-from typing import NamedTuple, TypeAlias
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 import pandas as pd
 
 from planarimpact import continuum, lumped, models, response, rigid
-from planarimpact.ground import sliding
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers, Numbers
 from planarimpact.ground.results import Rebound
 from planarimpact.response import Response
@@ -56,6 +57,7 @@ BELOW_ONE = 1 - 2.0**-41
 FINE = 1e-9
 
 
+Answer = TypeVar("Answer")
 # By model and groups.
 Responses: TypeAlias = dict[tuple[str, float, float, float], Response]
 
@@ -277,11 +279,42 @@ def solve(
     return model.rebound(incidence, *groups), rung.error + EXACT * np.asarray(mass_ratio)
 
 
+def without_unsolved(
+    solve: Callable[[Integers], Answer], count: int
+) -> tuple[Answer, Integers, dict[int, str]]:
+    """Solve as many impacts as have an answer.
+
+    Parameters
+    ----------
+    solve : callable
+        Takes the indices of impacts; raises `ConvergenceError` if some of them have no answer.
+    count : int
+        Of all impacts.
+
+    Returns
+    -------
+    answer
+        What `solve` returned for those that have one.
+    left : ndarray of int
+        Their indices.
+    without : dict
+        `{index: words}` of the others.
+    """
+    left = np.arange(count)
+    without: dict[int, str] = {}
+    while True:
+        try:
+            return solve(left), left, without
+        except checks.ConvergenceError as error:
+            lost = error.impacts if isinstance(error, checks.Unsolved) else slice(None)
+            without |= dict.fromkeys(left[lost].tolist(), str(error))
+            left = np.delete(left, lost)
+
+
 def _compiled(
     model: str, mass_ratio: float, stiffness_ratio: float, restitution: float, tolerance: float
 ) -> Response:
-    beta, zeta2 = np.asarray(mass_ratio), np.asarray(stiffness_ratio)
-    limit = float(sliding.limit_alike(beta, zeta2, restitution))
+    limit = float(sliding.limit_alike(mass_ratio, stiffness_ratio, restitution))
     wanted = tolerance if model in REFERENCES else min(tolerance, FINE)
     return response.compile(
         model,

@@ -10,9 +10,9 @@ from typing import TypeAlias
 import numpy as np
 
 from planarimpact import models
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array
-from planarimpact.scene.choice import REFERENCES, Job
+from planarimpact.ground import sliding
+from planarimpact.ground.arrays import Array, Integers
+from planarimpact.scene.choice import REFERENCES, Job, without_unsolved
 
 # Of the other continuum, mu v2(0). Nobody needs the third digit of a difference between models.
 TOLERANCE = 1e-2
@@ -86,21 +86,19 @@ def difference(job: Job, incidence: Array, velocity: Array, known: Curves) -> Ar
     pair = [float(np.reshape(group, -1)[0]) for group in job.groups]
     key = other, pair[0], pair[1], pair[2]
     if key not in known:
-        x = np.linspace(0.0, float(sliding.limit_alike(*map(np.asarray, pair))), PLACES)
+        x = np.linspace(0.0, float(sliding.limit_alike(*pair)), PLACES)
         known[key] = x, _velocity(other, x, *(np.full(PLACES, group) for group in pair))
     return np.interp(incidence, *known[key]) - velocity
 
 
 def _velocity(model: str, incidence: Array, *groups: Array) -> Array:
     """Velocity at separation, NaN where the model has no answer."""
-    velocity, left = np.full(incidence.size, np.nan), np.arange(incidence.size)
-    while left.size:
+
+    def solve(left: Integers) -> Array:
         some = (group[left] for group in groups)
-        try:
-            found = models.rebound(model, incidence[left], *some, tolerance=TOLERANCE)
-            velocity[left] = found.velocity
-            break
-        except checks.ConvergenceError as error:
-            lost = error.impacts if isinstance(error, checks.Unsolved) else slice(None)
-            left = np.delete(left, lost)
+        return models.rebound(model, incidence[left], *some, tolerance=TOLERANCE).velocity
+
+    velocity = np.full(incidence.size, np.nan)
+    found, left, _ = without_unsolved(solve, incidence.size)
+    velocity[left] = found
     return velocity

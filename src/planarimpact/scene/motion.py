@@ -116,11 +116,6 @@ def slides_throughout(impacts: Impacts) -> Booleans:
         return impacts.v1 >= sliding.limit_alike(*groups) * (impacts.friction * impacts.v2)
 
 
-def head_on(impacts: Impacts) -> Booleans:
-    """Whether each impact has no tangential velocity, but friction."""
-    return (impacts.v1 == 0) & ~slides_throughout(impacts)
-
-
 def problems(impacts: Impacts) -> dict[int, str]:
     """What is wrong with an impact as a whole: `{index: words}`.
 
@@ -149,7 +144,7 @@ def problems(impacts: Impacts) -> dict[int, str]:
         words = f"times normal velocity of approach = {impacts.v2[i]:g} is too large a number"
         found[int(i)] = f"friction = {impacts.friction[i]:g} {words} to compute with"
     least = continuum.LEAST_RESTITUTION
-    sticks = ~(slides_throughout(impacts) | head_on(impacts))
+    sticks = ~slides_throughout(impacts) & (impacts.v1 > 0)
     for i in np.flatnonzero((impacts.restitution < least) & sticks):
         words = f"allowed are numbers from {least} where the contact sticks at some time"
         found[int(i)] = f"restitution = {impacts.restitution[i]}: {words}"

@@ -2,6 +2,7 @@
 
 import reprlib
 from collections import Counter
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -160,7 +161,8 @@ class Solver:
         """Columns of the result, and what has none: `{position: words}`."""
         unit = impacts.friction * impacts.v2
         groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
-        slides, head_on = motion.slides_throughout(impacts), motion.head_on(impacts)
+        slides = motion.slides_throughout(impacts)
+        head_on = ~slides & (impacts.v1 == 0)
         with np.errstate(over="ignore"):
             lost = sliding.change(impacts.mass_ratio, impacts.restitution) * unit
         unsolved: dict[int, str] = {}
@@ -200,22 +202,19 @@ class Solver:
         self, job: choice.Job, x: Array
     ) -> tuple[choice.Rung, tuple[Rebound, Numbers], Integers, dict[int, str]]:
         """The rung, results and errors, which impacts they belong to, and why others have none."""
-        rung, left = job.rung, np.arange(x.size)
-        without: dict[int, str] = {}
-        while True:
-            beta, zeta2, e = (
-                group if isinstance(group, float) else group[left] for group in job.groups
-            )
+
+        def solve(rung: choice.Rung, left: Integers) -> tuple[Rebound, Numbers]:
+            beta, zeta2, e = job.of(left).groups
+            return choice.solve(rung, x[left], beta, zeta2, e, self.tolerance, self._responses)
+
+        rung = job.rung
+        if rung.way == "compiled":
+            every = np.arange(x.size)
             try:
-                found = choice.solve(rung, x[left], beta, zeta2, e, self.tolerance, self._responses)
-                return rung, found, left, without
-            except ConvergenceError as error:
-                if rung.way == "compiled":  # some of its impacts may have an answer
-                    rung = rung._replace(way="solved")
-                    continue
-                lost = error.impacts if isinstance(error, checks.Unsolved) else slice(None)
-                without |= dict.fromkeys(left[lost].tolist(), str(error))
-                left = np.delete(left, lost)
+                return rung, solve(rung, every), every, {}
+            except ConvergenceError:  # some of its impacts may have an answer
+                rung = rung._replace(way="solved")
+        return rung, *choice.without_unsolved(partial(solve, rung), x.size)
 
     def _columns(
         self,
