@@ -105,30 +105,26 @@ def plastic(pressure, speed, mass, effective_modulus, effective_radius):
     return -back.y[1, -1] / speed, force
 
 
+# The motion, the property of the material and its law, and how near the largest force is.
+LAWS = {
+    "viscous": (viscous, bodies.relaxation_time, bodies.viscous_restitution, 1e-6),
+    "plastic": (plastic, bodies.yield_pressure, bodies.plastic_restitution, 1e-8),
+}
+
+
+@pytest.mark.parametrize("loss", LAWS)
 @pytest.mark.parametrize("ball", BALLS)
 @pytest.mark.parametrize("speed", [1e-3, 0.7, 30.0])
 @pytest.mark.parametrize("e", [0.99, 0.8, 0.5, 0.2, 0.05])
-def test_viscous_restitution_and_force_are_those_of_the_motion(ball, speed, e):
+def test_restitution_and_force_are_those_of_the_motion(loss, ball, speed, e):
+    moved, property_of, restitution, near = LAWS[loss]
     body = BALLS[ball]
-    tau = bodies.relaxation_time(e, speed, **body)
-    wanted, force = viscous(float(tau), speed, **body)
+    material = property_of(e, speed, **body)
+    wanted, force = moved(float(material), speed, **body)
     assert wanted == pytest.approx(e, abs=1e-8)
-    assert bodies.viscous_restitution(speed, tau, **body) == pytest.approx(wanted, abs=1e-8)
-    found = bodies.peak_force(speed=speed, restitution=e, loss="viscous", **body)
-    assert found == pytest.approx(force, rel=1e-6)
-
-
-@pytest.mark.parametrize("ball", BALLS)
-@pytest.mark.parametrize("speed", [1e-3, 0.7, 30.0])
-@pytest.mark.parametrize("e", [0.99, 0.8, 0.5, 0.2, 0.05])
-def test_plastic_restitution_and_force_are_those_of_the_motion(ball, speed, e):
-    body = BALLS[ball]
-    pressure = bodies.yield_pressure(e, speed, **body)
-    wanted, force = plastic(float(pressure), speed, **body)
-    assert wanted == pytest.approx(e, abs=1e-8)
-    assert bodies.plastic_restitution(speed, pressure, **body) == pytest.approx(wanted, abs=1e-8)
-    found = bodies.peak_force(speed=speed, restitution=e, loss="plastic", **body)
-    assert found == pytest.approx(force, rel=1e-8)
+    assert restitution(speed, material, **body) == pytest.approx(wanted, abs=1e-8)
+    found = bodies.peak_force(speed=speed, restitution=e, loss=loss, **body)
+    assert found == pytest.approx(force, rel=near)
 
 
 @pytest.mark.parametrize("ball", BALLS)
