@@ -80,7 +80,7 @@ def draw(curves: Curves, peers: Curves, settings: Settings) -> Figure:
     if models & set(LAWS):
         axes = next(axes for axes in figure.axes if axes.get_label() == draw_trade.GROWTH_PANEL)
         axes.clear()
-        _draw_laws(axes, _elastic(curves | theirs), draw_trade.shown_batch(settings))
+        _draw_laws(axes, theirs, draw_trade.shown_batch(settings))
     if missing := _missing(peers):
         words = f"not installed: {missing}\n{figure.get_suptitle()}"
         figure.suptitle(words, fontsize=house_style.NOTE)
@@ -101,13 +101,9 @@ def _add_legend(axes: Axes, families: Mapping[str, draw_trade.Family]) -> None:
         axes.legend(handles=keys, loc="center", bbox_to_anchor=(0.42, 0.48), handlelength=1)
 
 
-def _elastic(curves: Curves) -> Curves:
-    return {name: row for name, row in curves.items() if row[draw_trade.RESTITUTION][0] == 1}
-
-
-def _draw_laws(axes: Axes, curves: Curves, batch: int) -> None:
+def _draw_laws(axes: Axes, peers: Curves, batch: int) -> None:
     """Draw errors of LAMMPS' laws against time, on a linear scale of error."""
-    for curve in curves.values():
+    for curve in peers.values():
         row = {key: value[0] for key, value in curve.items()}
         time = row.get(f"time_{batch} [s]")
         if row[draw_trade.MODEL] in LAWS and time is not None:
