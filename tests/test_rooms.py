@@ -23,10 +23,11 @@ SOLVER = {
     "noncollinear": "ground bodies",
     "models": "ground normal_impact rigid lumped continuum",
     "response": "ground models",
+    "export": "planarimpact ground response",
     "study": "ground",
     "scene": "ground bodies rigid lumped continuum models response pandas",
     "__init__": "ground",
-    "__main__": "planarimpact ground bodies lumped continuum models response scene",
+    "__main__": "planarimpact ground bodies lumped continuum models response export scene",
 }
 # The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
 REPRODUCTION = {

@@ -14,7 +14,7 @@ from typing import Any, TextIO
 
 import numpy as np
 
-from planarimpact import __version__, bodies, continuum, lumped, models, response
+from planarimpact import __version__, bodies, continuum, export, lumped, models, response
 from planarimpact.ground import checks, files, sliding
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import ContinuumHistory, History, Rebound, Regime
@@ -228,8 +228,13 @@ def _compile(options: argparse.Namespace) -> None:
     settings = _settings(options)
     if "tolerance" in settings:
         raise checks.InputError("--set tolerance: a response has one tolerance, --tolerance")
-    if Path(options.output).suffix.lower() != ".json":
-        raise checks.InputError(f"{options.output}: allowed are names that end in .json")
+    as_json = options.language == "json"
+    if not as_json:
+        export.checked_name(options.output, options.language)
+    elif Path(options.output).suffix.lower() != ".json":
+        raise checks.InputError(
+            f"{options.output}: allowed are names that end in .json; --as writes others"
+        )
     with files.written(options.output) as partial:  # a bad name is refused before any work
         built = response.compile(
             _model(options),
@@ -238,7 +243,11 @@ def _compile(options: argparse.Namespace) -> None:
             **_groups(options),
             **settings,
         )
-        built.save(partial)
+        if as_json:
+            built.save(partial)
+        else:
+            code = export.text(built, options.output, options.language)
+            partial.write_text(code, encoding="utf-8")
     print(f"{options.output}: {built}")
 
 
@@ -475,7 +484,16 @@ def _parser() -> argparse.ArgumentParser:
         description="Make a response, a table of polynomials that gives the rebound of one pair of "
         "bodies in nanoseconds, and write it to a file." + WORDS,
     )
-    compiled.add_argument("output", metavar="FILE", help="where to write it, JSON: NAME.json")
+    compiled.add_argument("output", metavar="FILE", help="NAME.json, NAME.h, NAME.mjs or NAME.js")
+    compiled.add_argument(
+        "--as",
+        choices=["json", *export.LANGUAGES],
+        default="json",
+        dest="language",
+        help="json, which `rebound` reads; c, a header of C99 with NAME_velocity(x) and "
+        "NAME_rebound(x); or js, a module of JavaScript with velocity(x) and rebound(x) "
+        "[%(default)s]",
+    )
     compiled.add_argument("--tolerance", type=decimal, default=1e-6, help="[%(default)s]")
     compiled.add_argument("--incidence-max", type=decimal, default=20.0, help="[%(default)s]")
     _add_model(compiled, list(models.MODELS))

@@ -16,7 +16,7 @@ import pandas as pd
 import pytest
 
 import planarimpact
-from planarimpact import InputError, continuum, lumped, models, response, scene
+from planarimpact import InputError, continuum, export, lumped, models, response, scene
 from planarimpact.__main__ import main
 from planarimpact.scene import files
 
@@ -158,6 +158,18 @@ def test_compile_and_use(capsys, tmp_path):
     assert float(row[VELOCITY]) == pytest.approx(lumped.rebound(2.0, restitution=0.7)[0], abs=1e-9)
 
 
+def test_compile_for_other_languages(capsys, tmp_path):
+    ball = response.compile("rigid", incidence_max=20, tolerance=1e-6, restitution=0.7)
+    for name, language in (("ball.h", "c"), ("ball.mjs", "js")):
+        path = tmp_path / name
+        command = ["compile", str(path), "--as", language, "--model", "rigid"]
+        assert main([*command, "--restitution", "0.7"]) == 0
+        assert path.read_text() == export.text(ball, path, language)
+    with pytest.raises(SystemExit, match="2"):
+        main(["compile", "ball.rs", "--as", "rust"])
+    assert "argument --as: invalid choice: 'rust'" in capsys.readouterr().err
+
+
 def test_a_response_is_not_replaced_by_what_it_answers(capsys, tmp_path):
     path, linked, hard = (tmp_path / name for name in ("ball.json", "linked.json", "hard.json"))
     assert main(["compile", str(path), "--model", "rigid"]) == 0
@@ -248,7 +260,10 @@ REFUSED = [
     (["models", "--output", "csv"], "--output csv: allowed are"),
     (["history", "--incidence", "1", "--output", "a.csv", "--format", "json"], "ends in .csv"),
     (["rebound", "--incidence", "1", "--output", "a.json", "--format", "csv"], "ends in .json"),
-    (["compile", "ball.csv"], "ball.csv: allowed are names that end in .json"),
+    (["compile", "ball.csv"], "ball.csv: allowed are names that end in .json; --as writes others"),
+    (["compile", "ball.json", "--as", "c"], "ball.json: allowed are names that end in .h"),
+    (["compile", "ball.h", "--as", "js"], "ball.h: allowed are names that end in .mjs or .js"),
+    (["compile", "2.h", "--as", "c"], "2.h: allowed are names of letters from A to Z, digits and"),
     (["rebound", "--incidence", "1", "--response", ""], "--response '': allowed are names of"),
     (["rebound", "--incidence", "1", "--set", "n=1", "--set", "n=2"], "--set n=2: n is set twice"),
     (["rebound", "--incidence", "1", "--set", "steps=1_0"], "--set steps: '1_0': allowed are"),
@@ -262,7 +277,9 @@ def test_a_bad_name_is_refused_before_any_work(capsys, tmp_path, monkeypatch):
     for name in (tmp_path / "no" / "a.json", tmp_path / "a.txt", tmp_path):
         assert main(["rebound", "--incidence", "1", "--output", str(name)]) == 2
         assert main(["compile", str(name)]) == 2
-        assert capsys.readouterr().err.count("\n") == 2
+        assert main(["compile", str(name), "--as", "c"]) == 2
+        assert main(["compile", str(name.with_name("2.h")), "--as", "c"]) == 2
+        assert capsys.readouterr().err.count("\n") == 4
 
 
 @pytest.mark.parametrize("command", [["models"], ["rebound", "--incidence", "1"]])

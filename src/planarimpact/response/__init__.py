@@ -78,6 +78,9 @@ class Response:
         Incidence from which the formula of slip throughout holds, or infinity.
     pieces : planarimpact.response.piecewise.Pieces
         Polynomials of velocity and peak friction up to there, or up to `incidence_max`.
+    gains : bool
+        Whether the model itself creates energy somewhere. Where it does not, the response does not
+        either: the velocity is at most |x|.
     """
 
     model: str
@@ -89,7 +92,7 @@ class Response:
     pieces: piecewise.Pieces
     _maker: InitVar[object] = None
     _piecewise: piecewise.Piecewise = field(init=False)
-    _gains: bool = field(init=False)  # whether the model itself creates energy somewhere
+    gains: bool = field(init=False)
 
     def __post_init__(self, _maker: object) -> None:
         if _maker is not _MAKER:  # it may be `dataclasses.replace`, which measures nothing
@@ -102,7 +105,7 @@ class Response:
         object.__setattr__(self, "_piecewise", table)
         x, (velocity, _) = table.sample(piecewise.MEASURED)
         most = x + self.error_bound.velocity + ROUNDING * self.pieces.end
-        object.__setattr__(self, "_gains", bool((np.abs(velocity) > most).any()))
+        object.__setattr__(self, "gains", bool((np.abs(velocity) > most).any()))
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle and copy it by what it is made of; a read-only mapping has no pickle."""
@@ -198,7 +201,7 @@ class Response:
     def _velocity(self, size: Array, slides: Booleans, piece: Integers, root: Array) -> Array:
         """Velocity at separation for |x|."""
         found = self._piecewise.value(0, piece, root)
-        if not self._gains:  # then rounding and the fit must not create energy either
+        if not self.gains:  # then rounding and the fit must not create energy either
             np.clip(found, -size, size, out=found)
         if slides.any():
             e, beta = self.parameters["restitution"], self.parameters["mass_ratio"]
