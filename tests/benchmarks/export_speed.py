@@ -2,9 +2,10 @@
 
     OMP_NUM_THREADS=1 python tests/benchmarks/export_speed.py
 
-A loop over a million random incidences, best of several, beside Python's batch in the same run. The
-time is that of the processor. The sum of all velocities must be Python's; it also keeps the
-compiler from leaving the loop out. A language without its compiler is left out.
+A loop over a million random incidences, best of several, beside Python's batch in the same run.
+None of them slides throughout: that would be quicker. The time is that of the processor. The sums
+of all answers must be Python's; they also keep the compiler from leaving the loop out. C is left
+out where no compiler is, JavaScript where node is missing.
 """
 
 import math

@@ -2,15 +2,20 @@
 
 import base64
 import json
+import re
+import shlex
 import shutil
 import subprocess
+from pathlib import Path
 
 import browser
 import numpy as np
 import pytest
 
 from planarimpact import InputError, Regime, export, response
+from planarimpact.__main__ import main
 
+README = Path(__file__).parents[2] / "src/README.md"
 COUNT = 100_000
 ACCURACY = 1e-14  # of the largest value
 LARGEST = 8e307  # incidence
@@ -106,7 +111,7 @@ def agrees(found, wanted, x, end):
     size = np.where(nan, 0.0, np.abs(wanted))
     bound = ACCURACY * np.maximum(size, size[:, inside].max(axis=1, keepdims=True))
     same = (np.abs(found - wanted) <= bound) | (np.isnan(found) & nan)
-    same &= (wanted != 0) | (np.signbit(found) == np.signbit(wanted))
+    same &= (x != 0) | nan | (np.signbit(found) == np.signbit(wanted))
     return same.all(axis=1).tolist()
 
 
@@ -200,6 +205,28 @@ def test_other_languages_answer_as_python_does(run, pairs, folder):
     built, x, wanted = pairs["plain"]
     rows = found["wrong"][len(CONSTANTS) :].reshape(-1, 5).T
     assert agrees(rows, wanted, x, built.pieces.end) == [False, False, False, False, True]
+
+
+@pytest.mark.parametrize(
+    ("block", "file", "commands"),
+    [
+        ("c", "main.c", [["cc", "-std=c99", "-O2", "main.c", "-lm"], ["./a.out"]]),
+        ("js", "main.mjs", [["node", "main.mjs"]]),
+    ],
+)
+def test_the_readme_prints_what_it_says(block, file, commands, tmp_path, monkeypatch):
+    if not shutil.which(commands[0][0]):
+        pytest.skip(f"{commands[0][0]} is not installed")
+    monkeypatch.chdir(tmp_path)
+    section = README.read_text(encoding="utf-8").split("## In C and JavaScript")[1]
+    (command,) = re.findall(rf"^\S+/planarimpact (.* --as {block} .*)$", section, flags=re.M)
+    assert main(shlex.split(command)) == 0
+    text = re.search(rf"```{block}\n(.*?)```", section, flags=re.S)[1]
+    (tmp_path / file).write_text(text)
+    for command in commands:
+        done = subprocess.run(command, check=True, capture_output=True, text=True)
+    said = re.findall(r"^ *(?:printf|console.log)\(.*; // (.*)$", text, flags=re.M)
+    assert said and done.stdout.splitlines() == said
 
 
 @pytest.mark.parametrize(
