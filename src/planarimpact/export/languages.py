@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from planarimpact.ground import checks
 from planarimpact.ground.checks import InputError
 
-WIDTH = 100
+WIDTH = 96
 # A name in C, and not one of those that begin with an underscore: C reserves many of them.
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*", re.ASCII)
 
@@ -49,23 +49,23 @@ class Language(NamedTuple):
 
 LANGUAGES = {
     "c": Language(
-        (".h",),
-        True,
-        {"nan": "(double)NAN", "inf": "(double)INFINITY"},
-        {"float64": "double", "uint8": "unsigned char", "uint16": "unsigned short"},
-        "#define {name} {value}\n",
-        "static const {type} {name}[{count}] = {{\n{rows}\n}};\n",
-        "{words}\n#ifndef PLANARIMPACT_{NAME}_H\n#define PLANARIMPACT_{NAME}_H\n\n"
+        endings=(".h",),
+        named=True,
+        others={"nan": "(double)NAN", "inf": "(double)INFINITY"},
+        types={"float64": "double", "uint8": "unsigned char", "uint16": "unsigned short"},
+        constant="#define {name} {value}\n",
+        table="static const {type} {name}[{count}] = {{\n{rows}\n}};\n",
+        file="{words}\n#ifndef PLANARIMPACT_{NAME}_H\n#define PLANARIMPACT_{NAME}_H\n\n"
         "#include <math.h>\n\n{code}\n#endif\n",
     ),
     "js": Language(
-        (".mjs", ".js"),
-        False,
-        {"nan": "NaN", "inf": "Infinity"},
-        {"float64": "Float64Array", "uint8": "Uint8Array", "uint16": "Uint16Array"},
-        "export const {name} = {value};\n",
-        "const {name} = new {type}([\n{rows}\n]);\n",
-        "{words}\n{code}",
+        endings=(".mjs", ".js"),
+        named=False,
+        others={"nan": "NaN", "inf": "Infinity"},
+        types={"float64": "Float64Array", "uint8": "Uint8Array", "uint16": "Uint16Array"},
+        constant="export const {name} = {value};\n",
+        table="const {name} = new {type}([\n{rows}\n]);\n",
+        file="{words}\n{code}",
     ),
 }
 
