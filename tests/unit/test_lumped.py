@@ -276,6 +276,7 @@ def test_a_solver_gone_wrong_does_not_run_for_ever(monkeypatch):
 )
 def test_a_search_that_finds_no_onset_says_so(impact, monkeypatch):
     assert np.isfinite(lumped.rebound(*impact).velocity)
+    monkeypatch.setattr(slip_onset, "FREE_STEPS", 1)
     monkeypatch.setattr(slip_onset, "MOST_TURNS", 1)
     with pytest.raises(ConvergenceError, match="1 impacts: no onset of slip after 1 turns"):
         lumped.rebound(*impact)
