@@ -31,6 +31,9 @@ LAST_CUBIC = 1e-12
 BEYOND = 1e-6
 # Steps without a bracket. They find nearly every root.
 FREE_STEPS = 3
+# Above this rate the onset is close to the crest of |T|: a second zero lies just behind the crest.
+# The steps then start from the crest, the end of the bracket.
+HIGH_RATE = 10.0
 # The cubic term may lengthen a step by this share at most. It is far smaller near the root.
 LONGEST_CORRECTION = 0.5
 # After FREE_TURNS turns every other turn halves the bracket: 40 halvings leave LAST_CUBIC of it.
@@ -116,7 +119,7 @@ def in_restitution(
 
 def _crossing(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array) -> Array:
     """The one zero a in [0, widest] of N - |T| = sin(eta - a) - amplitude sin(rho + rate a)."""
-    advance = np.zeros_like(eta)
+    advance = np.where(rate > HIGH_RATE, widest, 0.0)
     with np.errstate(all="ignore"):  # a step to infinity is no root
         for _ in range(FREE_STEPS):
             _, descent, step, last = _step(advance, eta, rho, amplitude, rate, widest)
@@ -182,8 +185,8 @@ def _bracketed(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Ar
         on = np.flatnonzero(open_ & ~(inside & last))
         if not on.size:
             return advance
-        lane, trial, low, high, widest = (a[on] for a in (lane, trial, low, high, widest))
-        eta, rho, amplitude, rate = (a[on] for a in (eta, rho, amplitude, rate))
+        lane, trial, low, high = lane[on], trial[on], low[on], high[on]
+        eta, rho, amplitude, rate, widest = (a[on] for a in (eta, rho, amplitude, rate, widest))
     raise _lost(lane)
 
 
