@@ -163,7 +163,8 @@ def _tangent(slope: Array, gap: Array, rate: Array) -> tuple[Array, Array, Array
 
     `gap` is 1 - |slope|, which the caller computes without cancellation.
     """
-    square = gap * (1 + np.abs(slope))
+    square = gap * (1 + np.abs(slope))  # 1 - slope^2
+    # Rate > 1, so no square overflows, nor do both underflow. NumPy's hypot is ten times slower.
     force, share = np.sqrt(square), slope / rate
     amplitude = np.sqrt(square + share * share)
     return amplitude, np.arctan2(rate * force, slope), np.arctan2(force, np.abs(slope))
