@@ -152,7 +152,8 @@ def _step(
     root = np.sqrt(np.maximum(root, 0.0))
     step = 2 * margin / (descent + root)
     # The cubic term, over the slope of the parabola at its root.
-    correction = step * step * (square * swing + fall) / (6 * root)
+    reach = step * step  # first, as rate^3 leaves the range of numbers
+    correction = (reach * square * swing + reach * fall) / (6 * root)
     cubic = step * np.minimum(correction, LONGEST_CORRECTION)
     last = (np.abs(step) <= LAST_STEP * widest) & (np.abs(cubic) <= LAST_CUBIC * widest)
     return margin, descent, step + cubic, last
