@@ -266,6 +266,17 @@ def test_a_solver_gone_wrong_does_not_run_for_ever(monkeypatch):
         lumped.rebound(2.0, 3.5, 0.1)
 
 
+def test_a_bracket_finds_the_onsets_that_free_steps_find(monkeypatch):
+    rng = np.random.default_rng(3)
+    x, e = rng.uniform(0, 8, 2000), rng.uniform(0.1, 1, 2000)
+    groups = x, rng.uniform(1, 8, 2000), 10 ** rng.uniform(-3, 1, 2000), e
+    free = lumped.rebound(*groups)
+    monkeypatch.setattr(slip_onset, "FREE_STEPS", 1)
+    bracketed = lumped.rebound(*groups)
+    np.testing.assert_allclose(bracketed.velocity, free.velocity, rtol=0, atol=1e-14)
+    np.testing.assert_array_equal(bracketed.regime, free.regime)
+
+
 @pytest.mark.parametrize(
     "impact",
     [
@@ -276,6 +287,7 @@ def test_a_solver_gone_wrong_does_not_run_for_ever(monkeypatch):
 )
 def test_a_search_that_finds_no_onset_says_so(impact, monkeypatch):
     assert np.isfinite(lumped.rebound(*impact).velocity)
+    monkeypatch.setattr(slip_onset, "FREE_STEPS", 1)
     monkeypatch.setattr(slip_onset, "MOST_TURNS", 1)
     with pytest.raises(ConvergenceError, match="1 impacts: no onset of slip after 1 turns"):
         lumped.rebound(*impact)

@@ -35,6 +35,8 @@ import numpy as np
 from planarimpact.ground.arrays import Array, Numbers
 
 _Number = TypeVar("_Number", float, Array)
+# The least number above 0.
+SMALLEST = float(np.finfo(float).smallest_subnormal)
 
 
 def change(beta: _Number, e: float | _Number) -> _Number:
@@ -78,9 +80,8 @@ def restick_coefficient(beta: Array, zeta2: Array, e: Numbers) -> Array:
     >>> [float(restick_coefficient(3.5, zeta2, 0.5)) for zeta2 in (0.75, 1.21)]
     [0.25, 0.0]
     """
-    excess = e * (e * beta) - zeta2
-    fast = excess > 0
-    return np.where(fast, excess, 0.0) / np.where(fast, e, 1.0)
+    excess = np.maximum(e * (e * beta) - zeta2, 0.0)
+    return excess / np.maximum(e, SMALLEST)  # for e = 0 the excess is 0
 
 
 def limit(beta: Array, zeta2: Array, e: Numbers) -> Array:

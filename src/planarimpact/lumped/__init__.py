@@ -32,7 +32,7 @@ from planarimpact.lumped.stick_slip import Impacts
 # What may take the normal energy.
 LOSSES = ("hysteretic", "plastic", "viscous")
 # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
-CHUNK = 16384
+CHUNK = 32768
 # Nodes and weights of Gauss on -1 to 1, for the work of friction within a phase.
 QUADRATURE = np.polynomial.legendre.leggauss(20)
 

@@ -35,6 +35,19 @@ def impulse(eta: Numbers) -> Array:
     return 2 * np.sin(eta / 2) ** 2
 
 
+def force_and_impulse(eta: Numbers) -> tuple[Array, Array]:
+    """`force` and `impulse` from one tangent, which NumPy computes faster than a sine.
+
+    Examples
+    --------
+    >>> [round(float(value), 12) for value in force_and_impulse(np.pi / 3)]
+    [0.866025403784, 0.5]
+    """
+    tangent = np.tan(eta / 2)
+    sine = 2 * tangent / (1 + tangent * tangent)
+    return sine, tangent * sine
+
+
 def time(eta: Numbers, restitution: float, in_restitution: bool) -> Array:
     """Time t/t_c at `eta`: 0 at contact, 1 at maximum compression, 1 + e at separation.
 

@@ -22,10 +22,21 @@ from planarimpact.ground.angles import HALF_PI, sin_cos
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.checks import ConvergenceError
 
-# The root finder is cubic: after a step below this share of the bracket, the root is exact to
-# rounding.
-LAST_STEP = 1e-6
-# After FREE_TURNS turns every other turn halves the bracket: 40 halvings leave LAST_STEP^2 of it.
+# A step is the last if it is below LAST_STEP of the bracket, and its cubic term below LAST_CUBIC.
+# What is left is then below rounding: it is like the fourth power of the step, and where two zeros
+# are close, like the square of the cubic term over the step.
+LAST_STEP = 1e-4
+LAST_CUBIC = 1e-12
+# Rounding may put a root at the very end of the bracket beyond it, by less than this share.
+BEYOND = 1e-6
+# Steps without a bracket. They find nearly every root.
+FREE_STEPS = 3
+# Above this rate the onset is close to the crest of |T|: a second zero lies just behind the crest.
+# The steps then start from the crest, the end of the bracket.
+HIGH_RATE = 10.0
+# The cubic term may lengthen a step by this share at most. It is far smaller near the root.
+LONGEST_CORRECTION = 0.5
+# After FREE_TURNS turns every other turn halves the bracket: 40 halvings leave LAST_CUBIC of it.
 FREE_TURNS = 8
 MOST_TURNS = 100
 # The distance of two subnormal neighbours: there is no number left between them.
@@ -72,12 +83,15 @@ def in_restitution(
     # |T|/N is past its maximum (`passed`): in the first half-wave always, later where it falls.
     present = np.floor(theta_reached / np.pi)
     rho = theta_reached - present * np.pi
-    (force, fall), (friction, swing) = sin_cos(reached), sin_cos(rho)
-    falling = rate * swing * force + friction * fall <= 0  # (|T|'N - |T|N')/A; N' = -cos(eta)
-    passed = (present == 0) | (falling & (rho > HALF_PI))
-    # Behind the crest of |T|, where |T| falls, |T|/N may still rise. Then |T| may meet N in this
-    # half-wave or miss it.
+    passed = present == 0
+    # Behind the crest of |T|, where |T| falls, |T|/N may fall too. If it still rises, |T| may meet
+    # N in this half-wave or miss it.
     dip = np.flatnonzero(fast & ~passed & (rho > HALF_PI))
+    if dip.size:
+        (force, fall), (friction, swing) = sin_cos(reached[dip]), sin_cos(rho[dip])
+        falling = rate[dip] * swing * force + friction * fall <= 0  # (|T|'N - |T|N')/A; N' = -fall
+        passed[dip[falling]] = True
+        dip = dip[~falling]
     if dip.size:
         met, latest = _meets_behind_crest(reached[dip], rho[dip], amplitude[dip], rate[dip])
         passed[dip] = ~met
@@ -105,44 +119,75 @@ def in_restitution(
 
 def _crossing(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array) -> Array:
     """The one zero a in [0, widest] of N - |T| = sin(eta - a) - amplitude sin(rho + rate a)."""
+    advance = np.where(rate > HIGH_RATE, widest, 0.0)
+    with np.errstate(all="ignore"):  # a step to infinity is no root
+        for _ in range(FREE_STEPS):
+            _, descent, step, last = _step(advance, eta, rho, amplitude, rate, widest)
+            advance = np.minimum(np.maximum(advance + step, 0.0), widest)
+    rest = np.flatnonzero(~(last & (descent > 0)))  # N - |T| falls at its zero
+    if rest.size:
+        advance[rest] = _bracketed(*(a[rest] for a in (eta, rho, amplitude, rate, widest)))
+    return advance
+
+
+def _step(
+    advance: Array, eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array
+) -> tuple[Array, Array, Array, Booleans]:
+    """The step from an advance to the zero of the margin N - |T|.
+
+    Returns
+    -------
+    margin, descent, step : ndarray
+        The margin, how fast it falls, and the step.
+    last : ndarray of bool
+        Whether the zero is then exact to rounding.
+    """
+    force, fall = sin_cos(eta - advance)
+    friction, swing = sin_cos(rho + rate * advance)
+    friction, swing = friction * amplitude, swing * (amplitude * rate)
+    margin, descent = force - friction, fall + swing
+    # The nearer root of the Taylor parabola. It exists also where the slope vanishes.
+    square = rate * rate
+    root = descent * descent - 2 * margin * (square * friction - force)
+    root = np.sqrt(np.maximum(root, 0.0))
+    step = 2 * margin / (descent + root)
+    # The cubic term, over the slope of the parabola at its root.
+    reach = step * step  # first, as rate^3 leaves the range of numbers
+    correction = (reach * square * swing + reach * fall) / (6 * root)
+    cubic = step * np.minimum(correction, LONGEST_CORRECTION)
+    last = (np.abs(step) <= LAST_STEP * widest) & (np.abs(cubic) <= LAST_CUBIC * widest)
+    return margin, descent, step + cubic, last
+
+
+def _bracketed(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array) -> Array:
+    """As `_crossing`, slower, for every lane."""
     advance = np.zeros_like(eta)
-    last_step = LAST_STEP * widest
-    # The bracket is a little wider: rounding may put a root at the very end beyond it.
-    lane, low, high, trial = np.arange(eta.size), advance, widest + last_step, advance
+    lane, low, high, trial = np.arange(eta.size), advance, widest * (1 + BEYOND), advance
     for turn in range(MOST_TURNS):
-        # A turn evaluates the margin N - |T| and how fast it falls (`descent`) at the trial, moves
-        # one end of the bracket there, and takes the next trial. A contact (a lane) is done when
-        # its step is small enough.
+        # A turn moves one end of the bracket to the trial, and takes the next trial. A contact (a
+        # lane) is done when its step is small enough.
         before = trial
-        force, fall = sin_cos(eta - before)
-        friction, swing = sin_cos(rho + rate * before)
-        friction, swing = friction * amplitude, swing * amplitude * rate
-        margin, descent = force - friction, fall + swing
+        with np.errstate(all="ignore"):
+            margin, descent, step, last = _step(before, eta, rho, amplitude, rate, widest)
+            trial = before + step
         ahead = margin > 0
         if turn == 0:  # while the margin grows the root is ahead: a negative value is rounding
             ahead |= descent < 0
         low, high = np.where(ahead, before, low), np.where(ahead, high, before)
-        # The nearer root of the Taylor parabola. It exists also where the slope vanishes.
-        root = descent * descent - 2 * margin * (rate * rate * friction - force)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            trial = before + 2 * margin / (descent + np.sqrt(np.maximum(root, 0.0)))
         inside = (trial >= low) & (trial <= high)
         # Halve the bracket instead if the trial lies outside, and in every other late turn:
         # rounding can throw the trial to and fro. The halvings end the loop in any case.
         if turn >= FREE_TURNS and turn % 2:
             inside[:] = False
         trial = np.where(inside, trial, (low + high) / 2)
-        moving = ~inside | (np.abs(trial - before) > last_step)
-        moving &= high - low > np.maximum(LAST_STEP * last_step, SMALLEST)
-        if moving.all():
-            continue
+        open_ = high - low > np.maximum(LAST_CUBIC * widest, SMALLEST)
         # Lanes that are done keep this trial, and leave the arrays.
         advance[lane] = trial
-        lane = lane[moving]
-        if not lane.size:
+        on = np.flatnonzero(open_ & ~(inside & last))
+        if not on.size:
             return advance
-        trial, low, high, last_step = (a[moving] for a in (trial, low, high, last_step))
-        eta, rho, amplitude, rate = eta[moving], rho[moving], amplitude[moving], rate[moving]
+        lane, trial, low, high = lane[on], trial[on], low[on], high[on]
+        eta, rho, amplitude, rate, widest = (a[on] for a in (eta, rho, amplitude, rate, widest))
     raise _lost(lane)
 
 

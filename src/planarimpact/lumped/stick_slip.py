@@ -122,17 +122,17 @@ def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
         np.full(x.shape, Regime.SLIP_THROUGHOUT, np.uint8),
     )
     sticks = x < sliding.limit(beta, zeta2, e)
-    slips_to_restitution = (x > beta) & (x > zeta2)
-    early = np.flatnonzero(sticks & ~slips_to_restitution)
-    late = np.flatnonzero(sticks & slips_to_restitution)
-    if trace is not None and not early.size:
-        trace += [Phase(False, False, 0.0, 1.0, x), Phase(False, True, HALF_PI, 1.0, x - beta)]
-    if early.size:
-        stick = _from_compression(early, impacts.take(early), outcome, trace)
-        _alternate(stick, impacts, outcome, trace)
-    if late.size:
-        outcome.regime[late] = Regime.SLIP_STICK
-        stick = _after_late_slip(late, impacts.take(late), outcome)
+    slips_first = x > zeta2
+    initial = np.flatnonzero(sticks & ~slips_first)
+    early = np.flatnonzero(sticks & slips_first & (x <= beta))
+    late = np.flatnonzero(sticks & slips_first & (x > beta))
+    if trace is not None and not initial.size:
+        trace.append(Phase(False, False, 0.0, 1.0, x))
+        trace += [] if early.size else [Phase(False, True, HALF_PI, 1.0, x - beta)]
+    starts = (initial, _initial_stick), (early, _after_early_slip), (late, _after_late_slip)
+    found = [start(lanes, impacts, outcome, trace) for lanes, start in starts if lanes.size]
+    if found:
+        stick = Stick(*(np.concatenate(fields) for fields in zip(*found, strict=True)))
         _alternate(stick, impacts, outcome, trace)
     # Rounding must not create energy.
     np.minimum(np.maximum(outcome.velocity, -x), x, out=outcome.velocity)
@@ -163,52 +163,85 @@ def _tangent(slope: Array, gap: Array, rate: Array) -> tuple[Array, Array, Array
 
     `gap` is 1 - |slope|, which the caller computes without cancellation.
     """
-    force = np.sqrt(gap * (1 + np.abs(slope)))
-    eta = np.arctan2(force, np.abs(slope))
-    return np.hypot(force, slope / rate), np.arctan2(rate * force, slope), eta
+    square = gap * (1 + np.abs(slope))  # 1 - slope^2
+    # Rate > 1, so no square overflows, nor do both underflow. NumPy's hypot is ten times slower.
+    force, share = np.sqrt(square), slope / rate
+    amplitude = np.sqrt(square + share * share)
+    return amplitude, np.arctan2(rate * force, slope), np.arctan2(force, np.abs(slope))
 
 
-def _from_compression(
+def _initial_stick(
     lanes: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
 ) -> Stick:
-    """Stick from the start, or after slip in compression, up to maximum compression.
+    """Stick from the start, with no force and T' = x/zeta^2, up to maximum compression.
 
     Contacts that end there, or slip before and to the end, get their outcome. The others are
     returned: they stick on in restitution.
     """
-    x, beta, zeta2, e = impacts
+    x, beta, zeta2, _ = impacts = impacts.take(lanes)
     omega = np.sqrt(beta / zeta2)
-    slips_first = x > zeta2
-    # Stick after slip starts with T = N and T' = N' = slope. Initial stick starts with no force and
-    # T' = x/zeta^2, and has the same form with that slope. Slip in compression has the velocity
-    # x - beta + (beta - zeta^2) cos(eta), so it ends where cos(eta) = slope.
-    coefficient = np.where(slips_first, beta - zeta2, zeta2)
-    slope = np.where(slips_first, beta - x, x) / coefficient
-    gap = np.where(slips_first, x - zeta2, 0.0) / coefficient
-    amplitude, theta, eta = _tangent(slope, gap, omega)
+    amplitude, theta = x / zeta2 / omega, omega * HALF_PI
+    outcome.dissipation[lanes] = 0.0
+    outcome.regime[lanes] = Regime.STICK_SLIP
     if trace is not None:
-        trace += [Phase(False, False, 0.0, 1.0, x)] if slips_first[0] else []
-        trace.append(Phase(True, False, eta, 1.0, 0.0, amplitude, theta))
-    theta = theta + omega * (HALF_PI - eta)
-    sine, cosine = sin_cos(theta)
-    friction = amplitude * sine
-    outcome.velocity[lanes] = omega * zeta2 * amplitude * cosine
-    outcome.peak_friction[lanes] = np.where(theta < HALF_PI, friction, amplitude)
-    outcome.regime[lanes] = np.where(slips_first, Regime.SLIP_STICK, Regime.STICK)
+        trace.append(Phase(True, False, 0.0, 1.0, 0.0, amplitude, 0.0))
+    broken = np.flatnonzero((omega < 1) & (amplitude > 1))
+    broken = broken[amplitude[broken] * np.sin(theta[broken]) > 1]
+    if broken.size:
+        _break_in_compression(lanes[broken], impacts.take(broken), outcome, trace)
+        on = np.delete(np.arange(lanes.size), broken)
+        lanes, impacts, amplitude, theta = lanes[on], impacts.take(on), amplitude[on], theta[on]
+    return _at_compression(lanes, impacts, amplitude, theta, outcome, trace)
+
+
+def _after_early_slip(
+    lanes: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
+) -> Stick:
+    """As `_initial_stick`, for stick after a first slip that ended in compression."""
+    x, beta, zeta2, _ = impacts = impacts.take(lanes)
+    omega = np.sqrt(beta / zeta2)
+    # Slip has the velocity x - beta + (beta - zeta^2) cos(eta), so it ends where cos(eta) = slope.
+    coefficient = beta - zeta2
+    slope, gap = (beta - x) / coefficient, (x - zeta2) / coefficient
+    amplitude, theta, eta = _tangent(slope, gap, omega)
     # The first slip has the normal impulse `gap`; its velocity falls from x - zeta^2 to 0.
     outcome.dissipation[lanes] = gap * gap * coefficient / 2
+    outcome.regime[lanes] = Regime.SLIP_STICK_SLIP
+    if trace is not None:
+        trace.append(Phase(True, False, eta, 1.0, 0.0, amplitude, theta))
+    theta = theta + omega * (HALF_PI - eta)
+    return _at_compression(lanes, impacts, amplitude, theta, outcome, trace)
 
-    broken = (omega < 1) & (friction > 1)
-    if broken.any():
-        where = np.flatnonzero(broken)
-        _break_in_compression(lanes[where], impacts.take(where), outcome, trace)
+
+def _at_compression(
+    lanes: Integers,
+    impacts: Impacts,
+    amplitude: Array,
+    theta: Array,
+    outcome: Outcome,
+    trace: list[Phase] | None,
+) -> Stick:
+    """Stick at maximum compression; contacts with nothing to come get their outcome.
+
+    They lose the strain energy of stick at separation.
+    """
+    x, beta, zeta2, e = impacts
     last = (e == 0) | (x == 0)
-    left = np.flatnonzero(last & ~broken)  # they lose the strain energy of stick at separation
-    outcome.dissipation[lanes[left]] += zeta2[left] * friction[left] * friction[left] / 2
-    if trace is not None and last[0] and not broken[0]:
-        trace.append(Phase(True, True, HALF_PI, 1.0, 0.0, amplitude, theta))
-    on = np.flatnonzero(~(broken | last))
-    return Stick(lanes[on], np.full(on.size, HALF_PI), theta[on], amplitude[on], np.ones(on.size))
+    if last.any():
+        ends, on = np.flatnonzero(last), np.flatnonzero(~last)
+        if trace is not None:
+            trace.append(Phase(True, True, HALF_PI, 1.0, 0.0, amplitude, theta))
+        sine, cosine = sin_cos(theta[ends])
+        where, largest, stiffness = lanes[ends], amplitude[ends], zeta2[ends]
+        friction = largest * sine
+        outcome.velocity[where] = np.sqrt(beta[ends] / stiffness) * stiffness * largest * cosine
+        outcome.peak_friction[where] = np.where(theta[ends] < HALF_PI, friction, largest)
+        outcome.dissipation[where] += stiffness * friction * friction / 2
+        # No slip follows: STICK_SLIP becomes STICK, and SLIP_STICK_SLIP becomes SLIP_STICK. By the
+        # order of the codes both are the same step.
+        outcome.regime[where] -= np.uint8(Regime.STICK_SLIP - Regime.STICK)
+        lanes, amplitude, theta = lanes[on], amplitude[on], theta[on]
+    return Stick(lanes, np.full_like(theta, HALF_PI), theta, amplitude, np.ones_like(theta))
 
 
 def _break_in_compression(
@@ -236,15 +269,18 @@ def _break_in_compression(
         trace.append(Phase(False, True, HALF_PI, 1.0, w_compressed))
 
 
-def _after_late_slip(lanes: Integers, impacts: Impacts, outcome: Outcome) -> Stick:
+def _after_late_slip(
+    lanes: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
+) -> Stick:
     """Stick after a first slip that ended in restitution, at cos(eta) = (x - beta)/K."""
-    x, beta, zeta2, e = impacts
+    x, beta, zeta2, e = impacts.take(lanes)
     coefficient = sliding.restick_coefficient(beta, zeta2, e)
     slope, gap = (beta - x) / coefficient, (coefficient + (beta - x)) / coefficient
     # Twice the work. In compression the impulse is 1, and the slip velocity falls from x - zeta^2
     # to x - beta. In restitution the impulse is e cos(eta) = -e slope, and it falls to 0.
     work = x - zeta2 + (x - beta) + e * (beta - x) * slope
     outcome.dissipation[lanes] = work / 2
+    outcome.regime[lanes] = Regime.SLIP_STICK_SLIP
     amplitude, theta, eta = _tangent(slope, gap, e * np.sqrt(beta / zeta2))
     return Stick(lanes, eta, theta, amplitude, np.ones_like(eta))
 
@@ -271,9 +307,9 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
         # The end of stick: slip starts with the velocity `w_onset`. If it lasts to separation, it
         # ends with `w_final`. Both count in the direction of slip.
         eta, rho, wave = slip_onset.in_restitution(stick.eta, stick.theta, amplitude, rate)
-        side = np.where(wave % 2 == 0, stick.side, -stick.side)
-        w_onset = omega * zeta2 * amplitude * np.cos(rho)
-        ahead = normal.impulse(eta)
+        side = stick.side * (1 - 2 * (wave - 2 * np.floor(wave / 2)))
+        w_onset = omega * zeta2 * amplitude * sin_cos(rho)[1]
+        force, ahead = normal.force_and_impulse(eta)
         w_final = w_onset - beta * e * ahead
         outcome.velocity[lanes] = side * w_final
         if trace is not None:
@@ -281,12 +317,9 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
             trace.append(Phase(False, True, eta, side, side * w_onset))
         if count == 0:  # N falls: no later stick or slip has more friction
             rising = (wave == 0) & (rho < HALF_PI)
-            crest = np.where(rising, normal.force(eta), amplitude)
+            crest = np.where(rising, force, amplitude)
             slid = stick.eta < HALF_PI  # slip went through maximum compression, where N = 1
             outcome.peak_friction[lanes] = np.where(slid, 1.0, crest)
-            # Slip follows: STICK becomes STICK_SLIP, and SLIP_STICK becomes SLIP_STICK_SLIP. By the
-            # order of the codes both are the same step.
-            outcome.regime[lanes] += np.uint8(Regime.STICK_SLIP - Regime.STICK)
         # e times the slip velocity v = w + zeta^2 cos(eta)/e, at the onset and at separation.
         ev_onset, ev_final = e * w_onset + zeta2 * (1 - ahead), e * w_final + zeta2
         # Twice the work, if slip lasts to separation: the impulse is e times `ahead`.

@@ -39,7 +39,7 @@ from planarimpact.lumped.viscous.elements import Elements, damping_ratio, elemen
 from planarimpact.lumped.viscous.searches import Slip, Stick, crossing, slip_end, stick_end
 
 # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
-CHUNK = 16384
+CHUNK = 65536
 # The range of the solver. A contact has at most some hundred half-waves of T, and all products
 # keep their digits.
 LEAST_RESTITUTION = 1e-3

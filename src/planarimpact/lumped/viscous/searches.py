@@ -100,15 +100,14 @@ def crossing(function: Function, low: Array, high: Array) -> Array:
         if turn >= FREE_TURNS and turn % 2:
             inside[:] = False
         trial = np.where(inside, trial, (low + high) / 2)
-        moving = (~inside | ~small) & (high - low > least)
-        if moving.all():
+        on = np.flatnonzero((~inside | ~small) & (high - low > least))
+        if on.size == lane.size:
             continue
         # Lanes that are done keep this trial, and leave the arrays.
         found[lane] = trial
-        lane = lane[moving]
-        if not lane.size:
+        if not on.size:
             return found
-        trial, low, high, width = (a[moving] for a in (trial, low, high, width))
+        lane, trial, low, high, width = lane[on], trial[on], low[on], high[on], width[on]
     raise ConvergenceError(f"{lane.size} impacts: no end of a phase after {MOST_TURNS} turns")
 
 
