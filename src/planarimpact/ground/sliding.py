@@ -72,6 +72,20 @@ def work(x: Array, beta: _Number, e: float | _Number) -> Array:
     return (1 + e) * (x - change(beta, e) / 2)
 
 
+def viscous_work(x: Array, beta: _Number, zeta2: _Number, e: float | _Number) -> Array:
+    """Work of friction where the springs are viscous: they take a part of what the body loses.
+
+    Friction mu F2 acts on the velocity w - zeta^2 v of the springs, w = x - beta (1 - v), while the
+    normal velocity v falls from 1 to -e.
+
+    Examples
+    --------
+    >>> float(viscous_work(np.float64(8.0), 3.5, 1.21, 1.0))
+    9.0
+    """
+    return (1 + e) * (x - zeta2 - (beta - zeta2) * (1 + e) / 2)
+
+
 def restick_coefficient(beta: Array, zeta2: Array, e: Numbers) -> Array:
     """K = e beta - zeta^2/e where positive, else 0.
 

@@ -242,9 +242,8 @@ def _summary(found: Path) -> Solved:
 def _work_sliding(x: Array, beta: Array, zeta2: Array, e: Array, loss: str) -> Array:
     """Work of friction in slip from the start, until the normal velocity is -e.
 
-    Friction mu F2 acts on the velocity w - zeta^2 v of the springs, w = x - beta (1 - v). With
-    plastic loss this is all that the body loses: strain is included, which is 0 at separation.
+    With plastic loss it is all that the body loses: strain is included, which is 0 at separation.
     """
     if loss == "plastic":
         return sliding.work(x, beta, e)
-    return (1 + e) * (x - zeta2 - (beta - zeta2) * (1 + e) / 2)
+    return sliding.viscous_work(x, beta, zeta2, e)
