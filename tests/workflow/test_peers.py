@@ -143,6 +143,7 @@ def test_below_1_every_velocity_is_measured_against_both_losses(measured):
 
 def test_bodies_that_lammps_does_not_have_are_named(monkeypatch):
     pretend(monkeypatch)
+    monkeypatch.setattr(measurement, "ROOMS", ("lumped",))
     monkeypatch.setattr(trade, "times", lambda *_: {"time_1 [s]": 1.0})
     for change, words in (
         ({"mass_ratio": 2.0}, "mass_ratio = 2: it has solid spheres"),
@@ -297,13 +298,21 @@ def test_pooltool_is_the_lumped_model_where_the_contact_is_elastic():
 
 
 @needs_pooltool
-def test_pooltool_errs_where_initial_stick_ends_and_refuses_the_incidence_of_the_mass_ratio():
-    # There it takes the end of compression for the end of stick, if `numpy.isclose` holds.
-    x = 1.21 * (1 + 1e-5 * np.array([-1.01, -0.99, 0.99, 1.01]))
-    found, _ = peers.pooltool_impacts(np.append(x, 3.5), 1.0)
-    gap = np.abs(found[:4] - lumped.rebound(x, 3.5, 1.21, 1.0).velocity)
-    assert gap == pytest.approx([0, 2.27, 2.27, 0], abs=1e-2) and max(gap[0], gap[3]) < 1e-12
-    assert np.isnan(found[4])
+def test_pooltool_errs_where_workflow_readme_says():
+    def gaps(e, x):
+        return np.abs(peers.pooltool_impacts(x, e)[0] - lumped.rebound(x, 3.5, 1.21, e).velocity)
+
+    # numpy.isclose tells it that such an impact is at x = zeta^2.
+    beside = 1.21 * (1 + 1e-5 * np.array([-1.01, -0.99, 0.99, 1.01]))
+    for e, off in ((1.0, 2.27), (0.85, 2.11), (0.5, 1.59)):
+        found = gaps(e, beside)
+        assert found[1:3] == pytest.approx([off, off], abs=1e-2) and max(found[::3]) < 1e-12
+    assert gaps(0.5, np.array([2.82, 3.51])).max() < 1e-12
+    assert max(gaps(0.5, np.linspace(2.84, 3.49, 66))) == pytest.approx(0.42, abs=0.01)
+    elsewhere = np.linspace(0.01, 8, 97)
+    for e in (0.6, 0.7, 1.0):
+        assert gaps(e, elsewhere).max() < 1e-12
+    assert np.isnan(gaps(0.6, np.array([3.5]))[0])
 
 
 # Rows of the table in the caption, by what their models begin with.
@@ -326,6 +335,7 @@ def test_caption_has_the_numbers_of_the_versions_it_names(monkeypatch):
         if f"{name} {importlib.metadata.version(package)}" not in caption:
             pytest.skip(f"another version of {name}")
     monkeypatch.setattr(trade, "times", lambda *_: {"time_1 [s]": 1.0})
+    monkeypatch.setattr(measurement, "COMPILED", ())  # it takes long and has no line
     values = [0.9, 0.7, 0.5]
     found, _ = measurement.measure(3.5, 1.21, [0, 8], 81, values, 1e-3, 1e-4)
     rows = {name: {key: cell for key, (cell,) in row.items()} for name, row in found.items()}
