@@ -1,7 +1,7 @@
 """Time of an impact in other codes and in ours, over the time of our fastest answers."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from stronge1994.csv_tables import Row
@@ -72,8 +72,9 @@ def ratios(rows: Sequence[Row]) -> list[Row]:
         By restitution and loss, the slowest first: name; largest error of velocity; time of an
         impact in the largest batch that all of them have solved, and alone, the median of random
         incidences; over the time of the compiled response, and of the table of spheres if `rows`
-        has it. A ratio is empty where one of its times was taken on a busy machine. Then the
-        column `busy [1]` says how many times too long the time in the batch is.
+        has it. A ratio is empty where one of its times was taken on a busy machine, and so is a
+        time alone. Then the column `busy [1]` says how many times too long the time in the batch
+        is.
 
     Examples
     --------
@@ -85,27 +86,20 @@ def ratios(rows: Sequence[Row]) -> list[Row]:
     ['3e+03', '1']
     """
     timed = [row for row in rows if any(row.get(key) for key in filter(TIME.fullmatch, row))]
-    values = sorted({float(row["restitution [1]"]) for row in timed}, reverse=True)
-    below = [e for e in values if e < 1][:1]
-    cases = {
-        (e, row["loss"]): None
-        for e in [e for e in values if e == 1] + below
-        for row in timed
-        if float(row["restitution [1]"]) == e
-    }
-    groups = [
-        _coarsest(
-            row
-            for row in timed
-            if (float(row["restitution [1]"]), row["loss"]) == case and _is_shown(row)
-        )
-        for case in cases
-    ]
-    groups = [group for group in groups if group]
+    below = max((e for e in map(_restitution, timed) if e < 1), default=1.0)
+    cases: dict[tuple[float, str], list[Row]] = {}
+    for row in timed:
+        if _restitution(row) in (1, below) and _is_shown(row):
+            cases.setdefault((_restitution(row), row["loss"]), []).append(row)
+    groups = [_coarsest(cases[case]) for case in sorted(cases, key=lambda case: -case[0])]
     busy = any(_busy(row, _batch(group)) for group in groups for row in group)
     known = {row["model"] for group in groups for row in group}
     answers = {word: names for word, names in ANSWERS.items() if known & set(names.values())}
     return [row for group in groups for row in _compared(group, answers, busy)]
+
+
+def _restitution(row: Row) -> float:
+    return float(row["restitution [1]"])
 
 
 def _is_shown(row: Row) -> bool:
@@ -116,7 +110,7 @@ def _is_shown(row: Row) -> bool:
     return model in (*codes, direct, *(names[loss] for names in ANSWERS.values()))
 
 
-def _coarsest(rows: Iterable[Row]) -> list[Row]:
+def _coarsest(rows: Sequence[Row]) -> list[Row]:
     """One row of each model: that of the largest tolerance, or of the fewest steps."""
 
     def fineness(row: Row) -> tuple[float, float]:
@@ -136,24 +130,28 @@ def _batch(rows: Sequence[Row]) -> int:
 
 
 def _busy(row: Row, batch: int) -> str:
+    """How many times too long the time in the batch is, "" where the machine was quiet."""
     return row.get(f"busy_{batch} [1]") or ""
 
 
 def _compared(rows: Sequence[Row], answers: dict[str, dict[str, str]], busy: bool) -> list[Row]:
+    """Lines of the table for one restitution and loss; `answers` as in `ANSWERS`."""
     batch = _batch(rows)
     times = {row["model"]: float(row[f"time_{batch} [s]"]) for row in rows}
     quiet = {row["model"] for row in rows if not _busy(row, batch)}
     table = []
     for row in sorted(rows, key=lambda row: -times[row["model"]]):
         model, time = row["model"], times[row["model"]]
+        alone = "" if _busy(row, 1) else row.get("time_1 [s]", "")
+        error = row.get("max_velocity [mu v2(0)]", "")
         entry = {
             "model": model,
             "restitution [1]": row["restitution [1]"],
             "loss": row["loss"],
-            "max_velocity [mu v2(0)]": f"{float(row['max_velocity [mu v2(0)]']):.2g}",
+            "max_velocity [mu v2(0)]": f"{float(error):.2g}" if error else "",
             "batch [1]": str(batch),
             "time [us]": f"{MICROSECONDS * time:.3g}",
-            "time_alone [us]": f"{MICROSECONDS * float(row['time_1 [s]']):.3g}",
+            "time_alone [us]": f"{MICROSECONDS * float(alone):.3g}" if alone else "",
         }
         for word, names in answers.items():
             base = names[row["loss"]]
