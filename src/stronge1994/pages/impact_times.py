@@ -69,7 +69,7 @@ def ratios(rows: Sequence[Row]) -> list[Row]:
     Returns
     -------
     list of dict
-        By restitution and loss, the slowest first: name; largest error of velocity; time of an
+        By restitution and loss, the slowest first: name, setting; largest error of velocity; time of an
         impact in the largest batch that all of them have solved, and alone, the median of random
         incidences; over the time of the compiled response, and of the table of spheres if `rows`
         has it. A ratio is empty where one of its times was taken on a busy machine, and so is a
@@ -123,6 +123,20 @@ def _coarsest(rows: Sequence[Row]) -> list[Row]:
     return list(found.values())
 
 
+def _setting(row: Row) -> str:
+    """Words for the steps or the tolerance of a row.
+
+    Examples
+    --------
+    >>> _setting({"steps [1]": "64"}), _setting({"tolerance [mu v2(0)]": "0.001"}), _setting({})
+    ('64 steps', 'tolerance 0.001', '')
+    """
+    if steps := row.get("steps [1]"):
+        return f"{float(steps):g} steps"
+    tolerance = row.get("tolerance [mu v2(0)]")
+    return f"tolerance {float(tolerance):g}" if tolerance else ""
+
+
 def _batch(rows: Sequence[Row]) -> int:
     """Largest batch that all rows have solved."""
     solved = [{int(f[1]) for f in map(TIME.fullmatch, row) if f and row[f[0]]} for row in rows]
@@ -146,6 +160,7 @@ def _compared(rows: Sequence[Row], answers: dict[str, dict[str, str]], busy: boo
         error = row.get("max_velocity [mu v2(0)]", "")
         entry = {
             "model": model,
+            "setting": _setting(row),
             "restitution [1]": row["restitution [1]"],
             "loss": row["loss"],
             "max_velocity [mu v2(0)]": f"{float(error):.2g}" if error else "",
