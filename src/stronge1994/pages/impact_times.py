@@ -69,12 +69,12 @@ def ratios(rows: Sequence[Row]) -> list[Row]:
     Returns
     -------
     list of dict
-        By restitution and loss, the slowest first: name, setting; largest error of velocity; time of an
-        impact in the largest batch that all of them have solved, and alone, the median of random
-        incidences; over the time of the compiled response, and of the table of spheres if `rows`
-        has it. A ratio is empty where one of its times was taken on a busy machine, and so is a
-        time alone. Then the column `busy [1]` says how many times too long the time in the batch
-        is.
+        By restitution and loss, the slowest first: name, setting; largest error of velocity; time
+        of an impact in the largest batch that all of them have solved, and alone, the median of
+        random incidences; over the time of the compiled response, and of the table of spheres if
+        `rows` has it. A ratio is empty where one of its times was taken on a busy machine, and so
+        is a time alone. Then the column `busy [1]` says how many times too long the time in the
+        batch is.
 
     Examples
     --------
