@@ -46,7 +46,7 @@ REPRODUCTION = {
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
     "judging": "ground curves csv_tables curve_names goodness reference_data",
-    "trade": "ground models curves csv_tables",
+    "trade": "ground models response curves csv_tables",
     "gate": "csv_tables records judging ledger",
     "plan": "ground models records reference_data",
     "drawings": "planarimpact ground csv_tables curve_names goodness reference_data study_files"

@@ -1,17 +1,20 @@
 """LAMMPS and pooltool: an optional target that says what is missing, and rows like the trade's."""
 
+import functools
 import importlib.metadata
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from planarimpact import continuum, lumped
+from planarimpact import continuum, lumped, models
 from planarimpact.models import timestep
 from stronge1994 import csv_tables
 from stronge1994.curves import trade
 from stronge1994.drawings import peers as draw_peers
+from stronge1994.pages import impact_times
 from stronge1994.trade import measurement, peers
 
 ROOT = Path(__file__).parents[2]
@@ -35,7 +38,8 @@ needs_pooltool = pytest.mark.skipif(bool(peers.missing("pooltool")), reason="nee
 def pretend(patch):
     """Both codes, as if installed: our own models under their names; pooltool refuses x = 0.
 
-    The tsuji damping delivers another restitution than it is told, as LAMMPS' does.
+    The tsuji damping delivers another restitution than it is told, as LAMMPS' does. Nothing is
+    compiled, as that takes seconds: "response of ..." calls the lumped model.
     """
 
     def thrown(x, law, steps, poisson_ratio=0.3, damping=peers.UNDAMPED):
@@ -49,10 +53,15 @@ def pretend(patch):
         found = lumped.rebound(x, mass_ratio, stiffness_ratio, restitution).velocity
         return np.where(np.asarray(x) > 0, found, np.nan), 1e-3
 
+    def compile_(model, *, incidence_max, tolerance, **groups):
+        return functools.partial(models.rebound, "lumped", **groups)
+
+    patch.setattr(measurement, "response", SimpleNamespace(compile=compile_))
     patch.setattr(peers, "missing", lambda code: [])
     patch.setattr(peers, "lammps_impacts", thrown)
     patch.setattr(peers, "pooltool_impacts", resolved)
     patch.setattr(trade, "ENOUGH", 0.01)
+    patch.setattr(trade, "BUSY", np.inf)  # whatever else runs beside the test
 
 
 @pytest.fixture(scope="module")
@@ -66,6 +75,8 @@ def measured():
 def test_without_them_the_target_succeeds_and_says_so(finished):
     if not (peers.missing("lammps") and peers.missing("pooltool")):
         pytest.skip("they are installed here")
+    report = finished / "figures/report.html"
+    assert "LAMMPS was not measured. pooltool was not measured." in report.read_text()
     result = finished.run("peers")
     assert result.returncode == 0, result.stdout
     for code in ("lammps", "pooltool"):
@@ -80,6 +91,11 @@ def test_without_them_the_target_succeeds_and_says_so(finished):
     ]
     for picture in ("trade_with_peers", "peers"):
         assert (finished / f"figures/{picture}.svg").stat().st_size > 1000
+    # The next run reads what was measured.
+    assert finished.planned()[1] == {"report": 1, "gate": 1, "all": 1}
+    finished.run("figures/report.html")
+    assert "LAMMPS is not installed. pooltool is not installed." in report.read_text()
+    assert "<td>response of continuum</td>" in report.read_text()
 
 
 def test_rows_have_errors_times_and_what_was_refused(measured):
@@ -106,12 +122,16 @@ def test_below_1_every_velocity_is_measured_against_both_losses(measured):
     cells = [{key: cell for key, (cell,) in row.items()} for row in rows.values()]
     by_loss = {loss: [row for row in cells if row["loss"] == loss] for loss in measurement.LOSSES}
     for loss, other in (("viscous", "plastic"), ("plastic", "viscous")):
-        models = {row["model"] for row in by_loss[loss]}
-        assert f"continuum.{other}" in models and f"continuum.{loss}" not in models
-        assert {"lumped", "lumped.viscous", "lumped.plastic", "timestep.mindlin"} <= models
+        names = {row["model"] for row in by_loss[loss]}
+        own = {f"{word}continuum.{end}" for word in ("", "response of ") for end in (loss, other)}
+        assert {*own, "lumped", "lumped.viscous", "lumped.plastic", "timestep.mindlin"} <= names
         assert {row["reference_error [mu v2(0)]"] for row in by_loss[loss]} == {1e-2}
     # The distance between the continua is the same from either.
-    apart = [row["rms_velocity [mu v2(0)]"] for row in cells if row["model"].startswith("contin")]
+    apart = [
+        row["rms_velocity [mu v2(0)]"]
+        for row in cells
+        if row["model"].startswith("contin") and not row["model"].endswith(row["loss"])
+    ]
     assert apart[0] == pytest.approx(apart[1], abs=1e-2)
     x = np.linspace(0, 8, 9)
     gap = (
@@ -130,12 +150,13 @@ def test_below_1_every_velocity_is_measured_against_both_losses(measured):
 
 def test_bodies_that_lammps_does_not_have_are_named(monkeypatch):
     pretend(monkeypatch)
+    monkeypatch.setattr(measurement, "ROOMS", ("lumped",))
     monkeypatch.setattr(trade, "times", lambda *_: {"time_1 [s]": 1.0})
     for change, words in (
         ({"mass_ratio": 2.0}, "mass_ratio = 2: it has solid spheres"),
         ({"stiffness_ratio": 2.5}, "stiffness_ratio = 2.5: no material"),
     ):
-        rows, notes = measurement.measure(**SETTINGS | change)
+        rows, notes = measurement.measure(**SETTINGS | {"restitution": [0.5]} | change)
         assert len(notes) == 1 and notes[0].startswith("lammps: ") and words in notes[0]
         assert "pooltool, e = 0.5, against viscous" in rows
 
@@ -169,6 +190,64 @@ def test_figure_has_their_points_and_names_what_is_missing(measured, tmp_path, m
         assert len(points) == len(lines)
     figure = draw_peers.draw_errors(read["none"])
     assert figure.texts[0].get_text() == "not installed: pooltool"
+
+
+def rows_of(named, folder):
+    """Rows as the report reads them."""
+    csv_tables.write(folder / "peers.csv", named)
+    return csv_tables.read_rows(folder / "peers.csv")
+
+
+def test_the_report_has_all_times_over_that_of_the_compiled_continuum(measured, tmp_path):
+    rows = rows_of(measured[0], tmp_path)
+    found = impact_times.section([], rows)
+    assert found["absent"] == []
+    for loss in ("", "viscous", "plastic"):
+        end = f".{loss}" if loss else ""
+        group = {row["model"]: row for row in found["rows"] if row["loss"] == loss}
+        law = "LAMMPS mindlin/force" + (", viscoelastic, xt = 0" if loss else "")
+        ours = {f"{word}continuum{end}" for word in ("", "response of ")}
+        assert set(group) == {law, "pooltool", "lumped", *ours}
+        times = [float(row["time [us]"]) for row in group.values()]
+        assert times == sorted(times, reverse=True)
+        assert float(group["pooltool"]["time [us]"]) == 1 and float(group[law]["time [us]"]) == 2
+        assert {row["batch [1]"] for row in group.values()} == {"1000"}
+        compiled = float(group[f"response of continuum{end}"]["time [us]"])
+        ratio = float(group[law]["times_compiled [1]"])
+        assert ratio == pytest.approx(2 / compiled, rel=0.06)  # two digits of each
+    assert not any("times_spheres [1]" in row or "busy [1]" in row for row in found["rows"])
+
+
+def test_the_report_says_what_is_missing_or_was_taken_on_a_busy_machine(measured, tmp_path):
+    rows = rows_of(measured[0], tmp_path)
+    ours = [row for row in rows if row["model"] != "pooltool" and "LAMMPS" not in row["model"]]
+    absent = [{"model": "lammps", "installed": "no"}, {"model": "pooltool", "installed": "no"}]
+    found = impact_times.section(ours, absent)
+    assert found["absent"] == ["LAMMPS is not installed.", "pooltool is not installed."]
+    assert "continuum" in {row["model"] for row in found["rows"]}
+    words = ["LAMMPS was not measured.", "pooltool was not measured."]
+    assert impact_times.section(ours, []) == found | {"absent": words}
+    assert impact_times.section([{"error": "crashed"}], []) == {"rows": [], "absent": words}
+
+    direct = next(row for row in ours if row["model"] == "continuum")
+    tables = direct | {"model": "spheres.viscous", "time_1000 [s]": "1e-7"}
+    busy = direct | {"time_1000 [s]": "1e-3", "busy_1000 [1]": "2.5"}
+    rest = [row for row in ours if row is not direct]
+    by_model = {row["model"]: row for row in impact_times.ratios([busy, *rest, tables])}
+    assert by_model["continuum"]["busy [1]"] == "2.5"
+    assert by_model["continuum"]["times_spheres [1]"] == ""
+    assert by_model["spheres.viscous"]["times_spheres [1]"] == "1"
+    assert by_model["continuum.viscous"]["times_spheres [1]"] == ""  # no table of that loss
+
+
+def test_models_that_come_by_name_are_measured_too(monkeypatch):
+    names = {"spheres.viscous": 1.0, "spheres.plastic": 1.0, "continuum.viscous": 1.0, "rigid": 1.0}
+    admits = {name: SimpleNamespace(restitution=(0.3, high)) for name, high in names.items()}
+    admits["continuum"] = SimpleNamespace(restitution=(1.0, 1.0))
+    monkeypatch.setattr(models, "MODELS", admits)
+    assert measurement._own_names(1.0) == ["spheres.viscous", "continuum"]
+    assert measurement._own_names(0.5) == list(names)[:3]
+    assert measurement._own_names(0.2) == []
 
 
 def test_poisson_ratio_is_that_of_the_stiffness_ratio():
@@ -225,6 +304,24 @@ def test_pooltool_is_the_lumped_model_where_the_contact_is_elastic():
     assert found == pytest.approx(lumped.rebound(x, 3.5, 1.21, 1.0).velocity, abs=1e-12)
 
 
+@needs_pooltool
+def test_pooltool_errs_where_workflow_readme_says():
+    def gaps(e, x):
+        return np.abs(peers.pooltool_impacts(x, e)[0] - lumped.rebound(x, 3.5, 1.21, e).velocity)
+
+    # numpy.isclose tells it that such an impact is at x = zeta^2.
+    beside = 1.21 * (1 + 1e-5 * np.array([-1.01, -0.99, 0.99, 1.01]))
+    for e, off in ((1.0, 2.27), (0.85, 2.11), (0.5, 1.59)):
+        found = gaps(e, beside)
+        assert found[1:3] == pytest.approx([off, off], abs=1e-2) and max(found[::3]) < 1e-12
+    assert gaps(0.5, np.array([2.82, 3.51])).max() < 1e-12
+    assert max(gaps(0.5, np.linspace(2.84, 3.49, 66))) == pytest.approx(0.42, abs=0.01)
+    elsewhere = np.linspace(0.01, 8, 97)
+    for e in (0.6, 0.7, 1.0):
+        assert gaps(e, elsewhere).max() < 1e-12
+    assert np.isnan(gaps(0.6, np.array([3.5]))[0])
+
+
 # Rows of the table in the caption, by what their models begin with.
 TABLE = {
     "LAMMPS, nearest of ten": ("LAMMPS", min),
@@ -245,6 +342,7 @@ def test_caption_has_the_numbers_of_the_versions_it_names(monkeypatch):
         if f"{name} {importlib.metadata.version(package)}" not in caption:
             pytest.skip(f"another version of {name}")
     monkeypatch.setattr(trade, "times", lambda *_: {"time_1 [s]": 1.0})
+    monkeypatch.setattr(measurement, "COMPILED", ())  # it takes long and has no line
     values = [0.9, 0.7, 0.5]
     found, _ = measurement.measure(3.5, 1.21, [0, 8], 81, values, 1e-3, 1e-4)
     rows = {name: {key: cell for key, (cell,) in row.items()} for name, row in found.items()}

@@ -17,6 +17,10 @@ REPORT_PARTS = sources(
 )
 
 
+# Times of LAMMPS and pooltool, once `snakemake peers` has measured them.
+PEERS = ["results/peers.csv"] if Path("results/peers.csv").exists() else []
+
+
 rule interface:
     """What the functions of the solver take and return, as pages made from their docstrings."""
     input:
@@ -47,7 +51,7 @@ rule report:
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
-        tables=[*rules.trade.output, *rules.stability.output, "results/sensitivity.csv"],
+        tables=[*rules.trade.output, *rules.stability.output, "results/sensitivity.csv", *PEERS],
     output:
         page="figures/report.html",
         problems="results/problems.csv",

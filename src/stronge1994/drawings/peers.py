@@ -131,7 +131,7 @@ def draw_errors(peers: Curves) -> Figure:
         Of results/peers.csv. If no code is installed, the figure says so.
     """
     rows = [{key: value[0] for key, value in row.items()} for row in peers.values()]
-    rows = [row for row in rows if row.get(LOSS) in PANELS and ERROR in row]
+    rows = [row for row in rows if row.get(LOSS) in PANELS and ERROR in row and _is_drawn(row)]
     missing = _missing(peers)
     if not rows:
         return house_style.failure(f"not installed: {missing}" if missing else "no errors")
@@ -171,6 +171,21 @@ def draw_errors(peers: Curves) -> Figure:
     if missing:
         legend.set_title(f"not installed: {missing}", {"size": house_style.NOTE})
     return figure
+
+
+def _is_drawn(row: _Row) -> bool:
+    """Whether a row is drawn: a continuum once, in the panel of the other loss.
+
+    Examples
+    --------
+    >>> _is_drawn({"model": "lumped", "loss": "viscous"})
+    True
+    >>> _is_drawn({"model": "continuum.viscous", "loss": "viscous"})
+    False
+    """
+    model: str = row[draw_trade.MODEL]
+    answers_again = model.startswith(("response of ", "spheres."))
+    return not answers_again and model != f"continuum.{row[LOSS]}"
 
 
 def _lines(rows: Sequence[_Row]) -> list[_Line]:

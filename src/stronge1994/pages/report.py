@@ -9,7 +9,7 @@ import io
 import re
 import traceback
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, TypeAlias
@@ -24,7 +24,7 @@ from stronge1994.drawings import house_style
 from stronge1994.drawings import residuals as draw_residuals
 from stronge1994.judging import verdict_table
 from stronge1994.ledger import outcome
-from stronge1994.pages import ledger_page, templates
+from stronge1994.pages import impact_times, ledger_page, templates
 from stronge1994.plan.config import SCENE
 
 MARKS = {
@@ -98,6 +98,7 @@ def page(
     template: str | Path,
     faults: list[str],
     tried: Salvage,
+    peers: Sequence[Row] = (),
 ) -> str:
     """The report.
 
@@ -124,12 +125,16 @@ def page(
         Why the run does not pass, as `gate.faults_of_tables` says.
     tried : Salvage
         Calls what may fail; its problems so far are shown too.
+    peers : sequence of dict, optional
+        Rows of results/peers.csv, where other codes were measured.
 
     Returns
     -------
     str
     """
     names = {row["entry"] for row in ledger}
+    nothing: Shown = {"rows": [], "absent": []}
+    times = tried("times", nothing, impact_times.section, tables["trade"]["rows"], peers)
     environment = templates.environment(Path(template).parent)
     environment.filters |= {
         "maths": ledger_page.linked_maths(names),
@@ -151,6 +156,7 @@ def page(
         entry_of=_entry_of(names),
         figures=figures,
         tables=tables,
+        times=times,
         sources=sources,
         run=run,
         links=links,
@@ -307,7 +313,8 @@ def write(
     output, problems : str
         The report, and the table of what could not be shown.
     paths : dict
-        `{name: file}` of the tables: `verdicts`, `ledger`, and those of the sections.
+        `{name: file}` of the tables: `verdicts`, `ledger`, those of the sections, and `peers` where
+        other codes were measured.
     residuals, svgs : dict
         `{figure: file}`.
     captions : str
@@ -337,15 +344,25 @@ def write(
 
     figures = {name: tried(title(name), None, section, name) for name in svgs}
     figures = {name: found for name, found in figures.items() if found}
-    sections = [name for name in paths if name not in ("verdicts", "ledger")]
+    sections = [name for name in paths if name not in ("verdicts", "ledger", "peers")]
     tables = {name: tried(name, {"rows": [], "caption": ""}, table, name) for name in sections}
+    peers = tried("peers", [], read, paths["peers"], ("model",)) if "peers" in paths else []
     run = parts.pop("run")
     run = {name: tried(name, missing, function) for name, (missing, function) in run.items()}
     text = tried(
         "report",
         None,
         lambda: page(
-            rows, ledger, figures, tables, config, run=run, faults=faults, tried=tried, **parts
+            rows,
+            ledger,
+            figures,
+            tables,
+            config,
+            run=run,
+            faults=faults,
+            tried=tried,
+            peers=peers,
+            **parts,
         ),
     )
     text = without_details(faults + tried.problems) if text is None else text

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from planarimpact import models
+from planarimpact import models, response
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound
 from stronge1994.curves import trade
@@ -24,6 +24,10 @@ STEPS = (64, 256)
 BATCHES = (1, 1000)
 # Seconds that a batch may take.
 BUDGET = 10.0
+# Of our own continua, solved and compiled: far below the errors of both codes.
+OWN_TOLERANCE = 1e-3
+# The rooms of ours whose models are measured beside the codes, and those that are compiled too.
+ROOMS, COMPILED = ("lumped", "continuum", "spheres"), "continuum"
 # Mass ratio of the solid spheres that LAMMPS throws.
 SOLID_SPHERE = 3.5
 
@@ -59,7 +63,6 @@ class Contender(NamedTuple):
 
 
 class _Reference(NamedTuple):
-    model: str
     velocity: Array
     error: float
 
@@ -73,10 +76,11 @@ def measure(
     tolerance: float,
     lossy_tolerance: float,
 ) -> tuple[dict[str, dict[str, list[Any]]], list[str]]:
-    """Rows of both codes and of models of ours.
+    """Rows of both codes and of models of ours, all in this process and on the same incidences.
 
-    Every velocity is compared with the elastic continuum for e = 1, and with both continua that
-    lose energy for e < 1: one row for each.
+    Ours are those of `ROOMS`, and the compiled responses of the continua. Every velocity is
+    compared with the elastic continuum for e = 1, and with both continua that lose energy for
+    e < 1: one row for each.
 
     Parameters
     ----------
@@ -91,7 +95,8 @@ def measure(
     -------
     dict
         `{name: {column: [one cell]}}` with the columns of `stronge1994.curves.trade.curves` for
-        velocity and time (`build_time` is the set-up of LAMMPS, once a batch), and `installed`;
+        velocity and time (`build_time` is the set-up of LAMMPS, once a batch, or the compilation of
+        a response, once), and `installed`;
         `loss`, that of the continuum compared with: nothing for e = 1, "viscous" or "plastic";
         `refused [1]`, impacts that raised an error and are left out of the errors;
         `time_over_ours [1]`, in the largest batch, over the time-stepped contact (LAMMPS) or the
@@ -109,7 +114,7 @@ def measure(
         for loss, name in (ELASTIC if e == 1 else LOSSES).items():
             error = tolerance if e == 1 else lossy_tolerance
             exact = models.rebound(name, x, mass_ratio, stiffness_ratio, e, tolerance=error)
-            found[loss] = _Reference(name, exact.velocity, error)
+            found[loss] = _Reference(exact.velocity, error)
         return found
 
     rows: dict[str, _Row] = {}
@@ -182,11 +187,47 @@ def _pooltool(
 def _alone(
     x: Array, mass_ratio: float, stiffness_ratio: float, restitution: float
 ) -> Iterator[tuple[Contender, ...]]:
-    """Models of ours below e = 1. The lumped model has its row already if pooltool is installed."""
-    if restitution < 1:
-        for name in ("lumped", "lumped.viscous", "lumped.plastic", *LOSSES.values()):
-            settings = models.get(name).settings
-            yield (_ours(name, mass_ratio, stiffness_ratio, restitution, settings),)
+    """Models of ours. The lumped model has its row already if pooltool is installed."""
+    for name in _own_names(restitution):
+        settings = {"tolerance": OWN_TOLERANCE} if "tolerance" in models.get(name).settings else {}
+        yield (_ours(name, mass_ratio, stiffness_ratio, restitution, settings),)
+        if name.startswith(COMPILED):
+            yield (_compiled(name, mass_ratio, stiffness_ratio, restitution, x[-1]),)
+
+
+def _own_names(restitution: float) -> list[str]:
+    """Models of `ROOMS` that admit a restitution.
+
+    At e = 1 all losses are the same: the model without a loss is taken, or the viscous one.
+    """
+    names = []
+    for name, model in models.MODELS.items():
+        low, high = model.restitution
+        stem, _, loss = name.rpartition(".")
+        double = restitution == 1 and loss in LOSSES
+        double = double and (stem in models.MODELS or loss == "plastic")
+        if name.startswith(ROOMS) and low <= restitution <= high and not double:
+            names.append(name)
+    return names
+
+
+def _compiled(
+    model: str, mass_ratio: float, stiffness_ratio: float, restitution: float, reach: float
+) -> Contender:
+    settings = {"tolerance": OWN_TOLERANCE}
+    groups = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio}
+    start = time.perf_counter()
+    compiled = response.compile(
+        model, incidence_max=reach, restitution=restitution, **groups, **settings
+    )
+    set_up = time.perf_counter() - start
+
+    def solve(x: Array) -> Answer:
+        start = time.perf_counter()
+        velocity = compiled(x).velocity
+        return velocity, time.perf_counter() - start, set_up
+
+    return Contender(f"response of {model}", settings, solve)
 
 
 def _thrown(x: Array, **settings: Any) -> Answer:
@@ -216,10 +257,7 @@ def _rows_of(
     references: Mapping[str, _Reference],
     incidence: Sequence[float],
 ) -> dict[str, _Row]:
-    """Rows of contenders, for each reference; the first contender is ours.
-
-    A reference is no contender against itself.
-    """
+    """Rows of contenders, for each reference; the first contender is ours."""
     rows: dict[str, _Row] = {}
     first = None
     for contender in rivals:
@@ -228,8 +266,6 @@ def _rows_of(
         first = first or _largest(times)
         answered = np.isfinite(velocity)
         for loss, reference in references.items():
-            if contender.model == reference.model:
-                continue
             row = {
                 "model": contender.model,
                 "installed": "yes",

@@ -1,0 +1,176 @@
+"""Time of an impact in other codes and in ours, over the time of our fastest answers."""
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from stronge1994.csv_tables import Row
+
+CODES = {"lammps": "LAMMPS", "pooltool": "pooltool"}
+TIME = re.compile(r"time_(\d+) \[s\]")
+MICROSECONDS = 1e6
+# The answers that the others are compared with: words of the column, and models by loss.
+ANSWERS = {
+    "compiled": {
+        "": "response of continuum",
+        "viscous": "response of continuum.viscous",
+        "plastic": "response of continuum.plastic",
+    },
+    # All losses are the same at e = 1.
+    "spheres": {"": "spheres.viscous", "viscous": "spheres.viscous", "plastic": "spheres.plastic"},
+}
+LAMMPS = "LAMMPS mindlin/force"
+
+
+def section(trade: Sequence[Row], peers: Sequence[Row]) -> dict[str, Any]:
+    """What the report says of times.
+
+    Parameters
+    ----------
+    trade : sequence of dict
+        Rows of results/trade.csv.
+    peers : sequence of dict
+        Rows of results/peers.csv; none where the other codes were not measured.
+
+    Returns
+    -------
+    dict
+        `rows`, as `ratios` gives them, from `peers` where a code was measured, else from `trade`:
+        one table has only times of one process. `absent`, a sentence for each code that the rows
+        lack.
+
+    Examples
+    --------
+    >>> section([], [{"model": "lammps", "installed": "no"}])["absent"]
+    ['LAMMPS is not installed.', 'pooltool was not measured.']
+    """
+    measured = [row for row in peers if row["installed"] == "yes"]
+    absent = {row["model"] for row in peers if row["installed"] == "no"}
+    names = {row["model"].split()[0].lower() for row in measured}
+    words = [
+        f"{label} {'is not installed' if code in absent else 'was not measured'}."
+        for code, label in CODES.items()
+        if code not in names
+    ]
+    return {"rows": ratios(measured or trade), "absent": words}
+
+
+def ratios(rows: Sequence[Row]) -> list[Row]:
+    """Time of an impact by code and model, and how many times that of our fastest answers.
+
+    Times hardly follow e, so there are rows for e = 1 and for the largest e below it. Of a model
+    with several settings the coarsest is taken.
+
+    Parameters
+    ----------
+    rows : sequence of dict
+        Of results/trade.csv or results/peers.csv. Rows without times give no table.
+
+    Returns
+    -------
+    list of dict
+        By restitution and loss, the slowest first: name, setting; largest error of velocity; time
+        of an impact in the largest batch that all of them have solved, and alone, the median of
+        random incidences; over the time of the compiled response, and of the table of spheres if
+        `rows` has it. A ratio is empty where one of its times was taken on a busy machine, and so
+        is a time alone. Then the column `busy [1]` says how many times too long the time in the
+        batch is.
+
+    Examples
+    --------
+    >>> row = {"restitution [1]": "1.0", "loss": "", "max_velocity [mu v2(0)]": "0.2"}
+    >>> row |= {"time_1 [s]": "1e-4"}
+    >>> slow = row | {"model": "continuum", "time_1000 [s]": "6e-4"}
+    >>> fast = row | {"model": "response of continuum", "time_1000 [s]": "2e-7"}
+    >>> [found["times_compiled [1]"] for found in ratios([fast, slow])]
+    ['3e+03', '1']
+    """
+    timed = [row for row in rows if any(row.get(key) for key in filter(TIME.fullmatch, row))]
+    below = max((e for e in map(_restitution, timed) if e < 1), default=1.0)
+    cases: dict[tuple[float, str], list[Row]] = {}
+    for row in timed:
+        if _restitution(row) in (1, below) and _is_shown(row):
+            cases.setdefault((_restitution(row), row["loss"]), []).append(row)
+    groups = [_coarsest(cases[case]) for case in sorted(cases, key=lambda case: -case[0])]
+    busy = any(_busy(row, _batch(group)) for group in groups for row in group)
+    known = {row["model"] for group in groups for row in group}
+    answers = {word: names for word, names in ANSWERS.items() if known & set(names.values())}
+    return [row for group in groups for row in _compared(group, answers, busy)]
+
+
+def _restitution(row: Row) -> float:
+    return float(row["restitution [1]"])
+
+
+def _is_shown(row: Row) -> bool:
+    """Whether a row is a code, the model that pooltool solves, or the continuum of its loss."""
+    model, loss = row["model"], row["loss"]
+    codes = "pooltool", "lumped", LAMMPS, f"{LAMMPS}, viscoelastic, xt = 0"
+    direct = f"continuum.{loss}" if loss else "continuum"
+    return model in (*codes, direct, *(names[loss] for names in ANSWERS.values()))
+
+
+def _coarsest(rows: Sequence[Row]) -> list[Row]:
+    """One row of each model: that of the largest tolerance, or of the fewest steps."""
+
+    def fineness(row: Row) -> tuple[float, float]:
+        tolerance, steps = (row.get(key) for key in ("tolerance [mu v2(0)]", "steps [1]"))
+        return -float(tolerance or 0), float(steps or 0)
+
+    found: dict[str, Row] = {}
+    for row in sorted(rows, key=fineness):
+        found.setdefault(row["model"], row)
+    return list(found.values())
+
+
+def _setting(row: Row) -> str:
+    """Words for the steps or the tolerance of a row.
+
+    Examples
+    --------
+    >>> _setting({"steps [1]": "64"}), _setting({"tolerance [mu v2(0)]": "0.001"}), _setting({})
+    ('64 steps', 'tolerance 0.001', '')
+    """
+    if steps := row.get("steps [1]"):
+        return f"{float(steps):g} steps"
+    tolerance = row.get("tolerance [mu v2(0)]")
+    return f"tolerance {float(tolerance):g}" if tolerance else ""
+
+
+def _batch(rows: Sequence[Row]) -> int:
+    """Largest batch that all rows have solved."""
+    solved = [{int(f[1]) for f in map(TIME.fullmatch, row) if f and row[f[0]]} for row in rows]
+    return max(set.intersection(*solved))
+
+
+def _busy(row: Row, batch: int) -> str:
+    """How many times too long the time in the batch is, "" where the machine was quiet."""
+    return row.get(f"busy_{batch} [1]") or ""
+
+
+def _compared(rows: Sequence[Row], answers: dict[str, dict[str, str]], busy: bool) -> list[Row]:
+    """Lines of the table for one restitution and loss; `answers` as in `ANSWERS`."""
+    batch = _batch(rows)
+    times = {row["model"]: float(row[f"time_{batch} [s]"]) for row in rows}
+    quiet = {row["model"] for row in rows if not _busy(row, batch)}
+    table = []
+    for row in sorted(rows, key=lambda row: -times[row["model"]]):
+        model, time = row["model"], times[row["model"]]
+        alone = "" if _busy(row, 1) else row.get("time_1 [s]", "")
+        error = row.get("max_velocity [mu v2(0)]", "")
+        entry = {
+            "model": model,
+            "setting": _setting(row),
+            "restitution [1]": row["restitution [1]"],
+            "loss": row["loss"],
+            "max_velocity [mu v2(0)]": f"{float(error):.2g}" if error else "",
+            "batch [1]": str(batch),
+            "time [us]": f"{MICROSECONDS * time:.3g}",
+            "time_alone [us]": f"{MICROSECONDS * float(alone):.3g}" if alone else "",
+        }
+        for word, names in answers.items():
+            base = names[row["loss"]]
+            known = {model, base} <= quiet
+            entry[f"times_{word} [1]"] = f"{time / times[base]:.2g}" if known else ""
+        table.append(entry | ({"busy [1]": _busy(row, batch)} if busy else {}))
+    return table
