@@ -58,6 +58,7 @@ def solved(project):
 
 @pytest.mark.slow
 def test_a_failed_table_stops_no_other_and_only_an_edited_one_is_solved_again(fresh, folder):
+    fresh.refuses("scene_parts.tables: not there; allowed is a folder", "scene_parts")
     good = (folder / NAMES[1]).read_text()
     (folder / NAMES[1]).write_text(good.replace("\n0.0", "\n-0.0", 1))
     first = fresh.run(*asked(folder))
@@ -182,13 +183,13 @@ def test_settings_are_refused(settings, words):
         ("in", None, "'in': there is no folder in$"),
         ("in/deep/*.csv", ["a.csv"], "there is no folder in/deep$"),
         ("in/a.csv", ["a.csv"], "there is no folder in/a.csv$"),
-        ("in", [".hidden.csv"], r"no table; allowed are names that end in .csv.gz or .csv$"),
+        ("in", [".hidden.csv"], r"no table; allowed are files that end in .csv.gz or .csv$"),
         ("in/b*", ["a.csv"], r"'in/b\*': no table"),
         ("in", ["a.csv", "notes.txt"], r"notes.txt is no table; .* such as in/\*.csv"),
         ("in/*.csv", ["folder.csv/a.csv"], "folder.csv is no table"),
         ("in", ["a.csv", "b.csv", "b.csv.gz"], "b.csv and b.csv.gz differ only by their endings"),
-        ("in", ["$(date).csv"], r"in/\$\(date\).csv: allowed in the name are letters"),
-        ("in/{1}", ["{1}/a.csv"], r"allowed .* in its folder everything but braces"),
+        ("in", ["$(date).csv"], r"\$\(date\).csv: allowed are letters"),
+        ("in/{1}", ["{1}/a.csv"], "allowed is a folder without braces"),
         ("results/scene_parts/tables", None, "results are written there"),
     ],
 )
@@ -200,14 +201,19 @@ def test_folders_are_refused(tables, files, words, tmp_path, monkeypatch):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.touch()
     with pytest.raises(configuration.ConfigError, match=f"^config: scene_parts.tables = .*{words}"):
-        parts.tables(config(tables=tables))
+        found = config(tables=tables)
+        parts.check(found, parts.tables(found))
 
 
 def test_tables_are_found_by_folder_and_by_pattern(tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path))
-    for name in ("b.csv.gz", "a.CSV", ".hidden"):
+    for name in ("b.csv.gz", "a.CSV", ".hidden", "run[1]/c.csv"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).touch()
-    assert list(parts.tables(config(tables="~"))) == ["a.CSV", "b.csv.gz"]
+    assert list(parts.tables(config(tables=f"{tmp_path}/run[1]"))) == ["c.csv"]
+    found = parts.tables(config(tables="~/*.*"))
+    assert list(found) == ["a.CSV", "b.csv.gz"]
+    parts.check(config(tables="~/*.*"), found)
     assert parts.tables(config(tables="~/b*")) == {"b.csv.gz": str(tmp_path / "b.csv.gz")}
     assert parts.tables(config()) == {}
 

@@ -25,8 +25,10 @@ rule scene:
 
 
 # A scene in many tables, a job for each: `snakemake --cores 2 scene_parts`, not part of `all`.
+PARTS = parts.tables(config)
 try:
-    PARTS = parts.tables(config)
+    if workflow.is_main_process:
+        parts.check(config, PARTS)
     if {"scene_parts", "gather_parts"} & set(sys.argv):
         parts.refuse_unusable(PARTS)
 except ConfigError as error:
@@ -45,26 +47,18 @@ localrules:
     scene_parts,
 
 
-def table_of_part(wildcards):
-    # Its content decides, not its date.
-    return ancient(PARTS[wildcards.part])
-
-
-def content_of_part(wildcards):
-    return parts.content(PARTS[wildcards.part])
-
-
 rule solve_part:
     """Solve one table of a scene in many tables; the tables know nothing of each other."""
     input:
         modules=modules("solve_part"),
-        table=table_of_part,
+        # Its content decides, not its date.
+        table=lambda wildcards: ancient(PARTS[wildcards.part]),
     output:
         table=f"{parts.RESULTS}/tables/{{part}}",
         account=f"{parts.RESULTS}/accounts/{{part}}.json",
     params:
         settings=parts.settings(config),
-        table_content=content_of_part,
+        table_content=lambda wildcards: parts.content(PARTS[wildcards.part]),
     log:
         "results/logs/scene_part_{part}.log",
     benchmark:

@@ -4,7 +4,7 @@ import hashlib
 import json
 import os
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -32,12 +32,24 @@ def tables(config: Config) -> dict[str, str]:
     Parameters
     ----------
     config : dict
-        Its `scene_parts.tables` is a folder, each visible file of which is a table, or a pattern
-        for the names in a folder. `~` is the home of the user.
+        Its `scene_parts.tables` is a folder, each entry of which is a table, or a pattern for the
+        names in a folder. Hidden entries do not count. `~` is the home of the user.
 
     Returns
     -------
     dict
+    """
+    if "tables" not in config["scene_parts"]:
+        return {}
+    folder, pattern = _folder(config)
+    visible = (entry for entry in sorted(folder.glob(pattern)) if entry.name[0] != ".")
+    return {entry.name: str(entry) for entry in visible}
+
+
+def check(config: Config, found: Mapping[str, str]) -> None:
+    """Refuse what `tables` found in a folder if one of it cannot be solved, or if nothing is there.
+
+    Jobs on a cluster look into the folder too, and do not check it: tables may be added meanwhile.
 
     Raises
     ------
@@ -45,43 +57,47 @@ def tables(config: Config) -> dict[str, str]:
         If there is no such folder or no table in it, if a file is none that scenes read or has a
         name that is not allowed, or if two differ only by their endings.
     """
-    named = config["scene_parts"].get("tables")
-    if named is None:
-        return {}
-    where, path = f"config: scene_parts.tables = {named!r}", Path(named).expanduser()
-    pattern = re.search(r"[*?[]", path.name) is not None
-    folder = path.parent if pattern else path
+    if "tables" not in config["scene_parts"]:
+        return
+    (folder, _), where = _folder(config), f"config: scene_parts.tables = {_named(config)!r}"
     if not folder.is_dir():
         raise ConfigError(f"{where}: there is no folder {folder}")
     if folder.resolve().is_relative_to(Path(RESULTS).resolve()):
         raise ConfigError(f"{where}: results are written there; tables need another folder")
-    entries = sorted(folder.glob(path.name if pattern else "[!.]*"))
-    if not entries:
-        raise ConfigError(
-            f"{where}: no table; allowed are names that end in {' or '.join(ENDINGS)}"
-        )
-    found: dict[str, Path] = {}  # by the name without its ending
-    for entry in entries:
-        ending = next((end for end in ENDINGS if entry.name.lower().endswith(end)), "")
-        if not ending or not entry.is_file():
+    if re.search("[{}]", str(folder)):
+        raise ConfigError(f"{where}: allowed is a folder without braces in its name")
+    allowed = f"files that end in {' or '.join(ENDINGS)}"
+    if not found:
+        raise ConfigError(f"{where}: no table; allowed are {allowed}")
+    known: dict[str, str] = {}  # by the name without its ending
+    for name, path in found.items():
+        ending = next((end for end in ENDINGS if name.lower().endswith(end)), "")
+        if not ending or not Path(path).is_file():
             raise ConfigError(
-                f"{where}: {entry.name} is no table; allowed are files that end in "
-                f"{' or '.join(ENDINGS)}; a pattern such as {folder}/*.csv leaves others out"
+                f"{where}: {name} is no table; allowed are {allowed}; a pattern such as "
+                f"{folder}/*.csv leaves others out"
             )
-        if not NAME.fullmatch(entry.name) or re.search("[{}]", str(folder)):
+        if not NAME.fullmatch(name):
+            raise ConfigError(f"{where}: {name}: allowed are letters, digits and _ . = + -")
+        if not os.access(path, os.R_OK):
+            raise ConfigError(f"{where}: {name}: you may not read it")
+        twin = known.setdefault(name[: -len(ending)], name)
+        if twin != name:
             raise ConfigError(
-                f"{where}: {entry}: allowed in the name are letters, digits and _ . = + -, and in "
-                "its folder everything but braces"
+                f"{where}: {twin} and {name} differ only by their endings; allowed is one of them"
             )
-        if not os.access(entry, os.R_OK):
-            raise ConfigError(f"{where}: {entry.name}: you may not read it")
-        twin = found.setdefault(entry.name[: -len(ending)], entry)
-        if twin is not entry:
-            raise ConfigError(
-                f"{where}: {twin.name} and {entry.name} differ only by their endings; allowed is "
-                "one of them"
-            )
-    return {entry.name: str(entry) for entry in entries}
+
+
+def _named(config: Config) -> str:
+    return str(config["scene_parts"]["tables"])
+
+
+def _folder(config: Config) -> tuple[Path, str]:
+    """The folder of the tables, and a pattern for their names."""
+    path = Path(_named(config)).expanduser()
+    if re.search(r"[*?[]", path.name) and not path.is_dir():
+        return path.parent, path.name
+    return path, "*"
 
 
 def refuse_unusable(found: Collection[str]) -> None:
