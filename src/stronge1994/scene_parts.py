@@ -72,29 +72,29 @@ def gather(results: Sequence[str], accounts: Sequence[str], summary: str, bad_ro
     bad_rows : str
         Table, row and problem.
     """
-    names = [Path(result).name for result in results]
-    parts = [json.loads(Path(account).read_text(encoding="utf-8")) for account in accounts]
-    models: Counter[str] = Counter()
-    for part in parts:
-        models.update(part["models"])
-    ordered = [model for model, _ in models.most_common()]
-
-    def line(name: str, rows: int, bad: int, taken: Counter[str], assumed: bool) -> list[str | int]:
-        return [name, rows, bad, *(taken[model] for model in ordered), "yes" if assumed else "no"]
-
+    parts = {
+        Path(result).name: json.loads(Path(account).read_text(encoding="utf-8"))
+        for result, account in zip(results, accounts, strict=True)
+    }
+    total = {
+        "rows": sum(part["rows"] for part in parts.values()),
+        "bad": [[name, *row] for name, part in parts.items() for row in part["bad"]],
+        "models": sum((Counter(part["models"]) for part in parts.values()), Counter()),
+        "assumed": any(part["assumed"] for part in parts.values()),
+    }
+    models = [model for model, _ in total["models"].most_common()]
     lines = [
-        line(name, part["rows"], len(part["bad"]), Counter(part["models"]), part["assumed"])
-        for name, part in zip(names, parts, strict=True)
+        [
+            name,
+            part["rows"],
+            len(part["bad"]),
+            *(part["models"].get(model, 0) for model in models),
+            "yes" if part["assumed"] else "no",
+        ]
+        for name, part in {**parts, ALL: total}.items()
     ]
-    rows, bad = (sum(int(row[column]) for row in lines) for column in (1, 2))
-    lines.append(line(ALL, rows, bad, models, any(part["assumed"] for part in parts)))
-    csv_tables.write_rows(summary, ["table", *COUNTS, *ordered, "loss_assumed"], lines)
-    listed = [
-        [name, row, problem]
-        for name, part in zip(names, parts, strict=True)
-        for row, problem in part["bad"]
-    ]
-    csv_tables.write_rows(bad_rows, ["table", "row", "problem"], listed)
+    csv_tables.write_rows(summary, ["table", *COUNTS, *models, "loss_assumed"], lines)
+    csv_tables.write_rows(bad_rows, ["table", "row", "problem"], total["bad"])
     shutil.rmtree(Path(summary).parent / UNFINISHED, ignore_errors=True)
 
 

@@ -4,6 +4,7 @@ import csv
 import gzip
 import json
 import re
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -87,12 +88,18 @@ def test_a_failed_table_stops_no_other_and_only_an_edited_one_is_solved_again(fr
         "accounts", "bad_rows.csv", "summary.csv", "tables",
     ]  # fmt: skip
 
+    # Without its records Snakemake would not notice that a table is another one.
+    shutil.rmtree(fresh / ".snakemake")
+    third = fresh.run(*asked(folder))
+    assert third.returncode != 0 and "how it was made is not known" in third.stdout
+
 
 @pytest.mark.slow
 def test_the_tables_go_through_slurm(cluster, fresh, folder):
     """A job a table, with the memory that its rule asks for."""
-    quick = ["--slurm-init-seconds-before-status-checks", "1"]
-    code, words = cluster.snakemake(fresh, *quick, *asked(f"{folder}/*.gz"))
+    options = ["--slurm-init-seconds-before-status-checks", "1"]
+    options += ["--set-resources", "solve_part:runtime=120"]
+    code, words = cluster.snakemake(fresh, *asked(f"{folder}/*.gz"), *options)
     assert code == 0, words
     jobs = cluster.says("scontrol", "show", "jobs", "--oneliner").splitlines()
     assert len(jobs) == 2, words

@@ -26,15 +26,6 @@ rule scene:
 
 # A scene in many tables, a job for each: `snakemake --cores 2 scene_parts`, not part of `all`.
 PARTS = parts.tables(config)
-try:
-    if workflow.is_main_process:
-        parts.check(config, PARTS)
-    if {"scene_parts", "gather_parts"} & set(sys.argv):
-        parts.refuse_unusable(PARTS)
-except ConfigError as error:
-    raise refused(error)
-
-
 VALUES["part"] = list(PARTS)
 
 
@@ -112,3 +103,14 @@ rule scene_parts:
         "../envs/planarimpact.yaml"
     script:
         "../scripts/show_parts.py"
+
+
+try:
+    if workflow.is_main_process:
+        parts.check(config, PARTS)
+    if {"scene_parts", "gather_parts"} & set(sys.argv):
+        parts.refuse_unusable(PARTS)
+        made = [*rules.solve_part.output, *rules.gather_parts.output]
+        gate.refuse_unknown_results(expand(made, part=PARTS))
+except (ConfigError, RuntimeError) as error:
+    raise refused(error)
