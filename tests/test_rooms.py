@@ -24,7 +24,7 @@ SOLVER = {
     "models": "ground normal_impact rigid lumped continuum",
     "response": "ground models",
     "study": "ground",
-    "scene": "ground bodies rigid lumped continuum models response pandas",
+    "scene": "ground bodies rigid lumped continuum models response spheres pandas",
     "__init__": "ground",
     "__main__": "planarimpact ground bodies lumped continuum models response scene",
 }
