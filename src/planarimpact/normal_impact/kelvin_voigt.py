@@ -68,10 +68,12 @@ def relaxation_time(restitution: Array) -> Array:
     Parameters
     ----------
     restitution : ndarray, shape (m,)
+        From `normal_impact.LEAST_RESTITUTION` to 1.
 
     Returns
     -------
     ndarray, shape (m,)
+        The function `restitution` makes of it what was wanted, to 1e-11.
 
     Examples
     --------
