@@ -474,7 +474,10 @@ def test_equal_pairs_are_one_whatever_rounding_makes_of_them(no_table):
 
 
 def test_pairs_are_told_apart_by_every_group(monkeypatch, no_table):
-    """Also where they share all but one, are many, and are compiled."""
+    """Also where they share all but one, are many, and are compiled.
+
+    The answers of two kinds differ by 0.027 at least.
+    """
     for loss in columns.LOSSES:
         monkeypatch.setitem(choice.COST, (f"continuum.{loss}", "compiled"), (0.0, 0.0))
     first = (0.006, 0.1, 0.8, "viscous")  # compiling takes long for a smaller gyration
@@ -489,13 +492,13 @@ def test_pairs_are_told_apart_by_every_group(monkeypatch, no_table):
         ],
         ignore_index=True,
     )
-    after = scene.solve(rows)
+    after = scene.solve(rows, tolerance=1e-2)
     for number, (gyration, nu, e, loss) in enumerate(kinds):
         groups = 1 + (0.01 / gyration) ** 2, bodies.stiffness_ratio(bodies.Material(1.0, nu)), e
         w = continuum.rebound(1.3 / 0.6, *groups, loss=loss, tolerance=1e-4).velocity
         part = after.iloc[100 * number : 100 * number + 100]
         contact = part["velocity_tangential_after [m/s]"] + 0.01 * part["spin_after [rad/s]"]
-        np.testing.assert_allclose(contact / 0.6, w, atol=1e-3)
+        np.testing.assert_allclose(contact / 0.6, w, rtol=0, atol=0.0101)
         assert set(part["model"]) == {f"continuum.{loss}"}
 
 
