@@ -25,7 +25,7 @@ SOLVER = {
     "response": "ground models",
     "export": "planarimpact ground response",
     "study": "ground",
-    "scene": "ground bodies rigid lumped continuum models response pandas",
+    "scene": "ground bodies rigid lumped continuum models response spheres pandas",
     "__init__": "ground",
     "__main__": "planarimpact ground bodies lumped continuum models response export scene",
 }

@@ -327,8 +327,7 @@ def peak_force(
     e, v2, m2, modulus, radius = _known(
         restitution, speed, mass, effective_modulus, effective_radius
     )
-    distinct, which = np.unique(e, return_inverse=True)  # of many impacts most have the same few
-    factor = np.where(distinct < 1, law.largest_force(distinct), 1.0)[which].reshape(e.shape)
+    factor = np.where(e < 1, law.largest_force(e), 1.0)
     return in_range("peak force", factor * hertz_peak_force(m2, v2, modulus, radius))[()]
 
 

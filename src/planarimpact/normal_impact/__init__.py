@@ -18,6 +18,5 @@ __all__ = ["LAWS", "LEAST_RESTITUTION", "hertz", "kelvin_voigt", "thornton"]
 
 # By what takes the energy below e = 1.
 LAWS = {"viscous": kelvin_voigt, "plastic": thornton}
-# The inverses and forces of both laws hold from here. The table of relaxation times ends at
-# e = 0.0216, and the yield velocity, found to 1e-18, is 3e-7 of the velocity here.
+# The inverses and forces of both laws hold from here. The viscous tables end at e = 0.0216.
 LEAST_RESTITUTION = 0.022

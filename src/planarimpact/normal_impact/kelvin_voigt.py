@@ -32,8 +32,7 @@ __all__ = ["largest_force", "relaxation_time", "restitution"]
 STEPS = 512
 # Largest relaxation time of the tables. Restitution is 0.0216 there.
 SLOWEST = 8.0
-# Degree of restitution and of the largest force as polynomials in the root of tau. Restitution is
-# right to 1e-10, the force to 1e-6 of Hertz's.
+# Degree of the tables. Restitution is right to 1e-10, the force to 1e-6 of Hertz's.
 DEGREE = 48
 # Newton's method doubles the digits. It starts with two of them or more.
 NEWTON = 8
@@ -69,21 +68,19 @@ def relaxation_time(restitution: Array) -> Array:
     Parameters
     ----------
     restitution : ndarray, shape (m,)
+        From `normal_impact.LEAST_RESTITUTION` to 1.
 
     Returns
     -------
     ndarray, shape (m,)
+        The function `restitution` makes of it what was wanted, to 1e-11.
 
     Examples
     --------
     >>> relaxation_time(np.array([0.8])).round(6)
     array([0.123491])
     """
-    table = _restitutions()
-    slope = table.deriv()
-    root = np.sqrt((1 - restitution) / (2 * restitution))
-    for _ in range(NEWTON):
-        root = np.clip(root - (table(root) - restitution) / slope(root), 1e-12, np.sqrt(SLOWEST))
+    root = _roots()(_loss(restitution))
     return root * root
 
 
@@ -106,24 +103,50 @@ def largest_force(restitution: Array) -> Array:
     >>> largest_force(np.array([1.0, 0.8, 0.5, 0.1])).round(3)
     array([1.   , 0.887, 0.773, 1.339])
     """
-    found = _largest_forces()(np.sqrt(relaxation_time(restitution)))
-    return np.where(restitution < 1, found, 1.0)
+    return np.where(restitution < 1, _largest_forces()(_loss(restitution)), 1.0)
+
+
+def _loss(restitution: Array) -> Array:
+    """Root of -log(e), of which the root of the relaxation time is a smooth function."""
+    return np.sqrt(-np.log(restitution))
 
 
 @cache
 def _restitutions() -> Chebyshev:
     """Restitution against the root of the relaxation time."""
-    return _tabulated(lambda tau: -_both(tau)[1].last[1])
+
+    def solved(root: Array) -> Array:
+        return -_both(root * root)[1].last[1]
+
+    return Chebyshev.interpolate(solved, DEGREE, [0.0, np.sqrt(SLOWEST)])
+
+
+@cache
+def _roots() -> Chebyshev:
+    """Root of the relaxation time against `_loss`."""
+    table = _restitutions()
+    slope = table.deriv()
+
+    def solved(loss: Array) -> Array:
+        e = np.exp(-loss * loss)
+        root = np.sqrt((1 - e) / (2 * e))
+        for _ in range(NEWTON):
+            root = np.clip(root - (table(root) - e) / slope(root), 0.0, np.sqrt(SLOWEST))
+        return root
+
+    return Chebyshev.interpolate(solved, DEGREE, [0.0, _loss(table(np.sqrt(SLOWEST)))])
 
 
 @cache
 def _largest_forces() -> Chebyshev:
-    """Largest force over Hertz's, against the root of the relaxation time."""
-    return _tabulated(lambda tau: at_largest_force(_both(tau)[0], tau)[0] / hertz.LARGEST_FORCE)
+    """Largest force over Hertz's, against `_loss`."""
+    roots = _roots()
 
+    def solved(loss: Array) -> Array:
+        tau = roots(loss) ** 2
+        return at_largest_force(_both(tau)[0], tau)[0] / hertz.LARGEST_FORCE
 
-def _tabulated(values: Callable[[Array], Array]) -> Chebyshev:
-    return Chebyshev.interpolate(lambda y: values(y * y), DEGREE, [0.0, np.sqrt(SLOWEST)])
+    return Chebyshev.interpolate(solved, DEGREE, roots.domain)
 
 
 @lru_cache(maxsize=16)

@@ -1,21 +1,25 @@
 """The model for the impacts of a pair, and the way to its answer: the cheapest that is good enough.
 
-A model together with a way (solved, compiled, by formula) is a rung. The reference is
+A model together with a way (by formula, by table, solved, compiled) is a rung. The reference is
 `planarimpact.models.reference`: the continuum, elastic or with the loss of the pair. An error is
-the larger one of velocity (mu v2(0)) and peak friction (mu F2max). For e = 1 `gaps` has the
-measured errors of the cheaper models. For e < 1 they are not tried: a compiled continuum is as
-fast, and for a solid sphere at e = 0.8 the lumped model of the same loss is up to 0.2 (viscous) and
-0.5 (plastic) off.
+the larger one of velocity (mu v2(0)) and peak friction (mu F2max).
+
+`spheres` has a table of all three continua. It is taken wherever it holds and is fine enough, for
+impacts of any number of pairs at once: no model is both cheaper and as good.
+
+Other impacts are sorted by pair. For e = 1 `gaps` has the measured errors of the cheaper models.
+For e < 1 they are not tried: a compiled continuum is as fast, and for a solid sphere at e = 0.8 the
+lumped model of the same loss is up to 0.2 (viscous) and 0.5 (plastic) off.
 """
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 import pandas as pd
 
-from planarimpact import continuum, lumped, models, response, rigid
+from planarimpact import continuum, lumped, models, response, rigid, spheres
 from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers, Numbers
 from planarimpact.ground.results import Rebound
@@ -65,7 +69,7 @@ Responses: TypeAlias = dict[tuple[str, float, float, float], Response]
 class Rung(NamedTuple):
     """A model, the way to its answer, its error against the reference, and why it was taken.
 
-    `way` is "formula", "solved" or "compiled"; what that adds to the error, `solve` tells.
+    `way` is "formula", "table", "solved" or "compiled"; what that adds to the error, `solve` tells.
     """
 
     model: str
@@ -90,11 +94,13 @@ class Job(NamedTuple):
 
 
 REFERENCE = "errors are measured against it"
+TABLE = f"the table of spheres differs by {spheres.ERROR_BOUND:.2g} at most, as measured"
 # Of elastic, viscous and plastic pairs.
 REFERENCES = ("continuum", *(f"continuum.{loss}" for loss in continuum.LOSSES))
 MODELS = ("rigid", "lumped", *REFERENCES)
 SLIDING = Rung("slip throughout", "formula", 0.0, "Coulomb's line, as in every compliant model")
 HEAD_ON = Rung("head-on", "formula", 0.0, "no tangential motion, the same in every model")
+HELD = "all pairs in its range"
 
 
 def jobs(
@@ -107,7 +113,7 @@ def jobs(
     responses: Responses,
     seen: Counter[tuple[str, tuple[float, ...]]],
 ) -> list[Job]:
-    """Divide impacts that do not slide throughout among the rungs, pair by pair.
+    """Divide impacts that do not slide throughout among the rungs.
 
     Parameters
     ----------
@@ -126,11 +132,46 @@ def jobs(
     -------
     list of Job
     """
-    groups = np.stack([mass_ratio, stiffness_ratio, restitution])[:, rows]
+    groups = np.stack([group[rows] for group in (mass_ratio, stiffness_ratio, restitution)])
+    kinds = np.where(groups[2] == 1, 0, np.where(plastic[rows], 2, 1))
+    fine = MOST * tolerance >= spheres.ERROR_BOUND
+    tabled = spheres.covers(*groups) if fine else np.zeros(rows.size, dtype=bool)
+    chosen = [
+        (np.flatnonzero(tabled & (kinds == kind)), Rung(name, "table", spheres.ERROR_BOUND, TABLE))
+        for kind, name in enumerate(REFERENCES)
+    ]
+    found = _each(chosen, groups, rows, HELD)
+    left = np.flatnonzero(~tabled)
+    return found + _pair_by_pair(
+        groups[:, left], kinds[left], rows[left], tolerance, responses, seen
+    )
+
+
+def _each(
+    chosen: Iterable[tuple[Integers, Rung]], groups: Array, rows: Integers, pair: str
+) -> list[Job]:
+    """A job for each rung that has impacts."""
+    return [
+        Job(rung, rows[some], tuple(groups[:, some]), pair, False)
+        for some, rung in chosen
+        if some.size
+    ]
+
+
+def _pair_by_pair(
+    groups: Array,
+    kinds: Integers,
+    rows: Integers,
+    tolerance: float,
+    responses: Responses,
+    seen: Counter[tuple[str, tuple[float, ...]]],
+) -> list[Job]:
+    """Jobs for impacts that the table does not hold: one for each pair of many."""
+    if not rows.size:
+        return []
     rounded = _rounded(groups)
     # Only e = 1 is elastic, so no other e may be rounded to it.
     rounded[2] = np.where(groups[2] < 1, np.minimum(rounded[2], BELOW_ONE), rounded[2])
-    kinds = np.where(groups[2] == 1, 0, np.where(plastic[rows], 2, 1))
     code = kinds.astype(np.int64)
     for group in rounded:
         own, values = pd.factorize(group)
@@ -138,7 +179,7 @@ def jobs(
     order = np.argsort(code, kind="stable")
     counts = np.bincount(code)
     found, few = [], []
-    for member in np.split(order, np.cumsum(counts)[:-1]) if rows.size else []:
+    for member in np.split(order, np.cumsum(counts)[:-1]):
         if member.size < FEW:
             few.append(member)
             continue
@@ -168,15 +209,12 @@ def _together(
     gap = gaps.elastic("lumped", *groups[:2, members])
     coarse = elastic & (gap <= MOST * tolerance)
     largest = float(np.max(gap[coarse], initial=0.0))
-    chosen = [(coarse, Rung("lumped", "solved", largest, "differs by less than allowed"))]
+    cheaper = Rung("lumped", "solved", largest, "differs by less than allowed")
+    chosen = [(members[coarse], cheaper)]
     for kind, reference in enumerate(REFERENCES):
         same = (kinds[members] == kind) & ~coarse
-        chosen.append((same, Rung(reference, "solved", 0.0, REFERENCE)))
-    return [
-        Job(rung, rows[some], tuple(groups[:, some]), FEW_OF_EACH, False)
-        for some, rung in ((members[of], rung) for of, rung in chosen)
-        if some.size
-    ]
+        chosen.append((members[same], Rung(reference, "solved", 0.0, REFERENCE)))
+    return _each(chosen, groups, rows, FEW_OF_EACH)
 
 
 def rung(
@@ -188,7 +226,7 @@ def rung(
     reference: str = "continuum",
     responses: Responses | None = None,
 ) -> Rung:
-    """The cheapest rung for impacts of one pair that do not slide throughout.
+    """The cheapest rung for impacts of one pair outside the table that do not slide throughout.
 
     Parameters
     ----------
@@ -273,6 +311,10 @@ def solve(
             responses[key] = _compiled(*key, tolerance)
         error = rung.error + max(responses[key].error_bound) + EXACT * mass_ratio
         return responses[key](incidence), error
+    if rung.way == "table":
+        loss = rung.model.partition(".")[2] or "viscous"  # at e = 1 they agree
+        found = spheres.rebound(incidence, *groups, loss=loss)
+        return found, rung.error + EXACT * np.asarray(mass_ratio)
     if rung.model in REFERENCES:
         return models.rebound(rung.model, incidence, *groups, tolerance=tolerance), tolerance
     model = {"lumped": lumped, "rigid": rigid}[rung.model]

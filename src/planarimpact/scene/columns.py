@@ -251,7 +251,8 @@ def _checked(series: pd.Series, column: Column) -> tuple[Array, Booleans]:
 def _losses(series: pd.Series) -> tuple[Array, Booleans]:
     """Position in `LOSSES` of the word in each cell, and which are no such words."""
     known = {word: position for position, word in enumerate(LOSSES)}
-    values = np.array([known.get(str(cell).strip(), -1) for cell in series], dtype=float)
+    cells = series.to_numpy(dtype=object)  # pandas' own loop over words takes ten times as long
+    values = np.array([known.get(str(cell).strip(), -1) for cell in cells], dtype=float)
     return values, values < 0
 
 

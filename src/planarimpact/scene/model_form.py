@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from planarimpact import models
+from planarimpact import continuum, models, spheres
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Integers
 from planarimpact.scene.choice import REFERENCES, Job, without_unsolved
@@ -79,8 +79,10 @@ def difference(job: Job, incidence: Array, velocity: Array, known: Curves) -> Ar
     """
     if job.rung.model not in REFERENCES[1:]:
         return np.zeros(incidence.size)
-    viscous, plastic = REFERENCES[1:]
-    other = plastic if job.rung.model == viscous else viscous
+    (loss,) = set(continuum.LOSSES) - {job.rung.model.partition(".")[2]}
+    if job.rung.way == "table":
+        return spheres.rebound(incidence, *job.groups, loss=loss).velocity - velocity
+    other = f"continuum.{loss}"
     if not job.alike:
         return _velocity(other, incidence, *map(np.asarray, job.groups)) - velocity
     pair = [float(np.reshape(group, -1)[0]) for group in job.groups]
