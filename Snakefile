@@ -25,6 +25,7 @@ localrules:
     notebooks,
     study,
     peers,
+    sphere_tables,
     series,
     draw,
     compare,
@@ -80,6 +81,12 @@ rule peers:
         expand("figures/{figure}.{kind}", figure=["trade_with_peers", "peers"], kind=["svg", "png"]),
 
 
+rule sphere_tables:
+    """The tables of spheres that the package brings along, made anew."""
+    input:
+        expand("results/spheres/{table}.npz", table=["fine", "coarse"]),
+
+
 include: "workflow/rules/curves.smk"
 include: "workflow/rules/reference.smk"
 include: "workflow/rules/drawing.smk"
@@ -94,6 +101,7 @@ include: "workflow/rules/explorer.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/judging.smk"
 include: "workflow/rules/peers.smk"
+include: "workflow/rules/spheres.smk"
 
 
 rule all:

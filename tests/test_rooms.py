@@ -21,7 +21,8 @@ SOLVER = {
     "continuum": "ground normal_impact",
     "bodies": "ground normal_impact",
     "noncollinear": "ground bodies",
-    "models": "ground normal_impact rigid lumped continuum",
+    "spheres": "ground normal_impact continuum",
+    "models": "ground normal_impact rigid lumped continuum spheres",
     "response": "ground models",
     "export": "planarimpact ground response",
     "study": "ground",
@@ -39,6 +40,7 @@ REPRODUCTION = {
     "curve_names": "",
     "goodness": "ground",
     "reference_data": "csv_tables",
+    "scene_parts": "scene csv_tables",
     "study_files": "planarimpact ground models study csv_tables",
     "printed": "ground lumped",
     "curves": "planarimpact ground bodies rigid lumped continuum noncollinear models response scene"
@@ -57,6 +59,7 @@ ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and
 # of the reproduction has a door of its own.
 SIDE_DOORS = {
+    "continuum.inelastic",  # single steps, from which the table of spheres is made
     "continuum.annuli",  # the second method, a check of the first
     "normal_impact.hertz",
     "normal_impact.kelvin_voigt",

@@ -1,5 +1,6 @@
 from planarimpact import bodies as bodies
 from planarimpact import continuum as continuum
+from planarimpact import export as export
 from planarimpact import lumped as lumped
 from planarimpact import models as models
 from planarimpact import noncollinear as noncollinear
@@ -7,6 +8,7 @@ from planarimpact import normal_impact as normal_impact
 from planarimpact import response as response
 from planarimpact import rigid as rigid
 from planarimpact import scene as scene
+from planarimpact import spheres as spheres
 from planarimpact import study as study
 from planarimpact.ground.checks import ConvergenceError as ConvergenceError
 from planarimpact.ground.checks import InputError as InputError

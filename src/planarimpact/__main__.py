@@ -317,9 +317,8 @@ def _distances(options: argparse.Namespace) -> dict[str, ArrayLike]:
     columns: dict[str, list[float]] = {f"{word} [mu v2(0)]": [] for word in ("rms", "max")}
     columns["seen [1]"] = []
     for model in models.MODELS.values():
-        low, high = model.restitution
         error = np.full(x.size, np.nan)
-        if low <= groups["restitution"] <= high:
+        if models.admits(model, **groups):
             error = np.abs(model.rebound(x, **groups).velocity - exact)
         seen = np.mean(error > spread) if np.isfinite(error).all() else np.nan
         numbers = np.sqrt(np.mean(error**2)), np.max(error), seen

@@ -25,7 +25,8 @@ def fingerprint(path: str | Path) -> str:
         files = [file for file in Path(path).rglob("*") if file.is_file()]
         # Snakemake puts a file of its own into a folder that a job has made.
         return fingerprint_of_all(str(file) for file in files if file.name[0] != ".")
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def fingerprint_of_all(paths: Iterable[str]) -> str:

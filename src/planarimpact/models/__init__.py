@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact import continuum, lumped, rigid
+from planarimpact import continuum, lumped, rigid, spheres
 from planarimpact.continuum import annuli
 from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, ArrayLike
@@ -37,8 +37,8 @@ class Model(NamedTuple):
     settings : dict
         Its own settings and their defaults. Its accuracy and cost depend on them.
     cost : str
-        Class of cost: "formula", "phases" (a few phases in closed form), "steps", "steps and
-        springs", or "steps and circles". The last three grow with the settings.
+        Class of cost: "formula", "table", "phases" (a few phases in closed form), "steps", "steps
+        and springs", or "steps and circles". The last three grow with the settings.
     restitution : (float, float)
         Range of restitution that it admits.
     valid : str
@@ -90,7 +90,7 @@ def get(name: str) -> Model:
     ...
     planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, lumped, \
 lumped.plastic, lumped.viscous, timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, \
-continuum, continuum.viscous, continuum.plastic, annuli
+continuum, continuum.viscous, continuum.plastic, spheres.viscous, spheres.plastic, annuli
     """
     if not isinstance(name, str) or name not in MODELS:
         raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
@@ -207,6 +207,19 @@ def input_spread(
         moved = velocity(1 + of_mu * mu_error, float(np.clip(e + of_e * e_error, low, 1.0)))
         squares += share * weight * (moved - middle) ** 2
     return np.sqrt(squares)
+
+
+def admits(model: Model, mass_ratio: float, stiffness_ratio: float, restitution: float) -> bool:
+    """Whether a model has an answer for these groups.
+
+    Examples
+    --------
+    >>> [admits(get(name), 3.5, 5.0, 0.5) for name in ("lumped", "continuum", "spheres.plastic")]
+    [True, False, False]
+    """
+    low, high = model.restitution
+    covered = model.cost != "table" or spheres.covers(mass_ratio, stiffness_ratio, restitution)
+    return low <= restitution <= high and bool(covered)
 
 
 def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
@@ -419,6 +432,21 @@ MODELS = {
             "C. Thornton, J. Appl. Mech. 64 (1997) 383-386",
             _alike_limit,
             _alike_kinks,
+        ),
+        *(
+            Model(
+                f"spheres.{loss}",
+                partial(spheres.rebound, loss=loss),
+                {},
+                "table",
+                (spheres.LEAST_RESTITUTION, 1.0),
+                f"continuum.{loss} from a table; m2/m1 over zeta^2 from "
+                f"{spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
+                "solved by this package, planarimpact.spheres.making",
+                _alike_limit,
+                _alike_kinks,
+            )
+            for loss in spheres.LOSSES
         ),
         Model(
             "annuli",

@@ -22,8 +22,6 @@ __all__ = ["largest_force", "restitution", "yield_velocity"]
 _AT_YIELD, _ADDED, _LARGEST = 1 / np.sqrt(5), 2 / np.sqrt(5), 1 / 4.32
 # Newton's method doubles the digits. It starts with an error of 0.005 in e.
 NEWTON = 4
-# Halvings to the last bit of a number, for `continuum`.
-BISECTIONS = 60
 
 
 class Compression(NamedTuple):

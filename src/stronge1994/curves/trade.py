@@ -155,9 +155,10 @@ def _contenders(
     elastic = groups["restitution"] == 1
     compiled = [("lumped", LUMPED_RESPONSE_TOLERANCE)] if elastic else []
     for model in models.MODELS.values():
-        low, high = model.restitution
+        if not models.admits(model, **groups):
+            continue
         # For e = 1 a model with a loss is the same as the model without.
-        if not low <= groups["restitution"] <= high or (elastic and _loss(model.name)):
+        if elastic and _loss(model.name) and model.name.partition(".")[0] in models.MODELS:
             continue
         for settings in _variants(model, tried):
             yield _Contender(model.name, settings, _solver(model, groups, settings))

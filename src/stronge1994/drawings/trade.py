@@ -78,6 +78,8 @@ FAMILIES = {
     "continuum": Family("continuum", "o", 5, house_style.GREEN, False, LEFT),
     "continuum.viscous": Family("continuum, viscous", "o", 5, house_style.BLUE, False, LEFT),
     "continuum.plastic": Family("continuum, plastic", "o", 5, house_style.VERMILLION, False, LEFT),
+    "spheres.viscous": Family("table, viscous", "X", 5.5, house_style.BLUE, True, RIGHT),
+    "spheres.plastic": Family("table, plastic", "X", 5.5, house_style.VERMILLION, False, RIGHT),
     "annuli": Family("annuli", "h", 5.5, house_style.BLUE, True, RIGHT),
     "response of lumped": Family("lumped", "*", 7, house_style.BLACK, False, UPPER_RIGHT),
     "response of continuum": Family("continuum", "*", 7, house_style.GREEN, True, UPPER_RIGHT),
@@ -106,6 +108,7 @@ LEGEND = {
         "continuum.viscous",
         "continuum.plastic",
     ),
+    "from a table": ("spheres.viscous", "spheres.plastic"),
 }
 NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
 NAMES |= {"pooltool": "pooltool"}

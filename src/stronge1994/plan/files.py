@@ -57,7 +57,7 @@ def present(*files: str) -> str | list[str]:
 
 
 def modules(*names: str, cells: str = "") -> list[str]:
-    """Files of some modules, and of all that they import of this repository.
+    """Files of some modules, and of all that they import of this repository, tables beside them too.
 
     They are inputs of the rules, so that an edit reruns what it must and nothing more.
 
@@ -83,6 +83,7 @@ def modules(*names: str, cells: str = "") -> list[str]:
     if cells:
         finder.scan_code(compile(cells, "cells", "exec"), finder.add_module("cells"))
     found |= {getattr(module, "__file__", None) or "" for module in finder.modules.values()} - {""}
+    found |= {str(table) for file in found for table in Path(file).parent.glob("*.npz")}
     return sorted(os.path.relpath(file, SRC.parent) for file in found)
 
 

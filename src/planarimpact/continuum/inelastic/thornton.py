@@ -18,6 +18,8 @@ from planarimpact.normal_impact import thornton as law
 
 # Places where the start of stick in plastic compression is sought before it is homed in.
 PLACES = 33
+# Halvings to the last bit of a number.
+BISECTIONS = 60
 
 
 class Thornton(NormalMotion):
@@ -106,7 +108,7 @@ class Thornton(NormalMotion):
         row = np.maximum(np.argmax(lead(places) <= 0, axis=0), 1)
         column = np.arange(x.size)
         high, low = places[row - 1, column], places[row, column]
-        for _ in range(law.BISECTIONS):
+        for _ in range(BISECTIONS):
             middle = (low + high) / 2
             ahead = lead(middle) > 0
             low, high = np.where(ahead, low, middle), np.where(ahead, middle, high)

@@ -1,0 +1,155 @@
+"""The continuum of spheres from a table: every impact its own pair, at the cost of a formula.
+
+The table holds the rebound of elastic, viscous and plastic spheres, as `planarimpact.continuum`
+solves it, for every incidence, restitution from 0.3 to 1, and mass over stiffness ratio from 1.5625
+to 3.5. Solid spheres (mass ratio 3.5) and thin shells (2.5) of Poisson's ratio up to 3/8 (stiffness
+ratio 1 to 1.6) are among them, and so is whatever lies between, such as discs (3). There is nothing
+to compile and nothing is remembered. `thresholds` and `making` made it, `table` evaluates it.
+"""
+
+import numpy as np
+
+from planarimpact.ground import checks, sliding
+from planarimpact.ground.arrays import Array, ArrayLike, Booleans
+from planarimpact.ground.results import Rebound, Regime
+from planarimpact.spheres import table
+
+LOSSES = "viscous", "plastic"
+# Largest difference from the continuum, of velocity (mu v2(0)) and peak friction (mu F2max), as
+# found by tests/reference/test_spheres_reference.py; the dissipation (mu^2 m2 v2(0)^2) keeps it too.
+ERROR_BOUND = 1e-4
+LEAST_RESTITUTION = 0.3
+# Bounds of mass ratio over stiffness ratio.
+LEAST_RATIO, LARGEST_RATIO = 1.5625, 3.5
+# The bounds are admitted although rounding puts a ratio a little beyond.
+ROUNDING = 1e-9
+# Impacts evaluated together: they stay in the cache.
+CHUNK = 16384
+
+
+def covers(mass_ratio: ArrayLike, stiffness_ratio: ArrayLike, restitution: ArrayLike) -> Booleans:
+    """Whether the table has an answer for these groups, at every incidence; they broadcast.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio, restitution : array_like
+        As in `planarimpact.lumped.rebound`.
+
+    Returns
+    -------
+    ndarray of bool or bool
+
+    Examples
+    --------
+    >>> covers(3.5, [1.0, 1.21, 2.5], 0.8).tolist()
+    [True, True, False]
+    """
+    ratio, e = np.asarray(mass_ratio) / np.asarray(stiffness_ratio), np.asarray(restitution)
+    low, high = LEAST_RATIO * (1 - ROUNDING), LARGEST_RATIO * (1 + ROUNDING)
+    return (ratio >= low) & (ratio <= high) & (e >= LEAST_RESTITUTION) & (e <= 1)
+
+
+@checks.default_errors
+def rebound(
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+    *,
+    loss: str | ArrayLike = "viscous",
+) -> Rebound:
+    """State at separation; all arguments broadcast, the loss too.
+
+    Parameters
+    ----------
+    incidence, mass_ratio, stiffness_ratio, restitution : array_like
+        As in `planarimpact.lumped.rebound`, with groups that `covers` admits.
+    loss : str or array_like of str
+        What takes the energy where e < 1, as in `planarimpact.continuum`: "viscous" or "plastic".
+        At e = 1 it has no effect beyond `ERROR_BOUND`.
+
+    Returns
+    -------
+    Rebound
+        The same fields and units as `planarimpact.continuum.rebound`, within `ERROR_BOUND` of it,
+        but no reversals. The regime may differ next to a threshold: impacts that slide as a whole
+        twice are called MULTIPLE only if they stick at first.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a finite real number in its range, the table does not cover it, the
+        loss is no such word, or shapes do not broadcast.
+
+    Examples
+    --------
+    >>> impacts = [0.5, 2.0, 8.0], 3.5, 17 / 14, [1.0, 0.8, 0.6]
+    >>> rebound(*impacts, loss=["viscous", "plastic", "plastic"]).velocity.round(3).tolist()
+    [0.061, -0.42, 2.4]
+    >>> rebound(2.0, restitution=0.2)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: restitution = 0.2: allowed are numbers from 0.3 to 1, as the table has them
+    """
+    groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
+    plastic = _is_plastic(loss)
+    try:
+        signed, beta, zeta2, e, plastic = np.broadcast_arrays(*groups, plastic)
+    except ValueError:
+        words = f"shapes do not broadcast: groups {groups[0].shape}, loss {plastic.shape}"
+        raise checks.InputError(words) from None
+    _refuse_uncovered(beta, zeta2, e)
+    columns = [a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, plastic)]
+    velocity, peak, work = np.empty((3, signed.size))
+    regime = np.empty(signed.size, dtype=np.uint8)
+    for start in range(0, signed.size, CHUNK):
+        part = slice(start, start + CHUNK)
+        found = _rebound(*(column[part] for column in columns))
+        velocity[part], peak[part], work[part], regime[part] = found
+    return Rebound.shaped(signed, velocity, peak, work, regime)
+
+
+def _is_plastic(loss: str | ArrayLike) -> Booleans:
+    words = np.asarray(loss)
+    plastic = words == LOSSES[1]
+    known = plastic | (words == LOSSES[0])
+    if not np.all(known):
+        first = words[~known].flat[0] if words.ndim else loss
+        checks.loss(first, LOSSES)
+    return np.asarray(plastic)
+
+
+def _refuse_uncovered(beta: Array, zeta2: Array, e: Array) -> None:
+    if covers(beta, zeta2, e).all():
+        return
+    allowed = f"numbers from {LEAST_RESTITUTION} to 1, as the table has them"
+    checks.checked("restitution", e, allowed, LEAST_RESTITUTION, 1)
+    bad = ~covers(beta, zeta2, 1.0)
+    raise checks.InputError(
+        f"mass_ratio/stiffness_ratio = {beta[bad].flat[0]:g}/{zeta2[bad].flat[0]:g}: allowed are "
+        f"ratios from {LEAST_RATIO} to {LARGEST_RATIO}, as the table has them"
+    )
+
+
+def _rebound(
+    x: Array, beta: Array, zeta2: Array, e: Array, plastic: Booleans
+) -> tuple[Array, Array, Array, Array]:
+    """Velocity, peak friction, work of friction and regime of impacts with x >= 0."""
+    slides = x >= sliding.limit_alike(beta, zeta2, e)
+    velocity = sliding.velocity(x, beta, e)
+    peak = np.ones(x.size)
+    work = np.where(plastic, sliding.work(x, beta, e), sliding.viscous_work(x, beta, zeta2, e))
+    regime = np.full(x.size, Regime.SLIP_THROUGHOUT, dtype=np.uint8)
+    rest = np.flatnonzero(~slides)
+    x, beta, zeta2, e, plastic = (a[rest] for a in (x, beta, zeta2, e, plastic))
+    y = x / zeta2
+    found = table.evaluate(table.shipped(), y, beta / zeta2, e, plastic)
+    # The exact values have these bounds.
+    w = np.clip(zeta2 * found.velocity, -x, x)
+    velocity[rest], peak[rest] = w, np.clip(found.peak, 0.0, 1.0)
+    balance = (x - w) * (x + w) / (2 * beta)  # of energy, where the springs are empty at the end
+    work[rest] = np.where(plastic, balance, np.maximum(zeta2 * found.work, 0.0))
+    started = np.where(y > 1, Regime.SLIP_STICK_SLIP, Regime.STICK_SLIP)
+    regime[rest] = np.where(found.multiple, Regime.MULTIPLE, started)
+    regime[rest[x == 0]] = Regime.STICK
+    return velocity, peak, work, regime

@@ -1,0 +1,9 @@
+"""Make a table of spheres."""
+
+from planarimpact.spheres import making, table
+from stronge1994 import job, one_thread  # noqa: F401  (one thread: before numpy)
+
+with job.recorded(snakemake):
+    made = making.make(making.SHARES[snakemake.wildcards.table])
+    with open(snakemake.output[0], "wb") as file:
+        table.write(file, made)
