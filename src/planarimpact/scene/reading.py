@@ -155,7 +155,7 @@ def _cut_csv(source: Place, rows: int) -> Iterator[tuple[float | None, int, Text
             while taken := list(islice(lines, rows)):
                 used = len(taken)
                 if any('"' in entry for entry in taken):  # a row may have several lines
-                    found = list(islice(_rows(chain(taken, lines), line), rows))
+                    found = list(islice(_rows(chain(taken, lines), line, len(header)), rows))
                     taken = [row.text for row in found]
                     used = sum(row.lines for row in found)
                 count = len(taken) - sum(map(str.isspace, taken))
@@ -207,16 +207,14 @@ def _is_number(cell: str) -> bool:
 
 
 class _Row(NamedTuple):
-    """Text of a row, the number of its first line, and how many lines and cells it has."""
+    """Text of a row, and how many lines it has."""
 
     text: str
-    line: int
     lines: int
-    cells: int
 
 
-def _rows(lines: Iterable[str], line: int) -> Iterator[_Row]:
-    """Rows of lines, of which the first has the number `line`."""
+def _rows(lines: Iterable[str], line: int, width: int) -> Iterator[_Row]:
+    """Rows of so many cells and blank lines; of the lines the first has the number `line`."""
     taken: list[str] = []  # lines of the row
 
     def take() -> Iterator[str]:
@@ -226,8 +224,12 @@ def _rows(lines: Iterable[str], line: int) -> Iterator[_Row]:
 
     try:
         for cells in csv.reader(take(), strict=True):
-            yield _Row("".join(taken), line, len(taken), len(cells))
-            line += len(taken)
+            row = _Row("".join(taken), len(taken))
+            if len(cells) != width and not row.text.isspace():
+                hint = columns.DECIMALS if len(cells) > width else ""
+                raise InputError(f"line {line}: {len(cells)} cells where {width} belong{hint}")
+            yield row
+            line += row.lines
             taken.clear()
     except csv.Error as error:
         raise _unmatched(line, error) from None
@@ -249,7 +251,9 @@ def _read(text: Text) -> pa.Table:
         pa.ArrowInvalid
     ):  # a row that does not fit, blanks in a line, or a cell that is no number
         pass
-    found = _parsed(text._replace(body="".join(_fitting(text))), [])
+    rows = _rows(io.StringIO(text.body, newline=""), text.line, len(text.header))
+    body = "".join(row.text for row in rows if not row.text.isspace())
+    found = _parsed(text._replace(body=body), [])
     for name in numbers:
         found = found.set_column(text.header.index(name), name, _numbers(found[name]))
     return found
@@ -282,15 +286,3 @@ def _numbers(cells: pa.ChunkedArray) -> pa.ChunkedArray:
 
 def _is_endless(cells: pa.ChunkedArray) -> bool:
     return bool(pa.compute.any(pa.compute.is_inf(cells)).as_py())
-
-
-def _fitting(text: Text) -> Iterator[str]:
-    """Rows without blank lines; one that does not have its cells is refused."""
-    width = len(text.header)
-    for row in _rows(io.StringIO(text.body, newline=""), text.line):
-        if row.text.isspace():
-            continue
-        if row.cells != width:
-            hint = columns.DECIMALS if row.cells > width else ""
-            raise InputError(f"line {row.line}: {row.cells} cells where {width} belong{hint}")
-        yield row.text

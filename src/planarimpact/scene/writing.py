@@ -27,8 +27,6 @@ Write: TypeAlias = Callable[[Any], object]
 
 # Level of gzip, the default of the command. The highest level takes five times as long.
 LEVEL = 6
-# From here on, numbers have an exponent.
-EXPONENTS = 1e15
 
 
 def encoded(table: pd.DataFrame, kind: str, header: bool) -> Encoded:
@@ -166,8 +164,11 @@ def _decimals(column: pa.Array) -> pa.Array:
     """Text of numbers: 2 is 2.0, as readers take a column without points for integers."""
     text = column.cast(pa.large_string())
     numbers = column.to_numpy(zero_copy_only=False)
-    whole = (np.trunc(numbers) == numbers) & (np.abs(numbers) < EXPONENTS)
-    return pa.compute.if_else(pa.array(whole), _together([text, ".0"], ""), text)
+    whole = np.isfinite(numbers) & (np.trunc(numbers) == numbers)
+    if not whole.any():
+        return text
+    short = pa.compute.and_not(pa.array(whole), pa.compute.match_substring(text, "e"))
+    return pa.compute.if_else(short, _together([text, ".0"], ""), text)
 
 
 def _quoted(text: pa.Array) -> pa.Array:
