@@ -113,7 +113,7 @@ def table(content: Content) -> pd.DataFrame:
 def _cut_parquet(source: Place, rows: int) -> Iterator[tuple[float, int, pa.RecordBatch]]:
     """Shares that are read, counts of rows, and the rows; the first piece is empty."""
     try:
-        with pa.parquet.ParquetFile(source.opened) as file:
+        with open(source.opened, "rb") as raw, pa.parquet.ParquetFile(raw) as file:
             schema = file.schema_arrow
             label = columns.named(schema.names).get(columns.LABEL)
             if label is not None:
