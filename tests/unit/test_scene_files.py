@@ -90,37 +90,36 @@ def test_whole_numbers_are_an_id_in_parquet_and_some_may_be_missing(tmp_path):
         assert found[1]["id"] == missing
 
 
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        (lambda rows: rows.assign(friction=-1.0), "row 1: friction = -1.0: allowed are"),
-        (
-            lambda rows: rows.assign(friction=[0.1, None] * 3 + [1]),
-            "row 2: friction = nan: allowed",
-        ),
-        (lambda rows: rows.assign(friction="1_0"), "row 1: friction = '1_0': allowed are"),
-        (lambda rows: rows.assign(friction=True), "row 1: friction = True: allowed are"),
-        (lambda rows: rows.assign(id=[["a"]] * COUNT), "column 'id' has cells of type list<"),
-        (lambda rows: rows.assign(colour="red"), "column 'colour': unknown"),
-        (lambda rows: rows.iloc[:0], None),
-        (b"radius [m]\n1\n", "it is no whole Parquet file: Parquet magic bytes not found"),
-        (b"", "it is no whole Parquet file"),
-    ],
-    ids=str,
-)
-def test_parquet_is_refused_as_csv_is(tmp_path, change, words, capsys):
-    source, target = tmp_path / "in.parquet", tmp_path / "out.parquet"
-    if callable(change):
-        change(impacts()).to_parquet(source, index=False)
+NO_PARQUET = [
+    ({"friction": -1.0}, "row 1: friction = -1.0: allowed are"),
+    ({"friction": [0.1, None] * 3 + [1]}, "row 2: friction = nan: allowed are"),
+    ({"friction": "1_0"}, "row 1: friction = '1_0': allowed are"),
+    ({"friction": True}, "row 1: friction = True: allowed are"),
+    ({"id": [["a"]] * COUNT}, "column 'id' has cells of type list<"),
+    ({"colour": "red"}, "column 'colour': unknown"),
+    (b"radius [m]\n1\n", "it is no whole Parquet file: Parquet magic bytes not found"),
+    (b"", "it is no whole Parquet file"),
+]
+
+
+@pytest.mark.parametrize(("given", "words"), NO_PARQUET, ids=[words for _, words in NO_PARQUET])
+def test_parquet_is_refused_as_csv_is(tmp_path, given, words, capsys):
+    source = tmp_path / "in.parquet"
+    if isinstance(given, bytes):
+        source.write_bytes(given)
     else:
-        source.write_bytes(change)
-    status = main(["scene", str(source), str(target)])
-    if words is None:
-        assert status == 0 and len(pd.read_parquet(target)) == 0
-        return
+        impacts(**given).to_parquet(source)
+    assert main(["scene", str(source), str(tmp_path / "out.parquet")]) == 2
     said = capsys.readouterr().err
-    assert status == 2 and f"in.parquet: {words}" in said and said.count("\n") == 1
+    assert f"in.parquet: {words}" in said and said.count("\n") == 1
     assert os.listdir(tmp_path) == ["in.parquet"]
+
+
+def test_no_rows_in_parquet_give_no_rows(tmp_path):
+    source, target = tmp_path / "in.parquet", tmp_path / "out.parquet"
+    impacts()[:0].to_parquet(source)
+    assert files.solve(source, target).rows == 0
+    assert pd.read_parquet(target).columns[-1] == "energy_lost [J]"
 
 
 def test_half_a_file_of_parquet_is_named(tmp_path):

@@ -39,9 +39,10 @@ class Task(NamedTuple):
         """What stands in the file for a piece."""
         solver.rows = piece.before
         table = reading.table(piece.content)
-        found = solver.solve(table, self.skip_bad)
-        # A column has one type in all pieces, whatever a piece has in it.
         names = columns.named(table.columns)
+        found = solver.solve(table, self.skip_bad)
+        del table  # the result has it all
+        # A column has one type in all pieces, whatever a piece has in it.
         kinds = {names[name]: float for name in (names.keys() & columns.KNOWN) - {"loss"}}
         return writing.encoded(found.astype(kinds), self.kind, header=piece.before == 0)
 

@@ -25,6 +25,8 @@ from planarimpact.scene.places import Place
 Encoded: TypeAlias = bytes | pa.Table
 Write: TypeAlias = Callable[[Any], object]
 
+# So many rows become text at a time: all cells of a piece as text would take much memory.
+AT_A_TIME = 2**14
 # Level of gzip, the default of the command. The highest level takes five times as long.
 LEVEL = 6
 
@@ -132,15 +134,18 @@ def _parquet(file: IO[bytes]) -> Iterator[Write]:
 
 
 def _csv(table: pa.Table, header: bool) -> bytes:
-    """Text of a table: every column as text, and then every row in one."""
     names = ",".join(_quoted(pa.array(table.column_names)).to_pylist()) + "\n" if header else ""
-    if not table.num_rows:
-        return names.encode()
+    parts = (table.slice(start, AT_A_TIME) for start in range(0, table.num_rows, AT_A_TIME))
+    return b"".join([names.encode(), *map(_lines, parts)])
+
+
+def _lines(table: pa.Table) -> bytes:
+    """Text of rows: every column as text, and then every row in one."""
     *cells, last = (_cells(column.combine_chunks()) for column in table.columns)
     rows = _together([*cells, _together([last, "\n"], "")], ",")
     # The rows stand in this buffer one after the other.
     length = pa.compute.sum(pa.compute.binary_length(rows)).as_py()
-    return b"".join([names.encode(), rows.buffers()[2][:length]])
+    return rows.buffers()[2][:length].to_pybytes()
 
 
 def _together(cells: list[pa.Array | str], between: str) -> pa.Array:
