@@ -104,7 +104,8 @@ def elsewhere(
         while (piece := next(pieces, None)) or busy:
             content = None
             if piece and len(workers) < count:
-                workers.append(worker := _Worker(task))
+                workers.append(worker := _Worker())
+                worker.ask(task)
             else:
                 worker, share, rows = busy.popleft()
                 content = worker.answer()
@@ -173,15 +174,19 @@ def _until_failure(pieces: Iterator[Piece], failed: list[InputError | OSError]) 
 class _Worker:
     """The other end of `serve`."""
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self) -> None:
         self._process = subprocess.Popen(
-            [sys.executable, "-c", COMMAND],
+            [
+                sys.executable,
+                "-P",
+                "-c",
+                COMMAND,
+            ],  # -P: the same path, and not the folder before it
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
             start_new_session=True,  # Ctrl-C reaches this process alone, which ends the worker
         )
-        self.ask(task)
 
     def ask(self, question: Task | Piece | None) -> None:
         assert self._process.stdin
@@ -202,12 +207,14 @@ class _Worker:
         return found
 
     def end(self) -> None:
-        self._process.kill()
-        self._process.communicate()
+        if self._process.returncode is None:
+            self._process.kill()
+            self._process.communicate()
 
     def _lost(self) -> InputError:
         """What to say of a process that has ended, by itself or by a signal."""
-        status = self._process.wait()
+        self._process.communicate()  # if it lives, its input ends and so does it
+        status = self._process.returncode
         if status < 0:
             how = f"by signal {-status}: it may lack memory, which fewer workers need less of"
         else:

@@ -27,6 +27,8 @@ Write: TypeAlias = Callable[[Any], object]
 
 # So many rows become text at a time: all cells of a piece as text would take much memory.
 AT_A_TIME = 2**14
+# Between two objects of JSON.
+COMMA = ",\n{"
 # Level of gzip, the default of the command. The highest level takes five times as long.
 LEVEL = 6
 
@@ -47,7 +49,7 @@ def encoded(table: pd.DataFrame, kind: str, header: bool) -> Encoded:
     -------
     bytes or Table
         Numbers have the fewest digits that read back to the same float64. NaN is an empty cell,
-        null in JSON and Parquet; in JSON infinity is null too.
+        null in JSON and Parquet; in JSON infinity is null too, and each row follows on a comma.
 
     Examples
     --------
@@ -58,15 +60,19 @@ def encoded(table: pd.DataFrame, kind: str, header: bool) -> Encoded:
     2.0,"b,c"
     ,
     >>> print(encoded(table[:1], ".json", header=True).decode())
+    ,
     {"spin [rad/s]": 0.1, "id": "a"}
     """
     columns = pa.Table.from_pandas(table, preserve_index=False, nthreads=1)
     if kind == places.PARQUET:
         return columns.replace_schema_metadata()
+    parts = [columns.slice(start, AT_A_TIME) for start in range(0, len(columns), AT_A_TIME)]
     if kind == places.JSON:
-        rows = ({name: files.or_null(x) for name, x in row.items()} for row in columns.to_pylist())
-        return ",\n".join(map(json.dumps, rows)).encode()
-    text = _csv(columns, header)
+        return b"".join(map(_objects, parts))
+    if header:
+        names = columns.column_names
+        parts.insert(0, pa.table([[name] for name in names], names))
+    text = b"".join(map(_lines, parts))
     # Without a name and a time: the same table is the same file.
     return gzip.compress(text, LEVEL, mtime=0) if kind == places.GZIP and text else text
 
@@ -107,16 +113,17 @@ def appended(target: Place) -> Iterator[Write]:
 @contextmanager
 def _array(file: IO[bytes]) -> Iterator[Write]:
     """An array of objects, one a line."""
-    before = b"[\n"
+    before = b"["
 
     def write(objects: bytes) -> None:
         nonlocal before
         if objects:
-            file.write(before + objects)
-            before = b",\n"
+            file.write(before)
+            file.write(memoryview(objects)[1:] if before == b"[" else objects)
+            before = b""
 
     yield write
-    file.write(b"[]\n" if before == b"[\n" else b"\n]\n")
+    file.write(b"[]\n" if before else b"\n]\n")
 
 
 @contextmanager
@@ -133,36 +140,45 @@ def _parquet(file: IO[bytes]) -> Iterator[Write]:
         yield write
 
 
-def _csv(table: pa.Table, header: bool) -> bytes:
-    names = ",".join(_quoted(pa.array(table.column_names)).to_pylist()) + "\n" if header else ""
-    parts = (table.slice(start, AT_A_TIME) for start in range(0, table.num_rows, AT_A_TIME))
-    return b"".join([names.encode(), *map(_lines, parts)])
+def _lines(table: pa.Table) -> pa.Buffer:
+    """Rows of CSV: every column as text, and then every row in one."""
+    *cells, last = (_cells(column.combine_chunks(), _quoted) for column in table.columns)
+    return _text(_together([*cells, _together([last, "\n"], "")], ","))
 
 
-def _lines(table: pa.Table) -> bytes:
-    """Text of rows: every column as text, and then every row in one."""
-    *cells, last = (_cells(column.combine_chunks()) for column in table.columns)
-    rows = _together([*cells, _together([last, "\n"], "")], ",")
-    # The rows stand in this buffer one after the other.
+def _objects(table: pa.Table) -> pa.Buffer:
+    """Rows of JSON, each after a comma."""
+    parts: list[pa.Array | str] = []
+    for name, column in zip(table.column_names, table.columns, strict=True):
+        cells = column.combine_chunks()
+        if pa.types.is_floating(cells.type):
+            cells = pa.compute.if_else(pa.compute.is_finite(cells), cells, None)
+        parts += [f"{', ' if parts else COMMA}{json.dumps(name)}: ", _cells(cells, _dumped)]
+    return _text(_together([*parts, "}"], "", missing="null"))
+
+
+def _text(rows: pa.Array) -> pa.Buffer:
+    """All rows as one text: they stand in a buffer one after the other."""
     length = pa.compute.sum(pa.compute.binary_length(rows)).as_py()
-    return rows.buffers()[2][:length].to_pybytes()
+    return rows.buffers()[2][:length]
 
 
-def _together(cells: list[pa.Array | str], between: str) -> pa.Array:
+def _together(cells: list[pa.Array | str], between: str, missing: str = "") -> pa.Array:
     return pa.compute.binary_join_element_wise(
         *(pa.scalar(x, pa.large_string()) if isinstance(x, str) else x for x in [*cells, between]),
         null_handling="replace",
-        null_replacement="",
+        null_replacement=missing,
     )
 
 
-def _cells(column: pa.Array) -> pa.Array:
+def _cells(column: pa.Array, words: Callable[[pa.Array], pa.Array]) -> pa.Array:
     """Text of the cells of a column, in large strings: rows of 2 GB do not overflow."""
     if pa.types.is_floating(column.type):
         return _decimals(column)
     if pa.types.is_dictionary(column.type):
-        return _cells(column.dictionary).take(column.indices)
-    return _quoted(column.cast(pa.large_string()))
+        return _cells(column.dictionary, words).take(column.indices)
+    text = column.cast(pa.large_string())
+    return text if pa.types.is_integer(column.type) else words(text)
 
 
 def _decimals(column: pa.Array) -> pa.Array:
@@ -177,9 +193,15 @@ def _decimals(column: pa.Array) -> pa.Array:
 
 
 def _quoted(text: pa.Array) -> pa.Array:
-    """Text in quotation marks where CSV needs them."""
+    """Words in quotation marks where CSV needs them."""
     special = pa.compute.match_substring_regex(text, '[",\r\n]')
     if not pa.compute.any(special).as_py():
         return text
     doubled = pa.compute.replace_substring(text, '"', '""')
     return pa.compute.if_else(special, _together(['"', doubled, '"'], ""), text)
+
+
+def _dumped(text: pa.Array) -> pa.Array:
+    """Words as JSON has them."""
+    words = (None if word is None else json.dumps(word) for word in text.to_pylist())
+    return pa.array(words, pa.large_string())
