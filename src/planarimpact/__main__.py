@@ -527,7 +527,7 @@ def _parser() -> argparse.ArgumentParser:
         type=number,
         default=1,
         metavar="N",
-        help="processes that share the work; more than four are hardly faster [%(default)s]",
+        help="how many processes share the work [%(default)s]",
     )
     scene.set_defaults(command=_scene)
 

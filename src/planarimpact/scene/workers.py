@@ -11,6 +11,7 @@ import subprocess
 import sys
 from collections import Counter, deque
 from collections.abc import Generator, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 from planarimpact.ground.checks import ConvergenceError, InputError
@@ -21,6 +22,8 @@ from planarimpact.scene.writing import Encoded
 
 # A worker that speaks to the process that started it.
 COMMAND = "from planarimpact.scene import workers; workers.serve()"
+# Pieces that a worker is given at a time: it solves one while the next one is ready.
+AHEAD = 2
 
 
 class Task(NamedTuple):
@@ -83,7 +86,7 @@ def elsewhere(
         Gets what the solvers of the workers remember, when all is done.
     pieces : iterator of Piece
     count : int
-        Of workers, at most. Each has one piece at a time.
+        Of workers, at most.
 
     Yields
     ------
@@ -97,28 +100,22 @@ def elsewhere(
         raises. InputError too if a worker ends before its work.
     """
     workers: list[_Worker] = []
-    busy: deque[tuple[_Worker, float | None, int]] = deque()
+    busy: deque[tuple[float | None, int, Future[Encoded]]] = deque()
     failed: list[InputError | OSError] = []
-    pieces = _until_failure(pieces, failed)
     try:
-        while (piece := next(pieces, None)) or busy:
-            content = None
-            if piece and len(workers) < count:
-                workers.append(worker := _Worker())
-                worker.ask(task)
-            else:
-                worker, share, rows = busy.popleft()
-                content = worker.answer()
-            if piece:  # before anything is written, so that the worker does not wait
-                worker.ask(piece)
-                busy.append((worker, piece.share, piece.before + piece.rows))
-            if content is not None:
-                yield Done(share, rows, content)
+        for number, piece in enumerate(_until_failure(pieces, failed)):
+            if number < count:
+                workers.append(_Worker(task))
+            if number >= AHEAD * count:
+                yield _done(*busy.popleft())
+            answer = workers[number % count].ask(piece)
+            busy.append((piece.share, piece.before + piece.rows, answer))
+        while busy:
+            yield _done(*busy.popleft())
         if failed:
             raise failed[0]
         for worker in workers:
-            worker.ask(None)
-            _join(solver, worker.answer())
+            _join(solver, worker.ask(None).result())
         solver.bad.sort()
     finally:
         for worker in workers:
@@ -171,10 +168,14 @@ def _until_failure(pieces: Iterator[Piece], failed: list[InputError | OSError]) 
         failed.append(error)
 
 
-class _Worker:
-    """The other end of `serve`."""
+def _done(share: float | None, rows: int, answer: Future[Encoded]) -> Done:
+    return Done(share, rows, answer.result())
 
-    def __init__(self) -> None:
+
+class _Worker:
+    """The other end of `serve`: a thread that asks and waits."""
+
+    def __init__(self, task: Task) -> None:
         self._process = subprocess.Popen(
             [
                 sys.executable,
@@ -187,36 +188,45 @@ class _Worker:
             env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
             start_new_session=True,  # Ctrl-C reaches this process alone, which ends the worker
         )
+        self._thread = ThreadPoolExecutor(1)
+        self._thread.submit(self._send, task)
 
-    def ask(self, question: Task | Piece | None) -> None:
-        assert self._process.stdin
-        try:
-            pickle.dump(question, self._process.stdin, protocol=5)
-            self._process.stdin.flush()
-        except BrokenPipeError:
-            raise self._lost() from None
+    def ask(self, question: Piece | None) -> Future[Any]:
+        """The answer, when the questions before it have theirs."""
+        return self._thread.submit(self._answer, question)
 
-    def answer(self) -> Any:
-        assert self._process.stdout
+    def end(self) -> None:
+        self._process.kill()
+        self._thread.shutdown(cancel_futures=True)
+        self._close()
+
+    def _answer(self, question: Piece | None) -> Any:
         try:
+            self._send(question)
+            assert self._process.stdout
             found = pickle.load(self._process.stdout)
-        except (EOFError, pickle.UnpicklingError):
+        except (BrokenPipeError, EOFError, pickle.UnpicklingError):
             raise self._lost() from None
         if isinstance(found, Exception):
             raise found
         return found
 
-    def end(self) -> None:
-        if self._process.returncode is None:
-            self._process.kill()
-            self._process.communicate()
+    def _send(self, message: Task | Piece | None) -> None:
+        assert self._process.stdin
+        pickle.dump(message, self._process.stdin, protocol=5)
+        self._process.stdin.flush()
 
     def _lost(self) -> InputError:
         """What to say of a process that has ended, by itself or by a signal."""
-        self._process.communicate()  # if it lives, its input ends and so does it
+        self._close()
         status = self._process.returncode
         if status < 0:
             how = f"by signal {-status}: it may lack memory, which fewer workers need less of"
         else:
             how = f"with status {status}: standard error has its last words"
         return InputError(f"a worker was ended {how}")
+
+    def _close(self) -> None:
+        """Wait for the end of the process, which comes with that of its input."""
+        if self._process.stdout and not self._process.stdout.closed:
+            self._process.communicate()
