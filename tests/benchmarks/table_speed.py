@@ -16,8 +16,9 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import psutil
-import scene_speed
 
 from planarimpact import scene
 
@@ -31,6 +32,17 @@ PAIR = {
     "restitution": 1.0,
     "loss": "viscous",
 }
+COUNT = 1_000_000
+
+
+def table(count):
+    """Random spheres on a surface, of one pair of materials."""
+    rng = np.random.default_rng(1)
+    rows = {"radius [m]": rng.uniform(1e-3, 2e-2, count)} | PAIR
+    for axis in "xyz":
+        rows[f"spin_{axis} [rad/s]"] = rng.normal(0, 50, count)
+        rows[f"velocity_{axis} [m/s]"] = rng.normal(0, 2, count)
+    return pd.DataFrame(rows | {"velocity_z [m/s]": -rng.uniform(0.1, 5, count)})
 
 
 def resident(process):
@@ -62,8 +74,8 @@ def measure(source, target, workers):
 
 
 def main():
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else scene_speed.COUNT
-    impacts = scene_speed.table(1.0, count=count).assign(**PAIR)
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else COUNT
+    impacts = table(count)
     start = time.process_time()
     scene.solve(impacts)
     print(f"{count} rows; the solver alone: {time.process_time() - start:.2f} s of a processor")

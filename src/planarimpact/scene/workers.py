@@ -11,7 +11,9 @@ import subprocess
 import sys
 from collections import Counter, deque
 from collections.abc import Generator, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
+from queue import SimpleQueue
+from threading import Thread
 from typing import Any, NamedTuple
 
 from planarimpact.ground.checks import ConvergenceError, InputError
@@ -105,7 +107,8 @@ def elsewhere(
     try:
         for number, piece in enumerate(_until_failure(pieces, failed)):
             if number < count:
-                workers.append(_Worker(task))
+                workers.append(worker := _Worker())
+                worker.start(task)
             if number >= AHEAD * count:
                 yield _done(*busy.popleft())
             answer = workers[number % count].ask(piece)
@@ -130,10 +133,11 @@ def serve() -> None:
     questions = sys.stdin.buffer
     try:
         task = pickle.load(questions)
-        solver = task.solver()
+        solver, answer = task.solver(), None
         while True:
-            pickle.dump(_answered(task, solver, pickle.load(questions)), answers, protocol=5)
+            pickle.dump(answer, answers, protocol=5)
             answers.flush()
+            answer = _answered(task, solver, pickle.load(questions))
     except (EOFError, BrokenPipeError):  # the process that asks is gone
         os._exit(0)
 
@@ -175,7 +179,7 @@ def _done(share: float | None, rows: int, answer: Future[Encoded]) -> Done:
 class _Worker:
     """The other end of `serve`: a thread that asks and waits."""
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self) -> None:
         self._process = subprocess.Popen(
             [
                 sys.executable,
@@ -188,24 +192,41 @@ class _Worker:
             env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
             start_new_session=True,  # Ctrl-C reaches this process alone, which ends the worker
         )
-        self._thread = ThreadPoolExecutor(1)
-        self._thread.submit(self._send, task)
+        self._questions: SimpleQueue[tuple[Task | Piece | None, Future[Any]] | None] = SimpleQueue()
+        # A daemon: Python does not wait for it, wherever Ctrl-C may come.
+        self._thread = Thread(target=self._talk, daemon=True)
+
+    def start(self, task: Task) -> None:
+        self._questions.put((task, Future()))
+        self._thread.start()
 
     def ask(self, question: Piece | None) -> Future[Any]:
         """The answer, when the questions before it have theirs."""
-        return self._thread.submit(self._answer, question)
+        answer: Future[Any] = Future()
+        self._questions.put((question, answer))
+        return answer
 
     def end(self) -> None:
         self._process.kill()
-        self._thread.shutdown(cancel_futures=True)
+        self._questions.put(None)
+        if self._thread.is_alive():
+            self._thread.join()
         self._close()
 
-    def _answer(self, question: Piece | None) -> Any:
+    def _talk(self) -> None:
+        while entry := self._questions.get():
+            question, answer = entry
+            try:
+                answer.set_result(self._answer(question))
+            except Exception as error:
+                answer.set_exception(error)
+
+    def _answer(self, question: Task | Piece | None) -> Any:
         try:
             self._send(question)
             assert self._process.stdout
             found = pickle.load(self._process.stdout)
-        except (BrokenPipeError, EOFError, pickle.UnpicklingError):
+        except (BrokenPipeError, EOFError, pickle.UnpicklingError, ValueError):  # or closed by then
             raise self._lost() from None
         if isinstance(found, Exception):
             raise found
