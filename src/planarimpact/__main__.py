@@ -266,6 +266,7 @@ def _scene(options: argparse.Namespace) -> None:
         options.skip_bad,
         progress=progress,
         loss=options.loss,
+        workers=options.workers,
     )
     # Nothing else may stand in a table on standard output.
     words = sys.stderr if target == places.target("-") else sys.stdout
@@ -508,8 +509,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     scene.add_argument(
         "input",
-        help="the table: a name that ends in .csv or .csv.gz, a pipe, or - for standard input; "
-        "pipes are CSV",
+        help="the table: a name that ends in .csv, .csv.gz or .parquet, a pipe, or - for standard "
+        "input; pipes are CSV",
     )
     scene.add_argument(
         "output",
@@ -537,6 +538,13 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="leave bad rows out, and list them in OUTPUT.bad.csv, or on standard error where the "
         "output is a pipe",
+    )
+    scene.add_argument(
+        "--workers",
+        type=number,
+        default=1,
+        metavar="N",
+        help="how many processes share the work [%(default)s]",
     )
     scene.set_defaults(command=_scene)
 

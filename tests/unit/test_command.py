@@ -246,10 +246,15 @@ REFUSED = [
     (["history", "--incidence", "1", "--model", "continuum", "--restitution", "0.5"], "is elastic"),
     (["compile", "no/ball.json"], "no/ball.json"),
     (["scene", "none.csv", "out.csv"], "none.csv: No such file"),
-    (["scene", "none.csv", "."], ".: allowed are names that end in .csv, .csv.gz or"),
-    (["scene", "none.xlsx", "out.csv"], "none.xlsx: allowed are names that end in .csv or .csv.gz"),
-    (["scene", "none.json", "out.csv"], "none.json: allowed are names that end in .csv or .csv.gz"),
-    (["scene", "none.csv", "out"], "out: allowed are names that end in .csv, .csv.gz or"),
+    (["scene", "none.csv", "."], ".: allowed are names that end in .csv, .csv.gz, .json or"),
+    (["scene", "none.xlsx", "out.csv"], "none.xlsx: allowed are names that end in .csv, .csv.gz"),
+    (["scene", "none.json", "out.csv"], "none.json: allowed are names that end in .csv, .csv.gz"),
+    (["scene", "none.parquet", "out.csv"], "none.parquet: No such file"),
+    (
+        ["scene", "none.csv", "out.csv", "--workers", "0"],
+        "workers = 0: allowed are integers from 1",
+    ),
+    (["scene", "none.csv", "out"], "out: allowed are names that end in .csv, .csv.gz, .json or"),
     (["rebound", "--incidence", "1", "--friction", "0.3"], "--friction: it does not apply"),
     (["models", "--output", "no/models.csv"], "there is no folder"),
     (["rebound", "--angle", "30"], "--angle: it needs --friction"),
@@ -633,11 +638,13 @@ def test_an_earlier_result_survives_a_refusal(table):
     assert out.read_text() == "earlier"
 
 
-def test_without_pandas_it_says_what_to_install(table):
-    code = "import sys; sys.modules['pandas'] = None; from planarimpact.__main__ import main; "
+@pytest.mark.parametrize(("package", "who"), [("pandas", "scene"), ("pyarrow", "scene.files")])
+def test_without_a_package_it_says_what_to_install(table, package, who):
+    code = f"import sys; sys.modules[{package!r}] = None; from planarimpact.__main__ import main; "
     code += f"sys.exit(main(['scene', {str(table)!r}, 'out.csv']))"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert result.returncode == 2 and "scene needs pandas: pip install pandas" in result.stderr
+    assert result.returncode == 2
+    assert f"{who} needs {package}: pip install {package}" in result.stderr
 
 
 def test_a_result_in_json(table):

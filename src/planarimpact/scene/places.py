@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from planarimpact.ground.checks import InputError
 
-CSV, GZIP, JSON = ".csv", ".csv.gz", ".json"
+CSV, GZIP, JSON, PARQUET = ".csv", ".csv.gz", ".json", ".parquet"
 
 
 class Place(NamedTuple):
@@ -45,10 +45,10 @@ def source(path: str | Path) -> Place:
     >>> source("shots.xlsx")
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: shots.xlsx: allowed are names that end in .csv or .csv.gz, pipes, \
-and - for standard input
+    planarimpact.InputError: shots.xlsx: allowed are names that end in .csv, .csv.gz or .parquet, \
+pipes, and - for standard input
     """
-    return _place(path, ("-", "/dev/stdin"), 0, "standard input", (CSV, GZIP))
+    return _place(path, ("-", "/dev/stdin"), 0, "standard input", (CSV, GZIP, PARQUET))
 
 
 def target(path: str | Path) -> Place:
@@ -72,7 +72,7 @@ def target(path: str | Path) -> Place:
     >>> target("after.json").kind, target("-").stream
     ('.json', True)
     """
-    return _place(path, ("-", "/dev/stdout"), 1, "standard output", (CSV, GZIP, JSON))
+    return _place(path, ("-", "/dev/stdout"), 1, "standard output", (CSV, GZIP, JSON, PARQUET))
 
 
 def beside(target: Place) -> Place | None:
