@@ -6,7 +6,8 @@
   `continuum.annuli` solves the elastic one by a second method that shares no code with the first.
 - `spheres`: the continuum from a table, for impacts that are each their own pair.
 - `models`: every model by its name, with those that others use (`models.laws`, `models.timestep`).
-- `response`: compiles any of them. `export`: writes them as C or JavaScript. `scene`: solves tables of impacts. `study`: solves grids.
+- `response`: compiles any of them. `export`: writes them as C or JavaScript.
+- `scene`: solves tables of impacts. `study`: solves grids.
 - `bodies`: from physical bodies to the groups that all models take. `noncollinear`: bodies that
   strike off their centre.
 - `normal_impact.hertz`, `normal_impact.kelvin_voigt`, `normal_impact.thornton`: head-on impact of

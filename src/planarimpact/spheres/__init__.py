@@ -7,16 +7,18 @@ ratio 1 to 1.6) are among them, and so is whatever lies between, such as discs (
 to compile and nothing is remembered. `thresholds` and `making` made it, `table` evaluates it.
 """
 
+from typing import Any
+
 import numpy as np
 
 from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans
+from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.ground.results import Rebound, Regime
 from planarimpact.spheres import table
 
 LOSSES = "viscous", "plastic"
-# Largest difference from the continuum, of velocity (mu v2(0)) and peak friction (mu F2max), as
-# found by tests/reference/test_spheres_reference.py; the dissipation (mu^2 m2 v2(0)^2) keeps it too.
+# Largest difference from the continuum, of velocity (mu v2(0)), peak friction (mu F2max) and
+# dissipation (mu^2 m2 v2(0)^2), as tests/reference/test_spheres_reference.py finds it.
 ERROR_BOUND = 1e-4
 LEAST_RESTITUTION = 0.3
 # Bounds of mass ratio over stiffness ratio.
@@ -89,22 +91,24 @@ def rebound(
     >>> rebound(2.0, restitution=0.2)
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: restitution = 0.2: allowed are numbers from 0.3 to 1, as the table has them
+    planarimpact.InputError: restitution = 0.2: allowed are numbers from 0.3 to 1, for the \
+table of spheres
     """
     groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    plastic = _is_plastic(loss)
+    words = _is_plastic(loss)
     try:
-        signed, beta, zeta2, e, plastic = np.broadcast_arrays(*groups, plastic)
+        signed, beta, zeta2, e, _ = np.broadcast_arrays(*groups, words)
+        plastic = np.broadcast_to(words, signed.shape).reshape(-1)
     except ValueError:
-        words = f"shapes do not broadcast: groups {groups[0].shape}, loss {plastic.shape}"
-        raise checks.InputError(words) from None
+        shapes = f"groups {groups[0].shape}, loss {words.shape}"
+        raise checks.InputError(f"shapes do not broadcast: {shapes}") from None
     _refuse_uncovered(beta, zeta2, e)
-    columns = [a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, plastic)]
-    velocity, peak, work = np.empty((3, signed.size))
-    regime = np.empty(signed.size, dtype=np.uint8)
-    for start in range(0, signed.size, CHUNK):
+    x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
+    velocity, peak, work = np.empty((3, x.size))
+    regime = np.empty(x.size, dtype=np.uint8)
+    for start in range(0, x.size, CHUNK):
         part = slice(start, start + CHUNK)
-        found = _rebound(*(column[part] for column in columns))
+        found = _rebound(x[part], beta[part], zeta2[part], e[part], plastic[part])
         velocity[part], peak[part], work[part], regime[part] = found
     return Rebound.shaped(signed, velocity, peak, work, regime)
 
@@ -114,26 +118,26 @@ def _is_plastic(loss: str | ArrayLike) -> Booleans:
     plastic = words == LOSSES[1]
     known = plastic | (words == LOSSES[0])
     if not np.all(known):
-        first = words[~known].flat[0] if words.ndim else loss
-        checks.loss(first, LOSSES)
+        unknown: Any = words[~np.asarray(known)].flat[0]
+        checks.loss(unknown, LOSSES)
     return np.asarray(plastic)
 
 
 def _refuse_uncovered(beta: Array, zeta2: Array, e: Array) -> None:
     if covers(beta, zeta2, e).all():
         return
-    allowed = f"numbers from {LEAST_RESTITUTION} to 1, as the table has them"
+    allowed = f"numbers from {LEAST_RESTITUTION} to 1, for the table of spheres"
     checks.checked("restitution", e, allowed, LEAST_RESTITUTION, 1)
     bad = ~covers(beta, zeta2, 1.0)
     raise checks.InputError(
         f"mass_ratio/stiffness_ratio = {beta[bad].flat[0]:g}/{zeta2[bad].flat[0]:g}: allowed are "
-        f"ratios from {LEAST_RATIO} to {LARGEST_RATIO}, as the table has them"
+        f"ratios from {LEAST_RATIO} to {LARGEST_RATIO}, for the table of spheres"
     )
 
 
 def _rebound(
     x: Array, beta: Array, zeta2: Array, e: Array, plastic: Booleans
-) -> tuple[Array, Array, Array, Array]:
+) -> tuple[Array, Array, Array, Integers]:
     """Velocity, peak friction, work of friction and regime of impacts with x >= 0."""
     slides = x >= sliding.limit_alike(beta, zeta2, e)
     velocity = sliding.velocity(x, beta, e)
@@ -141,7 +145,8 @@ def _rebound(
     work = np.where(plastic, sliding.work(x, beta, e), sliding.viscous_work(x, beta, zeta2, e))
     regime = np.full(x.size, Regime.SLIP_THROUGHOUT, dtype=np.uint8)
     rest = np.flatnonzero(~slides)
-    x, beta, zeta2, e, plastic = (a[rest] for a in (x, beta, zeta2, e, plastic))
+    x, beta, zeta2, e = (a[rest] for a in (x, beta, zeta2, e))
+    plastic = plastic[rest]
     y = x / zeta2
     found = table.evaluate(table.shipped(), y, beta / zeta2, e, plastic)
     # The exact values have these bounds.

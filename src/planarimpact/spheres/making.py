@@ -39,6 +39,8 @@ KIND, KINDS = 3, 4
 NEAR = 1.5
 # Points over each variable of such a cell, and the weight of those of other kinds.
 POINTS, BEYOND = 4, 1e-3
+# Parts each way that such a cell is split into, and the errors of velocity from which it is so.
+SPLITS, WORSE = (1, 2, 4), (2.5e-4, 1e-3)
 # Incidences over which a change is sought, and halvings that find it.
 PLACES, HALVINGS = 48, 12
 
@@ -57,15 +59,16 @@ class Patch(NamedTuple):
 
     def coarser(self, share: float) -> "Patch":
         """The same with a share of its cells and nodes each way."""
+        cells = [max(2, round(share * count)) for count in self.cells]
+        nodes = [max(5, round(share * count)) for count in self.nodes]
         return self._replace(
-            cells=tuple(max(2, round(share * count)) for count in self.cells),
-            nodes=tuple(max(5, round(share * count)) for count in self.nodes),
+            cells=(cells[0], cells[1], cells[2]), nodes=(nodes[0], nodes[1], nodes[2])
         )
 
 
 PATCHES = {
     "viscous": [
-        Patch(EVEN, (8, 14, 8), (13, 21, 13)),
+        Patch(EVEN, (11, 15, 11), (19, 23, 19)),
         Patch(LEFT, (13, 20, 10), (25, 33, 19)),
         Patch(EVEN, (8, 16, 9), (13, 29, 17)),
         Patch(EVEN, (5, 12, 6), (9, 19, 11)),
@@ -125,24 +128,32 @@ def e_at(name: str, t: Array, limit: Array) -> Array:
 
 
 def _panel(name: str, patches: Sequence[Patch], limit: Array, say: Callable[[str], None]) -> Panel:
-    panel = Panel(name, _edges(name, limit), *np.zeros((6, 0)))  # its edges are all that is needed
+    panel = Panel(name, _edges(name, limit), *np.zeros((7, 0)))  # its edges are all that is needed
     sizes = [int(np.prod(patch.cells)) for patch in patches]
     first, total = np.cumsum([0, *sizes[:-1]]), sum(sizes)
+    twins, split = np.tile(np.arange(total), (KINDS, 1)), np.ones(total, int)
     fits, extra = [], []
-    twins = np.tile(np.arange(total), (KINDS, 1))
     for number, patch in enumerate(patches):
         values = nodes_of(panel, limit, patch, number)
         fit = fitted(values[:KIND], patch.cells)
         if patch.changes:
             near = _near_a_change(values[KIND], patch)
-            own, counts = _by_kind(panel, limit, patch, number, near)
-            usual = np.argmax(counts, axis=0)
-            fit[:2, :, near] = own[usual, ..., np.arange(near.size)].transpose(1, 2, 0)[:2]
-            for kind in range(KINDS):
-                some = np.flatnonzero((counts[kind] > 0) & (usual != kind))
-                twins[kind, first[number] + near[some]] = total + np.arange(some.size)
-                total += some.size
-                extra.append(own[kind][..., some])
+            parts = _parts(panel, limit, patch, number, near)
+            split[first[number] + near] = parts
+            for share in SPLITS:
+                some = near[parts == share]
+                own, counts = _by_kind(panel, limit, patch, number, some, share)
+                here = first[number] + some
+                block = share**3
+                usual = np.argmax(counts, axis=0)
+                for kind in range(KINDS):
+                    present = np.flatnonzero(counts[kind])
+                    twins[kind, here[present]] = total + block * np.arange(present.size)
+                    total += block * present.size
+                    extra.append(own[kind][..., present, :].reshape(*own.shape[1:3], -1))
+                for kind in range(KINDS):
+                    absent = np.flatnonzero(counts[kind] == 0)
+                    twins[kind, here[absent]] = twins[usual[absent], here[absent]]
         fits.append(fit)
         say(f"{name}, patch {number + 1} of {len(patches)}: {values[0].size} nodes")
     functions = 3 if name == "viscous" else 2
@@ -153,6 +164,7 @@ def _panel(name: str, patches: Sequence[Patch], limit: Array, say: Callable[[str
         coefficients=np.concatenate([fit[:functions] for fit in (*fits, *extra)], axis=2),
         reversed=fits[0][2] if name == "plastic_low" else np.zeros((len(table.POWERS), 0)),
         twins=twins if extra else np.zeros((KINDS, 0), int),
+        split=split if extra else np.zeros(0, int),
     )
 
 
@@ -171,33 +183,66 @@ def _near_a_change(kinds: Array, patch: Patch) -> Integers:
     return np.flatnonzero(least != most)
 
 
+def _parts(panel: Panel, limit: Array, patch: Patch, number: int, cells: Integers) -> Integers:
+    """Into how many parts each way cells are split, by the error of the polynomials of one."""
+    own, _ = _by_kind(panel, limit, patch, number, cells, 1)
+    place, monomials = _points(POINTS - 1)
+    values = _solved_in(panel, limit, patch, number, cells, 1, place)[:, :, 0]
+    guess = np.einsum("kfic,pi->kfcp", own[..., 0], monomials)
+    kind = values[KIND].astype(int)
+    found = np.take_along_axis(guess[:, 0], kind[None], axis=0)[0]
+    error = np.abs(found - values[0]).max(axis=1)
+    return np.array(SPLITS)[np.searchsorted(WORSE, error)]
+
+
 def _by_kind(
-    panel: Panel, limit: Array, patch: Patch, number: int, cells: Integers
+    panel: Panel, limit: Array, patch: Patch, number: int, cells: Integers, share: int
 ) -> tuple[Array, Integers]:
-    """Polynomials of cells for each kind, and how many of their points are of it.
+    """Polynomials of cells, split into `share` parts each way, for each kind.
 
     Returns
     -------
-    coefficients : ndarray, shape (kinds, functions, 20, cells)
+    coefficients : ndarray, shape (kinds, functions, 20, cells, parts)
     counts : ndarray of int, shape (kinds, cells)
+        How many points are of a kind.
     """
-    points = (1 - np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)) / 2
-    place = np.stack([a.ravel() for a in np.meshgrid(points, points, points, indexing="ij")])
-    corner = np.stack(np.unravel_index(cells, patch.cells))
-    at = (corner[:, :, None] + place[:, None]) / np.array(patch.cells)[:, None, None]
-    y, b, e = impacts(panel, limit, patch, number, *at.reshape(3, -1))
-    values = solved(panel.name, y, b, e, both_ways(panel, number)).reshape(-1, *at.shape[1:])
-    monomials = _monomials(*place)
+    place, monomials = _points(POINTS)
+    values = _solved_in(panel, limit, patch, number, cells, share, place)
     found, counts = [], []
     for kind in range(KINDS):
         own = values[KIND] == kind
         weight = np.where(own, 1.0, BEYOND)
-        square = np.einsum("cp,pi,pj->cij", weight, monomials, monomials)
-        right = np.einsum("cp,pi,fcp->cif", weight, monomials, values[:KIND])
-        found.append(np.linalg.solve(square, right).transpose(2, 1, 0))
-        counts.append(own.sum(axis=1))
-    functions = 3 if panel.name == "viscous" else 2
-    return np.stack(found)[:, :functions], np.stack(counts)
+        square = np.einsum("cqp,pi,pj->cqij", weight, monomials, monomials)
+        right = np.einsum("cqp,pi,fcqp->cqif", weight, monomials, values[:2])
+        found.append(np.linalg.solve(square, right).transpose(3, 2, 0, 1))
+        counts.append(own.sum(axis=(1, 2)))
+    return np.stack(found), np.stack(counts)
+
+
+def _points(count: int) -> tuple[Array, Array]:
+    """Points of a cell, shape (3, points), and their monomials."""
+    along = (1 - np.cos(np.pi * (np.arange(count) + 0.5) / count)) / 2
+    place = np.stack([a.ravel() for a in np.meshgrid(along, along, along, indexing="ij")])
+    return place, _monomials(*place)
+
+
+def _solved_in(
+    panel: Panel,
+    limit: Array,
+    patch: Patch,
+    number: int,
+    cells: Integers,
+    share: int,
+    place: Array,
+) -> Array:
+    """Functions at points of each part of cells, shape (4, cells, parts, points)."""
+    corner = np.stack(np.unravel_index(cells, patch.cells))[:, :, None, None]
+    part = np.stack(np.unravel_index(np.arange(share**3), (share, share, share)))
+    inside = (part[:, None, :, None] + place[:, None, None]) / share
+    at = (corner + inside) / np.array(patch.cells)[:, None, None, None]
+    y, b, e = impacts(panel, limit, patch, number, *at.reshape(3, -1))
+    values = solved(panel.name, y, b, e, both_ways(panel, number))
+    return values.reshape(-1, *at.shape[1:])
 
 
 def _edges(name: str, limit: Array) -> Array:
@@ -219,7 +264,7 @@ def _edges(name: str, limit: Array) -> Array:
         coarse = tuple(grid.reshape(t.shape)[::2, ::2] for grid in (b, e))
         sought = _changes(*(grid.ravel() for grid in coarse))
         found += [_doubled(edge.reshape(coarse[0].shape)) for edge in sought]
-    return np.stack(found).astype(np.float32).astype(float)
+    return np.stack(found)
 
 
 def _doubled(grid: Array) -> Array:

@@ -11,11 +11,14 @@ edge bends the answer a little late, and no more.
 from functools import cache
 from importlib import resources
 from itertools import pairwise
-from typing import Any, BinaryIO, NamedTuple
+from typing import IO, Any, NamedTuple, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planarimpact.ground.arrays import Array, Booleans, Integers
+
+Bytes: TypeAlias = NDArray[np.uint8]
 
 # Bounds of b and e: those of spheres, with room for rounding and for what is next to them.
 B_LEAST, B_MOST, E_LEAST = 1.55, 3.55, 0.295
@@ -31,8 +34,8 @@ POWERS = [
 # there like a power 3/2 of the distance.
 EVEN, LEFT, RIGHT = range(3)
 # Fields of a panel that are stored as whole numbers, of at least 2^-FINE.
-PACKED = "coefficients", "reversed"
-FINE = 22
+PACKED = "edges", "coefficients", "reversed"
+FINE = 20
 PANELS = "viscous", "plastic_low", "plastic_high"
 
 
@@ -58,7 +61,10 @@ class Panel(NamedTuple):
     reversed : ndarray, shape (20, cells of the first patch) or (20, 0)
         Of the largest friction against the first direction.
     twins : ndarray of int, shape (4, cells) or (4, 0)
-        The cell that answers in place of a cell for each kind of `kind_of`; most often itself.
+        The first of the cells that answer in place of a cell for each kind of `kind_of`; most often
+        itself.
+    split : ndarray of int, shape (cells,) or (0,)
+        Into how many parts each way a cell is split; most often 1.
     """
 
     name: str
@@ -69,6 +75,7 @@ class Panel(NamedTuple):
     coefficients: Array
     reversed: Array
     twins: Integers
+    split: Integers
 
 
 class Table(NamedTuple):
@@ -85,7 +92,7 @@ def shipped(name: str = "fine") -> Table:
         return read(file)
 
 
-def read(file: BinaryIO) -> Table:
+def read(file: IO[bytes]) -> Table:
     """Read a table that `write` wrote."""
     with np.load(file) as arrays:
         panels = {}
@@ -93,50 +100,63 @@ def read(file: BinaryIO) -> Table:
             fields = {field: arrays[f"{name}.{field}"] for field in Panel._fields[1:]}
             for field in PACKED:
                 unit = 2.0 ** -arrays[f"{name}.{field}.exponent"].astype(float)
-                fields[field] = fields[field] * unit[..., None]
+                fields[field] = _together(fields[field]) * unit[..., None]
             panels[name] = Panel(name, **fields)
         return Table(arrays["limit"], panels)
 
 
-def write(file: BinaryIO, table: Table) -> None:
-    """Write a table, compressed; `packed` says how coefficients are stored."""
+def write(file: IO[bytes], table: Table) -> None:
+    """Write a table, compressed; `packed` says how real numbers are stored."""
     arrays: dict[str, Any] = {"limit": table.limit}
     for name, panel in table.panels.items():
         for field in Panel._fields[1:]:
             values = getattr(panel, field)
             if field in PACKED:
-                values, arrays[f"{name}.{field}.exponent"] = packed(values)
+                whole, arrays[f"{name}.{field}.exponent"] = packed(values)
+                values = _apart(whole)
             arrays[f"{name}.{field}"] = values
     np.savez_compressed(file, **arrays)
 
 
-def packed(coefficients: Array) -> tuple[Integers, Integers]:
-    """Coefficients as whole numbers of a power of 1/2.
+def packed(values: Array) -> tuple[Integers, Integers]:
+    """Real numbers as whole numbers of a power of 1/2.
 
-    Terms of degree 0 and 1 are whole numbers of 2^-22, the others of the least unit with which they
-    fit into 16 bits: 3e-5 of the largest of their kind.
+    Coefficients of degree 2 and 3 are whole numbers of the least unit with which they fit into 16
+    bits, 3e-5 of the largest of their kind. The others, and edges, are whole numbers of 2^-FINE.
 
     Parameters
     ----------
-    coefficients : ndarray, shape (..., 20, cells)
+    values : ndarray, shape (..., 20, cells), or of edges
 
     Returns
     -------
-    whole : ndarray of int32, shape (..., 20, cells)
-    exponent : ndarray of int8, shape (..., 20)
-        A coefficient is `whole` times 2^-exponent.
+    whole : ndarray of int32
+        Of the same shape.
+    exponent : ndarray of int8
+        Of that shape without the last dimension. A value is `whole` times 2^-exponent.
 
     Examples
     --------
-    >>> whole, exponent = packed(np.full((len(POWERS), 1), 0.25))
-    >>> whole[-1, 0] / 2.0 ** exponent[-1], int(exponent[0])
-    (np.float64(0.25), 16)
+    >>> whole, exponent = packed(np.full((len(POWERS), 1), 0.75))
+    >>> (whole[:, 0] / 2.0**exponent).tolist() == [0.75] * 20, exponent[[0, -1]].tolist()
+    (True, [15, 20])
     """
-    largest = np.max(np.abs(coefficients), axis=-1, initial=2.0**-22)
-    exponent = np.minimum(np.floor(np.log2(32767 / largest)), FINE)
-    exponent = np.where([sum(powers) <= 1 for powers in POWERS], FINE, exponent).astype(np.int8)
+    exponent = np.full(values.shape[:-1], FINE, dtype=np.int8)
+    if values.shape[-2] == len(POWERS):
+        largest = np.max(np.abs(values), axis=-1, initial=2.0**-FINE)
+        fit = np.minimum(np.floor(np.log2(32767 / largest)), FINE)
+        exponent = np.where([sum(powers) > 1 for powers in POWERS], fit, FINE).astype(np.int8)
     unit = 2.0 ** -exponent.astype(float)
-    return np.rint(coefficients / unit[..., None]).astype(np.int32), exponent
+    return np.rint(values / unit[..., None]).astype(np.int32), exponent
+
+
+def _apart(whole: Integers) -> Bytes:
+    """The four bytes of whole numbers in four arrays: those alike side by side are compressed."""
+    return np.moveaxis(whole.astype("<i4")[..., None].view(np.uint8), -1, 0)
+
+
+def _together(parts: Bytes) -> Integers:
+    return np.ascontiguousarray(np.moveaxis(parts, 0, -1)).view("<i4")[..., 0]
 
 
 class Answer(NamedTuple):
@@ -167,7 +187,8 @@ def evaluate(table: Table, y: Array, b: Array, e: Array, plastic: Booleans) -> A
     """
     u = over_b(b)
     limit = _between(table.limit, u)
-    found = Answer(*np.empty((3, y.size)), np.zeros(y.size, dtype=bool))
+    velocity, peak, work = np.empty((3, y.size))
+    found = Answer(velocity, peak, work, np.zeros(y.size, dtype=bool))
     early = plastic & (e < limit)
     for name, rows in zip(PANELS, (~plastic, early, plastic & ~early), strict=True):
         which = np.flatnonzero(rows)
@@ -197,7 +218,9 @@ def over_e(name: str, e: Array, limit: Array) -> Array:
     return np.sqrt(np.sqrt((1 - e) / (1 - limit)))
 
 
-def edges_of(panel: Panel, t: Array, u: Array, b: Array, e: Array) -> tuple[list[Array], Array]:
+def edges_of(
+    panel: Panel, t: Array, u: Array, b: Array, e: Array
+) -> tuple[list[Array], list[Array]]:
     """Edges of the patches, from 0 to slip throughout, and the edges that vary."""
     varying = _over_both(panel.edges, t, u)
     zero, one = np.zeros_like(b), np.ones_like(b)
@@ -224,7 +247,8 @@ def _answer(panel: Panel, y: Array, b: Array, e: Array, u: Array, limit: Array) 
     right = root == RIGHT
     bent = np.sqrt(np.where(right, 1 - s, s))
     s = np.where(root == EVEN, s, np.where(right, 1 - bent, bent))
-    cell, place = np.zeros(y.size, dtype=np.intp), []
+    cell: Integers = np.zeros(y.size, dtype=np.intp)
+    place = []
     for axis, value in enumerate((s, t, u)):
         count = panel.shapes[:, axis].take(patch)
         at = value * count
@@ -232,17 +256,32 @@ def _answer(panel: Panel, y: Array, b: Array, e: Array, u: Array, limit: Array) 
         cell = cell * count + index
         place.append(at - index)
     cell += panel.first.take(patch)
-    base = cell
+    early = panel.name == "plastic_low"
+    first = np.flatnonzero(patch == 0) if early else np.zeros(0, dtype=np.intp)
+    back = polynomial(panel.reversed, cell[first], [at[first] for at in place]) if early else 0.0
     if panel.twins.size:
-        cell = panel.twins.reshape(-1).take(kind_of(y, varying) * panel.twins.shape[1] + cell)
+        cell = _finer(panel, kind_of(y, varying), cell, place)
     velocity, peak, *work = (polynomial(c, cell, place) for c in panel.coefficients)
     multiple = np.zeros(y.size, dtype=bool)
-    if panel.name == "plastic_low":
-        multiple = (y >= varying[2]) & (y <= 1)
-        first = np.flatnonzero(patch == 0)
-        back = polynomial(panel.reversed, base[first], [at[first] for at in place])
+    if early:
         peak[first] = np.maximum(peak[first], back)
+        multiple = (y >= varying[2]) & (y <= 1)
     return Answer(velocity, peak, work[0] if work else np.full(y.size, np.nan), multiple)
+
+
+def _finer(panel: Panel, kind: Integers, cell: Integers, place: list[Array]) -> Integers:
+    """The cell of a kind, or the part of one that is split; places are then those in the part."""
+    parts = panel.split.take(cell)
+    cell = panel.twins[kind, cell]
+    some = np.flatnonzero(parts > 1)
+    count, within = parts[some], np.zeros(some.size, dtype=np.intp)
+    for at in place:
+        fine = at[some] * count
+        index = np.clip(fine.astype(np.intp), 0, count - 1)
+        at[some] = fine - index
+        within = within * count + index
+    cell[some] += within
+    return cell
 
 
 def kind_of(y: Array, varying: list[Array]) -> Integers:

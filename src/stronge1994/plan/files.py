@@ -57,7 +57,7 @@ def present(*files: str) -> str | list[str]:
 
 
 def modules(*names: str, cells: str = "") -> list[str]:
-    """Files of some modules, and of all that they import of this repository, tables beside them too.
+    """Files of some modules, of all that they import of this repository, and tables beside those.
 
     They are inputs of the rules, so that an edit reruns what it must and nothing more.
 
