@@ -1,7 +1,6 @@
 """A scene in many tables: one is solved at a time, then all are counted together."""
 
 import json
-import re
 import shutil
 from collections import Counter
 from collections.abc import Sequence
@@ -13,8 +12,6 @@ from stronge1994 import csv_tables
 ALL = "all"  # in the place of a table's name: the line with the sums
 UNFINISHED = "unfinished"  # folder beside that of the results
 COUNTS = ("rows", "bad_rows")
-# A line of `Solver.explain` that says how many impacts a model took.
-TAKEN = re.compile(r" *(\d+) {2}(\S+(?: \S+)*) {2,}\S.*")
 
 
 def solve(
@@ -42,12 +39,9 @@ def solve(
     unfinished = Path(result).parents[1] / UNFINISHED / Path(result).name
     unfinished.parent.mkdir(exist_ok=True)
     solver = files.solve(table, unfinished, tolerance, skip_bad, loss=loss)
-    words = solver.explain()
     models: Counter[str] = Counter()
-    for line in filter(None, map(TAKEN.fullmatch, words.splitlines())):
-        models[line[2]] += int(line[1])
-    if models.total() != solver.rows - len(solver.bad):
-        raise RuntimeError(f"{models.total()} impacts counted where these belong: {words}")
+    for (rung, _), count in solver.report().taken.items():
+        models[rung.name] += count
     found = {
         "rows": solver.rows,
         "bad": solver.bad,
@@ -56,7 +50,7 @@ def solve(
     }
     Path(account).write_text(json.dumps(found), encoding="utf-8")
     unfinished.replace(result)
-    print(words)
+    print(solver.explain())
 
 
 def gather(results: Sequence[str], accounts: Sequence[str], summary: str, bad_rows: str) -> None:

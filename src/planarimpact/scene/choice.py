@@ -77,6 +77,11 @@ class Rung(NamedTuple):
     error: float
     why: str
 
+    @property
+    def name(self) -> str:
+        """Model and way, in words."""
+        return self.model if self.way == "formula" else f"{self.model}, {self.way}"
+
 
 class Job(NamedTuple):
     """Impacts of a table, by row, that one rung solves together; groups are numbers or arrays."""

@@ -38,6 +38,13 @@ class Summary:
         self._squares += float(np.sum(known**2))
         self._largest = max(self._largest, float(np.max(known, initial=0.0)))
 
+    def join(self, other: "Summary") -> None:
+        """Take in what another one has."""
+        self._count += other._count
+        self._unknown += other._unknown
+        self._squares += other._squares
+        self._largest = max(self._largest, other._largest)
+
     def words(self) -> list[str]:
         """Lines for people; none where no energy is lost.
 

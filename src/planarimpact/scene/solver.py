@@ -3,7 +3,7 @@
 import reprlib
 from collections import Counter
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -24,6 +24,16 @@ LOSS = "viscous"
 # Columns from which the loss is known.
 SAYS_LOSS = ("loss", *(name for name, loss in columns.LOSS_OF.items() if loss))
 ASSUMED = f"restitution below 1: the loss is taken to be {LOSS}, as none was given"
+
+
+class Report(NamedTuple):
+    """What a solver did: as the attributes of `Solver`, impacts by model, and model forms."""
+
+    rows: int
+    bad: list[tuple[int, str]]
+    assumed: bool
+    taken: Counter[tuple[choice.Rung, str]]
+    differences: model_form.Summary
 
 
 class Solver:
@@ -84,6 +94,18 @@ class Solver:
         ]
         return pd.concat(blocks) if len(blocks) > 1 else blocks[0]
 
+    def report(self) -> Report:
+        """What it did, for another solver to `join`."""
+        return Report(self.rows, self.bad, self.assumed, self._taken, self._differences)
+
+    def join(self, other: Report) -> None:
+        """Take in what a solver of other rows of the same table did."""
+        self.rows = max(self.rows, other.rows)
+        self.bad += other.bad
+        self.assumed |= other.assumed
+        self._taken += other.taken
+        self._differences.join(other.differences)
+
     def explain(self) -> str:
         """How many impacts each model solved and why, in words, a line for each.
 
@@ -93,8 +115,7 @@ class Solver:
         """
         lines = [f"{self.rows - len(self.bad)} impacts, tolerance {self.tolerance:g}"]
         for (rung, pair), count in self._taken.most_common():
-            way = rung.model if rung.way == "formula" else f"{rung.model}, {rung.way}"
-            lines.append(f"{count:>10}  {way:<27}  {pair}: {rung.why}")
+            lines.append(f"{count:>10}  {rung.name:<27}  {pair}: {rung.why}")
         if self.assumed:
             lines.append(ASSUMED)
         return "\n".join(lines + self._differences.words())

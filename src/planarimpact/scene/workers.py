@@ -9,7 +9,7 @@ import os
 import pickle
 import subprocess
 import sys
-from collections import Counter, deque
+from collections import deque
 from collections.abc import Generator, Iterator
 from concurrent.futures import Future
 from queue import SimpleQueue
@@ -17,7 +17,7 @@ from threading import Thread
 from typing import Any, NamedTuple
 
 from planarimpact.ground.checks import ConvergenceError, InputError
-from planarimpact.scene import columns, model_form, reading, writing
+from planarimpact.scene import columns, reading, writing
 from planarimpact.scene.reading import Piece
 from planarimpact.scene.solver import Solver
 from planarimpact.scene.writing import Encoded
@@ -58,16 +58,6 @@ class Done(NamedTuple):
     share: float | None
     rows: int
     content: Encoded
-
-
-class Report(NamedTuple):
-    """What a solver remembers, without the responses."""
-
-    rows: int
-    bad: list[tuple[int, str]]
-    assumed: bool
-    taken: Counter[Any]
-    differences: model_form.Summary
 
 
 def here(task: Task, solver: Solver, pieces: Iterator[Piece]) -> Iterator[Done]:
@@ -118,7 +108,7 @@ def elsewhere(
         if failed:
             raise failed[0]
         for worker in workers:
-            _join(solver, worker.ask(None).result())
+            solver.join(worker.ask(None).result())
         solver.bad.sort()
     finally:
         for worker in workers:
@@ -144,24 +134,11 @@ def serve() -> None:
 
 def _answered(task: Task, solver: Solver, piece: Piece | None) -> object:
     if piece is None:
-        return Report(solver.rows, solver.bad, solver.assumed, solver._taken, solver._differences)
+        return solver.report()
     try:
         return task.done(piece, solver)
     except (InputError, ConvergenceError) as error:
         return error
-
-
-def _join(solver: Solver, report: Report) -> None:
-    """Let a solver remember what another one did."""
-    solver.rows = max(solver.rows, report.rows)
-    solver.bad += report.bad
-    solver.assumed |= report.assumed
-    solver._taken += report.taken
-    mine, theirs = solver._differences, report.differences
-    mine._count += theirs._count
-    mine._unknown += theirs._unknown
-    mine._squares += theirs._squares
-    mine._largest = max(mine._largest, theirs._largest)
 
 
 def _until_failure(pieces: Iterator[Piece], failed: list[InputError | OSError]) -> Iterator[Piece]:

@@ -242,7 +242,7 @@ def _solved_in(
     at = (corner + inside) / np.array(patch.cells)[:, None, None, None]
     y, b, e = impacts(panel, limit, patch, number, *at.reshape(3, -1))
     values = solved(panel.name, y, b, e, both_ways(panel, number))
-    return values.reshape(-1, *at.shape[1:])
+    return values.reshape(len(values), *at.shape[1:])
 
 
 def _edges(name: str, limit: Array) -> Array:
