@@ -212,6 +212,16 @@ def input_spread(
 def admits(model: Model, mass_ratio: float, stiffness_ratio: float, restitution: float) -> bool:
     """Whether a model has an answer for these groups.
 
+    Parameters
+    ----------
+    model : Model
+    mass_ratio, stiffness_ratio, restitution : float
+        As in `planarimpact.lumped.rebound`.
+
+    Returns
+    -------
+    bool
+
     Examples
     --------
     >>> [admits(get(name), 3.5, 5.0, 0.5) for name in ("lumped", "continuum", "spheres.plastic")]

@@ -95,11 +95,21 @@ class Solver:
         return pd.concat(blocks) if len(blocks) > 1 else blocks[0]
 
     def report(self) -> Report:
-        """What it did, for another solver to `join`."""
+        """What it did, for another solver to `join`.
+
+        Returns
+        -------
+        Report
+        """
         return Report(self.rows, self.bad, self.assumed, self._taken, self._differences)
 
     def join(self, other: Report) -> None:
-        """Take in what a solver of other rows of the same table did."""
+        """Take in what a solver of other rows of the same table did.
+
+        Parameters
+        ----------
+        other : Report
+        """
         self.rows = max(self.rows, other.rows)
         self.bad += other.bad
         self.assumed |= other.assumed
