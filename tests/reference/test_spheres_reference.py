@@ -64,5 +64,5 @@ def test_the_table_is_within_its_bound_of_the_continuum(part):
             error = np.abs(getattr(found, field) - getattr(exact, field))
             worst = int(np.argmax(error))
             words = field, loss, [float(group[worst]) for group in chosen], float(error[worst])
-            assert error[worst] <= spheres.ERROR_BOUND, words
+            assert error[worst] <= spheres.ERROR_BOUND[loss], words
         assert np.mean(found.regime == exact.regime) > 0.98

@@ -99,9 +99,10 @@ class Job(NamedTuple):
 
 
 REFERENCE = "errors are measured against it"
-TABLE = f"the table of spheres differs by {spheres.ERROR_BOUND:.2g} at most, as measured"
 # Of elastic, viscous and plastic pairs.
 REFERENCES = ("continuum", *(f"continuum.{loss}" for loss in continuum.LOSSES))
+# The loss for which the table of spheres has them: at e = 1 either will do.
+TABLED = dict(zip(REFERENCES, (continuum.LOSSES[0], *continuum.LOSSES), strict=True))
 MODELS = ("rigid", "lumped", *REFERENCES)
 SLIDING = Rung("slip throughout", "formula", 0.0, "Coulomb's line, as in every compliant model")
 HEAD_ON = Rung("head-on", "formula", 0.0, "no tangential motion, the same in every model")
@@ -139,12 +140,12 @@ def jobs(
     """
     groups = np.stack([group[rows] for group in (mass_ratio, stiffness_ratio, restitution)])
     kinds = np.where(groups[2] == 1, 0, np.where(plastic[rows], 2, 1))
-    fine = MOST * tolerance >= spheres.ERROR_BOUND
-    tabled = spheres.covers(*groups) if fine else np.zeros(rows.size, dtype=bool)
-    chosen = [
-        (np.flatnonzero(tabled & (kinds == kind)), Rung(name, "table", spheres.ERROR_BOUND, TABLE))
-        for kind, name in enumerate(REFERENCES)
-    ]
+    errors = [spheres.ERROR_BOUND[loss] for loss in TABLED.values()]
+    tabled = spheres.covers(*groups) & (MOST * tolerance >= np.array(errors)[kinds])
+    chosen = []
+    for kind, (name, error) in enumerate(zip(REFERENCES, errors, strict=True)):
+        why = f"the table of spheres differs by {error:.2g} at most, as measured"
+        chosen.append((np.flatnonzero(tabled & (kinds == kind)), Rung(name, "table", error, why)))
     found = _each(chosen, groups, rows, HELD)
     left = np.flatnonzero(~tabled)
     return found + _pair_by_pair(
@@ -317,8 +318,7 @@ def solve(
         error = rung.error + max(responses[key].error_bound) + EXACT * mass_ratio
         return responses[key](incidence), error
     if rung.way == "table":
-        loss = rung.model.partition(".")[2] or "viscous"  # at e = 1 they agree
-        found = spheres.rebound(incidence, *groups, loss=loss)
+        found = spheres.rebound(incidence, *groups, loss=TABLED[rung.model])
         return found, rung.error + EXACT * np.asarray(mass_ratio)
     if rung.model in REFERENCES:
         return models.rebound(rung.model, incidence, *groups, tolerance=tolerance), tolerance

@@ -50,19 +50,21 @@ SHARES = {"fine": 1.0, "coarse": 0.4}
 
 
 class Patch(NamedTuple):
-    """Where s has its root, cells and nodes over s, t and u, and whether kinds may change."""
+    """Where s has its root, cells and nodes, whether kinds may change, and errors as in `WORSE`."""
 
     root: int
-    cells: tuple[int, int, int]
-    nodes: tuple[int, int, int]
+    cells: tuple[int, ...]
+    nodes: tuple[int, ...]
     changes: bool = False
+    worse: tuple[float, ...] = WORSE
 
     def coarser(self, share: float) -> "Patch":
         """The same with a share of its cells and nodes each way."""
-        cells = [max(2, round(share * count)) for count in self.cells]
-        nodes = [max(5, round(share * count)) for count in self.nodes]
+        # Of cubic polynomials in cells that are so much larger, no more can be asked.
         return self._replace(
-            cells=(cells[0], cells[1], cells[2]), nodes=(nodes[0], nodes[1], nodes[2])
+            cells=tuple(max(2, round(share * count)) for count in self.cells),
+            nodes=tuple(max(5, round(share * count)) for count in self.nodes),
+            worse=tuple(error / share**3 for error in self.worse),
         )
 
 
@@ -192,7 +194,7 @@ def _parts(panel: Panel, limit: Array, patch: Patch, number: int, cells: Integer
     kind = values[KIND].astype(int)
     found = np.take_along_axis(guess[:, 0], kind[None], axis=0)[0]
     error = np.abs(found - values[0]).max(axis=1)
-    return np.array(SPLITS)[np.searchsorted(WORSE, error)]
+    return np.array(SPLITS)[np.searchsorted(patch.worse, error)]
 
 
 def _by_kind(
@@ -407,13 +409,14 @@ def _largest(time: Array, force: Array) -> Array:
     return f0 + (at - t0) * (rise + bend * (at - t1))
 
 
-def fitted(values: Array, cells: tuple[int, int, int]) -> Array:
+def fitted(values: Array, cells: tuple[int, ...]) -> Array:
     """Polynomials of cells, from values at nodes that are spread evenly over a patch.
 
     Parameters
     ----------
     values : ndarray, shape (functions, s, t, u)
-    cells : (int, int, int)
+    cells : tuple of int
+        Over s, t and u.
 
     Returns
     -------

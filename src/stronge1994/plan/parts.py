@@ -13,7 +13,7 @@ from stronge1994 import records
 from stronge1994.plan.config import Config, ConfigError
 
 # What scenes read, the longer ending of two that fit first.
-ENDINGS = (".csv.gz", ".csv")
+ENDINGS = (".csv.gz", ".csv", ".parquet")
 RESULTS = "results/scene_parts"
 # Names become names of files, of jobs on a cluster and of wildcards.
 NAME = re.compile(r"[\w.=+-]+")

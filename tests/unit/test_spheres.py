@@ -1,0 +1,89 @@
+"""The table of spheres: its interface, its file, and the job that makes it."""
+
+import io
+
+import numpy as np
+import pytest
+
+from planarimpact import InputError, Regime, continuum, models, spheres
+from planarimpact.spheres import making, table, thresholds
+
+
+def test_every_argument_may_be_an_array_of_its_own():
+    x, beta = np.array([[0.5], [2.0], [-3.0]]), [2.5, 3.5]
+    words = np.array([["viscous"], ["plastic"], ["plastic"]])
+    found = spheres.rebound(x, beta, [1.0, 1.4], [0.9, 0.5], loss=words)
+    assert found.velocity.shape == (3, 2)
+    for i, j in np.ndindex(3, 2):
+        one = spheres.rebound(x[i, 0], beta[j], [1.0, 1.4][j], [0.9, 0.5][j], loss=str(words[i, 0]))
+        assert isinstance(one.regime, Regime)
+        for field in ("velocity", "peak_friction", "dissipation", "regime"):
+            assert getattr(found, field)[i, j] == getattr(one, field)
+
+
+def test_what_needs_no_table_is_exact():
+    still = spheres.rebound(0.0)
+    assert (still.velocity, still.regime) == (0.0, Regime.STICK)
+    for loss in spheres.LOSSES:
+        slides, exact = (
+            model([7.0, -9.0], 3.5, 1.2, 0.6, loss=loss)
+            for model in (spheres.rebound, continuum.rebound)
+        )
+        np.testing.assert_array_equal(slides.regime, Regime.SLIP_THROUGHOUT)
+        for field in ("velocity", "peak_friction", "dissipation"):
+            np.testing.assert_allclose(getattr(slides, field), getattr(exact, field), rtol=1e-15)
+
+
+def test_both_losses_are_the_elastic_sphere_at_the_end():
+    x = np.linspace(0.0, 6.0, 200)
+    exact = continuum.rebound(x, 3.5, 1.1)
+    for loss in spheres.LOSSES:
+        found = models.rebound(f"spheres.{loss}", x, 3.5, 1.1)
+        np.testing.assert_allclose(found.velocity, exact.velocity, atol=spheres.ERROR_BOUND[loss])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "loss", "words"),
+    [
+        (
+            (1.0, 3.5, 1.2, [0.5, 0.29]),
+            "viscous",
+            "restitution[1] = 0.29: allowed are numbers from",
+        ),
+        ((1.0, 3.5, 0.9), "viscous", "mass_ratio/stiffness_ratio = 3.5/0.9: allowed are ratios"),
+        ((1.0, 2.5, 1.7), "viscous", "mass_ratio/stiffness_ratio = 2.5/1.7: allowed are ratios"),
+        ((1.0,), "hysteretic", "loss = 'hysteretic': allowed are viscous, plastic"),
+        (([1.0, 2.0],), ["viscous", "magic"], "loss = 'magic': allowed are viscous, plastic"),
+        (([1.0, 2.0],), 3 * ["viscous"], "shapes do not broadcast: groups (2,), loss (3,)"),
+        ((np.nan,), "plastic", "incidence = nan"),
+    ],
+)
+def test_refusals(arguments, loss, words):
+    with pytest.raises(InputError) as refused:
+        spheres.rebound(*arguments, loss=loss)
+    assert words in str(refused.value)
+
+
+@pytest.mark.parametrize("name", ["fine", "coarse"])
+def test_a_table_is_read_as_it_was_written(name):
+    shipped, file = table.shipped(name), io.BytesIO()
+    table.write(file, shipped)
+    again = table.read(io.BytesIO(file.getvalue()))
+    np.testing.assert_array_equal(again.limit, shipped.limit)
+    for panel, other in zip(shipped.panels.values(), again.panels.values(), strict=True):
+        for one, two in zip(panel, other, strict=True):
+            np.testing.assert_array_equal(one, two)
+
+
+def test_the_job_makes_the_shipped_table():
+    shipped = table.shipped()
+    np.testing.assert_allclose(
+        shipped.limit[::16], thresholds.early_limit(making.b_at(np.linspace(0, 1, 5))), atol=1e-7
+    )
+    for name, number in (("viscous", 3), ("plastic_low", 4), ("plastic_high", 3)):
+        panel, patch = shipped.panels[name], making.PATCHES[name][number]
+        values = making.nodes_of(panel, shipped.limit, patch, number)
+        fit = making.fitted(values[:2], patch.cells)
+        own = slice(panel.first[number], panel.first[number] + fit.shape[2])
+        np.testing.assert_array_equal(panel.shapes[number], patch.cells)
+        np.testing.assert_allclose(panel.coefficients[:2, :, own], fit, atol=2e-5)
