@@ -149,7 +149,7 @@ def sphere_edges(shipped, random):
                     yield np.stack([row[0], row[1], np.ones_like(loss), row[2], loss])
 
 
-def case_of_spheres(name, bound):
+def case_of_spheres(name):
     """Every edge, one float beside it, bounds, what is refused, and random impacts."""
     random, shipped = np.random.default_rng(20), table.shipped(name)
     e, ratio = random.uniform(0.3, 1, COUNT), random.uniform(1.5625, 3.5, COUNT)
@@ -173,7 +173,8 @@ def case_of_spheres(name, bound):
     words = np.array(spheres.LOSSES)[loss[good].astype(int)]
     found = spheres.rebound(x[good], beta[good], zeta2[good], e[good], loss=words)
     constants = {"INCIDENCE_MAX": LARGEST, "RESTITUTION_MIN": 0.3, "RATIO_MIN": 1.5625}
-    constants |= {"RATIO_MAX": 3.5, "ERROR_BOUND": bound, "VISCOUS": 0, "PLASTIC": 1}
+    errors = {f"ERROR_{k.upper()}": v for k, v in table_of_spheres.BOUNDS[name].items()}
+    constants |= {"RATIO_MAX": 3.5, "VISCOUS": 0, "PLASTIC": 1} | errors
     return Case(constants, impacts.T, answers(good, found.velocity, found), tabled)
 
 
@@ -204,8 +205,8 @@ def pairs():
 @pytest.fixture(scope="module")
 def cases(pairs):
     found = {name: case_of_a_pair(built) for name, built in pairs.items()}
-    for bound, name in export.TABLES.items():
-        found[name] = case_of_spheres(name, bound)
+    for name in export.TABLES.values():
+        found[name] = case_of_spheres(name)
     return found
 
 
@@ -228,7 +229,8 @@ def folder(pairs, cases, tmp_path_factory):
             panels[name] = panel._replace(coefficients=panel.coefficients.copy())
             panels[name].coefficients[:, -1, 7] += 2.0**-table.FINE
         shipped = table.shipped("coarse")._replace(panels=panels)
-        wrong = table_of_spheres.text(shipped, 1.0, "x", "wrong_coarse", language)
+        bounds = table_of_spheres.BOUNDS["coarse"]
+        wrong = table_of_spheres.text(shipped, bounds, "x", "wrong_coarse", language)
         (folder / file.format("wrong_coarse")).write_text(wrong)
     for name, case in cases.items():
         case.impacts.tofile(folder / f"{name}.x")

@@ -13,7 +13,7 @@ from planarimpact.response import Response
 from planarimpact.spheres import table
 
 __all__ = ["LANGUAGES", "TABLES", "checked_name", "spheres_text", "text", "write", "write_spheres"]
-# The shipped tables of spheres, by their largest errors.
+# The shipped tables of spheres by their largest errors.
 TABLES = table_of_spheres.TABLES
 
 
@@ -82,8 +82,8 @@ def spheres_text(path: str | Path, language: str, tolerance: float = min(TABLES)
         raise checks.InputError(
             f"tolerance = {checks.brief(tolerance)}: allowed is {allowed}, for the table of spheres"
         )
-    shipped = table.shipped(TABLES[tolerance])
-    return table_of_spheres.text(shipped, tolerance, Path(path).name, name, language)
+    shipped, bounds = table.shipped(TABLES[tolerance]), table_of_spheres.BOUNDS[TABLES[tolerance]]
+    return table_of_spheres.text(shipped, bounds, Path(path).name, name, language)
 
 
 def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES)) -> None:

@@ -5,6 +5,7 @@ stored as in the shipped file: whole numbers, each times a power of 1/2.
 """
 
 import math
+from collections.abc import Mapping
 from string import Template
 from typing import Any, NamedTuple
 
@@ -19,8 +20,9 @@ from planarimpact.ground.results import Regime
 from planarimpact.spheres import table as tables
 from planarimpact.spheres.table import LEFT, POWERS, RIGHT, Panel, Table
 
-# The shipped tables, by their largest errors.
-TABLES: dict[float, str] = {spheres.ERROR_BOUND: "fine", 2e-3: "coarse"}
+# Largest errors of the shipped tables by loss, and the tables by the larger of them.
+BOUNDS = {"fine": spheres.ERROR_BOUND, "coarse": {"viscous": 2e-3, "plastic": 5e-3}}
+TABLES: dict[float, str] = {max(bounds.values()): name for name, bounds in BOUNDS.items()}
 # Coefficients of degree 2 and 3 fit into 16 bits, the others do not.
 HIGH = np.array([sum(powers) > 1 for powers in POWERS])
 PANEL_FIELDS = [
@@ -546,9 +548,9 @@ Range: |x| up to ${P}INCIDENCE_MAX, restitution from ${P}RESTITUTION_MIN to 1, m
 mass_ratio/stiffness_ratio from ${P}RATIO_MIN to ${P}RATIO_MAX. Beyond it, and for NaN, the \
 numbers are NaN and the regime is ${P}UNRESOLVED.
 
-Error against the model, of velocity, peak_friction and dissipation: at most ${P}ERROR_BOUND. It \
-was measured at 10000 impacts, half of them beside the edges of the table; it is not proved. Slip \
-throughout is a formula.
+Error against the model, of velocity, peak_friction and dissipation: at most ${P}ERROR_VISCOUS or \
+${P}ERROR_PLASTIC, by loss. It was measured at random impacts, half of them beside the edges of \
+the table; it is not proved. Slip throughout is a formula.
 
 Example:
 $example
@@ -589,15 +591,15 @@ class _Layout(NamedTuple):
     reversed: int
 
 
-def text(table: Table, bound: float, file: str, name: str, language: str) -> str:
+def text(table: Table, bounds: Mapping[str, float], file: str, name: str, language: str) -> str:
     """The file of a table of spheres.
 
     Parameters
     ----------
     table : Table
         Of `planarimpact.spheres.table`.
-    bound : float
-        Its largest error.
+    bounds : mapping
+        Its largest errors by loss.
     file : str
         What the file is called.
     name : str
@@ -609,7 +611,7 @@ def text(table: Table, bound: float, file: str, name: str, language: str) -> str
     prefix = f"{name}_" if chosen.named else ""
     layout = _laid_out(table)
     blocks = [
-        _constants(bound, prefix.upper(), chosen),
+        _constants(bounds, prefix.upper(), chosen),
         comment(Template(one).substitute(left=LEFT, right=RIGHT) for one in LAYOUT),
         numbers(prefix + "limit", table.limit, chosen),
         _panels(layout.panels, prefix, language),
@@ -684,14 +686,14 @@ def _near(panel: Panel, first: int) -> tuple[NDArray[Any], NDArray[Any]]:
     return entries, np.column_stack([panel.split[some], panel.twins[:, some].T])
 
 
-def _constants(bound: float, prefix: str, language: Language) -> str:
+def _constants(bounds: Mapping[str, float], prefix: str, language: Language) -> str:
     """What users may read: losses, range, error and the codes of regimes."""
     values = {
         "INCIDENCE_MAX": checks.LARGEST,
         "RESTITUTION_MIN": spheres.LEAST_RESTITUTION,
         "RATIO_MIN": spheres.LEAST_RATIO,
         "RATIO_MAX": spheres.LARGEST_RATIO,
-        "ERROR_BOUND": bound,
+        **{f"ERROR_{loss.upper()}": bound for loss, bound in bounds.items()},
     }
     lines = [(loss.upper(), str(code)) for code, loss in enumerate(spheres.LOSSES)]
     lines += [(name, number(value, language)) for name, value in values.items()]
