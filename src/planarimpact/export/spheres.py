@@ -4,6 +4,7 @@ Both evaluate as `planarimpact.spheres` does: the same operations in the same or
 stored as in the shipped file: whole numbers, each times a power of 1/2.
 """
 
+import base64
 import math
 from collections.abc import Mapping
 from string import Template
@@ -276,6 +277,32 @@ static inline struct ${p}result ${p}rebound(
  */
 function bytes(text) {
     return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
+}
+
+/**
+ * The edges: each number is stored as what it adds to its neighbours, before it and above, in 7
+ * bits a byte, the lowest first.
+ * @param {string} text base64
+ * @returns {Int32Array}
+ */
+function unfolded(text) {
+    const all = new Uint8Array(bytes(text)), found = new Int32Array($edges);
+    let next = 0, i = 0;
+    for (const { rows, columns, varying } of panels) {
+        const down = (columns + 1) * varying, end = i + (rows + 1) * down;
+        for (const start = i; i < end; i += 1) {
+            let value = 0, shift = 0;
+            for (; all[next] > 127; shift += 7) value += (all[next++] - 128) << shift;
+            value += all[next++] << shift;
+            value = value % 2 ? -(value + 1) / 2 : value / 2;
+            const above = i - down >= start, before = (i - start) % down >= varying;
+            if (above) value += found[i - down];
+            if (before) value += found[i - varying];
+            if (above && before) value -= found[i - down - varying];
+            found[i] = value;
+        }
+    }
+    return found;
 }
 
 /**
@@ -578,6 +605,7 @@ class _Layout(NamedTuple):
     ----------
     panels : ndarray of int32, shape (panels, fields)
         See `PANEL_FIELDS`.
+    edges : list of ndarray of int32, shape (rows, columns, edges)
     arrays : dict
         Tables of whole numbers by their names.
     unit : ndarray, shape (functions, 20)
@@ -586,6 +614,7 @@ class _Layout(NamedTuple):
     """
 
     panels: NDArray[Any]
+    edges: list[NDArray[Any]]
     arrays: dict[str, NDArray[Any]]
     unit: NDArray[Any]
     reversed: int
@@ -615,6 +644,7 @@ def text(table: Table, bounds: Mapping[str, float], file: str, name: str, langua
         comment(Template(one).substitute(left=LEFT, right=RIGHT) for one in LAYOUT),
         numbers(prefix + "limit", table.limit, chosen),
         _panels(layout.panels, prefix, language),
+        _edges(layout.edges, prefix, language),
         *(packed(prefix + key, values, chosen) for key, values in layout.arrays.items()),
         numbers(prefix + "unit", layout.unit, chosen),
         _code(layout, table, prefix, language),
@@ -636,23 +666,24 @@ def _laid_out(table: Table) -> _Layout:
     panels: list[list[int]] = []
     # Row 0 of `finer` stands for cells that answer themselves.
     parts: dict[str, list[NDArray[Any]]] = {
-        "edges": [],
         "patches": [],
         "records": [],
         "exponents": [],
         "near": [],
         "finer": [np.zeros((1, 5), int)],
     }
-    begins = "edges", "patches", "records", "exponents", "near"
+    grids: list[NDArray[Any]] = []
+    begins = "patches", "records", "exponents", "near"
     for panel in table.panels.values():
         functions = len(panel.coefficients)
         varying, rows, columns = panel.edges.shape
         counts = [functions, len(panel.roots), varying, rows - 1, columns - 1]
+        counts.append(sum(map(np.size, grids)))
+        grids.append(np.moveaxis(tables.packed(panel.edges)[0], 0, -1))
         panels.append(counts + [sum(map(len, parts[key])) for key in begins])
         whole, exponent = tables.packed(panel.coefficients)
         near, finer = _near(panel, sum(map(len, parts["finer"])))
         for key, part in {
-            "edges": np.moveaxis(tables.packed(panel.edges)[0], 0, -1).ravel(),
             "patches": np.column_stack([panel.roots, panel.shapes, panel.first]),
             "records": whole.transpose(2, 0, 1).reshape(-1, len(POWERS)),
             "exponents": exponent,
@@ -666,7 +697,6 @@ def _laid_out(table: Table) -> _Layout:
     parts["exponents"].append(exponent[None])
     joined = {key: np.concatenate(part) for key, part in parts.items()}
     arrays: dict[str, NDArray[Any]] = {
-        "edges": joined["edges"].reshape(1, -1).astype(np.int32),
         "patches": joined["patches"].astype(np.int32),
         "high": joined["records"][:, HIGH].astype(np.int16),
         "low": joined["records"][:, ~HIGH].astype(np.int32),
@@ -674,7 +704,7 @@ def _laid_out(table: Table) -> _Layout:
         "finer": joined["finer"].astype(np.int32),
     }
     unit = 2.0 ** -joined["exponents"].astype(float)
-    return _Layout(np.array(panels), arrays, unit, reversed_)
+    return _Layout(np.array(panels), grids, arrays, unit, reversed_)
 
 
 def _near(panel: Panel, first: int) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -717,6 +747,22 @@ def _panels(panels: NDArray[Any], prefix: str, language: str) -> str:
     return "const panels = [\n" + "".join(f"    {{ {row} }},\n" for row in named) + "];\n"
 
 
+def _edges(grids: list[NDArray[Any]], prefix: str, language: str) -> str:
+    """Edges; in JavaScript as `unfolded` reads them: most are near what their neighbours tell."""
+    if language == "c":
+        lines = [grid.reshape(-1, grids[0].shape[1]) for grid in grids]
+        return packed(prefix + "edges", np.concatenate(lines), LANGUAGES[language])
+    parts = [np.diff(np.diff(grid, axis=0, prepend=0), axis=1, prepend=0).ravel() for grid in grids]
+    steps = np.concatenate(parts).astype(np.int64)
+    bits = np.where(steps < 0, -2 * steps - 1, 2 * steps)[:, None] >> 7 * np.arange(5)
+    goes_on = bits[:, 1:] > 0
+    digits = bits % 128
+    digits[:, :-1] += 128 * goes_on
+    used = np.pad(goes_on, ((0, 0), (1, 0)), constant_values=True)
+    text = base64.b64encode(digits[used].astype(np.uint8).tobytes()).decode()
+    return f'const edges = unfolded("{text}");\n'
+
+
 def _code(layout: _Layout, table: Table, prefix: str, language: str) -> str:
     """The functions, which name numbers and tables."""
     values = {
@@ -743,6 +789,7 @@ def _code(layout: _Layout, table: Table, prefix: str, language: str) -> str:
         low=np.count_nonzero(~HIGH),
         powers=len(POWERS),
         horner=_horner(*at) if language == "js" else _horner("a[{}]", "c[{}]", "k[{}]"),
+        edges=sum(grid.size for grid in layout.edges),
         reversed=layout.reversed,
         back=len(layout.unit) - 1,
     )
