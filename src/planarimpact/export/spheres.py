@@ -22,7 +22,7 @@ from planarimpact.spheres import table as tables
 from planarimpact.spheres.table import LEFT, POWERS, RIGHT, Panel, Table
 
 # Largest errors of the shipped tables by loss, and the tables by the larger of them.
-BOUNDS = {"fine": spheres.ERROR_BOUND, "coarse": {"viscous": 2e-3, "plastic": 5e-3}}
+BOUNDS = {"fine": spheres.ERROR_BOUND, "coarse": {"viscous": 2e-3, "plastic": 2e-2}}
 TABLES: dict[float, str] = {max(bounds.values()): name for name, bounds in BOUNDS.items()}
 # Coefficients of degree 2 and 3 fit into 16 bits, the others do not.
 HIGH = np.array([sum(powers) > 1 for powers in POWERS])
