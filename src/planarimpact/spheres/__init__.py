@@ -7,8 +7,6 @@ ratio 1 to 1.6) are among them, and so is whatever lies between, such as discs (
 to compile and nothing is remembered. `thresholds` and `making` made it, `table` evaluates it.
 """
 
-from typing import Any
-
 import numpy as np
 
 from planarimpact.ground import checks, sliding
@@ -115,12 +113,12 @@ table of spheres
 
 def _is_plastic(loss: str | ArrayLike) -> Booleans:
     words = np.asarray(loss)
-    plastic = words == LOSSES[1]
-    known = plastic | (words == LOSSES[0])
-    if not np.all(known):
-        unknown: Any = words[~np.asarray(known)].flat[0]
-        checks.loss(unknown, LOSSES)
-    return np.asarray(plastic)
+    plastic = np.asarray(words == LOSSES[1])
+    other = words[~plastic]
+    unknown = other[other != LOSSES[0]]
+    if unknown.size:
+        checks.loss(unknown.tolist()[0], LOSSES)
+    return plastic
 
 
 def _refuse_uncovered(beta: Array, zeta2: Array, e: Array) -> None:

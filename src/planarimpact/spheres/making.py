@@ -40,7 +40,7 @@ NEAR = 1.5
 # Points over each variable of such a cell, and the weight of those of other kinds.
 POINTS, BEYOND = 4, 1e-3
 # Parts each way that such a cell is split into, and the errors of velocity from which it is so.
-SPLITS, WORSE = (1, 2, 4), (2.5e-4, 1e-3)
+SPLITS, WORSE = (1, 2), (5e-4,)
 # Incidences over which a change is sought, and halvings that find it.
 PLACES, HALVINGS = 48, 12
 
@@ -77,10 +77,10 @@ PATCHES = {
         Patch(RIGHT, (10, 12, 7), (19, 19, 13)),
     ],
     "plastic_low": [
-        Patch(EVEN, (12, 18, 9), (27, 41, 19), True),
-        Patch(LEFT, (14, 18, 9), (31, 41, 19), True),
-        Patch(EVEN, (3, 16, 8), (7, 37, 19), True),
-        Patch(EVEN, (16, 18, 9), (37, 41, 19), True),
+        Patch(EVEN, (14, 20, 10), (27, 41, 19), True),
+        Patch(LEFT, (17, 21, 10), (31, 45, 21), True),
+        Patch(EVEN, (3, 19, 9), (7, 41, 21), True),
+        Patch(EVEN, (20, 21, 10), (37, 45, 21), True),
         Patch(RIGHT, (6, 10, 6), (13, 19, 13)),
     ],
     "plastic_high": [
