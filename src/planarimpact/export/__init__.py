@@ -73,8 +73,9 @@ def spheres_text(path: str | Path, language: str, tolerance: float = min(TABLES)
 
     Examples
     --------
-    >>> print(spheres_text("spheres.h", "c", max(TABLES)).splitlines()[1])
-     * spheres.h: the rebound of rough spheres after an oblique impact, every impact with materials
+    >>> code = spheres_text("balls.h", "c", tolerance=max(TABLES))
+    >>> "struct balls_result balls_rebound(" in code
+    True
     """
     name = checked_name(path, language)
     if tolerance not in TABLES:

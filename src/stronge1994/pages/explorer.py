@@ -107,8 +107,8 @@ def continuum() -> str:
 
     Examples
     --------
-    >>> print(continuum().splitlines()[-1])
-    return { covers, velocity, rebound }; })();
+    >>> print(continuum().splitlines()[0])
+    const spheres = (() => {
     """
     module = export.spheres_text("spheres.mjs", "js", max(export.TABLES))
     names = re.findall(r"^export (?:const|function) (\w+)", module, flags=re.M)
