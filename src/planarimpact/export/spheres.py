@@ -193,11 +193,12 @@ static inline double ${p}function(const struct ${p}spot *spot, int number)
     return ${p}polynomial(spot->at.record + number, spot->panel->units + number, spot->at);
 }
 
+/* Whether the table has an answer. */
 static inline int ${p}covers(
-    double size, double mass_ratio, double stiffness_ratio, double restitution, int loss)
+    double x, double mass_ratio, double stiffness_ratio, double restitution, int loss)
 {
     double ratio = mass_ratio / stiffness_ratio;
-    return size <= ${P}INCIDENCE_MAX && mass_ratio >= 1 && mass_ratio <= $largest
+    return fabs(x) <= ${P}INCIDENCE_MAX && mass_ratio >= 1 && mass_ratio <= $largest
         && ratio >= $ratio_least && ratio <= $ratio_most && restitution >= $restitution_least
         && restitution <= 1 && (loss == ${P}VISCOUS || loss == ${P}PLASTIC);
 }
@@ -215,7 +216,7 @@ static inline double ${p}velocity(
     double x, double mass_ratio, double stiffness_ratio, double restitution, int loss)
 {
     double size = fabs(x), velocity;
-    if (!${p}covers(size, mass_ratio, stiffness_ratio, restitution, loss))
+    if (!${p}covers(x, mass_ratio, stiffness_ratio, restitution, loss))
         return $nan;
     if (size >= ${p}slides_from(mass_ratio, stiffness_ratio, restitution)) {
         velocity = size - (1 + restitution) * mass_ratio;
@@ -233,7 +234,7 @@ static inline struct ${p}result ${p}rebound(
 {
     struct ${p}result found = {$nan, $nan, $nan, ${P}UNRESOLVED};
     double size = fabs(x), beta = mass_ratio, zeta2 = stiffness_ratio, e = restitution, w;
-    if (!${p}covers(size, beta, zeta2, e, loss))
+    if (!${p}covers(x, beta, zeta2, e, loss))
         return found;
     if (size >= ${p}slides_from(beta, zeta2, e)) {
         double change = (1 + e) * beta;
@@ -559,6 +560,7 @@ shells
   restitution: e, the energetic coefficient
   loss: ${P}VISCOUS or ${P}PLASTIC
 are
+  ${p}covers(x, mass_ratio, stiffness_ratio, restitution, loss), whether there is an answer;
   ${p}velocity(x, mass_ratio, stiffness_ratio, restitution, loss), the velocity alone;
   ${p}rebound(x, mass_ratio, stiffness_ratio, restitution, loss), which has
     velocity: v1(tf)/(mu v2(0)), which has the sign opposite to x where the contact point has
