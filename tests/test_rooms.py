@@ -24,7 +24,7 @@ SOLVER = {
     "spheres": "ground normal_impact continuum",
     "models": "ground normal_impact rigid lumped continuum spheres",
     "response": "ground models",
-    "export": "planarimpact ground response",
+    "export": "planarimpact ground response spheres",
     "study": "ground",
     "scene": "ground bodies rigid lumped continuum models response spheres pandas",
     "__init__": "ground",
@@ -53,7 +53,7 @@ REPRODUCTION = {
     "plan": "ground models records reference_data",
     "drawings": "planarimpact ground csv_tables curve_names goodness reference_data study_files"
     " matplotlib",
-    "pages": "ground bodies csv_tables drawings gate goodness judging ledger plan jinja2",
+    "pages": "ground bodies export csv_tables drawings gate goodness judging ledger plan jinja2",
 }
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and
@@ -70,6 +70,7 @@ SIDE_DOORS = {
     "scene.columns",
     "scene.files",
     "scene.places",
+    "spheres.table",  # which export writes in other languages
 }
 
 

@@ -95,6 +95,8 @@ NUMBER = re.compile(
 )
 # `models` takes errors at so many incidences.
 INCIDENCES = 65
+# What `compile` calls the table of spheres.
+SPHERES = "spheres"
 WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
 GROUPS = {
     "mass_ratio": (3.5, "m2/m1: 3.5 for a solid sphere, 2.5 for a thin shell, 3 for a disc"),
@@ -225,6 +227,9 @@ def _with_units(kind: type, fields: Mapping[str, Any]) -> dict[str, ArrayLike]:
 
 
 def _compile(options: argparse.Namespace) -> None:
+    if options.model == SPHERES:
+        _compile_spheres(options)
+        return
     settings = _settings(options)
     if "tolerance" in settings:
         raise checks.InputError("--set tolerance: a response has one tolerance, --tolerance")
@@ -238,8 +243,8 @@ def _compile(options: argparse.Namespace) -> None:
     with files.written(options.output) as partial:  # a bad name is refused before any work
         built = response.compile(
             _model(options),
-            incidence_max=options.incidence_max,
-            tolerance=options.tolerance,
+            incidence_max=20.0 if options.incidence_max is None else options.incidence_max,
+            tolerance=1e-6 if options.tolerance is None else options.tolerance,
             **_groups(options),
             **settings,
         )
@@ -249,6 +254,22 @@ def _compile(options: argparse.Namespace) -> None:
             code = export.text(built, options.output, options.language)
             partial.write_text(code, encoding="utf-8")
     print(f"{options.output}: {built}")
+
+
+def _compile_spheres(options: argparse.Namespace) -> None:
+    _refuse_given(
+        options,
+        ["incidence_max", "loss", "setting", *GROUPS],
+        "the table of spheres takes every impact with its own",
+    )
+    if options.language == "json":
+        raise checks.InputError(
+            f"--as json: allowed with model {SPHERES} are {', '.join(export.LANGUAGES)}; "
+            "Python has planarimpact.spheres"
+        )
+    tolerance = min(export.TABLES) if options.tolerance is None else options.tolerance
+    export.write_spheres(options.output, options.language, tolerance)
+    print(f"{options.output}: the table of spheres, within {tolerance:g}")
 
 
 def _scene(options: argparse.Namespace) -> None:
@@ -482,7 +503,8 @@ def _parser() -> argparse.ArgumentParser:
         "compile",
         help="make a fast response of one pair of bodies",
         description="Make a response, a table of polynomials that gives the rebound of one pair of "
-        "bodies in nanoseconds, and write it to a file." + WORDS,
+        "bodies in nanoseconds, and write it to a file. With --model spheres the table of spheres "
+        "is written as code: it takes every impact with its own bodies." + WORDS,
     )
     compiled.add_argument("output", metavar="FILE", help="NAME.json, NAME.h, NAME.mjs or NAME.js")
     compiled.add_argument(
@@ -494,9 +516,12 @@ def _parser() -> argparse.ArgumentParser:
         "NAME_rebound(x); or js, a module of JavaScript with velocity(x) and rebound(x) "
         "[%(default)s]",
     )
-    compiled.add_argument("--tolerance", type=decimal, default=1e-6, help="[%(default)s]")
-    compiled.add_argument("--incidence-max", type=decimal, default=20.0, help="[%(default)s]")
-    _add_model(compiled, list(models.MODELS))
+    errors = " or ".join(f"{error:g}" for error in export.TABLES)
+    compiled.add_argument(
+        "--tolerance", type=decimal, help=f"[1e-06]; of {SPHERES} {errors} [{min(export.TABLES):g}]"
+    )
+    compiled.add_argument("--incidence-max", type=decimal, help="[20.0]")
+    _add_model(compiled, [*models.MODELS, SPHERES])
     compiled.set_defaults(command=_compile)
 
     scene = commands.add_parser(

@@ -1,9 +1,10 @@
-"""Compiled responses in C and JavaScript: time of an impact, one after another, on one core.
+"""Responses and the table of spheres in C and JavaScript: time of an impact, on one core.
 
     OMP_NUM_THREADS=1 python tests/benchmarks/export_speed.py
 
-A loop over a million random incidences, best of several, beside Python's batch in the same run.
-None of them slides throughout: that would be quicker. The time is that of the processor. The sums
+A loop over a million random impacts, best of several, beside Python's batch in the same run. None
+of them slides throughout: that would be quicker. Those of the table of spheres all have their own
+restitution, ratio of stiffnesses, mass ratio and loss. The time is that of the processor. The sums
 of all answers must be Python's; they also keep the compiler from leaving the loop out. C is left
 out where no compiler is, JavaScript where node is missing.
 """
@@ -17,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from planarimpact import export, response
+from planarimpact import export, response, spheres
 
 COUNT, REPEATS = 1_000_000, 21
 PAIRS = {
@@ -30,7 +31,7 @@ C = """\
 #include <stdlib.h>
 #include <time.h>
 #include "pair.h"
-static double x[COUNT];
+static double x[COUNT][COLUMNS];
 int main(void)
 {
     FILE *file = fopen("x", "rb");
@@ -43,11 +44,11 @@ int main(void)
             clock_t start = clock();
             for (int i = 0; i < COUNT; ++i) {
                 if (all) {
-                    struct pair_result found = pair_rebound(x[i]);
+                    struct pair_result found = pair_rebound(IMPACT);
                     total += found.velocity + found.peak_friction + found.dissipation
                         + found.regime;
                 } else {
-                    total += pair_velocity(x[i]);
+                    total += pair_velocity(IMPACT);
                 }
             }
             double taken = (double)(clock() - start) / CLOCKS_PER_SEC;
@@ -63,17 +64,17 @@ JAVASCRIPT = """\
 import { readFileSync } from "node:fs";
 import { rebound, velocity } from "./pair.mjs";
 const bytes = readFileSync("x"), best = [1e9, 1e9], sum = [0, 0];
-const x = new Float64Array(bytes.buffer, bytes.byteOffset, COUNT);
+const x = new Float64Array(bytes.buffer, bytes.byteOffset, COUNT * COLUMNS);
 const loops = [
     () => {
         let total = 0;
-        for (let i = 0; i < x.length; i += 1) total += velocity(x[i]);
+        for (let i = 0; i < x.length; i += COLUMNS) total += velocity(IMPACT);
         return total;
     },
     () => {
         let total = 0;
-        for (let i = 0; i < x.length; i += 1) {
-            const found = rebound(x[i]);
+        for (let i = 0; i < x.length; i += COLUMNS) {
+            const found = rebound(IMPACT);
             total += found.velocity + found.peak_friction + found.dissipation + found.regime;
         }
         return total;
@@ -89,6 +90,13 @@ for (let repeat = 0; repeat < REPEATS; repeat += 1) {
 }
 console.log(...best, ...sum);
 """
+# How the impact that row i begins is handed over, for one column or five.
+IMPACTS = {
+    ("c", 1): "x[i][0]",
+    ("c", 5): "x[i][0], x[i][1], x[i][2], x[i][3], (int)x[i][4]",
+    ("js", 1): "x[i]",
+    ("js", 5): "x[i], x[i + 1], x[i + 2], x[i + 3], x[i + 4]",
+}
 COMPILERS = [name for name in ("cc", "gcc", "clang") if shutil.which(name)][:1]
 
 
@@ -109,21 +117,24 @@ def measured(commands, folder):
     return [float(word) for word in done.stdout.split()]
 
 
-def report(name, built, folder):
-    """Print one line for each language."""
-    span = built.pieces.end
-    x = np.random.default_rng(1).uniform(-span, span, COUNT)
-    x.tofile(folder / "x")
-    for file, language in (("pair.h", "c"), ("pair.mjs", "js")):
-        export.write(built, folder / file, language)
-    for file, text in (("speed.c", C), ("speed.mjs", JAVASCRIPT)):
-        text = text.replace("COUNT", str(COUNT)).replace("REPEATS", str(REPEATS))
-        (folder / file).write_text(text)
-    size = (folder / "pair.h").stat().st_size / 1024
-    print(f"{name}: {len(built.pieces.start)} pieces, header of {size:.0f} KB")
+def report(name, impacts, write, velocity, rebound, folder):
+    """Print one line for each language.
+
+    `impacts` are the columns, `write` writes a file in a language, `velocity` and `rebound` solve
+    all impacts in Python.
+    """
+    np.column_stack(impacts).tofile(folder / "x")
+    for file, language, text in (("pair.h", "c", C), ("pair.mjs", "js", JAVASCRIPT)):
+        write(folder / file, language)
+        text = text.replace("IMPACT", IMPACTS[language, len(impacts)])
+        for word, value in (("COUNT", COUNT), ("REPEATS", REPEATS), ("COLUMNS", len(impacts))):
+            text = text.replace(word, str(value))
+        (folder / file.replace("pair", "speed").replace(".h", ".c")).write_text(text)
+    sizes = [(folder / file).stat().st_size / 1024 for file in ("pair.h", "pair.mjs")]
+    print("{}: header of {:.0f} KB, module of {:.0f} KB".format(name, *sizes))
     (fast, first), (whole, second) = (
-        seconds(lambda: [built.velocity(x)]),
-        seconds(lambda: built(x)[:4]),
+        seconds(lambda: [velocity()]),
+        seconds(lambda: rebound()[:4]),
     )
     found = {"Python, in a batch": [fast, whole, first, second]}
     for compiler in COMPILERS:
@@ -140,12 +151,45 @@ def report(name, built, folder):
         )
 
 
+def report_spheres(tolerance, folder):
+    """The table of spheres of a tolerance, with each impact on its own."""
+    random = np.random.default_rng(1)
+    beta, e = random.choice([2.5, 3.5], COUNT), random.uniform(0.3, 1, COUNT)
+    zeta2, plastic = random.uniform(1, 1.6, COUNT), np.arange(COUNT) % 2
+    x = random.uniform(-1, 1, COUNT) * (beta + e * (beta - zeta2))
+    loss = np.array(spheres.LOSSES)[plastic]
+    report(
+        f"spheres, {tolerance:g}",
+        [x, beta, zeta2, e, plastic],
+        lambda path, language: export.write_spheres(path, language, tolerance),
+        lambda: spheres.rebound(x, beta, zeta2, e, loss=loss).velocity,
+        lambda: spheres.rebound(x, beta, zeta2, e, loss=loss),
+        folder,
+    )
+
+
+def report_pair(name, built, folder):
+    """A response of one pair."""
+    span = built.pieces.end
+    x = np.random.default_rng(1).uniform(-span, span, COUNT)
+    report(
+        f"{name}: {len(built.pieces.start)} pieces",
+        [x],
+        lambda path, language: export.write(built, path, language),
+        lambda: built.velocity(x),
+        lambda: built(x),
+        folder,
+    )
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         for name, (model, tolerance, groups) in PAIRS.items():
             groups = {"mass_ratio": 3.5, "stiffness_ratio": 17 / 14} | groups
             built = response.compile(model, incidence_max=40, tolerance=tolerance, **groups)
-            report(name, built, Path(folder))
+            report_pair(name, built, Path(folder))
+        for tolerance in export.TABLES:
+            report_spheres(tolerance, Path(folder))
 
 
 if __name__ == "__main__":

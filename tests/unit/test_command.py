@@ -165,6 +165,10 @@ def test_compile_for_other_languages(capsys, tmp_path):
         command = ["compile", str(path), "--as", language, "--model", "rigid"]
         assert main([*command, "--restitution", "0.7"]) == 0
         assert path.read_text() == export.text(ball, path, language)
+        tolerance = max(export.TABLES)
+        command = ["compile", str(path), "--as", language, "--model", "spheres"]
+        assert main([*command, "--tolerance", str(tolerance)]) == 0
+        assert path.read_text() == export.spheres_text(path, language, tolerance)
     with pytest.raises(SystemExit, match="2"):
         main(["compile", "ball.rs", "--as", "rust"])
     assert "argument --as: invalid choice: 'rust'" in capsys.readouterr().err
@@ -269,6 +273,21 @@ REFUSED = [
     (["compile", "ball.json", "--as", "c"], "ball.json: allowed are names that end in .h"),
     (["compile", "ball.h", "--as", "js"], "ball.h: allowed are names that end in .mjs or .js"),
     (["compile", "2.h", "--as", "c"], "2.h: allowed are names of letters from A to Z, digits and"),
+    *(
+        (["compile", "a.h", "--as", "c", "--model", "spheres", option, value], words)
+        for option, value, words in (
+            ("--loss", "viscous", "--loss: it does not apply, the table of spheres takes"),
+            ("--incidence-max", "9", "--incidence-max: it does not apply"),
+            ("--restitution", "0.9", "--restitution: it does not apply"),
+            ("--set", "steps=4", "--set: it does not apply"),
+            ("--tolerance", "1e-9", "tolerance = 1e-09: allowed is "),
+        )
+    ),
+    (
+        ["compile", "a.json", "--model", "spheres"],
+        "--as json: allowed with model spheres are c, js",
+    ),
+    (["compile", "2.h", "--as", "c", "--model", "spheres"], "2.h: allowed are names of letters"),
     (["rebound", "--incidence", "1", "--response", ""], "--response '': allowed are names of"),
     (["rebound", "--incidence", "1", "--set", "n=1", "--set", "n=2"], "--set n=2: n is set twice"),
     (["rebound", "--incidence", "1", "--set", "steps=1_0"], "--set steps: '1_0': allowed are"),

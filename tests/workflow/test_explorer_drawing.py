@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from planarimpact import lumped, rigid
+from planarimpact import lumped, rigid, spheres
 
 FRICTION, BETA, ZETA2 = 0.5, 3.5, 1.5  # a rubber ball
 INCIDENCE = math.tan(math.radians(51)) / FRICTION
@@ -171,6 +171,12 @@ def test_curves_against_incidence_are_those_of_the_package(view, show):
         place, values = curve(tab, "incidence", style)
         x = incidence(np.maximum(place, 0))
         assert_near(values, drawn(solve(x), 1 / np.hypot(1, FRICTION * x)))
+    if view == "velocity":
+        for loss in spheres.LOSSES:
+            x, values = curve(tab, "incidence", loss)
+            assert_near(
+                values, spheres.rebound(np.maximum(x, 0), BETA, ZETA2, e, loss=loss).velocity
+            )
     if view == "forces":
         place, values = curve(tab, "incidence", "normal")
         assert_near(values, np.cos(np.radians(place)))

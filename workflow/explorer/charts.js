@@ -137,8 +137,21 @@ const charts = (() => {
     ["slip", "slips throughout", "slip"],
   ];
 
+  // What the continuum has for some incidences: one curve for e = 1, else one for each loss, or
+  // none where its table does not cover the groups.
+  function continuum({ beta, zeta2, e }, xs) {
+    const losses = { viscous: spheres.VISCOUS, plastic: spheres.PLASTIC };
+    const kinds = e === 1 ? [["elastic", spheres.VISCOUS]] : Object.entries(losses);
+    return kinds
+      .filter(([, loss]) => spheres.covers(0, beta, zeta2, e, loss))
+      .map(([style, loss]) => ({
+        style,
+        ys: xs.map((x) => spheres.velocity(x, beta, zeta2, e, loss)),
+      }));
+  }
+
   // The curve over all incidences, thresholds among its vertices, with the present impact on it.
-  function incidence(svg, width, impact, view) {
+  function incidence(svg, width, impact, view, with_continuum) {
     const { mu, x, beta, zeta2, e, limit } = impact;
     const { over_angle, value, beside } = VIEWS[view];
     const place = (incidence) =>
@@ -150,7 +163,8 @@ const charts = (() => {
     const xs = over_angle
       ? even.map((share) => Math.tan((share * 89.95 * Math.PI) / 180) / mu)
       : even.map((share) => share * widest);
-    xs.push(...[zeta2, beta, limit].filter((threshold) => place(threshold) < range[1]));
+    const limits = [zeta2, beta, limit, beta + e * (beta - zeta2)]; // the last of the continuum
+    xs.push(...limits.filter((threshold) => threshold > 0 && place(threshold) < range[1]));
     xs.sort((a, b) => a - b);
     const cosine = (incidence) => 1 / Math.hypot(1, mu * incidence);
     const measure = (incidence, found) => value(found, mu, cosine(incidence));
@@ -159,7 +173,8 @@ const charts = (() => {
     const rigid = xs.map((one) => measure(one, solver.rigid_rebound(one, beta, e)));
     const beyond = beside ? xs.map((one) => beside(cosine(one))) : [];
     const present = lumped(x);
-    const every = [...ys, ...rigid, ...beyond, present];
+    const round = with_continuum && view === "velocity" ? continuum(impact, xs) : [];
+    const every = [...ys, ...rigid, ...beyond, present, ...round.flatMap((one) => one.ys)];
     const [low, high] = [Math.min(0, ...every), Math.max(...every)];
     const room = 0.06 * (high - low || 1);
     const scales = axes(svg, width, range, [low < 0 ? low - room : 0, high + room], x_ticks);
@@ -170,11 +185,14 @@ const charts = (() => {
     svg.innerHTML =
       bands.join("") + scales.markup +
       (beside ? line("normal", places, beyond, scales) : "") +
-      line("rigid", places, rigid, scales) + line(`curve ${view}`, places, ys, scales) +
+      line("rigid", places, rigid, scales) +
+      round.map((one) => line(one.style, places, one.ys, scales)).join("") +
+      line(`curve ${view}`, places, ys, scales) +
       `<circle class="present" cx="${scales.X(place(x))}" cy="${scales.Y(present)}" r="6"/>`;
     const to_angle = (value) => (over_angle ? value : (Math.atan(mu * value) * 180) / Math.PI);
-    return { ...scales, angle: (event) => to_angle(scales.at(event)) };
+    const drawn = round.map((one) => one.style);
+    return { ...scales, drawn, angle: (event) => to_angle(scales.at(event)) };
   }
 
-  return { forces, velocity, incidence, move_cursor, number };
+  return { forces, velocity, incidence, continuum, move_cursor, number };
 })();

@@ -162,6 +162,15 @@
     element("diagram-svg").classList.toggle("shell", hollow);
   }
 
+  function show_continuum() {
+    const { drawn } = scales.incidence;
+    for (const style of ["elastic", "viscous", "plastic"]) {
+      element(`legend-${style}`).hidden = !drawn.includes(style);
+    }
+    const wanted = state.view === "velocity" && element("continuum").checked;
+    element("uncovered").hidden = !wanted || drawn.length > 0;
+  }
+
   function refresh() {
     const width = element("plots").clientWidth; // before anything changes, which would cost time
     impact = solved();
@@ -172,10 +181,12 @@
     scales = {
       forces: charts.forces(element("forces"), width, impact),
       velocity: charts.velocity(element("velocity"), width, impact),
-      incidence: charts.incidence(element("incidence"), width, impact, state.view),
+      incidence: charts.incidence(
+        element("incidence"), width, impact, state.view, element("continuum").checked),
     };
     show_numbers();
     show_controls();
+    show_continuum();
     const motion = { velocity: impact.x, approach: 1, normal: 0, friction: 0 };
     show_energies(1, "before", energies(motion, false));
     const left = { ...motion, velocity: impact.result.velocity, approach: impact.e };
@@ -204,6 +215,7 @@
     }
     typed.addEventListener("blur", show_controls);
   }
+  element("continuum").addEventListener("change", refresh);
   element("view").addEventListener("change", (event) => {
     state.view = event.target.value;
     changed();

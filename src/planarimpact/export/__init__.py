@@ -1,4 +1,4 @@
-"""Compiled responses in other languages: a header of C99, or a module of JavaScript.
+"""Responses and the table of spheres in other languages: a header of C99, or a JavaScript module.
 
 The file needs nothing else, and says itself what it computes, in which units, to which error.
 """
@@ -6,11 +6,15 @@ The file needs nothing else, and says itself what it computes, in which units, t
 from pathlib import Path
 
 from planarimpact.export import pair
+from planarimpact.export import spheres as table_of_spheres
 from planarimpact.export.languages import LANGUAGES, checked_name
-from planarimpact.ground import files
+from planarimpact.ground import checks, files
 from planarimpact.response import Response
+from planarimpact.spheres import table
 
-__all__ = ["LANGUAGES", "checked_name", "text", "write"]
+__all__ = ["LANGUAGES", "TABLES", "checked_name", "spheres_text", "text", "write", "write_spheres"]
+# The shipped tables of spheres by their largest errors.
+TABLES = table_of_spheres.TABLES
 
 
 def text(response: Response, path: str | Path, language: str) -> str:
@@ -60,5 +64,59 @@ def write(response: Response, path: str | Path, language: str) -> None:
     True
     """
     whole = text(response, path, language)
+    with files.written(path) as partial:
+        partial.write_text(whole, encoding="utf-8")
+
+
+def spheres_text(path: str | Path, language: str, tolerance: float = min(TABLES)) -> str:
+    """What `write_spheres` writes.
+
+    Examples
+    --------
+    >>> code = spheres_text("balls.h", "c", tolerance=max(TABLES))
+    >>> "struct balls_result balls_rebound(" in code
+    True
+    """
+    name = checked_name(path, language)
+    if tolerance not in TABLES:
+        allowed = " or ".join(f"{error:g}" for error in TABLES)
+        raise checks.InputError(
+            f"tolerance = {checks.brief(tolerance)}: allowed is {allowed}, for the table of spheres"
+        )
+    shipped, bounds = table.shipped(TABLES[tolerance]), table_of_spheres.BOUNDS[TABLES[tolerance]]
+    return table_of_spheres.text(shipped, bounds, Path(path).name, name, language)
+
+
+def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES)) -> None:
+    """Write the table of spheres as code, whole or not at all.
+
+    The code computes what `planarimpact.spheres.rebound` computes, by the same operations in the
+    same order. Where that refuses an impact, the code returns NaN.
+
+    Parameters
+    ----------
+    path : str or Path
+        "c": NAME.h, with the functions `NAME_velocity` and `NAME_rebound`. "js": NAME.mjs or
+        NAME.js, with `velocity` and `rebound`. Both take x, mass_ratio, stiffness_ratio,
+        restitution and loss. As for `write`.
+    language : str
+        "c", also for C++, or "js".
+    tolerance : float
+        A key of `TABLES`: the largest error. That of the table in this package is the smaller one.
+
+    Raises
+    ------
+    InputError
+        As `write`, and if there is no table of this tolerance.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "spheres.mjs"
+    >>> write_spheres(path, "js", tolerance=max(TABLES))
+    >>> "export function velocity(x, mass_ratio" in path.read_text()
+    True
+    """
+    whole = spheres_text(path, language, tolerance)
     with files.written(path) as partial:
         partial.write_text(whole, encoding="utf-8")

@@ -1,13 +1,14 @@
 """Write the impact explorer: one page that solves the paper's model and needs no other file."""
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from markupsafe import Markup
 
-from planarimpact import bodies
+from planarimpact import bodies, export
 from stronge1994.pages import templates
 
 State: TypeAlias = dict[str, float]  # of the controls, by their names
@@ -101,6 +102,20 @@ def _address(state: Mapping[str, float]) -> str:
     return "&".join(f"{control}={value:g}" for control, value in state.items())
 
 
+def continuum() -> str:
+    """The coarse table of spheres as the script of a page, which is no module.
+
+    Examples
+    --------
+    >>> print(continuum().splitlines()[0])
+    const spheres = (() => {
+    """
+    module = export.spheres_text("spheres.mjs", "js", max(export.TABLES))
+    names = re.findall(r"^export (?:const|function) (\w+)", module, flags=re.M)
+    code = re.sub(r"^export ", "", module, flags=re.M)
+    return f"const spheres = (() => {{\n{code}\nreturn {{ {', '.join(names)} }}; }})();\n"
+
+
 def page(settings: Mapping[str, Any], sources: Sequence[str]) -> str:
     """The page as text.
 
@@ -121,5 +136,6 @@ def page(settings: Mapping[str, Any], sources: Sequence[str]) -> str:
         limits=LIMITS,
         presets={figure: _address(state) for figure, state in presets(settings).items()},
         bodies=_mass_ratios(),
-        sources=texts,
+        sources=texts | {"spheres.js": Markup(continuum())},
+        error=max(export.TABLES),
     )
