@@ -20,6 +20,15 @@ TABLES = table_of_spheres.TABLES
 def text(response: Response, path: str | Path, language: str) -> str:
     """What `write` writes.
 
+    Parameters
+    ----------
+    response, path, language
+        As there.
+
+    Returns
+    -------
+    str
+
     Examples
     --------
     >>> from planarimpact import response
@@ -70,6 +79,15 @@ def write(response: Response, path: str | Path, language: str) -> None:
 
 def spheres_text(path: str | Path, language: str, tolerance: float = min(TABLES)) -> str:
     """What `write_spheres` writes.
+
+    Parameters
+    ----------
+    path, language, tolerance
+        As there.
+
+    Returns
+    -------
+    str
 
     Examples
     --------

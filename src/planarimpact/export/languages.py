@@ -92,6 +92,10 @@ def checked_name(path: str | Path, language: str) -> str:
     language : str
         A key of `LANGUAGES`.
 
+    Returns
+    -------
+    str
+
     Raises
     ------
     InputError
