@@ -70,11 +70,11 @@ class Patch(NamedTuple):
 
 PATCHES = {
     "viscous": [
-        Patch(EVEN, (11, 15, 11), (19, 23, 19)),
-        Patch(LEFT, (13, 20, 10), (25, 33, 19)),
-        Patch(EVEN, (8, 16, 9), (13, 29, 17)),
-        Patch(EVEN, (5, 12, 6), (9, 19, 11)),
-        Patch(RIGHT, (10, 12, 7), (19, 19, 13)),
+        Patch(EVEN, (9, 13, 9), (19, 23, 19)),
+        Patch(LEFT, (11, 16, 9), (25, 33, 19)),
+        Patch(EVEN, (6, 13, 8), (13, 29, 17)),
+        Patch(EVEN, (5, 10, 5), (9, 19, 11)),
+        Patch(RIGHT, (9, 10, 6), (19, 19, 13)),
     ],
     "plastic_low": [
         Patch(EVEN, (14, 20, 10), (27, 41, 19), True),
@@ -140,6 +140,7 @@ def _panel(name: str, patches: Sequence[Patch], limit: Array, say: Callable[[str
         fit = fitted(values[:KIND], patch.cells)
         if patch.changes:
             near = _near_a_change(values[KIND], patch)
+            fit[:2, :, near] = 0.0  # each kind has cells of its own
             parts = _parts(panel, limit, patch, number, near)
             split[first[number] + near] = parts
             for share in SPLITS:
