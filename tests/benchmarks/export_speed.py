@@ -151,17 +151,17 @@ def report(name, impacts, write, velocity, rebound, folder):
         )
 
 
-def report_spheres(tolerance, folder):
-    """The table of spheres of a tolerance, with each impact on its own."""
+def report_spheres(folder):
+    """The table of spheres, with each impact on its own."""
     random = np.random.default_rng(1)
     beta, e = random.choice([2.5, 3.5], COUNT), random.uniform(0.3, 1, COUNT)
     zeta2, plastic = random.uniform(1, 1.6, COUNT), np.arange(COUNT) % 2
     x = random.uniform(-1, 1, COUNT) * (beta + e * (beta - zeta2))
     loss = np.array(spheres.LOSSES)[plastic]
     report(
-        f"spheres, {tolerance:g}",
+        "spheres, every impact its own pair",
         [x, beta, zeta2, e, plastic],
-        lambda path, language: export.write_spheres(path, language, tolerance),
+        export.write_spheres,
         lambda: spheres.rebound(x, beta, zeta2, e, loss=loss).velocity,
         lambda: spheres.rebound(x, beta, zeta2, e, loss=loss),
         folder,
@@ -188,8 +188,7 @@ def main():
             groups = {"mass_ratio": 3.5, "stiffness_ratio": 17 / 14} | groups
             built = response.compile(model, incidence_max=40, tolerance=tolerance, **groups)
             report_pair(name, built, Path(folder))
-        for tolerance in export.TABLES:
-            report_spheres(tolerance, Path(folder))
+        report_spheres(Path(folder))
 
 
 if __name__ == "__main__":
