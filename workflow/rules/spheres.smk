@@ -1,6 +1,8 @@
 # The tables of spheres, which the package brings along: `snakemake --cores 2 sphere_tables`, not part
 # of `all`. Whoever changes the continuum makes them anew, and copies them to src/planarimpact/spheres.
 
+VALUES["table"] = ["fine", "coarse"]
+
 
 rule make_spheres:
     """Solve the continuum at nodes and fit a table of spheres to it; takes some minutes."""
