@@ -16,8 +16,8 @@ from planarimpact.spheres import table
 
 LOSSES = "viscous", "plastic"
 # Largest difference from the continuum, of velocity (mu v2(0)), peak friction (mu F2max) and
-# dissipation (mu^2 m2 v2(0)^2). Among 10^4 impacts of tests/reference/test_spheres_reference.py it is
-# 1.0e-4 and 7.1e-4; with plastic loss 99 % are within 2.5e-4, and the worst have e below 0.55.
+# dissipation (mu^2 m2 v2(0)^2). Among the 10^4 impacts of tests/reference/test_spheres_reference.py
+# it is 1.0e-4 and 7.1e-4; with plastic loss 99 % are within 2.5e-4, the worst have e below 0.55.
 ERROR_BOUND = {"viscous": 1e-4, "plastic": 9e-4}
 LEAST_RESTITUTION = 0.3
 # Bounds of mass ratio over stiffness ratio.
