@@ -211,4 +211,6 @@ def test_a_wheel_holds_the_package_and_nothing_else(tmp_path):
     assert names == {str(path) for path in shipped} | {
         "planarimpact/__init__.pyi",
         "planarimpact/py.typed",
+        "planarimpact/spheres/coarse.npz",
+        "planarimpact/spheres/fine.npz",
     }

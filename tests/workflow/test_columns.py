@@ -29,7 +29,7 @@ INVENTORY = reference_data.load_all(
 NOT_HELD = {
     r".*: (time\w*|busy_\w+|build_time) \[(s|1)\]": "measured on this machine",
     r"(trade|convergence): .*: (steps|circles|tolerance|reference_error) .*": "what was asked for",
-    r"trade: (response of|continuum|annuli).*: (rms|max|rest)\w* .*": "an error, bounded",
+    r"trade: (response of|continuum|annuli|spheres).*: (rms|max|rest)\w* .*": "an error, bounded",
     r"convergence: (.*, extrapolated|annuli, steps): observed_order .*": "not predicted",
     r"stability: contacts: (incidence|mass_ratio|stiffness_ratio|restitution) .*": "as in impacts",
     r"stability: .*: (omega|phases|digits_allowed_\w+) .*": "tells where, and what could be had",

@@ -86,7 +86,7 @@ def rebound(
     --------
     >>> impacts = [0.5, 2.0, 8.0], 3.5, 17 / 14, [1.0, 0.8, 0.6]
     >>> rebound(*impacts, loss=["viscous", "plastic", "plastic"]).velocity.round(3).tolist()
-    [0.061, -0.42, 2.4]
+    [0.061, -0.421, 2.4]
     >>> rebound(2.0, restitution=0.2)
     Traceback (most recent call last):
     ...

@@ -339,6 +339,7 @@ def _edges(name: str, limit: Array) -> Array:
         found = [thresholds.friction_falls(b, e), thresholds.lasts_to_largest_force(b, e)]
     elif name == "plastic_low":
         middle, whole = thresholds.middle_slips(b, e)
+        whole = np.where(whole < 1, _slips_twice(b, e, middle, whole), whole)
         found = [np.minimum(middle, 1.0), thresholds.lasts_to_yield(b, e), whole]
     else:
         found = [thresholds.middle_slips_again(b, e)]
@@ -348,6 +349,21 @@ def _edges(name: str, limit: Array) -> Array:
         sought = _changes(*(grid.ravel() for grid in coarse))
         found += [_doubled(edge.reshape(coarse[0].shape)) for edge in sought]
     return np.stack(found)
+
+
+def _slips_twice(b: Array, e: Array, low: Array, high: Array) -> Array:
+    """Incidence from which `inelastic` calls it gross slip, as friction is so near to its limit."""
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        twice = np.empty(b.size, dtype=bool)
+        for start in range(0, b.size, TOGETHER):
+            part = slice(start, start + TOGETHER)
+            one = np.ones_like(b[part])
+            path = inelastic.path(middle[part], b[part], one, e[part], "plastic", 2 * STEPS)
+            gross = (np.abs(path.friction) >= inelastic.GROSS * path.normal)[1:-1]
+            twice[part] = np.sum(gross[1:] & ~gross[:-1], axis=0) > 1
+        low, high = np.where(twice, low, middle), np.where(twice, middle, high)
+    return high
 
 
 def _doubled(grid: Array) -> Array:
