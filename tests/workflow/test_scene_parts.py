@@ -133,7 +133,7 @@ def test_bad_rows_are_counted_and_listed(tmp_path):
     scene_parts.gather(results, accounts, summary, bad)
     found = csv_tables.read_rows(summary)
     assert list(found[0]) == [
-        "table", "rows", "bad_rows", "slip throughout", "continuum.viscous, solved", "loss_assumed"
+        "table", "rows", "bad_rows", "slip throughout", "continuum.viscous, table", "loss_assumed"
     ]  # fmt: skip
     assert [list(row.values()) for row in found] == [
         ["sticks.csv", "4", "1", "0", "3", "yes"],
@@ -190,7 +190,11 @@ def test_settings_are_refused(settings, words):
         ("in", None, "'in': there is no folder in$"),
         ("in/deep/*.csv", ["a.csv"], "there is no folder in/deep$"),
         ("in/a.csv", ["a.csv"], "there is no folder in/a.csv$"),
-        ("in", [".hidden.csv"], r"no table; allowed are files that end in .csv.gz or .csv$"),
+        (
+            "in",
+            [".hidden.csv"],
+            r"no table; allowed are files that end in .csv.gz or .csv or .parquet$",
+        ),
         ("in/b*", ["a.csv"], r"'in/b\*': no table"),
         ("in", ["a.csv", "notes.txt"], r"notes.txt is no table; .* such as in/\*.csv"),
         ("in/*.csv", ["folder.csv/a.csv"], "folder.csv is no table"),
