@@ -100,7 +100,7 @@ OTHER_HANDS = {
     # What is whole and not what its job has left: times three, of another figure, of another run.
     "results/curves/superball.csv": lambda text: text.replace("0.", "7."),
     "results/scenes/shot_peening.csv": lambda text: text.replace("0.", "7."),
-    "results/verdicts/fig6.csv": lambda text: text.replace("0.000722", "0.5"),
+    "results/verdicts/fig6.csv": lambda text: text.replace(",361,", ",362,"),
     "figures/fig5.svg": lambda text: Path("figures/fig6.svg").read_text(),
     "figures/report.html": lambda text: text.replace("PASSED", "passed"),
     "figures/ledger.html": lambda text: "<html>old</html>",
