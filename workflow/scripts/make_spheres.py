@@ -1,7 +1,7 @@
 """Make a table of spheres."""
 
 from planarimpact.spheres import making, table
-from stronge1994 import job, one_thread  # noqa: F401  (one thread: before numpy)
+from stronge1994 import job
 
 with job.recorded(snakemake):
     made = making.make(making.SHARES[snakemake.wildcards.table])

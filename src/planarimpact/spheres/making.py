@@ -193,11 +193,7 @@ def mended(
         at[0] = np.where(near, np.where(at[1] < 0.5, far, 1 - far), at[0])
         y, b, e = impacts(panel, limit, patch, number, *at)
         wanted = solved(panel.name, y, b, e, both_ways(panel, number))
-        base, part, kind, cell = _where(panel, limit, patch, number, at, y, b, e)
-        place = at * np.array(patch.cells)[:, None]
-        place = place - np.floor(place)
-        place = place * panel.split[base]
-        place = place - np.floor(place)
+        base, part, kind, cell, place = _where(panel, patch, number, at, y, b, e)
         found = table.polynomial(coefficients[0], cell, list(place))
         bad = np.abs(found - wanted[0]) > MENDED
         _, chosen = np.unique(cell[bad], return_index=True)
@@ -211,25 +207,19 @@ def mended(
 
 
 def _where(
-    panel: Panel,
-    limit: Array,
-    patch: Patch,
-    number: int,
-    at: Array,
-    y: Array,
-    b: Array,
-    e: Array,
-) -> tuple[Integers, Integers, Integers, Integers]:
-    """Cell before it is split, its part, kind, and the cell that answers, of places in a patch."""
+    panel: Panel, patch: Patch, number: int, at: Array, y: Array, b: Array, e: Array
+) -> tuple[Integers, Integers, Integers, Integers, Array]:
+    """Of places in a patch: cell, its part, kind, the cell that answers and the place there."""
     place = at * np.array(patch.cells)[:, None]
     index = np.minimum(place.astype(int), np.array(patch.cells)[:, None] - 1)
     base = panel.first[number] + np.ravel_multi_index(tuple(index), patch.cells)
     _, varying = table.edges_of(panel, at[1], at[2], b, e)
     kind = table.kind_of(y, varying)
     split = panel.split[base]
-    inner = np.minimum(((place - index) * split).astype(int), split - 1)
+    place = (place - index) * split
+    inner = np.minimum(place.astype(int), split - 1)
     part = (inner[0] * split + inner[1]) * split + inner[2]
-    return base, part, kind, panel.twins[kind, base] + part
+    return base, part, kind, panel.twins[kind, base] + part, place - inner
 
 
 def _fit_of_part(
@@ -246,9 +236,7 @@ def _fit_of_part(
     values = solved(panel.name, y, b, e, both_ways(panel, number))
     _, varying = table.edges_of(panel, at[1], at[2], b, e)
     weight = np.where(table.kind_of(y, varying) == own, 1.0, MORE_BEYOND)
-    square = np.einsum("p,pi,pj->ij", weight, monomials, monomials)
-    right = np.einsum("p,pi,fp->if", weight, monomials, values[:2])
-    return np.linalg.solve(square, right).T
+    return _least_squares(weight, monomials, values[:2]).T
 
 
 def _near_a_change(kinds: Array, patch: Patch) -> Integers:
@@ -294,12 +282,17 @@ def _by_kind(
     found, counts = [], []
     for kind in range(KINDS):
         own = values[KIND] == kind
-        weight = np.where(own, 1.0, BEYOND)
-        square = np.einsum("cqp,pi,pj->cqij", weight, monomials, monomials)
-        right = np.einsum("cqp,pi,fcqp->cqif", weight, monomials, values[:2])
-        found.append(np.linalg.solve(square, right).transpose(3, 2, 0, 1))
+        fit = _least_squares(np.where(own, 1.0, BEYOND), monomials, values[:2])
+        found.append(fit.transpose(3, 2, 0, 1))
         counts.append(own.sum(axis=(1, 2)))
     return np.stack(found), np.stack(counts)
+
+
+def _least_squares(weight: Array, monomials: Array, values: Array) -> Array:
+    """Coefficients (..., 20, functions) of values (functions, ..., points) with weights."""
+    square = np.einsum("...p,pi,pj->...ij", weight, monomials, monomials)
+    right = np.einsum("...p,pi,f...p->...if", weight, monomials, values)
+    return np.linalg.solve(square, right)
 
 
 def _points(count: int) -> tuple[Array, Array]:
