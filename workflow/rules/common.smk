@@ -94,6 +94,8 @@ def sources(*paths):
         raise refused(error)
 
 
+# What every page includes, beside its own template.
+EVERY_PAGE = sources("workflow/report/theme.css", "workflow/report/site.html")
 # Only `snakemake --report` reads them all.
 CAPTIONS = ["explorer", "figures", "ledger", "letter", "notebooks", "peers", "stability", "study", "trade"]
 sources(*expand("workflow/report/{caption}.rst", caption=[*CAPTIONS, "which_model"]))

@@ -8,6 +8,7 @@ rule explorer:
     input:
         modules=modules("write_explorer"),
         sources=EXPLORER_SOURCES,
+        shared=EVERY_PAGE,
     output:
         report(
             "figures/explorer.html",

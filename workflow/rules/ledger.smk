@@ -32,6 +32,7 @@ rule ledger_page:
         modules=modules("write_ledger_page"),
         template=PAGE_TEMPLATE,
         parts=PAGE_PARTS,
+        shared=EVERY_PAGE,
         table="results/ledger.csv",
     output:
         report(

@@ -10,6 +10,7 @@ rule letter:
         modules=modules("write_letter"),
         template=LETTER_TEMPLATE,
         parts=LETTER_PARTS,
+        shared=EVERY_PAGE,
         measures="results/in_nature.csv",
         curves="results/curves/inelastic.csv",
         series=f"results/series/{PAIRS[0]}.csv",

@@ -7,6 +7,7 @@ rule notebook:
         modules=notebook_modules,
         notebook="workflow/notebooks/{notebook}.ipynb",
         template=sources("workflow/report/notebook.html"),
+        shared=EVERY_PAGE,
     output:
         executed="results/notebooks/{notebook}.ipynb",
         page=report(

@@ -47,6 +47,7 @@ rule report:
         template="workflow/report/report.html",
         captions="workflow/report/figures.rst",
         parts=REPORT_PARTS,
+        shared=EVERY_PAGE,
         verdicts="results/verdicts.csv",
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),

@@ -44,7 +44,7 @@ _Item = TypeVar("_Item")
 # Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
 WIDTH = 5.0
 # Size in points of notes, of words over brackets and of labels at lines.
-NOTE = 7
+NOTE = 8.5
 
 BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
 GREY, PALE = "0.5", "0.85"
@@ -84,27 +84,27 @@ REBOUND = r"$v_1(t_f)/\mu v_2(0)$"
 
 STYLE = {
     "axes.linewidth": 0.7,
-    "axes.labelsize": 9,
-    "axes.titlesize": 9,
+    "axes.labelsize": 10.5,
+    "axes.titlesize": 10.5,
     "errorbar.capsize": 1.5,
     "figure.constrained_layout.h_pad": 0.05,
     "figure.constrained_layout.w_pad": 0.05,
-    "font.family": "DejaVu Sans",  # comes with matplotlib: the same on every machine
-    "font.size": 8.5,
+    "font.family": "STIXGeneral",  # of journals; comes with matplotlib: the same on every machine
+    "font.size": 10,
     "hatch.color": "0.7",
     "hatch.linewidth": 0.5,
-    "legend.fontsize": 7.5,
+    "legend.fontsize": 9,
     "legend.frameon": False,
     "legend.handlelength": 2.9,
     "lines.linewidth": 1.2,
     "lines.markersize": 4,
-    "mathtext.fontset": "dejavusans",
+    "mathtext.fontset": "stix",
     "svg.fonttype": "path",  # letters as shapes: the same in every viewer, without its fonts
     "svg.hashsalt": "planarimpact",  # the same names inside the file at every run
     "xtick.direction": "in",
-    "xtick.labelsize": 8,
+    "xtick.labelsize": 9.5,
     "ytick.direction": "in",
-    "ytick.labelsize": 8,
+    "ytick.labelsize": 9.5,
 }
 matplotlib.rcdefaults()
 matplotlib.rcParams.update(STYLE)

@@ -5,11 +5,14 @@ from pathlib import Path
 
 import jinja2
 
+# What all pages share: their theme and the bar of pages.
+SHARED = Path(__file__).parents[3] / "workflow/report"
+
 
 def environment(folder: str | Path) -> jinja2.Environment:
     """Environment for the templates of a folder, in which an unknown name is an error."""
     return jinja2.Environment(
-        loader=jinja2.FileSystemLoader(folder),
+        loader=jinja2.FileSystemLoader([folder, SHARED]),
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
