@@ -1,8 +1,9 @@
 "use strict";
 
 // The page: its controls, its address, and what moves. State is what the controls show and what
-// stands behind # in the address; everything else follows from it.
-(() => {
+// stands behind # in the address; everything else follows from it. After each change it sends the
+// document an event "impact", whose detail is the impact as solved.
+const page = (() => {
   const element = (id) => document.getElementById(id);
   const SLIDERS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"];
   const MILLISECONDS = 2200; // that one t_c takes at speed 1
@@ -192,6 +193,7 @@
     const left = { ...motion, velocity: impact.result.velocity, approach: impact.e };
     show_energies(3, "after", energies(left, true));
     show_time();
+    document.dispatchEvent(new CustomEvent("impact", { detail: impact }));
   }
 
   // ---- what the reader does -----------------------------------------------------------------
@@ -222,9 +224,7 @@
   });
   for (const button of document.querySelectorAll(".preset")) {
     button.addEventListener("click", () => {
-      read(button.dataset.state);
-      t = 0;
-      changed();
+      go(button.dataset.state);
     });
   }
   for (const button of document.querySelectorAll(".body")) {
@@ -305,4 +305,13 @@
     if (innerWidth !== width) refresh();
     width = innerWidth;
   });
+
+  // Goes to the state that an address says, as a preset does.
+  function go(to) {
+    read(to);
+    t = 0;
+    changed();
+  }
+
+  return { go, impact: () => impact };
 })();

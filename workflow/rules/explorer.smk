@@ -1,5 +1,6 @@
-EXPLORER_PARTS = ["explorer.html", "explorer.css"]
-EXPLORER_PARTS += [f"{part}.js" for part in ("solver", "charts", "diagram", "words", "page")]
+EXPLORER_PARTS = ["explorer.html", "superball.html", "challenge.html", "explorer.css", "play.css"]
+EXPLORER_SCRIPTS = ["solver", "charts", "diagram", "words", "page", "superball", "challenge"]
+EXPLORER_PARTS += [f"{part}.js" for part in EXPLORER_SCRIPTS]
 EXPLORER_SOURCES = sources(*expand("workflow/explorer/{file}", file=EXPLORER_PARTS))
 
 

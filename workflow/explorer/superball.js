@@ -1,0 +1,5 @@
+"use strict";
+
+// A superball between a floor and a table.
+const superball = (() => {
+})();
