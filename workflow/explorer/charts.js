@@ -3,7 +3,8 @@
 // Charts as SVG markup, written anew at every change. They are as wide as they stand on the screen,
 // so that type keeps its size on a phone. Drawing only: the impact has been solved before.
 const charts = (() => {
-  const HEIGHT = 190;
+  const HEIGHT = 190; // of the charts over time
+  const TALL = 262; // of the chart over incidence
   const MARGIN = { right: 10, top: 20, bottom: 20 };
   const LETTER = 7.6; // width of one, at most
   const CURVE = 240; // vertices
@@ -21,11 +22,11 @@ const charts = (() => {
   }
 
   // Scales, frame and ticks of a chart over the ranges x and y; `at` inverts a place on the screen.
-  function axes(svg, width, x, y, x_ticks = ticks(...x, width / 80)) {
+  function axes(svg, [width, height], x, y, x_ticks = ticks(...x, width / 80)) {
     const y_ticks = ticks(...y, 5);
     const left = Math.max(42, 10 + LETTER * Math.max(...y_ticks.map((one) => number(one).length)));
     const right = width - MARGIN.right;
-    const bottom = HEIGHT - MARGIN.bottom;
+    const bottom = height - MARGIN.bottom;
     const X = (value) => left + ((value - x[0]) / (x[1] - x[0])) * (right - left);
     const Y = (value) => bottom - ((value - y[0]) / (y[1] - y[0])) * (bottom - MARGIN.top);
     const rows = y_ticks.map(
@@ -41,14 +42,14 @@ const charts = (() => {
     const zero = Y(Math.min(Math.max(0, y[0]), y[1]));
     const frame = `<path class="axis" d="M${left},${MARGIN.top}V${bottom}H${right}"/>
       <line class="axis" x1="${left}" x2="${right}" y1="${zero}" y2="${zero}"/>`;
-    svg.setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`);
-    svg.setAttribute("height", HEIGHT);
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     const at = (event) => {
-      const place = event.clientX - svg.getBoundingClientRect().left;
+      const box = svg.getBoundingClientRect();
+      const place = ((event.clientX - box.left) / box.width) * width;
       const share = (place - left) / (right - left);
       return x[0] + Math.min(Math.max(share, 0), 1) * (x[1] - x[0]);
     };
-    return { X, Y, at, markup: rows.join("") + columns.join("") + frame };
+    return { X, Y, at, bottom, markup: rows.join("") + columns.join("") + frame };
   }
 
   function line(style, xs, ys, { X, Y }) {
@@ -57,9 +58,9 @@ const charts = (() => {
   }
 
   // A stretch of the axis with the first of its words that fits above.
-  function band(style, start, end, words, { X }) {
+  function band(style, start, end, words, { X, bottom }) {
     const [left, width] = [X(start), X(end) - X(start)];
-    const height = HEIGHT - MARGIN.top - MARGIN.bottom;
+    const height = bottom - MARGIN.top;
     const word = words.find((one) => width > LETTER * one.length) ?? "";
     return `<rect class="band ${style}" x="${left}" width="${width}" y="${MARGIN.top}"
       height="${height}"/><rect class="head ${style}" x="${left}" width="${width}" y="2"
@@ -90,15 +91,14 @@ const charts = (() => {
     });
   }
 
-  const maximum_compression = ({ X }) =>
-    `<line class="guide" x1="${X(1)}" x2="${X(1)}" y1="${MARGIN.top}"
-      y2="${HEIGHT - MARGIN.bottom}"/>`;
+  const guide = (place, { X, bottom }) =>
+    `<line class="guide" x1="${X(place)}" x2="${X(place)}" y1="${MARGIN.top}" y2="${bottom}"/>`;
 
   function forces(svg, width, impact) {
-    const scales = axes(svg, width, [0, 2], [-1.1, 1.1], [0, 0.5, 1, 1.5, 2]);
+    const scales = axes(svg, [width, HEIGHT], [0, 2], [-1.1, 1.1], [0, 0.5, 1, 1.5, 2]);
     const { time, normal, friction } = impact.contact;
     svg.innerHTML =
-      phase_bands(impact, scales) + scales.markup + maximum_compression(scales) +
+      phase_bands(impact, scales) + scales.markup + guide(1, scales) +
       line("limit", time, normal.map((force) => -force), scales) +
       line("friction", time, friction, scales) +
       line("normal", time, normal, scales) + cursor("normal", "friction");
@@ -109,24 +109,30 @@ const charts = (() => {
     const { time, velocity } = impact.contact;
     const [low, high] = [Math.min(0, ...velocity), Math.max(0, ...velocity)];
     const room = 0.08 * (high - low || 1);
-    const scales = axes(svg, width, [0, 2], [low - room, high + room], [0, 0.5, 1, 1.5, 2]);
+    const scales = axes(svg, [width, HEIGHT], [0, 2], [low - room, high + room], [0, 0.5, 1, 1.5, 2]);
     svg.innerHTML =
-      phase_bands(impact, scales) + scales.markup + maximum_compression(scales) +
+      phase_bands(impact, scales) + scales.markup + guide(1, scales) +
       line("velocity", time, velocity, scales) + cursor("velocity");
     return scales;
   }
 
-  // What can be drawn against incidence: value of an impact, and of one without tangential
-  // compliance. Over angles the unit is the speed S before the impact.
+  // What can be drawn against incidence: its name, the value for what a model found, and what is
+  // drawn beside it. Over angles the unit is the speed S before the impact.
   const VIEWS = {
-    velocity: { over_angle: false, value: (found) => found.velocity },
+    velocity: {
+      over_angle: false,
+      quantity: "v1(tf)/(mu v2(0)) [1]",
+      value: (found) => found.velocity,
+    },
     forces: {
       over_angle: true,
+      quantity: "largest F1 / largest F2 x cos(theta) [1]",
       value: (found, mu, cosine) => mu * cosine * found.peak_friction,
       beside: (cosine) => cosine,
     },
     energy: {
       over_angle: true,
+      quantity: "work of friction / (m2 S^2/2) [1]",
       value: (found, mu, cosine) => 2 * (mu * cosine) ** 2 * found.dissipation,
     },
   };
@@ -137,62 +143,54 @@ const charts = (() => {
     ["slip", "slips throughout", "slip"],
   ];
 
-  // What the continuum has for some incidences: one curve for e = 1, else one for each loss, or
-  // none where its table does not cover the groups.
-  function continuum({ beta, zeta2, e }, xs) {
-    const losses = { viscous: spheres.VISCOUS, plastic: spheres.PLASTIC };
-    const kinds = e === 1 ? [["elastic", spheres.VISCOUS]] : Object.entries(losses);
-    return kinds
-      .filter(([, loss]) => spheres.covers(0, beta, zeta2, e, loss))
-      .map(([style, loss]) => ({
-        style,
-        ys: xs.map((x) => spheres.velocity(x, beta, zeta2, e, loss)),
-      }));
-  }
+  // Largest incidence of the chart for this impact.
+  const widest = ({ limit, x }) => Math.max(8, 1.25 * limit, 1.08 * x);
 
-  // The curve over all incidences, thresholds among its vertices, with the present impact on it.
-  function incidence(svg, width, impact, view, with_continuum) {
+  // The curves of the models over all incidences up to `far`, thresholds among their vertices, with
+  // the present impact on each.
+  function incidence(svg, width, impact, view, list, far) {
     const { mu, x, beta, zeta2, e, limit } = impact;
-    const { over_angle, value, beside } = VIEWS[view];
-    const place = (incidence) =>
-      over_angle ? (Math.atan(mu * incidence) * 180) / Math.PI : incidence;
-    const widest = Math.max(8, 1.25 * limit, 1.08 * x);
-    const range = over_angle ? [0, 90] : [0, widest];
+    const { over_angle, quantity, value, beside } = VIEWS[view];
+    const to_angle = (incidence) => (Math.atan(mu * incidence) * 180) / Math.PI;
+    const place = (incidence) => (over_angle ? to_angle(incidence) : incidence);
+    const range = over_angle ? [0, 90] : [0, far];
     const x_ticks = over_angle ? [0, 30, 60, 90] : undefined;
     const even = Array.from({ length: CURVE }, (_, i) => i / (CURVE - 1));
     const xs = over_angle
       ? even.map((share) => Math.tan((share * 89.95 * Math.PI) / 180) / mu)
-      : even.map((share) => share * widest);
-    const limits = [zeta2, beta, limit, beta + e * (beta - zeta2)]; // the last of the continuum
+      : even.map((share) => share * far);
+    const continuum_slides = beta + e * (beta - zeta2);
+    const limits = [zeta2, beta, limit, (1 + e) * beta, continuum_slides];
     xs.push(...limits.filter((threshold) => threshold > 0 && place(threshold) < range[1]));
     xs.sort((a, b) => a - b);
     const cosine = (incidence) => 1 / Math.hypot(1, mu * incidence);
-    const measure = (incidence, found) => value(found, mu, cosine(incidence));
-    const lumped = (one) => measure(one, solver.rebound(one, beta, zeta2, e));
-    const ys = xs.map(lumped);
-    const rigid = xs.map((one) => measure(one, solver.rigid_rebound(one, beta, e)));
+    const curves = list.map(({ style, solve }) => {
+      const measure = (one) => value(solve(one), mu, cosine(one));
+      return { style, ys: xs.map(measure), present: measure(x) };
+    });
     const beyond = beside ? xs.map((one) => beside(cosine(one))) : [];
-    const present = lumped(x);
-    const round = with_continuum && view === "velocity" ? continuum(impact, xs) : [];
-    const every = [...ys, ...rigid, ...beyond, present, ...round.flatMap((one) => one.ys)];
-    const [low, high] = [Math.min(0, ...every), Math.max(...every)];
-    const room = 0.06 * (high - low || 1);
-    const scales = axes(svg, width, range, [low < 0 ? low - room : 0, high + room], x_ticks);
+    const every = [...curves.flatMap(({ ys, present }) => [...ys, present]), ...beyond];
+    const [low, high] = [Math.min(0, ...every), Math.max(0.1, ...every)];
+    const room = 0.06 * (high - low);
+    const y = [low < 0 ? low - room : 0, high + room];
+    const scales = axes(svg, [width, TALL], range, y, x_ticks);
     const places = xs.map(place);
     const edges = [0, zeta2, limit, Infinity].map((edge) => Math.min(place(edge), range[1]));
+    const lumped = curves.some(({ style }) => style === "lumped");
     const bands = REGIMES.map(([style, ...words], i) =>
-      edges[i + 1] > edges[i] ? band(style, edges[i], edges[i + 1], words, scales) : "");
+      lumped && edges[i + 1] > edges[i] ? band(style, edges[i], edges[i + 1], words, scales) : "");
+    const here = Math.min(place(x), range[1]);
+    // The lumped model, whose impact the pictures show, lies on top.
+    const drawn = [...curves].reverse();
     svg.innerHTML =
-      bands.join("") + scales.markup +
+      bands.join("") + scales.markup + guide(here, scales) +
       (beside ? line("normal", places, beyond, scales) : "") +
-      line("rigid", places, rigid, scales) +
-      round.map((one) => line(one.style, places, one.ys, scales)).join("") +
-      line(`curve ${view}`, places, ys, scales) +
-      `<circle class="present" cx="${scales.X(place(x))}" cy="${scales.Y(present)}" r="6"/>`;
-    const to_angle = (value) => (over_angle ? value : (Math.atan(mu * value) * 180) / Math.PI);
-    const drawn = round.map((one) => one.style);
-    return { ...scales, drawn, angle: (event) => to_angle(scales.at(event)) };
+      drawn.map(({ style, ys }) => line(`curve ${style}`, places, ys, scales)).join("") +
+      drawn.map(({ style, present }) => `<circle class="present ${style}" cx="${scales.X(here)}"
+        cy="${scales.Y(present)}" r="${style === "lumped" ? 6 : 4}"/>`).join("");
+    const angle = (event) => (over_angle ? scales.at(event) : to_angle(scales.at(event)));
+    return { ...scales, angle, quantity, xs, curves };
   }
 
-  return { forces, velocity, incidence, continuum, move_cursor, number };
+  return { forces, velocity, incidence, widest, move_cursor, number };
 })();

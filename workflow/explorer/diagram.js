@@ -1,8 +1,9 @@
 "use strict";
 
-// The contact after Fig. 1 of the paper: a rigid body on a normal and a tangential spring, below
-// them a contact particle without mass, the surface. The picture travels with the body: what moves
-// sideways is the surface, and in stick the particle moves with it. Units are those of the drawing.
+// The microscope: the contact after Fig. 1 of the paper. A rigid body stands on a normal and a
+// tangential spring; below them are a contact particle without mass and the surface. The picture
+// travels with the body: what moves sideways is the surface, and in stick the particle moves with
+// it. Units are those of the drawing.
 const diagram = (() => {
   const MIDDLE = 220;
   const GROUND = 262;
@@ -10,6 +11,7 @@ const diagram = (() => {
   const DEFLECTION = 26; // a deflection of 1
   const FORCE = 62; // a force of 1
   const SPEED = 66; // the speed before the impact
+  const FOOT = 290; // where the plate shows the velocity of the contact point
   const HATCH = 14; // of the surface
   const part = (name) => document.getElementById(`diagram-${name}`);
 
@@ -23,22 +25,7 @@ const diagram = (() => {
     return `M${x1},${y1}L${aside(0.1, 0)}L${turns.join("L")}L${aside(0.9, 0)}L${x2},${y2}`;
   }
 
-  // An arrow as one outline; too short ones are left out.
-  function arrow(x1, y1, x2, y2) {
-    const length = Math.hypot(x2 - x1, y2 - y1);
-    if (length < 3) return "";
-    const [ux, uy] = [(x2 - x1) / length, (y2 - y1) / length];
-    const head = Math.min(11, length);
-    const corner = (along, aside) =>
-      `${(x1 + along * ux - aside * uy).toFixed(1)},${(y1 + along * uy + aside * ux).toFixed(1)}`;
-    const shaft = length - head;
-    const half = [[0, 1.6], [shaft, 1.6], [shaft, 5.5]];
-    const other = half.map(([along, aside]) => [along, -aside]).reverse();
-    const sides = [...half, [length, 0], ...other];
-    return `M${sides.map(([along, aside]) => corner(along, aside)).join("L")}Z`;
-  }
-
-  const draw_arrow = (name, ...ends) => part(name).setAttribute("d", arrow(...ends));
+  const draw_arrow = (name, ...ends) => part(name).setAttribute("d", arrows.straight(...ends));
 
   const move = (name, x, y) => part(name).setAttribute("transform", `translate(${x},${y})`);
 
@@ -62,7 +49,7 @@ const diagram = (() => {
     move("origin", Math.max(MIDDLE + shift, -60), GROUND);
     draw_state(now);
     draw_forces(now, particle);
-    draw_velocity(impact, now, plate - 70);
+    draw_velocity(impact, now, plate);
   }
 
   function draw_state({ phase }) {
@@ -88,11 +75,11 @@ const diagram = (() => {
     label("friction-label", Math.abs(friction) > 0.4, (x + particle) / 2, y + 15);
   }
 
-  function draw_velocity({ mu, x }, { velocity, approach }, centre) {
+  function draw_velocity({ mu, x }, { velocity, approach }, plate) {
     const unit = SPEED / Math.hypot(1, mu * x);
-    draw_arrow("before", MIDDLE, centre, MIDDLE + unit * mu * x, centre + unit);
-    const tip = [MIDDLE + unit * mu * velocity, centre + unit * approach];
-    draw_arrow("velocity", MIDDLE, centre, ...tip);
+    draw_arrow("before", FOOT, plate, FOOT + unit * mu * x, plate + unit);
+    const tip = [FOOT + unit * mu * velocity, plate + unit * approach];
+    draw_arrow("velocity", FOOT, plate, ...tip);
   }
 
   return { show };

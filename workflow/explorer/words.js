@@ -18,6 +18,10 @@ const words = (() => {
   const verb = (phase) => (phase.sticks ? "sticks" : `slips ${way(phase.side)}`);
   const way = (sign) => (sign > 0 ? "forwards" : "backwards");
 
+  function percent(share) {
+    return `${(100 * share).toFixed(share < 0.095 ? 1 : 0)}\u00A0%`;
+  }
+
   function order(phases) {
     if (phases.length === 1) return `It ${verb(phases[0])} throughout`;
     if (phases.length > 4) return `It sticks and slips in turn, ${phases.length} times in all`;
@@ -27,11 +31,10 @@ const words = (() => {
 
   function end({ x, e, result }) {
     const share = Math.abs(result.velocity) / x;
-    const percent = (100 * share).toFixed(share < 0.095 ? 1 : 0);
     const leaves = e === 0 ? "does not bounce off, and moves on" : "leaves";
-    if (share < 0.0005) return `The contact point ${leaves} without tangential velocity`;
+    if (share < models.STOPPED) return `The contact point ${leaves} without tangential velocity`;
     const how = `${leaves} ${way(result.velocity)}`;
-    return `The contact point ${how}, with ${percent}\u00A0% of its tangential velocity`;
+    return `The contact point ${how}, with ${percent(share)} of its tangential velocity`;
   }
 
   const sentence = (impact) =>
@@ -39,5 +42,50 @@ const words = (() => {
       ? "A straight blow: it sticks, and nothing moves along the surface."
       : `${order(impact.phases)}. ${end(impact)}.`;
 
-  return { phases, sentence };
+  // What the centre of a ball does that came without spin.
+  function centre(impact) {
+    const { x, e, beta, result } = impact;
+    const after = ball.motion(impact, result.velocity);
+    if (x === 0) return "The ball does not begin to spin.";
+    const angle = e === 0 ? "" : ` It leaves at ${ball.angle(impact).toFixed(0)}\u00B0.`;
+    const goes = after.centre < 0 ? "turns back" : "goes on forwards";
+    const share = percent(Math.abs(after.centre) / x);
+    const spin = beta === 1
+      ? "This body does not spin."
+      : result.velocity < 0 && after.centre > 0
+        ? "The ball spins so fast that its contact point runs backwards."
+        : "The ball spins forwards.";
+    return `The centre ${goes} with ${share} of its tangential velocity.${angle} ${spin}`;
+  }
+
+  const listed = (found) => found.map((one) => one.name).join("; ");
+
+  // Whether the models shown agree: first in direction, then in whether it slips throughout.
+  function agreement(found) {
+    if (found.length < 2) return { agrees: true, text: "" };
+    const split = (parts) =>
+      parts
+        .map(([name, is]) => [name, found.filter(is)])
+        .filter(([, those]) => those.length)
+        .map(([name, those]) => `${name}: ${listed(those)}.`);
+    const directions = split([
+      ["Forwards", (one) => one.direction > 0],
+      ["Backwards", (one) => one.direction < 0],
+      ["Stops, or almost", (one) => one.direction === 0],
+    ]);
+    if (directions.length > 1) {
+      const text = `The models disagree on the direction. ${directions.join(" ")}`;
+      return { agrees: false, text };
+    }
+    const slips = split([
+      ["Slips throughout", (one) => one.slides],
+      ["Also sticks", (one) => !one.slides],
+    ]);
+    if (slips.length > 1) {
+      return { agrees: false, text: `The models disagree on slip. ${slips.join(" ")}` };
+    }
+    return { agrees: true, text: "The models shown agree on the direction." };
+  }
+
+  return { phases, sentence, centre, agreement };
 })();

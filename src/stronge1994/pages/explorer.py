@@ -1,5 +1,6 @@
 """Write the impact explorer: one page that solves the paper's model and needs no other file."""
 
+import base64
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -27,10 +28,25 @@ BODIES = {
     "disc": bodies.disc(radius=1.0, mass=1.0),
 }
 # Figs 3 to 6 depend only on v1(0)/(mu v2(0)), so any friction will do.
-FRICTION = 0.5
-# Figs 5 to 9 are curves: the explorer opens at one point of each.
-INCIDENCE = {"fig5": 3.0, "fig6": 2.0}
+FRICTION = {"fig3": 0.5, "fig4": 0.5, "fig5": 0.2, "fig6": 0.5}
+# Figs 5 to 9 are curves: the explorer opens at one point of each. It starts with that of Fig. 5,
+# slip throughout, where all models agree.
+INCIDENCE = {"fig5": 8.0, "fig6": 2.0}
 ANGLE = {"fig7": 45.0, "fig8": 30.0, "fig9": 45.0}  # deg
+
+# The page stores tables in base 85, which is shorter than base 64. The letter "<" is left out: it
+# has a meaning in a page.
+BYTES = """function bytes(text) {
+    const digits = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;,=>?@^_`{|}~";
+    const padded = text.padEnd(5 * Math.ceil(text.length / 5), "~");
+    const found = new DataView(new ArrayBuffer((4 * padded.length) / 5));
+    for (let i = 0; i < padded.length; i += 5) {
+        let four = 0;
+        for (let k = i; k < i + 5; k += 1) four = 85 * four + digits.indexOf(padded[k]);
+        found.setUint32((4 * i) / 5, four);
+    }
+    return found.buffer.slice(0, Math.floor((4 * text.length) / 5));
+}"""
 
 
 def presets(settings: Mapping[str, Any]) -> dict[str, State]:
@@ -54,8 +70,8 @@ def presets(settings: Mapping[str, Any]) -> dict[str, State]:
     found = {}
     stated = {figure: figures[figure]["incidence"] for figure in ("fig3", "fig4")}
     for figure, incidence in {**stated, **INCIDENCE}.items():
-        angle = math.degrees(math.atan(FRICTION * incidence))
-        found[figure] = {"angle": angle, "friction": FRICTION}
+        angle = math.degrees(math.atan(FRICTION[figure] * incidence))
+        found[figure] = {"angle": angle, "friction": FRICTION[figure]}
         found[figure]["restitution"] = _middle(figures[figure]["restitution"])
     for figure in ("fig7", "fig8", "fig9"):
         friction = figures[figure]["friction"]
@@ -112,8 +128,14 @@ def continuum() -> str:
     """
     module = export.spheres_text("spheres.mjs", "js", max(export.TABLES))
     names = re.findall(r"^export (?:const|function) (\w+)", module, flags=re.M)
-    code = re.sub(r"^export ", "", module, flags=re.M)
+    code = re.sub(r"/\*.*?\*/|^export ", "", module, flags=re.M | re.S)
+    code = re.sub(r"function bytes\(text\) \{.*?\n\}", lambda _: BYTES, code, flags=re.S)
+    code = re.sub(r'(?<=\(")[A-Za-z0-9+/=]+(?="\))', _in_base_85, code)
     return f"const spheres = (() => {{\n{code}\nreturn {{ {', '.join(names)} }}; }})();\n"
+
+
+def _in_base_85(table: re.Match[str]) -> str:
+    return base64.b85encode(base64.b64decode(table[0])).decode().replace("<", ",")
 
 
 def page(settings: Mapping[str, Any], sources: Sequence[str]) -> str:

@@ -1,0 +1,135 @@
+"use strict";
+
+// What a reader takes along: the numbers as CSV, a picture as PNG, the address of the page.
+const files = (() => {
+  const element = (id) => document.getElementById(id);
+  const PIXELS = 2; // of a picture, for one of the page
+  const MARGIN = 16;
+  const LINE = 24;
+
+  // A field with a comma or a quotation mark needs quotation marks round it.
+  const field = (value) => (/[",]/.test(value) ? `"${value.replaceAll('"', '""')}"` : `${value}`);
+
+  // The impact and what the models say about it, as comments; then the curves of the chart.
+  function csv(impact, state, found, { xs, curves, quantity }) {
+    const given = [
+      ["angle of incidence theta [deg]", state.angle],
+      ["friction coefficient mu [1]", impact.mu],
+      ["restitution e [1]", impact.e],
+      ["Poisson's ratio nu [1]", state.poisson_ratio],
+      ["mass ratio m2/m1 [1]", impact.beta],
+      ["stiffness ratio zeta^2 [1]", impact.zeta2],
+      ["incidence v1(0)/(mu v2(0)) [1]", impact.x],
+    ];
+    const said = found.flatMap(({ name, velocity, peak_friction, dissipation }) => [
+      [`${name}: v1(tf)/(mu v2(0)) [1]`, velocity],
+      [`${name}: largest F1/(mu largest F2) [1]`, peak_friction],
+      [`${name}: work of friction/(mu^2 m2 v2(0)^2) [1]`, dissipation],
+    ]);
+    const head = ["incidence v1(0)/(mu v2(0)) [1]", "angle of incidence theta [deg]"];
+    head.push(...curves.map(({ style }) => `${models.NAMES[style]}: ${quantity}`));
+    const rows = xs.map((x, i) => [
+      x, (Math.atan(impact.mu * x) * 180) / Math.PI, ...curves.map(({ ys }) => ys[i]),
+    ]);
+    const notes = [...given, ...said].map(([name, value]) => `# ${name} = ${value}`);
+    return [...notes, ...[head, ...rows].map((row) => row.map(field).join(","))].join("\n") + "\n";
+  }
+
+  // A copy of a drawing that needs no style sheet.
+  function standalone(svg, width, height) {
+    const copy = svg.cloneNode(true);
+    const [from, to] = [svg, copy].map((one) => [one, ...one.querySelectorAll("*")]);
+    const KEPT = [
+      "fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linecap",
+      "stroke-linejoin", "opacity", "visibility", "font", "text-anchor", "paint-order",
+    ];
+    from.forEach((one, i) => {
+      const style = getComputedStyle(one);
+      for (const name of KEPT) to[i].style.setProperty(name, style.getPropertyValue(name));
+    });
+    copy.setAttribute("width", width);
+    copy.setAttribute("height", height);
+    return new XMLSerializer().serializeToString(copy);
+  }
+
+  // A drawing with lines of text above and below, on a canvas. A line may begin with a swatch: then
+  // it is [style of its curve, text].
+  async function picture(svg, above, below) {
+    const { width, height } = svg.getBoundingClientRect();
+    const image = new Image();
+    image.src = `data:image/svg+xml,${encodeURIComponent(standalone(svg, width, height))}`;
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    canvas.width = PIXELS * (width + 2 * MARGIN);
+    const { color, backgroundColor, fontFamily } = getComputedStyle(document.body);
+    const pen = canvas.getContext("2d");
+    const font = (size) => `${size}px ${fontFamily}`;
+    const wrapped = (text) => {
+      pen.font = font(15);
+      return text.split(" ").reduce((lines, word) => {
+        const longer = `${lines.at(-1)} ${word}`.trim();
+        if (pen.measureText(longer).width <= width) return [...lines.slice(0, -1), longer];
+        return [...lines, word];
+      }, [""]);
+    };
+    const top = above.flatMap(wrapped);
+    canvas.height = PIXELS * (height + LINE * (top.length + below.length) + 3 * MARGIN);
+    pen.scale(PIXELS, PIXELS);
+    pen.fillStyle = backgroundColor;
+    pen.fillRect(0, 0, canvas.width, canvas.height);
+    let y = MARGIN;
+    const write = (text, x = MARGIN) => {
+      pen.fillStyle = color;
+      pen.font = font(15);
+      pen.fillText(text, x, (y += LINE) - 6);
+    };
+    top.forEach((text) => write(text));
+    pen.drawImage(image, MARGIN, y, width, height);
+    y += height + MARGIN / 2;
+    for (const line of below) {
+      if (typeof line === "string") {
+        write(line);
+        continue;
+      }
+      const [curve, text] = line;
+      const { stroke, strokeWidth, strokeDasharray } = getComputedStyle(curve);
+      pen.strokeStyle = stroke;
+      pen.lineWidth = parseFloat(strokeWidth);
+      pen.setLineDash(strokeDasharray === "none" ? [] : strokeDasharray.split(",").map(parseFloat));
+      pen.beginPath();
+      pen.moveTo(MARGIN, y + LINE - 11);
+      pen.lineTo(MARGIN + 34, y + LINE - 11);
+      pen.stroke();
+      write(text, MARGIN + 42);
+    }
+    return new Promise((done) => canvas.toBlob(done, "image/png"));
+  }
+
+  function save(name, blob) {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(blob);
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  }
+
+  // True if the text is on the clipboard; the older way works where the newer one is not allowed.
+  async function copy(text) {
+    try {
+      await navigator.clipboard.writeText(text);
+      return true;
+    } catch {
+      const box = document.createElement("textarea");
+      const focused = document.activeElement;
+      box.value = text;
+      document.body.append(box);
+      box.select();
+      const copied = document.execCommand("copy");
+      box.remove();
+      focused?.focus();
+      return copied;
+    }
+  }
+
+  return { csv, picture, save, copy };
+})();
