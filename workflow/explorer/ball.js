@@ -74,14 +74,14 @@ const ball = (() => {
   const place = (name, [x, y], turn) =>
     part(name).setAttribute("transform", `translate(${x},${y}) rotate(${degrees(turn)})`);
 
-  // An arrow with its label beyond the tip, inside the picture.
-  function draw_velocity(name, [x, y], [along, up], words) {
-    const tip = [x + SPEED * along, y + SPEED * up];
-    part(name).setAttribute("d", arrows.straight(x, y, ...tip));
-    const label = part(`${name}-label`);
-    label.textContent = Math.hypot(along, up) * SPEED < 3 ? "" : words;
-    label.setAttribute("x", Math.min(Math.max(tip[0] + 8 * Math.sign(along), 50), 430));
-    label.setAttribute("y", tip[1] + (up < -0.05 ? -6 : 15));
+  function draw_velocity(name, [x, y], [along, up]) {
+    part(name).setAttribute("d", arrows.straight(x, y, x + SPEED * along, y + SPEED * up));
+  }
+
+  // A label, kept inside the picture.
+  function label(name, x, y) {
+    part(name).setAttribute("x", Math.min(Math.max(x, 56), 424));
+    part(name).setAttribute("y", y);
   }
 
   // now: state of the contact at t, at one of its ends during the flights.
@@ -93,8 +93,12 @@ const ball = (() => {
     place("body", [x, y], left * turn);
     const along = impact.mu / speed;
     const up = now.approach / speed;
-    draw_velocity("centre", [x, y], [along * centre, up], "centre");
-    draw_velocity("contact", [x, y + RADIUS], [along * now.velocity, up], "contact point");
+    draw_velocity("centre", [x, y], [along * centre, up]);
+    draw_velocity("contact", [x, y + RADIUS], [along * now.velocity, up]);
+    // Each label stands where neither arrow is: right of the ball, and below its foot.
+    label("centre-label", x + RADIUS + 46, y + SPEED * up + (up > 0 ? -4 : 4));
+    const tip = SPEED * Math.max(up, 0);
+    label("contact-label", x + SPEED * along * (up > 0 ? now.velocity : 0), y + RADIUS + tip + 16);
     part("spin").setAttribute("d", arrows.round(x, y, RADIUS + 10, -TURN * along * spin));
     const stage = t < 0 ? "flies in" : left ? "leaves" : "contact, in slow motion";
     part("moment").textContent = stage;

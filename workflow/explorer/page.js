@@ -180,6 +180,7 @@ const page = (() => {
     const { agrees, text } = words.agreement(found);
     element("agreement").textContent = text;
     element("agreement").classList.toggle("disagree", !agrees);
+    element("doubt").textContent = agrees ? "" : "Other models say otherwise: see the table.";
     const wanted = state.models.includes("continuum");
     const covered = found.some(({ style }) => style !== "lumped" && style !== "rigid");
     element("uncovered").hidden = !wanted || covered;
@@ -463,7 +464,9 @@ const page = (() => {
     if (theme) root.dataset.theme = theme;
     if (mode) root.dataset.mode = mode;
     element("do-dark").ariaPressed = is_dark();
-    element("do-projector").ariaPressed = root.dataset.mode === "projector";
+    const projector = root.dataset.mode === "projector";
+    element("do-projector").ariaPressed = projector;
+    element(projector ? "rebound" : "stage").after(element("controls"));
   }
 
   const tell = (text) => (element("told").textContent = text);

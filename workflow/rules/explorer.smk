@@ -1,6 +1,6 @@
 EXPLORER_PARTS = ["explorer.html", "superball.html", "challenge.html", "explorer.css", "play.css"]
-EXPLORER_SCRIPTS = ["solver", "models", "charts", "arrows", "ball", "diagram", "words", "files"]
-EXPLORER_SCRIPTS += ["page", "superball", "challenge"]
+EXPLORER_SCRIPTS = ["solver", "base85", "models", "charts", "arrows", "ball", "diagram", "words"]
+EXPLORER_SCRIPTS += ["files", "page", "superball", "challenge"]
 EXPLORER_PARTS += [f"{part}.js" for part in EXPLORER_SCRIPTS]
 EXPLORER_SOURCES = sources(*expand("workflow/explorer/{file}", file=EXPLORER_PARTS))
 

@@ -31,22 +31,7 @@ BODIES = {
 FRICTION = {"fig3": 0.5, "fig4": 0.5, "fig5": 0.2, "fig6": 0.5}
 # Figs 5 to 9 are curves: the explorer opens at one point of each. It starts with that of Fig. 5,
 # slip throughout, where all models agree.
-INCIDENCE = {"fig5": 8.0, "fig6": 2.0}
-ANGLE = {"fig7": 45.0, "fig8": 30.0, "fig9": 45.0}  # deg
-
-# The page stores tables in base 85, which is shorter than base 64. The letter "<" is left out: it
-# has a meaning in a page.
-BYTES = """function bytes(text) {
-    const digits = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;,=>?@^_`{|}~";
-    const padded = text.padEnd(5 * Math.ceil(text.length / 5), "~");
-    const found = new DataView(new ArrayBuffer((4 * padded.length) / 5));
-    for (let i = 0; i < padded.length; i += 5) {
-        let four = 0;
-        for (let k = i; k < i + 5; k += 1) four = 85 * four + digits.indexOf(padded[k]);
-        found.setUint32((4 * i) / 5, four);
-    }
-    return found.buffer.slice(0, Math.floor((4 * text.length) / 5));
-}"""
+ANGLE = {"fig5": 58.0, "fig6": 45.0, "fig7": 45.0, "fig8": 30.0, "fig9": 45.0}  # deg
 
 
 def presets(settings: Mapping[str, Any]) -> dict[str, State]:
@@ -68,16 +53,15 @@ def presets(settings: Mapping[str, Any]) -> dict[str, State]:
     }
     figures = settings["figures"]
     found = {}
-    stated = {figure: figures[figure]["incidence"] for figure in ("fig3", "fig4")}
-    for figure, incidence in {**stated, **INCIDENCE}.items():
-        angle = math.degrees(math.atan(FRICTION[figure] * incidence))
-        found[figure] = {"angle": angle, "friction": FRICTION[figure]}
-        found[figure]["restitution"] = _middle(figures[figure]["restitution"])
-    for figure in ("fig7", "fig8", "fig9"):
-        friction = figures[figure]["friction"]
+    for figure in (f"fig{number}" for number in range(3, 10)):
+        settings_here = figures[figure]
+        friction = settings_here.get("friction", FRICTION.get(figure))
         friction = max(friction) if isinstance(friction, list) else friction
-        found[figure] = {"angle": ANGLE[figure], "friction": friction}
-        found[figure]["restitution"] = _middle(figures[figure].get("restitution", 1.0))
+        angle = ANGLE.get(figure)
+        if angle is None:
+            angle = math.degrees(math.atan(friction * settings_here["incidence"]))
+        restitution = _middle(settings_here.get("restitution", 1.0))
+        found[figure] = {"angle": angle, "friction": friction, "restitution": restitution}
     found = {figure: state | shared for figure, state in found.items()}
     throw = figures["superball"]["throw"]
     along, up = throw["velocity"]
@@ -121,6 +105,8 @@ def _address(state: Mapping[str, float]) -> str:
 def continuum() -> str:
     """The coarse table of spheres as the script of a page, which is no module.
 
+    Its tables are written to base 85; the page has a function `bytes` that reads that.
+
     Examples
     --------
     >>> print(continuum().splitlines()[0])
@@ -128,13 +114,14 @@ def continuum() -> str:
     """
     module = export.spheres_text("spheres.mjs", "js", max(export.TABLES))
     names = re.findall(r"^export (?:const|function) (\w+)", module, flags=re.M)
-    code = re.sub(r"/\*.*?\*/|^export ", "", module, flags=re.M | re.S)
-    code = re.sub(r"function bytes\(text\) \{.*?\n\}", lambda _: BYTES, code, flags=re.S)
+    left_out = r"/\*.*?\*/|^export |^function bytes\(text\) \{.*?^\}"
+    code = re.sub(left_out, "", module, flags=re.M | re.S)
     code = re.sub(r'(?<=\(")[A-Za-z0-9+/=]+(?="\))', _in_base_85, code)
     return f"const spheres = (() => {{\n{code}\nreturn {{ {', '.join(names)} }}; }})();\n"
 
 
 def _in_base_85(table: re.Match[str]) -> str:
+    # The letter "<" has a meaning in a page.
     return base64.b85encode(base64.b64decode(table[0])).decode().replace("<", ",")
 
 
