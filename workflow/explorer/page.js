@@ -173,7 +173,7 @@ const page = (() => {
       const way = ["back", "stops", "on"][direction + 1] + (slides ? ", slips throughout" : "");
       const lost = (200 * mu * mu * dissipation) / before;
       return `<tr><th scope="row"><span class="ink ${style}">${name}</span></th>` +
-        `<td>${charts.number(velocity, 3)}</td><td>${way}</td>` +
+        `<td>${charts.number(velocity, Math.abs(velocity) < 1000 ? 3 : 0)}</td><td>${way}</td>` +
         `<td>${charts.number(peak_friction, 3)}</td><td>${lost.toFixed(1)}</td></tr>`;
     };
     element("outcomes").tBodies[0].innerHTML = found.map(row).join("");
