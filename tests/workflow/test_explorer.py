@@ -1,5 +1,6 @@
 """The explorer in a browser: it answers its reader, draws what is true, stands alone."""
 
+import base64
 import io
 import json
 import math
@@ -10,6 +11,7 @@ from pathlib import Path
 
 import browser
 import numpy as np
+import pandas as pd
 import pytest
 from matplotlib.image import imread
 
@@ -46,16 +48,24 @@ def value(tab, name):
 
 
 def drawn(tab):
-    """All that follows from the controls."""
-    parts = "#sentence, #diagram-svg, #forces, #velocity, #incidence, .numbers, #energy"
+    """What follows from each of the controls."""
+    parts = "#incidence, #outcomes, .numbers, #forces, #velocity, #energy"
     return tab.evaluate(f"[...document.querySelectorAll('{parts}')].map((e) => e.outerHTML)")
 
 
 def type_in(tab, name, typed):
     tab.evaluate(
         f"{{ const box = document.getElementById('{name}'); box.value = '{typed}';"
-        " box.dispatchEvent(new Event('input', {bubbles: true})); box.blur(); }"
+        " for (const kind of ['input', 'change']) box.dispatchEvent(new Event(kind)); }"
     )
+
+
+def wait_for(tab, expression, wanted):
+    """Wait until a JavaScript expression has a value; for what the page does a little later."""
+    deadline = time.monotonic() + 5
+    while tab.evaluate(expression) != wanted and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert tab.evaluate(expression) == wanted
 
 
 def shown_energies(tab):
@@ -73,19 +83,39 @@ def test_a_slider_is_moved_by_keys_and_by_typing(slider, show):
         tab.press("ArrowRight")
     assert value(tab, slider) > start
     assert value(tab, f"{slider}-number") == value(tab, slider)
-    assert all(a != b for a, b in zip(before[2:], drawn(tab)[2:], strict=True))
+    assert all(a != b for a, b in zip(before, drawn(tab), strict=True))
     least, largest, _ = write_explorer.LIMITS[slider]
-    for typed, kept in (("-1e9", least), ("1e9", largest), ("", largest)):
+    for typed in (least, largest):
+        type_in(tab, f"{slider}-number", f" {str(typed).replace('.', ',')} ")
+        assert value(tab, slider) == value(tab, f"{slider}-number") == typed
+    label = tab.evaluate(f"document.querySelector('label[for={slider}]').textContent")
+    for typed in (f"{least - 0.01}", "1e9", "", "1.2.3", "1 000", "abc"):
         type_in(tab, f"{slider}-number", typed)
-        assert value(tab, slider) == value(tab, f"{slider}-number") == kept
+        assert value(tab, slider) == value(tab, f"{slider}-number") == largest
+        refused = f"{label}: \u201c{typed}\u201d is refused."
+        assert text(tab, "refused") == f"{refused} Allowed are numbers from {least} to {largest}."
+    box = f"document.getElementById('{slider}-number')"
+    tab.evaluate(f"{box}.dispatchEvent(new KeyboardEvent('keydown', {{key: 'ArrowDown'}}))")
+    step = tab.evaluate(f"{box}.dataset.step")
+    assert value(tab, slider) == pytest.approx(largest - float(step), abs=1e-9)
+    assert text(tab, "refused") == ""
+
+
+def test_a_comma_is_a_decimal_point(show):
+    tab = show()
+    type_in(tab, "angle-number", "12,5")
+    assert value(tab, "angle") == 12.5 and text(tab, "refused") == ""
 
 
 def test_a_preset_shows_the_impact_of_its_figure(show, presets):
     tab = show()
-    assert list(presets) == plan.EXPLORED
-    for index, state in enumerate(presets.values()):
-        tab.evaluate(f"document.querySelectorAll('.preset')[{index}].click()")
-        assert tab.evaluate(f"document.querySelectorAll('.preset')[{index}].ariaPressed") == "true"
+    assert sorted(presets) == sorted(plan.EXPLORED)
+    for state in presets.values():
+        button = (
+            f"document.querySelector('.preset[data-state^=\"{write_explorer.address(state)}\"]')"
+        )
+        tab.evaluate(f"{button}.click()")
+        assert tab.evaluate(f"{button}.ariaPressed") == "true"
         nu, mu, e = (state[name] for name in ("poisson_ratio", "friction", "restitution"))
         x = math.tan(math.radians(state["angle"])) / mu
         zeta2 = (2 - nu) / (2 * (1 - nu))
@@ -205,14 +235,23 @@ def test_the_corners_of_the_box_are_drawn(show):
         assert not re.search(r"NaN|Infinity|undefined", page), state
 
 
-def test_everything_is_reached_by_tab(show):
-    tab, reached = show(), set()
-    for _ in range(60):
+@pytest.mark.parametrize("width", [390, 1280])
+def test_everything_is_reached_by_tab_in_the_order_in_which_it_is_seen(width, show):
+    tab, reached = show(width=width), {}
+    box = "document.activeElement.getBoundingClientRect()"
+    for _ in range(70):
         tab.press("Tab")
-        reached.add(tab.evaluate("document.activeElement.id || document.activeElement.textContent"))
-    controls = "document.querySelectorAll('button, input, select')"
-    wanted = set(tab.evaluate(f"[...{controls}].map((e) => e.id || e.textContent)"))
-    assert len(wanted) > 20 and wanted <= reached
+        name = tab.evaluate("document.activeElement.id || document.activeElement.textContent")
+        section = tab.evaluate("document.activeElement.closest('section')?.id ?? ''")
+        reached.setdefault(name, (section, tab.evaluate(f"scrollY + {box}.bottom")))
+    controls = "[...document.querySelectorAll('button, input, select')]"
+    wanted = set(
+        tab.evaluate(f"{controls}.filter((e) => !e.disabled).map((e) => e.id || e.textContent)")
+    )
+    assert len(wanted) > 20 and wanted <= set(reached)
+    ours = [one for one in reached.values() if one[0] in ("", "stage", "controls", "rebound")]
+    steps = [(a, b) for a, b in zip(ours, ours[1:], strict=False) if width < 500 or a[0] == b[0]]
+    assert all(below[1] > above[1] - 12 for above, below in steps)
 
 
 def test_space_plays_and_pauses(show):
@@ -246,14 +285,30 @@ def test_the_address_leads_back_to_an_impact(show):
     tab = show(state)
     assert [value(tab, name) for name in SLIDERS] == [33.3, 0.7, 0.25, 0.1, 4.0]
     type_in(tab, "friction-number", "0.8")
-    wanted, deadline = f"#{state}".replace("0.7", "0.8"), time.monotonic() + 5
-    while tab.evaluate("location.hash") != wanted and time.monotonic() < deadline:
-        time.sleep(0.05)
-    assert tab.evaluate("location.hash") == wanted
+    wait_for(tab, "location.hash", f"#{state}".replace("0.7", "0.8"))
     tab.evaluate("location.hash = 'angle=10&mass_ratio=nonsense&friction=99&who=knows'")
-    tab.evaluate("new Promise((done) => setTimeout(done, 50))")
-    assert [value(tab, name) for name in SLIDERS[:2]] == [10.0, 2.0]
-    assert value(tab, "mass_ratio") == 4.0
+    wait_for(tab, "document.getElementById('angle').value", "10")
+    # What an address leaves out, or says wrongly, is as the page opens.
+    assert [value(tab, name) for name in ("friction", "mass_ratio")] == [2.0, 3.5]
+
+
+def test_back_undoes_a_change(show):
+    state = "angle=33&friction=0.7&restitution=0.25&poisson_ratio=0.1&mass_ratio=4&view=energy"
+    tab = show(state)
+    for typed in ("40", "45", "50"):  # one change: they follow at once
+        type_in(tab, "angle-number", typed)
+    wait_for(tab, "location.hash", f"#{state.replace('33', '50')}")
+    tab.evaluate("document.getElementById('model-rigid').click()")
+    wait_for(tab, "location.hash.endsWith('&models=lumped+continuum')", True)
+    tab.evaluate("history.back()")
+    wait_for(tab, "document.getElementById('model-rigid').checked", True)
+    assert value(tab, "angle") == 50
+    tab.evaluate("history.back()")
+    wait_for(tab, "document.getElementById('angle').value", "33")
+    # The link to the content is no impact.
+    tab.evaluate("document.querySelector('.skip').click()")
+    wait_for(tab, "location.hash", "#main")
+    assert value(tab, "angle") == 33
 
 
 @pytest.mark.parametrize("width", [320, 360, 800, 1280])
@@ -290,17 +345,135 @@ def test_a_change_is_drawn_within_a_frame(show):
     assert show().evaluate(change) < 16
 
 
+# ---- how it looks, and what a reader takes along
+
+
+def test_the_first_screen_has_examples_the_ball_and_the_curve(show):
+    tab = show(width=1440, height=900)
+    parts = ".presets, #sentence, #ball-svg, #play, #controls, #incidence, #outcomes, #agreement"
+    boxes = (
+        f"[...document.querySelectorAll('{parts}')].map((e) => e.getBoundingClientRect().bottom)"
+    )
+    bottoms = tab.evaluate(boxes)
+    assert len(bottoms) == 8 and max(bottoms) <= 900
+
+
+def luminance(colour):
+    """Relative luminance of WCAG of three numbers from 0 to 255."""
+    share = np.array(colour) / 255
+    linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
+    return linear @ [0.2126, 0.7152, 0.0722]
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_lines_stand_out_from_every_band(theme, show):
+    tab = show("angle=51&friction=0.5&restitution=0.5&poisson_ratio=0.3")
+    tab.evaluate(f"document.documentElement.dataset.theme = '{theme}'")
+    styles = (
+        "(all, name) => [...document.querySelectorAll(all)].map((e) => getComputedStyle(e)[name])"
+    )
+
+    def colours(query, name):
+        found = tab.evaluate(f"({styles})('{query}', '{name}')")
+        return {tuple(map(int, re.findall(r"\d+", one)[:3])) for one in found}
+
+    (paper,) = colours("body", "backgroundColor")
+    (opacity,) = set(tab.evaluate(f"({styles})('.chart .band', 'opacity')"))
+    grounds = [
+        float(opacity) * np.array(band) + (1 - float(opacity)) * np.array(paper)
+        for band in colours(".chart .band", "fill")
+    ]
+    lines = colours(".chart polyline", "stroke")
+    assert len(lines) >= 5 and len(grounds) == 3
+    for line in lines:
+        for ground in [np.array(paper), *grounds]:
+            dark, light = sorted((luminance(line), luminance(ground)))
+            assert (light + 0.05) / (dark + 0.05) > 4.5, (line, ground)
+
+
+def test_dark_and_projector_are_buttons_that_are_remembered(show):
+    tab = show()
+    look = "(() => { const style = getComputedStyle(document.body);"
+    look += " return [style.backgroundColor, style.fontSize]; })()"
+    (paper, size) = tab.evaluate(look)
+    for name in ("dark", "projector"):
+        tab.evaluate(f"document.getElementById('do-{name}').click()")
+    try:
+        tab = show()
+        dark, large = tab.evaluate(look)
+        assert dark != paper and float(large[:-2]) > 1.2 * float(size[:-2])
+        assert tab.evaluate(
+            "['dark', 'projector'].map((id) => document.getElementById(`do-${id}`).ariaPressed)"
+        ) == ["true", "true"]
+        # The chart is drawn larger, and still knows where it is pressed.
+        assert tab.evaluate("document.getElementById('incidence').clientHeight") > 1.2 * 262
+    finally:
+        tab.evaluate("localStorage.clear()")
+
+
+def test_curves_and_numbers_are_saved(show):
+    state = "angle=45&friction=0.5&restitution=0.5&poisson_ratio=0.3&mass_ratio=3.5"
+    tab = show(f"{state}&view=velocity")
+    tab.evaluate("files.save = (name, blob) => (window.saved = { name, blob })")
+    tab.evaluate("document.getElementById('do-csv').click()")
+    assert tab.evaluate("saved.name") == "impact.csv"
+    text = tab.evaluate("saved.blob.text()")
+    table = pd.read_csv(io.StringIO(text), comment="#")
+    notes = dict(re.findall(r"# (.*) = (\S+)\n", text))
+    assert float(notes["friction coefficient mu [1]"]) == 0.5
+    x = table["incidence v1(0)/(mu v2(0)) [1]"]
+    wanted = lumped.rebound(x, 3.5, 17 / 14, 0.5).velocity
+    curve = table["lumped: v1(tf)/(mu v2(0)) [1]"]
+    assert np.abs(curve - wanted).max() < 1e-9
+    here = lumped.rebound(2.0, 3.5, 17 / 14, 0.5).velocity
+    assert abs(float(notes["lumped: v1(tf)/(mu v2(0)) [1]"]) - here) < 1e-9
+    assert list(table.columns[3:]) == [
+        f"{name}: v1(tf)/(mu v2(0)) [1]"
+        for name in ("rigid", "continuum, viscous", "continuum, plastic")
+    ]
+
+
+@pytest.mark.parametrize("name", ["ball", "curve"])
+def test_a_picture_is_saved(name, show):
+    tab = show("angle=45&friction=0.5&restitution=0.5")
+    tab.evaluate("files.save = (name, blob) => (window.saved = { name, blob })")
+    tab.evaluate(f"document.getElementById('do-{name}').click()")
+    wait_for(tab, "window.saved?.name", f"{name}.png")
+    encoded = tab.evaluate(
+        "new Promise((done) => { const reader = new FileReader(); reader.onload = () =>"
+        " done(reader.result.split(',')[1]); reader.readAsDataURL(saved.blob); })"
+    )
+    picture = imread(io.BytesIO(base64.b64decode(encoded)))
+    assert picture.shape[1] > 600 and picture[..., :3].std() > 0.05
+    # A drawing without its style sheet would be black.
+    assert np.median(picture[..., :3]) > 0.9
+
+
+def test_the_link_is_copied_or_shown(show):
+    tab = show("angle=45&friction=0.5")
+    for copied, words in (("true", "The link is copied."), ("false", "Copy this link: file://")):
+        tab.evaluate(f"files.copy = async (text) => {{ window.link = text; return {copied}; }}")
+        tab.evaluate("document.getElementById('do-copy').click()")
+        wait_for(tab, f"document.getElementById('told').textContent.startsWith('{words}')", True)
+    assert tab.evaluate("link").endswith("#" + tab.evaluate("page.address()"))
+
+
 # ---- it stands alone
 
 
 def test_the_page_needs_nothing_else(explorer):
     page = explorer.read_text(encoding="utf-8")
-    # Nine tenths are the table of spheres.
+    # Four fifths are the table of spheres.
     assert len(page.encode()) < 800_000
     assert "http:" not in page and "https:" not in page and "@import" not in page
-    # The letter is not loaded: it is a link to the page beside this one.
-    addresses = re.findall(r"""(?:src|href)\s*=\s*["']?([^"'\s>]*)""", page)
-    assert addresses == ["data:,", "below_e_1.html"]
+    assert not re.search(r"\bsrc\s*=\s*[\"']", page)
+    # All else are links, which load nothing: places on the page, and pages beside this one.
+    linked = re.findall(r"<(\w+)[^>]*\bhref=\"([^\"]*)\"", page)
+    assert [address for tag, address in linked if tag != "a"] == ["data:,"]
+    bar = (ROOT / "workflow/report/site.html").read_text(encoding="utf-8")
+    pages = re.findall(r'\("(\S+\.html)"', bar)
+    assert len(pages) > 5
+    assert {address for tag, address in linked if tag == "a"} == {"#main", *pages}
 
 
 def test_a_run_writes_this_page(first_run, explorer):

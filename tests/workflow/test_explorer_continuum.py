@@ -1,12 +1,13 @@
-"""The explorer's curves of the continuum are those of the coarse table of spheres."""
+"""The explorer's models are those of the package, and it says where they disagree."""
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from planarimpact import spheres
+from planarimpact import Regime, lumped, rigid, spheres
 from planarimpact.spheres import table
 from stronge1994 import plan
 from stronge1994.pages import explorer as write_explorer
@@ -33,13 +34,16 @@ def disagreements(tab):
     found = []
     for groups in GROUPS:
         given = dict(zip(("beta", "zeta2", "e"), groups, strict=True))
-        curves = tab.evaluate(f"charts.continuum({json.dumps(given)}, {json.dumps(INCIDENCES)})")
+        curves = tab.evaluate(
+            f"models.chosen({json.dumps(given)}, ['continuum']).map(({{ style, solve }}) =>"
+            f" [style, {json.dumps(INCIDENCES)}.map((x) => Object.values(solve(x)).slice(0, 3))])"
+        )
         losses = ["elastic"] if groups[2] == 1 else list(spheres.LOSSES)
-        assert [curve["style"] for curve in curves] == losses
-        for curve in curves:
-            loss = "viscous" if groups[2] == 1 else curve["style"]
-            wanted = spheres.rebound(INCIDENCES, *groups, loss=loss).velocity
-            if np.abs(np.array(curve["ys"]) - wanted).max() > ACCURACY:
+        assert [style for style, _ in curves] == losses
+        for style, ours in curves:
+            loss = "viscous" if groups[2] == 1 else style
+            wanted = np.transpose(spheres.rebound(INCIDENCES, *groups, loss=loss)[:3])
+            if np.abs(np.array(ours) - wanted).max() > ACCURACY:
                 found.append((*groups, loss))
     return found
 
@@ -63,33 +67,92 @@ def test_a_wrong_table_is_seen(tab, coarse, monkeypatch, tmp_path):
 
 
 def drawn(tab):
-    """Curves of the continuum in the chart, and what the legend has."""
-    styles = "elastic", "viscous", "plastic"
-    lines = [f"document.querySelectorAll('#incidence .{style}').length" for style in styles]
-    named = [f"document.getElementById('legend-{style}').hidden ? 0 : 1" for style in styles]
-    lines, named = (tab.evaluate(f"[{', '.join(one)}]") for one in (lines, named))
-    assert lines == named
-    return dict(zip(styles, lines, strict=True))
+    """Models whose curve, point and row of the table the page has."""
+    lists = tab.evaluate(
+        "['#incidence polyline.curve', '#incidence .present', '#outcomes tbody .ink'].map((all) =>"
+        " [...document.querySelectorAll(all)].map((e) => e.getAttribute('class').split(' ')[1]))"
+    )
+    assert sorted(lists[0]) == sorted(lists[1]) == sorted(lists[2])
+    return set(lists[2])
 
 
 @pytest.mark.parametrize(
-    ("state", "styles", "says"),
+    ("state", "styles"),
     [
-        ("restitution=1", {"elastic"}, False),
-        ("restitution=0.8", {"viscous", "plastic"}, False),
-        ("restitution=0.29", set(), True),
-        ("restitution=0.8&mass_ratio=5", set(), True),
-        ("restitution=0.29&view=forces", set(), False),
-        ("restitution=0.8&view=energy", set(), False),
+        ("restitution=1", {"elastic"}),
+        ("restitution=0.8&view=energy", {"viscous", "plastic"}),
+        ("restitution=0.29&view=forces", set()),
+        ("restitution=0.8&mass_ratio=5", set()),
     ],
 )
-def test_it_draws_what_the_table_covers_and_says_what_it_does_not(state, styles, says, show):
+def test_it_draws_the_models_that_are_chosen(state, styles, show):
     tab = show(f"{state}&{SOLID}")
-    assert {style for style, count in drawn(tab).items() if count} == styles
+    assert drawn(tab) == {"lumped", "rigid"} | styles
     note = "document.getElementById('uncovered')"
-    assert tab.evaluate(f"{note}.checkVisibility()") == says
+    assert tab.evaluate(f"{note}.checkVisibility()") == (not styles)
     words = tab.evaluate(f"{note}.textContent")
     bounds = spheres.LEAST_RESTITUTION, spheres.LEAST_RATIO, spheres.LARGEST_RATIO
     assert all(str(bound) in words for bound in bounds)
-    tab.evaluate("document.getElementById('continuum').click()")
-    assert not any(drawn(tab).values()) and not tab.evaluate(f"{note}.checkVisibility()")
+    for name in ("lumped", "rigid"):
+        tab.evaluate(f"document.getElementById('model-{name}').click()")
+    assert drawn(tab) == styles and tab.evaluate("page.address()").endswith("&models=continuum")
+    tab = show(tab.evaluate("page.address()"))
+    assert drawn(tab) == styles
+    tab.evaluate("document.getElementById('model-continuum').click()")
+    assert drawn(tab) == set() and not tab.evaluate(f"{note}.checkVisibility()")
+
+
+def rebounds(state):
+    """What the models of the package say of a state of the controls."""
+    x = math.tan(math.radians(state["angle"])) / state["friction"]
+    nu, beta, e = (state[name] for name in ("poisson_ratio", "mass_ratio", "restitution"))
+    groups = x, beta, (2 - nu) / (2 * (1 - nu)), e
+    continua = [spheres.rebound(*groups, loss=loss) for loss in spheres.LOSSES]
+    return [lumped.rebound(*groups), rigid.rebound(x, beta, restitution=e), *continua]
+
+
+def test_the_page_opens_where_all_models_agree(show):
+    settings = plan.settings_of_explorer(configuration.load(ROOT))
+    found = rebounds(write_explorer.presets(settings)["fig5"])
+    assert {np.sign(one.velocity) for one in found} == {1.0}
+    assert {one.regime for one in found} == {Regime.SLIP_THROUGHOUT}
+    tab = show()
+    words = "['agreement', 'doubt', 'about'].map((id) => document.getElementById(id).textContent)"
+    agreement, doubt, about = tab.evaluate(words)
+    assert agreement == "The models shown agree on the direction." and doubt == ""
+    assert "all models say the same" in about
+    shown = tab.evaluate("[...document.querySelectorAll('#outcomes td')].map((e) => e.textContent)")
+    for k, one in enumerate((found[0], found[1], found[2])):
+        velocity, way, friction, _ = shown[4 * k : 4 * k + 4]
+        assert abs(float(velocity) - one.velocity) < 6e-4 and way == "on, slips throughout"
+        assert float(friction) == 1
+
+
+def test_it_says_which_models_disagree(show):
+    settings = plan.settings_of_explorer(configuration.load(ROOT))
+    presets = write_explorer.presets(settings)
+    velocities = [one.velocity for one in rebounds(presets["fig6"])]
+    assert np.sign(velocities).tolist() == [-1, 0, -1, 1]
+    said = "['agreement', 'doubt'].map((id) => document.getElementById(id).textContent)"
+    agreement, doubt = show(write_explorer.address(presets["fig6"])).evaluate(said)
+    assert agreement == (
+        "The models disagree on the direction. Forwards: continuum, plastic. Backwards: lumped;"
+        " continuum, viscous. Stops, or almost: rigid."
+    )
+    assert doubt == "Other models say otherwise: see the table."
+    # x = 4 is above the limit of slip throughout for the lumped model, and below that of continua.
+    state = {"angle": math.degrees(math.atan(2)), "friction": 0.5, "restitution": 0.5}
+    state |= {"poisson_ratio": 0.3, "mass_ratio": 3.5}
+    paper, _, *continua = rebounds(state)
+    assert paper.regime == Regime.SLIP_THROUGHOUT
+    assert all(one.velocity < 0 and one.regime != paper.regime for one in continua)
+    address = f"{write_explorer.address(state)}&models=lumped+continuum"
+    assert show(address).evaluate(said)[0] == (
+        "The models disagree on slip. Slips throughout: lumped. Also sticks: continuum, viscous;"
+        " continuum, plastic."
+    )
+    # About 0 is what the table cannot tell from 0.
+    grips = rebounds(presets["fig3"])
+    assert 0 < abs(grips[2].velocity) < 0.002
+    agreement, _ = show(write_explorer.address(presets["fig3"])).evaluate(said)
+    assert "Stops, or almost: rigid; continuum, elastic." in agreement

@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from planarimpact import lumped, rigid, spheres
+from planarimpact import bodies, lumped, rigid, spheres
 
 FRICTION, BETA, ZETA2 = 0.5, 3.5, 1.5  # a rubber ball
 INCIDENCE = math.tan(math.radians(51)) / FRICTION
@@ -165,22 +165,21 @@ def test_curves_against_incidence_are_those_of_the_package(view, show):
         return place if view == "velocity" else np.tan(np.radians(place)) / FRICTION
 
     for style, solve in (
-        (f"curve.{view}", lambda x: lumped.rebound(x, BETA, ZETA2, e)),
+        ("lumped", lambda x: lumped.rebound(x, BETA, ZETA2, e)),
         ("rigid", lambda x: rigid.rebound(x, BETA, restitution=e)),
     ):
         place, values = curve(tab, "incidence", style)
         x = incidence(np.maximum(place, 0))
         assert_near(values, drawn(solve(x), 1 / np.hypot(1, FRICTION * x)))
-    if view == "velocity":
-        for loss in spheres.LOSSES:
-            x, values = curve(tab, "incidence", loss)
-            assert_near(
-                values, spheres.rebound(np.maximum(x, 0), BETA, ZETA2, e, loss=loss).velocity
-            )
+    for loss in spheres.LOSSES:
+        place, values = curve(tab, "incidence", loss)
+        x = incidence(np.maximum(place, 0))
+        found = spheres.rebound(x, BETA, ZETA2, e, loss=loss)
+        assert_near(values, drawn(found, 1 / np.hypot(1, FRICTION * x)))
     if view == "forces":
         place, values = curve(tab, "incidence", "normal")
         assert_near(values, np.cos(np.radians(place)))
-    dot = "document.querySelector('#incidence .present')"
+    dot = "document.querySelector('#incidence .present.lumped')"
     at = tab.evaluate(f"[+{dot}.getAttribute('cx'), +{dot}.getAttribute('cy')]")
     place, value = (np.polyval(*one) for one in zip(axes_of(tab, "incidence"), at, strict=True))
     found = lumped.rebound(INCIDENCE, BETA, ZETA2, e)
@@ -188,19 +187,115 @@ def test_curves_against_incidence_are_those_of_the_package(view, show):
     assert abs(value - drawn(found, 1 / math.hypot(1, FRICTION * INCIDENCE))) < 0.01
 
 
+def place_in(tab, chart, value):
+    """Where a value of the horizontal axis of a chart is on the screen, once scrolled to it."""
+    tab.evaluate(f"document.getElementById('{chart}').scrollIntoView({{block: 'center'}})")
+    corner = f"document.getElementById('{chart}').getBoundingClientRect()"
+    left, top = tab.evaluate(f"[{corner}.x, {corner}.y]")
+    slope, start = axes_of(tab, chart)[0]
+    return {"x": left + (value - start) / slope, "y": top + 60}
+
+
+def mouse(tab, kind, where):
+    more = {"button": "left", "buttons": 1, "clickCount": 1}
+    tab.call("Input.dispatchMouseEvent", type=f"mouse{kind}", **more, **where)
+
+
+def value_of(tab, name):
+    return float(tab.evaluate(f"document.getElementById('{name}').value"))
+
+
 def test_charts_are_dragged(show):
     tab = shown(show, 0.5)
     for chart, changed, wanted in (("velocity", "time", 0.8), ("incidence", "angle", 45.0)):
-        tab.evaluate(f"document.getElementById('{chart}').scrollIntoView()")
-        corner = f"document.getElementById('{chart}').getBoundingClientRect()"
-        left, top = tab.evaluate(f"[{corner}.x, {corner}.y]")
-        slope, start = axes_of(tab, chart)[0]
         value = wanted if chart == "velocity" else math.tan(math.radians(wanted)) / FRICTION
-        where = {"x": left + (value - start) / slope, "y": top + 60}
-        for kind in ("mousePressed", "mouseReleased"):
-            tab.call("Input.dispatchMouseEvent", type=kind, button="left", clickCount=1, **where)
-        shown_value = float(tab.evaluate(f"document.getElementById('{changed}').value"))
-        assert abs(shown_value - wanted) < 0.02 * wanted
+        where = place_in(tab, chart, value)
+        for kind in ("Pressed", "Released"):
+            mouse(tab, kind, where)
+        assert abs(value_of(tab, changed) - wanted) < 0.02 * wanted
+
+
+def test_the_axis_stands_still_while_the_curve_is_dragged(show):
+    tab = shown(show, 0.5)
+    where = place_in(tab, "incidence", 7.9)
+    mouse(tab, "Pressed", where)
+    pressed = axes_of(tab, "incidence")[0]
+    for beyond in (10, 40, 80):
+        mouse(tab, "Moved", where | {"x": where["x"] + beyond})
+        assert np.array_equal(axes_of(tab, "incidence")[0], pressed)
+    mouse(tab, "Released", where | {"x": where["x"] + 80})
+    assert abs(value_of(tab, "angle") - math.degrees(math.atan(FRICTION * 8))) < 0.1
+    assert axes_of(tab, "incidence")[0][0] > pressed[0], "released, the axis has room again"
+
+
+@pytest.mark.parametrize(
+    ("moves", "changes"),
+    [
+        ([(0, -12), (4, -60), (60, -120)], False),  # scrolls the page
+        ([(12, 2), (60, 8)], True),
+        ([], True),  # a tap
+    ],
+)
+def test_a_finger_that_scrolls_the_page_changes_nothing(moves, changes, show):
+    state = f"angle=51&friction={FRICTION}&restitution=0.5&mass_ratio={BETA}"
+    tab = show(state, width=390)
+    where = place_in(tab, "incidence", 4.0)
+    kinds = [("Start", (0, 0)), *(("Move", move) for move in moves), ("End", None)]
+    for kind, move in kinds:
+        points = [{"x": where["x"] + move[0], "y": where["y"] + move[1]}] if move else []
+        tab.call("Input.dispatchTouchEvent", type=f"touch{kind}", touchPoints=points)
+    assert (value_of(tab, "angle") != 51) == changes
+
+
+def moved_ball(tab, times):
+    """Place of the ball, x to the right and y up, and its turn in radians against the clock."""
+    found = at_times(tab, times, "document.getElementById('ball-body').getAttribute('transform')")
+    numbers = [[float(number) for number in re.findall(r"-?[\d.]+", one)] for one in found]
+    return [(x, -y, math.radians(-turn)) for x, y, turn in numbers]
+
+
+def ball_arrow(tab, name):
+    outline = tab.evaluate(f"document.getElementById('ball-{name}').getAttribute('d')")
+    corners = np.array([one.split(",") for one in re.findall(r"[-\d.]+,[-\d.]+", outline)], float)
+    tip, tail = corners[3], (corners[0] + corners[-1]) / 2
+    return (tip - tail) * [1, -1], tail * [1, -1]
+
+
+def test_the_ball_flies_and_spins_as_the_package_says(contact, show):
+    e, found = contact
+    rubber = bodies.solid_sphere(radius=0.025, density=1100.0)
+    before = bodies.Motion(math.tan(math.radians(51)), 1.0, 0.0)
+    after = bodies.rebound_motion(rubber, before, FRICTION, found.velocity[-1], e)
+    # Friction and normal force act at the contact point: about it, no angular momentum changes.
+    turning = rubber.gyration**2 * after.spin
+    assert abs(rubber.radius * (before.tangential - after.tangential) + turning) < 1e-12
+    foot, _ = bodies.contact_velocity(after.tangential, after.normal, after.spin, rubber.radius)
+    rim = rubber.radius * after.spin
+    tab = shown(show, e)
+    for name, wanted in (("centre", after.tangential), ("spin", rim), ("velocity", foot)):
+        said = tab.evaluate(f"document.getElementById('number-{name}').textContent")
+        assert abs(float(said.replace("\u2212", "-")) - wanted / FRICTION) < 6e-4
+    leaves = math.degrees(math.atan2(after.tangential, -after.normal))
+    said = tab.evaluate("document.getElementById('ball-angle-out').textContent")
+    assert said == f"out: {leaves:.1f}\u00b0"
+    # It does not move in contact. Both flights are drawn in the unit of one length and one time.
+    start, first, last, end = moved_ball(tab, [-1, 0, 1 + e, 2 + e])
+    assert first == last and first[2] == start[2] == 0
+    unit = start[1] - first[1]
+    assert np.allclose(np.subtract(first, start)[:2] / unit, [before.tangential, -1])
+    assert np.allclose(np.subtract(end, last)[:2] / unit, [after.tangential, -after.normal])
+    radius = float(tab.evaluate("document.querySelector('#ball-body .rim').getAttribute('r')"))
+    assert math.isclose(end[2] * radius / unit, rim, rel_tol=1e-9)
+    # The arrows: velocity of the centre from the centre, of the contact point from the foot.
+    for name, speed, below in (("centre", after.tangential, 0), ("contact", foot, radius)):
+        arrow, tail = ball_arrow(tab, name)
+        assert np.abs(tail - [end[0], end[1] - below]).max() < PIXELS
+        assert np.abs(arrow * -after.normal - arrow[1] * np.array([speed, e])).max() < PIXELS
+    words = tab.evaluate("document.getElementById('of-the-centre').textContent")
+    share = 100 * after.tangential / before.tangential
+    assert f"The centre goes on forwards with {share:.0f}\u00a0%" in words
+    assert f"It leaves at {leaves:.0f}\u00b0." in words
+    assert ("contact point runs backwards" in words) == (foot < 0)
 
 
 def test_angles_of_the_thresholds_and_the_share_of_velocity_left_are_said(show):

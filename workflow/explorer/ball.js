@@ -87,7 +87,7 @@ const ball = (() => {
   // now: state of the contact at t, at one of its ends during the flights.
   function show(impact, now, t) {
     const { before, leaving, reach, turn, speed } = drawing(impact);
-    const left = Math.max(t - 1 - impact.e, 0);
+    const left = Math.max(t - (1 + impact.e), 0);
     const [x, y] = t < 0 ? point(before, t * reach) : point(leaving, left * reach);
     const { centre, spin } = motion(impact, now.velocity);
     place("body", [x, y], left * turn);

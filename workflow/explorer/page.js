@@ -551,5 +551,5 @@ const page = (() => {
     changed();
   }
 
-  return { go, impact: () => impact };
+  return { go, address, impact: () => impact };
 })();

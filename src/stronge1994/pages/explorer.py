@@ -97,8 +97,23 @@ def _within_limits(state: Mapping[str, float]) -> bool:
     )
 
 
-def _address(state: Mapping[str, float]) -> str:
-    """The part of the page's address after #, without the chosen chart."""
+def address(state: Mapping[str, float]) -> str:
+    """The part of the page's address after #, without the chosen chart.
+
+    Parameters
+    ----------
+    state : dict
+        Values of the controls.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> address({"angle": 58.0, "friction": 0.2})
+    'angle=58&friction=0.2'
+    """
     return "&".join(f"{control}={value:g}" for control, value in state.items())
 
 
@@ -143,7 +158,7 @@ def page(settings: Mapping[str, Any], sources: Sequence[str]) -> str:
     template = templates.environment(Path(sources[0]).parent).get_template("explorer.html")
     return template.render(
         limits=LIMITS,
-        presets={figure: _address(state) for figure, state in presets(settings).items()},
+        presets={figure: address(state) for figure, state in presets(settings).items()},
         bodies=_mass_ratios(),
         sources=texts | {"spheres.js": Markup(continuum())},
         error=max(export.TABLES),
