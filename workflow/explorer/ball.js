@@ -1,15 +1,15 @@
 "use strict";
 
 // The whole ball: it flies in without spin, touches the surface, and leaves with spin. The time t
-// runs from -1 to 0 in flight, to 1 + e in contact, which is shown in slow motion, and for 1 more in
-// flight. Both flights take equally long, so their paths compare the speeds. During contact the
-// ball does not move visibly: only its velocity and its spin change.
+// runs from -1 to 0 in flight, from 0 to 1 + e in contact, in slow motion, and on for 1 in flight.
+// Both flights take equally long, so their paths compare the speeds. During contact the ball does
+// not move visibly: only its velocity and its spin change.
 const ball = (() => {
   const MIDDLE = 240;
   const GROUND = 262;
   const RADIUS = 40;
   const ROOM = { along: 160, up: GROUND - 2 * RADIUS - 30 }; // for the path of the centre
-  const SPEED = 58; // length of the speed before the impact
+  const SPEED = 52; // length of the speed before the impact
   const ARC = 62; // radius of the arcs of both angles
   const TURN = 2.6; // radians of the arrow of a spin with which the rim has the speed before
   const part = (name) => document.getElementById(`ball-${name}`);
@@ -66,7 +66,7 @@ const ball = (() => {
     place("start", point(back, reach), 0);
     place("end", point(leaving, reach), turn);
     const incident = degrees(Math.atan(impact.mu * impact.x));
-    part("angle-in").textContent = `in: ${incident.toFixed(1)}\u00B0`;
+    part("angle-in").textContent = `in: \u03B8 = ${incident.toFixed(1)}\u00B0`;
     part("angle-out").textContent =
       impact.e === 0 ? "out: stays down" : `out: ${angle(impact).toFixed(1)}\u00B0`;
   }
@@ -95,8 +95,9 @@ const ball = (() => {
     const up = now.approach / speed;
     draw_velocity("centre", [x, y], [along * centre, up]);
     draw_velocity("contact", [x, y + RADIUS], [along * now.velocity, up]);
-    // Each label stands where neither arrow is: right of the ball, and below its foot.
-    label("centre-label", x + RADIUS + 46, y + SPEED * up + (up > 0 ? -4 : 4));
+    // Each label stands where neither arrow is: beside the ball, and below its foot.
+    const aside = x < 330 ? RADIUS + 54 : -RADIUS - 30;
+    label("centre-label", x + aside, y + (x < 330 ? Math.min(SPEED * up, 24) : 0));
     const tip = SPEED * Math.max(up, 0);
     label("contact-label", x + SPEED * along * (up > 0 ? now.velocity : 0), y + RADIUS + tip + 16);
     part("spin").setAttribute("d", arrows.round(x, y, RADIUS + 10, -TURN * along * spin));

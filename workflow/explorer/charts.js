@@ -109,7 +109,8 @@ const charts = (() => {
     const { time, velocity } = impact.contact;
     const [low, high] = [Math.min(0, ...velocity), Math.max(0, ...velocity)];
     const room = 0.08 * (high - low || 1);
-    const scales = axes(svg, [width, HEIGHT], [0, 2], [low - room, high + room], [0, 0.5, 1, 1.5, 2]);
+    const y = [low - room, high + room];
+    const scales = axes(svg, [width, HEIGHT], [0, 2], y, [0, 0.5, 1, 1.5, 2]);
     svg.innerHTML =
       phase_bands(impact, scales) + scales.markup + guide(1, scales) +
       line("velocity", time, velocity, scales) + cursor("velocity");

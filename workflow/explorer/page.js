@@ -300,8 +300,8 @@ const page = (() => {
       if (!allowed(name, parsed(box.value))) {
         const label = document.querySelector(`label[for=${name}]`).textContent;
         const { min, max } = element(name);
-        element("refused").textContent =
-          `${label}: \u201C${box.value}\u201D is refused. Allowed are numbers from ${min} to ${max}.`;
+        element("refused").textContent = `${label}: \u201C${box.value}\u201D is refused. ` +
+          `Allowed are numbers from ${min} to ${max}.`;
       }
       show_typed(name);
     });
@@ -382,9 +382,9 @@ const page = (() => {
   }
   element("time").addEventListener("input", (event) => go_to(Number(event.target.value)));
 
-  // Pressing or dragging in a chart: the time there, or the incidence. A mouse acts at once. A finger
-  // acts by a tap, or once it has moved more along the chart than across it: to scroll the page,
-  // starting on a chart, changes nothing.
+  // Pressing or dragging in a chart: the time there, or the incidence. A mouse acts at once. A
+  // finger acts by a tap, or once it has moved more along the chart than across it: to scroll the
+  // page, starting on a chart, changes nothing.
   function on_drag(svg, action, begin = () => {}, end = () => {}) {
     let start = null; // where it was pressed
     let dragging = false;
@@ -472,9 +472,9 @@ const page = (() => {
   const tell = (text) => (element("told").textContent = text);
 
   const about_impact = () =>
-    `θ = ${charts.number(state.angle)}°, µ = ${charts.number(state.friction)}, e = ` +
-    `${charts.number(state.restitution)}, ν = ${charts.number(state.poisson_ratio, 3)}, m₂/m₁ = ` +
-    `${charts.number(state.mass_ratio)}`;
+    `θ = ${charts.number(state.angle)}°, µ = ${charts.number(state.friction)}, ` +
+    `e = ${charts.number(state.restitution)}, ν = ${charts.number(state.poisson_ratio, 3)}, ` +
+    `m₂/m₁ = ${charts.number(state.mass_ratio)}`;
 
   const ACTIONS = {
     dark() {
@@ -524,7 +524,8 @@ const page = (() => {
     clearTimeout(waiting);
     state.models = models.TOGGLES;
     state.view = "velocity";
-    const opening = document.querySelector(".preset[data-opening]") ?? document.querySelector(".preset");
+    const named = document.querySelector(".preset[data-opening]");
+    const opening = named ?? document.querySelector(".preset");
     if (opening) read(opening.dataset.state);
     read(location.hash.slice(1));
     refresh();

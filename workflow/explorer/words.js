@@ -44,17 +44,17 @@ const words = (() => {
 
   // What the centre of a ball does that came without spin.
   function centre(impact) {
-    const { x, e, beta, result } = impact;
+    const { x, e, result } = impact;
     const after = ball.motion(impact, result.velocity);
     if (x === 0) return "The ball does not begin to spin.";
     const angle = e === 0 ? "" : ` It leaves at ${ball.angle(impact).toFixed(0)}\u00B0.`;
     const goes = after.centre < 0 ? "turns back" : "goes on forwards";
     const share = percent(Math.abs(after.centre) / x);
-    const spin = beta === 1
-      ? "This body does not spin."
-      : result.velocity < 0 && after.centre > 0
-        ? "The ball spins so fast that its contact point runs backwards."
-        : "The ball spins forwards.";
+    let spin = "The ball spins forwards.";
+    if (Math.abs(after.spin) < models.STOPPED * x) spin = "It does not spin.";
+    else if (result.velocity < 0 && after.centre > 0) {
+      spin = "The ball spins so fast that its contact point runs backwards.";
+    }
     return `The centre ${goes} with ${share} of its tangential velocity.${angle} ${spin}`;
   }
 
