@@ -41,7 +41,8 @@ const files = (() => {
     const [from, to] = [svg, copy].map((one) => [one, ...one.querySelectorAll("*")]);
     const KEPT = [
       "fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linecap",
-      "stroke-linejoin", "opacity", "visibility", "font", "text-anchor", "paint-order",
+      "stroke-linejoin", "opacity", "visibility", "font-family", "font-size", "font-style",
+      "font-weight", "text-anchor", "paint-order",
     ];
     from.forEach((one, i) => {
       const style = getComputedStyle(one);

@@ -180,7 +180,12 @@ const page = (() => {
     const { agrees, text } = words.agreement(found);
     element("agreement").textContent = text;
     element("agreement").classList.toggle("disagree", !agrees);
-    element("doubt").textContent = agrees ? "" : "Other models say otherwise: see the table.";
+    // The sentence is that of the lumped model, whether its curve is shown or not.
+    const [lumped] = models.outcomes(models.chosen(impact, ["lumped"]), impact);
+    const other = ({ direction, slides }) =>
+      direction !== lumped.direction || slides !== lumped.slides;
+    element("doubt").textContent =
+      found.some(other) ? "Other models say otherwise: see the table." : "";
     const wanted = state.models.includes("continuum");
     const covered = found.some(({ style }) => style !== "lumped" && style !== "rigid");
     element("uncovered").hidden = !wanted || covered;
@@ -500,7 +505,8 @@ const page = (() => {
     },
     async ball() {
       const above = [words.sentence(impact), words.centre(impact)];
-      files.save("ball.png", await files.picture(element("ball-svg"), above, [about_impact()]));
+      const below = [`Lumped model: ${about_impact()}`];
+      files.save("ball.png", await files.picture(element("ball-svg"), above, below));
       tell("ball.png has the picture of the ball.");
     },
     async curve() {
