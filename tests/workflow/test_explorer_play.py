@@ -149,7 +149,7 @@ WRONG = [
     ("angle=45&friction=0.7&restitution=1", "µζ² is 85.0 % of tan θ"),
     ("angle=45&friction=1&restitution=1", "Friction takes"),
     ("angle=55&friction=0.5&restitution=1", "It comes back with 44.6 %"),
-    ("angle=50&friction=0.5&restitution=0.9", "Restitution is 0.10 too small."),
+    ("angle=50&friction=0.5&restitution=0.9", "Restitution is too small by 0.10."),
 ]
 SOLID = "&poisson_ratio=0.3&mass_ratio=3.5"
 

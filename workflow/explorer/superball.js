@@ -13,13 +13,16 @@ const superball = (() => {
     rigid: (x, beta, zeta2, e) => solver.rigid_rebound(x, beta, e).velocity,
   };
 
-  const later = (state, passed) => ({
-    ...state,
-    time: state.time + passed,
-    place: state.place + passed * state.along,
-    height: state.height + passed * state.up,
-    turn: state.turn + passed * state.spin,
-  });
+  function later(state, passed) {
+    const { time, place, height, turn, along, up, spin } = state;
+    return {
+      ...state,
+      time: time + passed,
+      place: place + passed * along,
+      height: height + passed * up,
+      turn: turn + passed * spin,
+    };
+  }
   const after = (state, way) => later(state, way / Math.abs(state.up));
 
   // States at the throw, after each impact, and half way to the wall that would come next.
@@ -30,8 +33,8 @@ const superball = (() => {
     for (const wall of WALLS) {
       last = after(last, last.time ? REACH : REACH / 2);
       // Clockwise spin moves the foot of the ball backwards, its top forwards.
-      const side = wall === "floor" ? -1 : 1;
-      const contact = last.along + side * RADIUS * last.spin;
+      const side = wall === "floor" ? -RADIUS : RADIUS;
+      const contact = last.along + side * last.spin;
       const unit = friction * Math.abs(last.up);
       const x = Math.abs(contact) / unit;
       const change = Math.sign(contact) * unit * (MODELS[model](x, BETA, zeta2, e) - x);
@@ -40,18 +43,17 @@ const superball = (() => {
         ...last,
         along: last.along + change / BETA,
         up: -e * last.up,
-        spin: last.spin + (side * (1 - 1 / BETA) * change) / RADIUS,
+        spin: last.spin + ((1 - 1 / BETA) * change) / side,
       };
       path.push(last);
     }
     return [...path, after(last, REACH / 2)];
   }
 
-  const SLOWER = 10;
   const [METRE, SPEED] = [400, 16]; // 1 m and 1 m/s in the picture
   const [LEFT, MIDDLE] = [60, 176]; // the hand
   const part = (name) => document.querySelector(`#superball ${name}`);
-  const [scene, form, hand] = ["svg", "form", ".hand"].map(part);
+  const [scene, form, hand, said] = ["svg", "form", ".hand", ".said"].map(part);
   let flights, frame;
 
   const text = (value, digits) =>
@@ -63,8 +65,7 @@ const superball = (() => {
   function draw(time) {
     for (const [name, path] of Object.entries(flights)) {
       const passed = path.filter((state) => state.time <= time);
-      const last = passed[passed.length - 1];
-      const now = later(last, time - last.time);
+      const now = later(passed.at(-1), time - passed.at(-1).time);
       const [trace, speed, ball] = part(`.${name}`).children;
       trace.setAttribute("d", `M${[...passed, now].map(point).join("L")}`);
       speed.setAttribute("d", arrow(now));
@@ -87,31 +88,29 @@ const superball = (() => {
       form.elements[name].previousElementSibling.textContent = form.elements[name].value;
     }
     const other = model === "lumped" ? "continuum" : "lumped";
-    const [stops, ball, differs] = ["rigid", model, other].map((one) => fly(given, one));
-    flights = { stops, thrown: ball };
-    part(".said").textContent =
-      `After floor, table and floor the superball flies ${direction(ball[4])} along the floor.` +
+    const [stops, thrown, differs] = ["rigid", model, other].map((one) => fly(given, one));
+    flights = { stops, thrown };
+    said.textContent =
+      `After floor, table and floor the superball flies ${direction(thrown[4])} along the floor.` +
       ` The ball whose foot merely stops flies ${direction(stops[4])}.` +
       ` In the ${other} model the superball flies ${direction(differs[4])}.`;
-    const cells = ({ along, spin }) => `<td>${text(along, 1)}</td><td>${text(spin, 0)}</td>`;
-    part("tbody").innerHTML = ["throw", ...WALLS]
-      .map((what, i) => `<tr><th scope="row">${what}</th>${cells(ball[i])}${cells(stops[i])}</tr>`)
-      .join("");
-    part(".aim").setAttribute("d", arrow(ball[0]));
-    draw(ball[4].time);
+    part("tbody").innerHTML = ["throw", ...WALLS].map((what, i) => `<tr><th scope="row">${what}</th>
+      <td>${text(thrown[i].along, 1)}</td><td>${text(thrown[i].spin, 0)}</td>
+      <td>${text(stops[i].along, 1)}</td></tr>`).join("");
+    part(".aim").setAttribute("d", arrow(thrown[0]));
+    draw(thrown[4].time);
   }
 
   function start() {
     show();
-    part(".heard").textContent = part(".said").textContent;
+    part(".heard").textContent = said.textContent;
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
-    const end = flights.thrown[4].time;
     let first;
     frame = requestAnimationFrame(function step(now) {
       first ??= now;
-      const time = Math.min((now - first) / 1000 / SLOWER, end);
+      const time = Math.min((now - first) / 1e4, flights.thrown[4].time);
       draw(time);
-      if (time < end) frame = requestAnimationFrame(step);
+      if (time < flights.thrown[4].time) frame = requestAnimationFrame(step);
     });
   }
 
