@@ -43,13 +43,13 @@ const challenge = (() => {
         at_least("Friction takes #", (1 - kept * kept) / (1 + beta / (mu * x) ** 2), 0.22),
     },
     {
-      wish: "With e = 1, make the contact point come back with 60 % of its tangential speed.",
+      wish: "With <i>e</i> = 1, make the contact point come back with 60 % of its tangential speed.",
       hint: "No solid ball can: its best is 59 % here, 59.7 % in the continuum. A hollow one can.",
       answer: [42, 0.5, 0.5, 2.5],
       missing: ({ e }, kept) => elastic(e) || at_least("It comes back with #", -kept, 0.6),
     },
     {
-      wish: "With e = 1, make the models disagree: in the lumped one the point goes on with 5 % of" +
+      wish: "With <i>e</i> = 1, make the models disagree: in the lumped one the point goes on with 5 % of" +
         " its speed, in the continuum it comes back with 5 %.",
       hint: "Only the continuum has micro-slip. It matters where the whole contact sticks first.",
       answer: [32.6, 0.5, 0.3, 3.5],
@@ -103,6 +103,8 @@ const challenge = (() => {
       `angle=${angle}&friction=${mu}&restitution=1&poisson_ratio=${nu}&mass_ratio=${beta}` +
         "&view=velocity"));
   });
+  // Space opens a wish here; elsewhere on the page it plays.
+  list.addEventListener("keydown", (event) => event.stopPropagation());
   document.addEventListener("impact", (event) => show(event.detail));
   show(page.impact());
 })();
