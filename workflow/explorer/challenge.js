@@ -49,8 +49,8 @@ const challenge = (() => {
       missing: ({ e }, kept) => elastic(e) || at_least("It comes back with #", -kept, 0.6),
     },
     {
-      wish: "With <i>e</i> = 1, make the models disagree: in the lumped one the point goes on with 5 % of" +
-        " its speed, in the continuum it comes back with 5 %.",
+      wish: "With <i>e</i> = 1, make the models disagree: in the lumped one the point goes on with" +
+        " 5 % of its speed, in the continuum it comes back with 5 %.",
       hint: "Only the continuum has micro-slip. It matters where the whole contact sticks first.",
       answer: [32.6, 0.5, 0.3, 3.5],
       missing: ({ e, x, result }, _, round) =>
