@@ -103,8 +103,6 @@ const challenge = (() => {
       `angle=${angle}&friction=${mu}&restitution=1&poisson_ratio=${nu}&mass_ratio=${beta}` +
         "&view=velocity"));
   });
-  // Space opens a wish here; elsewhere on the page it plays.
-  list.addEventListener("keydown", (event) => event.stopPropagation());
   document.addEventListener("impact", (event) => show(event.detail));
   show(page.impact());
 })();

@@ -72,7 +72,7 @@ const superball = (() => {
       const degrees = (now.turn * 180) / Math.PI;
       ball.setAttribute("transform", `translate(${point(now)})rotate(${degrees})`);
       const way = now.spin > 0 ? ", clockwise" : now.spin < 0 ? ", anticlockwise" : "";
-      part(".spin").textContent = `Spin now: ${text(now.spin, 0)} rad/s${way}`;
+      part(".turns").textContent = `Spin now: ${text(now.spin, 0)} rad/s${way}`;
     }
   }
 
