@@ -17,10 +17,12 @@ What this repository adds to a figure of the paper has its own part of the legen
 import itertools
 import textwrap
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import IO, Any, TypeAlias, TypeVar
 
 import matplotlib
 import numpy as np
+from matplotlib import font_manager
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -81,6 +83,8 @@ UNSOLVED: Style = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5
 
 INCIDENCE = r"$v_1(0)/\mu v_2(0)$"
 REBOUND = r"$v_1(t_f)/\mu v_2(0)$"
+# Largest forces of an impact, to be put between dollar signs.
+F1MAX, F2MAX = r"F_{1\mathrm{max}}", r"F_{2\mathrm{max}}"
 
 STYLE = {
     "axes.linewidth": 0.7,
@@ -89,7 +93,7 @@ STYLE = {
     "errorbar.capsize": 1.5,
     "figure.constrained_layout.h_pad": 0.05,
     "figure.constrained_layout.w_pad": 0.05,
-    "font.family": "STIXGeneral",  # of journals; comes with matplotlib: the same on every machine
+    "font.family": "STIXGeneral",  # a typeface of journals
     "font.size": 10,
     "hatch.color": "0.7",
     "hatch.linewidth": 0.5,
@@ -106,6 +110,10 @@ STYLE = {
     "ytick.direction": "in",
     "ytick.labelsize": 9.5,
 }
+# These letters come with matplotlib. Its list of fonts may be older than this installation and lack
+# them: then it would take other letters, which are wider than the places made for these.
+for _font in sorted(Path(matplotlib.get_data_path(), "fonts/ttf").glob("STIX*.ttf")):
+    font_manager.fontManager.addfont(_font)
 matplotlib.rcdefaults()
 matplotlib.rcParams.update(STYLE)
 
@@ -160,6 +168,29 @@ def symbols(name: str) -> str:
 def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
     """Each item with its own pattern of line."""
     return zip(items, itertools.cycle(DASHES), strict=False)
+
+
+def of_restitution(e: float) -> Dashes:
+    """Pattern of line of a restitution, the same in every figure.
+
+    Parameters
+    ----------
+    e : float
+        Coefficient of restitution, 0 to 1.
+
+    Returns
+    -------
+    str or tuple
+        Solid for 1, dash-dot for 0; between them dashes, longer for a larger `e`.
+
+    Examples
+    --------
+    >>> of_restitution(1), of_restitution(0.5)
+    ('-', (0, (5.0, 2)))
+    """
+    if e == 1:
+        return "-"
+    return (0, (2 + 6 * e, 2)) if e > 0 else DASHES[2]
 
 
 def restitutions(values: Iterable[float]) -> str:
