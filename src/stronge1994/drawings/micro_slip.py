@@ -62,8 +62,7 @@ def _draw_radii(axes: Axes, curves: Curves, colours: Mapping[float, str]) -> Non
     lines = [_dense(curve[TIME], curve[STICK]) for curve in drawn.values()]
     rim = _dense(first[TIME], first[CONTACT])
     for number, (x, curve) in enumerate(drawn.items()):
-        style = {"color": colours[x], "linestyle": PATTERNS["continuum"]}
-        axes.plot(curve[TIME], curve[STICK], **style)
+        axes.plot(curve[TIME], curve[STICK], color=colours[x], linestyle=PATTERNS["continuum"])
         place = _apart(lines[number], [*lines[:number], *lines[number + 1 :], rim])
         plate = {"facecolor": "white", "edgecolor": "none", "pad": 0.8}
         style = {"ha": "center", "va": "center", "fontsize": house_style.NOTE, "bbox": plate}

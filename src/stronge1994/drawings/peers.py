@@ -43,7 +43,7 @@ MARKERS = (
     {"marker": "^", "markersize": 3.8, "markerfacecolor": house_style.BLACK},
 )
 TICKS = (0.05, 0.1, 0.2, 0.5, 1)
-# Inches of a line of a legend or of the second figure, and of all that is above and below its lines.
+# Inches of a line of a legend or of the second figure, and of all above and below its lines.
 LINE, FRAME = 0.22, 1.1
 # Points of two restitutions are so many lines apart, so that none hides another.
 APART = 0.27
@@ -158,10 +158,16 @@ def draw_errors(peers: Curves) -> Figure:
         house_style.key(f"$e = {e:g}$", linestyle="none", color=house_style.BLACK, **style)
         for e, style in styles.items()
     ]
-    place = {"loc": "outside lower center", "ncols": len(keys), "handlelength": 1}
     words = r"error of $v_1(t_f)/\mu v_2(0)$ against the continuum, rms over the incidences"
     absent = f"\nnot installed: {missing}" if missing else ""
-    figure.legend(handles=keys, title=words + absent, title_fontsize=house_style.NOTE, **place)
+    figure.legend(
+        handles=keys,
+        title=words + absent,
+        title_fontsize=house_style.NOTE,
+        loc="outside lower center",
+        ncols=len(keys),
+        handlelength=1,
+    )
     return figure
 
 

@@ -63,8 +63,8 @@ class Family(NamedTuple):
         }
 
 
-# A colour stands for what takes the energy: black for the normal element of the paper, green for
-# nothing (elastic), blue for viscosity, vermillion for plastic flow. A formula has no contact: grey.
+# A colour stands for what takes the energy: black for the normal element of the paper, blue for
+# viscosity, vermillion for plastic flow, green for an elastic contact. Grey formulas have none.
 BLACK, ELASTIC = house_style.BLACK, house_style.GREEN
 VISCOUS, PLASTIC = house_style.BLUE, house_style.VERMILLION
 FORMULA = Family("formula", "D", 3.5, house_style.GREY, True, LEFT)
