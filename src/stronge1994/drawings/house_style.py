@@ -49,6 +49,7 @@ WIDTH = 5.0
 NOTE = 8.5
 
 BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
+SKY, ORANGE = "#56B4E9", "#E69F00"
 GREY, PALE = "0.5", "0.85"
 
 # No pattern is dotted: a dotted line means "no tangential compliance".
@@ -72,11 +73,11 @@ AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 0.9, "zorde
 LOSSY: dict[str, tuple[str, Style]] = {
     "continuum.viscous": (
         "continuum, viscoelastic",
-        {"color": "#56B4E9", "linestyle": DASHES[4], "linewidth": 0.8, "zorder": 1.9},
+        {"color": SKY, "linestyle": DASHES[4], "linewidth": 1.0, "zorder": 1.9},
     ),
     "continuum.plastic": (
         "continuum, elastic-plastic",
-        {"color": "#E69F00", "linestyle": DASHES[3], "linewidth": 0.8, "zorder": 1.9},
+        {"color": ORANGE, "linestyle": DASHES[3], "linewidth": 1.0, "zorder": 1.9},
     ),
 }
 UNSOLVED: Style = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
