@@ -52,10 +52,11 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         (shots, rf"$e = {groups[0]:g}$,  $\zeta^2 = {groups[1]:g}$"),
     ):
         part.text(0.97, 0.06, words, ha="right", transform=part.transAxes)
+    gaps = [""] * (2 + len(paper) - len(added))
     house_style.legend_below(
         figure,
-        ["(a) in the paper", *paper, "(b) added here", *experiment[:2]],
-        ["(a) added here", *added, "", *experiment[2:]],
+        ["(a) in the paper", *paper, "", "(b) added here", *experiment[:2]],
+        ["(a) added here", *added, *gaps, *experiment[2:]],
     )
     return figure
 

@@ -22,11 +22,12 @@ SLIDING = {"facecolor": "none", "edgecolor": "0.75", "linewidth": 0, "hatch": "/
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Draw (a) both peak forces, hatched if slip never stops, and (b) printed ones if they differ."""
+    """Draw (a) both peak forces, hatched if slip never stops; (b) what printed equations give."""
     printed = [mu for mu in settings["friction"] if f"{AS_PRINTED}, {name('mu', mu)}" in curves]
     heights = [5.0, 3.6][: 2 if printed else 1]
     figure = house_style.new(0.75 * sum(heights) + 0.65)
-    axes, *more = figure.subplots(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0]
+    panels = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)
+    axes, *more = panels[:, 0]
     _draw_curve(axes, curves["normal"], house_style.LUMPED)
     sliding = curves["slip throughout"]
     axes.fill_between(sliding[X], sliding[Y], **SLIDING)
@@ -50,10 +51,9 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         Patch(label="slip throughout", **SLIDING),
     ]
     for part in more:
+        part.set_xlabel(axes.get_xlabel())
         axes.set(xlabel="", ylabel=rf"(a) {axes.get_ylabel()}")
         entries = _draw_printed(part, curves, lines, printed)
-        part.set(xlim=axes.get_xlim(), xlabel=r"angle of incidence $\theta$")
-        part.set_xticks(axes.get_xticks(), axes.get_xticklabels())
         part.set_ylabel(rf"(b) ${house_style.F1MAX}$ over $m_2\Omega S$")
         forces, others = forces + entries[:1], others + entries[1:]
     house_style.legend_below(figure, forces, others)
@@ -65,7 +65,7 @@ def _draw_printed(
 ) -> house_style.Entries:
     """Draw what the printed equations give over the same curves, pale; entries of the legend."""
     for _, curve in lines:
-        _draw_curve(axes, curve, TANGENTIAL | {"alpha": 0.4})
+        _draw_curve(axes, curve, TANGENTIAL | {"color": house_style.SKY, "linewidth": 1.0})
     entries = house_style.as_printed(axes, curves, X, Y, "Eqs 31, 32")
     axes.axhline(0, **house_style.GUIDE)
     top = max(curve[Y].max() for _, curve in lines)
@@ -75,8 +75,9 @@ def _draw_printed(
     for mu in printed:
         foot = curves[f"{AS_PRINTED}, {name('mu', mu)}"][X][-1]
         last = max(foot, last + apart)
-        style = {"color": house_style.PURPLE, "fontsize": house_style.NOTE}
-        axes.text(last, -0.04 * top, f"{mu:g}", ha="center", va="top", **style)
+        label = house_style.symbols(name("mu", mu)) if mu == printed[0] else f"{mu:g}"
+        place = {"ha": "center", "va": "top", "fontsize": house_style.NOTE}
+        axes.text(last, -0.04 * top, label, **place)
     return entries
 
 
