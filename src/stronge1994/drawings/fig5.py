@@ -111,7 +111,7 @@ def _draw_experiment(axes: Axes, curves: Curves, points: Points, settings: Setti
     models = house_style.lossy(axes, curves, X, Y, e, "experiment")
     if MEASURED_ANGLES in points:
         points = points | {MEASURED_ANGLES: _contact_series(points[MEASURED_ANGLES])}
-    series = {MEASURED_ANGLES: ("alumina on glass (Kharaz et al.)", GLASS_POINTS)}
+    series = {MEASURED_ANGLES: ("measured (Kharaz et al.)", GLASS_POINTS)}
     return [*house_style.references(axes, points, series), lumped, *models]
 
 

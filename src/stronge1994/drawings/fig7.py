@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import AS_PRINTED, name
+from stronge1994.curve_names import AS_PRINTED, is_printed, name
 from stronge1994.drawings import house_style
 from stronge1994.drawings.house_style import Points, Settings, Style
 
@@ -24,7 +24,7 @@ SLIDING = {"facecolor": "none", "edgecolor": "0.75", "linewidth": 0, "hatch": "/
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Draw (a) both peak forces, hatched if slip never stops; (b) what printed equations give."""
     printed = [mu for mu in settings["friction"] if f"{AS_PRINTED}, {name('mu', mu)}" in curves]
-    heights = [5.0, 3.6][: 2 if printed else 1]
+    heights = [5.0, 3.6][: 1 + any(map(is_printed, curves))]
     figure = house_style.new(0.75 * sum(heights) + 0.65)
     panels = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)
     axes, *more = panels[:, 0]

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from stronge1994.csv_tables import Curves
-from stronge1994.curve_names import AS_PRINTED, NO_SOLUTION, name
+from stronge1994.curve_names import AS_PRINTED, NO_SOLUTION, is_printed, name
 from stronge1994.drawings import house_style
 from stronge1994.drawings.house_style import Entries, Points, Settings, Style
 
@@ -21,8 +21,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
 
     Each friction has its colour and width of line, each restitution its pattern of line.
     """
-    printed = any(name.split(",")[0] == AS_PRINTED for name in curves)
-    heights = [4.0, 3.6][: 2 if printed else 1]
+    heights = [4.0, 3.6][: 1 + any(map(is_printed, curves))]
     figure = house_style.new(0.75 * sum(heights) + 1.5)
     panels = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)
     axes, *more = panels[:, 0]

@@ -234,7 +234,7 @@ def legend_below(
     entries = [entry for column in columns for entry in column + [""] * (rows - len(column))]
     headings = {entry for entry in entries if isinstance(entry, str)}
     handles = [key(e, linestyle="none") if isinstance(e, str) else e for e in entries]
-    place = {"loc": "outside lower center", "columnspacing": 3}
+    place = {"loc": "outside lower center", "columnspacing": 2, "borderpad": 0.2}
     legend = figure.legend(handles=handles, ncols=len(columns), **place)
     for text in legend.get_texts():
         if text.get_text() in headings:
