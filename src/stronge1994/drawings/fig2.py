@@ -41,7 +41,7 @@ def _draw_normal(axes: Axes, curves: Curves, e: float) -> None:
     axes.set_xticks([0, peak[0]], ["0", r"$u_2(t_c)$"])
     # The label of the remaining deflection is one line lower: at small e it would overlap the next.
     axes.set_xticks([end[0]], [r"$(1-e^2)\,u_2(t_c)$"], minor=True)
-    axes.tick_params(axis="x", which="minor", length=3.5, pad=15)
+    axes.tick_params(axis="x", which="minor", length=3.5, pad=17)
     axes.set_yticks([0, peak[1]], ["0", r"$\Omega m_2 v_2(0)$"])
     axes.set(xlim=(0, REACH * peak[0]), ylim=(0, REACH * peak[1]))
     axes.set(xlabel="normal deflection $u_2$", ylabel="normal force $F_2$")

@@ -48,7 +48,7 @@ WIDTH = 5.0
 # Size in points of notes, of words over brackets and of labels at lines.
 NOTE = 8.5
 # Distance of lines of text, over that of the typeface, which leaves room for tall mathematics.
-LINES = 0.9
+LINES = 1.0
 
 BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
 SKY, ORANGE = "#56B4E9", "#E69F00"
@@ -110,6 +110,7 @@ STYLE = {
     "svg.hashsalt": "planarimpact",  # the same names inside the file at every run
     "xtick.direction": "in",
     "xtick.labelsize": 9.5,
+    "xtick.major.pad": 5,  # the first label keeps away from that of the other axis
     "ytick.direction": "in",
     "ytick.labelsize": 9.5,
 }
