@@ -114,6 +114,7 @@ def _draw_laws(axes: Axes, peers: Curves, batch: int) -> None:
             axes.semilogx(*at, linestyle="none", **family.style())
             draw_trade.label(axes, at, draw_trade.words_of(row), family.place)
     axes.margins(x=1.0, y=0.15)  # so wide that there are two powers of ten
+    axes.locator_params(axis="y", nbins=4)
     axes.set(xlabel=draw_trade.TIME_WORDS, ylabel="error, rms", title="(d) LAMMPS, part of (a)")
 
 

@@ -43,7 +43,12 @@ LETTER, LINE, BORDER = 0.027, 0.07, 0.03
 # Negative velocities are hatched, because blue and red look alike in grey.
 NEGATIVE = {"hatch": "////", "edgecolor": "0.7", "linewidth": 0}
 PLATE = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 1.0}
-NAME = {"ha": "center", "va": "center", "fontsize": house_style.NOTE, "linespacing": 1.0}
+NAME = {
+    "ha": "center",
+    "va": "center",
+    "fontsize": house_style.NOTE,
+    "linespacing": house_style.LINES,
+}
 NAME |= {"bbox": PLATE}
 LEADER = {"arrowstyle": "-|>", "mutation_scale": 6, "linewidth": 0.6, "color": house_style.BLACK}
 LEADER |= {"shrinkA": 0, "shrinkB": 0}
