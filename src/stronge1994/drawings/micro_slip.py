@@ -64,7 +64,7 @@ def _draw_radii(axes: Axes, curves: Curves, colours: Mapping[float, str]) -> Non
     for number, (x, curve) in enumerate(drawn.items()):
         axes.plot(curve[TIME], curve[STICK], color=colours[x], linestyle=PATTERNS["continuum"])
         place = _apart(lines[number], [*lines[:number], *lines[number + 1 :], rim])
-        plate = {"facecolor": "white", "edgecolor": "none", "pad": 0.8}
+        plate = {"facecolor": "white", "edgecolor": "none", "pad": 1.6}
         style = {"ha": "center", "va": "center", "fontsize": house_style.NOTE, "bbox": plate}
         axes.text(*place, f"{x:g}", color=colours[x], **style)
     axes.axvline(1, **house_style.GUIDE)
