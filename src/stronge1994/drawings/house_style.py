@@ -11,7 +11,8 @@ returns a Figure:
 Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
 figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
 What this repository adds to a figure of the paper has its own part of the legend. The colours
-(Okabe & Ito) differ in grey too, and no two curves differ by colour alone.
+(Okabe & Ito) differ in grey too, and no two curves differ by colour alone. Where one figure shows
+several restitutions, `of_restitution` gives their lines; where it shows one, a pattern is a model.
 """
 
 import itertools

@@ -85,8 +85,8 @@ def draw(
         axes.tick_params(labelsize=house_style.NOTE, labelbottom=last)
         if last:
             name, _, unit = quantity.rstrip("]").partition(" [")
-            shown = "" if unit == "1" else f" [{UNITS.get(unit, unit)}]"
-            axes.set_xlabel(name.replace("_", " ") + shown, fontsize=house_style.NOTE)
+            end = "" if unit == "1" else f" [{UNITS.get(unit, unit)}]"
+            axes.set_xlabel(name.replace("_", " ") + end, fontsize=house_style.NOTE)
     for axes, quantity in zip(rows, axis, strict=True):
         same = [a for a, q in zip(rows, axis, strict=True) if q == quantity]
         axes.set_xlim(min(a.get_xlim()[0] for a in same), max(a.get_xlim()[1] for a in same))
