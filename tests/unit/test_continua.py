@@ -8,7 +8,6 @@ import pytest
 from planarimpact import models
 from stronge1994 import plan, reference_data
 from stronge1994.curves import continua, fig5, fig6, fig9
-from stronge1994.drawings import fig5 as draw_fig5
 from stronge1994.drawings import fig6 as draw_fig6
 from stronge1994.drawings import fig9 as draw_fig9
 from stronge1994.drawings import house_style
@@ -20,7 +19,7 @@ CONFIG = configuration.load(ROOT)
 INVENTORY = reference_data.load_all(
     ROOT / "data", reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
 )
-FIGURES = {"fig5": (fig5, draw_fig5), "fig6": (fig6, draw_fig6), "fig9": (fig9, draw_fig9)}
+FIGURES = {"fig6": (fig6, draw_fig6), "fig9": (fig9, draw_fig9)}
 COARSE = {"fig5": {"samples": 81, "tolerance": 1e-2, "loss_tolerance": 1e-2, "uncertainty": {}}}
 
 
@@ -31,25 +30,6 @@ def settings_of(figure, **change):
         own = {"tolerance": 1e-2} | change
         settings |= {"samples": 41, "continua": settings["continua"] | own}
     return settings | COARSE.get(figure, {})
-
-
-@pytest.mark.parametrize("figure", FIGURES)
-def test_the_legend_names_the_continua_and_lies_in_the_figure(figure):
-    settings = settings_of(figure)
-    curves, draw = FIGURES[figure]
-    drawn = draw.draw(curves.curves(**settings), settings, {})
-    drawn.draw_without_rendering()
-    (legend,) = drawn.legends
-    words = [text.get_text() for text in legend.get_texts()]
-    for label, _ in house_style.LOSSY.values():
-        assert sum(entry.startswith(f"{label}, $e = ") for entry in words) == 1, words
-    box = legend.get_window_extent()
-    assert 0 <= box.x0 < box.x1 <= drawn.bbox.width
-    # No text of the legend lies on another one, or on the axes.
-    boxes = [text.get_window_extent() for text in legend.get_texts() if text.get_text()]
-    boxes.append(drawn.axes[0].get_tightbbox())
-    for place, one in enumerate(boxes):
-        assert not any(one.overlaps(other) for other in boxes[place + 1 :])
 
 
 @pytest.mark.parametrize("figure", ["fig6", "fig9"])

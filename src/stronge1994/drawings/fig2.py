@@ -13,6 +13,8 @@ from stronge1994.drawings.house_style import Points, Settings
 Point: TypeAlias = tuple[float, float]
 
 DEFLECTION, FORCE = "deflection [v2(0)/Omega]", "force [m2 Omega v2(0)]"
+# End of the axes, over the largest value: to the right of the lines there is room for a label.
+REACH = 1.4
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -21,6 +23,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     normal, tangential = figure.subplots(1, 2)
     _draw_normal(normal, curves, settings["restitution"])
     _draw_tangential(tangential, curves["tangential"], settings["stiffness_ratio"])
+    figure.align_xlabels()
     return figure
 
 
@@ -33,13 +36,14 @@ def _draw_normal(axes: Axes, curves: Curves, e: float) -> None:
         axes.plot(line[DEFLECTION], line[FORCE], **(house_style.LUMPED | {"linestyle": dashes}))
     _label_slope(axes, origin, peak, r"slope $\kappa$")
     if e < 1:
-        _label_slope(axes, end, peak, r"slope $\kappa/e^2$", above=False)
+        _label_slope(axes, end, peak, r"slope $\kappa/e^2$", right=True)
     axes.set_title(f"$e = {e:g}$, loss $1 - e^2 = {1 - e**2:.3g}$")
+    axes.set_xticks([0, peak[0]], ["0", r"$u_2(t_c)$"])
     # The label of the remaining deflection is one line lower: at small e it would overlap the next.
-    ticks = {0: "0", end[0]: "\n" + r"$(1-e^2)\,u_2(t_c)$", peak[0]: r"$u_2(t_c)$"}
-    axes.set_xticks(list(ticks), list(ticks.values()))
+    axes.set_xticks([end[0]], [r"$(1-e^2)\,u_2(t_c)$"], minor=True)
+    axes.tick_params(axis="x", which="minor", length=3.5, pad=17)
     axes.set_yticks([0, peak[1]], ["0", r"$\Omega m_2 v_2(0)$"])
-    axes.set(xlim=(0, 1.25 * peak[0]), ylim=(0, 1.25 * peak[1]))
+    axes.set(xlim=(0, REACH * peak[0]), ylim=(0, REACH * peak[1]))
     axes.set(xlabel="normal deflection $u_2$", ylabel="normal force $F_2$")
 
 
@@ -53,7 +57,7 @@ def _draw_tangential(axes: Axes, line: Columns, stiffness_ratio: float) -> None:
     axes.set_xticks([0])
     axes.set_yticks([0])
     # Both axes have one scale, as in the other panel, so that slopes can be compared.
-    reach = 1.25 * max(end)
+    reach = REACH * max(end)
     axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
     axes.set(xlabel="tangential deflection $u_1$", ylabel="tangential force $F_1$")
 
@@ -64,10 +68,10 @@ def _ends(line: Columns) -> tuple[Point, Point]:
     return first, last
 
 
-def _label_slope(axes: Axes, start: Point, end: Point, text: str, above: bool = True) -> None:
-    """Write along the middle of the line from `start` to `end`, turned with it."""
-    turned = {"rotation_mode": "anchor", "transform_rotates_text": True, "ha": "center"}
-    angle = np.degrees(np.arctan2(end[1] - start[1], end[0] - start[0]))
-    vertical = "bottom" if above else "top"
-    middle = np.mean([start, end], axis=0)
-    axes.text(*middle, text, rotation=angle, va=vertical, fontsize=house_style.NOTE, **turned)
+def _label_slope(axes: Axes, start: Point, end: Point, text: str, right: bool = False) -> None:
+    """Write to the left of the middle of a line, or to the right of its first third."""
+    at = np.average([start, end], axis=0, weights=[2, 1] if right else None)
+    away, ha, va = ((4, -2), "left", "top") if right else ((-4, 2), "right", "bottom")
+    style = {"textcoords": "offset points", "fontsize": house_style.NOTE, "ha": ha, "va": va}
+    style["bbox"] = {"color": "white", "pad": 0.5}
+    axes.annotate(text, tuple(at), away, **style)

@@ -14,9 +14,9 @@ from stronge1994.drawings import house_style
 from stronge1994.drawings.house_style import Entries, Points, Series, Settings, Style
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-RUBBER = {"color": house_style.GREEN, "linestyle": "-", "linewidth": 1.0}
-SOFT_CONTINUUM = {"color": house_style.GREEN, "linestyle": house_style.DASHES[1], "linewidth": 1.0}
-EXPERIMENT = {"color": house_style.BLUE, "linestyle": "-", "linewidth": 0.7}
+# Below the paper's curves, with which these coincide where the contact slips throughout.
+RUBBER = {"color": house_style.GREEN, "linewidth": 1.0, "zorder": 1.9}
+SOFT_CONTINUUM = RUBBER | {"linestyle": house_style.DASHES[1]}
 RUBBER_SPHERE = "johnson1983/rubber_sphere"
 RUBBER_POINTS: Style = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
 ELEMENT_POINTS: Style = {"color": house_style.VERMILLION, "marker": "s", "markerfacecolor": "white"}
@@ -26,9 +26,9 @@ MEASURED_ANGLES = "kharaz2001/tangential_restitution"
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Draw the paper's curves and series, and additions with their own part of the legend."""
-    figure = house_style.new(5.0)
-    axes = figure.subplots()
+    """Draw (a) the paper's curves and series, and additions; (b) an experiment with its models."""
+    figure = house_style.new(7.0)
+    axes, shots = figure.subplots(2, 1, sharex=True, height_ratios=[5, 3.4])
     printed = (1 + settings["restitution"]) * settings["mass_ratio"]
     # As wide as in the paper, 8 with the printed limit at 7; wider if the limit is larger.
     left, end = settings["incidence"]
@@ -36,15 +36,28 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     right = wide if left < wide < end else end
     paper = _draw_paper(axes, curves, points, settings)
     added = _draw_added(axes, curves, points, settings)
-    _set_axes(axes, curves["lumped"], left, right)
+    experiment = _draw_experiment(shots, curves, points, settings)
+    axes.set(xlim=(left, right), ylabel=f"(a) {house_style.REBOUND}")
+    axes.set_ylim(*_range(curves["lumped"], right, (-3.0, 2.0)))
+    shots.set(xlabel=house_style.INCIDENCE, ylabel=f"(b) {house_style.REBOUND}")
+    shots.set_ylim(*_range(curves["lumped, experiment"], right, (-2.0, 1.0)))
     if RUBBER_SPHERE in points:
         house_style.let_in(axes, points[RUBBER_SPHERE])
     _draw_regimes(axes, curves["lumped"], right)
     _draw_printed_limit(axes, printed)
     frequency = math.sqrt(settings["mass_ratio"] / settings["stiffness_ratio"])
-    state = rf"$e = {settings['restitution']:g}$,  $\omega/\Omega = {frequency:.2f}$"
-    axes.text(0.97, 0.05, state, ha="right", transform=axes.transAxes)
-    house_style.legend_below(figure, paper, added, titles=("in the paper", "added here"))
+    groups = [settings["experiment"][key] for key in ("restitution", "stiffness_ratio")]
+    for part, words in (
+        (axes, rf"$e = {settings['restitution']:g}$,  $\omega/\Omega = {frequency:.2f}$"),
+        (shots, rf"$e = {groups[0]:g}$,  $\zeta^2 = {groups[1]:g}$"),
+    ):
+        part.text(0.97, 0.06, words, ha="right", transform=part.transAxes)
+    gaps = [""] * (2 + len(paper) - len(added))
+    house_style.legend_below(
+        figure,
+        ["(a) in the paper", *paper, "", "(b) added here", *experiment[:2]],
+        ["(a) added here", *added, *gaps, *experiment[2:]],
+    )
     return figure
 
 
@@ -64,25 +77,42 @@ def _draw_paper(axes: Axes, curves: Curves, points: Points, settings: Settings) 
 
 
 def _draw_added(axes: Axes, curves: Curves, points: Points, settings: Settings) -> Entries:
-    """Draw what this repository adds, and return entries of the legend."""
-    sphere, rubber = settings["experiment"], settings["rubber"]["stiffness_ratio"]
-    groups = rf"$\zeta^2 = {sphere['stiffness_ratio']:g}$, $e = {sphere['restitution']:g}$"
-    soft = rf"rubber, $\zeta^2 = {rubber:g}$"
-    entries = [
-        _draw_curve(axes, curves["lumped, rubber"], f"lumped, {soft}", RUBBER),
-        _draw_curve(axes, curves["continuum, rubber"], f"continuum, {soft}", SOFT_CONTINUUM),
-        _draw_curve(axes, curves["lumped, experiment"], f"lumped, {groups}", EXPERIMENT),
-    ]
-    series = {
-        MEASURED_ANGLES: ("alumina on glass (Kharaz et al.)", GLASS_POINTS),
-        "chung_ooi2011/rebound": ("finite elements (Chung & Ooi)", ELEMENT_POINTS),
+    """Draw what this repository adds to the paper's figure, and return entries of the legend."""
+    rubber, curve = (
+        rf"rubber, $\zeta^2 = {settings['rubber']['stiffness_ratio']:g}$",
+        curves["lumped, rubber"],
+    )
+    lowest = int(curve[Y].argmin())
+    place = {
+        "textcoords": "offset points",
+        "ha": "center",
+        "va": "top",
+        "fontsize": house_style.NOTE,
     }
-    restitution = house_style.restitutions([sphere["restitution"]])
-    entries += house_style.lossy(axes, curves, X, Y, restitution, "experiment")
+    axes.annotate(
+        "rubber", (curve[X][lowest], curve[Y][lowest]), (0, -4), color=house_style.GREEN, **place
+    )
+    entries = [
+        _draw_curve(axes, curve, f"lumped model, {rubber}", RUBBER),
+        _draw_curve(axes, curves["continuum, rubber"], f"continuum, {rubber}", SOFT_CONTINUUM),
+    ]
     entries += house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")
+    series = {"chung_ooi2011/rebound": ("finite elements (Chung & Ooi)", ELEMENT_POINTS)}
+    return entries + house_style.references(axes, points, series)
+
+
+def _draw_experiment(axes: Axes, curves: Curves, points: Points, settings: Settings) -> Entries:
+    """Draw an experiment and the models of its contact, and return entries of the legend."""
+    axes.axhline(0, **house_style.GUIDE)
+    e = house_style.restitutions([settings["experiment"]["restitution"]])
+    lumped = _draw_curve(
+        axes, curves["lumped, experiment"], f"lumped model, {e}", house_style.LUMPED
+    )
+    models = house_style.lossy(axes, curves, X, Y, e, "experiment")
     if MEASURED_ANGLES in points:
         points = points | {MEASURED_ANGLES: _contact_series(points[MEASURED_ANGLES])}
-    return entries + house_style.references(axes, points, series)
+    series = {MEASURED_ANGLES: ("measured (Kharaz et al.)", GLASS_POINTS)}
+    return [*house_style.references(axes, points, series), lumped, *models]
 
 
 def _draw_curve(axes: Axes, curve: Columns, label: str, style: Style) -> Line2D:
@@ -129,11 +159,10 @@ def contact_velocities(
     return x, x * (mass_ratio * np.asarray(centre_restitution) - (mass_ratio - 1))
 
 
-def _set_axes(axes: Axes, curve: Columns, left: float, right: float) -> None:
+def _range(curve: Columns, right: float, least: tuple[float, float]) -> tuple[float, float]:
+    """Range of velocities, at least `least`: down to a curve's lowest, up to its end."""
     drawn = curve[Y][curve[X] <= right]
-    low, high = min(-3.0, math.floor(drawn.min())), max(2.0, math.ceil(drawn[-1]))
-    axes.set(xlim=(left, right), ylim=(low, high), xlabel=house_style.INCIDENCE)
-    axes.set_ylabel(house_style.REBOUND)
+    return min(least[0], math.floor(drawn.min())), max(least[1], math.ceil(drawn[-1]))
 
 
 def _draw_regimes(axes: Axes, curve: Columns, right: float) -> None:
@@ -157,11 +186,6 @@ def _draw_printed_limit(axes: Axes, limit: float) -> None:
     left, right = axes.get_xlim()
     if left < limit < right:
         place = {"transform": axes.get_xaxis_transform()}
-        axes.plot([limit, limit], [0.955, 1], **place, **house_style.PRINTED)
-        style = {
-            "color": house_style.GREY,
-            "fontsize": house_style.NOTE,
-            "ha": "center",
-            "va": "top",
-        }
-        axes.text(limit, 0.945, "limit as printed", **place, **style)
+        axes.plot([limit, limit], [0.94, 1], **place, **house_style.PRINTED)
+        style = {"fontsize": house_style.NOTE, "ha": "center", "va": "top"}
+        axes.text(limit, 0.93, "limit as printed", **place, **style)

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from stronge1994.csv_tables import Curves
+from stronge1994.curve_names import name
 from stronge1994.drawings import house_style
 from stronge1994.drawings.house_style import Points, Settings
 
@@ -19,25 +20,26 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     axes = figure.subplots()
     axes.axhline(0, **house_style.GUIDE)
     ends = []
-    exact = {name: curve for name, curve in curves.items() if name.startswith("e = ")}
-    for index, (name, curve) in enumerate(exact.items()):
-        colour, dashes = house_style.CYCLE[index % len(house_style.CYCLE)]
-        axes.plot(curve[X], curve[Y], color=colour, linestyle=dashes)
-        ends.append((curve[Y][-1], house_style.symbols(name), colour))
+    for e in settings["restitution"]:
+        curve = curves[name("e", e)]
+        dashes = {"linestyle": house_style.of_restitution(e)}
+        axes.plot(curve[X], curve[Y], **(house_style.LUMPED | dashes))
+        ends.append((curve[Y][-1], house_style.symbols(name("e", e))))
     axes.set(xlim=settings["incidence"], xlabel=house_style.INCIDENCE, ylabel=house_style.REBOUND)
     _label_ends(axes, ends)
     added = house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")
     values = house_style.restitutions(settings["continua"]["restitution"])
     added += house_style.lossy(axes, curves, X, Y, values)
-    if added:
-        house_style.legend_below(figure, added, titles=("added here",))
+    paper = [house_style.key("lumped model, $e$ at the line", **house_style.LUMPED)]
+    titles = ("in the paper", "added here")
+    house_style.legend_below(figure, *([paper, added] if added else [paper]), titles=titles)
     return figure
 
 
-def _label_ends(axes: Axes, ends: Iterable[tuple[float, str, str]]) -> None:
+def _label_ends(axes: Axes, ends: Iterable[tuple[float, str]]) -> None:
     """Write names to the right of the axes, at the heights of the curves but not too close."""
     low, high = axes.get_ylim()
     apart, last = 0.05 * (high - low), -math.inf
-    for y, text, colour in sorted(ends):
+    for y, text in sorted(ends):
         last = max(y, last + apart)
-        axes.text(1.01, last, text, transform=axes.get_yaxis_transform(), va="center", color=colour)
+        axes.text(1.01, last, text, transform=axes.get_yaxis_transform(), va="center")

@@ -1,6 +1,8 @@
 """Fig. 7: largest normal and tangential force against the angle of incidence."""
 
+import math
 from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -8,9 +10,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import name
+from stronge1994.curve_names import AS_PRINTED, is_printed, name
 from stronge1994.drawings import house_style
 from stronge1994.drawings.house_style import Points, Settings, Style
+
+Lines: TypeAlias = Sequence[tuple[str, Columns]]  # label and curve of each friction
 
 X, Y = "angle [deg]", "peak_force [m2 Omega S]"
 TANGENTIAL = {"color": house_style.BLUE, "linestyle": house_style.DASHES[1]}
@@ -18,9 +22,12 @@ SLIDING = {"facecolor": "none", "edgecolor": "0.75", "linewidth": 0, "hatch": "/
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Draw both peak forces; dotted without tangential compliance, hatched if slip never stops."""
-    figure = house_style.new(4.4)
-    axes = figure.subplots()
+    """Draw (a) both peak forces, hatched if slip never stops; (b) what printed equations give."""
+    printed = [mu for mu in settings["friction"] if f"{AS_PRINTED}, {name('mu', mu)}" in curves]
+    heights = [5.0, 3.6][: 1 + any(map(is_printed, curves))]
+    figure = house_style.new(0.75 * sum(heights) + 0.65)
+    panels = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)
+    axes, *more = panels[:, 0]
     _draw_curve(axes, curves["normal"], house_style.LUMPED)
     sliding = curves["slip throughout"]
     axes.fill_between(sliding[X], sliding[Y], **SLIDING)
@@ -36,23 +43,49 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     top = max(1.0, *(curve[Y].max() for curve in curves.values()))
     axes.set(ylim=(0, top), ylabel=r"largest force over $m_2\Omega S$")
     forces = [
-        house_style.key(r"normal, $F_2^{max}$", **house_style.LUMPED),
-        house_style.key(r"tangential, $F_1^{max}$, $\mu$ at the line", **TANGENTIAL),
+        house_style.key(rf"normal, ${house_style.F2MAX}$", **house_style.LUMPED),
+        house_style.key(rf"tangential, ${house_style.F1MAX}$, $\mu$ at the line", **TANGENTIAL),
     ]
     others = [
-        house_style.key(r"$F_1^{max}$, no tangential compliance", **house_style.RIGID),
+        house_style.key(rf"${house_style.F1MAX}$, no tangential compliance", **house_style.RIGID),
         Patch(label="slip throughout", **SLIDING),
     ]
-    printed = house_style.as_printed(axes, curves, X, Y, "Eqs 31, 32")
-    house_style.legend_below(figure, forces + printed[:1], others + printed[1:])
+    for part in more:
+        part.set_xlabel(axes.get_xlabel())
+        axes.set(xlabel="", ylabel=rf"(a) {axes.get_ylabel()}")
+        entries = _draw_printed(part, curves, lines, printed)
+        part.set_ylabel(rf"(b) ${house_style.F1MAX}$ over $m_2\Omega S$")
+        forces, others = forces + entries[:1], others + entries[1:]
+    house_style.legend_below(figure, forces, others)
     return figure
+
+
+def _draw_printed(
+    axes: Axes, curves: Curves, lines: Lines, printed: Sequence[float]
+) -> house_style.Entries:
+    """Draw what the printed equations give over the same curves, pale; entries of the legend."""
+    for _, curve in lines:
+        _draw_curve(axes, curve, TANGENTIAL | {"color": house_style.SKY, "linewidth": 1.0})
+    entries = house_style.as_printed(axes, curves, X, Y, "Eqs 31, 32")
+    axes.axhline(0, **house_style.GUIDE)
+    top = max(curve[Y].max() for _, curve in lines)
+    axes.set_ylim(-0.16 * top, 1.08 * top)
+    # Each label stands below the foot of its line, but not too close to the label before.
+    last, apart = -math.inf, 4.5
+    for mu in printed:
+        foot = curves[f"{AS_PRINTED}, {name('mu', mu)}"][X][-1]
+        last = max(foot, last + apart)
+        label = house_style.symbols(name("mu", mu)) if mu == printed[0] else f"{mu:g}"
+        place = {"ha": "center", "va": "top", "fontsize": house_style.NOTE}
+        axes.text(last, -0.04 * top, label, **place)
+    return entries
 
 
 def _draw_curve(axes: Axes, curve: Columns, style: Style) -> None:
     axes.plot(curve[X], curve[Y], **style)
 
 
-def _label_lines(axes: Axes, lines: Sequence[tuple[str, Columns]]) -> None:
+def _label_lines(axes: Axes, lines: Lines) -> None:
     """Write labels into the lines, at the angle where the lines are furthest apart."""
     left, right = axes.get_xlim()
     # Away from both ends, where a label would cross the frame.

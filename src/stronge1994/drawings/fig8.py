@@ -16,10 +16,11 @@ TANGENTIAL = {"color": house_style.BLUE, "linestyle": house_style.DASHES[1], "li
 LARGEST = {"color": house_style.VERMILLION, "marker": "o", "linestyle": "none"}
 # The paper draws tangential forces so many times larger, on a second axis.
 ENLARGED = 2
-# Stated angles of the largest tangential force: name of the fact, label.
+# Stated angles of the largest tangential force: name of the fact, label, height of the line over
+# that of the force. The first line is the taller, so that its label stands above the other.
 STATED = {
-    "stronge1994/peak_angle_mu_0.18": r"model, {:g}$\degree$",
-    "lewis_rogers1988/peak_angle": r"measured, $\approx {:g}\degree$",
+    "stronge1994/peak_angle_mu_0.18": (r"{:g}$\degree$, stated in the paper", 1.45),
+    "lewis_rogers1988/peak_angle": (r"$\approx {:g}\degree$, measured", 1.2),
 }
 
 
@@ -30,8 +31,12 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     enlarged = axes.twinx()
     normal, friction = curves["normal"], curves["friction"]
     paper = [
-        *axes.plot(normal[X], normal[Y], label=r"normal, $F_2^{max}$", **house_style.LUMPED),
-        *enlarged.plot(friction[X], friction[Y], label=r"tangential, $F_1^{max}$", **TANGENTIAL),
+        *axes.plot(
+            normal[X], normal[Y], label=rf"normal, ${house_style.F2MAX}$", **house_style.LUMPED
+        ),
+        *enlarged.plot(
+            friction[X], friction[Y], label=rf"tangential, ${house_style.F1MAX}$", **TANGENTIAL
+        ),
         *_draw_measured(axes, enlarged, points),
     ]
     _set_axes(axes, enlarged, settings["angle"])
@@ -78,31 +83,31 @@ def _draw_largest(axes: Axes, curve: Columns) -> Artist:
     angle, force = curve[X][top], curve[Y][top]
     # To the left of the point: the stated angles are to the right.
     place = {"textcoords": "offset points", "ha": "right", "va": "bottom"}
-    text = rf"{angle:.1f}$\degree$"
-    axes.annotate(text, (angle, force), (2, 4), color=house_style.VERMILLION, **place)
-    return axes.plot(angle, force, label=r"largest $F_1^{max}$", **LARGEST)[0]
+    text = rf"{angle:.1f}$\degree$, solved"
+    axes.annotate(text, (angle, force), (4, 5), fontsize=house_style.NOTE, **place)
+    label = rf"largest ${house_style.F1MAX}$ of the model"
+    return axes.plot(angle, force, label=label, **LARGEST)[0]
 
 
 def _draw_statements(axes: Axes, curve: Columns, points: Points) -> Artist:
     """Draw thin lines at the stated angles, from the axis to above the curve."""
-    height = 1.15 * curve[Y].max()
-    place = {"rotation": 90, "ha": "center", "va": "bottom", "fontsize": house_style.NOTE}
+    place = {"textcoords": "offset points", "va": "center", "fontsize": house_style.NOTE}
     left, right = axes.get_xlim()
-    stated = {points[name]["value"]: text for name, text in STATED.items() if name in points}
-    inside = {angle: text for angle, text in stated.items() if left < angle < right}
-    for angle, text in inside.items():
-        axes.text(angle, 1.04 * height, text.format(angle), color=house_style.GREY, **place)
-    label = r"angles stated for $\mu = 0.18$: the paper; Lewis & Rogers"
-    return axes.vlines(list(inside), 0, height, label=label, **house_style.PRINTED)
+    for name, (text, height) in STATED.items():
+        if name in points and left < (angle := points[name]["value"]) < right:
+            top = height * curve[Y].max()
+            axes.vlines(angle, 0, top, **house_style.PRINTED)
+            axes.annotate(text.format(angle), (angle, top), (4, -2), **place)
+    return house_style.key(rf"stated angle of largest ${house_style.F1MAX}$", **house_style.PRINTED)
 
 
 def _draw_note(axes: Axes, settings: Settings) -> None:
+    friction, speed, mass = (settings[key] for key in ("friction", "speed", "mass"))
     lines = [
-        rf"$\mu = {settings['friction']:g}$",
-        rf"$S = {settings['speed']:g}$ m/s",
-        f"{settings['mass']:g} kg",
+        rf"$\mu = {friction:g}$,  $S = {speed:g}$ m/s,  {mass:g} kg",
         "scale of force assumed:",
         "Hertz at normal incidence",
     ]
     place = {"ha": "right", "va": "top", "transform": axes.transAxes}
-    axes.text(0.97, 0.96, "\n".join(lines), fontsize=house_style.NOTE, **place)
+    style = {"fontsize": house_style.NOTE, "linespacing": house_style.LINES}
+    axes.text(0.97, 0.96, "\n".join(lines), **style, **place)

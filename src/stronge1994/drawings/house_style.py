@@ -11,16 +11,19 @@ returns a Figure:
 Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
 figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
 What this repository adds to a figure of the paper has its own part of the legend. The colours
-(Okabe & Ito) differ in grey too, and no two curves differ by colour alone.
+(Okabe & Ito) differ in grey too, and no two curves differ by colour alone. Where one figure shows
+several restitutions, `of_restitution` gives their lines; where it shows one, a pattern is a model.
 """
 
 import itertools
 import textwrap
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import IO, Any, TypeAlias, TypeVar
 
 import matplotlib
 import numpy as np
+from matplotlib import font_manager
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -45,8 +48,11 @@ _Item = TypeVar("_Item")
 WIDTH = 5.0
 # Size in points of notes, of words over brackets and of labels at lines.
 NOTE = 8.5
+# Distance of lines of text, over that of the typeface, which leaves room for tall mathematics.
+LINES = 1.0
 
 BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
+SKY, ORANGE = "#56B4E9", "#E69F00"
 GREY, PALE = "0.5", "0.85"
 
 # No pattern is dotted: a dotted line means "no tangential compliance".
@@ -64,23 +70,25 @@ LUMPED: Style = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
 CONTINUUM: Style = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
 RIGID: Style = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zorder": 1.8}
 GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9}
-PRINTED: Style = {"color": GREY, "linewidth": 0.8}
-AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 0.9, "zorder": 2.2}
+PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
+AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
 # Light and thin: continua that lose energy, beside the curves of a figure of the paper.
 LOSSY: dict[str, tuple[str, Style]] = {
     "continuum.viscous": (
         "continuum, viscoelastic",
-        {"color": "#56B4E9", "linestyle": DASHES[4], "linewidth": 0.8, "zorder": 1.9},
+        {"color": SKY, "linestyle": DASHES[4], "linewidth": 1.0, "zorder": 1.9},
     ),
     "continuum.plastic": (
         "continuum, elastic-plastic",
-        {"color": "#E69F00", "linestyle": DASHES[3], "linewidth": 0.8, "zorder": 1.9},
+        {"color": ORANGE, "linestyle": DASHES[3], "linewidth": 1.0, "zorder": 1.9},
     ),
 }
 UNSOLVED: Style = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
 
 INCIDENCE = r"$v_1(0)/\mu v_2(0)$"
 REBOUND = r"$v_1(t_f)/\mu v_2(0)$"
+# Largest forces of an impact, to be put between dollar signs.
+F1MAX, F2MAX = r"F_{1\mathrm{max}}", r"F_{2\mathrm{max}}"
 
 STYLE = {
     "axes.linewidth": 0.7,
@@ -89,7 +97,7 @@ STYLE = {
     "errorbar.capsize": 1.5,
     "figure.constrained_layout.h_pad": 0.05,
     "figure.constrained_layout.w_pad": 0.05,
-    "font.family": "STIXGeneral",  # of journals; comes with matplotlib: the same on every machine
+    "font.family": "STIXGeneral",  # a typeface of journals
     "font.size": 10,
     "hatch.color": "0.7",
     "hatch.linewidth": 0.5,
@@ -103,9 +111,14 @@ STYLE = {
     "svg.hashsalt": "planarimpact",  # the same names inside the file at every run
     "xtick.direction": "in",
     "xtick.labelsize": 9.5,
+    "xtick.major.pad": 5,  # the first label keeps away from that of the other axis
     "ytick.direction": "in",
     "ytick.labelsize": 9.5,
 }
+# These letters come with matplotlib. Its list of fonts may be older than this installation and lack
+# them: then it would take other letters, which are wider than the places made for these.
+for _font in sorted(Path(matplotlib.get_data_path(), "fonts/ttf").glob("STIX*.ttf")):
+    font_manager.fontManager.addfont(_font)
 matplotlib.rcdefaults()
 matplotlib.rcParams.update(STYLE)
 
@@ -142,6 +155,7 @@ def failure(message: str) -> Figure:
     figure = new(1.6)
     # A dollar sign in an error message is not mathematics.
     style = {"ha": "center", "va": "center", "color": VERMILLION, "parse_math": False}
+    style["linespacing"] = LINES
     figure.text(0.5, 0.5, textwrap.fill(message, 64), **style)
     return figure
 
@@ -162,6 +176,29 @@ def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
     return zip(items, itertools.cycle(DASHES), strict=False)
 
 
+def of_restitution(e: float) -> Dashes:
+    """Pattern of line of a restitution, the same in every figure.
+
+    Parameters
+    ----------
+    e : float
+        Coefficient of restitution, 0 to 1.
+
+    Returns
+    -------
+    str or tuple
+        Solid for 1, dash-dot for 0; between them dashes, longer for a larger `e`.
+
+    Examples
+    --------
+    >>> of_restitution(1), of_restitution(0.5)
+    ('-', (0, (5.0, 2)))
+    """
+    if e == 1:
+        return "-"
+    return (0, (2 + 6 * e, 2)) if e > 0 else DASHES[2]
+
+
 def restitutions(values: Iterable[float]) -> str:
     """Words for some restitutions.
 
@@ -178,30 +215,31 @@ def key(label: str, **style: Any) -> Line2D:
     return Line2D([], [], label=label, **style)
 
 
-def legend_below(figure: Figure, *groups: Iterable[Artist], titles: Collection[str] = ()) -> None:
+def legend_below(
+    figure: Figure, *groups: Iterable[Artist | str], titles: Collection[str] = ()
+) -> None:
     """Legend below the axes, where it never covers a curve: one column for each group.
 
     Parameters
     ----------
     figure : Figure
-    *groups : list of artists
-        Entries with labels.
+    *groups : list of artists and strings
+        Entries with labels; a string is a heading, an empty one a gap.
     titles : sequence of str, optional
         Heading of each group.
     """
-    blank = {"linestyle": "none"}
     columns = [list(group) for group in groups]
     for column, title in zip(columns, titles, strict=False):
-        column.insert(0, key(title, **blank))
+        column.insert(0, title)
     # A legend is filled column by column, so all columns must be equally long.
     rows = max(map(len, columns))
-    for column in columns:
-        column += [key("", **blank)] * (rows - len(column))
-    handles = [handle for column in columns for handle in column]
-    place = {"loc": "outside lower center", "columnspacing": 3}
+    entries = [entry for column in columns for entry in column + [""] * (rows - len(column))]
+    headings = {entry for entry in entries if isinstance(entry, str)}
+    handles = [key(e, linestyle="none") if isinstance(e, str) else e for e in entries]
+    place = {"loc": "outside lower center", "columnspacing": 2, "borderpad": 0.2}
     legend = figure.legend(handles=handles, ncols=len(columns), **place)
     for text in legend.get_texts():
-        if text.get_text() in titles:
+        if text.get_text() in headings:
             text.set_style("italic")
 
 
@@ -210,14 +248,7 @@ def rigid(axes: Axes, x: Array, y: Array, compliant: Array) -> None:
     axes.plot(x, np.where(np.isclose(y, compliant), np.nan, y), **RIGID)
 
 
-def as_printed(
-    axes: Axes,
-    curves: Curves,
-    x: str,
-    y: str,
-    equations: str,
-    patterns: Mapping[str, Dashes] | None = None,
-) -> Entries:
+def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> Entries:
     """Draw what the printed equations give, and return entries of the legend.
 
     Parameters
@@ -225,31 +256,30 @@ def as_printed(
     axes : Axes
     curves : dict
         All curves of a figure; those of `stronge1994.curves.as_printed` are known by their names.
+        One of a restitution has its pattern, and an entry that names it.
     x, y : str
         Their columns.
     equations : str
         Their numbers, for the legend.
-    patterns : dict, optional
-        Pattern of the line for curves whose name ends in a key.
 
     Returns
     -------
     list of artists
     """
-    kinds = {
-        curve_names.AS_PRINTED: (f"{equations} as printed", AS_PRINTED),
-        curve_names.NO_SOLUTION: ("no solution as printed", UNSOLVED),
-    }
-    entries = []
-    for kind, (label, style) in kinds.items():
-        chosen = {name: curve for name, curve in curves.items() if name.split(",")[0] == kind}
-        for name, curve in chosen.items():
-            ours = [dashes for end, dashes in (patterns or {}).items() if name.endswith(end)]
-            pattern = {"linestyle": ours[0]} if ours and kind == curve_names.AS_PRINTED else {}
-            axes.plot(curve[x], curve[y], **(style | pattern))
-        if chosen:
-            entries.append(key(label, **style))
-    return entries
+    entries = {}
+    for name, curve in curves.items():
+        kind, _, pair = name.partition(", ")
+        label, style = f"{equations} as printed", AS_PRINTED
+        if kind == curve_names.NO_SOLUTION:
+            label, style = "no solution as printed", UNSOLVED
+        elif kind != curve_names.AS_PRINTED:
+            continue
+        elif pair.startswith("e = "):
+            label += f", {symbols(pair)}"
+            style = style | {"linestyle": of_restitution(float(pair.removeprefix("e = ")))}
+        axes.plot(curve[x], curve[y], **style)
+        entries[label] = key(label, **style)
+    return list(entries.values())
 
 
 def lossy(axes: Axes, curves: Curves, x: str, y: str, words: str, end: str = "") -> Entries:
@@ -358,10 +388,10 @@ def brackets(axes: Axes, spans: Iterable[tuple[float, float, str]]) -> None:
     for start, end, label in spans:
         frame = [start, start, end, end], [foot, top, top, foot]
         axes.plot(*frame, transform=across, clip_on=False, color=BLACK, linewidth=0.7)
-        # So many letters fit: 16 to an inch in this size. The axes are narrower than the figure.
-        letters = int((end - start) / (right - left) * WIDTH * 14)
+        # So many letters fit: 20 to an inch in this size. The axes are narrower than the figure.
+        letters = int((end - start) / (right - left) * WIDTH * 17)
         if letters < max(map(len, label.split())):
             continue
         wrapped = textwrap.fill(label, letters)
-        place = {"ha": "center", "va": "bottom", "transform": across}
+        place = {"ha": "center", "va": "bottom", "transform": across, "linespacing": LINES}
         axes.text((start + end) / 2, top + 0.012, wrapped, fontsize=NOTE, **place)

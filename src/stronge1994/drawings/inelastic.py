@@ -28,7 +28,8 @@ class Model(NamedTuple):
     hatch: str
 
 
-# A colour for each cause of loss.
+# A colour for each cause of loss: black for the normal element of the paper, vermillion for plastic
+# flow, blue for viscosity.
 MODELS = {
     name: Model(words, colour, dashes, hatch)
     for (name, words, colour, hatch), dashes in house_style.patterned(
@@ -124,8 +125,8 @@ def _draw_pairs(axes: Axes, series: house_style.Series) -> None:
         axes.plot(
             [x, right - 0.006, bend],
             [y, height, height],
-            color=house_style.GREY,
-            linewidth=0.4,
+            color=house_style.BLACK,
+            linewidth=0.3,
             clip_on=False,
             zorder=2.5,
         )
@@ -213,15 +214,14 @@ def _draw_chi_squared(axes: Axes, curves: Curves, series: house_style.Series) ->
     found: Mapping[str, ChiSquared] = {name: goodness(curves, name, series) for name in MODELS}
     degrees = len(series["x"])
     largest = max(fit.value for fit in found.values())
-    paper = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}
-    note = {"fontsize": house_style.NOTE, "va": "center", "bbox": paper}
+    note = {"fontsize": house_style.NOTE, "va": "center"}
     for row, (name, fit) in enumerate(found.items()):
         model = MODELS[name]
         style = {"facecolor": "white", "edgecolor": model.colour, "hatch": model.hatch}
         axes.barh(row, fit.value, height=0.42, linewidth=1.0, **style)
-        axes.text(LEAST * 1.15, row - 0.42, model.words, **note)
+        axes.text(degrees * 1.15, row - 0.42, model.words, **note)
         axes.text(fit.value * 1.15, row, words_of(fit.p), **note)
-    axes.axvline(degrees, **house_style.GUIDE)
+    axes.axvline(degrees, color=house_style.BLACK, linewidth=0.7, linestyle=house_style.DASHES[1])
     axes.set(xscale="log", xlim=(LEAST, largest * 50), yticks=[], ylim=(len(found) - 0.6, -0.75))
     axes.set_xlabel(rf"$\chi^2$ of {degrees} pairs")
     axes.set_title("(c) models against pairs")

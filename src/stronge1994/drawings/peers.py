@@ -1,10 +1,11 @@
 """LAMMPS and pooltool: error against time for e = 1, and errors below e = 1 for each loss."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Curves
@@ -13,7 +14,8 @@ from stronge1994.drawings import trade as draw_trade
 from stronge1994.drawings.house_style import Settings
 
 CODES = {"lammps": "LAMMPS", "pooltool": "pooltool"}
-OTHER = draw_trade.Family("", "X", 5, house_style.BLACK, False, draw_trade.RIGHT)
+# Purple is the colour of the other codes.
+OTHER = draw_trade.Family("", "d", 6, house_style.PURPLE, False, draw_trade.RIGHT)
 # The laws of LAMMPS lie together in panel (a). Panel (d) shows them apart.
 LAWS = {
     "LAMMPS mindlin": OTHER._replace(marker="<", label="mindlin"),
@@ -21,8 +23,8 @@ LAWS = {
     "LAMMPS mindlin_rescale": OTHER._replace(marker=">", label="mindlin_rescale"),
     "LAMMPS mindlin_rescale/force": OTHER._replace(marker="v", label="mindlin_rescale/force"),
 }
-TOGETHER = OTHER._replace(marker="+", label="LAMMPS, in (d)", place=None)
-POOLTOOL = OTHER._replace(label="pooltool", place=draw_trade.LEFT)
+TOGETHER = OTHER._replace(marker="+", size=6, label="LAMMPS: see (d)", place=None)
+POOLTOOL = OTHER._replace(label="pooltool", place=draw_trade.UPPER_RIGHT)
 
 ERROR, E, LOSS = draw_trade.ERROR, draw_trade.RESTITUTION, "loss"
 STEPS, USUAL_STEPS = draw_trade.STEPS, 64
@@ -41,7 +43,7 @@ MARKERS = (
     {"marker": "^", "markersize": 3.8, "markerfacecolor": house_style.BLACK},
 )
 TICKS = (0.05, 0.1, 0.2, 0.5, 1)
-# Inches of a line of the second figure, and of all that is above and below its lines.
+# Inches of a line of a legend or of the second figure, and of all above and below its lines.
 LINE, FRAME = 0.22, 1.1
 # Points of two restitutions are so many lines apart, so that none hides another.
 APART = 0.27
@@ -76,11 +78,15 @@ def draw(curves: Curves, peers: Curves, settings: Settings) -> Figure:
     }
     figure = draw_trade.draw(curves | theirs, settings, {}, draw_trade.FAMILIES | codes)
     models = {row["model"][0] for row in theirs.values()}
-    _add_legend(figure.axes[1], {codes[model].label: codes[model] for model in sorted(models)})
+    legend = [_keys({codes[model].label: codes[model] for model in sorted(models)}.values())]
     if models & set(LAWS):
         axes = next(axes for axes in figure.axes if axes.get_label() == draw_trade.GROWTH_PANEL)
         axes.clear()
         _draw_laws(axes, theirs, draw_trade.shown_batch(settings))
+        legend.append(_keys(LAWS.values()))
+    if models:
+        figure.set_figheight(figure.get_figheight() + LINE * max(map(len, legend)))
+        house_style.legend_below(figure, *legend)
     if missing := _missing(peers):
         words = f"not installed: {missing}\n{figure.get_suptitle()}"
         figure.suptitle(words, fontsize=house_style.NOTE)
@@ -91,14 +97,10 @@ def _missing(peers: Curves) -> str:
     return ", ".join(label for code, label in CODES.items() if code in peers)
 
 
-def _add_legend(axes: Axes, families: Mapping[str, draw_trade.Family]) -> None:
-    """Write the legend of the other codes into the empty middle of panel (a)."""
-    keys = [
-        house_style.key(label, linestyle="none", **family.style())
-        for label, family in families.items()
+def _keys(families: Iterable[draw_trade.Family]) -> list[Line2D]:
+    return [
+        house_style.key(family.label, linestyle="none", **family.style()) for family in families
     ]
-    if keys:
-        axes.legend(handles=keys, loc="center", bbox_to_anchor=(0.42, 0.48), handlelength=1)
 
 
 def _draw_laws(axes: Axes, peers: Curves, batch: int) -> None:
@@ -111,15 +113,9 @@ def _draw_laws(axes: Axes, peers: Curves, batch: int) -> None:
             at = draw_trade.MICROSECONDS * time, row[draw_trade.ERROR]
             axes.semilogx(*at, linestyle="none", **family.style())
             draw_trade.label(axes, at, draw_trade.words_of(row), family.place)
-    keys = [
-        house_style.key(family.label, linestyle="none", **family.style())
-        for family in LAWS.values()
-    ]
-    axes.legend(handles=keys, loc="upper left", handlelength=1, fontsize=house_style.NOTE)
     axes.margins(x=1.0, y=0.15)  # so wide that there are two powers of ten
-    low, high = axes.get_ylim()
-    axes.set(ylim=(low, low + 2 * (high - low)), xlabel=draw_trade.TIME_WORDS, ylabel="error, rms")
-    axes.set_title("(d) LAMMPS, part of (a)")
+    axes.locator_params(axis="y", nbins=4)
+    axes.set(xlabel=draw_trade.TIME_WORDS, ylabel="error, rms", title="(d) LAMMPS, part of (a)")
 
 
 def draw_errors(peers: Curves) -> Figure:
@@ -159,17 +155,20 @@ def draw_errors(peers: Curves) -> Figure:
                 **at,
             )
     both[0].set_ylim(len(lines) - 0.4, -0.6)
-    words = r"error of $v_1(t_f)/\mu v_2(0)$ against the continuum, rms over the incidences"
-    figure.supxlabel(words, fontsize=8.5)
     keys = [
         house_style.key(f"$e = {e:g}$", linestyle="none", color=house_style.BLACK, **style)
         for e, style in styles.items()
     ]
-    legend = figure.legend(
-        handles=keys, loc="outside upper center", ncols=len(keys), handlelength=1
+    words = r"error of $v_1(t_f)/\mu v_2(0)$ against the continuum, rms over the incidences"
+    absent = f"\nnot installed: {missing}" if missing else ""
+    figure.legend(
+        handles=keys,
+        title=words + absent,
+        title_fontsize=house_style.NOTE,
+        loc="outside lower center",
+        ncols=len(keys),
+        handlelength=1,
     )
-    if missing:
-        legend.set_title(f"not installed: {missing}", {"size": house_style.NOTE})
     return figure
 
 

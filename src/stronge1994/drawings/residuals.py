@@ -21,11 +21,24 @@ Entry: TypeAlias = Mapping[str, Any]  # a comparison of the config
 
 # A comparison with more points is left out: it would be a block of ink, and a large file.
 MOST_POINTS = 1000
-# Inches: height of a strip, and of the label of its x axis.
-STRIP, LABEL = 0.55, 0.3
+# Inches: height of a strip with its title, and of the label of its x axis.
+STRIP, LABEL = 0.56, 0.42
+# Units in mathematical letters; others are written as they are.
+UNITS = {
+    "mu v2(0)": r"$\mu v_2(0)$",
+    "v2(0)/Omega": r"$v_2(0)/\Omega$",
+    "1/Omega": r"$1/\Omega$",
+    "t_c": "$t_c$",
+}
 MARKS = {
     "agrees": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
-    "differs as documented": {"color": house_style.BLUE, "marker": "s", "markersize": 1.8},
+    "differs as documented": {
+        "color": house_style.BLUE,
+        "marker": "s",
+        "markersize": 2.4,
+        "markerfacecolor": "white",
+        "markeredgewidth": 0.7,
+    },
     "diverges": {"color": house_style.VERMILLION, "marker": "x", "markersize": 4},
 }
 ALL_ALLOWED = {"color": house_style.PALE, "linewidth": 0, "zorder": 0.5}
@@ -58,9 +71,8 @@ def draw(
     # Of several strips with the same axis only the last has a label below it.
     axis = [quantity for _, _, quantity in strips]
     labelled = [i + 1 == len(axis) or axis[i + 1] != axis[i] for i in range(len(axis))]
-    heights = [STRIP + LABEL * last for last in labelled]
-    figure = house_style.new(sum(heights) + 0.8)
-    rows = figure.subplots(len(strips), squeeze=False, height_ratios=heights)[:, 0]
+    figure = house_style.new(STRIP * len(strips) + LABEL * sum(labelled) + 0.8)
+    rows = figure.subplots(len(strips), squeeze=False)[:, 0]
     for axes, last, ((curve, reference, quantity), parts) in zip(
         rows, labelled, strips.items(), strict=True
     ):
@@ -68,11 +80,13 @@ def draw(
             bounds = _bounds(comparisons[name], verdicts[name])
             _draw_comparison(axes, bounds, x, distance, MARKS[verdicts[name]["verdict"]])
         axes.axhline(0, **house_style.GUIDE)
-        axes.set_title(f"{curve}  -  {reference}", fontsize=house_style.NOTE, loc="left", pad=2)
-        axes.margins(x=0.02, y=0.15)
+        axes.set_title(f"{curve}  -  {reference}", fontsize=house_style.NOTE, loc="left", pad=3)
+        axes.margins(x=0.02, y=0.25)
         axes.tick_params(labelsize=house_style.NOTE, labelbottom=last)
         if last:
-            axes.set_xlabel(words(quantity), fontsize=house_style.NOTE)
+            name, _, unit = quantity.rstrip("]").partition(" [")
+            end = "" if unit == "1" else f" [{UNITS.get(unit, unit)}]"
+            axes.set_xlabel(name.replace("_", " ") + end, fontsize=house_style.NOTE)
     for axes, quantity in zip(rows, axis, strict=True):
         same = [a for a, q in zip(rows, axis, strict=True) if q == quantity]
         axes.set_xlim(min(a.get_xlim()[0] for a in same), max(a.get_xlim()[1] for a in same))

@@ -31,8 +31,8 @@ SHADES = {"STICK_SLIP": "white", "SLIP_STICK_SLIP": "0.93", "SLIP_THROUGHOUT": "
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Draw (a, b) velocities and (c) energy over the tilt, a column for each ratio; (d) forces."""
-    figure = house_style.new(8.0)
-    over_tilt, over_time = figure.subfigures(2, 1, height_ratios=[5.5, 2.5])
+    figure = house_style.new(8.2)
+    over_tilt, over_time = figure.subfigures(2, 1, height_ratios=[5.7, 2.5])
     ratios = settings["velocity_ratio"]
     panels = over_tilt.subplots(
         1 + len(ROWS),
@@ -50,14 +50,15 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     panels[-1, 0].set_ylim(bottom=0)
     for axes, label in zip(panels[1:, 0], ROWS.values(), strict=True):
         axes.set_ylabel(label)
-    panels[0, 0].set_yticks([0.5, 1.5, 2.5], ["slip", "jams", "rigid: jams"])
+    panels[0, 0].set_yticks([0.5, 1.5, 2.5], ["regime", "jams", "rigid: jams"])
     shown = rf"$\mu = {settings['friction']:g}$,  $e = {settings['restitution']:g}$"
     over_tilt.suptitle(f"slender rod,  {shown}", fontsize=house_style.STYLE["axes.titlesize"])
     compliant = house_style.key("compliant", **house_style.LUMPED)
     rigid = house_style.key("rigid impulse", **house_style.RIGID)
     newton = house_style.key("rigid, Newton's coefficient", **NEWTON)
     created = Patch(label="creates energy", **CREATED)
-    house_style.legend_below(over_tilt, [compliant, rigid], [newton, created])
+    jam = Patch(label="jams: friction presses the tip in faster", **JAM)
+    house_style.legend_below(over_tilt, [compliant, rigid], [newton, created, jam])
     sketch, forces = over_time.subplots(1, 2, width_ratios=[1, 5])
     _draw_rod(sketch, settings["contact"])
     house_style.legend_below(over_time, *_draw_contact(forces, curves, settings["friction"]))
@@ -85,7 +86,7 @@ def _draw_over_tilt(panels: Sequence[Axes], curves: Curves, name: str, letters: 
 
 
 def _draw_ribbon(axes: Axes, compliant: Columns, rigid: Columns, letters: float) -> None:
-    """Draw three rows: stick and slip; jams of the compliant contact; jams of the rigid one."""
+    """Draw three rows: regime; jams of the compliant contact; jams of the rigid one."""
     axes.set(ylim=(3, 0))
     axes.tick_params(which="both", length=0, labelbottom=False)
     axes.spines[:].set_visible(False)

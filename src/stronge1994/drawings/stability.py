@@ -20,12 +20,13 @@ Cells: TypeAlias = tuple[Array, dict[float, str]]
 INCIDENCE, RESTITUTION, OMEGA = "incidence [mu v2(0)]", "restitution [1]", "omega [Omega]"
 KINDS = {"digits": "correct digits found", "digits_allowed": "allowed by the condition"}
 OUTPUTS = {
-    "dissipation": {"label": "dissipation", "marker": "s", "color": house_style.VERMILLION},
-    "peak_friction": {"label": "peak friction", "marker": "^", "color": house_style.BLUE},
-    "velocity": {"label": "velocity", "marker": "o", "color": house_style.BLACK},
+    "velocity": "velocity",
+    "peak_friction": "peak friction",
+    "dissipation": "dissipation",
 }
-MARK = {"linestyle": "none", "markersize": 2.6, "markerfacecolor": "none", "markeredgewidth": 0.6}
-LINE = {"color": house_style.BLACK, "linewidth": 0.7}
+MARK = {"linestyle": "none", "marker": "o", "markersize": 1.8, "markeredgewidth": 0.4}
+MARK |= {"color": house_style.BLUE, "markerfacecolor": "none"}
+LINE = {"color": house_style.BLACK, "linewidth": 0.7, "zorder": 3}
 # Lower edges of the cells, each with its label. The first cell has none: it holds all below.
 OMEGAS = {10.0**k: f"$10^{{{k}}}$" if k % 3 == 0 else "" for k in range(-5, 7)}
 OMEGAS[1.0] = "1"
@@ -43,10 +44,10 @@ WORSE = 2
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Draw (a) to (d) digits in cells of the parameters, (e) digits found against those allowed."""
+    """Draw (a) to (d) digits in cells of the parameters, (e) on digits found against allowed."""
     impacts = curves["impacts"]
-    figure = house_style.new(7.6)
-    grid = figure.add_gridspec(3, 2, height_ratios=[9, 12, 11])
+    figure = house_style.new(7.0)
+    grid = figure.add_gridspec(3, 2, height_ratios=[9, 12, 9])
     maps = [[figure.add_subplot(grid[row, column]) for column in (0, 1)] for row in (0, 1)]
     for row, name, edges in ((0, RESTITUTION, RESTITUTIONS), (1, INCIDENCE, INCIDENCES)):
         for axes, kind, letter in zip(maps[row], KINDS, "abcd"[2 * row :], strict=False):
@@ -65,8 +66,13 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     maps[1][0].set_yticks(*_with_ends(maps[1][0], "0", ""))
     bar = figure.colorbar(mesh, ax=sum(maps, []), ticks=LEVELS, aspect=40, pad=0.02)
     bar.set_label("digits of the worst output, median of a cell")
-    marks, lines = _draw_scatter(figure.add_subplot(grid[2, :]), impacts)
-    house_style.legend_below(figure, marks, lines)
+    panels = grid[2, :].subgridspec(1, len(OUTPUTS)).subplots(sharey=True)
+    for axes, letter, (name, words) in zip(panels, "efg", OUTPUTS.items(), strict=True):
+        lines = _draw_scatter(axes, impacts, name)
+        axes.set_title(f"({letter}) {words}")
+    panels[0].set_ylabel("digits found")
+    panels[1].set_xlabel("digits allowed by the condition")
+    house_style.legend_below(figure, lines[:1], lines[1:])
     return figure
 
 
@@ -98,17 +104,13 @@ def _with_ends(axes: Axes, first: str, last: str) -> tuple[list[float], list[str
     return [0.5, *places, places[-1] + 0.5], [first, *labels, last]
 
 
-def _draw_scatter(axes: Axes, impacts: Columns) -> tuple[Entries, Entries]:
+def _draw_scatter(axes: Axes, impacts: Columns, output: str) -> Entries:
     """Draw a mark for each pair of digits that occurs, to a tenth; entries of the legend."""
-    entries = []
-    for name, style in OUTPUTS.items():
-        pairs = np.stack([impacts[f"{kind}_{name} [1]"] for kind in ("digits_allowed", "digits")])
-        marks = np.unique(np.round(pairs, 1), axis=1)
-        entries += axes.plot(*marks, **MARK, **style)
+    pairs = np.stack([impacts[f"{kind}_{output} [1]"] for kind in ("digits_allowed", "digits")])
+    axes.plot(*np.unique(np.round(pairs, 1), axis=1), **MARK)
     ends = np.array([0, LEVELS[-1]])
     lines = axes.plot(ends, ends, label="as many as allowed", **LINE)
     dashed = LINE | {"linestyle": house_style.DASHES[1]}
     lines += axes.plot(ends, ends - WORSE, label=f"{WORSE} digits fewer", **dashed)
-    axes.set(xlim=(-0.4, 16.4), ylim=(-0.8, 16.8), xticks=LEVELS, yticks=LEVELS[::2])
-    axes.set(xlabel="(e) digits allowed by the condition", ylabel="digits found")
-    return entries, lines
+    axes.set(xlim=(-0.8, 16.8), ylim=(-0.8, 16.8), xticks=LEVELS[::2], yticks=LEVELS[::2])
+    return lines

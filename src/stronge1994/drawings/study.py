@@ -5,7 +5,7 @@ A study along one axis is a curve.
 
 import itertools
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,6 +17,8 @@ from scipy import ndimage
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.results import Regime
 from stronge1994.drawings import house_style
+
+Cell: TypeAlias = tuple[int, int]  # row and column
 
 SYMBOLS = {
     "incidence": house_style.INCIDENCE,
@@ -36,9 +38,20 @@ BOUNDARY = {"colors": house_style.BLACK, "linewidths": 0.7, "linestyles": [(0, (
 LEAST = 0.02
 # A regime is named if a circle of this radius fits into it, in units of a panel.
 ROOM = 0.03
+# Width of a letter, height of a line and border of a name, in units of a panel.
+LETTER, LINE, BORDER = 0.027, 0.07, 0.03
 # Negative velocities are hatched, because blue and red look alike in grey.
 NEGATIVE = {"hatch": "////", "edgecolor": "0.7", "linewidth": 0}
 PLATE = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 1.0}
+NAME = {
+    "ha": "center",
+    "va": "center",
+    "fontsize": house_style.NOTE,
+    "linespacing": house_style.LINES,
+}
+NAME |= {"bbox": PLATE}
+LEADER = {"arrowstyle": "-|>", "mutation_scale": 6, "linewidth": 0.6, "color": house_style.BLACK}
+LEADER |= {"shrinkA": 0, "shrinkB": 0}
 
 
 def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> Figure:
@@ -76,7 +89,7 @@ def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> Figure
         if values.min() < 0 < values.max():
             panel.contourf(*grid, values, [-limit, 0.0], colors="none", hatches=[NEGATIVE["hatch"]])
             panel.contour(*grid, values, [0.0], **ZERO)
-        _draw_regimes(panel, grid, codes)
+        _draw_regimes(panel, grid, codes, values < 0)
         panel.set_title(_place(axes, cut, others))
         panel.set(xlim=grid[0][[0, -1]], ylim=grid[1][[0, -1]])
         panel.set(xlabel=LABELS[across], ylabel=LABELS[upright])
@@ -124,21 +137,96 @@ def _thinned(count: int, most: int) -> Integers:
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
 
 
-def _draw_regimes(panel: Axes, grid: tuple[Array, Array], codes: Integers) -> None:
+def _draw_regimes(
+    panel: Axes, grid: tuple[Array, Array], codes: Integers, negative: Booleans
+) -> None:
     """Draw lines where regimes meet, and their names; none for regimes at the edge of the grid."""
     regimes = [code for code in np.unique(codes) if _is_large(codes == code)]
+    named = {}
     for code in regimes:
         inside = codes == code
         if _room(inside) >= ROOM and (inside.all() or len(regimes) > 1):
-            row, column = _middle(inside)
-            name = Regime(code).words.replace(" - ", "-\n").replace(" ", "\n")
-            place = {"ha": "center", "va": "center", "fontsize": house_style.NOTE, "bbox": PLATE}
-            panel.text(grid[0][column], grid[1][row], name, **place)
+            named[Regime(code).words.replace(" - ", "-")] = inside
         # Each line is drawn once, by the regime with the smaller code: two lines on top of each
         # other would fill the gaps between their dashes.
         field = np.ma.masked_array(inside.astype(float), ~np.isin(codes, regimes) | (codes < code))
         if field.min() < field.max():
             panel.contour(*grid, field, [0.5], **BOUNDARY)
+    lines = _edges(negative) | _edges(np.where(np.isin(codes, regimes), codes, -1))
+    for name in _names(named, lines):
+        at = [(grid[0][column], grid[1][row]) for row, column in (name.target, name.place)]
+        panel.annotate(
+            name.words,
+            *at,
+            rotation=name.rotation,
+            arrowprops=LEADER if name.place != name.target else None,
+            **NAME,
+        )
+
+
+def _edges(values: Booleans | Integers) -> Booleans:
+    """Cells whose neighbour to the right or above has another value."""
+    edges = np.zeros(values.shape, bool)
+    edges[:-1] |= values[1:] != values[:-1]
+    edges[:, :-1] |= values[:, 1:] != values[:, :-1]
+    return edges
+
+
+class _Name(NamedTuple):
+    """Name of a regime, where it stands, and the cell that it names."""
+
+    words: str
+    rotation: int
+    place: Cell
+    target: Cell
+
+
+def _names(named: Mapping[str, Booleans], lines: Booleans) -> list[_Name]:
+    """Names of regions, where they cover no line and no other name.
+
+    A name stands in its region, upright if it is narrow. If there is no room, the name stands as
+    near as possible and points at the middle of the region; if that fails too, it is left out.
+    """
+    taken, found = lines.copy(), {}
+    for rotation, elsewhere in ((0, False), (90, False), (0, True)):
+        for name, inside in named.items():
+            words = name if rotation else name.replace("-", "-\n").replace(" ", "\n")
+            size = _size(words, rotation, taken.shape)
+            # What lies beyond the frame is taken.
+            free = ~ndimage.maximum_filter(taken, size=size, mode="constant", cval=1)
+            region = free if elsewhere else free & inside
+            if name in found or not region.any():
+                continue
+            middle = _middle(inside if elsewhere else region)
+            place = _nearest(np.argwhere(region), middle, region.shape)
+            found[name] = _Name(words, rotation, place, middle)
+            covered = np.zeros(taken.shape, bool)
+            covered[place] = True
+            taken |= ndimage.maximum_filter(covered, size=size)
+    return list(found.values())
+
+
+def _size(words: str, rotation: int, shape: tuple[int, ...]) -> tuple[int, int]:
+    """Rows and columns of cells that words cover."""
+    lines = words.split("\n")
+    high, wide = LINE * len(lines) + BORDER, LETTER * max(map(len, lines)) + BORDER
+    if rotation:
+        high, wide = wide, high
+    return int(np.ceil(high * shape[0])), int(np.ceil(wide * shape[1]))
+
+
+def _middle(inside: Booleans) -> Cell:
+    """Cell in the middle of those that are far from what is outside of a region."""
+    depth = _depth(inside)
+    cells = np.argwhere(depth > 0.8 * depth.max())
+    return _nearest(cells, tuple(cells.mean(axis=0)), inside.shape)
+
+
+def _nearest(cells: Integers, target: tuple[float, float], shape: tuple[int, ...]) -> Cell:
+    """The one of some cells that is nearest to a place in the map."""
+    apart = ((cells - np.array(target)) / shape) ** 2
+    row, column = cells[apart.sum(axis=1).argmin()]
+    return int(row), int(column)
 
 
 def _is_large(inside: Booleans) -> bool:
@@ -149,12 +237,10 @@ def _is_large(inside: Booleans) -> bool:
 
 def _room(inside: Booleans) -> float:
     """Radius of the largest circle in a region, in panels."""
+    return _depth(inside).max()
+
+
+def _depth(inside: Booleans) -> Array:
+    """Distance of each cell to what is outside of a region, in panels."""
     cell = 1 / np.array(inside.shape)
-    return ndimage.distance_transform_edt(np.pad(inside, 1), sampling=cell).max()
-
-
-def _middle(inside: Booleans) -> Integers:
-    """Row and column of the cell of a region that is nearest to its mean."""
-    cells = np.argwhere(inside)
-    apart = ((cells - cells.mean(axis=0)) / inside.shape) ** 2
-    return cells[apart.sum(axis=1).argmin()]
+    return ndimage.distance_transform_edt(np.pad(inside, 1), sampling=cell)[1:-1, 1:-1]

@@ -1,5 +1,7 @@
 """Beyond the paper: a superball thrown under a table comes back."""
 
+from typing import TypeAlias
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -10,24 +12,39 @@ from stronge1994.csv_tables import Curves
 from stronge1994.drawings import house_style
 from stronge1994.drawings.house_style import Points, Settings, Style
 
+Place: TypeAlias = tuple[float, float]
+
 PLACE, HEIGHT, SPIN = "place [m]", "height [m]", "spin_y [rad/s]"
+# Where the number of a flight stands, as a share of the flight, and its size as a share of the gap.
+NEAR, SIZE = 0.36, 0.065
 SURFACE = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Draw the path of the ball's centre and the ball at each impact. The legend has the spins."""
+    """Draw the path of the ball's centre and the ball at each impact; the spin of each flight.
+
+    An arrow has the sense of the spin, the legend its size.
+    """
     path, throw = curves["path"], settings["throw"]
     radius, gap = throw["radius"], throw["gap"]
     place, height = path[PLACE], path[HEIGHT]
-    figure = house_style.new(3.6)
+    figure = house_style.new(3.8)
     axes = figure.subplots()
     left, right = place.min() - 8 * radius, place.max() + 8 * radius
-    for bottom in (-0.12 * gap, gap):
+    plate = {"facecolor": "white", "edgecolor": "none", "pad": 1.5}
+    for bottom, surface in ((-0.12 * gap, "floor"), (gap, "table")):
         axes.fill_between([left, right], bottom, bottom + 0.12 * gap, **SURFACE)
         axes.axhline(max(bottom, 0.0), color=house_style.BLACK, linewidth=0.8)
-    flights = zip(place, height, place[1:], height[1:], strict=False)
-    for number, (x, y, x_next, y_next) in enumerate(flights):
-        _draw_flight(axes, number, (x, y), (x_next, y_next), last=number + 2 == len(place))
+        at = left + 0.04 * gap, bottom + 0.06 * gap
+        axes.text(*at, surface, ha="left", va="center", style="italic", bbox=plate)
+    flights = zip(place, height, place[1:], height[1:], path[SPIN], strict=False)
+    for number, (x, y, x_next, y_next, spin) in enumerate(flights):
+        _draw_flight(axes, (x, y), (x_next, y_next), last=number + 2 == len(place))
+        way = complex(x_next - x, y_next - y)
+        near = x + NEAR * way.real, y + NEAR * way.imag
+        _draw_number(axes, number + 1, near, SIZE * gap)
+        if round(spin):
+            _draw_spin(axes, near, SIZE * gap, spin, opening=np.angle(1j * way))
     for x, y, regime in zip(place[1:-1], height[1:-1], path["regime"][1:-1], strict=True):
         axes.add_patch(
             Circle((x, y), radius, facecolor="white", edgecolor=house_style.BLACK, zorder=3)
@@ -38,7 +55,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
             Regime[regime].words,
             ha="center",
             va="center",
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5},
+            bbox=plate,
         )
     axes.set(xlim=(left, right), ylim=(-0.12 * gap, 1.12 * gap), aspect="equal")
     axes.set(xlabel="distance from the first impact (m)", ylabel="height (m)")
@@ -50,6 +67,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         house_style.key(f"({n + 1}) {_plain(v, 1)} m/s, spin_y {_plain(s)} rad/s", **_style(v < 0))
         for n, (v, s) in zip(legs, motions, strict=False)
     ]
+    entries.append(house_style.key("round arrow: sense of the spin", linestyle="none"))
     house_style.legend_below(figure, entries[0::2], entries[1::2])
     return figure
 
@@ -60,22 +78,27 @@ def _style(back: bool) -> Style:
     return {"color": house_style.BLUE, "linestyle": "-"}
 
 
-def _draw_flight(
-    axes: Axes, number: int, start: tuple[float, float], end: tuple[float, float], last: bool
-) -> None:
-    """Draw a flight, with its number near its start, where the paths have not crossed yet."""
+def _draw_flight(axes: Axes, start: Place, end: Place, last: bool) -> None:
     style = _style(end[0] < start[0])
     tip = {"arrowstyle": "-|>", "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0 if last else 8}
     axes.add_patch(FancyArrowPatch(start, end, **tip, **style))
-    near = [a + 0.25 * (b - a) for a, b in zip(start, end, strict=True)]
-    axes.text(
-        *near,
-        f"({number + 1})",
-        ha="center",
-        va="center",
-        fontsize=house_style.NOTE,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1},
-    )
+
+
+def _draw_number(axes: Axes, number: int, centre: Place, radius: float) -> None:
+    """Draw the number of a flight on a disc that fits into the arrow of the spin."""
+    axes.add_patch(Circle(centre, 0.8 * radius, facecolor="white", linewidth=0, zorder=2))
+    note = {"ha": "center", "va": "center_baseline", "fontsize": house_style.NOTE, "zorder": 3}
+    axes.text(*centre, f"({number})", **note)
+
+
+def _draw_spin(axes: Axes, centre: Place, radius: float, spin: float, opening: float) -> None:
+    """Draw a round arrow, clockwise if spin_y > 0, and open where no flight crosses it."""
+    angles = opening - np.sign(spin) * np.radians(np.linspace(35, 325, 60))
+    x, y = centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles)
+    style = {"color": house_style.BLACK, "linewidth": 0.9, "zorder": 2.5}
+    axes.plot(x, y, **style)
+    tip = {"arrowstyle": "-|>", "mutation_scale": 8, "shrinkA": 0, "shrinkB": 0}
+    axes.add_patch(FancyArrowPatch((x[-2], y[-2]), (x[-1], y[-1]), **tip, **style))
 
 
 def _plain(number: float, digits: int = 0) -> str:

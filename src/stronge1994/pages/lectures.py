@@ -77,7 +77,10 @@ def run(notebook: str, template: str, executed: str, page: str) -> None:
             raise NotebookError(f"{Path(notebook).name}: {str(error).splitlines()[0]}") from None
     exporter = HTMLExporter(template_file=str(template), exclude_anchor_links=True)
     resources = {"metadata": {"name": Path(page).stem}}
-    texts = {executed: nbformat.writes(book) + "\n", page: exporter.from_notebook_node(book, resources)[0]}
+    texts = {
+        executed: nbformat.writes(book) + "\n",
+        page: exporter.from_notebook_node(book, resources)[0],
+    }
     for path, text in texts.items():
         Path(path).write_text(text, encoding="utf-8")
 
