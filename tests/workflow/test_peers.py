@@ -174,7 +174,7 @@ def test_figure_has_their_points_and_names_what_is_missing(measured, tmp_path, m
     read = {path.stem: csv_tables.read(path) for path in tmp_path.glob("*.csv")}
     figure = draw_peers.draw(read["curves"], read["peers"], settings)
     assert "not installed" not in figure.get_suptitle()
-    legends = [axes.get_legend() for axes in figure.axes if axes.get_legend()]
+    legends = figure.legends
     labels = {text.get_text() for legend in legends for text in legend.get_texts()}
     assert {draw_peers.TOGETHER.label, "pooltool", "mindlin/force"} <= labels
     figure = draw_peers.draw(read["curves"], read["none"], settings)
