@@ -343,7 +343,7 @@ def sketch(
         return HEIGHT - MARGIN - (HEIGHT - 2 * MARGIN) * float((at - y.min()) / np.ptp(y))
 
     parts = []
-    if y.min() < 0 < y.max():
+    if lines and y.min() < 0 < y.max():
         parts.append(Markup('<path class="zero" d="M0 {0:.1f}H{1}"></path>').format(up(0), WIDTH))
     for style, at, value in lines:
         corners = " ".join(f"{across(a):.1f},{up(b):.1f}" for a, b in zip(at, value, strict=True))

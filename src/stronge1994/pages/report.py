@@ -29,6 +29,7 @@ from stronge1994.pages import (
     impact_times,
     ledger_page,
     letter,
+    run_facts,
     sources_page,
     templates,
     which_model,
@@ -151,6 +152,7 @@ def page(
         "power": letter.probability,
         "microseconds": lambda seconds: templates.number(f"{1e6 * float(seconds)}"),
         "header": headers.words,
+        "short": run_facts.short,
         "sentence": sentence,
         "title_of": templates.title,
     }

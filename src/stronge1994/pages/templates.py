@@ -53,10 +53,10 @@ def number(text: str) -> str:
 
     Examples
     --------
-    >>> number("0.123456"), number("1.56e+03"), number("lumped")
-    ('0.123', '1560', 'lumped')
+    >>> number("0.123456"), number("1.56e+03"), number("1e-05"), number("lumped")
+    ('0.123', '1560', '1e-5', 'lumped')
     """
     try:
-        return f"{float(f'{float(text):.3g}'):g}"
+        return f"{float(f'{float(text):.3g}'):g}".replace("e-0", "e-").replace("e+0", "e")
     except ValueError:
         return text
