@@ -204,9 +204,7 @@ def digits(verdicts: Mapping[str, Row], stability: Sequence[Row]) -> Finding:
     row = verdicts["stability-digits"]
     _need(row["verdict"] == "agrees")
     independent = [
-        row["verdict"]
-        for row in verdicts.values()
-        if row["evidence"] == "independent computation"
+        row["verdict"] for row in verdicts.values() if row["evidence"] == "independent computation"
     ]
     _need("diverges" not in independent)
     low = "from [unit of quantity]"

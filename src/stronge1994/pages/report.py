@@ -181,7 +181,7 @@ def _maths(names: Collection[str]) -> Callable[[str], Markup]:
     of_ledger = ledger_page.linked_maths(names)
 
     def maths(text: str) -> Markup:
-        return Markup(of_ledger(text).replace('href="#', 'href="ledger.html#'))
+        return Markup(str(of_ledger(text)).replace('href="#', 'href="ledger.html#'))
 
     return maths
 
