@@ -142,6 +142,36 @@ def test_the_first_words_say_how_it_went_and_what_was_found(first_run, text, rep
     assert 'href="explorer.html#angle=' in head and "why_a_superball_comes_back.html" in head
 
 
+def test_a_finding_is_told_only_where_the_tables_say_it(first_run):
+    results = first_run[0] / "results"
+    verdicts, ledger = rows_of(results / "verdicts.csv"), rows_of(results / "ledger.csv")
+    names = ("which_model", "trade", "stability")
+    tables = {name: {"rows": rows_of(results / f"{name}.csv")} for name in names}
+    files = ("in_nature", "curves/fig5", "curves/inelastic", "series/cornell1999")
+    paths = {Path(name).name: results / f"{name}.csv" for name in files}
+
+    def untold(verdicts=verdicts, ledger=ledger, tables=tables, paths=paths):
+        found = findings.all_of(verdicts, ledger, tables, paths, CONFIG)
+        return {name for name, finding in found.items() if finding is None}
+
+    def judged(comparison, verdict):
+        change = {"verdict": verdict}
+        return [row | change if row["comparison"] == comparison else row for row in verdicts]
+
+    assert untold() == set()
+    # A measurement that agrees with the paper's model, or contradicts a continuum, is other news.
+    assert untold(judged("inelastic-lumped-pairs", "agrees")) == {"restitution"}
+    documented = judged("inelastic-continuum.plastic-pairs", "differs as documented")
+    assert untold(documented) == {"restitution"}
+    assert untold(judged("fig5-lumped-maw-slip-throughout", "differs as documented")) == {"elastic"}
+    assert untold(judged("trade-errors", "diverges")) == {"tolerance"}
+    assert untold(judged("stability-digits", "diverges")) == {"digits"}
+    assert untold(ledger=[row | {"holds": "no"} for row in ledger]) == {"paper"}
+    assert untold(paths={}) == {"restitution", "elastic"}
+    crashed = {"rows": [{"error": "oh"}]}
+    assert untold(tables=dict.fromkeys(names, crashed)) == {"tolerance", "digits"}
+
+
 def test_every_verdict_figure_and_source_is_there(first_run, page, text, provenance):
     verdicts = rows_of(first_run[0] / "results/verdicts.csv")
     for row in verdicts:
@@ -373,6 +403,7 @@ def test_strips_show_points_bounds_and_verdicts():
 def test_the_interface_has_a_page_a_module_and_names_types_as_the_sources_do(first_run):
     folder = first_run[0] / "figures/interface"
     page = (folder / "planarimpact/lumped.html").read_text(encoding="utf-8")
+    assert (folder / "../report.html").exists() and 'href="../../report.html"' in page
     words = html.unescape(re.sub("<[^>]+>", "", page))
     assert "incidence: ArrayLike" in words
     assert "v1(0)/(mu v2(0))" in words  # the docstring, not only the signature

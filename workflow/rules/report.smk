@@ -24,13 +24,23 @@ FOUND = [
 PEERS = ["results/peers.csv"] if Path("results/peers.csv").exists() else []
 
 
+# Changes to the templates of pdoc.
+INTERFACE = "workflow/report/interface"
+INTERFACE_PARTS = sources(
+    *expand(f"{INTERFACE}/{{part}}", part=["module.html.jinja2", "index.html.jinja2", "custom.css"])
+)
+
+
 rule interface:
     """What the functions of the solver take and return, as pages made from their docstrings."""
     input:
         modules=modules("write_interface", *interface.documented()),
         names="src/planarimpact/__init__.pyi",
+        parts=INTERFACE_PARTS,
     output:
         directory("figures/interface"),
+    params:
+        templates=INTERFACE,
     log:
         "results/logs/interface.log",
     benchmark:

@@ -191,9 +191,9 @@ def without_details(faults: Iterable[str]) -> str:
     items = "\n".join(f"<li>{escape(fault)}</li>" for fault in faults)
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Failed</title></head>'
-        "<body><h1>Planar impact of rough compliant bodies: report of a run</h1>\n"
+        "<body><main><h1>Planar impact of rough compliant bodies: report of a run</h1>\n"
         "<p><b>FAILED</b> The report could not be written. The tables in results/ and the pictures "
-        f"beside this page are there.</p>\n<ul>\n{items}\n</ul></body></html>\n"
+        f"beside this page are there.</p>\n<ul>\n{items}\n</ul></main></body></html>\n"
     )
 
 
