@@ -116,7 +116,6 @@ def restitution(
     return {
         "rows": rows,
         "pairs": len(sigma),
-        "least": measured[E].min(),
         "whole": whole,
         "half": half,
         "picture": sketch(lines, (measured[E], measured[BETA_0], sigma)),

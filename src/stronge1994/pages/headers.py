@@ -47,6 +47,7 @@ BATCHES = {
     "time": "time of an impact in a batch of {}",
     "busy": "how many times too long, as the machine was busy, in a batch of {}",
 }
+SPELLED = {"us": "µs"}
 # Units that are none: the words say what is counted, or the ratio itself.
 WITHOUT = {"1", "unit of quantity"}
 RATIOS = {"incidence", "omega"}
@@ -68,4 +69,8 @@ def words(column: str) -> str:
     name, _, unit = column.rstrip("]").partition(" [")
     batch = BATCH.fullmatch(name)
     plain = BATCHES[batch[1]].format(batch[2]) if batch else WORDS.get(name, name.replace("_", " "))
-    return plain if not unit or unit in WITHOUT or name in RATIOS else f"{plain}, {unit}"
+    return (
+        plain
+        if not unit or unit in WITHOUT or name in RATIOS
+        else f"{plain}, {SPELLED.get(unit, unit)}"
+    )

@@ -49,7 +49,7 @@ def page(
     }
     return environment.get_template(Path(template).name).render(
         sources=sources,
-        shared=in_yaml({key: config[key] for key in SHARED}),
+        shared={key: config[key] for key in SHARED},
         settings={figure: in_yaml(found) for figure, found in settings.items()},
         run=run,
     )
