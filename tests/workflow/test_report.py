@@ -1,4 +1,4 @@
-"""The report: everything in it, every link leads somewhere, and a bad run looks bad."""
+"""The report and the page of sources: complete, every link leads somewhere, a bad run looks bad."""
 
 import base64
 import csv
@@ -21,7 +21,7 @@ from stronge1994 import reference_data
 from stronge1994.drawings import residuals as draw_residuals
 from stronge1994.judging import verdict_table
 from stronge1994.ledger import outcome
-from stronge1994.pages import ledger_page, run_facts
+from stronge1994.pages import findings, ledger_page, run_facts
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 
@@ -83,121 +83,188 @@ def page(report):
 
 @pytest.fixture(scope="module")
 def text(page):
+    return in_words(page)
+
+
+@pytest.fixture(scope="module")
+def provenance(first_run):
+    return Page((first_run[0] / "figures/sources.html").read_text(encoding="utf-8"))
+
+
+def in_words(page):
     return " ".join(" ".join(page.words).split())
 
 
-def test_it_is_one_file_that_needs_nothing_else(report, page):
+def test_each_is_one_file_that_needs_nothing_else(report, page, provenance):
     assert report.stat().st_size < 5e6
     assert all(resource.startswith("data:image/svg+xml;base64,") for resource in page.resources)
-    outside = [link for link in page.links if ":" in link]
+    outside = [link for link in provenance.links if ":" in link]
     assert outside and all(link.startswith("https://doi.org/10.") for link in outside)
+    assert not provenance.resources and not any(":" in link for link in page.links)
     styles = "".join(re.findall(r"<style>.*?</style>", report.read_text(), flags=re.S))
     assert "url(" not in styles and "@import" not in styles
 
 
-def test_every_link_leads_somewhere(report, page):
-    twice = [name for name, count in Counter(page.ids).items() if count > 1]
-    assert not twice
+def test_every_link_leads_somewhere(report, page, provenance):
+    anchors = {"": page.ids, "sources.html": provenance.ids}
+    for found in (page, provenance):
+        twice = [name for name, count in Counter(found.ids).items() if count > 1]
+        assert not twice
     for link in page.links:
-        if link.startswith("#"):
-            assert link[1:] in page.ids, link
-        elif ":" not in link:
-            assert (report.parent / link).is_file(), link
+        file, _, anchor = link.partition("#")
+        assert not file or (report.parent / file).is_file(), link
+        if file == "ledger.html":
+            anchors.setdefault(file, Page((report.parent / file).read_text(encoding="utf-8")).ids)
+        assert file not in anchors or not anchor or anchor in anchors[file], link
+    assert {link[1:] for link in provenance.links if link.startswith("#")} <= set(provenance.ids)
 
 
-def test_the_first_words_say_how_it_went(text):
-    assert text.index("PASSED") < text.index("A rough, elastic body") < text.index("Verdicts")
-    assert "FAILED" not in text
+def test_the_first_words_say_how_it_went_and_what_was_found(first_run, text, report):
+    """Numbers are those of the tables; of what only ran nothing is counted."""
+    first = text[: text.index("Verdicts One row a comparison")]
+    assert first.index("PASSED") < first.rindex("What we found") < first.rindex("Where to go")
+    assert "FAILED" not in text and "as before" not in first
+    results = first_run[0] / "results"
+    ledger = rows_of(results / "ledger.csv")
+    grave = [row["entry"] for row in ledger if row["grade"] == "changes a result"]
+    wrong = sum(row["verdict"] == "wrong" for row in ledger)
+    words = f"Of {len(ledger)} equations and sentences {wrong} are wrong; {len(grave)} change a"
+    assert words in first
+    head = report.read_text(encoding="utf-8").split('<h2 id="verdicts">')[0]
+    assert all(f'<a href="ledger.html#{entry}">' in head for entry in grave[1:])
+    verdicts = {row["comparison"]: row for row in rows_of(results / "verdicts.csv")}
+    assert f"chi² = {float(verdicts['inelastic-lumped-pairs']['chi^2']):g}" in first
+    half = next(r for r in rows_of(results / "in_nature.csv") if r["measure"] == "reversal_half")
+    assert all(f"{float(half[kind]):.2f}" in first for kind in ("paper", "viscous", "plastic"))
+    most = verdicts["stability-digits"]["max [sigma]"]
+    assert f"loses more than {most} digits" in first
+    assert head.count("<svg") == head.count('class="finding"') == 5
+    assert 'href="explorer.html#angle=' in head and "why_a_superball_comes_back.html" in head
 
 
-def test_every_verdict_figure_and_source_is_there(first_run, page, text):
+def test_a_finding_is_told_only_where_the_tables_say_it(first_run):
+    results = first_run[0] / "results"
+    verdicts, ledger = rows_of(results / "verdicts.csv"), rows_of(results / "ledger.csv")
+    names = ("which_model", "trade", "stability")
+    tables = {name: {"rows": rows_of(results / f"{name}.csv")} for name in names}
+    files = ("in_nature", "curves/fig5", "curves/inelastic", "series/cornell1999")
+    paths = {Path(name).name: results / f"{name}.csv" for name in files}
+
+    def untold(verdicts=verdicts, ledger=ledger, tables=tables, paths=paths):
+        found = findings.all_of(verdicts, ledger, tables, paths, CONFIG)
+        return {name for name, finding in found.items() if finding is None}
+
+    def judged(comparison, verdict):
+        change = {"verdict": verdict}
+        return [row | change if row["comparison"] == comparison else row for row in verdicts]
+
+    assert untold() == set()
+    # A measurement that agrees with the paper's model, or contradicts a continuum, is other news.
+    assert untold(judged("inelastic-lumped-pairs", "agrees")) == {"restitution"}
+    documented = judged("inelastic-continuum.plastic-pairs", "differs as documented")
+    assert untold(documented) == {"restitution"}
+    assert untold(judged("fig5-lumped-maw-slip-throughout", "differs as documented")) == {"elastic"}
+    assert untold(judged("trade-errors", "diverges")) == {"tolerance"}
+    assert untold(judged("stability-digits", "diverges")) == {"digits"}
+    assert untold(ledger=[row | {"holds": "no"} for row in ledger]) == {"paper"}
+    assert untold(paths={}) == {"restitution", "elastic"}
+    crashed = {"rows": [{"error": "oh"}]}
+    assert untold(tables=dict.fromkeys(names, crashed)) == {"tolerance", "digits"}
+
+
+def test_every_verdict_figure_and_source_is_there(first_run, page, text, provenance):
     verdicts = rows_of(first_run[0] / "results/verdicts.csv")
     for row in verdicts:
         assert row["comparison"] in page.ids
         assert f"{row['verdict']} {row['comparison']} " in text
     counts = Counter(row["verdict"] for row in verdicts)
+    ran = counts.pop("as before")
     assert all(f"{verdict} {count} " in text for verdict, count in counts.items())
+    assert f"{ran} ran without an error" in text
     for figure in configuration.load(ROOT)["figures"]:
-        assert {figure, f"config-{figure}"} <= set(page.ids)
+        assert figure in page.ids and f"config-{figure}" in provenance.ids
         assert f"../results/curves/{figure}.csv" in page.links
         assert f"interface/stronge1994/curves/{figure}.html" in page.links
+    stated_in = in_words(provenance)
     for source in (ROOT / "data").glob("*/source.yaml"):
         stated = reference_data.load_yaml(source)
-        assert " ".join(stated["citation"].split()) in text
+        assert " ".join(stated["citation"].split()) in stated_in
         for kind in ("series", "facts"):
             for name, entry in stated.get(kind, {}).items():
-                assert f"{source.parent.name}/{name}" in page.ids
-                assert (entry.get("digitised_by") or "") in text
-    assert text.count("nobody yet: there are no points") == 3
-    ledger = Counter(row["verdict"] for row in rows_of(first_run[0] / "results/ledger.csv"))
-    assert all(f"{count} are {verdict}" in text for verdict, count in ledger.items())
+                assert f"{source.parent.name}/{name}" in provenance.ids
+                assert (entry.get("digitised_by") or "") in stated_in
+    assert stated_in.count("nobody yet: there are no points") == 3
+    assert f"numpy {np.__version__}" in stated_in
 
 
 def test_a_row_of_the_verdicts_says_what_was_allowed_and_why(first_run, report):
     results = first_run[0] / "results"
     names = {row["entry"] for row in rows_of(results / "ledger.csv")}
-    maths = ledger_page.linked_maths(names)
+    maths = write_report._maths(names)
     text = report.read_text(encoding="utf-8")
     for row in rows_of(results / "verdicts.csv"):
         shown = text[text.index(f'<tr id="{row["comparison"]}"') :].split("</tr>")[0]
         assert f'<a href="#{row["figure"]}">' in shown
         allowed = html.escape(row["allowed"].replace("<=", "≤"))
-        assert f'<td class="bounds">{allowed}' in shown.replace("\n", "")
+        assert f'data-label="to agree">{allowed}' in shown.replace("\n", "")
         assert row["regression"].replace("<=", "≤").replace("chi2", "chi²") in shown
         assert row["evidence"] in shown
         assert maths(write_report.sentence(row["reason"])) in shown
         entry = row["note"].removeprefix("ledger: ")
-        assert (f'<a href="#{entry}">' in shown) == (entry in names)
+        assert (f'<a href="ledger.html#{entry}">' in shown) == (entry in names)
 
 
 @pytest.mark.parametrize("name", configuration.load(ROOT)["figures"])
 def test_a_figure_has_its_own_picture_words_verdicts_and_settings(first_run, report, name):
     text = report.read_text(encoding="utf-8")
-    shown = text[text.index(f'<h3 id="{name}">') :].split("</details>")[0]
+    shown = re.split("<h[23]", text[text.index(f'<h3 id="{name}">') + 3 :])[0]
     svg = (report.parent / f"{name}.svg").read_bytes()
     assert base64.b64encode(svg).decode() in shown
     words = write_report.caption(ROOT / "workflow/report/figures.rst", name)
     assert ledger_page.mathematical(words.split(". ")[0]) in shown
     verdicts = rows_of(first_run[0] / "results/verdicts.csv")
-    mine = [row["comparison"] for row in verdicts if row["figure"] == name]
-    assert re.findall(r'<td><a href="#([^"]*)">', shown) == mine
-    settings = yaml.safe_load(html.unescape(shown.split("<pre>")[1].split("</pre>")[0]))
+    mine = [row for row in verdicts if row["figure"] == name]
+    listed = re.findall(r'<td><a href="#([^"]*)">', shown)
+    assert listed == [row["comparison"] for row in mine]
+    # What agrees is folded, what differs is not.
+    opened = shown.replace(re.search("<ul class=.facts.*?</div></div>", shown, flags=re.S)[0], "")
+    opened = re.sub("<details>.*?</details>", "", opened, flags=re.S)
+    assert set(re.findall(r'<td><a href="#([^"]*)">', opened)) == {
+        row["comparison"] for row in mine if row["verdict"] not in ("agrees", "as before")
+    }
+    told = (report.parent / "sources.html").read_text(encoding="utf-8")
+    told = told[told.index(f'<details id="config-{name}">') :].split("<pre")[1].split("</pre>")[0]
+    settings = yaml.safe_load(html.unescape(told.partition(">")[2]))
     config = configuration.with_values(CONFIG)
-    assert settings["figures"] == {name: config["figures"][name]}
-    assert settings.get("comparisons", {}) == {
-        comparison: entry
-        for comparison, entry in config["comparisons"].items()
-        if entry["figure"] == name
+    comparisons = config["comparisons"].items()
+    assert settings == {
+        "figures": {name: config["figures"][name]},
+        "comparisons": {key: entry for key, entry in comparisons if entry["figure"] == name},
     }
 
 
-def test_provenance_and_what_lies_beside_are_there(page, text):
-    assert f"numpy {np.__version__}" in text
-    beside = {"explorer.html", "study.svg", "ledger.html"}
-    notebooks = {f"{path.stem}.html" for path in (ROOT / "workflow/notebooks").glob("*.ipynb")}
-    assert beside | notebooks <= set(page.links)
-
-
-def test_it_fits_a_phone_and_links_unfold_what_they_lead_to(report):
+def test_they_fit_a_phone_and_links_unfold_what_they_lead_to(report):
     with browser.page() as tab:
-        tab.resize(360, 800, mobile=True)
-        tab.open(f"{report.as_uri()}#config-fig5")
-        for name in ("config-fig5", "config-rod"):
-            tab.evaluate(f"location.hash = '{name}'; new Promise((go) => setTimeout(go, 50))")
-            assert tab.evaluate(f"document.getElementById('{name}').closest('details').open")
-        tab.evaluate(
-            "document.querySelectorAll('details').forEach((part) => { part.open = true; })"
-        )
-        assert tab.evaluate("document.documentElement.scrollWidth") <= 360
+        for page, names in (
+            (report, ("fig6-rebound", "fig2-solved")),
+            (report.with_name("sources.html"), ("config-fig5", "config-rod")),
+        ):
+            tab.resize(360, 800, mobile=True)
+            tab.open(f"{page.as_uri()}#{names[0]}")
+            for name in names:
+                tab.evaluate(f"location.hash = '{name}'; new Promise((go) => setTimeout(go, 50))")
+                assert tab.evaluate(f"document.getElementById('{name}').closest('details').open")
+            contents = "document.querySelector('.contents details').open"
+            assert not tab.evaluate(contents)
+            tab.evaluate(
+                "document.querySelectorAll('details').forEach((part) => { part.open = true; })"
+            )
+            assert tab.evaluate("document.documentElement.scrollWidth") <= 360
+            for width in (700, 1024, 1440):
+                tab.resize(width, 900, mobile=False)
+                assert tab.evaluate("document.documentElement.scrollWidth") <= width
+            assert tab.evaluate(contents)
         assert not tab.problems
-
-
-def test_the_ledger_is_the_one_of_its_own_page(first_run, report):
-    own = (first_run[0] / "figures/ledger.html").read_text()
-    articles = re.compile(r"<article .*?</article>", flags=re.S)
-    found = articles.findall(report.read_text())
-    assert len(found) == len(rows_of(first_run[0] / "results/ledger.csv"))
-    assert found == articles.findall(own)
 
 
 def refuse_other_residuals(verdicts, residuals):
@@ -260,32 +327,38 @@ def doctored(*lapsed):
         for name in figures
     }
     crashed = {"rows": [{"error": "ArithmeticError: <oh>"}], "caption": "Words."}
+    tables = dict.fromkeys(write_report.SECTIONS, crashed)
+    ledger = [dict.fromkeys(outcome.COLUMNS, "") | entry for entry in lapsed]
     return write_report.page(
         verdicts,
-        [dict.fromkeys(outcome.COLUMNS, "") | entry for entry in lapsed],
+        ledger,
         shown,
-        dict.fromkeys(("which_model", "trade", "stability", "sensitivity"), crashed),
-        CONFIG,
-        {},
-        {"versions": {}, "system": "", "date": "", "commit": "", "times": []},
+        tables,
+        CONFIG["significance"],
+        {"date": "", "commit": ""},
         "symbols",
         {},
         ROOT / "workflow/report/report.html",
-        ["fig6-rebound diverges"] if not lapsed else ["eq-1 no longer holds"],
+        ["diverges: fig6-rebound: max 9"] if not lapsed else ["eq-1 no longer holds"],
         write_report.Salvage(),
+        findings.all_of(verdicts, ledger, tables, {}, CONFIG),
     )
 
 
 def test_a_diverging_run_looks_like_one():
     page = doctored()
-    text = " ".join(" ".join(Page(page).words).split())
-    first = "FAILED 2 of 16 comparisons diverge."
+    text = in_words(Page(page))
+    first = "FAILED 2 comparisons diverge. fig6-rebound diverges: max 9"
     assert text.index(first) < text.index("A rough, elastic body")
-    assert "PASSED" not in text
-    table = page[page.index('<table class="grid verdicts">') :].split("</table>")[0]
+    assert '<li><a href="#fig6-rebound">' in page
+    # No finding is told whose tables say something else, or are not there.
+    assert (
+        "PASSED" not in text and "What we found" not in text and '<li class="finding"' not in page
+    )
+    table = page[page.index('<table class="grid cards verdicts">') :].split("</table>")[0]
     first = table.split("<tr")[2]
     assert 'id="fig6-rebound" class="diverges"' in first and 'class="mark fails">diverges<' in first
-    assert "rms 7, max 9" in first
+    assert "rms 7, largest 9" in first
     assert "no curves: ArithmeticError: &lt;oh&gt;" in table.replace("No curves", "no curves")
     assert page.count("<td>ArithmeticError: &lt;oh&gt;</td>") == 4
 
@@ -293,7 +366,9 @@ def test_a_diverging_run_looks_like_one():
 def test_a_run_with_a_lapsed_entry_looks_like_one():
     page = doctored({"entry": "eq-1", "kind": "equation", "verdict": "wrong", "holds": "no"})
     assert "<title>Failed:" in page and "PASSED" not in page and "comparisons diverge" not in page
-    assert "1 of 1 verdicts on the paper no longer hold." in page
+    words = in_words(Page(page))
+    assert "1 of 1 verdicts on the paper no longer hold: eq-1 ." in words
+    assert 'href="ledger.html#eq-1"' in page and "<h3>Of " not in page
 
 
 def test_strips_show_points_bounds_and_verdicts():
@@ -328,6 +403,7 @@ def test_strips_show_points_bounds_and_verdicts():
 def test_the_interface_has_a_page_a_module_and_names_types_as_the_sources_do(first_run):
     folder = first_run[0] / "figures/interface"
     page = (folder / "planarimpact/lumped.html").read_text(encoding="utf-8")
+    assert (folder / "../report.html").exists() and 'href="../../report.html"' in page
     words = html.unescape(re.sub("<[^>]+>", "", page))
     assert "incidence: ArrayLike" in words
     assert "v1(0)/(mu v2(0))" in words  # the docstring, not only the signature

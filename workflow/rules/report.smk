@@ -1,24 +1,34 @@
-# What else the run leaves beside the report, in figures/.
-BESIDE = {
-    "explorer.html": "Explorer: an impact to play with",
-    **{f"{notebook}.html": f"Lecture: {notebook.replace('_', ' ')}" for notebook in NOTEBOOKS},
-    "study.svg": "Parameter study",
-    "ledger.html": "The paper verified, as a page of its own",
-    "below_e_1.html": "A letter to the author: does his model apply below e = 1?",
-    "interface/planarimpact.html": "Interface of the solver: what each function takes and returns",
-}
+# Lectures by file, with their names.
+LECTURES = {f"{notebook}.html": notebook.replace("_", " ").capitalize() for notebook in NOTEBOOKS}
 
 
-# The template, what it includes, and captions.
+# Templates of both pages, what they include, and captions.
 REPORT_PARTS = sources(
-    *expand("workflow/report/{part}.html", part=["report", "ledger_parts"]),
+    "workflow/report/sources.html",
+    "workflow/report/unfold.js",
     *expand("workflow/report/{part}.css", part=["page", "report"]),
     *expand("workflow/report/{part}.rst", part=["figures", "trade", "which_model", "stability", "sensitivity"]),
 )
 
 
+# What only the findings need: measures in nature, curves, and the measured pairs of materials.
+FOUND = [
+    "results/in_nature.csv",
+    "results/curves/fig5.csv",
+    "results/curves/inelastic.csv",
+    f"results/series/{config['figures']['inelastic']['points'].split('/')[0]}.csv",
+]
+
+
 # Times of LAMMPS and pooltool, once `snakemake peers` has measured them.
 PEERS = ["results/peers.csv"] if Path("results/peers.csv").exists() else []
+
+
+# Changes to the templates of pdoc.
+INTERFACE = "workflow/report/interface"
+INTERFACE_PARTS = sources(
+    *expand(f"{INTERFACE}/{{part}}", part=["module.html.jinja2", "index.html.jinja2", "custom.css"])
+)
 
 
 rule interface:
@@ -26,8 +36,11 @@ rule interface:
     input:
         modules=modules("write_interface", *interface.documented()),
         names="src/planarimpact/__init__.pyi",
+        parts=INTERFACE_PARTS,
     output:
         directory("figures/interface"),
+    params:
+        templates=INTERFACE,
     log:
         "results/logs/interface.log",
     benchmark:
@@ -41,7 +54,7 @@ rule interface:
 
 
 rule report:
-    """The run as one page; always succeeds, whatever its verdicts, tables and modules."""
+    """The run as one page, its sources and settings as another; always succeeds, whatever it reads."""
     input:
         modules=modules("write_report"),
         template="workflow/report/report.html",
@@ -52,9 +65,15 @@ rule report:
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
-        tables=[*rules.trade.output, *rules.stability.output, "results/sensitivity.csv", *PEERS],
+        tables=[*rules.trade.output, *rules.stability.output, "results/sensitivity.csv", *FOUND, *PEERS],
     output:
         page="figures/report.html",
+        sources=report(
+            "figures/sources.html",
+            caption="../report/sources.rst",
+            category="Sources",
+            labels={"page": "sources of data, settings, versions"},
+        ),
         problems="results/problems.csv",
     params:
         figures=list(FIGURES),
@@ -64,7 +83,7 @@ rule report:
         },
         sources=SOURCES,
         symbols=SYMBOLS,
-        links=BESIDE,
+        links=LECTURES,
         comparisons=EXPECTED_ROWS,
         entries=EXPECTED_ENTRIES,
     log:

@@ -24,17 +24,25 @@ def documented() -> list[str]:
     ]
 
 
-def write(folder: str) -> None:
-    """Write the pages into a folder."""
+def write(folder: str, templates: str | Path) -> None:
+    """Write the pages into a folder; `templates` has our changes to those of pdoc."""
     import pdoc  # here, as the rules ask for `documented` at every start
     import pdoc.render
+    from pygments.formatters import HtmlFormatter  # type: ignore[import-untyped]
 
     plain = inspect.formatannotation
 
     def named(annotation: Any, *arguments: Any) -> str:
         return _name(annotation) or plain(annotation, *arguments)
 
-    pdoc.render.configure(docformat="numpy", footer_text="planarimpact", include_undocumented=False)
+    pdoc.render.configure(
+        docformat="numpy",
+        footer_text="planarimpact",
+        include_undocumented=False,
+        template_directory=Path(templates),
+    )
+    dark = HtmlFormatter(style="github-dark").get_style_defs(".pdoc-code")
+    pdoc.render.env.globals["dark_code"] = dark
     # pdoc has no option for how a type is written.
     with mock.patch("inspect.formatannotation", named):
         pdoc.pdoc(*DOCUMENTED, output_directory=Path(folder))

@@ -152,8 +152,8 @@ def without_numbers(why: Exception) -> str:
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width"><title>Failed</title></head>'
-        f"<body><h1>Below e = 1</h1>\n<p>This page could not be written: {escape(why)}. "
-        'The <a href="report.html">report</a> says more.</p></body></html>\n'
+        f"<body><main><h1>Below e = 1</h1>\n<p>This page could not be written: {escape(why)}. "
+        'The <a href="report.html">report</a> says more.</p></main></body></html>\n'
     )
 
 

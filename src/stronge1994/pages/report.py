@@ -1,4 +1,4 @@
-"""Write the run as one page: verdicts, figures, provenance, ledger, tables.
+"""Write the run as one page, findings first, and its sources and settings as another.
 
 Reads what the run has written and solves nothing. A solver that crashed is a failing row, a picture
 and tables that say so. What cannot be shown is left out and named on top, with file and line; the
@@ -15,8 +15,7 @@ from types import SimpleNamespace
 from typing import Any, TypeAlias
 
 import jinja2
-import yaml
-from markupsafe import escape
+from markupsafe import Markup, escape
 
 from stronge1994 import csv_tables, gate
 from stronge1994.csv_tables import Row
@@ -24,8 +23,17 @@ from stronge1994.drawings import house_style
 from stronge1994.drawings import residuals as draw_residuals
 from stronge1994.judging import verdict_table
 from stronge1994.ledger import outcome
-from stronge1994.pages import impact_times, ledger_page, templates
-from stronge1994.plan.config import SCENE
+from stronge1994.pages import (
+    findings,
+    headers,
+    impact_times,
+    ledger_page,
+    letter,
+    run_facts,
+    sources_page,
+    templates,
+    which_model,
+)
 
 MARKS = {
     "diverges": "fails",
@@ -42,7 +50,8 @@ MEANING = {
     "as before": "it ran; this guards against accidents and is evidence of nothing",
 }
 Shown: TypeAlias = dict[str, Any]  # what the template is given of a figure or a table
-SHARED = ("mass_ratio", "stiffness_ratio")
+# Tables that have a section of the report; captions stand in files of the same names.
+SECTIONS = ("which_model", "trade", "stability", "sensitivity")
 ROOT = Path(__file__).parents[3]
 
 
@@ -90,14 +99,14 @@ def page(
     ledger: list[Row],
     figures: Mapping[str, Shown],
     tables: Mapping[str, Shown],
-    config: Mapping[str, Any],
-    sources: Mapping[str, Any],
+    significance: float,
     run: Mapping[str, Any],
     symbols: Mapping[str, str],
     links: Mapping[str, str],
     template: str | Path,
     faults: list[str],
     tried: Salvage,
+    found: Mapping[str, findings.Finding | None],
     peers: Sequence[Row] = (),
 ) -> str:
     """The report.
@@ -109,22 +118,22 @@ def page(
     figures : dict
         `{name: what figure() gave}`.
     tables : dict
-        `{name: {"rows", "caption"}}` of `which_model`, `trade`, `stability`, `sensitivity`.
-    config : dict
-        As it was in the run.
-    sources : dict
-        Contents of data/*/source.yaml.
+        `{name: {"rows", "caption"}}` of `SECTIONS`.
+    significance : float
+        The smallest probability with which published points agree.
     run : dict
-        `versions`, `system`, `date`, `commit` and `times` of `run_facts`.
+        `date` and `commit` of `run_facts`.
     symbols : str
         What stands in the ledger's formulas.
     links : dict
-        `{file beside the report: what it is}`.
+        `{file of a lecture: its name}`.
     template : Path
     faults : list of str
         Why the run does not pass, as `gate.faults_of_tables` says.
     tried : Salvage
         Calls what may fail; its problems so far are shown too.
+    found : dict
+        What `findings.all_of` gave.
     peers : sequence of dict, optional
         Rows of results/peers.csv, where other codes were measured.
 
@@ -135,20 +144,23 @@ def page(
     names = {row["entry"] for row in ledger}
     nothing: Shown = {"rows": [], "absent": []}
     times = tried("times", nothing, impact_times.section, tables["trade"]["rows"], peers)
+    cases = tried("which_model", [], which_model.cases, tables["which_model"]["rows"])
     environment = templates.environment(Path(template).parent)
     environment.filters |= {
-        "maths": ledger_page.linked_maths(names),
-        "number": number,
-        "quantity": draw_residuals.words,
+        "maths": _maths(names),
+        "number": templates.number,
+        "power": letter.probability,
+        "microseconds": lambda seconds: templates.number(f"{1e6 * float(seconds)}"),
+        "header": headers.words,
+        "short": run_facts.short,
         "sentence": sentence,
-        "title_of": title,
+        "title_of": templates.title,
     }
     return environment.get_template(Path(template).name).render(
         ledger_page.words(ledger, symbols),
         verdicts=verdicts,
-        significance=config["significance"],
+        significance=significance,
         faults=faults + tried.problems,
-        failing=verdict_table.failing(verdicts),
         verdict_counts=Counter(row["verdict"] for row in verdicts),
         evidence=Counter(row["evidence"] for row in verdicts if row["verdict"] == "agrees"),
         marks=MARKS,
@@ -156,11 +168,22 @@ def page(
         entry_of=_entry_of(names),
         figures=figures,
         tables=tables,
+        cases=cases,
         times=times,
-        sources=sources,
         run=run,
         links=links,
+        found=found,
     )
+
+
+def _maths(names: Collection[str]) -> Callable[[str], Markup]:
+    """Formulas of a text as HTML, with links to the entries of the ledger, which has its page."""
+    of_ledger = ledger_page.linked_maths(names)
+
+    def maths(text: str) -> Markup:
+        return Markup(str(of_ledger(text)).replace('href="#', 'href="ledger.html#'))
+
+    return maths
 
 
 def without_details(faults: Iterable[str]) -> str:
@@ -168,9 +191,9 @@ def without_details(faults: Iterable[str]) -> str:
     items = "\n".join(f"<li>{escape(fault)}</li>" for fault in faults)
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Failed</title></head>'
-        "<body><h1>Planar impact of rough compliant bodies: report of a run</h1>\n"
+        "<body><main><h1>Planar impact of rough compliant bodies: report of a run</h1>\n"
         "<p><b>FAILED</b> The report could not be written. The tables in results/ and the pictures "
-        f"beside this page are there.</p>\n<ul>\n{items}\n</ul></body></html>\n"
+        f"beside this page are there.</p>\n<ul>\n{items}\n</ul></main></body></html>\n"
     )
 
 
@@ -205,34 +228,14 @@ def figure(
     entries = {c: e for c, e in config["comparisons"].items() if e["figure"] == name}
     strips = draw_residuals.draw(residuals, entries, {row["comparison"]: row for row in rows})
     return {
-        "title": title(name),
+        "title": templates.title(name),
         "picture": templates.embedded(svg),
         "caption": caption,
         "alt": re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip("."),
         "rows": rows,
         "has_residuals": bool(residuals),
         "strips": templates.embedded(_svg(strips)) if strips else None,
-        "config": _yaml(
-            {key: config[key] for key in SHARED}
-            | {"figures": {name: config["figures"][name]}}
-            | ({"comparisons": entries} if entries else {})
-        ),
     }
-
-
-def title(name: str) -> str:
-    """Name of a figure for a reader.
-
-    Examples
-    --------
-    >>> title("fig5"), title("micro_slip")
-    ('Fig. 5', 'Micro slip')
-    """
-    if name.startswith("fig"):
-        return f"Fig. {name.removeprefix('fig')}"
-    if name.startswith(SCENE):
-        return f"Scene: {name.removeprefix(SCENE).replace('_', ' ')}"
-    return name.replace("_", " ").capitalize()
 
 
 def caption(path: str | Path, name: str) -> str:
@@ -240,20 +243,6 @@ def caption(path: str | Path, name: str) -> str:
     wildcards = SimpleNamespace(figure=name)
     template = jinja2.Template(Path(path).read_text(encoding="utf-8"))
     return template.render(snakemake=SimpleNamespace(wildcards=wildcards)).strip()
-
-
-def number(text: str) -> str:
-    """A cell of a table with three digits at most; words stay.
-
-    Examples
-    --------
-    >>> number("0.123456"), number("1.56e+03"), number("lumped")
-    ('0.123', '1560', 'lumped')
-    """
-    try:
-        return f"{float(f'{float(text):.3g}'):g}"
-    except ValueError:
-        return text
 
 
 def sentence(text: str) -> str:
@@ -283,18 +272,6 @@ def _svg(figure: Any) -> bytes:
     return file.getvalue()
 
 
-class _Dumper(yaml.SafeDumper):
-    """Without the anchors that two equal entries would get."""
-
-    def ignore_aliases(self, data: Any) -> bool:
-        return True
-
-
-def _yaml(document: Any) -> str:
-    style = {"sort_keys": False, "default_flow_style": None, "width": 96, "allow_unicode": True}
-    return yaml.dump(document, Dumper=_Dumper, **style)
-
-
 def write(
     output: str,
     problems: str,
@@ -308,13 +285,15 @@ def write(
 ) -> None:
     """Read the tables and pictures of a run and write the report, and what it could not show.
 
+    The page of sources and settings is written beside it.
+
     Parameters
     ----------
     output, problems : str
         The report, and the table of what could not be shown.
     paths : dict
-        `{name: file}` of the tables: `verdicts`, `ledger`, those of the sections, and `peers` where
-        other codes were measured.
+        `{name: file}` of the tables: `verdicts`, `ledger`, those of `SECTIONS`, those that only the
+        findings need, and `peers` where other codes were measured.
     residuals, svgs : dict
         `{figure: file}`.
     captions : str
@@ -323,7 +302,8 @@ def write(
     expected : (dict, dict)
         Rows that the verdicts and the ledger must have, as `gate.faults_of_tables` takes them.
     **parts
-        `sources`, `run`, `symbols`, `links`, `template` as for `page`.
+        `symbols`, `links`, `template` as for `page`; `sources`, the contents of
+        data/*/source.yaml; `run`, what `run_facts.everything` gave.
     """
     tried = Salvage()
     read = csv_tables.read_rows
@@ -342,13 +322,16 @@ def write(
         text = caption(Path(captions).with_name(f"{name}.rst"), name)
         return {"rows": read(paths[name]), "caption": text}
 
-    figures = {name: tried(title(name), None, section, name) for name in svgs}
+    figures = {name: tried(templates.title(name), None, section, name) for name in svgs}
     figures = {name: found for name, found in figures.items() if found}
-    sections = [name for name in paths if name not in ("verdicts", "ledger", "peers")]
-    tables = {name: tried(name, {"rows": [], "caption": ""}, table, name) for name in sections}
+    tables = {name: tried(name, {"rows": [], "caption": ""}, table, name) for name in SECTIONS}
     peers = tried("peers", [], read, paths["peers"], ("model",)) if "peers" in paths else []
     run = parts.pop("run")
     run = {name: tried(name, missing, function) for name, (missing, function) in run.items()}
+    template = Path(parts["template"]).with_name("sources.html")
+    provenance = tried(
+        "sources of data", None, sources_page.page, parts.pop("sources"), config, run, template
+    )
     text = tried(
         "report",
         None,
@@ -357,14 +340,16 @@ def write(
             ledger,
             figures,
             tables,
-            config,
+            config["significance"],
             run=run,
             faults=faults,
             tried=tried,
+            found=findings.all_of(rows, ledger, tables, paths, config),
             peers=peers,
             **parts,
         ),
     )
-    text = without_details(faults + tried.problems) if text is None else text
-    Path(output).write_text(text, encoding="utf-8")
+    short = without_details(faults + tried.problems)
+    Path(output).write_text(short if text is None else text, encoding="utf-8")
+    Path(output).with_name("sources.html").write_text(provenance or short, encoding="utf-8")
     csv_tables.write_rows(problems, ["problem"], [[problem] for problem in tried.problems])

@@ -5,6 +5,7 @@ import datetime
 import math
 import os
 import platform
+import re
 import subprocess
 from collections.abc import Callable
 from importlib import metadata
@@ -49,6 +50,17 @@ def commit(folder: str | Path) -> str:
     except (OSError, subprocess.SubprocessError, ValueError):
         return NO_COMMIT
     return f"{name}, with uncommitted changes" if changed else name
+
+
+def short(commit: str) -> str:
+    """A commit with ten of its digits; what is said behind it, or in its place, stays.
+
+    Examples
+    --------
+    >>> short("8ab9900d103054b1c3d40c442361c77869d9dbd6, with uncommitted changes")
+    '8ab9900d10, with uncommitted changes'
+    """
+    return re.sub(r"^([0-9a-f]{10})[0-9a-f]{30}", r"\1", commit)
 
 
 def _git(folder: str | Path, *arguments: str) -> str:

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import jinja2
 
+from stronge1994.plan.config import SCENE
+
 # What all pages share: their theme and the bar of pages.
 SHARED = Path(__file__).parents[3] / "workflow/report"
 
@@ -29,3 +31,32 @@ def embedded(svg: bytes) -> str:
     'data:image/svg+xml;base64,PHN2Zy8+'
     """
     return f"data:image/svg+xml;base64,{base64.b64encode(svg).decode()}"
+
+
+def title(name: str) -> str:
+    """Name of a figure for a reader.
+
+    Examples
+    --------
+    >>> title("fig5"), title("micro_slip")
+    ('Fig. 5', 'Micro slip')
+    """
+    if name.startswith("fig"):
+        return f"Fig. {name.removeprefix('fig')}"
+    if name.startswith(SCENE):
+        return f"Scene: {name.removeprefix(SCENE).replace('_', ' ')}"
+    return name.replace("_", " ").capitalize()
+
+
+def number(text: str) -> str:
+    """A cell of a table with three digits at most; words stay.
+
+    Examples
+    --------
+    >>> number("0.123456"), number("1.56e+03"), number("1e-05"), number("lumped")
+    ('0.123', '1560', '1e-5', 'lumped')
+    """
+    try:
+        return f"{float(f'{float(text):.3g}'):g}".replace("e-0", "e-").replace("e+0", "e")
+    except ValueError:
+        return text

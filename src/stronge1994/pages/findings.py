@@ -1,0 +1,375 @@
+"""What a run found, for the first screen of the report: numbers of its tables, small pictures.
+
+The words stand in the template. A finding is left out where a table that it needs is missing, or
+where its verdicts no longer say what its words say.
+"""
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup
+
+from planarimpact.ground.arrays import Array
+from stronge1994 import csv_tables
+from stronge1994.csv_tables import Columns, Curves, Row
+from stronge1994.ledger import in_nature, outcome
+from stronge1994.ledger.in_nature import Values
+from stronge1994.pages import ledger_page, which_model
+
+Finding = dict[str, Any]
+INCIDENCE, VELOCITY = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
+E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
+# Beyond it all models of Fig. 5 have the same straight line.
+FARTHEST = 8.0
+POINTS = 80  # of a curve in a small picture
+WIDTH, HEIGHT, MARGIN = 200, 104, 6  # of a small picture
+BAR = 80  # length of the longest bar
+# Parts of the measured range of e = 1, in the words of the names of their comparisons.
+PARTS = ("initial-stick", "slip-and-stick", "slip-throughout")
+
+
+MARK = ledger_page.STYLE | ledger_page.GRADE_STYLE
+SOUND = "confirmed", "confirmed within rounding"
+
+# A finding is left out where a comparison of its figure diverges.
+FIGURE = {
+    "restitution": "inelastic",
+    "elastic": "fig5",
+    "tolerance": "trade",
+    "digits": "stability",
+}
+
+
+class Untold(Exception):
+    """The run does not say what the words of a finding say."""
+
+
+def paper(ledger: Sequence[Row]) -> Finding:
+    """What is wrong in the paper: counts, and the entries that change a result.
+
+    Parameters
+    ----------
+    ledger : list of dict
+        Rows of results/ledger.csv.
+
+    Returns
+    -------
+    dict
+        `entries`, `verdicts`, `grades` (counts), `grave` (rows), `picture`.
+
+    Raises
+    ------
+    Untold
+        If an entry no longer holds, or none changes a result.
+    """
+    grave = [row for row in ledger if row["grade"] == next(iter(outcome.GRADES))]
+    _need(grave and not outcome.failing(ledger))
+    verdicts, grades = Counter(row["verdict"] for row in ledger), outcome.grades(ledger)
+    return {
+        "entries": len(ledger),
+        "verdicts": verdicts,
+        "grades": grades,
+        "grave": grave,
+        "picture": bars({word: verdicts[word] for word in SOUND} | grades),
+    }
+
+
+def restitution(
+    verdicts: Mapping[str, Row], nature: Mapping[str, Values], curves: Curves, measured: Columns
+) -> Finding:
+    """What happens below e = 1.
+
+    Parameters
+    ----------
+    verdicts : dict
+        `{comparison: row}`.
+    nature : dict
+        What the measures of results/in_nature.csv found.
+    curves : dict
+        Of the figure `inelastic`.
+    measured : dict
+        Columns of the measured pairs of materials.
+
+    Raises
+    ------
+    Untold
+        If the measured pairs do not contradict the paper's model, or contradict a continuum, or if
+        the reversed velocity does not grow in the paper's model and fall in the continua.
+    """
+    models = "lumped", "continuum.viscous", "continuum.plastic"
+    rows = {model: verdicts[f"inelastic-{model}-pairs"] for model in models}
+    _need(rows["lumped"]["verdict"] == "differs as documented")
+    _need(all(rows[model]["verdict"] == "agrees" for model in models[1:]))
+    whole, half = nature["reversal_elastic"], nature["reversal_half"]
+    _need(half.paper > whole.paper)
+    _need(half.viscous < whole.viscous and half.plastic < whole.plastic)
+    lines = [
+        (style, curves[name][E], curves[name][BETA_0])
+        for style, model in (("theirs", "lumped"), ("ours", "continuum.viscous"))
+        for name in curves
+        if name.startswith(f"{model}, nu = ")
+    ]
+    sigma = measured["tangential_restitution_uncertainty [1]"]
+    return {
+        "rows": rows,
+        "pairs": len(sigma),
+        "whole": whole,
+        "half": half,
+        "picture": sketch(lines, (measured[E], measured[BETA_0], sigma)),
+    }
+
+
+def elastic(verdicts: Mapping[str, Row], curves: Curves) -> Finding:
+    """How far the lumped model is from the elastic continuum, and where.
+
+    Parameters
+    ----------
+    verdicts : dict
+        `{comparison: row}`.
+    curves : dict
+        Of Fig. 5.
+
+    Raises
+    ------
+    Untold
+        If the verdicts are others than the words say.
+    """
+    rows = [verdicts[f"fig5-lumped-maw-{part}"] for part in PARTS]
+    expected = "differs as documented", "differs as documented", "agrees"
+    _need(tuple(row["verdict"] for row in rows) == expected)
+    _need(verdicts["fig5-continuum-maw"]["verdict"] == "agrees")
+    lumped, continuum = curves["lumped"], curves["continuum"]
+    _need(np.array_equal(lumped[INCIDENCE], continuum[INCIDENCE]))
+    distance = np.abs(lumped[VELOCITY] - continuum[VELOCITY])
+    near = lumped[INCIDENCE] <= FARTHEST
+    step = slice(None, None, -(-int(near.sum()) // POINTS))
+    lines = [
+        (style, curve[INCIDENCE][near][step], curve[VELOCITY][near][step])
+        for style, curve in (("theirs", lumped), ("ours", continuum))
+    ]
+    return {
+        "rms": [float(row["rms [axis units]"]) for row in rows[:2]],
+        "largest": distance.max(),
+        "at": lumped[INCIDENCE][distance.argmax()],
+        "picture": sketch(lines),
+    }
+
+
+def tolerance(answers: Sequence[Row], trade: Sequence[Row]) -> Finding:
+    """Which model to take.
+
+    Parameters
+    ----------
+    answers, trade : sequence of dict
+        Rows of results/which_model.csv, those of e = 1 first, and of results/trade.csv.
+
+    Returns
+    -------
+    dict
+        `steps`, the cheapest models at e = 1 in the middle batch, each with the smallest tolerance
+        that it meets; `batch`; `lossy`, the cases in which energy is lost; `picture`.
+    """
+    cases = which_model.cases(answers)
+    _need(cases and not cases[0]["loss"])
+    batch = cases[0]["batches"][len(cases[0]["batches"]) // 2]
+    steps = {}
+    for row in cases[0]["rows"]:
+        answer = row["answers"][batch]
+        if answer["error"]:
+            steps[answer["model"]] = row["tolerance"]
+    shown = [row for row in trade if row["loss"] == "" and row[f"time_{batch} [s]"]]
+    x, y = (
+        np.log10([float(row[key]) for row in shown])
+        for key in (f"time_{batch} [s]", "max_velocity [mu v2(0)]")
+    )
+    return {
+        "steps": steps,
+        "batch": batch,
+        "lossy": [case for case in cases if case["loss"]],
+        "picture": sketch([], (x, y, np.zeros(x.size))),
+    }
+
+
+def digits(verdicts: Mapping[str, Row], stability: Sequence[Row]) -> Finding:
+    """How exact and how stable the solution of the paper's model is.
+
+    Parameters
+    ----------
+    verdicts : dict
+        `{comparison: row}`.
+    stability : sequence of dict
+        Rows of results/stability.csv.
+
+    Raises
+    ------
+    Untold
+        If more digits are lost than the comparison allows.
+    """
+    row = verdicts["stability-digits"]
+    _need(row["verdict"] == "agrees")
+    independent = [
+        row["verdict"] for row in verdicts.values() if row["evidence"] == "independent computation"
+    ]
+    _need("diverges" not in independent)
+    low = "from [unit of quantity]"
+    part = [row for row in stability if row["quantity"] == "stiffness_ratio [1]"]
+    part = [row for row in part if float(row[low]) > 0]
+    x = np.log10([float(row[low]) for row in part])
+    lines = [
+        (style, x, np.array([float(row[f"{kind}_median [1]"]) for row in part]))
+        for style, kind in (("ours", "digits"), ("theirs", "digits_allowed"))
+    ]
+    return {
+        "impacts": int(row["points"]),
+        "lost": float(row["max [sigma]"]),
+        "agree": independent.count("agrees"),
+        "differ": len(independent) - independent.count("agrees"),
+        "picture": sketch(lines),
+    }
+
+
+def all_of(
+    verdicts: Iterable[Row],
+    ledger: Sequence[Row],
+    tables: Mapping[str, Mapping[str, Any]],
+    paths: Mapping[str, str],
+    config: Mapping[str, Any],
+) -> dict[str, Finding | None]:
+    """All findings; None for one that the run does not tell.
+
+    Parameters
+    ----------
+    verdicts, ledger : list of dict
+        Rows of results/verdicts.csv and results/ledger.csv.
+    tables : dict
+        `{name: {"rows"}}` of `which_model`, `trade` and `stability`.
+    paths : dict
+        `{name: file}` of other tables: `in_nature`, curves by figure, series by source.
+    config : dict
+    """
+    rows = {row["comparison"]: row for row in verdicts}
+
+    def nature() -> dict[str, Values]:
+        return in_nature.read(csv_tables.read_rows(paths["in_nature"]))
+
+    def measured() -> Columns:
+        source, series = config["figures"]["inelastic"]["points"].split("/")
+        return csv_tables.read(paths[source])[series]
+
+    def curves(figure: str) -> Callable[[], Curves]:
+        return lambda: csv_tables.read(paths[figure])
+
+    def table(name: str) -> Callable[[], list[Row]]:
+        return lambda: tables[name]["rows"]
+
+    found = {
+        "paper": told(paper, lambda: ledger),
+        "restitution": told(restitution, lambda: rows, nature, curves("inelastic"), measured),
+        "elastic": told(elastic, lambda: rows, curves("fig5")),
+        "tolerance": told(tolerance, table("which_model"), table("trade")),
+        "digits": told(digits, lambda: rows, table("stability")),
+    }
+    broken = {row["figure"] for row in rows.values() if row["verdict"] == "diverges"}
+    return {name: None if FIGURE.get(name) in broken else told for name, told in found.items()}
+
+
+def told(finding: Callable[..., Finding], *arguments: Callable[[], Any]) -> Finding | None:
+    """A finding, or None where what it needs is missing or says something else.
+
+    Parameters
+    ----------
+    finding : callable
+    *arguments : callable
+        Each gives one of its arguments.
+
+    Examples
+    --------
+    >>> print(told(paper, list))
+    None
+    """
+    with suppress(Untold, csv_tables.Failed, LookupError, ValueError, OSError):
+        return finding(*(argument() for argument in arguments))
+    return None
+
+
+def bars(counts: Mapping[str, int]) -> Markup:
+    """Counts as bars with their names, as SVG. Their classes are those of the ledger's marks.
+
+    Examples
+    --------
+    >>> print(bars({"wrong": 3}).count("<rect"))
+    1
+    """
+    high = HEIGHT / len(counts)
+    parts = [
+        Markup(
+            '<rect class="{}" y="{:.1f}" width="{:.1f}" height="{:.1f}"></rect>'
+            '<text x="{:.1f}" y="{:.1f}">{} {}</text>'
+        ).format(
+            MARK[words],
+            row * high + 1,
+            BAR * count / max(counts.values()),
+            high - 2,
+            BAR * count / max(counts.values()) + 5,
+            (row + 0.5) * high + 4,
+            count,
+            words,
+        )
+        for row, (words, count) in enumerate(counts.items())
+    ]
+    return _svg(parts)
+
+
+def sketch(
+    lines: Sequence[tuple[str, Array, Array]], points: tuple[Array, Array, Array] | None = None
+) -> Markup:
+    """Curves without axes, as SVG, for a first look.
+
+    Parameters
+    ----------
+    lines : list of (str, ndarray, ndarray)
+        Class, x and y of each.
+    points : (ndarray, ndarray, ndarray), optional
+        x, y, and half the length of the bar of each.
+
+    Examples
+    --------
+    >>> print(sketch([("ours", np.array([0, 1]), np.array([0, 1]))]).count("polyline"))
+    2
+    """
+    more = [("", points[0], points[1] + sign * points[2]) for sign in (-1, 1)] if points else []
+    x, y = (np.concatenate([part[axis] for part in [*lines, *more]]) for axis in (1, 2))
+
+    def across(at: float) -> float:
+        return MARGIN + (WIDTH - 2 * MARGIN) * float((at - x.min()) / np.ptp(x))
+
+    def up(at: float) -> float:
+        return HEIGHT - MARGIN - (HEIGHT - 2 * MARGIN) * float((at - y.min()) / np.ptp(y))
+
+    parts = []
+    if lines and y.min() < 0 < y.max():
+        parts.append(Markup('<path class="zero" d="M0 {0:.1f}H{1}"></path>').format(up(0), WIDTH))
+    for style, at, value in lines:
+        corners = " ".join(f"{across(a):.1f},{up(b):.1f}" for a, b in zip(at, value, strict=True))
+        parts.append(Markup('<polyline class="{}" points="{}"></polyline>').format(style, corners))
+    for at, value, half in zip(*points, strict=True) if points else ():
+        parts.append(
+            Markup(
+                '<path class="bar" d="M{0:.1f} {1:.1f}V{2:.1f}"></path>'
+                '<circle cx="{0:.1f}" cy="{3:.1f}" r="2.5"></circle>'
+            ).format(across(at), up(value - half), up(value + half), up(value))
+        )
+    return _svg(parts)
+
+
+def _svg(parts: Iterable[Markup]) -> Markup:
+    start = '<svg class="sketch" viewBox="0 0 {} {}" aria-hidden="true">{}</svg>'
+    return Markup(start).format(WIDTH, HEIGHT, Markup("").join(parts))
+
+
+def _need(condition: Any) -> None:
+    if not condition:
+        raise Untold

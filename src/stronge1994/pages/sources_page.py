@@ -1,0 +1,74 @@
+"""Where the numbers come from: sources of data, settings, versions and times of a run."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from stronge1994.pages import headers, ledger_page, templates
+
+# Settings that all figures share.
+SHARED = ("mass_ratio", "stiffness_ratio", "significance")
+
+
+def page(
+    sources: Mapping[str, Any],
+    config: Mapping[str, Any],
+    run: Mapping[str, Any],
+    template: str | Path,
+) -> str:
+    """The page of sources and settings.
+
+    Parameters
+    ----------
+    sources : dict
+        Contents of data/*/source.yaml.
+    config : dict
+        As it was in the run: `SHARED`, `figures`, `comparisons`.
+    run : dict
+        `versions`, `system`, `date`, `commit` and `times` of `run_facts`.
+    template : Path
+
+    Returns
+    -------
+    str
+    """
+    comparisons = config["comparisons"].items()
+    settings = {
+        figure: {"figures": {figure: entry}}
+        | {"comparisons": {c: told for c, told in comparisons if told["figure"] == figure}}
+        for figure, entry in config["figures"].items()
+    }
+    environment = templates.environment(Path(template).parent)
+    environment.filters |= {
+        "maths": ledger_page.mathematical,
+        "header": headers.words,
+        "number": templates.number,
+        "title_of": templates.title,
+    }
+    return environment.get_template(Path(template).name).render(
+        sources=sources,
+        shared={key: config[key] for key in SHARED},
+        settings={figure: in_yaml(found) for figure, found in settings.items()},
+        run=run,
+    )
+
+
+class _Dumper(yaml.SafeDumper):
+    """Without the anchors that two equal entries would get."""
+
+    def ignore_aliases(self, data: Any) -> bool:
+        return True
+
+
+def in_yaml(document: Any) -> str:
+    """A part of the config as it stands in its files.
+
+    Examples
+    --------
+    >>> print(in_yaml({"restitution": [0.5, 1]}), end="")
+    restitution: [0.5, 1]
+    """
+    style = {"sort_keys": False, "default_flow_style": None, "width": 96, "allow_unicode": True}
+    return yaml.dump(document, Dumper=_Dumper, **style)

@@ -1,0 +1,61 @@
+"""The cheapest model for each tolerance, case by case, for a reader."""
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from stronge1994.csv_tables import Row
+
+MODEL = re.compile(r"model_(\d+)")
+
+
+def cases(rows: Sequence[Row]) -> list[dict[str, Any]]:
+    """Rows of results/which_model.csv by restitution and loss.
+
+    Parameters
+    ----------
+    rows : sequence of dict
+
+    Returns
+    -------
+    list of dict
+        `restitution`, `loss`, `other_loss`, `spread` and `spread_stick` (numbers as text);
+        `batches`, how many impacts are solved together; `rows`, each with a `tolerance` and
+        `answers`, `{batch: {"model", "error", "time"}}`. None where the table is that of a crash.
+
+    Examples
+    --------
+    >>> row = {"restitution [1]": "1.0", "loss": "", "tolerance [mu v2(0)]": "0.3"}
+    >>> row |= dict.fromkeys(["other_loss [mu v2(0)]", "input_spread [mu v2(0)]"], "")
+    >>> row |= {"input_spread_stick [mu v2(0)]": "", "model_1": "lumped"}
+    >>> row |= {"max_velocity_1 [mu v2(0)]": "0.2", "whole_time_1 [s]": "1e-4"}
+    >>> cases([row])[0]["rows"][0]["answers"]
+    {'1': {'model': 'lumped', 'error': '0.2', 'time': '1e-4'}}
+    """
+    found: dict[tuple[str, str], dict[str, Any]] = {}
+    for row in rows:
+        if "error" in row:
+            return []
+        batches = [known[1] for known in map(MODEL.fullmatch, row) if known]
+        case = found.setdefault(
+            (row["restitution [1]"], row["loss"]),
+            {
+                "restitution": row["restitution [1]"],
+                "loss": row["loss"],
+                "other_loss": row["other_loss [mu v2(0)]"],
+                "spread": row["input_spread [mu v2(0)]"],
+                "spread_stick": row["input_spread_stick [mu v2(0)]"],
+                "batches": batches,
+                "rows": [],
+            },
+        )
+        answers = {
+            batch: {
+                "model": row[f"model_{batch}"],
+                "error": row[f"max_velocity_{batch} [mu v2(0)]"],
+                "time": row[f"whole_time_{batch} [s]"],
+            }
+            for batch in batches
+        }
+        case["rows"].append({"tolerance": row["tolerance [mu v2(0)]"], "answers": answers})
+    return list(found.values())
