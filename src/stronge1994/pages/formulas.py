@@ -1,0 +1,346 @@
+"""Plain formulas in a text, such as `zeta^2 F1(t2) < mu`, as MathML.
+
+A formula is found where it begins, and read as far as its grammar goes. What is left is text:
+
+    formula   side, relation, side, ...                   zeta^2 < mu x
+    side      term + term - term                          1 + e
+    term      factors, apart by a space or a bracket, and fractions     2 mu F1/(m1 m2)
+    factor    number, symbol, function(side, ...), (side), [side] or |side|, to a power
+
+So `(1 + e) m2/m1` is a formula, and "(see Eq. 7)" is none: no bracket holds a word, and a number
+without a symbol stays text. A fraction takes all factors before it as its numerator. Only a ratio
+of one letter, as m2/m1, stands by itself: e m2/m1 is e times that ratio.
+"""
+
+import re
+from typing import NamedTuple
+
+from markupsafe import Markup, escape
+
+GREEK = {
+    "alpha": "α", "mu": "µ", "zeta": "ζ", "beta": "β", "Omega": "Ω", "omega": "ω", "kappa": "κ",
+    "pi": "π", "phi": "φ", "psi": "ψ", "chi": "χ", "theta": "θ", "tau": "τ", "nu": "ν",
+}  # fmt: skip
+FUNCTIONS = ("sin", "cos", "tan", "acos", "max", "sqrt")
+RELATIONS = {"<=": "≤", ">=": "≥", "->": "→", "=": "=", "<": "&lt;", ">": "&gt;"}
+SIGNS = {"+-": "±", "+": "+", "-": "−"}
+CLOSING = {"(": ")", "[": "]", "|": "|"}
+
+# Not a number: the 7 of Eq. 7c, or of 7.5.1.
+NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e(?P<power>-?\d+))?(?![\w]|\.\d)(?P<degrees> deg\b)?")
+# v1, F2, t_c, tf, ts, F2max, psi1; with d a differential, as du1 or dt.
+INDEXED = re.compile(
+    r"(?P<change>d?)(?P<letter>[vuFDKWmxtgp]|psi)"
+    r"(?:(?P<index>\d|_c|(?<=t)[fbas])(?P<largest>max)?)?(?![A-Za-z0-9])"
+)
+LETTER = re.compile(rf"(?P<name>{'|'.join(GREEK)}|[eskxMS])(?P<prime>'?)(?![\w]|-\w)")
+# p, t and v have no index, and are words elsewhere, unless this follows or a d stands before.
+BARE = re.compile(r"[ptv](?=\(| [=+-] |/)|d[ptv]\b|t\b(?!\.)")
+# A formula begins behind one of these, not inside a word or behind the stroke of a unit.
+BEFORE = re.compile(r"(?:^|(?<=[\s(\[;:]))")
+MAY_BEGIN = re.compile(r"[A-Za-z0-9(\[|+-]")
+AFTER = re.compile(r"(?!\w|-\w)")
+# A formula with more characters may be broken before a sum or a relation.
+LONGEST_IN_ONE_PIECE = 24
+
+
+class _Factor(NamedTuple):
+    html: str
+    letter: str = ""  # of a symbol
+    kind: str = ""  # "group", "fraction", "function"
+    inside: str = ""  # what a group holds
+    lone_fraction: bool = False
+
+
+class _Part(NamedTuple):
+    """What stands between two operators outside of brackets, with the operator before it."""
+
+    start: int
+    operator: str
+    html: str
+
+
+class _Reader:
+    """Read one formula from a place of a text; methods return None where they find nothing."""
+
+    def __init__(self, text: str, at: int) -> None:
+        self.text, self.at = text, at
+        self.has_symbol = False
+        self.in_bars = False
+
+    def _take(self, *words: str) -> str | None:
+        for word in words:
+            if self.text.startswith(word, self.at):
+                self.at += len(word)
+                return word
+        return None
+
+    def formula(self) -> list[_Part] | None:
+        parts = self.side("", self.at)
+        while parts:
+            start = self.at
+            relation = self._take(*(f" {word} " for word in RELATIONS))
+            more = relation and self.side(_operator(RELATIONS[relation.strip()]), start)
+            if not more:
+                self.at = start
+                break
+            parts += more
+        return parts or None
+
+    def side(self, operator: str, start: int) -> list[_Part] | None:
+        """Terms with the signs between them; `operator` is what stands before the first one."""
+        sign = self._take(*SIGNS)
+        term = self.term()
+        if term is None:
+            return None
+        lead = f'<mo form="prefix">{SIGNS[sign]}</mo>' if sign else ""
+        parts = [_Part(start, operator, lead + term)]
+        while True:
+            start = self.at
+            sign = self._take(*(f" {word} " for word in SIGNS))
+            term = self.term() if sign else None
+            if sign is None or term is None:
+                self.at = start
+                return parts
+            parts.append(_Part(start, _operator(SIGNS[sign.strip()]), term))
+
+    def term(self) -> str | None:
+        factor = self.factor()
+        if factor is None:
+            return None
+        factors = [factor]
+        while True:
+            start = self.at
+            if self._take("/"):
+                below = self.factor()
+                if below is None:
+                    self.at = start
+                    break
+                _divide(factors, below)
+                continue
+            close = self.text[start - 1] in ")]" and self.text[start : start + 1] in ("(", "[")
+            number = re.compile(r" \d").match(self.text, start)
+            if not close and (number or not self._take(" ")):
+                break
+            factor = self.factor()
+            if factor is None:
+                self.at = start
+                break
+            factors.append(factor)
+        return _product(factors)
+
+    def factor(self) -> _Factor | None:
+        found = self._number() or self._function() or self._symbol() or self._group()
+        start = self.at
+        if found is None or not self._take("^"):
+            return _open(found) if found else None
+        power = self._number() or self._group()
+        if power is None:
+            self.at = start
+            return found
+        html = f"<msup><mrow>{found.html}</mrow>{_row(power.inside or power.html)}</msup>"
+        return _Factor(html, kind="power")
+
+    def _number(self) -> _Factor | None:
+        match = NUMBER.match(self.text, self.at)
+        if not match:
+            return None
+        self.at = match.end()
+        digits = match[0].removesuffix(match["degrees"] or "")
+        if match["power"]:
+            digits, _, power = digits.partition("e")
+            self.has_symbol = True
+            times = "" if digits == "1" else f"<mn>{digits}</mn><mo>×</mo>"
+            return _Factor(f"{times}<msup><mn>10</mn><mn>{power.replace('-', '−')}</mn></msup>")
+        return _Factor(f"<mn>{digits}{'°' if match['degrees'] else ''}</mn>")
+
+    def _function(self) -> _Factor | None:
+        start = self.at
+        name = self._take(*(f"{word}(" for word in FUNCTIONS), *(f"{w}^2(" for w in FUNCTIONS))
+        if name is None:
+            return None
+        self.at -= 1
+        arguments = self._group()
+        if arguments is None:
+            self.at = start
+            return None
+        word, _, power = name[:-1].partition("^")
+        if word == "sqrt":
+            return _Factor(f"<msqrt>{arguments.inside}</msqrt>")
+        html = f"<mi>{word}</mi>"
+        if power:
+            html = f"<msup>{html}<mn>{power}</mn></msup>"
+        return _Factor(f"{html}<mo>&#8289;</mo>{arguments.html}", kind="function")
+
+    def _symbol(self) -> _Factor | None:
+        found = self._indexed() or self._letter()
+        if found is None:
+            return None
+        self.has_symbol = True
+        # v1(0) is a value of v1; mu (1 + e), with a space, is a product.
+        start = self.at
+        if found.kind == "indexed" and self.text[start : start + 1] == "(":
+            value = self._group()
+            if value is None:
+                self.at = start
+                return None
+            return _Factor(f"{found.html}<mo>&#8289;</mo>{value.html}", found.letter)
+        return found._replace(kind="")
+
+    def _indexed(self) -> _Factor | None:
+        match = INDEXED.match(self.text, self.at)
+        if not match or not (match["index"] or BARE.match(self.text, self.at)):
+            return None
+        self.at = match.end()
+        letter = f"<mi>{GREEK.get(match['letter'], match['letter'])}</mi>"
+        index = (match["index"] or "").strip("_")
+        if index:
+            below = f"<mn>{index}</mn>" if index.isdigit() else f"<mi>{index}</mi>"
+            letter += below
+            letter = (
+                f"<msubsup>{letter}<mi>max</mi></msubsup>"
+                if match["largest"]
+                else f"<msub>{letter}</msub>"
+            )
+        if match["change"]:
+            letter = f'<mi mathvariant="normal">d</mi>{letter}'
+        return _Factor(letter, match["letter"], "indexed")
+
+    def _letter(self) -> _Factor | None:
+        match = LETTER.match(self.text, self.at)
+        if not match:
+            return None
+        self.at = match.end()
+        html = f"<mi>{GREEK.get(match['name'], match['name'])}</mi>"
+        if match["prime"]:
+            html = f"<msup>{html}<mo>′</mo></msup>"
+        return _Factor(html, match["name"])
+
+    def _group(self) -> _Factor | None:
+        start, bars = self.at, self.in_bars
+        opening = self._take("(", "[", *(() if bars else ("|",)))
+        if opening is None:
+            return None
+        self.in_bars = opening == "|"
+        parts = self.side("", self.at)
+        listed = _joined(parts) if parts else ""
+        while parts and self._take(", "):
+            parts = self.side("", self.at)
+            listed += "<mo>,</mo>" + _joined(parts) if parts else ""
+        self.in_bars = bars
+        if not parts or not self._take(CLOSING[opening]):
+            self.at = start
+            return None
+        fence = f"<mo>{opening}</mo>{listed}<mo>{CLOSING[opening]}</mo>"
+        inside = listed if opening != "|" else ""
+        alone = opening == "(" and _is_fraction(listed)
+        return _Factor(f"<mrow>{fence}</mrow>", "", "group", inside, alone)
+
+
+def _operator(sign: str) -> str:
+    return f'<mo form="infix">{sign}</mo>'
+
+
+def _joined(parts: list[_Part]) -> str:
+    return "".join(part.operator + part.html for part in parts)
+
+
+def _row(html: str) -> str:
+    return f"<mrow>{html}</mrow>"
+
+
+def _is_fraction(html: str) -> bool:
+    """Whether a formula is one fraction and nothing else."""
+    return html.startswith("<mfrac>") and html.find("</mfrac>") == len(html) - len("</mfrac>")
+
+
+def _open(factor: _Factor) -> _Factor:
+    """A factor without its brackets, where they hold a fraction alone."""
+    return _Factor(factor.inside, kind="fraction") if factor.lone_fraction else factor
+
+
+def _divide(factors: list[_Factor], below: _Factor) -> None:
+    """Put what `factors` have since the last fraction, or a ratio of one letter, over `below`."""
+    first = len(factors) - 1
+    if not (below.letter and factors[-1].letter == below.letter):
+        while first > 0 and factors[first - 1].kind != "fraction":
+            first -= 1
+    above = factors[first:]
+    del factors[first:]
+    top = above[0].inside if len(above) == 1 and above[0].inside else _product(above)
+    bottom = below.inside or below.html
+    factors.append(_Factor(f"<mfrac>{_row(top)}{_row(bottom)}</mfrac>", kind="fraction"))
+
+
+def _product(factors: list[_Factor]) -> str:
+    html = factors[0].html
+    for factor in factors[1:]:
+        space = ' lspace=".17em"' if factor.kind == "function" else ""
+        html += f"<mo{space}>&#8290;</mo>{factor.html}"
+    return html
+
+
+def _pieces(text: str, parts: list[_Part], end: int) -> str:
+    """One formula, or its parts one by one, between which a line may be broken."""
+    start = parts[0].start
+    if end - start <= LONGEST_IN_ONE_PIECE:
+        return _math(text[start:end], _joined(parts))
+    ends = [part.start for part in parts[1:]] + [end]
+    return " ".join(
+        _math(text[part.start : stop], part.operator + part.html)
+        for part, stop in zip(parts, ends, strict=True)
+    )
+
+
+def _math(plain: str, html: str) -> str:
+    return f'<math alttext="{escape(plain.strip())}">{html}</math>'
+
+
+def _words(text: str) -> str:
+    """Text without formulas: degrees, powers of units, and code."""
+    html = re.sub(r"(\d) deg\b", r"\1°", str(escape(text)))
+    return re.sub(r"\^(\d)", r"<sup>\1</sup>", html)
+
+
+def _mathematical(text: str) -> str:
+    html, done, at = [], 0, 0
+    while at < len(text):
+        reader = _Reader(text, at)
+        parts = None
+        if MAY_BEGIN.match(text, at) and BEFORE.match(text, at):
+            parts = reader.formula()
+        if not parts or not reader.has_symbol or not AFTER.match(text, reader.at):
+            at += 1
+            continue
+        html += [_words(text[done:at]), _pieces(text, parts, reader.at)]
+        done = at = reader.at
+    return "".join([*html, _words(text[done:])])
+
+
+def mathematical(text: str) -> Markup:
+    """A text whose plain formulas are MathML, and whose `code` is HTML.
+
+    Parameters
+    ----------
+    text : str
+        Plain text, with formulas as the head of this module has them.
+
+    Returns
+    -------
+    Markup
+        Safe HTML. Each formula keeps its plain form as `alttext`.
+
+    Examples
+    --------
+    >>> print(mathematical("mu < 1, see Eq. 7c"))
+    <math alttext="mu &lt; 1"><mi>µ</mi><mo form="infix">&lt;</mo><mn>1</mn></math>, see Eq. 7c
+    >>> print(mathematical("e zeta^2"))  # doctest: +NORMALIZE_WHITESPACE
+    <math
+     alttext="e zeta^2"><mi>e</mi><mo>&#8290;</mo><msup><mrow><mi>ζ</mi></mrow><mrow><mn>2</mn></mrow></msup></math>
+    """
+    parts = re.split(r"`([^`]+)`", text)
+    html = [
+        f"<code>{escape(part)}</code>" if place % 2 else _mathematical(part)
+        for place, part in enumerate(parts)
+    ]
+    return Markup("".join(html))
