@@ -33,7 +33,12 @@ INDEXED = re.compile(
     r"(?P<change>d?)(?P<letter>[vuFDKWmxtgp]|psi)"
     r"(?:(?P<index>\d|_c|(?<=t)[fbas])(?P<largest>max)?)?(?![A-Za-z0-9])"
 )
-LETTER = re.compile(rf"(?P<name>{'|'.join(GREEK)}|[eskxMS])(?P<prime>'?)(?![\w]|-\w)")
+# Not a letter: the initials in "M. S. Smith".
+LETTER = re.compile(
+    rf"(?P<name>{'|'.join(GREEK)}|[eskx]|[MS](?!\. [A-Z]))(?P<prime>'?)(?!\w|-\w)"
+)
+# A letter that names a part of a picture.
+PANEL = re.compile(r"\([a-z]\)")
 # p, t and v have no index, and are words elsewhere, unless this follows or a d stands before.
 BARE = re.compile(r"[ptv](?=\(| [=+-] |/)|d[ptv]\b|t\b(?!\.)")
 # A formula begins behind one of these, not inside a word or behind the stroke of a unit.
@@ -47,7 +52,7 @@ LONGEST_IN_ONE_PIECE = 24
 class _Factor(NamedTuple):
     html: str
     letter: str = ""  # of a symbol
-    kind: str = ""  # "group", "fraction", "function"
+    kind: str = ""  # "group", "fraction", "function", "indexed", "differential"
     inside: str = ""  # what a group holds
     lone_fraction: bool = False
 
@@ -65,7 +70,6 @@ class _Reader:
 
     def __init__(self, text: str, at: int) -> None:
         self.text, self.at = text, at
-        self.has_symbol = False
         self.in_bars = False
 
     def _take(self, *words: str) -> str | None:
@@ -149,7 +153,6 @@ class _Reader:
         digits = match[0].removesuffix(match["degrees"] or "")
         if match["power"]:
             digits, _, power = digits.partition("e")
-            self.has_symbol = True
             times = "" if digits == "1" else f"<mn>{digits}</mn><mo>×</mo>"
             return _Factor(f"{times}<msup><mn>10</mn><mn>{power.replace('-', '−')}</mn></msup>")
         return _Factor(f"<mn>{digits}{'°' if match['degrees'] else ''}</mn>")
@@ -176,7 +179,6 @@ class _Reader:
         found = self._indexed() or self._letter()
         if found is None:
             return None
-        self.has_symbol = True
         # v1(0) is a value of v1; mu (1 + e), with a space, is a product.
         start = self.at
         if found.kind == "indexed" and self.text[start : start + 1] == "(":
@@ -185,7 +187,7 @@ class _Reader:
                 self.at = start
                 return None
             return _Factor(f"{found.html}<mo>&#8289;</mo>{value.html}", found.letter)
-        return found._replace(kind="")
+        return found
 
     def _indexed(self) -> _Factor | None:
         match = INDEXED.match(self.text, self.at)
@@ -204,6 +206,7 @@ class _Reader:
             )
         if match["change"]:
             letter = f'<mi mathvariant="normal">d</mi>{letter}'
+            return _Factor(letter, match["letter"], "differential")
         return _Factor(letter, match["letter"], "indexed")
 
     def _letter(self) -> _Factor | None:
@@ -262,7 +265,8 @@ def _open(factor: _Factor) -> _Factor:
 def _divide(factors: list[_Factor], below: _Factor) -> None:
     """Put what `factors` have since the last fraction, or a ratio of one letter, over `below`."""
     first = len(factors) - 1
-    if not (below.letter and factors[-1].letter == below.letter):
+    ratio = below.letter and factors[-1].letter == below.letter
+    if not (ratio or below.kind == "differential"):
         while first > 0 and factors[first - 1].kind != "fraction":
             first -= 1
     above = factors[first:]
@@ -309,7 +313,10 @@ def _mathematical(text: str) -> str:
         parts = None
         if MAY_BEGIN.match(text, at) and BEFORE.match(text, at):
             parts = reader.formula()
-        if not parts or not reader.has_symbol or not AFTER.match(text, reader.at):
+        # A number alone stays text, unless it has a power of ten.
+        is_formula = parts and re.search("<mi|<msup", _joined(parts))
+        is_formula = is_formula and not PANEL.fullmatch(text, at, reader.at)
+        if not parts or not is_formula or not AFTER.match(text, reader.at):
             at += 1
             continue
         html += [_words(text[done:at]), _pieces(text, parts, reader.at)]
