@@ -331,7 +331,7 @@ def compression_unaffected() -> Finding:
 
 
 def restitution_change_falls() -> Finding:
-    """Largest gain of |v1(tf) - v1(tc)|/(mu v2(0)) as e falls, sphere of the paper."""
+    """Largest gain of |v1(tf) - v1(t_c)|/(mu v2(0)) as e falls, sphere of the paper."""
     e = np.linspace(0, 1, 101)[:, None]
     velocity = lumped.rebound(INCIDENCE, *contact.SPHERE, e).velocity
     change = np.abs(velocity - velocity[0])

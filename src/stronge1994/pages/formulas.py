@@ -18,7 +18,7 @@ from typing import NamedTuple
 from markupsafe import Markup, escape
 
 GREEK = {
-    "alpha": "α", "mu": "µ", "zeta": "ζ", "beta": "β", "Omega": "Ω", "omega": "ω", "kappa": "κ",
+    "alpha": "α", "mu": "μ", "zeta": "ζ", "beta": "β", "Omega": "Ω", "omega": "ω", "kappa": "κ",
     "pi": "π", "phi": "φ", "psi": "ψ", "chi": "χ", "theta": "θ", "tau": "τ", "nu": "ν",
 }  # fmt: skip
 FUNCTIONS = ("sin", "cos", "tan", "acos", "max", "sqrt")
@@ -39,8 +39,9 @@ LETTER = re.compile(rf"(?P<name>{'|'.join(GREEK)}|[eskx]|[MS](?!\. [A-Z]))(?P<pr
 PANEL = re.compile(r"\([a-z]\)")
 # p, t and v have no index, and are words elsewhere, unless this follows or a d stands before.
 BARE = re.compile(r"[ptv](?=\(| [=+-] |/)|d[ptv]\b|t\b(?!\.)")
-# A formula begins behind one of these, not inside a word or behind the stroke of a unit.
-BEFORE = re.compile(r"(?:^|(?<=[\s(\[;:]))")
+# A formula begins behind one of these, not inside a word or behind the stroke of a unit. The 38 of
+# "In Eq. 38 s has" is no factor.
+BEFORE = re.compile(r"(?:^|(?<=[\s(\[;:]))(?<!Eq\. )(?<!Eqs )(?<!Figs )(?<!Fig\. )(?<!\bp\. )")
 MAY_BEGIN = re.compile(r"[A-Za-z0-9(\[|+-]")
 AFTER = re.compile(r"(?!\w|-\w)")
 # A formula with more characters may be broken before a sum or a relation.
@@ -152,7 +153,7 @@ class _Reader:
         if match["power"]:
             digits, _, power = digits.partition("e")
             times = "" if digits == "1" else f"<mn>{digits}</mn><mo>×</mo>"
-            return _Factor(f"{times}<msup><mn>10</mn><mn>{power.replace('-', '−')}</mn></msup>")
+            return _Factor(f"{times}<msup><mn>10</mn><mn>{str(int(power)).replace('-', '−')}</mn></msup>")
         return _Factor(f"<mn>{digits}{'°' if match['degrees'] else ''}</mn>")
 
     def _function(self) -> _Factor | None:
@@ -338,7 +339,7 @@ def mathematical(text: str) -> Markup:
     Examples
     --------
     >>> print(mathematical("mu < 1, see Eq. 7c"))
-    <math alttext="mu &lt; 1"><mi>µ</mi><mo form="infix">&lt;</mo><mn>1</mn></math>, see Eq. 7c
+    <math alttext="mu &lt; 1"><mi>μ</mi><mo form="infix">&lt;</mo><mn>1</mn></math>, see Eq. 7c
     >>> print(mathematical("e t_c"))
     <math alttext="e t_c"><mi>e</mi><mo>&#8290;</mo><msub><mi>t</mi><mi>c</mi></msub></math>
     """
