@@ -88,7 +88,7 @@ def friction_after_stick_in_groups() -> Finding:
     """Distance of Eq. 39 from the exact energy lost, over m1 v1(0)^2/2, after initial stick.
 
     With the leading sign that comes nearer. In the corrected formula the sign is minus, s g1 takes
-    the place of g1, and mu^2 zeta^2 sin^2 of the angle of restitution at t1 is added.
+    the place of g1, and mu^2 zeta^2 sin^2(alpha) at t1 is added.
     """
     printed: dict[int, list[Numbers]] = {-1: [], 1: []}
     corrected = []
@@ -110,8 +110,8 @@ def friction_after_stick_in_groups() -> Finding:
 def friction_of_two_slips() -> Finding:
     """Distance of Eq. 40 from the exact energy lost, over m1 v1(0)^2/2, slip, stick, slip.
 
-    With the signs before v1(t2)^2, v1(t3)^2 and v1(tf)^2 that come nearest. Corrected: -, +, -, and
-    strain energy at t3 comes in, that at t2 goes out.
+    With the signs before v1(t2)^2, v1(t3)^2 and v1(tf)^2 that come nearest. Corrected: the signs
+    are minus, plus and minus, strain energy at t3 comes in, and strain energy at t2 goes out.
     """
     printed: dict[tuple[int, ...], list[Numbers]] = {
         signs: [] for signs in product((-1, 1), repeat=3)

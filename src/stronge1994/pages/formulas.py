@@ -45,7 +45,7 @@ BEFORE = re.compile(r"(?:^|(?<=[\s(\[;:]))(?<!Eq\. )(?<!Eqs )(?<!Figs )(?<!Fig\.
 MAY_BEGIN = re.compile(r"[A-Za-z0-9(\[|+-]")
 AFTER = re.compile(r"(?!\w|-\w)")
 # A formula with more characters may be broken before a sum or a relation.
-LONGEST_IN_ONE_PIECE = 24
+LONGEST_IN_ONE_PIECE = 36
 
 
 class _Factor(NamedTuple):
@@ -153,7 +153,9 @@ class _Reader:
         if match["power"]:
             digits, _, power = digits.partition("e")
             times = "" if digits == "1" else f"<mn>{digits}</mn><mo>×</mo>"
-            return _Factor(f"{times}<msup><mn>10</mn><mn>{str(int(power)).replace('-', '−')}</mn></msup>")
+            return _Factor(
+                f"{times}<msup><mn>10</mn><mn>{str(int(power)).replace('-', '−')}</mn></msup>"
+            )
         return _Factor(f"<mn>{digits}{'°' if match['degrees'] else ''}</mn>")
 
     def _function(self) -> _Factor | None:
@@ -284,15 +286,21 @@ def _product(factors: list[_Factor]) -> str:
 
 
 def _pieces(text: str, parts: list[_Part], end: int) -> str:
-    """One formula, or its parts one by one, between which a line may be broken."""
-    start = parts[0].start
-    if end - start <= LONGEST_IN_ONE_PIECE:
-        return _math(text[start:end], _joined(parts))
-    ends = [part.start for part in parts[1:]] + [end]
-    return " ".join(
-        _math(text[part.start : stop], part.operator + part.html)
-        for part, stop in zip(parts, ends, strict=True)
-    )
+    """A formula, or as few pieces of it as are short, between which a line may be broken."""
+    stops = [part.start for part in parts[1:]] + [end]
+    pieces: list[list[_Part]] = []
+    for part, stop in zip(parts, stops, strict=True):
+        if pieces and stop - pieces[-1][0].start <= LONGEST_IN_ONE_PIECE:
+            pieces[-1].append(part)
+        else:
+            pieces.append([part])
+    ends = [piece[0].start for piece in pieces[1:]] + [end]
+    html = [
+        _math(text[piece[0].start : stop], _joined(piece))
+        for piece, stop in zip(pieces, ends, strict=True)
+    ]
+    # The space between two pieces is enough before an operator.
+    return " ".join([html[0], *(piece.replace("<mo", '<mo lspace="0"', 1) for piece in html[1:])])
 
 
 def _math(plain: str, html: str) -> str:
@@ -300,8 +308,9 @@ def _math(plain: str, html: str) -> str:
 
 
 def _words(text: str) -> str:
-    """Text without formulas: degrees, powers of units, and code."""
+    """Text without formulas: degrees, negative numbers, powers of units."""
     html = re.sub(r"(\d) deg\b", r"\1°", str(escape(text)))
+    html = re.sub(r"(?<![\w.-])-(?=\d)", "−", html)
     return re.sub(r"\^(\d)", r"<sup>\1</sup>", html)
 
 
@@ -318,7 +327,9 @@ def _mathematical(text: str) -> str:
         if not parts or not is_formula or not AFTER.match(text, reader.at):
             at += 1
             continue
-        html += [_words(text[done:at]), _pieces(text, parts, reader.at)]
+        # A line is not broken between a formula and the mark after it.
+        joint = "&#8288;" if text[reader.at : reader.at + 1] in tuple(".,;:)") else ""
+        html += [_words(text[done:at]), _pieces(text, parts, reader.at), joint]
         done = at = reader.at
     return "".join([*html, _words(text[done:])])
 
@@ -339,7 +350,7 @@ def mathematical(text: str) -> Markup:
     Examples
     --------
     >>> print(mathematical("mu < 1, see Eq. 7c"))
-    <math alttext="mu &lt; 1"><mi>μ</mi><mo form="infix">&lt;</mo><mn>1</mn></math>, see Eq. 7c
+    <math alttext="mu &lt; 1"><mi>μ</mi><mo form="infix">&lt;</mo><mn>1</mn></math>&#8288;, see Eq. 7c
     >>> print(mathematical("e t_c"))
     <math alttext="e t_c"><mi>e</mi><mo>&#8290;</mo><msub><mi>t</mi><mi>c</mi></msub></math>
     """
