@@ -1,15 +1,15 @@
 """Plain formulas in a text, such as `zeta^2 F1(t2) < mu`, as MathML.
 
-A formula is found where it begins, and read as far as its grammar goes. What is left is text:
+A formula is found where it begins, and read as far as this grammar goes. All else is text.
 
-    formula   side, relation, side, ...                   zeta^2 < mu x
-    side      term + term - term                          1 + e
-    term      factors, apart by a space or a bracket, and fractions     2 mu F1/(m1 m2)
-    factor    number, symbol, function(side, ...), (side), [side] or |side|, to a power
+- A formula is sides with relations between them: `zeta^2 < mu x`.
+- A side is terms with signs between them: `1 + e - e^2`.
+- A term is factors, with spaces or brackets between them, and fractions: `2 mu F1/(m1 m2)`.
+- A factor is a number, a symbol, a function of sides, or a side in brackets or bars, to a power.
 
-So `(1 + e) m2/m1` is a formula, and "(see Eq. 7)" is none: no bracket holds a word, and a number
-without a symbol stays text. A fraction takes all factors before it as its numerator. Only a ratio
-of one letter, as m2/m1, stands by itself: e m2/m1 is e times that ratio.
+No bracket of a formula holds a word, and a number alone is no formula. So `(1 + e) m2/m1` is one,
+and "(see Eq. 7)" is none. The numerator of a fraction is all factors since the last fraction. The
+exception is a ratio of one letter, as m2/m1: `e m2/m1` is e times that ratio.
 """
 
 import re
@@ -28,6 +28,7 @@ CLOSING = {"(": ")", "[": "]", "|": "|"}
 
 # Not a number: the 7 of Eq. 7c, or of 7.5.1.
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e(?P<power>-?\d+))?(?![\w]|\.\d)(?P<degrees> deg\b)?")
+NUMBER_NEXT = re.compile(r" \d")
 # v1, F2, t_c, tf, ts, F2max, psi1; with d a differential, as du1 or dt.
 INDEXED = re.compile(
     r"(?P<change>d?)(?P<letter>[vuFDKWmxtgp]|psi)"
@@ -35,15 +36,14 @@ INDEXED = re.compile(
 )
 # Not a letter: the initials in "M. S. Smith".
 LETTER = re.compile(rf"(?P<name>{'|'.join(GREEK)}|[eskx]|[MS](?!\. [A-Z]))(?P<prime>'?)(?!\w|-\w)")
-# A letter that names a part of a picture.
-PANEL = re.compile(r"\([a-z]\)")
 # p, t and v have no index, and are words elsewhere, unless this follows or a d stands before.
 BARE = re.compile(r"[ptv](?=\(| [=+-] |/)|d[ptv]\b|t\b(?!\.)")
 # A formula begins behind one of these, not inside a word or behind the stroke of a unit. The 38 of
-# "In Eq. 38 s has" is no factor.
+# "In Eq. 38 s has" is no factor, and the letter of "part (e)" no symbol.
 BEFORE = re.compile(r"(?:^|(?<=[\s(\[;:]))(?<!Eq\. )(?<!Eqs )(?<!Figs )(?<!Fig\. )(?<!\bp\. )")
-MAY_BEGIN = re.compile(r"[A-Za-z0-9(\[|+-]")
+MAY_BEGIN = re.compile(r"(?!\(?[a-z]\))[A-Za-z0-9(\[|+-]")
 AFTER = re.compile(r"(?!\w|-\w)")
+MARK = re.compile(r"[.,;:)]+")
 # A formula with more characters may be broken before a sum or a relation.
 LONGEST_IN_ONE_PIECE = 36
 
@@ -121,9 +121,9 @@ class _Reader:
                     break
                 _divide(factors, below)
                 continue
+            # "(m2/m1)(1 + e)" is a product too, but "zeta^2 0.5" is none.
             close = self.text[start - 1] in ")]" and self.text[start : start + 1] in ("(", "[")
-            number = re.compile(r" \d").match(self.text, start)
-            if not close and (number or not self._take(" ")):
+            if not close and (NUMBER_NEXT.match(self.text, start) or not self._take(" ")):
                 break
             factor = self.factor()
             if factor is None:
@@ -285,8 +285,11 @@ def _product(factors: list[_Factor]) -> str:
     return html
 
 
-def _pieces(text: str, parts: list[_Part], end: int) -> str:
-    """A formula, or as few pieces of it as are short, between which a line may be broken."""
+def _pieces(text: str, parts: list[_Part], end: int, mark: str) -> str:
+    """A formula, or as few pieces of it as are short, between which a line may be broken.
+
+    The mark behind it stays on the line of the last piece.
+    """
     stops = [part.start for part in parts[1:]] + [end]
     pieces: list[list[_Part]] = []
     for part, stop in zip(parts, stops, strict=True):
@@ -299,6 +302,8 @@ def _pieces(text: str, parts: list[_Part], end: int) -> str:
         _math(text[piece[0].start : stop], _joined(piece))
         for piece, stop in zip(pieces, ends, strict=True)
     ]
+    if mark:
+        html[-1] = f'<span class="joined">{html[-1]}{mark}</span>'
     # The space between two pieces is enough before an operator.
     return " ".join([html[0], *(piece.replace("<mo", '<mo lspace="0"', 1) for piece in html[1:])])
 
@@ -314,23 +319,31 @@ def _words(text: str) -> str:
     return re.sub(r"\^(\d)", r"<sup>\1</sup>", html)
 
 
+def _formula(text: str, at: int) -> tuple[list[_Part], int] | None:
+    """The formula that begins at a place of a text, and where it ends."""
+    if not (MAY_BEGIN.match(text, at) and BEFORE.match(text, at)):
+        return None
+    reader = _Reader(text, at)
+    parts = reader.formula()
+    # A number alone stays text, unless it has a power of ten.
+    if not parts or not re.search("<mi|<msup", _joined(parts)):
+        return None
+    if not AFTER.match(text, reader.at):
+        return None
+    return parts, reader.at
+
+
 def _mathematical(text: str) -> str:
     html, done, at = [], 0, 0
     while at < len(text):
-        reader = _Reader(text, at)
-        parts = None
-        if MAY_BEGIN.match(text, at) and BEFORE.match(text, at):
-            parts = reader.formula()
-        # A number alone stays text, unless it has a power of ten.
-        is_formula = parts and re.search("<mi|<msup", _joined(parts))
-        is_formula = is_formula and not PANEL.fullmatch(text, at, reader.at)
-        if not parts or not is_formula or not AFTER.match(text, reader.at):
+        found = _formula(text, at)
+        if found is None:
             at += 1
             continue
-        # A line is not broken between a formula and the mark after it.
-        joint = "&#8288;" if text[reader.at : reader.at + 1] in tuple(".,;:)") else ""
-        html += [_words(text[done:at]), _pieces(text, parts, reader.at), joint]
-        done = at = reader.at
+        parts, end = found
+        mark = MARK.match(text, end)
+        html += [_words(text[done:at]), _pieces(text, parts, end, mark[0] if mark else "")]
+        done = at = mark.end() if mark else end
     return "".join([*html, _words(text[done:])])
 
 
@@ -345,12 +358,13 @@ def mathematical(text: str) -> Markup:
     Returns
     -------
     Markup
-        Safe HTML. Each formula keeps its plain form as `alttext`.
+        Safe HTML. Each formula keeps its plain form as `alttext`. The class `joined` is for what
+        must not be broken: a formula and the mark behind it.
 
     Examples
     --------
-    >>> print(mathematical("mu < 1, Eq. 7c"))
-    <math alttext="mu &lt; 1"><mi>μ</mi><mo form="infix">&lt;</mo><mn>1</mn></math>&#8288;, Eq. 7c
+    >>> print(mathematical("mu < 1 of Eq. 7c"))
+    <math alttext="mu &lt; 1"><mi>μ</mi><mo form="infix">&lt;</mo><mn>1</mn></math> of Eq. 7c
     >>> print(mathematical("e t_c"))
     <math alttext="e t_c"><mi>e</mi><mo>&#8290;</mo><msub><mi>t</mi><mi>c</mi></msub></math>
     """
