@@ -51,7 +51,8 @@ NATURE_MEANING = {
     in_nature.DEPENDS: "true with one loss, false with the other",
     in_nature.OPEN: "neither contact can tell",
 }
-# Impacts that an entry speaks of, for the explorer: incidence, friction, restitution, and the view.
+# Impacts of the paper's sphere that an entry speaks of: incidence, friction, restitution, and the
+# view of the explorer.
 IN_EXPLORER = {
     "slip-throughout-limit": (6.4, 0.5, 1, "velocity"),
     "limit-falls-with-losses": (4.5, 0.5, 0.5, "velocity"),
@@ -70,7 +71,7 @@ IN_EXPLORER = {
 
 
 def explorer_state(incidence: float, friction: float, restitution: float, view: str) -> str:
-    """Address within the explorer of an impact of the paper's sphere.
+    """Address, within the explorer's page, of an impact of the paper's sphere.
 
     >>> explorer_state(2, 0.5, 1, "energy")
     'angle=45&friction=0.5&restitution=1&poisson_ratio=0.3&mass_ratio=3.5&view=energy'
@@ -117,10 +118,7 @@ def words(rows: Sequence[Row], symbols: Mapping[str, str]) -> dict[str, Any]:
         "symbols": symbols,
         "lapsed": outcome.failing(rows),
         "counts": {verdict: counts[verdict] for verdict in STYLE if counts[verdict]},
-        "kinds": Counter(row["kind"] for row in rows),
-        "explorer": {entry: explorer_state(*impact) for entry, impact in IN_EXPLORER.items()},
         "grades": outcome.grades(rows),
-        "gravest": next(iter(outcome.GRADES)),
         "graded": outcome.grades_in_words(rows),
         "causes": by_cause(rows),
         "style": STYLE | GRADE_STYLE,
@@ -142,4 +140,10 @@ def page(rows: Sequence[Row], symbols: Mapping[str, str], template: str) -> str:
     """The page of the ledger's rows, by a template beside the style that it includes."""
     environment = templates.environment(Path(template).parent)
     environment.filters["maths"] = linked_maths({row["entry"] for row in rows})
-    return environment.get_template(Path(template).name).render(words(rows, symbols))
+    return environment.get_template(Path(template).name).render(
+        words(rows, symbols),
+        kinds=Counter(row["kind"] for row in rows),
+        gravest=next(iter(outcome.GRADES)),
+        explorer=IN_EXPLORER,
+        explorer_state=explorer_state,
+    )
