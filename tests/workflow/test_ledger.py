@@ -6,12 +6,14 @@ import re
 import shutil
 from collections import Counter
 from pathlib import Path
+from xml.etree import ElementTree
 
 import browser
 import numpy as np
 import pytest
+from markupsafe import escape
 
-from planarimpact import bodies, continuum, lumped, noncollinear, rigid
+from planarimpact import Regime, bodies, continuum, lumped, noncollinear, rigid
 from planarimpact.models import laws
 from stronge1994 import ledger, reference_data
 from stronge1994.ledger import checking, entries, in_nature, outcome
@@ -112,25 +114,22 @@ def test_a_stated_angle_has_the_tolerance_of_its_source(name):
     assert ENTRIES[entry]["confirms"] == {"value": fact["value"], "rounding": fact["tolerance"]}
 
 
-def shown_grades(html):
-    """Numbers in the rows of the page's summary, by grade."""
-    row = r'<span class="mark \w+">({})</span></td>\s*<td>(\d+)</td>'.format(
-        "|".join(outcome.GRADES)
-    )
-    return {grade: int(count) for grade, count in re.findall(row, html)}
+def page_of(rows, folder):
+    """The ledger's page of some rows, as a file."""
+    page = folder / "ledger.html"
+    template = ROOT / "workflow/report/ledger.html"
+    page.write_text(ledger_page.page(rows, "mu: friction", template), encoding="utf-8")
+    return page
 
 
-def test_the_page_counts_grades_and_groups_by_cause(rows):
-    symbols = reference_data.load_yaml(ROOT / FILE)["symbols"]
-    html = ledger_page.page(list(rows.values()), symbols, ROOT / "workflow/report/ledger.html")
+def test_the_head_of_the_page_names_all_that_is_wrong_by_cause(rows, tmp_path):
+    html = page_of(list(rows.values()), tmp_path).read_text(encoding="utf-8")
     grades = Counter(entry["grade"] for entry in ENTRIES.values() if "grade" in entry)
-    assert shown_grades(html) == grades
-    assert f"{grades.total()} entries are wrong: " in html
-    table = html[html.index("What is wrong, by cause") : html.index('<h2 id="in-nature">')]
-    groups = re.findall(r"<tbody>(.*?)</tbody>", table, flags=re.S)
-    by_cause = {
-        frozenset(re.findall(r'href="#([^"]+)"', group.partition("</tr>")[2])) for group in groups
-    }
+    assert f"Of the wrong ones {escape(outcome.grades_in_words(list(rows.values())))}." in html
+    head = html[html.index('<h2 id="wrong">') : html.index('<h2 id="in-nature">')]
+    assert f"The {grades.total()} wrong entries" in head
+    groups = head[: head.index("</ol>")].split("<li><p>")[1:]
+    by_cause = {frozenset(re.findall(r'href="#([^"]+)"', group)) for group in groups}
     causes = {entry["cause"] for entry in ENTRIES.values() if "cause" in entry}
     assert by_cause == {
         frozenset(name for name, entry in ENTRIES.items() if entry.get("cause") == cause)
@@ -141,14 +140,49 @@ def test_the_page_counts_grades_and_groups_by_cause(rows):
     assert 'href="#slip-throughout-limit"' in groups[0]
 
 
-def test_the_page_fits_a_phone(rows, tmp_path):
-    page = tmp_path / "ledger.html"
-    template = ROOT / "workflow/report/ledger.html"
-    page.write_text(ledger_page.page(list(rows.values()), "mu", template), encoding="utf-8")
+def test_the_filter_of_the_page(rows, tmp_path):
+    """One click on a grade, the address, no result, a link to what is hidden; on a phone."""
+    page = page_of(list(rows.values()), tmp_path)
+    shown = "document.querySelectorAll('article:not([hidden])').length"
     with browser.page() as tab:
         tab.resize(390, 800, mobile=True)
         tab.open(page.as_uri())
         assert tab.evaluate("document.documentElement.scrollWidth") <= 390
+        assert tab.evaluate(shown) == len(ENTRIES)
+        for group in ("verdict", "grade", "nature", "kind"):
+            key = {"nature": "in_nature"}.get(group, group)
+            found = tab.evaluate(
+                f"Object.fromEntries([...document.querySelectorAll('input[name={group}]')].map("
+                "(box) => [box.value, Number(box.parentElement.lastElementChild.textContent)]))"
+            )
+            assert found == Counter(row[key] for row in rows.values() if row[key])
+        tab.evaluate("document.querySelector('[value=\"changes a result\"]').click()")
+        assert tab.evaluate(shown) == 7
+        assert tab.evaluate("location.hash") == "#grade=changes+a+result"
+        tab.evaluate("location.hash = 'words=zeta^2+nonsense'; new Promise(setTimeout)")
+        assert tab.evaluate(shown) == 0
+        assert not tab.evaluate("document.getElementById('none').hidden")
+        tab.evaluate("location.hash = 'eq-12'; new Promise(setTimeout)")
+        assert tab.evaluate(shown) == len(ENTRIES)
+        assert tab.problems == []
+
+
+def test_the_explorer_shows_the_impacts_that_the_entries_speak_of():
+    assert set(ledger_page.IN_EXPLORER) <= set(ENTRIES)
+    regimes = {
+        "slip-throughout-limit": Regime.SLIP_THROUGHOUT,
+        "limit-falls-with-losses": Regime.SLIP_THROUGHOUT,
+        "stick-in-compression": Regime.SLIP_STICK_SLIP,
+        "eq-39": Regime.STICK_SLIP,
+        "eq-40": Regime.SLIP_STICK_SLIP,
+    }
+    for name, regime in regimes.items():
+        incidence, _, restitution, _ = ledger_page.IN_EXPLORER[name]
+        assert lumped.rebound(incidence, 3.5, 1.21, restitution).regime == regime, name
+    angle = float(
+        re.search(r"angle=([\d.]+)", ledger_page.explorer_state(2.93, 0.18, 1, "forces"))[1]
+    )
+    assert angle == pytest.approx(27.8, abs=0.05)
 
 
 def test_the_readme_counts_grades_and_causes():
@@ -409,13 +443,12 @@ def test_a_check_that_crashes_no_longer_holds(monkeypatch):
     assert row["holds"] == "no" and row["problem"] == "ArithmeticError: oh"
 
 
-def test_an_entry_that_no_longer_holds_is_named_on_the_page(rows, monkeypatch):
+def test_an_entry_that_no_longer_holds_is_named_on_the_page(rows, monkeypatch, tmp_path):
     for (module, name), wrong in groups(restitution=lambda e: 0.9 * e).items():
         monkeypatch.setattr(module, name, wrong)
     found = checking.check({"eq-25": ENTRIES["eq-25"]})
     assert found[0]["holds"] == "no"
-    template = ROOT / "workflow/report/ledger.html"
-    pages = [ledger_page.page(shown, "mu", template) for shown in ([rows["eq-25"]], found)]
+    pages = [page_of(shown, tmp_path).read_text() for shown in ([rows["eq-25"]], found)]
     assert pages[1].count("no longer holds") > pages[0].count("no longer holds")
 
 
@@ -579,7 +612,7 @@ BAD_LEDGER = [
     ("  duration:\n", "  eq-12:\n", "sentences.eq-12: the name is taken"),
     ("  eq-13:\n", "  eq-12:\n", "the key 'eq-12' stands twice"),
     ("  eq-13:\n", "  13:\n", "the key '13' is no text"),
-    ("derivation: see eq-38.", "derivation: see eq-83.", "'see eq-83': there is no such entry"),
+    ("derivation see eq-38.", "derivation see eq-83.", "'see eq-83': there is no such entry"),
     (
         "    grade: sign or misprint\n",
         "    grade: sloppy\n",
@@ -601,7 +634,7 @@ BAD_LEDGER = [
         "{fact: peak_angle}",
         "confirms.fact = 'peak_angle': allowed are the facts",
     ),
-    ("    why: wear is", "    check: slip.transition\n    why: wear is", "goes with a `why` alone"),
+    ("    why: Wear is", "    check: slip.transition\n    why: Wear is", "goes with a `why` alone"),
 ]
 
 
@@ -630,23 +663,54 @@ def test_a_ledger_that_is_no_text_is_refused(ledger_file):
 
 def test_the_page_has_every_entry_and_needs_nothing_else(first_run):
     page = (first_run[0] / "figures/ledger.html").read_text()
-    assert all(f'<article id="{name}">' in page for name in ENTRIES)
-    assert not re.search(r"(src|href)=\"(?!#)", page)
+    assert all(f'<article id="{name}"' in page for name in ENTRIES)
+    assert not re.search(r"src=|href=\"(?!#|[a-z_0-9/]+\.html)", page)
+    assert len(page) < 600_000
     for name in re.findall(r'href="#([^"]+)"', page):
         assert f'id="{name}"' in page
+    # A formula that is not recognised would show its plain names.
+    text = re.sub(r"<(script|style|math).*?</\1>|<[^>]*>", "", page, flags=re.S)
+    assert not re.search(r"\b(zeta|mu|kappa|[Oo]mega|sqrt|sin|cos|[vuFm][12]|t_c)\b|\^", text)
     for name, entry in ENTRIES.items():
         if "derivation" in entry:
-            article = page[page.index(f'<article id="{name}">') :].split("</article>")[0]
+            article = page[page.index(f'<article id="{name}"') :].split("</article>")[0]
             assert "Instead:" in article
 
 
-def test_formulas_become_readable():
-    html = ledger_page.mathematical
-    assert str(html("-zeta^2 < s, m/s")) == "−ζ<sup>2</sup> &lt; <i>s</i>, m/s"
-    assert str(html("Omega ts")) == "Ω <i>t</i><sub>s</sub>"
-    assert str(html("F2max of psi1 -> 0")) == (
-        "<i>F</i><sub>2</sub><sup>max</sup> of ψ<sub>1</sub> → 0"
-    )
+def shape(node):
+    """A text and its formulas, with {formula}, (fraction over fraction), ^power and _index."""
+    parts = [shape(child) + (child.tail or "") for child in node]
+    inside = (node.text or "") + "".join(parts).replace("\u2062", "").replace("\u2061", "")
+    if node.tag in ("mfrac", "msup", "msub"):
+        joint = {"mfrac": " over ", "msup": "^", "msub": "_"}[node.tag]
+        return f"({joint.join(parts)})" if node.tag == "mfrac" else joint.join(parts)
+    return f"{{{inside}}}" if node.tag == "math" else inside
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("-zeta^2 < s, m/s", "{−ζ^2<s}, m/s"),
+        ("Omega ts", "{Ωt_s}"),
+        ("(1 + e) m2/m1", "{(1+e)(m_2 over m_1)}"),
+        ("2 zeta^2 F1(t2)/(m1 m2)", "{(2ζ^2F_1(t_2) over m_1m_2)}"),
+        ("(mu/m1)(1 + e)", "{(μ over m_1)(1+e)}"),
+        ("dF1/dt = mu dF2/dt", "{(dF_1 over dt)=μ(dF_2 over dt)}"),
+        # Words, numbers and initials stay.
+        ("In Eq. 38 s g1, p. 441 (see Eq. 7c)", "In Eq. 38 {sg_1}, p. 441 (see Eq. 7c)"),
+        ("M. S. Smith, 5 m/s, part (e), S-shaped", "M. S. Smith, 5 m/s, part (e), S-shaped"),
+        ("from 1 (nu = 0) to -2 at 35 deg", "from 1 ({ν=0}) to −2 at 35°"),
+        ("`rebound` of 5e-5 kg/m^3", "rebound of {5×10^−5} kg/m3"),
+    ],
+)
+def test_formulas_are_told_from_words(text, wanted):
+    assert shape(ElementTree.fromstring(f"<p>{ledger_page.mathematical(text)}</p>")) == wanted
+
+
+def test_a_long_formula_may_wrap_and_keeps_its_plain_form():
+    plain = "v1(tf)/(mu v2(0)) = v1(0)/(mu v2(0)) - (1 + e) m2/m1"
+    pieces = re.findall(r'alttext="([^"]*)"', ledger_page.mathematical(plain))
+    assert len(pieces) > 1 and " ".join(pieces) == plain
 
 
 def test_documented_differences_point_to_the_ledger(first_run):

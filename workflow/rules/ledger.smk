@@ -1,5 +1,5 @@
 LEDGER_FACTS = sources("data/stronge1994/source.yaml")  # beside the ledger, which names some
-PAGE_PARTS = sources("workflow/report/ledger_parts.html", "workflow/report/page.css")
+PAGE_PARTS = sources("workflow/report/ledger.css")
 PAGE_TEMPLATE = sources("workflow/report/ledger.html")
 
 

@@ -63,7 +63,7 @@ def _spring(found: Contact, state: State) -> Array:
 def friction_after_stick() -> Finding:
     """Distance of Eq. 38 from the exact energy lost, over m1 v1(0)^2/2, after initial stick.
 
-    With that sign before the impulse, minus or the plus of the scan, which comes nearer.
+    Of the two signs before the impulse, minus and the plus of the scan, the nearer one counts.
     Corrected: the minus, with s, and the tangential strain energy at t1.
     """
     printed: dict[int, list[Numbers]] = {-1: [], 1: []}
@@ -88,7 +88,7 @@ def friction_after_stick_in_groups() -> Finding:
     """Distance of Eq. 39 from the exact energy lost, over m1 v1(0)^2/2, after initial stick.
 
     With the leading sign that comes nearer. In the corrected formula the sign is minus, s g1 takes
-    the place of g1, and mu^2 zeta^2 sin^2 of the angle of restitution at t1 is added.
+    the place of g1, and mu^2 zeta^2 sin^2(alpha) at t1 is added.
     """
     printed: dict[int, list[Numbers]] = {-1: [], 1: []}
     corrected = []
@@ -108,10 +108,10 @@ def friction_after_stick_in_groups() -> Finding:
 
 
 def friction_of_two_slips() -> Finding:
-    """Distance of Eq. 40 from the exact energy lost, over m1 v1(0)^2/2, slip - stick - slip.
+    """Distance of Eq. 40 from the exact energy lost, over m1 v1(0)^2/2, slip, stick, slip.
 
-    With the signs before v1(t2)^2, v1(t3)^2 and v1(tf)^2 that come nearest. Corrected: -, +, -, and
-    strain energy at t3 comes in, that at t2 goes out.
+    With the signs before v1(t2)^2, v1(t3)^2 and v1(tf)^2 that come nearest. Corrected: the signs
+    are minus, plus and minus, strain energy at t3 comes in, and strain energy at t2 goes out.
     """
     printed: dict[tuple[int, ...], list[Numbers]] = {
         signs: [] for signs in product((-1, 1), repeat=3)
@@ -131,7 +131,7 @@ def friction_of_two_slips() -> Finding:
 
 
 def friction_of_slip_throughout() -> Finding:
-    """Eq. 41 against the exact energy lost above the printed limit."""
+    """Eq. 41 against the exact energy lost above x = (1 + e) beta."""
     gaps = []
     for found in contact.slip_throughout():
         groups = found.incidence, found.mass_ratio, found.friction, found.restitution
@@ -234,7 +234,7 @@ def small_incidence() -> Finding:
 
 
 def compliance_immaterial() -> Finding:
-    """Difference that tangential compliance makes to the dissipation above the printed limit."""
+    """Difference that tangential compliance makes to the dissipation above x = (1 + e) beta."""
     gaps = []
     for e in contact.RESTITUTIONS:
         x = slip.slip_throughout_limit(contact.MASS_RATIO, e) * np.array([1.0, 1.1, 3.0])
@@ -251,7 +251,7 @@ def _dissipated(friction: float, restitution: float) -> Array:
 
 
 def angle_of_largest() -> Finding:
-    """Largest angle between most dissipation and the printed limit of slip throughout, degrees.
+    """Largest angle between most dissipation and the printed limit, (1 + e) beta, in degrees.
 
     Over both frictions and restitutions of Fig. 9.
     """

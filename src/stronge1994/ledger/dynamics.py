@@ -295,7 +295,7 @@ def slip_force() -> Finding:
 
 
 def velocity_slope() -> Finding:
-    """Eq. 9 along the last slip: dv1/dp, p of Table 1."""
+    """Eq. 9 along the last slip: dv1/dp, with p(t) of Table 1."""
     gaps = []
     for found, path, direction in _last_slips():
         impulse = found.impulse(path.t)

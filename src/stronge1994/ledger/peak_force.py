@@ -179,7 +179,7 @@ def peak_after_late_stick() -> Finding:
 
 
 def slip_throughout() -> Finding:
-    """Eq. 33 against the exact peak of friction above the printed limit, and from beta on."""
+    """Eq. 33 against the exact peak of friction above x = (1 + e) beta, and from beta on."""
     contacts = [*contact.slip_throughout(), *contact.slip_stick_slip(late=True)]
     return Finding(
         _against(
@@ -254,7 +254,7 @@ def in_compression() -> Finding:
 
 
 def late_stick() -> Finding:
-    """Share of the incidences of slip - stick - slip (e = 1) whose stick begins after t_c."""
+    """Share of the incidences of slip, stick, slip (e = 1) whose stick begins after t_c."""
     beta, zeta2 = contact.SPHERE
     limit = float(lumped.slip_throughout_limit(beta, zeta2, 1.0))
     x = np.linspace(zeta2, limit, 202)[1:-1]
@@ -264,7 +264,7 @@ def late_stick() -> Finding:
 
 
 def velocity_at_stick() -> Finding:
-    """Lowest v1(t2)/(mu v2(0)) over slip - stick - slip, e = 1, of those sampled.
+    """Lowest v1(t2)/(mu v2(0)) over slip, stick, slip, e = 1, of those sampled.
 
     Negative means that the body has turned round.
     """
@@ -277,7 +277,7 @@ def velocity_at_stick() -> Finding:
 
 
 def peak_after_stick() -> Finding:
-    """Share of the incidences of slip - stick - slip (e = 1) with the peak before stick."""
+    """Share of the incidences of slip, stick, slip (e = 1) with the peak before stick."""
     beta, zeta2 = contact.SPHERE
     limit = float(lumped.slip_throughout_limit(beta, zeta2, 1.0))
     shares = []
@@ -308,17 +308,17 @@ def peak_angle_small_friction() -> Finding:
 
 
 def peak_angle_large_friction() -> Finding:
-    """The same for mu = 1."""
+    """Angle of the largest peak of friction, mu = 1, in degrees."""
     return Finding(_angle_of_peak(1.0))
 
 
 def peak_angle_lewis_rogers() -> Finding:
-    """The same for mu = 0.18."""
+    """Angle of the largest peak of friction, mu = 0.18, in degrees."""
     return Finding(_angle_of_peak(0.18))
 
 
 def peak_angle_rises() -> Finding:
-    """Smallest rise of that angle from one mu of Fig. 7 to the next, in degrees."""
+    """Smallest rise of the angle of the largest peak from one mu of Fig. 7 to the next, degrees."""
     return Finding(float(np.min(np.diff([_angle_of_peak(mu) for mu in FRICTIONS]))))
 
 
@@ -336,15 +336,18 @@ def _reductions() -> Array:
 
 
 def largest_reduction() -> Finding:
-    """How much less the largest peak is than without tangential compliance.
+    """Share by which tangential compliance makes the largest peak of friction smaller.
 
-    The largest such share over the frictions of Fig. 7.
+    The largest share over the frictions of Fig. 7.
     """
     return Finding(float(_reductions().max()))
 
 
 def smallest_reduction() -> Finding:
-    """The smallest such share over the frictions of Fig. 7."""
+    """Share by which tangential compliance makes the largest peak of friction smaller.
+
+    The smallest share over the frictions of Fig. 7.
+    """
     return Finding(float(_reductions().min()))
 
 

@@ -81,7 +81,7 @@ def three_sequences() -> Finding:
 
 
 def three_sequences_of_spheres() -> Finding:
-    """The same share for omega/Omega of elastic spheres, and every e."""
+    """Share of the impacts on elastic spheres whose second slip does not last to separation."""
     e = np.linspace(0, 1, 60)[:, None]
     x = np.linspace(0.01, 8, 200)
     share = [np.mean(lumped.rebound(x, b, z, e).regime == Regime.MULTIPLE) for b, z in SPHERES]
@@ -148,7 +148,7 @@ def transition_at_compression() -> Finding:
 def sliding_slows() -> Finding:
     """Largest gain of the body's tangential speed from one instant to a later one, in mu |v2(0)|.
 
-    Slip throughout above the printed limit, up to the separation that `lumped.rebound` finds.
+    Slip throughout above (1 + e) beta, up to the separation that `lumped.rebound` finds.
     """
     gains = []
     for found in contact.slip_throughout():
@@ -201,7 +201,7 @@ def rigid_sequence() -> Finding:
 
 
 def unaffected_velocity() -> Finding:
-    """Difference that tangential compliance makes to the velocity above the printed limit."""
+    """Difference that tangential compliance makes to the velocity above x = (1 + e) beta."""
     gaps, beta = [], contact.MASS_RATIO
     for e in (0.0, *contact.RESTITUTIONS):
         x = slip.slip_throughout_limit(beta, e) * np.array([1.0, 1.1, 3.0])
@@ -220,7 +220,7 @@ def _models_apart() -> tuple[Array, Array]:
 
 
 def models_differ_most() -> Finding:
-    """Largest distance of lumped model and continuum above 2 beta - zeta^2, over that below."""
+    """Largest distance of lumped model and continuum in slip throughout, over that below it."""
     x, gap = _models_apart()
     limit = 2 * contact.MASS_RATIO - contact.STIFFNESS_RATIO
     return Finding(float(gap[x > limit].max() / gap[x <= limit].max()))
@@ -331,7 +331,7 @@ def compression_unaffected() -> Finding:
 
 
 def restitution_change_falls() -> Finding:
-    """Largest gain of |v1(tf) - v1(tc)|/(mu v2(0)) as e falls, sphere of the paper."""
+    """Largest gain of |v1(tf) - v1(t_c)|/(mu v2(0)) as e falls, sphere of the paper."""
     e = np.linspace(0, 1, 101)[:, None]
     velocity = lumped.rebound(INCIDENCE, *contact.SPHERE, e).velocity
     change = np.abs(velocity - velocity[0])

@@ -313,7 +313,7 @@ def slid_after_first_slip() -> Finding:
 
 
 def rebound_after_slip_throughout() -> Finding:
-    """Eqs 26 and 27 against the exact rebound above the printed limit."""
+    """Eqs 26 and 27 against the exact rebound above x = (1 + e) beta."""
     gaps = []
     for found in contact.slip_throughout():
         scale, e = found.velocity_scale, found.restitution

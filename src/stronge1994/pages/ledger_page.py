@@ -1,16 +1,18 @@
 """Write the ledger's table as a page to read: one HTML file that needs no other file."""
 
+import math
 import re
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 from stronge1994.csv_tables import Row
 from stronge1994.ledger import in_nature, outcome
 from stronge1994.pages import templates
+from stronge1994.pages.formulas import mathematical
 
 STYLE = {
     "confirmed": "confirmed",
@@ -49,38 +51,36 @@ NATURE_MEANING = {
     in_nature.DEPENDS: "true with one loss, false with the other",
     in_nature.OPEN: "neither contact can tell",
 }
-GREEK = {
-    "mu": "µ", "zeta": "ζ", "beta": "β", "Omega": "Ω", "omega": "ω", "kappa": "κ", "pi": "π",
-    "phi": "φ", "psi": "ψ", "chi": "χ", "theta": "θ", "tau": "τ", "nu": "ν",
-}  # fmt: skip
-# A letter with an index: v1, F2, t_c, tf, ts, F2max, psi1, du1.
-INDEXED = re.compile(r"\b(d?)([vuFDKmxtgV]|psi)(\d|_c|f|b|a|(?<=t)s)(max)?(?![A-Za-z0-9])")
-# Symbols of one letter. A letter after a slash is a unit or part of a tag, and stays.
-SYMBOL = re.compile(r"(?<![/<\w;])([eskxMS])(?![\w<>])|(?<!\w)(p)(?=\()")
+# Impacts of the paper's sphere that an entry speaks of: incidence, friction, restitution, and the
+# view of the explorer.
+IN_EXPLORER = {
+    "slip-throughout-limit": (6.4, 0.5, 1, "velocity"),
+    "limit-falls-with-losses": (4.5, 0.5, 0.5, "velocity"),
+    "last-slip-reverses-after-slip": (3.2, 0.5, 0.5, "velocity"),
+    "restitution-change-falls": (3, 0.5, 0.5, "velocity"),
+    "practically-identical": (1.21, 0.5, 1, "velocity"),
+    "stick-in-compression": (4.5, 0.5, 1, "velocity"),
+    "still-moving-at-stick": (4.5, 0.5, 1, "velocity"),
+    "peak-after-stick": (4.5, 0.5, 1, "forces"),
+    "eq-32-late": (4.5, 0.5, 1, "forces"),
+    "peak-angle-0.18": (2.93, 0.18, 1, "forces"),
+    "eq-39": (0.5, 0.5, 1, "energy"),
+    "eq-40": (2, 0.5, 1, "energy"),
+    "largest-dissipation-angle": (14.07, 0.1, 1, "energy"),
+}
 
 
-def mathematical(text: str) -> Markup:
-    """The plain formulas of the ledger as HTML: Greek letters, indices, powers.
+def explorer_state(incidence: float, friction: float, restitution: float, view: str) -> str:
+    """Address, within the explorer's page, of an impact of the paper's sphere.
 
-    >>> print(mathematical("zeta^2 F1(t2) < mu"))
-    ζ<sup>2</sup> <i>F</i><sub>1</sub>(<i>t</i><sub>2</sub>) &lt; µ
+    >>> explorer_state(2, 0.5, 1, "energy")
+    'angle=45&friction=0.5&restitution=1&poisson_ratio=0.3&mass_ratio=3.5&view=energy'
     """
-    html = str(escape(text))
-    html = INDEXED.sub(_indexed, html)
-    html = SYMBOL.sub(lambda match: f"<i>{match[0]}</i>", html)
-    html = re.sub(r"`([^`]+)`", r"<code>\1</code>", html)
-    html = re.sub(r"\^(\d)", r"<sup>\1</sup>", html)
-    html = re.sub(r"\b(" + "|".join(GREEK) + r")\b", lambda m: GREEK[m[1]], html)
-    html = html.replace("+-", "±").replace("-&gt;", "→").replace("sqrt(", "√(")
-    html = re.sub(r"(?:(?<=[ (=,])|^)-(?=[\dA-Za-zµζκΩω(<])", "−", html)
-    return Markup(re.sub(r"(\d) deg\b", r"\1°", html.replace(" - ", " − ")))
-
-
-def _indexed(match: re.Match[str]) -> str:
-    change, letter, index, largest = match.groups()
-    name = GREEK.get(letter, f"<i>{letter}</i>")
-    top = f"<sup>{largest}</sup>" if largest else ""
-    return f"{change}{name}<sub>{index.strip('_')}</sub>{top}"
+    angle = math.degrees(math.atan(friction * incidence))
+    return (
+        f"angle={angle:.4g}&friction={friction:g}&restitution={restitution:g}"
+        f"&poisson_ratio=0.3&mass_ratio=3.5&view={view}"
+    )
 
 
 def linked_maths(names: Collection[str]) -> Callable[[str], Markup]:
@@ -88,8 +88,8 @@ def linked_maths(names: Collection[str]) -> Callable[[str], Markup]:
 
     Entries are named as "see NAME and NAME", as "ledger: NAME", and after an equation and a comma.
 
-    >>> print(linked_maths({"eq-12"})("mu, see eq-12"))
-    µ, see <a href="#eq-12">eq-12</a>
+    >>> print(linked_maths({"eq-12"})("It slips, see eq-12"))
+    It slips, see <a href="#eq-12">eq-12</a>
     """
     alternatives = "|".join(sorted(map(re.escape, names), key=len, reverse=True)) or "(?!)"
     link = re.compile(rf"(?:(?<=see )|(?<=and )|(?<=ledger: )|(?<=eq-\d\d, ))({alternatives})\b")
@@ -137,7 +137,13 @@ def by_cause(rows: Sequence[Row]) -> dict[str, list[Row]]:
 
 
 def page(rows: Sequence[Row], symbols: Mapping[str, str], template: str) -> str:
-    """The page of the ledger's rows, by a template beside the parts that it includes."""
+    """The page of the ledger's rows, by a template beside the style that it includes."""
     environment = templates.environment(Path(template).parent)
     environment.filters["maths"] = linked_maths({row["entry"] for row in rows})
-    return environment.get_template(Path(template).name).render(words(rows, symbols))
+    return environment.get_template(Path(template).name).render(
+        words(rows, symbols),
+        kinds=Counter(row["kind"] for row in rows),
+        gravest=next(iter(outcome.GRADES)),
+        explorer=IN_EXPLORER,
+        explorer_state=explorer_state,
+    )
