@@ -33,7 +33,7 @@ def first_slip_in_restitution() -> Finding:
 
 
 def deflection_when_slip_reverses() -> Finding:
-    """Share of contacts with reversed last slip, s = +1, whose u1 is positive there."""
+    """Share of contacts with reversed last slip, s = +1, whose u1 is positive as it begins."""
     found = [c for c in contact.initial_stick() if c.last_slip_direction > 0]
     return Finding(float(np.mean([c.last(EventKind.SLIP).u1 > 0 for c in found])))
 
@@ -177,7 +177,8 @@ def _halts(e: float, x: float) -> bool:
 def rigid_rebound_limit() -> Finding:
     """Incidence above which the rigid limit leaves with velocity, over the impulse it takes.
 
-    That is m2/m1 times the exact normal impulse by quadrature, which Eq. 26 has as (1 + e) p(t_c).
+    The impulse is m2/m1 times the exact normal impulse by quadrature, which Eq. 26 has as
+    (1 + e) p(t_c).
     """
     gaps, beta = [], contact.MASS_RATIO
     for e in contact.RESTITUTIONS:
