@@ -65,7 +65,7 @@ def test_questions_are_seen_and_answers_fold(book):
         if title:
             folds.setdefault(title, []).append(text)
         else:
-            open_text += text
+            open_text += text + "\n"
     assert open_text.count("**Predict.**") == len(folds["The picture and the answer"]) + len(
         folds.get("The answer", [])
     )

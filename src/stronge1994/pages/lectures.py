@@ -40,7 +40,7 @@ class ThisPython(AsyncKernelManager):
     def kernel_spec(self) -> Any:
         """How this Python is started."""
         words = ["-m", "ipykernel_launcher", "-f", "{connection_file}"]
-        # Pictures stay sharp on paper and at any size, and bear no date. Their style is lecture.mplstyle.
+        # Pictures stay sharp on paper and at any size, and bear no date.
         words.append("--InlineBackend.figure_formats={'svg'}")
         words.append("--InlineBackend.print_figure_kwargs={'metadata': {'Date': None}}")
         return KernelSpec(argv=[sys.executable, *words], language="python")
@@ -88,7 +88,10 @@ def run(notebook: str, template: str, executed: str, page: str) -> None:
         template_file=str(template), exclude_anchor_links=True, filters={"parts": parts}
     )
     resources = {"metadata": {"name": Path(page).stem}}
-    texts = {executed: nbformat.writes(book) + "\n", page: exporter.from_notebook_node(book, resources)[0]}
+    texts = {
+        executed: nbformat.writes(book) + "\n",
+        page: exporter.from_notebook_node(book, resources)[0],
+    }
     for path, text in texts.items():
         Path(path).write_text(text, encoding="utf-8")
 
