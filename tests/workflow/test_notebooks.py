@@ -1,6 +1,7 @@
 """The lectures: how they are kept, how they fail, and that their asserts see a wrong solver."""
 
 import json
+import math
 import re
 import sys
 from pathlib import Path
@@ -11,6 +12,7 @@ import nbformat
 import pytest
 
 from planarimpact.lumped import stick_slip
+from stronge1994.pages import explorer
 from stronge1994.pages import lectures as run_notebook
 
 ROOT = Path(__file__).parents[2]
@@ -55,15 +57,39 @@ def test_sources_are_valid_and_without_outputs(book):
 
 
 @every_notebook
-def test_every_exercise_has_an_answer_that_runs(book):
-    headings = [cell.source.splitlines()[0] for cell in book.cells]
-    exercises, answers = headings.index("## Exercises"), headings.index("## Answers")
-    asked = re.findall(r"^(\d)\. ", book.cells[exercises].source, flags=re.M)
-    text = "\n".join(cell.source for cell in book.cells[answers:])
+def test_questions_are_seen_and_answers_fold(book):
+    parts = run_notebook.parts(book.cells)
+    open_text, folds = "", {}
+    for title, cells in parts:
+        text = "\n".join(cell.source for cell in cells)
+        if title:
+            folds.setdefault(title, []).append(text)
+        else:
+            open_text += text + "\n"
+    assert open_text.count("**Predict.**") == len(folds["The picture and the answer"]) + len(
+        folds.get("The answer", [])
+    )
+    asked = re.findall(r"^### Exercise (\d)$", open_text, flags=re.M)
     assert 3 <= len(asked) <= 5
-    assert asked == re.findall(r"^\*\*(\d)\.\*\*", text, flags=re.M)
-    checked = [c for c in book.cells[answers:] if c.cell_type == "code" and "assert" in c.source]
-    assert len(checked) >= 3
+    assert [f"Answer to exercise {n}" for n in asked] == [t for t in folds if "exercise" in t]
+    assert "explorer.html#" in open_text and "**Next:**" in open_text
+
+
+@every_notebook
+def test_links_to_the_explorer_say_their_incidence(book):
+    text = "\n".join(cell.source for cell in book.cells if cell.cell_type == "markdown")
+    links = re.findall(r"\[([^\]]*)\]\(\.\./\.\./figures/explorer\.html#([^)]*)\)(.{0,20})", text)
+    assert len(links) >= 5
+    for words, address, behind in links:
+        state = dict(pair.split("=") for pair in address.split("&"))
+        assert state.pop("view") in ("velocity", "energy")
+        assert list(state) == list(explorer.LIMITS)
+        for name, (low, high, _) in explorer.LIMITS.items():
+            assert low <= float(state[name]) <= high
+        said = re.search(r"\*x\* = ([\d.]+)", words + behind)[1].rstrip(".")
+        found = math.tan(math.radians(float(state["angle"]))) / float(state["friction"])
+        decimals = len(said.partition(".")[2])
+        assert round(found, decimals) == float(said), words
 
 
 @every_notebook
@@ -74,6 +100,7 @@ def test_a_wrong_solver_trips_an_assert(book, monkeypatch):
         return solve(impacts._replace(zeta2=1.05 * impacts.zeta2), *trace)
 
     monkeypatch.setattr(stick_slip, "solve", too_soft)
+    monkeypatch.chdir(ROOT / "workflow/notebooks")
     matplotlib.use("Agg")
     names = {}
     with matplotlib.rc_context(), pytest.raises(AssertionError):
@@ -88,7 +115,10 @@ def test_pages_are_built_and_need_nothing_else(first_run, name):
     page = (project / f"figures/{name}.html").read_text()
     assert len(page) < 1.5e6
     assert "<script" not in page and "$" not in re.sub(r"<(pre|svg).*?</\1>", "", page, flags=re.S)
-    assert not re.search(r'(src|href)="(?!data:|#)|url\(|@import', page)
+    assert not re.search(r'src="(?!data:)|url\(|@import', page)
+    shown = {file.split("#")[0] for file in re.findall(r'href="([^#"][^"]*)"', page)}
+    assert {"report.html", "explorer.html"} <= shown
+    assert all(re.fullmatch(r"(interface/)?[a-z0-9_]+\.html", file) for file in shown)
     pictures = re.findall(r'<img alt="([^"]*)" src="data:image/svg', page)
     assert len(pictures) >= 4 and all(len(words) > 20 for words in pictures)
     executed = nbformat.read(project / f"results/notebooks/{name}.ipynb", as_version=4)

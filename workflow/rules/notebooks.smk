@@ -6,6 +6,7 @@ rule notebook:
     input:
         modules=notebook_modules,
         notebook="workflow/notebooks/{notebook}.ipynb",
+        style=sources("workflow/notebooks/lecture.mplstyle"),
         template=sources("workflow/report/notebook.html"),
         shared=EVERY_PAGE,
     output:

@@ -1,9 +1,14 @@
-"""Run one notebook and write it twice: with its outputs, and as a page that needs no other file."""
+"""Run one notebook and write it twice: with its outputs, and as a page that needs no other file.
+
+What JupyterLab hides in a notebook until it is asked for, its page folds: the source of a cell, and
+what stands below a heading that is collapsed.
+"""
 
 import os
 import re
 import sys
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +24,9 @@ from traitlets.config import Config
 CELL_TIMEOUT = 120
 SRC = Path(__file__).parents[2]
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+HEADING = re.compile(r"(#+) (.+)")
+# By this name JupyterLab keeps that a heading is collapsed.
+COLLAPSED = "jp-MarkdownHeadingCollapsed"
 
 
 class NotebookError(Exception):
@@ -32,9 +40,8 @@ class ThisPython(AsyncKernelManager):
     def kernel_spec(self) -> Any:
         """How this Python is started."""
         words = ["-m", "ipykernel_launcher", "-f", "{connection_file}"]
-        # Pictures stay sharp on paper and at any size, and are the same bytes at every run.
+        # Pictures stay sharp on paper and at any size, and bear no date.
         words.append("--InlineBackend.figure_formats={'svg'}")
-        words.append("--InlineBackend.rc={'svg.hashsalt': 'planarimpact'}")
         words.append("--InlineBackend.print_figure_kwargs={'metadata': {'Date': None}}")
         return KernelSpec(argv=[sys.executable, *words], language="python")
 
@@ -67,6 +74,8 @@ def run(notebook: str, template: str, executed: str, page: str) -> None:
             shutdown_kernel="immediate",
             record_timing=False,
             coalesce_streams=True,
+            # As in JupyterLab, files are looked for beside the notebook.
+            resources={"metadata": {"path": str(Path(notebook).parent)}},
         )
         try:
             client.execute(env=_environment(scratch), stderr=sys.stderr)
@@ -75,7 +84,9 @@ def run(notebook: str, template: str, executed: str, page: str) -> None:
             raise NotebookError(f"{Path(notebook).name}, {_failure(book, error)}") from None
         except (CellTimeoutError, DeadKernelError) as error:
             raise NotebookError(f"{Path(notebook).name}: {str(error).splitlines()[0]}") from None
-    exporter = HTMLExporter(template_file=str(template), exclude_anchor_links=True)
+    exporter = HTMLExporter(
+        template_file=str(template), exclude_anchor_links=True, filters={"parts": parts}
+    )
     resources = {"metadata": {"name": Path(page).stem}}
     texts = {
         executed: nbformat.writes(book) + "\n",
@@ -83,6 +94,44 @@ def run(notebook: str, template: str, executed: str, page: str) -> None:
     }
     for path, text in texts.items():
         Path(path).write_text(text, encoding="utf-8")
+
+
+def parts(cells: Iterable[Any]) -> list[tuple[str, list[Any]]]:
+    """The cells of a notebook in parts, open or folded.
+
+    Parameters
+    ----------
+    cells : iterable of nbformat.NotebookNode
+        Their order is that of the notebook.
+
+    Returns
+    -------
+    list of (str, list)
+        Of each part the title and the cells. A part whose title is empty is open. The title of a
+        folded part is its collapsed heading. It ends where JupyterLab ends it: before the next
+        heading of the same or a higher level.
+
+    Examples
+    --------
+    >>> from nbformat.v4 import new_markdown_cell as words
+    >>> folded = {"jp-MarkdownHeadingCollapsed": True}
+    >>> cells = [words("Why?"), words("### Answer", metadata=folded), words("So."), words("## 2")]
+    >>> [(title, [cell.source for cell in some]) for title, some in parts(cells)]
+    [('', ['Why?']), ('Answer', ['So.']), ('', ['## 2'])]
+    """
+    found: list[tuple[str, list[Any]]] = [("", [])]
+    level = 0  # of the heading whose part is folded
+    for cell in cells:
+        heading = cell.cell_type == "markdown" and HEADING.match(cell.source)
+        if heading and len(heading[1]) <= level:
+            level = 0
+            found.append(("", []))
+        if heading and not level and cell.metadata.get(COLLAPSED):
+            level = len(heading[1])
+            found.append((heading[2], []))
+        else:
+            found[-1][1].append(cell)
+    return [(title, some) for title, some in found if some]
 
 
 def _environment(scratch: str) -> dict[str, str]:
