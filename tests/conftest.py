@@ -3,9 +3,10 @@
 `house` tries the same few examples each time, so that the suite is quick and never fails by
 chance. `long` tries 75 times as many at random, and takes an hour:
 
-    python -m pytest -n 0 tests/property --hypothesis-profile=long
+    python -m pytest -n 0 tests/property tests/reference --hypothesis-profile=long
 
-or with the environment variable HYPOTHESIS_PROFILE=long.
+or with the environment variable HYPOTHESIS_PROFILE=long. It also runs the tests that are marked `long`:
+more random impacts where other tests already try the thresholds.
 """
 
 import os
@@ -21,3 +22,10 @@ EXAMPLES = 100
 settings.register_profile("house", max_examples=EXAMPLES, deadline=None, derandomize=True)
 settings.register_profile("long", max_examples=75 * EXAMPLES, deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "house"))
+
+
+def pytest_collection_modifyitems(config, items):
+    if settings.get_current_profile_name() != "long":
+        left_out = [item for item in items if item.get_closest_marker("long")]
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [item for item in items if not item.get_closest_marker("long")]

@@ -79,7 +79,7 @@ def worst_error(point):
     return max(abs(float(getattr(found, n) - getattr(exact, n))) / float(s) for n, s in pairs)
 
 
-@pytest.mark.parametrize("seed", [0, *(pytest.param(s, marks=pytest.mark.slow) for s in (1, 2, 3))])
+@pytest.mark.parametrize("seed", [0, *(pytest.param(s, marks=pytest.mark.long) for s in (1, 2, 3))])
 def test_random_impacts_against_40_digits(seed):
     rng = np.random.default_rng(seed)
     for _ in range(60):
