@@ -106,7 +106,8 @@ def copy_of(source, folder, parts=PARTS):
     for part in dict.fromkeys(parts):
         origin = source / part
         if origin.is_dir():
-            ignore = shutil.ignore_patterns("__pycache__", "*.egg-info")
+            # The pictures of the README are in the repository, and no run makes them.
+            ignore = shutil.ignore_patterns("__pycache__", "*.egg-info", "preview*.png")
             shutil.copytree(origin, folder / part, ignore=ignore, dirs_exist_ok=True)
         elif origin.exists():
             (folder / part).parent.mkdir(parents=True, exist_ok=True)
