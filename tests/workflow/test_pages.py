@@ -66,13 +66,13 @@ def wrong_state(controls, state):
     """What the controls of the explorer do not know, or do not allow, in an address behind #."""
     wrong = []
     for name, value in parse_qsl(state, keep_blank_values=True, strict_parsing=True):
-        control = controls.get(name, {"options": []})
-        if control["options"]:
-            known = value in control["options"]
+        control = controls.get(name, {})
+        if name == "models":  # a checkbox each
+            known = all(f"model-{model}" in controls for model in value.split())
         elif "min" in control:
             known = float(control["min"]) <= float(value) <= float(control["max"])
         else:
-            known = control.get("type") == "checkbox" and value in ("0", "1")
+            known = value in control.get("options", [])
         wrong += [] if known else [f"{name}={value}"]
     return wrong
 
@@ -128,13 +128,13 @@ def test_presets_of_the_explorer_are_states_that_it_allows(figures):
 
 
 def test_a_dead_link_is_found(tmp_path):
-    controls = (
-        '<input id="angle" min="0" max="90"><select id="view"><option value="energy"></select>'
-    )
-    (tmp_path / "explorer.html").write_text(f'<h1 id="top">{controls}')
+    inputs = '<input id="angle" min="0" max="90"><input id="model-a"><input id="model-b">'
+    view = '<select id="view"><option value="energy"></select>'
+    (tmp_path / "explorer.html").write_text(f'<h1 id="top">{inputs}{view}')
     good = ["#here", "explorer.html", "explorer.html#top", "explorer.html#angle=9.5&view=energy"]
+    good += ["explorer.html#models=a+b"]
     bad = ["#gone", "lost.html", "explorer.html#here", "explorer.html#angle=91"]
-    bad += ["explorer.html#view=motion", "explorer.html#angel=9"]
+    bad += ["explorer.html#view=motion", "explorer.html#angel=9", "explorer.html#models=a+c"]
     links = "".join(f'<a href="{link}">' for link in [*good, "https://doi.org/10.1", *bad])
     (tmp_path / "page.html").write_text(f'<p id="here">{links}')
     assert [link for _, link, _ in dead_links(tmp_path, ["page.html"])] == bad
