@@ -3,13 +3,15 @@
 `house` tries the same few examples each time, so that the suite is quick and never fails by
 chance. `long` tries 75 times as many at random, and takes an hour:
 
-    python -m pytest -n 0 tests/property --hypothesis-profile=long
+    python -m pytest -n 0 tests/property tests/reference --hypothesis-profile=long
 
-or with the environment variable HYPOTHESIS_PROFILE=long.
+or with the environment variable HYPOTHESIS_PROFILE=long. It also runs the tests marked `long`:
+more random impacts where other tests already try the thresholds.
 """
 
 import os
 
+import pytest
 from hypothesis import settings
 
 # Before numpy. Two workers with two threads each on two cores wait for each other: annuli, which
@@ -21,3 +23,14 @@ EXAMPLES = 100
 settings.register_profile("house", max_examples=EXAMPLES, deadline=None, derandomize=True)
 settings.register_profile("long", max_examples=75 * EXAMPLES, deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "house"))
+
+
+@pytest.hookimpl(trylast=True)  # once tests of the workflow are marked slow
+def pytest_collection_modifyitems(config, items):
+    if settings.get_current_profile_name() != "long":
+        left_out = [item for item in items if item.get_closest_marker("long")]
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [item for item in items if not item.get_closest_marker("long")]
+    # Files that take long start first, so that none is left for one process at the end.
+    slow = {item.path for item in items if item.get_closest_marker("slow")}
+    items.sort(key=lambda item: (item.path not in slow, item.path.parent.name != "workflow"))

@@ -149,7 +149,7 @@ def forced(monkeypatch, way):
             monkeypatch.setitem(choice.COST, (f"continuum.{loss}", way), (0.0, 0.0))
 
 
-@pytest.mark.parametrize("tolerance", [0.5, 0.1, 1e-2, 1e-3])
+@pytest.mark.parametrize("tolerance", [0.5, pytest.param(0.1, marks=pytest.mark.long), 1e-2, 1e-3])
 @pytest.mark.parametrize(("name", "way"), WAYS)
 def test_a_scene_keeps_its_tolerance(name, way, tolerance, monkeypatch):
     forced(monkeypatch, way)

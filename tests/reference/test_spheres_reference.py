@@ -54,7 +54,10 @@ def impacts(seed, count):
     return np.where(beside, near, y) * zeta2, beta, zeta2, e, plastic
 
 
-@pytest.mark.parametrize("part", range(PARTS))
+LATER = [pytest.param(part, marks=pytest.mark.long) for part in range(1, PARTS)]
+
+
+@pytest.mark.parametrize("part", [0, *LATER])
 def test_the_table_is_within_its_bound_of_the_continuum(part):
     x, beta, zeta2, e, plastic = impacts([20, part], IMPACTS // PARTS)
     for loss, rows in (("viscous", ~plastic), ("plastic", plastic)):

@@ -111,8 +111,9 @@ def test_a_velocity_that_is_no_number_shows():
     assert found[MAX] != found[MAX]  # NaN: the verdict `trade-solved` then diverges
 
 
-def test_times_are_there_within_the_budget(named):
+def test_times_are_there_within_the_budget(named, monkeypatch):
     assert all(row["time_1 [s]"][0] > row["time_100 [s]"][0] > 0 for row in named.values())
+    monkeypatch.setattr(trade, "input_spread", lambda x, *_: np.ones_like(x))
     none = trade.curves(**SETTINGS | {"restitution": [1.0], "budget": 0.0})
     assert not any("time_100 [s]" in row for row in none.values())
     assert all("time_1 [s]" in row for row in none.values())
@@ -253,6 +254,7 @@ def test_a_slow_compilation_on_a_busy_machine_says_so(clock, monkeypatch):
         return compiled(*args, **kwargs)
 
     monkeypatch.setattr(trade.response, "compile", compile_)
+    monkeypatch.setattr(trade, "input_spread", lambda x, *_: np.ones_like(x))
     settings = {"restitution": [1.0], "samples": 5, "steps": [16], "batches": [1]}
     rows = trade.curves(**SETTINGS | settings)
     slow = [

@@ -21,6 +21,7 @@ from stronge1994.plan import files
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 PARTS = ["Snakefile", "profiles", "workflow", "src", "data", "figures/README.md", ".gitignore"]
+LEFT = ["results", "figures", ".snakemake", "imported"]  # by a run
 
 
 TIMEOUT = 3600  # s, of one run: against one that hangs, not against a busy machine
@@ -100,13 +101,13 @@ class Project:
         return self.folder / path
 
 
-def copy_of(source, folder):
-    """Copy the parts of a project that a run reads; with them what an earlier run has left."""
-    leftovers = ["results", "figures", ".snakemake", "imported"]
-    for part in dict.fromkeys(PARTS + (leftovers if source != ROOT else [])):
+def copy_of(source, folder, parts=PARTS):
+    """Copy the parts of a project that a run reads, or more."""
+    for part in dict.fromkeys(parts):
         origin = source / part
         if origin.is_dir():
-            ignore = shutil.ignore_patterns("__pycache__", "*.egg-info")
+            # The pictures of the README are in the repository, and no run makes them.
+            ignore = shutil.ignore_patterns("__pycache__", "*.egg-info", "preview*.png")
             shutil.copytree(origin, folder / part, ignore=ignore, dirs_exist_ok=True)
         elif origin.exists():
             (folder / part).parent.mkdir(parents=True, exist_ok=True)
@@ -132,7 +133,8 @@ def fresh(tmp_path):
 def first_run(tmp_path_factory):
     """The project after a full run, and what that run printed. Do not change it.
 
-    Processes of pytest-xdist share it: the first one to get here runs it.
+    Processes of pytest-xdist share it: the first one to get here runs it. It copies the run of
+    .ci/run, if that has just made one here: FINISHED_RUN is the file of what that run printed.
     """
     base = tmp_path_factory.getbasetemp()
     base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
@@ -144,9 +146,14 @@ def first_run(tmp_path_factory):
         while not words.exists() and time.monotonic() < deadline:
             time.sleep(0.2)
     else:
-        found = copy_of(ROOT, folder).run()
+        if printed := os.environ.get("FINISHED_RUN"):
+            copy_of(ROOT, folder, PARTS + LEFT)
+            code, text = 0, Path(printed).read_text(encoding="utf-8")
+        else:
+            found = copy_of(ROOT, folder).run()
+            code, text = found.returncode, found.stdout
         partial = base / "finished.partial"
-        partial.write_text(json.dumps([found.returncode, found.stdout]))
+        partial.write_text(json.dumps([code, text]))
         partial.replace(words)
     code, text = json.loads(words.read_text())
     return Project(folder), subprocess.CompletedProcess([], code, text)
@@ -155,7 +162,7 @@ def first_run(tmp_path_factory):
 @pytest.fixture
 def finished(first_run, tmp_path):
     """A copy of the project after a full run, free to change."""
-    return copy_of(first_run[0].folder, tmp_path)
+    return copy_of(first_run[0].folder, tmp_path, PARTS + LEFT)
 
 
 @pytest.fixture

@@ -1,0 +1,204 @@
+"""All pages that a run writes: links, landmarks, a phone's width, and what axe finds.
+
+axe (https://github.com/dequelabs/axe-core) finds what people with a disability cannot read or use.
+"""
+
+import functools
+import json
+import re
+from html.parser import HTMLParser
+from importlib import resources
+from pathlib import Path
+from urllib.parse import parse_qsl, unquote, urlsplit
+
+import pytest
+
+from stronge1994.pages import templates
+
+FOLDER = Path(__file__).parents[2] / "workflow/report"
+BAR = re.findall(r'^  \("(.+?)", ', (FOLDER / "site.html").read_text(encoding="utf-8"), flags=re.M)
+INTERFACE = "interface/planarimpact.html"
+# pdoc writes the interface and has no option for these: the links beside each name have no words,
+# and each "Parameters" is a heading of level 6 with the same id.
+NOT_OURS = {INTERFACE: ["link-name", "heading-order", "duplicate-id"]}
+
+# What is folded counts as well.
+OPEN = "for (const part of document.querySelectorAll('details')) part.open = true;"
+FIND = """axe.run({resultTypes: ['violations'], ...%s}).then((found) => found.violations.map(
+  ({id, nodes}) => `${id}: ${nodes.length}, first ${nodes[0].target}: ${nodes[0].html.slice(0, 90)}`
+))"""
+# A width in px, a colour scheme, and whether axe judges colours, the rest, or both.
+WINDOWS = {
+    "light": (1440, "light", ("colours", "rest")),
+    "dark": (1440, "dark", ("colours",)),
+    "phone": (390, "light", ("rest",)),
+}
+
+
+class Page(HTMLParser):
+    """Anchors, links, the bar of pages and the controls of a page."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.ids, self.links, self.bar, self.states, self.controls = {}, [], [], [], {}
+        self._in_bar, self._select = False, None
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attributes):
+        found = dict(attributes)
+        name = found.get("id", "")
+        self.ids[name] = tag
+        self._in_bar |= tag == "nav" and found.get("class") == "site"
+        if tag == "a" and "href" in found:
+            self.links.append(found["href"])
+            self.bar += [found["href"]] * self._in_bar
+        self.states += [found["data-state"]] if "data-state" in found else []
+        if tag in ("input", "select"):
+            self._select = self.controls[name] = {**found, "options": []}
+        elif tag == "option":
+            self._select["options"].append(found.get("value"))
+
+    def handle_endtag(self, tag):
+        self._in_bar &= tag != "nav"
+
+
+def wrong_state(controls, state):
+    """What the controls of the explorer do not know, or do not allow, in an address behind #."""
+    wrong = []
+    for name, value in parse_qsl(state, keep_blank_values=True, strict_parsing=True):
+        control = controls.get(name, {})
+        if name == "models":  # a checkbox each
+            known = all(f"model-{model}" in controls for model in value.split())
+        elif "min" in control:
+            known = float(control["min"]) <= float(value) <= float(control["max"])
+        else:
+            known = value in control.get("options", [])
+        wrong += [] if known else [f"{name}={value}"]
+    return wrong
+
+
+def dead_links(folder, names):
+    """Links of pages that lead nowhere: to no file, no anchor, or no state of the explorer."""
+    page, dead = functools.cache(Page), []
+    for name in names:
+        start = (folder / name).resolve()
+        for link in page(start).links:
+            scheme, _, path, _, anchor = urlsplit(link)
+            if scheme:
+                continue
+            target = (start.parent / unquote(path)).resolve() if path else start
+            if not target.is_file():
+                dead.append((name, link, "no such file"))
+            elif "=" in anchor and target.name == "explorer.html":
+                wrong = wrong_state(page(target).controls, anchor)
+                dead += [(name, link, wrong)] if wrong else []
+            elif anchor and unquote(anchor) not in page(target).ids:
+                dead.append((name, link, "no such anchor"))
+    return dead
+
+
+@pytest.fixture(scope="module")
+def figures(first_run):
+    return first_run[0] / "figures"
+
+
+def test_the_bar_names_every_page(figures):
+    written = {path.name for path in figures.glob("*.html")}
+    assert sorted(BAR) == sorted({*written, INTERFACE})
+
+
+@pytest.mark.parametrize("name", BAR)
+def test_a_page_links_to_all_others_and_its_content_is_a_landmark(figures, name):
+    page = Page(figures / name)
+    if name == INTERFACE:  # pdoc's own list of names stands where the bar would
+        assert "../report.html" in page.links
+    else:
+        assert page.bar == BAR
+        assert page.ids["main"] == "main"
+
+
+def test_every_link_leads_somewhere(figures):
+    assert dead_links(figures, [name for name in BAR if (figures / name).is_file()]) == []
+
+
+def test_presets_of_the_explorer_are_states_that_it_allows(figures):
+    page = Page(figures / "explorer.html")
+    assert page.states
+    assert [wrong for state in page.states if (wrong := wrong_state(page.controls, state))] == []
+
+
+def test_a_dead_link_is_found(tmp_path):
+    inputs = '<input id="angle" min="0" max="90"><input id="model-a"><input id="model-b">'
+    view = '<select id="view"><option value="energy"></select>'
+    (tmp_path / "explorer.html").write_text(f'<h1 id="top">{inputs}{view}')
+    good = ["#here", "explorer.html", "explorer.html#top", "explorer.html#angle=9.5&view=energy"]
+    good += ["explorer.html#models=a+b"]
+    bad = ["#gone", "lost.html", "explorer.html#here", "explorer.html#angle=91"]
+    bad += ["explorer.html#view=motion", "explorer.html#angel=9", "explorer.html#models=a+c"]
+    links = "".join(f'<a href="{link}">' for link in [*good, "https://doi.org/10.1", *bad])
+    (tmp_path / "page.html").write_text(f'<p id="here">{links}')
+    assert [link for _, link, _ in dead_links(tmp_path, ["page.html"])] == bad
+
+
+def options(kinds, left):
+    """Options of axe: which rules it tries."""
+    if kinds == ("colours",):
+        return {"runOnly": ["color-contrast"]}
+    left = [*left, *(["color-contrast"] if "colours" not in kinds else [])]
+    return {"rules": {rule: {"enabled": False} for rule in left}}
+
+
+@pytest.fixture(scope="module")
+def look(tab):
+    """Function that opens a page once and gives its faults in each of the `WINDOWS`."""
+    axe = resources.files("axe_core_python").joinpath("axe.min.js").read_text(encoding="utf-8")
+
+    def faults(path, left=()):
+        assert path.is_file()
+        tab.open(path.as_uri())
+        tab.evaluate(f"{axe}; {OPEN}")
+        found = {}
+        for window, (width, scheme, kinds) in WINDOWS.items():
+            tab.resize(width, 900, mobile=width < 500)
+            tab.prefer(prefers_color_scheme=scheme, prefers_reduced_motion="reduce")
+            found[window] = tab.evaluate(FIND % json.dumps(options(kinds, left)))
+            if (real := tab.evaluate("document.documentElement.scrollWidth")) > width:
+                found[window].append(f"too wide: {real} px")
+        return found
+
+    patience, tab.timeout = tab.timeout, 120  # s: axe takes seconds for a long page
+    yield faults
+    tab.timeout = patience
+
+
+NONE = dict.fromkeys(WINDOWS, [])
+
+
+@pytest.mark.parametrize("name", BAR)
+def test_axe_finds_nothing_and_no_page_is_wider_than_its_window(figures, look, name):
+    assert look(figures / name, NOT_OURS.get(name, ())) == NONE
+
+
+FAULTY = """<!DOCTYPE html><html lang="en"><head><title>A page</title>
+<meta name="viewport" content="width=device-width, initial-scale=1"><style>
+{% include "theme.css" %}
+.faint { color: light-dark(#222, #333); }
+@media (width > 500px) { .phone { display: none; } }
+</style></head><body><main id="main"><h1>Words</h1>{{ part|safe }}</main></body></html>"""
+FAULTS = {
+    "<p>Good.": {},
+    '<img src="data:,">': {"light": ["image-alt"], "phone": ["image-alt"]},
+    "<details><button></button></details>": {"light": ["button-name"], "phone": ["button-name"]},
+    '<p class="faint">Unseen in the dark.': {"dark": ["color-contrast"]},
+    '<p style="width: 500px">Long.': {"phone": ["too wide"]},
+    '<h4 class="phone">On phones only': {"phone": ["heading-order"]},
+}
+
+
+@pytest.mark.parametrize("part", FAULTS)
+def test_a_fault_of_a_page_is_found(part, look, tmp_path):
+    template = templates.environment(tmp_path).from_string(FAULTY)
+    (tmp_path / "page.html").write_text(template.render(part=part))
+    found = look(tmp_path / "page.html")
+    rules = {window: [fault.partition(":")[0] for fault in found[window]] for window in found}
+    assert rules == NONE | FAULTS[part]
