@@ -133,8 +133,7 @@ def fresh(tmp_path):
 def first_run(tmp_path_factory):
     """The project after a full run, and what that run printed. Do not change it.
 
-    Processes of pytest-xdist share it: the first one to get here runs it. It copies the run of
-    .ci/run, if that has just made one here: FINISHED_RUN is the file of what that run printed.
+    Processes of pytest-xdist share it: the first one to get here runs it.
     """
     base = tmp_path_factory.getbasetemp()
     base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
@@ -146,14 +145,9 @@ def first_run(tmp_path_factory):
         while not words.exists() and time.monotonic() < deadline:
             time.sleep(0.2)
     else:
-        if printed := os.environ.get("FINISHED_RUN"):
-            copy_of(ROOT, folder, PARTS + LEFT)
-            code, text = 0, Path(printed).read_text(encoding="utf-8")
-        else:
-            found = copy_of(ROOT, folder).run()
-            code, text = found.returncode, found.stdout
+        found = copy_of(ROOT, folder).run()
         partial = base / "finished.partial"
-        partial.write_text(json.dumps([code, text]))
+        partial.write_text(json.dumps([found.returncode, found.stdout]))
         partial.replace(words)
     code, text = json.loads(words.read_text())
     return Project(folder), subprocess.CompletedProcess([], code, text)
