@@ -72,6 +72,9 @@ def test_questions_are_seen_and_answers_fold(book):
     asked = re.findall(r"^### Exercise (\d)$", open_text, flags=re.M)
     assert 3 <= len(asked) <= 5
     assert [f"Answer to exercise {n}" for n in asked] == [t for t in folds if "exercise" in t]
+    shown = [c.source for c in code_of(book) if "jupyter" not in c.metadata]
+    assert 1 <= len(shown) < len(code_of(book))
+    assert all("READINGS = {" not in c.source or c.source in shown for c in code_of(book))
     assert "explorer.html#" in open_text and "**Next:**" in open_text
 
 
