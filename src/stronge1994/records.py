@@ -7,6 +7,7 @@ was restored from a backup, copied from a colleague, or edited while a job ran.
 import base64
 import hashlib
 import json
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -36,10 +37,11 @@ def fingerprint_of_all(paths: Iterable[str]) -> str:
 
 
 def files_of_repository() -> list[str]:
-    """Files that a run reads, or that belong to what it reads."""
+    """Files that a run reads, or that belong to what it reads; not what Python and pip write."""
     found = ["Snakefile"]
     for folder in REPOSITORY:
-        found += [str(p) for p in Path(folder).rglob("*") if p.is_file() and p.suffix != ".pyc"]
+        files = (path for path in Path(folder).rglob("*") if path.is_file())
+        found += [str(p) for p in files if not re.search(r"\.pyc$|\.egg-info/", p.as_posix())]
     return found
 
 
