@@ -166,9 +166,9 @@ def test_each_wish_has_an_answer_and_a_wrong_one(show):
         assert verdicts(tab)[index].startswith(words)
         tab.evaluate(f"document.querySelectorAll('#challenge button')[{index}].click()")
         # The continuum agrees, or it would be named.
-        assert verdicts(tab)[index] == "\u2713 It has come true."
+        assert verdicts(tab)[index] == "\u2713 You have met it."
         heard = tab.evaluate("document.querySelector('#challenge .heard').textContent")
-        assert heard == f"Wish {index + 1} has come true."
+        assert heard == f"Challenge {index + 1} is met."
 
 
 @pytest.mark.parametrize(

@@ -121,7 +121,7 @@ def test_every_link_leads_somewhere(report, page, provenance):
 
 def test_the_first_words_say_how_it_went_and_what_was_found(first_run, text, report):
     """Numbers are those of the tables; of what only ran nothing is counted."""
-    first = text[: text.index("Verdicts One row a comparison")]
+    first = text[: text.index("Verdicts Each row compares")]
     assert first.index("PASSED") < first.rindex("What we found") < first.rindex("Where to go")
     assert "FAILED" not in text and "as before" not in first
     results = first_run[0] / "results"

@@ -99,7 +99,7 @@ def test_a_job_that_is_killed_or_fails_never_passes(finished):
     name = "restitution-leaves-peak"
     assert f"no longer holds: {name}: in nature: recorded as stands, found fails" in said
     page = (finished / "figures/ledger.html").read_text(encoding="utf-8")
-    article = page[page.index(f'<article id="{name}">') :].split("</article>")[0]
+    article = page[page.index(f'<article id="{name}"') :].split("</article>")[0]
     assert ">no longer holds<" in article and ">confirmed<" in article
     assert not list((finished / "broken").iterdir()), "each has stopped"
 

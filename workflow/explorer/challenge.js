@@ -1,6 +1,6 @@
 "use strict";
 
-// Wishes about the rebound, and whether the present impact fulfils them.
+// Challenges: wishes about the rebound, and whether the present impact fulfils them.
 const challenge = (() => {
   const UNCOVERED = "The continuum has no table for this impact.";
 
@@ -12,8 +12,8 @@ const challenge = (() => {
   }
   function at_least(what, share, wanted) {
     if (share >= wanted) return "";
-    const is = (100 * share).toFixed(1).replace("-", "\u2212");
-    return `${what.replace("#", `${is} %`)}; at least ${100 * wanted} % is wanted.`;
+    const is = share < 0 ? "less than nothing" : `${(100 * share).toFixed(1)} %`;
+    return `${what.replace("#", is)}; at least ${100 * wanted} % is wanted.`;
   }
   const at_45 = (mu, x) => near("The angle (in °)", (Math.atan(mu * x) * 180) / Math.PI, 45, 0.5);
   const elastic = (e) => near("Restitution", e, 1, 0.005);
@@ -72,10 +72,10 @@ const challenge = (() => {
     const rounds = continuum(impact);
     const [lacks, ...others] = [impact.result.velocity / impact.x, ...rounds.map(([, kept]) => kept)]
       .map((kept) => missing(impact, kept, rounds[0]?.[1]));
-    const words = [lacks || "\u2713 It has come true."];
+    const words = [lacks || "\u2713 You have met it."];
     others.forEach((other, i) => {
       if (!other === !lacks) return;
-      words.push(`In the ${rounds[i][0]}continuum: ${other || "it has come true."}`);
+      words.push(`In the ${rounds[i][0]}continuum: ${other || "it is met."}`);
     });
     if (!lacks && !rounds.length) words.push(UNCOVERED);
     return { holds: !lacks, words: words.join(" ") };
@@ -93,7 +93,7 @@ const challenge = (() => {
       const { holds, words } = judge(wish, impact);
       const { classList } = verdicts[i];
       verdicts[i].textContent = words;
-      if (holds && !classList.contains("holds")) heard.textContent = `Wish ${i + 1} has come true.`;
+      if (holds && !classList.contains("holds")) heard.textContent = `Challenge ${i + 1} is met.`;
       classList.toggle("holds", Boolean(holds));
     });
   }

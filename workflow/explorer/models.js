@@ -48,13 +48,16 @@ const models = (() => {
   }
 
   // What each of these models says about one impact. The direction is 1 forwards, -1 backwards, and
-  // 0 where the velocity is nothing, or less than the error of the table.
+  // 0 where the velocity is nothing, or less than the error of the table. The rigid limit has no
+  // spring: where it does not slide throughout it stops, whatever the others do. That is called
+  // mute, for it contradicts none of them.
   function outcomes(list, { x }) {
     return list.map(({ style, error, solve, slides }) => {
       const found = solve(x);
       const none = Math.abs(found.velocity) <= Math.max(error, STOPPED * x);
       const direction = none ? 0 : Math.sign(found.velocity);
-      return { style, name: NAMES[style], ...found, direction, slides: slides(found) };
+      const mute = style === "rigid" && direction === 0;
+      return { style, name: NAMES[style], ...found, direction, slides: slides(found), mute };
     });
   }
 

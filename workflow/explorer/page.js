@@ -182,8 +182,8 @@ const page = (() => {
     element("agreement").classList.toggle("disagree", !agrees);
     // The sentence is that of the lumped model, whether its curve is shown or not.
     const [lumped] = models.outcomes(models.chosen(impact, ["lumped"]), impact);
-    const other = ({ direction, slides }) =>
-      direction !== lumped.direction || slides !== lumped.slides;
+    const other = ({ direction, slides, mute }) =>
+      !mute && (direction !== lumped.direction || slides !== lumped.slides);
     element("doubt").textContent =
       found.some(other) ? "Other models say otherwise: see the table." : "";
     const wanted = state.models.includes("continuum");

@@ -92,7 +92,7 @@ const superball = (() => {
     flights = { stops, thrown };
     said.textContent =
       `After floor, table and floor the superball flies ${direction(thrown[4])} along the floor.` +
-      ` The ball whose foot merely stops flies ${direction(stops[4])}.` +
+      ` The ball whose lowest point only stops flies ${direction(stops[4])}.` +
       ` In the ${other} model the superball flies ${direction(differs[4])}.`;
     part("tbody").innerHTML = ["throw", ...WALLS].map((what, i) => `<tr><th scope="row">${what}</th>
       <td>${text(thrown[i].along, 1)}</td><td>${text(thrown[i].spin, 0)}</td>

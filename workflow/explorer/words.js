@@ -61,8 +61,10 @@ const words = (() => {
   const listed = (found) => found.map((one) => one.name).join("; ");
 
   // Whether the models shown agree: first in direction, then in whether it slips throughout.
-  function agreement(found) {
-    if (found.length < 2) return { agrees: true, text: "" };
+  function agreement(all) {
+    const found = all.filter((one) => !one.mute);
+    const rigid = found.length < all.length ? " The rigid limit has no spring: it only stops." : "";
+    if (found.length < 2) return { agrees: true, text: rigid.trim() };
     const split = (parts) =>
       parts
         .map(([name, is]) => [name, found.filter(is)])
@@ -74,7 +76,7 @@ const words = (() => {
       ["Stops, or almost", (one) => one.direction === 0],
     ]);
     if (directions.length > 1) {
-      const text = `The models disagree on the direction. ${directions.join(" ")}`;
+      const text = `The models disagree on the direction. ${directions.join(" ")}${rigid}`;
       return { agrees: false, text };
     }
     const slips = split([
@@ -82,9 +84,9 @@ const words = (() => {
       ["Also sticks", (one) => !one.slides],
     ]);
     if (slips.length > 1) {
-      return { agrees: false, text: `The models disagree on slip. ${slips.join(" ")}` };
+      return { agrees: false, text: `The models disagree on slip. ${slips.join(" ")}${rigid}` };
     }
-    return { agrees: true, text: "The models shown agree on the direction." };
+    return { agrees: true, text: `The models shown agree on the direction.${rigid}` };
   }
 
   return { phases, sentence, centre, agreement };

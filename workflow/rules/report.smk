@@ -25,9 +25,8 @@ PEERS = ["results/peers.csv"] if Path("results/peers.csv").exists() else []
 
 
 # Changes to the templates of pdoc.
-INTERFACE = "workflow/report/interface"
 INTERFACE_PARTS = sources(
-    *expand(f"{INTERFACE}/{{part}}", part=["module.html.jinja2", "index.html.jinja2", "custom.css"])
+    *expand("workflow/report/interface/{part}", part=["module.html.jinja2", "index.html.jinja2", "custom.css"])
 )
 
 
@@ -39,8 +38,6 @@ rule interface:
         parts=INTERFACE_PARTS,
     output:
         directory("figures/interface"),
-    params:
-        templates=INTERFACE,
     log:
         "results/logs/interface.log",
     benchmark:

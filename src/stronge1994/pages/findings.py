@@ -17,7 +17,7 @@ from stronge1994 import csv_tables
 from stronge1994.csv_tables import Columns, Curves, Row
 from stronge1994.ledger import in_nature, outcome
 from stronge1994.ledger.in_nature import Values
-from stronge1994.pages import ledger_page, which_model
+from stronge1994.pages import ledger_page, letter, which_model
 
 Finding = dict[str, Any]
 INCIDENCE, VELOCITY = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
@@ -33,6 +33,7 @@ PARTS = ("initial-stick", "slip-and-stick", "slip-throughout")
 
 MARK = ledger_page.STYLE | ledger_page.GRADE_STYLE
 SOUND = "confirmed", "confirmed within rounding"
+OPEN = "not testable"
 
 # A finding is left out where a comparison of its figure diverges.
 FIGURE = {
@@ -73,7 +74,7 @@ def paper(ledger: Sequence[Row]) -> Finding:
         "verdicts": verdicts,
         "grades": grades,
         "grave": grave,
-        "picture": bars({word: verdicts[word] for word in SOUND} | grades),
+        "picture": bars({word: verdicts[word] for word in SOUND} | grades | {OPEN: verdicts[OPEN]}),
     }
 
 
@@ -113,9 +114,11 @@ def restitution(
         if name.startswith(f"{model}, nu = ")
     ]
     sigma = measured["tangential_restitution_uncertainty [1]"]
+    [fit] = [fit for fit in letter.fits(curves, measured) if fit.model == "lumped"]
     return {
         "rows": rows,
         "pairs": len(sigma),
+        "others": fit.others.p,
         "whole": whole,
         "half": half,
         "picture": sketch(lines, (measured[E], measured[BETA_0], sigma)),

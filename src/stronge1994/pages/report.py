@@ -45,7 +45,7 @@ MARKS = {
 MEANING = {
     "diverges": "outside its tolerance: the run fails",
     "differs as documented": "a difference that is known, explained and as large as before",
-    "awaited": "the reference is not to be had yet",
+    "awaited": "we do not have the reference yet",
     "agrees": "with published points (p is large enough), or within the tolerance of its reference",
     "as before": "it ran; this guards against accidents and is evidence of nothing",
 }
