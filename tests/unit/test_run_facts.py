@@ -5,6 +5,7 @@ import subprocess
 
 import pytest
 
+from stronge1994 import records
 from stronge1994.pages import run_facts
 
 
@@ -36,3 +37,11 @@ def test_a_damaged_benchmark_is_left_out(table, tmp_path):
     (tmp_path / "bad.tsv").write_bytes(table)
     (tmp_path / "folder.tsv").mkdir()
     assert run_facts.times(tmp_path) == [("good", 1.5)]
+
+
+def test_what_pip_and_python_write_is_no_source_of_a_run(tmp_path, monkeypatch):
+    for name in ("Snakefile", "src/a.py", "src/a.egg-info/SOURCES.txt", "src/__pycache__/a.pyc"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("")
+    monkeypatch.chdir(tmp_path)
+    assert records.files_of_repository() == ["Snakefile", "src/a.py"]

@@ -30,7 +30,7 @@ def curves(throw: dict[str, Any]) -> Curves:
         `path`: one row before the first impact, one at each, one after the last; velocity and spin
         are those after it. They have the names and signs of a scene in space, x along the floor and
         z up: spin_y is positive where the ball turns as if it rolled forward on the floor, and
-        -`spin` before the first impact. Gravity is left out: the throw is fast.
+        -`spin` before the first impact. Gravity is left out.
 
     Examples
     --------
