@@ -1,107 +1,20 @@
 """A run that passes has passed: what is broken, cut, killed or planted never ends in PASSED."""
 
-import base64
 import csv
 import os
 import re
 import shutil
-import signal
-import subprocess
 import sys
-import time
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 from conftest import ROOT
 from snakemake.exceptions import WorkflowError
-from test_awaited_series import JOHNSON, RUBBER, SIGNED, UNSIGNED, export, made_up
-from test_troubleshooting import explained
 
 from stronge1994 import gate, records
 from stronge1994.gate import options
 from stronge1994.plan import config as configuration
 from stronge1994.plan import files
-
-# What is taken away from a tree that has passed, and how the job that makes it again stops first.
-# Each layer hides the next one.
-LAYERS = [
-    {
-        "results/curves/fig2.csv": "killed before",
-        "results/series/scenes_solved.csv": "failed behind",
-        "results/ledger.csv": "killed before",
-        "results/scenes/shot_peening.csv": "failed before",
-        "results/study/{chunk}.npz": "killed behind",
-        "figures/explorer.html": "failed behind",
-        "figures/interface": "killed before",
-        "figures/where_friction_turns_round.html": "killed before",
-        "results/trade.csv": "killed behind",
-        "results/stability.csv": "failed behind",
-    },
-    {
-        "results/verdicts/scene_superball.csv": "killed behind",
-        "figures/fig2.png": "killed before",
-        "results/residuals/fig2.csv": "failed before",
-        "results/sensitivity/fig2.csv": "failed behind",
-        "results/study.npz": "failed behind",
-        "figures/ledger.html": "killed before",
-        "figures/below_e_1.html": "killed behind",
-    },
-    {
-        "results/verdicts.csv": "failed behind",
-        "results/sensitivity.csv": "failed before",
-        "figures/study.png": "killed behind",
-    },
-    {"figures/report.html": "killed behind"},
-]
-
-
-def test_a_job_that_is_killed_or_fails_never_passes(finished):
-    """Job by job until all is made again; and what was wrong meanwhile is said in the end."""
-    made = finished.records()
-    chunk = min(path for path in made if path.startswith("results/study/"))
-    layers = [{p if "{" not in p else chunk: how for p, how in layer.items()} for layer in LAYERS]
-    tried = {made[path]["rule"] for layer in layers for path in layer}
-    assert tried == {record["rule"] for record in made.values()} - {"gate"}
-
-    shown = (finished / "data/scenes_solved/superball.csv").read_text()
-    (finished / "data/scenes_solved/superball.csv").write_text(shown.replace(",3.6", ",3.7"))
-    ledger = "data/stronge1994/ledger.yaml"
-    text = (finished / ledger).read_text()
-    start = text.index("  eq-41:")
-    wrong = "verdict: wrong\n    grade: changes a result\n    cause: strain-energy\n"
-    wrong += "    between: [1, 2]\n    correction: none at all\n    derivation: none"
-    changed = text[:start] + text[start:].replace("verdict: confirmed", wrong, 1)
-    # Restitution changes the largest friction; whoever writes that it does not is told so.
-    claim = changed[changed.index("      check: peak_spread") :].split("      says:")[0]
-    changed = changed.replace(claim, claim.split("      verdict")[0] + "      verdict: stands\n")
-    (finished / ledger).write_text(changed)
-    edited = "results/series/scenes_solved.csv", "results/ledger.csv"
-    for layer in layers:
-        for path, how in layer.items():
-            if path not in edited:  # whose old files are still there
-                gone = finished / path
-                shutil.rmtree(gone) if gone.is_dir() else gone.unlink()
-            finished.break_jobs({Path(made[path]["log"][0]).stem: how})
-    for number, layer in enumerate(layers):
-        said = finished.refuses_to_pass()
-        stopped = set(re.findall(r"^Error in rule (\w+):", said, flags=re.M))
-        assert stopped == {made[path]["rule"] for path in layer}
-        assert "A job stopped: " in said and "finished work is kept" in said
-        assert "No verdict in this run" in said
-        # Tables of an earlier run are not printed as if they were of this one.
-        assert ("ledger of the paper" in said) == (number == 1)
-        assert ("2 no longer hold" in said) == (number == 1)
-        assert "agrees" not in said or number == 3
-    said = finished.refuses_to_pass()
-    assert "FAILED. Reasons: 3\n" in said and "diverges: scene-superball" in said
-    assert "no longer holds: eq-41: recorded as wrong, found confirmed" in said
-    name = "restitution-leaves-peak"
-    assert f"no longer holds: {name}: in nature: recorded as stands, found fails" in said
-    page = (finished / "figures/ledger.html").read_text(encoding="utf-8")
-    article = page[page.index(f'<article id="{name}"') :].split("</article>")[0]
-    assert ">no longer holds<" in article and ">confirmed<" in article
-    assert not list((finished / "broken").iterdir()), "each has stopped"
 
 
 def test_a_divergence_fails_until_it_is_mended(finished, tmp_path):
@@ -142,47 +55,6 @@ def test_a_divergence_fails_until_it_is_mended(finished, tmp_path):
     assert "figures/fig8.png: not whole" in said and "remove that file and run again" in said
     cut.unlink()
     finished.passes()
-
-
-def test_a_run_that_is_killed_goes_on_and_what_is_gone_is_made_again(finished):
-    """The run itself, then the gate behind its work; a series dropped in meanwhile is judged."""
-    passed = finished / "results/PASSED"
-    gone = ["figures/fig4.png", "figures/report.html", "results/curves/fig2.csv"]
-    gone += ["results/series/kharaz2001.csv", "results/residuals/fig3.csv", "results/study.npz"]
-    for path in gone:
-        (finished / path).unlink()
-    (finished / f"data/{RUBBER}.wpd.csv").write_text(export(*made_up()))
-    finished.edit(f"data/{JOHNSON}/source.yaml", UNSIGNED, SIGNED)
-    finished.break_jobs({"gate": "killed behind"})
-    shutil.rmtree(finished / "imported")
-    command = [sys.executable, "-m", "snakemake", "--cores", "2"]
-    with open(finished / "words.txt", "w") as words:
-        running = subprocess.Popen(
-            command, cwd=finished.folder, stdout=words, stderr=words, start_new_session=True
-        )
-        while not (finished / "imported").exists() and running.poll() is None:
-            time.sleep(0.02)
-        os.killpg(running.pid, signal.SIGKILL)
-        running.wait()
-    assert not passed.exists()
-    assert "--unlock" in explained(finished.run())
-    assert finished.run("--unlock").returncode == 0
-
-    # The mark that Snakemake leaves at a file which it was writing.
-    half_made = "figures/fig8.png"
-    mark = base64.b64encode(half_made.encode()).decode()
-    (finished / ".snakemake/incomplete" / mark).write_text("")
-    (finished / half_made).write_text("half")
-    passed.write_text("")
-    assert finished.refuses_to_pass().count("Error in rule") == 1
-    finished.passes()
-    assert "every entry of the ledger holds" in passed.read_text()
-    assert all((finished / path).exists() for path in gone)
-    assert (finished / half_made).stat().st_size > 1000
-    with open(finished / "results/verdicts/fig5.csv", newline="") as file:
-        rows = {row["comparison"]: row for row in csv.DictReader(file)}
-    assert rows["fig5-rubber-sphere"]["verdict"] == "agrees"
-    assert f"data/{RUBBER}.wpd.csv" in finished.records()[f"results/series/{JOHNSON}.csv"]["input"]
 
 
 BROKEN = [
