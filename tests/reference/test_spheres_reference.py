@@ -1,5 +1,7 @@
 """The table of spheres against the continuum that it stands for, at 10^4 impacts.
 
+The suite tries a quarter of them, the profile `long` all.
+
 Half of them are random. The others surround the edges of the table, where the answer bends or two
 polynomials meet, from 1e-12 to 1e-2 away.
 """
