@@ -29,8 +29,8 @@ BODIES = {
 }
 # Figs 3 to 6 depend only on v1(0)/(mu v2(0)), so any friction will do.
 FRICTION = {"fig3": 0.5, "fig4": 0.5, "fig5": 0.2, "fig6": 0.5}
-# Figs 5 to 9 are curves: the explorer opens at one point of each. It starts with that of Fig. 5,
-# slip throughout, where all models agree.
+# Figs 5 to 9 are curves: the explorer opens at one point of each, of Fig. 5 where it slips
+# throughout.
 ANGLE = {"fig5": 58.0, "fig6": 45.0, "fig7": 45.0, "fig8": 30.0, "fig9": 45.0}  # deg
 
 
