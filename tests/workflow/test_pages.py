@@ -24,7 +24,9 @@ NOT_OURS = {INTERFACE: ["link-name", "heading-order", "duplicate-id"]}
 
 # What is folded counts as well.
 OPEN = "for (const part of document.querySelectorAll('details')) part.open = true;"
-FIND = """axe.run({resultTypes: ['violations'], ...%s}).then((found) => found.violations.map(
+# Colours may fade from light to dark: what counts is where they end.
+FIND = """Promise.all(document.getAnimations().map((one) => one.finished))
+.then(() => axe.run({resultTypes: ['violations'], ...%s})).then((found) => found.violations.map(
   ({id, nodes}) => `${id}: ${nodes.length}, first ${nodes[0].target}: ${nodes[0].html.slice(0, 90)}`
 ))"""
 # A width in px, a colour scheme, and whether axe judges colours, the rest, or both.
