@@ -107,6 +107,8 @@ def rebound(
     regime, reversals = (np.empty(x.size, np.int64) for _ in range(2))
     for is_elastic in (True, False):
         rows = np.flatnonzero((e == 1) == is_elastic)
+        if not rows.size:
+            continue
         groups = x[rows], beta[rows], zeta2[rows]
         with refinement.counted_among(rows):
             if is_elastic:

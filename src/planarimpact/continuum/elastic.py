@@ -46,8 +46,9 @@ def rebound(
     rest = np.flatnonzero(regime == _UNSOLVED)
     groups = x[rest], beta[rest], zeta2[rest]
     with refinement.counted_among(rest):
+        needed = refinement.steps_needed(*groups[1:])
         values, counts = refinement.refine(
-            groups, tolerance, _integrate, FIRST_STEPS, MOST_STEPS, SAFETY
+            groups, needed, tolerance, _integrate, FIRST_STEPS, MOST_STEPS, SAFETY
         )
     # The exact values have these bounds. Extrapolation and rounding may exceed them.
     velocity[rest] = np.clip(values[0], -groups[0], groups[0])
@@ -85,6 +86,7 @@ def contact(x: Array, beta: Array, zeta2: Array, tolerance: float) -> list[Array
             lambda steps: list(tangential_motion.path(x, beta, zeta2, steps)),
             (1, 2),
             (x, beta, zeta2),
+            refinement.steps_needed(beta, zeta2),
             tolerance,
             MOST_STEPS,
         )

@@ -23,15 +23,21 @@ BEST_ORDER = 4
 UNSURE = 2
 
 
-def steps_needed(beta: Array, zeta2: Array) -> Array:
-    """Steps that resolve the tangential oscillation: a contact has sqrt(beta/zeta^2)/2 of it."""
+def steps_needed(beta: Array, zeta2: Array, bluntness: Array | float = 1.0) -> Array:
+    """Steps that resolve the tangential oscillation of a contact.
+
+    An elastic contact has sqrt(beta/zeta^2)/2 of it. One that yields is softer, with `bluntness`
+    times the force of Hertz's law, and lasts longer: it has sqrt(beta/(zeta^2 bluntness))/2.
+    """
     with np.errstate(over="ignore"):
-        return STEPS_A_RADIAN * np.pi * (np.sqrt(beta) / np.sqrt(zeta2))
+        frequency = np.sqrt(beta) / (np.sqrt(zeta2) * np.sqrt(bluntness))
+    return STEPS_A_RADIAN * np.pi * frequency
 
 
-def refuse_hopeless(x: Array, beta: Array, zeta2: Array, tolerance: float, most: int) -> None:
+def refuse_hopeless(
+    x: Array, beta: Array, zeta2: Array, needed: Array, tolerance: float, most: int
+) -> None:
     """Refuse impacts that cannot reach the tolerance however many steps are taken."""
-    needed = steps_needed(beta, zeta2)
     unresolved = np.flatnonzero(needed > most)
     if unresolved.size:
         first = unresolved[0]
@@ -52,6 +58,7 @@ def refuse_hopeless(x: Array, beta: Array, zeta2: Array, tolerance: float, most:
 
 def refine(
     groups: tuple[Array, ...],
+    needed: Array,
     tolerance: float,
     integrate: Callable[[tuple[Array, ...], int], Solved],
     first: int,
@@ -64,6 +71,8 @@ def refine(
     ----------
     groups : tuple of ndarray, shape (n,)
         Incidence, mass ratio, stiffness ratio, and what else `integrate` wants.
+    needed : ndarray, shape (n,)
+        `steps_needed` of each impact.
     tolerance : float
     integrate : callable
         With groups of some impacts and a number of steps, returns the values (k, m), velocity and
@@ -85,7 +94,7 @@ def refine(
         If the tolerance is not met.
     """
     x, beta, zeta2 = groups[:3]
-    refuse_hopeless(x, beta, zeta2, tolerance, most)
+    refuse_hopeless(x, beta, zeta2, needed, tolerance, most)
     values = np.zeros((3, x.size))  # if there is nothing to do
     counts, nearest = np.zeros((2, x.size), dtype=np.int64), np.full(x.size, np.nan)
     lost, why = [], None
@@ -110,12 +119,14 @@ def refine(
         estimate = safety * np.maximum(changed, np.maximum(*chances))
         coarse[:, todo], values[:, todo], change[:, todo] = fine, better, changed
         counts[:, todo], nearest[todo] = number, near
-        resolved = steps >= steps_needed(beta[todo], zeta2[todo])
+        resolved = steps >= needed[todo]
         worst = estimate[:2].max(axis=0)  # NaN while there is no estimate yet
         settled = resolved & (worst <= tolerance)
-        # More steps do not help an answer that is not finite.
+        # More steps do not help an answer that is not finite. An estimate says what more steps can
+        # do once the steps resolve the oscillation at all three levels that it compares.
+        sure = (steps >= 4 * needed[todo]) | (2 * steps > most)
         beyond = ~np.isfinite(fine).all(axis=0) | (
-            resolved & ~in_reach(worst, tolerance, steps, most)
+            sure & ~settled & ~in_reach(worst, tolerance, steps, most)
         )
         if beyond.any() and not why:
             i, error = todo[beyond][0], worst[beyond][0]
@@ -149,6 +160,7 @@ def settled_path(
     solve: Callable[[int], Sequence[Array]],
     judged: tuple[int, int],
     groups: tuple[Array, Array, Array],
+    needed: Array,
     tolerance: float,
     most: int,
 ) -> Sequence[Array]:
@@ -163,6 +175,8 @@ def settled_path(
         The columns that must meet the tolerance.
     groups : tuple of ndarray, shape (1,)
         Incidence, mass ratio, stiffness ratio.
+    needed : ndarray, shape (1,)
+        Its `steps_needed`.
     tolerance : float
     most : int
         Steps to end with.
@@ -173,7 +187,7 @@ def settled_path(
         If the tolerance is not met.
     """
     x, beta, zeta2 = groups
-    refuse_hopeless(x, beta, zeta2, tolerance, most)
+    refuse_hopeless(x, beta, zeta2, needed, tolerance, most)
     why, steps = None, 128
     coarse = solve(steps)
     while not why:
@@ -181,7 +195,7 @@ def settled_path(
         fine = solve(steps)
         # An error that falls with the square of the steps is a third of the change.
         change = max(np.max(np.abs(fine[i][::2] - coarse[i])) / 3 for i in judged)
-        resolved = steps >= steps_needed(beta, zeta2)[0]
+        resolved = steps >= needed[0]
         if resolved and change <= tolerance:
             return fine
         if resolved and not in_reach(np.asarray(change), tolerance, steps, most):

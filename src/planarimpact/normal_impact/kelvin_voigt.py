@@ -231,18 +231,20 @@ class Half:
         share = sigma / self._step - row
         return np.stack([_value(self._cubic(row, part), share) for part in range(3)])
 
-    def crossing(self, part: int, level: Array) -> Array:
-        """sigma where a component that falls is at a level, shape (k, m)."""
+    def crossing(self, part: int, level: Array, rises: bool = False) -> Array:
+        """sigma where a component that falls, or `rises`, is at a level, shape (k, m)."""
+        sign = -1.0 if rises else 1.0
+        level = sign * level
         row = np.empty(level.shape, np.intp)
         for i in range(self._step.size):  # each column has its own falling values
-            falling = np.minimum.accumulate(self.values[:, part, i])
+            falling = np.minimum.accumulate(sign * self.values[:, part, i])
             row[:, i] = STEPS + 1 - np.searchsorted(falling[::-1], level[:, i], "right")
         row = np.clip(row - 1, 0, STEPS - 1)
         cubic = self._cubic(row, part)
         low, high = np.zeros(level.shape), np.ones(level.shape)
         for _ in range(BISECTIONS):
             middle = (low + high) / 2
-            above = _value(cubic, middle) > level
+            above = sign * _value(cubic, middle) > level
             low, high = np.where(above, middle, low), np.where(above, high, middle)
         return (row + high) * self._step
 

@@ -49,6 +49,12 @@ class Compression(NamedTuple):
         """Force there, shape (m,)."""
         return self.rate**2 * self.reach
 
+    def bluntness(self, depth: Array) -> Array:
+        """Force over that of Hertz's law at an approach, and so at that radius, shape (..., m)."""
+        hertzian = 4 / 3 * np.maximum(depth, self.yields) ** 1.5
+        plastic = self.rate**2 * (depth - self.centre) / hertzian
+        return np.where(depth > self.yields, plastic, 1.0)
+
     def at(self, depth: Array) -> tuple[Array, Array, Array]:
         """Time, velocity and force at an approach, shape (..., m)."""
         elastic = np.minimum(depth, self.yields)

@@ -42,11 +42,11 @@ def friction_falls(b: Array, e: Array) -> Array:
     >>> float(friction_falls(np.array([2.5]), np.array([0.5]))[0].round(3))
     1.426
     """
-    motion = KelvinVoigt(e, 2)
+    motion = KelvinVoigt(e)
     low, high = motion.velocity_at_largest_force.copy(), np.ones(e.size)
     for _ in range(HALVINGS):
         v = (low + high) / 2
-        _, approach, force = motion.when(v)
+        approach, force = motion.compressed(v)
         rises = v + motion.tau * v**2 / (2 * approach) > motion.tau * b * force
         low, high = np.where(rises, low, v), np.where(rises, v, high)
     return _slips_until(low, b)
@@ -60,7 +60,7 @@ def lasts_to_largest_force(b: Array, e: Array) -> Array:
     >>> float(lasts_to_largest_force(np.array([2.5]), np.array([0.5]))[0].round(3))
     1.912
     """
-    return _slips_until(KelvinVoigt(e, 2).velocity_at_largest_force, b)
+    return _slips_until(KelvinVoigt(e).velocity_at_largest_force, b)
 
 
 def lasts_to_yield(b: Array, e: Array) -> Array:

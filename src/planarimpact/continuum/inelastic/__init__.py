@@ -20,6 +20,7 @@ import numpy as np
 from planarimpact.continuum import refinement
 from planarimpact.continuum.inelastic import peaks
 from planarimpact.continuum.inelastic.kelvin_voigt import KelvinVoigt
+from planarimpact.continuum.inelastic.normal_motion import places
 from planarimpact.continuum.inelastic.springs import SpringRow
 from planarimpact.continuum.inelastic.thornton import Thornton
 from planarimpact.continuum.refinement import Solved
@@ -105,8 +106,9 @@ def rebound(
         return refinement.in_parts(x.size, max(32, CELLS // steps), solve)
 
     with refinement.counted_among(rest):
+        needed = _steps_needed(*groups[1:], loss)
         values, counts = refinement.refine(
-            groups, tolerance, integrate, FIRST_STEPS, MOST_STEPS, SAFETY
+            groups, needed, tolerance, integrate, FIRST_STEPS, MOST_STEPS, SAFETY
         )
     # The exact values have these bounds. Extrapolation and rounding may exceed them.
     velocity[rest] = np.clip(values[0], -x[rest], x[rest])
@@ -138,65 +140,59 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
     >>> [path(*groups, loss, 128).velocity[-1].round(3) for loss in LOSSES]
-    [array([-0.482]), array([-0.415])]
+    [array([-0.482]), array([-0.414])]
     """
-    motion = LOSSES[loss](e, steps // 2)
+    motion, column = LOSSES[loss](e), np.arange(x.size)
     # Gross slip from the start ends at this normal velocity, at once for x <= zeta^2.
     slips = x > zeta2
     last = np.maximum(motion.grip(x, beta, zeta2), -e)
-    start, approach, slid = (np.where(slips, a, 0.0) for a in motion.when(last))
+    where, number = places(steps // 2, np.where(slips, motion.place(last), 0.0))
+    motion.stand(where)
+    onset = np.where(last > 0, number, steps - number) * slips
     throughout = x >= sliding.limit_alike(beta, zeta2, e)
-    start = np.where(throughout, 2 * motion.time[-1], start)  # never
+    start, approach, last, slid = (
+        a[onset, column] for a in (motion.time, motion.approach, motion.velocity, motion.force)
+    )
     # The largest force of that slip.
     peak = np.where(last > motion.velocity_at_largest_force, slid, motion.largest_force) * slips
+    work = _work_sliding(x, beta, zeta2, -last, loss)
     row = SpringRow(motion)
     friction, velocity = motion.force.copy(), x - beta * (1 - motion.velocity)
-    stick_radius = np.zeros_like(friction)
-    u, w = (
-        (x * start - beta * (start - approach)) / zeta2,
-        np.where(slips, x - beta * (1 - last), x),
-    )
-    force, began = np.zeros(x.size), start == 0
-    # Time, approach, normal velocity, displacement and its rate when slip ends, and at some
-    # instants after that; and how many of them are known.
-    searched = 0 if motion.viscous else peaks.instants_after(steps)
-    knots = np.zeros((1 + searched, 5, x.size))
-    knots[:] = start, approach, last, u, w / zeta2
-    known = np.ones(x.size, dtype=np.intp)
-    work = _work_sliding(x, beta, zeta2, -last, loss)
+    stick_radius, displacement = np.zeros((2, *friction.shape))
+    u, w = (x * start - beta * (start - approach)) / zeta2, velocity[onset, column]
+    displacement[onset, column] = u
+    force = np.zeros(x.size)
+    onset = np.where(throughout, steps + 1, onset)  # never
     for k in range(1, steps + 1):
-        before, after = motion.time[k - 1 : k + 1]
-        begins = ~began & (after > start)
+        begins, began = (onset == k - 1) & slips, onset < k
         if begins.any():
-            row.slide(begins, approach, last, u)
+            row.slide(k - 1, begins, u)
             force = np.where(begins, slid, force)
             if not motion.viscous:  # the springs hold strain, which no friction has taken yet
                 work -= begins * zeta2 * row.strain()
-            began |= begins
-        step = np.where(began, after - np.maximum(before, start), 0.0)
-        pace = np.where(begins, last, motion.velocity[k - 1])
+        step = np.where(began, motion.time[k] - motion.time[k - 1], 0.0)
         # Heun's method: a step with the force at its start, then one with the mean of both ends.
         # Elastic springs do not feel the velocity, so that once is enough (Verlet's method).
         ahead = w - beta * step * force
         for _ in range(1 + motion.viscous):
             moved = u + step * (w + ahead) / (2 * zeta2)
-            new = row.move(k, step, pace, (u, w / zeta2), (moved, ahead / zeta2))
+            new = row.move(k, step, (u, w / zeta2), (moved, ahead / zeta2))
             ahead = w - beta * step * (force + new) / 2
         u, w, force = moved, np.where(began, ahead, w), np.where(began, new, force)
         work += zeta2 * row.settle(k) * began
-        friction[k, began], velocity[k, began] = force[began], w[began]
+        friction[k, began], velocity[k, began], displacement[k, began] = (
+            a[began] for a in (force, w, u)
+        )
         stick_radius[k] = np.where(began, row.stick_radius, 0.0)
-        which = np.flatnonzero(began & (known < len(knots)))
-        if which.size:
-            here = np.array([after, motion.approach[k], motion.velocity[k], u, w / zeta2])
-            knots[known[which], :, which] = here[:, which].T
-            known[which] += 1
+    searched = 0 if motion.viscous else peaks.instants_after(steps)
     if isinstance(motion, Thornton):
-        soon = slips & (last > 0) & (known == len(knots))
+        soon = slips & (last > 0) & (onset + searched <= steps)
+        after = np.minimum(onset + np.arange(1 + searched)[:, None], steps)
+        knots = [motion.time, motion.approach, motion.velocity, displacement, velocity / zeta2]
         with np.errstate(divide="ignore", invalid="ignore"):  # where it is not sought
-            later = peaks.after_slip(motion, knots)
+            later = peaks.after_slip(motion, np.stack([a[after, column] for a in knots], axis=1))
         peak = np.maximum(peak, np.where(soon, later, 0.0))
-    peak = peaks.largest(motion.time, friction, start, slid, peak, searched)
+    peak = peaks.largest(motion.time, friction, onset, peak, searched)
     largest = motion.largest_force
     radius = np.concatenate([motion.radius, motion.radius[-2::-1]]) / motion.radius[-1]
     return Path(
@@ -219,10 +215,15 @@ def contact(
         lambda steps: path(x, beta, zeta2, e, loss, steps),
         (Path._fields.index("friction"), Path._fields.index("velocity")),
         (x, beta, zeta2),
+        _steps_needed(beta, zeta2, e, loss),
         tolerance,
         MOST_STEPS,
     )
     return [column[:, 0] for column in fine[:-2]]
+
+
+def _steps_needed(beta: Array, zeta2: Array, e: Array, loss: str) -> Array:
+    return refinement.steps_needed(beta, zeta2, LOSSES[loss].least_bluntness(e))
 
 
 def _summary(found: Path) -> Solved:

@@ -4,7 +4,7 @@ import numpy as np
 
 from planarimpact.continuum.inelastic.springs import cubic
 from planarimpact.continuum.inelastic.thornton import Thornton
-from planarimpact.ground.arrays import Array
+from planarimpact.ground.arrays import Array, Integers
 
 # Places where a polynomial through a few instants is looked at.
 SAMPLES = 49
@@ -18,16 +18,14 @@ def instants_after(steps: int) -> int:
     return 2 + int(steps * AFTER)
 
 
-def largest(
-    time: Array, friction: Array, start: Array, force: Array, peak: Array, searched: int
-) -> Array:
+def largest(time: Array, friction: Array, onset: Integers, peak: Array, searched: int) -> Array:
     """Largest friction of each contact.
 
     Parameters
     ----------
     time, friction : ndarray, shape (steps + 1, n)
-    start, force : ndarray, shape (n,)
-        When gross slip from the start ends, and friction then.
+    onset : ndarray of int, shape (n,)
+        The instant when gross slip from the start ends.
     peak : ndarray, shape (n,)
         Largest friction up to then, or as far as it has been sought.
     searched : int
@@ -38,22 +36,19 @@ def largest(
     ndarray, shape (n,)
     """
     size = np.abs(friction)
-    column = np.arange(start.size)
-    first = np.clip(np.sum(time <= start, axis=0), 1, len(size) - 3)
-    # A point too near to the first one would make the polynomial through them steep.
-    step = time[first, column] - time[first - 1, column]
-    first += time[first, column] - start < step / 2
+    column = np.arange(onset.size)
+    first = np.clip(onset, 0, len(size) - 3)
     top = np.clip(np.argmax(size, axis=0), 2, len(size) - 3)
     lower = size[top - 1, column] > size[top + 1, column]
     around = top + np.arange(-1, 3)[:, None] - lower
     # A polynomial must not reach over the kink where gross slip ends.
-    smooth = around[0] >= first + np.where(start > 0, searched // 2, 0)
+    smooth = around[0] > first + np.where(onset > 0, searched // 2, 0)
     late = [(time[k, column], size[k, column]) for k in around]
     found = np.maximum(peak, np.where(smooth, _highest(late), size[top, column]))
     if searched:
         return found
-    early = [(time[k, column], size[k, column]) for k in (first, first + 1)]
-    return np.maximum(found, _highest([(start, np.abs(force)), *early]))
+    early = [(time[first + k, column], size[first + k, column]) for k in range(3)]
+    return np.maximum(found, _highest(early))
 
 
 def after_slip(motion: Thornton, knots: Array) -> Array:
@@ -61,11 +56,10 @@ def after_slip(motion: Thornton, knots: Array) -> Array:
 
     Friction grows on, turns and falls within a step, as one spring after the other sticks. Then
     each keeps c, the least value that limit less displacement has had. Approach and displacement
-    are cubics between the knots.
+    are cubics between the `knots`, the instants from the end of slip on: time, approach, normal
+    velocity, displacement and its rate, shape (knots, 5, n).
     """
     count = len(motion.radius)
-    width = motion.width.copy()
-    width[0] /= 2
     limit = motion.sliding_deflection(knots[0, 1], knots[0, 2], count)
     memory = limit - knots[0, 3]
     points = [(knots[0, 0], motion.force_at(knots[0, 1], knots[0, 2]))]
@@ -77,8 +71,8 @@ def after_slip(motion: Thornton, knots: Array) -> Array:
             u = cubic(share, left[3], right[3], step * left[4], step * right[4])
             limit = motion.sliding_deflection(approach, velocity, count)
             memory = np.minimum(memory, limit - u)
-            whole = np.sum(width * limit, axis=0)
-            lack = np.sum(width * (limit - u - memory), axis=0)
+            whole = np.sum(motion.width * limit, axis=0)
+            lack = np.sum(motion.width * (limit - u - memory), axis=0)
             force = motion.force_at(approach, velocity)
             force = force * (1 - lack / np.where(whole > 0, whole, 1.0))
             points.append((left[0] + share * step, force))

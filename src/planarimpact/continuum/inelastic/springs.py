@@ -21,13 +21,13 @@ class SpringRow:
         # Memory c, limit L and tangential density of the springs that touch.
         self._memory, self._limit, self._density = np.zeros((3, 1, n))
         self._next = self._memory, self._limit, self._density
-        self._since = np.zeros(n)  # approach at the last instant
 
-    def slide(self, which: Booleans, approach: Array, velocity: Array, u: Array) -> None:
-        """Put contacts in the state of gross slip at an approach and a normal velocity."""
-        count = len(self._memory)
-        self._since = np.where(which, approach, self._since)
-        deflection = self._motion.sliding_deflection(approach, velocity, count)
+    def slide(self, k: int, which: Booleans, u: Array) -> None:
+        """Put contacts in the state of gross slip at instant k, which is the last one."""
+        velocity = self._motion.velocity[k]
+        deflection = self._motion.sliding_deflection(
+            self._motion.approach[k], velocity, len(self._memory)
+        )
         limit = deflection + self._motion.tau * velocity
         for mine, new in zip(
             (self._memory, self._limit, self._density), (deflection - u, limit, limit), strict=True
@@ -35,16 +35,11 @@ class SpringRow:
             mine[:, which] = new[:, which]
 
     def move(
-        self,
-        k: int,
-        step: Array,
-        pace: Array,
-        start: tuple[Array, Array],
-        end: tuple[Array, Array],
+        self, k: int, step: Array, start: tuple[Array, Array], end: tuple[Array, Array]
     ) -> Array:
         """Tangential force at instant k if the body moves from one (u, u') to another; a trial.
 
-        `step` is the time since the start, and `pace` the normal velocity there.
+        `step` is the time since the last instant, 0 for contacts that still slide from the start.
         """
         motion = self._motion
         limit = motion.density(k)
@@ -54,7 +49,7 @@ class SpringRow:
         if motion.viscous:
             memory, density = _relaxed(*parts, pull, later, step, motion.tau)
         else:
-            wanted = self._turned(k, parts, step, pace, start, end) + later
+            wanted = self._turned(k, parts, step, start, end) + later
             density = np.clip(wanted, -limit[:count], limit[:count])
             memory = density - later
         if count < len(limit):  # a spring comes into contact, without deflection
@@ -68,7 +63,6 @@ class SpringRow:
         k: int,
         parts: tuple[Array, Array, Array],
         step: Array,
-        pace: Array,
         start: tuple[Array, Array],
         end: tuple[Array, Array],
     ) -> Array:
@@ -82,7 +76,8 @@ class SpringRow:
         memory, limit, limit_after = parts
         motion, count = self._motion, len(memory)
         grown = limit_after[-1] - limit[-1]  # what the limit gains at the edge, and less inside
-        slowing = (motion.velocity[k] - pace) * step
+        pace, later_pace = motion.velocity[k - 1 : k + 1]
+        slowing = (later_pace - pace) * step
         between: Array | None = None
         for side in (1.0, -1.0):
             early, late = (side * rate * step for _, rate in (start, end))
@@ -93,12 +88,9 @@ class SpringRow:
             if not which.size:
                 continue
             if between is None:
-                approach = cubic(
-                    0.5, self._since, motion.approach[k], step * pace, step * motion.velocity[k]
-                )
-                between = motion.sliding_deflection(
-                    approach, (pace + motion.velocity[k]) / 2, count
-                )
+                since, until = motion.approach[k - 1 : k + 1]
+                approach = cubic(0.5, since, until, step * pace, step * later_pace)
+                between = motion.sliding_deflection(approach, (pace + later_pace) / 2, count)
                 halfway = cubic(0.5, start[0], end[0], step * start[1], step * end[1])
                 memory = memory.copy()
             c = parts[0][:, which]
@@ -118,28 +110,25 @@ class SpringRow:
         slid = self._memory[:count] - memory[:count]
         mean = (self._density[:count] + density[:count]) / 2
         width = self._motion.width[:count]
-        work = 2 * np.sum(width * mean * slid, axis=0) - width[0] * mean[0] * slid[0]
+        work = 2 * np.sum(width * mean * slid, axis=0)
         first = np.argmax(slid != 0, axis=0)
         column = np.arange(first.size)
         stuck = slid[first, column] == 0
         inner = self._motion.radius[np.where(stuck, len(density) - 1, first), column]
         self.stick_radius = inner
         self._memory, self._limit, self._density = self._next
-        self._since = self._motion.approach[k]
         return work
 
     def strain(self) -> Array:
         """Strain energy over zeta^2 of elastic springs, whose density is their deflection."""
         width = self._motion.width[: len(self._density)]
-        squares = width * self._density**2
-        return np.sum(squares, axis=0) - squares[0] / 2
+        return np.sum(width * self._density**2, axis=0)
 
     def _sum(self, k: int) -> Array:
         """Friction at instant k: mu times the normal force times the share of the limits."""
         _, limit, density = self._next
         width = self._motion.width[: len(limit)].copy()
-        width[0] /= 2
-        width[-1] /= 2
+        width[-1] = self._motion.edge_width[len(limit) - 1]
         whole = np.sum(width * limit, axis=0)
         share = np.sum(width * density, axis=0) / np.where(whole > 0, whole, 1.0)
         return share * self._motion.force[k]

@@ -29,47 +29,67 @@ class Thornton(NormalMotion):
     ----------
     restitution : ndarray, shape (m,)
         0.1 to 1, without 1.
-    intervals : int
-        n of `NormalMotion`.
 
     Examples
     --------
-    >>> found = Thornton(np.array([0.8]), 8)
+    >>> found = Thornton(np.array([0.8]))
+    >>> found.stand(np.linspace(0.0, 1.0, 9)[:, None])
     >>> round(float(found.velocity[-1, 0]), 9)
     -0.8
     """
 
     viscous = False
 
-    def __init__(self, restitution: Array, intervals: int) -> None:
+    def __init__(self, restitution: Array) -> None:
         self._e = restitution
         self._law = law.compression(restitution)
         self.tau = np.zeros_like(restitution)
-        largest = self._law.largest_approach()
+        self._largest = self._law.largest_approach()
         self.largest_force = self._law.largest_force()
-        self.velocity_at_largest_force = np.zeros_like(largest)
-        angle = np.linspace(0.0, np.pi / 2, intervals + 1)[:, None]
-        self.radius = np.sqrt(largest) * np.sin(angle)
-        self.width = np.sqrt(largest) * np.cos(angle) * (np.pi / 2 / intervals)
-        self.width[-1] = 0.0
+        self.velocity_at_largest_force = np.zeros_like(self._largest)
+        self._last_blunt = self._law.bluntness(self._largest)
+        self._turn = self._law.at(self._largest)[0]
+        self._unloading = self._last_blunt * self._largest / restitution * hertz.COMPRESSION
+
+    @staticmethod
+    def least_bluntness(restitution: Array) -> Array:
+        """As in `NormalMotion`: at the end of compression."""
+        compression = law.compression(restitution)
+        return compression.bluntness(compression.largest_approach())
+
+    def place(self, velocity: Array) -> Array:
+        """As in `NormalMotion`: the angle whose sine is the radius, over a right angle."""
+        depth = self._depth(velocity)
+        angle = np.arctan2(np.sqrt(depth), np.sqrt(self._largest - depth))
+        back = np.pi - hertz.phase_at(np.clip(velocity / self._e, -1.0, 0.0))
+        return np.where(velocity > 0, angle, back) / (np.pi / 2)
+
+    def stand(self, places: Array) -> None:
+        """As in `NormalMotion`."""
+        angle = places * (np.pi / 2)
+        self.radius = np.sqrt(self._largest) * np.sin(angle)
+        rate = np.sqrt(self._largest) * np.cos(angle) * (np.pi / 2)
+        rate[-1] = 0.0
+        self._weigh(places, rate)
         depth = self.radius**2
-        depth[-1] = largest
+        depth[-1] = self._largest
         back = depth[-2::-1]
         time, velocity, force = self._law.at(depth)
-        blunt = self._bluntness(depth)
-        self._unloading = blunt[-1] * largest / restitution * hertz.COMPRESSION
+        blunt = self._law.bluntness(depth)
         phase = np.pi - angle[-2::-1]
-        self.time = np.concatenate([time, time[-1] + self._unloading * (hertz.time(phase) - 1)])
-        self.velocity = np.concatenate([velocity, restitution * hertz.velocity(phase)])
-        self.approach = np.concatenate([depth, largest - blunt[-1] * (largest - back)])
-        self.force = np.concatenate([force, 4 / 3 * blunt[-1] * back**1.5])
-        self._blunt = np.concatenate([blunt, np.broadcast_to(blunt[-1], back.shape)])
+        later = self._turn + self._unloading * (hertz.time(phase) - 1)
+        self.time = np.concatenate([time, later])
+        self.velocity = np.concatenate([velocity, self._e * hertz.velocity(phase)])
+        lost = self._last_blunt * (self._largest - back)
+        self.approach = np.concatenate([depth, self._largest - lost])
+        self.force = np.concatenate([force, 4 / 3 * self._last_blunt * back**1.5])
+        self._blunt = np.concatenate([blunt, np.broadcast_to(self._last_blunt, back.shape)])
 
-    def _bluntness(self, depth: Array) -> Array:
-        """Force over that of Hertz's law at the same radius of contact, in compression."""
-        hertzian = 4 / 3 * np.maximum(depth, self._law.yields) ** 1.5
-        plastic = self._law.rate**2 * (depth - self._law.centre) / hertzian
-        return np.where(depth > self._law.yields, plastic, 1.0)
+    def _depth(self, velocity: Array) -> Array:
+        """Approach at a velocity in compression."""
+        elastic = ((1 - np.clip(velocity, 0.0, 1.0) ** 2) / (2 * hertz.ENERGY)) ** 0.4
+        plastic = self._law.plastic_approach(velocity)
+        return np.minimum(np.where(elastic > self._law.yields, plastic, elastic), self._largest)
 
     def density(self, instant: int) -> Array:
         """As in `NormalMotion`: b (a^2 - r^2)."""
@@ -88,10 +108,9 @@ class Thornton(NormalMotion):
 
     def _contact(self, approach: Array, velocity: Array) -> tuple[Array, Array]:
         """Square of the radius of contact, and bluntness."""
-        largest, blunt = self.radius[-1] ** 2, self._blunt[-1]
-        depth = np.where(velocity > 0, approach, largest - (largest - approach) / blunt)
-        depth = np.clip(depth, 0.0, largest)
-        return depth, np.where(velocity > 0, self._bluntness(depth), blunt)
+        back = self._largest - (self._largest - approach) / self._last_blunt
+        depth = np.clip(np.where(velocity > 0, approach, back), 0.0, self._largest)
+        return depth, np.where(velocity > 0, self._law.bluntness(depth), self._last_blunt)
 
     def grip(self, x: Array, beta: Array, zeta2: Array) -> Array:
         """As in `NormalMotion`: where w = zeta^2 v, or zeta^2 b v in plastic compression."""
@@ -117,24 +136,6 @@ class Thornton(NormalMotion):
     def _slowed(self, velocity: Array) -> Array:
         """Bluntness at a velocity in plastic compression."""
         share = np.clip(velocity / (self._law.rate * self._law.reach), 0.0, 1.0)
-        return self._bluntness(
+        return self._law.bluntness(
             self._law.centre + self._law.reach * np.sqrt((1 - share) * (1 + share))
-        )
-
-    def when(self, velocity: Array) -> tuple[Array, Array, Array]:
-        """As in `NormalMotion`."""
-        largest = self.radius[-1] ** 2
-        # Elastic compression, plastic compression, restitution.
-        elastic = ((1 - np.clip(velocity, 0.0, 1.0) ** 2) / (2 * hertz.ENERGY)) ** 0.4
-        plastic = self._law.plastic_approach(velocity)
-        depth = np.where(elastic > self._law.yields, plastic, elastic)
-        phase = hertz.phase_at(np.clip(velocity / self._e, -1.0, 0.0))
-        later = self.time[len(self.radius) - 1] + self._unloading * (hertz.time(phase) - 1)
-        radius = np.sin(phase)
-        time, _, force = self._law.at(depth)
-        early = velocity > 0
-        return (
-            np.where(early, time, later),
-            np.where(early, depth, largest - self._blunt[-1] * largest * (1 - radius**2)),
-            np.where(early, force, self.largest_force * radius**3),
         )
