@@ -7,6 +7,7 @@ across the axes, brackets), contours of a mesh, and artists or axes whose label 
 """
 
 import bisect
+import itertools
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import IO, Any, NamedTuple, TypeAlias
@@ -195,13 +196,11 @@ class _Panel:
             known = [c for c in known if not category or words.of_curve(category, c.curve, c.names)]
         points = points[:, [bool(label) for label in self.labels]]
         if isinstance(artist, PolyCollection | Polygon):
-            found = [columns for columns in known if _are_in(points, columns.rows).any()]
-            inside = np.isin(points[:, -1], BASES)
-            for columns in found:
-                inside |= _are_in(points, columns.rows)
-            if inside.all():
-                return found
-            points = points[~inside]
+            # Below and above it are lines of one or two curves, or one is a constant.
+            inside = [(columns, _are_in(points, columns.rows)) for columns in known]
+            based = np.isin(points[:, -1], BASES) & isinstance(artist, PolyCollection)
+            pairs = itertools.combinations_with_replacement(inside, 2)
+            found = next(([a, b] for (a, m), (b, n) in pairs if (m | n | based).all()), [])
         elif isinstance(artist, Annotation):
             at = tuple(points[0].tolist())
             found = [c for c in self.columns if at in c.places]

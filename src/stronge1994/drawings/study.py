@@ -50,7 +50,7 @@ NAME = {
     "fontsize": house_style.NOTE,
     "linespacing": house_style.LINES,
 }
-NAME |= {"bbox": PLATE}
+NAME |= {"bbox": PLATE, "label": house_style.NO_DATA}
 LEADER = {"arrowstyle": "-|>", "mutation_scale": 6, "linewidth": 0.6, "color": house_style.BLACK}
 LEADER |= {"shrinkA": 0, "shrinkB": 0}
 
