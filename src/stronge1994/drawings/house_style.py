@@ -3,7 +3,8 @@
 Each figN.py beside this file has one public function, `draw(curves, settings, points)`, which
 returns a Figure:
 
-- `curves`, what stronge1994.curves.figN returns: `{curve: {column: array}}`;
+- `curves`, what stronge1994.curves.figN returns, `{curve: {column: array}}`, and what `derived`
+  adds; nothing else may be shown, see `checked`;
 - `settings`, the keywords it was called with, from which labels take their numbers;
 - `points`, the reference series that are not awaited, `{"source/series": {...}}` with arrays `x`
   and `y`, their `sigma`, `line` and the source's `parameters`; and stated facts, as in source.yaml.
