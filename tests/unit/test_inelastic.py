@@ -9,9 +9,9 @@ import pytest
 
 from planarimpact import bodies, lumped, models
 from planarimpact.bodies import Material
-from stronge1994 import csv_tables, curve_names, plan, reference_data
+from stronge1994 import csv_tables, curve_names, drawings, plan, reference_data
 from stronge1994.curves import inelastic, solving
-from stronge1994.drawings import inelastic as drawing
+from stronge1994.drawings import derived
 from stronge1994.judging import compare
 from stronge1994.plan import config as configuration
 from stronge1994.reference_data import conversion
@@ -224,7 +224,7 @@ def test_the_picture_has_the_numbers_of_the_gate(lumped_alone, judge, settings, 
     found = inelastic.curves(**settings)
     for row in rows.values():
         model = row["comparison"].split("-")[1]
-        fit = drawing.goodness(found, model, series_of(inventory))
+        fit = derived.goodness(found, model, series_of(inventory))
         assert (f"{fit.value:.3g}", f"{fit.p:.2g}") == (row["chi^2"], row["p"])
 
 
@@ -232,7 +232,7 @@ def test_the_picture_has_the_numbers_of_the_gate(lumped_alone, judge, settings, 
 def test_no_words_of_the_picture_overlap(inventory, settings):
     config = configuration.load(ROOT)["figures"]["inelastic"]
     points = {PAIRS: series_of(inventory)}
-    figure = drawing.draw(inelastic.curves(**settings), config, points)
+    figure, _ = drawings.drawn("inelastic", inelastic.curves(**settings), config, points)
     figure.draw_without_rendering()
     for axes in figure.axes:
         boxes = [text.get_window_extent() for text in axes.texts]

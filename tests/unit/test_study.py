@@ -312,7 +312,7 @@ def test_a_map_is_drawn_for_every_slice_up_to_six(grid, maps):
     axes = study.axes_of(GRID | grid)
     count = math.prod(map(len, axes.values()))
     found = study.gather(axes, [(0, study.solve(lumped.rebound, axes, 0, count))])
-    figure = draw_study.draw(axes, found["velocity"], found["regime"])
+    figure, _ = draw_study.draw(axes, found["velocity"], found["regime"])
     figure.draw_without_rendering()
     titled = [panel for panel in figure.axes if panel.get_title()]
     assert len(titled) == maps
@@ -327,7 +327,7 @@ def map_of(velocity, regime):
     columns, rows = velocity.shape
     grid |= {"incidence": np.arange(float(columns)), "restitution": np.linspace(0, 1, rows)}
     shape = (columns, 1, 1, rows)
-    return draw_study.draw(grid, velocity.reshape(shape), regime.reshape(shape)).axes[0]
+    return draw_study.draw(grid, velocity.reshape(shape), regime.reshape(shape))[0].axes[0]
 
 
 def test_a_map_shows_where_velocity_is_negative_without_colours():
@@ -343,7 +343,7 @@ def test_a_study_along_one_axis_is_a_curve():
     grid = {name: np.array([1.0]) for name in checks.RULES} | {"stiffness_ratio": np.arange(3.0)}
     velocity = np.array([1.0, -1, 2])
     shape = (1, 1, 3, 1)
-    panel = draw_study.draw(grid, velocity.reshape(shape), np.zeros(shape)).axes[0]
+    panel = draw_study.draw(grid, velocity.reshape(shape), np.zeros(shape))[0].axes[0]
     assert panel.get_lines()[-1].get_xydata().tolist() == [[0, 1], [1, -1], [2, 2]]
     assert panel.get_xlabel() == draw_study.LABELS["stiffness_ratio"]
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from planarimpact import InputError, continuum, models, response
-from stronge1994 import csv_tables
+from stronge1994 import csv_tables, drawings
 from stronge1994.curves import convergence, trade
 from stronge1994.drawings import trade as draw_trade
 from stronge1994.trade import answers as trade_table
@@ -359,7 +359,7 @@ def test_table_figure_and_captions_say_that_the_machine_was_busy(named, tmp_path
     for curves, said in ((quiet, False), (quiet | dict(list(busy.items())[:2]), True)):
         path, *tables = (tmp_path / f"{name}.csv" for name in ("curves", "table", "answers"))
         csv_tables.write(path, curves)
-        figure = draw_trade.draw(csv_tables.read(path), SETTINGS, {})
+        figure, _ = drawings.drawn("trade", csv_tables.read(path), SETTINGS, {})
         words = r"\nthe machine was busy: 2 of \d+ times are up to 2.5 times too long$"
         assert bool(re.search(words, figure.get_suptitle())) is said
         trade_table.write(path, *tables)

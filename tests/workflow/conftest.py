@@ -14,6 +14,7 @@ import browser
 import pytest
 
 from stronge1994 import plan
+from stronge1994.curves import explorer as explorer_curves
 from stronge1994.pages import explorer as write_explorer
 from stronge1994.plan import config as configuration
 from stronge1994.plan import files
@@ -175,7 +176,8 @@ def explorer(tmp_path_factory):
     path = tmp_path_factory.mktemp("explorer") / "explorer.html"
     config = configuration.load(ROOT)
     sources = sorted((ROOT / "workflow/explorer").iterdir())
-    text = write_explorer.page(plan.settings_of_explorer(config), sources)
+    answers = explorer_curves.answers(write_explorer.LIMITS)
+    text = write_explorer.page(plan.settings_of_explorer(config), sources, answers)
     path.write_text(text, encoding="utf-8")
     return path
 

@@ -175,7 +175,7 @@ def test_spin_before_a_throw_counts(settings):
 def test_what_the_sliders_cannot_show_is_not_offered(stiffness_ratio, settings):
     changed = settings | {"stiffness_ratio": stiffness_ratio}
     assert list(write_explorer.presets(changed)) == ["superball"]
-    assert "Superball" in write_explorer.page(changed, SOURCES)
+    assert "Superball" in write_explorer.page(changed, SOURCES, [])
 
 
 @pytest.mark.parametrize(("e", "cautions"), [(0.99, True), (0.0, True), (1.0, False)])

@@ -60,7 +60,7 @@ def test_a_wrong_table_is_seen(tab, coarse, monkeypatch, tmp_path):
     monkeypatch.setattr(table, "shipped", lambda name: coarse._replace(panels=panels))
     settings = plan.settings_of_explorer(configuration.load(ROOT))
     page = tmp_path / "wrong.html"
-    page.write_text(write_explorer.page(settings, SOURCES), encoding="utf-8")
+    page.write_text(write_explorer.page(settings, SOURCES, []), encoding="utf-8")
     monkeypatch.setattr(table, "shipped", lambda name="fine": coarse)
     tab.open(page.as_uri())
     assert len(disagreements(tab)) == 7

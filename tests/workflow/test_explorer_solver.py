@@ -3,6 +3,7 @@
 import json
 import math
 import re
+import shutil
 from pathlib import Path
 
 import browser
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 from planarimpact import Regime, bodies, lumped, rigid
+from stronge1994.curves import explorer as explorer_curves
 from stronge1994.pages import explorer as write_explorer
 
 SOLVER = Path(__file__).parents[2] / "workflow/explorer/solver.js"
@@ -153,6 +155,43 @@ def test_a_wrong_solver_is_seen(fault, show):
     rows = impacts()[::3]
     found = disagreements(show(), rows, expected(rows), f"(() => {{ {body} }})()")
     assert bool(found) == (fault != "none")
+
+
+@pytest.fixture
+def nine_tenths(tmp_path):
+    """A solver whose velocities are too small by a tenth."""
+    text = SOLVER.read_text(encoding="utf-8")
+    old = "return { velocity, peak_friction, dissipation, regime }"
+    assert text.count(old) == 1
+    path = tmp_path / "solver.js"
+    path.write_text(text.replace(old, old.replace("velocity,", "velocity: 0.9 * velocity,")))
+    return path
+
+
+def test_the_job_refuses_a_wrong_solver_where_there_is_node(nine_tenths, monkeypatch):
+    answers = explorer_curves.answers(write_explorer.LIMITS)
+    assert len({regime for _, (*_, regime) in answers}) >= 6
+    check = SOLVER.with_name("check.js")
+    if shutil.which("node"):
+        words = write_explorer.refuse_other_answers(SOLVER, check, answers)
+        assert words.endswith(f"answers {len(answers)} impacts as the package does")
+        with pytest.raises(ArithmeticError, match=r"differs from the package in \d+ of \d+ impac"):
+            write_explorer.refuse_other_answers(nine_tenths, check, answers)
+    monkeypatch.setenv("PATH", "")
+    words = write_explorer.refuse_other_answers(nine_tenths, check, answers)
+    assert words == "not compared with the package here, as there is no node; the page does it"
+
+
+def test_a_page_with_a_wrong_solver_says_so(show, explorer, nine_tenths, tmp_path):
+    alert = "document.querySelector('main > [role=alert]')?.textContent ?? ''"
+    tab = show()
+    assert tab.evaluate(alert) == ""
+    page = explorer.read_text(encoding="utf-8")
+    wrong = tmp_path / "wrong.html"
+    solver = SOLVER.read_text(encoding="utf-8")
+    wrong.write_text(page.replace(solver, nine_tenths.read_text()), encoding="utf-8")
+    tab.open(wrong.as_uri())
+    assert tab.evaluate(alert).startswith("Do not trust this page: its solver differs")
 
 
 def contacts():

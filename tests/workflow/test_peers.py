@@ -172,14 +172,14 @@ def test_figure_has_their_points_and_names_what_is_missing(measured, tmp_path, m
     for name, named in tables.items():
         csv_tables.write(tmp_path / f"{name}.csv", named)
     read = {path.stem: csv_tables.read(path) for path in tmp_path.glob("*.csv")}
-    figure = draw_peers.draw(read["curves"], read["peers"], settings)
+    figure, _ = draw_peers.draw(read["curves"], read["peers"], settings)
     assert "not installed" not in figure.get_suptitle()
     legends = figure.legends
     labels = {text.get_text() for legend in legends for text in legend.get_texts()}
     assert {draw_peers.TOGETHER.label, "pooltool", "mindlin/force"} <= labels
-    figure = draw_peers.draw(read["curves"], read["none"], settings)
+    figure, _ = draw_peers.draw(read["curves"], read["none"], settings)
     assert "not installed: pooltool" in figure.get_suptitle()
-    figure = draw_peers.draw_errors(read["peers"])
+    figure, _ = draw_peers.draw_errors(read["peers"])
     lines = [label.get_text() for label in figure.axes[0].get_yticklabels()]
     assert lines[:2] == ["mindlin", "mindlin/force"] and len(set(lines)) == len(lines)
     assert {"mindlin/force, $x_t = 0.5$, limited", "the paper's model", "lumped.viscous"} <= {
@@ -188,7 +188,7 @@ def test_figure_has_their_points_and_names_what_is_missing(measured, tmp_path, m
     for axes in figure.axes:  # a point of each line, and the grey line through them
         points = [line for line in axes.get_lines() if line.get_marker() not in ("None", "")]
         assert len(points) == len(lines)
-    figure = draw_peers.draw_errors(read["none"])
+    figure, _ = draw_peers.draw_errors(read["none"])
     assert figure.texts[0].get_text() == "not installed: pooltool"
 
 

@@ -18,6 +18,7 @@ import yaml
 
 import planarimpact
 from stronge1994 import reference_data
+from stronge1994.drawings import derived
 from stronge1994.drawings import residuals as draw_residuals
 from stronge1994.judging import verdict_table
 from stronge1994.ledger import outcome
@@ -387,7 +388,7 @@ def test_strips_show_points_bounds_and_verdicts():
     ]
     verdicts = dict.fromkeys(("corner", "peak"), {"verdict": "agrees", "p": ""})
     verdicts |= {"low": {"verdict": "diverges", "p": ""}, "high": {"verdict": "agrees", "p": "0.5"}}
-    first, second = draw_residuals.draw(residuals, comparisons, verdicts).axes
+    first, second = draw_residuals.draw(derived.strips(residuals, comparisons, verdicts)).axes
     drawn = {line.get_marker(): line for line in first.lines if line.get_linestyle() == "None"}
     assert drawn["x"].get_ydata().tolist() == [-1, -3]
     assert drawn["o"].get_ydata().tolist() == [2, 0]
@@ -397,7 +398,7 @@ def test_strips_show_points_bounds_and_verdicts():
     assert {area.get_datalim(first.transData).y1 for area in first.collections} == {4.0, -2.0}
     assert second.lines[0].get_ydata().tolist() == [0.5]
     assert {area.get_datalim(second.transData).y1 for area in second.collections} == {1.0}
-    assert draw_residuals.draw(residuals[-1:], comparisons, verdicts) is None
+    assert not derived.strips(residuals[-1:], comparisons, verdicts)
 
 
 def test_the_interface_has_a_page_a_module_and_names_types_as_the_sources_do(first_run):

@@ -4,9 +4,8 @@ import re
 
 import scene_tables
 
-from stronge1994 import csv_tables
+from stronge1994 import csv_tables, drawings
 from stronge1994.curves import superball
-from stronge1994.drawings import superball as draw_superball
 
 
 def test_every_scene_is_solved_and_explained(first_run):
@@ -20,7 +19,7 @@ def test_the_superball_spins_in_its_figure_as_in_its_table():
     """Also where it is thrown with a spin, whose sign is that of a plane state on the floor."""
     throw = scene_tables.THROW | {"spin": 40.0}
     before, after = superball.impacts(**throw)
-    figure = draw_superball.draw(superball.curves(throw), {"throw": throw}, None)
+    figure = drawings.drawn("superball", superball.curves(throw), {"throw": throw}, {})[0]
     shown = " ".join(text.get_text() for text in figure.legends[0].get_texts())
     spins = [before["spin_y [rad/s]"][0], *after["spin_y_after [rad/s]"]]
     assert spins[0] == -40 and spins[1] > 0

@@ -1,5 +1,5 @@
 EXPLORER_PARTS = ["explorer.html", "superball.html", "challenge.html", "explorer.css", "play.css"]
-EXPLORER_SCRIPTS = ["solver", "base85", "models", "charts", "arrows", "ball", "diagram", "words"]
+EXPLORER_SCRIPTS = ["solver", "check", "base85", "models", "charts", "arrows", "ball", "diagram", "words"]
 EXPLORER_SCRIPTS += ["files", "page", "superball", "challenge"]
 EXPLORER_PARTS += [f"{part}.js" for part in EXPLORER_SCRIPTS]
 EXPLORER_SOURCES = sources(*expand("workflow/explorer/{file}", file=EXPLORER_PARTS))

@@ -7,8 +7,11 @@ import importlib
 from collections.abc import Mapping
 from typing import Any
 
+from matplotlib.figure import Figure
+
 from stronge1994 import csv_tables, reference_data
-from stronge1994.drawings import house_style
+from stronge1994.csv_tables import Curves
+from stronge1994.drawings import checked, derived, house_style
 
 
 def draw(
@@ -24,14 +27,25 @@ def draw(
     try:
         curves = csv_tables.read(curves_path)
     except csv_tables.Failed as error:
-        house_style.save(house_style.failure(f"{figure}: the solver failed: {error}"), svg, png)
+        failure = house_style.failure(f"{figure}: the solver failed: {error}")
+        checked.save(failure, {}, figure, svg, png)
         return
-    points = {
-        name: _points(name, entry, series_paths[name.split("/")[0]]) if "kind" in entry else entry
+    points: house_style.Points = {
+        name: _points(name, entry, series_paths[name.split("/")[0]])
+        if "kind" in entry
+        else dict(entry)
         for name, entry in overlays.items()
     }
+    checked.save(*drawn(figure, curves, settings, points), figure, svg, png)
+
+
+def drawn(
+    figure: str, curves: Curves, settings: house_style.Settings, points: house_style.Points
+) -> tuple[Figure, Curves]:
+    """The picture, not yet checked, and the tables of which it may show numbers."""
     module = importlib.import_module(f"stronge1994.drawings.{figure}")
-    house_style.save(module.draw(curves, settings, points), svg, png)
+    curves, points = derived.shown(figure, curves, settings, points)
+    return module.draw(curves, settings, points), derived.tables(curves, points)
 
 
 def _points(name: str, entry: Mapping[str, Any], path: str) -> house_style.Series:
@@ -45,6 +59,7 @@ def _points(name: str, entry: Mapping[str, Any], path: str) -> house_style.Serie
             for axis, column in zip("xy", printed, strict=True)
         ),
         "line": entry.get("line", False),
+        "axes": (reference_data.column_name(entry["x"]), reference_data.column_name(entry["y"])),
         "columns": columns,
         "parameters": entry["parameters"],
     }

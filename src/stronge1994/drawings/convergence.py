@@ -4,10 +4,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from stronge1994.csv_tables import Curves
-from stronge1994.drawings import house_style, trade
+from stronge1994.drawings import derived, house_style, trade
 from stronge1994.drawings.house_style import Points, Settings
 
-ERROR, ORDER, TIME = "error [mu v2(0)]", "observed_order [1]", "time [s]"
+ERROR, ORDER, TIME = "error [mu v2(0)]", "observed_order [1]", derived.MILLISECONDS
 BUSY = "busy_time [1]"
 # A colour for each method.
 SPRINGS, ANNULI = house_style.BLACK, house_style.GREEN
@@ -29,11 +29,11 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         style = {"color": colour, "linestyle": dashes, "marker": marker, "markerfacecolor": "white"}
         label = f"{name}: order {curve[ORDER][0]:.1f}"
         entries += by_number.loglog(curve[number], curve[ERROR], label=label, **style)
-        time = 1e3 * curve[TIME]
-        by_time.loglog(time, curve[ERROR], **style)
+        by_time.loglog(curve[TIME], curve[ERROR], **style)
         if BUSY in curve:
-            too_long = np.stack([time * (1 - 1 / np.maximum(curve[BUSY], 1)), 0 * time])
-            by_time.errorbar(time, curve[ERROR], xerr=too_long, **trade.BUSY)
+            too_long = curve[TIME] - curve[TIME + derived.LESS]
+            bars = np.stack([too_long, 0 * too_long])
+            by_time.errorbar(curve[TIME], curve[ERROR], xerr=bars, **trade.BUSY)
     by_number.set(xlabel="(a) steps or circles", ylabel=r"error of $v_1(t_f)/\mu v_2(0)$")
     by_time.set_xlabel("(b) time of an impact (ms)")
     fixed = settings["fixed"]

@@ -8,11 +8,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.drawings import house_style
+from stronge1994.drawings import derived, house_style
 from stronge1994.drawings.house_style import Dashes, Points, Settings
 
 TIME, VELOCITY = "time [t_c]", "velocity [mu v2(0)]"
-NORMAL, FRICTION = "normal_force [m2 Omega v2(0)]", "friction_force [mu m2 Omega v2(0)]"
+NORMAL, LIMIT = derived.NORMAL, derived.LIMIT
+FRICTION = "friction_force [mu m2 Omega v2(0)]"
 
 NORMAL_LINE = {"color": house_style.BLACK, "label": r"$F_2/m_2\Omega v_2(0)$"}
 # Of two restitutions one curve runs for a while along the other: the first is broad and light, the
@@ -86,7 +87,7 @@ def _states(curve: Columns) -> Iterator[tuple[float, float, str]]:
 def _draw_forces(axes: Axes, curves: Curves) -> None:
     for later, dashes, columns in _lines(curves):
         time = columns[TIME]
-        axes.plot(time, -columns[NORMAL], linestyle=dashes, **LIMIT_LINE)
+        axes.plot(time, columns[LIMIT], linestyle=dashes, **LIMIT_LINE)
         axes.plot(time, columns[NORMAL], linestyle=dashes, **NORMAL_LINE)
         axes.plot(time, columns[FRICTION], linestyle=dashes, **FRICTION_LINES[later])
     axes.axhline(0, **house_style.GUIDE)
@@ -124,5 +125,7 @@ def _lines(curves: Curves) -> Iterator[tuple[bool, Dashes, Columns]]:
     """
     for index, (name, dashes) in enumerate(_patterns(curves)):
         drawn = curves[name][TIME] >= (1 if index else 0)
-        columns = {key: curves[name][key][drawn] for key in (TIME, NORMAL, FRICTION, VELOCITY)}
+        columns = {
+            key: curves[name][key][drawn] for key in (TIME, NORMAL, FRICTION, LIMIT, VELOCITY)
+        }
         yield index > 0, dashes, columns

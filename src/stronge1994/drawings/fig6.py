@@ -24,7 +24,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         curve = curves[name("e", e)]
         dashes = {"linestyle": house_style.of_restitution(e)}
         axes.plot(curve[X], curve[Y], **(house_style.LUMPED | dashes))
-        ends.append((curve[Y][-1], house_style.symbols(name("e", e))))
+        ends.append((curve[X][-1], curve[Y][-1], house_style.symbols(name("e", e))))
     axes.set(xlim=settings["incidence"], xlabel=house_style.INCIDENCE, ylabel=house_style.REBOUND)
     _label_ends(axes, ends)
     added = house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")
@@ -36,10 +36,11 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     return figure
 
 
-def _label_ends(axes: Axes, ends: Iterable[tuple[float, str]]) -> None:
+def _label_ends(axes: Axes, ends: Iterable[tuple[float, float, str]]) -> None:
     """Write names to the right of the axes, at the heights of the curves but not too close."""
     low, high = axes.get_ylim()
     apart, last = 0.05 * (high - low), -math.inf
-    for y, text in sorted(ends):
+    place = {"textcoords": axes.get_yaxis_transform(), "va": "center"}
+    for x, y, text in sorted(ends, key=lambda end: end[1:]):
         last = max(y, last + apart)
-        axes.text(1.01, last, text, transform=axes.get_yaxis_transform(), va="center")
+        axes.annotate(text, (x, y), (1.01, last), annotation_clip=False, **place)

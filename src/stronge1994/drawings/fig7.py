@@ -98,4 +98,4 @@ def _label_lines(axes: Axes, lines: Lines) -> None:
     box = {"facecolor": "white", "edgecolor": "none", "pad": 0.8}
     style = {"color": house_style.BLUE, "fontsize": house_style.NOTE, "bbox": box}
     for (label, _), force in zip(lines, forces[:, at], strict=True):
-        axes.text(angle[at], force, label, ha="center", va="center", **style)
+        axes.annotate(label, (angle[at], force), ha="center", va="center", **style)

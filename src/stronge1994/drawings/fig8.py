@@ -92,11 +92,12 @@ def _draw_largest(axes: Axes, curve: Columns) -> Artist:
 def _draw_statements(axes: Axes, curve: Columns, points: Points) -> Artist:
     """Draw thin lines at the stated angles, from the axis to above the curve."""
     place = {"textcoords": "offset points", "va": "center", "fontsize": house_style.NOTE}
+    place["label"] = house_style.NO_DATA
     left, right = axes.get_xlim()
     for name, (text, height) in STATED.items():
         if name in points and left < (angle := points[name]["value"]) < right:
             top = height * curve[Y].max()
-            axes.vlines(angle, 0, top, **house_style.PRINTED)
+            axes.vlines(angle, 0, top, **house_style.PRINTED, label=house_style.NO_DATA)
             axes.annotate(text.format(angle), (angle, top), (4, -2), **place)
     return house_style.key(rf"stated angle of largest ${house_style.F1MAX}$", **house_style.PRINTED)
 

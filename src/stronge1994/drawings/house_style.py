@@ -3,7 +3,8 @@
 Each figN.py beside this file has one public function, `draw(curves, settings, points)`, which
 returns a Figure:
 
-- `curves`, what stronge1994.curves.figN returns: `{curve: {column: array}}`;
+- `curves`, what stronge1994.curves.figN returns, `{curve: {column: array}}`, and what `derived`
+  adds; nothing else may be shown, see `checked`;
 - `settings`, the keywords it was called with, from which labels take their numbers;
 - `points`, the reference series that are not awaited, `{"source/series": {...}}` with arrays `x`
   and `y`, their `sigma`, `line` and the source's `parameters`; and stated facts, as in source.yaml.
@@ -19,15 +20,13 @@ import itertools
 import textwrap
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import IO, Any, TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 import matplotlib
 import numpy as np
 from matplotlib import font_manager
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -37,7 +36,6 @@ from stronge1994.csv_tables import Curves
 
 Style: TypeAlias = dict[str, Any]  # keywords of matplotlib
 Dashes: TypeAlias = str | tuple[float, tuple[float, ...]]  # a pattern of line
-File: TypeAlias = str | IO[bytes]
 Settings: TypeAlias = dict[str, Any]
 Series: TypeAlias = dict[str, Any]
 Points: TypeAlias = dict[str, Series]
@@ -69,7 +67,9 @@ CYCLE = tuple(zip(COLOURS, DASHES, strict=True))
 LUMPED: Style = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
 CONTINUUM: Style = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
 RIGID: Style = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zorder": 1.8}
-GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9}
+# Label of what shows no number of a table, see `checked`; also of axes that hold a sketch.
+NO_DATA = "_no data"
+GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9, "label": NO_DATA}
 PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
 AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
 # Light and thin: continua that lose energy, beside the curves of a figure of the paper.
@@ -126,28 +126,6 @@ matplotlib.rcParams.update(STYLE)
 def new(height: float) -> Figure:
     """Empty figure of the house's width and a height in inches."""
     return Figure(figsize=(WIDTH, height), layout="constrained")
-
-
-def save(figure: Figure, svg: File, png: File | None = None) -> None:
-    """Write both files. The same figure gives the same bytes.
-
-    Parameters
-    ----------
-    figure : Figure
-    svg, png : path or binary file
-        The second may be left out.
-    """
-    # Matplotlib solves the layout in an order that changes from run to run, which changes the last
-    # bits. So the places are rounded.
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")
-    for axes in figure.axes:
-        axes.set_position(np.round(axes.get_position().bounds, 6))
-    # `Figure.savefig` would draw once more, unseen, to solve a layout that is solved.
-    FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
-    if png:
-        figure.dpi = 200
-        FigureCanvasAgg(figure).print_png(png)
 
 
 def failure(message: str) -> Figure:

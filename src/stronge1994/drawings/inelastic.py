@@ -1,6 +1,5 @@
 """Beyond the paper: five models of loss below e = 1, beside eleven measured pairs of materials."""
 
-from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -10,13 +9,12 @@ from matplotlib.figure import Figure
 from planarimpact.ground.arrays import Array
 from stronge1994 import curve_names
 from stronge1994.csv_tables import Curves
-from stronge1994.drawings import house_style
+from stronge1994.drawings import derived, house_style
 from stronge1994.drawings.house_style import Dashes, Points, Settings
-from stronge1994.goodness import ChiSquared, chi_squared
 
-E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
+E, BETA_0 = derived.E, derived.BETA_0
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-PARAMETERS = "each pair's parameters"
+CHI_SQUARED = derived.CHI_SQUARED
 
 
 class Model(NamedTuple):
@@ -43,8 +41,6 @@ MODELS = {
     )
 }
 MEASURED = {"color": house_style.BLACK, "marker": "o", "markersize": 3, "markerfacecolor": "white"}
-# Points of one restitution are drawn side by side, so far apart.
-APART = 0.0055
 # Left end of the axis of chi-squared.
 LEAST = 3.0
 # Height of a label, as a share of the axes.
@@ -66,7 +62,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     contact = settings["contact"]
     _draw_contact(figure.add_subplot(grid[1, 0]), curves, contact["restitution"])
     if series:
-        _draw_chi_squared(figure.add_subplot(grid[1, 1]), curves, series)
+        _draw_chi_squared(figure.add_subplot(grid[1, 1]), curves, len(series["x"]))
     low, high = settings["poisson_ratio"]
     top.set_title(rf"(a) bands: $\nu = {low:g}$ to ${high:g}$; circles: measured")
     keys = [
@@ -95,8 +91,7 @@ def _draw_bands(axes: Axes, curves: Curves, settings: Settings) -> None:
 
 def _draw_pairs(axes: Axes, series: house_style.Series) -> None:
     """Draw the measured pairs with their errors, and their names at the right of the axes."""
-    e, beta_0 = series["x"], series["y"]
-    beside = side_by_side(e)
+    e, beside, beta_0 = series["restitution"], series["x"], series["y"]
     axes.errorbar(
         beside,
         beta_0,
@@ -129,24 +124,11 @@ def _draw_pairs(axes: Axes, series: house_style.Series) -> None:
             linewidth=0.3,
             clip_on=False,
             zorder=2.5,
+            label=house_style.NO_DATA,
         )
         words = axes.text(bend, height, f" {name}", fontsize=house_style.NOTE, va="center")
         words.set_in_layout(False)
     axes.set_ylim(low, high)
-
-
-def side_by_side(x: Array) -> Array:
-    """Abscissae of points; those of nearly the same are moved apart a little, about their mean.
-
-    Examples
-    --------
-    >>> side_by_side(np.array([0.9, 0.97, 0.9])).round(3).tolist()
-    [0.897, 0.97, 0.903]
-    """
-    moved, order = x.copy(), np.argsort(x, kind="stable")
-    for same in np.split(order, np.flatnonzero(np.diff(x[order]) > APART) + 1):
-        moved[same] = x[same].mean() + APART * (np.arange(len(same)) - (len(same) - 1) / 2)
-    return moved
 
 
 def spread(y: Array, apart: float, low: float, high: float) -> Array:
@@ -195,32 +177,17 @@ def _draw_contact(axes: Axes, curves: Curves, restitution: float) -> None:
     axes.set_xlim(curve[X].min(), curve[X].max())
 
 
-def goodness(curves: Curves, model: str, series: house_style.Series) -> ChiSquared:
-    """Chi-squared of a model over the measured pairs, with the uncertainty of their parameters.
-
-    It is that of the verdicts.
-    """
-    name, sigma = f"{model}, pairs", series["sigma"][1]
-    place = {pair: row for row, pair in enumerate(curves[name]["pair"])}
-    rows = [place[pair] for pair in series["columns"]["pair"]]
-    up, down = (
-        curves[curve_names.shifted(name, PARAMETERS, sign)][BETA_0][rows] for sign in (1, -1)
-    )
-    distance = (series["y"] - curves[name][BETA_0][rows]) / sigma
-    return chi_squared(distance, np.diag((up - down) / 2 / sigma))
-
-
-def _draw_chi_squared(axes: Axes, curves: Curves, series: house_style.Series) -> None:
-    found: Mapping[str, ChiSquared] = {name: goodness(curves, name, series) for name in MODELS}
-    degrees = len(series["x"])
-    largest = max(fit.value for fit in found.values())
+def _draw_chi_squared(axes: Axes, curves: Curves, degrees: int) -> None:
+    tables = {name: curves[f"chi-squared of {name}"] for name in MODELS}
+    found = {name: (fit[CHI_SQUARED][0], fit["p [1]"][0]) for name, fit in tables.items()}
+    largest = max(value for value, _ in found.values())
     note = {"fontsize": house_style.NOTE, "va": "center"}
-    for row, (name, fit) in enumerate(found.items()):
+    for row, (name, (value, p)) in enumerate(found.items()):
         model = MODELS[name]
         style = {"facecolor": "white", "edgecolor": model.colour, "hatch": model.hatch}
-        axes.barh(row, fit.value, height=0.42, linewidth=1.0, **style)
+        axes.barh(row, value, height=0.42, linewidth=1.0, **style)
         axes.text(degrees * 1.15, row - 0.42, model.words, **note)
-        axes.text(fit.value * 1.15, row, words_of(fit.p), **note)
+        axes.text(value * 1.15, row, words_of(p), **note)
     axes.axvline(degrees, color=house_style.BLACK, linewidth=0.7, linestyle=house_style.DASHES[1])
     axes.set(xscale="log", xlim=(LEAST, largest * 50), yticks=[], ylim=(len(found) - 0.6, -0.75))
     axes.set_xlabel(rf"$\chi^2$ of {degrees} pairs")

@@ -66,7 +66,7 @@ def _draw_radii(axes: Axes, curves: Curves, colours: Mapping[float, str]) -> Non
         place = _apart(lines[number], [*lines[:number], *lines[number + 1 :], rim])
         plate = {"facecolor": "white", "edgecolor": "none", "pad": 1.6}
         style = {"ha": "center", "va": "center", "fontsize": house_style.NOTE, "bbox": plate}
-        axes.text(*place, f"{x:g}", color=colours[x], **style)
+        axes.annotate(f"{x:g}", place, color=colours[x], **style)
     axes.axvline(1, **house_style.GUIDE)
     axes.set(ylim=(0, 1.05), ylabel=r"(a) radius over $a_\mathrm{max}$")
 

@@ -1,15 +1,17 @@
 """LAMMPS and pooltool: error against time for e = 1, and errors below e = 1 for each loss."""
 
+import itertools
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Curves
-from stronge1994.drawings import house_style
+from stronge1994.drawings import checked, derived, house_style
 from stronge1994.drawings import trade as draw_trade
 from stronge1994.drawings.house_style import Settings
 
@@ -58,8 +60,10 @@ class _Line(NamedTuple):
     heading: bool = False
 
 
-def draw(curves: Curves, peers: Curves, settings: Settings) -> Figure:
-    """Draw figure `trade` with the other codes at e = 1; its title names those not installed.
+def draw(curves: Curves, peers: Curves, settings: Settings) -> tuple[Figure, Curves]:
+    """Draw figure `trade` with the other codes at e = 1, and the tables of which it shows numbers.
+
+    Its title names the codes that are not installed.
 
     Parameters
     ----------
@@ -76,7 +80,9 @@ def draw(curves: Curves, peers: Curves, settings: Settings) -> Figure:
         for name, row in peers.items()
         if row["model"][0] in codes and ERROR in row and row[E][0] == 1
     }
-    figure = draw_trade.draw(curves | theirs, settings, {}, draw_trade.FAMILIES | codes)
+    shown = derived.trade(curves | theirs, settings, {})
+    theirs = {name: shown[name] for name in theirs}
+    figure = draw_trade.draw(shown, settings, {}, draw_trade.FAMILIES | codes)
     models = {row["model"][0] for row in theirs.values()}
     legend = [_keys({codes[model].label: codes[model] for model in sorted(models)}.values())]
     if models & set(LAWS):
@@ -90,7 +96,7 @@ def draw(curves: Curves, peers: Curves, settings: Settings) -> Figure:
     if missing := _missing(peers):
         words = f"not installed: {missing}\n{figure.get_suptitle()}"
         figure.suptitle(words, fontsize=house_style.NOTE)
-    return figure
+    return figure, shown
 
 
 def _missing(peers: Curves) -> str:
@@ -107,10 +113,10 @@ def _draw_laws(axes: Axes, peers: Curves, batch: int) -> None:
     """Draw errors of LAMMPS' laws against time, on a linear scale of error."""
     for curve in peers.values():
         row = {key: value[0] for key, value in curve.items()}
-        time = row.get(f"time_{batch} [s]")
+        time = row.get(draw_trade.time_column(batch))
         if row[draw_trade.MODEL] in LAWS and time is not None:
             family = LAWS[row[draw_trade.MODEL]]
-            at = draw_trade.MICROSECONDS * time, row[draw_trade.ERROR]
+            at = time, row[draw_trade.ERROR]
             axes.semilogx(*at, linestyle="none", **family.style())
             draw_trade.label(axes, at, draw_trade.words_of(row), family.place)
     axes.margins(x=1.0, y=0.15)  # so wide that there are two powers of ten
@@ -118,8 +124,8 @@ def _draw_laws(axes: Axes, peers: Curves, batch: int) -> None:
     axes.set(xlabel=draw_trade.TIME_WORDS, ylabel="error, rms", title="(d) LAMMPS, part of (a)")
 
 
-def draw_errors(peers: Curves) -> Figure:
-    """Draw the errors below e = 1 of each code and model, a panel for each loss.
+def draw_errors(peers: Curves) -> tuple[Figure, Curves]:
+    """Draw the errors below e = 1 of each code and model, a panel for each loss; and their tables.
 
     Parameters
     ----------
@@ -130,14 +136,16 @@ def draw_errors(peers: Curves) -> Figure:
     rows = [row for row in rows if row.get(LOSS) in PANELS and ERROR in row and _is_drawn(row)]
     missing = _missing(peers)
     if not rows:
-        return house_style.failure(f"not installed: {missing}" if missing else "no errors")
+        return house_style.failure(f"not installed: {missing}" if missing else "no errors"), {}
     lines = _lines(rows)
     figure = house_style.new(FRAME + LINE * len(lines))
     both = figure.subplots(1, 2, sharex=True, sharey=True)
     values = sorted({row[E] for row in rows}, reverse=True)
     styles = {e: MARKERS[i] for i, e in enumerate(values)}
+    tables = _errors(rows, values)
     for axes, (loss, title) in zip(both, PANELS.items(), strict=True):
-        _draw_loss(axes, [row for row in rows if row[LOSS] == loss], lines, styles)
+        _draw_loss(axes, tables, loss, lines, styles)
+        axes.set_xlabel(draw_trade.ERROR_WORDS, visible=False)
         axes.set_title(title)
     ticks = [place for place, line in enumerate(lines) if not line.heading]
     both[0].set_yticks(ticks, [lines[place].words for place in ticks], fontsize=house_style.NOTE)
@@ -169,7 +177,19 @@ def draw_errors(peers: Curves) -> Figure:
         ncols=len(keys),
         handlelength=1,
     )
-    return figure
+    return figure, tables
+
+
+def _errors(rows: Sequence[_Row], values: Sequence[float]) -> Curves:
+    """Errors of each line of a panel, together and for each restitution."""
+    found: Curves = {}
+    for e, row in itertools.product(values, rows):
+        if row[E] == e:
+            name, error = f"{_words(row)}, {row[LOSS]}", np.array([row[ERROR]])
+            line = found.setdefault(name, {ERROR: np.array([])})
+            found[name] = {ERROR: np.append(line[ERROR], error)}
+            found[f"{name}, e = {e:g}"] = {ERROR: error}
+    return found
 
 
 def _is_drawn(row: _Row) -> bool:
@@ -232,14 +252,14 @@ def _words(row: _Row) -> str:
 
 
 def _draw_loss(
-    axes: Axes, rows: Sequence[_Row], lines: Sequence[_Line], styles: Mapping[float, Any]
+    axes: Axes, tables: Curves, loss: str, lines: Sequence[_Line], styles: Mapping[float, Any]
 ) -> None:
     places = {line.words: place for place, line in enumerate(lines) if not line.heading}
     for words, place in places.items():
-        errors = {row[E]: row[ERROR] for row in rows if _words(row) == words}
+        errors = {e: tables.get(f"{words}, {loss}, e = {e:g}") for e in styles}
         heights = {e: place + (i - (len(styles) - 1) / 2) * APART for i, e in enumerate(styles)}
-        known = [e for e in styles if e in errors]
-        points = [errors[e] for e in known], [heights[e] for e in known]
+        known = {e: table[ERROR][0] for e, table in errors.items() if table}
+        points = list(known.values()), [heights[e] for e in known]
         axes.plot(*points, color=house_style.GREY, linewidth=0.6, zorder=1)
         for e, error, height in zip(known, *points, strict=True):
             marker = {"color": house_style.BLACK, "markeredgewidth": 0.8, **styles[e]}
@@ -267,8 +287,8 @@ def write(
     """
     try:
         theirs = csv_tables.read(peers)
-        figures = [draw(csv_tables.read(curves), theirs, settings), draw_errors(theirs)]
+        found = [draw(csv_tables.read(curves), theirs, settings), draw_errors(theirs)]
     except csv_tables.Failed as error:
-        figures = [house_style.failure(f"trade: the solver failed: {error}")] * 2
-    house_style.save(figures[0], *pictures)
-    house_style.save(figures[1], *errors)
+        found = [(house_style.failure(f"trade: the solver failed: {error}"), {})] * 2
+    checked.save(*found[0], "trade_with_peers", *pictures)
+    checked.save(*found[1], "peers", *errors)

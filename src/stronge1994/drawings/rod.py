@@ -1,7 +1,6 @@
 """Beyond the paper: a slender rod strikes with its tip; rebound, energy, a contact that jams."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -9,20 +8,19 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Patch
 
 from planarimpact import Regime
-from planarimpact.ground.arrays import Array
-from stronge1994.csv_tables import Column, Columns, Curves
-from stronge1994.drawings import house_style
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.drawings import derived, house_style
 from stronge1994.drawings.house_style import Entries, Points, Settings
 from stronge1994.drawings.superball import SURFACE
 
-TILT, TIME = "tilt [deg]", "time [1/Omega]"
-ENERGY, JAMS = "kinetic_energy [K0]", "jams [1]"
+TILT, TIME = derived.TILT, "time [1/Omega]"
+ENERGY = "kinetic_energy [K0]"
 ROWS = {
     "tangential_velocity [v2(0)]": r"(a) $v_1(t_f)/v_2(0)$",
     "normal_velocity [v2(0)]": r"(b) $v_2(t_f)/v_2(0)$",
     ENERGY: r"(c) $K(t_f)/K(0)$",
 }
-NORMAL, FRICTION = "normal_force [m2 Omega v2(0)]", "friction_force [m2 Omega v2(0)]"
+NORMAL, OVER_MU = "normal_force [m2 Omega v2(0)]", derived.OVER_MU
 NEWTON = {"color": house_style.VERMILLION, "linestyle": (0, (7, 2, 1.5, 2)), "linewidth": 1.1}
 CREATED = {"facecolor": house_style.VERMILLION, "alpha": 0.25, "linewidth": 0}
 JAM = {"facecolor": "white", "hatch": "//////", "edgecolor": "0.4", "linewidth": 0.6}
@@ -50,7 +48,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     panels[-1, 0].set_ylim(bottom=0)
     for axes, label in zip(panels[1:, 0], ROWS.values(), strict=True):
         axes.set_ylabel(label)
-    panels[0, 0].set_yticks([0.5, 1.5, 2.5], ["regime", "jams", "rigid: jams"])
+    panels[0, 0].set_yticks([0.5, 1.5, 2.5], list(derived.RIBBONS))
     shown = rf"$\mu = {settings['friction']:g}$,  $e = {settings['restitution']:g}$"
     over_tilt.suptitle(f"slender rod,  {shown}", fontsize=house_style.STYLE["axes.titlesize"])
     compliant = house_style.key("compliant", **house_style.LUMPED)
@@ -61,7 +59,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     house_style.legend_below(over_tilt, [compliant, rigid], [newton, created, jam])
     sketch, forces = over_time.subplots(1, 2, width_ratios=[1, 5])
     _draw_rod(sketch, settings["contact"])
-    house_style.legend_below(over_time, *_draw_contact(forces, curves, settings["friction"]))
+    house_style.legend_below(over_time, *_draw_contact(forces, curves))
     return figure
 
 
@@ -69,7 +67,9 @@ def _draw_over_tilt(panels: Sequence[Axes], curves: Curves, name: str, letters: 
     compliant, rigid, newton = (
         curves[f"{kind}{name}"] for kind in ("", "rigid, ", "rigid, Newton, ")
     )
-    _draw_ribbon(panels[0], compliant, rigid, letters)
+    _draw_ribbons(
+        panels[0], [curves[derived.ribbon(row, name)] for row in derived.RIBBONS], letters
+    )
     for axes, column in zip(panels[1:], ROWS, strict=True):
         axes.axhline(1 if column == ENERGY else 0, **house_style.GUIDE)
         axes.axvline(0, **house_style.GUIDE)
@@ -85,34 +85,30 @@ def _draw_over_tilt(panels: Sequence[Axes], curves: Curves, name: str, letters: 
     panels[-1].set_xlim(compliant[TILT][[0, -1]])
 
 
-def _draw_ribbon(axes: Axes, compliant: Columns, rigid: Columns, letters: float) -> None:
+def _draw_ribbons(axes: Axes, ribbons: Sequence[Columns], letters: float) -> None:
     """Draw three rows: regime; jams of the compliant contact; jams of the rigid one."""
     axes.set(ylim=(3, 0))
     axes.tick_params(which="both", length=0, labelbottom=False)
     axes.spines[:].set_visible(False)
-    tilt = compliant[TILT]
-    for start, end, regime in _spans(tilt, compliant["regime"]):
+    regimes, *jammed = (
+        list(zip(part[TILT], part[TILT][1:], part["label"], strict=False)) for part in ribbons
+    )
+    whole = np.ptp(ribbons[0][TILT])
+    for start, end, regime in regimes:
         shade = SHADES.get(regime, "0.6")
         frame = {"facecolor": shade, "edgecolor": house_style.BLACK, "linewidth": 0.6}
         axes.barh(0.5, end - start, 0.8, start, clip_on=False, **frame)
         # A bar that is too short for its word has only its shade.
-        if (end - start) / np.ptp(tilt) * letters > len(words := Regime[regime].words):
+        if (end - start) / whole * letters > len(words := Regime[regime].words):
             place = {"ha": "center", "va": "center_baseline", "fontsize": house_style.NOTE - 1}
             axes.text((start + end) / 2, 0.5, words, **place)
-    for row, curve in ((1.5, compliant), (2.5, rigid)):
-        for start, end, jams in _spans(tilt, curve[JAMS]):
+    for row, parts in zip((1.5, 2.5), jammed, strict=True):
+        for start, end, jams in parts:
             if jams:
                 axes.barh(row, end - start, 0.8, start, **JAM)
 
 
-def _spans(x: Array, labels: Column) -> Iterator[tuple[float, float, Any]]:
-    """Parts with one label: start, end, label. They meet half way between two points."""
-    changes = np.flatnonzero(labels[1:] != labels[:-1])
-    edges = [x[0], *(x[changes] + x[changes + 1]) / 2, x[-1]]
-    return zip(edges, edges[1:], labels[[*changes, -1]], strict=False)
-
-
-def _draw_contact(axes: Axes, curves: Curves, mu: float) -> list[Entries]:
+def _draw_contact(axes: Axes, curves: Curves) -> list[Entries]:
     """Draw (d) both forces against time, stick and slip above them; entries of the legend."""
     contact, smooth = curves["contact"], curves["contact, mu = 0"]
     normal = {"color": house_style.BLACK, "label": "$F_2$"}
@@ -121,7 +117,7 @@ def _draw_contact(axes: Axes, curves: Curves, mu: float) -> list[Entries]:
     free = {"color": house_style.GREY, "linewidth": 0.9, "linestyle": house_style.DASHES[1]}
     free |= {"label": "$F_2$ without friction"}
     axes.plot(contact[TIME], contact[NORMAL], **normal)
-    axes.plot(contact[TIME], contact[FRICTION] / mu, **friction)
+    axes.plot(contact[TIME], contact[OVER_MU], **friction)
     axes.plot(smooth[TIME], smooth[NORMAL], **free)
     axes.axhline(0, **house_style.GUIDE)
     axes.set(xlim=(0, contact[TIME][-1] * 1.08), xlabel=r"$\Omega t$")
@@ -157,7 +153,7 @@ def _draw_rod(axes: Axes, contact: Mapping[str, float]) -> None:
     """Sketch the rod on the surface, its tilt, and the direction in which its tip moves."""
     tilt, ratio = contact["tilt"], contact["velocity_ratio"]
     axes.set(xlim=(-0.8, 0.8), ylim=(-0.2, 1.1), aspect="equal", anchor="N")
-    axes.set(xticks=[], yticks=[])
+    axes.set(xticks=[], yticks=[], label=house_style.NO_DATA)
     axes.spines[:].set_visible(False)
     axes.fill_between([-0.8, 0.8], -0.2, 0, **SURFACE)
     axes.axhline(0, color=house_style.BLACK, linewidth=0.8)

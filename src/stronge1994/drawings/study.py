@@ -16,7 +16,8 @@ from scipy import ndimage
 
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.results import Regime
-from stronge1994.drawings import house_style
+from stronge1994.csv_tables import Curves
+from stronge1994.drawings import derived, house_style
 
 Cell: TypeAlias = tuple[int, int]  # row and column
 
@@ -49,13 +50,15 @@ NAME = {
     "fontsize": house_style.NOTE,
     "linespacing": house_style.LINES,
 }
-NAME |= {"bbox": PLATE}
+NAME |= {"bbox": PLATE, "label": house_style.NO_DATA}
 LEADER = {"arrowstyle": "-|>", "mutation_scale": 6, "linewidth": 0.6, "color": house_style.BLACK}
 LEADER |= {"shrinkA": 0, "shrinkB": 0}
 
 
-def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> Figure:
+def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> tuple[Figure, Curves]:
     """Draw the velocity at separation in colours, where it is zero, and where regimes meet.
+
+    Also the tables of which the figure shows numbers.
 
     Parameters
     ----------
@@ -76,8 +79,11 @@ def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> Figure
     figure = house_style.new(0.9 + 2.3 * rows)
     panels = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
     limit = np.abs(velocity).max() or 1.0
+    tables = {}
     for panel, places in zip(panels, shown, strict=False):
-        cut = dict(zip(others, places, strict=True))
+        cut: dict[str, Any] = dict(zip(others, places, strict=True))
+        title = _place(axes, cut, others)
+        tables[title] = derived.slice_of(axes, velocity, cut)
         cut |= {name: _thinned(len(axes[name]), POINTS) for name in (across, upright)}
         grid = axes[across][cut[across]], axes[upright][cut[upright]]
         where = np.ix_(*(np.atleast_1d(cut[name]) for name in names))
@@ -90,7 +96,7 @@ def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> Figure
             panel.contourf(*grid, values, [-limit, 0.0], colors="none", hatches=[NEGATIVE["hatch"]])
             panel.contour(*grid, values, [0.0], **ZERO)
         _draw_regimes(panel, grid, codes, values < 0)
-        panel.set_title(_place(axes, cut, others))
+        panel.set_title(title)
         panel.set(xlim=grid[0][[0, -1]], ylim=grid[1][[0, -1]])
         panel.set(xlabel=LABELS[across], ylabel=LABELS[upright])
         panel.label_outer()
@@ -109,10 +115,10 @@ def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> Figure
         words = f"{len(shown)} of {len(slices)} slices"
         entries.append(house_style.key(words, linestyle="none"))
     figure.legend(handles=entries, loc="outside lower center", ncols=len(entries))
-    return figure
+    return figure, tables
 
 
-def _curve(axes: Mapping[str, Array], velocity: Array) -> Figure:
+def _curve(axes: Mapping[str, Array], velocity: Array) -> tuple[Figure, Curves]:
     """Draw the velocity along the only axis that has more than one point."""
     across = max(axes, key=lambda name: len(axes[name]))
     figure = house_style.new(2.8)
@@ -122,9 +128,11 @@ def _curve(axes: Mapping[str, Array], velocity: Array) -> Figure:
         axes[across], velocity, color=house_style.BLACK, marker="." if len(velocity) < 9 else ""
     )
     others = [name for name in axes if name != across]
-    panel.set_title(_place(axes, dict.fromkeys(others, 0), others))
+    cut = dict.fromkeys(others, 0)
+    panel.set_title(_place(axes, cut, others))
     panel.set(xlabel=LABELS[across], ylabel=house_style.REBOUND)
-    return figure
+    table = derived.slice_of(axes, velocity.reshape([len(v) for v in axes.values()]), cut)
+    return figure, {panel.get_title(): table}
 
 
 def _place(axes: Mapping[str, Array], cut: Mapping[str, Any], others: Sequence[str]) -> str:

@@ -8,16 +8,15 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyArrowPatch
 
 from planarimpact import Regime
-from stronge1994.csv_tables import Curves
-from stronge1994.drawings import house_style
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.drawings import derived, house_style
 from stronge1994.drawings.house_style import Points, Settings, Style
 
 Place: TypeAlias = tuple[float, float]
 
-PLACE, HEIGHT, SPIN = "place [m]", "height [m]", "spin_y [rad/s]"
-# Where the number of a flight stands, as a share of the flight, and its size as a share of the gap.
-NEAR, SIZE = 0.36, 0.065
+PLACE, HEIGHT, SPIN = derived.PLACE, derived.HEIGHT, derived.SPIN
 SURFACE = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
+SURFACE |= {"label": house_style.NO_DATA}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -37,14 +36,17 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         axes.axhline(max(bottom, 0.0), color=house_style.BLACK, linewidth=0.8)
         at = left + 0.04 * gap, bottom + 0.06 * gap
         axes.text(*at, surface, ha="left", va="center", style="italic", bbox=plate)
-    flights = zip(place, height, place[1:], height[1:], path[SPIN], strict=False)
-    for number, (x, y, x_next, y_next, spin) in enumerate(flights):
-        _draw_flight(axes, (x, y), (x_next, y_next), last=number + 2 == len(place))
-        way = complex(x_next - x, y_next - y)
-        near = x + NEAR * way.real, y + NEAR * way.imag
-        _draw_number(axes, number + 1, near, SIZE * gap)
+    motions = zip(path["velocity_x [m/s]"], path[SPIN], strict=True)
+    entries = []
+    flights = zip(place, height, place[1:], height[1:], motions, strict=False)
+    for number, (x, y, x_next, y_next, (v, spin)) in enumerate(flights):
+        words = f"({number + 1}) {_plain(v, 1)} m/s, spin_y {_plain(spin)} rad/s"
+        _draw_flight(axes, (x, y), (x_next, y_next), words, last=number + 2 == len(place))
+        entries.append(house_style.key(words, **_style(v < 0)))
+        near = x + derived.NEAR * (x_next - x), y + derived.NEAR * (y_next - y)
+        _draw_number(axes, number + 1, near, derived.SIZE * gap)
         if round(spin):
-            _draw_spin(axes, near, SIZE * gap, spin, opening=np.angle(1j * way))
+            _draw_spin(axes, curves[derived.sense(number)])
     for x, y, regime in zip(place[1:-1], height[1:-1], path["regime"][1:-1], strict=True):
         axes.add_patch(
             Circle((x, y), radius, facecolor="white", edgecolor=house_style.BLACK, zorder=3)
@@ -61,12 +63,6 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     axes.set(xlabel="distance from the first impact (m)", ylabel="height (m)")
     shown = rf"$e = {throw['restitution']:g}$,  $\mu = {throw['friction']:g}$"
     axes.set_title(f"{shown},  rubber ball, gravity left out")
-    legs = range(len(place) - 1)
-    motions = zip(path["velocity_x [m/s]"], path[SPIN], strict=True)
-    entries = [
-        house_style.key(f"({n + 1}) {_plain(v, 1)} m/s, spin_y {_plain(s)} rad/s", **_style(v < 0))
-        for n, (v, s) in zip(legs, motions, strict=False)
-    ]
     entries.append(house_style.key("round arrow: sense of the spin", linestyle="none"))
     house_style.legend_below(figure, entries[0::2], entries[1::2])
     return figure
@@ -78,23 +74,30 @@ def _style(back: bool) -> Style:
     return {"color": house_style.BLUE, "linestyle": "-"}
 
 
-def _draw_flight(axes: Axes, start: Place, end: Place, last: bool) -> None:
-    style = _style(end[0] < start[0])
+def _draw_flight(axes: Axes, start: Place, end: Place, words: str, last: bool) -> None:
+    style = _style(end[0] < start[0]) | {"label": words}
     tip = {"arrowstyle": "-|>", "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0 if last else 8}
     axes.add_patch(FancyArrowPatch(start, end, **tip, **style))
 
 
 def _draw_number(axes: Axes, number: int, centre: Place, radius: float) -> None:
     """Draw the number of a flight on a disc that fits into the arrow of the spin."""
-    axes.add_patch(Circle(centre, 0.8 * radius, facecolor="white", linewidth=0, zorder=2))
+    axes.add_patch(
+        Circle(
+            centre,
+            0.8 * radius,
+            facecolor="white",
+            linewidth=0,
+            zorder=2,
+            label=house_style.NO_DATA,
+        )
+    )
     note = {"ha": "center", "va": "center_baseline", "fontsize": house_style.NOTE, "zorder": 3}
     axes.text(*centre, f"({number})", **note)
 
 
-def _draw_spin(axes: Axes, centre: Place, radius: float, spin: float, opening: float) -> None:
-    """Draw a round arrow, clockwise if spin_y > 0, and open where no flight crosses it."""
-    angles = opening - np.sign(spin) * np.radians(np.linspace(35, 325, 60))
-    x, y = centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles)
+def _draw_spin(axes: Axes, arrow: Columns) -> None:
+    x, y = arrow[PLACE], arrow[HEIGHT]
     style = {"color": house_style.BLACK, "linewidth": 0.9, "zorder": 2.5}
     axes.plot(x, y, **style)
     tip = {"arrowstyle": "-|>", "mutation_scale": 8, "shrinkA": 0, "shrinkB": 0}

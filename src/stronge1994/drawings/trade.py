@@ -9,22 +9,19 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import SubplotSpec
 
 from stronge1994.csv_tables import Curves
-from stronge1994.drawings import house_style
+from stronge1994.drawings import derived, house_style
 from stronge1994.drawings.house_style import Points, Settings, Style
 
 _Row: TypeAlias = dict[str, Any]
 Place: TypeAlias = tuple[str, float, float]
 
-ERROR, MODEL, RESTITUTION = "rms_velocity [mu v2(0)]", "model", "restitution [1]"
+ERROR, MODEL, RESTITUTION = derived.ERROR, "model", "restitution [1]"
 SPREAD, SPREAD_STICK = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
 STEPS, CIRCLES, TOLERANCE = "steps [1]", "circles [1]", "tolerance [mu v2(0)]"
 LOSSES = (".viscous", ".plastic")
-# Smaller errors are rounding; they are drawn here.
-FLOOR = 1e-12
 # The axis of error is cut here: rough models are above, those that converge below, each part with
 # its own scale.
 CUT = 0.03
-MICROSECONDS = 1e6
 # Room for labels left of the fastest model, as a share of the axis of time: of the wide panel and
 # of the others.
 MARGINS = 0.12, 0.3
@@ -139,7 +136,11 @@ def draw(
     legend. The title warns if the machine was busy, and a bar shows how much too long a time may
     be.
     """
-    rows = [{key: value[0] for key, value in curve.items()} for curve in curves.values()]
+    rows = [
+        {key: value[0] for key, value in curve.items()}
+        for curve in curves.values()
+        if MODEL in curve
+    ]
     ends = settings["restitution"][0], settings["restitution"][-1]
     cases = {_case(row): None for e in ends for row in rows if row[RESTITUTION] == e}
     batch = shown_batch(settings)
@@ -156,13 +157,14 @@ def draw(
             _draw_errors(axes, same, batch, families, span, MARGINS[min(number, 1)])
         _cut(rough, fine)
         rough.set_title(_title("abc"[number], *case))
-        fine.set_xlabel(TIME_WORDS)
-        if number < 2:
-            fine.set_ylabel(ERROR_WORDS, y=1.0)
+        fine.set_xlabel(TIME_WORDS, visible=True)
+        fine.set_ylabel(ERROR_WORDS, y=1.0, visible=number < 2)
     below = grid[2, :].subgridspec(1, 2, width_ratios=[2, 3])
     growth = figure.add_subplot(below[0], label=GROWTH_PANEL)
-    first = [row for row in rows if _case(row) == next(iter(cases))]
-    _draw_growth(growth, first, sorted(settings["batches"]))
+    case = next(iter(cases))
+    _draw_growth(
+        growth, {n: c for n, c in curves.items() if MODEL in c and _case(c) == case}, curves
+    )
     growth.set(title=f"(d) $e = {ends[0]:g}$", xlabel="impacts together", ylabel=TIME_WORDS)
     note = f"numbers at points: steps, circles or tolerance; errors: {batch} impacts together"
     notes = [note, HIDDEN_WORDS, warning(rows)]
@@ -195,14 +197,19 @@ def warning(rows: Sequence[_Row]) -> str:
     )
 
 
+def time_column(batch: int) -> str:
+    """Times of an impact in a batch, as `derived` gives them."""
+    return f"time_{batch} [us]"
+
+
 def shown_batch(settings: Settings) -> int:
     """Size of the batch whose times are drawn against errors: the middle one."""
     return sorted(settings["batches"])[len(settings["batches"]) // 2]
 
 
-def _case(row: _Row) -> tuple[float, str]:
-    """Restitution and loss of the reference."""
-    return row[RESTITUTION], row.get("loss", "")
+def _case(row: Mapping[str, Any]) -> tuple[float, str]:
+    """Restitution and loss of the reference, of a row or of its table of one row."""
+    return float(np.ravel(row[RESTITUTION])[0]), str(np.ravel(row.get("loss", ""))[0])
 
 
 def _title(letter: str, restitution: float, loss: str) -> str:
@@ -218,12 +225,14 @@ def _draw_errors(
     margin: float,
 ) -> None:
     """Draw the points in a span of error, both fronts, and what uncertain inputs hide."""
-    timed = [row for row in rows if f"time_{batch} [s]" in row]
+    axes.set_xlabel(TIME_WORDS, visible=False)
+    axes.set_ylabel(ERROR_WORDS, visible=False)
+    column = time_column(batch)
+    timed = [row for row in rows if column in row]
     if not timed:
         return
-    time = [MICROSECONDS * row[f"time_{batch} [s]"] for row in timed]
-    least = [t / row.get(f"busy_{batch} [1]", 1.0) for t, row in zip(time, timed, strict=True)]
-    error = [max(row[ERROR], FLOOR) for row in timed]
+    time, least = ([row[column + end] for row in timed] for end in ("", derived.LESS))
+    error = [row[ERROR] for row in timed]
     for row, shortest, *at in zip(timed, least, time, error, strict=True):
         if span[0] < at[1] <= span[1]:
             family = families[row[MODEL]]
@@ -300,7 +309,7 @@ def _draw_front(
     best = front(time, error)
     x = [time[best[0]], *(time[i] for i in best), right]
     y = [top, *(error[i] for i in best), error[best[-1]]]
-    axes.step(x, y, where="post", **style)
+    axes.step(x, y, where="post", label=house_style.NO_DATA, **style)
 
 
 def _cut(rough: Axes, fine: Axes) -> None:
@@ -316,20 +325,18 @@ def _cut(rough: Axes, fine: Axes) -> None:
         axes.plot([0, 1], [height, height], **marks, **place)
 
 
-def _draw_growth(axes: Axes, rows: Sequence[_Row], batches: Sequence[int]) -> None:
+def _draw_growth(axes: Axes, rows: Curves, curves: Curves) -> None:
     for model, dashes in GROWTH.items():
-        family = FAMILIES[model]
-        same = [row for row in rows if row[MODEL] == model]
+        same = [name for name, row in rows.items() if row[MODEL][0] == model]
         if not same:  # the continuum, where the contact is not elastic
             continue
-        row = same[len(same) // 2]
-        known = [batch for batch in batches if f"time_{batch} [s]" in row]
-        time = np.array([MICROSECONDS * row[f"time_{batch} [s]"] for batch in known])
-        busy = np.array([row.get(f"busy_{batch} [1]", 1.0) for batch in known])
-        axes.loglog(known, time, linestyle=dashes, linewidth=0.9, **family.style())
-        some = busy > 1
-        below = time[some] * (1 - 1 / busy[some]), 0 * busy[some]
-        axes.errorbar(np.array(known)[some], time[some], yerr=below, **BUSY)
+        table = curves[derived.over_batches(same[len(same) // 2])]
+        batch, time = table[derived.IMPACTS], table[derived.TIME]
+        axes.loglog(batch, time, linestyle=dashes, linewidth=0.9, **FAMILIES[model].style())
+        below = time - table[derived.TIME + derived.LESS]
+        some = below > 0
+        bars = below[some], 0 * below[some]
+        axes.errorbar(batch[some], time[some], yerr=bars, **BUSY)
 
 
 def _add_legend(figure: Figure, cell: SubplotSpec, busy: bool) -> None:

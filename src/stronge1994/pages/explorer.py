@@ -1,8 +1,11 @@
 """Write the impact explorer: one page that solves the paper's model and needs no other file."""
 
 import base64
+import json
 import math
 import re
+import shutil
+import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -140,7 +143,39 @@ def _in_base_85(table: re.Match[str]) -> str:
     return base64.b85encode(base64.b64decode(table[0])).decode().replace("<", ",")
 
 
-def page(settings: Mapping[str, Any], sources: Sequence[str]) -> str:
+def refuse_other_answers(solver: str, check: str, answers: Sequence[Any]) -> str:
+    """Compare the solver of the page with the package, if there is node to run it; words for a log.
+
+    Without node the comparison is left to the page, which makes it whenever it is opened.
+
+    Parameters
+    ----------
+    solver, check : path
+        solver.js and check.js.
+    answers : list
+        Of `stronge1994.curves.explorer`.
+
+    Raises
+    ------
+    ArithmeticError
+        Naming the first impact that the page solves otherwise.
+    """
+    if not (node := shutil.which("node")):
+        return "not compared with the package here, as there is no node; the page does it"
+    code = "".join(Path(path).read_text(encoding="utf-8") for path in (solver, check))
+    code += f"console.log(JSON.stringify(check.differing({json.dumps(answers)})));"
+    done = subprocess.run([node, "-"], input=code, text=True, capture_output=True, timeout=60)
+    differing = json.loads(done.stdout) if done.returncode == 0 else [[done.stderr[-500:], "run"]]
+    if differing:
+        groups, wanted = differing[0]
+        raise ArithmeticError(
+            f"{solver} differs from the package in {len(differing)} of {len(answers)} impacts: "
+            f"x, m2/m1, zeta^2, e = {groups} is {wanted}"
+        )
+    return f"the solver of the page answers {len(answers)} impacts as the package does"
+
+
+def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[Any]) -> str:
     """The page as text.
 
     Parameters
@@ -149,6 +184,8 @@ def page(settings: Mapping[str, Any], sources: Sequence[str]) -> str:
         As for `presets`.
     sources : sequence of path
         The template explorer.html, and in the same folder the style and scripts that it names.
+    answers : list
+        Of `stronge1994.curves.explorer`, against which the page checks itself.
 
     Returns
     -------
@@ -162,4 +199,5 @@ def page(settings: Mapping[str, Any], sources: Sequence[str]) -> str:
         bodies=_mass_ratios(),
         sources=texts | {"spheres.js": Markup(continuum())},
         error=max(export.TABLES),
+        answers=Markup(json.dumps(answers)),
     )

@@ -18,8 +18,8 @@ import jinja2
 from markupsafe import Markup, escape
 
 from stronge1994 import csv_tables, gate
-from stronge1994.csv_tables import Row
-from stronge1994.drawings import house_style
+from stronge1994.csv_tables import Curves, Row
+from stronge1994.drawings import checked, derived
 from stronge1994.drawings import residuals as draw_residuals
 from stronge1994.judging import verdict_table
 from stronge1994.ledger import outcome
@@ -226,7 +226,7 @@ def figure(
     """
     rows = [row for row in verdicts if row["figure"] == name]
     entries = {c: e for c, e in config["comparisons"].items() if e["figure"] == name}
-    strips = draw_residuals.draw(residuals, entries, {row["comparison"]: row for row in rows})
+    strips = derived.strips(residuals, entries, {row["comparison"]: row for row in rows})
     return {
         "title": templates.title(name),
         "picture": templates.embedded(svg),
@@ -234,7 +234,7 @@ def figure(
         "alt": re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip("."),
         "rows": rows,
         "has_residuals": bool(residuals),
-        "strips": templates.embedded(_svg(strips)) if strips else None,
+        "strips": templates.embedded(_svg(name, strips)) if strips else None,
     }
 
 
@@ -266,9 +266,9 @@ def _entry_of(names: Collection[str]) -> Callable[[Row], str | None]:
     return entry_of
 
 
-def _svg(figure: Any) -> bytes:
-    file = io.BytesIO()
-    house_style.save(figure, file)
+def _svg(name: str, strips: Mapping[derived.Strip, Curves]) -> bytes:
+    file, tables = io.BytesIO(), derived.tables_of_strips(strips)
+    checked.save(draw_residuals.draw(strips), tables, f"residuals of {name}", file)
     return file.getvalue()
 
 

@@ -1,0 +1,47 @@
+"""What the package answers within the sliders of the explorer, whose page solves by itself."""
+
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from planarimpact import Regime, lumped
+
+# Incidence, mass ratio, stiffness ratio and restitution; velocity, peak friction, dissipation and
+# the name of the regime.
+Answer: TypeAlias = tuple[list[float], list[float | str]]
+COUNT, SEED = 60, 1994
+
+
+def answers(limits: Mapping[str, Sequence[float]]) -> list[Answer]:
+    """Rebounds of the lumped model: of random sliders, and of two bodies on every threshold.
+
+    Parameters
+    ----------
+    limits : dict
+        Smallest and largest value of each slider, angles in degrees.
+
+    Examples
+    --------
+    >>> limits = dict.fromkeys(("angle", "friction", "restitution", "poisson_ratio"), (0.2, 0.4))
+    >>> len(answers(limits | {"mass_ratio": (1, 10)})) > COUNT
+    True
+    """
+    rng = np.random.default_rng(SEED)
+    draw = {name: rng.uniform(limit[0], limit[1], COUNT) for name, limit in limits.items()}
+    nu = draw["poisson_ratio"]
+    incidence = np.tan(np.radians(draw["angle"])) / draw["friction"]
+    groups = [incidence, draw["mass_ratio"], (2 - nu) / (2 * (1 - nu)), draw["restitution"]]
+    for beta, zeta2 in ((3.5, 1.25), (10.0, 1.0)):
+        for e in (0.0, 0.3, 0.9, 1.0):
+            limit = float(lumped.slip_throughout_limit(beta, zeta2, e))
+            x = np.array([0.0, 0.5, zeta2, 2.0, beta, (beta + limit) / 2, limit, 2 * limit])
+            own = np.broadcast_arrays(x, beta, zeta2, e)
+            groups = [np.append(one, more) for one, more in zip(groups, own, strict=True)]
+    found = lumped.rebound(*groups)
+    names = Regime.names(found.regime)
+    columns = found.velocity, found.peak_friction, found.dissipation, names
+    return [
+        (list(map(float, row)), [*map(float, numbers), str(name)])
+        for row, *numbers, name in zip(np.transpose(groups), *columns, strict=True)
+    ]
