@@ -32,6 +32,13 @@ UNITS = {
 }
 MARKS = {
     "agrees": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
+    "inconclusive": {
+        "color": house_style.BLACK,
+        "marker": "o",
+        "markersize": 2.4,
+        "markerfacecolor": "white",
+        "markeredgewidth": 0.7,
+    },
     "differs as documented": {
         "color": house_style.BLUE,
         "marker": "s",
