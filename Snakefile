@@ -2,6 +2,7 @@
 #   snakemake --cores 2            everything, up to the verdict
 #   snakemake --cores 2 figures    pictures only, without judging
 from snakemake.io import strip_wildcard_constraints
+from snakemake.logging import logger
 from snakemake.utils import min_version
 
 min_version("9.0")
@@ -127,6 +128,7 @@ if workflow.is_main_process:
 if STARTED_HERE:
     gate.drop_false_pass(MADE, config)
     BEFORE = closing.state()
+    logger.addFilter(closing.add_unlock)
 
 
 # Logs and benchmarks of every job that there can be.

@@ -7,8 +7,9 @@ from scipy.stats import kstest
 
 from planarimpact import lumped
 from stronge1994.goodness import chi_squared
-from stronge1994.judging import Verdict, landmarks
+from stronge1994.judging import Measured, Verdict, judge, landmarks, measure
 from stronge1994.judging.distances import (
+    Residuals,
     curve_residuals,
     difference_residuals,
     distances_to_polyline,
@@ -16,7 +17,7 @@ from stronge1994.judging.distances import (
     vertex_residuals,
 )
 from stronge1994.judging.points import limits_of_regimes
-from stronge1994.judging.verdicts import verdict
+from stronge1994.judging.verdicts import SEEN, verdict
 
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
 
@@ -106,6 +107,56 @@ def test_facts(found, fact, expected):
 )
 def test_verdicts(good, documented, unchanged, expected):
     assert verdict(good, documented, unchanged) == expected
+
+
+@pytest.mark.parametrize("sigma_values", [None, 4, 7, 40])
+@pytest.mark.parametrize("number", [1, 2, 5, 8, 17])
+@pytest.mark.parametrize("parameter", [0.0, 1.0])
+def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, sigma_values, parameter):
+    """The farthest that all points may lie beside the curve is sought: two sigmas are too far."""
+    known = {"kind": "digitised", "sigma_values": sigma_values}
+    shifts = parameter * np.ones((1, number))  # an uncertain parameter moves all points
+
+    def verdict_at(sigmas):
+        residuals = Residuals(np.zeros(number), np.full(number, sigmas), np.zeros(number))
+        return judge({}, known, Measured("x", residuals, ["y"] * number, shifts), 0.01)
+
+    low, high = 0.0, 100.0
+    while high - low > 1e-6:
+        middle = (low + high) / 2
+        if verdict_at(middle) == Verdict.DIVERGES:
+            high = middle
+        else:
+            low = middle
+    assert verdict_at(0.0) == (Verdict.AGREES if high < SEEN else Verdict.INCONCLUSIVE)
+    # Beside the curve the points come nearer to the edge on one side, and leave it on the other.
+    assert verdict_at(1.0) == (Verdict.AGREES if high < SEEN - 1.0 else Verdict.INCONCLUSIVE) or (
+        high <= 1.0 and verdict_at(1.0) == Verdict.DIVERGES
+    )
+    fact = {"kind": "computed"}
+    residuals = Residuals(np.zeros(number), np.zeros(number), np.zeros(number))
+    assert judge({}, fact, Measured("x", residuals, ["y"] * number), 0.01) == Verdict.AGREES
+
+
+@pytest.mark.parametrize("values", [[3e-16, 0.0], [0.024, 1e-9], [1.95, 2.0], [-0.5, 16.0]])
+def test_a_range_that_is_too_wide_is_refused(values):
+    """It is widened until it is refused, which is before it is a thousand times what it holds."""
+    curves = {"a": {"x [1]": np.arange(2.0), "y [1]": np.array(values)}}
+    largest = max(values)
+
+    def measured(high):
+        entry = {
+            "metric": "range",
+            "columns": ["y [1]"],
+            "range": [min(0.0, 100 * values[0]), high],
+        }
+        return measure(entry, None, curves, {})
+
+    assert measured(largest).residuals.summary().max <= 1.0
+    assert measured(99 * largest).residuals.summary().max <= 1.0
+    for high in largest * 10.0 ** np.arange(3, 30):
+        with pytest.raises(ValueError, match="it says nothing"):
+            measured(high)
 
 
 def test_chi_squared_is_that_of_a_fit_held_to_the_stated_parameters():

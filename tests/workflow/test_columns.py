@@ -187,6 +187,23 @@ def test_the_table_of_sensitivity_tells_what_is_caught(name, tables, tmp_path):
                     assert not all(caught(title, group, way) for way in ways), (title, group, size)
 
 
+def test_what_agrees_is_evidence(tables):
+    """Published points that agree would not, two sigmas beside the curve; a range has a limit."""
+    folder, series = tables
+    rows = csv_tables.read_rows(folder / "results/sensitivity.csv")
+    caught = {row["comparison"]: row["all_points [sigma]"] for row in rows}
+    for row in csv_tables.read_rows(folder / "results/verdicts.csv"):
+        if row["verdict"] in ("agrees", "inconclusive") and row["p"]:
+            assert (int(caught[row["comparison"]]) <= 2) == (row["verdict"] == "agrees"), row
+    assert Counter(caught.values())["3"] >= 3
+    for title, entry in CONFIG["comparisons"].items():
+        if entry["metric"] == "range":
+            path = folder / configuration.table_of(entry["figure"])
+            wide = entry | {"range": [entry["range"][0], 1e9]}
+            [_, row] = compare(entry["figure"], {title: wide}, {}, path, series, 0.01)
+            assert row["verdict"] == "diverges" and "it says nothing" in row["note"], row
+
+
 def test_sigmas_do_not_come_from_the_points_they_judge():
     """Finite elements: from points that nothing looks at; Kharaz et al.: from a second reader."""
     limits = points.limits_of_regimes(3.5, 1.2143, 1.0)

@@ -12,6 +12,8 @@ import time
 from test_awaited_series import JOHNSON, RUBBER, SIGNED, UNSIGNED, export, made_up
 from test_troubleshooting import explained
 
+from stronge1994.gate import closing
+
 
 def test_a_run_that_is_killed_goes_on_and_what_is_gone_is_made_again(finished):
     """The run itself, then the gate behind its work; a series dropped in meanwhile is judged."""
@@ -34,7 +36,8 @@ def test_a_run_that_is_killed_goes_on_and_what_is_gone_is_made_again(finished):
         os.killpg(running.pid, signal.SIGKILL)
         running.wait()
     assert not passed.exists()
-    assert "--unlock" in explained(finished.run())
+    locked = finished.run()
+    assert "--unlock" in explained(locked) and locked.stdout.rstrip().endswith(closing.UNLOCK)
     assert finished.run("--unlock").returncode == 0
 
     # The mark that Snakemake leaves at a file which it was writing.

@@ -4,9 +4,11 @@ A start of Snakemake checks what the functions here check, and test_verdict.py m
 starts show that it does.
 """
 
+import gzip
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from stronge1994 import reference_data
@@ -130,6 +132,63 @@ def test_bad_config_is_refused(change, words, check):
     with pytest.raises(configuration.ConfigError, match=f"^config: .*{words}") as refusal:
         check(change)
     assert "\n" not in str(refusal.value)
+
+
+def test_a_bound_is_refused_before_it_says_nothing(inventory, ledger, monkeypatch):
+    """Each is widened until it is refused. What a `range` may be depends on what it holds: see
+    tests/unit/test_comparison.py.
+    """
+    monkeypatch.chdir(ROOT)
+    config = configuration.load()
+
+    def refused(name, key, new):
+        alone = {name: config["comparisons"][name] | {key: new}}
+        changed = config | {"comparisons": alone}
+        try:
+            configuration.check_config(changed, CONFIG_SCHEMA, inventory, ledger)
+        except configuration.ConfigError as error:
+            assert f"{name}.{key}" in str(error) and "\n" not in str(error)
+            return True
+        return False
+
+    for name, entry in config["comparisons"].items():
+        for part, (low, high) in entry.get("regression", {}).items():
+            ends, far = np.array([low, high]), int(abs(high) > abs(low))
+            while not refused(name, "regression", {part: ends.tolist()}):
+                # A difference that doubles, from wherever it was within them, leaves them.
+                assert np.abs(ends).max() < 2 * np.abs(ends).min()
+                ends[far] *= 1.3
+            for wide in ([low, 1e9], [-1e9, high], [0.0, abs(high)]):
+                assert refused(name, "regression", {part: wide}), wide
+        for part, size in entry.get("allowance", {}).items():
+            for factor in (4, 1e9):
+                assert refused(name, "allowance", entry["allowance"] | {part: factor * size})
+        for limit in (0.02, 3.0, 1e9):
+            if "limit" in entry:
+                assert refused(name, "limit", limit) == (entry["metric"] != "largest" or limit > 2)
+
+
+NO_TEXT = [
+    gzip.compress,
+    lambda table: table.decode().encode("utf-16"),
+    lambda table: b"\x89PNG\r\n\x1a\n",
+    lambda table: np.random.default_rng(1).bytes(len(table)),
+    lambda table: b"\xff" + table,
+    lambda table: table[:100] + b"\xe9" + table[100:],
+    lambda table: table + b"\0",
+]
+
+
+def test_a_scene_that_is_no_text_is_refused(data, check, monkeypatch):
+    monkeypatch.chdir(data[0].parent)
+    Path("workflow").symlink_to(ROOT / "workflow")
+    table = Path("data/scenes/superball.csv")
+    whole = table.read_bytes()
+    for change in NO_TEXT:
+        table.write_bytes(change(whole))
+        words = r"data/scenes/superball\.csv, line \d+: .*; save the file as UTF-8"
+        with pytest.raises(reference_data.SourceError, match=words):
+            check({})
 
 
 @pytest.fixture

@@ -128,7 +128,16 @@ def _no_python(folder):
     return {}
 
 
+def _braces(folder):
+    (folder / "{x}").symlink_to(folder)
+    return {"folder": folder / "{x}"}
+
+
 REFUSED = {
+    "/{x}: Snakemake takes braces in a path for a wildcard": _braces,
+    "--consider-ancient: not allowed here": lambda _: {
+        "arguments": ["--consider-ancient", "curves=modules"]
+    },
     "run Snakemake in the folder of its Snakefile": lambda folder: {"folder": folder.parent},
     "rigid.py, line 1: invalid syntax": _no_python,
     "the key 'a' stands twice": _twice,
@@ -182,7 +191,7 @@ def test_a_start_refuses_results_without_records(fresh):
 UNTRUSTWORTHY = [
     "--keep-incomplete", "--touch", "-t", "--no-hook", "--ignore-incomplete", "--ii", "--nolock",
     "--allowed-rules all gate --", "--rerun-triggers mtime", "--rerun-t input code",
-    "--drop-metadata",
+    "--drop-metadata", "--consider-ancient gate=9",
 ]  # fmt: skip
 
 

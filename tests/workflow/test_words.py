@@ -1,9 +1,12 @@
 """What a run says: signs of life, and the end."""
 
+import logging
 import time
 from types import SimpleNamespace
 
 import pytest
+from snakemake.exceptions import LockException, WorkflowError, print_exception
+from snakemake.logging import logger
 
 from stronge1994 import csv_tables, job, records
 from stronge1994.gate import closing
@@ -70,6 +73,18 @@ def test_an_input_that_is_edited_meanwhile_fails_the_job(folder):
     with pytest.raises(RuntimeError, match=words), job.recorded(told):
         (folder / "data.csv").write_text("2")
     assert "made from another data.csv" in records.faults(["made.csv"])[0]
+
+
+def test_the_last_words_on_a_locked_folder_are_what_helps(monkeypatch):
+    said = []
+    handler = logging.Handler()
+    handler.emit = lambda record: said.append(record.getMessage())
+    monkeypatch.setattr(logger, "handlers", [handler])
+    monkeypatch.setattr(logger, "filters", [closing.add_unlock])
+    for error in (LockException(), WorkflowError("oh")):
+        print_exception(error)
+    assert "cannot be locked" in said[0] and said[0].splitlines()[-1] == closing.UNLOCK
+    assert "oh" in said[1] and closing.UNLOCK not in said[1]
 
 
 def ended(folder, gate=None, passed=False, verdict="agrees", holds="yes"):

@@ -29,6 +29,11 @@ def refused(error):
 
 if Path(workflow.basedir).resolve() != Path.cwd().resolve():
     raise WorkflowError(f"run Snakemake in the folder of its Snakefile: cd {workflow.basedir}")
+if set("{}") & set(workflow.basedir):
+    raise WorkflowError(
+        f"{workflow.basedir}: Snakemake takes braces in a path for a wildcard: rename the folder, or "
+        "move the project to one without braces"
+    )
 try:
     files.refuse_unreadable_modules()
     for file in (*configuration.FILES, *workflow.config_settings.configfiles):

@@ -14,6 +14,13 @@ from stronge1994.drawings.derived import ALL, DISTANCE, RMS, RMS_ALLOWED, Strip
 STRIP, LABEL = 0.56, 0.42
 MARKS = {
     "agrees": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
+    "inconclusive": {
+        "color": house_style.BLACK,
+        "marker": "o",
+        "markersize": 2.4,
+        "markerfacecolor": "white",
+        "markeredgewidth": 0.7,
+    },
     "differs as documented": {
         "color": house_style.BLUE,
         "marker": "s",

@@ -1,5 +1,6 @@
 """What a run prints last: the tables that it made, whether it was judged, and what to do next."""
 
+import logging
 import re
 import shlex
 import shutil
@@ -32,9 +33,18 @@ STOPPED = [
 INTERRUPTED = (
     "Interrupted. Nothing needs mending: type the same command again, finished work is kept."
 )
+# What helps after Snakemake has said that the folder is locked.
+UNLOCK = "Does no other run work here? Then type:  snakemake --unlock  and the same command again."
 # Snakemake's own log says this after Ctrl-C, and after a job has failed.
 ON_REQUEST = "Terminating processes on user request"
 FAILED_JOB = re.compile(r"^Error in rule (\w+):", flags=re.M)
+
+
+def add_unlock(record: logging.LogRecord) -> bool:
+    """Put what helps behind Snakemake's error of a locked folder, and let every record pass."""
+    if getattr(record, "exception", None) == "LockException":
+        record.msg = f"{record.msg}\n{UNLOCK}"
+    return True
 
 
 def state() -> dict[str, Mark]:

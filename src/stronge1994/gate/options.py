@@ -11,6 +11,7 @@ WHY = {
     "no_hooks": "results/PASSED would outlive what it is about",
     "ignore_incomplete": "half-made files would count as whole",
     "allowed_rules": "old files would count as new",
+    "consider_ancient": "old files would count as new",
     "nolock": "two runs would mix their files",
     "drop_metadata": "a change of the config would go unnoticed",
 }

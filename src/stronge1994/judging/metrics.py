@@ -20,6 +20,9 @@ from stronge1994.judging.points import Entry, Reference, kind, points, printed_s
 
 # Two ways to compute one energy agree to this; see the reason of the comparison.
 BALANCE_SIGMA = 1e-12
+# Values so many times as large as those found must leave a range: two digits of room are for the
+# rounding of other machines; with more the range says nothing.
+ROOM = 100
 
 
 class Measured(NamedTuple):
@@ -237,10 +240,18 @@ def _largest(entry: Entry, curves: Curves) -> Measured:
 
 
 def _range(entry: Entry, curves: Curves) -> Measured:
-    """Columns whose values must lie in a range: distances from its middle, in half its width."""
+    """Columns whose values must lie in a range: distances from its middle, in half its width.
+
+    A range in which far larger values would lie too is an error.
+    """
     names, (low, high) = entry["columns"], entry["range"]
     first, x, values = _together(entry, curves, names)
     found = np.concatenate(values)
+    if low <= ROOM * found.min() and ROOM * found.max() <= high:
+        raise ValueError(
+            f"range {low:g} to {high:g}: values {ROOM} times as large as those found would lie in "
+            "it too, so it says nothing"
+        )
     middle = np.full(len(found), (low + high) / 2)
     at = np.tile(x, len(names))
     residuals = distances.difference_residuals(at, found, middle, (high - low) / 2)

@@ -25,6 +25,7 @@ EVIDENCE = {
     "fact": "stated value",
     "law": "law or limit",
     "itself": "none: regression",
+    "inconclusive": "none: it would agree with a wrong curve too",
 }
 # The cells of a row by `COLUMNS`. `residuals` holds rows of the table of residuals.
 VerdictRow: TypeAlias = dict[str, Any]
@@ -80,6 +81,7 @@ def compare(
                 raise ValueError(problem)
             found = measure(entry, known, curves, series_paths)
             verdict = judge(entry, known, found, significance)
+            facts["evidence"] = EVIDENCE.get(verdict, facts["evidence"])
             facts |= _numbers(entry, known, found, significance) | found.texts
             points = zip(found.residuals.x.tolist(), found.residuals.sigmas.tolist(), strict=True)
             facts["residuals"] = [[title, found.quantity, *point] for point in points]

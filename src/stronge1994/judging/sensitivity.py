@@ -19,8 +19,8 @@ from stronge1994.curves import solving
 from stronge1994.judging import judged_tables, verdict_table
 from stronge1994.judging.distances import Residuals
 from stronge1994.judging.metrics import Measured, measure
-from stronge1994.judging.points import Entry, Reference
-from stronge1994.judging.verdicts import Verdict, judge
+from stronge1994.judging.points import Entry, Reference, is_published
+from stronge1994.judging.verdicts import Verdict, judge, notices
 
 Settings: TypeAlias = dict[str, Any]
 # The keys under which settings have each group.
@@ -53,6 +53,8 @@ LAWS = ("balance", "range", "contraction")
 # tried one by one, on every point whose number is a multiple of `SPARSE`.
 DIGITS, SPARSE = "stability", 40
 TRIED = 10.0 ** np.arange(-15, -2)
+# All published points are moved by so many sigmas.
+MOVED = range(1, 10)
 
 
 def sensitivities(
@@ -80,9 +82,10 @@ def sensitivities(
     Returns
     -------
     list of list of str
-        The name of the comparison, and sizes of the changes, see `GROUPS`: relative ones, of e an
-        absolute one. `none` where even a change by half is not caught; empty where the figure does
-        not depend on the group, or the comparison cannot be made.
+        The name of the comparison; by how many whole sigmas all published points must be moved;
+        sizes of the changes, see `GROUPS`: relative ones, of e an absolute one. `none` where even a
+        change by half, or by the most of `MOVED`, is not caught; empty where the figure does not
+        depend on the group, or the comparison cannot be made.
     """
     settings = settings | solving.read_nodes(nodes) | SHORT.get(figure, {})
     if "samples" in settings:
@@ -94,7 +97,7 @@ def sensitivities(
     except Exception:  # the row `...-solved` says so
         curves = {}
     if not curves:
-        return [[title, *[""] * len(GROUPS)] for title in comparisons]
+        return [[title, *[""] * len(verdict_table.SENSITIVITY[1:])] for title in comparisons]
     # A group that is off by nothing has the same curves as every other: they are solved once.
     solve = _once(functools.partial(_solve, figure, curves), operator.eq)
     solved = {group: _solver(solve, figure, settings, group) for group in GROUPS}
@@ -120,7 +123,11 @@ def sensitivities(
             sizes = [_by_trial(solved[group], measured, caught) for group in GROUPS]
         else:  # the impacts themselves, of which only some are tried
             sizes = [""] * len(GROUPS)
-        rows.append([title, *sizes])
+        moved = ""
+        if is_published(known):
+            noticed = functools.partial(notices, entry, known, significance=significance)
+            moved = _by_moving(curves, measured, noticed)
+        rows.append([title, moved, *sizes])
     return rows
 
 
@@ -239,6 +246,15 @@ def _by_trial(solved: _Solved | None, measure: _Measure, caught: _Caught) -> str
     if not solved:
         return ""
     return _words(size for size in TRIED if caught(measure(solved(float(size)))))
+
+
+def _by_moving(curves: Curves, measure: _Measure, noticed: Callable[..., bool]) -> str:
+    """Whole number of sigmas by which all points must be moved, whichever way."""
+    try:
+        found = measure(curves)
+    except Exception:  # the reference is awaited, or the row of the comparison gives the reason
+        return ""
+    return _words(size for size in MOVED if noticed(found, sigmas=size))
 
 
 def _words(sizes: Iterable[float]) -> str:

@@ -14,10 +14,10 @@ COLUMNS = [
     "rms [axis units]", "found", "stated", "allowed", "regression", "note", "reason",
 ]  # fmt: skip
 # Groups of the physics. The table of sensitivity has the smallest change of each that a comparison
-# catches.
+# catches, and how far all of its published points must lie beside the curve.
 GROUPS = ["zeta^2", "beta", "e", "mu"]
-SENSITIVITY = ["comparison", *GROUPS]
-ORDER = ["diverges", "differs as documented", "awaited", "agrees", "as before"]
+SENSITIVITY = ["comparison", "all_points [sigma]", *GROUPS]
+ORDER = ["diverges", "differs as documented", "awaited", "inconclusive", "agrees", "as before"]
 
 
 def gather(paths: Iterable[str]) -> list[Row]:

@@ -1,4 +1,8 @@
-"""From distances to a verdict: chi-squared for published points, a tolerance for all others."""
+"""From distances to a verdict: chi-squared for published points, a tolerance for all others.
+
+Published points that agree with a curve are evidence only if they could have disagreed. So the
+verdict is found again with all of them moved by `SEEN` sigmas.
+"""
 
 from collections.abc import Mapping
 from enum import StrEnum
@@ -8,12 +12,17 @@ from stronge1994.goodness import ChiSquared, chi_squared
 from stronge1994.judging.metrics import Measured
 from stronge1994.judging.points import Entry, Reference, is_published
 
+# If all points lie this many sigmas on one side of a curve, whoever looks at the picture sees that
+# the curve is wrong. A comparison that does not notice it says less than the picture.
+SEEN = 2.0
+
 
 class Verdict(StrEnum):
     """The outcome of one comparison; only DIVERGES fails a run.
 
     UNCHANGED is the verdict of a check against an earlier result of this repository. It guards
-    against accidents and is evidence of nothing.
+    against accidents and is evidence of nothing. So is INCONCLUSIVE: published points agree with
+    the curve, but they would also agree if the curve were wrong by `SEEN` sigmas everywhere.
 
     Examples
     --------
@@ -22,6 +31,7 @@ class Verdict(StrEnum):
     """
 
     AGREES = "agrees"
+    INCONCLUSIVE = "inconclusive"
     DOCUMENTED = "differs as documented"
     DIVERGES = "diverges"
     AWAITED = "awaited"
@@ -50,6 +60,29 @@ def judge(entry: Entry, known: Reference | None, found: Measured, significance: 
     -------
     Verdict
     """
+    outcome = _outcome(entry, known, found, significance)
+    if outcome == Verdict.AGREES and is_published(known):
+        noticed = notices(entry, known, found, significance, SEEN)
+        return outcome if noticed else Verdict.INCONCLUSIVE
+    return outcome
+
+
+def notices(
+    entry: Entry, known: Reference | None, found: Measured, significance: float, sigmas: float
+) -> bool:
+    """Whether a comparison diverges if all points lay this many sigmas higher, and if lower."""
+    ways = (
+        found.residuals._replace(sigmas=found.residuals.sigmas + off) for off in (sigmas, -sigmas)
+    )
+    return all(
+        _outcome(entry, known, found._replace(residuals=moved), significance) == Verdict.DIVERGES
+        for moved in ways
+    )
+
+
+def _outcome(
+    entry: Entry, known: Reference | None, found: Measured, significance: float
+) -> Verdict:
     distance = found.residuals.summary()
     measured: dict[str, Any] = {"rms": distance.rms, "max": distance.max, "difference": found.gap}
     if known is not None and is_published(known):

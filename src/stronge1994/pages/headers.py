@@ -37,6 +37,7 @@ WORDS = {
     "digits_least": "correct digits, least",
     "digits_allowed_least": "digits that the condition allows, least",
     "digits_lost_most": "digits lost beyond the condition, most",
+    "all_points": "all published points beside the curve, smallest distance caught",
     "zeta^2": "smallest change of zeta^2 caught, share of zeta^2",
     "beta": "smallest change of m2/m1 caught, share of m2/m1",
     "e": "smallest change of e caught",

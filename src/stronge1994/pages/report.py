@@ -22,6 +22,7 @@ from stronge1994.csv_tables import Curves, Row
 from stronge1994.drawings import checked, derived
 from stronge1994.drawings import residuals as draw_residuals
 from stronge1994.judging import verdict_table
+from stronge1994.judging.verdicts import SEEN
 from stronge1994.ledger import outcome
 from stronge1994.pages import (
     findings,
@@ -39,6 +40,7 @@ MARKS = {
     "diverges": "fails",
     "differs as documented": "rounding",
     "awaited": "not",
+    "inconclusive": "not",
     "agrees": "confirmed",
     "as before": "not",
 }
@@ -46,6 +48,8 @@ MEANING = {
     "diverges": "outside its tolerance: the run fails",
     "differs as documented": "a difference that is known, explained and as large as before",
     "awaited": "we do not have the reference yet",
+    "inconclusive": "it agrees, but would agree too if all points lay "
+    f"{SEEN:g} sigmas beside the curve: evidence of nothing",
     "agrees": "with published points (p is large enough), or within the tolerance of its reference",
     "as before": "it ran; this guards against accidents and is evidence of nothing",
 }

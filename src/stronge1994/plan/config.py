@@ -13,6 +13,8 @@ Entry: TypeAlias = dict[str, Any]  # a comparison of the config; a series or fac
 
 # What a user edits: physics; tolerances and their reasons.
 FILES = ("workflow/config.yaml", "workflow/comparisons.yaml")
+# Largest allowance for a model, as a share of the range of its axis.
+LARGEST_ALLOWANCE = 0.02
 SCENE = "scene_"  # before the name of a scene, among what is judged
 # Curves of Fig. 5 that have the parameters of a source: which ones they need.
 SPHERE = ["mass_ratio", "stiffness_ratio", "restitution"]
@@ -96,6 +98,7 @@ def check_config(
     for scene in config["scenes"]:
         if not Path(f"data/scenes/{scene}.csv").is_file():
             raise ConfigError(f"config: scenes.{scene}: there is no data/scenes/{scene}.csv")
+        reference_data.refuse_no_text(f"data/scenes/{scene}.csv")
     for name, comparison in config["comparisons"].items():
         if comparison["figure"] not in judged(config):
             raise ConfigError(
@@ -118,6 +121,14 @@ def _ascending(where: str, span: Any) -> None:
 
 def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> None:
     metric = comparison["metric"]
+    for key, (low, high) in comparison.get("regression", {}).items():
+        small, large = sorted((abs(low), abs(high)))
+        if not (low < high and low * high > 0 and large < 2 * small):
+            raise ConfigError(
+                f"{where}.regression.{key} = {[low, high]}: the first number must be the smaller; "
+                "both have one sign, and neither is twice the other or more: else the difference "
+                "could double unnoticed"
+            )
     columns = {
         "balance": ("columns", "`columns`, two"),
         "largest": ("largest", "`largest`, a column"),
@@ -147,8 +158,15 @@ def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> No
     for label in comparison.get("points", {}):
         if label not in known.get("labels", []):
             raise ConfigError(f"{where}.points.{label}: no label of {comparison['reference']}")
-    for key, span in comparison.get("regression", {}).items():
-        _ascending(f"{where}.regression.{key}", span)
+    for key, size in comparison.get("allowance", {}).items():
+        for axis in [known["x"]] if key == "x" else reference_data.ordinates(known):
+            low, high = axis["range"]
+            if size > LARGEST_ALLOWANCE * (high - low):
+                raise ConfigError(
+                    f"{where}.allowance.{key} = {size:g}: allowed is up to "
+                    f"{LARGEST_ALLOWANCE * (high - low):g}, a fiftieth of the range {low:g} to "
+                    f"{high:g}; with more the comparison would judge nothing"
+                )
 
 
 def judged(config: Config) -> list[str]:

@@ -142,6 +142,12 @@ def load_yaml(path: str | Path) -> dict[str, Any]:
         raise SourceError(f"{path}, {error}") from None
 
 
+def refuse_no_text(path: str | Path) -> None:
+    """Refuse a file that is no text in UTF-8, naming the line."""
+    for _ in _lines(path):
+        pass
+
+
 def _lines(path: str | Path, most: float = math.inf) -> Iterator[str]:
     """Lines of a text file in UTF-8, read one by one."""
     try:
