@@ -1,12 +1,12 @@
-"""Compiled responses of the lumped model over its whole box of parameters."""
+"""Compiled responses: the lumped model over its whole box of parameters, and others."""
 
 import warnings
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from planarimpact import lumped, response
+from planarimpact import ConvergenceError, lumped, models, response
 
 SEED = st.integers(0, 2**32 - 1)
 MASS_RATIO = st.floats(1.0, 8.0)
@@ -23,6 +23,8 @@ ROUNDING = 1e-14  # of x - (1 + e) beta and of the model
 NEAR = 1e-10  # of a change of regime
 # Each compiles a response and asks it some four hundred times.
 FEWER = settings(max_examples=settings.default.max_examples // 2)
+SEARCHED = ("rigid", "laws.smith", "lumped", "lumped.plastic", "lumped.viscous")
+STEPPED = ("timestep.linear", "timestep.mindlin", "timestep.mindlin_rescaled")
 
 
 def compiled(groups, tolerance=TOLERANCE):
@@ -74,6 +76,70 @@ def test_the_error_bound_holds_everywhere(groups, seed):
     pieces = found._piecewise.pieces  # where one polynomial follows another
     starts = pieces.start[1:]
     assert_within_the_bound(found, np.concatenate([starts, np.nextafter(starts, 0)]), groups)
+
+
+def errors(found, x):
+    """Of velocity and peak friction, in units of what is allowed."""
+    result, exact = found(x), models.rebound(found.model, x, **found.parameters)
+    rows = []
+    for field, bound in found.error_bound._asdict().items():
+        error = np.abs(getattr(result, field) - getattr(exact, field))
+        rows.append(np.nan_to_num(error / (bound + ROUNDING * found.pieces.end)))
+    return np.stack(rows)
+
+
+def largest_errors(found):
+    """Found by climbing from the largest of many, edges of pieces among them."""
+    ends = np.append(found.pieces.start, found.pieces.end)
+    inside = (ends[:-1, None] + np.diff(ends)[:, None] * np.linspace(0, 1, 43)).ravel()
+    x = np.concatenate([inside, np.nextafter(ends, 0), np.nextafter(ends, 99)])
+    x = np.sort(x[x <= ends[-1]])
+    error = errors(found, x)
+    for row, most in enumerate(error.max(axis=1)):
+        top = np.argsort(error[row])[-8:]
+        best, step = x[top], (x[np.minimum(top + 1, x.size - 1)] - x[np.maximum(top - 1, 0)]) / 2
+        for _ in range(9):
+            near = np.clip(best + step * np.linspace(-1, 1, 9)[:, None], 0, ends[-1])
+            height = errors(found, near.ravel())[row].reshape(near.shape)
+            best = near[height.argmax(axis=0), np.arange(top.size)]
+            step, most = step / 3, max(most, height.max())
+        yield most
+
+
+@settings(max_examples=settings.default.max_examples // 8)
+@given(
+    st.sampled_from(SEARCHED) | st.sampled_from(STEPPED),
+    GROUPS,
+    st.floats(-8, -1).map(lambda power: 10.0**power),
+    st.floats(-0.3, 1.7).map(lambda power: 10.0**power),
+)
+@example("lumped", (3.0605651918961225, 0.06721472096141552, 0.7855824770710292), 3.156e-3, 45.1)
+@example("lumped.plastic", (4.612480098835151, 0.0584104979584844, 0.62348975), 1.6348e-3, 8.43)
+@example("timestep.linear", (4.39633682, 5.69764727, 0.96165719), 4.204e-3, 1.79383465)
+def test_no_search_finds_a_larger_error_than_was_measured(model, groups, tolerance, largest):
+    """Nor a piece without a width, or a velocity that gains energy beside the start of a piece."""
+    beta, zeta2, e = groups
+    steps = {"steps": 16} if model in STEPPED else {}
+    try:
+        found = response.compile(
+            model,
+            incidence_max=largest,
+            tolerance=max(tolerance, 1e-4) if steps else tolerance,
+            mass_ratio=beta,
+            stiffness_ratio=zeta2,
+            restitution=max(e, models.get(model).restitution[0]),
+            **steps,
+        )
+    except ConvergenceError as refused:
+        assert "is not compiled: it is too rough" in str(refused) or "was fitted to" in str(refused)
+        return
+    assert max(largest_errors(found)) <= 1
+    ends = np.append(found.pieces.start, found.pieces.end)
+    assert (np.diff(ends) >= 32 * np.spacing(ends[1:])).all()
+    x = np.concatenate([ends, np.nextafter(ends, 0), np.nextafter(ends, 99)])
+    x = x[x <= ends[-1]]
+    most = np.inf if found.gains else x
+    assert (np.abs(found.velocity(x)) <= most).all()
 
 
 @FEWER

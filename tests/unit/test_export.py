@@ -307,6 +307,28 @@ def test_other_languages_answer_as_python_does(run, cases, folder):
             assert constants.tolist() == list(case.constants.values())
 
 
+@pytest.mark.parametrize("compiler", [["cc", "-std=c99"], ["c++", "-xc++"]], ids=["C", "C++"])
+def test_a_header_never_meets_a_compiler_without_nan(compiler, pairs, tmp_path):
+    """That one may drop the test of the range, and a table is read beyond its ends."""
+    if not shutil.which(compiler[0]):
+        pytest.skip(f"{compiler[0]} is not installed")
+    export.write(pairs["plain"], tmp_path / "ball.h", "c")
+    code = '#include "ball.h"\nint main(int n, char **v) { return ball_velocity(n / 0.0 - n / 0.0)'
+    (tmp_path / "main.c").write_text(f"{code} > 1 && v; }}\n")
+    for options, works in {
+        "-O3": True,
+        "-O3 -ffast-math": False,
+        "-O3 -ffinite-math-only": False,
+        "-O3 -ffast-math -fno-finite-math-only": True,
+    }.items():
+        command = [*compiler, *options.split(), "main.c", "-o", "main", "-lm"]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+        assert (done.returncode == 0) == works, options
+        assert works or "This header needs NaN" in done.stderr
+        if works:
+            subprocess.run(["./main"], cwd=tmp_path, check=True)
+
+
 def test_the_coarse_table_is_as_near_as_it_says(cases):
     fine, coarse = cases["fine"], cases["coarse"]
     loss, rows = fine.impacts[:COUNT, 4], fine.tabled[:COUNT]

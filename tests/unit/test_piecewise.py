@@ -1,5 +1,7 @@
 """Fits by polynomials between kinks: the error that they state, the kinks that they find."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -63,15 +65,77 @@ def test_right_of_a_known_kink_half_powers_take_few_pieces(power, elsewhere):
     assert pieces.start.size <= 2 * piecewise.FIRST
 
 
-def test_the_bound_knows_of_points_that_no_part_was_accepted_by(monkeypatch):
+def test_the_bound_knows_of_points_that_no_part_was_accepted_by():
     """A bump at an independent point alone is not smoothed away."""
-    place = 1 + (piecewise._POINTS[-1] + 1) / 2  # in sqrt(x), of the second of two parts
+    place = 1 + (piecewise.MEASURED[5] + 1) / 2  # in sqrt(x), of the second of two parts
 
     def function(x):
         return np.where(np.abs(np.sqrt(x) - place) < 1e-9, 1.0, 0.0)
 
     _, bound = piecewise.fit(unlabelled(function), [0.0, 4.0], TOLERANCE)
     assert bound[0] >= 1.0
+
+
+@pytest.mark.parametrize("width", [0.3, 1.0])
+def test_the_bound_climbs_to_a_kink_between_the_points(width):
+    """The polynomials miss a tent as high as their tolerance allows, wherever it stands."""
+    x = np.linspace(0, END, 20_001)
+    for middle in np.random.default_rng(4).uniform(0.1, END - 0.1, 40):
+
+        def tent(x, middle=middle):
+            return 0.1 * np.maximum(1 - np.abs(x - middle) / width, 0)
+
+        pieces, bound = piecewise.fit(unlabelled(tent), [0.0, END], 0.3)
+        error = np.abs(evaluate(pieces, x) - tent(x)).max()
+        assert error <= bound[0], middle
+
+
+JUMPS = [1e-9, 0.3, KINK, np.nextafter(KINK, 9), 4.99, np.nextafter(END, 0)]
+
+
+@pytest.mark.parametrize("place", JUMPS)
+@pytest.mark.parametrize("known", [[], [KINK]])
+def test_a_jump_is_refused_where_it_is(place, known):
+    """However it lies to a known kink; at the kink itself the pieces may jump as the function does.
+
+    Between two pieces the bound alone sees it.
+    """
+
+    def function(x):
+        return np.sin(x) + 1e-3 * (x >= place)
+
+    try:
+        _, bound = piecewise.fit(unlabelled(function), [0.0, *known, END], TOLERANCE)
+    except ConvergenceError as refused:
+        words = re.fullmatch(r"it jumps by 1.0e-03 at x = (\S+), and .*", str(refused))
+        assert abs(float(words[1]) - place) <= 1e-11 * place
+    else:
+        assert (bound[0] <= TOLERANCE) if place in known else (bound[0] >= 1e-3)
+
+
+@pytest.mark.parametrize("resolution", [0.0, 1e-13, 1e-3])
+def test_every_piece_has_a_width(resolution):
+    """Kinks and changes of label one number beside each other, at random places and the ends."""
+    random = np.random.default_rng(12)
+    for _ in range(40):
+        some = np.append(random.uniform(0, END, 3), [END, 1e-20, 1e-3])
+        beside = np.concatenate([some, np.nextafter(some, 0), np.nextafter(some, 9), some + 1e-9])
+        bends = random.choice(beside[beside < END], 2, replace=False)
+        labels = np.sort(random.choice(beside[beside < END], 2, replace=False))
+
+        power = random.choice([1, 1.5])
+
+        def function(x, bends=bends, labels=labels, power=power):
+            value = np.maximum(x[:, None] - bends, 0.0) ** power
+            return value.sum(axis=1)[None], np.searchsorted(labels, x)
+
+        known = random.choice(beside[beside < END], 6, replace=False)
+        pieces, bound = piecewise.fit(function, [0.0, *known, END], 1e-4, resolution)
+        ends = np.append(pieces.start, END)
+        assert (np.diff(ends) >= 32 * np.spacing(ends[1:])).all()
+        x = np.concatenate([ends, np.nextafter(ends, 0), np.nextafter(ends, 9)]).clip(0, END)
+        error = np.abs(evaluate(pieces, x) - function(x)[0][0])
+        assert error.max() <= bound[0] + 1e-13
 
 
 def test_a_kink_that_is_known_saves_pieces():
@@ -196,4 +260,4 @@ def test_a_label_of_a_known_kink_itself_is_not_searched_for():
         return np.sin(x)[None], (x > KINK).astype(int)  # KINK has the label of its left
 
     piecewise.fit(function, [0.0, KINK, END], 1e-3)
-    assert len(calls) == 1
+    assert len(calls) == 2 + piecewise.STEPS  # one fit, and the measurement of its error

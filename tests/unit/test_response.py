@@ -224,6 +224,19 @@ def test_what_is_no_finite_number_is_named(ball, x, words):
             answer(x)
 
 
+@pytest.mark.parametrize("x", [8e307, np.nextafter(8e307, np.inf), 1.1e308, np.finfo(float).max])
+def test_one_rule_for_the_largest_incidence(ball, x):
+    """As every model has it, for numbers and arrays, and for both ways to ask."""
+    given = [x, -x, [x], np.array([1.0, -x]), np.array(x)]
+    for answer in (ball, ball.velocity, lambda x: models.rebound("lumped", x)):
+        for one in given:
+            if x <= 8e307:
+                answer(one)
+            else:
+                with pytest.raises(InputError, match=r"allowed are .* from -8e307 to 8e307"):
+                    answer(one)
+
+
 def test_a_bad_incidence_late_in_a_batch_is_named(ball):
     x = np.ones(2 * response.CHUNK)
     x[-5] = np.nan
@@ -297,8 +310,31 @@ def test_a_model_that_jumps_does_not_pass(monkeypatch):
         return result._replace(velocity=result.velocity + 1e-5 * (np.asarray(incidence) > 2.2))
 
     monkeypatch.setitem(models.MODELS, "lumped", lumped._replace(rebound=jumping))
-    with pytest.raises(ConvergenceError):
+    with pytest.raises(ConvergenceError, match=r"lumped is not .* jumps by 1.0e-05 at x = 2.2,"):
         compiled("lumped", 1e-8)
+
+
+def test_a_table_has_pieces_in_order_or_its_jump_is_named():
+    """Wherever cells of the table meet, and at random."""
+    random = np.random.default_rng(6)
+    cases = [("plastic", 17 / 14, 0.5, 1e-3)]
+    for loss in ("viscous", "plastic"):
+        for _ in range(4):
+            zeta2, e = 3.5 / random.uniform(1.57, 3.49), random.uniform(0.31, 1)
+            cases.append((loss, zeta2, e, 10 ** random.uniform(-4.3, -3)))
+    for loss, zeta2, e, tolerance in cases:
+        groups = {"stiffness_ratio": zeta2, "restitution": e}
+        try:
+            found = compiled(f"spheres.{loss}", tolerance, **groups)
+        except ConvergenceError as refused:
+            assert f"spheres.{loss} is not compiled: it jumps by " in str(refused)
+            continue
+        start = found.pieces.start
+        assert (np.diff(start, append=found.pieces.end) > 0).all()
+        x = np.concatenate([start, np.nextafter(start, 0), np.nextafter(start, 99)])
+        exact = models.rebound(f"spheres.{loss}", x, **found.parameters).velocity
+        assert (np.abs(found.velocity(x)) <= x).all()
+        assert np.abs(found.velocity(x) - exact).max() <= found.error_bound.velocity + 1e-14
 
 
 # Files ------------------------------------------------------------------------------------------
@@ -322,7 +358,7 @@ def test_a_refused_incidence_is_named_by_its_place():
     law = response.compile("timestep.linear", incidence_max=8, tolerance=1e-2)
     with pytest.raises(InputError, match=r"incidence = 9.0: allowed are .* from -8 to 8"):
         law(9.0)
-    with pytest.raises(InputError, match=r"incidence\[1, 0\] = nan: allowed are finite numbers$"):
+    with pytest.raises(InputError, match=r"incidence\[1, 0\] = nan: allowed are finite numbers"):
         compiled("lumped").velocity(np.array([[1.0, 2.0], [np.nan, 4.0]]))
 
 

@@ -52,6 +52,16 @@ class Language(NamedTuple):
     file: str
 
 
+# A compiler without NaN may drop the test of the range, and a table is read beyond its ends. GCC
+# and Clang always define the first of these names, MSVC defines the last with /fp:fast.
+NAN_IS_KNOWN = """\
+#if defined(__FINITE_MATH_ONLY__) ? __FINITE_MATH_ONLY__ : defined(__FAST_MATH__)
+#error "This header needs NaN: add -fno-finite-math-only after -ffast-math"
+#elif defined(_M_FP_FAST)
+#error "This header needs NaN: compile it without /fp:fast"
+#endif
+"""
+
 LANGUAGES = {
     "c": Language(
         endings=(".h",),
@@ -65,7 +75,7 @@ LANGUAGES = {
         table="static const {type} {name}[{count}] = {{\n{rows}\n}};\n",
         packed="static const {type} {name}[{count}] = {{\n{rows}\n}};\n",
         file="{words}\n#ifndef PLANARIMPACT_{NAME}_H\n#define PLANARIMPACT_{NAME}_H\n\n"
-        "#include <math.h>\n\n{code}\n#endif\n",
+        f"{NAN_IS_KNOWN}\n#include <math.h>\n\n{{code}}\n#endif\n",
     ),
     "js": Language(
         endings=(".mjs", ".js"),

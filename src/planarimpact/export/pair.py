@@ -257,17 +257,18 @@ the coefficient of friction, above 0.
 Range: |x| up to ${P}INCIDENCE_MAX.$formula For any other x, NaN among them, the numbers are NaN \
 and the regime is ${P}UNRESOLVED.
 
-Error against the model: at most ${P}ERROR_VELOCITY for velocity and ${P}ERROR_PEAK_FRICTION for \
-peak_friction. That is twice the largest difference that was measured between the points of the \
-fit, plus the tolerance of the model if it has one; it is not proved. A regime changes within a \
-hundredth of $tolerance, the tolerance of the fit, from where that of the model does.
+Measured error against the model: ${P}ERROR_VELOCITY for velocity and ${P}ERROR_PEAK_FRICTION for \
+peak_friction. That is twice the largest difference that a search found, plus the tolerance of the \
+model if it has one. Nothing is proved: a narrow kink of the model may have escaped the search. A \
+regime changes within a hundredth of $tolerance, the tolerance of the fit, from where that of the \
+model does.
 
 Example:
 $example
 """
 EXAMPLES = {
     "c": """\
-  #include "$file" // compile without -ffast-math, which does not know NaN
+  #include "$file"
 
   double v1 = 6.0, v2 = 5.0, mu = 0.8; // before the impact
   double v1_after = mu * v2 * ${p}velocity(v1 / (mu * v2));

@@ -1,4 +1,4 @@
-"""Functions of one variable by polynomials between kinks, to a tolerance that is checked.
+"""Functions of one variable by polynomials between kinks, with an error that is measured.
 
 Right of a kink the rebound of a compliant contact often bends like (x - kink)^(3/2), since a phase
 of slip grows from nothing there. It is smooth in sqrt(x - kink). So each piece is a polynomial in
@@ -24,13 +24,16 @@ FIRST = 2
 NARROW = 1e-3
 # A part that was halved more often than this may contain a kink.
 DEEP = 7
-# So many halvings locate a kink.
-DEEPEST = 40
+# Narrowest part, relative to x: 256 neighbouring numbers. A function that changes by more than the
+# tolerance even there jumps.
+NARROWEST = 2.0**-44
 # Kinks are located and the fit made anew at most so many times.
 ROUNDS = 8
 MOST_PIECES = 4096
 # The bound is the largest error found times this.
 SAFETY = 2
+# So many of the largest maxima of the error are climbed, in so many steps.
+PEAKS, STEPS = 3, 4
 # Sizes that are tried for the table that finds the piece of a point.
 CELLS = 4096, 8192, 16384, 32768
 
@@ -40,10 +43,12 @@ Function: TypeAlias = Callable[[Array], tuple[Array, Integers]]
 _NODES = np.cos(np.pi * (2 * np.arange(DEGREE + 1) + 1) / (2 * DEGREE + 2))
 _BETWEEN = np.cos(np.pi * np.arange(DEGREE + 2) / (DEGREE + 1))
 _BETWEEN[[0, -1]] = 1 - 1e-7, -1 + 1e-4  # a hair inside: a kink itself may have another label
-_INDEPENDENT = np.array([-0.983, -0.614, -0.127, 0.352, 0.791])
-# Where the error of a piece is measured, from -1 at its left end to 1 at its right one.
-MEASURED = np.concatenate([_BETWEEN, _INDEPENDENT])
-_POINTS = np.concatenate([_NODES, MEASURED])
+_POINTS = np.concatenate([_NODES, _BETWEEN])
+# Where the error of a piece is measured first, from -1 at its left end to 1 at its right one: both
+# ends, and places that are neither nodes nor between them in the same way.
+MEASURED = np.array(
+    [-1, -0.93, -0.87, -0.76, -0.65, -0.5, -0.3, -0.11, 0.07, 0.26, 0.48, 0.62, 0.74, 0.88, 0.94, 1]
+)
 _ASCENDING = np.argsort(_POINTS)
 _FROM_VALUES = np.linalg.inv(chebyshev.chebvander(_NODES, DEGREE))
 _ELSEWHERE = chebyshev.chebvander(_POINTS[DEGREE + 1 :], DEGREE)
@@ -154,7 +159,6 @@ class _Halves(NamedTuple):
     high: Array
     depth: Integers
     coefficients: Array  # (parts, functions, DEGREE + 1), of Chebyshev polynomials
-    error: Array  # (parts, functions), largest at points that are no nodes
     labels: Integers  # (parts, points)
 
     def points(self, at: Array) -> Array:
@@ -179,7 +183,7 @@ def fit(
     kinks : sequence of float
         Known ones, the ends of the span among them; the first is 0.
     tolerance : float
-        Wanted of the bound. A part that was halved `DEEPEST` times is taken as it is.
+        Wanted of the bound, which may come out larger.
     resolution : float
         Precision, relative to the span, to which a change of label is located, or to rounding
         where that is coarser.
@@ -187,14 +191,14 @@ def fit(
     Returns
     -------
     pieces : Pieces
+        Each is at least 64 neighbouring numbers wide.
     bound : ndarray, shape (functions,)
-        `SAFETY` times the largest error between the nodes of a piece; at five points of each, which
-        played no part in its acceptance either.
+        `SAFETY` times the largest error that `largest_errors` finds.
 
     Raises
     ------
     ConvergenceError
-        If the function is too rough for the tolerance.
+        If the function jumps, or is too rough for the tolerance. The message calls it "it".
 
     Examples
     --------
@@ -204,7 +208,7 @@ def fit(
     >>> bool(bound[0] <= 2e-9), len(pieces.start) < 40
     (True, True)
     """
-    kinks, settled = sorted(set(map(float, kinks))), {}
+    kinks, settled = _apart(kinks, 0.0), {}
     span = kinks[-1]
     for attempt in range(ROUNDS):
         spans = [ends for ends in pairwise(kinks) if ends not in settled]
@@ -213,15 +217,26 @@ def fit(
         parts = _halve(function, spans, tolerance)
         found = [*_changes_of_label(function, parts, resolution * span), *_located(parts)]
         for left, right in spans:
-            inside = [x for x in found if left + resolution * span < x < right]
+            inside = [left, *(x for x in found if left < x < right), right]
+            inside = _apart(inside, resolution * span)[1:-1]
             if attempt < ROUNDS - 1 and inside:
                 kinks += inside
             else:
                 settled[left, right] = parts.take(parts.kink == left)
-        kinks = sorted(set(kinks))
+        kinks.sort()
     parts = _Halves._make(map(np.concatenate, zip(*settled.values(), strict=True)))
-    parts = _ordered(parts)
-    return _pieces(parts, span), SAFETY * parts.error.max(axis=0)
+    pieces = _pieces(_ordered(parts), span)
+    return pieces, SAFETY * largest_errors(function, pieces)
+
+
+def _apart(kinks: Sequence[float], least: float) -> list[float]:
+    """Kinks in ascending order without those that are too near to another; the ends stay."""
+    first, *others, last = sorted(map(float, kinks))
+    kept = [first]
+    for x in others:
+        if x - kept[-1] > max(least, NARROWEST * x) and last - x > max(least, NARROWEST * last):
+            kept.append(x)
+    return [*kept, last]
 
 
 def _halve(function: Function, spans: list[tuple[float, float]], tolerance: float) -> _Halves:
@@ -231,15 +246,15 @@ def _halve(function: Function, spans: list[tuple[float, float]], tolerance: floa
     low = np.concatenate([np.arange(share) for share in shares])
     left, width = np.repeat([left, np.sqrt(right - left) / shares], shares, axis=1)
     low, count = low * width, left.size
-    blank = np.zeros((count, 0, DEGREE + 1)), np.zeros((count, 0)), np.zeros((count, 0))
+    blank = np.zeros((count, 0, DEGREE + 1)), np.zeros((count, 0))
     todo = _Halves(left, low, low + width, np.zeros(count, int), *blank)
     done, number = [], 0
     while todo.low.size:
         number += todo.low.size
         if number > MOST_PIECES:
             raise ConvergenceError(
-                f"tolerance = {tolerance:g}: not met after trying {MOST_PIECES} polynomials; the "
-                "function is too rough for it"
+                f"it is too rough: after trying {MOST_PIECES} polynomials they are not within "
+                f"{tolerance:.1e}"
             )
         x = todo.points(_POINTS)
         values, labels = function(x.reshape(-1))
@@ -247,13 +262,17 @@ def _halve(function: Function, spans: list[tuple[float, float]], tolerance: floa
         coefficients = values[..., : DEGREE + 1] @ _FROM_VALUES.T
         error = np.abs(coefficients @ _ELSEWHERE.T - values[..., DEGREE + 1 :])
         todo = todo._replace(
-            coefficients=coefficients,
-            error=error.max(axis=2),
-            labels=labels.reshape(x.shape)[:, _ASCENDING],
+            coefficients=coefficients, labels=labels.reshape(x.shape)[:, _ASCENDING]
         )
-        good = (SAFETY * error[..., : _BETWEEN.size].max(axis=(1, 2)) <= tolerance) | (
-            todo.depth >= DEEPEST
-        )
+        good = SAFETY * error.max(axis=(1, 2)) <= tolerance
+        low, high = todo.kink + todo.low**2, todo.kink + todo.high**2
+        narrow = ~good & (high - low <= NARROWEST * high)
+        if narrow.any():
+            i = int(narrow.argmax())
+            raise ConvergenceError(
+                f"it jumps by {np.ptp(values[i], axis=1).max():.1e} at x = {high[i]:.12g}, and "
+                f"polynomials are wanted within {tolerance:.1e}"
+            )
         done.append(todo.take(good))
         todo = _halved(todo.take(~good))
     return _Halves._make(map(np.concatenate, zip(*done, strict=True)))
@@ -309,6 +328,54 @@ def _pieces(parts: _Halves, end: float) -> Pieces:
         label=parts.labels[:, _POINTS.size // 2],
         end=end,
     )
+
+
+def largest_errors(function: Function, pieces: Pieces) -> Array:
+    """Largest errors of pieces, measured: at `MEASURED` of each, and by climbing from the largest.
+
+    A kink that hides between two places and is narrower than their distance may be missed.
+
+    Parameters
+    ----------
+    function : callable
+        As `fit` takes it.
+    pieces : Pieces
+
+    Returns
+    -------
+    ndarray, shape (functions,)
+
+    Examples
+    --------
+    >>> def bent(x):
+    ...     return np.abs(x - 0.6)[None], np.zeros(x.size, int)
+    >>> pieces, _ = fit(lambda x: (x[None] - 0.6, np.zeros(x.size, int)), [0.0, 1.0], 1e-9)
+    >>> largest_errors(bent, pieces).round(12).tolist()
+    [1.2]
+    """
+    table = Piecewise(pieces)
+    x, values = table.sample(MEASURED)
+    x, error = x.ravel(), np.abs(values.reshape(len(values), -1) - function(x.ravel())[0])
+    largest = error.max(axis=1)
+    beside = np.pad(error, ((0, 0), (1, 1)))
+    peak = np.where((error >= beside[:, :-2]) & (error >= beside[:, 2:]), error, 0.0)
+    best = np.argsort(peak, axis=1)[:, -PEAKS:]
+    of = np.repeat(np.arange(len(error)), PEAKS)  # the function of each climb
+    # Three points of each climb, the largest error at the middle one.
+    three = x[np.clip([best - 1, best, best + 1], 0, x.size - 1)].reshape(3, -1)
+    height = error[of, best.ravel()]
+    for _ in range(STEPS):
+        new = (three[:-1] + three[1:]) / 2
+        piece, root = table.find(new)
+        fitted = np.stack([table.value(f, piece, root) for f in range(len(error))])
+        error = np.abs(fitted - function(new.ravel())[0].reshape(fitted.shape))
+        np.maximum(largest, error.max(axis=(1, 2)), out=largest)
+        lower, upper = error[of, :, np.arange(of.size)].T
+        heights = np.stack([lower, height, upper])
+        top, height = heights.argmax(axis=0), heights.max(axis=0)
+        five = np.stack([three[0], new[0], three[1], new[1], three[2]])
+        three = np.take_along_axis(five, top + np.arange(3)[:, None], axis=0)
+    return largest
 
 
 class Piecewise:
@@ -381,7 +448,10 @@ class Piecewise:
         """
         low, high = (ends[:, None] for ends in self._ends())
         root = (low + high) / 2 + (high - low) / 2 * at
-        x = np.minimum(self.pieces.kink[:, None] + root**2, self.pieces.end)
+        # The end of a piece is the last number in front of the next one.
+        last = np.append(np.nextafter(self.pieces.start[1:], 0), self.pieces.end)
+        x = self.pieces.kink[:, None] + root**2
+        x = np.clip(x, self.pieces.start[:, None], last[:, None])
         piece = np.broadcast_to(np.arange(low.size)[:, None], root.shape)
         functions = range(len(self.pieces.coefficients))
         variable = root - self.pieces.centre[:, None]
