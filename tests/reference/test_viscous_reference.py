@@ -91,6 +91,20 @@ def test_random_impacts_against_40_digits(seed):
         assert worst_error((x, *groups)) <= PROMISED, (x, *groups)
 
 
+@pytest.mark.parametrize("seed", [0, *(pytest.param(s, marks=pytest.mark.long) for s in (1, 2, 3))])
+def test_a_last_slip_of_no_length(seed):
+    """With little loss and a soft tangential element slip begins just before separation."""
+    rng = np.random.default_rng(seed)
+    found = (1.1802952482075958e-05, 1.530372937008003, 8.689591378611864, 0.999999996890692)
+    points = [found]
+    for _ in range(20):
+        beta, x = rng.uniform(1, 8), 10 ** rng.uniform(-6, -3)
+        e = 1 - x * 10 ** rng.uniform(-5, -2)
+        points.append((x, beta, beta * 10 ** rng.uniform(0, 1.5), e))
+    for point in points:
+        assert worst_error(point) <= PROMISED, point
+
+
 @pytest.mark.parametrize(
     "point",
     [

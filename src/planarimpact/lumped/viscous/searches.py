@@ -47,8 +47,9 @@ from planarimpact.lumped.viscous.elements import Elements
 # A function, its slope and its second derivative, at times of these lanes.
 Function = Callable[[Integers, Array], tuple[Array, Array, Array]]
 
-# The root finder is cubic. It is done after a step that is below LAST_STEP of the bracket, over
-# which the slope changes by less than LAST_BEND of itself.
+# The root finder is cubic. It is done after a step that is below LAST_STEP of the bracket and of the
+# time itself, over which the slope changes by less than LAST_BEND of itself. The time counts, as a
+# slip that begins just before separation must be known relative to its own duration.
 LAST_STEP, LAST_BEND = 1e-6, 1e-5
 # A smaller step is rounding, as a share of the bracket or of the time itself.
 LEAST_STEP = 1e-15
@@ -92,7 +93,7 @@ def crossing(function: Function, low: Array, high: Array) -> Array:
             step = 2 * value / (root - slope)
             trial = before + step
             inside = (trial >= low) & (trial <= high)
-            small = (np.abs(step) <= LAST_STEP * width) & (
+            small = (np.abs(step) <= LAST_STEP * np.minimum(width, np.abs(before))) & (
                 np.abs(bend * step) <= LAST_BEND * np.abs(slope)
             )
         least = LEAST_STEP * np.maximum(width, np.abs(before))
