@@ -54,8 +54,8 @@ The result has all these columns as they are, and then
   contact_velocity_after [m/s]  of the contact point, in the direction of incidence
   model, regime           which one solved the impact; the order of stick and slip
   error_bound [m/s]       of the contact velocity, against the continuum: what is guaranteed
-  model_form [m/s]        how far the contact velocity would move with the other loss; its sign
-                          changes, so that it may be 0 by accident
+  model_form [m/s]        how far the contact velocity would move with the other loss, without a
+                          sign; it is 0 by accident where the two losses happen to agree
   incidence               tangential over normal speed of the contact point, over friction
   peak_normal_force [N], peak_friction_force [N], energy_lost [J]
 Example:

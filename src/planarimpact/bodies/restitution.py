@@ -56,8 +56,10 @@ def viscous_restitution(
 
     Notes
     -----
-    The force is (4/3) E* R^(1/2) (d^(3/2) + (3/2) tau d^(1/2) d') at the approach d, until the
-    contact would pull; there it ends. All depends on tau v2/L with the length
+    While the approach d grows the force is (4/3) E* R^(1/2) (d^(3/2) + (3/2) tau d^(1/2) d').
+    While it falls the force is (4/3) E* R^(1/2) (d + tau d')^(3/2), until that is 0. The first
+    formula would count springs at the edge that pull; they have left a contact that does not stick
+    together, so that its radius shrinks faster. All depends on tau v2/L with the length
     L = (m2 v2^2/(E* R^(1/2)))^(2/5), and e = 1 - 1.94 tau v2/L for a small loss. So 1 - e grows
     like the fifth root of the speed.
 

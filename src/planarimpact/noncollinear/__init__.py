@@ -153,7 +153,8 @@ def rebound(
         given up if it takes more than 5 000 phases of stick and slip, or as many steps in one of
         them. This happens where the tangential spring is very stiff, where c^2 m1 m2 is within
         about 1e-7 of 1, and where friction holds the contact closed (mu |c| m2 > 1) while it
-        rattles with a small e that is not 0.
+        rattles with a small e that is not 0. Many phases take long: a thousand random impacts some
+        0.1 s at e = 0.5, and 40 s at e = 1e-4.
 
     Notes
     -----

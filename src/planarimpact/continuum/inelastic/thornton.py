@@ -4,9 +4,8 @@ Friction is at most mu times the pressure, so the pressure itself is needed. Tho
 at maximum compression they do not agree: the cut one, and that of Hertz with the radius R_p. If
 the pressure jumped there, a contact that slides would stick for an instant, or springs would gain
 energy. So here the pressure is Hertz's at all times, with the force and the radius of contact of
-Thornton's law. Its density is b (a^2 - r^2), with the bluntness b = F/F_e(a). At e = 0.6 the
-velocity of rebound then differs by 0.02 mu v2(0) from that of a sphere that is pressed in with the
-cut pressure and unloads elastically from there, and by 0.08 from that with a jump.
+Thornton's law. Its density is b (a^2 - r^2), with the bluntness b = F/F_e(a). How much this choice
+matters stands in the docstring of `continuum.rebound`.
 """
 
 import numpy as np

@@ -47,9 +47,9 @@ from planarimpact.lumped.viscous.elements import Elements
 # A function, its slope and its second derivative, at times of these lanes.
 Function = Callable[[Integers, Array], tuple[Array, Array, Array]]
 
-# The root finder is cubic. It is done after a step that is below LAST_STEP of the bracket and of the
-# time itself, over which the slope changes by less than LAST_BEND of itself. The time counts, as a
-# slip that begins just before separation must be known relative to its own duration.
+# The root finder is cubic. It is done after a step that is below LAST_STEP of the bracket and of
+# the time itself, over which the slope changes by less than LAST_BEND of itself. The time counts,
+# as a slip that begins just before separation must be known relative to its own duration.
 LAST_STEP, LAST_BEND = 1e-6, 1e-5
 # A smaller step is rounding, as a share of the bracket or of the time itself.
 LEAST_STEP = 1e-15
