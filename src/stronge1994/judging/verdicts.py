@@ -21,8 +21,8 @@ class Verdict(StrEnum):
     """The outcome of one comparison; only DIVERGES fails a run.
 
     UNCHANGED is the verdict of a check against an earlier result of this repository. It guards
-    against accidents and is evidence of nothing. So is INCONCLUSIVE: published points agree with
-    the curve, but they would also agree if the curve were wrong by `SEEN` sigmas everywhere.
+    against accidents and is evidence of nothing. INCONCLUSIVE does not count as evidence either:
+    published points agree with the curve, but would also if it were wrong by `SEEN` sigmas.
 
     Examples
     --------

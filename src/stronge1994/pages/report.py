@@ -48,8 +48,8 @@ MEANING = {
     "diverges": "outside its tolerance: the run fails",
     "differs as documented": "a difference that is known, explained and as large as before",
     "awaited": "we do not have the reference yet",
-    "inconclusive": "it agrees, but would agree too if all points lay "
-    f"{SEEN:g} sigmas beside the curve: evidence of nothing",
+    "inconclusive": "it agrees, but would also if all points lay "
+    f"{SEEN:g} sigmas beside the curve: it does not count as evidence",
     "agrees": "with published points (p is large enough), or within the tolerance of its reference",
     "as before": "it ran; this guards against accidents and is evidence of nothing",
 }
