@@ -131,16 +131,17 @@ def case_of_a_pair(built):
 
 
 def sphere_edges(shipped, random):
-    """Edges of patches, cells and kinds, in x, ratio and restitution, and one float beside them."""
+    """Ends of patches and faces of splines, in x, ratio and restitution, and one float beside."""
     for name, panel in shipped.panels.items():
-        for number, shape in enumerate(panel.shapes):
-            s, t, u = random.integers(0, 1 + shape[:, None], (3, EDGES)) / shape[:, None]
+        sizes = [size - table.ORDER + 1 for size in panel.velocity.shape[1:]]
+        for number, intervals in enumerate(panel.intervals):
+            shape = np.array([intervals, *sizes])[:, None]
+            s, t, u = random.integers(0, 1 + shape, (3, EDGES)) / shape
             free = random.random((2, EDGES))
             t, u = np.where(random.random((2, EDGES)) < 0.5, free, [t, u])
-            patch = making.Patch(panel.roots[number], tuple(shape), tuple(shape))
-            y, b, e = making.impacts(panel, shipped.limit, patch, number, s, t, u)
-            ends, kinds = table.edges_of(panel, t, u, b, e)
-            for x in (y, ends[number], *kinds):
+            y, b, e = making.impacts(name, panel.edges, shipped.limit, number, s, t, u)
+            ends, varying = table.edges_of(name, panel.edges, t, u, b, e)
+            for x in (y, ends[number], *varying):
                 for axis in range(3):
                     row = [
                         beside(v) if i == axis else np.tile(v, 3) for i, v in enumerate((x, b, e))
@@ -176,7 +177,7 @@ def case_of_spheres(name):
         found = spheres.rebound(x[good], beta[good], zeta2[good], e[good], loss=words)
     constants = {"INCIDENCE_MAX": LARGEST, "RESTITUTION_MIN": 0.3, "RATIO_MIN": 1.5625}
     errors = {f"ERROR_{k.upper()}": v for k, v in table_of_spheres.BOUNDS[name].items()}
-    constants |= {"RATIO_MAX": 3.5, "VISCOUS": 0, "PLASTIC": 1} | errors
+    constants |= {"STIFFNESS_MAX": 1.6, "RATIO_MAX": 3.5, "VISCOUS": 0, "PLASTIC": 1} | errors
     return Case(constants, impacts.T, answers(good, found.velocity, found), tabled)
 
 
@@ -228,8 +229,9 @@ def folder(pairs, cases, tmp_path_factory):
         (folder / file.format("wrong_plain")).write_text(wrong)
         panels = dict(table.shipped("coarse").panels)
         for name, panel in panels.items():
-            panels[name] = panel._replace(coefficients=panel.coefficients.copy())
-            panels[name].coefficients[:, -1, 7] += 2.0**-table.FINE
+            panels[name] = panel._replace(velocity=panel.velocity.copy(), peak=panel.peak.copy())
+            for values in panels[name].velocity, panels[name].peak:
+                values[1, 1, 1] += 2.0 ** -table.shipped("coarse").exponent
         shipped = table.shipped("coarse")._replace(panels=panels)
         bounds = table_of_spheres.BOUNDS["coarse"]
         wrong = table_of_spheres.text(shipped, bounds, "x", "wrong_coarse", language)

@@ -1,6 +1,5 @@
 """How C and JavaScript write what every file has: its frame, constants, tables and comments."""
 
-import base64
 import re
 import textwrap
 from collections.abc import Iterable, Mapping
@@ -35,9 +34,6 @@ class Language(NamedTuple):
         A number that users may read, for `str.format` with name and value.
     table : str
         A table, for `str.format` with type, name, count and rows.
-    packed : str
-        A large table, for `str.format` with the same; JavaScript has `base64` for the rows, and
-        needs a function `bytes` that reads it.
     file : str
         The whole file, for `str.format` with words, NAME and code.
     """
@@ -48,7 +44,6 @@ class Language(NamedTuple):
     types: Mapping[str, str]
     constant: str
     table: str
-    packed: str
     file: str
 
 
@@ -69,11 +64,10 @@ LANGUAGES = {
         others={"nan": "(double)NAN", "inf": "(double)INFINITY"},
         types={
             **{"float64": "double", "uint8": "unsigned char", "uint16": "unsigned short"},
-            **{"int16": "short", "int32": "int"},
+            "int32": "int",
         },
         constant="#define {name} {value}\n",
         table="static const {type} {name}[{count}] = {{\n{rows}\n}};\n",
-        packed="static const {type} {name}[{count}] = {{\n{rows}\n}};\n",
         file="{words}\n#ifndef PLANARIMPACT_{NAME}_H\n#define PLANARIMPACT_{NAME}_H\n\n"
         f"{NAN_IS_KNOWN}\n#include <math.h>\n\n{{code}}\n#endif\n",
     ),
@@ -83,11 +77,10 @@ LANGUAGES = {
         others={"nan": "NaN", "inf": "Infinity"},
         types={
             **{"float64": "Float64Array", "uint8": "Uint8Array", "uint16": "Uint16Array"},
-            **{"int16": "Int16Array", "int32": "Int32Array"},
+            "int32": "Int32Array",
         },
         constant="export const {name} = {value};\n",
         table="const {name} = new {type}([\n{rows}\n]);\n",
-        packed='const {name} = new {type}(bytes("{base64}"));\n',
         file="{words}\n{code}",
     ),
 }
@@ -170,36 +163,6 @@ def table(name: str, values: NDArray[Any], language: Language) -> str:
         name=name,
         count=values.size,
         rows=",\n".join(_wrapped("    " + row) for row in rows),
-    )
-
-
-def packed(name: str, values: NDArray[Any], language: Language) -> str:
-    """A large table of whole numbers, in as little space as the language allows.
-
-    Parameters
-    ----------
-    name : str
-    values : ndarray of uint16, int16 or int32, shape (rows, n)
-    language : Language
-
-    Examples
-    --------
-    >>> values = np.array([[1, -2], [3, 4]], np.int16)
-    >>> print(packed("high", values, LANGUAGES["c"]), end="")
-    static const short high[4] = {
-    1,-2,
-    3,4
-    };
-    >>> print(packed("high", values, LANGUAGES["js"]), end="")
-    const high = new Int16Array(bytes("AQD+/wMABAA="));
-    """
-    little = values.astype(values.dtype.newbyteorder("<"))
-    return language.packed.format(
-        type=language.types[values.dtype.name],
-        name=name,
-        count=values.size,
-        rows=",\n".join(",".join(map(str, row)) for row in values.tolist()),
-        base64=base64.b64encode(little.tobytes()).decode(),
     )
 
 

@@ -8,43 +8,33 @@ import base64
 import math
 from collections.abc import Mapping
 from string import Template
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from planarimpact import __version__, spheres
-from planarimpact.export.languages import LANGUAGES, Language, comment, number, packed
+from planarimpact.export.languages import LANGUAGES, Language, comment, number
 from planarimpact.export.languages import table as numbers
 from planarimpact.ground import checks
+from planarimpact.ground.arrays import Integers
 from planarimpact.ground.results import Regime
 from planarimpact.spheres import table as tables
-from planarimpact.spheres.table import LEFT, POWERS, RIGHT, Panel, Table
+from planarimpact.spheres.table import LEFT, ORDER, PACKED, RIGHT, ROOTS, Table
 
 # Largest errors of the shipped tables by loss, and the tables by the larger of them.
 BOUNDS = {"fine": spheres.ERROR_BOUND, "coarse": {"viscous": 2e-3, "plastic": 2e-2}}
 TABLES: dict[float, str] = {max(bounds.values()): name for name, bounds in BOUNDS.items()}
-# Coefficients of degree 2 and 3 fit into 16 bits, the others do not.
-HIGH = np.array([sum(powers) > 1 for powers in POWERS])
-PANEL_FIELDS = [
-    *("functions", "patches", "varying", "rows", "columns"),
-    *("edges", "patch", "cells", "units", "near"),
-]
+PANEL_FIELDS = "patch", "patches", "varying", "rows", "columns", "over_t", "over_u", *PACKED
 LAYOUT = [
-    "The table. A loss, or a part of it, is a panel; a panel has patches, a patch has cells. In a "
-    "cell, velocity, peak friction and with viscous loss work are polynomials of degree 3 in s, t "
-    "and u: places over y = x/stiffness_ratio, restitution and b = mass_ratio/stiffness_ratio. A "
-    "real number is a whole number times a power of 1/2.",
+    "The table. A loss, or a part of it, is a panel; a panel has patches. In a patch velocity, "
+    "peak friction and work are cubic splines in s, t and u: places over y = x/stiffness_ratio, "
+    "restitution and b = mass_ratio/stiffness_ratio.",
     "  limit: restitution between the two plastic panels, over u",
-    "  panels: functions, patches, edges that vary, their rows over t and columns over u; where "
-    "its edges, patches, cells, units and the entries of near begin",
-    "  edges: of the panels, edges in y at the nodes of rows and columns",
-    "  patches: where s has its root (0 nowhere, $left left, $right right); cells over s, t and u; "
-    "the first cell",
-    "  high, low: coefficients of each cell and function, of degree 2 and 3, and below",
-    "  unit: powers of 1/2 for the coefficients of each function",
-    "  near: 0, or which row of finer has the cells that answer in place of a cell",
-    "  finer: into how many parts each way they are split; the first of them for each kind",
+    "  panels: its first patch, and how many; edges that vary, their intervals over t and u; "
+    "coefficients over t and u; where its edges and splines begin in values, or -1",
+    "  patches: where s has its root (0 nowhere, $left left, $right right), intervals over s, and "
+    "the first coefficient over s",
+    "  values: edges in y, and coefficients of splines, in units of $unit",
 ]
 CODE = {
     "c": """\
@@ -55,17 +45,11 @@ struct ${p}result {
     int regime;
 };
 
-/* A place in a cell, and the first of its functions. */
-struct ${p}place {
-    int record;
-    double s, t, u;
-};
-
-/* Where an impact is: its place, that before cells are split, and what follows from its edges. */
+/* Where an impact is: what the splines need, and what follows from its edges. */
 struct ${p}spot {
     const struct ${p}panel *panel;
-    struct ${p}place at, whole;
-    int patch, multiple;
+    int base, patch, multiple;
+    double over_s[4], over_t[4], over_u[4];
 };
 
 /* Which of so many intervals a value from 0 to so many is in. */
@@ -80,25 +64,50 @@ static inline double ${p}clipped(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-/* One function of a cell, by Horner's rule. */
-static inline double ${p}polynomial(int record, int units, struct ${p}place at)
+/* The interval that a value from 0 to 1 is in, and the four B-splines there. */
+static inline int ${p}place(double value, int count, double *weights)
 {
-    const short *a = ${p}high + $high * record;
-    const int *c = ${p}low + $low * record;
-    const double *k = ${p}unit + $powers * units, s = at.s, t = at.t, u = at.u;
-    return $horner;
+    double at = value * count;
+    int index = ${p}index(at, count);
+    double x = at - index, left = 1 - x;
+    weights[0] = left * left * left / 6;
+    weights[1] = (x * x * (x - 2) * 3 + 4) / 6;
+    weights[2] = (left * left * (left - 2) * 3 + 4) / 6;
+    weights[3] = x * x * x / 6;
+    return index;
+}
+
+/* A spline, whose coefficients begin at a number of the values. */
+static inline double ${p}spline(const struct ${p}spot *spot, int begin)
+{
+    const int *first = ${p}values + begin + spot->base;
+    double found = 0;
+    int i, j, k;
+    for (i = 0; i < 4; ++i) {
+        double middle = 0;
+        for (j = 0; j < 4; ++j) {
+            const int *c = first + (i * spot->panel->over_t + j) * spot->panel->over_u;
+            double inner = 0;
+            for (k = 0; k < 4; ++k)
+                inner += c[k] * spot->over_u[k];
+            middle += inner * spot->over_t[j];
+        }
+        found += middle * spot->over_s[i];
+    }
+    return found * $unit;
 }
 
 static inline struct ${p}spot ${p}find(double y, double b, double e, int loss)
 {
     double u = (b - $b_least) / $b_span, at = u * $limits, t, over, across;
-    double edge[7] = {0}, varying[7] = {0}, low, high, width, s;
-    int i = ${p}index(at, $limits), early, j, k, cell, stride, root;
+    double edge[6] = {0}, varying[3] = {0}, low, high, width, s;
+    int i = ${p}index(at, $limits), early, j, k;
     double part = at - i, limit = (1 - part) * ${p}limit[i] + part * ${p}limit[i + 1];
-    const int *corner, *patch;
+    const struct ${p}panel *panel;
+    const int *patch;
     struct ${p}spot found;
     early = loss == ${P}PLASTIC && e < limit;
-    found.panel = ${p}panels + (loss == ${P}VISCOUS ? 0 : early ? 1 : 2);
+    panel = ${p}panels + (loss == ${P}VISCOUS ? 0 : early ? 1 : 2);
     if (loss == ${P}VISCOUS) {
         t = (e - $e_least) / $e_span;
     } else if (early) {
@@ -109,31 +118,30 @@ static inline struct ${p}spot ${p}find(double y, double b, double e, int loss)
     }
 
     /* Edges, between four nodes. */
-    at = t * found.panel->rows;
-    i = ${p}index(at, found.panel->rows);
+    at = t * panel->rows;
+    i = ${p}index(at, panel->rows);
     over = at - i;
-    at = u * found.panel->columns;
-    j = ${p}index(at, found.panel->columns);
+    at = u * panel->columns;
+    j = ${p}index(at, panel->columns);
     across = at - j;
-    stride = found.panel->varying;
-    corner = ${p}edges + found.panel->edges + stride * (i * (found.panel->columns + 1) + j);
-    for (k = 0; k < stride; ++k) {
-        const int *next = corner + stride * (found.panel->columns + 1);
-        double before = (1 - across) * (corner[k] * $unit) + across * (corner[k + stride] * $unit);
-        double after = (1 - across) * (next[k] * $unit) + across * (next[k + stride] * $unit);
+    for (k = 0; k < panel->varying; ++k) {
+        int columns = panel->columns + 1;
+        const int *c = ${p}values + panel->edges + (k * (panel->rows + 1) + i) * columns + j;
+        double before = (1 - across) * (c[0] * $unit) + across * (c[1] * $unit);
+        double after = (1 - across) * (c[columns] * $unit) + across * (c[columns + 1] * $unit);
         varying[k] = (1 - over) * before + over * after;
     }
     edge[early ? 2 : 1] = 1;
     edge[early ? 1 : 2] = varying[0];
-    edge[3] = varying[1];
-    edge[found.panel->patches - 1] = b;
-    edge[found.panel->patches] = b + e * (b - 1);
+    edge[3] = varying[1] < b ? varying[1] : b;
+    edge[panel->patches - 1] = b;
+    edge[panel->patches] = b + e * (b - 1);
 
     /* The patch, and s in it. */
     found.patch = 0;
     low = edge[0];
     high = edge[1];
-    for (k = 1; k < found.panel->patches; ++k) {
+    for (k = 1; k < panel->patches; ++k) {
         if (y >= edge[k]) {
             ++found.patch;
             low = edge[k];
@@ -142,55 +150,18 @@ static inline struct ${p}spot ${p}find(double y, double b, double e, int loss)
     }
     width = high - low;
     s = ${p}clipped((y - low) / (width > 0 ? width : 1), 0, 1);
-    patch = ${p}patches + 5 * (found.panel->patch + found.patch);
-    root = patch[0];
-    if (root == $right)
+    patch = ${p}patches + 3 * (panel->patch + found.patch);
+    if (patch[0] == $right)
         s = 1 - sqrt(1 - s);
-    else if (root == $left)
+    else if (patch[0] == $left)
         s = sqrt(s);
 
-    /* The cell. */
-    found.at.s = s * patch[1];
-    found.at.t = t * patch[2];
-    found.at.u = u * patch[3];
-    i = ${p}index(found.at.s, patch[1]);
-    j = ${p}index(found.at.t, patch[2]);
-    k = ${p}index(found.at.u, patch[3]);
-    found.at.s -= i;
-    found.at.t -= j;
-    found.at.u -= k;
-    cell = patch[4] + (i * patch[2] + j) * patch[3] + k;
-    found.whole = found.at;
-    found.whole.record = $reversed + cell;
+    found.panel = panel;
     found.multiple = early && y >= varying[2] && y <= 1;
-
-    /* Its own parts, and cells for each kind of plastic impact. */
-    if (loss == ${P}PLASTIC && ${p}near[found.panel->near + cell]) {
-        const int *finer = ${p}finer + 5 * ${p}near[found.panel->near + cell];
-        const double *kinds = varying + stride - 4;
-        int forward = y >= kinds[0] && y < kinds[1], returns = y >= kinds[2] && y < kinds[3];
-        int parts = finer[0];
-        cell = finer[1 + 2 * returns + !forward];
-        if (parts > 1) {
-            found.at.s *= parts;
-            found.at.t *= parts;
-            found.at.u *= parts;
-            i = ${p}index(found.at.s, parts);
-            j = ${p}index(found.at.t, parts);
-            k = ${p}index(found.at.u, parts);
-            found.at.s -= i;
-            found.at.t -= j;
-            found.at.u -= k;
-            cell += (i * parts + j) * parts + k;
-        }
-    }
-    found.at.record = found.panel->cells + cell * found.panel->functions;
+    found.base = patch[2] + ${p}place(s, patch[1], found.over_s);
+    found.base = found.base * panel->over_t + ${p}place(t, panel->over_t - 3, found.over_t);
+    found.base = found.base * panel->over_u + ${p}place(u, panel->over_u - 3, found.over_u);
     return found;
-}
-
-static inline double ${p}function(const struct ${p}spot *spot, int number)
-{
-    return ${p}polynomial(spot->at.record + number, spot->panel->units + number, spot->at);
 }
 
 /* Whether the table has an answer. */
@@ -199,8 +170,9 @@ static inline int ${p}covers(
 {
     double ratio = mass_ratio / stiffness_ratio;
     return fabs(x) <= ${P}INCIDENCE_MAX && mass_ratio >= 1 && mass_ratio <= $largest
-        && ratio >= $ratio_least && ratio <= $ratio_most && restitution >= $restitution_least
-        && restitution <= 1 && (loss == ${P}VISCOUS || loss == ${P}PLASTIC);
+        && stiffness_ratio <= $stiffness_most && ratio >= $ratio_least && ratio <= $ratio_most
+        && restitution >= $restitution_least && restitution <= 1
+        && (loss == ${P}VISCOUS || loss == ${P}PLASTIC);
 }
 
 /* The incidence from which the contact slides throughout. */
@@ -223,7 +195,8 @@ static inline double ${p}velocity(
     } else {
         struct ${p}spot spot = ${p}find(
             size / stiffness_ratio, mass_ratio / stiffness_ratio, restitution, loss);
-        velocity = ${p}clipped(stiffness_ratio * ${p}function(&spot, 0), 0.0 - size, size);
+        velocity = stiffness_ratio * ${p}spline(&spot, spot.panel->velocity);
+        velocity = ${p}clipped(velocity, 0.0 - size, size);
     }
     return velocity * copysign(1.0, x);
 }
@@ -247,15 +220,15 @@ static inline struct ${p}result ${p}rebound(
         found.regime = ${P}SLIP_THROUGHOUT;
     } else {
         struct ${p}spot spot = ${p}find(size / zeta2, beta / zeta2, e, loss);
-        double peak = ${p}function(&spot, 1);
-        w = ${p}clipped(zeta2 * ${p}function(&spot, 0), 0.0 - size, size);
-        if (spot.panel == ${p}panels + 1 && spot.patch == 0) {
-            double back = ${p}polynomial(spot.whole.record, $back, spot.whole);
+        double peak = ${p}spline(&spot, spot.panel->peak);
+        w = ${p}clipped(zeta2 * ${p}spline(&spot, spot.panel->velocity), 0.0 - size, size);
+        if (spot.panel->reversed >= 0 && spot.patch == 0) {
+            double back = ${p}spline(&spot, spot.panel->reversed);
             peak = back > peak ? back : peak;
         }
         found.peak_friction = ${p}clipped(peak, 0.0, 1.0);
         if (loss == ${P}VISCOUS) {
-            double work = zeta2 * ${p}function(&spot, 2);
+            double work = zeta2 * ${p}spline(&spot, spot.panel->work);
             found.dissipation = work > 0 ? work : 0.0;
         } else {
             found.dissipation = (size - w) * (size + w) / (2 * beta);
@@ -281,30 +254,30 @@ function bytes(text) {
 }
 
 /**
- * The edges: each number is stored as what it adds to its neighbours, before it and above, in 7
- * bits a byte, the lowest first.
- * @param {string} text base64
+ * The values: of each number is stored what its neighbours along each axis do not tell, in 7 bits a
+ * byte, the lowest first. Neighbours are rows * columns, columns and 1 apart.
+ * @param {ArrayBuffer} packed
  * @returns {Int32Array}
  */
-function unfolded(text) {
-    const all = new Uint8Array(bytes(text)), found = new Int32Array($edges);
-    let next = 0, i = 0;
-    for (const { rows, columns, varying } of panels) {
-        const down = (columns + 1) * varying, end = i + (rows + 1) * down;
-        for (const start = i; i < end; i += 1) {
+function unfolded(packed) {
+    const all = new Uint8Array(packed), found = new Int32Array($count);
+    let next = 0, begin = 0;
+    for (const [layers, rows, columns] of shapes) {
+        const end = begin + layers * rows * columns;
+        for (let i = begin; i < end; i += 1) {
             let value = 0, shift = 0;
             for (; all[next] > 127; shift += 7) value += (all[next++] - 128) << shift;
             value += all[next++] << shift;
-            value = value % 2 ? -(value + 1) / 2 : value / 2;
-            const above = i - down >= start, before = (i - start) % down >= varying;
-            if (above) value += found[i - down];
-            if (before) value += found[i - varying];
-            if (above && before) value -= found[i - down - varying];
-            found[i] = value;
+            found[i] = value % 2 ? -(value + 1) / 2 : value / 2;
         }
+        for (const [step, size] of [[1, columns], [columns, rows], [rows * columns, layers]])
+            for (let i = begin; i < end; i += 1)
+                if (Math.trunc((i - begin) / step) % size) found[i] += found[i - step];
+        begin = end;
     }
     return found;
 }
+const values = unfolded(bytes("$packed"));
 
 /**
  * Which of so many intervals a value from 0 to so many is in.
@@ -327,30 +300,32 @@ function clipped(value, low, high) {
 }
 
 /**
- * One function of a cell, by Horner's rule.
- * @param {number} record
- * @param {number} units
- * @param {number} s
- * @param {number} t
- * @param {number} u
- * @returns {number}
+ * The interval that a value from 0 to 1 is in, and the four B-splines there.
+ * @param {number} value
+ * @param {number} count
  */
-function polynomial(record, units, s, t, u) {
-    const a = $high * record, c = $low * record, k = $powers * units;
-    return $horner;
+function place(value, count) {
+    const at = value * count, index = index_of(at, count), x = at - index, left = 1 - x;
+    const weights = [
+        left * left * left / 6,
+        (x * x * (x - 2) * 3 + 4) / 6,
+        (left * left * (left - 2) * 3 + 4) / 6,
+        x * x * x / 6,
+    ];
+    return { index, weights };
 }
 
 /**
- * Where an impact is: its place, that before cells are split, and what follows from its edges.
+ * Where an impact is: what the splines need, and what follows from its edges.
  * @param {number} y
  * @param {number} b
  * @param {number} e
  * @param {number} loss
  */
 function find(y, b, e, loss) {
-    const u = (b - $b_least) / $b_span, place = u * $limits;
-    const cell_of_limit = index_of(place, $limits), part = place - cell_of_limit;
-    const middle = (1 - part) * limit[cell_of_limit] + part * limit[cell_of_limit + 1];
+    const u = (b - $b_least) / $b_span, interval = index_of(u * $limits, $limits);
+    const part = u * $limits - interval;
+    const middle = (1 - part) * limit[interval] + part * limit[interval + 1];
     const early = loss === PLASTIC && e < middle;
     const panel = panels[loss === VISCOUS ? 0 : early ? 1 : 2];
     let t = (e - $e_least) / $e_span;
@@ -364,20 +339,18 @@ function find(y, b, e, loss) {
     // Edges, between four nodes.
     const row = index_of(t * panel.rows, panel.rows), over = t * panel.rows - row;
     const column = index_of(u * panel.columns, panel.columns);
-    const across = u * panel.columns - column, stride = panel.varying;
-    const corner = panel.edges + stride * (row * (panel.columns + 1) + column);
-    const next = corner + stride * (panel.columns + 1), varying = [];
-    for (let k = 0; k < stride; k += 1) {
-        const before =
-            (1 - across) * (edges[corner + k] * $unit) +
-            across * (edges[corner + stride + k] * $unit);
+    const across = u * panel.columns - column, columns = panel.columns + 1;
+    const varying = [];
+    for (let k = 0; k < panel.varying; k += 1) {
+        const c = panel.edges + (k * (panel.rows + 1) + row) * columns + column;
+        const next = c + columns;
+        const before = (1 - across) * (values[c] * $unit) + across * (values[c + 1] * $unit);
         const after =
-            (1 - across) * (edges[next + k] * $unit) +
-            across * (edges[next + stride + k] * $unit);
+            (1 - across) * (values[next] * $unit) + across * (values[next + 1] * $unit);
         varying.push((1 - over) * before + over * after);
     }
     const edge = early ? [0, varying[0], 1] : [0, 1, varying[0]];
-    if (panel.patches === 5) edge.push(varying[1]);
+    if (panel.patches === 5) edge.push(Math.min(varying[1], b));
     edge.push(b, b + e * (b - 1));
 
     // The patch, and s in it.
@@ -389,53 +362,44 @@ function find(y, b, e, loss) {
             high = edge[k + 1];
         }
     }
-    const width = high - low, row_of_patch = 5 * (panel.patch + patch);
+    const width = high - low, row_of_patch = 3 * (panel.patch + patch);
     let s = clipped((y - low) / (width > 0 ? width : 1), 0, 1);
-    const root = patches[row_of_patch];
+    const [root, intervals, first] = patches.subarray(row_of_patch, row_of_patch + 3);
     if (root === $right) s = 1 - Math.sqrt(1 - s);
     else if (root === $left) s = Math.sqrt(s);
 
-    // The cell.
-    const [, over_s, over_t, over_u, first] = patches.subarray(row_of_patch, row_of_patch + 5);
-    const whole = [s * over_s, t * over_t, u * over_u];
-    const i = index_of(whole[0], over_s);
-    const j = index_of(whole[1], over_t);
-    const k = index_of(whole[2], over_u);
-    whole[0] -= i;
-    whole[1] -= j;
-    whole[2] -= k;
-    let cell = first + (i * over_t + j) * over_u + k;
-    const at = [...whole], back = early && patch === 0 ? $reversed + cell : -1;
-
-    // Its own parts, and cells for each kind of plastic impact.
-    const entry = loss === PLASTIC ? 5 * near[panel.near + cell] : 0;
-    if (entry) {
-        const [f, g, h, l] = varying.slice(-4), parts = finer[entry];
-        const forward = y >= f && y < g, returns = y >= h && y < l;
-        cell = finer[entry + 1 + (returns ? 2 : 0) + (forward ? 0 : 1)];
-        if (parts > 1) {
-            let within = 0;
-            for (let axis = 0; axis < 3; axis += 1) {
-                const fine = at[axis] * parts, index = index_of(fine, parts);
-                at[axis] = fine - index;
-                within = within * parts + index;
-            }
-            cell += within;
-        }
-    }
-    const record = panel.cells + cell * panel.functions;
-    const multiple = early && y >= varying[2] && y <= 1;
-    return { record, units: panel.units, at, back, whole, multiple };
+    const over_s = place(s, intervals);
+    const over_t = place(t, panel.over_t - 3), over_u = place(u, panel.over_u - 3);
+    let base = (first + over_s.index) * panel.over_t + over_t.index;
+    base = base * panel.over_u + over_u.index;
+    return {
+        panel,
+        patch,
+        base,
+        multiple: early && y >= varying[2] && y <= 1,
+        weights: [over_s.weights, over_t.weights, over_u.weights],
+    };
 }
 
 /**
- * A function at a place that `find` found.
- * @param {{record: number, units: number, at: number[]}} spot
- * @param {number} number
+ * A spline at a place that `find` found, whose coefficients begin at a number of the values.
+ * @param {ReturnType<typeof find>} spot
+ * @param {number} begin
  * @returns {number}
  */
-function function_of({ record, units, at }, number) {
-    return polynomial(record + number, units + number, at[0], at[1], at[2]);
+function spline({ panel, base, weights: [over_s, over_t, over_u] }, begin) {
+    let found = 0;
+    for (let i = 0; i < 4; i += 1) {
+        let middle = 0;
+        for (let j = 0; j < 4; j += 1) {
+            const c = begin + base + (i * panel.over_t + j) * panel.over_u;
+            let inner = 0;
+            for (let k = 0; k < 4; k += 1) inner += values[c + k] * over_u[k];
+            middle += inner * over_t[j];
+        }
+        found += middle * over_s[i];
+    }
+    return found * $unit;
 }
 
 /**
@@ -450,8 +414,9 @@ function function_of({ record, units, at }, number) {
 export function covers(x, mass_ratio, stiffness_ratio, restitution, loss) {
     const ratio = mass_ratio / stiffness_ratio;
     return Math.abs(x) <= INCIDENCE_MAX && mass_ratio >= 1 && mass_ratio <= $largest
-        && ratio >= $ratio_least && ratio <= $ratio_most && restitution >= $restitution_least
-        && restitution <= 1 && (loss === VISCOUS || loss === PLASTIC);
+        && stiffness_ratio <= $stiffness_most && ratio >= $ratio_least && ratio <= $ratio_most
+        && restitution >= $restitution_least && restitution <= 1
+        && (loss === VISCOUS || loss === PLASTIC);
 }
 
 /**
@@ -490,7 +455,7 @@ export function velocity(x, mass_ratio, stiffness_ratio, restitution, loss) {
     if (!covers(x, beta, zeta2, e, loss)) return NaN;
     if (size >= slides_from(beta, zeta2, e)) return directed(size - (1 + e) * beta, x);
     const spot = find(size / zeta2, beta / zeta2, e, loss);
-    return directed(clipped(zeta2 * function_of(spot, 0), 0 - size, size), x);
+    return directed(clipped(zeta2 * spline(spot, spot.panel.velocity), 0 - size, size), x);
 }
 
 /**
@@ -525,15 +490,13 @@ export function rebound(x, mass_ratio, stiffness_ratio, restitution, loss) {
         regime = SLIP_THROUGHOUT;
     } else {
         const spot = find(size / zeta2, beta / zeta2, e, loss);
-        velocity = clipped(zeta2 * function_of(spot, 0), 0 - size, size);
-        peak_friction = function_of(spot, 1);
-        if (spot.back >= 0) {
-            const [s, t, u] = spot.whole;
-            peak_friction = Math.max(peak_friction, polynomial(spot.back, $back, s, t, u));
-        }
+        velocity = clipped(zeta2 * spline(spot, spot.panel.velocity), 0 - size, size);
+        peak_friction = spline(spot, spot.panel.peak);
+        if (spot.panel.reversed >= 0 && spot.patch === 0)
+            peak_friction = Math.max(peak_friction, spline(spot, spot.panel.reversed));
         peak_friction = clipped(peak_friction, 0, 1);
         dissipation = loss === VISCOUS
-            ? Math.max(zeta2 * function_of(spot, 2), 0)
+            ? Math.max(zeta2 * spline(spot, spot.panel.work), 0)
             : (size - velocity) * (size + velocity) / (2 * beta);
         regime = size / zeta2 > 1 ? SLIP_STICK_SLIP : STICK_SLIP;
         if (spot.multiple) regime = MULTIPLE;
@@ -574,12 +537,13 @@ the impact (0) and after it (tf), both in one unit. v2(0) is positive towards th
 the coefficient of friction, above 0.
 
 Range: |x| up to ${P}INCIDENCE_MAX, restitution from ${P}RESTITUTION_MIN to 1, mass_ratio from 1, \
-mass_ratio/stiffness_ratio from ${P}RATIO_MIN to ${P}RATIO_MAX. Beyond it, and for NaN, the \
+stiffness_ratio up to ${P}STIFFNESS_MAX, mass_ratio/stiffness_ratio from ${P}RATIO_MIN to \
+${P}RATIO_MAX. Beyond it, and for NaN, the \
 numbers are NaN and the regime is ${P}UNRESOLVED.
 
 Error against the model, of velocity, peak_friction and dissipation: at most ${P}ERROR_VISCOUS or \
-${P}ERROR_PLASTIC, by loss. It was measured at random impacts, half of them beside the edges of \
-the table; it is not proved. Slip throughout is a formula.
+${P}ERROR_PLASTIC, by loss. It was measured by a search for the largest error; it is not \
+proved. Slip throughout is a formula.
 
 Example:
 $example
@@ -605,21 +569,16 @@ class _Layout(NamedTuple):
 
     Attributes
     ----------
-    panels : ndarray of int32, shape (panels, fields)
+    panels : list of list of int
         See `PANEL_FIELDS`.
-    edges : list of ndarray of int32, shape (rows, columns, edges)
-    arrays : dict
-        Tables of whole numbers by their names.
-    unit : ndarray, shape (functions, 20)
-    reversed : int
-        The first record of `Panel.reversed`, whose units are the last.
+    patches : ndarray of int32, shape (patches, 3)
+    values : list of ndarray of int32, shape (layers, rows, columns)
+        Edges and splines.
     """
 
-    panels: NDArray[Any]
-    edges: list[NDArray[Any]]
-    arrays: dict[str, NDArray[Any]]
-    unit: NDArray[Any]
-    reversed: int
+    panels: list[list[int]]
+    patches: Integers
+    values: list[Integers]
 
 
 def text(table: Table, bounds: Mapping[str, float], file: str, name: str, language: str) -> str:
@@ -641,14 +600,14 @@ def text(table: Table, bounds: Mapping[str, float], file: str, name: str, langua
     chosen = LANGUAGES[language]
     prefix = f"{name}_" if chosen.named else ""
     layout = _laid_out(table)
+    unit = number(2.0**-table.exponent, chosen)
     blocks = [
         _constants(bounds, prefix.upper(), chosen),
-        comment(Template(one).substitute(left=LEFT, right=RIGHT) for one in LAYOUT),
+        comment(Template(one).substitute(left=LEFT, right=RIGHT, unit=unit) for one in LAYOUT),
         numbers(prefix + "limit", table.limit, chosen),
         _panels(layout.panels, prefix, language),
-        _edges(layout.edges, prefix, language),
-        *(packed(prefix + key, values, chosen) for key, values in layout.arrays.items()),
-        numbers(prefix + "unit", layout.unit, chosen),
+        numbers(prefix + "patches", layout.patches, chosen),
+        _values(layout.values, prefix, language),
         _code(layout, table, prefix, language),
     ]
     words = Template(WORDS).substitute(
@@ -664,58 +623,22 @@ def text(table: Table, bounds: Mapping[str, float], file: str, name: str, langua
 
 
 def _laid_out(table: Table) -> _Layout:
-    """Panels one after the other, and what is used together side by side."""
+    """Panels one after the other."""
     panels: list[list[int]] = []
-    # Row 0 of `finer` stands for cells that answer themselves.
-    parts: dict[str, list[NDArray[Any]]] = {
-        "patches": [],
-        "records": [],
-        "exponents": [],
-        "near": [],
-        "finer": [np.zeros((1, 5), int)],
-    }
-    grids: list[NDArray[Any]] = []
-    begins = "patches", "records", "exponents", "near"
-    for panel in table.panels.values():
-        functions = len(panel.coefficients)
+    patches: list[tuple[int, int, int]] = []
+    values: list[Integers] = []
+    for name, panel in table.panels.items():
+        over_t, over_u = panel.velocity.shape[1:]
         varying, rows, columns = panel.edges.shape
-        counts = [functions, len(panel.roots), varying, rows - 1, columns - 1]
-        counts.append(sum(map(np.size, grids)))
-        grids.append(np.moveaxis(tables.packed(panel.edges)[0], 0, -1))
-        panels.append(counts + [sum(map(len, parts[key])) for key in begins])
-        whole, exponent = tables.packed(panel.coefficients)
-        near, finer = _near(panel, sum(map(len, parts["finer"])))
-        for key, part in {
-            "patches": np.column_stack([panel.roots, panel.shapes, panel.first]),
-            "records": whole.transpose(2, 0, 1).reshape(-1, len(POWERS)),
-            "exponents": exponent,
-            "near": near,
-            "finer": finer,
-        }.items():
-            parts[key].append(part)
-    reversed_ = sum(map(len, parts["records"]))
-    whole, exponent = tables.packed(table.panels["plastic_low"].reversed)
-    parts["records"].append(whole.T)
-    parts["exponents"].append(exponent[None])
-    joined = {key: np.concatenate(part) for key, part in parts.items()}
-    arrays: dict[str, NDArray[Any]] = {
-        "patches": joined["patches"].astype(np.int32),
-        "high": joined["records"][:, HIGH].astype(np.int16),
-        "low": joined["records"][:, ~HIGH].astype(np.int32),
-        "near": joined["near"].reshape(1, -1).astype(np.uint16),
-        "finer": joined["finer"].astype(np.int32),
-    }
-    unit = 2.0 ** -joined["exponents"].astype(float)
-    return _Layout(np.array(panels), grids, arrays, unit, reversed_)
-
-
-def _near(panel: Panel, first: int) -> tuple[NDArray[Any], NDArray[Any]]:
-    """For each cell 0 or a row, from `first` on; and these rows, of split and twins."""
-    others = panel.twins != np.arange(panel.twins.shape[1])
-    some = np.flatnonzero(others.any(axis=0) | (panel.split > 1))
-    entries = np.zeros(panel.twins.shape[1], int)
-    entries[some] = first + np.arange(some.size)
-    return entries, np.column_stack([panel.split[some], panel.twins[:, some].T])
+        row = [len(patches), len(ROOTS[name]), varying, rows - 1, columns - 1, over_t, over_u]
+        for field in PACKED:
+            part = tables.whole(getattr(panel, field), table.exponent)
+            row.append(sum(map(np.size, values)) if part.size else -1)
+            values += [part] if part.size else []
+        panels.append(row)
+        first = np.cumsum([0, *panel.intervals + ORDER - 1])
+        patches += zip(ROOTS[name], panel.intervals.tolist(), first.tolist(), strict=False)
+    return _Layout(panels, np.array(patches, np.int32), values)
 
 
 def _constants(bounds: Mapping[str, float], prefix: str, language: Language) -> str:
@@ -723,6 +646,7 @@ def _constants(bounds: Mapping[str, float], prefix: str, language: Language) -> 
     values = {
         "INCIDENCE_MAX": checks.LARGEST,
         "RESTITUTION_MIN": spheres.LEAST_RESTITUTION,
+        "STIFFNESS_MAX": spheres.LARGEST_STIFFNESS,
         "RATIO_MIN": spheres.LEAST_RATIO,
         "RATIO_MAX": spheres.LARGEST_RATIO,
         **{f"ERROR_{loss.upper()}": bound for loss, bound in bounds.items()},
@@ -733,8 +657,7 @@ def _constants(bounds: Mapping[str, float], prefix: str, language: Language) -> 
     return "".join(language.constant.format(name=prefix + n, value=v) for n, v in lines)
 
 
-def _panels(panels: NDArray[Any], prefix: str, language: str) -> str:
-    rows = panels.tolist()
+def _panels(rows: list[list[int]], prefix: str, language: str) -> str:
     if language == "c":
         values = ",\n".join(f"    {{{', '.join(map(str, row))}}}" for row in rows)
         fields = ", ".join(PANEL_FIELDS)
@@ -749,20 +672,24 @@ def _panels(panels: NDArray[Any], prefix: str, language: str) -> str:
     return "const panels = [\n" + "".join(f"    {{ {row} }},\n" for row in named) + "];\n"
 
 
-def _edges(grids: list[NDArray[Any]], prefix: str, language: str) -> str:
-    """Edges; in JavaScript as `unfolded` reads them: most are near what their neighbours tell."""
-    if language == "c":
-        lines = [grid.reshape(-1, grids[0].shape[1]) for grid in grids]
-        return packed(prefix + "edges", np.concatenate(lines), LANGUAGES[language])
-    parts = [np.diff(np.diff(grid, axis=0, prepend=0), axis=1, prepend=0).ravel() for grid in grids]
-    steps = np.concatenate(parts).astype(np.int64)
+def _values(values: list[Integers], prefix: str, language: str) -> str:
+    """Edges and splines; in JavaScript their shapes, as `_code` has the values themselves."""
+    if language == "js":
+        return f"const shapes = {[list(part.shape) for part in values]};\n"
+    rows = [row for part in values for row in part.reshape(-1, part.shape[2]).tolist()]
+    lines = ",\n".join(",".join(map(str, row)) for row in rows)
+    return f"static const int {prefix}values[{sum(map(len, rows))}] = {{\n{lines}\n}};\n"
+
+
+def _packed(values: list[Integers]) -> str:
+    """The values for JavaScript, as `unfolded` reads them: most are near what neighbours tell."""
+    steps = np.concatenate([tables.steps(part).ravel() for part in values]).astype(np.int64)
     bits = np.where(steps < 0, -2 * steps - 1, 2 * steps)[:, None] >> 7 * np.arange(5)
     goes_on = bits[:, 1:] > 0
     digits = bits % 128
     digits[:, :-1] += 128 * goes_on
     used = np.pad(goes_on, ((0, 0), (1, 0)), constant_values=True)
-    text = base64.b64encode(digits[used].astype(np.uint8).tobytes()).decode()
-    return f'const edges = unfolded("{text}");\n'
+    return base64.b64encode(digits[used].astype(np.uint8).tobytes()).decode()
 
 
 def _code(layout: _Layout, table: Table, prefix: str, language: str) -> str:
@@ -772,14 +699,14 @@ def _code(layout: _Layout, table: Table, prefix: str, language: str) -> str:
         "b_span": tables.B_MOST - tables.B_LEAST,
         "e_least": tables.E_LEAST,
         "e_span": 1 - tables.E_LEAST,
-        "unit": 2.0**-tables.FINE,
+        "unit": 2.0**-table.exponent,
         "largest": checks.LARGEST,
+        "stiffness_most": spheres.LARGEST_STIFFNESS * (1 + spheres.ROUNDING),
         "ratio_least": spheres.LEAST_RATIO * (1 - spheres.ROUNDING),
         "ratio_most": spheres.LARGEST_RATIO * (1 + spheres.ROUNDING),
         "restitution_least": spheres.LEAST_RESTITUTION,
         "nan": math.nan,
     }
-    at = ("high[a + {}]", "low[c + {}]", "unit[k + {}]")
     return Template(CODE[language]).substitute(
         {key: number(value, LANGUAGES[language]) for key, value in values.items()},
         p=prefix,
@@ -787,30 +714,6 @@ def _code(layout: _Layout, table: Table, prefix: str, language: str) -> str:
         left=LEFT,
         right=RIGHT,
         limits=table.limit.size - 1,
-        high=np.count_nonzero(HIGH),
-        low=np.count_nonzero(~HIGH),
-        powers=len(POWERS),
-        horner=_horner(*at) if language == "js" else _horner("a[{}]", "c[{}]", "k[{}]"),
-        edges=sum(grid.size for grid in layout.edges),
-        reversed=layout.reversed,
-        back=len(layout.unit) - 1,
+        count=sum(map(np.size, layout.values)),
+        packed=_packed(layout.values) if language == "js" else "",
     )
-
-
-def _horner(high: str, low: str, unit: str) -> str:
-    """The polynomial of `table.polynomial` as one expression of coefficients."""
-    places = {True: iter(range(len(HIGH))), False: iter(range(len(HIGH)))}
-    lines: dict[tuple[int, ...], str] = {}
-    for power, powers in enumerate(POWERS):
-        is_high = bool(HIGH[power])
-        name = (high if is_high else low).format(next(places[is_high]))
-        term = f"{name} * {unit.format(power)}"
-        key = powers[:2]
-        lines[key] = f"({lines[key]}) * u + {term}" if key in lines else term
-    whole: dict[int, str] = {}
-    for (i, *_), line in lines.items():
-        whole[i] = f"({whole[i]}) * t\n            + ({line})" if i in whole else line
-    first, *others = whole.values()
-    for other in others:
-        first = f"({first}) * s\n        + ({other})"
-    return first

@@ -450,8 +450,8 @@ MODELS = {
                 {},
                 "table",
                 (spheres.LEAST_RESTITUTION, 1.0),
-                f"continuum.{loss} from a table; m2/m1 over zeta^2 from "
-                f"{spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
+                f"continuum.{loss} from a table; zeta^2 up to {spheres.LARGEST_STIFFNESS}, and "
+                f"m2/m1 over zeta^2 from {spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
                 "solved by this package, planarimpact.spheres.making",
                 _alike_limit,
                 _alike_kinks,

@@ -17,12 +17,14 @@ from planarimpact.spheres import table
 
 LOSSES = "viscous", "plastic"
 # Largest difference from the continuum, of velocity (mu v2(0)), peak friction (mu F2max) and
-# dissipation (mu^2 m2 v2(0)^2). Among the 10^4 impacts of tests/reference/test_spheres_reference.py
-# it is 1.0e-4 and 7.1e-4; with plastic loss 99 % are within 2.5e-4, the worst have e below 0.55.
-ERROR_BOUND = {"viscous": 1e-4, "plastic": 9e-4}
+# dissipation (mu^2 m2 v2(0)^2). It is measured, not proved: a little above the largest error that
+# the search of tests/reference/test_spheres_reference.py has climbed to.
+ERROR_BOUND = {"viscous": 1.5e-4, "plastic": 9e-4}
 LEAST_RESTITUTION = 0.3
 # Bounds of mass ratio over stiffness ratio.
 LEAST_RATIO, LARGEST_RATIO = 1.5625, 3.5
+# Errors of velocity and work are in proportion to zeta^2: the bound is stated up to this one.
+LARGEST_STIFFNESS = 1.6
 # The bounds are admitted although rounding puts a ratio a little beyond.
 ROUNDING = 1e-9
 # Impacts evaluated together: they stay in the cache.
@@ -43,12 +45,14 @@ def covers(mass_ratio: ArrayLike, stiffness_ratio: ArrayLike, restitution: Array
 
     Examples
     --------
-    >>> covers(3.5, [1.0, 1.21, 2.5], 0.8).tolist()
+    >>> covers(3.5, [1.0, 1.21, 2.0], 0.8).tolist()
     [True, True, False]
     """
-    ratio, e = np.asarray(mass_ratio) / np.asarray(stiffness_ratio), np.asarray(restitution)
+    zeta2, e = np.asarray(stiffness_ratio), np.asarray(restitution)
+    ratio = np.asarray(mass_ratio) / zeta2
     low, high = LEAST_RATIO * (1 - ROUNDING), LARGEST_RATIO * (1 + ROUNDING)
-    return (ratio >= low) & (ratio <= high) & (e >= LEAST_RESTITUTION) & (e <= 1)
+    small = zeta2 <= LARGEST_STIFFNESS * (1 + ROUNDING)
+    return small & (ratio >= low) & (ratio <= high) & (e >= LEAST_RESTITUTION) & (e <= 1)
 
 
 @checks.default_errors
@@ -128,6 +132,8 @@ def _refuse_uncovered(beta: Array, zeta2: Array, e: Array) -> None:
         return
     allowed = f"numbers from {LEAST_RESTITUTION} to 1, for the table of spheres"
     checks.checked("restitution", e, allowed, LEAST_RESTITUTION, 1)
+    allowed = f"numbers above 0 up to {LARGEST_STIFFNESS}, for the table of spheres"
+    checks.checked("stiffness_ratio", zeta2, allowed, 0, LARGEST_STIFFNESS * (1 + ROUNDING))
     bad = ~covers(beta, zeta2, 1.0)
     raise checks.InputError(
         f"mass_ratio/stiffness_ratio = {beta[bad].flat[0]:g}/{zeta2[bad].flat[0]:g}: allowed are "
