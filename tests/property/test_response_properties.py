@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from planarimpact import ConvergenceError, lumped, models, response
+from planarimpact import ConvergenceError, lumped, models, response, spheres
 
 SEED = st.integers(0, 2**32 - 1)
 MASS_RATIO = st.floats(1.0, 8.0)
@@ -163,3 +163,24 @@ def test_friction_never_creates_energy(groups, seed, tolerance):
     assert (np.abs(result.velocity) <= np.abs(x)).all()
     assert (result.dissipation >= 0).all()
     assert ((result.peak_friction >= 0) & (result.peak_friction <= 1)).all()
+
+
+def test_a_table_of_spheres_compiles_without_jumps(tmp_path):
+    """Pieces of zero width answered 1e51 where the table jumped from cell to cell."""
+    rng = np.random.default_rng(4)
+    found = ("plastic", 3.5, 17 / 14, 0.5)
+    random = np.stack([rng.choice([2.5, 3.5], 6), rng.uniform(1, 1.5, 6), rng.uniform(0.3, 1, 6)]).T
+    cases = [found, *(("plastic", *groups) for groups in random if spheres.covers(*groups))]
+    for loss, beta, zeta2, e in [*cases, ("viscous", 3.5, 1.2, 0.9)]:
+        groups = {"mass_ratio": beta, "stiffness_ratio": zeta2, "restitution": e}
+        made = response.compile(f"spheres.{loss}", incidence_max=20, tolerance=1e-4, **groups)
+        start = made.pieces.start
+        assert (np.diff(start) > 0).all()
+        x = np.concatenate(
+            [start, np.nextafter(start, 9), np.nextafter(start[1:], 0), [0.50323744]]
+        )
+        exact = spheres.rebound(x, beta, zeta2, e, loss=loss).velocity
+        np.testing.assert_allclose(made.velocity(x), exact, rtol=0, atol=1e-4)
+        assert (np.abs(made.velocity(x)) <= x).all()
+    made.save(tmp_path / "ball.json")
+    assert response.load(tmp_path / "ball.json").velocity(2.0) == made.velocity(2.0)
