@@ -1,13 +1,14 @@
 """The table: how it divides the impacts, and how it is read and evaluated.
 
-In y = x/zeta^2, b = beta/zeta^2 and e the answer is smooth between edges, see `thresholds`. A
-panel is a loss, or a part of it, with the same edges throughout. Its impacts are mapped to t and
-u, from 0 to 1 over e and b, and s, from 0 to 1 between two edges. That is a patch. In a patch
-velocity, peak friction and work are cubic splines in s, t and u: sums of products of uniform
-B-splines. All patches of a panel have the same B-splines over t and u, so that neighbours agree at
-their common edge. (The largest friction jumps a little, by up to 2e-4, at the first edge of
-"plastic_low": left of it there are two splines, one for each direction.) Edges are interpolated linearly in t and u, when the table is made as when it is
-used: so a small error of an edge bends the answer a little late, and no more.
+In y = x/zeta^2, b = beta/zeta^2 and e the answer is smooth between edges, see `thresholds`. A panel
+is a loss, or a part of it, with the same edges throughout. Its impacts are mapped to t and u, from
+0 to 1 over e and b, and s, from 0 to 1 between two edges. That is a patch. In a patch velocity,
+peak friction and work are cubic splines in s, t and u: sums of products of uniform B-splines. All
+patches of a panel have the same B-splines over t and u, so that neighbours agree at their common
+edge. (The largest friction jumps a little, by up to 2e-4, at the first edge of "plastic_low": left
+of it there are two splines, one for each direction.) Edges are interpolated linearly in t and u,
+when the table is made as when it is used: so a small error of an edge bends the answer a little
+late, and no more.
 """
 
 from collections.abc import Sequence
