@@ -71,11 +71,11 @@ class Response:
         What was asked for.
     error_bound : Bound
         What was measured: twice the largest difference from the model that a search found, plus
-        the model's own tolerance if it has one. The search begins at sixteen places of every
-        piece, its ends among them, and climbs from the largest differences. Nothing is proved: a
-        narrow kink may hide between the places, above all in a model in time steps. Rounding, up
-        to 4e-15 of the largest incidence, comes on top. The bound does not hold for the regime,
-        which changes within a hundredth of the tolerance from where the model's does.
+        the model's own tolerance if it has one. The search begins at 24 places of every
+        piece, its ends among them, and looks closer beside the largest differences. Nothing is
+        proved: a narrow kink may hide between the places, above all in a model in time steps.
+        Rounding, up to 4e-15 of the largest incidence, comes on top. The bound does not hold for
+        the regime, which changes within a hundredth of the tolerance from where the model's does.
     slides_from : float
         Incidence from which the formula of slip throughout holds, or infinity.
     pieces : planarimpact.response.piecewise.Pieces
