@@ -314,29 +314,6 @@ def test_a_model_that_jumps_does_not_pass(monkeypatch):
         compiled("lumped", 1e-8)
 
 
-def test_a_table_has_pieces_in_order_or_its_jump_is_named():
-    """Wherever cells of the table meet, and at random."""
-    random = np.random.default_rng(6)
-    cases = [("plastic", 17 / 14, 0.5, 1e-3)]
-    for loss in ("viscous", "plastic"):
-        for _ in range(4):
-            zeta2, e = 3.5 / random.uniform(1.57, 3.49), random.uniform(0.31, 1)
-            cases.append((loss, zeta2, e, 10 ** random.uniform(-4.3, -3)))
-    for loss, zeta2, e, tolerance in cases:
-        groups = {"stiffness_ratio": zeta2, "restitution": e}
-        try:
-            found = compiled(f"spheres.{loss}", tolerance, **groups)
-        except ConvergenceError as refused:
-            assert f"spheres.{loss} is not compiled: it jumps by " in str(refused)
-            continue
-        start = found.pieces.start
-        assert (np.diff(start, append=found.pieces.end) > 0).all()
-        x = np.concatenate([start, np.nextafter(start, 0), np.nextafter(start, 99)])
-        exact = models.rebound(f"spheres.{loss}", x, **found.parameters).velocity
-        assert (np.abs(found.velocity(x)) <= x).all()
-        assert np.abs(found.velocity(x) - exact).max() <= found.error_bound.velocity + 1e-14
-
-
 # Files ------------------------------------------------------------------------------------------
 
 
