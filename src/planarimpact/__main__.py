@@ -53,7 +53,7 @@ The result has all these columns as they are, and then
   the state after, named as before with _after; restitution and loss, where they are not given
   contact_velocity_after [m/s]  of the contact point, in the direction of incidence
   model, regime           which one solved the impact; the order of stick and slip
-  error_bound [m/s]       of the contact velocity, against the continuum: what is guaranteed
+  error_bound [m/s]       of the contact velocity, against the continuum: tested, not proved
   model_form [m/s]        how far the contact velocity would move with the other loss, without a
                           sign; it is 0 by accident where the two losses happen to agree
   incidence               tangential over normal speed of the contact point, over friction

@@ -550,7 +550,7 @@ $example
 """
 EXAMPLES = {
     "c": """\
-  #include "$file" // compile without -ffast-math, which does not know NaN
+  #include "$file"
 
   double v1 = 6.0, v2 = 5.0, mu = 0.8, e = 0.9; // a solid sphere of rubber, before the impact
   double v1_after = mu * v2 * ${p}velocity(v1 / (mu * v2), 3.5, 1.5, e, ${P}VISCOUS);
