@@ -171,7 +171,8 @@ def test_a_table_of_spheres_compiles_without_jumps(tmp_path):
     found = ("plastic", 3.5, 17 / 14, 0.5)
     random = np.stack([rng.choice([2.5, 3.5], 6), rng.uniform(1, 1.5, 6), rng.uniform(0.3, 1, 6)]).T
     cases = [found, *(("plastic", *groups) for groups in random if spheres.covers(*groups))]
-    for loss, beta, zeta2, e in [*cases, ("viscous", 3.5, 1.2, 0.9)]:
+    just_below_sliding = ("viscous", 3.5, 1.21, 1.0), ("viscous", 1.728126446, 1.022016098, 1.0)
+    for loss, beta, zeta2, e in [*cases, *just_below_sliding, ("viscous", 3.5, 1.2, 0.9)]:
         groups = {"mass_ratio": beta, "stiffness_ratio": zeta2, "restitution": e}
         made = response.compile(f"spheres.{loss}", incidence_max=20, tolerance=1e-4, **groups)
         start = made.pieces.start
@@ -182,5 +183,6 @@ def test_a_table_of_spheres_compiles_without_jumps(tmp_path):
         exact = spheres.rebound(x, beta, zeta2, e, loss=loss).velocity
         np.testing.assert_allclose(made.velocity(x), exact, rtol=0, atol=1e-4)
         assert (np.abs(made.velocity(x)) <= x).all()
+        assert max(largest_errors(made)) <= 1
     made.save(tmp_path / "ball.json")
     assert response.load(tmp_path / "ball.json").velocity(2.0) == made.velocity(2.0)

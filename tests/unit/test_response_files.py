@@ -51,6 +51,16 @@ def test_a_file_gives_the_same_answers_to_the_bit(tmp_path, model, parameters):
     assert [path.name for path in tmp_path.iterdir()] == ["it"]
 
 
+@pytest.mark.parametrize("model", ["laws.brach", "laws.smith", "rigid", "lumped"])
+def test_what_is_compiled_can_be_loaded(tmp_path, model):
+    """Laws of impulses know friction from the end of the last piece on, by rounding or not."""
+    for beta in (1.0, 1.3, 2.0, 2.5, 3.5, 4.7):
+        for e in (0.0, 0.3, 0.7, 1.0):
+            found = compiled(model, 1e-6, mass_ratio=beta, restitution=e)
+            found.save(tmp_path / "it")
+            assert response.load(tmp_path / "it").slides_from == found.slides_from
+
+
 def test_a_file_may_be_named_by_text_and_written_again(file, ball):
     compiled("rigid").save(str(file))
     assert response.load(str(file)).model == "rigid"

@@ -71,7 +71,7 @@ class Response:
         What was asked for.
     error_bound : Bound
         What was measured: twice the largest difference from the model that a search found, plus
-        the model's own tolerance if it has one. The search begins at 24 places of every
+        the model's own tolerance if it has one. The search begins at 32 places of every
         piece, its ends among them, and looks closer beside the largest differences. Nothing is
         proved: a narrow kink may hide between the places, above all in a model in time steps.
         Rounding, up to 4e-15 of the largest incidence, comes on top. The bound does not hold for
@@ -473,7 +473,9 @@ def _disagreement(found: Response, at: Array, parameters: Mapping[str, float]) -
     spare = parameters.get("tolerance", 0.0) + ROUNDING * found.pieces.end
     for (name, bound), value in zip(found.error_bound._asdict().items(), values, strict=True):
         model = getattr(answer, name)
-        right = (np.abs(value - model) <= bound + spare) | (np.isnan(value) & np.isnan(model))
+        # A law of impulses knows friction in sliding alone, which may begin at the very end.
+        silent = np.isnan(value) & (np.isnan(model) | (at == 1))
+        right = (np.abs(value - model) <= bound + spare) | silent
         if not right.all():
             at_x, one, other = (field[~right][0] for field in (x, value, model))
             return (
