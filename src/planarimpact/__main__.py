@@ -47,8 +47,8 @@ The other body, if it is no rigid half-space at rest, has the same columns with 
 its velocities and spin have the directions of the first one's: positive other_spin turns the same
 way round. A material alone makes it an elastic half-space; masses, radii of gyration and Young's
 moduli may be inf.
-Restitution is 0.1 or more, except where the contact slides throughout. Below 0.022 the forces are
-not known: they are NaN.
+Restitution is 0.1 or more. Where the contact slides throughout it may be less; there the forces
+are NaN if it is below 0.022.
 The result has all these columns as they are, and then
   the state after, named as before with _after; restitution and loss, where they are not given
   contact_velocity_after [m/s]  of the contact point, in the direction of incidence
@@ -238,7 +238,7 @@ def _compile(options: argparse.Namespace) -> None:
         export.checked_name(options.output, options.language)
     elif Path(options.output).suffix.lower() != ".json":
         raise checks.InputError(
-            f"{options.output}: allowed are names that end in .json; --as writes others"
+            f"{options.output}: allowed are names that end in .json; with --as c or --as js others"
         )
     with files.written(options.output) as partial:  # a bad name is refused before any work
         built = response.compile(
@@ -518,7 +518,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     errors = " or ".join(f"{error:g}" for error in export.TABLES)
     compiled.add_argument(
-        "--tolerance", type=decimal, help=f"[1e-06]; of {SPHERES} {errors} [{min(export.TABLES):g}]"
+        "--tolerance",
+        type=decimal,
+        help=f"largest error [1e-06]; with --model {SPHERES} {errors} [{min(export.TABLES):g}]",
     )
     compiled.add_argument("--incidence-max", type=decimal, help="[20.0]")
     _add_model(compiled, [*models.MODELS, SPHERES])
@@ -547,8 +549,8 @@ def _parser() -> argparse.ArgumentParser:
         type=decimal,
         default=1e-3,
         help="largest error: of the tangential velocity as a share of friction times normal speed, "
-        "of friction as a share of its limit [%(default)s]; elastic pairs reach some 1e-8, others "
-        "1e-5",
+        "of friction as a share of its limit [%(default)s]; the smallest that is reached is about "
+        "1e-8 at restitution 1 and 1e-5 below",
     )
     scene.add_argument(
         "--loss",

@@ -94,7 +94,7 @@ BAD_CONFIG = [
     ),
     (figure("stability", points="maw1976/slip_throughout_limit"), "limit' is no series"),
     (comparison("fig5-continuum-maw", tolerance="3"), "'tolerance' was unexpected"),
-    ({"significance": "0"}, "significance: 0 is less than or equal to the minimum of 0"),
+    ({"significance": "1e-4"}, "significance: 0.0001 is less than the minimum of 0.001"),
     (comparison("fig5-continuum-maw", figure="fig10"), "'fig10' is not judged; allowed are fig2"),
     (comparison("fig5-continuum-maw", regime="sticking"), "regime: 'sticking' is not one of"),
     (

@@ -48,10 +48,10 @@ def covers(mass_ratio: ArrayLike, stiffness_ratio: ArrayLike, restitution: Array
     >>> covers(3.5, [1.0, 1.21, 2.0], 0.8).tolist()
     [True, True, False]
     """
-    zeta2, e = np.asarray(stiffness_ratio), np.asarray(restitution)
-    ratio = np.asarray(mass_ratio) / zeta2
+    beta, zeta2, e = map(np.asarray, (mass_ratio, stiffness_ratio, restitution))
+    ratio = beta / zeta2
     low, high = LEAST_RATIO * (1 - ROUNDING), LARGEST_RATIO * (1 + ROUNDING)
-    small = zeta2 <= LARGEST_STIFFNESS * (1 + ROUNDING)
+    small = (beta >= 1) & (zeta2 <= LARGEST_STIFFNESS * (1 + ROUNDING))
     return small & (ratio >= low) & (ratio <= high) & (e >= LEAST_RESTITUTION) & (e <= 1)
 
 

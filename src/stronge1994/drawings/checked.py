@@ -1,12 +1,13 @@
 """A picture shows only numbers of its tables: every artist is looked up before a figure is saved.
 
-The points of one line, of one area or of one mesh must be rows of one table, in their order, and
-of columns that the labels of the axes name. What a legend says of a style must be true of all that
-is drawn in it. Not looked up are words that name no point, what does not stand in data units (lines
-across the axes, brackets), contours of a mesh, and artists or axes whose label is `NO_DATA`.
+The points of one line must be rows of one table that follow each other, those of an area or of a
+mesh rows of one table, and of columns that the labels of the axes name. What a legend says of a
+style must be true of all that is drawn in it, and numbers at ticks stand where they say. Not looked
+up are words that name no point, what does not stand in data units (lines across the axes,
+brackets), contours of a mesh, second axes above a panel, and artists or axes whose label is
+`NO_DATA`. Nobody misses a curve that is not drawn, or its ends.
 """
 
-import bisect
 import itertools
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -27,7 +28,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch, Patch, Polygon, Rectangle
 from matplotlib.spines import Spine
 from matplotlib.text import Annotation, Text
-from matplotlib.ticker import FixedLocator, FuncFormatter
 
 from planarimpact.ground.arrays import Array, Booleans
 from stronge1994.csv_tables import Curves
@@ -49,7 +49,7 @@ class NotInTable(ValueError):
 
 
 class _Columns(NamedTuple):
-    """Columns that labels allow: curve, names, rows of numbers, and the places of equal rows."""
+    """Columns that labels allow: curve, names, rows of numbers, and places of equal rows."""
 
     curve: str
     names: tuple[str, ...]
@@ -61,16 +61,19 @@ class _Columns(NamedTuple):
         return any(name.endswith(BARS) for name in self.names)
 
     def has_in_order(self, points: Array) -> bool:
-        """Whether points are rows, to the last digit, in their order or in the reverse order."""
+        """Whether points are rows that follow each other, to the last digit, or in reverse."""
         return any(self._follow(some.tolist()) for some in (points, points[::-1]))
 
     def _follow(self, points: Iterable[Sequence[float]]) -> bool:
-        at = -1
+        last: set[int] | None = None  # after a gap any row may follow
         for point in points:
+            if any(number != number for number in point):
+                last = None
+                continue
             own = self.places.get(tuple(point), [])
-            if not own or own[-1] <= at:
+            last = {place for place in own if last is None or place - 1 in last}
+            if not last:
                 return False
-            at = own[bisect.bisect_right(own, at)]
         return True
 
 
@@ -187,6 +190,8 @@ class _Panel:
 
     def _find(self, artist: Artist, points: Array) -> list[_Columns]:
         """Where points stand in the tables."""
+        shown = [bool(label) for label in self.labels]
+        with_gaps = points[:, shown]
         points = points[~np.isnan(points).any(axis=1)]
         if not len(points):
             return []
@@ -194,7 +199,7 @@ class _Panel:
         if not self.labels[1]:  # categories, which the ticks may name
             category = _category(self.axes.yaxis, float(points[:, 1].mean()))
             known = [c for c in known if not category or words.of_curve(category, c.curve, c.names)]
-        points = points[:, [bool(label) for label in self.labels]]
+        points = points[:, shown]
         if isinstance(artist, PolyCollection | Polygon):
             # Below and above it are lines of one or two curves, or one is a constant.
             inside = [(columns, _are_in(points, columns.rows)) for columns in known]
@@ -215,14 +220,16 @@ class _Panel:
             own = [name for name, rows in parts.items() if _among(points, np.concatenate(rows))]
             found = [columns for columns in known if columns.curve in own]
         else:
-            found = [columns for columns in known if columns.has_in_order(points)]
+            found = [columns for columns in known if columns.has_in_order(with_gaps)]
         if found:
             return found
-        shown = ", ".join(f"{number:g}" for number in points[0])
+        first = ", ".join(f"{number:g}" for number in points[0])
         asked = sorted({columns.curve for columns in known})
         raise NotInTable(
-            f"{self}: {_words_of(artist)} does not show rows of a table. Its ({shown}) and what "
-            f"follows are in none of {', '.join(asked[:6]) or 'the columns that the labels name'}"
+            f"{self}: {_words_of(artist)} does not show rows of a table. Its ({first}) and what "
+            f"follows are in none of {', '.join(asked[:6]) or 'the columns that the labels name'}. "
+            "What labels mean stands in drawings/words.py, numbers of no column in drawings/"
+            "derived.py; a guide has the label house_style.NO_DATA"
         )
 
     def _check_mesh(self, mesh: QuadMesh) -> None:
@@ -274,13 +281,14 @@ class _Panel:
                 yield from np.asarray(column)[_close(columns.rows, shown)].tolist()
 
     def _check_ticks(self, axis: Axis) -> None:
-        """Numbers that are written at ticks by hand are those where they stand."""
-        locator, formatter = axis.get_major_locator(), axis.get_major_formatter()
-        if not (isinstance(locator, FixedLocator) and isinstance(formatter, FuncFormatter)):
-            return
-        for place, at in enumerate(locator.locs):
-            written = formatter(at, place).strip("$").removesuffix(r"\degree")
-            if _NUMBER.fullmatch(written) and not np.isclose(float(written), at):
+        """Numbers that are written at ticks are those where they stand."""
+        places = axis.get_majorticklocs()
+        for at, written in zip(
+            places, axis.get_major_formatter().format_ticks(places), strict=True
+        ):
+            number = re.sub(r"[${}]|\\(mathdefault|degree)", "", written)
+            number = number.replace("\N{MINUS SIGN}", "-")
+            if _NUMBER.fullmatch(number) and not np.isclose(float(number), at):
                 raise NotInTable(f"{self}: the tick at {at:g} is called {written}")
 
 
@@ -312,7 +320,8 @@ def _is_guide(artist: Artist, axes: Axes) -> bool:
     if isinstance(artist, PathCollection):
         transform = artist.get_offset_transform()
     in_data = all(transform.contains_branch_seperately(axes.transData))
-    if in_data and transform != axes.transData:
+    steps = isinstance(artist, Line2D) and artist.get_drawstyle() != "default"
+    if in_data and (steps or transform != axes.transData):
         raise NotInTable(f"{_words_of(artist)} does not stand where its numbers say")
     return not in_data
 

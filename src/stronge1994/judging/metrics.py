@@ -242,15 +242,16 @@ def _largest(entry: Entry, curves: Curves) -> Measured:
 def _range(entry: Entry, curves: Curves) -> Measured:
     """Columns whose values must lie in a range: distances from its middle, in half its width.
 
-    A range in which far larger values would lie too is an error.
+    A range that ends at far larger values is an error.
     """
     names, (low, high) = entry["columns"], entry["range"]
     first, x, values = _together(entry, curves, names)
     found = np.concatenate(values)
-    if low <= ROOM * found.min() and ROOM * found.max() <= high:
+    most = ROOM * np.abs(found).max()
+    if max(abs(low), abs(high)) >= most:
         raise ValueError(
-            f"range {low:g} to {high:g}: values {ROOM} times as large as those found would lie in "
-            "it too, so it says nothing"
+            f"range {low:g} to {high:g}: allowed are ends nearer to 0 than {most:g}, {ROOM} times "
+            "the largest value found; beyond, the range says nothing"
         )
     middle = np.full(len(found), (low + high) / 2)
     at = np.tile(x, len(names))
