@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from planarimpact import InputError, continuum, spheres
+from planarimpact.export import spheres as export
 from planarimpact.spheres import making, table
 
 # Of the continuum, whose errors are below half of it.
@@ -112,6 +113,31 @@ def climbed(random, name, budget):
 def test_no_search_finds_an_error_beyond_the_bound(name, seed, budget):
     error, *words = climbed(np.random.default_rng([20, seed]), name, budget)
     assert error <= spheres.ERROR_BOUND[name.partition("_")[0]], (error, *words)
+
+
+@pytest.mark.parametrize("loss", spheres.LOSSES)
+def test_the_coarse_table_is_as_near_as_it_says(loss):
+    """To the fine one, so that many places are looked at; climbed as above."""
+    random, plastic = np.random.default_rng(50), loss == "plastic"
+    stiffness, least = spheres.LARGEST_STIFFNESS, spheres.LEAST_RESTITUTION
+
+    def difference(share, b, e):
+        impacts = share * (b + e * (b - 1)), b, e, np.full(b.size, plastic)
+        fine, coarse = (table.evaluate(table.shipped(name), *impacts) for name in export.BOUNDS)
+        velocity, peak = np.abs(np.subtract(fine[:2], coarse[:2]))
+        return np.maximum(stiffness * velocity, peak)
+
+    low = np.array([[0.0], [spheres.LEAST_RATIO], [least]])
+    high = np.array([[1.0 - 1e-12], [spheres.LARGEST_RATIO], [1.0]])
+    at = low + (high - low) * np.clip(random.uniform(-0.02, 1.02, (3, 200_000)), 0, 1)
+    found = difference(*at)
+    for step in 0.01 * 0.5 ** np.arange(6):
+        top = np.argsort(found)[-1000:]
+        near = np.repeat(at[:, top], 20, axis=1)
+        near += (high - low) * random.normal(0, step, near.shape)
+        at = np.concatenate([at[:, top], np.clip(near, low, high)], axis=1)
+        found = difference(*at)
+    assert found.max() <= export.BOUNDS["coarse"][loss] - spheres.ERROR_BOUND[loss]
 
 
 @pytest.mark.parametrize("loss", spheres.LOSSES)

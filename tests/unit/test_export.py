@@ -331,15 +331,6 @@ def test_a_header_never_meets_a_compiler_without_nan(compiler, pairs, tmp_path):
             subprocess.run(["./main"], cwd=tmp_path, check=True)
 
 
-def test_the_coarse_table_is_as_near_as_it_says(cases):
-    fine, coarse = cases["fine"], cases["coarse"]
-    loss, rows = fine.impacts[:COUNT, 4], fine.tabled[:COUNT]
-    differs = np.abs(fine.wanted[:4, :COUNT] - coarse.wanted[:4, :COUNT])
-    for code, name in enumerate(spheres.LOSSES):
-        bound = sum(bounds[name] for bounds in table_of_spheres.BOUNDS.values())
-        assert 0 < differs[:, rows & (loss == code)].max() < bound
-
-
 @pytest.mark.parametrize(
     ("block", "file", "commands"),
     [
