@@ -269,7 +269,7 @@ REFUSED = [
     (["models", "--output", "csv"], "--output csv: allowed are"),
     (["history", "--incidence", "1", "--output", "a.csv", "--format", "json"], "ends in .csv"),
     (["rebound", "--incidence", "1", "--output", "a.json", "--format", "csv"], "ends in .json"),
-    (["compile", "ball.csv"], "ball.csv: allowed are names that end in .json; --as writes others"),
+    (["compile", "ball.csv"], "ball.csv: allowed are names that end in .json; with --as c or"),
     (["compile", "ball.json", "--as", "c"], "ball.json: allowed are names that end in .h"),
     (["compile", "ball.h", "--as", "js"], "ball.h: allowed are names that end in .mjs or .js"),
     (["compile", "2.h", "--as", "c"], "2.h: allowed are names of letters from A to Z, digits and"),

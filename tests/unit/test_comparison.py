@@ -143,19 +143,17 @@ def test_a_range_that_is_too_wide_is_refused(values):
     curves = {"a": {"x [1]": np.arange(2.0), "y [1]": np.array(values)}}
     largest = max(values)
 
-    def measured(high):
-        entry = {
-            "metric": "range",
-            "columns": ["y [1]"],
-            "range": [min(0.0, 100 * values[0]), high],
-        }
+    def measured(high, low=min(0.0, 100 * values[0])):
+        entry = {"metric": "range", "columns": ["y [1]"], "range": [low, high]}
         return measure(entry, None, curves, {})
 
     assert measured(largest).residuals.summary().max <= 1.0
     assert measured(99 * largest).residuals.summary().max <= 1.0
     for high in largest * 10.0 ** np.arange(3, 30):
-        with pytest.raises(ValueError, match="it says nothing"):
+        with pytest.raises(ValueError, match="the range says nothing"):
             measured(high)
+    with pytest.raises(ValueError, match="the range says nothing"):
+        measured(largest, -1e9)
 
 
 def test_chi_squared_is_that_of_a_fit_held_to_the_stated_parameters():

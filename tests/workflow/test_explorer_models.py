@@ -53,8 +53,9 @@ def test_curves_are_those_of_the_package(show, coarse):
 
 
 def test_a_wrong_table_is_seen(tab, coarse, monkeypatch, tmp_path):
+    step = 2.0**-coarse.exponent
     panels = {
-        name: panel._replace(coefficients=panel.coefficients + 2.0**-table.FINE)
+        name: panel._replace(velocity=panel.velocity + step, peak=panel.peak + step)
         for name, panel in coarse.panels.items()
     }
     monkeypatch.setattr(table, "shipped", lambda name: coarse._replace(panels=panels))
