@@ -141,9 +141,9 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, sigma_values
 def test_a_range_that_is_too_wide_is_refused(values):
     """It is widened until it is refused, which is before it is a thousand times what it holds."""
     curves = {"a": {"x [1]": np.arange(2.0), "y [1]": np.array(values)}}
-    largest = max(values)
+    least, largest = min(0.0, 100 * values[0]), max(values)
 
-    def measured(high, low=min(0.0, 100 * values[0])):
+    def measured(high, low=least):
         entry = {"metric": "range", "columns": ["y [1]"], "range": [low, high]}
         return measure(entry, None, curves, {})
 
