@@ -9,6 +9,7 @@ brackets), contours of a mesh, second axes above a panel, and artists or axes wh
 """
 
 import itertools
+import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import IO, Any, NamedTuple, TypeAlias
@@ -65,14 +66,15 @@ class _Columns(NamedTuple):
         return any(self._follow(some.tolist()) for some in (points, points[::-1]))
 
     def _follow(self, points: Iterable[Sequence[float]]) -> bool:
-        last: set[int] | None = None  # after a gap any row may follow
+        reached, gap = {-1}, True  # after a gap any later row may follow
         for point in points:
-            if any(number != number for number in point):
-                last = None
+            if any(map(math.isnan, point)):
+                gap = True
                 continue
-            own = self.places.get(tuple(point), [])
-            last = {place for place in own if last is None or place - 1 in last}
-            if not last:
+            own, first = self.places.get(tuple(point), []), min(reached)
+            reached = {at for at in own if (at > first if gap else at - 1 in reached)}
+            gap = False
+            if not reached:
                 return False
         return True
 
@@ -283,9 +285,8 @@ class _Panel:
     def _check_ticks(self, axis: Axis) -> None:
         """Numbers that are written at ticks are those where they stand."""
         places = axis.get_majorticklocs()
-        for at, written in zip(
-            places, axis.get_major_formatter().format_ticks(places), strict=True
-        ):
+        labels = axis.get_major_formatter().format_ticks(places)
+        for at, written in zip(places, labels, strict=True):
             number = re.sub(r"[${}]|\\(mathdefault|degree)", "", written)
             number = number.replace("\N{MINUS SIGN}", "-")
             if _NUMBER.fullmatch(number) and not np.isclose(float(number), at):

@@ -20,8 +20,8 @@ from stronge1994.judging.points import Entry, Reference, kind, points, printed_s
 
 # Two ways to compute one energy agree to this; see the reason of the comparison.
 BALANCE_SIGMA = 1e-12
-# Values so many times as large as those found must leave a range: two digits of room are for the
-# rounding of other machines; with more the range says nothing.
+# Both ends of a range are within so many times the largest value found: two digits of room are for
+# the rounding of other machines; with more the range says nothing.
 ROOM = 100
 
 
