@@ -59,7 +59,7 @@ FIGURES = (*picture_tables.SOLVED, *picture_tables.MADE_UP, *OTHERS)
 
 def drawn(figure, *fault):
     """A picture and its tables; with a fault, two texts, by a module that has the second."""
-    name = figure.removesuffix("_errors")
+    name = "histories" if figure == "fig3" else figure.removesuffix("_errors")
     module = importlib.import_module(f"stronge1994.drawings.{name}")
     if fault:
         old, new = fault

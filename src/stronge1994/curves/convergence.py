@@ -9,7 +9,7 @@ from planarimpact.continuum import annuli
 from planarimpact.ground.arrays import Array
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curves.sampling import NO_NODES, Nodes, vertices
-from stronge1994.curves.trade import BUSY, Watch
+from stronge1994.curves.watch import BUSY, Watch
 
 
 def curves(

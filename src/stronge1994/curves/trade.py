@@ -1,6 +1,5 @@
 """Beyond the paper: how far off each model is, and what it costs on this machine."""
 
-import functools
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
@@ -12,6 +11,7 @@ from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound
 from planarimpact.models import Model
 from stronge1994.csv_tables import Curves
+from stronge1994.curves.watch import BUSY, Watch
 
 FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
 SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
@@ -22,11 +22,7 @@ SPREAD_TOLERANCE = 1e-3
 SEED = 1994
 # Medians are of so many calls, or of those begun in so many seconds. The incidence decides how long
 # one impact takes; a batch holds many incidences, so fewer of its calls give the same median.
-REPEATS, ENOUGH, ENOUGH_TOGETHER = 25, 0.2, 0.05
-# Wall time over CPU time beyond which the machine was busy: a time is a fifth too long, more than
-# it changes from run to run. A quiet machine stays below 1.05; as many other jobs as it has cores
-# make it 1.5 and more.
-BUSY = 1.2
+REPEATS, ENOUGH, ENOUGH_TOGETHER = 25, 0.1, 0.05
 # One impact costs little less than so many solved together: the overhead of arrays.
 TOGETHER = 300
 
@@ -348,54 +344,6 @@ def times(
 def _busy(name: str, over_cpu: float) -> dict[str, float]:
     """A column that says how busy the machine was, if it was."""
     return {f"busy_{name} [1]": over_cpu} if over_cpu > BUSY else {}
-
-
-class Watch:
-    """Wall and CPU time of blocks of code, to see whether the machine gave them a whole core.
-
-    Attributes
-    ----------
-    wall, cpu : list of float
-        Seconds of each block.
-
-    Examples
-    --------
-    >>> watch = Watch()
-    >>> with watch:
-    ...     time.sleep(0.1)
-    >>> watch.over_cpu() > BUSY  # the process slept
-    True
-    """
-
-    def __init__(self) -> None:
-        self.wall: list[float] = []
-        self.cpu: list[float] = []
-
-    def __enter__(self) -> None:
-        # The CPU clock is read first and last, so that it never shows less for want of reading it.
-        self._start = time.process_time(), time.perf_counter()
-
-    def __exit__(self, *_: object) -> None:
-        self.wall.append(time.perf_counter() - self._start[1])
-        self.cpu.append(time.process_time() - self._start[0])
-
-    def over_cpu(self) -> float:
-        """Median wall time over median CPU time.
-
-        Of calls shorter than a slice of time of the operating system most are not interrupted, and
-        the median is right beside any load. Calls shorter than a tick of the CPU clock show too
-        little CPU time: by one tick at most, which is added.
-        """
-        return float(np.median(self.wall) / (np.median(self.cpu) + _tick()))
-
-
-@functools.cache
-def _tick() -> float:
-    """Step of the CPU clock. It is measured: some systems state a finer one than they have."""
-    start = now = time.process_time()
-    while now == start:
-        now = time.process_time()
-    return now - start
 
 
 def _stopwatch(rebound: _Solver) -> Callable[[Array], float]:

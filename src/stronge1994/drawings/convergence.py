@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from stronge1994.csv_tables import Curves
-from stronge1994.drawings import derived, house_style, trade
+from stronge1994.drawings import derived, house_style
 from stronge1994.drawings.house_style import Points, Settings
 
 ERROR, ORDER, TIME = "error [mu v2(0)]", "observed_order [1]", derived.MILLISECONDS
@@ -33,7 +33,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         if BUSY in curve:
             too_long = curve[TIME] - curve[TIME + derived.LESS]
             bars = np.stack([too_long, 0 * too_long])
-            by_time.errorbar(curve[TIME], curve[ERROR], xerr=bars, **trade.BUSY)
+            by_time.errorbar(curve[TIME], curve[ERROR], xerr=bars, **house_style.BUSY)
     by_number.set(xlabel="(a) steps or circles", ylabel=r"error of $v_1(t_f)/\mu v_2(0)$")
     by_time.set_xlabel("(b) time of an impact (ms)")
     fixed = settings["fixed"]

@@ -11,7 +11,6 @@ from planarimpact import Regime
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.drawings import derived, house_style
 from stronge1994.drawings.house_style import Entries, Points, Settings
-from stronge1994.drawings.superball import SURFACE
 
 TILT, TIME = derived.TILT, "time [1/Omega]"
 ENERGY = "kinetic_energy [K0]"
@@ -155,7 +154,7 @@ def _draw_rod(axes: Axes, contact: Mapping[str, float]) -> None:
     axes.set(xlim=(-0.8, 0.8), ylim=(-0.2, 1.1), aspect="equal", anchor="N")
     axes.set(xticks=[], yticks=[], label=house_style.NO_DATA)
     axes.spines[:].set_visible(False)
-    axes.fill_between([-0.8, 0.8], -0.2, 0, **SURFACE)
+    axes.fill_between([-0.8, 0.8], -0.2, 0, **house_style.SURFACE)
     axes.axhline(0, color=house_style.BLACK, linewidth=0.8)
     axes.plot([0, 0], [0, 1], color=house_style.BLACK, linewidth=0.5, linestyle="--")
     x, y = -np.sin(np.radians(tilt)), np.cos(np.radians(tilt))

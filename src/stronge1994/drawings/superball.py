@@ -15,8 +15,6 @@ from stronge1994.drawings.house_style import Points, Settings, Style
 Place: TypeAlias = tuple[float, float]
 
 PLACE, HEIGHT, SPIN = derived.PLACE, derived.HEIGHT, derived.SPIN
-SURFACE = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
-SURFACE |= {"label": house_style.NO_DATA}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -32,7 +30,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     left, right = place.min() - 8 * radius, place.max() + 8 * radius
     plate = {"facecolor": "white", "edgecolor": "none", "pad": 1.5}
     for bottom, surface in ((-0.12 * gap, "floor"), (gap, "table")):
-        axes.fill_between([left, right], bottom, bottom + 0.12 * gap, **SURFACE)
+        axes.fill_between([left, right], bottom, bottom + 0.12 * gap, **house_style.SURFACE)
         axes.axhline(max(bottom, 0.0), color=house_style.BLACK, linewidth=0.8)
         at = left + 0.04 * gap, bottom + 0.06 * gap
         axes.text(*at, surface, ha="left", va="center", style="italic", bbox=plate)

@@ -123,8 +123,6 @@ GROWTH = {
 HIDDEN = {"color": "0.9", "linewidth": 0, "zorder": 0.5}
 FRONT = {"color": house_style.BLACK, "linewidth": 0.6, "zorder": 0.9}
 FRONT_WITH_RESPONSES = FRONT | {"linestyle": (0, (4, 2))}
-# From a time that was taken on a busy machine down to what the processor worked.
-BUSY = {"ecolor": house_style.GREY, "elinewidth": 0.9, "capsize": 2, "fmt": "none", "zorder": 1.5}
 
 
 def draw(
@@ -240,7 +238,7 @@ def _draw_errors(
             words = words_of(row)
             label(axes, at, words, OF_OTHER_LOSS if words == OTHER_LOSS else family.place)
             if shortest < at[0]:
-                axes.errorbar(*at, xerr=[[at[0] - shortest], [0]], **BUSY)
+                axes.errorbar(*at, xerr=[[at[0] - shortest], [0]], **house_style.BUSY)
     axes.axhspan(timed[0][SPREAD_STICK], timed[0][SPREAD], **HIDDEN)
     left = min(least) * (min(least) / max(time)) ** margin
     edges = (left, max(time) * 3), (min(error) / 20, max(error) * 5)
@@ -336,7 +334,7 @@ def _draw_growth(axes: Axes, rows: Curves, curves: Curves) -> None:
         below = time - table[derived.TIME + derived.LESS]
         some = below > 0
         bars = below[some], 0 * below[some]
-        axes.errorbar(batch[some], time[some], yerr=bars, **BUSY)
+        axes.errorbar(batch[some], time[some], yerr=bars, **house_style.BUSY)
 
 
 def _add_legend(figure: Figure, cell: SubplotSpec, busy: bool) -> None:

@@ -1,0 +1,63 @@
+"""Figs 3 and 4: forces and tangential velocity against time."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from planarimpact import lumped
+from planarimpact.ground.results import History
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.curve_names import name
+
+
+def curves(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    incidence: float,
+    restitution: Sequence[float],
+    samples: int,
+) -> Curves:
+    """One contact for each coefficient of restitution.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio, incidence : float
+        beta, zeta^2 and x = v1(0)/(mu v2(0)).
+    restitution : sequence of float
+        Coefficients e, one curve each, named `e = ...`.
+    samples : int
+        Instants a curve, besides its events.
+
+    Returns
+    -------
+    dict
+        Columns time, both forces, velocity, and `event`: its kind at the vertex where one
+        happens, else empty.
+
+    Examples
+    --------
+    >>> contact = curves(3.5, 1.21, 1.0, [1.0], 50)["e = 1"]
+    >>> [str(event) for event in contact["event"] if event]
+    ['contact', 'stick', 'maximum compression', 'slip', 'separation']
+    """
+    return {
+        name("e", e): _columns(lumped.history(incidence, mass_ratio, stiffness_ratio, e, samples))
+        for e in restitution
+    }
+
+
+def _columns(contact: History) -> Columns:
+    """Columns of a history, with one vertex an event."""
+    events = contact.events
+    at_event = np.isin(contact.time, [event.time for event in events])
+    parts = {
+        "time [t_c]": (contact.time, [e.time for e in events]),
+        "normal_force [m2 Omega v2(0)]": (contact.normal, [e.normal for e in events]),
+        "friction_force [mu m2 Omega v2(0)]": (contact.friction, [e.friction for e in events]),
+        "velocity [mu v2(0)]": (contact.velocity, [e.velocity for e in events]),
+    }
+    columns = {key: np.concatenate([a[~at_event], b]) for key, (a, b) in parts.items()}
+    kinds = [""] * int((~at_event).sum()) + [str(e.kind) for e in events]
+    columns["event"] = np.array(kinds)
+    order = np.argsort(columns["time [t_c]"], kind="stable")
+    return {key: column[order] for key, column in columns.items()}

@@ -1,0 +1,59 @@
+"""Times of blocks of code, and whether the machine was busy while they were taken."""
+
+import functools
+import time
+
+import numpy as np
+
+# Wall time over CPU time beyond which the machine was busy: a time is a fifth too long, more than
+# it changes from run to run. A quiet machine stays below 1.05; as many other jobs as it has cores
+# make it 1.5 and more.
+BUSY = 1.2
+
+
+class Watch:
+    """Wall and CPU time of blocks of code, to see whether the machine gave them a whole core.
+
+    Attributes
+    ----------
+    wall, cpu : list of float
+        Seconds of each block.
+
+    Examples
+    --------
+    >>> watch = Watch()
+    >>> with watch:
+    ...     time.sleep(0.1)
+    >>> watch.over_cpu() > BUSY  # the process slept
+    True
+    """
+
+    def __init__(self) -> None:
+        self.wall: list[float] = []
+        self.cpu: list[float] = []
+
+    def __enter__(self) -> None:
+        # The CPU clock is read first and last, so that it never shows less for want of reading it.
+        self._start = time.process_time(), time.perf_counter()
+
+    def __exit__(self, *_: object) -> None:
+        self.wall.append(time.perf_counter() - self._start[1])
+        self.cpu.append(time.process_time() - self._start[0])
+
+    def over_cpu(self) -> float:
+        """Median wall time over median CPU time.
+
+        Of calls shorter than a slice of time of the operating system most are not interrupted, and
+        the median is right beside any load. Calls shorter than a tick of the CPU clock show too
+        little CPU time: by one tick at most, which is added.
+        """
+        return float(np.median(self.wall) / (np.median(self.cpu) + _tick()))
+
+
+@functools.cache
+def _tick() -> float:
+    """Step of the CPU clock. It is measured: some systems state a finer one than they have."""
+    start = now = time.process_time()
+    while now == start:
+        now = time.process_time()
+    return now - start
