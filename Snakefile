@@ -1,7 +1,6 @@
 # Planar impact of rough compliant bodies: solve, draw, compare, judge.
 #   snakemake --cores 2            everything, up to the verdict
 #   snakemake --cores 2 figures    pictures only, without judging
-from snakemake.io import strip_wildcard_constraints
 from snakemake.logging import logger
 from snakemake.utils import min_version
 
@@ -29,8 +28,8 @@ localrules:
     sphere_tables,
     series,
     draw,
-    compare,
-    verdicts,
+    judge,
+    gather,
     ledger_page,
     letter,
     trade,
@@ -40,7 +39,6 @@ localrules:
     explorer,
     interface,
     report,
-    gate,
 
 
 # What can be asked for; `all` stands below. Each target names the files on the way to it too: after a
@@ -53,7 +51,10 @@ rule figures:
 
 
 rule measurements:
-    """Pictures of error against time, measured on this machine, without judging."""
+    """Pictures of error against time, measured on this machine, without judging.
+
+    With `--cores 1` nothing runs beside them.
+    """
     input:
         expand("results/curves/{figure}.csv", figure=plan.TIMED),
         expand("figures/{figure}.{kind}", figure=plan.TIMED, kind=["svg", "png"]),
@@ -105,51 +106,61 @@ include: "workflow/rules/peers.smk"
 include: "workflow/rules/spheres.smk"
 
 
+# Every rule whose files a run makes: the gate asks for all of them, wanted by others or not.
+MAKERS = [
+    rules.curves,
+    rules.series,
+    rules.draw,
+    rules.judge,
+    rules.gather,
+    rules.ledger,
+    rules.ledger_page,
+    rules.letter,
+    rules.trade,
+    rules.stability,
+    rules.scene,
+    rules.solve_chunk,
+    rules.gather_chunks,
+    rules.draw_study,
+    rules.notebook,
+    rules.explorer,
+    rules.interface,
+    rules.report,
+    *([rules.measure_peers] if PEERS else []),
+]
+
+
 rule all:
-    """Everything, up to the verdict: what runs if no target is named."""
+    """Everything, up to the verdict: what runs if no target is named.
+
+    This is the gate. It has no output, so every run ends with it: it reads all records and tables
+    anew, and fails if a file is not as its job left it, or a row diverges or is missing.
+    """
     default_target: True
     input:
-        "results/PASSED",
-        MADE,
-
-
-# Snakemake runs a job again if an input is newer than its output. Files from an archive or a backup
-# may be other ones and yet older, so what they hold is a parameter of every rule.
-for maker in workflow.rules:
-    if maker.output:
-        maker.set_params(content=content_of(maker))
+        plan=planned("all", "gate", "run", "judging", "ledger", "reference_data",
+            settings=lambda _: EXPECTED),
+        made=expand([f"{path}" for maker in MAKERS for path in maker.output], **VALUES),
+    params:
+        plans=plans.digest(PLANNED),
+        jobs=PLANNED,
+    log:
+        "results/logs/all.log",
+    message:
+        "Judging"
+    conda:
+        "workflow/envs/planarimpact.yaml"
+    script:
+        "workflow/scripts/gate.py"
 
 
 if workflow.is_main_process:
-    try:
-        gate.refuse_unknown_results(MADE)
-    except RuntimeError as error:
-        raise refused(error)
-if STARTED_HERE:
-    gate.drop_false_pass(MADE, config)
-    BEFORE = closing.state()
-    logger.addFilter(closing.add_unlock)
-
-
-# Logs and benchmarks of every job that there can be.
-WORDS_OF_JOBS = expand(
-    [
-        strip_wildcard_constraints(path)
-        for rule in workflow.rules
-        for path in [*rule.log, rule.benchmark]
-        if path
-    ],
-    **VALUES,
-)
-
-
-onstart:
-    closing.start(set(WORDS_OF_JOBS))
+    logger.addFilter(last_words.add_unlock)
 
 
 onsuccess:
-    print(closing.words(BEFORE, workflow.config_settings.config_args or ()))
+    print(last_words.words(workflow.config_settings.config_args or ()))
 
 
 onerror:
-    print(closing.words(BEFORE, workflow.config_settings.config_args or (), stopped=True, logs=log))
+    print(last_words.words(workflow.config_settings.config_args or (), stopped=True, logs=log))

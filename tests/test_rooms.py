@@ -33,10 +33,9 @@ SOLVER = {
 # The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
 REPRODUCTION = {
     "__init__": "",
-    "records": "",
     "one_thread": "",
-    "job": "records",
     "csv_tables": "",
+    "verdict_table": "csv_tables",
     "curve_names": "",
     "goodness": "ground",
     "reference_data": "csv_tables",
@@ -47,13 +46,14 @@ REPRODUCTION = {
     " pandas printed csv_tables curve_names",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
-    "judging": "ground curves csv_tables curve_names goodness reference_data",
+    "judging": "ground curves csv_tables curve_names goodness reference_data verdict_table",
     "trade": "ground models response curves csv_tables",
-    "gate": "csv_tables records judging ledger",
-    "plan": "ground models records reference_data",
+    "run": "csv_tables verdict_table ledger",
+    "plan": "ground models reference_data",
     "drawings": "planarimpact ground csv_tables curve_names goodness reference_data study_files"
     " matplotlib",
-    "pages": "ground bodies export csv_tables drawings gate goodness judging ledger plan jinja2",
+    "pages": "ground bodies export csv_tables drawings goodness judging ledger plan run"
+    " verdict_table jinja2",
 }
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and
@@ -128,7 +128,7 @@ def test_rooms_enter_only_where_they_may(package, room):
         ("planarimpact", "lumped", "def late():\n    import planarimpact.rigid"),
         ("planarimpact", "models", "from planarimpact.continuum import tangential_motion"),
         ("planarimpact", "response", "import pandas as pd"),
-        ("planarimpact", "study", "from stronge1994 import records"),
+        ("planarimpact", "study", "from stronge1994 import run"),
         ("stronge1994", "drawings", "from planarimpact.lumped import rebound"),
         ("stronge1994", "curves", "from planarimpact.lumped.stick_slip import solve"),
         ("stronge1994", "judging", "import matplotlib.pyplot as plt"),

@@ -2,11 +2,12 @@
 
 import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 
-from stronge1994 import records
 from stronge1994.pages import run_facts
+from stronge1994.run import record
 
 
 def test_the_commit_is_that_of_the_folder_whatever_git_is_told(tmp_path, monkeypatch):
@@ -28,20 +29,10 @@ def test_the_commit_is_that_of_the_folder_whatever_git_is_told(tmp_path, monkeyp
     assert run_facts.commit(tmp_path / "ours") == commits["ours"]
 
 
-@pytest.mark.parametrize(
-    "table",
-    [b"", b"s\n", b"seconds\n1.0\n", b"h:m:s\ts\n0:01\n", b"s\nmany\n", b"s\nnan\n", b"s\n\xff\n"],
-)
-def test_a_damaged_benchmark_is_left_out(table, tmp_path):
-    (tmp_path / "good.tsv").write_text("s\th:m:s\n1.5\t0:00:01\n")
-    (tmp_path / "bad.tsv").write_bytes(table)
-    (tmp_path / "folder.tsv").mkdir()
-    assert run_facts.times(tmp_path) == [("good", 1.5)]
-
-
-def test_what_pip_and_python_write_is_no_source_of_a_run(tmp_path, monkeypatch):
-    for name in ("Snakefile", "src/a.py", "src/a.egg-info/SOURCES.txt", "src/__pycache__/a.pyc"):
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text("")
+def test_a_damaged_record_is_left_out(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert records.files_of_repository() == ["Snakefile", "src/a.py"]
+    Path(record.FOLDER).mkdir(parents=True)
+    Path(record.path("good")).write_text('{"seconds": 1.5, "read": {}, "wrote": {}}')
+    for number, text in enumerate(["", "{", "[]", '{"seconds": 1}']):
+        Path(record.path(f"bad{number}")).write_text(text)
+    assert run_facts.times() == [("good", 1.5)]

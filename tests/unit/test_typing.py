@@ -1,4 +1,4 @@
-"""What users and editors rely on: types, docstrings, one style, and a package that stands alone."""
+"""What users and editors rely on: types, docstrings, and a package that stands alone."""
 
 import importlib
 import inspect
@@ -14,7 +14,6 @@ from pathlib import Path
 import pytest
 
 import planarimpact
-from stronge1994.plan import files
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = "planarimpact"
@@ -65,26 +64,8 @@ def run(*command, cwd=ROOT, **options):
     )
 
 
-@pytest.fixture(scope="module")
-def mypy(tmp_path_factory):
-    """Runs of mypy that share what it has read of numpy, which takes most of the time."""
-    cache = tmp_path_factory.mktemp("mypy")
-
-    def check(*files, cwd=ROOT):
-        config = f"--config-file={ROOT / 'pyproject.toml'}"
-        return run("-m", "mypy", config, f"--cache-dir={cache}", *files, cwd=cwd)
-
-    return check
-
-
-@pytest.mark.slow
-def test_the_package_is_consistently_typed(mypy):
-    result = mypy()
-    assert result.returncode == 0, result.stdout + result.stderr
-
-
-@pytest.mark.slow
-def test_users_profit_from_the_types(mypy, tmp_path):
+@pytest.mark.long  # mypy reads all of numpy first
+def test_users_profit_from_the_types(tmp_path):
     """Examples, as in the READMEs, pass; each wrong call is refused, by the installed package."""
     readmes = [ROOT / "README.md", ROOT / "src/README.md"]
     texts = "\n".join(path.read_text(encoding="utf-8") for path in readmes)
@@ -93,7 +74,9 @@ def test_users_profit_from_the_types(mypy, tmp_path):
     examples.append(RIGHT)
     for i, text in enumerate([*examples, WRONG]):
         (tmp_path / f"example_{i}.py").write_text(text, encoding="utf-8")
-    result = mypy(*(f"example_{i}.py" for i in range(len(examples) + 1)), cwd=tmp_path)
+    config = f"--config-file={ROOT / 'pyproject.toml'}"
+    names = (f"example_{i}.py" for i in range(len(examples) + 1))
+    result = run("-m", "mypy", config, *names, cwd=tmp_path)
     errors = re.findall(r"^example_(\d+)\.py:(\d+): error: .*\[([\w-]+)\]$", result.stdout, re.M)
     assert f"Found {len(REFUSED)} errors" in result.stdout, result.stdout
     last = str(len(examples))
@@ -108,12 +91,6 @@ def test_modules_are_there_without_an_import_of_their_own():
         assert getattr(planarimpact, name).__name__ == f"planarimpact.{name}"
     with pytest.raises(AttributeError, match="module 'planarimpact' has no attribute 'lumpd'"):
         planarimpact.lumpd  # noqa: B018
-
-
-def test_the_workflow_does_not_take_all_modules_for_inputs_of_each_job():
-    needed = files.modules("planarimpact.rigid")
-    assert "src/planarimpact/rigid.py" in needed
-    assert "src/planarimpact/continuum/__init__.py" not in needed
 
 
 def test_one_version():
@@ -153,12 +130,6 @@ def test_what_is_recommended_is_documented_in_full(room):
             wanted |= {"Parameters"} if "." in name else {"Parameters", "Examples"}
         found = re.findall(r"^(\w+)\n-+$", inspect.getdoc(function), flags=re.M)
         assert wanted <= set(found), name
-
-
-def test_one_style():
-    for words in (["check"], ["format", "--check"]):
-        result = run("-m", "ruff", *words, "--no-cache", ".")
-        assert result.returncode == 0, result.stdout + result.stderr
 
 
 def test_the_solver_needs_numpy_and_scipy_alone():

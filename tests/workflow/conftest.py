@@ -1,6 +1,5 @@
 """A copy of the project in a temporary folder, and one run of it that all tests share."""
 
-import base64
 import json
 import os
 import re
@@ -17,14 +16,14 @@ from stronge1994 import plan
 from stronge1994.curves import explorer as explorer_curves
 from stronge1994.pages import explorer as write_explorer
 from stronge1994.plan import config as configuration
-from stronge1994.plan import files
+from stronge1994.run import record
 
-HERE = Path(__file__).parent
-ROOT = HERE.parents[1]
+ROOT = Path(__file__).parents[2]
 PARTS = ["Snakefile", "profiles", "workflow", "src", "data", "figures/README.md", ".gitignore"]
-LEFT = ["results", "figures", ".snakemake", "imported"]  # by a run
+LEFT = ["results", "figures", ".snakemake"]  # by a run
 
 
+collect_ignore = ["toy"]  # a workflow for test_proof.py
 TIMEOUT = 3600  # s, of one run: against one that hangs, not against a busy machine
 
 
@@ -77,18 +76,9 @@ class Project:
         file.write_text(text.replace(old, new))
 
     def records(self):
-        """What Snakemake keeps of each file that was made: rule, inputs, log."""
-        folder = self / ".snakemake/metadata"
-        files = [path for path in folder.rglob("*") if path.is_file()]
-        names = [base64.b64decode("".join(path.relative_to(folder).parts)) for path in files]
-        records = [json.loads(path.read_text(encoding="utf-8")) for path in files]
-        return {name.decode(): record for name, record in zip(names, records, strict=True)}
-
-    def break_jobs(self, how):
-        """Let jobs stop once, at their next start: `{name of the log: "killed before"}`, say."""
-        (self / "broken").mkdir(exist_ok=True)
-        for log, words in how.items():
-            (self / "broken" / log).write_text(words)
+        """What each job has read and written: `{job: record}`."""
+        found = (self / record.FOLDER).glob("*.json")
+        return {path.stem: record.read(str(path)) for path in found}
 
     def refuses(self, words, *arguments):
         """Check that a run is refused before any work, with these words (a pattern)."""
@@ -113,7 +103,6 @@ def copy_of(source, folder, parts=PARTS):
         elif origin.exists():
             (folder / part).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(origin, folder / part)
-    shutil.copy2(HERE / "job_start.py", folder / "src/sitecustomize.py")
     return Project(folder)
 
 
@@ -134,7 +123,8 @@ def fresh(tmp_path):
 def first_run(tmp_path_factory):
     """The project after a full run, and what that run printed. Do not change it.
 
-    Processes of pytest-xdist share it: the first one to get here runs it.
+    Where this checkout has results, the run begins with a copy of them and makes anew only what
+    they lack. Processes of pytest-xdist share it: the first one to get here runs it.
     """
     base = tmp_path_factory.getbasetemp()
     base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
@@ -146,7 +136,7 @@ def first_run(tmp_path_factory):
         while not words.exists() and time.monotonic() < deadline:
             time.sleep(0.2)
     else:
-        found = copy_of(ROOT, folder).run()
+        found = copy_of(ROOT, folder, PARTS + LEFT).run()
         partial = base / "finished.partial"
         partial.write_text(json.dumps([found.returncode, found.stdout]))
         partial.replace(words)
@@ -158,16 +148,6 @@ def first_run(tmp_path_factory):
 def finished(first_run, tmp_path):
     """A copy of the project after a full run, free to change."""
     return copy_of(first_run[0].folder, tmp_path, PARTS + LEFT)
-
-
-@pytest.fixture
-def copied_modules(tmp_path, monkeypatch):
-    """The modules in a folder of their own, where `plan.files` looks for them."""
-    for part in ("src", "workflow"):
-        shutil.copytree(ROOT / part, tmp_path / part)
-    monkeypatch.setattr(files, "SRC", tmp_path / "src")
-    monkeypatch.setattr(files, "SCRIPTS", tmp_path / "workflow/scripts")
-    return tmp_path
 
 
 @pytest.fixture(scope="session")

@@ -95,7 +95,7 @@ def _inputs(name):
 
 
 @pytest.mark.parametrize("name", configuration.judged(CONFIG))
-@pytest.mark.parametrize("factor", [1.3, -1.0])
+@pytest.mark.parametrize("factor", [1.3, pytest.param(-1.0, marks=pytest.mark.long)])
 def test_no_column_can_be_scaled_or_flipped(name, factor, tables, monkeypatch):
     folder, series = tables
     path = folder / configuration.table_of(name)
@@ -148,8 +148,10 @@ def test_a_wrong_repair_of_the_lumped_model_is_seen(power, tables, monkeypatch):
         assert _diverges("inelastic", path, series, only=f"inelastic-{name}"), name
 
 
+MORE = ["fig6", "fig7", "micro_slip", "superball"]
 SLIDING = "chung_ooi2011/rebound"
-TRIED = ["fig2", "fig3", "fig6", "fig7", "micro_slip", "superball"]
+# In the `long` profile more figures.
+TRIED = ["fig2", "fig3", *(pytest.param(name, marks=pytest.mark.long) for name in MORE)]
 
 
 @pytest.mark.parametrize("name", TRIED)

@@ -114,7 +114,7 @@ def test_a_wrong_solver_trips_an_assert(book, monkeypatch):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_pages_are_built_and_need_nothing_else(first_run, name):
-    project, result = first_run
+    project, _ = first_run
     page = (project / f"figures/{name}.html").read_text()
     assert len(page) < 1.5e6
     assert "<script" not in page and "$" not in re.sub(r"<(pre|svg).*?</\1>", "", page, flags=re.S)
@@ -128,7 +128,6 @@ def test_pages_are_built_and_need_nothing_else(first_run, name):
     assert all(cell.execution_count for cell in code_of(executed))
     log = (project / f"results/logs/notebook_{name}.log").read_text()
     assert not re.search("warning|error|traceback", log, flags=re.I), log
-    assert f"Running the notebook {name}" in result.stdout
 
 
 @pytest.mark.slow

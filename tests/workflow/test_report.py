@@ -17,10 +17,9 @@ import pytest
 import yaml
 
 import planarimpact
-from stronge1994 import reference_data
+from stronge1994 import reference_data, verdict_table
 from stronge1994.drawings import derived
 from stronge1994.drawings import residuals as draw_residuals
-from stronge1994.judging import verdict_table
 from stronge1994.ledger import outcome
 from stronge1994.pages import findings, ledger_page, run_facts
 from stronge1994.pages import report as write_report
@@ -415,12 +414,6 @@ def test_the_interface_has_a_page_a_module_and_names_types_as_the_sources_do(fir
     for room in planarimpact.__all__:
         if room.islower():
             assert (folder / f"planarimpact/{room}.html").is_file(), room
-
-
-def test_times_of_jobs_longest_first_without_one_that_is_being_written(tmp_path):
-    for name, words in {"short": "s\th:m:s\n1.5\t0\n", "long": "s\n20\n", "now": ""}.items():
-        (tmp_path / f"{name}.tsv").write_text(words)
-    assert run_facts.times(tmp_path) == [("long", 20.0), ("short", 1.5)]
 
 
 def test_commit_of_a_checkout_and_of_none(tmp_path, monkeypatch):

@@ -167,6 +167,7 @@ def cluster():
             found.stop()
 
 
+@pytest.mark.long
 def test_the_study_goes_through_slurm(cluster, fresh):
     """A job a chunk, and the numbers are those of this machine."""
     # Looks after 1, 12 and 33 s.

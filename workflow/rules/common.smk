@@ -1,10 +1,6 @@
-# Checked config and data before any work, and what the rules ask of them. All of it is worked out
-# here, once: the functions below only look it up.
-from stronge1994.gate import closing
+# Checked config and data before any work, and the plan of every job.
 from stronge1994.ledger import entries
-from stronge1994.pages import interface
 from stronge1994.plan import grid
-from stronge1994.plan.files import modules
 
 LEDGER = "data/stronge1994/ledger.yaml"
 NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
@@ -24,12 +20,14 @@ try:
         name: plan.plan_of_judgement(config, SOURCES, name)
         for name in configuration.judged(config)
     }
-    EXPECTED_ROWS = plan.expected_rows(config, SOURCES)
-    NOTEBOOK_MODULES = {name: files.modules_of_notebook(name) for name in NOTEBOOKS}
+    # Rows that the tables of the run must have.
+    EXPECTED = {
+        "comparisons": plan.expected_rows(config, SOURCES),
+        "entries": {name: entries.is_run(entry) for name, entry in ENTRIES.items()},
+    }
 except (reference_data.SourceError, ConfigError) as error:
-    raise refused(error)
+    raise WorkflowError(str(error))
 
-EXPECTED_ENTRIES = {name: entries.is_run(entry) for name, entry in ENTRIES.items()}
 # Sources with whose series something is compared.
 COMPARED = sorted({source for told in JUDGED.values() for source in told["sources"]})
 UNTIMED = [figure for figure in FIGURES if figure not in plan.TIMED]
@@ -47,6 +45,7 @@ VALUES = {
     "scene": list(config["scenes"]),
     "notebook": NOTEBOOKS,
     "scatteritem": gather.study("{scatteritem}"),
+    "table": ["fine", "coarse"],
 }
 
 
@@ -58,73 +57,45 @@ wildcard_constraints:
     notebook="|".join(NOTEBOOKS) or "none",
 
 
-def content_of(maker):
-    """Function that gives the fingerprint of what a job of a rule reads of this repository."""
+PLANNED = []  # names of jobs
 
-    def found(wildcards):
-        given = [
-            part.apply_wildcards(wildcards) if isinstance(part, str) else part(wildcards)
-            for part in maker.input
-        ]
-        paths = [path for part in given for path in ([part] if isinstance(part, str) else part)]
-        return files.content(*(p for p in paths if p.startswith(("data/", "src/", "workflow/"))))
 
-    return found
+def planned(job, script, *rooms, settings=lambda value: {}, reads=lambda value: []):
+    """Write the plan of each job of a rule, and give their path, which has the wildcard of the rule.
+
+    `rooms` of the reproduction are what the job imports. `settings` and `reads`, files of this
+    repository, depend on the value of the wildcard.
+    """
+    _, _, wildcard = job.rstrip("}").partition("{")
+    for value in VALUES[wildcard] if wildcard else [""]:
+        figure = value if wildcard in ("figure", "judged") else None
+        sources = files.sources(script, *rooms, figure=figure, figures=FIGURES)
+        name = job.format(**{wildcard: value}) if wildcard else job
+        try:
+            if workflow.is_main_process:
+                plans.write(name, [*sources, *reads(value)], settings(value))
+        except FileNotFoundError as error:
+            raise WorkflowError(f"{error.filename}: missing, and the job {name} reads it")
+        PLANNED.append(name)
+    return plans.path(job)
 
 
 def of_figure(part, plans=FIGURES, wildcard="figure"):
     """Input function: a part of what `plan.plan_of_figure` says of a figure, or of another plan."""
-
-    def found(wildcards):
-        return plans[getattr(wildcards, wildcard)][part]
-
-    return found
+    return lambda wildcards: plans[getattr(wildcards, wildcard)][part]
 
 
-def of_judged(part, wildcard="judged"):
-    """Input function: a part of what `plan.plan_of_judgement` says."""
-    return of_figure(part, JUDGED, wildcard)
-
-
-def sources(*paths):
-    """Files of this repository that a rule reads, refused where one is missing."""
-    try:
-        return files.present(*paths)
-    except ConfigError as error:
-        raise refused(error)
-
-
-# What every page includes, beside its own template.
-EVERY_PAGE = sources("workflow/report/theme.css", "workflow/report/site.html")
-# Only `snakemake --report` reads them all.
-CAPTIONS = ["explorer", "figures", "ledger", "letter", "notebooks", "peers", "stability", "study", "trade"]
-sources(*expand("workflow/report/{caption}.rst", caption=[*CAPTIONS, "which_model"]))
-
-
-def scene_tolerance(wildcards):
-    return config["scenes"][wildcards.scene]["tolerance"]
-
-
-def notebook_modules(wildcards):
-    return NOTEBOOK_MODULES[wildcards.notebook]
+def series_of_judged(wildcards):
+    return JUDGED[wildcards.judged]["series"]
 
 
 def all_cores(wildcards):
     return workflow.cores
 
 
-def cores_reserved(wildcards):
-    return workflow.cores if wildcards.figure in plan.TIMED else 1
-
-
-def source_of(wildcards):
-    return SOURCES[wildcards.source]
-
-
 def files_of_source(wildcards):
-    series = SOURCES[wildcards.source]["series"].values()
-    return [f"data/{wildcards.source}/source.yaml", *(s["path"] for s in series if s["path"])]
+    return plan.files_of_source(SOURCES, wildcards.source)
 
 
-# Checks are found by name: every module that holds some is an input.
-LEDGER_MODULES = [f"stronge1994.ledger.{module}" for module in entries.MODULES]
+# What every page includes, beside its own template.
+EVERY_PAGE = ["workflow/report/theme.css", "workflow/report/site.html"]

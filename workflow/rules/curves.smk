@@ -1,18 +1,14 @@
 rule curves:
     """Solve every curve of one figure."""
     input:
-        modules=of_figure("solver"),
+        plan=planned("curves_{figure}", "solve", "curves", "printed",
+            settings=lambda figure: {key: FIGURES[figure][key] for key in ("settings", "nodes")}),
         tables=of_figure("tables"),
     output:
-        "results/curves/{figure}.csv",
-    params:
-        settings=of_figure("settings"),
-        nodes=of_figure("nodes"),
+        table="results/curves/{figure}.csv",
+        record="results/records/curves_{figure}.json",
     log:
         "results/logs/curves_{figure}.log",
-    benchmark:
-        "results/benchmarks/curves_{figure}.tsv"
-    threads: cores_reserved
     message:
         "Solving {wildcards.figure}"
     conda:

@@ -1,7 +1,8 @@
 rule draw:
     """Draw one figure from its curves; never solves."""
     input:
-        modules=of_figure("drawing"),
+        plan=planned("draw_{figure}", "draw", "drawings", "reference_data",
+            settings=lambda figure: {k: FIGURES[figure][k] for k in ("settings", "overlays", "sources")}),
         curves="results/curves/{figure}.csv",
         series=of_figure("series"),
     output:
@@ -12,14 +13,9 @@ rule draw:
             labels={"figure": "{figure}"},
         ),
         png="figures/{figure}.png",
-    params:
-        settings=of_figure("settings"),
-        overlays=of_figure("overlays"),
-        sources=of_figure("sources"),
+        record="results/records/draw_{figure}.json",
     log:
         "results/logs/draw_{figure}.log",
-    benchmark:
-        "results/benchmarks/draw_{figure}.tsv"
     message:
         "Drawing {wildcards.figure}"
     conda:

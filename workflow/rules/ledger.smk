@@ -1,23 +1,16 @@
-LEDGER_FACTS = sources("data/stronge1994/source.yaml")  # beside the ledger, which names some
-PAGE_PARTS = sources("workflow/report/ledger.css")
-PAGE_TEMPLATE = sources("workflow/report/ledger.html")
-
-
 rule ledger:
     """Run every entry of the paper's ledger against the paper's model, solved to rounding; always succeeds."""
     input:
-        modules=modules("check_ledger", *LEDGER_MODULES),
+        plan=planned("ledger", "check_ledger", "ledger", "printed", "reference_data", "judging",
+            settings=lambda _: LEDGER_SCHEMA),
         entries=LEDGER,
-        facts=LEDGER_FACTS,
+        facts="data/stronge1994/source.yaml",  # beside the ledger, which names some
     output:
         table="results/ledger.csv",
         measures="results/in_nature.csv",
-    params:
-        schema=LEDGER_SCHEMA,
+        record="results/records/ledger.json",
     log:
         "results/logs/ledger.log",
-    benchmark:
-        "results/benchmarks/ledger.tsv"
     message:
         "Verifying the paper"
     conda:
@@ -29,24 +22,22 @@ rule ledger:
 rule ledger_page:
     """The ledger as a page to read, with corrections and their derivations."""
     input:
-        modules=modules("write_ledger_page"),
-        template=PAGE_TEMPLATE,
-        parts=PAGE_PARTS,
+        plan=planned("ledger_page", "write_ledger_page", "pages", "ledger", "printed", "plan",
+            "reference_data", settings=lambda _: SYMBOLS),
+        template="workflow/report/ledger.html",
+        parts="workflow/report/ledger.css",
         shared=EVERY_PAGE,
         table="results/ledger.csv",
     output:
-        report(
+        page=report(
             "figures/ledger.html",
             caption="../report/ledger.rst",
             category="Ledger",
             labels={"page": "the paper verified"},
         ),
-    params:
-        symbols=SYMBOLS,
+        record="results/records/ledger_page.json",
     log:
         "results/logs/ledger_page.log",
-    benchmark:
-        "results/benchmarks/ledger_page.tsv"
     message:
         "Writing the ledger's page"
     conda:

@@ -4,10 +4,11 @@
 rule notebook:
     """Run one notebook: a lecture whose numbers are checked beside the words that state them."""
     input:
-        modules=notebook_modules,
+        # Rooms that cells may import: they run in a process of their own, which nobody looks at.
+        plan=planned("notebook_{notebook}", "run_notebook", "pages", "printed"),
         notebook="workflow/notebooks/{notebook}.ipynb",
-        style=sources("workflow/notebooks/lecture.mplstyle"),
-        template=sources("workflow/report/notebook.html"),
+        style="workflow/notebooks/lecture.mplstyle",
+        template="workflow/report/notebook.html",
         shared=EVERY_PAGE,
     output:
         executed="results/notebooks/{notebook}.ipynb",
@@ -17,10 +18,9 @@ rule notebook:
             category="Teaching",
             labels={"lecture": "{notebook}"},
         ),
+        record="results/records/notebook_{notebook}.json",
     log:
         "results/logs/notebook_{notebook}.log",
-    benchmark:
-        "results/benchmarks/notebook_{notebook}.tsv"
     message:
         "Running the notebook {wildcards.notebook}"
     conda:

@@ -5,15 +5,13 @@
 rule measure_peers:
     """Error and time of both codes, beside ours in the same process."""
     input:
-        modules=modules("measure_peers"),
+        plan=planned("measure_peers", "measure_peers", "trade", "curves/__init__.py", "curves/trade.py",
+            "curves/watch.py", settings=lambda _: plan.settings_of_peers(config)),
     output:
-        "results/peers.csv",
-    params:
-        settings=plan.settings_of_peers(config),
+        table="results/peers.csv",
+        record="results/records/measure_peers.json",
     log:
         "results/logs/measure_peers.log",
-    benchmark:
-        "results/benchmarks/measure_peers.tsv"
     threads: all_cores
     message:
         "Measuring LAMMPS and pooltool"
@@ -26,7 +24,8 @@ rule measure_peers:
 rule draw_peers:
     """Error against time with the points of both codes, and errors below e = 1."""
     input:
-        modules=modules("draw_peers"),
+        plan=planned("draw_peers", "draw_peers", "drawings", "drawings/trade.py", "reference_data",
+            settings=lambda _: FIGURES["trade"]["settings"]),
         curves="results/curves/trade.csv",
         peers="results/peers.csv",
     output:
@@ -44,12 +43,9 @@ rule draw_peers:
             labels={"figure": "LAMMPS and pooltool below e = 1"},
         ),
         errors_png="figures/peers.png",
-    params:
-        settings=FIGURES["trade"]["settings"],
+        record="results/records/draw_peers.json",
     log:
         "results/logs/draw_peers.log",
-    benchmark:
-        "results/benchmarks/draw_peers.tsv"
     message:
         "Drawing error against time with LAMMPS and pooltool"
     conda:

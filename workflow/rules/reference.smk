@@ -1,16 +1,15 @@
 rule series:
     """Bring the series of one source into one table; WebPlotDigitizer's exports are converted."""
     input:
-        modules=modules("convert_series"),
+        plan=planned("series_{source}", "convert_series", "reference_data",
+            settings=lambda source: SOURCES[source],
+            reads=lambda source: plan.files_of_source(SOURCES, source)),
         files=files_of_source,
     output:
-        "results/series/{source}.csv",
-    params:
-        source=source_of,
+        table="results/series/{source}.csv",
+        record="results/records/series_{source}.json",
     log:
         "results/logs/series_{source}.log",
-    benchmark:
-        "results/benchmarks/series_{source}.tsv"
     message:
         "Reading the series of {wildcards.source}"
     conda:

@@ -3,12 +3,12 @@ LECTURES = {f"{notebook}.html": notebook.replace("_", " ").capitalize() for note
 
 
 # Templates of both pages, what they include, and captions.
-REPORT_PARTS = sources(
+REPORT_PARTS = [
     "workflow/report/sources.html",
     "workflow/report/unfold.js",
     *expand("workflow/report/{part}.css", part=["page", "report"]),
     *expand("workflow/report/{part}.rst", part=["figures", "trade", "which_model", "stability", "sensitivity"]),
-)
+]
 
 
 # What only the findings need: measures in nature, curves, and the measured pairs of materials.
@@ -25,23 +25,35 @@ PEERS = ["results/peers.csv"] if Path("results/peers.csv").exists() else []
 
 
 # Changes to the templates of pdoc.
-INTERFACE_PARTS = sources(
-    *expand("workflow/report/interface/{part}", part=["module.html.jinja2", "index.html.jinja2", "custom.css"])
-)
+INTERFACE_PARTS = [
+    *expand("workflow/report/interface/{part}", part=["module.html.jinja2", "index.html.jinja2", "custom.css"]),
+]
+
+
+REPORT_SETTINGS = {
+    "figures": list(FIGURES),
+    "config": {
+        key: config[key]
+        for key in ("mass_ratio", "stiffness_ratio", "figures", "significance", "comparisons")
+    },
+    "sources": SOURCES,
+    "symbols": SYMBOLS,
+    "links": LECTURES,
+    **EXPECTED,
+}
 
 
 rule interface:
     """What the functions of the solver take and return, as pages made from their docstrings."""
     input:
-        modules=modules("write_interface", *interface.documented()),
+        plan=planned("interface", "write_interface", "pages", "printed", "curves"),
         names="src/planarimpact/__init__.pyi",
         parts=INTERFACE_PARTS,
     output:
-        directory("figures/interface"),
+        pages=directory("figures/interface"),
+        record="results/records/interface.json",
     log:
         "results/logs/interface.log",
-    benchmark:
-        "results/benchmarks/interface.tsv"
     message:
         "Writing the interface of the solver"
     conda:
@@ -53,7 +65,8 @@ rule interface:
 rule report:
     """The run as one page, its sources and settings as another; always succeeds, whatever it reads."""
     input:
-        modules=modules("write_report"),
+        plan=planned("report", "write_report", "pages", "drawings", "judging", "ledger", "printed", "plan",
+            "reference_data", "run", settings=lambda _: REPORT_SETTINGS),
         template="workflow/report/report.html",
         captions="workflow/report/figures.rst",
         parts=REPORT_PARTS,
@@ -62,7 +75,7 @@ rule report:
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
-        tables=[*rules.trade.output, *rules.stability.output, "results/sensitivity.csv", *FOUND, *PEERS],
+        tables=[rules.trade.output.table, rules.trade.output.answers, rules.stability.output.table, "results/sensitivity.csv", *FOUND, *PEERS],
     output:
         page="figures/report.html",
         sources=report(
@@ -72,21 +85,9 @@ rule report:
             labels={"page": "sources of data, settings, versions"},
         ),
         problems="results/problems.csv",
-    params:
-        figures=list(FIGURES),
-        config={
-            key: config[key]
-            for key in ("mass_ratio", "stiffness_ratio", "figures", "significance", "comparisons")
-        },
-        sources=SOURCES,
-        symbols=SYMBOLS,
-        links=LECTURES,
-        comparisons=EXPECTED_ROWS,
-        entries=EXPECTED_ENTRIES,
+        record="results/records/report.json",
     log:
         "results/logs/report.log",
-    benchmark:
-        "results/benchmarks/report.tsv"
     message:
         "Writing the report"
     conda:

@@ -6,16 +6,15 @@ from stronge1994.plan import parts
 rule scene:
     """Solve a table of impacts, each by the cheapest model that is good enough."""
     input:
-        modules=modules("solve_scene"),
+        plan=planned("scene_{scene}", "solve_scene",
+            settings=lambda scene: config["scenes"][scene]["tolerance"],
+            reads=lambda scene: [f"data/scenes/{scene}.csv"]),
         table="data/scenes/{scene}.csv",
     output:
-        "results/scenes/{scene}.csv",
-    params:
-        tolerance=scene_tolerance,
+        table="results/scenes/{scene}.csv",
+        record="results/records/scene_{scene}.json",
     log:
         "results/logs/scene_{scene}.log",
-    benchmark:
-        "results/benchmarks/scene_{scene}.tsv"
     message:
         "Solving the scene {wildcards.scene}"
     conda:
@@ -41,19 +40,14 @@ localrules:
 rule solve_part:
     """Solve one table of a scene in many tables; the tables know nothing of each other."""
     input:
-        modules=modules("solve_part"),
-        # Its content decides, not its date.
-        table=lambda wildcards: ancient(PARTS[wildcards.part]),
+        plan=planned("scene_part_{part}", "solve_part", settings=lambda part: parts.settings(config)),
+        table=lambda wildcards: PARTS[wildcards.part],
     output:
         table=f"{parts.RESULTS}/tables/{{part}}",
         account=f"{parts.RESULTS}/accounts/{{part}}.json",
-    params:
-        settings=parts.settings(config),
-        table_content=lambda wildcards: parts.content(PARTS[wildcards.part]),
+        record="results/records/scene_part_{part}.json",
     log:
         "results/logs/scene_part_{part}.log",
-    benchmark:
-        "results/benchmarks/scene_part_{part}.tsv"
     resources:
         mem_mb=2000,
     message:
@@ -67,16 +61,15 @@ rule solve_part:
 rule gather_parts:
     """Count all tables together, and list the bad rows."""
     input:
-        modules=modules("gather_parts"),
+        plan=planned("gather_parts", "gather_parts"),
         tables=expand(rules.solve_part.output.table, part=PARTS),
         accounts=expand(rules.solve_part.output.account, part=PARTS),
     output:
         summary=f"{parts.RESULTS}/summary.csv",
         bad_rows=f"{parts.RESULTS}/bad_rows.csv",
+        record="results/records/gather_parts.json",
     log:
         "results/logs/gather_parts.log",
-    benchmark:
-        "results/benchmarks/gather_parts.tsv"
     message:
         "Counting the tables of the scene"
     conda:
@@ -88,15 +81,12 @@ rule gather_parts:
 rule scene_parts:
     """A scene too large for one machine: every table of a folder solved, and all of them counted."""
     input:
-        modules=modules("show_parts"),
         tables=expand(rules.solve_part.output.table, part=PARTS),
         accounts=expand(rules.solve_part.output.account, part=PARTS),
         summary=rules.gather_parts.output.summary,
         bad_rows=rules.gather_parts.output.bad_rows,
     log:
         "results/logs/scene_parts.log",
-    benchmark:
-        "results/benchmarks/scene_parts.tsv"
     message:
         "Showing what was solved"
     conda:
@@ -110,7 +100,5 @@ try:
         parts.check(config, PARTS)
     if {"scene_parts", "gather_parts"} & set(sys.argv):
         parts.refuse_unusable(PARTS)
-        made = [*rules.solve_part.output, *rules.gather_parts.output]
-        gate.refuse_unknown_results(expand(made, part=PARTS))
-except (ConfigError, RuntimeError) as error:
-    raise refused(error)
+except ConfigError as error:
+    raise WorkflowError(str(error))

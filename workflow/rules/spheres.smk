@@ -1,21 +1,17 @@
 # The tables of spheres, which the package brings along: `snakemake --cores 2 sphere_tables`, not part
 # of `all`. Whoever changes the continuum makes them anew, and copies them to src/planarimpact/spheres.
 
-VALUES["table"] = ["fine", "coarse"]
-
-
 rule make_spheres:
     """Solve the continuum at nodes and fit a table of spheres to it; takes some minutes."""
     input:
-        modules=modules("make_spheres"),
+        plan=planned("make_spheres_{table}", "make_spheres"),
     output:
-        "results/spheres/{table}.npz",
+        table="results/spheres/{table}.npz",
+        record="results/records/make_spheres_{table}.json",
     wildcard_constraints:
         table="fine|coarse",
     log:
         "results/logs/make_spheres_{table}.log",
-    benchmark:
-        "results/benchmarks/make_spheres_{table}.tsv"
     message:
         "Making the {wildcards.table} table of spheres"
     conda:

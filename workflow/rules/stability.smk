@@ -1,19 +1,18 @@
 rule stability:
     """Digits of the lumped model by decades of each parameter; always succeeds."""
     input:
-        modules=modules("write_stability"),
+        plan=planned("stability", "write_stability", "pages"),
         curves="results/curves/stability.csv",
     output:
-        report(
+        table=report(
             "results/stability.csv",
             caption="../report/stability.rst",
             category="Stability",
             labels={"table": "digits by decades of each parameter"},
         ),
+        record="results/records/stability.json",
     log:
         "results/logs/stability.log",
-    benchmark:
-        "results/benchmarks/stability.tsv"
     message:
         "Tabulating digits by decades"
     conda:

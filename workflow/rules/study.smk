@@ -6,15 +6,12 @@
 rule solve_chunk:
     """Solve some points of the study's grid; the chunks know nothing of each other."""
     input:
-        modules=modules("solve_chunk"),
+        plan=planned("study_{scatteritem}", "solve_chunk", settings=lambda _: grid.settings(config)),
     output:
-        "results/study/{scatteritem}.npz",
-    params:
-        settings=grid.settings(config),
+        chunk="results/study/{scatteritem}.npz",
+        record="results/records/study_{scatteritem}.json",
     log:
         "results/logs/study_{scatteritem}.log",
-    benchmark:
-        "results/benchmarks/study_{scatteritem}.tsv"
     message:
         "Solving the chunk {wildcards.scatteritem} of the study"
     conda:
@@ -26,16 +23,13 @@ rule solve_chunk:
 rule gather_chunks:
     """Put the chunks together in the shape of the grid."""
     input:
-        modules=modules("gather_chunks"),
-        chunks=gather.study(rules.solve_chunk.output),
+        plan=planned("gather_chunks", "gather_chunks", settings=lambda _: grid.settings(config)),
+        chunks=gather.study(rules.solve_chunk.output.chunk),
     output:
-        "results/study.npz",
-    params:
-        settings=grid.settings(config),
+        table="results/study.npz",
+        record="results/records/gather_chunks.json",
     log:
         "results/logs/gather_chunks.log",
-    benchmark:
-        "results/benchmarks/gather_chunks.tsv"
     message:
         "Gathering the study"
     conda:
@@ -47,7 +41,7 @@ rule gather_chunks:
 rule draw_study:
     """Draw maps of the rebound over the grid; never solves."""
     input:
-        modules=modules("draw_study"),
+        plan=planned("draw_study", "draw_study", "drawings", "reference_data"),
         study="results/study.npz",
     output:
         svg=report(
@@ -57,10 +51,9 @@ rule draw_study:
             labels={"figure": "rebound over the grid"},
         ),
         png="figures/study.png",
+        record="results/records/draw_study.json",
     log:
         "results/logs/draw_study.log",
-    benchmark:
-        "results/benchmarks/draw_study.tsv"
     message:
         "Drawing the study"
     conda:

@@ -1,7 +1,7 @@
 rule trade:
     """Error and time of every model as tables; always succeeds."""
     input:
-        modules=modules("write_trade"),
+        plan=planned("trade", "write_trade", "trade"),
         curves="results/curves/trade.csv",
     output:
         table=report(
@@ -16,10 +16,9 @@ rule trade:
             category="Trade",
             labels={"table": "which model for which tolerance"},
         ),
+        record="results/records/trade.json",
     log:
         "results/logs/trade.log",
-    benchmark:
-        "results/benchmarks/trade.tsv"
     message:
         "Tabulating error against time"
     conda:

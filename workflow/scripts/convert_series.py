@@ -1,7 +1,7 @@
 """Bring the series of one source into one table."""
 
-from stronge1994 import job
 from stronge1994.reference_data import conversion
+from stronge1994.run import record
 
-with job.recorded(snakemake):
-    conversion.convert(snakemake.params.source, snakemake.output[0])
+with record.recorded(snakemake) as source:
+    conversion.convert(source, snakemake.output.table)

@@ -1,14 +1,15 @@
 """Draw one figure from its curves. Curves that failed become a picture that says so."""
 
-from stronge1994 import drawings, job
+from stronge1994 import drawings
+from stronge1994.run import record
 
-with job.recorded(snakemake):
+with record.recorded(snakemake) as told:
     drawings.draw(
         snakemake.wildcards.figure,
-        snakemake.params.settings,
-        snakemake.params.overlays,
+        told["settings"],
+        told["overlays"],
         snakemake.input.curves,
-        dict(zip(snakemake.params.sources, snakemake.input.series, strict=True)),
+        dict(zip(told["sources"], snakemake.input.series, strict=True)),
         snakemake.output.svg,
         snakemake.output.png,
     )

@@ -1,9 +1,10 @@
 """Draw maps of the rebound over the grid of the parameter study."""
 
-from stronge1994 import job, study_files
+from stronge1994 import study_files
 from stronge1994.drawings import checked, study
+from stronge1994.run import record
 
-with job.recorded(snakemake):
+with record.recorded(snakemake):
     axes, outputs = study_files.read(snakemake.input.study, "velocity", "regime")
     made = snakemake.output
     checked.save(*study.draw(axes, **outputs), "study", made.svg, made.png)

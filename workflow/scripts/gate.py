@@ -1,26 +1,19 @@
-"""The gate: pass only if every row is there and none fails, and all that was made is whole.
+"""The gate, the last job of every run: do all files belong together, and does no row fail?"""
 
-It runs last, so a failure loses nothing.
-"""
-
+import json
 import sys
 from pathlib import Path
 
-from stronge1994 import gate, job
+from stronge1994.run import gate, plans, record
 
-with job.log_to(snakemake.log[0]):
-    given, wanted = snakemake.input, snakemake.params
-    found = gate.faults(
-        (given.verdicts, given.ledger),
-        given.residuals,
-        given.page,
-        given.problems,
-        given.made,
-        wanted.comparisons,
-        wanted.entries,
-    )
+with record.log_to(snakemake.log[0]):
+    record.withdraw()
+    expected = json.loads(Path(snakemake.input.plan).read_text(encoding="utf-8"))["settings"]
+    found = gate.faults(snakemake.input.made, **expected)
+    if plans.digest(snakemake.params.jobs) != snakemake.params.plans:
+        found = [f"{plans.FOLDER}: another command has changed the plans of this run: run again"]
     print("\n".join(found))
     if not found:
-        words = gate.words_of_pass(given.made, wanted.config)
-        Path(snakemake.output[0]).write_text(words, encoding="utf-8")
+        words = "no comparison diverges, every entry of the ledger holds\n"
+        Path(record.PASSED).write_text(words, encoding="utf-8")
 sys.exit(bool(found))

@@ -1,8 +1,7 @@
 """Put the chunks of the parameter study together."""
 
-from stronge1994 import job, study_files
+from stronge1994 import study_files
+from stronge1994.run import record
 
-with job.recorded(snakemake):
-    study_files.gather(
-        snakemake.input.chunks, **snakemake.params.settings, path=snakemake.output[0]
-    )
+with record.recorded(snakemake) as told:
+    study_files.gather(snakemake.input.chunks, **told, path=snakemake.output.table)

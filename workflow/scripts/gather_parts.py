@@ -1,6 +1,8 @@
 """Count all tables of a scene together."""
 
-from stronge1994 import job, scene_parts
+from stronge1994 import scene_parts
+from stronge1994.run import record
 
-with job.recorded(snakemake):
-    scene_parts.gather(snakemake.input.tables, snakemake.input.accounts, *snakemake.output)
+with record.recorded(snakemake):
+    given, made = snakemake.input, snakemake.output
+    scene_parts.gather(given.tables, given.accounts, made.summary, made.bad_rows)

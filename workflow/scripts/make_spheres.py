@@ -1,9 +1,9 @@
 """Make a table of spheres."""
 
 from planarimpact.spheres import making, table
-from stronge1994 import job
+from stronge1994.run import record
 
-with job.recorded(snakemake):
+with record.recorded(snakemake):
     made = making.make(snakemake.wildcards.table)
-    with open(snakemake.output[0], "wb") as file:
+    with open(snakemake.output.table, "wb") as file:
         table.write(file, made)

@@ -1,8 +1,8 @@
 """Solve the curves of one figure. A crash becomes a table that says so: a failed verdict."""
 
-from stronge1994 import job, one_thread  # noqa: F401  (one thread: before numpy)
+from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
 from stronge1994.curves import solving
+from stronge1994.run import record
 
-with job.recorded(snakemake):
-    wanted = snakemake.params
-    solving.solve(snakemake.wildcards.figure, wanted.settings, wanted.nodes, snakemake.output[0])
+with record.recorded(snakemake) as told:
+    solving.solve(snakemake.wildcards.figure, **told, output=snakemake.output.table)

@@ -1,7 +1,7 @@
 """Solve one chunk of the parameter study."""
 
-from stronge1994 import job, one_thread, study_files  # noqa: F401  (one thread: before numpy)
+from stronge1994 import one_thread, study_files  # noqa: F401  (one thread: before numpy)
+from stronge1994.run import record
 
-with job.recorded(snakemake):
-    chunk, wanted = snakemake.wildcards.scatteritem, snakemake.params.settings
-    study_files.solve(chunk, **wanted, path=snakemake.output[0])
+with record.recorded(snakemake) as told:
+    study_files.solve(snakemake.wildcards.scatteritem, **told, path=snakemake.output.chunk)

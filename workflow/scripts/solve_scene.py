@@ -1,8 +1,8 @@
 """Solve one scene. Which model took how many impacts, and why, goes to the log."""
 
 from planarimpact.scene import files
-from stronge1994 import job
+from stronge1994.run import record
 
-with job.recorded(snakemake):
-    solver = files.solve(snakemake.input.table, snakemake.output[0], snakemake.params.tolerance)
+with record.recorded(snakemake) as tolerance:
+    solver = files.solve(snakemake.input.table, snakemake.output.table, tolerance)
     print(solver.explain())

@@ -2,13 +2,13 @@
 
 from pathlib import Path
 
-from stronge1994 import job
 from stronge1994.curves.explorer import answers
 from stronge1994.pages import explorer
+from stronge1994.run import record
 
-with job.recorded(snakemake):
+with record.recorded(snakemake) as settings:
     known = answers(explorer.LIMITS)
     paths = {Path(path).name: path for path in snakemake.input.sources}
     print(explorer.refuse_other_answers(paths["solver.js"], paths["check.js"], known))
-    text = explorer.page(snakemake.params.settings, snakemake.input.sources, known)
-    Path(snakemake.output[0]).write_text(text, encoding="utf-8")
+    text = explorer.page(settings, snakemake.input.sources, known)
+    Path(snakemake.output.page).write_text(text, encoding="utf-8")

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from stronge1994 import job
 from stronge1994.pages import interface
+from stronge1994.run import record
 
-with job.recorded(snakemake):
-    interface.write(snakemake.output[0], Path(snakemake.input.parts[0]).parent)
+with record.recorded(snakemake):
+    interface.write(snakemake.output.pages, Path(snakemake.input.parts[0]).parent)

@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-from stronge1994 import csv_tables, job
+from stronge1994 import csv_tables
 from stronge1994.pages import ledger_page
+from stronge1994.run import record
 
-with job.recorded(snakemake):
+with record.recorded(snakemake) as symbols:
     rows = csv_tables.read_rows(snakemake.input.table)
-    text = ledger_page.page(rows, snakemake.params.symbols, snakemake.input.template)
-    Path(snakemake.output[0]).write_text(text, encoding="utf-8")
+    text = ledger_page.page(rows, symbols, snakemake.input.template)
+    Path(snakemake.output.page).write_text(text, encoding="utf-8")

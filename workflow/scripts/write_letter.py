@@ -1,16 +1,16 @@
 """Write the letter to the author of the paper."""
 
-from stronge1994 import job
 from stronge1994.pages import letter
+from stronge1994.run import record
 
-with job.recorded(snakemake):
+with record.recorded(snakemake) as name:
     files = snakemake.input
     letter.write(
-        snakemake.output[0],
+        snakemake.output.page,
         files.measures,
         files.curves,
         files.series,
         files.picture,
         files.template,
-        snakemake.params.name,
+        name,
     )

@@ -1,7 +1,7 @@
 """Write the digits of the lumped model by decades of each parameter."""
 
-from stronge1994 import job
 from stronge1994.pages import stability_table
+from stronge1994.run import record
 
-with job.recorded(snakemake):
-    stability_table.write(snakemake.input.curves, snakemake.output[0])
+with record.recorded(snakemake):
+    stability_table.write(snakemake.input.curves, snakemake.output.table)

@@ -12,8 +12,8 @@ from stronge1994 import csv_tables
 from stronge1994.judging import judged_tables
 from stronge1994.judging.metrics import Measured, measure
 from stronge1994.judging.points import Entry, Reference, is_published, kind, sigma
-from stronge1994.judging.verdict_table import COLUMNS
 from stronge1994.judging.verdicts import Verdict, chi_squared_of, judge
+from stronge1994.verdict_table import COLUMNS
 
 RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
 # What a row rests on, by the kind of its reference.

@@ -13,10 +13,10 @@ from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
-from stronge1994 import curve_names
+from stronge1994 import curve_names, verdict_table
 from stronge1994.csv_tables import Curves
 from stronge1994.curves import solving
-from stronge1994.judging import judged_tables, verdict_table
+from stronge1994.judging import judged_tables
 from stronge1994.judging.distances import Residuals
 from stronge1994.judging.metrics import Measured, measure
 from stronge1994.judging.points import Entry, Reference, is_published

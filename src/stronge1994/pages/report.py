@@ -17,11 +17,10 @@ from typing import Any, TypeAlias
 import jinja2
 from markupsafe import Markup, escape
 
-from stronge1994 import csv_tables, gate
+from stronge1994 import csv_tables, verdict_table
 from stronge1994.csv_tables import Curves, Row
 from stronge1994.drawings import checked, derived
 from stronge1994.drawings import residuals as draw_residuals
-from stronge1994.judging import verdict_table
 from stronge1994.judging.verdicts import SEEN
 from stronge1994.ledger import outcome
 from stronge1994.pages import (
@@ -35,6 +34,7 @@ from stronge1994.pages import (
     templates,
     which_model,
 )
+from stronge1994.run import gate
 
 MARKS = {
     "diverges": "fails",

@@ -1,8 +1,6 @@
 """Facts about a run: versions, computer, date, commit, and how long its jobs took."""
 
-import csv
 import datetime
-import math
 import os
 import platform
 import re
@@ -11,6 +9,8 @@ from collections.abc import Callable
 from importlib import metadata
 from pathlib import Path
 from typing import Any
+
+from stronge1994.run import record
 
 PACKAGES = ("planarimpact", "numpy", "scipy", "matplotlib", "pandas", "snakemake")
 NO_COMMIT = "unknown: not a git checkout, or git is missing"
@@ -77,25 +77,11 @@ def _git(folder: str | Path, *arguments: str) -> str:
     return found.stdout[:-1]
 
 
-def times(benchmarks: str | Path) -> list[tuple[str, float]]:
-    """Seconds that each job took when it last ran, longest first: list of (job, seconds).
-
-    Parameters
-    ----------
-    benchmarks : Path
-        Folder with a table for each job. Damaged ones are left out: another job may be writing
-        one.
-    """
-    found = []
-    for path in sorted(Path(benchmarks).glob("*.tsv")):
-        try:
-            with open(path, newline="", encoding="utf-8") as file:
-                row = next(csv.DictReader(file, delimiter="\t"))
-            seconds = float(row["s"])
-        except (OSError, StopIteration, LookupError, TypeError, ValueError, csv.Error):
-            continue
-        if math.isfinite(seconds):
-            found.append((path.stem, seconds))
+def times() -> list[tuple[str, float]]:
+    """Seconds that each job took when it last ran, longest first: list of (job, seconds)."""
+    known = {path.stem: record.read(str(path)) for path in Path(record.FOLDER).glob("*.json")}
+    # A damaged record is left out: another job may be writing it.
+    found = [(job, float(kept["seconds"])) for job, kept in known.items() if kept]
     return sorted(found, key=lambda job: -job[1])
 
 
@@ -106,5 +92,5 @@ def everything() -> dict[str, tuple[Any, Callable[[], Any]]]:
         "system": ("", system),
         "date": ("", date),
         "commit": ("", lambda: commit(".")),
-        "times": ([], lambda: times("results/benchmarks")),
+        "times": ([], times),
     }

@@ -13,10 +13,9 @@ from stronge1994.plan.config import (
     reference,
     table_of,
 )
-from stronge1994.plan.files import modules
 
 WITH_NODES = ["fig5", "fig6", "fig7", "fig8", "fig9", "convergence", "rod"]  # pass through points
-TIMED = ("convergence", "trade")  # measure time: nothing may run beside them
+TIMED = ("convergence", "trade")  # measure time, and take long
 EXPLORED = [f"fig{number}" for number in range(3, 10)] + ["superball"]  # impacts to play with
 # Groups that play no part: mass, in force against deflection; bodies or a table with their own.
 BOTH = ["mass_ratio", "stiffness_ratio"]
@@ -129,6 +128,23 @@ def plan_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[s
     }
 
 
+def settings_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
+    """What the job is told that judges one figure, scene or study; of a figure what it solves."""
+    told = plan_of_judgement(config, inventory, name)
+    curves = []
+    if name in config["figures"]:
+        curves = [settings(config, inventory, name), nodes_of(config, inventory, name)]
+    keys = ("comparisons", "references", "sources")
+    kept = {key: told[key] for key in keys}
+    return kept | {"significance": config["significance"], "curves": curves}
+
+
+def files_of_source(inventory: Inventory, source: str) -> list[str]:
+    """Files of one folder of data/: what it states, and the series at hand."""
+    series = inventory[source]["series"].values()
+    return [f"data/{source}/source.yaml", *(entry["path"] for entry in series if entry["path"])]
+
+
 def plan_of_figure(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
     """What the rules of one figure are told, and the files that they read.
 
@@ -136,13 +152,7 @@ def plan_of_figure(config: Config, inventory: Inventory, figure: str) -> dict[st
     Snakemake drops the rule and takes its old output for a source file, without a word.
     """
     sources, tables = sources_of(config, inventory, figure), nodes_of(config, inventory, figure)
-    solver = modules("solve", f"stronge1994.curves.{figure}")
-    judging = modules("sensitivity", f"stronge1994.curves.{figure}")
-    drawing = modules("draw", f"stronge1994.drawings.{figure}")
     return {
-        "solver": solver,
-        "drawing": drawing,
-        "sensitivity": judging,
         "settings": settings(config, inventory, figure),
         "nodes": tables,
         "tables": list(tables),

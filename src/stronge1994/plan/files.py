@@ -1,123 +1,52 @@
-"""Files that a rule reads: the modules that it imports, and what they hold."""
+"""Files of this repository that a job reads: its script, the solver, rooms of the reproduction.
+
+They are listed by folders, coarsely. A job that imports a module which is not listed fails.
+"""
 
 import functools
-import hashlib
-import json
-import modulefinder
-import os
-import re
-from collections.abc import Iterator
-from modulefinder import ModuleFinder
+from collections.abc import Collection
 from pathlib import Path
-from types import CodeType
-from typing import Any
 
-from stronge1994 import records
-from stronge1994.plan.config import ConfigError
-
-SRC = Path(__file__).parents[2]
-SCRIPTS = SRC.parent / "workflow/scripts"
-CONFLICT = re.compile(r"^(<<<<<<< |>>>>>>> )", flags=re.M)
+# What every job imports: the solver, the modules that stand in no room, the record of the job.
+EVERY_JOB = ("src/planarimpact", "src/stronge1994/run/__init__.py", "src/stronge1994/run/record.py")
+KINDS = (".py", ".pyi", ".npz")
 
 
-def refuse_unreadable_modules() -> None:
-    """Refuse a module that Python cannot read, whatever the target: its rule would be dropped."""
-    for file in [*SCRIPTS.glob("*.py"), *SRC.rglob("*.py")]:
-        try:
-            compile(file.read_bytes(), file, "exec", dont_inherit=True)
-        except SyntaxError as error:
-            raise ConfigError(f"{_shown(file)}, line {error.lineno}: {error.msg}") from None
-        except ValueError as error:
-            raise ConfigError(f"{_shown(file)}: {error}") from None
-
-
-def content(*files: str) -> str:
-    """Fingerprint of what files hold. One that is missing is left to whoever needs it."""
-    digests = "".join(_digest(file) for file in files if Path(file).is_file())
-    return hashlib.sha256(digests.encode()).hexdigest()
-
-
-_digest = functools.cache(records.fingerprint)
-
-
-def present(*files: str) -> str | list[str]:
-    """The files, if they are there; Snakemake would drop the rule that reads a missing one.
-
-    One file comes back as it is, several as a list: what an input of a rule may be.
-    """
-    for file in files:
-        if not Path(file).is_file():
-            raise ConfigError(f"{file}: missing, and a rule reads it")
-        text = Path(file).read_text(encoding="utf-8")
-        if not text.strip():
-            raise ConfigError(f"{file}: empty")
-        if CONFLICT.search(text):
-            raise ConfigError(f"{file}: it has marks of a merge that was not finished")
-    return list(files) if len(files) > 1 else files[0]
-
-
-def modules(*names: str, cells: str = "") -> list[str]:
-    """Files of some modules, of all that they import of this repository, and tables beside those.
-
-    They are inputs of the rules, so that an edit reruns what it must and nothing more.
+def sources(
+    script: str, *rooms: str, figure: str | None = None, figures: Collection[str] = ()
+) -> list[str]:
+    """Files that a job reads before it looks at its inputs.
 
     Parameters
     ----------
-    *names : str
-        Scripts of workflow/scripts, or modules in dotted form.
-    cells : str, optional
-        Python text whose imports count too.
+    script : str
+        Its name in workflow/scripts, without ending.
+    *rooms : str
+        Folders of src/stronge1994, or single files there.
+    figure : str, optional
+        The figure that the job works at, if it is a job of one: modules of the other `figures` are
+        left out.
 
-    Returns
-    -------
-    list of str
-        Paths from the top folder, in order.
+    Examples
+    --------
+    >>> found = sources("draw", "drawings", figure="fig6", figures=["fig5", "fig6"])
+    >>> [path for path in found if "drawings/fig" in path][:2]
+    ['src/stronge1994/drawings/fig2.py', 'src/stronge1994/drawings/fig3.py']
     """
-    finder = _Finder([str(SRC)])
-    found = {str(SCRIPTS / f"{name}.py") for name in names if (SCRIPTS / f"{name}.py").is_file()}
-    for script in found:
-        finder.run_script(script)
-    for name in names:
-        if not (SCRIPTS / f"{name}.py").is_file():
-            finder.import_hook(name)
-    if cells:
-        finder.scan_code(compile(cells, "cells", "exec"), finder.add_module("cells"))
-    found |= {getattr(module, "__file__", None) or "" for module in finder.modules.values()} - {""}
-    found |= {str(table) for file in found for table in Path(file).parent.glob("*.npz")}
-    return sorted(os.path.relpath(file, SRC.parent) for file in found)
-
-
-def modules_of_notebook(name: str) -> list[str]:
-    """As `modules`, of what runs a notebook of workflow/notebooks and of what it imports."""
-    path = SCRIPTS.parent / "notebooks" / f"{name}.ipynb"
-    try:
-        book = json.loads(path.read_text(encoding="utf-8"))
-        cells = ["".join(cell["source"]) for cell in book["cells"] if cell["cell_type"] == "code"]
-    except (ValueError, KeyError, TypeError, RecursionError) as error:
-        words = f"{type(error).__name__}: {error}"
-        raise ConfigError(f"{_shown(path)}: not a notebook ({words})") from None
-    try:
-        return modules("run_notebook", cells="\n".join(cells))
-    except (SyntaxError, ValueError) as error:
-        raise ConfigError(f"{_shown(path)}: a cell is no Python: {error}") from None
-
-
-class _Finder(ModuleFinder):
-    """Finds what a module imports. Most rules share most modules: each is read once for all."""
-
-    def scan_opcodes(self, co: CodeType) -> Iterator[tuple[str, tuple[Any, ...]]]:
-        return iter(_scanned(co))
+    found = [f"workflow/scripts/{script}.py"]
+    for folder in EVERY_JOB:
+        found += _files(folder)
+    found += map(str, sorted(Path("src/stronge1994").glob("*.py")))
+    for room in rooms:
+        others = set(figures) - {figure} if figure else set()
+        found += [
+            file for file in _files(f"src/stronge1994/{room}") if Path(file).stem not in others
+        ]
+    return list(dict.fromkeys(found))
 
 
 @functools.cache
-def _scanned(code: CodeType) -> list[tuple[str, tuple[Any, ...]]]:
-    return list(ModuleFinder().scan_opcodes(code))
-
-
-# A finder compiles what it reads; it has no method of its own for that.
-modulefinder.compile = functools.cache(compile)  # type: ignore[attr-defined]
-
-
-def _shown(file: Path) -> str:
-    """A path of the repository, from its top folder."""
-    return str(file.relative_to(SRC.parent))
+def _files(folder: str) -> list[str]:
+    if Path(folder).suffix:
+        return [folder]
+    return sorted(str(path) for path in Path(folder).rglob("*") if path.suffix in KINDS)

@@ -1,15 +1,11 @@
 """A scene in many tables, before it runs: which tables there are, and what they hold."""
 
-import hashlib
-import json
 import os
 import re
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
-from planarimpact.ground import files
-from stronge1994 import records
 from stronge1994.plan.config import Config, ConfigError
 
 # What scenes read, the longer ending of two that fit first.
@@ -17,8 +13,6 @@ ENDINGS = (".csv.gz", ".csv", ".parquet")
 RESULTS = "results/scene_parts"
 # Names become names of files, of jobs on a cluster and of wildcards.
 NAME = re.compile(r"[\w.=+-]+")
-# Fingerprints of tables, to be kept until a table changes.
-KEPT = records.FOLDER / "scene_parts"
 
 
 def settings(config: Config) -> dict[str, Any]:
@@ -121,25 +115,3 @@ def refuse_unusable(found: Collection[str]) -> None:
             f"{RESULTS}/tables/{strays[0]}: config: scene_parts.tables has no table of this name "
             f"(any more): move the result away or remove it ({len(strays)} such files)"
         )
-
-
-def content(table: str) -> str:
-    """Fingerprint of what a table holds. It is read again only if its size or times have changed.
-
-    Snakemake asks at each start, and the tables of a large scene take minutes to read.
-    """
-    status, kept = os.stat(table), KEPT / f"{Path(table).name}.json"
-    size, times = status.st_size, [status.st_mtime_ns, status.st_ctime_ns]
-    mark = {"path": os.path.abspath(table), "size": size, "times": times, "file": status.st_ino}
-    try:
-        known = json.loads(kept.read_text(encoding="utf-8"))
-        if known["mark"] == mark:
-            return str(known["sha256"])
-    except (OSError, ValueError, TypeError, KeyError):
-        pass  # it is read for the first time, or the note on it is damaged
-    with open(table, "rb") as file:
-        sha256 = hashlib.file_digest(file, "sha256").hexdigest()
-    kept.parent.mkdir(parents=True, exist_ok=True)
-    with files.written(kept) as partial:
-        partial.write_text(json.dumps({"mark": mark, "sha256": sha256}))
-    return sha256

@@ -6,7 +6,9 @@ folder as `<series>.wpd.csv`, and `digitised_by` in source.yaml says whose work 
 """
 
 import codecs
+import copy
 import csv
+import functools
 import math
 import re
 import unicodedata
@@ -137,9 +139,12 @@ def load_yaml(path: str | Path) -> dict[str, Any]:
         In one line, naming the file, and where possible the line in it.
     """
     try:
-        return strict_yaml.load("".join(_lines(path)))
+        return copy.deepcopy(_parsed("".join(_lines(path))))
     except ValueError as error:
         raise SourceError(f"{path}, {error}") from None
+
+
+_parsed = functools.cache(strict_yaml.load)  # a start reads some files twice
 
 
 def refuse_no_text(path: str | Path) -> None:

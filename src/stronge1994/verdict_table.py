@@ -58,6 +58,7 @@ def text(rows: Sequence[Row]) -> str:
     counts = Counter(row["verdict"] for row in rows)
     headers = ["verdict", "comparison", "measured", "allowed", "note"]
     table = tabulate(cells, headers, disable_numparse=True)
+    table = "\n".join(line.rstrip() for line in table.splitlines())
     return f"{table}\n\n" + ", ".join(f"{counts[v]} {v}" for v in ORDER if counts[v])
 
 

@@ -1,0 +1,95 @@
+"""Is a run good? Its files must be as its jobs left them, and its tables must say so."""
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from pathlib import Path
+
+from stronge1994 import csv_tables, verdict_table
+from stronge1994.csv_tables import Row
+from stronge1994.run import record
+
+TABLES = ("results/verdicts.csv", "results/ledger.csv")
+PROBLEMS, REPORT = "results/problems.csv", "figures/report.html"
+
+
+def faults(
+    made: Iterable[str], comparisons: Mapping[str, bool], entries: Mapping[str, bool]
+) -> list[str]:
+    """Why the run must not pass, one line for each fault.
+
+    Parameters
+    ----------
+    made : iterable of str
+        Every file that the run makes.
+    comparisons, entries : dict
+        As for `faults_of_tables`.
+    """
+    found = record.faults(made)
+    if found:  # rows of a table that was changed prove nothing
+        return found
+    verdicts, ledger = map(csv_tables.read_rows, TABLES)
+    found = faults_of_tables(verdicts, ledger, comparisons, entries)
+    found += [f"report: {row['problem']}" for row in csv_tables.read_rows(PROBLEMS)]
+    return found + faults_of_report(REPORT, comparisons)
+
+
+def faults_of_tables(
+    verdicts: Sequence[Row],
+    ledger: Sequence[Row],
+    comparisons: Mapping[str, bool],
+    entries: Mapping[str, bool],
+) -> list[str]:
+    """Why a run must not pass, by its tables, one line for each fault.
+
+    Parameters
+    ----------
+    verdicts, ledger : list of dict
+        Rows of results/verdicts.csv and results/ledger.csv.
+    comparisons : dict
+        `{name: is its reference awaited}` of every row that the first must have.
+    entries : dict
+        `{name: has it a check}` of every row that the second must have.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> row = {"comparison": "fig6-rebound", "verdict": "agrees"}
+    >>> faults_of_tables([row], [], {"fig6-rebound": False, "fig6-printed": False}, {})
+    ['results/verdicts.csv: 0 rows of fig6-printed where 1 belongs']
+    """
+    found = _miscounted(TABLES[0], "comparison", verdicts, comparisons)
+    found += _miscounted(TABLES[1], "entry", ledger, entries)
+    for row in verdicts:
+        name, verdict = row.get("comparison", ""), row.get("verdict")
+        if verdict == "diverges":
+            found.append(f"diverges: {name}: {verdict_table.why(row)}")
+        elif verdict not in verdict_table.ORDER or (verdict == "awaited") != comparisons.get(name):
+            found.append(f"{TABLES[0]}: {name} = {verdict!r} cannot be")
+    for row in ledger:
+        name, holds = row.get("entry", ""), row.get("holds")
+        if holds == "no":
+            found.append(f"no longer holds: {name}: {row.get('problem')}")
+        elif holds != ("yes" if entries.get(name) else ""):
+            found.append(f"{TABLES[1]}: {name}, holds = {holds!r} cannot be")
+    return found
+
+
+def _miscounted(
+    table: str, column: str, rows: Iterable[Row], expected: Collection[str]
+) -> list[str]:
+    names = [row.get(column) for row in rows]
+    return [
+        f"{table}: {names.count(name)} rows of {name} where {int(name in expected)} belongs"
+        for name in dict.fromkeys([*expected, *names])
+        if names.count(name) != (name in expected)
+    ]
+
+
+def faults_of_report(page: str, comparisons: Mapping[str, bool]) -> list[str]:
+    """Comparisons that the report does not show, one line for each."""
+    text = Path(page).read_text(encoding="utf-8")
+    return [
+        f"{page}: it does not show {name}" for name in comparisons if f'id="{name}"' not in text
+    ]

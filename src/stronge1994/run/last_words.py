@@ -1,0 +1,100 @@
+"""What a run prints last: its verdicts, whether it passed, and what to do next."""
+
+import logging
+import re
+import shlex
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from stronge1994 import csv_tables, verdict_table
+from stronge1994.csv_tables import Row
+from stronge1994.ledger import outcome
+from stronge1994.run.gate import REPORT, TABLES
+from stronge1994.run.plans import GATE_LOG
+from stronge1994.run.record import PASSED
+
+# So many faults are named; the log has them all.
+SHOWN = 8
+NEXT = [
+    f"Look:     {REPORT}, open it in a browser; everything above, with its reasons",
+    "Play:     figures/explorer.html",
+    "Change:   workflow/config.yaml, and run again: only what depends on it is redone",
+]
+STOPPED = [
+    "What it said is above, and in results/logs/. Mend it and type the same command again:",
+    "finished work is kept. workflow/README.md, Troubleshooting, has the usual causes.",
+]
+INTERRUPTED = (
+    "Interrupted. Nothing needs mending: type the same command again, finished work is kept."
+)
+# What helps after Snakemake has said that the folder is locked.
+UNLOCK = "Does no other run work here? Then type:  snakemake --unlock  and the same command again."
+# Snakemake's own log says this after Ctrl-C, and after a job has failed.
+ON_REQUEST = "Terminating processes on user request"
+FAILED_JOB = re.compile(r"^Error in rule (\w+):", flags=re.M)
+
+
+def add_unlock(record: logging.LogRecord) -> bool:
+    """Put what helps behind Snakemake's error of a locked folder, and let every record pass."""
+    if getattr(record, "exception", None) == "LockException":
+        record.msg = f"{record.msg}\n{UNLOCK}"
+    return True
+
+
+def words(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str] = ()) -> str:
+    """What a run prints last. The gate's log is there only if the gate has judged this run.
+
+    Parameters
+    ----------
+    config : sequence of str
+        What the user gave with --config, to be repeated.
+    stopped : bool, optional
+        A job failed, or the run was interrupted.
+    logs : sequence of str, optional
+        Snakemake's logs of the run.
+    """
+    if not Path(GATE_LOG).exists():
+        parts = ["No verdict in this run as a whole. Pictures: figures/"]
+        return "\n" + "\n".join(parts + (_stopped(logs) if stopped else [])) + "\n"
+    parts = [
+        verdict_table.text(_rows(TABLES[0], verdict_table.COLUMNS)),
+        outcome.summary(_rows(TABLES[1], ("verdict", "holds", "entry", "where", "problem"))),
+    ]
+    where = f"All columns: {', '.join(TABLES)}"
+    if Path(PASSED).exists():
+        parts += [f"PASSED. {where}; pictures: figures/", *NEXT]
+        if stopped:  # what was asked for beside the verdict
+            parts += _stopped(logs)
+    else:
+        again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
+        parts += [
+            f"{where}. Why, row by row: {REPORT}, open it in a browser",
+            f"On purpose? To draw without being judged:  {shlex.join(again)}",
+            _failed(Path(GATE_LOG).read_text(encoding="utf-8").splitlines()),
+        ]
+    return "\n" + "\n".join(parts) + "\n"
+
+
+def _failed(faults: Sequence[str]) -> str:
+    """Heading of a failed run, and its first faults."""
+    shown = [f"  {fault}" for fault in faults[:SHOWN]]
+    if len(faults) > SHOWN:
+        shown.append(f"  and {len(faults) - SHOWN} more: {GATE_LOG}")
+    return "\n".join([f"FAILED. Reasons: {len(faults)}", *shown])
+
+
+def _rows(path: str, columns: Iterable[str]) -> list[Row]:
+    """Rows of a table; none if it cannot be read, which the gate has said."""
+    try:
+        return csv_tables.read_rows(path, columns)
+    except (OSError, ValueError):
+        return []
+
+
+def _stopped(logs: Iterable[str]) -> list[str]:
+    """Why a run ended early."""
+    said = "".join(Path(log).read_text(encoding="utf-8", errors="replace") for log in logs)
+    if ON_REQUEST in said:
+        return [INTERRUPTED]
+    names = ", ".join(dict.fromkeys(FAILED_JOB.findall(said)))
+    return [f"A job stopped: {names or 'see above'}.", *STOPPED]

@@ -1,0 +1,71 @@
+"""The plan of a job: its settings, and the hashes of the files of this repository that it reads.
+
+A plan is a file and an input of its job, and it is written only where its content has changed. So
+Snakemake runs a job again if its settings or sources have changed, whatever their dates are.
+"""
+
+import functools
+import json
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from stronge1994.run import record
+
+FOLDER = "results/plans"
+GATE_LOG = "results/logs/all.log"
+# Command lines that only ask. A word that is missing here costs a verdict, until the next run.
+ONLY_ASKS = {"-n", "--dry-run", "--dryrun", "--lint", "--report", "--summary", "--list-rules"}
+ONLY_ASKS |= {"--rulegraph", "--dag", "--filegraph", "--help", "-h"}
+
+
+def path(job: str) -> str:
+    """File with the plan of a job, or of all jobs of a rule if the name has a wildcard."""
+    return f"{FOLDER}/{job}.json"
+
+
+def write(job: str, sources: Iterable[str], settings: Any) -> None:
+    """Write the plan of a job, if it has changed. What an earlier run said then holds no longer.
+
+    Raises
+    ------
+    FileNotFoundError
+        If one of the `sources` is missing.
+    """
+    hashes = {source: _hash(source) for source in sorted(sources)}
+    text = json.dumps({"settings": settings, "sources": hashes}, indent=1)
+    file = Path(path(job))
+    if not file.is_file() or file.read_text(encoding="utf-8") != text:
+        withdraw()
+        _remove_bytecode()
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+
+
+_hash = functools.cache(record.fingerprint)  # most jobs have most sources
+
+
+def digest(jobs: Iterable[str]) -> str:
+    """One hash of the plans of all jobs."""
+    return record.digest(path(job) for job in jobs)
+
+
+@functools.cache  # once a run
+def _remove_bytecode() -> None:
+    """Remove what Python has compiled: it takes a source of the same size and date for the same."""
+    for folder in ("src", "workflow"):
+        for cache in Path(folder).rglob("__pycache__"):
+            shutil.rmtree(cache, ignore_errors=True)
+
+
+def start(arguments: Iterable[str]) -> None:
+    """Begin a run: take away what an earlier one has said, unless the command line only asks."""
+    if not ONLY_ASKS & set(arguments):
+        withdraw()
+
+
+def withdraw() -> None:
+    """Take away the verdict of an earlier run, and the log of its gate."""
+    record.withdraw()
+    Path(GATE_LOG).unlink(missing_ok=True)

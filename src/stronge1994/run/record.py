@@ -1,0 +1,145 @@
+"""The record of a job: hashes of all that it read and of all that it wrote, and its log."""
+
+import contextlib
+import hashlib
+import json
+import sys
+import time
+import traceback
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+FOLDER = "results/records"
+PASSED = "results/PASSED"
+SRC = Path(__file__).parents[2]
+
+
+def withdraw() -> None:
+    """Take away the verdict of an earlier run."""
+    Path(PASSED).unlink(missing_ok=True)
+
+
+def path(job: str) -> str:
+    """File with the record of a job."""
+    return f"{FOLDER}/{job}.json"
+
+
+def fingerprint(path: str | Path) -> str:
+    """Hash of what a file holds, or a folder."""
+    if Path(path).is_dir():
+        # Snakemake puts a file of its own into a folder that a job has made.
+        return digest(str(p) for p in Path(path).rglob("*") if p.is_file() and p.name[0] != ".")
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def digest(paths: Iterable[str]) -> str:
+    """One hash of many files, and of their names."""
+    lines = "".join(f"{fingerprint(path)} {path}\n" for path in sorted(paths))
+    return hashlib.sha256(lines.encode()).hexdigest()
+
+
+@contextlib.contextmanager
+def log_to(log: str) -> Iterator[None]:
+    """Send output and errors of a block to a log file. An error ends the process with one line."""
+    terminal = sys.stderr
+    with open(log, "w", encoding="utf-8") as file:
+        try:
+            with contextlib.redirect_stdout(file), contextlib.redirect_stderr(file):
+                yield
+        except Exception as error:
+            traceback.print_exc(file=file)
+            print(f"{type(error).__name__}: {error} (log: {log})", file=terminal)
+            sys.exit(1)
+
+
+@contextlib.contextmanager
+def recorded(snakemake: Any) -> Iterator[Any]:
+    """Do a job of Snakemake by its plan, log it, and record what it read and wrote.
+
+    Gives the settings of the plan. `snakemake.input.plan` and `snakemake.output.record` are files.
+
+    Raises
+    ------
+    RuntimeError
+        If an input or a source was edited since the run began, for nobody knows then which version
+        the job has read; or if the job imports a module that its plan does not name.
+    """
+    # A run that goes on beside this one may have passed meanwhile, and not for what follows.
+    withdraw()
+    began = time.monotonic()
+    job = Path(snakemake.output.record).stem
+    with log_to(snakemake.log[0]):
+        plan = json.loads(Path(snakemake.input.plan).read_text(encoding="utf-8"))
+        read = plan["sources"] | {path: fingerprint(path) for path in snakemake.input}
+        _refuse_edited(read)
+        yield plan["settings"]
+        _refuse_edited(read)
+        unnamed = sorted(_imported() - set(read))
+        if unnamed:
+            raise RuntimeError(f"{job} imports {unnamed[0]}, which its rule does not plan for")
+        outputs = set(snakemake.output) - {snakemake.output.record}
+        wrote = {path: fingerprint(path) for path in sorted(outputs)}
+        seconds = round(time.monotonic() - began, 2)
+        text = json.dumps({"seconds": seconds, "read": read, "wrote": wrote}, indent=1)
+        Path(snakemake.output.record).write_text(text, encoding="utf-8")
+    print(f"{job}: {seconds:.1f} s", flush=True)
+
+
+def _refuse_edited(hashes: Mapping[str, str]) -> None:
+    for path, before in hashes.items():
+        if not Path(path).exists() or fingerprint(path) != before:
+            raise RuntimeError(f"{path} was edited after the run began: run again")
+
+
+def _imported() -> set[str]:
+    """Modules of this project that this process has imported, from the top folder."""
+    files = (getattr(module, "__file__", None) for module in list(sys.modules.values()))
+    paths = (Path(file) for file in files if file)
+    return {str(path.relative_to(SRC.parent)) for path in paths if path.is_relative_to(SRC)}
+
+
+def read(path: str) -> dict[str, Any] | None:
+    """A record; None if it is missing or damaged."""
+    try:
+        found = json.loads(Path(path).read_text(encoding="utf-8"))
+        return found if {"seconds", "read", "wrote"} <= set(found) else None
+    except (OSError, ValueError, TypeError):
+        return None
+
+
+def faults(made: Iterable[str]) -> list[str]:
+    """Files that are not what their job wrote, or were made from others than are there now.
+
+    Parameters
+    ----------
+    made : iterable of str
+        Every file that the jobs of a run write, their records among them.
+
+    Returns
+    -------
+    list of str
+        One line for each fault, with what mends it.
+    """
+    made = list(made)
+    records = [path for path in made if path.startswith(f"{FOLDER}/")]
+    found, wrote = [], set(records)
+
+    @cache
+    def now(path: str) -> str | None:
+        return fingerprint(path) if Path(path).exists() else None
+
+    for path in records:
+        mend = f"remove {path} and run again"
+        record = read(path)
+        if record is None:
+            found.append(f"{path}: no record of its job: {mend}")
+            continue
+        wrote |= set(record["wrote"])
+        changed = [file for file, before in record["wrote"].items() if now(file) != before]
+        found += [f"{file}: not as its job left it: {mend}" for file in changed]
+        other = [file for file, before in record["read"].items() if now(file) != before]
+        found += [f"{Path(path).stem}: made from another {file}: {mend}" for file in other[:1]]
+    return found + [f"{path}: no job has recorded it" for path in made if path not in wrote]

@@ -1,0 +1,94 @@
+"""The record of a job: what it refuses to record, in the process of the test."""
+
+import json
+import sys
+from types import SimpleNamespace
+
+import pytest
+
+from stronge1994.run import plans, record
+
+# A process of tests has imported far more than a job.
+JOB = "results/records/job.json"
+
+
+class Files(list):
+    """Files of a job by name, as Snakemake gives them."""
+
+    def __init__(self, **files):
+        super().__init__(files.values())
+        self.__dict__.update(files)
+
+
+@pytest.fixture
+def told(tmp_path, monkeypatch):
+    """A job that reads a source and an input, and writes one file."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(record, "SRC", tmp_path / "src")
+    for folder in ("src", "results/logs", "results/records"):
+        (tmp_path / folder).mkdir(parents=True)
+    (tmp_path / "src/law.py").write_text("")
+    (tmp_path / "input.csv").write_text("1")
+    (tmp_path / "made.csv").write_text("1")
+    (tmp_path / "results/PASSED").write_text("passed")
+    plans.write("job", ["src/law.py"], {"factor": 2})
+    return SimpleNamespace(
+        input=Files(plan=plans.path("job"), table="input.csv"),
+        output=Files(made="made.csv", record=JOB),
+        log=["results/logs/job.log"],
+    )
+
+
+def test_a_job_leaves_what_it_read_and_wrote(told, tmp_path, capsys):
+    with record.recorded(told) as settings:
+        assert settings == {"factor": 2} and not (tmp_path / "results/PASSED").exists()
+        print("to the log")
+    kept = record.read(JOB)
+    assert set(kept["read"]) == {"src/law.py", "input.csv", "results/plans/job.json"}
+    assert set(kept["wrote"]) == {"made.csv"}
+    assert record.faults(["made.csv", JOB]) == []
+    assert (tmp_path / "results/logs/job.log").read_text() == "to the log\n"
+    assert capsys.readouterr().out.startswith("job: 0.0 s")
+
+
+@pytest.mark.parametrize("path", ["src/law.py", "input.csv", "results/plans/job.json"])
+def test_an_edit_while_the_job_runs_fails_it(told, tmp_path, path, capsys):
+    with pytest.raises(SystemExit), record.recorded(told):
+        (tmp_path / path).write_text("{} ")
+    assert f"{path} was edited after the run began" in capsys.readouterr().err
+    assert not (tmp_path / JOB).exists()
+
+
+@pytest.mark.parametrize("path", ["src/law.py"])
+def test_an_edit_before_the_job_runs_fails_it(told, tmp_path, path, capsys):
+    (tmp_path / path).unlink()
+    with pytest.raises(SystemExit), record.recorded(told):
+        pytest.fail("it works")
+    assert f"{path} was edited after the run began" in capsys.readouterr().err
+
+
+def test_a_module_that_the_plan_does_not_name_fails_the_job(told, tmp_path, monkeypatch, capsys):
+    with pytest.raises(SystemExit), record.recorded(told):
+        other = SimpleNamespace(__file__=str(tmp_path / "src/other.py"))
+        monkeypatch.setitem(sys.modules, "other", other)
+    assert "job imports src/other.py, which its rule does not plan for" in capsys.readouterr().err
+
+
+def test_a_plan_that_has_not_changed_is_not_written(told, tmp_path):
+    (tmp_path / "results/PASSED").write_text("passed")
+    before = (tmp_path / plans.path("job")).stat().st_mtime_ns
+    plans.write("job", ["src/law.py"], {"factor": 2})
+    assert (tmp_path / plans.path("job")).stat().st_mtime_ns == before
+    assert (tmp_path / "results/PASSED").exists()
+    plans.write("job", ["src/law.py"], {"factor": 3})
+    assert json.loads((tmp_path / plans.path("job")).read_text())["settings"] == {"factor": 3}
+    assert not (tmp_path / "results/PASSED").exists()
+
+
+@pytest.mark.parametrize("words", [["-n"], ["--lint"], ["--report", "x.html"]])
+def test_who_only_asks_leaves_the_verdict(told, tmp_path, words):
+    (tmp_path / "results/PASSED").write_text("passed")
+    plans.start(["snakemake", *words])
+    assert (tmp_path / "results/PASSED").exists()
+    plans.start(["snakemake", "--touch"])
+    assert not (tmp_path / "results/PASSED").exists()
