@@ -5,6 +5,8 @@ the integration. It does so where beta, zeta^2 and the incidence are close to ea
 one more gross slip sets in as the incidence changes.
 """
 
+import functools
+
 import numpy as np
 import pytest
 
@@ -37,6 +39,12 @@ def plain(x, beta, zeta2, steps):
         slips += gross & ~slid
         slid = gross
     return w, peak, slips
+
+
+@functools.cache
+def known(impacts):
+    """`reference` of impacts that are given as bytes, once for all tolerances."""
+    return reference(*np.frombuffer(impacts).reshape(3, -1))
 
 
 def reference(x, beta, zeta2):
@@ -75,10 +83,10 @@ def corner():
 def around_onsets():
     """Spread about the incidences at which one gross slip more sets in."""
     rng = np.random.default_rng(6)
-    beta, zeta2 = rng.uniform(6.0, 20.0, 24), 10 ** rng.uniform(-0.7, 0.0, 24)
+    beta, zeta2 = rng.uniform(6.0, 20.0, 12), 10 ** rng.uniform(-0.7, 0.0, 12)
     limit = lumped.slip_throughout_limit(beta, zeta2)
     at = onsets(beta, zeta2, 0.05 * limit, 0.3 * limit)
-    shift = rng.choice([-1, 1], (12, 24)) * 10 ** rng.uniform(-6.0, -2.0, (12, 24))
+    shift = rng.choice([-1, 1], (12, 12)) * 10 ** rng.uniform(-6.0, -2.0, (12, 12))
     return [a.ravel() for a in np.broadcast_arrays(at * (1 + shift), beta, zeta2)]
 
 
@@ -86,23 +94,24 @@ def assert_met(x, beta, zeta2, *tolerances):
     """Impacts that do not slide throughout meet each tolerance."""
     inside = (x > 0) & (x < lumped.slip_throughout_limit(beta, zeta2))
     x, beta, zeta2 = x[inside], beta[inside], zeta2[inside]
-    velocity, moved, peak = reference(x, beta, zeta2)
+    velocity, moved, peak = known(np.array([x, beta, zeta2]).tobytes())
     # The largest of its points is below the peak by this at most: friction bends no more there
     # than three times as much as the normal force, sin(phase)^3.
     below = 9 / 8 * (np.pi / STEPS[-1]) ** 2
     for tolerance in tolerances:
-        known = moved <= SHARE * tolerance
-        assert np.mean(known) > 0.7
+        sure = moved <= SHARE * tolerance
+        assert np.mean(sure) > 0.7
         found = continuum.rebound(x, beta, zeta2, tolerance=tolerance)
-        error = np.where(known, np.abs(found.velocity - velocity), 0.0)
+        error = np.where(sure, np.abs(found.velocity - velocity), 0.0)
         assert np.max(error) <= (1 + SHARE) * tolerance, (tolerance, np.argmax(error))
-        error = np.where(known, np.abs(found.peak_friction - peak), 0.0)
+        error = np.where(sure, np.abs(found.peak_friction - peak), 0.0)
         assert np.max(error) <= (1 + SHARE) * tolerance + below, (tolerance, np.argmax(error))
 
 
 @pytest.mark.slow
-def test_the_tolerance_is_met_where_slip_only_just_happens():
-    assert_met(*corner(), 1e-3, 1e-4, 1e-5, 1e-6)
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-5, pytest.param(1e-6, marks=pytest.mark.long)])
+def test_the_tolerance_is_met_where_slip_only_just_happens(tolerance):
+    assert_met(*corner(), tolerance)
 
 
 @pytest.mark.slow

@@ -33,7 +33,7 @@ def test_the_continuum_against_the_scheme_of_1976(name, steel):
     assert np.abs(found.velocity(x) - velocity).max() < 1.2e-4
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_continuum_against_itself_a_hundred_times_as_fine(steel):
     x = np.random.default_rng(8).uniform(0, 6, 40)
     exact = continuum.rebound(x, 3.5, STEEL, tolerance=1e-7)

@@ -149,7 +149,10 @@ def forced(monkeypatch, way):
             monkeypatch.setitem(choice.COST, (f"continuum.{loss}", way), (0.0, 0.0))
 
 
-@pytest.mark.parametrize("tolerance", [0.5, pytest.param(0.1, marks=pytest.mark.long), 1e-2, 1e-3])
+COARSE = [pytest.param(tolerance, marks=pytest.mark.long) for tolerance in (0.5, 0.1)]
+
+
+@pytest.mark.parametrize("tolerance", [*COARSE, 1e-2, 1e-3])
 @pytest.mark.parametrize(("name", "way"), WAYS)
 def test_a_scene_keeps_its_tolerance(name, way, tolerance, monkeypatch):
     forced(monkeypatch, way)
@@ -196,7 +199,7 @@ def lumped_instead(model, *groups, tolerance):
 @pytest.mark.slow
 def test_gaps_hold_between_the_entries_of_their_table():
     rng = np.random.default_rng(4)
-    for chi in 0.5 * 2.0 ** rng.uniform(0, 4, 5):
+    for chi in 0.5 * 2.0 ** rng.uniform(0, 4, 2):
         for name, model in (("lumped", lumped), ("rigid", rigid)):
             found = gap_tables.largest(model, chi)
             assert max(found) <= gaps.elastic(name, 2 * chi, 1.0) + 1e-3
@@ -205,7 +208,7 @@ def test_gaps_hold_between_the_entries_of_their_table():
 @pytest.mark.slow
 def test_gaps_are_not_idle():
     """They are near the largest error: at most a fifth more, over the table."""
-    for place in (8, 16, 24, 32):
+    for place in (12, 28):
         chi = gaps.CHI[place]
         assert gaps.elastic("lumped", 2 * chi, 1.0) <= 1.2 * max(gap_tables.largest(lumped, chi))
 

@@ -17,7 +17,7 @@ from planarimpact.spheres import making, table
 TOLERANCE = 4e-5
 FIELDS = "velocity", "peak_friction", "dissipation"
 # Impacts at the beginning; places that are climbed from, places tried around each, and rounds.
-SHORT, LONG, MANY = (160, 4, 8, 3), (6000, 60, 12, 12), (20_000, 200, 12, 8)
+SHORT, LONG, MANY = (80, 3, 6, 3), (6000, 60, 12, 12), (20_000, 200, 12, 8)
 STEP, NEARER = 0.5, 0.6  # intervals of the splines
 # Wrong with a table of a polynomial in each cell: x, m2/m1, zeta^2, e.
 FOUND = {

@@ -30,8 +30,15 @@ GENERATORS = {
 }
 
 
+# These take long; samples of them stand in test_inelastic_reference.py and test_solved_tables.py.
+LONG = "model_errors", "inelastic_models"
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("source", GENERATORS)
+@pytest.mark.parametrize(
+    "source",
+    [pytest.param(name, marks=[pytest.mark.long] * (name in LONG)) for name in GENERATORS],
+)
 def test_tables_in_data_are_what_their_generator_computes(source):
     generator, *settings = GENERATORS[source]
     tables = generator.tables()

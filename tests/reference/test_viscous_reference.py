@@ -190,7 +190,7 @@ def _duration(xi):
 def test_next_to_every_change_of_course():
     """Bisection finds neighbours of different regime; sprayed around, no answer jumps."""
     rng = np.random.default_rng(1994)
-    count = 6000
+    count = 1200
     beta, zeta2 = rng.uniform(1, 8, count), 10 ** rng.uniform(-1, 1, count)
     e = np.where(
         rng.random(count) < 0.4, 1 - 10 ** rng.uniform(-8, -1, count), rng.uniform(0.01, 1, count)
@@ -208,9 +208,9 @@ def test_next_to_every_change_of_course():
         middle = (low + high) / 2
         same = regimes(middle) == first
         low, high = np.where(same, middle, low), np.where(same, high, middle)
-    assert which.size > 800
+    assert which.size > 150
     multiple = (first == Regime.MULTIPLE) | (regimes(high) == Regime.MULTIPLE)
-    assert multiple.sum() > 50
+    assert multiple.sum() > 10
     lane = np.arange(which.size)
     for distance in 10.0 ** np.arange(-16, -3.5, 0.5):
         for side in (-1, 1):

@@ -295,7 +295,7 @@ def javascript(folder, cases):
     return {name: np.frombuffer(base64.b64decode(text)) for name, text in found.items()}
 
 
-@pytest.mark.parametrize("run", [c, cpp, javascript])
+@pytest.mark.parametrize("run", [c, pytest.param(cpp, marks=pytest.mark.long), javascript])
 def test_other_languages_answer_as_python_does(run, cases, folder):
     every = cases | {name: cases[right] for name, right in WRONG.items()}
     for name, found in run(folder, every).items():
@@ -334,7 +334,12 @@ def test_a_header_never_meets_a_compiler_without_nan(compiler, pairs, tmp_path):
 @pytest.mark.parametrize(
     ("block", "file", "commands"),
     [
-        ("c", "main.c", [["cc", "-std=c99", "-O2", "main.c", "-lm"], ["./a.out"]]),
+        pytest.param(
+            "c",
+            "main.c",
+            [["cc", "-std=c99", "-O2", "main.c", "-lm"], ["./a.out"]],
+            marks=pytest.mark.long,
+        ),
         ("js", "main.mjs", [["node", "main.mjs"]]),
     ],
 )

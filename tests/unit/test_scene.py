@@ -475,6 +475,7 @@ def test_equal_pairs_are_one_whatever_rounding_makes_of_them(no_table):
     assert explained.count("m2/m1 = 3.5") == 1 and "few" not in explained
 
 
+@pytest.mark.long  # five pairs are compiled
 def test_pairs_are_told_apart_by_every_group(monkeypatch, no_table):
     """Also where they share all but one, are many, and are compiled.
 
@@ -618,7 +619,10 @@ def test_units_stand_in_every_header():
         assert columns.header(name) == (f"{name} [{column.unit}]" if column.unit else name)
 
 
-@pytest.mark.parametrize("ulps", [0, 1, 2**11 - 1, 2**11, 2**13])
+@pytest.mark.parametrize(
+    "ulps",
+    [0, 1, 2**11, *(pytest.param(n, marks=pytest.mark.long) for n in (2**11 - 1, 2**13))],
+)
 def test_elastic_is_restitution_1_alone_however_many_rows_there_are(ulps, no_table):
     """Rounding to 12 digits, by which pairs are told apart, makes no e < 1 elastic."""
     row = pd.DataFrame([STEEL | PLANE | {"restitution": 1 - ulps * 2.0**-53}])

@@ -168,7 +168,7 @@ def distances(e):
 
 
 @pytest.mark.parametrize("loss", continuum.LOSSES)
-@pytest.mark.parametrize("e", [0.95, 0.8, 0.4])
+@pytest.mark.parametrize("e", [pytest.param(0.95, marks=pytest.mark.long), 0.8, 0.4])
 def test_model_form_is_the_distance_of_the_two_continua(e, loss, no_table):
     """To 0.01 mu v2(0), interpolated for a pair of many and solved for a pair of few."""
     x, wanted = distances(e)
@@ -343,8 +343,8 @@ def test_the_command_line_refuses_a_wrong_loss(source, capsys):
 @pytest.fixture
 def fewer(monkeypatch):
     """How many incidences the errors are taken at, fewer than users have: it saves seconds."""
-    monkeypatch.setattr(sys.modules[main.__module__], "INCIDENCES", 17)
-    return 17
+    monkeypatch.setattr(sys.modules[main.__module__], "INCIDENCES", 9)
+    return 9
 
 
 RMS, LARGEST, SEEN = "rms [mu v2(0)]", "max [mu v2(0)]", "seen [1]"

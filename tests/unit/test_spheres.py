@@ -77,7 +77,9 @@ def test_a_table_is_read_as_it_was_written(name):
             np.testing.assert_array_equal(one, two)
 
 
-@pytest.mark.parametrize(("name", "number"), [("viscous", 3), ("plastic_high", 3)])
+@pytest.mark.parametrize(
+    ("name", "number"), [("viscous", 3), pytest.param("plastic_high", 3, marks=pytest.mark.long)]
+)
 def test_the_job_makes_the_shipped_table(name, number):
     """One patch of the coarse one, which takes the least time."""
     plan, shipped = making.PLANS["coarse"], table.shipped("coarse")
