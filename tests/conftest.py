@@ -35,8 +35,8 @@ def pytest_collection_modifyitems(config, items):
 
 
 def _turn(path):
-    """Stories of broken runs take longest and start first. Until they have a run to break, others
-    compute; what is short comes last, so that no process is left alone with a long file."""
-    if path.name in ("test_verdict.py", "test_stopped_jobs.py"):
+    """Stories of runs take longest and start first. What is short comes last, so that no process is
+    left alone with a long file."""
+    if path.name in ("test_proof.py", "test_run.py"):
         return 0
     return {"property": 1, "reference": 1, "workflow": 2}.get(path.parent.name, 3)

@@ -133,7 +133,7 @@ SCENES = {
 WAYS = [
     ("elastic, many of each", None),
     ("many of each", "compiled"),
-    ("many of each", "solved"),
+    pytest.param("many of each", "solved", marks=pytest.mark.long),
     ("many of each, sharp", "solved"),
     ("few of each", None),
     ("viscous material", None),

@@ -182,7 +182,9 @@ def test_a_run_that_is_killed_goes_on(toy):
     assert "18" in (toy / "figures/picture.svg").read_text()
 
 
-@pytest.mark.parametrize("other", [["-n"], ["--nolock"]])
+@pytest.mark.parametrize(
+    "other", [["-n"], pytest.param(["--nolock"], marks=pytest.mark.long)], ids=["dry", "nolock"]
+)
 def test_two_runs_with_other_settings_do_not_mix(toy, other):
     """A second command writes its plans while the jobs of the first one work."""
     (toy / "draw.within").write_text("wait")
@@ -203,8 +205,6 @@ def test_a_syntax_error_does_not_pass(toy):
 def test_a_copy_without_what_snakemake_keeps_passes_only_if_it_is_whole(toy):
     shutil.rmtree(toy / ".snakemake")
     toy.passes()
-    (toy / "results/curves.csv").write_text("curve\n2.5\n")
-    (toy / "results/plans/curves.json").touch()
+    (toy / "figures/picture.svg").write_text("<svg>2.5</svg>")
     shutil.rmtree(toy / ".snakemake")
-    toy.run("--touch")
-    toy.refuses_to_pass()
+    assert "picture.svg: not as its job left it" in toy.refuses_to_pass()
