@@ -85,10 +85,21 @@ def test_a_plan_that_has_not_changed_is_not_written(told, tmp_path):
     assert not (tmp_path / "results/PASSED").exists()
 
 
-@pytest.mark.parametrize("words", [["-n"], ["--lint"], ["--report", "x.html"]])
+@pytest.mark.parametrize("words", [["-n"], ["-np"], ["--lint=json"], ["--report", "x.html"]])
 def test_who_only_asks_leaves_the_verdict(told, tmp_path, words):
     (tmp_path / "results/PASSED").write_text("passed")
     plans.start(["snakemake", *words])
     assert (tmp_path / "results/PASSED").exists()
     plans.start(["snakemake", "--touch"])
     assert not (tmp_path / "results/PASSED").exists()
+
+
+def test_a_report_behind_a_run_is_a_run(told, tmp_path):
+    plans.start(["snakemake", "--report", "x.html", "--report-after-run"])
+    assert not (tmp_path / "results/PASSED").exists()
+
+
+def test_a_plan_that_is_no_text_is_written_anew(told, tmp_path):
+    (tmp_path / plans.path("job")).write_bytes(b"\xff\xfe")
+    plans.write("job", ["src/law.py"], {"factor": 2})
+    assert json.loads((tmp_path / plans.path("job")).read_text())["settings"] == {"factor": 2}

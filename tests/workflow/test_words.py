@@ -72,6 +72,14 @@ def test_a_failed_run_names_its_rows_last_and_repeats_the_config(folder):
     assert last[-1] == f"  and 2 more: {plans.GATE_LOG}"
 
 
+@pytest.mark.parametrize("log", [None, "", "\n"])
+def test_a_gate_that_found_nothing_and_let_nothing_pass_is_no_verdict(folder, log):
+    """It was stopped or touched, or other jobs came after it."""
+    ended(folder, log)
+    words = last_words.words()
+    assert "No verdict in this run" in words and "FAILED" not in words
+
+
 def test_tables_without_the_gate_are_no_verdict(folder):
     ended(folder, verdict="diverges")
     words = last_words.words()

@@ -9,11 +9,7 @@ from snakemake.exceptions import WorkflowError
 # and for the Python of every job.
 sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 os.environ.update(PYTHONPATH=sys.path[0])
-from stronge1994 import plan, reference_data
-from stronge1994.plan import config as configuration
-from stronge1994.plan import files
-from stronge1994.plan.config import ConfigError
-from stronge1994.run import last_words, plans
+from stronge1994.run import plans
 
 
 if Path(workflow.basedir).resolve() != Path.cwd().resolve():
@@ -26,6 +22,14 @@ if set("{}") & set(workflow.basedir):
 # Jobs on a cluster read this file too: only the process that was started begins a run.
 if workflow.is_main_process:
     plans.start(sys.argv)
+# Behind that: an error in one of them leaves no verdict of an earlier run.
+from stronge1994 import plan, reference_data
+from stronge1994.plan import config as configuration
+from stronge1994.plan import files
+from stronge1994.plan.config import ConfigError
+from stronge1994.run import last_words
+
+
 try:
     for file in (*configuration.FILES, *workflow.config_settings.configfiles):
         reference_data.load_yaml(file)

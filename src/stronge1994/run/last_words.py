@@ -42,7 +42,7 @@ def add_unlock(record: logging.LogRecord) -> bool:
 
 
 def words(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str] = ()) -> str:
-    """What a run prints last. The gate's log is there only if the gate has judged this run.
+    """What a run prints last. The gate's log has its faults, and is there only if it has judged.
 
     Parameters
     ----------
@@ -53,7 +53,11 @@ def words(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str]
     logs : sequence of str, optional
         Snakemake's logs of the run.
     """
-    if not Path(GATE_LOG).exists():
+    passed, log = Path(PASSED).exists(), Path(GATE_LOG)
+    said = log.read_text(encoding="utf-8") if log.exists() else ""
+    faults = [line for line in said.splitlines() if line]
+    # The gate has not run, was stopped, or other jobs came after it.
+    if not (faults or (passed and log.exists())):
         parts = ["No verdict in this run as a whole. Pictures: figures/"]
         return "\n" + "\n".join(parts + (_stopped(logs) if stopped else [])) + "\n"
     parts = [
@@ -61,7 +65,7 @@ def words(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str]
         outcome.summary(_rows(TABLES[1], ("verdict", "holds", "entry", "where", "problem"))),
     ]
     where = f"All columns: {', '.join(TABLES)}"
-    if Path(PASSED).exists():
+    if not faults:
         parts += [f"PASSED. {where}; pictures: figures/", *NEXT]
         if stopped:  # what was asked for beside the verdict
             parts += _stopped(logs)
@@ -70,7 +74,7 @@ def words(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str]
         parts += [
             f"{where}. Why, row by row: {REPORT}, open it in a browser",
             f"On purpose? To draw without being judged:  {shlex.join(again)}",
-            _failed(Path(GATE_LOG).read_text(encoding="utf-8").splitlines()),
+            _failed(faults),
         ]
     return "\n" + "\n".join(parts) + "\n"
 

@@ -6,6 +6,7 @@ Snakemake runs a job again if its settings or sources have changed, whatever the
 
 import functools
 import json
+import re
 import shutil
 from collections.abc import Iterable
 from pathlib import Path
@@ -15,9 +16,10 @@ from stronge1994.run import record
 
 FOLDER = "results/plans"
 GATE_LOG = "results/logs/all.log"
-# Command lines that only ask. A word that is missing here costs a verdict, until the next run.
-ONLY_ASKS = {"-n", "--dry-run", "--dryrun", "--lint", "--report", "--summary", "--list-rules"}
-ONLY_ASKS |= {"--rulegraph", "--dag", "--filegraph", "--help", "-h"}
+# Options that only ask. One that is missing here costs a verdict, until the next run.
+ONLY_ASKS = {"--dry-run", "--dryrun", "--lint", "--report", "--summary", "--detailed-summary"}
+ONLY_ASKS |= {"--list-rules", "-l", "--list-target-rules", "--rulegraph", "--dag", "--filegraph"}
+DRY = re.compile("-[npqFk]*n[npqFk]*")  # -n, also among other letters, as in -np
 
 
 def path(job: str) -> str:
@@ -36,7 +38,7 @@ def write(job: str, sources: Iterable[str], settings: Any) -> None:
     hashes = {source: _hash(source) for source in sorted(sources)}
     text = json.dumps({"settings": settings, "sources": hashes}, indent=1)
     file = Path(path(job))
-    if not file.is_file() or file.read_text(encoding="utf-8") != text:
+    if not file.is_file() or file.read_bytes() != text.encode():
         withdraw()
         _remove_bytecode()
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -61,7 +63,10 @@ def _remove_bytecode() -> None:
 
 def start(arguments: Iterable[str]) -> None:
     """Begin a run: take away what an earlier one has said, unless the command line only asks."""
-    if not ONLY_ASKS & set(arguments):
+    words = [word.partition("=")[0] for word in arguments]
+    asks = any(word in ONLY_ASKS or DRY.fullmatch(word) for word in words)
+    # The one option that begins like a question and lets jobs run.
+    if not asks or any(word.startswith("--report-") for word in words):
         withdraw()
 
 

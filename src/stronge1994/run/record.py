@@ -142,4 +142,8 @@ def faults(made: Iterable[str]) -> list[str]:
         found += [f"{file}: not as its job left it: {mend}" for file in changed]
         other = [file for file, before in record["read"].items() if now(file) != before]
         found += [f"{Path(path).stem}: made from another {file}: {mend}" for file in other[:1]]
-    return found + [f"{path}: no job has recorded it" for path in made if path not in wrote]
+    return found + [
+        f"{path}: no job has recorded it: remove {FOLDER} and run again"
+        for path in made
+        if path not in wrote
+    ]
