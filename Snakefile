@@ -133,7 +133,7 @@ MAKERS = [
 rule all:
     """Everything, up to the verdict: what runs if no target is named.
 
-    This is the gate. It has no output, so every run ends with it: it reads all records and tables
+    This is the gate. It has no output, so each such run ends with it: it reads all records and tables
     anew, and fails if a file is not as its job left it, or a row diverges or is missing.
     """
     default_target: True
@@ -145,7 +145,7 @@ rule all:
         plans=plans.digest(PLANNED),
         jobs=PLANNED,
     log:
-        "results/logs/all.log",
+        plans.GATE_LOG,
     message:
         "Judging"
     conda:

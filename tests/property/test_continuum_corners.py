@@ -80,13 +80,13 @@ def corner():
     return [np.concatenate(pair) for pair in zip((x, beta, zeta2), np.array(found).T, strict=True)]
 
 
-def around_onsets():
+def around_onsets(pairs):
     """Spread about the incidences at which one gross slip more sets in."""
     rng = np.random.default_rng(6)
-    beta, zeta2 = rng.uniform(6.0, 20.0, 12), 10 ** rng.uniform(-0.7, 0.0, 12)
+    beta, zeta2 = rng.uniform(6.0, 20.0, pairs), 10 ** rng.uniform(-0.7, 0.0, pairs)
     limit = lumped.slip_throughout_limit(beta, zeta2)
     at = onsets(beta, zeta2, 0.05 * limit, 0.3 * limit)
-    shift = rng.choice([-1, 1], (12, 12)) * 10 ** rng.uniform(-6.0, -2.0, (12, 12))
+    shift = rng.choice([-1, 1], (12, pairs)) * 10 ** rng.uniform(-6.0, -2.0, (12, pairs))
     return [a.ravel() for a in np.broadcast_arrays(at * (1 + shift), beta, zeta2)]
 
 
@@ -109,14 +109,17 @@ def assert_met(x, beta, zeta2, *tolerances):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("tolerance", [1e-4, 1e-5, pytest.param(1e-6, marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    "tolerance", [1e-3, 1e-4, 1e-5, pytest.param(1e-6, marks=pytest.mark.long)]
+)
 def test_the_tolerance_is_met_where_slip_only_just_happens(tolerance):
     assert_met(*corner(), tolerance)
 
 
 @pytest.mark.slow
-def test_the_tolerance_is_met_around_the_onset_of_one_more_slip():
-    assert_met(*around_onsets(), 1e-3, 1e-4)
+@pytest.mark.parametrize("pairs", [12, pytest.param(24, marks=pytest.mark.long)])
+def test_the_tolerance_is_met_around_the_onset_of_one_more_slip(pairs):
+    assert_met(*around_onsets(pairs), 1e-3, 1e-4)
 
 
 def test_peak_friction_as_gross_slip_sets_in_after_maximum_compression():

@@ -197,18 +197,20 @@ def lumped_instead(model, *groups, tolerance):
 
 
 @pytest.mark.slow
-def test_gaps_hold_between_the_entries_of_their_table():
+@pytest.mark.parametrize("count", [2, pytest.param(5, marks=pytest.mark.long)])
+def test_gaps_hold_between_the_entries_of_their_table(count):
     rng = np.random.default_rng(4)
-    for chi in 0.5 * 2.0 ** rng.uniform(0, 4, 2):
+    for chi in 0.5 * 2.0 ** rng.uniform(0, 4, count):
         for name, model in (("lumped", lumped), ("rigid", rigid)):
             found = gap_tables.largest(model, chi)
             assert max(found) <= gaps.elastic(name, 2 * chi, 1.0) + 1e-3
 
 
 @pytest.mark.slow
-def test_gaps_are_not_idle():
+@pytest.mark.parametrize("places", [(8, 24), pytest.param((16, 32), marks=pytest.mark.long)])
+def test_gaps_are_not_idle(places):
     """They are near the largest error: at most a fifth more, over the table."""
-    for place in (12, 28):
+    for place in places:
         chi = gaps.CHI[place]
         assert gaps.elastic("lumped", 2 * chi, 1.0) <= 1.2 * max(gap_tables.largest(lumped, chi))
 

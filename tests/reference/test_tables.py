@@ -30,7 +30,7 @@ GENERATORS = {
 }
 
 
-# These take long; samples of them stand in test_inelastic_reference.py and test_solved_tables.py.
+# These take long; test_inelastic_reference.py and tests/unit/test_trade.py have samples.
 LONG = "model_errors", "inelastic_models"
 
 

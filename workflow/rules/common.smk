@@ -85,16 +85,8 @@ def of_figure(part, plans=FIGURES, wildcard="figure"):
     return lambda wildcards: plans[getattr(wildcards, wildcard)][part]
 
 
-def series_of_judged(wildcards):
-    return JUDGED[wildcards.judged]["series"]
-
-
 def all_cores(wildcards):
     return workflow.cores
-
-
-def files_of_source(wildcards):
-    return plan.files_of_source(SOURCES, wildcards.source)
 
 
 # What every page includes, beside its own template.

@@ -7,7 +7,7 @@ rule judge:
         plan=planned("judge_{judged}", "judge", "judging", "reference_data", "curves", "printed",
             settings=lambda name: plan.settings_of_judgement(config, SOURCES, name)),
         table=of_figure("table", JUDGED, "judged"),
-        series=series_of_judged,
+        series=of_figure("series", JUDGED, "judged"),
         nodes=lambda wildcards: FIGURES.get(wildcards.judged, {"tables": []})["tables"],
     output:
         verdicts="results/verdicts/{judged}.csv",

@@ -4,7 +4,7 @@ rule series:
         plan=planned("series_{source}", "convert_series", "reference_data",
             settings=lambda source: SOURCES[source],
             reads=lambda source: plan.files_of_source(SOURCES, source)),
-        files=files_of_source,
+        files=lambda wildcards: plan.files_of_source(SOURCES, wildcards.source),
     output:
         table="results/series/{source}.csv",
         record="results/records/series_{source}.json",

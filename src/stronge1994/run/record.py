@@ -73,8 +73,8 @@ def recorded(snakemake: Any) -> Iterator[Any]:
     job = Path(snakemake.output.record).stem
     with log_to(snakemake.log[0]):
         plan = json.loads(Path(snakemake.input.plan).read_text(encoding="utf-8"))
+        _refuse_edited(plan["sources"])
         read = plan["sources"] | {path: fingerprint(path) for path in snakemake.input}
-        _refuse_edited(read)
         yield plan["settings"]
         _refuse_edited(read)
         unnamed = sorted(_imported() - set(read))
