@@ -40,21 +40,22 @@ REPRODUCTION = {
     "goodness": "ground",
     "reference_data": "csv_tables",
     "scene_parts": "scene csv_tables",
-    "study_files": "planarimpact ground models study csv_tables",
     "printed": "ground lumped",
-    "curves": "planarimpact ground bodies rigid lumped continuum noncollinear models response scene"
-    " pandas printed csv_tables curve_names",
+    "explorer_answers": "planarimpact lumped",
+    "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
+    " response scene study pandas printed csv_tables curve_names figures plan",
+    "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"
+    " matplotlib",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
-    "judging": "ground curves csv_tables curve_names goodness reference_data verdict_table",
-    "trade": "ground models response curves csv_tables",
+    "judging": "ground figures csv_tables curve_names goodness reference_data verdict_table",
     "run": "csv_tables verdict_table ledger",
-    "plan": "ground models reference_data",
-    "drawings": "planarimpact ground csv_tables curve_names goodness reference_data study_files"
-    " matplotlib",
-    "pages": "ground bodies export csv_tables drawings goodness judging ledger plan run"
+    "plan": "reference_data",
+    "pages": "ground bodies export csv_tables figures goodness judging ledger plan run"
     " verdict_table jinja2",
 }
+# The figures have one folder each, and in it files that solve and files that draw.
+DRAWING = ("drawing", "draw_")
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and
 # of the reproduction has a door of its own.
@@ -85,17 +86,33 @@ def trespasses(package, room, source):
             continue
         for target in targets:
             top, *inner = target.split(".")
-            name = inner[0] if inner and inner[0] in ROOMS.get(top, ()) else top
+            name = inner[0] if inner and inner[0] in _names(top) else top
             if (top == package and name == room) or not (top in ROOMS or _is_listed(top)):
                 continue
             if name not in ROOMS[package][room].split():
                 yield f"{room} may not enter {name}"
+            if room == "figures/drawing" and inner[:1] == ["figures"] and inner[2:3] == ["curves"]:
+                yield "a drawing never solves"
             file = SRC.joinpath(top, *inner[:2])
             enters = len(inner) > 1 and (file.is_dir() or file.with_suffix(".py").is_file())
             if top == "planarimpact" and name != "ground" and enters:
                 door = ".".join(inner[:2])
                 if door not in SIDE_DOORS:
                     yield f"{room} may not enter {door}: it is no door"
+
+
+def _names(package):
+    return {room.partition("/")[0] for room in ROOMS.get(package, ())}
+
+
+def _files(package, room):
+    """Files of a room; of the figures those that solve, or those that draw."""
+    name, _, kind = room.partition("/")
+    files = [SRC / package / f"{name}.py", *(SRC / package / name).rglob("*.py")]
+    if kind:
+        draws = {path: any(part.startswith(DRAWING) for part in path.parts) for path in files}
+        files = [path for path in files if draws[path] == (kind == "drawing")]
+    return [path for path in files if path.exists()]
 
 
 def _is_listed(name):
@@ -106,16 +123,14 @@ def _is_listed(name):
 @pytest.mark.parametrize("package", ROOMS)
 def test_every_room_has_its_line(package):
     found = {path.stem for path in (SRC / package).glob("[!.]*") if path.suffix in ("", ".py")}
-    assert found - {"__pycache__", "py"} == set(ROOMS[package])
+    assert found - {"__pycache__", "py"} == _names(package)
 
 
 @pytest.mark.parametrize(("package", "room"), [(p, room) for p in ROOMS for room in ROOMS[p]])
 def test_rooms_enter_only_where_they_may(package, room):
-    files = [SRC / package / f"{room}.py", *(SRC / package / room).rglob("*.py")]
     found = [
         f"{path}: {words}"
-        for path in files
-        if path.exists()
+        for path in _files(package, room)
         for words in trespasses(package, room, path.read_text(encoding="utf-8"))
     ]
     assert not found
@@ -129,8 +144,9 @@ def test_rooms_enter_only_where_they_may(package, room):
         ("planarimpact", "models", "from planarimpact.continuum import tangential_motion"),
         ("planarimpact", "response", "import pandas as pd"),
         ("planarimpact", "study", "from stronge1994 import run"),
-        ("stronge1994", "drawings", "from planarimpact.lumped import rebound"),
-        ("stronge1994", "curves", "from planarimpact.lumped.stick_slip import solve"),
+        ("stronge1994", "figures/drawing", "from planarimpact.lumped import rebound"),
+        ("stronge1994", "figures/drawing", "from stronge1994.figures.fig5 import curves"),
+        ("stronge1994", "figures/solving", "from planarimpact.lumped.stick_slip import solve"),
         ("stronge1994", "judging", "import matplotlib.pyplot as plt"),
     ],
 )

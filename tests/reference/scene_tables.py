@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from stronge1994.curves import superball
+from stronge1994.figures.superball import curves as superball
 
 SEED = 1994
 # Of the ball thrown under a table; the figure `superball` has the same in workflow/config.yaml.

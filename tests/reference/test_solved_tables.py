@@ -11,8 +11,9 @@ import solved_tables
 
 from planarimpact import bodies, continuum, lumped, rigid, scene, study
 from planarimpact.scene import choice, motion
-from stronge1994 import reference_data, study_files
-from stronge1994.plan import grid
+from stronge1994 import reference_data
+from stronge1994.figures.study import files as study_files
+from stronge1994.figures.study import grid
 
 ROOT = Path(__file__).parents[2]
 CONFIG = reference_data.load_yaml(ROOT / "workflow/config.yaml")

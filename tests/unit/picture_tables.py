@@ -8,7 +8,10 @@ import numpy as np
 
 from stronge1994 import plan, reference_data
 from stronge1994.curve_names import name, shifted
-from stronge1994.drawings import convergence, derived, inelastic, trade
+from stronge1994.figures.convergence import drawing as convergence
+from stronge1994.figures.inelastic import drawing as inelastic
+from stronge1994.figures.shared.drawing import derived
+from stronge1994.figures.trade import drawing as trade
 from stronge1994.plan import config as configuration
 
 ROOT = Path(__file__).parents[2]
@@ -31,7 +34,7 @@ def given(figure):
     if "continua" in settings:
         settings |= {"continua": settings["continua"] | {"tolerance": 1e-2}}
     if figure in SOLVED:
-        curves = importlib.import_module(f"stronge1994.curves.{figure}").curves(**settings)
+        curves = importlib.import_module(f"stronge1994.figures.{figure}.curves").curves(**settings)
     else:
         settings, curves = MADE_UP[figure](settings)
     return curves, settings, SERIES.get(figure, {})

@@ -7,10 +7,13 @@ import pytest
 
 from planarimpact import models
 from stronge1994 import plan, reference_data
-from stronge1994.curves import continua, fig5, fig6, fig9
-from stronge1994.drawings import fig6 as draw_fig6
-from stronge1994.drawings import fig9 as draw_fig9
-from stronge1994.drawings import house_style
+from stronge1994.figures.fig5 import curves as fig5
+from stronge1994.figures.fig6 import curves as fig6
+from stronge1994.figures.fig6 import drawing as draw_fig6
+from stronge1994.figures.fig9 import curves as fig9
+from stronge1994.figures.fig9 import drawing as draw_fig9
+from stronge1994.figures.shared.curves import continua
+from stronge1994.figures.shared.drawing import house_style
 from stronge1994.judging.metrics import measure
 from stronge1994.plan import config as configuration
 

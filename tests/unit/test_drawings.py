@@ -10,9 +10,9 @@ import pytest
 from matplotlib import font_manager
 from matplotlib.transforms import Affine2D
 
-from stronge1994 import drawings
-from stronge1994.drawings import checked, derived, house_style
-from stronge1994.drawings.checked import NotInTable
+from stronge1994.figures.shared import drawing as drawings
+from stronge1994.figures.shared.drawing import checked, derived, house_style
+from stronge1994.figures.shared.drawing.checked import NotInTable
 
 STRIPS = {"curve": "lumped", "reference": "a/b", "metric": "distance"}
 STRIPS |= {"documented": {}, "regression": {"rms": [2.0, 4.0], "max": [0.0, 5.0]}}
@@ -54,13 +54,18 @@ OTHERS = {
     "peers": peers,
     "peers_errors": lambda module: peers(module, below=True),
 }
+PLACES = {
+    "fig3": "shared.drawing.histories",
+    "residuals": "shared.drawing.residuals",
+    "peers": "trade.draw_peers",
+}
 FIGURES = (*picture_tables.SOLVED, *picture_tables.MADE_UP, *OTHERS)
 
 
 def drawn(figure, *fault):
     """A picture and its tables; with a fault, two texts, by a module that has the second."""
-    name = "histories" if figure == "fig3" else figure.removesuffix("_errors")
-    module = importlib.import_module(f"stronge1994.drawings.{name}")
+    name = figure.removesuffix("_errors")
+    module = importlib.import_module(f"stronge1994.figures.{PLACES.get(name, f'{name}.drawing')}")
     if fault:
         old, new = fault
         text = Path(module.__file__).read_text(encoding="utf-8")

@@ -9,9 +9,11 @@ import pytest
 
 from planarimpact import bodies, lumped, models
 from planarimpact.bodies import Material
-from stronge1994 import csv_tables, curve_names, drawings, plan, reference_data
-from stronge1994.curves import inelastic, solving
-from stronge1994.drawings import derived
+from stronge1994 import csv_tables, curve_names, plan, reference_data
+from stronge1994.figures.inelastic import curves as inelastic
+from stronge1994.figures.shared import drawing as drawings
+from stronge1994.figures.shared.curves import solving
+from stronge1994.figures.shared.drawing import derived
 from stronge1994.judging import compare
 from stronge1994.plan import config as configuration
 from stronge1994.reference_data import conversion

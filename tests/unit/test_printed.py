@@ -8,7 +8,10 @@ import pytest
 from planarimpact import lumped, rigid
 from planarimpact.ground.checks import InputError
 from stronge1994 import printed
-from stronge1994.curves import fig5, fig6, fig7, fig9
+from stronge1994.figures.fig5 import curves as fig5
+from stronge1994.figures.fig6 import curves as fig6
+from stronge1994.figures.fig7 import curves as fig7
+from stronge1994.figures.fig9 import curves as fig9
 from stronge1994.printed import dissipation, dynamics, impact, peak_force, slip
 
 BETA, ZETA2 = 3.5, 1.21

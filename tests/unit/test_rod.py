@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stronge1994.curves import rod
+from stronge1994.figures.rod import curves as rod
 
 SETTINGS = {
     "stiffness_ratio": 1.21,

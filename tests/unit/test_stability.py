@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from planarimpact import lumped
-from stronge1994.curves import stability
+from stronge1994.figures.stability import curves as stability
 from stronge1994.pages import stability_table
 
 X = [0.0, 0.5, 2.0, 8.0]

@@ -12,11 +12,12 @@ import pytest
 from planarimpact import Regime, continuum, lumped, models, study
 from planarimpact.ground import checks
 from planarimpact.ground.results import Rebound
-from stronge1994 import reference_data, study_files
-from stronge1994.drawings import house_style
-from stronge1994.drawings import study as draw_study
+from stronge1994 import reference_data
+from stronge1994.figures.shared.drawing import house_style
+from stronge1994.figures.study import drawing as draw_study
+from stronge1994.figures.study import files as study_files
+from stronge1994.figures.study import grid as study_plan
 from stronge1994.plan import config as configuration
-from stronge1994.plan import grid as study_plan
 
 GRID = {
     "incidence": {"from": -1, "to": 8, "points": 7},

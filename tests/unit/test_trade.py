@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 
 from planarimpact import InputError, continuum, models, response
-from stronge1994 import csv_tables, drawings
-from stronge1994.curves import convergence, trade, watch
-from stronge1994.drawings import trade as draw_trade
-from stronge1994.trade import answers as trade_table
+from stronge1994 import csv_tables
+from stronge1994.figures.convergence import curves as convergence
+from stronge1994.figures.shared import drawing as drawings
+from stronge1994.figures.shared.curves import watch
+from stronge1994.figures.trade import answers as trade_table
+from stronge1994.figures.trade import curves as trade
+from stronge1994.figures.trade import drawing as draw_trade
 
 REPORT = Path(__file__).parents[2] / "workflow/report"
 RMS, MAX = "rms_velocity [mu v2(0)]", "max_velocity [mu v2(0)]"

@@ -12,8 +12,8 @@ from pathlib import Path
 import browser
 import pytest
 
+from stronge1994 import explorer_answers as explorer_curves
 from stronge1994 import plan
-from stronge1994.curves import explorer as explorer_curves
 from stronge1994.pages import explorer as write_explorer
 from stronge1994.plan import config as configuration
 from stronge1994.run import record

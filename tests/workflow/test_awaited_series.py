@@ -11,9 +11,10 @@ import pytest
 
 from planarimpact import continuum, lumped
 from stronge1994 import csv_tables, plan, reference_data
-from stronge1994.curves import fig5, fig8
-from stronge1994.drawings import fig5 as draw_fig5
-from stronge1994.drawings import fig8 as draw_fig8
+from stronge1994.figures.fig5 import curves as fig5
+from stronge1994.figures.fig5 import drawing as draw_fig5
+from stronge1994.figures.fig8 import curves as fig8
+from stronge1994.figures.fig8 import drawing as draw_fig8
 from stronge1994.judging import compare
 from stronge1994.plan import config as configuration
 from stronge1994.reference_data import conversion

@@ -14,8 +14,10 @@ import pytest
 
 from planarimpact import lumped
 from planarimpact.ground import checks
-from stronge1994 import csv_tables, plan, reference_data, study_files
-from stronge1994.curves import inelastic, solving
+from stronge1994 import csv_tables, plan, reference_data
+from stronge1994.figures.inelastic import curves as inelastic
+from stronge1994.figures.shared.curves import solving
+from stronge1994.figures.study import files as study_files
 from stronge1994.judging import compare, judged_tables, points, sensitivity
 from stronge1994.plan import config as configuration
 
@@ -161,7 +163,7 @@ def test_the_table_of_sensitivity_tells_what_is_caught(name, tables, tmp_path):
     rows = csv_tables.read_rows(folder / "results/sensitivity.csv")
     sizes = {row["comparison"]: row for row in rows if row["comparison"].startswith(f"{name}-")}
     assert set(sizes) == set(plan.comparisons(CONFIG, name))
-    module = importlib.import_module(f"stronge1994.curves.{name}")
+    module = importlib.import_module(f"stronge1994.figures.{name}.curves")
     nodes = plan.nodes_of(CONFIG, INVENTORY, name)
     settings = plan.settings(CONFIG, INVENTORY, name) | solving.read_nodes(nodes)
     settings.pop("as_printed", None)

@@ -11,7 +11,7 @@ import pytest
 from planarimpact import lumped, rigid, spheres
 from planarimpact.spheres import table
 from stronge1994 import plan
-from stronge1994.curves import superball
+from stronge1994.figures.superball import curves as superball
 from stronge1994.plan import config as configuration
 
 ROOT = Path(__file__).parents[2]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from planarimpact import Regime, bodies, lumped, rigid
-from stronge1994.curves import explorer as explorer_curves
+from stronge1994 import explorer_answers as explorer_curves
 from stronge1994.pages import explorer as write_explorer
 
 SOLVER = Path(__file__).parents[2] / "workflow/explorer/solver.js"

@@ -9,7 +9,7 @@ import pytest
 
 from planarimpact import lumped, noncollinear
 from stronge1994 import csv_tables, plan, reference_data
-from stronge1994.curves import solving
+from stronge1994.figures.shared.curves import solving
 from stronge1994.judging import compare, sensitivity
 from stronge1994.plan import config as configuration
 from stronge1994.reference_data import conversion
@@ -123,9 +123,9 @@ def test_every_comparison_catches_wrong_physics(smallest, config, inventory):
 def test_a_wrong_solver_trips_the_gate(name, config, inventory, series, tmp_path):
     figure, path = name.split("-")[0], tmp_path / "curves.csv"
     settings = plan.settings(config, inventory, figure) | SHORT.get(figure, {})
-    curves = importlib.import_module(f"stronge1994.curves.{figure}").curves
+    curves = importlib.import_module(f"stronge1994.figures.{figure}.curves").curves
     with pytest.MonkeyPatch.context() as patch:
-        module = importlib.import_module(f"stronge1994.curves.{figure}")
+        module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
         wrong = _changed(settings, BY_TRIAL[name])
         patch.setattr(module, "curves", lambda **_: curves(**wrong))
         solving.solve(figure, settings, plan.nodes_of(config, inventory, figure), path)

@@ -12,10 +12,9 @@ import pytest
 from planarimpact import continuum, lumped, models
 from planarimpact.models import timestep
 from stronge1994 import csv_tables
-from stronge1994.curves import trade
-from stronge1994.drawings import peers as draw_peers
+from stronge1994.figures.trade import curves as trade
+from stronge1994.figures.trade import draw_peers, measurement, peers
 from stronge1994.pages import impact_times
-from stronge1994.trade import measurement, peers
 
 ROOT = Path(__file__).parents[2]
 SETTINGS = {

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from stronge1994 import reference_data
+from stronge1994.figures.study import grid
 from stronge1994.ledger import entries
 from stronge1994.plan import config as configuration
-from stronge1994.plan import grid
 
 ROOT = Path(__file__).parents[2]
 SCHEMAS = ROOT / "workflow/schemas"

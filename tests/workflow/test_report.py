@@ -18,8 +18,8 @@ import yaml
 
 import planarimpact
 from stronge1994 import reference_data, verdict_table
-from stronge1994.drawings import derived
-from stronge1994.drawings import residuals as draw_residuals
+from stronge1994.figures.shared.drawing import derived
+from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.ledger import outcome
 from stronge1994.pages import findings, ledger_page, run_facts
 from stronge1994.pages import report as write_report
@@ -184,7 +184,7 @@ def test_every_verdict_figure_and_source_is_there(first_run, page, text, provena
     for figure in configuration.load(ROOT)["figures"]:
         assert figure in page.ids and f"config-{figure}" in provenance.ids
         assert f"../results/curves/{figure}.csv" in page.links
-        assert f"interface/stronge1994/curves/{figure}.html" in page.links
+        assert f"interface/stronge1994/figures/{figure}/curves.html" in page.links
     stated_in = in_words(provenance)
     for source in (ROOT / "data").glob("*/source.yaml"):
         stated = reference_data.load_yaml(source)
@@ -410,7 +410,7 @@ def test_the_interface_has_a_page_a_module_and_names_types_as_the_sources_do(fir
     assert "incidence: ArrayLike" in words
     assert "v1(0)/(mu v2(0))" in words  # the docstring, not only the signature
     for figure in CONFIG["figures"]:
-        assert (folder / f"stronge1994/curves/{figure}.html").is_file()
+        assert (folder / f"stronge1994/figures/{figure}/curves.html").is_file()
     for room in planarimpact.__all__:
         if room.islower():
             assert (folder / f"planarimpact/{room}.html").is_file(), room

@@ -111,8 +111,8 @@ def test_every_rule_has_what_every_rule_needs():
 
 
 EDITED = {
-    "src/stronge1994/curves/fig6.py": "# edited\n",
-    "src/stronge1994/drawings/rod.py": "# edited\n",
+    "src/stronge1994/figures/fig6/curves.py": "# edited\n",
+    "src/stronge1994/figures/rod/drawing.py": "# edited\n",
     "src/stronge1994/run/last_words.py": "# edited\n",
     "data/kharaz2001/spin.csv": "",
     "workflow/report/ledger.html": "<!-- edited -->\n",
@@ -152,7 +152,7 @@ def test_a_crash_and_a_new_series_are_judged_and_all_the_rest_is_there(finished)
     """One story in the whole workflow: it fails, is killed, and passes once mended."""
     (finished / f"data/{RUBBER}.wpd.csv").write_text(export(*made_up()))
     finished.edit(f"data/{JOHNSON}/source.yaml", UNSIGNED, SIGNED)
-    solver = finished / "src/stronge1994/curves/fig7.py"
+    solver = finished / "src/stronge1994/figures/fig7/curves.py"
     good = solver.read_text()
     solver.write_text(good.replace("    named = {", "    raise ArithmeticError('oh')\n    {"))
     said = finished.refuses_to_pass()

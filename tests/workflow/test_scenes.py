@@ -4,8 +4,9 @@ import re
 
 import scene_tables
 
-from stronge1994 import csv_tables, drawings
-from stronge1994.curves import superball
+from stronge1994 import csv_tables
+from stronge1994.figures.shared import drawing as drawings
+from stronge1994.figures.superball import curves as superball
 
 
 def test_every_scene_is_solved_and_explained(first_run):

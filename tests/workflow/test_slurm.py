@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 from planarimpact import lumped, study
-from stronge1994 import study_files
+from stronge1994.figures.study import files as study_files
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sinfo", "sbatch", "srun", "squeue", "scontrol")
 STARTING, RUNNING = 20, 120  # s, at most

@@ -1,6 +1,6 @@
 # Checked config and data before any work, and the plan of every job.
 from stronge1994.ledger import entries
-from stronge1994.plan import grid
+from stronge1994.figures.study import grid
 
 LEDGER = "data/stronge1994/ledger.yaml"
 NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
@@ -63,13 +63,14 @@ PLANNED = []  # names of jobs
 def planned(job, script, *rooms, settings=lambda value: {}, reads=lambda value: []):
     """Write the plan of each job of a rule, and give their path, which has the wildcard of the rule.
 
-    `rooms` of the reproduction are what the job imports. `settings` and `reads`, files of this
-    repository, depend on the value of the wildcard.
+    `rooms` of the reproduction are what the job imports; `{figure}` in one is the value of the
+    wildcard, if that is a figure. `settings` and `reads`, files of this repository, depend on the
+    value.
     """
     _, _, wildcard = job.rstrip("}").partition("{")
     for value in VALUES[wildcard] if wildcard else [""]:
-        figure = value if wildcard in ("figure", "judged") else None
-        sources = files.sources(script, *rooms, figure=figure, figures=FIGURES)
+        own = [room.format(figure=value) for room in rooms if value in FIGURES or "{" not in room]
+        sources = files.sources(script, *own)
         name = job.format(**{wildcard: value}) if wildcard else job
         try:
             if workflow.is_main_process:

@@ -1,7 +1,8 @@
 rule curves:
     """Solve every curve of one figure."""
     input:
-        plan=planned("curves_{figure}", "solve", "curves", "printed",
+        plan=planned("curves_{figure}", "solve", "figures/shared/curves", "figures/{figure}/curves.py",
+            "printed",
             settings=lambda figure: {key: FIGURES[figure][key] for key in ("settings", "nodes")}),
         tables=of_figure("tables"),
     output:

@@ -1,7 +1,8 @@
 rule draw:
     """Draw one figure from its curves; never solves."""
     input:
-        plan=planned("draw_{figure}", "draw", "drawings", "reference_data",
+        plan=planned("draw_{figure}", "draw", "figures/shared/drawing", "figures/{figure}/drawing.py",
+            "reference_data",
             settings=lambda figure: {k: FIGURES[figure][k] for k in ("settings", "overlays", "sources")}),
         curves="results/curves/{figure}.csv",
         series=of_figure("series"),

@@ -4,7 +4,8 @@ rule judge:
     Also the smallest change of the physics that each comparison of a figure catches.
     """
     input:
-        plan=planned("judge_{judged}", "judge", "judging", "reference_data", "curves", "printed",
+        plan=planned("judge_{judged}", "judge", "judging", "reference_data", "figures/shared/curves",
+            "figures/{figure}/curves.py", "printed",
             settings=lambda name: plan.settings_of_judgement(config, SOURCES, name)),
         table=of_figure("table", JUDGED, "judged"),
         series=of_figure("series", JUDGED, "judged"),

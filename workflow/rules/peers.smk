@@ -5,8 +5,8 @@
 rule measure_peers:
     """Error and time of both codes, beside ours in the same process."""
     input:
-        plan=planned("measure_peers", "measure_peers", "trade", "curves/__init__.py", "curves/trade.py",
-            "curves/watch.py", settings=lambda _: plan.settings_of_peers(config)),
+        plan=planned("measure_peers", "measure_peers", "figures/trade", "figures/shared/curves",
+            settings=lambda _: plan.settings_of_peers(config)),
     output:
         table="results/peers.csv",
         record="results/records/measure_peers.json",
@@ -24,7 +24,7 @@ rule measure_peers:
 rule draw_peers:
     """Error against time with the points of both codes, and errors below e = 1."""
     input:
-        plan=planned("draw_peers", "draw_peers", "drawings", "drawings/trade.py", "reference_data",
+        plan=planned("draw_peers", "draw_peers", "figures/trade", "figures/shared/drawing", "reference_data",
             settings=lambda _: FIGURES["trade"]["settings"]),
         curves="results/curves/trade.csv",
         peers="results/peers.csv",

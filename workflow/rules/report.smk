@@ -46,7 +46,7 @@ REPORT_SETTINGS = {
 rule interface:
     """What the functions of the solver take and return, as pages made from their docstrings."""
     input:
-        plan=planned("interface", "write_interface", "pages", "printed", "curves"),
+        plan=planned("interface", "write_interface", "pages", "printed", "figures"),
         names="src/planarimpact/__init__.pyi",
         parts=INTERFACE_PARTS,
     output:
@@ -65,7 +65,7 @@ rule interface:
 rule report:
     """The run as one page, its sources and settings as another; always succeeds, whatever it reads."""
     input:
-        plan=planned("report", "write_report", "pages", "drawings", "judging", "ledger", "printed", "plan",
+        plan=planned("report", "write_report", "pages", "figures/shared/drawing", "judging", "ledger", "printed", "plan",
             "reference_data", "run", settings=lambda _: REPORT_SETTINGS),
         template="workflow/report/report.html",
         captions="workflow/report/figures.rst",

@@ -6,7 +6,7 @@
 rule solve_chunk:
     """Solve some points of the study's grid; the chunks know nothing of each other."""
     input:
-        plan=planned("study_{scatteritem}", "solve_chunk", settings=lambda _: grid.settings(config)),
+        plan=planned("study_{scatteritem}", "solve_chunk", "figures/study/files.py", settings=lambda _: grid.settings(config)),
     output:
         chunk="results/study/{scatteritem}.npz",
         record="results/records/study_{scatteritem}.json",
@@ -23,7 +23,7 @@ rule solve_chunk:
 rule gather_chunks:
     """Put the chunks together in the shape of the grid."""
     input:
-        plan=planned("gather_chunks", "gather_chunks", settings=lambda _: grid.settings(config)),
+        plan=planned("gather_chunks", "gather_chunks", "figures/study/files.py", settings=lambda _: grid.settings(config)),
         chunks=gather.study(rules.solve_chunk.output.chunk),
     output:
         table="results/study.npz",
@@ -41,7 +41,7 @@ rule gather_chunks:
 rule draw_study:
     """Draw maps of the rebound over the grid; never solves."""
     input:
-        plan=planned("draw_study", "draw_study", "drawings", "reference_data"),
+        plan=planned("draw_study", "draw_study", "figures/study", "figures/shared/drawing", "reference_data"),
         study="results/study.npz",
     output:
         svg=report(

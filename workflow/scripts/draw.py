@@ -1,6 +1,6 @@
 """Draw one figure from its curves. Curves that failed become a picture that says so."""
 
-from stronge1994 import drawings
+from stronge1994.figures.shared import drawing as drawings
 from stronge1994.run import record
 
 with record.recorded(snakemake) as told:

@@ -1,6 +1,6 @@
 """Draw error against time with the points of LAMMPS and pooltool, and errors below e = 1."""
 
-from stronge1994.drawings import peers
+from stronge1994.figures.trade import draw_peers as peers
 from stronge1994.run import record
 
 with record.recorded(snakemake) as settings:

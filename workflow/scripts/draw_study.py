@@ -1,7 +1,8 @@
 """Draw maps of the rebound over the grid of the parameter study."""
 
-from stronge1994 import study_files
-from stronge1994.drawings import checked, study
+from stronge1994.figures.shared.drawing import checked
+from stronge1994.figures.study import drawing as study
+from stronge1994.figures.study import files as study_files
 from stronge1994.run import record
 
 with record.recorded(snakemake):

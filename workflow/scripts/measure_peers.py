@@ -1,8 +1,8 @@
 """Measure error and time of LAMMPS and pooltool, beside ours in the same process."""
 
 from stronge1994 import csv_tables, one_thread  # noqa: F401  (one thread: before numpy)
+from stronge1994.figures.trade import measurement
 from stronge1994.run import record
-from stronge1994.trade import measurement
 
 with record.recorded(snakemake) as settings:
     rows, notes = measurement.measure(**settings)

@@ -1,7 +1,7 @@
 """Solve the curves of one figure. A crash becomes a table that says so: a failed verdict."""
 
 from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
-from stronge1994.curves import solving
+from stronge1994.figures.shared.curves import solving
 from stronge1994.run import record
 
 with record.recorded(snakemake) as told:

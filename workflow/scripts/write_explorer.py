@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from stronge1994.curves.explorer import answers
+from stronge1994.explorer_answers import answers
 from stronge1994.pages import explorer
 from stronge1994.run import record
 

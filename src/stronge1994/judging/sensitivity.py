@@ -15,7 +15,7 @@ import numpy as np
 
 from stronge1994 import curve_names, verdict_table
 from stronge1994.csv_tables import Curves
-from stronge1994.curves import solving
+from stronge1994.figures.shared.curves import solving
 from stronge1994.judging import judged_tables
 from stronge1994.judging.distances import Residuals
 from stronge1994.judging.metrics import Measured, measure
@@ -159,7 +159,7 @@ def _solve(figure: str, curves: Curves, settings: Settings) -> Curves:
 
     Those of the printed equations are left as they are.
     """
-    module = importlib.import_module(f"stronge1994.curves.{figure}")
+    module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
     printed = {name: curves[name] for name in curves if curve_names.is_printed(name)}
     own = [name for name in curves if not curve_names.is_shifted(name) and name not in printed]
     return printed | dict(zip(own, module.curves(**settings).values(), strict=True))

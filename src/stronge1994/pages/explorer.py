@@ -153,7 +153,7 @@ def refuse_other_answers(solver: str, check: str, answers: Sequence[Any]) -> str
     solver, check : path
         solver.js and check.js.
     answers : list
-        Of `stronge1994.curves.explorer`.
+        Of `stronge1994.explorer_answers`.
 
     Raises
     ------
@@ -185,7 +185,7 @@ def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[
     sources : sequence of path
         The template explorer.html, and in the same folder the style and scripts that it names.
     answers : list
-        Of `stronge1994.curves.explorer`, against which the page checks itself.
+        Of `stronge1994.explorer_answers`, against which the page checks itself.
 
     Returns
     -------

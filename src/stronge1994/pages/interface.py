@@ -9,7 +9,7 @@ from planarimpact.ground import arrays
 
 SRC = Path(__file__).parents[2]
 # What has users: the solver, the paper's formulas, and the curves that use both.
-DOCUMENTED = ("planarimpact", "stronge1994.printed", "stronge1994.curves")
+DOCUMENTED = ("planarimpact", "stronge1994.printed", "stronge1994.figures")
 
 
 def documented() -> list[str]:

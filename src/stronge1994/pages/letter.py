@@ -12,7 +12,7 @@ from markupsafe import Markup, escape
 
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.drawings import derived
+from stronge1994.figures.shared.drawing import derived
 from stronge1994.goodness import ChiSquared
 from stronge1994.ledger import contact, in_nature, nature
 from stronge1994.ledger.in_nature import Values

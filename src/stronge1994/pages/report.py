@@ -19,8 +19,8 @@ from markupsafe import Markup, escape
 
 from stronge1994 import csv_tables, verdict_table
 from stronge1994.csv_tables import Curves, Row
-from stronge1994.drawings import checked, derived
-from stronge1994.drawings import residuals as draw_residuals
+from stronge1994.figures.shared.drawing import checked, derived
+from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.judging.verdicts import SEEN
 from stronge1994.ledger import outcome
 from stronge1994.pages import (

@@ -1,5 +1,0 @@
-"""Fig. 4: as Fig. 3, for an incidence at which the contact slips first."""
-
-from stronge1994.curves.histories import curves
-
-__all__ = ["curves"]

@@ -1,0 +1,215 @@
+"""Fig. 5: tangential velocity at separation against incidence, e = 1."""
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact import continuum, lumped, models, rigid
+from planarimpact.ground import sliding
+from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.results import Rebound, Regime
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.curve_names import SIGNS, shifted
+from stronge1994.figures.shared.curves import as_printed as printed_curves
+from stronge1994.figures.shared.curves import continua
+from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
+from stronge1994.printed import impact
+from stronge1994.printed.slip import slip_throughout_limit as printed_limit
+
+# Curves with a parameter off by one sigma only show how far it moves the others. They have this
+# many times fewer vertices.
+COARSER = 4
+
+
+def curves(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    incidence: Sequence[float],
+    restitution: float,
+    samples: int,
+    tolerance: float,
+    loss_tolerance: float,
+    rubber: dict[str, float],
+    experiment: dict[str, float],
+    finite_elements: dict[str, float],
+    uncertainty: Mapping[str, float] | None = None,
+    nodes: Nodes = NO_NODES,
+    as_printed: bool = False,
+) -> Curves:
+    """The lumped model, its limit and the elastic continuum; an experiment with loss.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio, restitution : float
+        beta, zeta^2 and e of the figure.
+    incidence : (float, float)
+        Range of x = v1(0)/(mu v2(0)).
+    samples : int
+        Evenly spread vertices; thresholds come on top.
+    tolerance : float
+        Largest error of the elastic continuum, which has e = 1 whatever the restitution.
+    loss_tolerance : float
+        Largest error of the continua that lose energy, those of the experiment.
+    rubber : dict
+        `stiffness_ratio` of Johnson's rubber sphere.
+    experiment : dict
+        A sphere shot at a plane without spin: `mass_ratio`, `stiffness_ratio`,
+        `restitution`, `friction`, `speed` (m/s), `radius` (m).
+    finite_elements : dict
+        Of a finite-element solution: `mass_ratio`, `stiffness_ratio`, `restitution`.
+    uncertainty : dict, optional
+        One sigma of each parameter of the experiment that is uncertain.
+    nodes : dict, optional
+        More points that are vertices: of `incidence`, and of `angle` for the experiment.
+    as_printed : bool
+        Add what the printed equations give, see `as_printed`.
+
+    Returns
+    -------
+    dict
+        `lumped`, `no tangential compliance` and `continuum`; also `lumped, ...` and
+        `continuum, ...` for `rubber` and `finite elements`; and for the experiment `lumped,
+        experiment` and, for each of `continua.MODELS`, `MODEL, experiment`. `lumped`,
+        `continuum` and the curves of the finite elements have the regime, and the spin after impact
+        as R spin/(mu v2(0)), negative in the direction of incidence. The curves of the experiment
+        have the quantities that are measured against the angle of incidence. Beside them are curves
+        with one parameter off by one sigma, named by `curve_names.shifted`.
+
+    Examples
+    --------
+    >>> sphere = dict(mass_ratio=3.5, stiffness_ratio=1.164, restitution=0.98, friction=0.092,
+    ...               speed=3.9, radius=0.0025)
+    >>> elements = dict(mass_ratio=3.5, stiffness_ratio=1.2143, restitution=1.0)
+    >>> rubber = {"stiffness_ratio": 1.5}
+    >>> named = curves(3.5, 1.21, (0, 8), 1.0, 9, 1e-4, 1e-3, rubber, sphere, elements)
+    >>> float(named["lumped"]["velocity [mu v2(0)]"][-1])
+    1.0
+    """
+    limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, restitution)
+    printed = printed_limit(mass_ratio, restitution)
+    extra = nodes.get("incidence", ())
+    x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, printed, extra)
+    spring = rubber["stiffness_ratio"]
+    groups = mass_ratio, stiffness_ratio
+    exact = lumped.rebound(x, *groups, restitution)
+    shots = {"experiment": _shots(samples, nodes.get("angle", ()), experiment)}
+    for parameter, sigma in (uncertainty or {}).items():
+        for sign in SIGNS:
+            changed = experiment | {parameter: experiment[parameter] + sign * sigma}
+            shots[shifted("experiment", parameter, sign)] = _shots(samples // COARSER, (), changed)
+    elastic = _elastic(
+        {
+            "sphere": (x, *groups),
+            "rubber": (x, mass_ratio, spring),
+            "finite elements": (x, *_groups(finite_elements)[:2]),
+        },
+        tolerance,
+    )
+    named = {
+        "lumped": _sphere(x, exact, mass_ratio),
+        "no tangential compliance": _velocity(
+            x, rigid.rebound(x, mass_ratio, restitution=restitution)
+        ),
+        "continuum": _sphere(x, elastic["sphere"], mass_ratio),
+        "lumped, rubber": _velocity(x, lumped.rebound(x, mass_ratio, spring, restitution)),
+        "continuum, rubber": _velocity(x, elastic["rubber"]),
+    }
+    whole = lumped.rebound(x, *_groups(finite_elements))
+    for model, found in (("lumped", whole), ("continuum", elastic["finite elements"])):
+        elements = _sphere(x, found, finite_elements["mass_ratio"])
+        named[f"{model}, finite elements"] = elements
+    for model in ("lumped", *continua.MODELS):
+        own = {"tolerance": loss_tolerance} if model in continua.MODELS else {}
+        for name, shot in shots.items():
+            rebound = models.rebound(model, shot.x, *_groups(shot.sphere), **own)
+            named[f"{model}, {name}"] = _measured(shot, rebound)
+    if as_printed:
+        velocity, _, _ = impact.rebound(x, *groups, restitution)
+        named |= printed_curves.beside("", named["lumped"], velocity)
+    return named
+
+
+def _velocity(x: Array, rebound: Rebound) -> Columns:
+    return {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": rebound.velocity}
+
+
+def _sphere(x: Array, rebound: Rebound, mass_ratio: float) -> Columns:
+    return {
+        **_velocity(x, rebound),
+        "regime": Regime.names(rebound.regime),
+        "spin [mu v2(0)/R]": -(mass_ratio - 1) / mass_ratio * (x - rebound.velocity),
+    }
+
+
+class _Shots(NamedTuple):
+    """A free sphere without spin, shot at a plane under many angles [deg] from the normal."""
+
+    sphere: dict[str, float]
+    angle: Array
+
+    @property
+    def x(self) -> Array:
+        return np.tan(np.radians(self.angle)) / self.sphere["friction"]
+
+
+def _groups(parameters: dict[str, float]) -> tuple[float, float, float]:
+    return (
+        parameters["mass_ratio"],
+        parameters["stiffness_ratio"],
+        parameters["restitution"],
+    )
+
+
+def _shots(samples: int, nodes: ArrayLike, sphere: dict[str, float]) -> _Shots:
+    groups = _groups(sphere)
+    beta, zeta2, e = (np.array(group) for group in groups)
+    alike = sliding.limit_alike(beta, zeta2, e)
+    limits = [zeta2, beta, lumped.slip_throughout_limit(*groups), alike]
+    thresholds = np.degrees(np.arctan(sphere["friction"] * np.array(limits)))
+    # The ratio of velocities has no value at normal incidence.
+    return _Shots(sphere, vertices((0.01, 89.9), samples, thresholds, nodes))
+
+
+def _elastic(asked: dict[str, tuple[Array, float, float]], tolerance: float) -> dict[str, Rebound]:
+    """The continuum for several spheres, each with its incidences, beta and zeta^2.
+
+    They are solved together, which takes hardly longer than one of them alone.
+    """
+    x, beta, zeta2 = (
+        np.concatenate([np.broadcast_to(group[i], group[0].shape) for group in asked.values()])
+        for i in range(3)
+    )
+    found = continuum.rebound(x, beta, zeta2, tolerance=tolerance)
+    ends = np.cumsum([group[0].size for group in asked.values()])
+    parts = [
+        slice(end - group[0].size, end) for group, end in zip(asked.values(), ends, strict=True)
+    ]
+    return {
+        name: Rebound(
+            found.velocity[part],
+            found.peak_friction[part],
+            found.dissipation[part],
+            np.asarray(found.regime)[part],
+        )
+        for name, part in zip(asked, parts, strict=True)
+    }
+
+
+def _measured(shots: _Shots, rebound: Rebound) -> Columns:
+    """What is measured of a sphere against its angle of incidence."""
+    sphere, x = shots.sphere, shots.x
+    beta, friction, restitution = (sphere[key] for key in ("mass_ratio", "friction", "restitution"))
+    change = x - rebound.velocity
+    centre = 1 - change / (beta * x)
+    unit = friction * sphere["speed"] * np.cos(np.radians(shots.angle))
+    return {
+        **_velocity(x, rebound),
+        "angle [deg]": shots.angle,
+        "centre_restitution [1]": centre,
+        "spin [rad/s]": (beta - 1) / beta * change * unit / sphere["radius"],
+        "centre_rebound_angle [deg]": np.degrees(np.arctan(centre * friction * x / restitution)),
+        "contact_rebound_angle [deg]": np.degrees(
+            np.arctan(friction * rebound.velocity / restitution)
+        ),
+    }

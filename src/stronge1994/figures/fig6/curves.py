@@ -1,0 +1,77 @@
+"""Fig. 6: tangential velocity at separation against incidence, for several restitutions."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from planarimpact import Regime, lumped
+from stronge1994.csv_tables import Curves
+from stronge1994.curve_names import name
+from stronge1994.figures.shared.curves import as_printed as printed_curves
+from stronge1994.figures.shared.curves import continua as lossy
+from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
+from stronge1994.printed import impact
+from stronge1994.printed.slip import slip_throughout_limit as printed_limit
+
+
+def curves(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    incidence: Sequence[float],
+    restitution: Sequence[float],
+    samples: int,
+    continua: Mapping[str, Any] | None = None,
+    nodes: Nodes = NO_NODES,
+    as_printed: bool = False,
+) -> Curves:
+    """One curve of the paper's model for each coefficient of restitution.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio : float
+        beta and zeta^2.
+    incidence : (float, float)
+        Range of x = v1(0)/(mu v2(0)).
+    restitution : sequence of float
+        Coefficients e, one curve each, named `e = ...`.
+    samples : int
+        Evenly spread vertices; thresholds come on top.
+    continua : dict, optional
+        Continua that lose energy, drawn beside them, see `continua.beside`.
+    nodes : dict, optional
+        More vertices, of `incidence`.
+    as_printed : bool
+        Add what the printed equations give, see `as_printed`.
+
+    Returns
+    -------
+    dict
+        Columns incidence, velocity, peak friction, dissipation, regime; of the continua, named
+        `continuum.viscous, e = ...`, incidence and velocity.
+
+    Examples
+    --------
+    >>> named = curves(3.5, 1.21, (0, 8), [0, 1], 9)
+    >>> [float(curve["velocity [mu v2(0)]"][-1]) for curve in named.values()]
+    [4.5, 1.0]
+    """
+    extra = nodes.get("incidence", ())
+    named = {}
+    for e in restitution:
+        limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
+        printed = printed_limit(mass_ratio, e)
+        x = vertices(incidence, samples, stiffness_ratio, mass_ratio, limit, printed, extra)
+        rebound = lumped.rebound(x, mass_ratio, stiffness_ratio, e)
+        named[name("e", e)] = {
+            "incidence [mu v2(0)]": x,
+            "velocity [mu v2(0)]": rebound.velocity,
+            "peak_friction_force [mu m2 Omega v2(0)]": rebound.peak_friction,
+            "dissipation [mu^2 m2 v2(0)^2]": rebound.dissipation,
+            "regime": Regime.names(rebound.regime),
+        }
+        if as_printed:
+            velocity, _, _ = impact.rebound(x, mass_ratio, stiffness_ratio, e)
+            named |= printed_curves.beside(name("e", e), named[name("e", e)], velocity)
+    x = vertices(incidence, samples, stiffness_ratio, mass_ratio, extra)
+    for title, found in lossy.beside(continua, x, mass_ratio, stiffness_ratio):
+        named[title] = {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": found.velocity}
+    return named

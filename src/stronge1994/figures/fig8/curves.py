@@ -1,0 +1,76 @@
+"""Fig. 8: largest forces in newtons on the pendulum ball of Lewis & Rogers."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from planarimpact import bodies, lumped
+from stronge1994.csv_tables import Curves
+from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
+
+
+def curves(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    angle: Sequence[float],
+    friction: float,
+    speed: float,
+    mass: float,
+    ball: dict[str, float],
+    samples: int,
+    nodes: Nodes = NO_NODES,
+) -> Curves:
+    """Peak forces at one speed of incidence.
+
+    The paper states no contact stiffness. Omega is taken so that the peak force at normal
+    incidence is Hertz's for this ball and mass; only angles and ratios test the model.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio : float
+        beta and zeta^2.
+    angle : (float, float)
+        Range of the angle of incidence in degrees.
+    friction, speed, mass : float
+        mu; S in m/s; mass of ball and holder in kg.
+    ball : dict
+        `radius` (m), `young_modulus` (Pa) and `poisson_ratio` of ball and plate.
+    samples : int
+        Evenly spread vertices; thresholds come on top.
+    nodes : dict, optional
+        More vertices, of `angle`.
+
+    Returns
+    -------
+    dict
+        `normal`, and `friction` with the ratio of its peak to mu times the normal peak and
+        the lowest friction of the contact: negative where friction turns round.
+
+    Examples
+    --------
+    >>> steel = dict(radius=0.0127, young_modulus=207e9, poisson_ratio=0.3)
+    >>> named = curves(3.5, 1.21, (0, 90), 0.18, 0.048, 0.101, steel, 91)
+    >>> round(float(named["normal"]["peak_force [N]"][0]))
+    94
+    """
+    metal = bodies.Material(ball["young_modulus"], ball["poisson_ratio"])
+    hertz = float(
+        bodies.hertz_peak_force(mass, speed, bodies.effective_modulus(metal, metal), ball["radius"])
+    )
+    limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, 1.0)
+    thresholds = np.array([stiffness_ratio, mass_ratio, limit])
+    extra = nodes.get("angle", ())
+    theta = vertices(angle, samples, np.degrees(np.arctan(friction * thresholds)), extra)
+    x = np.tan(np.radians(theta)) / friction
+    peak = lumped.rebound(x, mass_ratio, stiffness_ratio).peak_friction
+    lowest = [lumped.history(value, mass_ratio, stiffness_ratio).friction.min() for value in x]
+    normal = hertz * np.cos(np.radians(theta))
+    return {
+        "normal": {"angle [deg]": theta, "peak_force [N]": normal},
+        "friction": {
+            "angle [deg]": theta,
+            "peak_force [N]": friction * normal * peak,
+            "peak_over_mu_normal [1]": peak,
+            "lowest_friction [N]": friction * normal * np.array(lowest),
+        },
+    }

@@ -1,0 +1,248 @@
+"""Beyond the paper: restitution below 1, five models of loss beside measured pairs of materials.
+
+Experiments state one number for the tangential rebound, beta_0: minus the slope of the line that
+fits w(x) where the contact does not slide. It is computed here as it was measured.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from planarimpact import bodies, models
+from planarimpact.bodies import Material
+from planarimpact.ground import sliding
+from planarimpact.ground.arrays import Array, ArrayLike
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.curve_names import EACH, SIGNS, name, shifted
+from stronge1994.figures.shared.curves.sampling import vertices
+
+MODELS = (
+    "continuum.viscous",
+    "continuum.plastic",
+    "lumped.viscous",
+    "lumped.plastic",
+    "lumped",
+)
+# Slopes that are tried before the best is refined. Friction never pushes, so no |w| is above x.
+TRIED = np.linspace(-1.0, 1.0, 201)
+# Impacts of a fit, so many that their number plays no part.
+FITTED = 2000
+E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
+PARAMETERS = f"{EACH}pair's parameters"
+
+
+def curves(
+    mass_ratio: float,
+    points: Mapping[str, Sequence[Any]],
+    materials: Mapping[str, Sequence[Any]],
+    restitution: Sequence[float],
+    poisson_ratio: Sequence[float],
+    contact: Mapping[str, float],
+    incidence: Sequence[float],
+    samples: int,
+    fit: Mapping[str, Any],
+    tolerance: float,
+    uncertainty: Mapping[str, Sequence[float]] | None = None,
+) -> Curves:
+    """What each model says of the measured pairs, of every restitution, and of every incidence.
+
+    Parameters
+    ----------
+    mass_ratio : float
+        beta.
+    points : dict
+        Measured pairs, columns of data/cornell1999/pairs.csv: `pair`, `body`, `other`,
+        `restitution`, `friction`, and their `..._uncertainty`.
+    materials : dict
+        Columns `material`, `young_modulus` [Pa] and `poisson_ratio`.
+    restitution : sequence of float
+        Of the bands.
+    poisson_ratio : (float, float)
+        Of both edges of a band.
+    contact : dict
+        `restitution` and `poisson_ratio` of the contact that is solved over all incidences.
+    incidence : (float, float)
+        Their range, in mu v2(0).
+    samples : int
+        Their number.
+    fit : dict
+        How beta_0 is found: see `tangential_restitution`. `friction` is that of the bands, `solved`
+        the number of incidences that are solved for one fit.
+    tolerance : float
+        Largest error of the continua.
+    uncertainty : dict, optional
+        One sigma of each material's `young_modulus` and `poisson_ratio`.
+
+    Returns
+    -------
+    dict
+        For each of `MODELS`: `<model>, pairs`, `<model>, nu = ...` for both edges of the band, and
+        `<model>, e = ...`. With uncertainties also `<model>, pairs; each pair's parameters +- 1
+        sigma`: beta_0 with the standard deviation that it has from restitution, friction and
+        moduli, which are each pair's own.
+
+    Examples
+    --------
+    >>> pairs = {"pair": ["glass"], "body": ["glass"], "other": ["glass"], "restitution": [0.97],
+    ...          "friction": [0.1]}
+    >>> glass = {"material": ["glass"], "young_modulus": [7e10], "poisson_ratio": [0.2]}
+    >>> fit = {"evenly": "incidence", "reach": 1.0, "friction": 0.1, "solved": 16}
+    >>> named = curves(3.5, pairs, glass, [0.8, 1.0], [0.2, 0.5], {"restitution": 0.6,
+    ...                "poisson_ratio": 0.3}, (0, 8), 11, fit, 1e-3)
+    >>> round(float(named["lumped, pairs"]["tangential_restitution [1]"][0]), 2)
+    0.37
+    """
+    pairs = _Contacts.of_pairs(points, materials)
+    bands = [_Contacts.of_band(restitution, nu, fit["friction"]) for nu in poisson_ratio]
+    # Each parameter is lowered by its sigma: e cannot be raised where it is 1.
+    lowered = [] if uncertainty is None else pairs.lowered(points, materials, uncertainty)
+    zeta2 = _like(contact["poisson_ratio"])
+    x = vertices(incidence, samples)
+    named: Curves = {}
+    for model in MODELS:
+
+        def solve(*groups: ArrayLike, model: str = model) -> Array:
+            settings = {"tolerance": tolerance} if model.startswith("continuum") else {}
+            return models.rebound(model, *groups, **settings).velocity
+
+        found = _fitted(solve, mass_ratio, [pairs, *bands, *lowered], fit)
+        labels = {key: np.array(points[key]) for key in ("pair", "body", "other")}
+        own: Columns = labels | {E: pairs.restitution}
+        named[f"{model}, pairs"] = own | {BETA_0: found[0]}
+        for nu, band, beta_0 in zip(poisson_ratio, bands, found[1:], strict=False):
+            named[f"{model}, {name('nu', nu)}"] = {E: band.restitution, BETA_0: beta_0}
+        named[f"{model}, {name('e', contact['restitution'])}"] = {
+            "incidence [mu v2(0)]": x,
+            "velocity [mu v2(0)]": solve(x, mass_ratio, zeta2, contact["restitution"]),
+        }
+        if lowered:
+            changes = [beta_0 - found[0] for beta_0 in found[-len(lowered) :]]
+            sigma = np.sqrt(np.sum(np.square(changes), axis=0))
+            for sign in SIGNS:
+                column = {BETA_0: found[0] + sign * sigma}
+                named[shifted(f"{model}, pairs", PARAMETERS, sign)] = own | column
+    return named
+
+
+class _Contacts(NamedTuple):
+    """Several contacts, and the friction with which angles become incidences."""
+
+    stiffness_ratio: Array
+    restitution: Array
+    friction: Array
+
+    @classmethod
+    def of_band(cls, restitution: Sequence[float], nu: float, friction: float) -> "_Contacts":
+        e = np.array(restitution, float)
+        return cls(np.full_like(e, _like(nu)), e, np.full_like(e, friction))
+
+    @classmethod
+    def of_pairs(
+        cls, points: Mapping[str, Sequence[Any]], materials: Mapping[str, Sequence[Any]]
+    ) -> "_Contacts":
+        known = {
+            material: Material(young, nu)
+            for material, young, nu in zip(
+                *(materials[key] for key in ("material", "young_modulus", "poisson_ratio")),
+                strict=True,
+            )
+        }
+        couples = zip(points["body"], points["other"], strict=True)
+        ratios = [
+            bodies.stiffness_ratio(known[_key(body)], known[_key(other)]) for body, other in couples
+        ]
+        e, friction = (np.array(points[key], float) for key in ("restitution", "friction"))
+        return cls(np.array(ratios, float), e, friction)
+
+    def lowered(
+        self,
+        points: Mapping[str, Sequence[Any]],
+        materials: Mapping[str, Sequence[Any]],
+        uncertainty: Mapping[str, Sequence[float]],
+    ) -> list["_Contacts"]:
+        """The same pairs with one group lowered by its sigma: e, mu, zeta^2."""
+        changes = []
+        for key, sigmas in uncertainty.items():
+            for place, sigma in enumerate(sigmas):
+                other = list(materials[key])
+                other[place] += sigma
+                changed = _Contacts.of_pairs(points, {**materials, key: other})
+                changes.append(changed.stiffness_ratio - self.stiffness_ratio)
+        sigma = np.sqrt(np.sum(np.square(changes), axis=0))
+        e, friction = (np.array(points[f"{key}_uncertainty"]) for key in self._fields[1:])
+        return [
+            self._replace(restitution=self.restitution - e),
+            self._replace(friction=self.friction - friction),
+            self._replace(stiffness_ratio=self.stiffness_ratio - sigma),
+        ]
+
+
+def _key(material: str) -> str:
+    """Name of a material as parameters of source.yaml have it."""
+    return material.lower().replace(" ", "_").replace("-", "_")
+
+
+def _like(nu: float) -> float:
+    """zeta^2 of two bodies of one material."""
+    return float(bodies.stiffness_ratio(Material(1.0, nu)))
+
+
+def _fitted(
+    solve: Callable[..., Array], beta: float, groups: Sequence[_Contacts], fit: Mapping[str, Any]
+) -> list[Array]:
+    """beta_0 of several groups of contacts, which are solved together."""
+    whole = _Contacts(*map(np.concatenate, zip(*groups, strict=True)))
+    e = whole.restitution
+    ends = fit["reach"] * sliding.change(np.full_like(e, beta), e)
+    x = ends[:, None] * np.linspace(0.0, 1.0, fit["solved"])
+    # Contacts that differ by friction alone have the same rebounds.
+    groups_of_rebound = np.stack([whole.stiffness_ratio, e], axis=1)
+    _, first, same = np.unique(groups_of_rebound, axis=0, return_index=True, return_inverse=True)
+    w = solve(x[first], beta, whole.stiffness_ratio[first, None], e[first, None])[same.ravel()]
+    beta_0 = np.empty(len(ends))
+    for i, end in enumerate(ends):
+        at = _impacts(end, float(whole.friction[i]), fit["evenly"])
+        beta_0[i] = tangential_restitution(at, CubicSpline(x[i], w[i])(at), beta, float(e[i]))
+    return np.split(beta_0, np.cumsum([len(group.restitution) for group in groups])[:-1])
+
+
+def _impacts(end: float, friction: float, evenly: str) -> Array:
+    """Incidences of the impacts of one fit, from 0 to an end: evenly spread, or their angles."""
+    share = (np.arange(FITTED) + 0.5) / FITTED
+    if evenly == "incidence":
+        return share * end
+    return np.tan(share * np.arctan(friction * end)) / friction
+
+
+def tangential_restitution(x: ArrayLike, w: ArrayLike, beta: float, e: float) -> float:
+    """beta_0 of the two lines that fit rebounds best: w = max(-beta_0 x, x - (1 + e) beta).
+
+    The line of slip throughout is known, so beta_0 is all that is fitted, by least squares of w.
+
+    Parameters
+    ----------
+    x, w : array_like, shape (n,)
+        Incidences, ascending and above 0, and velocities at separation.
+    beta, e : float
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> x = np.linspace(0.1, 7, 70)
+    >>> round(tangential_restitution(x, np.maximum(-0.4 * x, x - 7), 3.5, 1.0), 9)
+    0.4
+    """
+    x, w = np.asarray(x, float), np.asarray(w, float)
+    slip = sliding.velocity(x, beta, e)
+    squares = [np.sum((w - np.maximum(-slope * x, slip)) ** 2) for slope in TRIED]
+    found, before = float(TRIED[np.argmin(squares)]), np.nan
+    # The impacts above the line of slip give a slope, and this tells which impacts they are.
+    while found != before:
+        first, before = -found * x > slip, found
+        found = -float(np.sum(w[first] * x[first]) / np.sum(x[first] ** 2))
+    return found

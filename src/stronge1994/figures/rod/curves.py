@@ -1,0 +1,166 @@
+"""Beyond the paper: a slender rod strikes with its tip, tilted, so that its motions are coupled."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from planarimpact import Regime, noncollinear
+from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.noncollinear import InverseMass, NoncollinearHistory, NoncollinearRebound, rigid
+from planarimpact.noncollinear.rigid import ImpulsiveRebound, Law
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.curve_names import name
+from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
+
+RIGID = {"rigid": Law.ENERGETIC, "rigid, Newton": Law.KINEMATIC}
+
+
+def curves(
+    stiffness_ratio: float,
+    tilt: Sequence[float],
+    velocity_ratio: Sequence[float],
+    friction: float,
+    restitution: float,
+    samples: int,
+    contact: dict[str, float],
+    nodes: Nodes = NO_NODES,
+) -> Curves:
+    """Rebound against the tilt, compliant and rigid, and one contact that jams.
+
+    Parameters
+    ----------
+    stiffness_ratio : float
+        zeta^2.
+    tilt : (float, float)
+        Range of the rod's angle from the normal in degrees, see `slender_rod`.
+    velocity_ratio : sequence of float
+        v1(0)/v2(0) of the tip, not divided by mu; three curves each.
+    friction, restitution : float
+        Coefficients mu and e; e is energetic, but in the curves `rigid, Newton, ...`, where it is
+        the ratio of the normal velocities.
+    samples : int
+        Evenly spread tilts, and instants of the contact; limits of the jam and events come on top.
+    contact : dict
+        `tilt` in degrees and `velocity_ratio` of the contact that is followed through.
+    nodes : dict, optional
+        More vertices, of `tilt`.
+
+    Returns
+    -------
+    dict
+        `v1/v2 = ...`, `rigid, v1/v2 = ...` and `rigid, Newton, v1/v2 = ...`: velocities of the tip
+        after the impact, negative normal ones leave; kinetic energy after it in K0, that before it
+        (`noncollinear.kinetic_energy`), also what is lost and where it goes; jams is 0 or 1.
+        `contact` and `contact, mu = 0`: forces and velocities against time, `event` as in Fig. 3.
+
+    Examples
+    --------
+    >>> one = {"tilt": 25.0, "velocity_ratio": 10.0}
+    >>> named = curves(1.21, (-80, 80), [0.6], 1.6, 0.9, 11, one)
+    >>> list(named)[:3]
+    ['v1/v2 = 0.6', 'rigid, v1/v2 = 0.6', 'rigid, Newton, v1/v2 = 0.6']
+    >>> float(named["rigid, Newton, v1/v2 = 0.6"]["kinetic_energy [K0]"].max().round(2))
+    1.26
+    """
+    angle = vertices(tilt, samples, jam_limits(friction), nodes.get("tilt", ()))
+    rod = slender_rod(angle)
+    named = {}
+    for ratio in velocity_ratio:
+        before = noncollinear.kinetic_energy(ratio, 1.0, rod)
+        found = noncollinear.rebound(ratio, 1.0, rod, friction, restitution, stiffness_ratio)
+        columns = _columns(angle, found, rod, before)
+        named[name("v1/v2", ratio)] = columns | {
+            "energy_lost [K0]": 1 - columns["kinetic_energy [K0]"],
+            "friction_work [K0]": found.friction_work / before,
+            "hysteresis [K0]": found.hysteresis / before,
+            "energy_dissipated [K0]": (found.friction_work + found.hysteresis) / before,
+            "regime": Regime.names(found.regime),
+        }
+        for kind, law in RIGID.items():
+            sudden = rigid.rebound(ratio, 1.0, rod, friction, restitution, law)
+            named[f"{kind}, {name('v1/v2', ratio)}"] = _columns(angle, sudden, rod, before)
+    for label, mu in (("contact", friction), ("contact, mu = 0", 0.0)):
+        named[label] = _followed(
+            noncollinear.history(
+                contact["velocity_ratio"],
+                1.0,
+                slender_rod(contact["tilt"]),
+                mu,
+                restitution,
+                stiffness_ratio,
+                samples=samples,
+            )
+        )
+    return named
+
+
+def slender_rod(tilt: ArrayLike) -> InverseMass:
+    """Inverse mass at the tip of a uniform slender rod, in units of 1/m2.
+
+    Parameters
+    ----------
+    tilt : array_like
+        Angle from the normal in degrees; positive where the tip, in the direction of positive
+        tangential velocity, is ahead of the centre.
+
+    Returns
+    -------
+    noncollinear.InverseMass
+
+    Examples
+    --------
+    >>> [round(float(entry), 12) for entry in slender_rod(45.0)]
+    [1.0, 0.6, 1.0]
+    """
+    sine, cosine = np.sin(np.radians(tilt)), np.cos(np.radians(tilt))
+    # Length 1; with this mass m2 = 1, so that with kappa = 1 times are in 1/Omega.
+    mass = 1 + 3 * sine**2
+    return noncollinear.inverse_mass(mass, 12**-0.5, offset=sine / 2, depth=cosine / 2)
+
+
+def jam_limits(friction: float) -> Array:
+    """Tilts in degrees between which a slender rod jams while its tip slides: mu |c| m2 = 1.
+
+    c m2 = 3 tan/(1 + 4 tan^2) is at most 3/4, so there are none for mu <= 4/3.
+
+    Examples
+    --------
+    >>> jam_limits(1.6).round(1).tolist()
+    [-43.0, -15.0, 15.0, 43.0]
+    >>> jam_limits(1.3).tolist()
+    []
+    """
+    square = 9 * friction**2 - 16
+    if square <= 0:
+        return np.array([])
+    tangent = (3 * friction + np.array([-1, 1]) * np.sqrt(square)) / 8
+    limits = np.degrees(np.arctan(tangent))
+    return np.concatenate([-limits[::-1], limits])
+
+
+def _columns(
+    angle: Array, found: NoncollinearRebound | ImpulsiveRebound, rod: InverseMass, before: Array
+) -> Columns:
+    after = noncollinear.kinetic_energy(found.tangential, found.normal, rod)
+    return {
+        "tilt [deg]": angle,
+        "tangential_velocity [v2(0)]": found.tangential,
+        "normal_velocity [v2(0)]": found.normal,
+        "kinetic_energy [K0]": after / before,
+        "jams [1]": found.jams.astype(int),
+    }
+
+
+def _followed(contact: NoncollinearHistory) -> Columns:
+    """Columns of a history; the last event of an instant stands at its vertex."""
+    event = np.full(contact.time.size, "", dtype="<U24")
+    for mark in contact.events:
+        event[np.searchsorted(contact.time, mark.time)] = str(mark.kind)
+    return {
+        "time [1/Omega]": contact.time,
+        "normal_force [m2 Omega v2(0)]": contact.normal_force,
+        "friction_force [m2 Omega v2(0)]": contact.friction,
+        "tangential_velocity [v2(0)]": contact.tangential,
+        "normal_velocity [v2(0)]": contact.normal,
+        "event": event,
+    }

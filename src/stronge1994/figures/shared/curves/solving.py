@@ -1,0 +1,40 @@
+"""Solve the curves of one figure. A crash becomes a table with the error: a failed verdict."""
+
+import importlib
+import traceback
+from collections.abc import Mapping
+from typing import Any, TypeAlias
+
+from stronge1994 import csv_tables
+
+# CSV of a reference table: its x column; None stands for the whole table.
+Tables: TypeAlias = Mapping[str, str | None]
+
+
+def solve(figure: str, settings: dict[str, Any], nodes: Tables, output: str) -> None:
+    """Write the curves of `figure`.
+
+    `nodes` names reference tables. Curves must pass through the points of their x columns; a whole
+    table becomes the setting `points` instead.
+    """
+    try:
+        settings = settings | read_nodes(nodes)
+        named = importlib.import_module(f"stronge1994.figures.{figure}.curves").curves(**settings)
+    except Exception as error:
+        traceback.print_exc()
+        csv_tables.write_rows(output, ["error"], [[f"{type(error).__name__}: {error}"]])
+        return
+    csv_tables.write(output, named)
+
+
+def read_nodes(nodes: Tables) -> dict[str, Any]:
+    """Settings that hold the points of reference tables, `nodes` as for `solve`."""
+    points: dict[str, set[float]] = {}
+    for path, column in nodes.items():
+        rows = csv_tables.read_rows(path)
+        if column is None:
+            columns = {name: csv_tables.values([row[name] for row in rows]) for name in rows[0]}
+            table = {name.split(" [")[0]: column.tolist() for name, column in columns.items()}
+            return {"points": table}
+        points.setdefault(column.split(" [")[0], set()).update(float(row[column]) for row in rows)
+    return {"nodes": {axis: sorted(found) for axis, found in points.items()}} if points else {}

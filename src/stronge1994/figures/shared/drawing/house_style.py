@@ -1,0 +1,379 @@
+"""House style of the figures: fonts, colours, what each line means, and the parts they share.
+
+Each figN.py beside this file has one public function, `draw(curves, settings, points)`, which
+returns a Figure:
+
+- `curves`, what curves.py beside it returns, `{curve: {column: array}}`, and what `derived`
+  adds; nothing else may be shown, see `checked`;
+- `settings`, the keywords it was called with, from which labels take their numbers;
+- `points`, the reference series that are not awaited, `{"source/series": {...}}` with arrays `x`
+  and `y`, their `sigma`, `line` and the source's `parameters`; and stated facts, as in source.yaml.
+
+Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
+figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
+What this repository adds to a figure of the paper has its own part of the legend. The colours
+(Okabe & Ito) differ in grey too, and no two curves differ by colour alone. Where one figure shows
+several restitutions, `of_restitution` gives their lines; where it shows one, a pattern is a model.
+"""
+
+import itertools
+import textwrap
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeAlias, TypeVar
+
+import matplotlib
+import numpy as np
+from matplotlib import font_manager
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from planarimpact.ground.arrays import Array
+from stronge1994 import curve_names
+from stronge1994.csv_tables import Curves
+
+Style: TypeAlias = dict[str, Any]  # keywords of matplotlib
+Dashes: TypeAlias = str | tuple[float, tuple[float, ...]]  # a pattern of line
+Settings: TypeAlias = dict[str, Any]
+Series: TypeAlias = dict[str, Any]
+Points: TypeAlias = dict[str, Series]
+Entries: TypeAlias = list[Any]  # of a legend: artists, and containers of them
+_Item = TypeVar("_Item")
+
+# Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
+WIDTH = 5.0
+# Size in points of notes, of words over brackets and of labels at lines.
+NOTE = 8.5
+# Distance of lines of text, over that of the typeface, which leaves room for tall mathematics.
+LINES = 1.0
+
+BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
+SKY, ORANGE = "#56B4E9", "#E69F00"
+GREY, PALE = "0.5", "0.85"
+
+# No pattern is dotted: a dotted line means "no tangential compliance".
+DASHES: tuple[Dashes, ...] = (
+    "-",
+    (0, (5, 2)),
+    (0, (7, 2, 1.5, 2)),
+    (0, (3, 1.2)),
+    (0, (7, 1.5, 1.5, 1.5, 1.5, 1.5)),
+)
+COLOURS: tuple[str, ...] = (BLACK, BLUE, VERMILLION, GREEN, PURPLE)
+CYCLE = tuple(zip(COLOURS, DASHES, strict=True))
+
+LUMPED: Style = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
+CONTINUUM: Style = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
+RIGID: Style = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zorder": 1.8}
+# Label of what shows no number of a table, see `checked`; also of axes that hold a sketch.
+NO_DATA = "_no data"
+GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9, "label": NO_DATA}
+SURFACE: Style = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
+SURFACE |= {"label": NO_DATA}
+# From a time that was taken on a busy machine down to what the processor worked.
+BUSY: Style = {"ecolor": GREY, "elinewidth": 0.9, "capsize": 2, "fmt": "none", "zorder": 1.5}
+PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
+AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
+# Light and thin: continua that lose energy, beside the curves of a figure of the paper.
+LOSSY: dict[str, tuple[str, Style]] = {
+    "continuum.viscous": (
+        "continuum, viscoelastic",
+        {"color": SKY, "linestyle": DASHES[4], "linewidth": 1.0, "zorder": 1.9},
+    ),
+    "continuum.plastic": (
+        "continuum, elastic-plastic",
+        {"color": ORANGE, "linestyle": DASHES[3], "linewidth": 1.0, "zorder": 1.9},
+    ),
+}
+UNSOLVED: Style = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
+
+INCIDENCE = r"$v_1(0)/\mu v_2(0)$"
+REBOUND = r"$v_1(t_f)/\mu v_2(0)$"
+# Largest forces of an impact, to be put between dollar signs.
+F1MAX, F2MAX = r"F_{1\mathrm{max}}", r"F_{2\mathrm{max}}"
+
+STYLE = {
+    "axes.linewidth": 0.7,
+    "axes.labelsize": 10.5,
+    "axes.titlesize": 10.5,
+    "errorbar.capsize": 1.5,
+    "figure.constrained_layout.h_pad": 0.05,
+    "figure.constrained_layout.w_pad": 0.05,
+    "font.family": "STIXGeneral",  # a typeface of journals
+    "font.size": 10,
+    "hatch.color": "0.7",
+    "hatch.linewidth": 0.5,
+    "legend.fontsize": 9,
+    "legend.frameon": False,
+    "legend.handlelength": 2.9,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 4,
+    "mathtext.fontset": "stix",
+    "svg.fonttype": "path",  # letters as shapes: the same in every viewer, without its fonts
+    "svg.hashsalt": "planarimpact",  # the same names inside the file at every run
+    "xtick.direction": "in",
+    "xtick.labelsize": 9.5,
+    "xtick.major.pad": 5,  # the first label keeps away from that of the other axis
+    "ytick.direction": "in",
+    "ytick.labelsize": 9.5,
+}
+# These letters come with matplotlib. Its list of fonts may be older than this installation and lack
+# them: then it would take other letters, which are wider than the places made for these.
+for _font in sorted(Path(matplotlib.get_data_path(), "fonts/ttf").glob("STIX*.ttf")):
+    font_manager.fontManager.addfont(_font)
+matplotlib.rcdefaults()
+matplotlib.rcParams.update(STYLE)
+
+
+def new(height: float) -> Figure:
+    """Empty figure of the house's width and a height in inches."""
+    return Figure(figsize=(WIDTH, height), layout="constrained")
+
+
+def failure(message: str) -> Figure:
+    """Figure of one sentence, drawn instead of curves that are missing."""
+    figure = new(1.6)
+    # A dollar sign in an error message is not mathematics.
+    style = {"ha": "center", "va": "center", "color": VERMILLION, "parse_math": False}
+    style["linespacing"] = LINES
+    figure.text(0.5, 0.5, textwrap.fill(message, 64), **style)
+    return figure
+
+
+def symbols(name: str) -> str:
+    """Name of a curve in mathematical letters.
+
+    Examples
+    --------
+    >>> symbols("mu = 0.1")
+    '$\\\\mu = 0.1$'
+    """
+    return "$" + name.replace("mu", r"\mu") + "$"
+
+
+def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
+    """Each item with its own pattern of line."""
+    return zip(items, itertools.cycle(DASHES), strict=False)
+
+
+def of_restitution(e: float) -> Dashes:
+    """Pattern of line of a restitution, the same in every figure.
+
+    Parameters
+    ----------
+    e : float
+        Coefficient of restitution, 0 to 1.
+
+    Returns
+    -------
+    str or tuple
+        Solid for 1, dash-dot for 0; between them dashes, longer for a larger `e`.
+
+    Examples
+    --------
+    >>> of_restitution(1), of_restitution(0.5)
+    ('-', (0, (5.0, 2)))
+    """
+    if e == 1:
+        return "-"
+    return (0, (2 + 6 * e, 2)) if e > 0 else DASHES[2]
+
+
+def restitutions(values: Iterable[float]) -> str:
+    """Words for some restitutions.
+
+    Examples
+    --------
+    >>> restitutions([0.5, 0.8])
+    '$e = 0.5, 0.8$'
+    """
+    return f"$e = {', '.join(f'{e:g}' for e in values)}$"
+
+
+def key(label: str, **style: Any) -> Line2D:
+    """Entry of a legend for a line that is not drawn."""
+    return Line2D([], [], label=label, **style)
+
+
+def legend_below(
+    figure: Figure, *groups: Iterable[Artist | str], titles: Collection[str] = ()
+) -> None:
+    """Legend below the axes, where it never covers a curve: one column for each group.
+
+    Parameters
+    ----------
+    figure : Figure
+    *groups : list of artists and strings
+        Entries with labels; a string is a heading, an empty one a gap.
+    titles : sequence of str, optional
+        Heading of each group.
+    """
+    columns = [list(group) for group in groups]
+    for column, title in zip(columns, titles, strict=False):
+        column.insert(0, title)
+    # A legend is filled column by column, so all columns must be equally long.
+    rows = max(map(len, columns))
+    entries = [entry for column in columns for entry in column + [""] * (rows - len(column))]
+    headings = {entry for entry in entries if isinstance(entry, str)}
+    handles = [key(e, linestyle="none") if isinstance(e, str) else e for e in entries]
+    place = {"loc": "outside lower center", "columnspacing": 2, "borderpad": 0.2}
+    legend = figure.legend(handles=handles, ncols=len(columns), **place)
+    for text in legend.get_texts():
+        if text.get_text() in headings:
+            text.set_style("italic")
+
+
+def rigid(axes: Axes, x: Array, y: Array, compliant: Array) -> None:
+    """Line without tangential compliance, left out where the compliant curve is the same."""
+    axes.plot(x, np.where(np.isclose(y, compliant), np.nan, y), **RIGID)
+
+
+def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> Entries:
+    """Draw what the printed equations give, and return entries of the legend.
+
+    Parameters
+    ----------
+    axes : Axes
+    curves : dict
+        All curves of a figure; those of `shared.curves.as_printed` are known by their names.
+        One of a restitution has its pattern, and an entry that names it.
+    x, y : str
+        Their columns.
+    equations : str
+        Their numbers, for the legend.
+
+    Returns
+    -------
+    list of artists
+    """
+    entries = {}
+    for name, curve in curves.items():
+        kind, _, pair = name.partition(", ")
+        label, style = f"{equations} as printed", AS_PRINTED
+        if kind == curve_names.NO_SOLUTION:
+            label, style = "no solution as printed", UNSOLVED
+        elif kind != curve_names.AS_PRINTED:
+            continue
+        elif pair.startswith("e = "):
+            label += f", {symbols(pair)}"
+            style = style | {"linestyle": of_restitution(float(pair.removeprefix("e = ")))}
+        axes.plot(curve[x], curve[y], **style)
+        entries[label] = key(label, **style)
+    return list(entries.values())
+
+
+def lossy(axes: Axes, curves: Curves, x: str, y: str, words: str, end: str = "") -> Entries:
+    """Draw the continua that lose energy, and return entries of the legend.
+
+    Parameters
+    ----------
+    axes : Axes
+    curves : dict
+        All curves of a figure; the continua are known by the beginnings of their names.
+    x, y : str
+        Their columns.
+    words : str
+        What the legend adds to the name of each model.
+    end : str
+        Only curves whose names end so.
+
+    Returns
+    -------
+    list of artists
+    """
+    entries = []
+    for model, (label, style) in LOSSY.items():
+        own = [
+            curve
+            for name, curve in curves.items()
+            if name.startswith(f"{model}, ") and name.endswith(end)
+        ]
+        for curve in own:
+            axes.plot(curve[x], curve[y], **style)
+        if own:
+            entries.append(key(f"{label}, {words}", **style))
+    return entries
+
+
+def measured(axes: Axes, series: Series, **style: Any) -> Artist:
+    """Draw points with error bars, or a line if the reference is one; its entry of the legend."""
+    if series["line"]:
+        return axes.plot(series["x"], series["y"], **style)[0]
+    x_error, y_error = series["sigma"]
+    bars = {"linestyle": "none", "elinewidth": 0.7, "markeredgewidth": 0.9, "zorder": 3}
+    return axes.errorbar(series["x"], series["y"], yerr=y_error, xerr=x_error, **(bars | style))
+
+
+def references(axes: Axes, points: Points, wanted: Mapping[str, tuple[str, Style]]) -> Entries:
+    """Draw reference series; the legend has an entry for each, also for awaited ones.
+
+    Parameters
+    ----------
+    axes : Axes
+    points : dict
+        As `draw` gets it.
+    wanted : dict
+        `{"source/series": (label, style)}`.
+
+    Returns
+    -------
+    list of artists
+    """
+    return [
+        measured(axes, points[name], label=label, **style)
+        if name in points
+        else key(f"{label}: awaited", linestyle="none")
+        for name, (label, style) in wanted.items()
+    ]
+
+
+def let_in(axes: Axes, series: Series) -> None:
+    """Widen axes to points that were digitised up to three sigmas outside them.
+
+    Parameters
+    ----------
+    axes : Axes
+        With their limits set.
+    series : dict
+        As `draw` gets it.
+    """
+    for name, get, set_ in (
+        ("x", axes.get_xlim, axes.set_xlim),
+        ("y", axes.get_ylim, axes.set_ylim),
+    ):
+        (low, high), sigma = get(), series["sigma"]["xy".index(name)]
+        values = series[name]
+        near = values[(values >= low - 3 * sigma) & (values <= high + 3 * sigma)]
+        set_(min([low, *near]), max([high, *near]))
+
+
+def angle_axes(axes: Axes, span: Sequence[float]) -> None:
+    """Axis of angles of incidence below, and above it the ratios of velocities that they mean."""
+    axes.set(xlim=span, xlabel=r"angle of incidence $\theta$")
+    degrees = [angle for angle in range(0, 91, 30) if span[0] <= angle <= span[1]]
+    axes.set_xticks(degrees, [rf"${angle}\degree$" for angle in degrees])
+    ratios = np.array([0, 0.2, 0.4, 0.6, 1, 2, 4])
+    angles = np.degrees(np.arctan(ratios))
+    inside = (angles >= span[0]) & (angles <= span[1])
+    top = axes.secondary_xaxis("top")
+    top.set_xticks(angles[inside], [f"{ratio:g}" for ratio in ratios[inside]])
+    top.set_xlabel(r"$v_1(0)/v_2(0)$")
+
+
+def brackets(axes: Axes, spans: Iterable[tuple[float, float, str]]) -> None:
+    """Draw brackets over the axes: `spans` holds (start, end, label) on the x axis."""
+    across = axes.get_xaxis_transform()
+    left, right = axes.get_xlim()
+    foot, top = 1.02, 1.045
+    for start, end, label in spans:
+        frame = [start, start, end, end], [foot, top, top, foot]
+        axes.plot(*frame, transform=across, clip_on=False, color=BLACK, linewidth=0.7)
+        # So many letters fit: 20 to an inch in this size. The axes are narrower than the figure.
+        letters = int((end - start) / (right - left) * WIDTH * 17)
+        if letters < max(map(len, label.split())):
+            continue
+        wrapped = textwrap.fill(label, letters)
+        place = {"ha": "center", "va": "bottom", "transform": across, "linespacing": LINES}
+        axes.text((start + end) / 2, top + 0.012, wrapped, fontsize=NOTE, **place)

@@ -1,0 +1,355 @@
+"""Beyond the paper: how far off each model is, and what it costs on this machine."""
+
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from planarimpact import continuum, models, response
+from planarimpact.ground.arrays import Array
+from planarimpact.ground.results import Rebound
+from planarimpact.models import Model
+from stronge1994.csv_tables import Curves
+from stronge1994.figures.shared.curves.watch import BUSY, Watch
+
+FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
+SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
+LUMPED_RESPONSE_TOLERANCE = 1e-10
+# Of the spread, of which two digits matter.
+SPREAD_TOLERANCE = 1e-3
+
+SEED = 1994
+# Medians are of so many calls, or of those begun in so many seconds. The incidence decides how long
+# one impact takes; a batch holds many incidences, so fewer of its calls give the same median.
+REPEATS, ENOUGH, ENOUGH_TOGETHER = 25, 0.1, 0.05
+# One impact costs little less than so many solved together: the overhead of arrays.
+TOGETHER = 300
+
+
+def curves(
+    mass_ratio: float,
+    stiffness_ratio: float,
+    incidence: Sequence[float],
+    samples: int,
+    restitution: Sequence[float],
+    tolerance: float,
+    steps: Sequence[int],
+    circles: Sequence[int],
+    tolerances: Sequence[float],
+    inelastic: Mapping[str, Any],
+    batches: Sequence[int],
+    budget: float,
+) -> Curves:
+    """Errors and times of every model that admits a restitution, a curve of one point each.
+
+    For e = 1 the errors are those against the elastic continuum. For e < 1 every model is measured
+    twice, against the viscous and against the plastic continuum. So the error of the other
+    continuum is what the wrong loss costs.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio : float
+        beta and zeta^2.
+    incidence : (float, float)
+        Range of x = v1(0)/(mu v2(0)).
+    samples : int
+        Incidences at which errors are taken, evenly spread over the range.
+    restitution : sequence of float
+        Energetic coefficients.
+    tolerance : float
+        Of the reference, the continuum.
+    steps, circles, tolerances : sequence
+        Settings that are tried. Of a model with two, annuli, the second keeps its default.
+    inelastic : dict
+        `tolerance` and `tolerances` in place of these for e < 1.
+    batches : sequence of int
+        Numbers of impacts that are solved together; times are for one of them.
+    budget : float
+        Seconds that a batch may take as predicted from the smaller one before; beyond, it is
+        left out.
+
+    Returns
+    -------
+    dict
+        `{"<model>, <settings>, e = <restitution>, <loss>": {column: array of one}}`: model,
+        settings and loss; errors, root mean square and largest, in velocity, peak friction
+        (laws of impulses leave it open) and dissipation; the error of the reference itself; the
+        spread of its velocity under uncertain inputs, see `input_spread`, root mean square over all
+        incidences and over those that stick at first; `seen`, the share of incidences where the
+        error of the model is larger than that spread; times. "response of ..." is compiled once, in
+        `build_time`, and then evaluated. A time taken while the machine was busy has a column
+        beside it, `busy_<batch>` or `busy_build`: wall time over CPU time, which is about how many
+        times too long it is.
+
+    Examples
+    --------
+    >>> inelastic = {"tolerance": 1e-2, "tolerances": [1e-2]}
+    >>> named = curves(3.5, 1.21, [0, 8], 9, [0.8], 1, [16], [4], [1], inelastic, [1], 1.0)
+    >>> list(named)[2:4]
+    ['laws.brach, e = 0.8, viscous', 'lumped, e = 0.8, viscous']
+    >>> wrong = named["continuum.plastic, tolerance 0.01, e = 0.8, viscous"]
+    >>> round(float(wrong["max_velocity [mu v2(0)]"][0]), 1)
+    0.3
+    """
+    x = np.linspace(incidence[0], incidence[1], samples)
+    named = {}
+    for e in restitution:
+        groups = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio, "restitution": e}
+        elastic: Mapping[str, Any] = {"tolerance": tolerance, "tolerances": tolerances}
+        own = elastic if e == 1 else inelastic
+        accuracy, wanted = float(own["tolerance"]), list(own["tolerances"])
+        tried = {"steps": steps, "circles": circles, "tolerance": wanted}
+        timed = []
+        for contender in _contenders(groups, tried, incidence[1]):
+            seconds = times(_stopwatch(contender.rebound), incidence, batches, budget)
+            timed.append((contender, contender.rebound(x), contender.build_time | seconds))
+        for loss in continuum.LOSSES if e < 1 else ("",):
+            exact = reference(x, groups, accuracy, loss)
+            spread = input_spread(x, groups, loss)
+            sticks = x <= stiffness_ratio
+            against = {
+                "reference_error [mu v2(0)]": accuracy,
+                "input_spread [mu v2(0)]": root_mean_square(spread),
+                "input_spread_stick [mu v2(0)]": root_mean_square(spread[sticks]),
+            }
+            for contender, found, seconds in timed:
+                # What the wrong loss costs does not depend on the tolerance.
+                coarsest = contender.settings.get("tolerance", np.inf) >= max(wanted)
+                if _loss(contender.model) not in ("", loss) and not coarsest:
+                    continue
+                row = {
+                    "model": contender.model,
+                    "restitution [1]": e,
+                    "loss": loss,
+                    **{SETTINGS[key]: value for key, value in contender.settings.items()},
+                    **errors(found, exact),
+                    "seen [1]": float(np.mean(np.abs(found.velocity - exact.velocity) > spread)),
+                    **against,
+                    **seconds,
+                }
+                named[_name(contender, e, loss)] = {k: np.array([v]) for k, v in row.items()}
+    return named
+
+
+_Solver: TypeAlias = Callable[[Array], Rebound]
+
+
+class _Contender(NamedTuple):
+    """One model with its settings, as a function of the incidence alone."""
+
+    model: str
+    settings: dict[str, float]
+    rebound: _Solver
+    build_time: dict[str, float] = {}
+
+
+def _contenders(
+    groups: dict[str, float], tried: dict[str, Sequence[float]], incidence_max: float
+) -> Iterator[_Contender]:
+    """Every model that admits the restitution, with each setting that is tried, and responses."""
+    elastic = groups["restitution"] == 1
+    compiled = [("lumped", LUMPED_RESPONSE_TOLERANCE)] if elastic else []
+    for model in models.MODELS.values():
+        if not models.admits(model, **groups):
+            continue
+        # For e = 1 a model with a loss is the same as the model without.
+        if elastic and _loss(model.name) and model.name.partition(".")[0] in models.MODELS:
+            continue
+        for settings in _variants(model, tried):
+            yield _Contender(model.name, settings, _solver(model, groups, settings))
+            if model.name.startswith("continuum"):
+                compiled.append((model.name, settings["tolerance"]))
+    for name, tolerance in compiled:
+        watch = Watch()
+        with watch:
+            made = response.compile(
+                name, incidence_max=incidence_max, tolerance=tolerance, **groups
+            )
+        build_time = {"build_time [s]": watch.wall[0]} | _busy("build", watch.over_cpu())
+        yield _Contender(f"response of {name}", {"tolerance": tolerance}, made, build_time)
+
+
+def _loss(model: str) -> str:
+    """The loss in the name of a model, "" where it has none or is elastic."""
+    loss = model.rpartition(".")[2]
+    return loss if loss in continuum.LOSSES else ""
+
+
+def _variants(model: Model, tried: dict[str, Sequence[float]]) -> list[dict[str, float]]:
+    """Settings of a model: the first that is tried is varied, the others keep their defaults."""
+    known = {key: value for key, value in model.settings.items() if key in tried}
+    varied = next(iter(known), None)
+    return [known | {varied: value} for value in tried[varied]] if varied else [{}]
+
+
+def _solver(model: Model, groups: dict[str, float], settings: dict[str, float]) -> _Solver:
+    def rebound(x: Array) -> Rebound:
+        return model.rebound(x, **groups, **settings)
+
+    return rebound
+
+
+def _name(contender: _Contender, e: float, loss: str) -> str:
+    words = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
+    settings = [words[key].format(value) for key, value in contender.settings.items()]
+    return ", ".join([contender.model, *settings, f"e = {e:g}", *filter(None, [loss])])
+
+
+def reference(x: Array, groups: dict[str, float], tolerance: float, loss: str) -> Rebound:
+    """What errors are measured against.
+
+    Parameters
+    ----------
+    x : ndarray
+        Incidences.
+    groups : dict
+        mass_ratio, stiffness_ratio, restitution.
+    tolerance : float
+        Of this continuum.
+    loss : str
+        "viscous" or "plastic"; without meaning for e = 1.
+
+    Returns
+    -------
+    Rebound
+
+    Examples
+    --------
+    >>> groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 0.5}
+    >>> float(reference(np.array([8.0]), groups, 1e-3, "plastic").velocity[0])
+    2.75
+    """
+    name = models.reference(groups["restitution"], loss or continuum.LOSSES[0])
+    return models.rebound(name, x, **groups, tolerance=tolerance)
+
+
+def input_spread(x: Array, groups: dict[str, float], loss: str) -> Array:
+    """Root mean square change of the velocity if e is known to 0.02 and mu to 10 %.
+
+    Parameters
+    ----------
+    x, groups, loss
+        As in `reference`. For e = 1 lower values of e are those of the viscous continuum.
+
+    Returns
+    -------
+    ndarray
+        mu v2(0), at each incidence.
+
+    Examples
+    --------
+    >>> groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 1.0}
+    >>> input_spread(np.array([8.0]), groups, "").round(2)
+    array([0.7])
+    """
+    name = f"continuum.{loss or continuum.LOSSES[0]}"
+    return models.input_spread(name, x, **groups, tolerance=SPREAD_TOLERANCE)
+
+
+def root_mean_square(values: Array) -> float:
+    """Root mean square; NaN of none.
+
+    Examples
+    --------
+    >>> root_mean_square(np.array([3.0, -3.0]))
+    3.0
+    """
+    return float(np.sqrt(np.mean(np.square(values)))) if values.size else float("nan")
+
+
+def errors(found: Rebound, exact: Rebound) -> dict[str, float]:
+    """Root mean square and largest error of each field that a model answers.
+
+    Parameters
+    ----------
+    found, exact : Rebound
+        Arrays of one length; NaN in a field, other than velocity, that `found` leaves open.
+
+    Returns
+    -------
+    dict
+        Columns of one number.
+
+    Examples
+    --------
+    >>> from planarimpact import rigid
+    >>> from planarimpact.models import laws
+    >>> x = np.array([1.0, 8.0])
+    >>> list(errors(laws.brach(x), rigid.rebound(x)))[:3]
+    ['rms_velocity [mu v2(0)]', 'max_velocity [mu v2(0)]', \
+'rms_dissipation [mu^2 m2 v2(0)^2]']
+    """
+    columns = {}
+    for field, unit in FIELDS.items():
+        gap = np.abs(getattr(found, field) - getattr(exact, field))
+        # A velocity that is no number is a fault, and must show.
+        if field == "velocity" or np.isfinite(gap).all():
+            columns[f"rms_{field} [{unit}]"] = root_mean_square(gap)
+            columns[f"max_{field} [{unit}]"] = np.max(gap)
+    return columns
+
+
+def times(
+    seconds: Callable[[Array], float],
+    incidence: Sequence[float],
+    batches: Sequence[int],
+    budget: float,
+) -> dict[str, float]:
+    """Time of an impact in each batch, as far as the budget goes.
+
+    Parameters
+    ----------
+    seconds : callable
+        Solves incidences and returns how long that took. It has solved some before: the first call
+        of all pays for what is kept.
+    incidence : (float, float)
+        Range of the incidences, which are random; the same ones in every run.
+    batches : sequence of int
+        Smaller ones are solved first, and left in.
+    budget : float
+        As in `curves`.
+
+    Returns
+    -------
+    dict
+        A column for each batch that was solved: the median time, over the batch. Where the machine
+        was busy, `busy_<batch>` follows: the median wall time of the calls over their CPU time.
+
+    Examples
+    --------
+    >>> times(lambda x: 0.001 * x.size, (0, 8), [1, 10, 10000], budget=0.1)
+    {'time_1 [s]': 0.001, 'time_10 [s]': 0.001}
+    """
+    random = np.random.default_rng(SEED)
+    low, high = incidence
+    columns: dict[str, float] = {}
+    before, alone = 1, 0.0
+    for batch in sorted(batches):
+        if alone * batch / max(before, TOGETHER) > budget:
+            break
+        enough = ENOUGH if batch < TOGETHER else ENOUGH_TOGETHER
+        taken: list[float] = []
+        watch = Watch()
+        while len(taken) < REPEATS and sum(taken) < enough:
+            x = random.uniform(low, high, batch)
+            with watch:
+                taken.append(seconds(x))
+        median, over = float(np.median(taken)), watch.over_cpu()
+        columns |= {f"time_{batch} [s]": median / batch} | _busy(f"{batch}", over)
+        before, alone = batch, median / max(over, 1.0)  # a busy machine leaves no batch out
+    return columns
+
+
+def _busy(name: str, over_cpu: float) -> dict[str, float]:
+    """A column that says how busy the machine was, if it was."""
+    return {f"busy_{name} [1]": over_cpu} if over_cpu > BUSY else {}
+
+
+def _stopwatch(rebound: _Solver) -> Callable[[Array], float]:
+    def seconds(x: Array) -> float:
+        start = time.perf_counter()
+        rebound(x)
+        return time.perf_counter() - start
+
+    return seconds

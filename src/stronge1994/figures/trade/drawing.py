@@ -1,0 +1,366 @@
+"""Beyond the paper: error of every model against its time, and time against the size of batch."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.gridspec import SubplotSpec
+
+from stronge1994.csv_tables import Curves
+from stronge1994.figures.shared.drawing import derived, house_style
+from stronge1994.figures.shared.drawing.house_style import Points, Settings, Style
+
+_Row: TypeAlias = dict[str, Any]
+Place: TypeAlias = tuple[str, float, float]
+
+ERROR, MODEL, RESTITUTION = derived.ERROR, "model", "restitution [1]"
+SPREAD, SPREAD_STICK = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
+STEPS, CIRCLES, TOLERANCE = "steps [1]", "circles [1]", "tolerance [mu v2(0)]"
+LOSSES = (".viscous", ".plastic")
+# The axis of error is cut here: rough models are above, those that converge below, each part with
+# its own scale.
+CUT = 0.03
+# Room for labels left of the fastest model, as a share of the axis of time: of the wide panel and
+# of the others.
+MARGINS = 0.12, 0.3
+HIDDEN_WORDS = (
+    "grey band: how far $v_1(t_f)$ moves if $e$ changes by 0.02 and $\\mu$ by 10 %;\n"
+    "lower edge: impacts that stick at first; upper edge: all impacts"
+)
+ERROR_WORDS, TIME_WORDS = r"error of $v_1(t_f)/\mu v_2(0)$, rms", "time of an impact (µs)"
+
+# Where labels are: horizontal alignment, and distances from the point. The line of a front comes to
+# its point from above and leaves it to the right.
+RIGHT, LEFT = ("left", 5, -2.5), ("right", -5, -2.5)
+LOWER_RIGHT, LOWER_LEFT = ("left", 4, -9.5), ("right", -4, -9.5)
+UPPER_RIGHT = ("left", 4, 2.5)
+OTHER_LOSS, OF_OTHER_LOSS = "other loss", ("right", 5, 5)
+
+
+class Family(NamedTuple):
+    """How the points of one model are drawn."""
+
+    label: str
+    marker: str
+    size: float
+    colour: str
+    filled: bool
+    place: Place | None
+
+    def style(self) -> Style:
+        """Keywords of its marker."""
+        return {
+            "marker": self.marker,
+            "markersize": self.size,
+            "color": self.colour,
+            "markerfacecolor": self.colour if self.filled else "none",
+            "markeredgewidth": 0.9,
+        }
+
+
+# A colour stands for what takes the energy: black for the normal element of the paper, blue for
+# viscosity, vermillion for plastic flow, green for an elastic contact. Grey formulas have none.
+BLACK, ELASTIC = house_style.BLACK, house_style.GREEN
+VISCOUS, PLASTIC = house_style.BLUE, house_style.VERMILLION
+FORMULA = Family("formula", "D", 3.5, house_style.GREY, True, LEFT)
+FAMILIES = {
+    "rigid": FORMULA,
+    "laws.smith": FORMULA,
+    "laws.brach": FORMULA,
+    "lumped": Family("lumped, as in the paper", "o", 3.5, BLACK, True, None),
+    "timestep.linear": Family("linear spring", "s", 5.5, BLACK, False, LOWER_RIGHT),
+    # At the number of steps of the next.
+    "timestep.mindlin": Family("Mindlin", "^", 5, BLACK, True, None),
+    "timestep.mindlin_rescaled": Family("Mindlin, rescaled", "v", 5, BLACK, False, UPPER_RIGHT),
+    "lumped.viscous": Family("lumped, viscous", "P", 5, VISCOUS, True, None),
+    "lumped.plastic": Family("lumped, plastic", "P", 5, PLASTIC, False, None),
+    "continuum": Family("continuum", "o", 5, ELASTIC, False, LOWER_LEFT),
+    "continuum.viscous": Family("continuum, viscous", "o", 5, VISCOUS, True, LOWER_LEFT),
+    "continuum.plastic": Family("continuum, plastic", "o", 5, PLASTIC, False, LOWER_LEFT),
+    "spheres.viscous": Family("table, viscous", "X", 5.5, VISCOUS, True, None),
+    "spheres.plastic": Family("table, plastic", "X", 5.5, PLASTIC, False, None),
+    "annuli": Family("annuli", "h", 5.5, ELASTIC, True, RIGHT),
+    "response of lumped": Family("lumped", "*", 7, BLACK, False, LEFT),
+    "response of continuum": Family("continuum", "*", 7, ELASTIC, True, LEFT),
+    "response of continuum.viscous": Family("continuum, viscous", "*", 7, VISCOUS, True, LEFT),
+    "response of continuum.plastic": Family("continuum, plastic", "*", 7, PLASTIC, False, LEFT),
+}
+# Two columns of equal length.
+LEGEND = {
+    "closed form": ("rigid", "lumped", "lumped.viscous", "lumped.plastic"),
+    "compiled responses": (
+        "response of lumped",
+        "response of continuum",
+        "response of continuum.viscous",
+        "response of continuum.plastic",
+    ),
+    "in steps": (
+        "timestep.linear",
+        "timestep.mindlin",
+        "timestep.mindlin_rescaled",
+        "annuli",
+        "continuum",
+        "continuum.viscous",
+        "continuum.plastic",
+    ),
+    "from a table": ("spheres.viscous", "spheres.plastic"),
+}
+NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
+NAMES |= {"pooltool": "pooltool"}
+GROWTH_PANEL = "growth"
+# These models have a line against the size of batch. The lines of the others would lie beside them.
+GROWTH = {
+    "laws.brach": house_style.DASHES[0],
+    "lumped": house_style.DASHES[0],
+    "timestep.mindlin": house_style.DASHES[1],
+    "continuum": house_style.DASHES[2],
+    "annuli": house_style.DASHES[3],
+    "response of continuum": house_style.DASHES[4],
+}
+# The part of the answer that uncertain inputs hide.
+HIDDEN = {"color": "0.9", "linewidth": 0, "zorder": 0.5}
+FRONT = {"color": house_style.BLACK, "linewidth": 0.6, "zorder": 0.9}
+FRONT_WITH_RESPONSES = FRONT | {"linestyle": (0, (4, 2))}
+
+
+def draw(
+    curves: Curves, settings: Settings, points: Points, families: Mapping[str, Family] = FAMILIES
+) -> Figure:
+    """Draw error against time for the first restitution and the last, and time against batch.
+
+    A restitution below 1 has a panel for each loss. `families` may hold more than those of the
+    legend. The title warns if the machine was busy, and a bar shows how much too long a time may
+    be.
+    """
+    rows = [
+        {key: value[0] for key, value in curve.items()}
+        for curve in curves.values()
+        if MODEL in curve
+    ]
+    ends = settings["restitution"][0], settings["restitution"][-1]
+    cases = {_case(row): None for e in ends for row in rows if row[RESTITUTION] == e}
+    batch = shown_batch(settings)
+    figure = house_style.new(8.6)
+    grid = figure.add_gridspec(3, 2, height_ratios=[4, 4, 3])
+    cells = grid[0, :], grid[1, 0], grid[1, 1]
+    for number, (cell, case) in enumerate(zip(cells, cases, strict=False)):
+        same = [row for row in rows if _case(row) == case]
+        if number:  # more steps do not change an error here, and would hide other points
+            some = sorted({row[STEPS] for row in same if STEPS in row})
+            same = [row for row in same if row.get(STEPS) in (None, some[len(some) // 2])]
+        rough, fine = cell.subgridspec(2, 1).subplots(sharex=True)
+        for axes, span in ((rough, (CUT, np.inf)), (fine, (0, CUT))):
+            _draw_errors(axes, same, batch, families, span, MARGINS[min(number, 1)])
+        _cut(rough, fine)
+        rough.set_title(_title("abc"[number], *case))
+        fine.set_xlabel(TIME_WORDS, visible=True)
+        fine.set_ylabel(ERROR_WORDS, y=1.0, visible=number < 2)
+    below = grid[2, :].subgridspec(1, 2, width_ratios=[2, 3])
+    growth = figure.add_subplot(below[0], label=GROWTH_PANEL)
+    case = next(iter(cases))
+    _draw_growth(
+        growth, {n: c for n, c in curves.items() if MODEL in c and _case(c) == case}, curves
+    )
+    growth.set(title=f"(d) $e = {ends[0]:g}$", xlabel="impacts together", ylabel=TIME_WORDS)
+    note = f"numbers at points: steps, circles or tolerance; errors: {batch} impacts together"
+    notes = [note, HIDDEN_WORDS, warning(rows)]
+    figure.suptitle("\n".join(filter(None, notes)), fontsize=house_style.NOTE)
+    _add_legend(figure, below[1], bool(warning(rows)))
+    return figure
+
+
+def warning(rows: Sequence[_Row]) -> str:
+    """A sentence if the machine was busy while some of the times were taken, else no words.
+
+    Parameters
+    ----------
+    rows : sequence of dict
+        Of results/curves/trade.csv, as texts or numbers.
+
+    Examples
+    --------
+    >>> warning([{"time_1 [s]": 2.0, "busy_1 [1]": 1.9}, {"time_1 [s]": 1.0}])
+    'the machine was busy: 1 of 2 times are up to 1.9 times too long'
+    """
+    cells = [(key, cell) for row in rows for key, cell in row.items() if cell]
+    busy = [float(cell) for key, cell in cells if key.startswith("busy_")]
+    if not busy:
+        return ""
+    count = sum(key.endswith(" [s]") for key, _ in cells)
+    return (
+        f"the machine was busy: {len(busy)} of {count} times are up to {max(busy):.2g} times too "
+        "long"
+    )
+
+
+def time_column(batch: int) -> str:
+    """Times of an impact in a batch, as `derived` gives them."""
+    return f"time_{batch} [us]"
+
+
+def shown_batch(settings: Settings) -> int:
+    """Size of the batch whose times are drawn against errors: the middle one."""
+    return sorted(settings["batches"])[len(settings["batches"]) // 2]
+
+
+def _case(row: Mapping[str, Any]) -> tuple[float, str]:
+    """Restitution and loss of the reference, of a row or of its table of one row."""
+    return float(np.ravel(row[RESTITUTION])[0]), str(np.ravel(row.get("loss", ""))[0])
+
+
+def _title(letter: str, restitution: float, loss: str) -> str:
+    return f"({letter}) $e = {restitution:g}$, {loss or 'elastic'} continuum"
+
+
+def _draw_errors(
+    axes: Axes,
+    rows: Sequence[_Row],
+    batch: int,
+    families: Mapping[str, Family],
+    span: tuple[float, float],
+    margin: float,
+) -> None:
+    """Draw the points in a span of error, both fronts, and what uncertain inputs hide."""
+    axes.set_xlabel(TIME_WORDS, visible=False)
+    axes.set_ylabel(ERROR_WORDS, visible=False)
+    column = time_column(batch)
+    timed = [row for row in rows if column in row]
+    if not timed:
+        return
+    time, least = ([row[column + end] for row in timed] for end in ("", derived.LESS))
+    error = [row[ERROR] for row in timed]
+    for row, shortest, *at in zip(timed, least, time, error, strict=True):
+        if span[0] < at[1] <= span[1]:
+            family = families[row[MODEL]]
+            axes.plot(*at, linestyle="none", **family.style())
+            words = words_of(row)
+            label(axes, at, words, OF_OTHER_LOSS if words == OTHER_LOSS else family.place)
+            if shortest < at[0]:
+                axes.errorbar(*at, xerr=[[at[0] - shortest], [0]], **house_style.BUSY)
+    axes.axhspan(timed[0][SPREAD_STICK], timed[0][SPREAD], **HIDDEN)
+    left = min(least) * (min(least) / max(time)) ** margin
+    edges = (left, max(time) * 3), (min(error) / 20, max(error) * 5)
+    axes.set(xscale="log", yscale="log", xlim=edges[0], ylim=edges[1])
+    solved = [i for i, row in enumerate(timed) if not row[MODEL].startswith("response")]
+    for chosen, style in ((range(len(timed)), FRONT_WITH_RESPONSES), (solved, FRONT)):
+        _draw_front(axes, [time[i] for i in chosen], [error[i] for i in chosen], edges, style)
+
+
+def label(axes: Axes, at: Sequence[float], words: str, place: Place | None) -> None:
+    """Write words beside a point, if there are any and a place for them."""
+    if not words or place is None:
+        return
+    alignment, *offset = place
+    axes.annotate(
+        words,
+        at,
+        xytext=offset,
+        textcoords="offset points",
+        ha=alignment,
+        fontsize=house_style.NOTE - 0.5,
+        annotation_clip=True,
+    )
+
+
+def words_of(row: _Row) -> str:
+    """Label of a point: the setting of its model, or its name."""
+    if loss := row.get("loss"):
+        if row[MODEL].endswith(LOSSES) and not row[MODEL].endswith(loss):
+            return OTHER_LOSS if row[MODEL].startswith("continuum") else ""
+        if STEPS in row or row[MODEL] == "laws.brach":
+            return ""
+    if STEPS in row and CIRCLES not in row:
+        return f"{row[STEPS]:g}"
+    if CIRCLES in row:
+        return f"{row[CIRCLES]:g}"
+    if TOLERANCE in row:
+        return f"$10^{{{np.log10(row[TOLERANCE]):.3g}}}$"
+    return NAMES.get(row[MODEL], "")
+
+
+def front(time: Sequence[float], error: Sequence[float]) -> list[int]:
+    """Indices of the Pareto front, the fastest first: no other point is as fast and as accurate.
+
+    Examples
+    --------
+    >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
+    [1, 2, 0]
+    """
+    found: list[int] = []
+    for index in sorted(range(len(time)), key=lambda i: (time[i], error[i])):
+        if not found or error[index] < error[found[-1]]:
+            found.append(index)
+    return found
+
+
+def _draw_front(
+    axes: Axes,
+    time: Sequence[float],
+    error: Sequence[float],
+    edges: tuple[tuple[float, float], tuple[float, float]],
+    style: Style,
+) -> None:
+    """Draw a Pareto front: a point above and to the right of it is worse in both."""
+    (_, right), (_, top) = edges
+    best = front(time, error)
+    x = [time[best[0]], *(time[i] for i in best), right]
+    y = [top, *(error[i] for i in best), error[best[-1]]]
+    axes.step(x, y, where="post", label=house_style.NO_DATA, **style)
+
+
+def _cut(rough: Axes, fine: Axes) -> None:
+    """Make one panel of two: both have the same axis of error, with different scales."""
+    rough.set_ylim(bottom=CUT)
+    fine.set_ylim(top=CUT)
+    rough.tick_params(labelbottom=False, bottom=False, which="both")
+    rough.spines.bottom.set_visible(False)
+    fine.spines.top.set_visible(False)
+    marks = {"marker": [(-1, -0.5), (1, 0.5)], "markersize": 7, "linestyle": "none"}
+    for axes, height in ((rough, 0), (fine, 1)):
+        place = {"transform": axes.transAxes, "clip_on": False, "color": house_style.BLACK}
+        axes.plot([0, 1], [height, height], **marks, **place)
+
+
+def _draw_growth(axes: Axes, rows: Curves, curves: Curves) -> None:
+    for model, dashes in GROWTH.items():
+        same = [name for name, row in rows.items() if row[MODEL][0] == model]
+        if not same:  # the continuum, where the contact is not elastic
+            continue
+        table = curves[derived.over_batches(same[len(same) // 2])]
+        batch, time = table[derived.IMPACTS], table[derived.TIME]
+        axes.loglog(batch, time, linestyle=dashes, linewidth=0.9, **FAMILIES[model].style())
+        below = time - table[derived.TIME + derived.LESS]
+        some = below > 0
+        bars = below[some], 0 * below[some]
+        axes.errorbar(batch[some], time[some], yerr=bars, **house_style.BUSY)
+
+
+def _add_legend(figure: Figure, cell: SubplotSpec, busy: bool) -> None:
+    axes = figure.add_subplot(cell)
+    axes.axis("off")
+    lines = [
+        house_style.key("Pareto front", **FRONT),
+        house_style.key("with responses", **FRONT_WITH_RESPONSES),
+    ]
+    if busy:
+        words = "too long by up to this"
+        lines.append(house_style.key(words, color=house_style.GREY, marker="|", linewidth=0.9))
+    entries = []
+    for title, models in LEGEND.items():
+        entries.append(house_style.key(title, linestyle="none"))
+        for model in models:
+            family = FAMILIES[model]
+            entries.append(house_style.key(family.label, linestyle="none", **family.style()))
+    legend = axes.legend(
+        handles=[*entries, *lines],
+        loc="center",
+        ncols=2,
+        fontsize=house_style.NOTE,
+        handlelength=1.4,
+        columnspacing=1,
+    )
+    for text in legend.get_texts():
+        if text.get_text() in LEGEND:
+            text.set_style("italic")
