@@ -11,17 +11,10 @@ from planarimpact.ground.arrays import ArrayLike
 class ChiSquared(NamedTuple):
     """How well points fit a curve to which nothing was fitted.
 
-    Attributes
-    ----------
-    value : float
-        Sum of squares of the distances in sigmas, with their correlations.
-    degrees : int
-        Degrees of freedom: the number of points.
-    of_sigma : int or None
-        Number of independent values from which the sigmas were estimated; None if they are known.
-    p : float
-        Probability that chance alone gives a value as large. It follows the distribution of
-        chi-squared, or that of F if the sigmas were estimated.
+    `value` is the sum of squares of the distances in sigmas, with their correlations; `degrees` is
+    the number of points. `of_sigma` is the number of independent values from which the sigmas were
+    estimated, None if they are known. `p` is the probability that chance alone gives a value as
+    large. It follows the distribution of chi-squared, or that of F if the sigmas were estimated.
     """
 
     value: float
@@ -36,29 +29,11 @@ def chi_squared(
     """Chi-squared of distances, with the uncertainty of the curve's own parameters.
 
     An error of a parameter moves all points of the curve together. So the distances have the
-    covariance 1 + sum of J J^T, with one J for each parameter. A fit of the parameters gives the
-    same chi-squared, if it holds them to their stated values with their stated sigmas.
+    covariance 1 + sum of J J^T, with one J for each independent parameter: a row of `shifts`, which
+    says how much each distance changes with one sigma of the parameter. A fit of the parameters
+    gives the same chi-squared, if it holds them to their stated values with their stated sigmas.
+    `of_sigma` is as in `ChiSquared`.
 
-    Parameters
-    ----------
-    sigmas : array_like, shape (n,)
-        Signed distances of the points, in their own sigmas.
-    shifts : array_like, shape (k, n)
-        How much each distance changes with one sigma of each of k independent parameters.
-    of_sigma : int, optional
-        Number of independent values from which the sigmas were estimated, if they were.
-
-    Returns
-    -------
-    ChiSquared
-
-    Raises
-    ------
-    ValueError
-        If there are no points.
-
-    Examples
-    --------
     >>> found = chi_squared([1.0, 2.0])
     >>> found.value, found.degrees, round(found.p, 3)
     (5.0, 2, 0.082)

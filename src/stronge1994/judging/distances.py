@@ -27,17 +27,9 @@ class Distance(NamedTuple):
 class Residuals(NamedTuple):
     """A distance for each point: positive where the reference lies above what was computed.
 
-    Attributes
-    ----------
-    x : ndarray, shape (n,)
-        Abscissae of the points.
-    sigmas : ndarray, shape (n,)
-        Distances in sigmas of the reference.
-    plain : ndarray, shape (n,)
-        Vertical distances in units of the y axis.
+    `x` holds the abscissae of the points, `sigmas` the distances in sigmas of the reference, and
+    `plain` the vertical distances in units of the y axis.
 
-    Examples
-    --------
     >>> Residuals(np.zeros(2), np.array([3.0, -4.0]), np.array([0.3, -0.4])).summary().max
     4.0
     """
@@ -62,26 +54,8 @@ def distances_to_polyline(
 ) -> Array:
     """Shortest distance from each point to a polyline, in sigmas.
 
-    Parameters
-    ----------
-    x, y : array_like, shape (n,)
-        Points.
-    line_x, line_y : array_like, shape (m,), m >= 2
-        Vertices of the polyline, in order.
-    sigma_x, sigma_y : float
-        Uncertainties that scale the axes, above 0.
+    The vertices stand in order. The sigmas scale the axes.
 
-    Returns
-    -------
-    ndarray, shape (n,)
-
-    Raises
-    ------
-    ValueError
-        If the polyline has fewer than two vertices or a coordinate is not finite.
-
-    Examples
-    --------
     >>> distances_to_polyline([1.0], [1.0], [0.0, 2.0], [0.0, 0.0], 1.0, 0.5).tolist()
     [2.0]
     """
@@ -108,28 +82,10 @@ def curve_residuals(
 ) -> Residuals:
     """Distances of points from a curve; with `both_ways` also of the curve from the points' line.
 
-    Parameters
-    ----------
-    points, curve : (array_like, array_like)
-        x and y.
-    sigma : (float, float)
-        Uncertainties of the points.
-    both_ways : bool
-        The points are a dense line: each vertex of the curve within their span must lie near it
-        too, so that a spike of the curve between two points is seen.
+    With `both_ways` the points are a dense line. Each vertex of the curve within their span must
+    then lie near it too, so that a spike of the curve between two points is seen. The residuals of
+    these vertices follow those of the points.
 
-    Returns
-    -------
-    Residuals
-        Of the points, in order; with `both_ways` those of the curve's vertices follow.
-
-    Raises
-    ------
-    ValueError
-        If there are no points, or as in `distances_to_polyline`.
-
-    Examples
-    --------
     >>> line = ([0.0, 1.0, 2.0], [0.0, 5.0, 0.0])
     >>> curve_residuals(([0.0, 2.0], [-1.0, 0.0]), line, (1.0, 1.0)).sigmas.tolist()
     [-1.0, 0.0]
@@ -169,24 +125,9 @@ def vertex_residuals(
 ) -> Residuals:
     """Distance of each point from the nearest vertex with the same label.
 
-    Parameters
-    ----------
-    points, vertices : (array_like, array_like, array_like)
-        x, y and a label each; a tuple of words will do.
-    sigma : (array_like, array_like)
-        Uncertainties of the points: a number, or one for each point.
+    `points` and `vertices` have x, y and a label each; a label may be a tuple of words. `sigma` has
+    the uncertainty of the points on each axis: one number, or one for each point.
 
-    Returns
-    -------
-    Residuals
-
-    Raises
-    ------
-    ValueError
-        If there are no points, or a point's label has no vertex.
-
-    Examples
-    --------
     >>> vertices = ([0.0], [3.0], ["slip"])
     >>> vertex_residuals(([0.0], [1.0], ["slip"]), vertices, (1.0, 1.0)).sigmas.tolist()
     [-2.0]
@@ -214,13 +155,6 @@ def difference_residuals(
 ) -> Residuals:
     """Difference of two columns that must be equal, `left` minus `right`, in units of `sigma`.
 
-    Raises
-    ------
-    ValueError
-        If the columns are empty.
-
-    Examples
-    --------
     >>> difference_residuals([0.0, 1.0], [1.0, 2.0], [1.0, 2.5], 0.5).sigmas.tolist()
     [0.0, -1.0]
     """
@@ -234,19 +168,9 @@ def with_allowance(
 ) -> tuple[float, float]:
     """Uncertainty of a point and of the model together: root of the sum of squares.
 
-    Parameters
-    ----------
-    sigma : (float, float)
-        Of the points, in units of the x and the y axis.
-    allowance : (float, float)
-        How far the model may be off by its form, in the same units.
+    The allowance is how far the model may be off by its form. Both are in units of the x and the y
+    axis.
 
-    Returns
-    -------
-    (float, float)
-
-    Examples
-    --------
     >>> with_allowance((0.0, 0.4), (0.1, 0.3))
     (0.1, 0.5)
     """
@@ -257,20 +181,9 @@ def with_allowance(
 def fact_residuals(found: float, fact: Mapping[str, Any]) -> Residuals:
     """Distance of a landmark from a stated fact, in the fact's own tolerance.
 
-    Parameters
-    ----------
-    found : float
-        The landmark.
-    fact : dict
-        `value` and `tolerance`, or `less_than`, or `greater_than`.
+    A fact is a `value` with a `tolerance`, or an inequality: `less_than`, or `greater_than`. For an
+    inequality the distance is 0 where it holds, else infinite.
 
-    Returns
-    -------
-    Residuals
-        Of one point, the landmark itself; for an inequality 0 where it holds, else infinite.
-
-    Examples
-    --------
     >>> fact_residuals(18.0, {"value": 20.0, "tolerance": 5.0}).sigmas.tolist()
     [0.4]
     >>> fact_residuals(0.5, {"less_than": 0.0}).sigmas.tolist()

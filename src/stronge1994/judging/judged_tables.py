@@ -9,20 +9,11 @@ from stronge1994.csv_tables import Columns, Curves
 
 
 def read(path: str) -> Curves:
-    """Curves that are judged, `{curve: {column: array}}`. All their numbers are finite.
+    """Curves that are judged. A number that is not finite is an error.
 
-    Parameters
-    ----------
-    path : str
-        The table of a figure; of a scene, one curve `impacts` whose rows are numbered; or the
-        study, one curve `grid` with a row a point.
-
-    Raises
-    ------
-    csv_tables.Failed
-        If the solver left an error instead.
-    ValueError
-        If a number is not finite.
+    The table of a figure has its own curves. That of a scene becomes one curve `impacts`, whose
+    rows are numbered; the study becomes one curve `grid` with a row for each point.
+    `csv_tables.Failed` says that the solver left an error instead.
     """
     if Path(path).suffix == ".npz":
         curves = {"grid": _points_of_study(path)}

@@ -1,4 +1,7 @@
-"""Single numbers that characterise a curve: peaks, limits of regimes, levels reached."""
+"""Single numbers that characterise a curve: peaks, limits of regimes, levels reached.
+
+In every curve x ascends. A landmark that a curve does not have is a `ValueError`.
+"""
 
 import numpy as np
 
@@ -8,22 +11,8 @@ from planarimpact.ground.arrays import ArrayLike, Integers
 def peak(x: ArrayLike, y: ArrayLike) -> float:
     """Place of the largest value, refined by the parabola through its neighbours.
 
-    Parameters
-    ----------
-    x, y : array_like, shape (n,)
-        A curve, x ascending.
+    A largest value at an end of the curve is not taken for a peak.
 
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    ValueError
-        If the largest value stands at an end.
-
-    Examples
-    --------
     >>> peak([0.0, 1.0, 3.0], [0.0, 1.0, -3.0])
     1.0
     """
@@ -42,26 +31,6 @@ def peak(x: ArrayLike, y: ArrayLike) -> float:
 def regime_start(x: ArrayLike, regimes: ArrayLike, regime: str) -> float:
     """First x at which the curve is in `regime`.
 
-    Parameters
-    ----------
-    x : array_like, shape (n,)
-        Ascending.
-    regimes : array_like of str, shape (n,)
-        Names of the regimes at x.
-    regime : str
-        One of them.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    ValueError
-        If it never is.
-
-    Examples
-    --------
     >>> regime_start([0.0, 1.0, 2.0], ["STICK", "STICK_SLIP", "STICK_SLIP"], "STICK_SLIP")
     1.0
     """
@@ -71,26 +40,6 @@ def regime_start(x: ArrayLike, regimes: ArrayLike, regime: str) -> float:
 def regime_end(x: ArrayLike, regimes: ArrayLike, regime: str) -> float:
     """Last x at which the curve is in `regime`.
 
-    Parameters
-    ----------
-    x : array_like, shape (n,)
-        Ascending.
-    regimes : array_like of str, shape (n,)
-        Names of the regimes at x.
-    regime : str
-        One of them.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    ValueError
-        If it never is.
-
-    Examples
-    --------
     >>> regime_end([0.0, 1.0, 2.0], ["STICK", "STICK_SLIP", "STICK_SLIP"], "STICK")
     0.0
     """
@@ -107,23 +56,6 @@ def _in_regime(regimes: ArrayLike, regime: str) -> Integers:
 def first_reaching(x: ArrayLike, y: ArrayLike, level: float) -> float:
     """First x at which y reaches `level`, to rounding.
 
-    Parameters
-    ----------
-    x, y : array_like, shape (n,)
-        A curve, x ascending.
-    level : float
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    ValueError
-        If it never does.
-
-    Examples
-    --------
     >>> first_reaching([0.0, 1.0, 2.0], [0.2, 0.9, 1.0], 1.0)
     2.0
     """
@@ -136,23 +68,6 @@ def first_reaching(x: ArrayLike, y: ArrayLike, level: float) -> float:
 def value_at(x: ArrayLike, y: ArrayLike, at: float) -> float:
     """Value of the polyline at x = `at`.
 
-    Parameters
-    ----------
-    x, y : array_like, shape (n,)
-        Its vertices, x ascending.
-    at : float
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    ValueError
-        If `at` lies outside the curve.
-
-    Examples
-    --------
     >>> value_at([0.0, 2.0], [0.0, 1.0], 1.0)
     0.5
     """

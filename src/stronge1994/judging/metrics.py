@@ -28,19 +28,10 @@ ROOM = 100
 class Measured(NamedTuple):
     """How far curves are from what a comparison names.
 
-    Attributes
-    ----------
-    quantity : str
-        Column that says where the points lie.
-    residuals : Residuals
-    columns : list of str
-        The column that each residual is of.
-    shifts : ndarray, shape (k, n)
-        Change of the residuals if one of the k uncertain parameters is off by one sigma.
-    gap : float or None
-        Of a landmark: the value found minus the stated one.
-    texts : dict
-        Of a landmark: both values as a page shows them, `found` and `stated`.
+    `quantity` is the column that says where the points lie; `columns` names the column that each
+    residual is of. `shifts` has a row for each uncertain parameter: the change of all residuals if
+    it is off by one sigma. Only a landmark has a `gap`, the value found minus the stated one, and
+    `texts`, both values as a page shows them.
     """
 
     quantity: str
@@ -54,28 +45,7 @@ class Measured(NamedTuple):
 def measure(
     entry: Entry, known: Reference | None, curves: Curves, series_paths: Mapping[str, str]
 ) -> Measured:
-    """Distances of one comparison.
-
-    Parameters
-    ----------
-    entry : dict
-        Of the config.
-    known : dict or None
-        Its reference.
-    curves : dict
-        As `judged_tables.read` gives them.
-    series_paths : dict
-        `{source: table of its series}`.
-
-    Returns
-    -------
-    Measured
-
-    Raises
-    ------
-    ValueError
-        Saying what is missing.
-    """
+    """Distances of one comparison; a `ValueError` says what is missing."""
     if entry["metric"] in _LAWS:
         return _LAWS[entry["metric"]](entry, curves)
     if known is None:

@@ -78,22 +78,11 @@ def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: fl
     """Incidences at which a contact no longer sticks at first, and at which it slips throughout.
 
     Every model with Coulomb friction and both compliances has these limits (Stronge 1994, Eq. 11,
-    and the incidence beyond which its Eq. 21 has no root). For zeta^2 > beta both are zeta^2: a
-    contact that slips at first slips throughout. The limits choose the points of a comparison. A
-    judge does not ask the solver that it judges, so they are computed here.
+    and the incidence beyond which its Eq. 21 has no root). They are in mu v2(0), and e must be
+    above 0. For zeta^2 > beta both are zeta^2: a contact that slips at first slips throughout. The
+    limits choose the points of a comparison. A judge does not ask the solver that it judges, so
+    they are computed here.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, restitution : float
-        beta, zeta^2 and e > 0.
-
-    Returns
-    -------
-    ndarray of float64, shape (2,)
-        In mu v2(0).
-
-    Examples
-    --------
     >>> limits_of_regimes(3.5, 1.21, 1.0).round(2).tolist()
     [1.21, 5.79]
     >>> limits_of_regimes(3.5, 5.0, 1.0).tolist()

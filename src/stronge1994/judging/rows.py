@@ -41,25 +41,10 @@ def compare(
 ) -> list[VerdictRow]:
     """Rows of the verdict table, the first on the table itself.
 
-    Parameters
-    ----------
-    name : str
-        Of a figure, `scene_` and that of a scene, or `study`.
-    comparisons : dict
-        `{name: entry of the config}`.
-    references : dict
-        `{source/entry: series or fact of source.yaml, with the source's parameters}`.
-    path : str
-        The table.
-    series_paths : dict
-        `{source: table of its series}`.
-    significance : float
-        Published points agree if p is above it.
-
-    Returns
-    -------
-    list of dict
-        `residuals` holds rows of the table of residuals, the other keys are `COLUMNS`.
+    `name` is that of a figure, `scene_` and that of a scene, or `study`. `references` has the
+    series and facts of source.yaml under `source/entry`, each with the parameters of its source.
+    Published points agree if p is above `significance`. Beside the cells of the table each row has
+    `residuals`, its rows of the table of residuals.
     """
     problem, curves = "", {}
     try:

@@ -69,23 +69,10 @@ def sensitivities(
 ) -> list[list[str]]:
     """Rows of the table: what each comparison of one figure catches.
 
-    Parameters
-    ----------
-    figure : str
-    settings, nodes : dict
-        As `curves.solving.solve` takes them.
-    path : str
-        The curves that were judged.
-    comparisons, references, series, significance
-        As `judging.compare` takes them.
-
-    Returns
-    -------
-    list of list of str
-        The name of the comparison; by how many whole sigmas all published points must be moved;
-        sizes of the changes, see `GROUPS`: relative ones, of e an absolute one. `none` where even a
-        change by half, or by the most of `MOVED`, is not caught; empty where the figure does not
-        depend on the group, or the comparison cannot be made.
+    A row has the name of the comparison, by how many whole sigmas all published points must be
+    moved, and the sizes of the changes of `GROUPS`: relative ones, of e an absolute one. `none`
+    stands where even the largest change that is tried is not caught. A cell is empty where the
+    figure does not depend on the group, or the comparison cannot be made.
     """
     settings = settings | solving.read_nodes(nodes) | SHORT.get(figure, {})
     if "samples" in settings:
@@ -188,8 +175,6 @@ def changed(settings: Settings, group: str, size: float) -> Settings:
     Restitution is lowered, but 0 is raised. Where Poisson's ratio gives the stiffness ratio, that
     is lowered: it cannot be raised where Poisson's ratio is 1/2, the largest.
 
-    Examples
-    --------
     >>> changed({"restitution": [1.0, 0.0], "samples": 9}, "e", 0.25)
     {'restitution': [0.75, 0.25], 'samples': 9}
     >>> changed({"throw": {"friction": 0.5}}, "mu", 0.5)

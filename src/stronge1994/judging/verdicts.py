@@ -24,8 +24,6 @@ class Verdict(StrEnum):
     against accidents and is evidence of nothing. INCONCLUSIVE does not count as evidence either:
     published points agree with the curve, but would also if it were wrong by `SEEN` sigmas.
 
-    Examples
-    --------
     >>> print(Verdict.DOCUMENTED)
     differs as documented
     """
@@ -44,22 +42,7 @@ def chi_squared_of(known: Reference, found: Measured) -> ChiSquared:
 
 
 def judge(entry: Entry, known: Reference | None, found: Measured, significance: float) -> Verdict:
-    """Verdict on what `measure` found.
-
-    Parameters
-    ----------
-    entry : dict
-        The comparison, from the config.
-    known : dict or None
-        Its reference.
-    found : Measured
-    significance : float
-        Published points agree if their probability p is above it.
-
-    Returns
-    -------
-    Verdict
-    """
+    """Verdict on what `measure` found; published points agree if p is above `significance`."""
     outcome = _outcome(entry, known, found, significance)
     if outcome == Verdict.AGREES and is_published(known):
         noticed = notices(entry, known, found, significance, SEEN)
@@ -98,22 +81,11 @@ def _outcome(
 def verdict(good: bool, documented: bool = False, unchanged: bool = True) -> Verdict:
     """Verdict on a comparison.
 
-    Parameters
-    ----------
-    good : bool
-        The curve meets its reference: the probability p is large enough, or the distance is within
-        the tolerance.
-    documented : bool
-        A difference is known and explained. If there is none any more, that is a fault too.
-    unchanged : bool
-        What was found lies within the bounds of its regression test, if it has one.
+    `good` says that the curve meets its reference: p is large enough, or the distance is within the
+    tolerance. A `documented` difference is known and explained; if there is none any more, that is
+    a fault too. `unchanged` says that what was found lies within the bounds of its regression test,
+    if it has one.
 
-    Returns
-    -------
-    Verdict
-
-    Examples
-    --------
     >>> print(verdict(True), verdict(False), verdict(False, documented=True), sep="; ")
     agrees; diverges; differs as documented
     >>> print(verdict(True, documented=True), verdict(True, unchanged=False), sep="; ")
