@@ -5,7 +5,7 @@ Every check is a function without arguments that compares one statement of the p
 rounding by `planarimpact.lumped`: "exact" means that, and says nothing of nature. data/stronge1994/
 ledger.yaml has an entry for each: what the paper says, when it counts as true, the verdict, and
 the correction. `dynamics`, `slip`, `peak_force` and `dissipation` check the equations of one
-section each; the last two and `rebound` also the sentences.
+section each and what is said of them, `rebound` sentences alone.
 
 What the paper says of restitution has a second verdict, "in nature", which never changes the first.
 `nature` measures it on the models of `nature_models`, and `in_nature` judges.
@@ -24,13 +24,6 @@ __all__ = ["Finding", "Judgement", "judge", "run"]
 def run(check: str) -> Finding:
     """Run one check, named `module.function`.
 
-    Raises
-    ------
-    LookupError
-        If there is no such check.
-
-    Examples
-    --------
     >>> run("rebound.rubber_stiffness_ratio").found
     1.5
     """

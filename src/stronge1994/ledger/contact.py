@@ -33,8 +33,6 @@ def once(solver: Callable[..., _Answer], *groups: ArrayLike, **settings: float |
 
     Nobody may change an answer. Another solver under the same name, in a test, is asked anew.
 
-    Examples
-    --------
     >>> once(lumped.rebound, 1.0) is once(lumped.rebound, 1.0)
     True
     """
@@ -180,8 +178,6 @@ def contact(
 ) -> Contact:
     """Solve one contact.
 
-    Examples
-    --------
     >>> found = contact(1.0)
     >>> bool(found.v1 < 0 and found.first(EventKind.STICK).t == 0)
     True
@@ -193,8 +189,6 @@ def contact(
 def integral(found: Contact, values: Array) -> Array:
     """Integral over time of values along a path, piece by piece between its kinks.
 
-    Examples
-    --------
     >>> found = contact(1.0, samples=2001)
     >>> gained = integral(found, found.path.force_2)[-1] / (-found.m2 * found.v2)
     >>> round(float(gained), 9)  # 1 + e

@@ -22,12 +22,8 @@ def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
     """Entries of a ledger, `{name: entry}`, with what stands elsewhere filled in.
 
     Each has its `kind` (equation or sentence). A wrong one has its `cause` in words too, `because`.
-    A `fact` of the source.yaml beside the ledger is replaced by its value and tolerance.
-
-    Raises
-    ------
-    SourceError
-        Naming file, field, value and what is allowed.
+    A `fact` of the source.yaml beside the ledger is replaced by its value and tolerance. A
+    `SourceError` names file, field, value and what is allowed.
     """
     ledger = reference_data.load_yaml(path)
     reference_data.refuse_invalid(ledger, schema, path)

@@ -15,14 +15,10 @@ CONFIRMED, ROUNDED, WRONG = "confirmed", "confirmed within rounding", "wrong"
 class Finding(NamedTuple):
     """What a check found.
 
-    Attributes
-    ----------
-    found : float
-        For an equation the largest distance of the printed formula from the paper's model among the
-        samples, in the unit that the check names. Between the samples it may be larger. For a
-        sentence the number that decides it.
-    corrected : float or None
-        The same for the corrected formula, where the printed one is wrong.
+    For an equation `found` is the largest distance of the printed formula from the paper's model
+    among the samples, in the unit that the check names; between the samples it may be larger. For a
+    sentence it is the number that decides it. `corrected` is the same for the corrected formula,
+    where the printed one is wrong.
     """
 
     found: float
@@ -40,8 +36,6 @@ class Judgement(NamedTuple):
 def largest(values: Iterable) -> float:
     """Largest absolute value of numbers and arrays; nan stays nan.
 
-    Examples
-    --------
     >>> largest([np.array([1.0, -3.0]), 2.0])
     3.0
     """
@@ -51,19 +45,9 @@ def largest(values: Iterable) -> float:
 def verdict(found: float, confirms: Mapping[str, float]) -> str:
     """Verdict that a number supports.
 
-    Parameters
-    ----------
-    found : float
-    confirms : dict
-        When the statement counts as true: `at_most`, `at_least`, or `value` with `rounding`,
-        half a unit of its last figure or what its words leave open.
+    `confirms` says when the statement counts as true: `at_most`, `at_least`, or `value` with
+    `rounding`, which is half a unit of its last figure or what its words leave open.
 
-    Returns
-    -------
-    str
-
-    Examples
-    --------
     >>> verdict(1.7007, {"value": 1.7, "rounding": 0.05})
     'confirmed within rounding'
     >>> verdict(0.2, {"at_most": 0.05})
@@ -82,19 +66,9 @@ def verdict(found: float, confirms: Mapping[str, float]) -> str:
 def judge(finding: Finding, entry: Mapping[str, Any]) -> Judgement:
     """Judge whether an entry of the ledger still holds.
 
-    Parameters
-    ----------
-    finding : Finding
-    entry : dict
-        `verdict`, `confirms`, and where the verdict is wrong `between`, bounds of `found` on
-        both sides. Where there is a corrected formula it must be exact.
+    The entry has `verdict`, `confirms`, and where the verdict is wrong `between`, bounds of `found`
+    on both sides. Where there is a corrected formula it must be exact.
 
-    Returns
-    -------
-    Judgement
-
-    Examples
-    --------
     >>> entry = {"verdict": "wrong", "confirms": {"at_most": 1e-9}, "between": [1.1, 1.3]}
     >>> judge(Finding(1.2, 1e-14), entry).holds
     True

@@ -41,8 +41,6 @@ NOTHING = Values(*[np.nan] * len(MODELS))
 def measure(name: str) -> Values:
     """What a measure of `nature` finds for each model.
 
-    Examples
-    --------
     >>> round(measure("limit_half").paper, 3)
     3.5
     """
@@ -63,8 +61,6 @@ def measures() -> dict[str, str]:
 def unknown_numbers(text: str) -> list[str]:
     """Numbers that a text asks for, as `{measure.model:.2f}`, and that nothing measures.
 
-    Examples
-    --------
     >>> unknown_numbers("{peak_spread.viscous:.2f} of {peak_spread.water} and {nothing}")
     ['peak_spread.water', 'nothing']
     """
@@ -76,8 +72,6 @@ def unknown_numbers(text: str) -> list[str]:
 def words(text: str, values: Mapping[str, Values]) -> str:
     """A text with its numbers.
 
-    Examples
-    --------
     >>> words("by {peak_spread.viscous:.2f}", {"peak_spread": Values(0, 0.2, 0.123, 0.3)})
     'by 0.12'
     """
@@ -87,16 +81,9 @@ def words(text: str, values: Mapping[str, Values]) -> str:
 def judge(claim: Mapping[str, Any], measured: Mapping[str, Values]) -> Judgement:
     """Judge whether the recorded verdict on a sentence in nature still holds.
 
-    Parameters
-    ----------
-    claim : dict
-        `says`, `verdict`, and unless it is open `check` and `confirms`; where the sentence does not
-        stand also `between`, for each loss the bounds of the number found.
-    measured : dict
-        `{measure: what it found}`.
+    A claim has `says`, `verdict`, and unless it is open `check` and `confirms`; where the sentence
+    does not stand also `between`, for each loss the bounds of the number found.
 
-    Examples
-    --------
     >>> claim = {"check": "duration", "says": "", "verdict": "fails", "confirms": {"at_most": 0.01},
     ...          "between": {"viscous": [0.1, 0.2], "plastic": [0.2, 0.3]}}
     >>> judge(claim, {"duration": Values(0.0, 0.2, 0.15, 0.25)}).holds

@@ -31,8 +31,6 @@ def model(name: str) -> Model:
     stiffnesses, and the elastic normal stiffness of the paper's contact is that of unloading,
     kappa/e^2.
 
-    Examples
-    --------
     >>> [round(float(model(name).rebound(3.0, 0.5).velocity), 1) for name in MODELS]
     [-2.0, -0.6, -0.6, -0.6]
     """

@@ -17,8 +17,6 @@ from stronge1994.printed import slip
 def boundary(holds: Callable[[float], bool], low: float, high: float) -> float:
     """Where a property that holds at `low` and not at `high` is lost, by bisection.
 
-    Examples
-    --------
     >>> round(boundary(lambda x: x < 2, 0.0, 8.0), 12)
     2.0
     """
@@ -31,8 +29,6 @@ def boundary(holds: Callable[[float], bool], low: float, high: float) -> float:
 def slips_throughout_from(mass_ratio: float, stiffness_ratio: float, restitution: float) -> float:
     """Incidence from which the solver never sticks, by bisection of its regimes.
 
-    Examples
-    --------
     >>> round(slips_throughout_from(3.5, 1.21, 1.0), 9)
     5.79
     """

@@ -16,12 +16,8 @@ def faults(
 ) -> list[str]:
     """Why the run must not pass, one line for each fault.
 
-    Parameters
-    ----------
-    made : iterable of str
-        Every file that the run makes.
-    comparisons, entries : dict
-        As for `faults_of_tables`.
+    `made` is every file that the run makes. `comparisons` and `entries` are as for
+    `faults_of_tables`.
     """
     found = record.faults(made)
     if found:  # rows of a table that was changed prove nothing
@@ -40,21 +36,10 @@ def faults_of_tables(
 ) -> list[str]:
     """Why a run must not pass, by its tables, one line for each fault.
 
-    Parameters
-    ----------
-    verdicts, ledger : list of dict
-        Rows of results/verdicts.csv and results/ledger.csv.
-    comparisons : dict
-        `{name: is its reference awaited}` of every row that the first must have.
-    entries : dict
-        `{name: has it a check}` of every row that the second must have.
+    `comparisons` and `entries` name every row that the tables of verdicts and of the ledger must
+    have. They say of a comparison whether its reference is awaited, and of an entry whether a run
+    tests it.
 
-    Returns
-    -------
-    list of str
-
-    Examples
-    --------
     >>> row = {"comparison": "fig6-rebound", "verdict": "agrees"}
     >>> faults_of_tables([row], [], {"fig6-rebound": False, "fig6-printed": False}, {})
     ['results/verdicts.csv: 0 rows of fig6-printed where 1 belongs']

@@ -44,14 +44,8 @@ def add_unlock(record: logging.LogRecord) -> bool:
 def words(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str] = ()) -> str:
     """What a run prints last. The gate's log has its faults, and is there only if it has judged.
 
-    Parameters
-    ----------
-    config : sequence of str
-        What the user gave with --config, to be repeated.
-    stopped : bool, optional
-        A job failed, or the run was interrupted.
-    logs : sequence of str, optional
-        Snakemake's logs of the run.
+    `config` is what the user gave with --config, to be repeated. `stopped` says that a job failed,
+    or that the run was interrupted; then Snakemake's `logs` tell which of them.
     """
     passed, log = Path(PASSED).exists(), Path(GATE_LOG)
     said = log.read_text(encoding="utf-8") if log.exists() else ""

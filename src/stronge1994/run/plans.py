@@ -28,13 +28,7 @@ def path(job: str) -> str:
 
 
 def write(job: str, sources: Iterable[str], settings: Any) -> None:
-    """Write the plan of a job, if it has changed. What an earlier run said then holds no longer.
-
-    Raises
-    ------
-    FileNotFoundError
-        If one of the `sources` is missing.
-    """
+    """Write the plan of a job, if it has changed. What an earlier run said then holds no longer."""
     hashes = {source: _hash(source) for source in sorted(sources)}
     text = json.dumps({"settings": settings, "sources": hashes}, indent=1)
     file = Path(path(job))

@@ -60,12 +60,8 @@ def recorded(snakemake: Any) -> Iterator[Any]:
     """Do a job of Snakemake by its plan, log it, and record what it read and wrote.
 
     Gives the settings of the plan. `snakemake.input.plan` and `snakemake.output.record` are files.
-
-    Raises
-    ------
-    RuntimeError
-        If an input or a source was edited since the run began, for nobody knows then which version
-        the job has read; or if the job imports a module that its plan does not name.
+    It is an error if an input or a source was edited since the run began, for nobody knows then
+    which version the job has read; or if the job imports a module that its plan does not name.
     """
     # A run that goes on beside this one may have passed meanwhile, and not for what follows.
     withdraw()
@@ -113,15 +109,8 @@ def read(path: str) -> dict[str, Any] | None:
 def faults(made: Iterable[str]) -> list[str]:
     """Files that are not what their job wrote, or were made from others than are there now.
 
-    Parameters
-    ----------
-    made : iterable of str
-        Every file that the jobs of a run write, their records among them.
-
-    Returns
-    -------
-    list of str
-        One line for each fault, with what mends it.
+    `made` is every file that the jobs of a run write, their records among them. Each fault is one
+    line, with what mends it.
     """
     made = list(made)
     records = [path for path in made if path.startswith(f"{FOLDER}/")]

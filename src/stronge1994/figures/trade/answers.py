@@ -27,25 +27,13 @@ def ordered(rows: Sequence[Row]) -> list[Row]:
 def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -> list[Row]:
     """The cheapest model that meets each tolerance, for each restitution, loss and size of batch.
 
-    Parameters
-    ----------
-    rows : sequence of dict of text
-        Of results/curves/trade.csv, with their name under `curve`.
-    tolerances : sequence of float
-        For the largest error of velocity. The error of the reference itself is added to it.
+    A model meets a tolerance if its largest error of velocity does, with the error of the reference
+    added. A row has the largest error of the continuum with the other loss, the spread of the
+    answer under uncertain inputs, and for each batch the model or "none", its largest error, and
+    its time per impact. Any time of compilation is spread over the batch; a time that was taken on
+    a busy machine is left out. The model is `BUSY` where nobody can know: the CPU time of some
+    model alone is below the time of all others, but its own time is not.
 
-    Returns
-    -------
-    list of dict
-        `other_loss`, the largest error of the continuum with the other loss; the spread of the
-        answer under uncertain inputs, see `curves`. For each batch the name, or
-        "none"; its largest error; its time per impact, with any time of compilation spread over the
-        batch, or nothing where that was taken on a busy machine. The name is `BUSY` where nobody
-        can know: the CPU time of some model alone is below the time of all others, but its own time
-        is not.
-
-    Examples
-    --------
     >>> row = {"restitution [1]": "1", "max_velocity [mu v2(0)]": "0.2", "build_time [s]": ""}
     >>> row |= {"reference_error [mu v2(0)]": "1e-7", "time_10 [s]": "3e-5", "loss": ""}
     >>> row |= {"model": "lumped"} | dict.fromkeys(SPREAD, "0.4")
@@ -81,8 +69,6 @@ def _other_loss(rows: Sequence[Row]) -> str:
 def whole_time(row: Mapping[str, Any], batch: int) -> float | None:
     """Seconds for one of a batch of impacts, with its share of compilation; None if not measured.
 
-    Examples
-    --------
     >>> whole_time({"time_10 [s]": "0.5", "build_time [s]": "20"}, 10)
     2.5
     """

