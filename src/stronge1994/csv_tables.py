@@ -76,10 +76,8 @@ def read(path: Path) -> Curves:
 def read_rows(path: Path, columns: Iterable[str] = ()) -> list[Row]:
     """Rows of a table.
 
-    Raises
-    ------
-    ValueError
-        Naming file and line, if one of `columns` is missing or a row is not as wide as the header.
+    A `ValueError` names file and line if one of `columns` is missing, or a row is not as wide as
+    the header.
     """
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file, strict=True)) or [[]]

@@ -12,8 +12,6 @@ EACH = "each "
 def name(symbol: str, value: float) -> str:
     """Name of a curve by a parameter, the same in curves and in reference data.
 
-    Examples
-    --------
     >>> name("e", 0.50)
     'e = 0.5'
     """
@@ -23,8 +21,6 @@ def name(symbol: str, value: float) -> str:
 def shifted(curve: str, parameter: str, sign: int) -> str:
     """Name of a curve whose parameter is off by its uncertainty.
 
-    Examples
-    --------
     >>> shifted("lumped, experiment", "friction", 1)
     'lumped, experiment; friction + 1 sigma'
     """
@@ -34,8 +30,6 @@ def shifted(curve: str, parameter: str, sign: int) -> str:
 def shifted_by(curve: str | None, names: Iterable[str]) -> list[tuple[str, str]]:
     """Names of curves that differ from `curve` by the uncertainty of a parameter, up and down.
 
-    Examples
-    --------
     >>> names = ["a", "b", "b; friction + 1 sigma", "b; friction - 1 sigma"]
     >>> shifted_by("a", names), shifted_by("b", names)
     ([], [('b; friction + 1 sigma', 'b; friction - 1 sigma')])
@@ -52,8 +46,6 @@ def shifted_by(curve: str | None, names: Iterable[str]) -> list[tuple[str, str]]
 def is_printed(name: str) -> bool:
     """Whether a curve holds what the printed equations give.
 
-    Examples
-    --------
     >>> is_printed("no solution as printed, e = 1"), is_printed("e = 1")
     (True, False)
     """
@@ -63,8 +55,6 @@ def is_printed(name: str) -> bool:
 def is_shifted(name: str) -> bool:
     """Whether one of the parameters of a curve is off by its uncertainty.
 
-    Examples
-    --------
     >>> is_shifted(shifted("lumped", "friction", -1)), is_shifted("lumped")
     (True, False)
     """

@@ -19,20 +19,9 @@ def solve(
 ) -> None:
     """Solve one table, and write an account of it.
 
-    Parameters
-    ----------
-    table, result : str
-        As `source` and `target` of `planarimpact.scene.files.solve`.
-    account : str
-        JSON: `rows`, how many the table has; `bad`, `[[row, problem], ...]` of those left out;
-        `models`, how many impacts each took; `assumed`, whether a loss was taken that nobody gave.
-    tolerance, loss, skip_bad
-        As there.
-
-    Raises
-    ------
-    InputError, ConvergenceError
-        As there.
+    The account is JSON: `rows`, how many the table has; `bad`, `[[row, problem], ...]` of those
+    left out; `models`, how many impacts each took; `assumed`, whether a loss was taken that nobody
+    gave. All else is as in `planarimpact.scene.files.solve`, its errors too.
     """
     # A job that is killed leaves a part of its result, and each job a list of bad rows, which its
     # account has too. Neither may lie among the results.
@@ -56,15 +45,9 @@ def solve(
 def gather(results: Sequence[str], accounts: Sequence[str], summary: str, bad_rows: str) -> None:
     """Count all tables together, and list all bad rows.
 
-    Parameters
-    ----------
-    results, accounts : sequence of str
-        Of each table, in the same order.
-    summary : str
-        A line for each table and one for all of them: rows, bad rows, how many impacts each model
-        took, and whether a loss was assumed.
-    bad_rows : str
-        Table, row and problem.
+    The results and the accounts have the same order. The summary has a line for each table and one
+    for all of them: rows, bad rows, how many impacts each model took, and whether a loss was
+    assumed. The list of bad rows has table, row and problem.
     """
     parts = {
         Path(result).name: json.loads(Path(account).read_text(encoding="utf-8"))
@@ -93,18 +76,7 @@ def gather(results: Sequence[str], accounts: Sequence[str], summary: str, bad_ro
 
 
 def words(summary: str) -> str:
-    """What a summary says of all tables together.
-
-    Parameters
-    ----------
-    summary : str
-        As `gather` writes it.
-
-    Returns
-    -------
-    str
-        A line for the rows, and one for each model.
-    """
+    """What a summary says of all tables: a line for the rows, and one for each model."""
     *tables, total = csv_tables.read_rows(summary)
     assumed = total.pop("loss_assumed") == "yes"
     del total["table"]

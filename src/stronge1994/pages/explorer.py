@@ -40,15 +40,8 @@ ANGLE = {"fig5": 58.0, "fig6": 45.0, "fig7": 45.0, "fig8": 30.0, "fig9": 45.0}  
 def presets(settings: Mapping[str, Any]) -> dict[str, State]:
     """States of the page's controls for figures of the paper and the superball.
 
-    Parameters
-    ----------
-    settings : dict
-        What `plan.settings_of_explorer` returns.
-
-    Returns
-    -------
-    dict
-        `{figure: {control: value}}`; impacts that the sliders cannot show are left out.
+    `settings` are those of `plan.settings_of_explorer`. Impacts that the sliders cannot show are
+    left out.
     """
     shared = {
         "poisson_ratio": _poisson_ratio(settings["stiffness_ratio"]),
@@ -103,17 +96,6 @@ def _within_limits(state: Mapping[str, float]) -> bool:
 def address(state: Mapping[str, float]) -> str:
     """The part of the page's address after #, without the chosen chart.
 
-    Parameters
-    ----------
-    state : dict
-        Values of the controls.
-
-    Returns
-    -------
-    str
-
-    Examples
-    --------
     >>> address({"angle": 58.0, "friction": 0.2})
     'angle=58&friction=0.2'
     """
@@ -125,8 +107,6 @@ def continuum() -> str:
 
     Its tables are written to base 85; the page has a function `bytes` that reads that.
 
-    Examples
-    --------
     >>> print(continuum().splitlines()[0])
     const spheres = (() => {
     """
@@ -146,19 +126,8 @@ def _in_base_85(table: re.Match[str]) -> str:
 def refuse_other_answers(solver: str, check: str, answers: Sequence[Any]) -> str:
     """Compare the solver of the page with the package, if there is node to run it; words for a log.
 
-    Without node the comparison is left to the page, which makes it whenever it is opened.
-
-    Parameters
-    ----------
-    solver, check : path
-        solver.js and check.js.
-    answers : list
-        Of `stronge1994.explorer_answers`.
-
-    Raises
-    ------
-    ArithmeticError
-        Naming the first impact that the page solves otherwise.
+    Without node the comparison is left to the page, which makes it whenever it is opened. `solver`
+    and `check` are the files solver.js and check.js, `answers` those of the package.
     """
     if not (node := shutil.which("node")):
         return "not compared with the package here, as there is no node; the page does it"
@@ -178,18 +147,8 @@ def refuse_other_answers(solver: str, check: str, answers: Sequence[Any]) -> str
 def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[Any]) -> str:
     """The page as text.
 
-    Parameters
-    ----------
-    settings : dict
-        As for `presets`.
-    sources : sequence of path
-        The template explorer.html, and in the same folder the style and scripts that it names.
-    answers : list
-        Of `stronge1994.explorer_answers`, against which the page checks itself.
-
-    Returns
-    -------
-    str
+    `sources` are the files of the template explorer.html and of the style and scripts that it
+    names, in the same folder. The page checks itself against `answers`, those of the package.
     """
     texts = {Path(path).name: Markup(Path(path).read_text(encoding="utf-8")) for path in sources}
     template = templates.environment(Path(sources[0]).parent).get_template("explorer.html")

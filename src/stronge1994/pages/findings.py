@@ -1,7 +1,8 @@
 """What a run found, for the first screen of the report: numbers of its tables, small pictures.
 
 The words stand in the template. A finding is left out where a table that it needs is missing, or
-where its verdicts no longer say what its words say.
+where its verdicts no longer say what its words say. In the second case it raises `Untold`. Here
+`verdicts` are rows by the names of their comparisons.
 """
 
 from collections import Counter
@@ -51,20 +52,7 @@ class Untold(Exception):
 def paper(ledger: Sequence[Row]) -> Finding:
     """What is wrong in the paper: counts, and the entries that change a result.
 
-    Parameters
-    ----------
-    ledger : list of dict
-        Rows of results/ledger.csv.
-
-    Returns
-    -------
-    dict
-        `entries`, `verdicts`, `grades` (counts), `grave` (rows), `picture`.
-
-    Raises
-    ------
-    Untold
-        If an entry no longer holds, or none changes a result.
+    It raises `Untold` if an entry no longer holds, or none changes a result.
     """
     grave = [row for row in ledger if row["grade"] == next(iter(outcome.GRADES))]
     _need(grave and not outcome.failing(ledger))
@@ -83,22 +71,10 @@ def restitution(
 ) -> Finding:
     """What happens below e = 1.
 
-    Parameters
-    ----------
-    verdicts : dict
-        `{comparison: row}`.
-    nature : dict
-        What the measures of results/in_nature.csv found.
-    curves : dict
-        Of the figure `inelastic`.
-    measured : dict
-        Columns of the measured pairs of materials.
-
-    Raises
-    ------
-    Untold
-        If the measured pairs do not contradict the paper's model, or contradict a continuum, or if
-        the reversed velocity does not grow in the paper's model and fall in the continua.
+    `nature` is what the measures of results/in_nature.csv found, `curves` are those of the figure
+    `inelastic`, and `measured` has the measured pairs of materials. It raises `Untold` if the pairs
+    do not contradict the paper's model, or contradict a continuum; or if the reversed velocity does
+    not grow in the paper's model and fall in the continua.
     """
     models = "lumped", "continuum.viscous", "continuum.plastic"
     rows = {model: verdicts[f"inelastic-{model}-pairs"] for model in models}
@@ -128,18 +104,8 @@ def restitution(
 def elastic(verdicts: Mapping[str, Row], curves: Curves) -> Finding:
     """How far the lumped model is from the elastic continuum, and where.
 
-    Parameters
-    ----------
-    verdicts : dict
-        `{comparison: row}`.
-    curves : dict
-        Of Fig. 5.
-
-    Raises
-    ------
-    Untold
-        If the verdicts are others than the words say, or the largest difference is elsewhere than
-        where initial stick ends.
+    `curves` are those of Fig. 5. It raises `Untold` if the verdicts are others than the words say,
+    or the largest difference is elsewhere than where initial stick ends.
     """
     rows = [verdicts[f"fig5-lumped-maw-{part}"] for part in PARTS]
     expected = "differs as documented", "differs as documented", "agrees"
@@ -168,16 +134,9 @@ def elastic(verdicts: Mapping[str, Row], curves: Curves) -> Finding:
 def tolerance(answers: Sequence[Row], trade: Sequence[Row]) -> Finding:
     """Which model to take.
 
-    Parameters
-    ----------
-    answers, trade : sequence of dict
-        Rows of results/which_model.csv, those of e = 1 first, and of results/trade.csv.
-
-    Returns
-    -------
-    dict
-        `steps`, the cheapest models at e = 1 in the middle batch, each with the smallest tolerance
-        that it meets; `batch`; `lossy`, the cases in which energy is lost; `picture`.
+    The answers begin with those of e = 1. `steps` are the cheapest models there in the middle
+    batch, each with the smallest tolerance that it meets; `lossy` are the cases in which energy is
+    lost.
     """
     cases = which_model.cases(answers)
     _need(cases and not cases[0]["loss"])
@@ -203,17 +162,7 @@ def tolerance(answers: Sequence[Row], trade: Sequence[Row]) -> Finding:
 def digits(verdicts: Mapping[str, Row], stability: Sequence[Row]) -> Finding:
     """How exact and how stable the solution of the paper's model is.
 
-    Parameters
-    ----------
-    verdicts : dict
-        `{comparison: row}`.
-    stability : sequence of dict
-        Rows of results/stability.csv.
-
-    Raises
-    ------
-    Untold
-        If more digits are lost than the comparison allows.
+    It raises `Untold` if more digits are lost than the comparison allows.
     """
     row = verdicts["stability-digits"]
     _need(row["verdict"] == "agrees")
@@ -247,15 +196,8 @@ def all_of(
 ) -> dict[str, Finding | None]:
     """All findings; None for one that the run does not tell.
 
-    Parameters
-    ----------
-    verdicts, ledger : list of dict
-        Rows of results/verdicts.csv and results/ledger.csv.
-    tables : dict
-        `{name: {"rows"}}` of `which_model`, `trade` and `stability`.
-    paths : dict
-        `{name: file}` of other tables: `in_nature`, curves by figure, series by source.
-    config : dict
+    `tables` are those of `which_model`, `trade` and `stability` as the report shows them. `paths`
+    are the files of other tables: `in_nature`, curves by figure, series by source.
     """
     rows = {row["comparison"]: row for row in verdicts}
 
@@ -286,14 +228,8 @@ def all_of(
 def told(finding: Callable[..., Finding], *arguments: Callable[[], Any]) -> Finding | None:
     """A finding, or None where what it needs is missing or says something else.
 
-    Parameters
-    ----------
-    finding : callable
-    *arguments : callable
-        Each gives one of its arguments.
+    Each of `arguments` is called for one argument of the finding.
 
-    Examples
-    --------
     >>> print(told(paper, list))
     None
     """
@@ -305,8 +241,6 @@ def told(finding: Callable[..., Finding], *arguments: Callable[[], Any]) -> Find
 def bars(counts: Mapping[str, int]) -> Markup:
     """Counts as bars with their names, as SVG. Their classes are those of the ledger's marks.
 
-    Examples
-    --------
     >>> print(bars({"wrong": 3}).count("<rect"))
     1
     """
@@ -335,15 +269,8 @@ def sketch(
 ) -> Markup:
     """Curves without axes, as SVG, for a first look.
 
-    Parameters
-    ----------
-    lines : list of (str, ndarray, ndarray)
-        Class, x and y of each.
-    points : (ndarray, ndarray, ndarray), optional
-        x, y, and half the length of the bar of each.
+    A line is its class, x and y. Points are x, y, and half the length of the bar of each.
 
-    Examples
-    --------
     >>> print(sketch([("ours", np.array([0, 1]), np.array([0, 1]))]).count("polyline"))
     2
     """

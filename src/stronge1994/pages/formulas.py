@@ -350,19 +350,9 @@ def _mathematical(text: str) -> str:
 def mathematical(text: str) -> Markup:
     """A text whose plain formulas are MathML, and whose `code` is HTML.
 
-    Parameters
-    ----------
-    text : str
-        Plain text, with formulas as the head of this module has them.
+    The result is safe HTML. Each formula keeps its plain form as `alttext`. The class `joined` is
+    for what must not be broken: a formula and the mark behind it.
 
-    Returns
-    -------
-    Markup
-        Safe HTML. Each formula keeps its plain form as `alttext`. The class `joined` is for what
-        must not be broken: a formula and the mark behind it.
-
-    Examples
-    --------
     >>> print(mathematical("mu < 1 of Eq. 7c"))
     <math alttext="mu &lt; 1"><mi>μ</mi><mo form="infix">&lt;</mo><mn>1</mn></math> of Eq. 7c
     >>> print(mathematical("e t_c"))

@@ -58,8 +58,6 @@ BATCH = re.compile(r"(time|busy)_(\d+)")
 def words(column: str) -> str:
     """What a column is, with its unit after a comma.
 
-    Examples
-    --------
     >>> words("max_velocity [mu v2(0)]")
     'largest error of the velocity at separation, mu v2(0)'
     >>> words("time_1000 [s]"), words("time_1 [s]")

@@ -25,22 +25,10 @@ LAMMPS = "LAMMPS mindlin/force"
 def section(trade: Sequence[Row], peers: Sequence[Row]) -> dict[str, Any]:
     """What the report says of times.
 
-    Parameters
-    ----------
-    trade : sequence of dict
-        Rows of results/trade.csv.
-    peers : sequence of dict
-        Rows of results/peers.csv; none where the other codes were not measured.
+    `peers` is empty where the other codes were not measured. `rows` are those of `ratios`, from
+    `peers` where a code was measured, else from `trade`: one table has only times of one process.
+    `absent` is a sentence for each code that the rows lack.
 
-    Returns
-    -------
-    dict
-        `rows`, as `ratios` gives them, from `peers` where a code was measured, else from `trade`:
-        one table has only times of one process. `absent`, a sentence for each code that the rows
-        lack.
-
-    Examples
-    --------
     >>> section([], [{"model": "lammps", "installed": "no"}])["absent"]
     ['LAMMPS is not installed.', 'pooltool was not measured.']
     """
@@ -58,26 +46,13 @@ def section(trade: Sequence[Row], peers: Sequence[Row]) -> dict[str, Any]:
 def ratios(rows: Sequence[Row]) -> list[Row]:
     """Time of an impact by code and model, and how many times that of our fastest answers.
 
-    Times hardly follow e, so there are rows for e = 1 and for the largest e below it. Of a model
-    with several settings the coarsest is taken.
+    Times hardly follow e, so there are rows for e = 1 and for the largest e below it, by loss, the
+    slowest first. Of a model with several settings the coarsest is taken. The time is that in the
+    largest batch that all of them have solved; alone it is the median of random incidences. The
+    ratios are over the time of the compiled response, and of the table of spheres if `rows` has it.
+    A ratio is empty where one of its times was taken on a busy machine, and so is a time alone.
+    Then the column `busy [1]` says how many times too long the time in the batch is.
 
-    Parameters
-    ----------
-    rows : sequence of dict
-        Of results/trade.csv or results/peers.csv. Rows without times give no table.
-
-    Returns
-    -------
-    list of dict
-        By restitution and loss, the slowest first: name, setting; largest error of velocity; time
-        of an impact in the largest batch that all of them have solved, and alone, the median of
-        random incidences; over the time of the compiled response, and of the table of spheres if
-        `rows` has it. A ratio is empty where one of its times was taken on a busy machine, and so
-        is a time alone. Then the column `busy [1]` says how many times too long the time in the
-        batch is.
-
-    Examples
-    --------
     >>> row = {"restitution [1]": "1.0", "loss": "", "max_velocity [mu v2(0)]": "0.2"}
     >>> row |= {"time_1 [s]": "1e-4"}
     >>> slow = row | {"model": "continuum", "time_1000 [s]": "6e-4"}
@@ -126,8 +101,6 @@ def _coarsest(rows: Sequence[Row]) -> list[Row]:
 def _setting(row: Row) -> str:
     """Words for the steps or the tolerance of a row.
 
-    Examples
-    --------
     >>> _setting({"steps [1]": "64"}), _setting({"tolerance [mu v2(0)]": "0.001"}), _setting({})
     ('64 steps', 'tolerance 0.001', '')
     """

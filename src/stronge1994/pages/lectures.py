@@ -49,18 +49,9 @@ class ThisPython(AsyncKernelManager):
 def run(notebook: str, template: str, executed: str, page: str) -> None:
     """Run `notebook` from its first cell to its last and write both results.
 
-    Parameters
-    ----------
-    notebook, template : path
-        A notebook without outputs; the page as a Jinja template.
-    executed, page : path
-        What is written: the notebook with its outputs, and the page.
-
-    Raises
-    ------
-    NotebookError
-        If a cell fails: its number, the line that failed and the error, in one line. Also if one
-        takes too long, or ends the kernel.
+    `executed` becomes the notebook with its outputs, `page` the page made with the Jinja
+    `template`. A `NotebookError` says in one line which cell failed, in which line and why; or that
+    one took too long, or ended the kernel.
     """
     book = nbformat.read(notebook, as_version=4)
     with tempfile.TemporaryDirectory() as scratch:
@@ -99,20 +90,10 @@ def run(notebook: str, template: str, executed: str, page: str) -> None:
 def parts(cells: Iterable[Any]) -> list[tuple[str, list[Any]]]:
     """The cells of a notebook in parts, open or folded.
 
-    Parameters
-    ----------
-    cells : iterable of nbformat.NotebookNode
-        Their order is that of the notebook.
+    Each part has a title and cells. A part whose title is empty is open. The title of a folded part
+    is its collapsed heading. It ends where JupyterLab ends it: before the next heading of the same
+    or a higher level.
 
-    Returns
-    -------
-    list of (str, list)
-        Of each part the title and the cells. A part whose title is empty is open. The title of a
-        folded part is its collapsed heading. It ends where JupyterLab ends it: before the next
-        heading of the same or a higher level.
-
-    Examples
-    --------
     >>> from nbformat.v4 import new_markdown_cell as words
     >>> folded = {"jp-MarkdownHeadingCollapsed": True}
     >>> cells = [words("Why?"), words("### Answer", metadata=folded), words("So."), words("## 2")]

@@ -86,8 +86,6 @@ def _series(measured: Columns) -> dict[str, Any]:
 def probability(p: float) -> Markup:
     """A probability in a few figures.
 
-    Examples
-    --------
     >>> print(probability(0.2234), probability(3.6e-26))
     0.22 4 × 10<sup>−26</sup>
     """
@@ -100,24 +98,10 @@ def probability(p: float) -> Markup:
 def page(
     found: Mapping[str, Values], curves: Curves, measured: Columns, svg: bytes, template: str
 ) -> str:
-    """The letter.
+    """The letter; an `ArithmeticError` says that a number is missing.
 
-    Parameters
-    ----------
-    found : dict
-        What the measures in nature found.
-    curves : dict
-        Of the figure `inelastic`.
-    measured : dict
-        Columns of the measured pairs.
-    svg : bytes
-        The figure.
-    template : str
-
-    Raises
-    ------
-    ArithmeticError
-        If a number is missing.
+    `found` is what the measures in nature found. `curves` are those of the figure `inelastic`, and
+    `svg` is its picture.
     """
     every, of_models = pairs(curves, measured), fits(curves, measured)
     numbers = [*found.values(), *(list(pair.computed.values()) for pair in every)]
@@ -162,12 +146,7 @@ def write(
 ) -> None:
     """Read what the run has made and write the letter.
 
-    Parameters
-    ----------
-    output, measures, curves, series, svg, template : str
-        Files.
-    name : str
-        Of the measured pairs among the `series`.
+    `name` is that of the measured pairs among the series; all else are files.
     """
     found = in_nature.read(csv_tables.read_rows(measures))
     try:

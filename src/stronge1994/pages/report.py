@@ -62,13 +62,8 @@ ROOT = Path(__file__).parents[3]
 class Salvage:
     """Calls functions, goes on where one fails, and keeps what to say of it.
 
-    Attributes
-    ----------
-    problems : list of str
-        What failed, the error, and the file and line where it happened.
+    `problems` say what failed, the error, and the file and line where it happened.
 
-    Examples
-    --------
     >>> salvage = Salvage()
     >>> salvage("Fig. 5", "nothing", lambda: {}["curve"])
     'nothing'
@@ -115,35 +110,11 @@ def page(
 ) -> str:
     """The report.
 
-    Parameters
-    ----------
-    verdicts, ledger : list of dict
-        Rows of results/verdicts.csv and results/ledger.csv.
-    figures : dict
-        `{name: what figure() gave}`.
-    tables : dict
-        `{name: {"rows", "caption"}}` of `SECTIONS`.
-    significance : float
-        The smallest probability with which published points agree.
-    run : dict
-        `date` and `commit` of `run_facts`.
-    symbols : str
-        What stands in the ledger's formulas.
-    links : dict
-        `{file of a lecture: its name}`.
-    template : Path
-    faults : list of str
-        Why the run does not pass, as `gate.faults_of_tables` says.
-    tried : Salvage
-        Calls what may fail; its problems so far are shown too.
-    found : dict
-        What `findings.all_of` gave.
-    peers : sequence of dict, optional
-        Rows of results/peers.csv, where other codes were measured.
-
-    Returns
-    -------
-    str
+    `tables` has the rows and captions of `SECTIONS`, `figures` what `figure` gave, `found` what
+    `findings.all_of` gave. `symbols` is what stands in the ledger's formulas; `links` are the names
+    of lectures by their files. `faults` say why the run does not pass, as `gate.faults_of_tables`
+    does. `tried` calls what may fail, and its problems so far are shown too. `peers` is empty where
+    other codes were not measured.
     """
     names = {row["entry"] for row in ledger}
     nothing: Shown = {"rows": [], "absent": []}
@@ -211,22 +182,7 @@ def figure(
 ) -> Shown:
     """What the report shows of one figure.
 
-    Parameters
-    ----------
-    name : str
-    svg : bytes
-        Its picture.
-    caption : str
-    residuals : list of dict
-        Rows of results/residuals/FIGURE.csv.
-    verdicts : list of dict
-        Rows of results/verdicts.csv, those of other figures too.
-    config : dict
-        The config as it was in the run.
-
-    Returns
-    -------
-    dict
+    `verdicts` may be of other figures too. `config` is as it was in the run.
     """
     rows = [row for row in verdicts if row["figure"] == name]
     entries = {c: e for c, e in config["comparisons"].items() if e["figure"] == name}
@@ -252,8 +208,6 @@ def caption(path: str | Path, name: str) -> str:
 def sentence(text: str) -> str:
     """A text with a capital letter at its head.
 
-    Examples
-    --------
     >>> sentence("it must run")
     'It must run'
     """
@@ -289,25 +243,12 @@ def write(
 ) -> None:
     """Read the tables and pictures of a run and write the report, and what it could not show.
 
-    The page of sources and settings is written beside it.
-
-    Parameters
-    ----------
-    output, problems : str
-        The report, and the table of what could not be shown.
-    paths : dict
-        `{name: file}` of the tables: `verdicts`, `ledger`, those of `SECTIONS`, those that only the
-        findings need, and `peers` where other codes were measured.
-    residuals, svgs : dict
-        `{figure: file}`.
-    captions : str
-        The template of the figures' captions; those of tables stand beside it.
-    config : dict
-    expected : (dict, dict)
-        Rows that the verdicts and the ledger must have, as `gate.faults_of_tables` takes them.
-    **parts
-        `symbols`, `links`, `template` as for `page`; `sources`, the contents of
-        data/*/source.yaml; `run`, what `run_facts.everything` gave.
+    The page of sources and settings is written beside it. `paths` are the files of the tables:
+    `verdicts`, `ledger`, those of `SECTIONS`, those that only the findings need, and `peers` where
+    other codes were measured. `captions` is the template of the figures' captions; those of tables
+    stand beside it. `expected` are the rows that `gate.faults_of_tables` asks for. `parts` are
+    `symbols`, `links` and `template` as for `page`; `sources`, the contents of data/*/source.yaml;
+    and `run`, functions of `run_facts` by name, each with what to show if it fails.
     """
     tried = Salvage()
     read = csv_tables.read_rows

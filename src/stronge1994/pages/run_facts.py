@@ -55,8 +55,6 @@ def commit(folder: str | Path) -> str:
 def short(commit: str) -> str:
     """A commit with ten of its digits; what is said behind it, or in its place, stays.
 
-    Examples
-    --------
     >>> short("8ab9900d103054b1c3d40c442361c77869d9dbd6, with uncommitted changes")
     '8ab9900d10, with uncommitted changes'
     """

@@ -20,19 +20,7 @@ def page(
 ) -> str:
     """The page of sources and settings.
 
-    Parameters
-    ----------
-    sources : dict
-        Contents of data/*/source.yaml.
-    config : dict
-        As it was in the run: `SHARED`, `figures`, `comparisons`.
-    run : dict
-        `versions`, `system`, `date`, `commit` and `times` of `run_facts`.
-    template : Path
-
-    Returns
-    -------
-    str
+    `sources` are the contents of data/*/source.yaml, and `config` is as it was in the run.
     """
     comparisons = config["comparisons"].items()
     settings = {
@@ -65,8 +53,6 @@ class _Dumper(yaml.SafeDumper):
 def in_yaml(document: Any) -> str:
     """A part of the config as it stands in its files.
 
-    Examples
-    --------
     >>> print(in_yaml({"restitution": [0.5, 1]}), end="")
     restitution: [0.5, 1]
     """

@@ -28,15 +28,7 @@ FAR = 16
 def by_decade(impacts: Columns) -> list[list[Any]]:
     """Digits of the worst output of the impacts in each decade of each quantity.
 
-    Parameters
-    ----------
-    impacts : dict of ndarray
-        Of results/curves/stability.csv.
-
-    Returns
-    -------
-    list of list
-        Rows with the cells of `COLUMNS`; the value 0 has a row of its own.
+    The value 0 has a row of its own.
     """
     digits, allowed = (
         np.min([impacts[f"{kind}_{name} [1]"] for name in OUTPUTS], axis=0)

@@ -25,8 +25,6 @@ def environment(folder: str | Path) -> jinja2.Environment:
 def embedded(svg: bytes) -> str:
     """Address of a picture that holds the picture itself.
 
-    Examples
-    --------
     >>> embedded(b"<svg/>")
     'data:image/svg+xml;base64,PHN2Zy8+'
     """
@@ -36,8 +34,6 @@ def embedded(svg: bytes) -> str:
 def title(name: str) -> str:
     """Name of a figure for a reader.
 
-    Examples
-    --------
     >>> title("fig5"), title("micro_slip")
     ('Fig. 5', 'Micro slip')
     """
@@ -51,8 +47,6 @@ def title(name: str) -> str:
 def number(text: str) -> str:
     """A cell of a table with three digits at most; words stay.
 
-    Examples
-    --------
     >>> number("0.123456"), number("1.56e+03"), number("1e-05"), number("lumped")
     ('0.123', '1560', '1e-5', 'lumped')
     """

@@ -12,19 +12,10 @@ MODEL = re.compile(r"model_(\d+)")
 def cases(rows: Sequence[Row]) -> list[dict[str, Any]]:
     """Rows of results/which_model.csv by restitution and loss.
 
-    Parameters
-    ----------
-    rows : sequence of dict
+    There are none where the table is that of a crash. Numbers stay text. `spread` and
+    `spread_stick` are those of the answer under uncertain inputs; `batches` are how many impacts
+    are solved together. Each of `rows` has a `tolerance`, and an answer for each batch.
 
-    Returns
-    -------
-    list of dict
-        `restitution`, `loss`, `other_loss`, `spread` and `spread_stick` (numbers as text);
-        `batches`, how many impacts are solved together; `rows`, each with a `tolerance` and
-        `answers`, `{batch: {"model", "error", "time"}}`. None where the table is that of a crash.
-
-    Examples
-    --------
     >>> row = {"restitution [1]": "1.0", "loss": "", "tolerance [mu v2(0)]": "0.3"}
     >>> row |= dict.fromkeys(["other_loss [mu v2(0)]", "input_spread [mu v2(0)]"], "")
     >>> row |= {"input_spread_stick [mu v2(0)]": "", "model_1": "lumped"}

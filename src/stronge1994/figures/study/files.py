@@ -76,15 +76,9 @@ def origin(path: str) -> tuple[int, str, Settings]:
 def span(points: int, chunk: str) -> tuple[int, int]:
     """First point of a chunk, and the point after its last.
 
-    Parameters
-    ----------
-    points : int
-        Of the whole grid.
-    chunk : str
-        As Snakemake's scattergather names it. All have as many points as can be.
+    The whole grid has so many `points`. Chunks have the names that Snakemake's scattergather gives
+    them, and sizes as equal as can be.
 
-    Examples
-    --------
     >>> span(10, "1-of-3"), span(10, "3-of-3")
     ((0, 3), (6, 10))
     """
