@@ -11,7 +11,6 @@ include: "workflow/rules/start.smk"
 
 
 configfile: "workflow/config.yaml"
-configfile: "workflow/comparisons.yaml"
 
 
 include: "workflow/rules/common.smk"
@@ -56,8 +55,8 @@ rule measurements:
     With `--cores 1` nothing runs beside them.
     """
     input:
-        expand("results/curves/{figure}.csv", figure=plan.TIMED),
-        expand("figures/{figure}.{kind}", figure=plan.TIMED, kind=["svg", "png"]),
+        expand("results/curves/{figure}.csv", figure=TIMED),
+        expand("figures/{figure}.{kind}", figure=TIMED, kind=["svg", "png"]),
 
 
 rule notebooks:

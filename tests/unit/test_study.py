@@ -28,7 +28,7 @@ GRID = {
 COUNT = 70
 WORKFLOW = Path(__file__).parents[2] / "workflow"
 CONFIG = configuration.load(WORKFLOW.parent)
-SCHEMA = reference_data.load_yaml(WORKFLOW / "schemas/config.schema.yaml")
+SCHEMA = configuration.schema()
 
 
 @pytest.fixture

@@ -21,7 +21,6 @@ from stronge1994.reference_data import conversion
 
 ROOT = Path(__file__).parents[2]
 CONFIG = configuration.load(ROOT)
-CONFIG_SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/config.schema.yaml")
 SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
 UNSIGNED, SIGNED = "digitised_by: null", "digitised_by: a test, with made-up points"
 JOHNSON, LEWIS = "johnson1983", "lewis_rogers1988"
@@ -206,7 +205,7 @@ def test_an_allowance_that_means_nothing_is_refused(change, words):
     entry = comparisons["fig5-rubber-sphere"] | change
     config = CONFIG | {"comparisons": comparisons | {"fig5-rubber-sphere": entry}}
     with pytest.raises(reference_data.SourceError, match=words):
-        reference_data.refuse_invalid(config, CONFIG_SCHEMA, "config")
+        reference_data.refuse_invalid(config, configuration.schema(), "config")
 
 
 def test_an_export_without_provenance_is_refused(judged):

@@ -19,6 +19,7 @@ from planarimpact import bodies, continuum, lumped
 from stronge1994 import plan
 from stronge1994.pages import explorer as write_explorer
 from stronge1994.plan import config as configuration
+from stronge1994.plan import figures
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "workflow/explorer"
@@ -109,7 +110,7 @@ def test_a_comma_is_a_decimal_point(show):
 
 def test_a_preset_shows_the_impact_of_its_figure(show, presets):
     tab = show()
-    assert sorted(presets) == sorted(plan.EXPLORED)
+    assert sorted(presets) == sorted(figures.with_trait("explorer"))
     for state in presets.values():
         button = (
             f"document.querySelector('.preset[data-state^=\"{write_explorer.address(state)}\"]')"
@@ -317,7 +318,7 @@ def test_nothing_is_wider_than_the_screen(width, show):
     tab = show("angle=89.9&friction=0.01", width=width)
     inside = "document.documentElement.scrollWidth <= innerWidth"
     assert tab.evaluate("innerWidth") == width and tab.evaluate(inside)
-    for index in range(len(plan.EXPLORED)):
+    for index in range(len(figures.with_trait("explorer"))):
         tab.evaluate(f"document.querySelectorAll('.preset')[{index}].click()")
         assert tab.evaluate(inside)
 

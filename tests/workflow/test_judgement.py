@@ -181,7 +181,7 @@ def report(first_run, expected, tmp_path, monkeypatch):
             },
             {name: f"results/residuals/{name}.csv" for name in names},
             {name: f"figures/{name}.svg" for name in names},
-            str(ROOT / "workflow/report/figures.rst"),
+            dict.fromkeys(names, "A caption."),
             config,
             expected,
             sources={},

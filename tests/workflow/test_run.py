@@ -16,6 +16,7 @@ from test_awaited_series import JOHNSON, RUBBER, SIGNED, UNSIGNED, export, made_
 from test_troubleshooting import explained
 
 from stronge1994.plan import config as configuration
+from stronge1994.plan import figures
 from stronge1994.run import last_words
 
 FIGURES = list(configuration.load(ROOT)["figures"])
@@ -70,10 +71,8 @@ def test_report_has_every_picture_with_its_caption(finished):
     assert {*pages, *(f"figures/{figure}.svg" for figure in FIGURES)} <= set(results)
     assert sorted(filed) == sorted(results) and "Other" not in categories
     assert all(len(result["caption"]) > 30 for result in results.values())
-    captions = (finished / "workflow/report/figures.rst").read_text()
-    for figure in FIGURES:
-        first = re.search(rf'"{figure}":\n  "(.{{20}})', captions)[1]
-        assert first in page and f"{figure}.svg" in page
+    for figure, stated in figures.stated().items():
+        assert stated["caption"][:20] in page and f"{figure}.svg" in page
     assert "The paper verified" in page
     assert "which_model.csv" in page and "Which model for which tolerance" in page
 
@@ -140,9 +139,11 @@ def test_an_edit_reruns_what_reads_the_file_and_nothing_more(finished):
 
 def test_a_change_of_the_config_reruns_what_it_concerns(finished):
     """A tolerance compares again; that of a scene solves it, the study's grid the study."""
-    file, old = "workflow/config.yaml", "rms: [717.0, 791.0]"
-    finished.edit("workflow/comparisons.yaml", old, old.replace("7.0", "6.0"))
-    finished.edit(file, "superball: {tolerance: 1.0e-4}", "superball: {tolerance: 0.1}")
+    old = "rms: [717.0, 791.0]"
+    finished.edit("src/stronge1994/figures/fig5/figure.yaml", old, old.replace("7.0", "6.0"))
+    finished.edit(
+        "workflow/config.yaml", "superball: {tolerance: 1.0e-4", "superball: {tolerance: 0.1"
+    )
     _, counts = finished.planned("--config", "study={grid: {incidence: {points: 100}}}")
     once = ["scene", "gather", "report", "all", "gather_chunks", "draw_study"]
     assert counts == dict.fromkeys(once, 1) | {"judge": 3, "solve_chunk": 4}

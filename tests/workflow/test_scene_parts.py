@@ -18,7 +18,7 @@ from stronge1994.plan import parts
 
 ROOT = Path(__file__).parents[2]
 SHOTS = ROOT / "data/scenes/shot_peening.csv"
-SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/config.schema.yaml")
+SCHEMA = configuration.schema()
 cluster = test_slurm.cluster
 
 

@@ -5,13 +5,12 @@ from stronge1994.figures.study import grid
 LEDGER = "data/stronge1994/ledger.yaml"
 NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
 try:
-    config = configuration.with_values(config)
+    config = configuration.complete(configuration.with_values(config))
     LEDGER_SCHEMA = reference_data.load_yaml("workflow/schemas/ledger.schema.yaml")
     SOURCES = reference_data.load_all("data", reference_data.load_yaml("workflow/schemas/source.schema.yaml"))
     ENTRIES = entries.load(LEDGER, LEDGER_SCHEMA)
     SYMBOLS = reference_data.load_yaml(LEDGER)["symbols"]
-    schema = reference_data.load_yaml("workflow/schemas/config.schema.yaml")
-    configuration.check_config(config, schema, SOURCES, ENTRIES)
+    configuration.check_config(config, SOURCES, ENTRIES)
     grid.check(config)
     FIGURES = {
         figure: plan.plan_of_figure(config, SOURCES, figure) for figure in config["figures"]
@@ -30,7 +29,9 @@ except (reference_data.SourceError, ConfigError) as error:
 
 # Sources with whose series something is compared.
 COMPARED = sorted({source for told in JUDGED.values() for source in told["sources"]})
-UNTIMED = [figure for figure in FIGURES if figure not in plan.TIMED]
+TIMED = figures.with_trait("timed")
+UNTIMED = [figure for figure in FIGURES if figure not in TIMED]
+CAPTIONS = {figure: stated["caption"] for figure, stated in figures.stated().items()}
 
 
 scattergather:

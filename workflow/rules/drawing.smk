@@ -15,6 +15,8 @@ rule draw:
         ),
         png="figures/{figure}.png",
         record="results/records/draw_{figure}.json",
+    params:
+        caption=lambda wildcards: CAPTIONS[wildcards.figure],
     log:
         "results/logs/draw_{figure}.log",
     message:

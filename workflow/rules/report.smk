@@ -7,7 +7,7 @@ REPORT_PARTS = [
     "workflow/report/sources.html",
     "workflow/report/unfold.js",
     *expand("workflow/report/{part}.css", part=["page", "report"]),
-    *expand("workflow/report/{part}.rst", part=["figures", "trade", "which_model", "stability", "sensitivity"]),
+    *expand("workflow/report/{part}.rst", part=["trade", "which_model", "stability", "sensitivity"]),
 ]
 
 
@@ -32,6 +32,7 @@ INTERFACE_PARTS = [
 
 REPORT_SETTINGS = {
     "figures": list(FIGURES),
+    "captions": CAPTIONS,
     "config": {
         key: config[key]
         for key in ("mass_ratio", "stiffness_ratio", "figures", "significance", "comparisons")
@@ -68,7 +69,6 @@ rule report:
         plan=planned("report", "write_report", "pages", "figures/shared/drawing", "judging", "ledger", "printed", "plan",
             "reference_data", "run", settings=lambda _: REPORT_SETTINGS),
         template="workflow/report/report.html",
-        captions="workflow/report/figures.rst",
         parts=REPORT_PARTS,
         shared=EVERY_PAGE,
         verdicts="results/verdicts.csv",

@@ -25,13 +25,13 @@ if workflow.is_main_process:
 # Behind that: an error in one of them leaves no verdict of an earlier run.
 from stronge1994 import plan, reference_data
 from stronge1994.plan import config as configuration
-from stronge1994.plan import files
+from stronge1994.plan import figures, files
 from stronge1994.plan.config import ConfigError
 from stronge1994.run import last_words
 
 
 try:
-    for file in (*configuration.FILES, *workflow.config_settings.configfiles):
+    for file in (configuration.FILE, *workflow.config_settings.configfiles):
         reference_data.load_yaml(file)
     if workflow.is_main_process:
         configuration.refuse_misread_values(workflow.config_settings.config_args or ())

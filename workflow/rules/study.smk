@@ -46,12 +46,14 @@ rule draw_study:
     output:
         svg=report(
             "figures/study.svg",
-            caption="../report/study.rst",
+            caption="../report/figures.rst",
             category="Study",
             labels={"figure": "rebound over the grid"},
         ),
         png="figures/study.png",
         record="results/records/draw_study.json",
+    params:
+        caption=CAPTIONS["study"],
     log:
         "results/logs/draw_study.log",
     message:

@@ -11,7 +11,7 @@ with record.recorded(snakemake) as told:
     rows = judging.compare(name, *entries, table, series, significance)
     judging.write(rows, made.verdicts, made.residuals)
     caught = []
-    if told["curves"]:  # settings and nodes of a figure, which can be solved again
-        found = name, *told["curves"], table, *entries, series, significance
+    if "curves" in told:  # settings and nodes of a figure, which can be solved again
+        found = name, *told["curves"], table, *entries, series, significance, told["sensitivity"]
         caught = sensitivity.sensitivities(*found)
     csv_tables.write_rows(made.sensitivity, verdict_table.SENSITIVITY, caught)

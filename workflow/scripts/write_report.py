@@ -13,7 +13,7 @@ with record.recorded(snakemake) as given:
         {Path(path).stem: path for path in (files.verdicts, files.ledger, *files.tables)},
         dict(zip(given["figures"], files.residuals, strict=True)),
         dict(zip(given["figures"], files.pictures, strict=True)),
-        files.captions,
+        given["captions"],
         given["config"],
         (given["comparisons"], given["entries"]),
         sources=given["sources"],

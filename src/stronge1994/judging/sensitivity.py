@@ -8,7 +8,7 @@ are enough for that.
 import functools
 import importlib
 import operator
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -26,32 +26,15 @@ Settings: TypeAlias = dict[str, Any]
 # The keys under which settings have each group.
 KEYS = [("stiffness_ratio", "poisson_ratio"), ("mass_ratio",), ("restitution",), ("friction",)]
 GROUPS = dict(zip(verdict_table.GROUPS, KEYS, strict=True))
-# Figures that are left out: their solvers take long, and what they solve is in other figures too.
-UNTRIED = ("trade", "convergence")
 # A curve has this many times fewer vertices than in its figure, but at least `FEWEST`.
 COARSER, FEWEST = 20, 10
 # The groups are changed by this: distances change in proportion to it, and rounding is far smaller.
 STEP = 1e-4
 # Sizes of change that are tried on the extrapolated distances.
 SIZES = 10.0 ** np.arange(-15, -0.25, 0.1)
-# Parts of settings that hold physics of their own.
-PARTS = (
-    "experiment",
-    "finite_elements",
-    "rubber",
-    "throw",
-    "points",
-    "materials",
-    "contact",
-    "continua",
-)
-# The contacts of this figure serve balances alone, which are laws: most are not followed here.
-SHORT = {"stability": {"most_phases": 2}}
 # Metrics that hold whatever the parameters are.
 LAWS = ("balance", "range", "contraction")
-# The digits of this figure are logarithms, which do not change in proportion. So powers of ten are
-# tried one by one, on every point whose number is a multiple of `SPARSE`.
-DIGITS, SPARSE = "stability", 40
+# Tried one by one where distances do not change in proportion.
 TRIED = 10.0 ** np.arange(-15, -2)
 # All published points are moved by so many sigmas.
 MOVED = range(1, 10)
@@ -66,28 +49,32 @@ def sensitivities(
     references: Mapping[str, Reference],
     series: Mapping[str, str],
     significance: float,
+    how: Mapping[str, Any] | None,
 ) -> list[list[str]]:
-    """Rows of the table: what each comparison of one figure catches.
+    """Rows of the table: what each comparison of one figure catches; `how` is as in figure.yaml.
 
     A row has the name of the comparison, by how many whole sigmas all published points must be
     moved, and the sizes of the changes of `GROUPS`: relative ones, of e an absolute one. `none`
     stands where even the largest change that is tried is not caught. A cell is empty where the
-    figure does not depend on the group, or the comparison cannot be made.
+    figure does not depend on the group, or the comparison cannot be made. If `how` is None all are:
+    the solver takes long, and what it solves is in other figures too.
     """
-    settings = settings | solving.read_nodes(nodes) | SHORT.get(figure, {})
+    tried, how = how is not None, how or {}
+    settings = settings | solving.read_nodes(nodes) | how.get("settings", {})
+    settings.pop("uncertainty", None)
     if "samples" in settings:
         settings["samples"] = max(FEWEST, settings["samples"] // COARSER)
     if "as_printed" in settings:
         settings["as_printed"] = False
     try:
-        curves = {} if figure in UNTRIED else judged_tables.read(path)
+        curves = judged_tables.read(path) if tried else {}
     except Exception:  # the row `...-solved` says so
         curves = {}
     if not curves:
         return [[title, *[""] * len(verdict_table.SENSITIVITY[1:])] for title in comparisons]
     # A group that is off by nothing has the same curves as every other: they are solved once.
     solve = _once(functools.partial(_solve, figure, curves), operator.eq)
-    solved = {group: _solver(solve, figure, settings, group) for group in GROUPS}
+    solved = {group: _solver(solve, settings, group, how) for group in GROUPS}
     rows = []
     for title, entry in comparisons.items():
         known = references.get(entry.get("reference", ""))
@@ -101,7 +88,7 @@ def sensitivities(
 
         if entry["metric"] in LAWS:
             sizes = ["none"] * len(GROUPS)
-        elif figure != DIGITS:
+        elif not how.get("by_trial"):
             sizes = [
                 _in_proportion(curves, solved[group], measured, caught, one_way=group == "e")
                 for group in GROUPS
@@ -153,27 +140,29 @@ def _solve(figure: str, curves: Curves, settings: Settings) -> Curves:
 
 
 def _solver(
-    solve: Callable[[Settings], Curves], figure: str, settings: Settings, group: str
+    solve: Callable[[Settings], Curves], settings: Settings, group: str, how: Mapping[str, Any]
 ) -> _Solved | None:
     """Function that solves curves with a group off by a size; None if there is no such group."""
-    if changed(settings, group, STEP) == settings:
+    without = (*how.get("without", ()), "nodes")
+    if changed(settings, group, STEP, without) == settings:
         return None
 
     def solved(size: float) -> Curves:
-        wrong = changed(settings, group, size)
-        wrong.pop("uncertainty", None)
-        if figure == DIGITS:
-            wrong["points"] = {key: column[::SPARSE] for key, column in wrong["points"].items()}
+        wrong = changed(settings, group, size, without)
+        if "every" in how:
+            columns = wrong["points"].items()
+            wrong["points"] = {key: column[:: how["every"]] for key, column in columns}
         return solve(wrong)
 
     return solved
 
 
-def changed(settings: Settings, group: str, size: float) -> Settings:
+def changed(settings: Settings, group: str, size: float, without: Sequence[str] = ()) -> Settings:
     """Settings with one group off by `size`, relative to the group; for restitution absolute.
 
     Restitution is lowered, but 0 is raised. Where Poisson's ratio gives the stiffness ratio, that
-    is lowered: it cannot be raised where Poisson's ratio is 1/2, the largest.
+    is lowered: it cannot be raised where Poisson's ratio is 1/2, the largest. Groups of settings
+    that `without` names are left alone.
 
     >>> changed({"restitution": [1.0, 0.0], "samples": 9}, "e", 0.25)
     {'restitution': [0.75, 0.25], 'samples': 9}
@@ -182,8 +171,8 @@ def changed(settings: Settings, group: str, size: float) -> Settings:
     """
     wrong: Settings = {}
     for key, value in settings.items():
-        if key in PARTS:
-            wrong[key] = changed(value, group, size)
+        if isinstance(value, dict) and key not in without:
+            wrong[key] = changed(value, group, size, without)
         elif key in GROUPS[group]:
             several = [_off(key, number, size) for number in np.ravel(value).tolist()]
             wrong[key] = several if isinstance(value, list) else several[0]

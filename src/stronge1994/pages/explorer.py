@@ -30,11 +30,6 @@ BODIES = {
     "thin shell": bodies.thin_shell(radius=1.0, mass=1.0),
     "disc": bodies.disc(radius=1.0, mass=1.0),
 }
-# Figs 3 to 6 depend only on v1(0)/(mu v2(0)), so any friction will do.
-FRICTION = {"fig3": 0.5, "fig4": 0.5, "fig5": 0.2, "fig6": 0.5}
-# Figs 5 to 9 are curves: the explorer opens at one point of each, of Fig. 5 where it slips
-# throughout.
-ANGLE = {"fig5": 58.0, "fig6": 45.0, "fig7": 45.0, "fig8": 30.0, "fig9": 45.0}  # deg
 
 
 def presets(settings: Mapping[str, Any]) -> dict[str, State]:
@@ -49,14 +44,15 @@ def presets(settings: Mapping[str, Any]) -> dict[str, State]:
     }
     figures = settings["figures"]
     found = {}
-    for figure in (f"fig{number}" for number in range(3, 10)):
-        settings_here = figures[figure]
-        friction = settings_here.get("friction", FRICTION.get(figure))
+    for figure, own in figures.items():
+        if "throw" in own:  # bounces, of which the first is meant
+            continue
+        friction = own.get("friction", own["open"].get("friction"))
         friction = max(friction) if isinstance(friction, list) else friction
-        angle = ANGLE.get(figure)
+        angle = own["open"].get("angle")
         if angle is None:
-            angle = math.degrees(math.atan(friction * settings_here["incidence"]))
-        restitution = _middle(settings_here.get("restitution", 1.0))
+            angle = math.degrees(math.atan(friction * own["incidence"]))
+        restitution = _middle(own.get("restitution", 1.0))
         found[figure] = {"angle": angle, "friction": friction, "restitution": restitution}
     found = {figure: state | shared for figure, state in found.items()}
     throw = figures["superball"]["throw"]

@@ -11,10 +11,8 @@ import traceback
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any, TypeAlias
 
-import jinja2
 from markupsafe import Markup, escape
 
 from stronge1994 import csv_tables, verdict_table
@@ -198,13 +196,6 @@ def figure(
     }
 
 
-def caption(path: str | Path, name: str) -> str:
-    """Caption of a figure or table, from the template that snakemake --report renders."""
-    wildcards = SimpleNamespace(figure=name)
-    template = jinja2.Template(Path(path).read_text(encoding="utf-8"))
-    return template.render(snakemake=SimpleNamespace(wildcards=wildcards)).strip()
-
-
 def sentence(text: str) -> str:
     """A text with a capital letter at its head.
 
@@ -236,7 +227,7 @@ def write(
     paths: Mapping[str, str],
     residuals: Mapping[str, str],
     svgs: Mapping[str, str],
-    captions: str,
+    captions: Mapping[str, str],
     config: Mapping[str, Any],
     expected: tuple[Mapping[str, bool], Mapping[str, bool]],
     **parts: Any,
@@ -245,8 +236,8 @@ def write(
 
     The page of sources and settings is written beside it. `paths` are the files of the tables:
     `verdicts`, `ledger`, those of `SECTIONS`, those that only the findings need, and `peers` where
-    other codes were measured. `captions` is the template of the figures' captions; those of tables
-    stand beside it. `expected` are the rows that `gate.faults_of_tables` asks for. `parts` are
+    other codes were measured. `captions` are those of the figures; those of tables stand in files
+    beside the template. `expected` are the rows that `gate.faults_of_tables` asks for. `parts` are
     `symbols`, `links` and `template` as for `page`; `sources`, the contents of data/*/source.yaml;
     and `run`, functions of `run_facts` by name, each with what to show if it fails.
     """
@@ -259,13 +250,13 @@ def write(
     ledger = [row for row in ledger if row["verdict"] in ledger_page.STYLE]
 
     def section(name: str) -> Shown:
-        text = caption(captions, name)
+        text = captions[name]
         picture = Path(svgs[name]).read_bytes()
         return figure(name, picture, text, read(residuals[name]), rows, config)
 
     def table(name: str) -> Shown:
-        text = caption(Path(captions).with_name(f"{name}.rst"), name)
-        return {"rows": read(paths[name]), "caption": text}
+        text = Path(parts["template"]).with_name(f"{name}.rst").read_text(encoding="utf-8")
+        return {"rows": read(paths[name]), "caption": text.strip()}
 
     figures = {name: tried(templates.title(name), None, section, name) for name in svgs}
     figures = {name: found for name, found in figures.items() if found}

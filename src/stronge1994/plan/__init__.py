@@ -1,11 +1,11 @@
-"""What the rules need to know before they run: settings, references, modules."""
+"""What the rules need to know before they run: settings and references."""
 
 from collections.abc import Mapping
 from typing import Any
 
 from stronge1994 import reference_data
+from stronge1994.plan import figures
 from stronge1994.plan.config import (
-    SOURCES_OF_CURVES,
     Config,
     Entry,
     Inventory,
@@ -14,43 +14,27 @@ from stronge1994.plan.config import (
     table_of,
 )
 
-WITH_NODES = ["fig5", "fig6", "fig7", "fig8", "fig9", "convergence", "rod"]  # pass through points
-TIMED = ("convergence", "trade")  # measure time, and take long
-EXPLORED = [f"fig{number}" for number in range(3, 10)] + ["superball"]  # impacts to play with
-# Groups that play no part: mass, in force against deflection; bodies or a table with their own.
-BOTH = ["mass_ratio", "stiffness_ratio"]
-WITHOUT = {
-    "fig2": ["mass_ratio"],
-    "superball": BOTH,
-    "stability": BOTH,
-    "rod": ["mass_ratio"],
-    "inelastic": ["stiffness_ratio"],
-}
+# Groups that figures share.
+SHARED = ("mass_ratio", "stiffness_ratio")
 # Properties of a material. Their parameters in source.yaml begin with its name.
 PROPERTIES = ("young_modulus", "poisson_ratio")
 
 
 def settings(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
     """Settings of one figure: shared physics and its own, an experiment by its parameters."""
-    chosen = {
-        "mass_ratio": config["mass_ratio"],
-        "stiffness_ratio": config["stiffness_ratio"],
-        **config["figures"][figure],
-    }
-    for group in WITHOUT.get(figure, ()):
-        del chosen[group]
-    for key, needed in SOURCES_OF_CURVES.items():
-        if key in chosen:
-            stated = inventory[chosen[key]]["parameters"]
-            chosen[key] = {name: stated[name]["value"] for name in needed}
-            if key == "experiment":
-                chosen["uncertainty"] = {
-                    name: stated[name]["uncertainty"]
-                    for name in needed
-                    if stated[name]["uncertainty"]
-                }
-    if figure == "inelastic":
-        chosen |= materials(inventory[chosen["points"].split("/")[0]]["parameters"])
+    stated = figures.stated()[figure]
+    own = config["figures"][figure]
+    chosen = {key: config[key] for key in stated.get("shared", [])} | own
+    for key, setting in stated["settings"].items():
+        if setting.get("allowed") == "source":
+            parameters = inventory[own[key]]["parameters"]
+            known = {name: parameters[name] for name in setting["parameters"]}
+            chosen[key] = {name: parameter["value"] for name, parameter in known.items()}
+            if setting.get("uncertain"):
+                sigmas = {name: parameter["uncertainty"] for name, parameter in known.items()}
+                chosen["uncertainty"] = {name: sigma for name, sigma in sigmas.items() if sigma}
+        if setting.get("materials"):
+            chosen |= materials(inventory[own[key].split("/")[0]]["parameters"])
     return chosen
 
 
@@ -79,24 +63,14 @@ def materials(stated: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     }
 
 
-def settings_of_peers(config: Config) -> dict[str, Any]:
-    """Impacts of figure `trade` on which other codes are tried, at restitutions of their own."""
-    keys = ("incidence", "samples", "tolerance")
-    chosen = {key: config["figures"]["trade"][key] for key in keys}
-    # The codes err by 0.05 mu v2(0) and more: their errors are known to a few thousandths.
-    own = {"restitution": [1.0, 0.9, 0.7, 0.5], "lossy_tolerance": 1e-4}
-    return {key: config[key] for key in ("mass_ratio", "stiffness_ratio")} | chosen | own
-
-
 def settings_of_explorer(config: Config) -> dict[str, Any]:
     """Shared physics, and the impacts of the figures that the explorer offers."""
     keys = ("incidence", "friction", "restitution", "throw")
-    figures = {
-        figure: {key: config["figures"][figure][key] for key in keys if key in settings}
-        for figure, settings in config["figures"].items()
-        if figure in EXPLORED
-    }
-    return {key: config[key] for key in ("mass_ratio", "stiffness_ratio")} | {"figures": figures}
+    chosen = {}
+    for figure in figures.with_trait("explorer"):
+        own = {key: value for key, value in config["figures"][figure].items() if key in keys}
+        chosen[figure] = own | {"open": figures.stated()[figure]["explorer"]}
+    return {key: config[key] for key in SHARED} | {"figures": chosen}
 
 
 def comparisons(config: Config, name: str) -> dict[str, Entry]:
@@ -131,12 +105,14 @@ def plan_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[s
 def settings_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
     """What the job is told that judges one figure, scene or study; of a figure what it solves."""
     told = plan_of_judgement(config, inventory, name)
-    curves = []
+    kept = {key: told[key] for key in ("comparisons", "references", "sources")}
     if name in config["figures"]:
-        curves = [settings(config, inventory, name), nodes_of(config, inventory, name)]
-    keys = ("comparisons", "references", "sources")
-    kept = {key: told[key] for key in keys}
-    return kept | {"significance": config["significance"], "curves": curves}
+        stated = figures.stated()[name]
+        kept |= {
+            "curves": [settings(config, inventory, name), nodes_of(config, inventory, name)],
+            "sensitivity": None if stated.get("timed") else stated.get("sensitivity", {}),
+        }
+    return kept | {"significance": config["significance"]}
 
 
 def files_of_source(inventory: Inventory, source: str) -> list[str]:
@@ -202,10 +178,12 @@ def nodes_of(config: Config, inventory: Inventory, figure: str) -> dict[str, str
 
     A column None stands for the whole table, of the figure that is given one.
     """
-    if "points" in config["figures"][figure]:
-        _, table = reference(inventory, config["figures"][figure]["points"])
-        return {table["path"]: None}
-    if figure not in WITH_NODES:
+    stated = figures.stated()[figure]
+    for key, setting in stated["settings"].items():
+        if setting.get("allowed") == "table":
+            _, table = reference(inventory, config["figures"][figure][key])
+            return {table["path"]: None}
+    if not stated.get("nodes"):
         return {}
     exact = {
         c.get("reference")

@@ -5,23 +5,23 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from stronge1994 import reference_data
+from stronge1994.plan import figures
 from stronge1994.reference_data import strict_yaml
 
 Config: TypeAlias = dict[str, Any]  # what the config files hold
 Inventory: TypeAlias = dict[str, Any]  # `{source: contents of its source.yaml}`
 Entry: TypeAlias = dict[str, Any]  # a comparison of the config; a series or fact of a source
 
-# What a user edits: physics; tolerances and their reasons.
-FILES = ("workflow/config.yaml", "workflow/comparisons.yaml")
+FILE = "workflow/config.yaml"  # what a user edits
 # Largest allowance for a model, as a share of the range of its axis.
 LARGEST_ALLOWANCE = 0.02
+RANGES = ("incidences", "angles", "tilts")  # kinds of settings whose numbers must ascend
 SCENE = "scene_"  # before the name of a scene, among what is judged
-# Curves of Fig. 5 that have the parameters of a source: which ones they need.
-SPHERE = ["mass_ratio", "stiffness_ratio", "restitution"]
-SOURCES_OF_CURVES = {
-    "experiment": [*SPHERE, "friction", "speed", "radius"],
-    "finite_elements": SPHERE,
-}
+# Why a scene may be as far from its reference as it may be.
+OF_SCENES = (
+    "every row against a second code of the continuum of its loss, with the mechanics of rigid "
+    "bodies in 50 digits; sigma is the accuracy of that and the tolerance of the scene"
+)
 
 
 class ConfigError(Exception):
@@ -29,12 +29,57 @@ class ConfigError(Exception):
 
 
 def load(folder: str | Path = ".") -> Config:
-    """The config of a checkout as its files have it."""
-    return {
-        key: value
-        for file in FILES
-        for key, value in reference_data.load_yaml(Path(folder) / file).items()
+    """The whole config of a checkout."""
+    return complete(reference_data.load_yaml(Path(folder) / FILE))
+
+
+def complete(config: Config) -> Config:
+    """A config with the settings and comparisons of all figures, which it may override."""
+    solved = figures.solved().items()
+    stated = {
+        "figures": {name: figures.values(figure["settings"]) for name, figure in solved},
+        "comparisons": figures.comparisons() | _of_scenes(config.get("scenes")),
     }
+    return _overridden(stated, config)
+
+
+def _overridden(stated: Config, config: Config) -> Config:
+    """The first of two configs, with what the second has other or more."""
+    both = {
+        key: _overridden(stated[key], value)
+        if isinstance(value, dict) and isinstance(stated.get(key), dict)
+        else value
+        for key, value in config.items()
+    }
+    return stated | both
+
+
+def _of_scenes(scenes: Any) -> dict[str, Entry]:
+    """A comparison of every scene that names a reference."""
+    named = scenes.items() if isinstance(scenes, dict) else ()
+    return {
+        f"scene-{name.replace('_', '-')}": {
+            "figure": f"{SCENE}{name}",
+            "reference": scene["reference"],
+            "metric": "vertices",
+            "reason": OF_SCENES,
+        }
+        for name, scene in named
+        if isinstance(scene, dict) and "reference" in scene
+    }
+
+
+def schema() -> dict[str, Any]:
+    """JSON schema of the whole config, with the settings of each figure."""
+    found = reference_data.load_yaml(figures.PROJECT / "workflow/schemas/config.schema.yaml")
+    solved = figures.solved().items()
+    found["properties"]["figures"] = {
+        "type": "object",
+        "additionalProperties": False,
+        "properties": {name: figures.schema_of(figure["settings"]) for name, figure in solved},
+    }
+    found["$defs"] |= figures.definitions()
+    return found
 
 
 def with_values(node: Any) -> Any:
@@ -55,13 +100,7 @@ def with_values(node: Any) -> Any:
 
 
 def refuse_misread_values(arguments: Collection[str]) -> None:
-    """Refuse a --config whose values Snakemake would take for others, or that is there twice.
-
-    Parameters
-    ----------
-    arguments : sequence of str
-        `name=value`, as the user wrote them.
-    """
+    """Refuse a --config whose values Snakemake would take for others, or that is there twice."""
     names = [text.partition("=")[0] for text in arguments]
     for text, name in zip(arguments, names, strict=True):
         if names.count(name) > 1:
@@ -73,28 +112,22 @@ def refuse_misread_values(arguments: Collection[str]) -> None:
             raise ConfigError(f"--config {text}: {str(error).partition(': ')[2]}") from None
 
 
-def check_config(
-    config: Config, schema: dict[str, Any], inventory: Inventory, ledger: Iterable[str]
-) -> None:
+def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) -> None:
     """Refuse an inadmissible config, naming the field, its value and what is allowed."""
     try:
-        reference_data.refuse_invalid(config, schema, "config")
+        reference_data.refuse_invalid(config, schema(), "config")
     except reference_data.SourceError as error:
         raise ConfigError(str(error)) from None
-    for figure, settings in config["figures"].items():
-        for key in ("incidence", "angle", "tilt"):
-            _ascending(f"config: figures.{figure}.{key}", settings.get(key))
-    for key in SOURCES_OF_CURVES:
-        source = config["figures"]["fig5"][key]
-        if source not in inventory:
-            raise ConfigError(
-                f"config: figures.fig5.{key}: '{source}' is not in data/; allowed are "
-                + ", ".join(inventory)
-            )
-    for figure, settings in config["figures"].items():
-        where, table = f"config: figures.{figure}.points", settings.get("points")
-        if table is not None and reference(inventory, table, where)[0] != "series":
-            raise ConfigError(f"{where}: '{table}' is no series")
+    for figure, stated in figures.solved().items():
+        for key, setting in stated["settings"].items():
+            where, value = f"config: figures.{figure}.{key}", config["figures"][figure][key]
+            kind = setting.get("allowed")
+            if kind in RANGES:
+                _ascending(where, value)
+            if kind == "source":
+                _check_source(where, value, setting.get("parameters", []), inventory)
+            if kind == "table" and reference(inventory, value, where)[0] != "series":
+                raise ConfigError(f"{where}: '{value}' is no series")
     for scene in config["scenes"]:
         if not Path(f"data/scenes/{scene}.csv").is_file():
             raise ConfigError(f"config: scenes.{scene}: there is no data/scenes/{scene}.csv")
@@ -112,6 +145,15 @@ def check_config(
                 f"config: comparisons.{name}.documented.entry: '{entry}' is not in the ledger; a "
                 "difference that does not concern the paper has a `note` instead"
             )
+
+
+def _check_source(where: str, name: str, needed: list[str], inventory: Inventory) -> None:
+    if name not in inventory:
+        raise ConfigError(f"{where}: '{name}' is not in data/; allowed are {', '.join(inventory)}")
+    missing = set(needed) - set(inventory[name]["parameters"])
+    if missing:
+        words = f"'{name}' states no {min(missing)}; needed are {', '.join(needed)}"
+        raise ConfigError(f"{where}: {words}")
 
 
 def _ascending(where: str, span: Any) -> None:

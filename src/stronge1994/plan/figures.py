@@ -1,0 +1,146 @@
+"""What each folder of `figures` states in its figure.yaml: settings, caption, comparisons."""
+
+import copy
+import functools
+import itertools
+import os
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from stronge1994 import reference_data
+
+Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
+FOLDER = Path(__file__).parents[1] / "figures"
+PROJECT = Path(__file__).parents[3]
+SHARED = "shared"  # beside the figures: what several of them use
+
+
+@functools.cache
+def stated() -> dict[str, Stated]:
+    """Every folder's figure.yaml, checked; the figures of the paper first, by number.
+
+    One without settings has a solver and rules of its own, as the parameter study has.
+    """
+    names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}  # not __pycache__
+    found = {}
+    for name in sorted(names - {SHARED}, key=_place):
+        path = _file(name)
+        if not re.fullmatch("[a-z][a-z0-9_]*", name):
+            raise reference_data.SourceError(f"{path.parent}: allowed are a to z, 0 to 9 and _")
+        found[name] = reference_data.load_yaml(path)
+        reference_data.refuse_invalid(found[name], _schema(), path)
+        for file in ("drawing.py", *(["curves.py"] if "settings" in found[name] else [])):
+            if not (FOLDER / name / file).is_file():
+                raise reference_data.SourceError(f"{path.parent / file}: missing")
+    return found
+
+
+def _place(name: str) -> tuple[bool, int, str]:
+    number = re.fullmatch(r"fig(\d+)", name)
+    return not number, int(number[1]) if number else 0, name
+
+
+def solved() -> dict[str, Stated]:
+    """The figures that have settings and curves."""
+    return {name: figure for name, figure in stated().items() if "settings" in figure}
+
+
+def with_trait(trait: str) -> list[str]:
+    """Names of the figures that state a trait."""
+    return [name for name, figure in solved().items() if figure.get(trait, False) is not False]
+
+
+def values(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of settings.
+
+    >>> values({"contact": {"friction": {"value": 0.5, "allowed": "friction"}}})
+    {'contact': {'friction': 0.5}}
+    """
+    return {
+        key: copy.deepcopy(node["value"]) if "allowed" in node else values(node)
+        for key, node in settings.items()
+    }
+
+
+def schema_of(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """JSON schema of settings; a kind of value stands under `$defs` of the config's schema.
+
+    >>> schema_of({"a": {"value": 1, "allowed": "count"}})["properties"]
+    {'a': {'$ref': '#/$defs/count'}}
+    """
+
+    def allowed(node: Mapping[str, Any]) -> dict[str, Any]:
+        if "allowed" not in node:  # a group of settings
+            return schema_of(node)
+        kind = node["allowed"]
+        return {"$ref": f"#/$defs/{kind}"} if isinstance(kind, str) else kind
+
+    return {
+        "type": "object",
+        "additionalProperties": False,
+        "required": list(settings),
+        "properties": {key: allowed(node) for key, node in settings.items()},
+    }
+
+
+def comparisons() -> dict[str, dict[str, Any]]:
+    """All comparisons, `{FIGURE-NAME: entry}`, each with the name of its figure."""
+    found: dict[str, dict[str, Any]] = {}
+    for figure, told in stated().items():
+        for several, common in told["comparisons"].items():
+            where = f"{_file(figure)}: comparisons.{several}"
+            for name, entry in expanded(several, common):
+                if left := re.search(r"\{\w*\}", f"{name} {entry}"):
+                    raise reference_data.SourceError(f"{where}: `each` has no {left[0]}")
+                if f"{figure}-{name}" in found:
+                    raise reference_data.SourceError(f"{where}: '{name}' stands twice")
+                found[f"{figure}-{name}"] = {"figure": figure} | entry
+    return found
+
+
+def expanded(name: str, entry: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Comparisons that differ only by what `each` lists, from one entry.
+
+    `each` is a list of cases, or lists of which every combination is a case. What a case states
+    stands for its name in braces, in all texts; a key of a comparison is entered into it, too.
+
+    >>> each = {"model": ["lumped"], "regime": ["initial stick", "slip throughout"]}
+    >>> for found in expanded("{model}-{regime}", {"each": each, "curve": "{model}, rubber"}):
+    ...     print(*found)
+    lumped-initial-stick {'curve': 'lumped, rubber', 'regime': 'initial stick'}
+    lumped-slip-throughout {'curve': 'lumped, rubber', 'regime': 'slip throughout'}
+    """
+    common = {key: value for key, value in entry.items() if key != "each"}
+    keys = definitions()["comparison"]["properties"]
+    each = entry.get("each", {})
+    if isinstance(each, dict):
+        each = [dict(zip(each, case, strict=True)) for case in itertools.product(*each.values())]
+    for case in each:
+        own = {key: value for key, value in case.items() if key in keys}
+        yield _filled(name, case).replace(" ", "-"), _filled(common | own, case)
+
+
+def _filled(node: Any, case: Mapping[str, Any]) -> Any:
+    """A part of an entry, with what a case states in place of its name in braces."""
+    if isinstance(node, dict):
+        return {key: _filled(value, case) for key, value in node.items()}
+    if isinstance(node, str):
+        for key, value in case.items():
+            node = node.replace(f"{{{key}}}", str(value))
+    return node
+
+
+def definitions() -> dict[str, Any]:
+    """What the schema of a config says of comparisons, as `$defs`."""
+    return {key: _schema()["$defs"][key] for key in ("comparison", "span")}
+
+
+@functools.cache
+def _schema() -> dict[str, Any]:
+    return reference_data.load_yaml(PROJECT / "workflow/schemas/figure.schema.yaml")
+
+
+def _file(figure: str) -> Path:
+    return Path(os.path.relpath(FOLDER / figure / "figure.yaml"))
