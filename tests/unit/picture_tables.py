@@ -9,8 +9,9 @@ import numpy as np
 from stronge1994 import plan, reference_data
 from stronge1994.curve_names import name, shifted
 from stronge1994.figures.convergence import drawing as convergence
+from stronge1994.figures.fig5.drawing import MEASURED_ANGLES
 from stronge1994.figures.inelastic import drawing as inelastic
-from stronge1994.figures.shared.drawing import derived
+from stronge1994.figures.stability import drawing as stability
 from stronge1994.figures.trade import drawing as trade
 from stronge1994.plan import config as configuration
 
@@ -105,14 +106,14 @@ def _inelastic(settings):
     e, x = np.array([0.5, 0.8, 1.0]), np.linspace(0, 8, 9)
     named = {}
     for i, model in enumerate(inelastic.MODELS):
-        pairs = {"pair": np.array(["a", "b", "c"]), derived.E: np.array([0.6, 0.9, 0.9])}
+        pairs = {"pair": np.array(["a", "b", "c"]), inelastic.E: np.array([0.6, 0.9, 0.9])}
         beta_0 = np.array([0.3, 0.5, 0.6]) + i / 50
-        named[f"{model}, pairs"] = pairs | {derived.BETA_0: beta_0}
+        named[f"{model}, pairs"] = pairs | {inelastic.BETA_0: beta_0}
         for sign in (1, -1):
-            off = pairs | {derived.BETA_0: beta_0 + 0.01 * sign}
-            named[shifted(f"{model}, pairs", derived.PARAMETERS, sign)] = off
+            off = pairs | {inelastic.BETA_0: beta_0 + 0.01 * sign}
+            named[shifted(f"{model}, pairs", inelastic.PARAMETERS, sign)] = off
         for nu in settings["poisson_ratio"]:
-            named[f"{model}, {name('nu', nu)}"] = {derived.E: e, derived.BETA_0: e * nu + i / 9}
+            named[f"{model}, {name('nu', nu)}"] = {inelastic.E: e, inelastic.BETA_0: e * nu + i / 9}
         contact = f"{model}, {name('e', settings['contact']['restitution'])}"
         named[contact] = {X: x, W: np.sin(x) + i}
     return settings, named
@@ -127,8 +128,8 @@ def _stability(settings):
     }
     digits = {
         f"{kind}_{output} [1]": RNG.uniform(0, 16, 60)
-        for kind in derived.KINDS
-        for output in derived.OUTPUTS
+        for kind in stability.KINDS
+        for output in stability.OUTPUTS
     }
     return settings, {"impacts": impacts | digits}
 
@@ -143,7 +144,7 @@ MADE_UP = {
 SERIES = {
     "fig5": {
         "chung_ooi2011/rebound": series((X, W), [0.5, 2.0], [0.1, -0.5], (0.03, 0.05)),
-        derived.MEASURED_ANGLES: series(
+        MEASURED_ANGLES: series(
             ("angle [deg]", "centre_restitution [1]"),
             [10.0, 25.0],
             [0.7, 0.8],
@@ -159,7 +160,7 @@ SERIES = {
     },
     "inelastic": {
         "cornell1999/pairs": series(
-            (derived.E, derived.BETA_0),
+            (inelastic.E, inelastic.BETA_0),
             [0.6, 0.9, 0.9],
             [0.35, 0.45, 0.6],
             (np.full(3, 0.01), np.full(3, 0.05)),

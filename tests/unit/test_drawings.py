@@ -11,7 +11,7 @@ from matplotlib import font_manager
 from matplotlib.transforms import Affine2D
 
 from stronge1994.figures.shared import drawing as drawings
-from stronge1994.figures.shared.drawing import checked, derived, house_style
+from stronge1994.figures.shared.drawing import checked, house_style
 from stronge1994.figures.shared.drawing.checked import NotInTable
 
 STRIPS = {"curve": "lumped", "reference": "a/b", "metric": "distance"}
@@ -31,8 +31,8 @@ def residuals(module):
         {"comparison": "one", "quantity": "time [t_c]", "at": f"{at}", "distance [sigma]": f"{far}"}
         for at, far in enumerate((2.5, -3.0, 3.0))
     ]
-    strips = derived.strips(rows, {"one": STRIPS}, {"one": {"verdict": "agrees", "p": ""}})
-    return module.draw(strips), derived.tables_of_strips(strips)
+    strips = module.strips(rows, {"one": STRIPS}, {"one": {"verdict": "agrees", "p": ""}})
+    return module.draw(strips), module.tables_of_strips(strips)
 
 
 def peers(module, below=False):
@@ -125,9 +125,9 @@ FAULTS = [
     ("rod", "1, energy, where", "1, energy / 2, where"),
     ("rod", "axes.barh(0.5, end - start, 0.8, start", "axes.barh(0.5, end - start, 0.8, -end"),
     ("stability", 'table["digits [1]"], **MARK', '16 - table["digits [1]"], **MARK'),
-    ("stability", "[derived.MEDIAN].reshape(shape)", "[derived.MEDIAN].reshape(shape)[::-1]"),
+    ("stability", "[MEDIAN].reshape(shape)", "[MEDIAN].reshape(shape)[::-1]"),
     ("superball", "_plain(spin)} rad/s", "_plain(-spin)} rad/s"),
-    ("superball", "path[PLACE], path[HEIGHT]", "-path[PLACE], path[HEIGHT]"),
+    ("superball", "height = path[PLACE]", "height = -path[PLACE]"),
     ("superball", "arrow[PLACE], arrow[HEIGHT]", "-arrow[PLACE], arrow[HEIGHT]"),
     ("trade", "axes.plot(*at,", "axes.plot(at[0], 2 * at[1],"),
     ("trade", "axes.loglog(batch, time", "axes.loglog(batch, time / 2"),

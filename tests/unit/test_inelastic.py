@@ -11,9 +11,9 @@ from planarimpact import bodies, lumped, models
 from planarimpact.bodies import Material
 from stronge1994 import csv_tables, curve_names, plan, reference_data
 from stronge1994.figures.inelastic import curves as inelastic
+from stronge1994.figures.inelastic import drawing as draw_inelastic
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.curves import solving
-from stronge1994.figures.shared.drawing import derived
 from stronge1994.judging import compare
 from stronge1994.plan import config as configuration
 from stronge1994.reference_data import conversion
@@ -226,7 +226,7 @@ def test_the_picture_has_the_numbers_of_the_gate(lumped_alone, judge, settings, 
     found = inelastic.curves(**settings)
     for row in rows.values():
         model = row["comparison"].split("-")[1]
-        fit = derived.goodness(found, model, series_of(inventory))
+        fit = draw_inelastic.goodness(found, model, series_of(inventory))
         assert (f"{fit.value:.3g}", f"{fit.p:.2g}") == (row["chi^2"], row["p"])
 
 

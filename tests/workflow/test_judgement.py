@@ -153,9 +153,9 @@ def report(first_run, expected, tmp_path, monkeypatch):
         shutil.copytree(first_run[0] / folder, tmp_path / folder)
     monkeypatch.chdir(tmp_path)
     # The report of the whole run has its strips drawn; here those of Fig. 5, which is damaged, do.
-    strips = write_report.derived.strips
+    strips = write_report.draw_residuals.strips
     monkeypatch.setattr(
-        write_report.derived,
+        write_report.draw_residuals,
         "strips",
         lambda rows, *more: (
             strips(rows, *more) if any("fig5" in row["comparison"] for row in rows) else {}

@@ -18,7 +18,6 @@ import yaml
 
 import planarimpact
 from stronge1994 import reference_data, verdict_table
-from stronge1994.figures.shared.drawing import derived
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.ledger import outcome
 from stronge1994.pages import findings, ledger_page, run_facts
@@ -389,7 +388,9 @@ def test_strips_show_points_bounds_and_verdicts():
     ]
     verdicts = dict.fromkeys(("corner", "peak"), {"verdict": "agrees", "p": ""})
     verdicts |= {"low": {"verdict": "diverges", "p": ""}, "high": {"verdict": "agrees", "p": "0.5"}}
-    first, second = draw_residuals.draw(derived.strips(residuals, comparisons, verdicts)).axes
+    first, second = draw_residuals.draw(
+        draw_residuals.strips(residuals, comparisons, verdicts)
+    ).axes
     drawn = {line.get_marker(): line for line in first.lines if line.get_linestyle() == "None"}
     assert drawn["x"].get_ydata().tolist() == [-1, -3]
     assert drawn["o"].get_ydata().tolist() == [2, 0]
@@ -399,7 +400,7 @@ def test_strips_show_points_bounds_and_verdicts():
     assert {area.get_datalim(first.transData).y1 for area in first.collections} == {4.0, -2.0}
     assert second.lines[0].get_ydata().tolist() == [0.5]
     assert {area.get_datalim(second.transData).y1 for area in second.collections} == {1.0}
-    assert not derived.strips(residuals[-1:], comparisons, verdicts)
+    assert not draw_residuals.strips(residuals[-1:], comparisons, verdicts)
 
 
 def test_the_interface_has_a_page_a_module_and_names_types_as_the_sources_do(first_run):

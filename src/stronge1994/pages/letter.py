@@ -12,7 +12,7 @@ from markupsafe import Markup, escape
 
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.figures.shared.drawing import derived
+from stronge1994.figures.inelastic import drawing as inelastic
 from stronge1994.goodness import ChiSquared
 from stronge1994.ledger import contact, in_nature, nature
 from stronge1994.ledger.in_nature import Values
@@ -72,7 +72,7 @@ def fits(curves: Curves, measured: Columns) -> list[Fit]:
     chosen = np.full(e.size, True), e > e.min(), (e > e.min()) & (e < 1)
     parts = [_series({key: cells[which] for key, cells in measured.items()}) for which in chosen]
     return [
-        Fit(model, words, *(derived.goodness(curves, model, part) for part in parts))
+        Fit(model, words, *(inelastic.goodness(curves, model, part) for part in parts))
         for model, words in MODELS.items()
     ]
 

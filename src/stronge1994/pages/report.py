@@ -17,7 +17,7 @@ from markupsafe import Markup, escape
 
 from stronge1994 import csv_tables, verdict_table
 from stronge1994.csv_tables import Curves, Row
-from stronge1994.figures.shared.drawing import checked, derived
+from stronge1994.figures.shared.drawing import checked
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.judging.verdicts import SEEN
 from stronge1994.ledger import outcome
@@ -184,7 +184,7 @@ def figure(
     """
     rows = [row for row in verdicts if row["figure"] == name]
     entries = {c: e for c, e in config["comparisons"].items() if e["figure"] == name}
-    strips = derived.strips(residuals, entries, {row["comparison"]: row for row in rows})
+    strips = draw_residuals.strips(residuals, entries, {row["comparison"]: row for row in rows})
     return {
         "title": templates.title(name),
         "picture": templates.embedded(svg),
@@ -215,8 +215,8 @@ def _entry_of(names: Collection[str]) -> Callable[[Row], str | None]:
     return entry_of
 
 
-def _svg(name: str, strips: Mapping[derived.Strip, Curves]) -> bytes:
-    file, tables = io.BytesIO(), derived.tables_of_strips(strips)
+def _svg(name: str, strips: Mapping[draw_residuals.Strip, Curves]) -> bytes:
+    file, tables = io.BytesIO(), draw_residuals.tables_of_strips(strips)
     checked.save(draw_residuals.draw(strips), tables, f"residuals of {name}", file)
     return file.getvalue()
 

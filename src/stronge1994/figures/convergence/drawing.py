@@ -4,10 +4,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import derived, house_style
+from stronge1994.figures.shared.drawing import house_style, tables
 from stronge1994.figures.shared.drawing.house_style import Points, Settings
 
-ERROR, ORDER, TIME = "error [mu v2(0)]", "observed_order [1]", derived.MILLISECONDS
+ERROR, ORDER, TIME = "error [mu v2(0)]", "observed_order [1]", "time [ms]"
 BUSY = "busy_time [1]"
 # A colour for each method.
 SPRINGS, ANNULI = house_style.BLACK, house_style.GREEN
@@ -17,6 +17,16 @@ CURVES = {
     "annuli, circles": ("circles [1]", ANNULI, "^"),
     "annuli, steps": ("steps [1]", ANNULI, "v"),
 }
+
+
+def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+    """Times in milliseconds."""
+    return {
+        name: curve | tables.times(curve, "time [s]", "busy_time [1]", TIME, 1e3)
+        if "time [s]" in curve
+        else curve
+        for name, curve in curves.items()
+    }
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -31,7 +41,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         entries += by_number.loglog(curve[number], curve[ERROR], label=label, **style)
         by_time.loglog(curve[TIME], curve[ERROR], **style)
         if BUSY in curve:
-            too_long = curve[TIME] - curve[TIME + derived.LESS]
+            too_long = curve[TIME] - curve[TIME + tables.LESS]
             bars = np.stack([too_long, 0 * too_long])
             by_time.errorbar(curve[TIME], curve[ERROR], xerr=bars, **house_style.BUSY)
     by_number.set(xlabel="(a) steps or circles", ylabel=r"error of $v_1(t_f)/\mu v_2(0)$")

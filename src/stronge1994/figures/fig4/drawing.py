@@ -1,5 +1,5 @@
 """Fig. 4: as Fig. 3, for a contact that slips first."""
 
-from stronge1994.figures.shared.drawing.histories import draw
+from stronge1994.figures.shared.drawing.histories import draw, shown
 
-__all__ = ["draw"]
+__all__ = ["draw", "shown"]

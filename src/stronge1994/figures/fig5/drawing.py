@@ -8,9 +8,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from planarimpact import Regime
+from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.figures.shared.drawing import derived, house_style
-from stronge1994.figures.shared.drawing.house_style import Entries, Points, Settings, Style
+from stronge1994.figures.shared.drawing import house_style
+from stronge1994.figures.shared.drawing.house_style import Entries, Points, Series, Settings, Style
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 # Below the paper's curves, with which these coincide where the contact slips throughout.
@@ -20,6 +21,52 @@ RUBBER_SPHERE = "johnson1983/rubber_sphere"
 RUBBER_POINTS: Style = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
 ELEMENT_POINTS: Style = {"color": house_style.VERMILLION, "marker": "s", "markerfacecolor": "white"}
 GLASS_POINTS: Style = {"color": house_style.BLUE, "marker": "o", "markersize": 3}
+# These points are measured against the angle: they must be converted to the axes of the figure.
+MEASURED_ANGLES = "kharaz2001/tangential_restitution"
+
+
+def shown_series(name: str, series: Series) -> Series:
+    """Measurements against the angle, converted to the axes of the figure with their errors."""
+    if name != MEASURED_ANGLES:
+        return series
+    groups = [series["parameters"][key] for key in ("mass_ratio", "friction")]
+    angle, ratio = series["x"], series["y"]
+    angle_error, ratio_error = series["sigma"]
+    x, y = contact_velocities(angle, ratio, *groups)
+    by_angle = np.subtract(contact_velocities(angle + angle_error, ratio, *groups), (x, y))
+    by_ratio = np.subtract(contact_velocities(angle, ratio + ratio_error, *groups), (x, y))
+    columns = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
+    sigma = np.hypot(by_angle, by_ratio)
+    return {"x": x, "y": y, "sigma": sigma, "line": False, "axes": columns}
+
+
+def contact_velocities(
+    angle: ArrayLike, centre_restitution: ArrayLike, mass_ratio: float, friction: float
+) -> tuple[Array, Array]:
+    """Measured points of a sphere without spin in the axes of the figure.
+
+    Parameters
+    ----------
+    angle : array_like
+        Angle of incidence in degrees.
+    centre_restitution : array_like
+        Tangential velocity of the centre, after over before.
+    mass_ratio, friction : float
+        beta and mu.
+
+    Returns
+    -------
+    incidence, velocity : ndarray
+        x = tan(theta)/mu and w = x (beta e_t - (beta - 1)).
+
+    Examples
+    --------
+    >>> x, w = contact_velocities(45.0, 1.0, 3.5, 0.5)
+    >>> round(float(x), 9), round(float(w), 9)
+    (2.0, 2.0)
+    """
+    x = np.tan(np.radians(angle)) / friction
+    return x, x * (mass_ratio * np.asarray(centre_restitution) - (mass_ratio - 1))
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -106,7 +153,7 @@ def _draw_experiment(axes: Axes, curves: Curves, points: Points, settings: Setti
         axes, curves["lumped, experiment"], f"lumped model, {e}", house_style.LUMPED
     )
     models = house_style.lossy(axes, curves, X, Y, e, "experiment")
-    series = {derived.MEASURED_ANGLES: ("measured (Kharaz et al.)", GLASS_POINTS)}
+    series = {MEASURED_ANGLES: ("measured (Kharaz et al.)", GLASS_POINTS)}
     return [*house_style.references(axes, points, series), lumped, *models]
 
 

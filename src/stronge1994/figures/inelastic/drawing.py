@@ -9,12 +9,61 @@ from matplotlib.figure import Figure
 from planarimpact.ground.arrays import Array
 from stronge1994 import curve_names
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import derived, house_style
-from stronge1994.figures.shared.drawing.house_style import Dashes, Points, Settings
+from stronge1994.figures.shared.drawing import house_style
+from stronge1994.figures.shared.drawing.house_style import Dashes, Points, Series, Settings
+from stronge1994.goodness import ChiSquared, chi_squared
 
-E, BETA_0 = derived.E, derived.BETA_0
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-CHI_SQUARED = derived.CHI_SQUARED
+E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
+PARAMETERS = "each pair's parameters"
+CHI_SQUARED = "chi_squared [1]"
+# Points of one restitution are drawn side by side, so far apart.
+APART = 0.0055
+
+
+def shown_series(name: str, series: Series) -> Series:
+    """Points of nearly the same restitution side by side."""
+    return series | {"x": side_by_side(series["x"]), "restitution": series["x"]}
+
+
+def side_by_side(x: Array) -> Array:
+    """Abscissae of points; those of nearly the same are moved apart a little, about their mean.
+
+    Examples
+    --------
+    >>> side_by_side(np.array([0.9, 0.97, 0.9])).round(3).tolist()
+    [0.897, 0.97, 0.903]
+    """
+    moved, order = x.copy(), np.argsort(x, kind="stable")
+    for same in np.split(order, np.flatnonzero(np.diff(x[order]) > APART) + 1):
+        moved[same] = x[same].mean() + APART * (np.arange(len(same)) - (len(same) - 1) / 2)
+    return moved
+
+
+def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+    """Chi-squared of each model."""
+    series = points.get(settings["points"])
+    models = [name.removesuffix(", pairs") for name in curves if name.endswith(", pairs")]
+    fits = {model: goodness(curves, model, series) for model in models} if series else {}
+    return curves | {
+        f"chi-squared of {model}": {CHI_SQUARED: np.array([fit.value]), "p [1]": np.array([fit.p])}
+        for model, fit in fits.items()
+    }
+
+
+def goodness(curves: Curves, model: str, series: Series) -> ChiSquared:
+    """Chi-squared of a model over the measured pairs, with the uncertainty of their parameters.
+
+    It is that of the verdicts.
+    """
+    name, sigma = f"{model}, pairs", series["sigma"][1]
+    place = {pair: row for row, pair in enumerate(curves[name]["pair"])}
+    rows = [place[pair] for pair in series["columns"]["pair"]]
+    up, down = (
+        curves[curve_names.shifted(name, PARAMETERS, sign)][BETA_0][rows] for sign in (1, -1)
+    )
+    distance = (series["y"] - curves[name][BETA_0][rows]) / sigma
+    return chi_squared(distance, np.diag((up - down) / 2 / sigma))
 
 
 class Model(NamedTuple):

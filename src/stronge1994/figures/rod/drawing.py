@@ -8,22 +8,51 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Patch
 
 from planarimpact import Regime
-from stronge1994.csv_tables import Columns, Curves
-from stronge1994.figures.shared.drawing import derived, house_style
+from planarimpact.ground.arrays import Array
+from stronge1994 import curve_names
+from stronge1994.csv_tables import Column, Columns, Curves
+from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Entries, Points, Settings
 
-TILT, TIME = derived.TILT, "time [1/Omega]"
+TILT, TIME = "tilt [deg]", "time [1/Omega]"
 ENERGY = "kinetic_energy [K0]"
 ROWS = {
     "tangential_velocity [v2(0)]": r"(a) $v_1(t_f)/v_2(0)$",
     "normal_velocity [v2(0)]": r"(b) $v_2(t_f)/v_2(0)$",
     ENERGY: r"(c) $K(t_f)/K(0)$",
 }
-NORMAL, OVER_MU = "normal_force [m2 Omega v2(0)]", derived.OVER_MU
+NORMAL, OVER_MU = "normal_force [m2 Omega v2(0)]", "friction_over_mu [m2 Omega v2(0)]"
 NEWTON = {"color": house_style.VERMILLION, "linestyle": (0, (7, 2, 1.5, 2)), "linewidth": 1.1}
 CREATED = {"facecolor": house_style.VERMILLION, "alpha": 0.25, "linewidth": 0}
 JAM = {"facecolor": "white", "hatch": "//////", "edgecolor": "0.4", "linewidth": 0.6}
 SHADES = {"STICK_SLIP": "white", "SLIP_STICK_SLIP": "0.93", "SLIP_THROUGHOUT": "0.8"}
+RIBBONS = {"regime": "", "jams": "", "rigid: jams": "rigid, "}  # whose regime or jams
+
+
+def ribbon(row: str, ratio: str) -> str:
+    """Name of the table of one row of parts, over the tilt."""
+    return f"ribbon of {row}, {ratio}"
+
+
+def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+    """Friction over mu, and the parts of the tilt that have one regime, or jam."""
+    contact = curves["contact"]
+    over_mu = contact["friction_force [m2 Omega v2(0)]"] / settings["friction"]
+    found = curves | {"contact": contact | {OVER_MU: over_mu}}
+    for ratio in settings["velocity_ratio"]:
+        name = curve_names.name("v1/v2", ratio)
+        for row, kind in RIBBONS.items():
+            curve = curves[kind + name]
+            labels = curve["regime" if row == "regime" else "jams [1]"]
+            found[ribbon(row, name)] = _parts(curve[TILT], labels)
+    return found
+
+
+def _parts(x: Array, labels: Column) -> Columns:
+    """Edges of parts with one label, half way between two points, and the label behind each."""
+    changes = np.flatnonzero(labels[1:] != labels[:-1])
+    edges = np.array([x[0], *(x[changes] + x[changes + 1]) / 2, x[-1]])
+    return {TILT: edges, "label": labels[[*changes, -1, -1]]}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -47,7 +76,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     panels[-1, 0].set_ylim(bottom=0)
     for axes, label in zip(panels[1:, 0], ROWS.values(), strict=True):
         axes.set_ylabel(label)
-    panels[0, 0].set_yticks([0.5, 1.5, 2.5], list(derived.RIBBONS))
+    panels[0, 0].set_yticks([0.5, 1.5, 2.5], list(RIBBONS))
     shown = rf"$\mu = {settings['friction']:g}$,  $e = {settings['restitution']:g}$"
     over_tilt.suptitle(f"slender rod,  {shown}", fontsize=house_style.STYLE["axes.titlesize"])
     compliant = house_style.key("compliant", **house_style.LUMPED)
@@ -66,9 +95,7 @@ def _draw_over_tilt(panels: Sequence[Axes], curves: Curves, name: str, letters: 
     compliant, rigid, newton = (
         curves[f"{kind}{name}"] for kind in ("", "rigid, ", "rigid, Newton, ")
     )
-    _draw_ribbons(
-        panels[0], [curves[derived.ribbon(row, name)] for row in derived.RIBBONS], letters
-    )
+    _draw_ribbons(panels[0], [curves[ribbon(row, name)] for row in RIBBONS], letters)
     for axes, column in zip(panels[1:], ROWS, strict=True):
         axes.axhline(1 if column == ENERGY else 0, **house_style.GUIDE)
         axes.axvline(0, **house_style.GUIDE)

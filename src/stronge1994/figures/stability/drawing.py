@@ -1,5 +1,6 @@
 """Beyond the paper: digits of the lumped model's solution, beside those that are possible."""
 
+import itertools
 from collections.abc import Mapping
 
 import matplotlib
@@ -10,7 +11,7 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.figures.shared.drawing import derived, house_style
+from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Entries, Points, Settings
 
 OUTPUTS = {
@@ -21,9 +22,65 @@ OUTPUTS = {
 MARK = {"linestyle": "none", "marker": "o", "markersize": 1.8, "markeredgewidth": 0.4}
 MARK |= {"color": house_style.BLUE, "markerfacecolor": "none"}
 LINE = {"color": house_style.BLACK, "linewidth": 0.7, "zorder": 3}
-LEVELS = np.arange(0, derived.MOST_DIGITS + 1, 2)
 COLOURS = matplotlib.colormaps["cividis"]
 PLATE = {"facecolor": "white", "edgecolor": "none", "pad": 1.5}
+OMEGA = "omega [Omega]"
+KINDS = {"digits": "correct digits found", "digits_allowed": "allowed by the condition"}
+MOST_DIGITS = 16
+LEVELS = np.arange(0, MOST_DIGITS + 1, 2)
+# So many digits may be lost, see the comparison `stability-digits`.
+WORSE = 2
+LINES = {0: "as many as allowed", WORSE: f"{WORSE} digits fewer"}
+ACROSS, MEDIAN = "omega [cell]", "median [1]"
+# Lower edges of the cells, each with its label. The first cell has none: it holds all below.
+OMEGAS = {10.0**k: f"$10^{{{k}}}$" if k % 3 == 0 else "" for k in range(-5, 7)}
+OMEGAS[1.0] = "1"
+RESTITUTIONS = {5e-324: "", 1e-16: "$10^{-16}$", 1e-8: "$10^{-8}$", 1e-4: "$10^{-4}$"}
+RESTITUTIONS |= {0.01: "0.01", 0.1: "0.1", 0.5: "0.5", 1.0: ""}
+INCIDENCES = {5e-324: ""}
+INCIDENCES |= {10.0**k: f"$10^{{{k}}}$" for k in (-16, -8, -4, -2, 0, 2, 4, 8)}
+INCIDENCES[1.0] = "1"
+UPRIGHT = {"restitution [1]": RESTITUTIONS, "incidence [mu v2(0)]": INCIDENCES}
+
+
+def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+    """Medians of the digits in cells of the parameters; pairs of digits that occur, to a tenth.
+
+    The least of a cell would be misleading: in every cell some output passes through zero.
+    """
+    impacts = curves["impacts"]
+    found = dict(curves)
+    for (name, edges), (kind, words) in itertools.product(UPRIGHT.items(), KINDS.items()):
+        digits = np.min([impacts[f"{kind}_{output} [1]"] for output in OUTPUTS], axis=0)
+        column, row = (
+            np.digitize(impacts[OMEGA], list(OMEGAS)),
+            np.digitize(impacts[name], list(edges)),
+        )
+        cells = np.full((len(edges) + 1, len(OMEGAS) + 1), np.nan)
+        for cell in set(zip(row, column, strict=True)):
+            cells[cell] = np.median(digits[(row == cell[0]) & (column == cell[1])])
+        rows, columns = np.indices(cells.shape) + 0.5
+        places = {ACROSS: columns.ravel(), in_cells(name): rows.ravel()}
+        found[f"{words}, {name}"] = places | {MEDIAN: cells.ravel()}
+    for output in OUTPUTS:
+        pairs = np.stack([impacts[f"{kind}_{output} [1]"] for kind in ("digits_allowed", "digits")])
+        allowed, digits = np.unique(np.round(pairs, 1), axis=1)
+        found[f"digits of {output}"] = {"digits_allowed [1]": allowed, "digits [1]": digits}
+    ends = np.array([0.0, MOST_DIGITS])
+    for fewer, words in LINES.items():
+        found[words] = {"digits_allowed [1]": ends, "digits [1]": ends - fewer}
+    return found
+
+
+def in_cells(column: str) -> str:
+    """Name of a column that counts cells of another.
+
+    Examples
+    --------
+    >>> in_cells("restitution [1]")
+    'restitution [cell]'
+    """
+    return f"{column.partition(' [')[0]} [cell]"
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -32,8 +89,8 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     grid = figure.add_gridspec(3, 2, height_ratios=[9, 12, 9])
     maps = [[figure.add_subplot(grid[row, column]) for column in (0, 1)] for row in (0, 1)]
     labels = "restitution $e$", house_style.INCIDENCE
-    for row, (name, edges) in enumerate(derived.UPRIGHT.items()):
-        kinds = derived.KINDS.values()
+    for row, (name, edges) in enumerate(UPRIGHT.items()):
+        kinds = KINDS.values()
         for axes, kind, letter in zip(maps[row], kinds, "abcd"[2 * row :], strict=False):
             mesh = _draw_map(axes, curves[f"{kind}, {name}"], edges)
             axes.set_xlabel(r"$\omega/\Omega$", visible=row == 1)
@@ -41,7 +98,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
             place = {"va": "top", "transform": axes.transAxes, "bbox": PLATE}
             axes.text(0.04, 0.955, f"({letter})", **place)
             axes.tick_params(labelbottom=row == 1, labelleft=axes is maps[row][0])
-    for axes, words in zip(maps[0], derived.KINDS.values(), strict=True):
+    for axes, words in zip(maps[0], KINDS.values(), strict=True):
         axes.set_title(words)
     maps[0][0].set_yticks(*_with_ends(maps[0][0], "0", "1"))
     maps[1][0].set_yticks(*_with_ends(maps[1][0], "0", ""))
@@ -59,13 +116,13 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
 
 def _draw_map(axes: Axes, table: Columns, edges: Mapping[float, str]) -> QuadMesh:
     """Draw the median of the digits in each cell; cells without impacts are hatched."""
-    shape = len(edges) + 1, len(derived.OMEGAS) + 1
-    cells = table[derived.MEDIAN].reshape(shape)
+    shape = len(edges) + 1, len(OMEGAS) + 1
+    cells = table[MEDIAN].reshape(shape)
     axes.patch.set(hatch="//////", edgecolor="0.7")
     norm = BoundaryNorm(LEVELS, COLOURS.N)
     seamless = {"edgecolors": "face", "linewidth": 0.3}
     mesh = axes.pcolormesh(np.ma.masked_invalid(cells), cmap=COLOURS, norm=norm, **seamless)
-    axes.set_xticks(range(1, shape[1]), derived.OMEGAS.values())
+    axes.set_xticks(range(1, shape[1]), OMEGAS.values())
     axes.set_yticks(range(1, shape[0]), edges.values())
     axes.tick_params(direction="out", length=2.5)
     return mesh
@@ -82,7 +139,7 @@ def _draw_scatter(axes: Axes, curves: Curves, table: Columns) -> Entries:
     """Draw a mark for each pair of digits that occurs; entries of the legend."""
     axes.plot(table["digits_allowed [1]"], table["digits [1]"], **MARK)
     lines = []
-    for words, dashes in house_style.patterned(derived.LINES.values()):
+    for words, dashes in house_style.patterned(LINES.values()):
         x, y = curves[words]["digits_allowed [1]"], curves[words]["digits [1]"]
         lines += axes.plot(x, y, label=words, linestyle=dashes, **LINE)
     axes.set(xlim=(-0.8, 16.8), ylim=(-0.8, 16.8), xticks=LEVELS[::2], yticks=LEVELS[::2])

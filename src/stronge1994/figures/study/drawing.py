@@ -16,8 +16,8 @@ from scipy import ndimage
 
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.results import Regime
-from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import derived, house_style
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.figures.shared.drawing import house_style
 
 Cell: TypeAlias = tuple[int, int]  # row and column
 
@@ -55,6 +55,17 @@ LEADER = {"arrowstyle": "-|>", "mutation_scale": 6, "linewidth": 0.6, "color": h
 LEADER |= {"shrinkA": 0, "shrinkB": 0}
 
 
+def slice_of(axes: Mapping[str, Array], velocity: Array, places: Mapping[str, int]) -> Columns:
+    """All of a grid that has the given places on some of its axes."""
+    cut = tuple(places.get(name, slice(None)) for name in axes)
+    free = [values for name, values in axes.items() if name not in places]
+    names = [name for name in axes if name not in places]
+    grid = np.meshgrid(*free, indexing="ij")
+    units = {"incidence": "mu v2(0)"}
+    found = {f"{n} [{units.get(n, '1')}]": g.ravel() for n, g in zip(names, grid, strict=True)}
+    return found | {"velocity [mu v2(0)]": velocity[cut].ravel()}
+
+
 def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> tuple[Figure, Curves]:
     """Draw the velocity at separation in colours, where it is zero, and where regimes meet.
 
@@ -83,7 +94,7 @@ def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> tuple[
     for panel, places in zip(panels, shown, strict=False):
         cut: dict[str, Any] = dict(zip(others, places, strict=True))
         title = _place(axes, cut, others)
-        tables[title] = derived.slice_of(axes, velocity, cut)
+        tables[title] = slice_of(axes, velocity, cut)
         cut |= {name: _thinned(len(axes[name]), POINTS) for name in (across, upright)}
         grid = axes[across][cut[across]], axes[upright][cut[upright]]
         where = np.ix_(*(np.atleast_1d(cut[name]) for name in names))
@@ -131,7 +142,7 @@ def _curve(axes: Mapping[str, Array], velocity: Array) -> tuple[Figure, Curves]:
     cut = dict.fromkeys(others, 0)
     panel.set_title(_place(axes, cut, others))
     panel.set(xlabel=LABELS[across], ylabel=house_style.REBOUND)
-    table = derived.slice_of(axes, velocity.reshape([len(v) for v in axes.values()]), cut)
+    table = slice_of(axes, velocity.reshape([len(v) for v in axes.values()]), cut)
     return figure, {panel.get_title(): table}
 
 

@@ -9,12 +9,35 @@ from matplotlib.patches import Circle, FancyArrowPatch
 
 from planarimpact import Regime
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.figures.shared.drawing import derived, house_style
+from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Points, Settings, Style
 
 Place: TypeAlias = tuple[float, float]
 
-PLACE, HEIGHT, SPIN = derived.PLACE, derived.HEIGHT, derived.SPIN
+PLACE, HEIGHT, SPIN = "place [m]", "height [m]", "spin_y [rad/s]"
+# Where the number of a flight stands, as a share of the flight, and its size as a share of the gap.
+NEAR, SIZE = 0.36, 0.065
+
+
+def sense(flight: int) -> str:
+    """Name of the table of the round arrow that shows the sense of the spin."""
+    return f"sense of spin {flight}"
+
+
+def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+    """Round arrows, clockwise if spin_y > 0, and open where no flight crosses them."""
+    path, radius = curves["path"], SIZE * settings["throw"]["gap"]
+    ways = np.diff(path[PLACE]) + 1j * np.diff(path[HEIGHT])
+    found = dict(curves)
+    for number, (x, y, way, spin) in enumerate(
+        zip(path[PLACE], path[HEIGHT], ways, path[SPIN], strict=False)
+    ):
+        angles = np.angle(1j * way) - np.sign(spin) * np.radians(np.linspace(35, 325, 60))
+        found[sense(number)] = {
+            PLACE: x + NEAR * way.real + radius * np.cos(angles),
+            HEIGHT: y + NEAR * way.imag + radius * np.sin(angles),
+        }
+    return found
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -41,10 +64,10 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         words = f"({number + 1}) {_plain(v, 1)} m/s, spin_y {_plain(spin)} rad/s"
         _draw_flight(axes, (x, y), (x_next, y_next), words, last=number + 2 == len(place))
         entries.append(house_style.key(words, **_style(v < 0)))
-        near = x + derived.NEAR * (x_next - x), y + derived.NEAR * (y_next - y)
-        _draw_number(axes, number + 1, near, derived.SIZE * gap)
+        near = x + NEAR * (x_next - x), y + NEAR * (y_next - y)
+        _draw_number(axes, number + 1, near, SIZE * gap)
         if round(spin):
-            _draw_spin(axes, curves[derived.sense(number)])
+            _draw_spin(axes, curves[sense(number)])
     for x, y, regime in zip(place[1:-1], height[1:-1], path["regime"][1:-1], strict=True):
         axes.add_patch(
             Circle((x, y), radius, facecolor="white", edgecolor=house_style.BLACK, zorder=3)

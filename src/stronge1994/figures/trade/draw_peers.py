@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import checked, derived, house_style
+from stronge1994.figures.shared.drawing import checked, house_style
 from stronge1994.figures.shared.drawing.house_style import Settings
 from stronge1994.figures.trade import drawing as draw_trade
 
@@ -80,7 +80,7 @@ def draw(curves: Curves, peers: Curves, settings: Settings) -> tuple[Figure, Cur
         for name, row in peers.items()
         if row["model"][0] in codes and ERROR in row and row[E][0] == 1
     }
-    shown = derived.trade(curves | theirs, settings, {})
+    shown = draw_trade.shown(curves | theirs, settings, {})
     theirs = {name: shown[name] for name in theirs}
     figure = draw_trade.draw(shown, settings, {}, draw_trade.FAMILIES | codes)
     models = {row["model"][0] for row in theirs.values()}

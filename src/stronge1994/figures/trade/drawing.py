@@ -8,14 +8,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.gridspec import SubplotSpec
 
-from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import derived, house_style
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.figures.shared.drawing import house_style, tables
 from stronge1994.figures.shared.drawing.house_style import Points, Settings, Style
 
 _Row: TypeAlias = dict[str, Any]
 Place: TypeAlias = tuple[str, float, float]
 
-ERROR, MODEL, RESTITUTION = derived.ERROR, "model", "restitution [1]"
+ERROR, MODEL, RESTITUTION = "rms_velocity [mu v2(0)]", "model", "restitution [1]"
 SPREAD, SPREAD_STICK = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
 STEPS, CIRCLES, TOLERANCE = "steps [1]", "circles [1]", "tolerance [mu v2(0)]"
 LOSSES = (".viscous", ".plastic")
@@ -37,6 +37,33 @@ RIGHT, LEFT = ("left", 5, -2.5), ("right", -5, -2.5)
 LOWER_RIGHT, LOWER_LEFT = ("left", 4, -9.5), ("right", -4, -9.5)
 UPPER_RIGHT = ("left", 4, 2.5)
 OTHER_LOSS, OF_OTHER_LOSS = "other loss", ("right", 5, 5)
+FLOOR = 1e-12  # smaller errors are rounding
+IMPACTS, TIME = "impacts [1]", "time [us]"
+
+
+def over_batches(name: str) -> str:
+    """Name of the table of the times of one row of results/curves/trade.csv."""
+    return f"{name}, over batches"
+
+
+def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+    """Times in microseconds, errors from rounding on, and a table over the batches of each row."""
+    found = {}
+    for name, row in curves.items():
+        known = [b for b in sorted(settings["batches"]) if f"time_{b} [s]" in row]
+        times = [
+            tables.times(row, f"time_{b} [s]", f"busy_{b} [1]", f"time_{b} [us]", 1e6)
+            for b in known
+        ]
+        over: Columns = {IMPACTS: np.array(known, float)}
+        for end in ("", tables.LESS):
+            cells = [time[f"time_{b} [us]{end}"] for b, time in zip(known, times, strict=True)]
+            over[TIME + end] = np.concatenate([[], *cells])
+        found[name] = row | {key: value for time in times for key, value in time.items()}
+        if ERROR in row:
+            found[name] |= {ERROR: np.maximum(row[ERROR], FLOOR)}
+        found[over_batches(name)] = over
+    return found
 
 
 class Family(NamedTuple):
@@ -196,7 +223,7 @@ def warning(rows: Sequence[_Row]) -> str:
 
 
 def time_column(batch: int) -> str:
-    """Times of an impact in a batch, as `derived` gives them."""
+    """Times of an impact in a batch, as `shown` gives them."""
     return f"time_{batch} [us]"
 
 
@@ -229,7 +256,7 @@ def _draw_errors(
     timed = [row for row in rows if column in row]
     if not timed:
         return
-    time, least = ([row[column + end] for row in timed] for end in ("", derived.LESS))
+    time, least = ([row[column + end] for row in timed] for end in ("", tables.LESS))
     error = [row[ERROR] for row in timed]
     for row, shortest, *at in zip(timed, least, time, error, strict=True):
         if span[0] < at[1] <= span[1]:
@@ -328,10 +355,10 @@ def _draw_growth(axes: Axes, rows: Curves, curves: Curves) -> None:
         same = [name for name, row in rows.items() if row[MODEL][0] == model]
         if not same:  # the continuum, where the contact is not elastic
             continue
-        table = curves[derived.over_batches(same[len(same) // 2])]
-        batch, time = table[derived.IMPACTS], table[derived.TIME]
+        table = curves[over_batches(same[len(same) // 2])]
+        batch, time = table[IMPACTS], table[TIME]
         axes.loglog(batch, time, linestyle=dashes, linewidth=0.9, **FAMILIES[model].style())
-        below = time - table[derived.TIME + derived.LESS]
+        below = time - table[TIME + tables.LESS]
         some = below > 0
         bars = below[some], 0 * below[some]
         axes.errorbar(batch[some], time[some], yerr=bars, **house_style.BUSY)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import checked, derived, house_style
+from stronge1994.figures.shared.drawing import checked, house_style, tables
 
 
 def draw(
@@ -44,8 +44,11 @@ def drawn(
 ) -> tuple[Figure, Curves]:
     """The picture, not yet checked, and the tables of which it may show numbers."""
     module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
-    curves, points = derived.shown(figure, curves, settings, points)
-    return module.draw(curves, settings, points), derived.tables(curves, points)
+    if hasattr(module, "shown_series"):
+        points = {name: module.shown_series(name, series) for name, series in points.items()}
+    if hasattr(module, "shown"):
+        curves = module.shown(curves, settings, points)
+    return module.draw(curves, settings, points), tables.tables(curves, points)
 
 
 def _points(name: str, entry: Mapping[str, Any], path: str) -> house_style.Series:

@@ -118,7 +118,7 @@ def check(figure: Figure, tables: Curves, name: str) -> None:
     figure : Figure
         Not yet saved.
     tables : dict
-        `{curve: {column: array}}`: the curves, the reference series, and what `derived` adds.
+        `{curve: {column: array}}`: the curves, the reference series, and what `shown` adds.
     name : str
         Of the figure, for the message.
 
@@ -230,8 +230,8 @@ class _Panel:
         raise NotInTable(
             f"{self}: {_words_of(artist)} does not show rows of a table. Its ({first}) and what "
             f"follows are in none of {', '.join(asked[:6]) or 'the columns that the labels name'}. "
-            "What labels mean stands in drawings/words.py, numbers of no column in drawings/"
-            "derived.py; a guide has the label house_style.NO_DATA"
+            "What labels mean stands in words.py, numbers of no column are made by `shown` in "
+            "drawing.py; a guide has the label house_style.NO_DATA"
         )
 
     def _check_mesh(self, mesh: QuadMesh) -> None:

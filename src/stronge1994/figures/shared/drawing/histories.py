@@ -8,11 +8,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.figures.shared.drawing import derived, house_style
+from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Dashes, Points, Settings
 
 TIME, VELOCITY = "time [t_c]", "velocity [mu v2(0)]"
-NORMAL, LIMIT = derived.NORMAL, derived.LIMIT
 FRICTION = "friction_force [mu m2 Omega v2(0)]"
 
 NORMAL_LINE = {"color": house_style.BLACK, "label": r"$F_2/m_2\Omega v_2(0)$"}
@@ -26,6 +25,12 @@ FRICTION_KEY = FRICTION_LINES[0] | {"label": r"$F_1/\mu m_2\Omega v_2(0)$"}
 LIMIT_LINE = {"color": house_style.GREY, "linewidth": 0.6, "label": r"added here: limit $-\mu F_2$"}
 
 CROSS = {"color": house_style.BLACK, "markersize": 6, "clip_on": False}
+NORMAL, LIMIT = "normal_force [m2 Omega v2(0)]", "friction_limit [mu m2 Omega v2(0)]"
+
+
+def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+    """Beside the friction its limit, where it acts backward."""
+    return {name: curve | {LIMIT: -curve[NORMAL]} for name, curve in curves.items()}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:

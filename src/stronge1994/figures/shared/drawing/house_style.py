@@ -3,7 +3,7 @@
 Each figN.py beside this file has one public function, `draw(curves, settings, points)`, which
 returns a Figure:
 
-- `curves`, what curves.py beside it returns, `{curve: {column: array}}`, and what `derived`
+- `curves`, what curves.py beside it returns, `{curve: {column: array}}`, and what its `shown`
   adds; nothing else may be shown, see `checked`;
 - `settings`, the keywords it was called with, from which labels take their numbers;
 - `points`, the reference series that are not awaited, `{"source/series": {...}}` with arrays `x`

@@ -1,14 +1,16 @@
 """Residuals of a figure as strips, one for each curve and reference. What is allowed is shaded."""
 
-from collections.abc import Collection, Mapping
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Any, TypeAlias
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from stronge1994.csv_tables import Column, Curves
-from stronge1994.figures.shared.drawing import derived, house_style, words
-from stronge1994.figures.shared.drawing.derived import ALL, DISTANCE, RMS, RMS_ALLOWED, Strip
+from stronge1994.csv_tables import Column, Columns, Curves, Row
+from stronge1994.figures.shared.drawing import house_style, words
 
 # Inches: height of a strip with its title, and of the label of its x axis.
 STRIP, LABEL = 0.56, 0.42
@@ -33,10 +35,83 @@ MARKS = {
 ALL_AREA = {"color": house_style.PALE, "linewidth": 0, "zorder": 0.5}
 RMS_AREA = {"color": house_style.GREEN, "alpha": 0.35, "linewidth": 0, "zorder": 0.6}
 RMS_LINE = {"color": house_style.GREEN, "linewidth": 0.9, "linestyle": "-", "zorder": 1.9}
+DISTANCE = "distance [sigma]"
+# A comparison with more points is left out: it would be a block of ink, and a large file.
+MOST_POINTS = 1000
+
+Entry: TypeAlias = Mapping[str, Any]  # a comparison of the config
+# Curve, reference and quantity of a strip.
+Strip: TypeAlias = tuple[str, str, str]
+ALL, RMS_ALLOWED, RMS = "allowed for all", "allowed for it", "of the points"
+
+
+def title(strip: Strip) -> str:
+    """What stands over a strip."""
+    return f"{strip[0]}  -  {strip[1]}"
+
+
+def strips(
+    residuals: Sequence[Row], comparisons: Mapping[str, Entry], verdicts: Mapping[str, Row]
+) -> dict[Strip, Curves]:
+    """Tables of each strip, those with the same axis after each other.
+
+    The points of a comparison are called "COMPARISON, VERDICT"; what is allowed, and the root mean
+    square, "COMPARISON, " and one of the constants above: the lower line, then the upper one.
+    """
+    found: dict[Strip, dict[str, list[tuple[float, float]]]] = {}
+    counts = Counter(row["comparison"] for row in residuals)
+    for row in residuals:
+        entry = comparisons[row["comparison"]]
+        if entry["metric"] in ("distance", "vertices") and counts[row["comparison"]] <= MOST_POINTS:
+            key = entry.get("curve", "all curves"), entry["reference"], row["quantity"]
+            part = found.setdefault(key, {}).setdefault(row["comparison"], [])
+            part.append((float(row["at"]), float(row[DISTANCE])))
+    quantities = list(dict.fromkeys(quantity for _, _, quantity in found))
+    return {
+        key: {
+            name: table
+            for comparison, points in found[key].items()
+            for name, table in _strip(
+                key[2], comparison, points, comparisons[comparison], verdicts[comparison]
+            )
+        }
+        for key in sorted(found, key=lambda key: quantities.index(key[2]))
+    }
+
+
+def _strip(
+    quantity: str, name: str, points: Sequence[tuple[float, float]], entry: Entry, row: Row
+) -> Iterator[tuple[str, Columns]]:
+    x, distance = np.transpose(points)
+    span = np.array([x.min(), x.max()])
+    span = span if span[0] < span[1] else span + [-0.5, 0.5]
+
+    def lines(*heights: float) -> Columns:
+        return {quantity: np.tile(span, len(heights)), DISTANCE: np.repeat(heights, 2)}
+
+    yield f"{name}, {row['verdict']}", {quantity: x, DISTANCE: distance}
+    # Chi-squared gives no bounds: it judges all points together.
+    bounds = entry.get("regression", {} if row["p"] else {"max": (0.0, 1.0)})
+    if "max" in bounds:
+        yield f"{name}, {ALL}", lines(-bounds["max"][1], bounds["max"][1])
+    if "rms" in bounds:
+        low, high = bounds["rms"]
+        rms = float(np.sqrt(np.mean(distance**2)))
+        yield f"{name}, {RMS_ALLOWED}", lines(-low, -high, low, high)
+        yield f"{name}, {RMS}", lines(-rms, rms)
+
+
+def tables_of_strips(found: Mapping[Strip, Curves]) -> Curves:
+    """All tables of all strips, each with the title of its strip before its name."""
+    return {
+        f"{title(strip)}: {name}": table
+        for strip, parts in found.items()
+        for name, table in parts.items()
+    }
 
 
 def draw(strips: Mapping[Strip, Curves]) -> Figure:
-    """Draw strips of the comparisons of one figure, as `derived.strips` gives them."""
+    """Draw strips of the comparisons of one figure, as `strips` gives them."""
     # Of several strips with the same axis only the last has a label below it.
     axis = [quantity for _, _, quantity in strips]
     labelled = [i + 1 == len(axis) or axis[i + 1] != axis[i] for i in range(len(axis))]
@@ -47,7 +122,7 @@ def draw(strips: Mapping[Strip, Curves]) -> Figure:
         for name, table in tables.items():
             _draw_table(axes, name.rpartition(", ")[2], table[strip[2]], table[DISTANCE])
         axes.axhline(0, **house_style.GUIDE)
-        axes.set_title(derived.title(strip), loc="left", pad=3, **note)
+        axes.set_title(title(strip), loc="left", pad=3, **note)
         axes.margins(x=0.02, y=0.25)
         axes.tick_params(labelsize=house_style.NOTE, labelbottom=last)
         axes.set_xlabel(words.of_column(strip[2]), visible=last, **note)

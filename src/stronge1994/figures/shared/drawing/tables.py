@@ -1,0 +1,28 @@
+"""Tables whose numbers a picture may show, made of those of the run before anything is drawn."""
+
+import numpy as np
+
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.figures.shared.drawing.checked import BARS
+from stronge1994.figures.shared.drawing.house_style import Points
+
+LESS, MORE = BARS
+
+
+def tables(curves: Curves, points: Points) -> Curves:
+    """All tables of which a figure may show numbers: its curves, and series with their errors."""
+    found = dict(curves)
+    for name, series in points.items():
+        if "axes" in series:
+            found[name] = {}
+            for which, column, sigma in zip("xy", series["axes"], series["sigma"], strict=True):
+                values = series[which]
+                found[name] |= {column: values, column + LESS: values - sigma}
+                found[name][column + MORE] = values + sigma
+    return found
+
+
+def times(columns: Columns, old: str, busy: str, new: str, factor: float) -> Columns:
+    """A time in another unit, and down to what the processor worked."""
+    time = factor * columns[old]
+    return {new: time, new + LESS: time / np.maximum(columns.get(busy, 1.0), 1)}
