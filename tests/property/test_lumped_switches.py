@@ -5,7 +5,6 @@ one unit in the last place to 1e-4 around them are tried: against each other, wh
 not jump, and the most suspicious ones against 40 digits.
 """
 
-import extreme_tables
 import numpy as np
 import pytest
 from mpmath import mp
@@ -13,6 +12,7 @@ from mpmath import mp
 from planarimpact import Regime, lumped
 from planarimpact.ground import sliding
 from planarimpact.lumped import slip_onset, stick_slip
+from tests.reference_solutions import extreme_tables
 
 OUTPUTS = ("velocity", "peak_friction", "dissipation")
 RESTITUTION = 3  # its place among the parameters

@@ -4,13 +4,13 @@ import csv
 import functools
 from pathlib import Path
 
-import annuli_tables
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 from planarimpact import Regime, continuum, lumped
 from planarimpact.continuum import annuli, cattaneo_mindlin
+from tests.reference_solutions import annuli_tables
 
 ROOT = Path(__file__).parents[2]
 STEEL, RUBBER = 17 / 14, 1.5

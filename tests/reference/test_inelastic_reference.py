@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from inelastic_contact import rebound as stepped
 
 from planarimpact import continuum
 from planarimpact.ground import sliding
+from tests.reference_solutions.inelastic_contact import rebound as stepped
 
 # Error of the second code, extrapolated from 800 and 1600 steps. With twice as many steps its
 # answers change by up to 3.4e-4 (e = 0.9, next to x = zeta^2), with four times as many by 2e-5

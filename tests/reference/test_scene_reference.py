@@ -4,15 +4,14 @@ import functools
 from pathlib import Path
 from typing import NamedTuple
 
-import gap_tables
 import numpy as np
 import pandas as pd
 import pytest
-import scene_tables
 
 from planarimpact import bodies, continuum, lumped, models, rigid, scene, spheres
 from planarimpact.ground import sliding
 from planarimpact.scene import choice, gaps
+from tests.reference_solutions import gap_tables, scene_tables
 
 DATA = Path(__file__).parents[2] / "data" / "scenes"
 BODY = "mass [kg]", "gyration [m]", "radius [m]"

@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-import solved_tables
 
 from planarimpact import bodies, continuum, lumped, rigid, scene, study
 from planarimpact.scene import choice, motion
 from stronge1994 import reference_data
 from stronge1994.figures.study import files as study_files
 from stronge1994.figures.study import grid
+from tests.reference_solutions import solved_tables
 
 ROOT = Path(__file__).parents[2]
 CONFIG = reference_data.load_yaml(ROOT / "workflow/config.yaml")

@@ -3,20 +3,22 @@
 import csv
 from pathlib import Path
 
-import closed_form_tables
-import continuum_tables
-import error_tables
-import exact_tables
-import inelastic_contact
-import inelastic_tables
 import numpy as np
-import printed_tables
 import pytest
-import rod_tables
-import spring_row
-import table_files
 
 from stronge1994 import reference_data
+from tests.reference_solutions import (
+    closed_form_tables,
+    continuum_tables,
+    error_tables,
+    exact_tables,
+    inelastic_contact,
+    inelastic_tables,
+    printed_tables,
+    rod_tables,
+    spring_row,
+    table_files,
+)
 
 ROOT = Path(__file__).parents[2]
 # How many rows there are to each that is computed anew; what its numbers may differ by.

@@ -6,12 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import table_files
-import viscous_precision
-import viscous_tables
 from mpmath import mp
 
 from planarimpact import Regime, lumped
+from tests.reference_solutions import table_files, viscous_precision, viscous_tables
 
 TABLE = Path(__file__).parents[2] / "data/lumped_viscous/impacts.csv"
 PROMISED = 1e-12

@@ -5,7 +5,6 @@ import types
 from pathlib import Path
 
 import numpy as np
-import picture_tables
 import pytest
 from matplotlib import font_manager
 from matplotlib.transforms import Affine2D
@@ -13,6 +12,7 @@ from matplotlib.transforms import Affine2D
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.drawing import checked, house_style
 from stronge1994.figures.shared.drawing.checked import NotInTable
+from tests.unit import picture_tables
 
 STRIPS = {"curve": "lumped", "reference": "a/b", "metric": "distance"}
 STRIPS |= {"documented": {}, "regression": {"rms": [2.0, 4.0], "max": [0.0, 5.0]}}

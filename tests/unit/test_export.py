@@ -9,7 +9,6 @@ import subprocess
 from pathlib import Path
 from typing import NamedTuple
 
-import browser
 import numpy as np
 import pytest
 
@@ -17,6 +16,7 @@ from planarimpact import InputError, Regime, export, response, spheres
 from planarimpact.__main__ import main
 from planarimpact.export import spheres as table_of_spheres
 from planarimpact.spheres import making, table
+from tests.workflow import browser
 
 README = Path(__file__).parents[2] / "src/README.md"
 COUNT = 100_000

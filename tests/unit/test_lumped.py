@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
-import high_precision
 import numpy as np
 import pytest
 
 from planarimpact import ConvergenceError, EventKind, InputError, Regime, lumped, rigid
 from planarimpact.lumped import slip_onset, stick_slip
+from tests.reference_solutions import high_precision
 
 EXTREMES = Path(__file__).parents[2] / "data/lumped_extremes/impacts.csv"
 GROUPS = [(3.5, 1.21, 1.0), (3.5, 1.21, 0.5), (2.5, 1.5, 0.0), (1.0, 10.0, 0.9), (8.0, 0.1, 0.7)]

@@ -1,12 +1,12 @@
 """The jump over many phases against the phases themselves, and impacts that need it."""
 
-import high_precision
 import numpy as np
 import pytest
 
 from planarimpact import InputError, Regime, lumped, rigid
 from planarimpact.lumped import slip_onset, stick_slip
 from planarimpact.lumped.extremes import many_phases
+from tests.reference_solutions import high_precision
 
 
 def impacts(rates, seed=1):

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-import viscous_precision
 from mpmath import mp
 
 from planarimpact import ConvergenceError, EventKind, InputError, Regime, lumped, rigid
 from planarimpact.lumped import viscous
 from planarimpact.lumped.viscous import searches
+from tests.reference_solutions import viscous_precision
 
 X = np.linspace(0, 20, 401)
 GROUPS = [(3.5, 1.21, 0.8), (8.0, 0.1, 0.97), (2.5, 1.5, 0.01), (1.0, 10.0, 0.3), (8.0, 0.5, 0.1)]

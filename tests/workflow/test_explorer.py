@@ -9,7 +9,6 @@ import signal
 import time
 from pathlib import Path
 
-import browser
 import numpy as np
 import pandas as pd
 import pytest
@@ -20,6 +19,7 @@ from stronge1994 import plan
 from stronge1994.pages import explorer as write_explorer
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
+from tests.workflow import browser
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "workflow/explorer"

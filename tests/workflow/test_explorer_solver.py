@@ -6,13 +6,13 @@ import re
 import shutil
 from pathlib import Path
 
-import browser
 import numpy as np
 import pytest
 
 from planarimpact import Regime, bodies, lumped, rigid
 from stronge1994 import explorer_answers as explorer_curves
 from stronge1994.pages import explorer as write_explorer
+from tests.workflow import browser
 
 SOLVER = Path(__file__).parents[2] / "workflow/explorer/solver.js"
 SLIDERS = list(write_explorer.LIMITS)

@@ -6,7 +6,6 @@ import shutil
 from pathlib import Path
 
 import pytest
-from conftest import ROOT
 
 from stronge1994 import csv_tables, plan, reference_data, verdict_table
 from stronge1994.ledger import entries as ledger_entries
@@ -14,6 +13,7 @@ from stronge1994.ledger import outcome
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 from stronge1994.run import gate, record
+from tests.workflow.project import ROOT
 
 # Not part of a run, but asked for.
 OTHERS = {"measure_peers", "draw_peers", "make_spheres", "solve_part", "gather_parts"}

@@ -8,7 +8,6 @@ from collections import Counter
 from pathlib import Path
 from xml.etree import ElementTree
 
-import browser
 import numpy as np
 import pytest
 from markupsafe import escape
@@ -20,6 +19,7 @@ from stronge1994.ledger import checking, entries, in_nature, outcome
 from stronge1994.pages import ledger_page
 from stronge1994.plan import config as configuration
 from stronge1994.printed import dissipation, dynamics
+from tests.workflow import browser
 
 ROOT = Path(__file__).parents[2]
 FILE = "data/stronge1994/ledger.yaml"

@@ -4,15 +4,15 @@ import csv
 import re
 import shutil
 
-import browser
 import numpy as np
 import pytest
-from conftest import ROOT
-from test_report import Page
 
 from stronge1994 import csv_tables
 from stronge1994.ledger import in_nature, nature
 from stronge1994.pages import letter
+from tests.workflow import browser
+from tests.workflow.project import ROOT
+from tests.workflow.test_report import Page
 
 TEMPLATE = str(ROOT / "workflow/report/letter.html")
 

@@ -13,7 +13,8 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, Project
+
+from tests.workflow.project import ROOT, Project
 
 HERE = Path(__file__).parent
 PROFILE = "keep-going: true\nrerun-incomplete: true\nquiet: [host, reason]\n"

@@ -11,7 +11,6 @@ from collections import Counter
 from html.parser import HTMLParser
 from pathlib import Path
 
-import browser
 import numpy as np
 import pytest
 import yaml
@@ -23,6 +22,7 @@ from stronge1994.ledger import outcome
 from stronge1994.pages import findings, ledger_page, run_facts
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
+from tests.workflow import browser
 
 ROOT = Path(__file__).parents[2]
 CONFIG = configuration.load(ROOT)

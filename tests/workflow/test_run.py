@@ -11,13 +11,13 @@ import sys
 import time
 
 import pytest
-from conftest import ROOT
-from test_awaited_series import JOHNSON, RUBBER, SIGNED, UNSIGNED, export, made_up
-from test_troubleshooting import explained
 
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
 from stronge1994.run import last_words
+from tests.workflow.project import ROOT
+from tests.workflow.test_awaited_series import JOHNSON, RUBBER, SIGNED, UNSIGNED, export, made_up
+from tests.workflow.test_troubleshooting import explained
 
 FIGURES = list(configuration.load(ROOT)["figures"])
 

@@ -8,13 +8,13 @@ import subprocess
 from pathlib import Path
 
 import pytest
-import test_slurm
 
 from planarimpact.ground.checks import InputError
 from planarimpact.scene import places
 from stronge1994 import csv_tables, reference_data, scene_parts
 from stronge1994.plan import config as configuration
 from stronge1994.plan import parts
+from tests.workflow import test_slurm
 
 ROOT = Path(__file__).parents[2]
 SHOTS = ROOT / "data/scenes/shot_peening.csv"

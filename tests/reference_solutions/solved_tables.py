@@ -15,11 +15,11 @@ from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
-import high_precision
-import inelastic_contact
 import numpy as np
 import yaml
 from mpmath import mp
+
+from tests.reference_solutions import high_precision, inelastic_contact
 
 ROOT = Path(__file__).parents[2]
 SCENES = ("shot_peening", "billiard_cushion", "superball")

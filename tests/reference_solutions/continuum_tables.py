@@ -10,13 +10,19 @@ form. Takes some minutes.
 import functools
 import sys
 
-import annuli_tables
 import numpy as np
-import spring_row
-import table_files
-from exact_tables import BETA, HERTZ_FORCES, INCIDENCE, RUBBER, VELOCITY, ZETA2
 from mpmath import mp
-from table_files import Table
+
+from tests.reference_solutions import annuli_tables, spring_row, table_files
+from tests.reference_solutions.exact_tables import (
+    BETA,
+    HERTZ_FORCES,
+    INCIDENCE,
+    RUBBER,
+    VELOCITY,
+    ZETA2,
+)
+from tests.reference_solutions.table_files import Table
 
 INCIDENCES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.1, 1.2, 1.3, 1.4, 1.6, 1.8, 2.0, 2.3, 2.6, 3.0, 3.3)
 INCIDENCES += (3.5, 3.7, 4.0, 4.3, 4.6, 5.0, 5.2, 5.4, 5.6, 5.7, 5.8, 6.0, 7.0, 8.0, 10.0, 12.0)

@@ -8,14 +8,24 @@ import functools
 import sys
 from pathlib import Path
 
-import inelastic_contact
 import numpy as np
 import yaml
-from exact_tables import ANGLE, INCIDENCE, RUBBER, SHOT, SHOT_HEADER, VELOCITY, ZETA2, shot_columns
-from high_precision import rebound as exact_rebound
 from mpmath import mp
 from scipy.optimize import minimize_scalar
-from table_files import Table, write
+
+from tests.reference_solutions import inelastic_contact
+from tests.reference_solutions.exact_tables import (
+    ANGLE,
+    INCIDENCE,
+    RUBBER,
+    SHOT,
+    SHOT_HEADER,
+    VELOCITY,
+    ZETA2,
+    shot_columns,
+)
+from tests.reference_solutions.high_precision import rebound as exact_rebound
+from tests.reference_solutions.table_files import Table, write
 
 ROOT = Path(__file__).parents[2]
 BETA = 3.5

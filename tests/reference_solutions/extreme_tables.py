@@ -11,8 +11,9 @@ import random
 import sys
 from pathlib import Path
 
-import high_precision
 from mpmath import mp
+
+from tests.reference_solutions import high_precision
 
 MOST_PHASES = 3000  # an impact of more would take minutes
 ULP = mp.mpf(2) ** -52

@@ -14,13 +14,11 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-import exact_tables
-import inelastic_tables
 import numpy as np
-import table_files
-import viscous_precision
-from exact_tables import BETA, ZETA2
-from table_files import Table
+
+from tests.reference_solutions import exact_tables, inelastic_tables, table_files, viscous_precision
+from tests.reference_solutions.exact_tables import BETA, ZETA2
+from tests.reference_solutions.table_files import Table
 
 DATA = Path(__file__).parents[2] / "data"
 LOSSES = ("viscous", "plastic")

@@ -12,9 +12,9 @@ import functools
 import math
 import sys
 
-import table_files
-from noncollinear_integration import Contact
-from table_files import Table
+from tests.reference_solutions import table_files
+from tests.reference_solutions.noncollinear_integration import Contact
+from tests.reference_solutions.table_files import Table
 
 ZETA2, FRICTION, RESTITUTION = 1.21, 1.6, 0.9
 RATIOS = (0.6, 2.5)  # v1(0)/v2(0)

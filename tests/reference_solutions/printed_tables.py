@@ -10,11 +10,18 @@ v1/(mu v2(0)), positive at first. The paper has v1, v2 < 0, so that its signs of
 import functools
 import sys
 
-import exact_tables
-import table_files
-from exact_tables import ANGLE, BETA, INCIDENCE, VELOCITY, ZETA2, inside_angles
 from mpmath import mp
-from table_files import Table
+
+from tests.reference_solutions import exact_tables, table_files
+from tests.reference_solutions.exact_tables import (
+    ANGLE,
+    BETA,
+    INCIDENCE,
+    VELOCITY,
+    ZETA2,
+    inside_angles,
+)
+from tests.reference_solutions.table_files import Table
 
 # Offset from the start of stick at which |F1| < mu F2 surely, in units of 1/Omega: the two are
 # equal there with equal slopes, and the search for where they are equal again starts behind it.

@@ -6,11 +6,11 @@ python tests/reference/closed_form_tables.py data/closed_forms
 import functools
 import sys
 
-import exact_tables
-import table_files
-from exact_tables import ANGLE, BETA, INCIDENCE, VELOCITY, ZETA2
 from mpmath import mp
-from table_files import Table
+
+from tests.reference_solutions import exact_tables, table_files
+from tests.reference_solutions.exact_tables import ANGLE, BETA, INCIDENCE, VELOCITY, ZETA2
+from tests.reference_solutions.table_files import Table
 
 
 @mp.workdps(table_files.DIGITS)

@@ -7,10 +7,10 @@ import functools
 import math
 import sys
 
-import high_precision
-import table_files
 from mpmath import mp
-from table_files import Table
+
+from tests.reference_solutions import high_precision, table_files
+from tests.reference_solutions.table_files import Table
 
 BETA, ZETA2 = 3.5, 1.21
 RUBBER = 1.5  # zeta^2 at Poisson's ratio 0.5

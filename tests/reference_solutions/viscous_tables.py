@@ -8,9 +8,9 @@ import random
 import sys
 from functools import partial
 
-import table_files
-import viscous_precision
 from mpmath import mp
+
+from tests.reference_solutions import table_files, viscous_precision
 
 CRITICAL = math.exp(-2)  # restitution of a critically damped normal element
 DISTANCES = (1e-12, 1e-9, 1e-6, 1e-3)

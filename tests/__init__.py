@@ -1,0 +1,1 @@
+"""A package, so that tests import helpers by their full names and find them from the top folder."""
