@@ -2,7 +2,7 @@
 
 A room is a file or a folder of `src/planarimpact` or `src/stronge1994`. It may use its own
 files and the rooms in its line here. pandas, matplotlib and jinja2 may be used only where a line
-has them.
+has them. A room of the tests, tests/reference_solutions, may enter none of these.
 """
 
 import ast
@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 
 SRC = Path(__file__).parents[1] / "src"
+# Codes that are compared with the solver, and so share nothing with it.
+APART = "tests.reference_solutions"
 
 # The solver. Models of contact do not know each other; nothing here knows the reproduction.
 SOLVER = {
@@ -77,28 +79,39 @@ SIDE_DOORS = {
 
 def trespasses(package, room, source):
     """Imports of a file of a room that the tables above do not allow."""
+    for target in imported(source):
+        top, *inner = target.split(".")
+        name = inner[0] if inner and inner[0] in _names(top) else top
+        if (top == package and name == room) or not (top in ROOMS or _is_listed(top)):
+            continue
+        if name not in ROOMS[package][room].split():
+            yield f"{room} may not enter {name}"
+        if room == "figures/drawing" and inner[:1] == ["figures"] and inner[2:3] == ["curves"]:
+            yield "a drawing never solves"
+        file = SRC.joinpath(top, *inner[:2])
+        enters = len(inner) > 1 and (file.is_dir() or file.with_suffix(".py").is_file())
+        if top == "planarimpact" and name != "ground" and enters:
+            door = ".".join(inner[:2])
+            if door not in SIDE_DOORS:
+                yield f"{room} may not enter {door}: it is no door"
+
+
+def imported(source):
+    """Full names of what a file imports; those of relative imports begin with dots."""
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.ImportFrom):
-            targets = [f"{node.module}.{alias.name}" for alias in node.names]
+            module = "." * node.level + (node.module or "")
+            yield from (f"{module}.{alias.name}" for alias in node.names)
         elif isinstance(node, ast.Import):
-            targets = [alias.name for alias in node.names]
-        else:
-            continue
-        for target in targets:
-            top, *inner = target.split(".")
-            name = inner[0] if inner and inner[0] in _names(top) else top
-            if (top == package and name == room) or not (top in ROOMS or _is_listed(top)):
-                continue
-            if name not in ROOMS[package][room].split():
-                yield f"{room} may not enter {name}"
-            if room == "figures/drawing" and inner[:1] == ["figures"] and inner[2:3] == ["curves"]:
-                yield "a drawing never solves"
-            file = SRC.joinpath(top, *inner[:2])
-            enters = len(inner) > 1 and (file.is_dir() or file.with_suffix(".py").is_file())
-            if top == "planarimpact" and name != "ground" and enters:
-                door = ".".join(inner[:2])
-                if door not in SIDE_DOORS:
-                    yield f"{room} may not enter {door}: it is no door"
+            yield from (alias.name for alias in node.names)
+
+
+def ties(source):
+    """Imports that tie a second solution to the solver, themselves or through other tests."""
+    for target in imported(source):
+        top = target.split(".")[0]
+        if top in ROOMS or (top in ("tests", "") and not target.startswith(f"{APART}.")):
+            yield target
 
 
 def _names(package):
@@ -152,3 +165,24 @@ def test_rooms_enter_only_where_they_may(package, room):
 )
 def test_a_trespass_is_seen(package, room, source):
     assert list(trespasses(package, room, source))
+
+
+def test_second_solutions_share_nothing_with_the_solver():
+    files = list(SRC.parent.joinpath(*APART.split(".")).rglob("*.py"))
+    found = [f"{path}: {target}" for path in files for target in ties(path.read_text("utf-8"))]
+    assert len(files) > 10 and not found
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "from planarimpact import continuum",
+        "def late():\n    import stronge1994.reference_data",
+        "from tests.package_tables import annuli_tables",
+        "from ..package_tables import annuli_tables",
+    ],
+)
+def test_a_tie_to_the_solver_is_seen(source):
+    harmless = f"import numpy as np\nfrom {APART} import table_files\n"
+    assert not list(ties(harmless))
+    assert list(ties(harmless + source))

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from planarimpact import Regime, continuum, lumped
 from planarimpact.continuum import annuli, cattaneo_mindlin
-from tests.reference_solutions import annuli_tables
+from tests.package_tables import annuli_tables
 
 ROOT = Path(__file__).parents[2]
 STEEL, RUBBER = 17 / 14, 1.5

@@ -11,7 +11,7 @@ import pytest
 from planarimpact import bodies, continuum, lumped, models, rigid, scene, spheres
 from planarimpact.ground import sliding
 from planarimpact.scene import choice, gaps
-from tests.reference_solutions import gap_tables, scene_tables
+from tests.package_tables import gap_tables, scene_tables
 
 DATA = Path(__file__).parents[2] / "data" / "scenes"
 BODY = "mass [kg]", "gyration [m]", "radius [m]"

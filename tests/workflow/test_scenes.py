@@ -5,7 +5,7 @@ import re
 from stronge1994 import csv_tables
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.superball import curves as superball
-from tests.reference_solutions import scene_tables
+from tests.package_tables import scene_tables
 
 
 def test_every_scene_is_solved_and_explained(first_run):
