@@ -1,6 +1,6 @@
 """Write data/maw1976: the rebound curve by annuli, checked by the continuum solver.
 
-    python tests/reference/annuli_tables.py data/maw1976
+    python -m tests.package_tables.annuli_tables data/maw1976
 
 Takes some minutes. Refuses to write where the two methods differ by more than the sigma that the
 source states.

@@ -1,6 +1,6 @@
 """Makes the table in src/planarimpact/scene/gaps.py: cheaper models against the continuum, e = 1.
 
-    python tests/reference/gap_tables.py
+    python -m tests.package_tables.gap_tables
 
 prints it. At e = 1 all of them depend on x/zeta^2 and chi = beta/(2 zeta^2) alone, velocities in
 zeta^2.

@@ -1,6 +1,6 @@
 """Makes the example scenes in data/scenes/: invented impacts, of a kind that is met in practice.
 
-    python tests/reference/scene_tables.py data/scenes
+    python -m tests.package_tables.scene_tables data/scenes
 
 The numbers are typical, not measured; see data/scenes/README.md.
 """

@@ -1,2 +1,2 @@
-"""Codes that solve the same problems a second time and make the tables of data/; they share nothing
+"""Codes that solve the same problems a second time and make tables of data/; they share nothing
 with the solver."""

@@ -1,6 +1,6 @@
 """Write the tables of data/closed_forms: what a line of algebra gives, with 50 digits.
 
-python tests/reference/closed_form_tables.py data/closed_forms
+python -m tests.reference_solutions.closed_form_tables data/closed_forms
 """
 
 import functools

@@ -1,6 +1,6 @@
 """Write micro_slip_instants of data/elastic_continuum: histories of the elastic continuum.
 
-    python tests/reference/continuum_tables.py data/elastic_continuum
+    python -m tests.reference_solutions.continuum_tables data/elastic_continuum
 
 By a divided row of springs, checked by itself with half the springs and steps, Hertz's normal
 motion in closed form. Rebounds in the same folder are of tests/package_tables/rebound_tables.py.

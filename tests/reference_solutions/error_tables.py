@@ -1,6 +1,6 @@
 """Write the tables of data/model_errors: how far off simple models are, computed a second time.
 
-    python tests/reference/error_tables.py data/model_errors
+    python -m tests.reference_solutions.error_tables data/model_errors
 
 For e = 1 against the elastic continuum, data/elastic_continuum/rebound_grid.csv; for e = 0.8
 against the viscous and against the plastic one, data/inelastic_models/rebound_grid.csv. The models

@@ -1,6 +1,6 @@
 """Write the tables of data/lumped_40_digits from the independent 40-digit reference.
 
-python tests/reference/exact_tables.py data/lumped_40_digits
+python -m tests.reference_solutions.exact_tables data/lumped_40_digits
 """
 
 import functools

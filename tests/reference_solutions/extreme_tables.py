@@ -1,6 +1,6 @@
 """Write the table of data/lumped_extremes: impacts all over the parameter box, with conditions.
 
-python tests/reference/extreme_tables.py data/lumped_extremes
+python -m tests.reference_solutions.extreme_tables data/lumped_extremes
 
 Ten minutes of one core.
 """

@@ -1,6 +1,6 @@
 """Tables of data/inelastic_models: five models of loss, each by a second code.
 
-python tests/reference/inelastic_tables.py data/inelastic_models [table ...]
+python -m tests.reference_solutions.inelastic_tables data/inelastic_models [table ...]
 """
 
 import csv

@@ -1,6 +1,6 @@
 """Write the tables of data/printed_40_digits: what the paper's printed equations give.
 
-    python tests/reference/printed_tables.py data/printed_40_digits
+    python -m tests.reference_solutions.printed_tables data/printed_40_digits
 
 Transcribed from the paper, independently of the package, and solved with 50 digits. Units: time
 1/Omega, velocities mu v2(0), forces m2 Omega v2(0) (friction: mu times that); w is

@@ -1,6 +1,6 @@
 """Write the tables of data/slender_rod: a rod strikes with its tip, by integration and by impulses.
 
-    python tests/reference/rod_tables.py data/slender_rod
+    python -m tests.reference_solutions.rod_tables data/slender_rod
 
 With compliance the equations of motion are integrated by SciPy (noncollinear_integration.py);
 without, velocities are stepped from event to event in normal impulse. Axes of the paper: the normal

@@ -1,6 +1,6 @@
 """Write data/scenes_solved and data/study_solved: what scenes and the study must come to.
 
-    python tests/reference/solved_tables.py data
+    python -m tests.reference_solutions.solved_tables data
 
 A minute. In the scenes, rebound, peak friction and largest normal force are those of
 `inelastic_contact`, the continuum of the loss; those of the study are of `high_precision`, the

@@ -1,6 +1,6 @@
 """Write the table of data/lumped_viscous: impacts of two viscous elements, with their energy.
 
-python tests/reference/viscous_tables.py data/lumped_viscous
+python -m tests.reference_solutions.viscous_tables data/lumped_viscous
 """
 
 import math

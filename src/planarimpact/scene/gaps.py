@@ -11,7 +11,7 @@ from planarimpact.ground.arrays import Array, ArrayLike
 
 CHI = 0.5 * 2.0 ** (np.arange(41) / 8)
 # Over all incidences that stick at some time, to three decimals, rounded up. Made by
-# tests/reference/gap_tables.py, and checked between the entries by tests/reference.
+# tests/package_tables/gap_tables.py, and checked between the entries by tests/reference.
 # fmt: off
 VELOCITY = {
     "lumped": (
