@@ -11,6 +11,7 @@ from matplotlib.transforms import Affine2D
 
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.drawing import checked, house_style
+from stronge1994.figures.shared.drawing import words as meanings
 from stronge1994.figures.shared.drawing.checked import NotInTable
 from tests.unit import picture_tables
 
@@ -63,7 +64,7 @@ FIGURES = (*picture_tables.SOLVED, *picture_tables.MADE_UP, *OTHERS)
 
 
 def drawn(figure, *fault):
-    """A picture and its tables; with a fault, two texts, by a module that has the second."""
+    """A picture, its tables and words; with a fault, two texts, by a module that has the second."""
     name = figure.removesuffix("_errors")
     module = importlib.import_module(f"stronge1994.figures.{PLACES.get(name, f'{name}.drawing')}")
     if fault:
@@ -73,16 +74,14 @@ def drawn(figure, *fault):
         module = types.ModuleType(module.__name__)
         exec(compile(text.replace(old, new, 1), name, "exec"), module.__dict__)
     if figure in OTHERS:
-        return OTHERS[figure](module)
-    tables = picture_tables.given(figure)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(drawings.importlib, "import_module", lambda _: module)
-        return drawings.drawn(figure, *tables)
+        return *OTHERS[figure](module), meanings.of(module)
+    return *drawings.drawn(module, *picture_tables.given(figure)), meanings.of(module)
 
 
 @pytest.mark.parametrize("figure", FIGURES)
 def test_a_picture_shows_numbers_of_its_tables(figure):
-    checked.check(*drawn(figure), figure)
+    picture, tables, own = drawn(figure)
+    checked.check(picture, tables, figure, own)
 
 
 PLOT = "axes.plot(curve[X], curve[Y]"
@@ -146,20 +145,21 @@ FAULTS = [
 def test_a_picture_that_shows_something_else_is_not_saved(figure, old, new):
     """The message names the figure and what is wrong; no file is written."""
     with pytest.raises(NotInTable, match=rf"^{figure}: (panel|the legend|Line2D)"):
-        checked.save(*drawn(figure, old, new), figure, "/nowhere/picture.svg")
+        picture, tables, own = drawn(figure, old, new)
+        checked.save(picture, tables, figure, "/nowhere/picture.svg", words=own)
 
 
 def test_what_stands_elsewhere_than_its_numbers_say_is_seen():
-    figure, tables = drawn("fig2")
+    figure, tables, own = drawn("fig2")
     line = figure.axes[1].lines[-1]
     line.set_transform(Affine2D().scale(1, 2) + figure.axes[1].transData)
     with pytest.raises(NotInTable, match="fig2: Line2D does not stand where its numbers say"):
-        checked.check(figure, tables, "fig2")
+        checked.check(figure, tables, "fig2", own)
 
 
 @pytest.fixture(scope="module", params=picture_tables.PAPER)
 def picture(request):
-    figure, _ = drawn(request.param)
+    figure, *_ = drawn(request.param)
     figure.draw_without_rendering()
     return figure
 

@@ -363,7 +363,7 @@ def test_table_figure_and_captions_say_that_the_machine_was_busy(named, tmp_path
     for curves, said in ((quiet, False), (quiet | dict(list(busy.items())[:2]), True)):
         path, *tables = (tmp_path / f"{name}.csv" for name in ("curves", "table", "answers"))
         csv_tables.write(path, curves)
-        figure, _ = drawings.drawn("trade", csv_tables.read(path), SETTINGS, {})
+        figure, _ = drawings.drawn(draw_trade, csv_tables.read(path), SETTINGS, {})
         words = r"\nthe machine was busy: 2 of \d+ times are up to 2.5 times too long$"
         assert bool(re.search(words, figure.get_suptitle())) is said
         trade_table.write(path, *tables)

@@ -17,6 +17,12 @@ CURVES = {
     "annuli, circles": ("circles [1]", ANNULI, "^"),
     "annuli, steps": ("steps [1]", ANNULI, "v"),
 }
+# What words of the picture mean, see `shared.drawing.words`.
+AXIS_MEANS = {
+    "steps or circles": r": (steps|circles) \[1\]",
+    "time of an impact (ms)": r": time \[ms\]",
+    r"error of $v_1(t_f)/\mu v_2(0)$": r": error \[mu v2\(0\)\]",
+}
 
 
 def shown(curves: Curves, settings: Settings, points: Points) -> Curves:

@@ -23,6 +23,12 @@ ELEMENT_POINTS: Style = {"color": house_style.VERMILLION, "marker": "s", "marker
 GLASS_POINTS: Style = {"color": house_style.BLUE, "marker": "o", "markersize": 3}
 # These points are measured against the angle: they must be converted to the axes of the figure.
 MEASURED_ANGLES = "kharaz2001/tangential_restitution"
+# What words of the picture mean, see `shared.drawing.words`.
+LEGEND_MEANS = {
+    "rubber": "rubber",
+    "finite elements": "chung_ooi2011|finite elements",
+    "Kharaz": "kharaz2001",
+}
 
 
 def shown_series(name: str, series: Series) -> Series:

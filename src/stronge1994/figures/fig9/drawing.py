@@ -14,6 +14,13 @@ from stronge1994.figures.shared.drawing.house_style import Entries, Points, Sett
 X, Y = "angle [deg]", "friction_dissipation [m2 S^2/2]"
 LABEL = r"dissipated by friction, $2D_1/m_2S^2$"
 PRINTED = "Eqs 39 to 41 as printed"
+# What words of the picture mean, see `shared.drawing.words`.
+AXIS_MEANS = {
+    r"dissipated by friction, $2D_1/m_2S^2$": r": friction_dissipation \[m2 S\^2/2\]",
+}
+LEGEND_MEANS = {
+    r"^as in \(a\)": "^mu = ",
+}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:

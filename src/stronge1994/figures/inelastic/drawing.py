@@ -19,6 +19,11 @@ PARAMETERS = "each pair's parameters"
 CHI_SQUARED = "chi_squared [1]"
 # Points of one restitution are drawn side by side, so far apart.
 APART = 0.0055
+# What words of the picture mean, see `shared.drawing.words`.
+AXIS_MEANS = {
+    r"tangential restitution $\beta_0$": r": tangential_restitution \[1\]",
+    r"$\chi^2$ of pairs": r": chi_squared \[1\]",
+}
 
 
 def shown_series(name: str, series: Series) -> Series:

@@ -20,6 +20,14 @@ NORMAL_LINE: Style = {"color": house_style.GREY, "linewidth": 0.8}
 FRICTION_LINE: Style = {"linewidth": 1.4}
 # A curve may have its number between these radii.
 LABELLED = 0.15, 0.9
+# What words of the picture mean, see `shared.drawing.words`.
+AXIS_MEANS = {
+    r"radius over $a_\mathrm{max}$": r": (contact|stick)_radius \[a_max\]",
+}
+LEGEND_MEANS = {
+    "^contact$": ": contact_radius ",
+    "^stick$": ": stick_radius ",
+}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:

@@ -27,6 +27,21 @@ CREATED = {"facecolor": house_style.VERMILLION, "alpha": 0.25, "linewidth": 0}
 JAM = {"facecolor": "white", "hatch": "//////", "edgecolor": "0.4", "linewidth": 0.6}
 SHADES = {"STICK_SLIP": "white", "SLIP_STICK_SLIP": "0.93", "SLIP_THROUGHOUT": "0.8"}
 RIBBONS = {"regime": "", "jams": "", "rigid: jams": "rigid, "}  # whose regime or jams
+# What words of the picture mean, see `shared.drawing.words`.
+AXIS_MEANS = {
+    r"tilt $\alpha$": r": tilt \[deg\]",
+    r"$v_1(t_f)/v_2(0)$": r": tangential_velocity \[v2\(0\)\]",
+    r"$v_2(t_f)/v_2(0)$": r": normal_velocity \[v2\(0\)\]",
+    "$K(t_f)/K(0)$": r": kinetic_energy \[K0\]",
+    r"$\Omega t$": r": time \[1/Omega\]",
+    r"force$/m_2\Omega v_2(0)$": r": (normal_force|friction_over_mu) ",
+}
+LEGEND_MEANS = {
+    "^compliant$": "^v1/v2",
+    "^rigid impulse$": "^rigid, v1/v2",
+    "Newton|creates energy": "^rigid, Newton",
+    "^jams": "jam",
+}
 
 
 def ribbon(row: str, ratio: str) -> str:

@@ -53,6 +53,11 @@ NAME = {
 NAME |= {"bbox": PLATE, "label": house_style.NO_DATA}
 LEADER = {"arrowstyle": "-|>", "mutation_scale": 6, "linewidth": 0.6, "color": house_style.BLACK}
 LEADER |= {"shrinkA": 0, "shrinkB": 0}
+# What words of the picture mean, see `shared.drawing.words`.
+AXIS_MEANS = {
+    "$m_2/m_1$": r": mass_ratio",
+    r"$\zeta^2$": r": stiffness_ratio",
+}
 
 
 def slice_of(axes: Mapping[str, Array], velocity: Array, places: Mapping[str, int]) -> Columns:

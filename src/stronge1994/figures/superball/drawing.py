@@ -17,6 +17,11 @@ Place: TypeAlias = tuple[float, float]
 PLACE, HEIGHT, SPIN = "place [m]", "height [m]", "spin_y [rad/s]"
 # Where the number of a flight stands, as a share of the flight, and its size as a share of the gap.
 NEAR, SIZE = 0.36, 0.065
+# What words of the picture mean, see `shared.drawing.words`.
+AXIS_MEANS = {
+    "distance from the first impact (m)": r": place \[m\]",
+    "height (m)": r": height \[m\]",
+}
 
 
 def sense(flight: int) -> str:

@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Curves
 from stronge1994.figures.shared.drawing import checked, house_style
+from stronge1994.figures.shared.drawing import words as meanings
 from stronge1994.figures.shared.drawing.house_style import Settings
 from stronge1994.figures.trade import drawing as draw_trade
 
@@ -51,6 +52,9 @@ LINE, FRAME = 0.22, 1.1
 APART = 0.27
 
 _Row: TypeAlias = dict[str, Any]
+# What words of the pictures mean, see `shared.drawing.words`.
+AXIS_MEANS = draw_trade.AXIS_MEANS | {"error, rms": r"^LAMMPS .*: rms_velocity \[mu v2\(0\)\]"}
+LEGEND_MEANS = draw_trade.LEGEND_MEANS | {"^LAMMPS: see": "^LAMMPS "}
 
 
 class _Line(NamedTuple):
@@ -290,5 +294,6 @@ def write(
         found = [draw(csv_tables.read(curves), theirs, settings), draw_errors(theirs)]
     except csv_tables.Failed as error:
         found = [(house_style.failure(f"trade: the solver failed: {error}"), {})] * 2
-    checked.save(*found[0], "trade_with_peers", *pictures)
-    checked.save(*found[1], "peers", *errors)
+    own = meanings.Words(meanings.AXES | AXIS_MEANS, meanings.LEGEND | LEGEND_MEANS)
+    checked.save(*found[0], "trade_with_peers", pictures[0], pictures[1], own)
+    checked.save(*found[1], "peers", errors[0], errors[1], own)

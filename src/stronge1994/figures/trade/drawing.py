@@ -39,6 +39,21 @@ UPPER_RIGHT = ("left", 4, 2.5)
 OTHER_LOSS, OF_OTHER_LOSS = "other loss", ("right", 5, 5)
 FLOOR = 1e-12  # smaller errors are rounding
 IMPACTS, TIME = "impacts [1]", "time [us]"
+# What words of the picture mean, see `shared.drawing.words`.
+AXIS_MEANS = {
+    TIME_WORDS: r": time_?\d* \[us\]",
+    ERROR_WORDS: r": rms_velocity \[mu v2\(0\)\]",
+    "impacts together": r": impacts \[1\]",
+}
+LEGEND_MEANS = {
+    "table, viscous": r"spheres\.viscous",
+    "table, plastic": r"spheres\.plastic",
+    "linear spring": "timestep.linear",
+    "^Mindlin$": r"timestep\.mindlin[,:]",
+    "Mindlin, rescaled": "mindlin_rescaled",
+    "^annuli$": "^annuli",
+    "^formula$": "^(rigid|laws)",
+}
 
 
 def over_batches(name: str) -> str:

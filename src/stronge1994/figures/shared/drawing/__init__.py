@@ -5,18 +5,20 @@ Nothing here solves: pictures are made from tables alone.
 
 import importlib
 from collections.abc import Mapping
+from types import ModuleType
 from typing import Any
 
 from matplotlib.figure import Figure
 
 from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import checked, house_style, tables
+from stronge1994.figures.shared.drawing import checked, house_style, tables, words
+from stronge1994.figures.shared.drawing.house_style import Points, Series, Settings
 
 
 def draw(
     figure: str,
-    settings: house_style.Settings,
+    settings: Settings,
     overlays: Mapping[str, Mapping[str, Any]],
     curves_path: str,
     series_paths: Mapping[str, str],
@@ -30,20 +32,24 @@ def draw(
         failure = house_style.failure(f"{figure}: the solver failed: {error}")
         checked.save(failure, {}, figure, svg, png)
         return
-    points: house_style.Points = {
+    points: Points = {
         name: _points(name, entry, series_paths[name.split("/")[0]])
         if "kind" in entry
         else dict(entry)
         for name, entry in overlays.items()
     }
-    checked.save(*drawn(figure, curves, settings, points), figure, svg, png)
+    module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
+    checked.save(*drawn(module, curves, settings, points), figure, svg, png, words.of(module))
 
 
 def drawn(
-    figure: str, curves: Curves, settings: house_style.Settings, points: house_style.Points
+    module: ModuleType, curves: Curves, settings: Settings, points: Points
 ) -> tuple[Figure, Curves]:
-    """The picture, not yet checked, and the tables of which it may show numbers."""
-    module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
+    """The picture that a module draws, not yet checked, and the tables of its numbers.
+
+    `shown` and `shown_series` of the module, if it has them, add to the curves what it draws beside
+    their columns, and convert reference series.
+    """
     if hasattr(module, "shown_series"):
         points = {name: module.shown_series(name, series) for name, series in points.items()}
     if hasattr(module, "shown"):
@@ -51,7 +57,7 @@ def drawn(
     return module.draw(curves, settings, points), tables.tables(curves, points)
 
 
-def _points(name: str, entry: Mapping[str, Any], path: str) -> house_style.Series:
+def _points(name: str, entry: Mapping[str, Any], path: str) -> Series:
     columns = csv_tables.read(path)[name.split("/")[1]]
     printed = [reference_data.sigma_column(entry[axis]) for axis in "xy"]
     return {

@@ -32,7 +32,8 @@ from matplotlib.text import Annotation, Text
 
 from planarimpact.ground.arrays import Array, Booleans
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import house_style, words
+from stronge1994.figures.shared.drawing import house_style
+from stronge1994.figures.shared.drawing.words import SHARED, Words
 
 File: TypeAlias = str | IO[bytes]
 
@@ -86,7 +87,14 @@ class _Drawn(NamedTuple):
     found: Sequence[_Columns]
 
 
-def save(figure: Figure, tables: Curves, name: str, svg: File, png: File | None = None) -> None:
+def save(
+    figure: Figure,
+    tables: Curves,
+    name: str,
+    svg: File,
+    png: File | None = None,
+    words: Words = SHARED,
+) -> None:
     """Check a figure and write both files. The same figure gives the same bytes.
 
     Parameters
@@ -96,7 +104,7 @@ def save(figure: Figure, tables: Curves, name: str, svg: File, png: File | None 
     svg, png : path or binary file
         The second may be left out.
     """
-    check(figure, tables, name)
+    check(figure, tables, name, words)
     # Matplotlib solves the layout in an order that changes from run to run, which changes the last
     # bits. So the places are rounded.
     figure.draw_without_rendering()
@@ -110,7 +118,7 @@ def save(figure: Figure, tables: Curves, name: str, svg: File, png: File | None 
         FigureCanvasAgg(figure).print_png(png)
 
 
-def check(figure: Figure, tables: Curves, name: str) -> None:
+def check(figure: Figure, tables: Curves, name: str, words: Words = SHARED) -> None:
     """Look up all that a figure shows.
 
     Parameters
@@ -133,9 +141,9 @@ def check(figure: Figure, tables: Curves, name: str) -> None:
         drawn: list[_Drawn] = []
         for axes in figure.axes:
             if axes not in bars and axes.get_label() != house_style.NO_DATA:
-                drawn += _Panel(axes, tables, colour).look_up()
+                drawn += _Panel(axes, tables, words, colour).look_up()
         for legend in figure.findobj(Legend):
-            _check_legend(legend, drawn)
+            _check_legend(legend, drawn, words)
     except NotInTable as error:
         raise NotInTable(f"{name}: {error}") from None
 
@@ -143,8 +151,8 @@ def check(figure: Figure, tables: Curves, name: str) -> None:
 class _Panel:
     """Axes, and the tables that their labels name."""
 
-    def __init__(self, axes: Axes, tables: Curves, colour: str) -> None:
-        self.axes, self.colour = axes, colour
+    def __init__(self, axes: Axes, tables: Curves, words: Words, colour: str) -> None:
+        self.axes, self.words, self.colour = axes, words, colour
         titled = {n: table for n, table in tables.items() if _belongs(n, axes.get_title("left"))}
         titled |= {n: table for n, table in tables.items() if n == axes.get_title()}
         self.tables = titled or tables
@@ -160,7 +168,7 @@ class _Panel:
         for curve, table in self.tables.items():
             chosen: list[tuple[str, ...]] = [()]
             for label in asked:
-                own = [column for column in table if words.of_axis(label, curve, column)]
+                own = [column for column in table if self.words.is_axis(label, curve, column)]
                 chosen = [(*before, column) for before in chosen for column in own]
             for names in filter(None, chosen):
                 numbers = [np.asarray(table[column], float) for column in names]
@@ -200,7 +208,9 @@ class _Panel:
         known = [columns for columns in self.columns if not columns.is_of_bars]
         if not self.labels[1]:  # categories, which the ticks may name
             category = _category(self.axes.yaxis, float(points[:, 1].mean()))
-            known = [c for c in known if not category or words.of_curve(category, c.curve, c.names)]
+            known = [
+                c for c in known if not category or self.words.is_curve(category, c.curve, c.names)
+            ]
         points = points[:, shown]
         if isinstance(artist, PolyCollection | Polygon):
             # Below and above it are lines of one or two curves, or one is a constant.
@@ -269,9 +279,9 @@ class _Panel:
             known = [number for one in found for number in self._numbers(one, point)]
             if not all(any(_is_written(number, value) for value in known) for number in numbers):
                 raise NotInTable(f"{self}: not every number of '{said}' is in its row")
-            if not words.names_a_curve(said):
+            if not self.words.names_a_curve(said):
                 return
-        if not any(words.of_curve(said, one.curve, one.names) for one in found):
+        if not any(self.words.is_curve(said, one.curve, one.names) for one in found):
             raise NotInTable(f"{self}: '{said}' is said of {_named(found)}")
 
     def _numbers(self, columns: _Columns, point: Array) -> Iterator[float]:
@@ -402,7 +412,7 @@ def _category(axis: Axis, at: float) -> str:
     return str(axis.get_major_formatter()(places[nearest], nearest))
 
 
-def _check_legend(legend: Legend, drawn: Sequence[_Drawn]) -> None:
+def _check_legend(legend: Legend, drawn: Sequence[_Drawn], words: Words) -> None:
     """What a legend says of a style must be true of what is drawn in it.
 
     An entry whose style nothing has stands for a colour or a pattern: then it is held against what
@@ -420,7 +430,7 @@ def _check_legend(legend: Legend, drawn: Sequence[_Drawn]) -> None:
         if not any(style) or said in [one.artist.get_label() for one in own]:
             continue
         for one in own:
-            if not any(words.of_curve(said, c.curve, c.names) for c in one.found):
+            if not any(words.is_curve(said, c.curve, c.names) for c in one.found):
                 raise NotInTable(f"the legend calls '{said}' what is {_named(one.found)}")
 
 

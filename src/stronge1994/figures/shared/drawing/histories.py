@@ -26,6 +26,14 @@ LIMIT_LINE = {"color": house_style.GREY, "linewidth": 0.6, "label": r"added here
 
 CROSS = {"color": house_style.BLACK, "markersize": 6, "clip_on": False}
 NORMAL, LIMIT = "normal_force [m2 Omega v2(0)]", "friction_limit [mu m2 Omega v2(0)]"
+# What words of the picture mean, see `shared.drawing.words`.
+AXIS_MEANS = {
+    r"velocity $v_1(t)/\mu v_2(0)$": r": velocity \[mu v2\(0\)\]",
+}
+LEGEND_MEANS = {
+    r"limit \$-": ": friction_limit ",
+    "separation": ": velocity ",
+}
 
 
 def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
