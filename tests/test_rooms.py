@@ -43,7 +43,7 @@ REPRODUCTION = {
     "reference_data": "csv_tables",
     "scene_parts": "scene csv_tables",
     "printed": "ground lumped",
-    "explorer_answers": "planarimpact lumped",
+    "explorer": "planarimpact lumped bodies export pages",
     "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
     " response scene study pandas printed csv_tables curve_names figures plan",
     "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"

@@ -7,9 +7,9 @@ import time
 
 import pytest
 
-from stronge1994 import explorer_answers as explorer_curves
 from stronge1994 import plan
-from stronge1994.pages import explorer as write_explorer
+from stronge1994.explorer import answers as explorer_curves
+from stronge1994.explorer import page as write_explorer
 from stronge1994.plan import config as configuration
 from tests.workflow import browser
 from tests.workflow.project import LEFT, PARTS, ROOT, TIMEOUT, Project, copy_of

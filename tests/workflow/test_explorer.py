@@ -16,7 +16,7 @@ from matplotlib.image import imread
 
 from planarimpact import bodies, continuum, lumped
 from stronge1994 import plan
-from stronge1994.pages import explorer as write_explorer
+from stronge1994.explorer import page as write_explorer
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
 from tests.workflow import browser

@@ -10,7 +10,7 @@ import pytest
 from planarimpact import Regime, export, lumped, rigid, spheres
 from planarimpact.spheres import table
 from stronge1994 import plan
-from stronge1994.pages import explorer as write_explorer
+from stronge1994.explorer import page as write_explorer
 from stronge1994.plan import config as configuration
 
 ROOT = Path(__file__).parents[2]

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from planarimpact import Regime, bodies, lumped, rigid
-from stronge1994 import explorer_answers as explorer_curves
-from stronge1994.pages import explorer as write_explorer
+from stronge1994.explorer import answers as explorer_curves
+from stronge1994.explorer import page as write_explorer
 from tests.workflow import browser
 
 SOLVER = Path(__file__).parents[2] / "workflow/explorer/solver.js"

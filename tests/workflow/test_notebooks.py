@@ -12,7 +12,7 @@ import nbformat
 import pytest
 
 from planarimpact.lumped import stick_slip
-from stronge1994.pages import explorer
+from stronge1994.explorer import page as explorer
 from stronge1994.pages import lectures as run_notebook
 
 ROOT = Path(__file__).parents[2]

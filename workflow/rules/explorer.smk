@@ -7,7 +7,8 @@ EXPLORER_PARTS += [f"{part}.js" for part in EXPLORER_SCRIPTS]
 rule explorer:
     """A page to play with one impact; it solves the lumped model itself."""
     input:
-        plan=planned("explorer", "write_explorer", "pages", "plan", "reference_data",
+        plan=planned("explorer", "write_explorer", "explorer", "pages/__init__.py",
+            "pages/templates.py", "plan", "reference_data",
             settings=lambda _: plan.settings_of_explorer(config)),
         sources=expand("workflow/explorer/{file}", file=EXPLORER_PARTS),
         shared=EVERY_PAGE,

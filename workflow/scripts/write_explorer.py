@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from stronge1994.explorer_answers import answers
-from stronge1994.pages import explorer
+from stronge1994.explorer import page as explorer
+from stronge1994.explorer.answers import answers
 from stronge1994.run import record
 
 with record.recorded(snakemake) as settings:

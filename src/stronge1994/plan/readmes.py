@@ -1,6 +1,6 @@
 """The tables of figures and of sources in the READMEs, made from their folders.
 
-After a figure or a source was added: `.venv/bin/python -m stronge1994.readme_tables`.
+After a figure or a source was added: `.venv/bin/python -m stronge1994.plan.readmes`.
 """
 
 import re
@@ -10,7 +10,7 @@ from pathlib import Path
 from stronge1994 import reference_data
 from stronge1994.plan import figures
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 
 def texts() -> dict[Path, str]:
