@@ -73,9 +73,9 @@ def explorer(tmp_path_factory):
     return path
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def tab():
-    """A tab of one browser for all tests of the explorer; they are skipped where none is found."""
+    """A tab of one browser for all tests of a file; they are skipped where none is found."""
     with browser.page() as found:
         yield found
 
@@ -86,7 +86,7 @@ def show(tab, explorer):
     tab.problems.clear()
 
     def opened(address="", width=1280, height=900, motion="reduce"):
-        tab.prefer(prefers_reduced_motion=motion)
+        tab.prefer(reduced_motion=motion)
         tab.resize(width, height, mobile=width < 500)
         tab.open("about:blank")
         tab.open(f"{explorer.as_uri()}#{address}")

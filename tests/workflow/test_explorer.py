@@ -5,7 +5,6 @@ import io
 import json
 import math
 import re
-import signal
 import time
 from pathlib import Path
 
@@ -19,7 +18,6 @@ from stronge1994 import plan
 from stronge1994.explorer import page as write_explorer
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
-from tests.workflow import browser
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "workflow/explorer"
@@ -481,33 +479,3 @@ def test_the_page_needs_nothing_else(explorer):
 def test_a_run_writes_this_page(first_run, explorer):
     written = first_run[0] / "figures/explorer.html"
     assert written.read_text(encoding="utf-8") == explorer.read_text(encoding="utf-8")
-
-
-# ---- the browser of these tests
-
-
-def test_without_a_browser_tests_are_skipped(monkeypatch):
-    monkeypatch.setattr(browser.shutil, "which", lambda name: None)
-    with pytest.raises(pytest.skip.Exception, match="chromium"), browser.page():
-        pass
-
-
-def test_a_browser_that_hangs_is_given_up_and_killed(monkeypatch):
-    started = []
-    popen = browser.subprocess.Popen
-    monkeypatch.setattr(
-        browser.subprocess, "Popen", lambda *a, **k: started.append(popen(*a, **k)) or started[-1]
-    )
-    with pytest.raises(browser.BrowserError, match="no answer within"), browser.page() as tab:
-        tab.timeout = 0.5
-        tab.evaluate("(() => { for (;;); })()")
-    assert started[0].returncode == -signal.SIGKILL
-
-
-def test_problems_of_a_page_are_noticed(tab):
-    tab.problems.clear()
-    tab.open("data:text/html,<script>console.error('oh'); missing()</script>")
-    assert any("oh" in words for words in tab.problems)
-    assert any("missing is not defined" in words for words in tab.problems)
-    with pytest.raises(browser.BrowserError, match="lost"):
-        tab.evaluate("(() => { throw new Error('lost'); })()")

@@ -120,7 +120,7 @@ def test_a_drag_throws(show):
     assert tab.evaluate(heard) == first
     trace = "document.querySelector('.thrown path').getAttribute('d').split('L').length"
     assert tab.evaluate(trace) >= 5
-    tab.prefer(prefers_reduced_motion="no-preference")
+    tab.prefer(reduced_motion="no-preference")
     tab.evaluate("document.querySelector('.scene form').requestSubmit()")
     tab.evaluate("new Promise((done) => setTimeout(done, 100))")
     assert tab.evaluate(trace) == 2

@@ -130,9 +130,7 @@ def test_a_search_that_does_not_end_says_so(search, row, show):
     text = SOLVER.read_text(encoding="utf-8")
     assert "MOST_TURNS = 100" in text
     body = text.replace("MOST_TURNS = 100", "MOST_TURNS = 1").replace("const solver = ", "return ")
-    with pytest.raises(
-        browser.BrowserError, match=rf"no onset of slip after 1 turns\s.*\s.*{search}"
-    ):
+    with pytest.raises(browser.Error, match=rf"no onset of slip after 1 turns\s.*\s.*{search}"):
         show().evaluate(f"(() => {{ {body} }})().rebound(...{json.dumps(row)})")
 
 

@@ -162,7 +162,7 @@ def look(tab):
         found = {}
         for window, (width, scheme, kinds) in WINDOWS.items():
             tab.resize(width, 900, mobile=width < 500)
-            tab.prefer(prefers_color_scheme=scheme, prefers_reduced_motion="reduce")
+            tab.prefer(color_scheme=scheme, reduced_motion="reduce")
             found[window] = tab.evaluate(FIND % json.dumps(options(kinds, left)))
             if (real := tab.evaluate("document.documentElement.scrollWidth")) > width:
                 found[window].append(f"too wide: {real} px")
