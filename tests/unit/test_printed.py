@@ -112,7 +112,7 @@ CURVES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("figure", CURVES, ids=lambda figure: figure.__name__.split(".")[-1])
+@pytest.mark.parametrize("figure", CURVES, ids=lambda figure: figure.__name__.split(".")[-2])
 def test_as_printed_curves_are_added_on_request_and_change_no_other(figure):
     settings = dict(mass_ratio=BETA, stiffness_ratio=ZETA2, samples=41, **CURVES[figure])
     plain = figure.curves(**settings)

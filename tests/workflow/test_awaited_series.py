@@ -66,7 +66,7 @@ def curves(inventory, tmp_path_factory):
         },
     )
     for module, change in ((fig5, coarse), (fig8, {})):
-        figure = module.__name__.rsplit(".", 1)[1]
+        figure = module.__name__.split(".")[-2]
         settings = plan.settings(CONFIG, inventory, figure) | change
         settings["samples"] //= 5
         csv_tables.write(folder / f"{figure}.csv", module.curves(**settings))
@@ -182,7 +182,7 @@ def test_a_regime_chooses_its_points(regime, points, judged):
     [(draw_fig5, RUBBER), *((draw_fig8, name) for name in list(AWAITED)[1:])],
 )
 def test_a_point_just_outside_the_axes_is_drawn(module, name, inventory, curves):
-    figure = module.__name__.rpartition(".")[2]
+    figure = module.__name__.split(".")[-2]
     points = {
         name: {"x": np.array([-0.05, 1.0]), "y": np.array([0.0, 0.1]), "sigma": (0.1, 0.1),
                "line": False, "parameters": {}}

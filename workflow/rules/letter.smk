@@ -5,7 +5,8 @@ PAIRS = config["figures"]["inelastic"]["points"].split("/")
 rule letter:
     """A letter to the author of the paper: does his model apply below e = 1?"""
     input:
-        plan=planned("letter", "write_letter", "pages", "figures/inelastic", "figures/shared/drawing", "ledger", "printed", "plan",
+        plan=planned("letter", "write_letter", "pages", "figures/inelastic/drawing.py",
+            "figures/shared/drawing", "ledger", "printed", "plan",
             "reference_data", settings=lambda _: PAIRS[1]),
         template="workflow/report/letter.html",
         parts=["workflow/report/page.css", "workflow/report/letter.css"],

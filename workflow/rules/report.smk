@@ -66,7 +66,8 @@ rule interface:
 rule report:
     """The run as one page, its sources and settings as another; always succeeds, whatever it reads."""
     input:
-        plan=planned("report", "write_report", "pages", "figures/shared/drawing", "judging", "ledger", "printed", "plan",
+        plan=planned("report", "write_report", "pages", "figures/inelastic/drawing.py",
+            "figures/shared/drawing", "judging", "ledger", "printed", "plan",
             "reference_data", "run", settings=lambda _: REPORT_SETTINGS),
         template="workflow/report/report.html",
         parts=REPORT_PARTS,

@@ -92,7 +92,7 @@ def with_values(node: Any) -> Any:
         return node.lower() == "true"
     if isinstance(node, str):
         for tag, number in {"int": int, "float": float}.items():
-            if strict_yaml.NUMBERS[f"tag:yaml.org,2002:{tag}"].fullmatch(node):
+            if strict_yaml.NUMBERS[tag].fullmatch(node):
                 return number(node)
         if node.lower() in ("nan", "inf", "-inf"):  # to be refused as numbers, not as words
             return float(node)

@@ -306,15 +306,14 @@ def _table(path: str | Path, name: str, series: Series) -> tuple[list[str], str,
             allowed = "commas or semicolons" if exported else "commas"
             raise SourceError(f"{path}, line {number}: a tab; cells are separated by {allowed}")
         lines.append(line)
-    between = digitiser_export.separator(lines) if exported else ","
-    reader = csv.reader(lines, delimiter=between, strict=True)
+    reader = csv.reader(lines, strict=True)
     try:
-        rows = [(reader.line_num, row) for row in reader]
         if exported:
             header = [column_name(series[axis]) for axis in ("x", "y")]
-            return header, *digitiser_export.points(rows, between, name)
+            return header, *digitiser_export.points(lines, name)
+        rows = [(reader.line_num, row) for row in reader]
     except csv.Error as error:
-        raise SourceError(f"{path}, line {reader.line_num}: {error}") from None
+        raise SourceError(f"{path}: {error}") from None
     except ValueError as error:
         raise SourceError(f"{path}, {error}") from None
     return (rows[0][1] if rows else []), ".", rows[1:]
