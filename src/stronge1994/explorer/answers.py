@@ -16,13 +16,8 @@ COUNT, SEED = 60, 1994
 def answers(limits: Mapping[str, Sequence[float]]) -> list[Answer]:
     """Rebounds of the lumped model: of random sliders, and of two bodies on every threshold.
 
-    Parameters
-    ----------
-    limits : dict
-        Smallest and largest value of each slider, angles in degrees.
+    `limits` holds the smallest and the largest value of each slider, angles in degrees.
 
-    Examples
-    --------
     >>> limits = dict.fromkeys(("angle", "friction", "restitution", "poisson_ratio"), (0.2, 0.4))
     >>> len(answers(limits | {"mass_ratio": (1, 10)})) > COUNT
     True

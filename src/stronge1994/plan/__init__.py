@@ -41,8 +41,6 @@ def settings(config: Config, inventory: Inventory, figure: str) -> dict[str, Any
 def materials(stated: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     """Settings that hold the materials among the parameters of a source, and one sigma of each.
 
-    Examples
-    --------
     >>> number = {"value": 70e9, "uncertainty": 1e9}
     >>> ratio = {"value": 0.22, "uncertainty": 0.02}
     >>> found = materials({"float_glass_young_modulus": number, "float_glass_poisson_ratio": ratio})

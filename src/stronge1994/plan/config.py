@@ -219,8 +219,6 @@ def judged(config: Config) -> list[str]:
 def table_of(name: str) -> str:
     """The file that is judged under a name.
 
-    Examples
-    --------
     >>> table_of("fig5"), table_of("scene_superball")
     ('results/curves/fig5.csv', 'results/scenes/superball.csv')
     """

@@ -23,15 +23,8 @@ def settings(config: Config) -> dict[str, Any]:
 def tables(config: Config) -> dict[str, str]:
     """Tables of the scene: `{name: path}`, in order; none if the config names no folder.
 
-    Parameters
-    ----------
-    config : dict
-        Its `scene_parts.tables` is a folder, each entry of which is a table, or a pattern for the
-        names in a folder. Hidden entries do not count. `~` is the home of the user.
-
-    Returns
-    -------
-    dict
+    `scene_parts.tables` of the config is a folder, each entry of which is a table, or a pattern for
+    the names in a folder. Hidden entries do not count. `~` is the home of the user.
     """
     if "tables" not in config["scene_parts"]:
         return {}
@@ -44,12 +37,6 @@ def check(config: Config, found: Mapping[str, str]) -> None:
     """Refuse what `tables` found in a folder if one of it cannot be solved, or if nothing is there.
 
     Jobs on a cluster look into the folder too, and do not check it: tables may be added meanwhile.
-
-    Raises
-    ------
-    ConfigError
-        If there is no such folder or no table in it, if a file is none that scenes read or has a
-        name that is not allowed, or if two differ only by their endings.
     """
     if "tables" not in config["scene_parts"]:
         return
@@ -95,18 +82,7 @@ def _folder(config: Config) -> tuple[Path, str]:
 
 
 def refuse_unusable(found: Collection[str]) -> None:
-    """Refuse no tables, and results of others: who reads the folder of results would count them.
-
-    Parameters
-    ----------
-    found : collection of str
-        Names of the tables.
-
-    Raises
-    ------
-    ConfigError
-        Naming what to set, or the first of these results.
-    """
+    """Refuse no tables, and results of others: who reads the folder of results would count them."""
     if not found:
         raise ConfigError("config: scene_parts.tables: not there; allowed is a folder of tables")
     strays = sorted({path.name for path in Path(RESULTS, "tables").glob("*")} - set(found))
