@@ -1,1 +1,1 @@
-"""The figures: a folder each, with what it solves, `curves.py`, and draws, `drawing.py`."""
+"""The figures, a folder each: figure.yaml states, curves.py solves, drawing.py draws."""

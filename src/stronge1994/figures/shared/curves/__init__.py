@@ -1,6 +1,11 @@
-"""The curves of the paper's figures: a module for each figure, settings in, named curves out.
+"""What several figures need to make their curves.
 
-Each module has one function `curves`, whose keywords are the settings of that figure in
-`workflow/config.yaml` with the physics shared by all. It returns `{name: {column: array}}`; a
-column's name carries its unit in brackets, S = (v1(0)^2 + v2(0)^2)^(1/2).
+The curves.py of a figure has one function `curves`. Its keywords are the settings in the
+figure.yaml beside it, and the shared physics of workflow/config.yaml that figure.yaml asks for:
+`mass_ratio` is beta and `stiffness_ratio` zeta^2. Some get more: `nodes`, points of reference
+tables through which the curves must pass, by the axis on which they lie; and `uncertainty`, one
+sigma of each uncertain parameter. An incidence is x = v1(0)/(mu v2(0)).
+
+What it returns is `{name: {column: array}}`. The name of a column carries its unit in brackets; S
+is (v1(0)^2 + v2(0)^2)^(1/2).
 """

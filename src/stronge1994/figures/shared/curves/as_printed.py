@@ -13,24 +13,12 @@ SAME = 1e-9
 def beside(name: str, curve: Columns, printed: ArrayLike) -> Curves:
     """Curves of the printed equations beside one curve of the model that they are to solve.
 
-    Parameters
-    ----------
-    name : str
-        Of the model's curve, for instance `e = 0.5`; empty for the only one.
-    curve : dict
-        Its columns, `{header: array}`, shape (n,): first the axis, then the quantity.
-    printed : array_like, shape (n,)
-        The quantity as printed; nan where the printed equations have no solution.
+    The first column of `curve` is its axis, the second the quantity; its `name` is empty if it is
+    the only curve. `printed` is the quantity as printed, nan where the printed equations have no
+    solution. `as printed, NAME` holds the places where they differ, and
+    `no solution as printed, NAME` those where they have none, with the model's quantity. Each is
+    left out if there is no such place.
 
-    Returns
-    -------
-    dict
-        `as printed, NAME` where the printed equations differ, and `no solution as printed, NAME`
-        where they have none; that one holds the model's quantity. Each only if there is such a
-        place.
-
-    Examples
-    --------
     >>> exact = {"x": np.arange(4), "w": np.arange(4)}
     >>> found = beside("e = 1", exact, [0, 1, 5, np.nan])
     >>> {name: columns["x"].tolist() for name, columns in found.items()}

@@ -17,16 +17,8 @@ def beside(
 ) -> Iterator[tuple[str, Rebound]]:
     """Names of curves and the rebounds of each continuum at each restitution.
 
-    Parameters
-    ----------
-    continua : dict, optional
-        `models`, `restitution` and `tolerance`, as in config.yaml; none are solved without it.
-    x : array_like, shape (n,)
-        Incidences.
-    mass_ratio, stiffness_ratio : float
+    `continua` is the setting of a figure, without which none are solved; `x` holds incidences.
 
-    Examples
-    --------
     >>> settings = {"models": ["continuum.viscous"], "restitution": [0.5], "tolerance": 1e-3}
     >>> [(name, found.velocity.tolist()) for name, found in beside(settings, [6.0], 3.5, 1.21)]
     [('continuum.viscous, e = 0.5', [0.75])]

@@ -17,25 +17,11 @@ def curves(
     restitution: Sequence[float],
     samples: int,
 ) -> Curves:
-    """One contact for each coefficient of restitution.
+    """One contact against time for each coefficient of restitution, in a curve `e = ...`.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, incidence : float
-        beta, zeta^2 and x = v1(0)/(mu v2(0)).
-    restitution : sequence of float
-        Coefficients e, one curve each, named `e = ...`.
-    samples : int
-        Instants a curve, besides its events.
+    The events come on top of the `samples`. The column `event` has the kind of an event at its
+    vertex, else it is empty.
 
-    Returns
-    -------
-    dict
-        Columns time, both forces, velocity, and `event`: its kind at the vertex where one
-        happens, else empty.
-
-    Examples
-    --------
     >>> contact = curves(3.5, 1.21, 1.0, [1.0], 50)["e = 1"]
     >>> [str(event) for event in contact["event"] if event]
     ['contact', 'stick', 'maximum compression', 'slip', 'separation']

@@ -16,21 +16,9 @@ NO_NODES: Nodes = MappingProxyType({})
 def vertices(span: Sequence[float], samples: int, *extra: ArrayLike) -> Array:
     """Evenly spread samples of `span` with `extra` points inside it, sorted, each once.
 
-    Parameters
-    ----------
-    span : (float, float)
-        First and last point.
-    samples : int
-        Number of evenly spread points, both ends included.
-    *extra : array_like
-        Points that a curve must pass through: thresholds, incidences of a reference table.
+    Both ends of the span are among the `samples`. Extra are points that a curve must pass through:
+    thresholds, incidences of a reference table.
 
-    Returns
-    -------
-    ndarray, sorted
-
-    Examples
-    --------
     >>> vertices((0.0, 2.0), 3, 1.21, [5.0]).tolist()
     [0.0, 1.0, 1.21, 2.0]
     """

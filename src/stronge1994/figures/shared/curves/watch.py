@@ -14,13 +14,8 @@ BUSY = 1.2
 class Watch:
     """Wall and CPU time of blocks of code, to see whether the machine gave them a whole core.
 
-    Attributes
-    ----------
-    wall, cpu : list of float
-        Seconds of each block.
+    `wall` and `cpu` hold the seconds of each block.
 
-    Examples
-    --------
     >>> watch = Watch()
     >>> with watch:
     ...     time.sleep(0.1)

@@ -95,15 +95,7 @@ def save(
     png: File | None = None,
     words: Words = SHARED,
 ) -> None:
-    """Check a figure and write both files. The same figure gives the same bytes.
-
-    Parameters
-    ----------
-    figure, tables, name
-        As for `check`.
-    svg, png : path or binary file
-        The second may be left out.
-    """
+    """Check a figure and write both files. The same figure gives the same bytes."""
     check(figure, tables, name, words)
     # Matplotlib solves the layout in an order that changes from run to run, which changes the last
     # bits. So the places are rounded.
@@ -119,21 +111,9 @@ def save(
 
 
 def check(figure: Figure, tables: Curves, name: str, words: Words = SHARED) -> None:
-    """Look up all that a figure shows.
+    """Look up all that a figure shows. `NotInTable` names the figure, the panel and the artist.
 
-    Parameters
-    ----------
-    figure : Figure
-        Not yet saved.
-    tables : dict
-        `{curve: {column: array}}`: the curves, the reference series, and what `shown` adds.
-    name : str
-        Of the figure, for the message.
-
-    Raises
-    ------
-    NotInTable
-        Naming figure, panel and artist, and what is not in the tables.
+    `tables` holds the curves, the reference series, and what `shown` adds.
     """
     try:
         bars = [axes for axes in figure.axes if axes.get_label() == "<colorbar>"]

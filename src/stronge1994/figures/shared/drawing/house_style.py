@@ -1,13 +1,18 @@
 """House style of the figures: fonts, colours, what each line means, and the parts they share.
 
-Each figN.py beside this file has one public function, `draw(curves, settings, points)`, which
-returns a Figure:
+A figure is a folder with figure.yaml, curves.py and drawing.py. Its drawing.py has a function
+`draw(curves, settings, points)`, which returns a Figure:
 
-- `curves`, what curves.py beside it returns, `{curve: {column: array}}`, and what its `shown`
-  adds; nothing else may be shown, see `checked`;
-- `settings`, the keywords it was called with, from which labels take their numbers;
-- `points`, the reference series that are not awaited, `{"source/series": {...}}` with arrays `x`
-  and `y`, their `sigma`, `line` and the source's `parameters`; and stated facts, as in source.yaml.
+- `curves`, what curves.py beside it returns, `{curve: {column: array}}`, and what a function
+  `shown` of drawing.py adds; nothing else may be shown, see `checked`;
+- `settings`, as curves.py gets them, from which labels take their numbers; only of a reference
+  table they have no more than the name;
+- `points`, the series of data/ that are at hand and were not computed, `{"source/series": {...}}`
+  with arrays `x` and `y`, their `sigma`, `line`, all `columns` and the source's `parameters`; and
+  stated facts, as in source.yaml.
+
+A drawing.py may also have `shown_series`, which converts such a series, and AXIS_MEANS and
+LEGEND_MEANS, see `words`. Only the parameter study differs: it has a solver and rules of its own.
 
 Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
 figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
@@ -145,8 +150,6 @@ def failure(message: str) -> Figure:
 def symbols(name: str) -> str:
     """Name of a curve in mathematical letters.
 
-    Examples
-    --------
     >>> symbols("mu = 0.1")
     '$\\\\mu = 0.1$'
     """
@@ -161,18 +164,8 @@ def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
 def of_restitution(e: float) -> Dashes:
     """Pattern of line of a restitution, the same in every figure.
 
-    Parameters
-    ----------
-    e : float
-        Coefficient of restitution, 0 to 1.
+    It is solid for 1 and dash-dot for 0. Between them are dashes, longer for a larger `e`.
 
-    Returns
-    -------
-    str or tuple
-        Solid for 1, dash-dot for 0; between them dashes, longer for a larger `e`.
-
-    Examples
-    --------
     >>> of_restitution(1), of_restitution(0.5)
     ('-', (0, (5.0, 2)))
     """
@@ -184,8 +177,6 @@ def of_restitution(e: float) -> Dashes:
 def restitutions(values: Iterable[float]) -> str:
     """Words for some restitutions.
 
-    Examples
-    --------
     >>> restitutions([0.5, 0.8])
     '$e = 0.5, 0.8$'
     """
@@ -202,13 +193,8 @@ def legend_below(
 ) -> None:
     """Legend below the axes, where it never covers a curve: one column for each group.
 
-    Parameters
-    ----------
-    figure : Figure
-    *groups : list of artists and strings
-        Entries with labels; a string is a heading, an empty one a gap.
-    titles : sequence of str, optional
-        Heading of each group.
+    A group has artists with labels, and strings: a string is a heading, an empty one a gap.
+    `titles` are headings of the groups.
     """
     columns = [list(group) for group in groups]
     for column, title in zip(columns, titles, strict=False):
@@ -233,20 +219,8 @@ def rigid(axes: Axes, x: Array, y: Array, compliant: Array) -> None:
 def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> Entries:
     """Draw what the printed equations give, and return entries of the legend.
 
-    Parameters
-    ----------
-    axes : Axes
-    curves : dict
-        All curves of a figure; those of `shared.curves.as_printed` are known by their names.
-        One of a restitution has its pattern, and an entry that names it.
-    x, y : str
-        Their columns.
-    equations : str
-        Their numbers, for the legend.
-
-    Returns
-    -------
-    list of artists
+    The curves of `shared.curves.as_printed` are known by their names. One of a restitution has its
+    pattern, and an entry that names it. `equations` are the numbers of the equations.
     """
     entries = {}
     for name, curve in curves.items():
@@ -267,21 +241,8 @@ def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> En
 def lossy(axes: Axes, curves: Curves, x: str, y: str, words: str, end: str = "") -> Entries:
     """Draw the continua that lose energy, and return entries of the legend.
 
-    Parameters
-    ----------
-    axes : Axes
-    curves : dict
-        All curves of a figure; the continua are known by the beginnings of their names.
-    x, y : str
-        Their columns.
-    words : str
-        What the legend adds to the name of each model.
-    end : str
-        Only curves whose names end so.
-
-    Returns
-    -------
-    list of artists
+    They are known by the beginnings of their names; only those are drawn whose names end with
+    `end`. The legend adds `words` to the name of each model.
     """
     entries = []
     for model, (label, style) in LOSSY.items():
@@ -309,17 +270,7 @@ def measured(axes: Axes, series: Series, **style: Any) -> Artist:
 def references(axes: Axes, points: Points, wanted: Mapping[str, tuple[str, Style]]) -> Entries:
     """Draw reference series; the legend has an entry for each, also for awaited ones.
 
-    Parameters
-    ----------
-    axes : Axes
-    points : dict
-        As `draw` gets it.
-    wanted : dict
-        `{"source/series": (label, style)}`.
-
-    Returns
-    -------
-    list of artists
+    `wanted` is `{"source/series": (label, style)}`.
     """
     return [
         measured(axes, points[name], label=label, **style)
@@ -330,15 +281,7 @@ def references(axes: Axes, points: Points, wanted: Mapping[str, tuple[str, Style
 
 
 def let_in(axes: Axes, series: Series) -> None:
-    """Widen axes to points that were digitised up to three sigmas outside them.
-
-    Parameters
-    ----------
-    axes : Axes
-        With their limits set.
-    series : dict
-        As `draw` gets it.
-    """
+    """Widen axes, whose limits are set, to points digitised up to three sigmas outside them."""
     for name, get, set_ in (
         ("x", axes.get_xlim, axes.set_xlim),
         ("y", axes.get_ylim, axes.set_ylim),
