@@ -24,34 +24,11 @@ def curves(
 ) -> Curves:
     """Both methods against the finest answer, and the continuum where it is tabulated.
 
-    Parameters
-    ----------
-    mass_ratio : float
-        beta.
-    stiffness_ratio : sequence of float
-        zeta^2: a curve `continuum, zeta2 = ...` each, at `nodes`. Errors are those of the first.
-    samples : int
-        Incidences at which errors are taken, spread over those that stick at some time.
-    tolerance : float
-        Of the finest answer, by the continuum.
-    steps, circles : sequence of int
-        Numbers of time steps and of circles that are tried.
-    fixed : dict
-        `steps` and `circles` of the annuli while the other number is tried.
-    nodes : dict, optional
-        Those of the reference tables, of `incidence`.
+    Errors are for the first stiffness ratio: root mean squares over incidences that stick at some
+    time. The observed order is that of the whole curve. `time` is that of an impact on this
+    machine, solved together with the others. Where the machine was busy, `busy_time` stands beside
+    it: wall time over CPU time, which is about how many times too long it is.
 
-    Returns
-    -------
-    dict
-        Curves of error by method with columns for what is varied, the error (root mean square
-        over the incidences), the order observed over the whole curve, and the time of an
-        impact on this machine, solved together with the others. Where the machine was busy,
-        `busy_time` stands beside it: wall time over CPU time, which is about how many times too
-        long it is.
-
-    Examples
-    --------
     >>> named = curves(3.5, [1.21], 5, 1e-4, [32, 64], [4, 8], {"steps": 64, "circles": 4})
     >>> list(named)[:2]
     ['row of springs', 'row of springs, extrapolated']

@@ -8,19 +8,8 @@ from stronge1994.csv_tables import Curves
 def curves(stiffness_ratio: float, restitution: float) -> Curves:
     """Loading and unloading lines in the units of Table 1.
 
-    Parameters
-    ----------
-    stiffness_ratio, restitution : float
-        zeta^2 and e.
+    The normal element unloads with the slope 1/e^2; the tangential one has the slope 1/zeta^2.
 
-    Returns
-    -------
-    dict
-        Curves `normal loading`, `normal unloading` (slope 1/e^2) and `tangential`
-        (slope 1/zeta^2), each with deflection and force.
-
-    Examples
-    --------
     >>> unloading = curves(1.21, 0.5)["normal unloading"]
     >>> unloading["deflection [v2(0)/Omega]"].tolist()  # 1 - e^2 remains
     [1.0, 0.75]

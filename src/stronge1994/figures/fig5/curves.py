@@ -39,45 +39,13 @@ def curves(
 ) -> Curves:
     """The lumped model, its limit and the elastic continuum; an experiment with loss.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, restitution : float
-        beta, zeta^2 and e of the figure.
-    incidence : (float, float)
-        Range of x = v1(0)/(mu v2(0)).
-    samples : int
-        Evenly spread vertices; thresholds come on top.
-    tolerance : float
-        Largest error of the elastic continuum, which has e = 1 whatever the restitution.
-    loss_tolerance : float
-        Largest error of the continua that lose energy, those of the experiment.
-    rubber : dict
-        `stiffness_ratio` of Johnson's rubber sphere.
-    experiment : dict
-        A sphere shot at a plane without spin: `mass_ratio`, `stiffness_ratio`,
-        `restitution`, `friction`, `speed` (m/s), `radius` (m).
-    finite_elements : dict
-        Of a finite-element solution: `mass_ratio`, `stiffness_ratio`, `restitution`.
-    uncertainty : dict, optional
-        One sigma of each parameter of the experiment that is uncertain.
-    nodes : dict, optional
-        More points that are vertices: of `incidence`, and of `angle` for the experiment.
-    as_printed : bool
-        Add what the printed equations give, see `as_printed`.
+    The elastic continuum has e = 1 whatever the restitution. `rubber` and `finite elements` have a
+    curve `lumped, ...` and `continuum, ...` each. The experiment, a sphere shot at a plane without
+    spin, has a curve of the lumped model and of each of `continua.MODELS`, with the quantities that
+    are measured against the angle of incidence; beside them stand curves with one parameter off by
+    one sigma, named by `curve_names.shifted`. `spin` is that after the impact, negative in the
+    direction of incidence; that of the experiment, in rad/s, has the other sign.
 
-    Returns
-    -------
-    dict
-        `lumped`, `no tangential compliance` and `continuum`; also `lumped, ...` and
-        `continuum, ...` for `rubber` and `finite elements`; and for the experiment `lumped,
-        experiment` and, for each of `continua.MODELS`, `MODEL, experiment`. `lumped`,
-        `continuum` and the curves of the finite elements have the regime, and the spin after impact
-        as R spin/(mu v2(0)), negative in the direction of incidence. The curves of the experiment
-        have the quantities that are measured against the angle of incidence. Beside them are curves
-        with one parameter off by one sigma, named by `curve_names.shifted`.
-
-    Examples
-    --------
     >>> sphere = dict(mass_ratio=3.5, stiffness_ratio=1.164, restitution=0.98, friction=0.092,
     ...               speed=3.9, radius=0.0025)
     >>> elements = dict(mass_ratio=3.5, stiffness_ratio=1.2143, restitution=1.0)

@@ -49,24 +49,11 @@ def shown_series(name: str, series: Series) -> Series:
 def contact_velocities(
     angle: ArrayLike, centre_restitution: ArrayLike, mass_ratio: float, friction: float
 ) -> tuple[Array, Array]:
-    """Measured points of a sphere without spin in the axes of the figure.
+    """Measured points of a sphere without spin in the axes of the figure, incidence and velocity.
 
-    Parameters
-    ----------
-    angle : array_like
-        Angle of incidence in degrees.
-    centre_restitution : array_like
-        Tangential velocity of the centre, after over before.
-    mass_ratio, friction : float
-        beta and mu.
+    `angle` is that of incidence, in degrees; `centre_restitution` is the tangential velocity of the
+    centre, after over before.
 
-    Returns
-    -------
-    incidence, velocity : ndarray
-        x = tan(theta)/mu and w = x (beta e_t - (beta - 1)).
-
-    Examples
-    --------
     >>> x, w = contact_velocities(45.0, 1.0, 3.5, 0.5)
     >>> round(float(x), 9), round(float(w), 9)
     (2.0, 2.0)

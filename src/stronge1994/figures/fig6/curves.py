@@ -23,33 +23,11 @@ def curves(
     nodes: Nodes = NO_NODES,
     as_printed: bool = False,
 ) -> Curves:
-    """One curve of the paper's model for each coefficient of restitution.
+    """One curve `e = ...` of the paper's model for each coefficient of restitution.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio : float
-        beta and zeta^2.
-    incidence : (float, float)
-        Range of x = v1(0)/(mu v2(0)).
-    restitution : sequence of float
-        Coefficients e, one curve each, named `e = ...`.
-    samples : int
-        Evenly spread vertices; thresholds come on top.
-    continua : dict, optional
-        Continua that lose energy, drawn beside them, see `continua.beside`.
-    nodes : dict, optional
-        More vertices, of `incidence`.
-    as_printed : bool
-        Add what the printed equations give, see `as_printed`.
+    Beside them stand the continua that lose energy, `continuum.viscous, e = ...`, and what the
+    printed equations give where it differs.
 
-    Returns
-    -------
-    dict
-        Columns incidence, velocity, peak friction, dissipation, regime; of the continua, named
-        `continuum.viscous, e = ...`, incidence and velocity.
-
-    Examples
-    --------
     >>> named = curves(3.5, 1.21, (0, 8), [0, 1], 9)
     >>> [float(curve["velocity [mu v2(0)]"][-1]) for curve in named.values()]
     [4.5, 1.0]

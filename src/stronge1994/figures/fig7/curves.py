@@ -25,29 +25,9 @@ def curves(
 ) -> Curves:
     """Peak forces over m2 Omega S; they do not depend on restitution when omega > Omega.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio : float
-        beta and zeta^2.
-    angle : (float, float)
-        Range of the angle of incidence in degrees.
-    friction : sequence of float
-        Coefficients mu.
-    samples : int
-        Evenly spread vertices; thresholds come on top.
-    nodes : dict, optional
-        More vertices, of `angle`.
-    as_printed : bool
-        Add what the printed equations give, see `as_printed`.
+    The curves are `normal`; `mu = ...` and `no tangential compliance, mu = ...` for each mu; and
+    `slip throughout`, below which the contact slides throughout.
 
-    Returns
-    -------
-    dict
-        `normal`; `mu = ...` and `no tangential compliance, mu = ...` for each mu;
-        `slip throughout`, below which the contact slides throughout.
-
-    Examples
-    --------
     >>> named = curves(3.5, 1.21, (0, 90), [0.5], 91)
     >>> column = "peak_force [m2 Omega S]"
     >>> float(named["mu = 0.5"]["angle [deg]"][named["mu = 0.5"][column].argmax()])

@@ -22,32 +22,10 @@ def curves(
 ) -> Curves:
     """Peak forces at one speed of incidence.
 
-    The paper states no contact stiffness. Omega is taken so that the peak force at normal
-    incidence is Hertz's for this ball and mass; only angles and ratios test the model.
+    The paper states no contact stiffness. Omega is taken so that the peak force at normal incidence
+    is Hertz's for this ball and mass; only angles and ratios test the model. The lowest friction of
+    a contact is negative where friction turns round.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio : float
-        beta and zeta^2.
-    angle : (float, float)
-        Range of the angle of incidence in degrees.
-    friction, speed, mass : float
-        mu; S in m/s; mass of ball and holder in kg.
-    ball : dict
-        `radius` (m), `young_modulus` (Pa) and `poisson_ratio` of ball and plate.
-    samples : int
-        Evenly spread vertices; thresholds come on top.
-    nodes : dict, optional
-        More vertices, of `angle`.
-
-    Returns
-    -------
-    dict
-        `normal`, and `friction` with the ratio of its peak to mu times the normal peak and
-        the lowest friction of the contact: negative where friction turns round.
-
-    Examples
-    --------
     >>> steel = dict(radius=0.0127, young_modulus=207e9, poisson_ratio=0.3)
     >>> named = curves(3.5, 1.21, (0, 90), 0.18, 0.048, 0.101, steel, 91)
     >>> round(float(named["normal"]["peak_force [N]"][0]))

@@ -29,32 +29,10 @@ def curves(
 ) -> Curves:
     """Dissipation by friction over m2 S^2/2, from two independent calculations.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio : float
-        beta and zeta^2.
-    angle : (float, float)
-        Range of the angle of incidence in degrees.
-    friction, restitution : sequence of float
-        Coefficients mu and e, a curve for each pair.
-    samples : int
-        Evenly spread vertices; thresholds come on top.
-    continua : dict, optional
-        Continua that lose energy, drawn beside them, see `continua.beside`.
-    nodes : dict, optional
-        More vertices, of `angle`.
-    as_printed : bool
-        Add what the printed equations give, see `as_printed`.
+    `mu = ..., e = ...` has the dissipation from the balance of energy, and the work of friction
+    integrated over the phases of slip. The continua, `continuum.viscous, mu = ..., e = ...`, have
+    the work of friction.
 
-    Returns
-    -------
-    dict
-        `mu = ..., e = ...` with the dissipation from the balance of energy and the work of
-        friction integrated over the phases of slip; `no tangential compliance, ...`. Of the
-        continua, named `continuum.viscous, mu = ..., e = ...`, with the work of friction.
-
-    Examples
-    --------
     >>> named = curves(3.5, 1.21, (0, 90), [0.5], [1.0], 10)
     >>> sorted(named)
     ['mu = 0.5, e = 1', 'no tangential compliance, mu = 0.5, e = 1']

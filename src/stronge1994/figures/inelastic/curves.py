@@ -48,43 +48,12 @@ def curves(
 ) -> Curves:
     """What each model says of the measured pairs, of every restitution, and of every incidence.
 
-    Parameters
-    ----------
-    mass_ratio : float
-        beta.
-    points : dict
-        Measured pairs, columns of data/cornell1999/pairs.csv: `pair`, `body`, `other`,
-        `restitution`, `friction`, and their `..._uncertainty`.
-    materials : dict
-        Columns `material`, `young_modulus` [Pa] and `poisson_ratio`.
-    restitution : sequence of float
-        Of the bands.
-    poisson_ratio : (float, float)
-        Of both edges of a band.
-    contact : dict
-        `restitution` and `poisson_ratio` of the contact that is solved over all incidences.
-    incidence : (float, float)
-        Their range, in mu v2(0).
-    samples : int
-        Their number.
-    fit : dict
-        How beta_0 is found: see `tangential_restitution`. `friction` is that of the bands, `solved`
-        the number of incidences that are solved for one fit.
-    tolerance : float
-        Largest error of the continua.
-    uncertainty : dict, optional
-        One sigma of each material's `young_modulus` and `poisson_ratio`.
+    `points` has the columns of data/cornell1999/pairs.csv; the moduli of `materials` are in Pa. For
+    each of `MODELS` there are `<model>, pairs`, `<model>, nu = ...` for both edges of the band, and
+    `<model>, e = ...`. With `uncertainty`, one sigma of the materials' properties, there are also
+    `<model>, pairs; each pair's parameters +- 1 sigma`: beta_0 with the standard deviation that it
+    has from restitution, friction and moduli, which are each pair's own.
 
-    Returns
-    -------
-    dict
-        For each of `MODELS`: `<model>, pairs`, `<model>, nu = ...` for both edges of the band, and
-        `<model>, e = ...`. With uncertainties also `<model>, pairs; each pair's parameters +- 1
-        sigma`: beta_0 with the standard deviation that it has from restitution, friction and
-        moduli, which are each pair's own.
-
-    Examples
-    --------
     >>> pairs = {"pair": ["glass"], "body": ["glass"], "other": ["glass"], "restitution": [0.97],
     ...          "friction": [0.1]}
     >>> glass = {"material": ["glass"], "young_modulus": [7e10], "poisson_ratio": [0.2]}
@@ -220,19 +189,8 @@ def tangential_restitution(x: ArrayLike, w: ArrayLike, beta: float, e: float) ->
     """beta_0 of the two lines that fit rebounds best: w = max(-beta_0 x, x - (1 + e) beta).
 
     The line of slip throughout is known, so beta_0 is all that is fitted, by least squares of w.
+    All incidences `x` are above 0.
 
-    Parameters
-    ----------
-    x, w : array_like, shape (n,)
-        Incidences, ascending and above 0, and velocities at separation.
-    beta, e : float
-
-    Returns
-    -------
-    float
-
-    Examples
-    --------
     >>> x = np.linspace(0.1, 7, 70)
     >>> round(tangential_restitution(x, np.maximum(-0.4 * x, x - 7), 3.5, 1.0), 9)
     0.4

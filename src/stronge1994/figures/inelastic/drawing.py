@@ -34,8 +34,6 @@ def shown_series(name: str, series: Series) -> Series:
 def side_by_side(x: Array) -> Array:
     """Abscissae of points; those of nearly the same are moved apart a little, about their mean.
 
-    Examples
-    --------
     >>> side_by_side(np.array([0.9, 0.97, 0.9])).round(3).tolist()
     [0.897, 0.97, 0.903]
     """
@@ -188,8 +186,6 @@ def _draw_pairs(axes: Axes, series: house_style.Series) -> None:
 def spread(y: Array, apart: float, low: float, high: float) -> Array:
     """Heights of labels: near their points, in their order, at least so far apart.
 
-    Examples
-    --------
     >>> spread(np.array([1.0, 1.0, 5.0]), 1.0, 0.0, 10.0).tolist()
     [0.5, 1.5, 5.0]
     """
@@ -251,8 +247,6 @@ def _draw_chi_squared(axes: Axes, curves: Curves, degrees: int) -> None:
 def words_of(p: float) -> str:
     """Probability in a few letters.
 
-    Examples
-    --------
     >>> print(words_of(0.224), words_of(3.6e-26))
     $p = 0.22$ $p = 4 \\times 10^{-26}$
     """

@@ -17,26 +17,8 @@ def curves(
 ) -> Curves:
     """Contacts of the elastic continuum, and of the lumped model where forces are compared.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio : float
-        beta and zeta^2; e = 1.
-    incidences : sequence of float
-        x = v1(0)/(mu v2(0)), a curve `continuum, x = ...` each.
-    forces : sequence of float
-        Incidences with a curve `lumped, x = ...` beside it.
-    samples : int
-        Instants of the lumped model, besides its events.
-    tolerance : float
-        Largest error of the continuum's friction and velocity.
+    Both have e = 1. The events of the lumped model come on top of its `samples`.
 
-    Returns
-    -------
-    dict
-        Columns time, both forces, velocity; of the continuum also the radii of contact and stick.
-
-    Examples
-    --------
     >>> list(curves(3.5, 1.21, [1.0], [1.0], 50, 1e-2))
     ['continuum, x = 1', 'lumped, x = 1']
     """

@@ -27,34 +27,12 @@ def curves(
 ) -> Curves:
     """Rebound against the tilt, compliant and rigid, and one contact that jams.
 
-    Parameters
-    ----------
-    stiffness_ratio : float
-        zeta^2.
-    tilt : (float, float)
-        Range of the rod's angle from the normal in degrees, see `slender_rod`.
-    velocity_ratio : sequence of float
-        v1(0)/v2(0) of the tip, not divided by mu; three curves each.
-    friction, restitution : float
-        Coefficients mu and e; e is energetic, but in the curves `rigid, Newton, ...`, where it is
-        the ratio of the normal velocities.
-    samples : int
-        Evenly spread tilts, and instants of the contact; limits of the jam and events come on top.
-    contact : dict
-        `tilt` in degrees and `velocity_ratio` of the contact that is followed through.
-    nodes : dict, optional
-        More vertices, of `tilt`.
+    The velocity ratio v1(0)/v2(0) is not divided by mu. The restitution is energetic, but in the
+    curves `rigid, Newton, ...`, where it is the ratio of the normal velocities. Velocities are
+    those of the tip, after the impact; negative normal ones leave. The kinetic energy before it is
+    K0, see `noncollinear.kinetic_energy`. `contact` and `contact, mu = 0` are followed over time,
+    with a column `event` as in Fig. 3.
 
-    Returns
-    -------
-    dict
-        `v1/v2 = ...`, `rigid, v1/v2 = ...` and `rigid, Newton, v1/v2 = ...`: velocities of the tip
-        after the impact, negative normal ones leave; kinetic energy after it in K0, that before it
-        (`noncollinear.kinetic_energy`), also what is lost and where it goes; jams is 0 or 1.
-        `contact` and `contact, mu = 0`: forces and velocities against time, `event` as in Fig. 3.
-
-    Examples
-    --------
     >>> one = {"tilt": 25.0, "velocity_ratio": 10.0}
     >>> named = curves(1.21, (-80, 80), [0.6], 1.6, 0.9, 11, one)
     >>> list(named)[:3]
@@ -97,18 +75,9 @@ def curves(
 def slender_rod(tilt: ArrayLike) -> InverseMass:
     """Inverse mass at the tip of a uniform slender rod, in units of 1/m2.
 
-    Parameters
-    ----------
-    tilt : array_like
-        Angle from the normal in degrees; positive where the tip, in the direction of positive
-        tangential velocity, is ahead of the centre.
+    The tilt is the angle from the normal in degrees; it is positive where the tip, in the direction
+    of positive tangential velocity, is ahead of the centre.
 
-    Returns
-    -------
-    noncollinear.InverseMass
-
-    Examples
-    --------
     >>> [round(float(entry), 12) for entry in slender_rod(45.0)]
     [1.0, 0.6, 1.0]
     """
@@ -123,8 +92,6 @@ def jam_limits(friction: float) -> Array:
 
     c m2 = 3 tan/(1 + 4 tan^2) is at most 3/4, so there are none for mu <= 4/3.
 
-    Examples
-    --------
     >>> jam_limits(1.6).round(1).tolist()
     [-43.0, -15.0, 15.0, 43.0]
     >>> jam_limits(1.3).tolist()

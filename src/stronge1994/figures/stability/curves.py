@@ -30,28 +30,14 @@ _Result = TypeVar("_Result")
 def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
     """Digits of every output at given impacts, and the balances of their contacts.
 
-    Parameters
-    ----------
-    points : dict of sequences of float
-        A table of answers of many digits: the groups of `lumped.rebound` and the outputs
-        velocity, peak_friction, dissipation by name; `condition_...` of each output, the sum of
-        abs(p d(output)/dp) over the groups p; phases.
-    most_phases : int
-        Contacts of 2 to so many phases are followed through, for their balances.
+    `points` has answers of many digits and their conditions, see data/lumped_extremes/source.yaml.
+    Allowed are the digits that the condition of an output leaves if every number is rounded once;
+    `digits_lost` says how many fewer the worst output has. An impact that raises, warns or gives
+    NaN has no digits and loses 16. In `contacts`, `friction_excess` is how far friction exceeds the
+    Coulomb limit at the worst event; `energy_residual` is how far the work of friction along the
+    contact differs from the balance of energy, over the most work that friction could do plus the
+    condition.
 
-    Returns
-    -------
-    dict
-        `impacts`: for each output the digits found, -log10 of its relative error, and the digits
-        that its condition allows if every number is rounded once, both cut to 0 ... 16;
-        `digits_lost`, how many fewer the worst output has than allowed. An impact that raises,
-        warns or gives NaN has no digits and loses 16.
-        `contacts`: how far friction exceeds the Coulomb limit at the worst event; how far the
-        work of friction along the contact differs from the balance of energy, divided by the
-        most work that friction could do there plus the condition (0 for e = 0).
-
-    Examples
-    --------
     >>> table = {"incidence": [8.0], "mass_ratio": [3.5], "stiffness_ratio": [1.21]}
     >>> table |= {"restitution": [1.0], "velocity": [1.0], "peak_friction": [1.0]}
     >>> table |= {"dissipation": [9.0], "condition_velocity": [18.5], "phases": [1]}

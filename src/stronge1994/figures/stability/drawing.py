@@ -82,8 +82,6 @@ def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
 def in_cells(column: str) -> str:
     """Name of a column that counts cells of another.
 
-    Examples
-    --------
     >>> in_cells("restitution [1]")
     'restitution [cell]'
     """

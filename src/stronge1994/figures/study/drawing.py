@@ -74,14 +74,8 @@ def slice_of(axes: Mapping[str, Array], velocity: Array, places: Mapping[str, in
 def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> tuple[Figure, Curves]:
     """Draw the velocity at separation in colours, where it is zero, and where regimes meet.
 
-    Also the tables of which the figure shows numbers.
-
-    Parameters
-    ----------
-    axes : dict of ndarray
-        The four groups, one dimension each.
-    velocity, regime : ndarray
-        Outputs over the grid, with a dimension for each axis.
+    `velocity` and `regime` have a dimension for each of the `axes`. Also returned are the tables of
+    which the figure shows numbers.
     """
     names = list(axes)
     across, upright = sorted(sorted(names, key=lambda name: -len(axes[name]))[:2], key=names.index)

@@ -16,24 +16,11 @@ TOLERANCE = 1e-4
 def curves(throw: dict[str, Any]) -> Curves:
     """Path of a ball between a floor and the underside of a table, and each impact.
 
-    Parameters
-    ----------
-    throw : dict
-        `radius` [m], `density` [kg/m^3], `young_modulus` [Pa] and `poisson_ratio` of the ball,
-        `friction`, `restitution` and `loss`, as in a scene; `velocity` [m/s] before the first
-        impact, on the floor, along and up; `spin` [rad/s] before it, positive where it moves the
-        foot of the ball forward; `gap` [m] between floor and table; `bounces`.
+    `path` has one row before the first impact, one at each, one after the last; velocity and spin
+    are those after it. They have the names and signs of a scene in space, x along the floor and z
+    up: spin_y is positive where the ball turns as if it rolled forward on the floor, and -`spin`
+    before the first impact. Gravity is left out.
 
-    Returns
-    -------
-    dict
-        `path`: one row before the first impact, one at each, one after the last; velocity and spin
-        are those after it. They have the names and signs of a scene in space, x along the floor and
-        z up: spin_y is positive where the ball turns as if it rolled forward on the floor, and
-        -`spin` before the first impact. Gravity is left out.
-
-    Examples
-    --------
     >>> ball = {"radius": 0.025, "density": 1100.0, "young_modulus": 5e6, "poisson_ratio": 0.5}
     >>> throw = {"friction": 0.8, "restitution": 0.9, "loss": "viscous"}
     >>> throw |= {"velocity": [6, -5], "spin": 0, "gap": 0.7, "bounces": 3}
@@ -77,15 +64,7 @@ def impacts(
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """The impacts of a throw as a scene, each from the state after the one before, and its result.
 
-    Parameters
-    ----------
-    friction, restitution, loss, velocity, spin, gap, bounces, **ball
-        As `throw` in `curves`.
-
-    Returns
-    -------
-    before, after : DataFrame
-        As `planarimpact.scene.solve` takes and returns them.
+    Both tables are as `planarimpact.scene.solve` takes and returns them.
     """
     fixed: dict[str, Any] = ball | {"friction": friction, "restitution": restitution}
     fixed["loss"] = loss

@@ -28,11 +28,9 @@ def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -
     """The cheapest model that meets each tolerance, for each restitution, loss and size of batch.
 
     A model meets a tolerance if its largest error of velocity does, with the error of the reference
-    added. A row has the largest error of the continuum with the other loss, the spread of the
-    answer under uncertain inputs, and for each batch the model or "none", its largest error, and
-    its time per impact. Any time of compilation is spread over the batch; a time that was taken on
-    a busy machine is left out. The model is `BUSY` where nobody can know: the CPU time of some
-    model alone is below the time of all others, but its own time is not.
+    added; if no model does, it is "none". Any time of compilation is spread over the batch; a time
+    that was taken on a busy machine is left out. The model is `BUSY` where nobody can know: the CPU
+    time of some model alone is below the time of all others, but its own time is not.
 
     >>> row = {"restitution [1]": "1", "max_velocity [mu v2(0)]": "0.2", "build_time [s]": ""}
     >>> row |= {"reference_error [mu v2(0)]": "1e-7", "time_10 [s]": "3e-5", "loss": ""}

@@ -45,45 +45,11 @@ def curves(
 
     For e = 1 the errors are those against the elastic continuum. For e < 1 every model is measured
     twice, against the viscous and against the plastic continuum. So the error of the other
-    continuum is what the wrong loss costs.
+    continuum is what the wrong loss costs. `seen` is the share of incidences where the error of the
+    model is larger than the spread of the reference under uncertain inputs, see `input_spread`;
+    `input_spread_stick` is over those incidences that stick at first. "response of ..." is compiled
+    once, in `build_time`, and then evaluated. Times and `busy_...` are as in `times`.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio : float
-        beta and zeta^2.
-    incidence : (float, float)
-        Range of x = v1(0)/(mu v2(0)).
-    samples : int
-        Incidences at which errors are taken, evenly spread over the range.
-    restitution : sequence of float
-        Energetic coefficients.
-    tolerance : float
-        Of the reference, the continuum.
-    steps, circles, tolerances : sequence
-        Settings that are tried. Of a model with two, annuli, the second keeps its default.
-    inelastic : dict
-        `tolerance` and `tolerances` in place of these for e < 1.
-    batches : sequence of int
-        Numbers of impacts that are solved together; times are for one of them.
-    budget : float
-        Seconds that a batch may take as predicted from the smaller one before; beyond, it is
-        left out.
-
-    Returns
-    -------
-    dict
-        `{"<model>, <settings>, e = <restitution>, <loss>": {column: array of one}}`: model,
-        settings and loss; errors, root mean square and largest, in velocity, peak friction
-        (laws of impulses leave it open) and dissipation; the error of the reference itself; the
-        spread of its velocity under uncertain inputs, see `input_spread`, root mean square over all
-        incidences and over those that stick at first; `seen`, the share of incidences where the
-        error of the model is larger than that spread; times. "response of ..." is compiled once, in
-        `build_time`, and then evaluated. A time taken while the machine was busy has a column
-        beside it, `busy_<batch>` or `busy_build`: wall time over CPU time, which is about how many
-        times too long it is.
-
-    Examples
-    --------
     >>> inelastic = {"tolerance": 1e-2, "tolerances": [1e-2]}
     >>> named = curves(3.5, 1.21, [0, 8], 9, [0.8], 1, [16], [4], [1], inelastic, [1], 1.0)
     >>> list(named)[2:4]
@@ -197,25 +163,8 @@ def _name(contender: _Contender, e: float, loss: str) -> str:
 
 
 def reference(x: Array, groups: dict[str, float], tolerance: float, loss: str) -> Rebound:
-    """What errors are measured against.
+    """What errors are measured against. The `loss`, viscous or plastic, has no meaning for e = 1.
 
-    Parameters
-    ----------
-    x : ndarray
-        Incidences.
-    groups : dict
-        mass_ratio, stiffness_ratio, restitution.
-    tolerance : float
-        Of this continuum.
-    loss : str
-        "viscous" or "plastic"; without meaning for e = 1.
-
-    Returns
-    -------
-    Rebound
-
-    Examples
-    --------
     >>> groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 0.5}
     >>> float(reference(np.array([8.0]), groups, 1e-3, "plastic").velocity[0])
     2.75
@@ -227,18 +176,9 @@ def reference(x: Array, groups: dict[str, float], tolerance: float, loss: str) -
 def input_spread(x: Array, groups: dict[str, float], loss: str) -> Array:
     """Root mean square change of the velocity if e is known to 0.02 and mu to 10 %.
 
-    Parameters
-    ----------
-    x, groups, loss
-        As in `reference`. For e = 1 lower values of e are those of the viscous continuum.
+    It is in mu v2(0), at each incidence. For e = 1 lower values of e are those of the viscous
+    continuum.
 
-    Returns
-    -------
-    ndarray
-        mu v2(0), at each incidence.
-
-    Examples
-    --------
     >>> groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 1.0}
     >>> input_spread(np.array([8.0]), groups, "").round(2)
     array([0.7])
@@ -250,8 +190,6 @@ def input_spread(x: Array, groups: dict[str, float], loss: str) -> Array:
 def root_mean_square(values: Array) -> float:
     """Root mean square; NaN of none.
 
-    Examples
-    --------
     >>> root_mean_square(np.array([3.0, -3.0]))
     3.0
     """
@@ -261,18 +199,8 @@ def root_mean_square(values: Array) -> float:
 def errors(found: Rebound, exact: Rebound) -> dict[str, float]:
     """Root mean square and largest error of each field that a model answers.
 
-    Parameters
-    ----------
-    found, exact : Rebound
-        Arrays of one length; NaN in a field, other than velocity, that `found` leaves open.
+    A field, other than velocity, that `found` leaves open is NaN there, and has no columns.
 
-    Returns
-    -------
-    dict
-        Columns of one number.
-
-    Examples
-    --------
     >>> from planarimpact import rigid
     >>> from planarimpact.models import laws
     >>> x = np.array([1.0, 8.0])
@@ -298,26 +226,13 @@ def times(
 ) -> dict[str, float]:
     """Time of an impact in each batch, as far as the budget goes.
 
-    Parameters
-    ----------
-    seconds : callable
-        Solves incidences and returns how long that took. It has solved some before: the first call
-        of all pays for what is kept.
-    incidence : (float, float)
-        Range of the incidences, which are random; the same ones in every run.
-    batches : sequence of int
-        Smaller ones are solved first, and left in.
-    budget : float
-        As in `curves`.
+    `seconds` solves incidences and returns how long that took; it has solved some before, since the
+    first call of all pays for what is kept. The incidences are random, the same ones in every run.
+    A batch is left out, and all larger ones, if it would take more seconds than the budget, as the
+    smaller one before it predicts. A column has the median time of the calls, over the batch. Where
+    the machine was busy, `busy_<batch>` follows: wall time over CPU time, which is about how many
+    times too long the time is.
 
-    Returns
-    -------
-    dict
-        A column for each batch that was solved: the median time, over the batch. Where the machine
-        was busy, `busy_<batch>` follows: the median wall time of the calls over their CPU time.
-
-    Examples
-    --------
     >>> times(lambda x: 0.001 * x.size, (0, 8), [1, 10, 10000], budget=0.1)
     {'time_1 [s]': 0.001, 'time_10 [s]': 0.001}
     """

@@ -67,16 +67,8 @@ class _Line(NamedTuple):
 def draw(curves: Curves, peers: Curves, settings: Settings) -> tuple[Figure, Curves]:
     """Draw figure `trade` with the other codes at e = 1, and the tables of which it shows numbers.
 
-    Its title names the codes that are not installed.
-
-    Parameters
-    ----------
-    curves : dict
-        Of results/curves/trade.csv.
-    peers : dict
-        Of results/peers.csv.
-    settings : dict
-        Of the figure `trade`.
+    `curves` are those of results/curves/trade.csv, `peers` those of results/peers.csv. The title
+    names the codes that are not installed.
     """
     codes = dict.fromkeys(LAWS, TOGETHER) | {"pooltool": POOLTOOL}
     theirs = {
@@ -131,10 +123,7 @@ def _draw_laws(axes: Axes, peers: Curves, batch: int) -> None:
 def draw_errors(peers: Curves) -> tuple[Figure, Curves]:
     """Draw the errors below e = 1 of each code and model, a panel for each loss; and their tables.
 
-    Parameters
-    ----------
-    peers : dict
-        Of results/peers.csv. If no code is installed, the figure says so.
+    If no code is installed, the figure says so.
     """
     rows = [{key: value[0] for key, value in row.items()} for row in peers.values()]
     rows = [row for row in rows if row.get(LOSS) in PANELS and ERROR in row and _is_drawn(row)]
@@ -199,8 +188,6 @@ def _errors(rows: Sequence[_Row], values: Sequence[float]) -> Curves:
 def _is_drawn(row: _Row) -> bool:
     """Whether a row is drawn: a continuum once, in the panel of the other loss.
 
-    Examples
-    --------
     >>> _is_drawn({"model": "lumped", "loss": "viscous"})
     True
     >>> _is_drawn({"model": "continuum.viscous", "loss": "viscous"})
@@ -234,8 +221,6 @@ def _lines(rows: Sequence[_Row]) -> list[_Line]:
 def _words(row: _Row) -> str:
     """Words for the code and settings of a row.
 
-    Examples
-    --------
     >>> _words({"model": "LAMMPS mindlin, viscoelastic, xt = 0.5", "steps [1]": 256.0})
     'mindlin, $x_t = 0.5$, 256 steps'
     >>> _words({"model": "pooltool"})
@@ -280,14 +265,7 @@ def write(
 ) -> None:
     """Draw the tables `curves` and `peers`; a solver that failed becomes a picture that says so.
 
-    Parameters
-    ----------
-    curves, peers : str
-        Files.
-    settings : dict
-        Of the figure `trade`.
-    pictures, errors : (str, str)
-        SVG and PNG of `draw`, and of `draw_errors`.
+    `pictures` are the SVG and PNG of `draw`, `errors` those of `draw_errors`.
     """
     try:
         theirs = csv_tables.read(peers)

@@ -216,13 +216,8 @@ def draw(
 def warning(rows: Sequence[_Row]) -> str:
     """A sentence if the machine was busy while some of the times were taken, else no words.
 
-    Parameters
-    ----------
-    rows : sequence of dict
-        Of results/curves/trade.csv, as texts or numbers.
+    The rows are those of results/curves/trade.csv, as texts or numbers.
 
-    Examples
-    --------
     >>> warning([{"time_1 [s]": 2.0, "busy_1 [1]": 1.9}, {"time_1 [s]": 1.0}])
     'the machine was busy: 1 of 2 times are up to 1.9 times too long'
     """
@@ -325,8 +320,6 @@ def words_of(row: _Row) -> str:
 def front(time: Sequence[float], error: Sequence[float]) -> list[int]:
     """Indices of the Pareto front, the fastest first: no other point is as fast and as accurate.
 
-    Examples
-    --------
     >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
     [1, 2, 0]
     """

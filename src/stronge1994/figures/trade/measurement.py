@@ -82,15 +82,14 @@ def measure(
 ) -> tuple[dict[str, dict[str, list[Any]]], list[str]]:
     """Rows of both codes and of models of ours, all in this process and on the same incidences.
 
-    Ours are those of `ROOMS`, and the compiled responses of the continua. Every velocity is
-    compared with the elastic continuum for e = 1, and with both continua that lose energy for
-    e < 1: one row for each, whose `loss` is that of the continuum. `build_time` is the set-up of
-    LAMMPS, once a batch, or the compilation of a response, once. `refused` counts impacts that
-    raised an error and are left out of the errors. `time_over_ours`, in the largest batch, is over
-    the time-stepped contact (LAMMPS) or the lumped model (pooltool). `restitution_delivered` is the
-    normal speed after over that before the impact; `max_from_lumped` is pooltool's largest distance
-    from the model it solves. The list has a sentence for each code that is not installed, or does
-    not take these bodies.
+    Each velocity is compared with the elastic continuum for e = 1, and for e < 1 with both continua
+    that lose energy, a row for each `loss`. `build_time` is the set-up of LAMMPS, once a batch, or
+    the compilation of a response, once. `refused` counts impacts that raised an error and are left
+    out of the errors. `time_over_ours`, in the largest batch, is over the time-stepped contact
+    (LAMMPS) or the lumped model (pooltool). `restitution_delivered` is the normal speed after over
+    that before the impact; `max_from_lumped` is pooltool's largest distance from the model it
+    solves. The list has a sentence for each code that is not installed, or does not take these
+    bodies.
     """
     x = np.linspace(incidence[0], incidence[1], samples)
 

@@ -162,10 +162,9 @@ def lammps_impacts(
     They have translation only, and no spin before the impact. `law` is the tangential law of
     `fix wall/gran granular`: `mindlin` keeps the displacement and multiplies it by the present
     stiffness; `/force` adds up increments of force; `_rescale` reduces either with the contact
-    radius on unloading. `steps` are the time steps in one Hertzian contact.
-    zeta^2 = (2 - nu)/(2 (1 - nu)) follows from LAMMPS' material law. A damped contact pulls at its
-    end unless the damping is limited, and LAMMPS lets friction act as if that pull pressed. It is
-    an error if a sphere is still in contact after ten times its Hertzian duration.
+    radius on unloading. `steps` are the time steps in one Hertzian contact. A damped contact pulls
+    at its end unless the damping is limited, and LAMMPS lets friction act as if that pull pressed.
+    It is an error if a sphere is still in contact after ten times its Hertzian duration.
     """
     if law not in LAWS:
         raise ValueError(f"law = {law!r}: allowed are {', '.join(LAWS)}")
