@@ -23,18 +23,36 @@ def stated() -> dict[str, Stated]:
 
     One without settings has a solver and rules of its own, as the parameter study has.
     """
-    names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}  # not __pycache__
+    # A folder that git has emptied may still hold bytecode, in a folder of its own.
+    names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}
     found = {}
-    for name in sorted(names - {SHARED}, key=_place):
+    for name in sorted(names - {SHARED, "__pycache__"}, key=_place):
         path = _file(name)
         if not re.fullmatch("[a-z][a-z0-9_]*", name):
             raise reference_data.SourceError(f"{path.parent}: allowed are a to z, 0 to 9 and _")
         found[name] = reference_data.load_yaml(path)
         reference_data.refuse_invalid(found[name], _schema(), path)
+        _refuse_unknown_kinds(found[name].get("settings", {}), f"{path}: settings")
         for file in ("drawing.py", *(["curves.py"] if "settings" in found[name] else [])):
             if not (FOLDER / name / file).is_file():
                 raise reference_data.SourceError(f"{path.parent / file}: missing")
     return found
+
+
+def _refuse_unknown_kinds(settings: Mapping[str, Any], where: str, depth: int = 0) -> None:
+    known = reference_data.load_yaml(PROJECT / "workflow/schemas/config.schema.yaml")["$defs"]
+    for key, node in settings.items():
+        kind = node.get("allowed")
+        if kind is None:
+            _refuse_unknown_kinds(node, f"{where}.{key}", depth + 1)
+        elif isinstance(kind, str) and kind not in known:
+            words = f"'{kind}' is no kind of values; allowed are {', '.join(known)}"
+            raise reference_data.SourceError(f"{where}.{key}.allowed: {words}")
+        elif kind in ("source", "table") and depth:
+            words = f"a {kind} stands on top of the settings, in no group"
+            raise reference_data.SourceError(f"{where}.{key}: {words}")
+        elif kind == "table" and key != "points":
+            raise reference_data.SourceError(f"{where}.{key}: a table is called `points`")
 
 
 def _place(name: str) -> tuple[bool, int, str]:
