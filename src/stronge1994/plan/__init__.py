@@ -89,28 +89,20 @@ def expected_rows(config: Config, inventory: Inventory) -> dict[str, bool]:
 
 
 def plan_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
-    """What the rule that compares one figure, scene or study is told, and what it reads."""
+    """What the job is told that judges one figure, scene or study, and the files that it reads."""
     sources = sources_of(config, inventory, name)
-    return {
-        "table": table_of(name),
+    told: dict[str, Any] = {
         "comparisons": comparisons(config, name),
         "references": references(config, inventory, name),
         "sources": sources,
-        "series": [f"results/series/{source}.csv" for source in sources],
+        "significance": config["significance"],
     }
-
-
-def settings_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
-    """What the job is told that judges one figure, scene or study; of a figure what it solves."""
-    told = plan_of_judgement(config, inventory, name)
-    kept = {key: told[key] for key in ("comparisons", "references", "sources")}
     if name in config["figures"]:
         stated = figures.stated()[name]
-        kept |= {
-            "curves": [settings(config, inventory, name), nodes_of(config, inventory, name)],
-            "sensitivity": None if stated.get("timed") else stated.get("sensitivity", {}),
-        }
-    return kept | {"significance": config["significance"]}
+        told["curves"] = settings(config, inventory, name), nodes_of(config, inventory, name)
+        told["sensitivity"] = None if stated.get("timed") else stated.get("sensitivity", {})
+    series = [f"results/series/{source}.csv" for source in sources]
+    return {"told": told, "table": table_of(name), "series": series}
 
 
 def files_of_source(inventory: Inventory, source: str) -> list[str]:

@@ -171,32 +171,18 @@ def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> No
                 "both have one sign, and neither is twice the other or more: else the difference "
                 "could double unnoticed"
             )
-    columns = {
-        "balance": ("columns", "`columns`, two"),
-        "largest": ("largest", "`largest`, a column"),
-        "range": ("columns", "`columns` and their `range`"),
-        "contraction": ("columns", "`columns`, incidence and rebound"),
-    }
-    if metric in columns:
-        key, words = columns[metric]
-        if key not in comparison or (metric == "range" and "range" not in comparison):
-            raise ConfigError(f"{where}: metric {metric} needs {words}")
-        _ascending(f"{where}.range", comparison.get("range"))
+    _ascending(f"{where}.range", comparison.get("range"))
+    if metric not in ("distance", "vertices", "landmark"):
         return
-    if "reference" not in comparison:
-        raise ConfigError(f"{where}: metric {metric} needs `reference`")
     kind, known = reference(inventory, comparison["reference"], where)
     if (kind == "facts") != (metric == "landmark"):
         raise ConfigError(f"{where}: metric {metric} does not go with one of the {kind}")
-    if metric == "landmark" and "landmark" not in comparison:
-        raise ConfigError(f"{where}: metric landmark needs `landmark`")
     if known.get("kind") == "stated" and (metric != "vertices" or "allowance" in comparison):
         raise ConfigError(
             f"{where}: a stated series goes with metric vertices, without `allowance`"
         )
-    several = metric == "distance" and "curve" in known.get("labels", [])
-    if metric in ("distance", "landmark") and "curve" not in comparison and not several:
-        raise ConfigError(f"{where}: metric {metric} needs `curve`")
+    if metric == "distance" and not ("curve" in comparison or "curve" in known.get("labels", [])):
+        raise ConfigError(f"{where}: metric distance needs `curve`")
     for label in comparison.get("points", {}):
         if label not in known.get("labels", []):
             raise ConfigError(f"{where}.points.{label}: no label of {comparison['reference']}")
