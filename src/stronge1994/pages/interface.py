@@ -9,19 +9,8 @@ from planarimpact.ground import arrays
 
 SRC = Path(__file__).parents[2]
 # What has users: the solver, the paper's formulas, and the curves that use both.
-DOCUMENTED = ("planarimpact", "stronge1994.printed", "stronge1994.figures")
-
-
-def documented() -> list[str]:
-    """Modules that may have a page, in dotted form."""
-    folders = [SRC.joinpath(*package.split(".")) for package in DOCUMENTED]
-    found = [path for folder in folders for path in sorted(folder.rglob("*.py"))]
-    names = [path.relative_to(SRC).with_suffix("").parts for path in found]
-    return [
-        ".".join(part for part in parts if part != "__init__")
-        for parts in names
-        if "__main__" not in parts
-    ]
+PACKAGES = ("planarimpact", "stronge1994.printed")
+CURVES = "stronge1994/figures/*/curves.py"
 
 
 def write(folder: str, templates: str | Path) -> None:
@@ -43,9 +32,11 @@ def write(folder: str, templates: str | Path) -> None:
     )
     dark = HtmlFormatter(style="github-dark").get_style_defs(".pdoc-code")
     pdoc.render.env.globals["dark_code"] = dark
+    files = [path.relative_to(SRC).with_suffix("") for path in sorted(SRC.glob(CURVES))]
+    curves = [".".join(file.parts) for file in files]
     # pdoc has no option for how a type is written.
     with mock.patch("inspect.formatannotation", named):
-        pdoc.pdoc(*DOCUMENTED, output_directory=Path(folder))
+        pdoc.pdoc(*PACKAGES, *curves, output_directory=Path(folder))
 
 
 def _name(annotation: object) -> str | None:
