@@ -11,6 +11,7 @@ from matplotlib.transforms import Affine2D
 
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.drawing import checked, house_style
+from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.figures.shared.drawing import words as meanings
 from stronge1994.figures.shared.drawing.checked import NotInTable
 from tests.unit import picture_tables
@@ -27,9 +28,14 @@ def study(module):
     return module.draw(axes, velocity, np.zeros(shape))
 
 
-def residuals(module):
+def residuals(module, factor=1):
     rows = [
-        {"comparison": "one", "quantity": "time [t_c]", "at": f"{at}", "distance [sigma]": f"{far}"}
+        {
+            "comparison": "one",
+            "quantity": "time [t_c]",
+            "at": f"{at}",
+            "distance [sigma]": f"{factor * far}",
+        }
         for at, far in enumerate((2.5, -3.0, 3.0))
     ]
     strips = module.strips(rows, {"one": STRIPS}, {"one": {"verdict": "agrees", "p": ""}})
@@ -82,6 +88,11 @@ def drawn(figure, *fault):
 def test_a_picture_shows_numbers_of_its_tables(figure):
     picture, tables, own = drawn(figure)
     checked.check(picture, tables, figure, own)
+
+
+def test_a_factor_beside_an_axis_is_no_fault():
+    """A wrong curve may be so many sigmas off: the report must show it."""
+    checked.check(*residuals(draw_residuals, factor=1e9), "residuals")
 
 
 PLOT = "axes.plot(curve[X], curve[Y]"

@@ -15,7 +15,9 @@ comparisons:
   "line-{e}":
     each: {e: [0.5, 1]}
     curve: "e = {e}"
+    reference: mine/line
     metric: distance
+    reason: a line that is known
 """
 
 
@@ -61,7 +63,15 @@ def test_the_figures_of_the_paper_come_first(folder):
             "allowed: frictoin",
             "settings.friction.allowed: 'frictoin' is no ki",
         ),
+        ("shows:", "show:", "'show' was unexpected.; allowed are shows, caption"),
         ("value: 0.5,", "", "settings.friction: 'value' is a required property"),
+        (", allowed: friction", "", "settings.friction: 'allowed' is a required property"),
+        ("value: 0.5", "value: 50", "figure.yaml: settings: friction: 50 is greater than the max"),
+        ("allowed: friction", "allowed: {type: nubmer}", "friction.allowed.type: 'nubmer' is not"),
+        ("allowed: friction", "allowed: {minimun: 4}", "allowed: .*'minimun' was unexpected"),
+        ("allowed: friction", "allowed: {$ref: '#/$defs/no'}", "friction.allowed: 'no' is no kind"),
+        ("value: 0.5, allowed: friction", "value: [1, 0], allowed: {ascending: true}", "larger th"),
+        ("metric: distance", "metrik: distance", "comparisons.line-{e}: top level: .*allowed are"),
         ("  points: {", "  pairs: {", "settings.pairs: a table is called `points`"),
         ("  points: {", "  more:\n    points: {", "settings.more.points: a table stands on top"),
         ('curve: "e = {e}"', 'curve: "e = {f}"', "comparisons.line-{e}: `each` has no {f}"),

@@ -77,7 +77,7 @@ BAD_CONFIG = [
     ({"stiffness_ratio": "stiff"}, "stiffness_ratio: 'stiff' is not of type 'number'"),
     ({"mass_ratio": 0.5}, "mass_ratio: 0.5 is less than the minimum of 1"),
     (figure("fig6", restitution=["1.5"]), "figures.fig6.restitution.0: 1.5 is greater"),
-    (figure("fig5", incidence=["8", "0"]), r"figures.fig5.incidence = \[8, 0\]"),
+    (figure("fig5", incidence=["8", "0"]), r"figures.fig5.incidence: \[8, 0\]: each number"),
     (figure("fig5", experiment="nobody"), "'nobody' is not in data/; allowed are"),
     (figure("fig5", tolerance="0"), "figures.fig5.tolerance: 0 is less than the minimum"),
     (figure("fig6", continua={"restitution": ["0.2"]}), "restitution.0: 0.2 is less than the min"),

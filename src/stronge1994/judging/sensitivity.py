@@ -161,8 +161,8 @@ def changed(settings: Settings, group: str, size: float, without: Sequence[str] 
     """Settings with one group off by `size`, relative to the group; for restitution absolute.
 
     Restitution is lowered, but 0 is raised. Where Poisson's ratio gives the stiffness ratio, that
-    is lowered: it cannot be raised where Poisson's ratio is 1/2, the largest. Groups of settings
-    that `without` names are left alone.
+    is lowered: it cannot be raised where Poisson's ratio is 1/2, the largest. Settings that
+    `without` names are left alone.
 
     >>> changed({"restitution": [1.0, 0.0], "samples": 9}, "e", 0.25)
     {'restitution': [0.75, 0.25], 'samples': 9}
@@ -171,7 +171,9 @@ def changed(settings: Settings, group: str, size: float, without: Sequence[str] 
     """
     wrong: Settings = {}
     for key, value in settings.items():
-        if isinstance(value, dict) and key not in without:
+        if key in without:
+            wrong[key] = value
+        elif isinstance(value, dict):
             wrong[key] = changed(value, group, size, without)
         elif key in GROUPS[group]:
             several = [_off(key, number, size) for number in np.ravel(value).tolist()]

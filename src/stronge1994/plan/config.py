@@ -15,7 +15,6 @@ Entry: TypeAlias = dict[str, Any]  # a comparison of the config; a series or fac
 FILE = "workflow/config.yaml"  # what a user edits
 # Largest allowance for a model, as a share of the range of its axis.
 LARGEST_ALLOWANCE = 0.02
-RANGES = ("incidences", "angles", "tilts")  # kinds of settings whose numbers must ascend
 SCENE = "scene_"  # before the name of a scene, among what is judged
 # Why a scene may be as far from its reference as it may be.
 OF_SCENES = (
@@ -122,8 +121,6 @@ def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) ->
         for key, setting in stated["settings"].items():
             where, value = f"config: figures.{figure}.{key}", config["figures"][figure][key]
             kind = setting.get("allowed")
-            if kind in RANGES:
-                _ascending(where, value)
             if kind == "source":
                 _check_source(where, value, setting.get("parameters", []), inventory)
             if kind == "table" and reference(inventory, value, where)[0] != "series":

@@ -32,7 +32,10 @@ def stated() -> dict[str, Stated]:
             raise reference_data.SourceError(f"{path.parent}: allowed are a to z, 0 to 9 and _")
         found[name] = reference_data.load_yaml(path)
         reference_data.refuse_invalid(found[name], _schema(), path)
-        _refuse_unknown_kinds(found[name].get("settings", {}), f"{path}: settings")
+        if settings := found[name].get("settings"):
+            _refuse_unknown_kinds(settings, f"{path}: settings")
+            own = schema_of(settings) | {"$defs": _kinds()}
+            reference_data.refuse_invalid(values(settings), own, f"{path}: settings")
         for file in ("drawing.py", *(["curves.py"] if "settings" in found[name] else [])):
             if not (FOLDER / name / file).is_file():
                 raise reference_data.SourceError(f"{path.parent / file}: missing")
@@ -40,18 +43,19 @@ def stated() -> dict[str, Stated]:
 
 
 def _refuse_unknown_kinds(settings: Mapping[str, Any], where: str, depth: int = 0) -> None:
-    known = reference_data.load_yaml(PROJECT / "workflow/schemas/config.schema.yaml")["$defs"]
     for key, node in settings.items():
         kind = node.get("allowed")
         if kind is None:
             _refuse_unknown_kinds(node, f"{where}.{key}", depth + 1)
-        elif isinstance(kind, str) and kind not in known:
-            words = f"'{kind}' is no kind of values; allowed are {', '.join(known)}"
+            continue
+        named = [kind] if isinstance(kind, str) else re.findall(r"#/\$defs/(\w+)", f"{kind}")
+        if unknown := [name for name in named if name not in _kinds()]:
+            words = f"'{unknown[0]}' is no kind of values; allowed are {', '.join(_kinds())}"
             raise reference_data.SourceError(f"{where}.{key}.allowed: {words}")
-        elif kind in ("source", "table") and depth:
+        if kind in ("source", "table") and depth:
             words = f"a {kind} stands on top of the settings, in no group"
             raise reference_data.SourceError(f"{where}.{key}: {words}")
-        elif kind == "table" and key != "points":
+        if kind == "table" and key != "points":
             raise reference_data.SourceError(f"{where}.{key}: a table is called `points`")
 
 
@@ -112,9 +116,12 @@ def comparisons() -> dict[str, dict[str, Any]]:
             for name, entry in expanded(several, common):
                 if left := re.search(r"\{\w*\}", f"{name} {entry}"):
                     raise reference_data.SourceError(f"{where}: `each` has no {left[0]}")
+                whole = {"figure": figure} | entry
+                own = definitions()["comparison"] | {"$defs": definitions()}
+                reference_data.refuse_invalid(whole, own, where)
                 if f"{figure}-{name}" in found:
                     raise reference_data.SourceError(f"{where}: '{name}' stands twice")
-                found[f"{figure}-{name}"] = {"figure": figure} | entry
+                found[f"{figure}-{name}"] = whole
     return found
 
 
@@ -158,6 +165,10 @@ def definitions() -> dict[str, Any]:
 @functools.cache
 def _schema() -> dict[str, Any]:
     return reference_data.load_yaml(PROJECT / "workflow/schemas/figure.schema.yaml")
+
+
+def _kinds() -> dict[str, Any]:
+    return reference_data.load_yaml(PROJECT / "workflow/schemas/config.schema.yaml")["$defs"]
 
 
 def _file(figure: str) -> Path:

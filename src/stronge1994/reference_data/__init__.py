@@ -38,9 +38,19 @@ _NUMBERS = {
     for mark in ".,"
 }
 
+
+def _ascends(_: Any, wanted: bool, numbers: Any, schema: Schema) -> Iterator[Exception]:
+    """A keyword of ours."""
+    found = numbers if isinstance(numbers, list) else []
+    are_numbers = all(isinstance(number, int | float) for number in found)
+    if wanted and are_numbers and sorted(set(found)) != found:
+        yield jsonschema.ValidationError(f"{numbers}: each number must be larger than that before")
+
+
 # JSON Schema takes 2.0 for an integer, but range() refuses it. So 2.0 is refused here too.
 _Validator = jsonschema.validators.extend(
     jsonschema.Draft202012Validator,
+    {"ascending": _ascends},
     type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine(
         "integer", lambda _, value: isinstance(value, int) and not isinstance(value, bool)
     ),
@@ -197,7 +207,9 @@ def refuse_invalid(document: Any, schema: Schema, name: str | Path) -> None:
     )
     if errors:
         where = ".".join(map(str, errors[0].path)) or "top level"
-        raise SourceError(f"{name}: {where}: {errors[0].message}")
+        known = errors[0].schema.get("properties", {})
+        allowed = f"; allowed are {', '.join(known)}" if "unexpected" in errors[0].message else ""
+        raise SourceError(f"{name}: {where}: {errors[0].message}{allowed}")
     for where, value in _leaves(document):
         if isinstance(value, float) and not math.isfinite(value):
             raise SourceError(f"{name}: {where}: {value} is not a finite number")

@@ -43,6 +43,10 @@ BARS = (" - error", " + error")
 CLOSE = 1e-9
 # Where an area ends that is filled down to a constant, and a bar begins.
 BASES = (0.0, 1.0)
+HINT = (
+    "What words mean stands in AXIS_MEANS and LEGEND_MEANS of drawing.py, and in shared/drawing/"
+    "words.py."
+)
 _NUMBER = re.compile(r"[-\N{MINUS SIGN}]?\d+(?:\.\d+)?")
 
 
@@ -220,8 +224,8 @@ class _Panel:
         raise NotInTable(
             f"{self}: {_words_of(artist)} does not show rows of a table. Its ({first}) and what "
             f"follows are in none of {', '.join(asked[:6]) or 'the columns that the labels name'}. "
-            "What labels mean stands in words.py, numbers of no column are made by `shown` in "
-            "drawing.py; a guide has the label house_style.NO_DATA"
+            f"{HINT} Numbers of no column are made by `shown` in drawing.py; a guide has the label "
+            "house_style.NO_DATA"
         )
 
     def _check_mesh(self, mesh: QuadMesh) -> None:
@@ -262,7 +266,7 @@ class _Panel:
             if not self.words.names_a_curve(said):
                 return
         if not any(self.words.is_curve(said, one.curve, one.names) for one in found):
-            raise NotInTable(f"{self}: '{said}' is said of {_named(found)}")
+            raise NotInTable(f"{self}: '{said}' is said of {_named(found)}. {HINT}")
 
     def _numbers(self, columns: _Columns, point: Array) -> Iterator[float]:
         """Numbers of the rows at a point, and those in the name of the curve."""
@@ -276,6 +280,8 @@ class _Panel:
         """Numbers that are written at ticks are those where they stand."""
         places = axis.get_majorticklocs()
         labels = axis.get_major_formatter().format_ticks(places)
+        if axis.get_major_formatter().get_offset():  # a factor beside the axis
+            return
         for at, written in zip(places, labels, strict=True):
             number = re.sub(r"[${}]|\\(mathdefault|degree)", "", written)
             number = number.replace("\N{MINUS SIGN}", "-")
@@ -411,7 +417,8 @@ def _check_legend(legend: Legend, drawn: Sequence[_Drawn], words: Words) -> None
             continue
         for one in own:
             if not any(words.is_curve(said, c.curve, c.names) for c in one.found):
-                raise NotInTable(f"the legend calls '{said}' what is {_named(one.found)}")
+                wrong = f"the legend calls '{said}' what is {_named(one.found)}"
+                raise NotInTable(f"{wrong}. {HINT}")
 
 
 def _style(artist: Artist | None) -> tuple[Any, ...]:
