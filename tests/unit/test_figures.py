@@ -75,6 +75,7 @@ def test_the_figures_of_the_paper_come_first(folder):
         ("  points: {", "  pairs: {", "settings.pairs: a table is called `points`"),
         ("  points: {", "  more:\n    points: {", "settings.more.points: a table stands on top"),
         ('curve: "e = {e}"', 'curve: "e = {f}"', "comparisons.line-{e}: `each` has no {f}"),
+        ("e: [0.5, 1]", "e: 0.5", "comparisons.line-{e}.each.e: 0.5 is not of type 'array'"),
         ("e: [0.5, 1]", "e: [1, 1]", "comparisons.line-{e}: 'line-1' stands twice"),
     ],
 )
