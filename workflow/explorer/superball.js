@@ -1,6 +1,6 @@
 "use strict";
 
-// A superball between floor and table, as in stronge1994.curves.superball: a solid sphere, no
+// A superball between floor and table, as in stronge1994/figures/superball: a solid sphere, no
 // gravity. Velocities are positive forwards and up, spin clockwise in the side view.
 const superball = (() => {
   const RADIUS = 0.025; // m
