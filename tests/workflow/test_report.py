@@ -22,6 +22,7 @@ from stronge1994.ledger import outcome
 from stronge1994.pages import findings, ledger_page, run_facts
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
+from stronge1994.plan import figures
 from tests.workflow import browser
 
 ROOT = Path(__file__).parents[2]
@@ -219,7 +220,7 @@ def test_a_figure_has_its_own_picture_words_verdicts_and_settings(first_run, rep
     shown = re.split("<h[23]", text[text.index(f'<h3 id="{name}">') + 3 :])[0]
     svg = (report.parent / f"{name}.svg").read_bytes()
     assert base64.b64encode(svg).decode() in shown
-    words = write_report.caption(ROOT / "workflow/report/figures.rst", name)
+    words = figures.stated()[name]["caption"]
     assert ledger_page.mathematical(words.split(". ")[0]) in shown
     verdicts = rows_of(first_run[0] / "results/verdicts.csv")
     mine = [row for row in verdicts if row["figure"] == name]
