@@ -25,10 +25,7 @@ AXIS_MEANS = {
     rf"${house_style.F1MAX}$ over $m_2\Omega S$": r"mu = .*: peak_force \[m2 Omega S\]",
 }
 LEGEND_MEANS = {
-    r"^normal, ": "normal",
-    r"^tangential, ": "mu = |friction",
     "^slip throughout$": "^slip throughout",
-    r"^as in \(a\)": "^mu = ",
 }
 
 

@@ -29,8 +29,6 @@ AXIS_MEANS = {
 }
 LEGEND_MEANS = {
     "Lewis": "lewis_rogers1988",
-    r"^normal, ": "normal",
-    r"^tangential, ": "mu = |friction",
     r"of the model$": "^friction",
 }
 

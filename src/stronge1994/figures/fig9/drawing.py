@@ -18,9 +18,6 @@ PRINTED = "Eqs 39 to 41 as printed"
 AXIS_MEANS = {
     r"dissipated by friction, $2D_1/m_2S^2$": r": friction_dissipation \[m2 S\^2/2\]",
 }
-LEGEND_MEANS = {
-    r"^as in \(a\)": "^mu = ",
-}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:

@@ -46,6 +46,9 @@ LEGEND = {
     "no tangential compliance": "^no tangential compliance",
     "Eqs .* as printed": "^as printed",
     "no solution as printed": "^no solution as printed",
+    r"^normal, ": "normal",
+    r"^tangential, ": "mu = |friction",
+    r"^as in \(a\)": "^mu = ",
 }
 # Equations that name a curve, such as e = 0.5.
 _EQUATION = re.compile(r"(\\?\b(?:mu|nu|e|x)) = (-?[\d.]+)")
