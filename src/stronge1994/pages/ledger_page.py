@@ -3,7 +3,7 @@
 import math
 import re
 from collections import Counter
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -104,7 +104,7 @@ def linked_maths(names: Collection[str]) -> Callable[[str], Markup]:
     return maths
 
 
-def words(rows: Sequence[Row], symbols: Mapping[str, str]) -> dict[str, Any]:
+def words(rows: Sequence[Row], symbols: str) -> dict[str, Any]:
     """What the templates need to show the ledger's rows; `symbols` explains their formulas."""
     counts = Counter(row["verdict"] for row in rows)
     of_nature = [row for row in rows if row.get("in_nature")]
@@ -136,7 +136,7 @@ def by_cause(rows: Sequence[Row]) -> dict[str, list[Row]]:
     return causes
 
 
-def page(rows: Sequence[Row], symbols: Mapping[str, str], template: str) -> str:
+def page(rows: Sequence[Row], symbols: str, template: str) -> str:
     """The page of the ledger's rows, by a template beside the style that it includes."""
     environment = templates.environment(Path(template).parent)
     environment.filters["maths"] = linked_maths({row["entry"] for row in rows})

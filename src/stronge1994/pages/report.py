@@ -98,7 +98,7 @@ def page(
     tables: Mapping[str, Shown],
     significance: float,
     run: Mapping[str, Any],
-    symbols: Mapping[str, str],
+    symbols: str,
     links: Mapping[str, str],
     template: str | Path,
     faults: list[str],
