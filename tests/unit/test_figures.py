@@ -21,11 +21,14 @@ comparisons:
 """
 
 
+CURVES = "def curves(friction, points, nodes, samples=3): ...\n"
+
+
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """An own folder of figures, with one."""
     (tmp_path / "fig10").mkdir()
-    for name, text in (("figure.yaml", GOOD), ("curves.py", ""), ("drawing.py", "")):
+    for name, text in (("figure.yaml", GOOD), ("curves.py", CURVES), ("drawing.py", "")):
         (tmp_path / "fig10" / name).write_text(text)
     monkeypatch.setattr(figures, "FOLDER", tmp_path)
     figures.stated.cache_clear()
@@ -85,6 +88,24 @@ def test_a_faulty_figure_is_refused(old, new, words, folder):
     with pytest.raises(SourceError, match=words) as refusal:
         figures.comparisons()
     assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("curves", "words"),
+    [
+        ("def curves(points): ...", "`curves` of curves.py takes no 'friction'; it takes po"),
+        ("def curves(friction, points, e): ...", "`curves` of curves.py needs 'e'; it takes frict"),
+    ],
+)
+def test_settings_are_what_the_curves_take(curves, words, folder):
+    (folder / "fig10/curves.py").write_text(curves)
+    with pytest.raises(SourceError, match=f"fig10/figure.yaml: .*{words}"):
+        figures.stated()
+
+
+def test_curves_that_cannot_be_read_are_left_to_the_solver(folder):
+    (folder / "fig10/curves.py").write_text("def curves(:")
+    assert list(figures.stated()) == ["fig10"]
 
 
 @pytest.mark.parametrize("name", ["figure.yaml", "curves.py", "drawing.py"])

@@ -1,5 +1,6 @@
 """What each folder of `figures` states in its figure.yaml: settings, caption, comparisons."""
 
+import ast
 import copy
 import functools
 import itertools
@@ -15,6 +16,7 @@ Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
 FOLDER = Path(__file__).parents[1] / "figures"
 PROJECT = Path(__file__).parents[3]
 SHARED = "shared"  # beside the figures: what several of them use
+GIVEN = ("nodes", "materials", "uncertainty")  # what `curves` may get beside settings
 
 
 @functools.cache
@@ -39,6 +41,8 @@ def stated() -> dict[str, Stated]:
         for file in ("drawing.py", *(["curves.py"] if "settings" in found[name] else [])):
             if not (FOLDER / name / file).is_file():
                 raise reference_data.SourceError(f"{path.parent / file}: missing")
+        if "settings" in found[name]:
+            _refuse_other_parameters(name, found[name])
     return found
 
 
@@ -57,6 +61,24 @@ def _refuse_unknown_kinds(settings: Mapping[str, Any], where: str, depth: int = 
             raise reference_data.SourceError(f"{where}.{key}: {words}")
         if kind == "table" and key != "points":
             raise reference_data.SourceError(f"{where}.{key}: a table is called `points`")
+
+
+def _refuse_other_parameters(name: str, told: Stated) -> None:
+    """Refuse settings that `curves` does not take, or lacks; what it imports is not looked at."""
+    try:
+        tree = ast.parse((FOLDER / name / "curves.py").read_text(encoding="utf-8"))
+    except SyntaxError:  # the row `...-solved` says so
+        return
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef) and node.name == "curves":
+            takes = [argument.arg for argument in node.args.args]
+            needs = set(takes[: len(takes) - len(node.args.defaults)]) - {*GIVEN}
+            has = {*told["settings"], *told.get("shared", [])}
+            for words, names in (("takes no", has - {*takes}), ("needs", needs - has)):
+                if names:
+                    wrong = f"`curves` of curves.py {words} '{min(names)}'"
+                    known = f"it takes {', '.join(takes)}"
+                    raise reference_data.SourceError(f"{_file(name)}: settings: {wrong}; {known}")
 
 
 def _place(name: str) -> tuple[bool, int, str]:
