@@ -39,20 +39,11 @@ def check(inventory, ledger, monkeypatch):
 
     def checked(change, data=inventory):
         config = configuration.load()
-        config = configuration.with_values(updated(config, change))
+        config = configuration.with_values(configuration.overridden(config, change))
         configuration.check_config(config, data, ledger)
         grid.check(config)
 
     return checked
-
-
-def updated(config, change):
-    """A config with other leaves, as `--config` leaves it."""
-    both = {
-        key: updated(config.get(key, {}), new) if isinstance(new, dict) else new
-        for key, new in change.items()
-    }
-    return config | both
 
 
 def figure(name, **settings):

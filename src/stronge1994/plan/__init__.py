@@ -6,6 +6,7 @@ from typing import Any
 from stronge1994 import reference_data
 from stronge1994.plan import figures
 from stronge1994.plan.config import (
+    SHARED,
     Config,
     Entry,
     Inventory,
@@ -14,8 +15,6 @@ from stronge1994.plan.config import (
     table_of,
 )
 
-# Groups that figures share.
-SHARED = ("mass_ratio", "stiffness_ratio")
 # Properties of a material. Their parameters in source.yaml begin with its name.
 PROPERTIES = ("young_modulus", "poisson_ratio")
 

@@ -13,6 +13,7 @@ Inventory: TypeAlias = dict[str, Any]  # `{source: contents of its source.yaml}`
 Entry: TypeAlias = dict[str, Any]  # a comparison of the config; a series or fact of a source
 
 FILE = "workflow/config.yaml"  # what a user edits
+SHARED = ("mass_ratio", "stiffness_ratio")  # groups that figures and the study share
 # Largest allowance for a model, as a share of the range of its axis.
 LARGEST_ALLOWANCE = 0.02
 SCENE = "scene_"  # before the name of a scene, among what is judged
@@ -39,13 +40,13 @@ def complete(config: Config) -> Config:
         "figures": {name: figures.values(figure["settings"]) for name, figure in solved},
         "comparisons": figures.comparisons() | _of_scenes(config.get("scenes")),
     }
-    return _overridden(stated, config)
+    return overridden(stated, config)
 
 
-def _overridden(stated: Config, config: Config) -> Config:
+def overridden(stated: Config, config: Config) -> Config:
     """The first of two configs, with what the second has other or more."""
     both = {
-        key: _overridden(stated[key], value)
+        key: overridden(stated[key], value)
         if isinstance(value, dict) and isinstance(stated.get(key), dict)
         else value
         for key, value in config.items()

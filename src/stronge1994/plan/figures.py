@@ -132,6 +132,7 @@ def schema_of(settings: Mapping[str, Any]) -> dict[str, Any]:
 def comparisons() -> dict[str, dict[str, Any]]:
     """All comparisons, `{FIGURE-NAME: entry}`, each with the name of its figure."""
     found: dict[str, dict[str, Any]] = {}
+    own = definitions()["comparison"] | {"$defs": definitions()}
     for figure, told in stated().items():
         for several, common in told["comparisons"].items():
             where = f"{_file(figure)}: comparisons.{several}"
@@ -139,7 +140,6 @@ def comparisons() -> dict[str, dict[str, Any]]:
                 if left := re.search(r"\{\w*\}", f"{name} {entry}"):
                     raise reference_data.SourceError(f"{where}: `each` has no {left[0]}")
                 whole = {"figure": figure} | entry
-                own = definitions()["comparison"] | {"$defs": definitions()}
                 reference_data.refuse_invalid(whole, own, where)
                 if f"{figure}-{name}" in found:
                     raise reference_data.SourceError(f"{where}: '{name}' stands twice")
@@ -189,6 +189,7 @@ def _schema() -> dict[str, Any]:
     return reference_data.load_yaml(PROJECT / "workflow/schemas/figure.schema.yaml")
 
 
+@functools.cache
 def _kinds() -> dict[str, Any]:
     return reference_data.load_yaml(PROJECT / "workflow/schemas/config.schema.yaml")["$defs"]
 

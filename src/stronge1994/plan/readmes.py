@@ -21,26 +21,20 @@ def texts() -> dict[Path, str]:
         for path in sorted(ROOT.glob("data/*/source.yaml"))
         for told in [reference_data.load_yaml(path)]
     ]
-    return {
-        ROOT / "figures/README.md": _filled(
-            "figures", _table(("figure", "what it shows"), pictures)
-        ),
-        ROOT / "data/README.md": _filled(
-            "sources", _table(("source", "what it holds", "how it was made"), sources)
-        ),
-    }
+    tables: dict[Path, list[tuple[str, ...]]] = {
+        ROOT / "figures/README.md": [("figure", "what it shows"), ("---",) * 2, *pictures],
+        ROOT / "data/README.md": [
+            ("source", "what it holds", "how it was made"), ("---",) * 3, *sources,
+        ],
+    }  # fmt: skip
+    return {path: _filled(path.read_text(encoding="utf-8"), rows) for path, rows in tables.items()}
 
 
-def _filled(name: str, table: str) -> str:
-    folder = {"figures": "figures", "sources": "data"}[name]
-    text = (ROOT / folder / "README.md").read_text(encoding="utf-8")
-    start, end = f"<!-- {name} -->\n", "<!-- end -->"
-    return re.sub(f"{start}.*?{end}", lambda _: f"{start}{table}{end}", text, flags=re.S)
-
-
-def _table(header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    head = tuple(header)
-    return "".join(f"| {' | '.join(row)} |\n" for row in (head, ("---",) * len(head), *rows))
+def _filled(text: str, rows: Iterable[Iterable[str]]) -> str:
+    """A README whose table, between its marks, has these rows."""
+    table = "".join(f"| {' | '.join(row)} |\n" for row in rows)
+    marks = r"(<!-- (?:figures|sources) -->\n).*?(<!-- end -->)"
+    return re.sub(marks, lambda mark: f"{mark[1]}{table}{mark[2]}", text, flags=re.S)
 
 
 if __name__ == "__main__":

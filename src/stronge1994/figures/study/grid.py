@@ -3,11 +3,10 @@
 import math
 from typing import Any
 
-from stronge1994.plan.config import Config, ConfigError
+from stronge1994.plan.config import SHARED, Config, ConfigError
 
 MOST = 100_000_000  # points: the gathered study holds 25 bytes of each in memory
 ELASTIC = ("continuum", "annuli")  # models without hysteresis
-SHARED = ("mass_ratio", "stiffness_ratio")
 
 
 def settings(config: Config) -> dict[str, Any]:

@@ -272,6 +272,6 @@ def write(
         found = [draw(csv_tables.read(curves), theirs, settings), draw_errors(theirs)]
     except csv_tables.Failed as error:
         found = [(house_style.failure(f"trade: the solver failed: {error}"), {})] * 2
-    own = meanings.Words(meanings.AXES | AXIS_MEANS, meanings.LEGEND | LEGEND_MEANS)
+    own = meanings.more(AXIS_MEANS, LEGEND_MEANS)
     checked.save(*found[0], "trade_with_peers", pictures[0], pictures[1], own)
     checked.save(*found[1], "peers", errors[0], errors[1], own)

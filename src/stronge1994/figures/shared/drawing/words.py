@@ -111,5 +111,9 @@ SHARED = Words(AXES, LEGEND)
 
 def of(drawing: ModuleType) -> Words:
     """The words that several pictures have, and those of one drawing."""
-    own = getattr(drawing, "AXIS_MEANS", {}), getattr(drawing, "LEGEND_MEANS", {})
-    return Words(AXES | own[0], LEGEND | own[1])
+    return more(getattr(drawing, "AXIS_MEANS", {}), getattr(drawing, "LEGEND_MEANS", {}))
+
+
+def more(axes: Mapping[str, str], legend: Mapping[str, str]) -> Words:
+    """The words that several pictures have, and others."""
+    return Words({**AXES, **axes}, {**LEGEND, **legend})
