@@ -15,7 +15,7 @@ from typing import Any, TextIO
 import numpy as np
 
 from planarimpact import __version__, bodies, continuum, export, lumped, models, response
-from planarimpact.ground import checks, files, sliding
+from planarimpact.ground import checks, files
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import ContinuumHistory, History, Rebound, Regime
 
@@ -331,7 +331,8 @@ def _distances(options: argparse.Namespace) -> dict[str, ArrayLike]:
     groups = {name: value for name, (value, _) in GROUPS.items()} | _groups(options)
     loss = options.loss or continuum.LOSSES[0]
     name = models.reference(groups["restitution"], loss)
-    x = np.linspace(0.0, float(sliding.limit_alike(*groups.values())), INCIDENCES)
+    limit = continuum.slip_throughout_limit(*groups.values(), loss=loss)
+    x = np.linspace(0.0, float(limit), INCIDENCES)
     # A tenth of what the continuum promises, so that its own error shows too.
     tolerance = models.get(name).settings["tolerance"] / 10
     exact = models.rebound(name, x, **groups, tolerance=tolerance).velocity

@@ -17,7 +17,7 @@ CASES = [(0.9, 3.5, 1.21), (0.35, 2.5, 0.9), (0.7, 7.5, 0.85), (0.5, 1.2, 1.9)]
 @pytest.mark.parametrize("loss", continuum.LOSSES)
 @pytest.mark.parametrize(("e", "beta", "zeta2"), CASES)
 def test_velocities_meet_their_tolerance_by_a_second_code(loss, e, beta, zeta2):
-    limit = float(sliding.limit_alike(beta, zeta2, e))
+    limit = float(continuum.slip_throughout_limit(beta, zeta2, e, loss=loss))
     # In each regime, and next to each threshold.
     x = np.array([0.3 * zeta2, 0.99 * zeta2, 1.01 * zeta2, 0.98 * beta, (beta + limit) / 2])
     x = np.minimum([*x, 0.97 * limit], 0.97 * limit)
@@ -38,7 +38,7 @@ def test_a_wrong_stiffness_ratio_is_seen_by_the_second_code():
 def test_slip_throughout_begins_where_it_does_in_the_second_code(loss):
     """The second code knows no limit: it has the line from there on, and not below."""
     e, beta, zeta2 = 0.5, 3.5, 1.21
-    limit = float(sliding.limit_alike(beta, zeta2, e))
+    limit = float(continuum.slip_throughout_limit(beta, zeta2, e, loss=loss))
     x = limit * np.array([0.9, 1.0, 1.02, 1.3])
     off = stepped(f"continuum.{loss}", x, beta, zeta2, e) - sliding.velocity(x, beta, e)
     assert abs(off[0]) > 0.01

@@ -9,12 +9,12 @@ The suite searches a little, the profile `long` more, from other seeds.
 import numpy as np
 import pytest
 
-from planarimpact import InputError, continuum, spheres
+from planarimpact import InputError, Regime, continuum, spheres
 from planarimpact.export import spheres as export
 from planarimpact.spheres import making, table
 
-# Of the continuum, whose errors are below half of it.
-TOLERANCE = 4e-5
+# Of the continuum, whose errors are below half of it. Next to e = 0.3 a plastic one meets no less.
+TOLERANCE = {"viscous": 4e-5, "plastic": 2e-4}
 FIELDS = "velocity", "peak_friction", "dissipation"
 # Impacts at the beginning; places that are climbed from, places tried around each, and rounds.
 SHORT, LONG, MANY = (80, 3, 6, 3), (6000, 60, 12, 12), (20_000, 200, 12, 8)
@@ -44,7 +44,7 @@ def errors(name, x, beta, zeta2, e):
     """Differences of velocity, peak friction and work, shape (3, n)."""
     loss = name.partition("_")[0]
     found = spheres.rebound(x, beta, zeta2, e, loss=loss)
-    exact = continuum.rebound(x, beta, zeta2, e, loss=loss, tolerance=TOLERANCE)
+    exact = continuum.rebound(x, beta, zeta2, e, loss=loss, tolerance=TOLERANCE[loss])
     return np.stack([np.abs(getattr(found, field) - getattr(exact, field)) for field in FIELDS])
 
 
@@ -73,7 +73,7 @@ def impacts(name, number, at):
     found = np.empty((3, number.size))
     for patch in range(panel.intervals.size):
         rows = number == patch
-        found[:, rows] = making.impacts(name, panel.edges, shipped.limit, patch, *at[:, rows])
+        found[:, rows] = making.impacts(name, panel.edges, shipped.limits, patch, *at[:, rows])
     y, b, e = found
     b = np.clip(b, spheres.LEAST_RATIO, spheres.LARGEST_RATIO)
     e = np.clip(e, spheres.LEAST_RESTITUTION, 1.0)
@@ -112,7 +112,9 @@ def climbed(random, name, budget, errors=errors):
 )
 def test_no_search_finds_an_error_beyond_the_bound(name, seed, budget):
     error, *words = climbed(np.random.default_rng([20, seed]), name, budget)
-    assert error <= spheres.ERROR_BOUND[name.partition("_")[0]], (error, *words)
+    bound = spheres.ERROR_BOUND[name.partition("_")[0]]
+    bound = spheres.LITTLE_BOUND if name == "plastic_high" else bound
+    assert error <= bound, (error, *words)
 
 
 @pytest.mark.parametrize("name", table.ROOTS)
@@ -134,13 +136,13 @@ def test_the_coarse_table_is_as_near_as_it_says(name, monkeypatch):
 
 @pytest.mark.parametrize("loss", spheres.LOSSES)
 def test_the_regime_is_right_nearly_everywhere(loss):
-    """Whether all of a contact slips twice is told by the first threshold of it alone."""
+    """Impacts that slip as a whole more often than once are not told apart."""
     random = np.random.default_rng(40)
     zeta2, e, share = random.uniform([[1.0], [0.3], [0.0]], [[1.5], [1.0], [1.0]], (3, 300))
     chosen = share * 3.5 * (1 + e), 3.5, zeta2, e
     found = spheres.rebound(*chosen, loss=loss)
     exact = continuum.rebound(*chosen, loss=loss, tolerance=1e-3)
-    assert np.mean(found.regime == exact.regime) > 0.95
+    assert np.mean((found.regime == exact.regime)[exact.regime != Regime.MULTIPLE]) > 0.98
 
 
 @pytest.mark.parametrize("loss", FOUND)
@@ -154,17 +156,15 @@ def test_the_answer_does_not_jump_from_patch_to_patch(name):
     random, shipped = np.random.default_rng(30), table.shipped()
     panel, (t, u) = shipped.panels[name], random.random((2, 1000))
     for patch in range(panel.intervals.size - 1):
-        y, b, e = making.impacts(name, panel.edges, shipped.limit, patch, np.ones(t.size), t, u)
+        y, b, e = making.impacts(name, panel.edges, shipped.limits, patch, np.ones(t.size), t, u)
         sides = [
             table.evaluate(shipped, side, b, e, np.full(t.size, name != "viscous"))
             for side in (y * (1 - 1e-13), y * (1 + 1e-13))
         ]
         rounding = 2 * 2.0**-shipped.exponent
-        # A spline of the larger of two forces is not the larger of two splines.
-        peak = 3e-4 if panel.reversed.size and patch == 0 else rounding
-        for field, allowed in (("velocity", rounding), ("peak", peak)):
+        for field in ("velocity", "peak"):
             before, after = (getattr(side, field) for side in sides)
-            np.testing.assert_allclose(before, after, rtol=0, atol=allowed)
+            np.testing.assert_allclose(before, after, rtol=0, atol=rounding)
 
 
 def test_errors_that_scale_with_the_stiffness_ratio_are_refused():

@@ -348,3 +348,15 @@ def test_a_result_out_of_range_is_pickled_with_its_place():
     again = pickle.loads(pickle.dumps(refusal.value))
     assert type(again) is bodies.OutOfRange and str(again) == str(refusal.value)
     assert again.where.tolist() == [False, True]
+
+
+def test_dundurs_constant_is_that_of_the_text_books():
+    """Johnson, Contact Mechanics, Table 5.1: with G (1 - nu) and (1 - 2 nu), by shear moduli."""
+    steel, rubber = Material(210e9, 0.3), Material(1e7, 0.5)
+    assert bodies.dundurs(rubber) == pytest.approx(0.0, abs=1e-15)  # incompressible
+    assert bodies.dundurs(steel) == pytest.approx((1 - 0.6) / (2 * (1 - 0.3)))
+    glass = Material(70e9, 0.25)
+    g1, g2 = 210e9 / 2.6, 70e9 / 2.5
+    stated = (g2 * (1 - 0.6) - g1 * (1 - 0.5)) / (g2 * (1 - 0.3) + g1 * (1 - 0.25)) / 2
+    assert bodies.dundurs(steel, glass) == pytest.approx(stated)
+    assert bodies.dundurs(glass, steel) == -bodies.dundurs(steel, glass)

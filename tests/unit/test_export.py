@@ -139,9 +139,9 @@ def sphere_edges(shipped, random):
             s, t, u = random.integers(0, 1 + shape, (3, EDGES)) / shape
             free = random.random((2, EDGES))
             t, u = np.where(random.random((2, EDGES)) < 0.5, free, [t, u])
-            y, b, e = making.impacts(name, panel.edges, shipped.limit, number, s, t, u)
-            ends, varying = table.edges_of(name, panel.edges, t, u, b, e)
-            for x in (y, ends[number], *varying):
+            y, b, e = making.impacts(name, panel.edges, shipped.limits, number, s, t, u)
+            ends = table.edges_of(name, panel.edges, t, u, b, e)
+            for x in (y, *ends[1:]):
                 for axis in range(3):
                     row = [
                         beside(v) if i == axis else np.tile(v, 3) for i, v in enumerate((x, b, e))
@@ -155,8 +155,9 @@ def case_of_spheres(name):
     random, shipped = np.random.default_rng(20), table.shipped(name)
     e, ratio = random.uniform(0.3, 1, COUNT), random.uniform(1.5625, 3.5, COUNT)
     e[::9], e[1::9], ratio[2::9], ratio[3::9] = 0.3, 1.0, 1.5625, 3.5
-    between = np.interp(table.over_b(ratio), np.linspace(0, 1, shipped.limit.size), shipped.limit)
-    e[4::9] = beside(between[4::27])[: e[4::9].size]
+    for start, limit in zip((4, 13), shipped.limits, strict=True):
+        between = np.interp(table.over_b(ratio), np.linspace(0, 1, limit.size), limit)
+        e[start::18] = beside(between[start::54])[: e[start::18].size]
     beta = random.choice([2.5, 3.5], COUNT)
     x = random.uniform(-1.1, 1.1, COUNT) * (1 + e) * beta
     x[5::99], x[6::99], x[7::99], x[8::99] = 0.0, 5e-324, LARGEST, np.inf

@@ -19,6 +19,8 @@ import numpy as np
 
 from planarimpact.bodies.masses import disc, effective_masses, mass_ratio, solid_sphere, thin_shell
 from planarimpact.bodies.materials import (
+    COUPLING,
+    dundurs,
     effective_modulus,
     effective_radius,
     effective_shear_modulus,
@@ -50,6 +52,7 @@ from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.checks import checked, finite, not_negative, positive
 
 __all__ = [
+    "COUPLING",
     "HALF_SPACE",
     "LEAST_RESTITUTION",
     "Body",
@@ -59,6 +62,7 @@ __all__ = [
     "angle_of_incidence",
     "contact_velocity",
     "disc",
+    "dundurs",
     "effective_masses",
     "effective_modulus",
     "effective_radius",

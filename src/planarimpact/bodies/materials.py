@@ -127,6 +127,61 @@ def stiffness_ratio(material: Material, other: Material | None = None) -> Array:
     return tangential / normal / 4
 
 
+# Dundurs' constant over friction up to which the velocity of an elastic impact moves by less than
+# 0.1 mu v2(0), by the finite elements of data/finite_elements (mu 0.1 to 0.4, nu 0.3 to 0.45).
+COUPLING = 0.8
+
+
+@quietly
+def dundurs(material: Material, other: Material | None = None) -> Array:
+    """Dundurs' second constant: how far pressure alone pushes two surfaces past each other.
+
+    Where it is not 0, two surfaces under pressure spread differently. Friction resists that, and
+    has less left for the motion of the bodies. All models of this package leave it out. What
+    matters is its size over the coefficient of friction, see `COUPLING`.
+
+    Parameters
+    ----------
+    material : Material
+        Of one body.
+    other : Material or None
+        Of the other; None is a rigid counterbody.
+
+    Returns
+    -------
+    ndarray of float64 or float
+        (E*/2) times (1 - 2 nu)/(2 G) of `material` less that of `other`: from -1/2 to 1/2 for
+        Poisson's ratios from 0, positive where `material` spreads more.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, shapes do not broadcast, or a result is
+        beyond the range of numbers.
+
+    References
+    ----------
+    K. L. Johnson, Contact Mechanics, Cambridge 1985, Eq. 5.3a.
+
+    Examples
+    --------
+    >>> steel = Material(210e9, 0.3)
+    >>> round(float(dundurs(steel)), 3), float(dundurs(steel, steel))
+    (0.286, 0.0)
+    >>> round(float(dundurs(Material(380e9, 0.23), Material(70e9, 0.25))), 2)  # alumina on glass
+    -0.23
+    """
+    normal, _ = _compliances(material, other)
+    given = fields("material", material, Material)
+    if other is not None:
+        given |= fields("other", other, Material)
+    young, nu, *rest = checks.broadcast(**given)
+    spread = (1 - 2 * nu) * (1 + nu) / young
+    if rest:
+        spread = spread - (1 - 2 * rest[1]) * (1 + rest[1]) / rest[0]
+    return in_range("Dundurs' constant", spread / normal / 2, above=-1.0)
+
+
 @checks.default_errors
 def effective_radius(radius: ArrayLike, other: ArrayLike = np.inf) -> Array:
     """Effective radius of two convex surfaces in contact.

@@ -22,14 +22,14 @@ from planarimpact.spheres import table as tables
 from planarimpact.spheres.table import LEFT, ORDER, PACKED, RIGHT, ROOTS, Table
 
 # Largest errors of the shipped tables by loss, and the tables by the larger of them.
-BOUNDS = {"fine": spheres.ERROR_BOUND, "coarse": {"viscous": 3e-3, "plastic": 2e-2}}
+BOUNDS = {"fine": spheres.ERROR_BOUND, "coarse": {"viscous": 3e-3, "plastic": 4e-2}}
 TABLES: dict[float, str] = {max(bounds.values()): name for name, bounds in BOUNDS.items()}
 PANEL_FIELDS = "patch", "patches", "varying", "rows", "columns", "over_t", "over_u", *PACKED
 LAYOUT = [
     "The table. A loss, or a part of it, is a panel; a panel has patches. In a patch velocity, "
     "peak friction and work are cubic splines in s, t and u: places over y = x/stiffness_ratio, "
     "restitution and b = mass_ratio/stiffness_ratio.",
-    "  limit: restitution between the two plastic panels, over u",
+    "  limits: restitutions between the three plastic panels, over u",
     "  panels: its first patch, and how many; edges that vary, their intervals over t and u; "
     "coefficients over t and u; where its edges and splines begin in values, or -1",
     "  patches: where s has its root (0 nowhere, $left left, $right right), intervals over s, and "
@@ -48,7 +48,7 @@ struct ${p}result {
 /* Where an impact is: what the splines need, and what follows from its edges. */
 struct ${p}spot {
     const struct ${p}panel *panel;
-    int base, patch, multiple;
+    int base, slides;
     double over_s[4], over_t[4], over_u[4];
 };
 
@@ -100,22 +100,22 @@ static inline double ${p}spline(const struct ${p}spot *spot, int begin)
 static inline struct ${p}spot ${p}find(double y, double b, double e, int loss)
 {
     double u = (b - $b_least) / $b_span, at = u * $limits, t, over, across;
-    double edge[6] = {0}, varying[3] = {0}, low, high, width, s;
-    int i = ${p}index(at, $limits), early, j, k;
-    double part = at - i, limit = (1 - part) * ${p}limit[i] + part * ${p}limit[i + 1];
-    const struct ${p}panel *panel;
+    double edge[6] = {0}, varying[2] = {0}, low, high, width, s, alike = b + e * (b - 1);
+    const double *limit = ${p}limits + ${p}index(at, $limits);
+    double part = at - ${p}index(at, $limits), less = (1 - part) * limit[0] + part * limit[1];
+    double more = (1 - part) * limit[$limits + 1] + part * limit[$limits + 2];
+    int which = loss == ${P}VISCOUS ? 0 : e < less ? 1 : e < more ? 2 : 3, i, j, k;
+    const struct ${p}panel *panel = ${p}panels + which;
     const int *patch;
     struct ${p}spot found;
-    early = loss == ${P}PLASTIC && e < limit;
-    panel = ${p}panels + (loss == ${P}VISCOUS ? 0 : early ? 1 : 2);
-    if (loss == ${P}VISCOUS) {
+    if (which == 0)
         t = (e - $e_least) / $e_span;
-    } else if (early) {
-        double rest = $e_least / e - $e_least / limit;
-        t = 1 - sqrt((rest > 0 ? rest : 0) / (1 - $e_least / limit));
-    } else {
-        t = sqrt(sqrt((1 - e) / (1 - limit)));
-    }
+    else if (which == 1)
+        t = 1 - sqrt(${p}clipped($e_least / e - $e_least / less, 0, 1) / (1 - $e_least / less));
+    else if (which == 2)
+        t = (e - less) / (more - less);
+    else
+        t = sqrt(sqrt((1 - e) / (1 - more)));
 
     /* Edges, between four nodes. */
     at = t * panel->rows;
@@ -131,33 +131,39 @@ static inline struct ${p}spot ${p}find(double y, double b, double e, int loss)
         double after = (1 - across) * (c[columns] * $unit) + across * (c[columns + 1] * $unit);
         varying[k] = (1 - over) * before + over * after;
     }
-    edge[early ? 2 : 1] = 1;
-    edge[early ? 1 : 2] = varying[0];
-    edge[3] = varying[1] < b ? varying[1] : b;
-    edge[panel->patches - 1] = b;
-    edge[panel->patches] = b + e * (b - 1);
+    edge[1] = 1;
+    if (which == 0) {
+        edge[2] = varying[0];
+        edge[3] = varying[1] < b ? varying[1] : b;
+        edge[4] = b;
+        edge[5] = alike;
+    } else {
+        edge[3] = which == 3 ? b : varying[0];
+        edge[2] = (1 + edge[3]) / 2;
+        edge[4] = which == 1 ? varying[1] : alike;
+    }
 
     /* The patch, and s in it. */
-    found.patch = 0;
+    which = panel->patch;
     low = edge[0];
     high = edge[1];
     for (k = 1; k < panel->patches; ++k) {
         if (y >= edge[k]) {
-            ++found.patch;
+            ++which;
             low = edge[k];
             high = edge[k + 1];
         }
     }
     width = high - low;
     s = ${p}clipped((y - low) / (width > 0 ? width : 1), 0, 1);
-    patch = ${p}patches + 3 * (panel->patch + found.patch);
+    patch = ${p}patches + 3 * which;
     if (patch[0] == $right)
         s = 1 - sqrt(1 - s);
     else if (patch[0] == $left)
         s = sqrt(s);
 
     found.panel = panel;
-    found.multiple = early && y >= varying[2] && y <= 1;
+    found.slides = y >= edge[panel->patches] * $nearly;
     found.base = patch[2] + ${p}place(s, patch[1], found.over_s);
     found.base = found.base * panel->over_t + ${p}place(t, panel->over_t - 3, found.over_t);
     found.base = found.base * panel->over_u + ${p}place(u, panel->over_u - 3, found.over_u);
@@ -175,26 +181,18 @@ static inline int ${p}covers(
         && (loss == ${P}VISCOUS || loss == ${P}PLASTIC);
 }
 
-/* The incidence from which the contact slides throughout. */
-static inline double ${p}slides_from(
-    double mass_ratio, double stiffness_ratio, double restitution)
-{
-    double limit = mass_ratio + restitution * (mass_ratio - stiffness_ratio);
-    return limit > stiffness_ratio ? limit : stiffness_ratio;
-}
-
 /* Tangential velocity of the contact point at separation, v1(tf)/(mu v2(0)); NaN out of range. */
 static inline double ${p}velocity(
     double x, double mass_ratio, double stiffness_ratio, double restitution, int loss)
 {
     double size = fabs(x), velocity;
+    struct ${p}spot spot;
     if (!${p}covers(x, mass_ratio, stiffness_ratio, restitution, loss))
         return $nan;
-    if (size >= ${p}slides_from(mass_ratio, stiffness_ratio, restitution)) {
+    spot = ${p}find(size / stiffness_ratio, mass_ratio / stiffness_ratio, restitution, loss);
+    if (spot.slides) {
         velocity = size - (1 + restitution) * mass_ratio;
     } else {
-        struct ${p}spot spot = ${p}find(
-            size / stiffness_ratio, mass_ratio / stiffness_ratio, restitution, loss);
         velocity = stiffness_ratio * ${p}spline(&spot, spot.panel->velocity);
         velocity = ${p}clipped(velocity, 0.0 - size, size);
     }
@@ -207,9 +205,11 @@ static inline struct ${p}result ${p}rebound(
 {
     struct ${p}result found = {$nan, $nan, $nan, ${P}UNRESOLVED};
     double size = fabs(x), beta = mass_ratio, zeta2 = stiffness_ratio, e = restitution, w;
+    struct ${p}spot spot;
     if (!${p}covers(x, beta, zeta2, e, loss))
         return found;
-    if (size >= ${p}slides_from(beta, zeta2, e)) {
+    spot = ${p}find(size / zeta2, beta / zeta2, e, loss);
+    if (spot.slides) {
         double change = (1 + e) * beta;
         w = size - change;
         found.peak_friction = 1.0;
@@ -219,13 +219,8 @@ static inline struct ${p}result ${p}rebound(
             found.dissipation = (1 + e) * (size - change / 2);
         found.regime = ${P}SLIP_THROUGHOUT;
     } else {
-        struct ${p}spot spot = ${p}find(size / zeta2, beta / zeta2, e, loss);
         double peak = ${p}spline(&spot, spot.panel->peak);
         w = ${p}clipped(zeta2 * ${p}spline(&spot, spot.panel->velocity), 0.0 - size, size);
-        if (spot.panel->reversed >= 0 && spot.patch == 0) {
-            double back = ${p}spline(&spot, spot.panel->reversed);
-            peak = back > peak ? back : peak;
-        }
         found.peak_friction = ${p}clipped(peak, 0.0, 1.0);
         if (loss == ${P}VISCOUS) {
             double work = zeta2 * ${p}spline(&spot, spot.panel->work);
@@ -233,9 +228,7 @@ static inline struct ${p}result ${p}rebound(
         } else {
             found.dissipation = (size - w) * (size + w) / (2 * beta);
         }
-        found.regime = size / zeta2 > 1 ? ${P}SLIP_STICK_SLIP : ${P}STICK_SLIP;
-        if (spot.multiple)
-            found.regime = ${P}MULTIPLE;
+        found.regime = size > zeta2 ? ${P}SLIP_STICK_SLIP : ${P}STICK_SLIP;
         if (!(size > 0.0))
             found.regime = ${P}STICK;
     }
@@ -324,17 +317,16 @@ function place(value, count) {
  */
 function find(y, b, e, loss) {
     const u = (b - $b_least) / $b_span, interval = index_of(u * $limits, $limits);
-    const part = u * $limits - interval;
-    const middle = (1 - part) * limit[interval] + part * limit[interval + 1];
-    const early = loss === PLASTIC && e < middle;
-    const panel = panels[loss === VISCOUS ? 0 : early ? 1 : 2];
-    let t = (e - $e_least) / $e_span;
-    if (early) {
-        const rest = Math.max($e_least / e - $e_least / middle, 0);
-        t = 1 - Math.sqrt(rest / (1 - $e_least / middle));
-    } else if (loss === PLASTIC) {
-        t = Math.sqrt(Math.sqrt((1 - e) / (1 - middle)));
-    }
+    const part = u * $limits - interval, alike = b + e * (b - 1);
+    const between = (k) => (1 - part) * limits[k] + part * limits[k + 1];
+    const less = between(interval), more = between(interval + $limits + 1);
+    const which = loss === VISCOUS ? 0 : e < less ? 1 : e < more ? 2 : 3, panel = panels[which];
+    const t = [
+        () => (e - $e_least) / $e_span,
+        () => 1 - Math.sqrt(clipped($e_least / e - $e_least / less, 0, 1) / (1 - $e_least / less)),
+        () => (e - less) / (more - less),
+        () => Math.sqrt(Math.sqrt((1 - e) / (1 - more))),
+    ][which]();
 
     // Edges, between four nodes.
     const row = index_of(t * panel.rows, panel.rows), over = t * panel.rows - row;
@@ -349,9 +341,10 @@ function find(y, b, e, loss) {
             (1 - across) * (values[next] * $unit) + across * (values[next + 1] * $unit);
         varying.push((1 - over) * before + over * after);
     }
-    const edge = early ? [0, varying[0], 1] : [0, 1, varying[0]];
-    if (panel.patches === 5) edge.push(Math.min(varying[1], b));
-    edge.push(b, b + e * (b - 1));
+    const third = which === 3 ? b : varying[0];
+    const edge = which === 0
+        ? [0, 1, varying[0], Math.min(varying[1], b), b, alike]
+        : [0, 1, (1 + third) / 2, third, which === 1 ? varying[1] : alike];
 
     // The patch, and s in it.
     let patch = 0, low = edge[0], high = edge[1];
@@ -374,9 +367,8 @@ function find(y, b, e, loss) {
     base = base * panel.over_u + over_u.index;
     return {
         panel,
-        patch,
         base,
-        multiple: early && y >= varying[2] && y <= 1,
+        slides: y >= edge[panel.patches] * $nearly,
         weights: [over_s.weights, over_t.weights, over_u.weights],
     };
 }
@@ -420,18 +412,6 @@ export function covers(x, mass_ratio, stiffness_ratio, restitution, loss) {
 }
 
 /**
- * The incidence from which the contact slides throughout.
- * @param {number} mass_ratio
- * @param {number} stiffness_ratio
- * @param {number} restitution
- * @returns {number}
- */
-function slides_from(mass_ratio, stiffness_ratio, restitution) {
-    const limit = mass_ratio + restitution * (mass_ratio - stiffness_ratio);
-    return Math.max(stiffness_ratio, limit);
-}
-
-/**
  * Velocity in the direction of x.
  * @param {number} velocity
  * @param {number} x
@@ -453,8 +433,8 @@ function directed(velocity, x) {
 export function velocity(x, mass_ratio, stiffness_ratio, restitution, loss) {
     const size = Math.abs(x), beta = mass_ratio, zeta2 = stiffness_ratio, e = restitution;
     if (!covers(x, beta, zeta2, e, loss)) return NaN;
-    if (size >= slides_from(beta, zeta2, e)) return directed(size - (1 + e) * beta, x);
     const spot = find(size / zeta2, beta / zeta2, e, loss);
+    if (spot.slides) return directed(size - (1 + e) * beta, x);
     return directed(clipped(zeta2 * spline(spot, spot.panel.velocity), 0 - size, size), x);
 }
 
@@ -480,7 +460,8 @@ export function rebound(x, mass_ratio, stiffness_ratio, restitution, loss) {
     let velocity = NaN, peak_friction = NaN, dissipation = NaN, regime = UNRESOLVED;
     if (!covers(x, beta, zeta2, e, loss))
         return { velocity, peak_friction, dissipation, regime };
-    if (size >= slides_from(beta, zeta2, e)) {
+    const spot = find(size / zeta2, beta / zeta2, e, loss);
+    if (spot.slides) {
         const change = (1 + e) * beta;
         velocity = size - change;
         peak_friction = 1;
@@ -489,17 +470,13 @@ export function rebound(x, mass_ratio, stiffness_ratio, restitution, loss) {
             : (1 + e) * (size - change / 2);
         regime = SLIP_THROUGHOUT;
     } else {
-        const spot = find(size / zeta2, beta / zeta2, e, loss);
         velocity = clipped(zeta2 * spline(spot, spot.panel.velocity), 0 - size, size);
         peak_friction = spline(spot, spot.panel.peak);
-        if (spot.panel.reversed >= 0 && spot.patch === 0)
-            peak_friction = Math.max(peak_friction, spline(spot, spot.panel.reversed));
         peak_friction = clipped(peak_friction, 0, 1);
         dissipation = loss === VISCOUS
             ? Math.max(zeta2 * spline(spot, spot.panel.work), 0)
             : (size - velocity) * (size + velocity) / (2 * beta);
-        regime = size / zeta2 > 1 ? SLIP_STICK_SLIP : STICK_SLIP;
-        if (spot.multiple) regime = MULTIPLE;
+        regime = size > zeta2 ? SLIP_STICK_SLIP : STICK_SLIP;
         if (size === 0) regime = STICK;
     }
     return { velocity: directed(velocity, x), peak_friction, dissipation, regime };
@@ -514,7 +491,7 @@ Written by planarimpact $version. Do not edit it: write it anew.
 Model: the contact of Hertz with micro-slip (the continuum), with what takes the energy where \
 restitution is below 1, one for each impact:
   ${P}VISCOUS: Kelvin-Voigt spheres with one relaxation time
-  ${P}PLASTIC: elastic-plastic spheres
+  ${P}PLASTIC: elastic-plastic spheres, which flow in shear while they yield
 
 Functions of the incidence x = v1(0)/(mu v2(0)), of any sign, and of
   mass_ratio: m2/m1, effective normal over tangential mass: 3.5 for solid spheres, 2.5 for thin \
@@ -529,7 +506,8 @@ are
     velocity: v1(tf)/(mu v2(0)), which has the sign opposite to x where the contact point has
       turned round
     peak_friction: largest friction, over mu times the largest normal force
-    dissipation: work of friction, in mu^2 m2 v2(0)^2
+    dissipation: work of friction, in mu^2 m2 v2(0)^2; with plastic loss also that of the flow in \
+shear
     regime: the order of stick and slip, one of the codes below
 
 Units and signs: v1 and v2 are the tangential and the normal velocity of the contact point, before \
@@ -543,7 +521,7 @@ numbers are NaN and the regime is ${P}UNRESOLVED.
 
 Error against the model, of velocity, peak_friction and dissipation: at most ${P}ERROR_VISCOUS or \
 ${P}ERROR_PLASTIC, by loss. It was measured by a search for the largest error; it is not \
-proved. Slip throughout is a formula.
+proved. Slip throughout is a line.
 
 Example:
 $example
@@ -604,7 +582,7 @@ def text(table: Table, bounds: Mapping[str, float], file: str, name: str, langua
     blocks = [
         _constants(bounds, prefix.upper(), chosen),
         comment(Template(one).substitute(left=LEFT, right=RIGHT, unit=unit) for one in LAYOUT),
-        numbers(prefix + "limit", table.limit, chosen),
+        numbers(prefix + "limits", table.limits.ravel(), chosen),
         _panels(layout.panels, prefix, language),
         numbers(prefix + "patches", layout.patches, chosen),
         _values(layout.values, prefix, language),
@@ -705,6 +683,7 @@ def _code(layout: _Layout, table: Table, prefix: str, language: str) -> str:
         "ratio_least": spheres.LEAST_RATIO * (1 - spheres.ROUNDING),
         "ratio_most": spheres.LARGEST_RATIO * (1 + spheres.ROUNDING),
         "restitution_least": spheres.LEAST_RESTITUTION,
+        "nearly": tables.NEARLY,
         "nan": math.nan,
     }
     return Template(CODE[language]).substitute(
@@ -713,7 +692,7 @@ def _code(layout: _Layout, table: Table, prefix: str, language: str) -> str:
         P=prefix.upper(),
         left=LEFT,
         right=RIGHT,
-        limits=table.limit.size - 1,
+        limits=table.limits.shape[1] - 1,
         count=sum(map(np.size, layout.values)),
         packed=_packed(layout.values) if language == "js" else "",
     )

@@ -17,7 +17,7 @@ The keyword `loss` says what takes the normal energy where e < 1. At e = 1 all a
 Errors that these functions state are those of the solution. The model itself is further off. For a
 solid sphere of Poisson's ratio 0.3 and e = 1 its velocity differs from the elastic continuum by up
 to 0.21 mu v2(0). Measurements contradict the hysteretic loss: at e = 0.8 it differs by up to 0.73
-from the viscous continuum and by up to 0.69 from the plastic one.
+from the viscous continuum and by up to 0.90 from the plastic one.
 """
 
 import numpy as np

@@ -292,6 +292,24 @@ def _alike_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tupl
     return zeta2, beta, _alike_limit(beta, zeta2, e)
 
 
+def _plastic_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
+    return float(continuum.slip_throughout_limit(beta, zeta2, e, loss="plastic"))
+
+
+def _tabled_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
+    if not spheres.covers(beta, zeta2, e):  # it has no answer
+        return _plastic_limit(beta, zeta2, e)
+    return float(spheres.plastic_limit(*np.array([[beta], [zeta2], [e]]))[0])
+
+
+def _tabled_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
+    return zeta2, beta, _tabled_limit(beta, zeta2, e)
+
+
+def _plastic_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
+    return zeta2, beta, _plastic_limit(beta, zeta2, e)
+
+
 def _rigid_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
     return beta, sliding.change(beta, e)
 
@@ -440,8 +458,8 @@ MODELS = {
             _LOSSY,
             "elastic-plastic spheres with micro-slip, to a tolerance; contained yielding",
             "C. Thornton, J. Appl. Mech. 64 (1997) 383-386",
-            _alike_limit,
-            _alike_kinks,
+            _plastic_limit,
+            _plastic_kinks,
         ),
         *(
             Model(
@@ -453,8 +471,11 @@ MODELS = {
                 f"continuum.{loss} from a table; zeta^2 up to {spheres.LARGEST_STIFFNESS}, and "
                 f"m2/m1 over zeta^2 from {spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
                 "solved by this package, planarimpact.spheres.making",
-                _alike_limit,
-                _alike_kinks,
+                *(
+                    (_tabled_limit, _tabled_kinks)
+                    if loss == "plastic"
+                    else (_alike_limit, _alike_kinks)
+                ),
             )
             for loss in spheres.LOSSES
         ),

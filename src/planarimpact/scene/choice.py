@@ -20,7 +20,7 @@ import numpy as np
 import pandas as pd
 
 from planarimpact import continuum, lumped, models, response, rigid, spheres
-from planarimpact.ground import checks, sliding
+from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, Booleans, Integers, Numbers
 from planarimpact.ground.results import Rebound
 from planarimpact.response import Response
@@ -140,12 +140,17 @@ def jobs(
     """
     groups = np.stack([group[rows] for group in (mass_ratio, stiffness_ratio, restitution)])
     kinds = np.where(groups[2] == 1, 0, np.where(plastic[rows], 2, 1))
-    errors = [spheres.ERROR_BOUND[loss] for loss in TABLED.values()]
-    tabled = spheres.covers(*groups) & (MOST * tolerance >= np.array(errors)[kinds])
-    chosen = []
-    for kind, (name, error) in enumerate(zip(REFERENCES, errors, strict=True)):
-        why = f"the table of spheres differs by {error:.2g} at most, as measured"
-        chosen.append((np.flatnonzero(tabled & (kinds == kind)), Rung(name, "table", error, why)))
+    tabled, chosen = spheres.covers(*groups), []
+    little = np.zeros(tabled.size, dtype=bool)
+    little[tabled] = spheres.loses_little(*groups[:, tabled])
+    errors = np.array([spheres.ERROR_BOUND[loss] for loss in TABLED.values()])[kinds]
+    errors[little & (kinds == 2)] = spheres.LITTLE_BOUND
+    tabled &= MOST * tolerance >= errors
+    for kind, name in enumerate(REFERENCES):
+        for error in np.unique(errors[tabled & (kinds == kind)]):
+            which = np.flatnonzero(tabled & (kinds == kind) & (errors == error))
+            why = f"the table of spheres differs by {error:.2g} at most, as measured"
+            chosen.append((which, Rung(name, "table", float(error), why)))
     found = _each(chosen, groups, rows, HELD)
     left = np.flatnonzero(~tabled)
     return found + _pair_by_pair(
@@ -361,7 +366,9 @@ def without_unsolved(
 def _compiled(
     model: str, mass_ratio: float, stiffness_ratio: float, restitution: float, tolerance: float
 ) -> Response:
-    limit = float(sliding.limit_alike(mass_ratio, stiffness_ratio, restitution))
+    loss = model.partition(".")[2] or None
+    groups = mass_ratio, stiffness_ratio, restitution
+    limit = float(continuum.slip_throughout_limit(*groups, loss=loss))
     wanted = tolerance if model in REFERENCES else min(tolerance, FINE)
     return response.compile(
         model,

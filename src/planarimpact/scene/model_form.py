@@ -95,9 +95,21 @@ def difference(job: Job, incidence: Array, velocity: Array, known: Curves) -> Ar
     pair = [float(np.reshape(group, -1)[0]) for group in job.groups]
     key = other, pair[0], pair[1], pair[2]
     if key not in known:
-        x = np.linspace(0.0, float(sliding.limit_alike(*pair)), PLACES)
+        x = np.linspace(0.0, float(continuum.slip_throughout_limit(*pair, loss=loss)), PLACES)
         known[key] = x, _velocity(other, x, *(np.full(PLACES, group) for group in pair))
-    return np.interp(incidence, *known[key]) - velocity
+    x, solved = known[key]
+    slides = sliding.velocity(incidence, pair[0], pair[2])
+    return np.where(incidence < x[-1], np.interp(incidence, x, solved), slides) - velocity
+
+
+def of_sliding(incidence: Array, *groups: Array) -> Array:
+    """Velocity with plastic loss, less that of viscous impacts that slide throughout, shape (n,).
+
+    With plastic loss such an impact may stick for a while.
+    """
+    beta, _, e = groups
+    found = _velocity("continuum.plastic", incidence, *groups)
+    return found - sliding.velocity(incidence, beta, e)
 
 
 def _velocity(model: str, incidence: Array, *groups: Array) -> Array:

@@ -14,6 +14,7 @@ import numpy as np
 
 from planarimpact import bodies, continuum
 from planarimpact.bodies import Body, Material
+from planarimpact.continuum import inelastic
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.scene.columns import AXES, LOSSES
@@ -52,6 +53,7 @@ class Impacts(NamedTuple):
     mass_ratio: Array
     stiffness_ratio: Array
     peak_normal: Array  # largest normal force by the law of the loss [N], NaN where it has none
+    coupling: Array  # size of Dundurs' constant over friction, see `bodies.COUPLING`
 
 
 def impacts(values: dict[str, Array]) -> Impacts:
@@ -90,6 +92,9 @@ def impacts(values: dict[str, Array]) -> Impacts:
         v1, v2 = np.hypot(np.hypot(*sideways[:2]), sideways[2]), -along
         _, m2 = bodies.effective_masses(body, other)
         restitution, plastic, peak_normal = _normal_impact(values, m2, v2)
+        materials = _materials(values)
+        with np.errstate(divide="ignore", invalid="ignore"):  # without friction nothing resists
+            coupling = np.abs(bodies.dundurs(*materials)) / values["friction"]
         return Impacts(
             body,
             other,
@@ -104,16 +109,26 @@ def impacts(values: dict[str, Array]) -> Impacts:
             plastic,
             m2,
             bodies.mass_ratio(body, other),
-            bodies.stiffness_ratio(*_materials(values)),
+            bodies.stiffness_ratio(*materials),
             peak_normal,
+            coupling,
         )
 
 
 def slides_throughout(impacts: Impacts) -> Booleans:
-    """Whether each impact slides from first to last, whatever the loss."""
+    """Whether each impact slides from first to last."""
     groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
     with np.errstate(over="ignore"):  # where friction stops any velocity that is a number
-        return impacts.v1 >= sliding.limit_alike(*groups) * (impacts.friction * impacts.v2)
+        unit = impacts.friction * impacts.v2
+        slides = impacts.v1 >= sliding.limit_alike(*groups) * unit
+        # What yields may slide later. Below its least restitution the law says nothing.
+        yields = np.flatnonzero(slides & impacts.plastic & (impacts.restitution < 1))
+        known = yields[impacts.restitution[yields] >= bodies.LEAST_RESTITUTION]
+        slides[yields] = False
+        beta, zeta2, e = (group[known] for group in groups)
+        limit = inelastic.slides_from(beta, zeta2, e, "plastic")
+        slides[known] = impacts.v1[known] >= limit * unit[known]
+    return slides
 
 
 def problems(impacts: Impacts) -> dict[int, str]:

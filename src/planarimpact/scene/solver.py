@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from planarimpact import bodies
+from planarimpact import bodies, continuum
 from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers, Numbers
 from planarimpact.ground.checks import ConvergenceError, InputError
@@ -27,13 +27,14 @@ ASSUMED = f"restitution below 1: the loss is taken to be {LOSS}, as none was giv
 
 
 class Report(NamedTuple):
-    """What a solver did: as the attributes of `Solver`, impacts by model, and model forms."""
+    """What a solver did: as the attributes of `Solver`, impacts by model, model forms, coupling."""
 
     rows: int
     bad: list[tuple[int, str]]
     assumed: bool
     taken: Counter[tuple[choice.Rung, str]]
     differences: model_form.Summary
+    coupled: tuple[int, float]
 
 
 class Solver:
@@ -67,6 +68,8 @@ class Solver:
         self._taken: Counter[tuple[choice.Rung, str]] = Counter()
         self._curves: model_form.Curves = {}
         self._differences = model_form.Summary()
+        # Impacts of bodies that are too dissimilar, and the largest coupling.
+        self._coupled = 0, 0.0
 
     @checks.default_errors
     def solve(self, table: pd.DataFrame, skip_bad: bool = False) -> pd.DataFrame:
@@ -101,7 +104,9 @@ class Solver:
         -------
         Report
         """
-        return Report(self.rows, self.bad, self.assumed, self._taken, self._differences)
+        return Report(
+            self.rows, self.bad, self.assumed, self._taken, self._differences, self._coupled
+        )
 
     def join(self, other: Report) -> None:
         """Take in what a solver of other rows of the same table did.
@@ -115,6 +120,7 @@ class Solver:
         self.assumed |= other.assumed
         self._taken += other.taken
         self._differences.join(other.differences)
+        self._count_coupled(*other.coupled)
 
     def explain(self) -> str:
         """How many impacts each model solved and why, in words, a line for each.
@@ -126,9 +132,19 @@ class Solver:
         lines = [f"{self.rows - len(self.bad)} impacts, tolerance {self.tolerance:g}"]
         for (rung, pair), count in self._taken.most_common():
             lines.append(f"{count:>10}  {rung.name:<27}  {pair}: {rung.why}")
+        count, largest = self._coupled
+        if count:
+            lines.append(
+                f"the bodies spread differently under pressure, which no model here has: {count} "
+                f"impacts may be off by more than 0.1 mu v2(0) (Dundurs' constant over friction up "
+                f"to {largest:.2g}, allowed is {bodies.COUPLING:g})"
+            )
         if self.assumed:
             lines.append(ASSUMED)
         return "\n".join(lines + self._differences.words())
+
+    def _count_coupled(self, count: int, largest: float) -> None:
+        self._coupled = self._coupled[0] + count, max(self._coupled[1], largest)
 
     def _block(self, table: pd.DataFrame, names: dict[str, str], skip_bad: bool) -> pd.DataFrame:
         self._refuse_two_losses(names)
@@ -204,7 +220,10 @@ class Solver:
         for rung, impact in ((choice.SLIDING, slides), (choice.HEAD_ON, head_on)):
             if impact.any():
                 self._taken[rung, "all pairs"] += int(np.sum(impact))
+        form[slides] = self._form_of_sliding(impacts, slides)[slides]
         stick = np.flatnonzero(~slides & ~head_on)
+        coupled = impacts.coupling[stick][impacts.coupling[stick] > bodies.COUPLING]
+        self._count_coupled(coupled.size, float(np.max(coupled, initial=0.0)))
         jobs = choice.jobs(
             *groups, impacts.plastic, stick, self.tolerance, self._responses, self._seen
         )
@@ -228,6 +247,23 @@ class Solver:
         self.assumed |= unsaid and bool((impacts.restitution < 1).any())
         found_columns = velocity, peak, error, form, regime, model
         return self._columns(impacts, names, *found_columns), unsolved
+
+    def _form_of_sliding(self, impacts: motion.Impacts, slides: Booleans) -> Array:
+        """Model forms of impacts that slide throughout; 0 where they do so with the other loss."""
+        form, e = np.zeros(slides.size), impacts.restitution
+        lossy = slides & ~impacts.plastic & (e < 1) & (e >= continuum.LEAST_RESTITUTION)
+        rows = np.flatnonzero(lossy)
+        if not rows.size:
+            return form
+        groups = [group[rows] for group in (impacts.mass_ratio, impacts.stiffness_ratio, e)]
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            unit = impacts.friction[rows] * impacts.v2[rows]
+            x = impacts.v1[rows] / unit
+        limit = continuum.slip_throughout_limit(*groups, loss="plastic")
+        late = np.flatnonzero(x < limit)
+        found = model_form.of_sliding(x[late], *(group[late] for group in groups))
+        form[rows[late]] = np.abs(found) * unit[late]
+        return form
 
     def _answers(
         self, job: choice.Job, x: Array

@@ -23,9 +23,7 @@ LEAST_INCIDENCE = 1e-6
 ELASTIC = 1 - 1e-9
 # The largest restitution for which viscous spheres have edges of their own.
 VISCOUS = 1 - 1e-13
-# Halvings that find an incidence from which a contact slips as a whole.
-HALVINGS = 8
-# Functions at a node: velocity, peak friction, and work or friction against the first direction.
+# Functions at a node: velocity, peak friction and work.
 FUNCTIONS = 3
 
 
@@ -53,8 +51,9 @@ PLANS = {
         (128, 64),
         {
             "viscous": ((25, 21, 13, 13, 17), 25, 25),
-            "plastic_low": ((25, 49, 7, 65, 13), 81, 49),
-            "plastic_high": ((17, 21, 21, 17), 49, 33),
+            "plastic_low": ((13, 21, 33, 49), 49, 25),
+            "plastic_middle": ((17, 25, 33, 13), 33, 33),
+            "plastic_high": ((13, 25, 33, 17), 65, 17),
         },
     ),
     "coarse": Plan(
@@ -62,8 +61,9 @@ PLANS = {
         (64, 32),
         {
             "viscous": ((9, 9, 7, 5, 9), 13, 9),
-            "plastic_low": ((13, 17, 5, 17, 9), 25, 13),
-            "plastic_high": ((7, 9, 9, 9), 13, 9),
+            "plastic_low": ((9, 9, 13, 17), 17, 9),
+            "plastic_middle": ((7, 9, 13, 9), 9, 9),
+            "plastic_high": ((7, 9, 13, 9), 17, 9),
         },
     ),
 }
@@ -84,28 +84,26 @@ def make(name: str = "fine", say: Callable[[str], None] = print) -> Table:
     Table
     """
     plan = PLANS[name]
-    limit = thresholds.early_limit(b_at(np.linspace(0.0, 1.0, plan.edges[1] + 1)))
+    limits = thresholds.limits(b_at(np.linspace(0.0, 1.0, plan.edges[1] + 1)))
     panels = {}
     for panel, (over_s, *_) in plan.nodes.items():
-        edges = edges_over(panel, plan, limit)
+        edges = edges_over(panel, plan, limits)
         patches = []
         for number in range(len(over_s)):
-            values = nodes_of(panel, plan, edges, limit, number)
+            values = nodes_of(panel, plan, edges, limits, number)
             patches.append([splined(one) for one in values])
             say(f"{panel}, patch {number + 1} of {len(over_s)}: {values[0].size} nodes")
         panels[panel] = _joined(panel, plan, edges, patches)
-    return Table(plan.exponent, limit, panels)
+    return Table(plan.exponent, limits, panels)
 
 
 def _joined(name: str, plan: Plan, edges: Array, patches: list[list[Array]]) -> Panel:
     """A panel from the coefficients of its patches, rounded."""
-    velocity, peak, third = (np.concatenate(each) for each in zip(*patches, strict=True))
-    none = third[:0]
+    velocity, peak, work = (np.concatenate(each) for each in zip(*patches, strict=True))
     splines = (
         velocity,
         peak,
-        third if name == "viscous" else none,
-        patches[0][2] if name == "plastic_low" else none,
+        work if name == "viscous" else work[:0],
     )
     return Panel(
         name,
@@ -124,55 +122,35 @@ def b_at(u: Array) -> Array:
     return table.B_LEAST + u * (table.B_MOST - table.B_LEAST)
 
 
-def e_at(name: str, t: Array, limit: Array) -> Array:
+def e_at(name: str, t: Array, limits: Array) -> Array:
     """Restitution at t, the inverse of `table.over_e`."""
+    low, high = limits
     if name == "viscous":
         return table.E_LEAST + t * (1 - table.E_LEAST)
     if name == "plastic_low":
-        return table.E_LEAST / (1 - (1 - (1 - t) ** 2) * (1 - table.E_LEAST / limit))
-    return 1 - t**4 * (1 - limit)
+        return table.E_LEAST / (1 - (1 - (1 - t) ** 2) * (1 - table.E_LEAST / low))
+    if name == "plastic_middle":
+        return low + t * (high - low)
+    return 1 - t**4 * (1 - high)
 
 
-def edges_over(name: str, plan: Plan, limit: Array) -> Array:
+def edges_over(name: str, plan: Plan, limits: Array) -> Array:
     """Edges of a panel that vary, rounded, as `Panel` has them."""
     t, u = np.meshgrid(*(np.linspace(0.0, 1.0, count + 1) for count in plan.edges), indexing="ij")
     b = b_at(u).ravel()
-    e = e_at(name, t, limit).ravel()
+    e = e_at(name, t, limits[:, None]).ravel()
     if name == "viscous":
         e = np.minimum(e, VISCOUS)
         found = [thresholds.friction_falls(b, e), thresholds.lasts_to_largest_force(b, e)]
-    elif name == "plastic_low":
-        middle, whole = thresholds.middle_slips(b, e)
-        some = whole < 1
-        whole[some] = _slips_twice(b[some], e[some], middle[some], whole[some])
-        # Beyond y = 1 it has no meaning.
-        found = [np.minimum(middle, 1.0), thresholds.lasts_to_yield(b, e), np.minimum(whole, 2.0)]
     else:
-        found = [thresholds.middle_slips_again(b, e)]
-    return _rounded(np.stack([edge.reshape(t.shape) for edge in found]), plan.exponent)
+        found = [] if name == "plastic_high" else [thresholds.slides_at_the_end(b, e)]
+        if name == "plastic_low":
+            found.append(inelastic.slides_from(b, np.ones_like(b), e, "plastic"))
+    return _rounded(np.reshape(found, (len(found), *t.shape)), plan.exponent)
 
 
-def _slips_twice(b: Array, e: Array, low: Array, high: Array) -> Array:
-    """Incidence from which `inelastic` calls it gross slip, as friction is so near to its limit."""
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        twice = np.empty(b.size, dtype=bool)
-        for start in range(0, b.size, TOGETHER):
-            part = slice(start, start + TOGETHER)
-            one = np.ones_like(b[part])
-            path = inelastic.path(middle[part], b[part], one, e[part], "plastic", 2 * STEPS)
-            gross = (np.abs(path.friction) >= inelastic.GROSS * path.normal)[1:-1]
-            twice[part] = np.sum(gross[1:] & ~gross[:-1], axis=0) > 1
-        low, high = np.where(twice, low, middle), np.where(twice, middle, high)
-    return high
-
-
-def nodes_of(name: str, plan: Plan, edges: Array, limit: Array, number: int) -> Array:
-    """Velocity, peak friction and a third function at the nodes of a patch.
-
-    The third function is the work of friction with viscous loss; in the first patch of
-    "plastic_low" it is the largest friction against the first direction, and the second that in
-    the first direction; else 0.
+def nodes_of(name: str, plan: Plan, edges: Array, limits: Array, number: int) -> Array:
+    """Velocity, peak friction and work of friction at the nodes of a patch.
 
     Parameters
     ----------
@@ -181,7 +159,7 @@ def nodes_of(name: str, plan: Plan, edges: Array, limit: Array, number: int) -> 
     plan : Plan
     edges : ndarray
         Of `edges_over`.
-    limit : ndarray, shape (nu + 1,)
+    limits : ndarray, shape (2, nu + 1)
     number : int
         Of the patch, from 0.
 
@@ -192,24 +170,24 @@ def nodes_of(name: str, plan: Plan, edges: Array, limit: Array, number: int) -> 
     over_s, over_t, over_u = plan.nodes[name]
     shape = over_s[number], over_t, over_u
     s, t, u = np.meshgrid(*(np.linspace(0.0, 1.0, count) for count in shape), indexing="ij")
-    y, b, e = impacts(name, edges, limit, number, s.ravel(), t.ravel(), u.ravel())
-    both_ways = name == "plastic_low" and number == 0
-    return solved(name.partition("_")[0], y, b, e, both_ways).reshape(FUNCTIONS, *shape)
+    y, b, e = impacts(name, edges, limits, number, s.ravel(), t.ravel(), u.ravel())
+    return solved(name.partition("_")[0], y, b, e).reshape(FUNCTIONS, *shape)
 
 
 def impacts(
-    name: str, edges: Array, limit: Array, number: int, s: Array, t: Array, u: Array
+    name: str, edges: Array, limits: Array, number: int, s: Array, t: Array, u: Array
 ) -> tuple[Array, Array, Array]:
     """y, b and e at places of a patch."""
     b = b_at(u)
-    e = e_at(name, t, np.interp(u, np.linspace(0.0, 1.0, limit.size), limit))
-    ends, _ = table.edges_of(name, edges, t, u, b, e)
+    even = np.linspace(0.0, 1.0, limits.shape[1])
+    e = e_at(name, t, np.stack([np.interp(u, even, limit) for limit in limits]))
+    ends = table.edges_of(name, edges, t, u, b, e)
     low, high = ends[number : number + 2]
     share = {EVEN: s, LEFT: s**2, RIGHT: 1 - (1 - s) ** 2}[ROOTS[name][number]]
     return low + (high - low) * share, b, e
 
 
-def solved(loss: str, y: Array, b: Array, e: Array, both_ways: bool) -> Array:
+def solved(loss: str, y: Array, b: Array, e: Array) -> Array:
     """The functions of `nodes_of`, shape (3, n)."""
     found = np.empty((FUNCTIONS, y.size))
     y = np.maximum(y, LEAST_INCIDENCE)
@@ -220,39 +198,13 @@ def solved(loss: str, y: Array, b: Array, e: Array, both_ways: bool) -> Array:
     rest = rest[np.lexsort((b[rest], e[rest]))]  # the same e is solved once
     for start in range(0, rest.size, TOGETHER):
         rows = rest[start : start + TOGETHER]
-        coarse, fine = (
-            _functions(
-                inelastic.path(y[rows], b[rows], np.ones(rows.size), e[rows], loss, steps),
-                loss,
-                both_ways,
-            )
+        solutions = (
+            inelastic.path(y[rows], b[rows], np.ones(rows.size), e[rows], loss, steps)
             for steps in (STEPS, 2 * STEPS)
         )
+        coarse, fine = (np.stack([path.velocity[-1], path.peak, path.work]) for path in solutions)
         found[:, rows] = fine + (fine - coarse) / 3
     return found
-
-
-def _functions(path: inelastic.Path, loss: str, both_ways: bool) -> Array:
-    velocity = path.velocity[-1]
-    if loss == "viscous":
-        return np.stack([velocity, path.peak, path.work])
-    if both_ways:
-        forward, back = (_largest(path.time, side * path.friction) for side in (1.0, -1.0))
-        return np.stack([velocity, forward, back])
-    return np.stack([velocity, path.peak, np.zeros_like(velocity)])
-
-
-def _largest(time: Array, force: Array) -> Array:
-    """Largest force, by the parabola through the largest instant and its neighbours."""
-    top = np.clip(np.argmax(force, axis=0), 1, len(force) - 2)
-    column = np.arange(top.size)
-    (t0, f0), (t1, f1), (t2, f2) = (
-        (time[top + k, column], force[top + k, column]) for k in (-1, 0, 1)
-    )
-    rise, fall = (f1 - f0) / (t1 - t0), (f2 - f1) / (t2 - t1)
-    bend = np.minimum((fall - rise) / (t2 - t0), -1e-300)
-    at = np.clip((t0 + t1) / 2 - rise / (2 * bend), t0, t2)
-    return f0 + (at - t0) * (rise + bend * (at - t1))
 
 
 def splined(values: Array) -> Array:

@@ -5,10 +5,8 @@ is a loss, or a part of it, with the same edges throughout. Its impacts are mapp
 0 to 1 over e and b, and s, from 0 to 1 between two edges. That is a patch. In a patch velocity,
 peak friction and work are cubic splines in s, t and u: sums of products of uniform B-splines. All
 patches of a panel have the same B-splines over t and u, so that neighbours agree at their common
-edge. (The largest friction jumps a little, by up to 2e-4, at the first edge of "plastic_low": left
-of it there are two splines, one for each direction.) Edges are interpolated linearly in t and u,
-when the table is made as when it is used: so a small error of an edge bends the answer a little
-late, and no more.
+edge. Edges are interpolated linearly in t and u, when the table is made as when it is used: so a
+small error of an edge bends the answer a little late, and no more.
 """
 
 from collections.abc import Sequence
@@ -28,9 +26,12 @@ B_LEAST, B_MOST, E_LEAST = 1.55, 3.55, 0.295
 EVEN, LEFT, RIGHT = range(3)
 ROOTS = {
     "viscous": (EVEN, LEFT, EVEN, EVEN, RIGHT),
-    "plastic_low": (EVEN, LEFT, EVEN, EVEN, RIGHT),
-    "plastic_high": (EVEN, LEFT, LEFT, RIGHT),
+    "plastic_low": (EVEN, LEFT, RIGHT, RIGHT),
+    "plastic_middle": (EVEN, LEFT, RIGHT, RIGHT),
+    "plastic_high": (EVEN, LEFT, RIGHT, RIGHT),
 }
+# Slip throughout begins here already, for rounding.
+NEARLY = 1 - 2.0**-50
 # B-splines that are not zero within an interval.
 ORDER = 4
 
@@ -47,15 +48,11 @@ class Panel(NamedTuple):
     intervals : ndarray of int, shape (patches,)
         Of the splines over s.
     edges : ndarray, shape (edges, nt + 1, nu + 1)
-        Those that vary, in y, over t and u; ascending where they are edges of patches. The third
-        of "plastic_low" is none: there contacts begin to stick more than once.
+        Those that vary, in y, over t and u, ascending.
     velocity, peak : ndarray, shape (s, t, u)
         Coefficients of velocity over zeta^2, and of peak friction.
     work : ndarray, shape (s or 0, t, u)
         Of the work of friction over zeta^2; with viscous loss alone.
-    reversed : ndarray, shape (s of the first patch or 0, t, u)
-        Of the largest friction against the first direction, in the first patch of "plastic_low":
-        there `peak` is the largest in the first direction.
     """
 
     name: str
@@ -64,7 +61,6 @@ class Panel(NamedTuple):
     velocity: Array
     peak: Array
     work: Array
-    reversed: Array
 
 
 # Fields of a panel that are stored as whole numbers.
@@ -72,13 +68,13 @@ PACKED = Panel._fields[2:]
 
 
 class Table(NamedTuple):
-    """All panels, their unit, and the restitution between the two plastic ones, evenly over u.
+    """All panels, their unit, and the restitutions between the plastic ones, evenly over u.
 
     Numbers of the panels are multiples of 2^-exponent.
     """
 
     exponent: int
-    limit: Array
+    limits: Array
     panels: dict[str, Panel]
 
 
@@ -96,12 +92,12 @@ def read(file: IO[bytes]) -> Table:
         for name in ROOTS:
             packed = (real(_summed(arrays[f"{name}.{key}"]), exponent) for key in PACKED)
             panels[name] = Panel(name, arrays[f"{name}.intervals"], *packed)
-        return Table(exponent, arrays["limit"], panels)
+        return Table(exponent, arrays["limits"], panels)
 
 
 def write(file: IO[bytes], table: Table) -> None:
     """Write a table, compressed: numbers are stored as `steps` of whole numbers."""
-    arrays: dict[str, Any] = {"exponent": table.exponent, "limit": table.limit}
+    arrays: dict[str, Any] = {"exponent": table.exponent, "limits": table.limits}
     for name, panel in table.panels.items():
         arrays[f"{name}.intervals"] = panel.intervals
         for key in PACKED:
@@ -145,7 +141,7 @@ def _summed(parts: Any) -> Integers:
 
 
 class Answer(NamedTuple):
-    """Velocity and work over zeta^2, peak friction, and whether a contact sticks more than once.
+    """Velocity and work over zeta^2, peak friction, and whether a contact slides throughout.
 
     The work is NaN with plastic loss, where it follows from the velocity.
     """
@@ -153,11 +149,11 @@ class Answer(NamedTuple):
     velocity: Array
     peak: Array
     work: Array
-    multiple: Booleans
+    slides: Booleans
 
 
 def evaluate(table: Table, y: Array, b: Array, e: Array, plastic: Booleans) -> Answer:
-    """Answers to impacts that do not slide throughout.
+    """Answers to impacts; those of impacts that slide throughout have no meaning.
 
     Parameters
     ----------
@@ -170,18 +166,33 @@ def evaluate(table: Table, y: Array, b: Array, e: Array, plastic: Booleans) -> A
     -------
     Answer
     """
-    u = over_b(b)
-    limit = _between(table.limit, u)
+    u, limits = over_b(b), limits_at(table, b)
     velocity, peak, work = np.empty((3, y.size))
     found = Answer(velocity, peak, work, np.zeros(y.size, dtype=bool))
-    early = plastic & (e < limit)
-    for panel, rows in zip(table.panels.values(), (~plastic, early, plastic & ~early), strict=True):
+    below = e < limits
+    panels = ~plastic, plastic & below[0], plastic & ~below[0] & below[1], plastic & ~below[1]
+    for panel, rows in zip(table.panels.values(), panels, strict=True):
         which = np.flatnonzero(rows)
         if which.size:
-            part = _answer(panel, *(a[which] for a in (y, b, e, u, limit)))
+            part = _answer(panel, *(a[..., which] for a in (y, b, e, u, limits)))
             for every, some in zip(found, part, strict=True):
                 every[which] = some
     return found
+
+
+def slides_from(table: Table, b: Array, e: Array) -> Array:
+    """y from which plastic spheres slide throughout, as `evaluate` has it, shape (n,)."""
+    found, limits = b + e * (b - 1), limits_at(table, b)
+    low = np.flatnonzero(e < limits[0])
+    panel, some, u = table.panels["plastic_low"], e[low], over_b(b[low])
+    t = over_e(panel.name, some, limits[:, low])
+    found[low] = edges_of(panel.name, panel.edges, t, u, b[low], some)[-1]
+    return found
+
+
+def limits_at(table: Table, b: Array) -> Array:
+    """Restitutions between the plastic panels at b, shape (2, n)."""
+    return np.stack([_between(limit, over_b(b)) for limit in table.limits])
 
 
 def over_b(b: Array) -> Array:
@@ -189,37 +200,39 @@ def over_b(b: Array) -> Array:
     return (b - B_LEAST) / (B_MOST - B_LEAST)
 
 
-def over_e(name: str, e: Array, limit: Array) -> Array:
+def over_e(name: str, e: Array, limits: Array) -> Array:
     """t, from 0 to 1 over e.
 
-    Plastic spheres that lose much oscillate faster: even in 1/e they do so alike. Next to the limit
-    the middle slips within a range of y that shrinks to nothing. Yield begins at a velocity that
-    falls with the fourth root of 1 - e as e approaches 1.
+    Plastic spheres that lose much oscillate faster: even in 1/e they do so alike. Next to the lower
+    limit the last stick lasts within a range of y that shrinks to nothing. Yield begins at a
+    velocity that falls with the fourth root of 1 - e as e approaches 1.
     """
+    low, high = limits
     if name == "viscous":
         return (e - E_LEAST) / (1 - E_LEAST)
     if name == "plastic_low":
-        return 1 - np.sqrt(np.maximum(E_LEAST / e - E_LEAST / limit, 0.0) / (1 - E_LEAST / limit))
-    return np.sqrt(np.sqrt((1 - e) / (1 - limit)))
+        return 1 - np.sqrt(np.maximum(E_LEAST / e - E_LEAST / low, 0.0) / (1 - E_LEAST / low))
+    if name == "plastic_middle":
+        return (e - low) / (high - low)
+    return np.sqrt(np.sqrt((1 - e) / (1 - high)))
 
 
-def edges_of(
-    name: str, grids: Array, t: Array, u: Array, b: Array, e: Array
-) -> tuple[list[Array], list[Array]]:
-    """Edges of a panel's patches, from 0 to slip throughout; and those that vary, from grids."""
+def edges_of(name: str, grids: Array, t: Array, u: Array, b: Array, e: Array) -> list[Array]:
+    """Edges of a panel's patches, from 0 to slip throughout."""
     varying = _over_both(grids, t, u)
     zero, one = np.zeros_like(b), np.ones_like(b)
-    inner = {
-        "viscous": lambda: [one, varying[0], np.minimum(varying[1], b)],
-        "plastic_low": lambda: [varying[0], one, np.minimum(varying[1], b)],
-        "plastic_high": lambda: [one, varying[0]],
-    }[name]()
-    return [zero, *inner, b, b + e * (b - 1)], varying
+    if name == "viscous":
+        inner = [one, varying[0], np.minimum(varying[1], b), b]
+    else:
+        slides = b if name == "plastic_high" else varying[0]
+        inner = [one, (one + slides) / 2, slides]
+    last = varying[1] if name == "plastic_low" else b + e * (b - 1)
+    return [zero, *inner, last]
 
 
-def _answer(panel: Panel, y: Array, b: Array, e: Array, u: Array, limit: Array) -> Answer:
-    t = over_e(panel.name, e, limit)
-    edges, varying = edges_of(panel.name, panel.edges, t, u, b, e)
+def _answer(panel: Panel, y: Array, b: Array, e: Array, u: Array, limits: Array) -> Answer:
+    t = over_e(panel.name, e, limits)
+    edges = edges_of(panel.name, panel.edges, t, u, b, e)
     patch = np.zeros(y.size, dtype=np.intp)
     low, high = edges[:2]
     for edge, following in pairwise(edges[1:]):
@@ -227,7 +240,7 @@ def _answer(panel: Panel, y: Array, b: Array, e: Array, u: Array, limit: Array) 
         patch += beyond
         low, high = np.where(beyond, edge, low), np.where(beyond, following, high)
     width = high - low
-    s = np.clip((y - low) / np.where(width > 0, width, 1.0), 0.0, 1.0)
+    s = np.clip((np.minimum(y, high) - low) / np.where(width > 0, width, 1.0), 0.0, 1.0)
     root = np.array(ROOTS[panel.name]).take(patch)
     right = root == RIGHT
     bent = np.sqrt(np.where(right, 1 - s, s))
@@ -242,13 +255,7 @@ def _answer(panel: Panel, y: Array, b: Array, e: Array, u: Array, limit: Array) 
         base = base * size + index
     velocity, peak = (spline(c, base, weights) for c in (panel.velocity, panel.peak))
     work = spline(panel.work, base, weights) if panel.work.size else np.full(y.size, np.nan)
-    multiple = np.zeros(y.size, dtype=bool)
-    if panel.reversed.size:
-        some = np.flatnonzero(patch == 0)
-        back = spline(panel.reversed, base[some], [[w[some] for w in axis] for axis in weights])
-        peak[some] = np.maximum(peak[some], back)
-        multiple = (y >= varying[2]) & (y <= 1)
-    return Answer(velocity, peak, work, multiple)
+    return Answer(velocity, peak, work, y >= edges[-1] * NEARLY)
 
 
 def spline(coefficients: Array, base: Integers, weights: Sequence[Sequence[Array]]) -> Array:
@@ -315,7 +322,7 @@ def _over_both(grids: Array, t: Array, u: Array) -> list[Array]:
     j, across = _places(u, columns - 1)
     corner = i * columns + j
     found = []
-    for grid in grids.reshape(len(grids), -1):
+    for grid in grids.reshape(len(grids), rows * columns):
         before = (1 - across) * grid.take(corner) + across * grid.take(corner + 1)
         after = (1 - across) * grid.take(corner + columns) + across * grid.take(
             corner + columns + 1

@@ -10,28 +10,26 @@ From there on it slides until its body is as slow as its springs, which is at th
 that come to touch with the velocity v of a dashpot. Friction is largest at the end of slip where
 that rate is negative, and 1 where slip lasts to the largest force.
 
-**Plastic spheres.** The density of the limit of friction is q (a^2 - r^2) with the bluntness q,
-which is 1 until yield and falls from then on (`continuum.inelastic.thornton`). A spring at r that
-has stuck from touch on is stretched by u(t) - u(t_r). If every spring sticks, the middle is the
-first to reach its limit, where u = q a^2, and all of them slip where u' = q v. The displacement u
-of a contact that sticks is in proportion to y.
+**Plastic spheres.** The answer bends where friction is at its limit everywhere at the end of
+compression: it is largest from there on. A sphere that loses little slides until then; one that
+loses much slides again at the end, when shear has flowed so far that the body still moves on. And
+it bends where slip throughout begins (`Thornton.slides_from`). Spheres that lose much bend the
+answer at one more incidence, which the table does not know: its error is larger there.
 """
-
-from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 
+from planarimpact.continuum import inelastic
 from planarimpact.continuum.inelastic.kelvin_voigt import KelvinVoigt
+from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Booleans
-from planarimpact.normal_impact import hertz, thornton
+from planarimpact.normal_impact import thornton
 
-# Steps of a compression, of the method of Runge and Kutta. With twice as many no threshold moves
-# by more than 1e-6.
-STEPS = 2000
-# No compression lasts longer (Hertz': 1.47 in these units, and yield makes it longer by a third).
-LONGEST = 2.2
+# Steps of the continuum, and impacts solved together.
+STEPS, TOGETHER = 256, 256
 HALVINGS = 30
+# Of an incidence for which the continuum is solved each time.
+FEW_HALVINGS = 14
 
 
 def friction_falls(b: Array, e: Array) -> Array:
@@ -63,131 +61,66 @@ def lasts_to_largest_force(b: Array, e: Array) -> Array:
     return _slips_until(KelvinVoigt(e).velocity_at_largest_force, b)
 
 
-def lasts_to_yield(b: Array, e: Array) -> Array:
-    """Plastic: incidence from which the first slip lasts to yield, shape (n,).
+def slides_at_the_end(b: Array, e: Array) -> Array:
+    """Plastic: incidence from which friction is at its limit at the end of compression, shape (n,).
 
     Examples
     --------
-    >>> float(lasts_to_yield(np.array([2.5]), np.array([0.8]))[0].round(3))
-    1.041
+    >>> slides_at_the_end(np.array([2.9, 2.9]), np.array([0.9, 0.45])).round(2)
+    array([2.9 , 2.93])
     """
-    yields = thornton.compression(e).yields
-    return _slips_until(np.sqrt(np.maximum(1 - 2 * hertz.ENERGY * yields**2.5, 0.0)), b)
+    one = np.ones_like(b)
+    low, high = np.zeros_like(b), inelastic.slides_from(b, one, e, "plastic")
+    for _ in range(FEW_HALVINGS):
+        y, slides = (low + high) / 2, np.empty(b.size, dtype=bool)
+        for start in range(0, b.size, TOGETHER):
+            part = slice(start, start + TOGETHER)
+            path = inelastic.path(y[part], b[part], one[part], e[part], "plastic", STEPS)
+            end = STEPS // 2
+            slides[part] = path.friction[end] >= inelastic.GROSS * path.normal[end]
+        low, high = np.where(slides, low, y), np.where(slides, y, high)
+    return high
 
 
-def middle_slips(b: Array, e: Array) -> tuple[Array, Array]:
-    """Plastic: incidences from which the middle slips, and all slips, in compression.
+def limits(b: Array) -> Array:
+    """Plastic: two restitutions where what happens between y = 1 and slip throughout changes.
 
-    The contact sticks at first and then everywhere: incidences above 1 have no meaning.
+    Below the second, the middle of a contact with y = b sticks for a while before the end of
+    compression. Below the first, that happens even where `limit_alike` says slip throughout.
 
     Parameters
     ----------
-    b, e : ndarray, shape (n,)
+    b : ndarray, shape (n,)
 
     Returns
     -------
-    middle, whole : ndarray, shape (n,)
+    ndarray, shape (2, n)
 
     Examples
     --------
-    >>> [float(y[0].round(3)) for y in middle_slips(np.array([2.5]), np.array([0.5]))]
-    [0.496, 0.62]
+    >>> limits(np.array([1.6, 3.5])).round(3)
+    array([[0.68 , 0.479],
+           [0.83 , 0.629]])
     """
-    zero, one = np.zeros(e.size), np.ones(e.size)
-    middle, whole = np.full((2, e.size), np.inf)
-    for now in _compression(b, e, _State(zero, one, zero, one, zero)):
-        middle = np.where(now.counts, np.minimum(middle, now.blunt * now.depth / now.u), middle)
-        whole = np.where(now.counts, np.minimum(whole, now.blunt * now.v / now.w), whole)
-    return middle, whole
+    one = np.ones_like(b)
 
+    def at_all(e: Array) -> Booleans:
+        return inelastic.slides_from(b, one, e, "plastic") > sliding.limit_alike(b, one, e)
 
-def middle_slips_again(b: Array, e: Array) -> Array:
-    """Plastic: incidence above 1 from which the middle slips again in compression, shape (n,).
+    def at_the_end(e: Array) -> Booleans:
+        law = thornton.compression(e)
+        return law.pull(law.largest_approach(), thornton.FLOW)[0] > b
 
-    Examples
-    --------
-    >>> float(middle_slips_again(np.array([1.6]), np.array([0.95]))[0].round(3))
-    1.092
-    """
-    low, high = np.ones(e.size), lasts_to_yield(b, e)
-    for _ in range(HALVINGS):
-        y = (low + high) / 2
-        again = _again(y, b, e)
-        low, high = np.where(again, low, y), np.where(again, y, high)
-    return low
-
-
-def early_limit(b: Array) -> Array:
-    """Plastic: restitution below which the middle slips already at y = 1, shape (n,).
-
-    Examples
-    --------
-    >>> early_limit(np.array([1.6, 3.5])).round(3)
-    array([0.899, 0.799])
-    """
-    low, high = np.full(b.size, 0.5), np.full(b.size, 0.99)
-    for _ in range(HALVINGS):
-        e = (low + high) / 2
-        late = middle_slips(b, e)[0] >= 1
-        low, high = np.where(late, low, e), np.where(late, e, high)
-    return low
+    found = []
+    for sticks in (at_all, at_the_end):
+        low, high = np.full((2, b.size), [[0.3], [0.99]])
+        for _ in range(HALVINGS):
+            e = (low + high) / 2
+            low, high = np.where(sticks(e), e, low), np.where(sticks(e), high, e)
+        found.append(low)
+    return np.stack(found)
 
 
 def _slips_until(v: Array, b: Array) -> Array:
     """Incidence at which the first slip ends at a normal velocity."""
     return b - (b - 1) * v
-
-
-class _State(NamedTuple):
-    """Approach and normal velocity, friction, velocity and displacement of the body over zeta^2."""
-
-    depth: Array
-    v: Array
-    friction: Array
-    w: Array
-    u: Array
-
-
-class _Instant(NamedTuple):
-    """A state after yield while the body moves on, where `counts`."""
-
-    depth: Array
-    v: Array
-    w: Array
-    u: Array
-    blunt: Array
-    counts: Booleans
-
-
-def _compression(b: Array, e: Array, state: _State) -> Iterator[_Instant]:
-    """Compression of a plastic contact that sticks everywhere, with friction 2 a u'."""
-    law = thornton.compression(e)
-    step = LONGEST / STEPS
-
-    def rates(s: Array) -> Array:
-        depth, v, friction, w, _ = s
-        elastic = 4 / 3 * np.maximum(depth, 0.0) ** 1.5
-        force = np.where(depth > law.yields, law.rate**2 * (depth - law.centre), elastic)
-        return np.stack([v, -force, 2 * np.sqrt(np.maximum(depth, 0.0)) * w, -b * friction, w])
-
-    s, moves = np.stack(state), np.ones(e.size, dtype=bool)
-    while moves.any():
-        first = rates(s)
-        second = rates(s + step / 2 * first)
-        third = rates(s + step / 2 * second)
-        s = s + step / 6 * (first + 2 * second + 2 * third + rates(s + step * third))
-        depth, v, _, w, u = s
-        moves = moves & (v > 0) & (w > 0)
-        hertzian = 4 / 3 * np.maximum(depth, law.yields) ** 1.5
-        blunt = law.rate**2 * (depth - law.centre) / hertzian
-        yield _Instant(depth, v, w, u, blunt, moves & (depth > law.yields))
-
-
-def _again(y: Array, b: Array, e: Array) -> Booleans:
-    """Whether the middle slips in compression once more after a first slip that ended in it."""
-    v = (b - y) / (b - 1)
-    depth = ((1 - v**2) / (2 * hertz.ENERGY)) ** 0.4
-    again = np.zeros(e.size, dtype=bool)
-    for now in _compression(b, e, _State(depth, v, 4 / 3 * depth**1.5, v, np.zeros(e.size))):
-        again |= now.counts & (now.blunt * now.depth - depth < now.u)
-    return again

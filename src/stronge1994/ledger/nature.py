@@ -121,6 +121,11 @@ def limit_fall(model: Model) -> float:
     return float(np.diff(_limits(model)).min())
 
 
+def limit_rise(model: Model) -> float:
+    """Largest rise of the limit of slip throughout from one e to the next smaller."""
+    return -limit_fall(model)
+
+
 def _limits(model: Model) -> Array:
     """Incidence from which a contact slides throughout, by restitution, in ever finer grids."""
     low, high = (np.full(len(FEW), edge) for edge in SEARCHED)

@@ -153,11 +153,15 @@ def sources_of(config: Config, inventory: Inventory, figure: str) -> list[str]:
 
 
 def overlays(config: Config, inventory: Inventory, figure: str) -> dict[str, Entry]:
-    """What to draw over one figure: measured series, with the parameters of their source, facts."""
+    """What to draw over one figure: measured series, with the parameters of their source, facts.
+
+    And the computed series that it asks for.
+    """
     named = references(config, inventory, figure).items()
+    asked = figures.stated()[figure].get("draws", [])
     chosen = {name: entry for name, entry in named if "statement" in entry}
     for name, entry in series_of(config, inventory, figure).items():
-        if entry["kind"] != "computed":
+        if entry["kind"] != "computed" or name in asked:
             chosen[name] = entry
     return chosen
 

@@ -91,8 +91,13 @@ def load(folder: Path, schema: Schema) -> Source:
         if series["path"]:
             _refuse_other_number(f"{path}: series.{name}", series, read_series(name, series))
     known = {"source.yaml", *(Path(s["path"]).name for s in _found(source))}
-    # A ledger may lie there, or the program that computes a series. Any other file is refused: it
-    # may be a table with a wrong name, which would be ignored without a word.
+    for name in source.get("made_with", []):
+        if not (folder / name).is_file():
+            raise SourceError(f"{folder / name}: missing, and {path} says it is there")
+        known.add(name)
+    # A ledger may lie there, or the program that computes a series. Any other file that is not in
+    # `made_with` is refused: it may be a table with a wrong name, which would be ignored without a
+    # word.
     strays = sorted(
         name for name in _visible(folder) - known if not name.endswith((".yaml", ".py"))
     )

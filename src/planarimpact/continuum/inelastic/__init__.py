@@ -7,7 +7,8 @@ zeta^2, q the deflection of a spring over zeta^2, and L its normal force density
 tangential force density q + tau q', at most L. While it sticks q' = u'. A spring that loses contact
 forgets its deflection. What it remembers is c = q - u. With V = u + tau u' the density is V + c
 while the spring sticks. In slip it is L or -L, and tau c' = density - (V + c): what is beyond the
-limit relaxes. Without relaxation, tau = 0, c is moved to the limit at once.
+limit relaxes. Springs of metal have no tau: q is moved to the limit at once. While the contact
+yields it also decays, see `thornton`.
 
 Springs stand at the radii where the edge of the contact is at each instant. So the edge is always
 at a spring, and the error falls with the square of the steps.
@@ -21,14 +22,17 @@ from planarimpact.continuum import refinement
 from planarimpact.continuum.inelastic import peaks
 from planarimpact.continuum.inelastic.kelvin_voigt import KelvinVoigt
 from planarimpact.continuum.inelastic.normal_motion import places
-from planarimpact.continuum.inelastic.springs import SpringRow
-from planarimpact.continuum.inelastic.thornton import Thornton
+from planarimpact.continuum.inelastic.thornton import ElasticInShear, Thornton
 from planarimpact.continuum.refinement import Solved
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.results import Regime
 
-LOSSES = {"viscous": KelvinVoigt, "plastic": Thornton}
+LOSSES: dict[str, type[KelvinVoigt | Thornton]] = {
+    "viscous": KelvinVoigt,
+    "plastic": Thornton,
+    "plastic-elastic-shear": ElasticInShear,
+}
 # Friction within this share of its limit is gross slip. Near separation less stick than that cannot
 # be told from rounding.
 GROSS = 1 - 1e-6
@@ -89,7 +93,7 @@ def rebound(
     >>> rebound(*groups, 1e-5, "viscous")[0].round(4)
     array([-0.4805])
     """
-    slides = x >= sliding.limit_alike(beta, zeta2, e)
+    slides = x >= slides_from(beta, zeta2, e, loss)
     velocity = np.where(slides, sliding.velocity(x, beta, e), 0.0)
     peak, regime = slides.astype(float), np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK)
     reversals = np.zeros(x.size, np.int64)
@@ -113,11 +117,14 @@ def rebound(
     # The exact values have these bounds. Extrapolation and rounding may exceed them.
     velocity[rest] = np.clip(values[0], -x[rest], x[rest])
     peak[rest], work[rest] = np.clip(values[1], 0.0, 1.0), values[2]
-    if loss == "plastic":  # the springs are elastic, and empty at separation
-        work[rest] = (groups[0] - velocity[rest]) * (groups[0] + velocity[rest]) / (2 * groups[1])
     regime[rest] = refinement.regime(x[rest], zeta2[rest], counts[0])
     reversals[rest] = counts[1]
     return velocity, peak, work, regime, reversals
+
+
+def slides_from(beta: Array, zeta2: Array, e: Array, loss: str) -> Array:
+    """Incidence from which a contact slides throughout, shape (n,)."""
+    return LOSSES[loss](e).slides_from(beta, zeta2)
 
 
 def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -> Path:
@@ -140,7 +147,7 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
     >>> [path(*groups, loss, 128).velocity[-1].round(3) for loss in LOSSES]
-    [array([-0.482]), array([-0.414])]
+    [array([-0.482]), array([-0.185]), array([-0.414])]
     """
     motion, column = LOSSES[loss](e), np.arange(x.size)
     # Gross slip from the start ends at this normal velocity, at once for x <= zeta^2.
@@ -149,14 +156,14 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
     where, number = places(steps // 2, np.where(slips, motion.place(last), 0.0))
     motion.stand(where)
     onset = np.where(last > 0, number, steps - number) * slips
-    throughout = x >= sliding.limit_alike(beta, zeta2, e)
+    throughout = x >= motion.slides_from(beta, zeta2)
     start, approach, last, slid = (
         a[onset, column] for a in (motion.time, motion.approach, motion.velocity, motion.force)
     )
     # The largest force of that slip.
     peak = np.where(last > motion.velocity_at_largest_force, slid, motion.largest_force) * slips
     work = _work_sliding(x, beta, zeta2, -last, loss)
-    row = SpringRow(motion)
+    row = motion.row()
     friction, velocity = motion.force.copy(), x - beta * (1 - motion.velocity)
     stick_radius, displacement = np.zeros((2, *friction.shape))
     u, w = (x * start - beta * (start - approach)) / zeta2, velocity[onset, column]
@@ -168,11 +175,9 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
         if begins.any():
             row.slide(k - 1, begins, u)
             force = np.where(begins, slid, force)
-            if not motion.viscous:  # the springs hold strain, which no friction has taken yet
-                work -= begins * zeta2 * row.strain()
         step = np.where(began, motion.time[k] - motion.time[k - 1], 0.0)
         # Heun's method: a step with the force at its start, then one with the mean of both ends.
-        # Elastic springs do not feel the velocity, so that once is enough (Verlet's method).
+        # Springs without a dashpot hardly feel the velocity: once is enough (Verlet's method).
         ahead = w - beta * step * force
         for _ in range(1 + motion.viscous):
             moved = u + step * (w + ahead) / (2 * zeta2)
@@ -184,6 +189,8 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
             a[began] for a in (force, w, u)
         )
         stick_radius[k] = np.where(began, row.stick_radius, 0.0)
+    if not motion.viscous:  # the springs are empty at separation: all that the body has lost
+        work = (x - velocity[-1]) * (x + velocity[-1]) / (2 * beta)
     searched = 0 if motion.viscous else peaks.instants_after(steps)
     if isinstance(motion, Thornton):
         soon = slips & (last > 0) & (onset + searched <= steps)
@@ -202,7 +209,7 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
         velocity,
         radius,
         stick_radius / motion.radius[-1],
-        peak / largest,
+        np.minimum(peak / largest, 1.0),  # a polynomial may exceed it
         work,
     )
 
@@ -245,6 +252,6 @@ def _work_sliding(x: Array, beta: Array, zeta2: Array, e: Array, loss: str) -> A
 
     With plastic loss it is all that the body loses: strain is included, which is 0 at separation.
     """
-    if loss == "plastic":
+    if loss != "viscous":
         return sliding.work(x, beta, e)
     return sliding.viscous_work(x, beta, zeta2, e)

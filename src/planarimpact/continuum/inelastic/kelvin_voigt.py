@@ -7,7 +7,8 @@ while d grows. While d falls it touches where r^2 < D, as a contact does not pul
 import numpy as np
 
 from planarimpact.continuum.inelastic.normal_motion import NormalMotion
-from planarimpact.ground.arrays import Array
+from planarimpact.continuum.inelastic.springs import SpringRow
+from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.normal_impact import kelvin_voigt as law
 
 
@@ -33,7 +34,7 @@ class KelvinVoigt(NormalMotion):
         different, which = np.unique(restitution, return_inverse=True)
         tau, compression, after = law.halves(tuple(different.tolist()))
         at_largest = law.at_largest_force(compression, tau)
-        self.tau = tau[which]
+        self.restitution, self.tau = restitution, tau[which]
         self.largest_force, self.velocity_at_largest_force = (a[which] for a in at_largest)
         self._compression, self._after = compression.taken(which), after.taken(which)
 
@@ -66,16 +67,96 @@ class KelvinVoigt(NormalMotion):
         edge = np.concatenate([self.radius, back])
         self.force = 2 * edge * (self._depth - edge * edge / 3)
 
+    def row(self) -> SpringRow:
+        """Springs for this motion, without deflection."""
+        return ViscousRow(self)
+
     def density(self, instant: int) -> Array:
         """As in `NormalMotion`: D - r^2."""
         return self._depth[instant] - self.radius[: self.edge(instant) + 1] ** 2
-
-    def sliding_deflection(self, approach: Array, velocity: Array, count: int) -> Array:
-        """As in `NormalMotion`: d - r^2, as q + tau q' = D - r^2."""
-        return approach - self.radius[:count] ** 2
 
     def compressed(self, velocity: Array) -> tuple[Array, Array]:
         """Approach and normal force at a velocity in compression, shape (m,)."""
         sigma = self._compression.crossing(1, velocity[None])
         radius = self._compression.at(sigma)[0, 0]
         return radius**2, 4 / 3 * radius**3 + 2 * self.tau * radius * velocity
+
+
+class ViscousRow(SpringRow):
+    """Springs that relax: what is beyond the limit does so with the relaxation time tau.
+
+    What a spring remembers is c = q - u. With V = u + tau u' the density is V + c while the spring
+    sticks. In slip it is L or -L, and tau c' = density - (V + c).
+    """
+
+    _motion: KelvinVoigt
+
+    def __init__(self, motion: KelvinVoigt) -> None:
+        super().__init__(motion)
+        self._memory = np.zeros_like(self._limit)
+        self._next = self._memory
+
+    def slide(self, k: int, which: Booleans, u: Array) -> None:
+        """As in `SpringRow`: q + tau q' = D - r^2, so that q = d - r^2."""
+        motion = self._motion
+        deflection = motion.approach[k] - motion.radius[: len(self._memory)] ** 2
+        limit = deflection + motion.tau * motion.velocity[k]
+        for mine, new in zip(
+            (self._memory, self._limit, self._density), (deflection - u, limit, limit), strict=True
+        ):
+            mine[:, which] = new[:, which]
+
+    def move(
+        self, k: int, step: Array, start: tuple[Array, Array], end: tuple[Array, Array]
+    ) -> Array:
+        """As in `SpringRow`."""
+        tau, limit = self._motion.tau, self._motion.density(k)
+        pull, later = (u + tau * rate for u, rate in (start, end))
+        count = min(len(limit), len(self._memory))
+        parts = self._memory[:count], self._limit[:count], limit[:count]
+        memory, density = _relaxed(*parts, pull, later, step, tau)
+        if count < len(limit):  # a spring comes into contact, without deflection
+            edge = np.clip(later - end[0], -limit[-1], limit[-1])
+            memory, density = np.vstack([memory, -end[0]]), np.vstack([density, edge])
+        self._next, self._tried = memory, (limit, density)
+        return self._sum(k)
+
+    def settle(self, k: int) -> Array:
+        """As in `SpringRow`."""
+        memory, (_, density) = self._next, self._tried
+        count = min(len(memory), len(self._memory))
+        slid = self._memory[:count] - memory[:count]
+        mean = (self._density[:count] + density[:count]) / 2
+        work = 2 * np.sum(self._motion.width[:count] * mean * slid, axis=0)
+        self._memory = memory
+        self._keep(slid != 0)
+        return work
+
+
+def _relaxed(
+    memory: Array,
+    limit: Array,
+    limit_after: Array,
+    pull: Array,
+    pull_after: Array,
+    step: Array,
+    tau: Array,
+) -> tuple[Array, Array]:
+    """Memory and density after a step in which pull and limit are straight lines in time."""
+    ratio = step / tau
+    decay = np.exp(-ratio)
+    gain = np.where(ratio > 0, -np.expm1(-ratio) / np.where(ratio > 0, ratio, 1.0), 1.0)
+    wanted = memory + pull_after
+    side = np.copysign(1.0, wanted)
+    # What is beyond the limit before the step, and after it if nothing relaxed.
+    before, after = side * (memory + pull) - limit, side * wanted - limit_after
+    change = after - before
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # From slip: exact. If it ends within the step, change is all that stick adds after that.
+        slides = before * decay + change * gain
+        slides = np.where(slides < 0, change * slides / (slides - before), slides)
+        # From stick: exact for a crossing of the limit at either end of the step.
+        begins = np.where(after > 0, after / (1 + (1 / gain - 1) * after / change), after)
+    beyond = np.where(before > 0, slides, begins)
+    density = side * (limit_after + np.minimum(beyond, 0.0))
+    return side * (limit_after + beyond) - pull_after, density

@@ -4,6 +4,7 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
+from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Integers
 
 # Slip ends after a whole number of these parts of the instants of compression. So that number
@@ -60,8 +61,7 @@ class NormalMotion(ABC):
     ----------
     viscous : bool
         Whether springs relax.
-    tau : ndarray, shape (m,)
-        Relaxation time, 0 for none.
+    restitution : ndarray, shape (m,)
     largest_force, velocity_at_largest_force : ndarray, shape (m,)
     radius : ndarray, shape (n + 1, m)
         Radius of contact at the n + 1 instants of compression, from 0 to its largest value. The n
@@ -74,7 +74,7 @@ class NormalMotion(ABC):
     """
 
     viscous: bool
-    tau: Array
+    restitution: Array
     largest_force: Array
     velocity_at_largest_force: Array
     radius: Array
@@ -102,17 +102,20 @@ class NormalMotion(ABC):
     def density(self, instant: int) -> Array:
         """Normal force density of the springs that touch, innermost first, shape (edge + 1, m)."""
 
-    @abstractmethod
-    def sliding_deflection(self, approach: Array, velocity: Array, count: int) -> Array:
-        """Deflection over zeta^2 of the innermost springs in slip from the start, (count, m)."""
-
     def grip(self, x: Array, beta: Array, zeta2: Array) -> Array:
         """Normal velocity where gross slip from the start ends, for x > zeta^2, shape (m,).
 
-        There the body is as slow as the springs, w = zeta^2 v, while w = x - beta (1 - v).
+        There the body is as slow as the springs, w = zeta^2 v, while w = x - beta (1 - v). For
+        beta <= zeta^2 it never is.
         """
-        slips = x > zeta2
-        return np.where(slips, (beta - x) / np.where(slips, beta - zeta2, 1.0), 1.0)
+        slips, slows = x > zeta2, beta > zeta2
+        with np.errstate(over="ignore"):  # also where it hardly is
+            last = np.where(slows, (beta - x) / np.where(slows, beta - zeta2, 1.0), -np.inf)
+        return np.where(slips, last, 1.0)
+
+    def slides_from(self, beta: Array, zeta2: Array) -> Array:
+        """Incidence from which the contact slides throughout, shape (m,)."""
+        return sliding.limit_alike(beta, zeta2, self.restitution)
 
     def edge(self, instant: int) -> int:
         """Index of the radius where the edge of the contact is at an instant."""

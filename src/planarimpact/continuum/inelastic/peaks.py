@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from planarimpact.continuum.inelastic.springs import cubic
-from planarimpact.continuum.inelastic.thornton import Thornton
+from planarimpact.continuum.inelastic.thornton import Thornton, cubic
 from planarimpact.ground.arrays import Array, Integers
 
 # Places where a polynomial through a few instants is looked at.
@@ -54,14 +53,13 @@ def largest(time: Array, friction: Array, onset: Integers, peak: Array, searched
 def after_slip(motion: Thornton, knots: Array) -> Array:
     """Largest friction soon after gross slip of elastic springs, by the limits in between.
 
-    Friction grows on, turns and falls within a step, as one spring after the other sticks. Then
-    each keeps c, the least value that limit less displacement has had. Approach and displacement
-    are cubics between the `knots`, the instants from the end of slip on: time, approach, normal
-    velocity, displacement and its rate, shape (knots, 5, n).
+    Friction grows on, turns and falls within a step, as one spring after the other sticks. Approach
+    and displacement are cubics between the `knots`, the instants from the end of slip on: time,
+    approach, normal velocity, displacement and its rate, shape (knots, 5, n).
     """
     count = len(motion.radius)
-    limit = motion.sliding_deflection(knots[0, 1], knots[0, 2], count)
-    memory = limit - knots[0, 3]
+    held, displaced = motion.limit_at(knots[0, 1], knots[0, 2], count), knots[0, 3]
+    flowed = motion.flowed(knots[0, 1])
     points = [(knots[0, 0], motion.force_at(knots[0, 1], knots[0, 2]))]
     for left, right in zip(knots, knots[1:], strict=False):
         step = right[0] - left[0]
@@ -69,10 +67,12 @@ def after_slip(motion: Thornton, knots: Array) -> Array:
             approach = cubic(share, left[1], right[1], step * left[2], step * right[2])
             velocity = left[2] + share * (right[2] - left[2])
             u = cubic(share, left[3], right[3], step * left[4], step * right[4])
-            limit = motion.sliding_deflection(approach, velocity, count)
-            memory = np.minimum(memory, limit - u)
+            limit, flow = motion.limit_at(approach, velocity, count), motion.flowed(approach)
+            half = np.where(velocity > 0, np.exp((flowed - flow) / 2), 1.0)
+            held = np.minimum(limit, (held * half + u - displaced) * half)
+            displaced, flowed = u, flow
             whole = np.sum(motion.width * limit, axis=0)
-            lack = np.sum(motion.width * (limit - u - memory), axis=0)
+            lack = np.sum(motion.width * (limit - held), axis=0)
             force = motion.force_at(approach, velocity)
             force = force * (1 - lack / np.where(whole > 0, whole, 1.0))
             points.append((left[0] + share * step, force))

@@ -7,9 +7,9 @@ A figure is a folder with figure.yaml, curves.py and drawing.py. Its drawing.py 
   `shown` of drawing.py adds; nothing else may be shown, see `checked`;
 - `settings`, as curves.py gets them, from which labels take their numbers; only of a reference
   table they have no more than the name;
-- `points`, the series of data/ that are at hand and were not computed, `{"source/series": {...}}`
-  with arrays `x` and `y`, their `sigma`, `line`, all `columns` and the source's `parameters`; and
-  stated facts, as in source.yaml.
+- `points`, the series of data/ that are at hand, `{"source/series": {...}}` with arrays `x` and
+  `y`, their `sigma`, `line`, all `columns` and the source's `parameters`, of those that were
+  computed only what figure.yaml `draws`; and stated facts, as in source.yaml.
 
 A drawing.py may also have `shown_series`, which converts such a series, and AXIS_MEANS and
 LEGEND_MEANS, see `words`. Only the parameter study differs: it has a solver and rules of its own.

@@ -1,0 +1,109 @@
+"""Beyond the paper: spheres that yield, five models beside finite elements of our own."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from planarimpact import bodies, continuum, lumped
+from planarimpact.bodies import Material
+from planarimpact.continuum.inelastic.thornton import Thornton
+from planarimpact.ground.arrays import Array
+from planarimpact.ground.results import Rebound
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.curve_names import name
+from stronge1994.figures.shared.curves.sampling import vertices
+
+MODELS: dict[str, Callable[..., Rebound]] = {
+    "continuum.plastic": partial(continuum.rebound, loss="plastic"),
+    "continuum.plastic-elastic-shear": partial(continuum.rebound, loss="plastic-elastic-shear"),
+    "continuum.viscous": partial(continuum.rebound, loss="viscous"),
+    "lumped": lumped.rebound,
+    "lumped.viscous": partial(lumped.rebound, loss="viscous"),
+}
+# Columns of data/finite_elements/spheres.csv that tell its rows apart.
+LABELS = ("set", "contact", "run")
+X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
+# Springs of the row under a contact that is pushed, and points that are kept of them.
+SPRINGS, KEPT = 4000, 100
+# Largest restitution of a sphere that yields.
+ALMOST_ELASTIC = 1 - 1e-9
+
+
+def curves(
+    mass_ratio: float,
+    points: Mapping[str, Sequence[Any]],
+    contact: Mapping[str, Any],
+    elastic: Mapping[str, Sequence[float]],
+    pushed: Sequence[float],
+    incidence: Sequence[float],
+    samples: int,
+    tolerance: float,
+) -> Curves:
+    """What each model says of every run, and of two contacts at all incidences.
+
+    `points` has the columns of data/finite_elements/spheres.csv. For each of `MODELS` there are
+    `<model>, runs` and `<model>, e = ...`. With them come the elastic continuum, `continuum, nu =
+    ...`, and the force on a contact that is pushed while it yields, `pushed, e = ...`.
+
+    >>> run = {"set": ["a"], "contact": ["b"], "run": ["c"], "incidence": [2.0],
+    ...        "restitution": [0.55], "poisson_ratio": [0.3]}
+    >>> found = curves(3.5, run, {"restitution": [0.55], "poisson_ratio": 0.3},
+    ...                {"poisson_ratio": [0.3]}, [0.55], [0, 6], 3, 1e-2)
+    >>> round(float(found["continuum.plastic, runs"]["velocity [mu v2(0)]"][0]), 1)
+    -0.3
+    """
+    x = vertices(incidence, samples)
+    at, e = (np.array(points[key], float) for key in ("incidence", "restitution"))
+    ratios = np.array([_like(nu) for nu in points["poisson_ratio"]])
+    labels: Columns = {key: np.array(points[key]) for key in LABELS}
+    named: Curves = {}
+    for model, rebound in MODELS.items():
+        solve = partial(rebound, tolerance=tolerance) if "continuum" in model else rebound
+        runs = solve(at, mass_ratio, ratios, e).velocity
+        named[f"{model}, runs"] = labels | {X: at, W: runs}
+        for one in contact["restitution"]:
+            found = solve(x, mass_ratio, _like(contact["poisson_ratio"]), one).velocity
+            named[f"{model}, {name('e', one)}"] = {X: x, W: found}
+    for nu in elastic["poisson_ratio"]:
+        found = continuum.rebound(x, mass_ratio, _like(nu), tolerance=tolerance).velocity
+        named[f"continuum, {name('nu', nu)}"] = {X: x, W: found}
+    for one in pushed:
+        approach, share = share_of_elastic(one)
+        columns = {"approach [delta_max]": approach, "share_of_elastic_force [1]": share}
+        named[f"pushed, {name('e', one)}"] = columns
+    return named
+
+
+def _like(nu: float) -> float:
+    """zeta^2 of two bodies of one material."""
+    return float(bodies.stiffness_ratio(Material(1.0, nu)))
+
+
+def share_of_elastic(restitution: float) -> tuple[Array, Array]:
+    """Tangential force of a contact that sticks and is pushed at a constant speed, in loading.
+
+    Over that of an elastic contact which has come as near. The spring at radius r touches at the
+    approach r^2, follows the displacement U, and flows: q' = U' - q f'. So exp(f) q is the integral
+    of exp(f) dU since then. The force is the sum of all springs.
+
+    >>> approach, share = share_of_elastic(0.55)
+    >>> [round(float(np.interp(at, approach, share)), 2) for at in (0.05, 0.5, 0.8)]
+    [1.0, 0.27, 0.19]
+    """
+    motion = Thornton(np.array([min(restitution, ALMOST_ELASTIC)]))
+    motion.stand(np.linspace(0.0, 1.0, SPRINGS + 1)[:, None])
+    radius, displacement = motion.radius[:, 0], motion.time[: SPRINGS + 1, 0]
+    approach = motion.approach[: SPRINGS + 1, 0]
+    flow = motion.flowed(approach[:, None])[:, 0]
+    pulled = _integral(np.exp(flow), displacement)
+    force = np.exp(-flow) * (radius * pulled - _integral(pulled, radius))
+    elastic = radius * displacement - _integral(displacement, radius)
+    kept = slice(SPRINGS // KEPT, None, SPRINGS // KEPT)
+    return approach[kept] / approach[-1], force[kept] / elastic[kept]
+
+
+def _integral(values: Array, over: Array) -> Array:
+    steps = (values[1:] + values[:-1]) / 2 * np.diff(over)
+    return np.concatenate([[0.0], np.cumsum(steps)])
