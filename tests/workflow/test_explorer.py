@@ -187,13 +187,13 @@ def test_below_e_1_it_says_that_measurements_contradict_it(e, cautions, show):
 
 def test_what_is_left_out_is_as_large_as_it_says():
     x = np.linspace(0, 7, 71)
-    for e, losses, said in ((1.0, [None], 0.2), (0.8, continuum.LOSSES, 0.7)):
+    for e, losses, said in ((1.0, [None], 0.2), (0.8, continuum.LOSSES, (0.7, 0.9))):
         paper = lumped.rebound(x, stiffness_ratio=17 / 14, restitution=e).velocity
         for loss in losses:
             real = continuum.rebound(x, 3.5, 17 / 14, e, loss=loss, tolerance=1e-3).velocity
-            assert round(np.abs(paper - real).max(), 1) == said
+            assert round(np.abs(paper - real).max(), 1) in np.atleast_1d(said)
     page = (FOLDER / "explorer.html").read_text(encoding="utf-8")
-    assert "up to 0.2 for <i>e</i> = 1 and by up to 0.7" in page
+    assert "up to 0.2 for <i>e</i> = 1 and by up to 0.9" in page
 
 
 @pytest.mark.parametrize(

@@ -53,6 +53,7 @@ def test_headers_carry_units(first_run):
     for figure in FIGURES:
         header = (first_run[0] / f"results/curves/{figure}.csv").read_text().splitlines()[0]
         words = {"curve", "event", "regime", "model", "loss", "pair", "body", "other"}
+        words |= {"set", "contact", "run"}
         assert all("[" in name for name in header.split(",") if name not in words), header
 
 

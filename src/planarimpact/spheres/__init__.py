@@ -63,6 +63,14 @@ def loses_little(mass_ratio: Array, stiffness_ratio: Array, restitution: Array) 
     It does above a restitution from 0.63 (mass over stiffness ratio 3.5) to 0.84 (1.56), 0.67 for
     solid spheres of steel.
 
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio, restitution : ndarray, shape (n,)
+
+    Returns
+    -------
+    ndarray of bool, shape (n,)
+
     Examples
     --------
     >>> loses_little(np.array([3.5, 3.5]), np.array([1.21, 1.21]), np.array([0.7, 0.6])).tolist()
@@ -75,6 +83,14 @@ def plastic_limit(mass_ratio: Array, stiffness_ratio: Array, restitution: Array)
     """Incidence from which plastic spheres that the table covers slide throughout, shape (n,).
 
     That of `continuum.slip_throughout_limit`, interpolated.
+
+    Parameters
+    ----------
+    mass_ratio, stiffness_ratio, restitution : ndarray, shape (n,)
+
+    Returns
+    -------
+    ndarray, shape (n,)
 
     Examples
     --------
@@ -121,7 +137,7 @@ def rebound(
     --------
     >>> impacts = [0.5, 2.0, 8.0], 3.5, 17 / 14, [1.0, 0.8, 0.6]
     >>> rebound(*impacts, loss=["viscous", "plastic", "plastic"]).velocity.round(3).tolist()
-    [0.061, -0.421, 2.4]
+    [0.061, -0.189, 2.4]
     >>> rebound(2.0, restitution=0.2)
     Traceback (most recent call last):
     ...

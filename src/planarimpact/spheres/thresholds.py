@@ -99,8 +99,8 @@ def limits(b: Array) -> Array:
     Examples
     --------
     >>> limits(np.array([1.6, 3.5])).round(3)
-    array([[0.68 , 0.479],
-           [0.83 , 0.629]])
+    array([[0.692, 0.485],
+           [0.831, 0.618]])
     """
     one = np.ones_like(b)
 

@@ -32,7 +32,7 @@ def model(name: str) -> Model:
     kappa/e^2.
 
     >>> [round(float(model(name).rebound(3.0, 0.5).velocity), 1) for name in MODELS]
-    [-2.0, -0.6, -0.6, -0.6]
+    [-2.0, -0.6, -0.6, -0.8]
     """
     if name in LOSSES:
         return Model(
