@@ -105,10 +105,13 @@ def difference(job: Job, incidence: Array, velocity: Array, known: Curves) -> Ar
 def of_sliding(incidence: Array, *groups: Array) -> Array:
     """Velocity with plastic loss, less that of viscous impacts that slide throughout, shape (n,).
 
-    With plastic loss such an impact may stick for a while.
+    With plastic loss such an impact may stick for a while. NaN where the table of spheres has no
+    answer: there may be very many such impacts.
     """
     beta, _, e = groups
-    found = _velocity("continuum.plastic", incidence, *groups)
+    found, covered = np.full(incidence.size, np.nan), spheres.covers(*groups)
+    some = incidence[covered], *(group[covered] for group in groups)
+    found[covered] = spheres.rebound(*some, loss="plastic").velocity
     return found - sliding.velocity(incidence, beta, e)
 
 
