@@ -136,10 +136,13 @@ def test_the_page_opens_where_the_models_agree_on_the_direction(show):
 def test_it_says_which_models_disagree(show):
     settings = plan.settings_of_explorer(configuration.load(ROOT))
     presets = write_explorer.presets(settings)
-    velocities = [one.velocity for one in rebounds(presets["fig6"])]
+    # Below e = 1 small incidences turn round in some models: x = 1, e = 0.8.
+    state = {"angle": math.degrees(math.atan(0.5)), "friction": 0.5, "restitution": 0.8}
+    state |= {"poisson_ratio": 0.3, "mass_ratio": 3.5}
+    velocities = [one.velocity for one in rebounds(state)]
     assert np.sign(velocities).tolist() == [-1, 0, -1, 1]
     said = "['agreement', 'doubt'].map((id) => document.getElementById(id).textContent)"
-    agreement, doubt = show(write_explorer.address(presets["fig6"])).evaluate(said)
+    agreement, doubt = show(write_explorer.address(state)).evaluate(said)
     assert agreement == (
         "The models disagree on the direction. Forwards: continuum, plastic. Backwards: lumped;"
         " continuum, viscous. The rigid limit has no spring: it only stops."
