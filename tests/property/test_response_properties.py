@@ -174,14 +174,15 @@ def test_a_table_of_spheres_compiles_without_jumps(tmp_path):
     just_below_sliding = ("viscous", 3.5, 1.21, 1.0), ("viscous", 1.728126446, 1.022016098, 1.0)
     for loss, beta, zeta2, e in [*cases, *just_below_sliding, ("viscous", 3.5, 1.2, 0.9)]:
         groups = {"mass_ratio": beta, "stiffness_ratio": zeta2, "restitution": e}
-        made = response.compile(f"spheres.{loss}", incidence_max=20, tolerance=3e-4, **groups)
+        tolerance = 3e-4 if loss == "plastic" else 1e-4
+        made = response.compile(f"spheres.{loss}", incidence_max=20, tolerance=tolerance, **groups)
         start = made.pieces.start
         assert (np.diff(start) > 0).all()
         x = np.concatenate(
             [start, np.nextafter(start, 9), np.nextafter(start[1:], 0), [0.50323744]]
         )
         exact = spheres.rebound(x, beta, zeta2, e, loss=loss).velocity
-        np.testing.assert_allclose(made.velocity(x), exact, rtol=0, atol=3e-4)
+        np.testing.assert_allclose(made.velocity(x), exact, rtol=0, atol=tolerance)
         assert (np.abs(made.velocity(x)) <= x).all()
         assert max(largest_errors(made)) <= 1
     made.save(tmp_path / "ball.json")

@@ -21,13 +21,17 @@ from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.checks import positive
 
 
-def _compliances(material: Material, other: Material | None) -> tuple[Array, Array]:
-    """1/E* and 1/G* [1/Pa]; a rigid counterbody (None) adds nothing to either."""
+def _elastic(material: Material, other: Material | None) -> list[tuple[Array, Array]]:
+    """Young's modulus and Poisson's ratio of each body that is not rigid (None), checked."""
     given = fields("material", material, Material)
     if other is not None:
         given |= fields("other", other, Material)
     arrays = checks.broadcast(**given)
-    pairs = list(zip(arrays[::2], arrays[1::2], strict=True))
+    return list(zip(arrays[::2], arrays[1::2], strict=True))
+
+
+def _compliances(pairs: list[tuple[Array, Array]]) -> tuple[Array, Array]:
+    """1/E* and 1/G* [1/Pa]; a rigid counterbody adds nothing to either."""
     normal = np.sum([(1 - nu) * (1 + nu) / young for young, nu in pairs], axis=0)
     tangential = np.sum([2 * (2 - nu) * (1 + nu) / young for young, nu in pairs], axis=0)
     return in_range("1/E*", normal), in_range("1/G*", tangential)
@@ -60,7 +64,7 @@ def effective_modulus(material: Material, other: Material | None = None) -> Arra
     >>> round(float(effective_modulus(Material(380e9, 0.23), Material(70e9, 0.25)) / 1e9))
     63
     """
-    return in_range("E*", 1 / _compliances(material, other)[0])
+    return in_range("E*", 1 / _compliances(_elastic(material, other))[0])
 
 
 @quietly
@@ -90,7 +94,7 @@ def effective_shear_modulus(material: Material, other: Material | None = None) -
     >>> round(float(effective_shear_modulus(Material(380e9, 0.23), Material(70e9, 0.25)) / 1e9), 1)
     13.5
     """
-    return in_range("G*", 1 / _compliances(material, other)[1])
+    return in_range("G*", 1 / _compliances(_elastic(material, other))[1])
 
 
 @quietly
@@ -123,7 +127,7 @@ def stiffness_ratio(material: Material, other: Material | None = None) -> Array:
     >>> round(float(stiffness_ratio(Material(380e9, 0.23), Material(70e9, 0.25))), 3)
     1.164
     """
-    normal, tangential = _compliances(material, other)
+    normal, tangential = _compliances(_elastic(material, other))
     return tangential / normal / 4
 
 
@@ -171,15 +175,10 @@ def dundurs(material: Material, other: Material | None = None) -> Array:
     >>> round(float(dundurs(Material(380e9, 0.23), Material(70e9, 0.25))), 2)  # alumina on glass
     -0.23
     """
-    normal, _ = _compliances(material, other)
-    given = fields("material", material, Material)
-    if other is not None:
-        given |= fields("other", other, Material)
-    young, nu, *rest = checks.broadcast(**given)
-    spread = (1 - 2 * nu) * (1 + nu) / young
-    if rest:
-        spread = spread - (1 - 2 * rest[1]) * (1 + rest[1]) / rest[0]
-    return in_range("Dundurs' constant", spread / normal / 2, above=-1.0)
+    pairs = _elastic(material, other)
+    normal, _ = _compliances(pairs)
+    spread, *less = ((1 - 2 * nu) * (1 + nu) / young for young, nu in pairs)
+    return in_range("Dundurs' constant", (spread - sum(less)) / normal / 2, above=-1.0)
 
 
 @checks.default_errors

@@ -274,10 +274,6 @@ def _compliant_limit(beta: float, zeta2: float, e: float, **settings: float) -> 
     return float(lumped.slip_throughout_limit(beta, zeta2, e))
 
 
-def _compliant_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
-    return zeta2, beta, _compliant_limit(beta, zeta2, e)
-
-
 def _lumped_limit(loss: str) -> Callable[..., float]:
     return lambda beta, zeta2, e, **_: float(
         lumped.slip_throughout_limit(beta, zeta2, e, loss=loss)
@@ -286,10 +282,6 @@ def _lumped_limit(loss: str) -> Callable[..., float]:
 
 def _alike_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
     return float(sliding.limit_alike(beta, zeta2, e))
-
-
-def _alike_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
-    return zeta2, beta, _alike_limit(beta, zeta2, e)
 
 
 def _plastic_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
@@ -302,16 +294,13 @@ def _tabled_limit(beta: float, zeta2: float, e: float, **settings: float) -> flo
     return float(spheres.plastic_limit(*np.array([[beta], [zeta2], [e]]))[0])
 
 
-def _tabled_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
-    return zeta2, beta, _tabled_limit(beta, zeta2, e)
-
-
-def _plastic_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
-    return zeta2, beta, _plastic_limit(beta, zeta2, e)
-
-
 def _rigid_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
     return beta, sliding.change(beta, e)
+
+
+def _with_limit(limit: Callable[..., float]) -> Callable[..., tuple[float, ...]]:
+    """Where stick at first ends, where slip lasts through compression, and slip throughout."""
+    return lambda beta, zeta2, e, **settings: (zeta2, beta, limit(beta, zeta2, e))
 
 
 def _limit_alone(limit: Callable[..., float]) -> Callable[..., tuple[float, ...]]:
@@ -369,7 +358,7 @@ MODELS = {
             "linear springs, contact sticks and slips as a whole; solved to rounding",
             "Stronge 1994",
             _compliant_limit,
-            _compliant_kinks,
+            _with_limit(_compliant_limit),
         ),
         Model(
             "lumped.plastic",
@@ -391,7 +380,7 @@ MODELS = {
             "two Kelvin-Voigt elements of one relaxation time; solved to 1e-12",
             "T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469, for the normal element",
             _alike_limit,
-            _alike_kinks,
+            _with_limit(_alike_limit),
         ),
         Model(
             "timestep.linear",
@@ -402,7 +391,7 @@ MODELS = {
             f"linear spring and slider, {_STEPPED}; tends to the lumped model",
             "P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65",
             None,
-            _compliant_kinks,
+            _with_limit(_compliant_limit),
         ),
         Model(
             "timestep.mindlin",
@@ -413,7 +402,7 @@ MODELS = {
             f"Hertz contact, friction in increments by Mindlin's stiffness, {_STEPPED}",
             "R. D. Mindlin, J. Appl. Mech. 16 (1949) 259-268; as in LAMMPS, mindlin/force",
             None,
-            _compliant_kinks,
+            _with_limit(_compliant_limit),
         ),
         Model(
             "timestep.mindlin_rescaled",
@@ -424,7 +413,7 @@ MODELS = {
             "as timestep.mindlin, the force rescaled with the radius of contact on unloading",
             "C. Thornton et al., Powder Technology 233 (2013) 30-46; LAMMPS, mindlin_rescale/force",
             None,
-            _compliant_kinks,
+            _with_limit(_compliant_limit),
         ),
         Model(
             "continuum",
@@ -436,7 +425,7 @@ MODELS = {
             "N. Maw et al., Wear 38 (1976) 101-114; V. L. Popov, M. Hess, Method of Dimensionality "
             "Reduction in Contact Mechanics and Friction, Springer 2015",
             _compliant_limit,
-            _compliant_kinks,
+            _with_limit(_compliant_limit),
         ),
         Model(
             "continuum.viscous",
@@ -448,7 +437,7 @@ MODELS = {
             "V. L. Popov, E. Willert, M. Hess, Facta Univ. Mech. Eng. 16 (2018) 141-156; G. "
             "Kuwabara, K. Kono, Jpn. J. Appl. Phys. 26 (1987) 1230-1233",
             _alike_limit,
-            _alike_kinks,
+            _with_limit(_alike_limit),
         ),
         Model(
             "continuum.plastic",
@@ -459,7 +448,7 @@ MODELS = {
             "elastic-plastic spheres with micro-slip, to a tolerance; contained yielding",
             "C. Thornton, J. Appl. Mech. 64 (1997) 383-386",
             _plastic_limit,
-            _plastic_kinks,
+            _with_limit(_plastic_limit),
         ),
         *(
             Model(
@@ -471,13 +460,10 @@ MODELS = {
                 f"continuum.{loss} from a table; zeta^2 up to {spheres.LARGEST_STIFFNESS}, and "
                 f"m2/m1 over zeta^2 from {spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
                 "solved by this package, planarimpact.spheres.making",
-                *(
-                    (_tabled_limit, _tabled_kinks)
-                    if loss == "plastic"
-                    else (_alike_limit, _alike_kinks)
-                ),
+                limit,
+                _with_limit(limit),
             )
-            for loss in spheres.LOSSES
+            for loss, limit in zip(spheres.LOSSES, (_alike_limit, _tabled_limit), strict=True)
         ),
         Model(
             "annuli",
@@ -488,7 +474,7 @@ MODELS = {
             "elastic spheres with micro-slip by the scheme of 1976: a check of the continuum",
             "N. Maw et al., Wear 38 (1976) 101-114",
             None,
-            _compliant_kinks,
+            _with_limit(_compliant_limit),
         ),
     )
 }

@@ -141,10 +141,9 @@ def jobs(
     groups = np.stack([group[rows] for group in (mass_ratio, stiffness_ratio, restitution)])
     kinds = np.where(groups[2] == 1, 0, np.where(plastic[rows], 2, 1))
     tabled, chosen = spheres.covers(*groups), []
-    little = np.zeros(tabled.size, dtype=bool)
-    little[tabled] = spheres.loses_little(*groups[:, tabled])
     errors = np.array([spheres.ERROR_BOUND[loss] for loss in TABLED.values()])[kinds]
-    errors[little & (kinds == 2)] = spheres.LITTLE_BOUND
+    yields = np.flatnonzero(tabled & (kinds == 2))
+    errors[yields[spheres.loses_little(*groups[:, yields])]] = spheres.LITTLE_BOUND
     tabled &= MOST * tolerance >= errors
     for kind, name in enumerate(REFERENCES):
         for error in np.unique(errors[tabled & (kinds == kind)]):

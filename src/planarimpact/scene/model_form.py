@@ -108,11 +108,17 @@ def of_sliding(incidence: Array, *groups: Array) -> Array:
     With plastic loss such an impact may stick for a while. NaN where the table of spheres has no
     answer: there may be very many such impacts.
     """
-    beta, _, e = groups
-    found, covered = np.full(incidence.size, np.nan), spheres.covers(*groups)
-    some = incidence[covered], *(group[covered] for group in groups)
-    found[covered] = spheres.rebound(*some, loss="plastic").velocity
-    return found - sliding.velocity(incidence, beta, e)
+    found, limit = (
+        np.zeros(incidence.size),
+        continuum.slip_throughout_limit(*groups, loss="plastic"),
+    )
+    late = np.flatnonzero(incidence < limit)
+    found[late] = np.nan
+    late = late[spheres.covers(*(group[late] for group in groups))]
+    x, some = incidence[late], [group[late] for group in groups]
+    slides = sliding.velocity(x, some[0], some[2])
+    found[late] = spheres.rebound(x, *some, loss="plastic").velocity - slides
+    return found
 
 
 def _velocity(model: str, incidence: Array, *groups: Array) -> Array:

@@ -220,7 +220,12 @@ class Solver:
         for rung, impact in ((choice.SLIDING, slides), (choice.HEAD_ON, head_on)):
             if impact.any():
                 self._taken[rung, "all pairs"] += int(np.sum(impact))
-        form[slides] = self._form_of_sliding(impacts, slides)[slides]
+        lossy = (groups[2] < 1) & (groups[2] >= continuum.LEAST_RESTITUTION)
+        viscous = np.flatnonzero(slides & ~impacts.plastic & lossy)
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            x = impacts.v1[viscous] / unit[viscous]
+        moved = model_form.of_sliding(x, *(group[viscous] for group in groups))
+        form[viscous] = np.where(moved != 0, np.abs(moved) * unit[viscous], 0.0)
         stick = np.flatnonzero(~slides & ~head_on)
         coupled = impacts.coupling[stick][impacts.coupling[stick] > bodies.COUPLING]
         self._count_coupled(coupled.size, float(np.max(coupled, initial=0.0)))
@@ -247,23 +252,6 @@ class Solver:
         self.assumed |= unsaid and bool((impacts.restitution < 1).any())
         found_columns = velocity, peak, error, form, regime, model
         return self._columns(impacts, names, *found_columns), unsolved
-
-    def _form_of_sliding(self, impacts: motion.Impacts, slides: Booleans) -> Array:
-        """Model forms of impacts that slide throughout; 0 where they do so with the other loss."""
-        form, e = np.zeros(slides.size), impacts.restitution
-        lossy = slides & ~impacts.plastic & (e < 1) & (e >= continuum.LEAST_RESTITUTION)
-        rows = np.flatnonzero(lossy)
-        if not rows.size:
-            return form
-        groups = [group[rows] for group in (impacts.mass_ratio, impacts.stiffness_ratio, e)]
-        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-            unit = impacts.friction[rows] * impacts.v2[rows]
-            x = impacts.v1[rows] / unit
-        limit = continuum.slip_throughout_limit(*groups, loss="plastic")
-        late = np.flatnonzero(x < limit)
-        found = model_form.of_sliding(x[late], *(group[late] for group in groups))
-        form[rows[late]] = np.abs(found) * unit[late]
-        return form
 
     def _answers(
         self, job: choice.Job, x: Array

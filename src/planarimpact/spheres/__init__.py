@@ -76,7 +76,8 @@ def loses_little(mass_ratio: Array, stiffness_ratio: Array, restitution: Array) 
     >>> loses_little(np.array([3.5, 3.5]), np.array([1.21, 1.21]), np.array([0.7, 0.6])).tolist()
     [True, False]
     """
-    return restitution >= table.limits_at(table.shipped(), mass_ratio / stiffness_ratio)[1]
+    u = table.over_b(mass_ratio / stiffness_ratio)
+    return restitution >= table.limits_at(table.shipped(), u)[1]
 
 
 def plastic_limit(mass_ratio: Array, stiffness_ratio: Array, restitution: Array) -> Array:

@@ -166,7 +166,8 @@ def evaluate(table: Table, y: Array, b: Array, e: Array, plastic: Booleans) -> A
     -------
     Answer
     """
-    u, limits = over_b(b), limits_at(table, b)
+    u = over_b(b)
+    limits = limits_at(table, u)
     velocity, peak, work = np.empty((3, y.size))
     found = Answer(velocity, peak, work, np.zeros(y.size, dtype=bool))
     below = e < limits
@@ -182,17 +183,18 @@ def evaluate(table: Table, y: Array, b: Array, e: Array, plastic: Booleans) -> A
 
 def slides_from(table: Table, b: Array, e: Array) -> Array:
     """y from which plastic spheres slide throughout, as `evaluate` has it, shape (n,)."""
-    found, limits = b + e * (b - 1), limits_at(table, b)
+    found, u = b + e * (b - 1), over_b(b)
+    limits = limits_at(table, u)
     low = np.flatnonzero(e < limits[0])
-    panel, some, u = table.panels["plastic_low"], e[low], over_b(b[low])
+    panel, some = table.panels["plastic_low"], e[low]
     t = over_e(panel.name, some, limits[:, low])
-    found[low] = edges_of(panel.name, panel.edges, t, u, b[low], some)[-1]
+    found[low] = edges_of(panel.name, panel.edges, t, u[low], b[low], some)[-1]
     return found
 
 
-def limits_at(table: Table, b: Array) -> Array:
-    """Restitutions between the plastic panels at b, shape (2, n)."""
-    return np.stack([_between(limit, over_b(b)) for limit in table.limits])
+def limits_at(table: Table, u: Array) -> Array:
+    """Restitutions between the plastic panels at u, shape (2, n)."""
+    return np.stack([_between(limit, u) for limit in table.limits])
 
 
 def over_b(b: Array) -> Array:

@@ -116,7 +116,8 @@ def limits(b: Array) -> Array:
         low, high = np.full((2, b.size), [[0.3], [0.99]])
         for _ in range(HALVINGS):
             e = (low + high) / 2
-            low, high = np.where(sticks(e), e, low), np.where(sticks(e), high, e)
+            later = sticks(e)
+            low, high = np.where(later, e, low), np.where(later, high, e)
         found.append(low)
     return np.stack(found)
 

@@ -189,10 +189,10 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
             a[began] for a in (force, w, u)
         )
         stick_radius[k] = np.where(began, row.stick_radius, 0.0)
-    if not motion.viscous:  # the springs are empty at separation: all that the body has lost
-        work = (x - velocity[-1]) * (x + velocity[-1]) / (2 * beta)
     searched = 0 if motion.viscous else peaks.instants_after(steps)
     if isinstance(motion, Thornton):
+        # The springs are empty at separation: all that the body has lost.
+        work = (x - velocity[-1]) * (x + velocity[-1]) / (2 * beta)
         soon = slips & (last > 0) & (onset + searched <= steps)
         after = np.minimum(onset + np.arange(1 + searched)[:, None], steps)
         knots = [motion.time, motion.approach, motion.velocity, displacement, velocity / zeta2]

@@ -16,6 +16,7 @@ from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import EACH, SIGNS, name, shifted
+from stronge1994.figures.shared.curves import materials as of_material
 from stronge1994.figures.shared.curves.sampling import vertices
 
 MODELS = (
@@ -67,7 +68,7 @@ def curves(
     bands = [_Contacts.of_band(restitution, nu, fit["friction"]) for nu in poisson_ratio]
     # Each parameter is lowered by its sigma: e cannot be raised where it is 1.
     lowered = [] if uncertainty is None else pairs.lowered(points, materials, uncertainty)
-    zeta2 = _like(contact["poisson_ratio"])
+    zeta2 = of_material.stiffness_ratio(contact["poisson_ratio"])
     x = vertices(incidence, samples)
     named: Curves = {}
     for model in MODELS:
@@ -105,7 +106,7 @@ class _Contacts(NamedTuple):
     @classmethod
     def of_band(cls, restitution: Sequence[float], nu: float, friction: float) -> "_Contacts":
         e = np.array(restitution, float)
-        return cls(np.full_like(e, _like(nu)), e, np.full_like(e, friction))
+        return cls(np.full_like(e, of_material.stiffness_ratio(nu)), e, np.full_like(e, friction))
 
     @classmethod
     def of_pairs(
@@ -151,11 +152,6 @@ class _Contacts(NamedTuple):
 def _key(material: str) -> str:
     """Name of a material as parameters of source.yaml have it."""
     return material.lower().replace(" ", "_").replace("-", "_")
-
-
-def _like(nu: float) -> float:
-    """zeta^2 of two bodies of one material."""
-    return float(bodies.stiffness_ratio(Material(1.0, nu)))
 
 
 def _fitted(

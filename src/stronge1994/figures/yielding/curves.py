@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact import bodies, continuum, lumped
-from planarimpact.bodies import Material
+from planarimpact import continuum, lumped
 from planarimpact.continuum.inelastic.thornton import Thornton
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import name
+from stronge1994.figures.shared.curves import materials
 from stronge1994.figures.shared.curves.sampling import vertices
 
 MODELS: dict[str, Callable[..., Rebound]] = {
@@ -56,7 +56,7 @@ def curves(
     """
     x = vertices(incidence, samples)
     at, e = (np.array(points[key], float) for key in ("incidence", "restitution"))
-    ratios = np.array([_like(nu) for nu in points["poisson_ratio"]])
+    ratios = np.array([materials.stiffness_ratio(nu) for nu in points["poisson_ratio"]])
     labels: Columns = {key: np.array(points[key]) for key in LABELS}
     named: Curves = {}
     for model, rebound in MODELS.items():
@@ -64,21 +64,20 @@ def curves(
         runs = solve(at, mass_ratio, ratios, e).velocity
         named[f"{model}, runs"] = labels | {X: at, W: runs}
         for one in contact["restitution"]:
-            found = solve(x, mass_ratio, _like(contact["poisson_ratio"]), one).velocity
+            found = solve(
+                x, mass_ratio, materials.stiffness_ratio(contact["poisson_ratio"]), one
+            ).velocity
             named[f"{model}, {name('e', one)}"] = {X: x, W: found}
     for nu in elastic["poisson_ratio"]:
-        found = continuum.rebound(x, mass_ratio, _like(nu), tolerance=tolerance).velocity
+        found = continuum.rebound(
+            x, mass_ratio, materials.stiffness_ratio(nu), tolerance=tolerance
+        ).velocity
         named[f"continuum, {name('nu', nu)}"] = {X: x, W: found}
     for one in pushed:
         approach, share = share_of_elastic(one)
         columns = {"approach [delta_max]": approach, "share_of_elastic_force [1]": share}
         named[f"pushed, {name('e', one)}"] = columns
     return named
-
-
-def _like(nu: float) -> float:
-    """zeta^2 of two bodies of one material."""
-    return float(bodies.stiffness_ratio(Material(1.0, nu)))
 
 
 def share_of_elastic(restitution: float) -> tuple[Array, Array]:
