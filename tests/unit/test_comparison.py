@@ -95,18 +95,20 @@ def test_facts(found, fact, expected):
 
 
 @pytest.mark.parametrize(
-    ("good", "documented", "unchanged", "expected"),
+    ("good", "known", "unchanged", "expected"),
     [
-        (True, False, True, Verdict.AGREES),
-        (False, False, True, Verdict.DIVERGES),
-        (False, True, True, Verdict.DOCUMENTED),
-        (False, True, False, Verdict.DIVERGES),
-        (True, True, True, Verdict.DIVERGES),  # there is no difference any more
-        (True, False, False, Verdict.DIVERGES),
+        (True, "", True, Verdict.AGREES),
+        (False, "", True, Verdict.DIVERGES),
+        (False, "explained", True, Verdict.EXPLAINED),
+        (False, "unexplained", True, Verdict.UNEXPLAINED),
+        (False, "untested", True, Verdict.UNTESTED),
+        (False, "explained", False, Verdict.DIVERGES),
+        (True, "untested", True, Verdict.DIVERGES),  # there is no difference any more
+        (True, "", False, Verdict.DIVERGES),
     ],
 )
-def test_verdicts(good, documented, unchanged, expected):
-    assert verdict(good, documented, unchanged) == expected
+def test_verdicts(good, known, unchanged, expected):
+    assert verdict(good, known, unchanged) == expected
 
 
 @pytest.mark.parametrize("sigma_values", [None, 4, 7, 40])

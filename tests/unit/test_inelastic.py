@@ -194,9 +194,9 @@ def test_a_wrong_repair_trips_the_gate(power, lumped_alone, judge, monkeypatch):
 def test_a_repair_of_the_model_as_in_the_paper_is_no_silent_change(
     lumped_alone, judge, monkeypatch
 ):
-    """Its difference is documented: if it goes away, the entry must go too."""
+    """Its difference is explained: if it goes away, the entry must go too."""
     title = "inelastic-lumped-pairs"
-    assert judge(title)[title]["verdict"] == "differs as documented"
+    assert judge(title)[title]["verdict"] == "explained difference"
     original = models.rebound
     monkeypatch.setattr(
         models,

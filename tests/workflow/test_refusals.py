@@ -99,7 +99,7 @@ BAD_CONFIG = [
     ),
     (comparison("fig5-continuum-maw", limit="2"), "fig5-continuum-maw: .*should not be valid"),
     (
-        comparison("fig5-continuum-maw", documented={"note": "known for long"}),
+        comparison("fig5-continuum-maw", documented={"as": "explained", "note": "known for long"}),
         "'regression' is a dependency of 'documented'",
     ),
     (

@@ -22,15 +22,19 @@ class Verdict(StrEnum):
 
     UNCHANGED is the verdict of a check against an earlier result of this repository. It guards
     against accidents and is evidence of nothing. INCONCLUSIVE does not count as evidence either:
-    published points agree with the curve, but would also if it were wrong by `SEEN` sigmas.
+    published points agree with the curve, but would also if it were wrong by `SEEN` sigmas. A
+    known difference is EXPLAINED, or its cause is not known, or it is UNTESTED because the reference
+    does not state how much its values scatter.
 
-    >>> print(Verdict.DOCUMENTED)
-    differs as documented
+    >>> print(Verdict.EXPLAINED)
+    explained difference
     """
 
     AGREES = "agrees"
     INCONCLUSIVE = "inconclusive"
-    DOCUMENTED = "differs as documented"
+    EXPLAINED = "explained difference"
+    UNTESTED = "untested difference"
+    UNEXPLAINED = "unexplained difference"
     DIVERGES = "diverges"
     AWAITED = "awaited"
     UNCHANGED = "as before"
@@ -75,22 +79,22 @@ def _outcome(
         good = distance.max <= entry.get("limit", 1.0)
     bounds: Mapping[str, tuple[float, float]] = entry.get("regression", {})
     unchanged = all(low <= measured[key] <= high for key, (low, high) in bounds.items())
-    return verdict(good, "documented" in entry, unchanged)
+    return verdict(good, entry.get("documented", {}).get("as", ""), unchanged)
 
 
-def verdict(good: bool, documented: bool = False, unchanged: bool = True) -> Verdict:
+def verdict(good: bool, known: str = "", unchanged: bool = True) -> Verdict:
     """Verdict on a comparison.
 
     `good` says that the curve meets its reference: p is large enough, or the distance is within the
-    tolerance. A `documented` difference is known and explained; if there is none any more, that is
-    a fault too. `unchanged` says that what was found lies within the bounds of its regression test,
-    if it has one.
+    tolerance. `known` is empty, or says of a known difference `explained`, `unexplained` or
+    `untested`; if there is no difference any more, that is a fault too. `unchanged` says that what was found lies within the bounds of its
+    regression test, if it has one.
 
-    >>> print(verdict(True), verdict(False), verdict(False, documented=True), sep="; ")
-    agrees; diverges; differs as documented
-    >>> print(verdict(True, documented=True), verdict(True, unchanged=False), sep="; ")
+    >>> print(verdict(True), verdict(False), verdict(False, "explained"), sep="; ")
+    agrees; diverges; explained difference
+    >>> print(verdict(True, "explained"), verdict(True, unchanged=False), sep="; ")
     diverges; diverges
     """
-    if not unchanged or good == documented:
+    if not unchanged or good == bool(known):
         return Verdict.DIVERGES
-    return Verdict.AGREES if good else Verdict.DOCUMENTED
+    return Verdict.AGREES if good else Verdict(f"{known} difference")

@@ -36,7 +36,9 @@ from stronge1994.run import gate
 
 MARKS = {
     "diverges": "fails",
-    "differs as documented": "rounding",
+    "unexplained difference": "judgement",
+    "untested difference": "misprint",
+    "explained difference": "rounding",
     "awaited": "not",
     "inconclusive": "not",
     "agrees": "confirmed",
@@ -44,7 +46,10 @@ MARKS = {
 }
 MEANING = {
     "diverges": "outside its tolerance: the run fails",
-    "differs as documented": "a difference that is known, explained and as large as before",
+    "unexplained difference": "the difference is as large as before, and we do not know its cause",
+    "untested difference": "sigma unknown: the reference does not state how much its values scatter, "
+    "so chi² tests nothing",
+    "explained difference": "the difference is as large as before, and we know its cause",
     "awaited": "we do not have the reference yet",
     "inconclusive": "it agrees, but would also if all points lay "
     f"{SEEN:g} sigmas beside the curve: it does not count as evidence",

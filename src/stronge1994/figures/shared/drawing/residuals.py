@@ -14,22 +14,19 @@ from stronge1994.figures.shared.drawing import house_style, words
 
 # Inches: height of a strip with its title, and of the label of its x axis.
 STRIP, LABEL = 0.56, 0.42
+
+
+def _hollow(marker: str, colour: str) -> dict[str, Any]:
+    style = {"color": colour, "marker": marker, "markersize": 2.4}
+    return style | {"markerfacecolor": "white", "markeredgewidth": 0.7}
+
+
 MARKS = {
     "agrees": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
-    "inconclusive": {
-        "color": house_style.BLACK,
-        "marker": "o",
-        "markersize": 2.4,
-        "markerfacecolor": "white",
-        "markeredgewidth": 0.7,
-    },
-    "differs as documented": {
-        "color": house_style.BLUE,
-        "marker": "s",
-        "markersize": 2.4,
-        "markerfacecolor": "white",
-        "markeredgewidth": 0.7,
-    },
+    "inconclusive": _hollow("o", house_style.BLACK),
+    "explained difference": _hollow("s", house_style.BLUE),
+    "unexplained difference": _hollow("D", house_style.PURPLE),
+    "untested difference": _hollow("^", house_style.BLUE),
     "diverges": {"color": house_style.VERMILLION, "marker": "x", "markersize": 4},
 }
 ALL_AREA = {"color": house_style.PALE, "linewidth": 0, "zorder": 0.5}
