@@ -23,8 +23,8 @@ class Verdict(StrEnum):
     UNCHANGED is the verdict of a check against an earlier result of this repository. It guards
     against accidents and is evidence of nothing. INCONCLUSIVE does not count as evidence either:
     published points agree with the curve, but would also if it were wrong by `SEEN` sigmas. A
-    known difference is EXPLAINED, or its cause is not known, or it is UNTESTED because the reference
-    does not state how much its values scatter.
+    known difference is EXPLAINED; or its cause is not known; or it is UNTESTED, because the
+    reference does not state how much its values scatter.
 
     >>> print(Verdict.EXPLAINED)
     explained difference
@@ -87,8 +87,8 @@ def verdict(good: bool, known: str = "", unchanged: bool = True) -> Verdict:
 
     `good` says that the curve meets its reference: p is large enough, or the distance is within the
     tolerance. `known` is empty, or says of a known difference `explained`, `unexplained` or
-    `untested`; if there is no difference any more, that is a fault too. `unchanged` says that what was found lies within the bounds of its
-    regression test, if it has one.
+    `untested`; if there is no difference any more, that is a fault too. `unchanged` says that what
+    was found lies within the bounds of its regression test, if it has one.
 
     >>> print(verdict(True), verdict(False), verdict(False, "explained"), sep="; ")
     agrees; diverges; explained difference

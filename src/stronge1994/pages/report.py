@@ -47,8 +47,8 @@ MARKS = {
 MEANING = {
     "diverges": "outside its tolerance: the run fails",
     "unexplained difference": "the difference is as large as before, and we do not know its cause",
-    "untested difference": "sigma unknown: the reference does not state how much its values scatter, "
-    "so chi² tests nothing",
+    "untested difference": "sigma unknown: the reference does not state how its values "
+    "scatter, so chi² tests nothing",
     "explained difference": "the difference is as large as before, and we know its cause",
     "awaited": "we do not have the reference yet",
     "inconclusive": "it agrees, but would also if all points lay "
