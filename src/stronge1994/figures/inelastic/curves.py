@@ -34,6 +34,34 @@ E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
 PARAMETERS = f"{EACH}pair's parameters"
 
 
+class Spread(NamedTuple):
+    """Incidences of the impacts to which beta_0 is fitted.
+
+    They reach from 0 to `reach` times (1 + e) beta, or to an `angle` in degrees, and are spread
+    evenly over incidence or, with `by_angle`, over the angle of incidence.
+    """
+
+    reach: float = 1.0
+    angle: float | None = None
+    by_angle: bool = False
+
+
+WHOLE = "to (1 + e) m2/m1"
+RANGES = {
+    WHOLE: Spread(),
+    "to 45 deg": Spread(angle=45.0),
+    "to 60 deg": Spread(angle=60.0),
+    "to 0.5 (1 + e) m2/m1": Spread(reach=0.5),
+    "to 1.5 (1 + e) m2/m1": Spread(reach=1.5),
+}
+BY_ANGLE = ", by angle"
+SPREADS = RANGES | {
+    f"{words}{BY_ANGLE}": spread._replace(by_angle=True) for words, spread in RANGES.items()
+}
+
+FARTHEST = max(spread.reach for spread in SPREADS.values())
+
+
 def curves(
     mass_ratio: float,
     points: Mapping[str, Sequence[Any]],
@@ -43,29 +71,29 @@ def curves(
     contact: Mapping[str, float],
     incidence: Sequence[float],
     samples: int,
-    fit: Mapping[str, Any],
+    solved: int,
     tolerance: float,
     uncertainty: Mapping[str, Sequence[float]] | None = None,
 ) -> Curves:
     """What each model says of the measured pairs, of every restitution, and of every incidence.
 
     `points` has the columns of data/cornell1999/pairs.csv; the moduli of `materials` are in Pa. For
-    each of `MODELS` there are `<model>, pairs`, `<model>, nu = ...` for both edges of the band, and
-    `<model>, e = ...`. With `uncertainty`, one sigma of the materials' properties, there are also
-    `<model>, pairs; each pair's parameters +- 1 sigma`: beta_0 with the standard deviation that it
-    has from restitution, friction and moduli, which are each pair's own.
+    each of `MODELS` there are `<model>, pairs`; `<model>, pairs, <spread>` for all other `SPREADS`;
+    `<model>, nu = ...` for both edges of the band; and `<model>, e = ...`. With `uncertainty`, one
+    sigma of the materials' properties, there are also `<model>, pairs; each pair's parameters +- 1
+    sigma`: beta_0 with the standard deviation that it has from restitution, friction and moduli,
+    which are each pair's own. A smooth curve joins `solved` incidences of each contact.
 
     >>> pairs = {"pair": ["glass"], "body": ["glass"], "other": ["glass"], "restitution": [0.97],
     ...          "friction": [0.1]}
     >>> glass = {"material": ["glass"], "young_modulus": [7e10], "poisson_ratio": [0.2]}
-    >>> fit = {"evenly": "incidence", "reach": 1.0, "friction": 0.1, "solved": 16}
     >>> named = curves(3.5, pairs, glass, [0.8, 1.0], [0.2, 0.5], {"restitution": 0.6,
-    ...                "poisson_ratio": 0.3}, (0, 8), 11, fit, 1e-3)
+    ...                "poisson_ratio": 0.3}, (0, 8), 11, 24, 1e-3)
     >>> round(float(named["lumped, pairs"]["tangential_restitution [1]"][0]), 2)
     0.37
     """
     pairs = _Contacts.of_pairs(points, materials)
-    bands = [_Contacts.of_band(restitution, nu, fit["friction"]) for nu in poisson_ratio]
+    bands = [_Contacts.of_band(restitution, nu) for nu in poisson_ratio]
     # Each parameter is lowered by its sigma: e cannot be raised where it is 1.
     lowered = [] if uncertainty is None else pairs.lowered(points, materials, uncertainty)
     zeta2 = of_material.stiffness_ratio(contact["poisson_ratio"])
@@ -77,36 +105,38 @@ def curves(
             settings = {"tolerance": tolerance} if model.startswith("continuum") else {}
             return models.rebound(model, *groups, **settings).velocity
 
-        found = _fitted(solve, mass_ratio, [pairs, *bands, *lowered], fit)
+        fitted = _fitted(solve, mass_ratio, [pairs, *bands, *lowered], solved)
         labels = {key: np.array(points[key]) for key in ("pair", "body", "other")}
         own: Columns = labels | {E: pairs.restitution}
-        named[f"{model}, pairs"] = own | {BETA_0: found[0]}
-        for nu, band, beta_0 in zip(poisson_ratio, bands, found[1:], strict=False):
+        for spread, (beta_0, *others) in fitted.items():
+            title = f"{model}, pairs" + (f", {spread}" if spread != WHOLE else "")
+            named[title] = own | {BETA_0: beta_0}
+            if lowered:
+                changes = [other - beta_0 for other in others[-len(lowered) :]]
+                sigma = np.sqrt(np.sum(np.square(changes), axis=0))
+                for sign in SIGNS:
+                    column = {BETA_0: beta_0 + sign * sigma}
+                    named[shifted(title, PARAMETERS, sign)] = own | column
+        for nu, band, beta_0 in zip(poisson_ratio, bands, fitted[WHOLE][1:], strict=False):
             named[f"{model}, {name('nu', nu)}"] = {E: band.restitution, BETA_0: beta_0}
         named[f"{model}, {name('e', contact['restitution'])}"] = {
             "incidence [mu v2(0)]": x,
             "velocity [mu v2(0)]": solve(x, mass_ratio, zeta2, contact["restitution"]),
         }
-        if lowered:
-            changes = [beta_0 - found[0] for beta_0 in found[-len(lowered) :]]
-            sigma = np.sqrt(np.sum(np.square(changes), axis=0))
-            for sign in SIGNS:
-                column = {BETA_0: found[0] + sign * sigma}
-                named[shifted(f"{model}, pairs", PARAMETERS, sign)] = own | column
     return named
 
 
 class _Contacts(NamedTuple):
-    """Several contacts, and the friction with which angles become incidences."""
+    """Several contacts. Friction turns angles into incidences; a band has none."""
 
     stiffness_ratio: Array
     restitution: Array
     friction: Array
 
     @classmethod
-    def of_band(cls, restitution: Sequence[float], nu: float, friction: float) -> "_Contacts":
+    def of_band(cls, restitution: Sequence[float], nu: float) -> "_Contacts":
         e = np.array(restitution, float)
-        return cls(np.full_like(e, of_material.stiffness_ratio(nu)), e, np.full_like(e, friction))
+        return cls(np.full_like(e, of_material.stiffness_ratio(nu)), e, np.full_like(e, np.nan))
 
     @classmethod
     def of_pairs(
@@ -155,30 +185,41 @@ def _key(material: str) -> str:
 
 
 def _fitted(
-    solve: Callable[..., Array], beta: float, groups: Sequence[_Contacts], fit: Mapping[str, Any]
-) -> list[Array]:
-    """beta_0 of several groups of contacts, which are solved together."""
+    solve: Callable[..., Array], beta: float, groups: Sequence[_Contacts], solved: int
+) -> dict[str, list[Array]]:
+    """beta_0 of several groups of contacts, by the spread of the impacts that it is fitted to.
+
+    All are solved together, up to the farthest reach. Beyond it every contact slides throughout,
+    and what slides has no part in beta_0.
+    """
     whole = _Contacts(*map(np.concatenate, zip(*groups, strict=True)))
     e = whole.restitution
-    ends = fit["reach"] * sliding.change(np.full_like(e, beta), e)
-    x = ends[:, None] * np.linspace(0.0, 1.0, fit["solved"])
+    ends = sliding.change(np.full_like(e, beta), e)
+    x = FARTHEST * ends[:, None] * np.linspace(0.0, 1.0, solved)
     # Contacts that differ by friction alone have the same rebounds.
     groups_of_rebound = np.stack([whole.stiffness_ratio, e], axis=1)
     _, first, same = np.unique(groups_of_rebound, axis=0, return_index=True, return_inverse=True)
     w = solve(x[first], beta, whole.stiffness_ratio[first, None], e[first, None])[same.ravel()]
-    beta_0 = np.empty(len(ends))
+    splits = np.cumsum([len(group.restitution) for group in groups])[:-1]
+    beta_0 = {spread: np.full(len(ends), np.nan) for spread in SPREADS}
     for i, end in enumerate(ends):
-        at = _impacts(end, float(whole.friction[i]), fit["evenly"])
-        beta_0[i] = tangential_restitution(at, CubicSpline(x[i], w[i])(at), beta, float(e[i]))
-    return np.split(beta_0, np.cumsum([len(group.restitution) for group in groups])[:-1])
+        rebound, friction = CubicSpline(x[i], w[i]), float(whole.friction[i])
+        for words, spread in SPREADS.items():
+            if words == WHOLE or not np.isnan(friction):
+                at = _impacts(end, friction, spread)
+                beta_0[words][i] = tangential_restitution(at, rebound(at), beta, float(e[i]))
+    return {words: np.split(found, splits) for words, found in beta_0.items()}
 
 
-def _impacts(end: float, friction: float, evenly: str) -> Array:
-    """Incidences of the impacts of one fit, from 0 to an end: evenly spread, or their angles."""
+def _impacts(end: float, friction: float, spread: Spread) -> Array:
+    """Incidences of the impacts of one fit, up to `FARTHEST` times the end of the sliding line."""
+    reach = spread.reach * end
+    if spread.angle is not None:
+        reach = min(np.tan(np.radians(spread.angle)) / friction, FARTHEST * end)
     share = (np.arange(FITTED) + 0.5) / FITTED
-    if evenly == "incidence":
-        return share * end
-    return np.tan(share * np.arctan(friction * end)) / friction
+    if not spread.by_angle:
+        return share * reach
+    return np.tan(share * np.arctan(friction * reach)) / friction
 
 
 def tangential_restitution(x: ArrayLike, w: ArrayLike, beta: float, e: float) -> float:

@@ -1,28 +1,41 @@
 """Beyond the paper: five models of loss below e = 1, beside eleven measured pairs of materials."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
+from scipy.special import chdtri
 
 from planarimpact.ground.arrays import Array
 from stronge1994 import curve_names
-from stronge1994.csv_tables import Curves
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.figures.shared.drawing import house_style
-from stronge1994.figures.shared.drawing.house_style import Dashes, Points, Series, Settings
+from stronge1994.figures.shared.drawing.house_style import (
+    Dashes,
+    Points,
+    Series,
+    Settings,
+    Style,
+)
 from stronge1994.goodness import ChiSquared, chi_squared
 
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
-PARAMETERS = "each pair's parameters"
-CHI_SQUARED = "chi_squared [1]"
+PARAMETERS = f"{curve_names.EACH}pair's parameters"
+CHI_SQUARED, OVER_LIMIT = "chi_squared [1]", "chi_squared_over_limit [1]"
+# The pairs that decide most: the least elastic one, and the one farthest from all models.
+SOFT, HARD = "polyurethane", "chrome steel"
 # Points of one restitution are drawn side by side, so far apart.
 APART = 0.0055
+# Pairs agree with a model if chance gives their chi-squared with at least this probability.
+SIGNIFICANCE = 0.01
 # What words of the picture mean, see `shared.drawing.words`.
 AXIS_MEANS = {
     r"tangential restitution $\beta_0$": r": tangential_restitution \[1\]",
-    r"$\chi^2$ of pairs": r": chi_squared \[1\]",
+    rf"$\chi^2$ over its value at $p = {SIGNIFICANCE:g}$": r": chi_squared_over_limit \[1\]",
 }
 
 
@@ -44,29 +57,96 @@ def side_by_side(x: Array) -> Array:
 
 
 def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
-    """Chi-squared of each model."""
+    """Chi-squared of each model in each trial."""
     series = points.get(settings["points"])
-    models = [name.removesuffix(", pairs") for name in curves if name.endswith(", pairs")]
-    fits = {model: goodness(curves, model, series) for model in models} if series else {}
+    if not series:
+        return curves
     return curves | {
-        f"chi-squared of {model}": {CHI_SQUARED: np.array([fit.value]), "p [1]": np.array([fit.p])}
-        for model, fit in fits.items()
+        f"{model}, {trial.words}": _columns_of(goodness(curves, model, series, trial))
+        for model in MODELS
+        for trial in trials(curves)
     }
 
 
-def goodness(curves: Curves, model: str, series: Series) -> ChiSquared:
+def _columns_of(fit: ChiSquared) -> Columns:
+    numbers = {CHI_SQUARED: fit.value, "p [1]": fit.p, OVER_LIMIT: over_limit(fit)}
+    return {column: np.array([number]) for column, number in numbers.items()}
+
+
+class Trial(NamedTuple):
+    """One way to judge the pairs.
+
+    `spread` is that of the impacts to which beta_0 is fitted, in the words of the curves' names.
+    Some pairs are left `without`. All uncertainties are taken as a `share` of those stated.
+    """
+
+    words: str
+    spread: str = ""
+    without: Sequence[str] = ()
+    share: float = 1.0
+
+
+def trials(curves: Curves) -> list[Trial]:
+    """As the verdicts judge the pairs, and with one choice at a time made otherwise.
+
+    Which incidences were measured is not known, nor whether a printed uncertainty is one standard
+    deviation or two.
+    """
+    start = f"{next(iter(MODELS))}, pairs, "
+    names = [name for name in curves if name.startswith(start) and not curve_names.is_shifted(name)]
+    spreads = [name.removeprefix(start) for name in names]
+    return [
+        Trial("as judged"),
+        *(Trial(f"fit {spread}", spread) for spread in spreads),
+        Trial("the stated sigmas are two sigmas", share=0.5),
+        Trial(f"without {SOFT}", without=[SOFT]),
+        Trial(f"without {HARD}", without=[HARD]),
+        Trial("without both", without=[SOFT, HARD]),
+    ]
+
+
+def goodness(
+    curves: Curves, model: str, series: Series, trial: Trial | None = None, e_below: float = np.inf
+) -> ChiSquared:
     """Chi-squared of a model over the measured pairs, with the uncertainty of their parameters.
 
-    It is that of the verdicts.
+    Without a trial it is that of the verdicts. With `e_below` only pairs of a smaller restitution
+    count.
     """
-    name, sigma = f"{model}, pairs", series["sigma"][1]
+    trial = trial or Trial("as judged")
+    name = f"{model}, pairs" + (f", {trial.spread}" if trial.spread else "")
+    sigma = series["sigma"][1] * trial.share
     place = {pair: row for row, pair in enumerate(curves[name]["pair"])}
-    rows = [place[pair] for pair in series["columns"]["pair"]]
+    pairs = series["columns"]["pair"]
+    rows = [place[pair] for pair in pairs]
     up, down = (
         curves[curve_names.shifted(name, PARAMETERS, sign)][BETA_0][rows] for sign in (1, -1)
     )
     distance = (series["y"] - curves[name][BETA_0][rows]) / sigma
-    return chi_squared(distance, np.diag((up - down) / 2 / sigma))
+    moved = trial.share * (up - down) / 2 / sigma
+    kept = ~np.isin(pairs, list(trial.without)) & (series["x"] < e_below)
+    return chi_squared(distance[kept], np.diag(moved[kept]))
+
+
+def over_limit(found: ChiSquared) -> float:
+    """Chi-squared over the largest that agrees.
+
+    >>> round(over_limit(chi_squared([3.0, 1.0])), 2)
+    1.09
+    """
+    return float(found.value / chdtri(found.degrees, SIGNIFICANCE))
+
+
+def slope(series: Series, without: Sequence[str] = ()) -> tuple[float, float]:
+    """Slope of the measured beta_0 against restitution, and its standard deviation.
+
+    A straight line fits the pairs by least squares, weighted by their printed uncertainties.
+    """
+    kept = ~np.isin(series["columns"]["pair"], list(without))
+    e, beta_0, sigma = (np.asarray(a)[kept] for a in (series["x"], series["y"], series["sigma"][1]))
+    line: Array = np.stack([np.ones_like(e), e], axis=1) / sigma[:, None]
+    covariance = np.linalg.inv(line.T @ line)
+    return float((covariance @ line.T @ (beta_0 / sigma))[1]), float(np.sqrt(covariance[1, 1]))
 
 
 class Model(NamedTuple):
@@ -75,53 +155,56 @@ class Model(NamedTuple):
     words: str
     colour: str
     dashes: Dashes
-    hatch: str
+    marker: str
 
 
 # A colour for each cause of loss: black for the normal element of the paper, vermillion for plastic
 # flow, blue for viscosity.
 MODELS = {
-    name: Model(words, colour, dashes, hatch)
-    for (name, words, colour, hatch), dashes in house_style.patterned(
+    name: Model(words, colour, dashes, marker)
+    for (name, words, colour, marker), dashes in house_style.patterned(
         (
-            ("lumped", "lumped, as in the paper", house_style.BLACK, ""),
-            ("lumped.plastic", "lumped, repaired", house_style.VERMILLION, "xxxxx"),
-            ("lumped.viscous", "lumped, Kelvin–Voigt", house_style.BLUE, "\\\\\\\\\\"),
-            ("continuum.plastic", "continuum, elastic-plastic", house_style.VERMILLION, "-----"),
-            ("continuum.viscous", "continuum, viscoelastic", house_style.BLUE, "/////"),
+            ("lumped", "lumped, as in the paper", house_style.BLACK, "o"),
+            ("lumped.plastic", r"lumped, $e^2\zeta^2$", house_style.VERMILLION, "D"),
+            ("lumped.viscous", "lumped, Kelvin–Voigt", house_style.BLUE, "s"),
+            ("continuum.plastic", "continuum, elastic-plastic", house_style.VERMILLION, "^"),
+            ("continuum.viscous", "continuum, viscoelastic", house_style.BLUE, "v"),
         )
     )
 }
 MEASURED = {"color": house_style.BLACK, "marker": "o", "markersize": 3, "markerfacecolor": "white"}
-# Left end of the axis of chi-squared.
-LEAST = 3.0
 # Height of a label, as a share of the axes.
 LINE = 0.062
+TICKS = (0.3, 1, 3, 10, 30)  # of chi-squared over its limit
+# Points of one trial stand so far apart, over the height of its row.
+BESIDE = 0.16
 # A point so far from all others has its label beside it; the others have theirs at the right.
 ALONE = 0.1
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Draw (a) beta_0 against e, (b) one contact at all incidences, (c) chi-squared."""
-    figure = house_style.new(6.8)
-    grid = figure.add_gridspec(2, 2, height_ratios=[4, 2.6], width_ratios=[5, 4])
-    # The names of the pairs stand in the second part.
-    top = figure.add_subplot(grid[0, :].subgridspec(1, 2, width_ratios=[27, 10])[0])
-    _draw_bands(top, curves, settings)
+    """Draw (a) beta_0 against e, (b) one contact at all incidences, (c) chi-squared by trial."""
     series = points.get(settings["points"])
-    if series:
-        _draw_pairs(top, series)
+    figure = house_style.new(9.6 if series else 6.8)
+    heights = [3.4, 2.1, 3.5] if series else [3.4, 2.1]
+    grid = figure.add_gridspec(len(heights), 1, height_ratios=heights)
+    # The names of the pairs stand in the second part.
+    top = figure.add_subplot(grid[0].subgridspec(1, 2, width_ratios=[27, 10])[0])
+    _draw_bands(top, curves, settings)
     contact = settings["contact"]
-    _draw_contact(figure.add_subplot(grid[1, 0]), curves, contact["restitution"])
-    if series:
-        _draw_chi_squared(figure.add_subplot(grid[1, 1]), curves, len(series["x"]))
-    low, high = settings["poisson_ratio"]
-    top.set_title(rf"(a) bands: $\nu = {low:g}$ to ${high:g}$; circles: measured")
+    _draw_contact(figure.add_subplot(grid[1]), curves, contact["restitution"])
     keys = [
         house_style.key(model.words, color=model.colour, linestyle=model.dashes)
         for model in MODELS.values()
     ]
-    house_style.legend_below(figure, keys[:3], keys[3:])
+    columns = {"(a), (b)": keys}
+    if series:
+        _draw_pairs(top, series)
+        _draw_trials(figure.add_subplot(grid[2]), curves)
+        columns["(c)"] = [house_style.key(model.words, **_dot(model)) for model in MODELS.values()]
+    low, high = settings["poisson_ratio"]
+    top.set_title(rf"(a) bands: $\nu = {low:g}$ to ${high:g}$; circles: measured")
+    house_style.legend_below(figure, *columns.values(), titles=columns)
     return figure
 
 
@@ -227,30 +310,27 @@ def _draw_contact(axes: Axes, curves: Curves, restitution: float) -> None:
     axes.set_xlim(curve[X].min(), curve[X].max())
 
 
-def _draw_chi_squared(axes: Axes, curves: Curves, degrees: int) -> None:
-    tables = {name: curves[f"chi-squared of {name}"] for name in MODELS}
-    found = {name: (fit[CHI_SQUARED][0], fit["p [1]"][0]) for name, fit in tables.items()}
-    largest = max(value for value, _ in found.values())
-    note = {"fontsize": house_style.NOTE, "va": "center"}
-    for row, (name, (value, p)) in enumerate(found.items()):
-        model = MODELS[name]
-        style = {"facecolor": "white", "edgecolor": model.colour, "hatch": model.hatch}
-        axes.barh(row, value, height=0.42, linewidth=1.0, **style)
-        axes.text(degrees * 1.15, row - 0.42, model.words, **note)
-        axes.text(value * 1.15, row, words_of(p), **note)
-    axes.axvline(degrees, color=house_style.BLACK, linewidth=0.7, linestyle=house_style.DASHES[1])
-    axes.set(xscale="log", xlim=(LEAST, largest * 50), yticks=[], ylim=(len(found) - 0.6, -0.75))
-    axes.set_xlabel(rf"$\chi^2$ of {degrees} pairs")
-    axes.set_title("(c) models against pairs")
+def _draw_trials(axes: Axes, curves: Curves) -> None:
+    """Chi-squared of each model, a row for each trial, over the largest that agrees."""
+    words = [trial.words for trial in trials(curves)]
+    rows = np.arange(len(words))
+    for place, (name, model) in enumerate(MODELS.items()):
+        beside = rows + BESIDE * (place - (len(MODELS) - 1) / 2)
+        for trial, height in zip(words, beside, strict=True):
+            axes.plot(curves[f"{name}, {trial}"][OVER_LIMIT], [height], **_dot(model))
+    axes.axvline(1.0, color=house_style.BLACK, linewidth=0.8, linestyle=house_style.DASHES[1])
+    for edge in rows[1:] - 0.5:
+        axes.axhline(edge, **house_style.GUIDE)
+    axes.set(xscale="log", ylim=(rows[-1] + 0.5, -0.5))
+    axes.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.set_yticks(rows, words, fontsize=house_style.NOTE)
+    axes.tick_params(axis="y", length=0)
+    axes.set_xlabel(rf"$\chi^2$ over its value at $p = {SIGNIFICANCE:g}$")
+    axes.set_title("(c) what differs from the pairs: right of the line")
 
 
-def words_of(p: float) -> str:
-    """Probability in a few letters.
-
-    >>> print(words_of(0.224), words_of(3.6e-26))
-    $p = 0.22$ $p = 4 \\times 10^{-26}$
-    """
-    if p >= 1e-3:
-        return f"$p = {p:.2g}$"
-    digit, power = f"{p:.0e}".split("e")
-    return rf"$p = {digit} \times 10^{{{int(power)}}}$"
+def _dot(model: Model) -> Style:
+    face = model.colour if model.marker == "o" else "white"
+    style = {"color": model.colour, "marker": model.marker, "markerfacecolor": face}
+    return style | {"linestyle": "none", "markersize": 3.2, "markeredgewidth": 0.8}

@@ -37,7 +37,7 @@ LEGEND = {
     r"^\$F_2": ": normal_force ",
     r"^\$F_1/": ": friction_(force|over_mu) ",
     "lumped model|lumped, as in the paper|^lumped$": r"^(response of )?(lumped|e = |mu = )(?!\.)",
-    r"lumped, (repaired|plastic)": r"^lumped\.plastic",
+    r"lumped, (\$e\^2|plastic)": r"^lumped\.plastic",
     "lumped, (Kelvin–Voigt|viscous)": r"^lumped\.viscous",
     "elastic continuum": "^continuum[,:]",
     "continuum, rubber|^continuum$": "^(response of )?continuum[,:]",
