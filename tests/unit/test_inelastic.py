@@ -115,40 +115,69 @@ def test_without_uncertainties_there_are_no_shifted_curves(lumped_alone, setting
     assert list(found) == [name for name in full if not curve_names.is_shifted(name)]
 
 
-def test_the_range_of_the_fit_hardly_matters_but_the_spread_does(lumped_alone, settings):
-    """What data/cornell1999/source.yaml says of the choice."""
-    fits = {
-        "as it is": {},
-        "shorter": {"reach": 0.8},
-        "longer": {"reach": 2.0, "solved": 32},
-        "angle": {"evenly": "angle"},
-    }
-    found = {
-        words: {
-            model: beta_0(settings | {"fit": settings["fit"] | fit}, model)
-            for model in inelastic.MODELS
-        }
-        for words, fit in fits.items()
-    }
+def test_spreads_of_impacts(lumped_alone, settings):
+    """Angles become incidences by each pair's own friction, and reach no farther than needed."""
+    found = inelastic.curves(**settings)
+    pairs = inelastic._Contacts.of_pairs(settings["points"], settings["materials"])
     soft = settings["points"]["pair"].index("polyurethane")
-    for model in inelastic.MODELS:
-        change = {
-            words: np.abs(slopes[model] - found["as it is"][model])
-            for words, slopes in found.items()
-        }
-        assert max(change["shorter"].max(), change["longer"].max()) < 0.003
-        assert np.delete(change["angle"], soft).max() < 0.02
-    assert found["as it is"]["lumped.plastic"][soft] == pytest.approx(0.25, abs=0.01)
-    assert found["angle"]["lumped.plastic"][soft] == pytest.approx(0.13, abs=0.01)
+    e, mu = pairs.restitution[soft], pairs.friction[soft]
+    end = (1 + e) * 3.5
+    ends = {"to 45 deg": 1 / mu, "to 60 deg": np.sqrt(3) / mu}
+    ends |= {f"to {share} (1 + e) m2/m1": share * end for share in (0.5, 1.5)}
+    assert ends["to 60 deg"] < end
+    for words, reach in ends.items():
+        share = (np.arange(4000) + 0.5) / 4000
+        spread = {words: share * reach}
+        spread[f"{words}, by angle"] = np.tan(share * np.arctan(mu * reach)) / mu
+        for name, x in spread.items():
+            w = lumped.rebound(x, 3.5, pairs.stiffness_ratio[soft], e).velocity
+            slope = inelastic.tangential_restitution(x, w, 3.5, e)
+            assert found[f"lumped, pairs, {name}"][BETA_0][soft] == pytest.approx(slope, abs=2e-3)
+    farther = found["lumped, pairs, to 1.5 (1 + e) m2/m1"][BETA_0]
+    np.testing.assert_allclose(farther, found["lumped, pairs"][BETA_0], atol=0.002)
 
 
 def test_friction_matters_where_impacts_are_spread_over_the_angle(lumped_alone, settings):
     points = settings["points"]
     more = points | {"friction": [2 * mu for mu in points["friction"]]}
-    for evenly, moved in (("incidence", False), ("angle", True)):
-        chosen = settings | {"fit": settings["fit"] | {"evenly": evenly}}
-        change = np.abs(beta_0(chosen | {"points": more}) - beta_0(chosen))
+    before, after = (inelastic.curves(**settings | {"points": chosen}) for chosen in (points, more))
+    for spread, moved in (("", False), (", to (1 + e) m2/m1, by angle", True)):
+        name = f"lumped, pairs{spread}"
+        change = np.abs(after[name][BETA_0] - before[name][BETA_0])
         assert (change.max() > 1e-3) == moved
+
+
+def test_trials_of_the_pairs(inventory, lumped_alone, settings, monkeypatch):
+    """Each makes one choice otherwise; the numbers are those of a plain sum of squares."""
+    found = inelastic.curves(**settings)
+    series = series_of(inventory)
+    tried = {trial.words: trial for trial in draw_inelastic.trials(found)}
+    assert len(tried) == 14
+
+    def value(words, model="lumped"):
+        return draw_inelastic.goodness(found, model, series, tried[words])
+
+    whole = value("as judged")
+    assert value("the stated sigmas are two sigmas").value == pytest.approx(4 * whole.value)
+    assert value("without both").degrees == whole.degrees - 2
+    soft = series["columns"]["pair"] == "polyurethane"
+    gone = whole.value - value("without polyurethane").value
+    up, down = (
+        found[curve_names.shifted("lumped, pairs", inelastic.PARAMETERS, sign)][BETA_0]
+        for sign in (1, -1)
+    )
+    sigma = np.hypot(series["sigma"][1], (up - down) / 2)
+    pull = (series["y"] - found["lumped, pairs"][BETA_0]) / sigma
+    assert gone == pytest.approx(float(pull[soft][0] ** 2))
+    assert draw_inelastic.over_limit(whole) > 1 > draw_inelastic.over_limit(value("without both"))
+
+
+def test_the_trend_of_the_pairs_rests_on_one(inventory):
+    series = series_of(inventory)
+    slope, sigma = draw_inelastic.slope(series)
+    assert slope > 3 * sigma
+    slope, sigma = draw_inelastic.slope(series, ["polyurethane"])
+    assert (round(slope, 2), round(sigma, 2)) == (0.70, 0.37)
 
 
 def wrong_repair(power):

@@ -174,7 +174,7 @@ MODELS = {
 }
 MEASURED = {"color": house_style.BLACK, "marker": "o", "markersize": 3, "markerfacecolor": "white"}
 # Height of a label, as a share of the axes.
-LINE = 0.062
+LINE = 0.066
 TICKS = (0.3, 1, 3, 10, 30)  # of chi-squared over its limit
 # Points of one trial stand so far apart, over the height of its row.
 BESIDE = 0.16

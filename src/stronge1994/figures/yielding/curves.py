@@ -1,4 +1,4 @@
-"""Beyond the paper: spheres that yield, five models beside finite elements of our own."""
+"""Beyond the paper: spheres that yield, six models beside finite elements of our own."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -21,6 +21,7 @@ MODELS: dict[str, Callable[..., Rebound]] = {
     "continuum.viscous": partial(continuum.rebound, loss="viscous"),
     "lumped": lumped.rebound,
     "lumped.viscous": partial(lumped.rebound, loss="viscous"),
+    "lumped.plastic": partial(lumped.rebound, loss="plastic"),
 }
 # Columns of data/finite_elements/spheres.csv that tell its rows apart.
 LABELS = ("set", "contact", "run")

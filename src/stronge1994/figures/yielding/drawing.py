@@ -1,4 +1,4 @@
-"""Beyond the paper: spheres that yield, five models beside finite elements of our own."""
+"""Beyond the paper: spheres that yield, six models beside finite elements of our own."""
 
 from typing import NamedTuple
 
@@ -58,6 +58,9 @@ MODELS = {
     ),
     "lumped": Model("lumped, as in the paper", house_style.BLACK, "-", "D", width=0.8),
     "lumped.viscous": Model("lumped, Kelvin–Voigt", house_style.SKY, house_style.DASHES[2], "^"),
+    "lumped.plastic": Model(
+        r"lumped, $e^2\zeta^2$", house_style.PURPLE, house_style.DASHES[1], "P", width=0.9
+    ),
 }
 MEASURED = {
     "color": house_style.BLACK,
