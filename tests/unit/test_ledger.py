@@ -10,7 +10,7 @@ from planarimpact.ground.results import EventKind
 from stronge1994 import ledger
 from stronge1994.ledger import contact, finding
 from stronge1994.ledger.finding import Finding
-from stronge1994.printed import slip
+from stronge1994.printed import dynamics, slip
 
 RIGHT = {"verdict": "confirmed", "confirms": {"at_most": 1e-9}}
 ROUNDED = {"verdict": "confirmed within rounding", "confirms": {"value": 1.7, "rounding": 0.05}}
@@ -214,3 +214,27 @@ def test_sliding_of_the_particle_may_speed_up_where_that_of_the_body_slows():
     inside = (found.time > 1.001) & (found.time < 1.499)
     change = sliding[inside][-1] - sliding[inside][0]
     assert change == pytest.approx(0.67, abs=0.01)
+
+
+def test_the_natural_frequencies_hang_on_one_exponent():
+    """With zeta^2 under the root the formula of p. 438 is exact, with zeta^4 it is off by 6 %."""
+    mass, gyration, x1, x2, zeta2 = 2.3, 0.7, 0.4, -0.9, 1.4
+    inverse = dynamics.eq_1_inverse_mass(mass, gyration, x1, x2)
+    m1, m2 = dynamics.eq_2_effective_masses(mass, gyration, x1, x2)
+    exact = np.sqrt(np.sort(np.linalg.eigvals(inverse @ np.diag([1 / zeta2, 1.0]))))
+    ratio, coupled = zeta2 * m1 / m2, 4 * m1**2 * x1**2 * x2**2 / (mass**2 * gyration**4)
+    off = {}
+    for exponent in (2, 4):
+        root = np.sqrt((1 - ratio) ** 2 + coupled * zeta2 ** (exponent / 2))
+        squares = (1 + ratio + np.array([-root, root])) / (2 * m1 * zeta2)
+        off[exponent] = np.abs(np.sqrt(squares) / exact - 1).max()
+    assert off[2] < 1e-12
+    assert off[4] == pytest.approx(0.06, abs=5e-3)
+
+
+def test_friction_at_35_deg_is_little_less_than_its_peak():
+    """By 5.5 %, as peak-angle-0.18 says."""
+    theta, mu = np.radians(35.0), 0.18
+    there = np.cos(theta) * lumped.rebound(np.tan(theta) / mu, *contact.SPHERE).peak_friction
+    largest = largest_peak(lumped.rebound, mu, *contact.SPHERE)
+    assert 1 - there / largest == pytest.approx(0.055, abs=1e-3)

@@ -15,10 +15,10 @@ from markupsafe import escape
 from planarimpact import Regime, bodies, continuum, lumped, noncollinear, rigid
 from planarimpact.models import laws
 from stronge1994 import ledger, reference_data
-from stronge1994.ledger import checking, entries, in_nature, outcome
+from stronge1994.ledger import checking, contact, entries, in_nature, outcome
 from stronge1994.pages import ledger_page
 from stronge1994.plan import config as configuration
-from stronge1994.printed import dissipation, dynamics
+from stronge1994.printed import dissipation, slip
 from tests.workflow import browser
 
 ROOT = Path(__file__).parents[2]
@@ -59,7 +59,7 @@ def test_a_wrong_entry_has_a_grade_and_a_cause_and_no_other_has():
             assert entry["grade"] == "changes a result" or "reading" in entry
 
 
-def test_signs_of_one_symbol_accuse_together():
+def test_signs_of_one_symbol_are_judged_together():
     """Which one of Eqs 18, 31 and 32 is misprinted the scan does not tell."""
     assert "eq-32" not in ENTRIES
     assert ENTRIES["eq-18"]["verdict"] == ENTRIES["eq-31"]["verdict"] == "confirmed"
@@ -90,7 +90,7 @@ def test_micro_slip_is_judged_by_the_comparison_that_the_paper_draws_on():
     assert sentence["confirms"] == comparison["confirms"]
 
 
-def test_an_accusation_cites_the_pages_that_carry_it():
+def test_a_wrong_entry_cites_the_pages_that_carry_it():
     assert "446" not in ENTRIES["slip-throughout-limit"]["where"]
     assert "449" not in ENTRIES["slip-throughout-limit"]["where"]
     assert "435" not in ENTRIES["three-sequences"]["where"]
@@ -370,7 +370,6 @@ for part in AT_ONCE:
     EVERYTHING |= FAULTS[part]
 # These compare a formula with the mechanics of a rigid body, and use no solver.
 OF_RIGID_BODIES = {
-    "formula-natural-frequencies": (dynamics, "natural_frequencies"),
     "formula-kinetic-energy": (dissipation, "kinetic_energy"),
 }
 
@@ -422,15 +421,17 @@ def test_a_wrong_formula_trips_the_entry(name, monkeypatch):
 
 
 def test_a_formula_put_right_trips_its_entry(monkeypatch):
-    """A verdict of wrong fails too, once the printed formula is right."""
-    exponent = dynamics.natural_frequencies
+    """A verdict of wrong fails too, once the printed limit is right."""
+    stiffness = dict(contact.PAIRS[1:])  # of each mass ratio one is enough
 
-    def right(*args, **kwargs):
-        return exponent(*args, **kwargs | {"exponent": 2})
+    def right(beta, e):
+        zeta2 = stiffness[beta]
+        return beta + max(0.0, e * beta - zeta2 / e if e else 0.0)
 
-    monkeypatch.setattr(dynamics, "natural_frequencies", right)
-    name = "formula-natural-frequencies"
-    row = checking.check({name: ENTRIES[name]})[0]
+    monkeypatch.setattr(contact, "PAIRS", tuple(stiffness.items()))
+    monkeypatch.setattr(slip, "slip_throughout_limit", right)
+    name = "slip-throughout-limit"
+    row = checking.check({name: BY_EQUATIONS[name]})[0]
     assert row["holds"] == "no" and "recorded as wrong, found confirmed" in row["problem"]
 
 
@@ -585,7 +586,15 @@ def test_slip_throughout_begins_in_nature_where_its_words_say(measured):
     beta, zeta2 = 3.5, 1.21
     found = measured["limit_half"]
     assert found.viscous == pytest.approx(beta + 0.5 * (beta - zeta2), abs=1e-3)
+    # Quoted as Thornton's: the elastic limit times (1 + e)/2. The entry gives the distance.
+    quoted = 1.5 * (beta - zeta2 / 2)
+    assert quoted == pytest.approx(4.34, abs=5e-3)
+    assert found.viscous - quoted == pytest.approx(0.5 * zeta2 / 2, abs=1e-3)
+    assert found.paper == pytest.approx(beta, abs=2e-3)
+    # The limit of pooltool, below m2/m1 at this e.
+    assert 1.5 * beta - zeta2 / 0.5 == pytest.approx(2.83, abs=1e-9)
     law = [continuum.slip_throughout_limit(restitution=e, loss="plastic") for e in (0.5, 0.53)]
+    assert law[0] == pytest.approx(5.14, abs=5e-3)
     assert found.plastic == pytest.approx(law[0], abs=2e-3)
     assert law[1] == beta + 0.53 * (beta - zeta2)
 

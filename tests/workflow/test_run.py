@@ -74,7 +74,7 @@ def test_report_has_every_picture_with_its_caption(finished):
     assert all(len(result["caption"]) > 30 for result in results.values())
     for figure, stated in figures.stated().items():
         assert stated["caption"][:20] in page and f"{figure}.svg" in page
-    assert "The paper verified" in page
+    assert "The paper checked" in page
     assert "which_model.csv" in page and "Which model for which tolerance" in page
 
 

@@ -12,7 +12,7 @@ rule ledger:
     log:
         "results/logs/ledger.log",
     message:
-        "Verifying the paper"
+        "Checking the paper"
     conda:
         "../envs/planarimpact.yaml"
     script:
@@ -33,7 +33,7 @@ rule ledger_page:
             "figures/ledger.html",
             caption="../report/ledger.rst",
             category="Ledger",
-            labels={"page": "the paper verified"},
+            labels={"page": "the paper checked"},
         ),
         record="results/records/ledger_page.json",
     log:

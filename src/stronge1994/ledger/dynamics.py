@@ -64,25 +64,6 @@ def off_diagonal() -> Finding:
     return Finding(largest([inverse[0, 1], inverse[0, 0] / inverse[1, 1] / beta - 1]))
 
 
-def natural_frequencies() -> Finding:
-    """Relative distance of the formula from eigenvalues of the motion in stick.
-
-    A plate with x1/k = 0.57, x2/k = -1.29 and its mirror image, zeta^2 = 1.4.
-    """
-    gaps: dict[int, list[Array]] = {4: [], 2: []}
-    for x1 in (PLATE["x1"], -PLATE["x1"]):
-        plate = PLATE | {"x1": x1}
-        springs = np.diag([1 / 1.4, 1.0]) * 3.1
-        squares = np.linalg.eigvals(dynamics.eq_1_inverse_mass(**plate) @ springs)
-        exact = np.sqrt(np.sort(squares)[::-1])
-        for exponent, found in gaps.items():
-            printed = dynamics.natural_frequencies(
-                **plate, stiffness=3.1, stiffness_ratio=1.4, exponent=exponent
-            )
-            found.append(printed / exact - 1)
-    return Finding(largest(gaps[4]), largest(gaps[2]))
-
-
 def frequencies() -> Finding:
     """Eq. 4: compression takes up the normal momentum in t_c; stick swings with omega."""
     gaps = []

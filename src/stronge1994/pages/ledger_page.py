@@ -24,7 +24,8 @@ MEANING = {
     "confirmed": "true as it stands, in the range that the entry names",
     "confirmed within rounding": "the stated number is the right one, rounded",
     "wrong": "false as read here; the entry says what is right, and why",
-    "not testable": "outside what is modelled here, or no data",
+    "not testable": "outside what is modelled here, or no data, or a matter of one character of "
+    "our scan",
 }
 GRADE_STYLE = {
     "changes a result": "grave",

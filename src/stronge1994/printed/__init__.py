@@ -1,4 +1,4 @@
-"""The formulas of Stronge (1994) as printed, errors included; for verification only.
+"""The formulas of Stronge (1994) as printed, errors included; for checking only.
 
 One function an equation, named by its number; formulas without a number bear their page. They
 follow the sections of the paper: `dynamics` (Eqs 1 to 9, Table 1), `slip` (Eqs 10 to 27),

@@ -39,31 +39,6 @@ def eq_3_velocity_change(inverse_mass: Array, impulse: ArrayLike) -> Array:
     return inverse_mass @ np.asarray(impulse)
 
 
-def natural_frequencies(
-    mass: Numbers,
-    gyration: Numbers,
-    x1: Numbers,
-    x2: Numbers,
-    stiffness: Numbers,
-    stiffness_ratio: Numbers,
-    exponent: int = 4,
-) -> tuple[Array, Array]:
-    """Formula before Eq. 4 (p. 438): (larger, smaller) natural frequency of a contact that sticks.
-
-    `exponent` is that of zeta in the last term of the discriminant, 4 as the scan reads.
-
-    >>> larger, smaller = natural_frequencies(1.0, 1.0, 0.0, 2.0, 1.0, 1.0)
-    >>> round(float(larger**2), 12), round(float(smaller**2), 12)
-    (5.0, 1.0)
-    """
-    m1, m2 = eq_2_effective_masses(mass, gyration, x1, x2)
-    ratio = m1 * stiffness_ratio / m2
-    coupling = 4 * m1**2 * stiffness_ratio ** (exponent / 2) * (x1 * x2) ** 2
-    root = np.sqrt((1 - ratio) ** 2 + coupling / (mass**2 * gyration**4))
-    scale = stiffness / (2 * m1 * stiffness_ratio)
-    return np.sqrt(scale * (1 + ratio + root)), np.sqrt(scale * (1 + ratio - root))
-
-
 def eq_4_frequencies(
     m1: Numbers, m2: Numbers, stiffness: Numbers, stiffness_ratio: Numbers
 ) -> tuple[Array, Array]:
