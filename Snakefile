@@ -30,7 +30,8 @@ localrules:
     judge,
     gather,
     ledger_page,
-    letter,
+    key_numbers,
+    note,
     trade,
     stability,
     gather_chunks,
@@ -92,7 +93,7 @@ include: "workflow/rules/curves.smk"
 include: "workflow/rules/reference.smk"
 include: "workflow/rules/drawing.smk"
 include: "workflow/rules/ledger.smk"
-include: "workflow/rules/letter.smk"
+include: "workflow/rules/note.smk"
 include: "workflow/rules/trade.smk"
 include: "workflow/rules/stability.smk"
 include: "workflow/rules/scene.smk"
@@ -114,7 +115,8 @@ MAKERS = [
     rules.gather,
     rules.ledger,
     rules.ledger_page,
-    rules.letter,
+    rules.key_numbers,
+    rules.note,
     rules.trade,
     rules.stability,
     rules.scene,

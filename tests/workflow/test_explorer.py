@@ -178,7 +178,7 @@ def test_what_the_sliders_cannot_show_is_not_offered(stiffness_ratio, settings):
 
 
 @pytest.mark.parametrize(("e", "cautions"), [(0.99, True), (0.0, True), (1.0, False)])
-def test_below_e_1_it_says_that_measurements_contradict_it(e, cautions, show):
+def test_below_e_1_it_says_that_the_evidence_is_divided(e, cautions, show):
     tab = show(f"restitution={e}")
     style = "getComputedStyle(document.getElementById('caution')).visibility"
     assert tab.evaluate(style) == ("visible" if cautions else "hidden")

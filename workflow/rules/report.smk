@@ -11,9 +11,9 @@ REPORT_PARTS = [
 ]
 
 
-# What only the findings need: measures in nature, curves, and the measured pairs of materials.
+# What only the findings need: key numbers, curves, and the measured pairs of materials.
 FOUND = [
-    "results/in_nature.csv",
+    "results/key_numbers.csv",
     "results/curves/fig5.csv",
     "results/curves/inelastic.csv",
     f"results/series/{config['figures']['inelastic']['points'].split('/')[0]}.csv",

@@ -200,9 +200,19 @@ def from_plastic(model: Model) -> float:
     return _from(model, LOSSES[1], LEAST_MEASURED)
 
 
-def _from(model: Model, loss: str, e: float) -> float:
-    """Over mu v2(0), for incidences below `WITH_STICK`."""
-    x = INCIDENCE[INCIDENCE < WITH_STICK]
+def stick_from_viscous(model: Model) -> float:
+    """The same from the viscous continuum, where the contact sticks at first, at e = 0.8."""
+    return _from(model, LOSSES[0], 0.8, contact.STIFFNESS_RATIO)
+
+
+def stick_from_plastic(model: Model) -> float:
+    """The same from the continuum that yields, where the contact sticks at first, at e = 0.8."""
+    return _from(model, LOSSES[1], 0.8, contact.STIFFNESS_RATIO)
+
+
+def _from(model: Model, loss: str, e: float, below: float = WITH_STICK) -> float:
+    """Over mu v2(0), for incidences below a limit."""
+    x = INCIDENCE[below > INCIDENCE]
     gap = model.rebound(x, e).velocity - _model(loss).rebound(x, e).velocity
     return float(np.sqrt(np.mean(gap**2)))
 

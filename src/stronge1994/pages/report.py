@@ -25,8 +25,9 @@ from stronge1994.pages import (
     findings,
     headers,
     impact_times,
+    key_numbers,
     ledger_page,
-    letter,
+    note,
     run_facts,
     sources_page,
     templates,
@@ -109,13 +110,15 @@ def page(
     faults: list[str],
     tried: Salvage,
     found: Mapping[str, findings.Finding | None],
+    numbers: Mapping[str, float],
     peers: Sequence[Row] = (),
 ) -> str:
     """The report.
 
     `tables` has the rows and captions of `SECTIONS`, `figures` what `figure` gave, `found` what
-    `findings.all_of` gave. `symbols` is what stands in the ledger's formulas; `links` are the names
-    of lectures by their files. `faults` say why the run does not pass, as `gate.faults_of_tables`
+    `findings.all_of` gave, `numbers` the key numbers. `symbols` is what stands in the ledger's
+    formulas; `links` are the names of lectures by their files. `faults` say why the run does not
+    pass, as `gate.faults_of_tables`
     does. `tried` calls what may fail, and its problems so far are shown too. `peers` is empty where
     other codes were not measured.
     """
@@ -127,7 +130,7 @@ def page(
     environment.filters |= {
         "maths": _maths(names),
         "number": templates.number,
-        "power": letter.probability,
+        "probability": note.probability,
         "microseconds": lambda seconds: templates.number(f"{1e6 * float(seconds)}"),
         "header": headers.words,
         "short": run_facts.short,
@@ -151,6 +154,7 @@ def page(
         run=run,
         links=links,
         found=found,
+        n=numbers,
     )
 
 
@@ -267,6 +271,7 @@ def write(
     figures = {name: found for name, found in figures.items() if found}
     tables = {name: tried(name, {"rows": [], "caption": ""}, table, name) for name in SECTIONS}
     peers = tried("peers", [], read, paths["peers"], ("model",)) if "peers" in paths else []
+    numbers = tried("key numbers", {}, lambda: key_numbers.by_name(read(paths["key_numbers"])))
     run = parts.pop("run")
     run = {name: tried(name, missing, function) for name, (missing, function) in run.items()}
     template = Path(parts["template"]).with_name("sources.html")
@@ -285,7 +290,8 @@ def write(
             run=run,
             faults=faults,
             tried=tried,
-            found=findings.all_of(rows, ledger, tables, paths, config),
+            found=findings.all_of(rows, ledger, tables, paths, config, numbers),
+            numbers=numbers,
             peers=peers,
             **parts,
         ),

@@ -1,0 +1,225 @@
+"""Numbers of a run that several pages state: each is found once, in one table.
+
+A number has a name such as `pairs.lumped.chi2`, made of what it is about, and words that say what
+it is. Pages round it; they never find it again.
+"""
+
+import traceback
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact.ground.arrays import Array
+from stronge1994 import csv_tables
+from stronge1994.csv_tables import Columns, Curves, Row
+from stronge1994.figures.inelastic import drawing as inelastic
+from stronge1994.figures.shared.drawing.house_style import Series
+from stronge1994.ledger import in_nature, outcome
+from stronge1994.ledger.in_nature import Values
+
+COLUMNS = ["name", "value", "what"]
+X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
+E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
+MODELS = tuple(inelastic.MODELS)
+# Of the finite elements: where the models are held against them, by friction and restitution.
+FRICTION, LOSSY = 0.1, 0.45
+NEAR = (0.62, 0.92)  # restitutions at which two Kelvin-Voigt elements are near
+
+
+class Tables(NamedTuple):
+    """What a run has found, as far as pages state numbers of it."""
+
+    verdicts: Sequence[Row]
+    ledger: Sequence[Row]
+    nature: Mapping[str, Values]
+    fig5: Curves
+    inelastic: Curves
+    yielding: Curves
+    rubber: Curves
+    rod: Curves
+    trade: Sequence[Row]
+    pairs: Columns
+    runs: Columns
+
+
+def read(paths: Mapping[str, str]) -> Tables:
+    """Read the tables of a run, by the names of their files."""
+    rows, curves = csv_tables.read_rows, csv_tables.read
+    return Tables(
+        verdicts=rows(paths["verdicts"]),
+        ledger=rows(paths["ledger"]),
+        nature=in_nature.read(rows(paths["in_nature"])),
+        fig5=curves(paths["fig5"]),
+        inelastic=curves(paths["inelastic"]),
+        yielding=curves(paths["yielding"]),
+        rubber=curves(paths["rubber_sphere"]),
+        rod=curves(paths["rod"]),
+        trade=rows(paths["trade"]),
+        pairs=curves(paths["cornell1999"])["pairs"],
+        runs=curves(paths["finite_elements"])["spheres"],
+    )
+
+
+def found(tables: Tables) -> list[Row]:
+    """All key numbers, as rows of their table; a number that is not finite is an error."""
+    numbers = [
+        *_counts(tables),
+        *_elastic(tables.fig5),
+        *_pairs(tables.inelastic, tables.pairs),
+        *_finite_elements(tables.yielding, tables.runs),
+        *_rubber(tables.rubber),
+        *_others(tables),
+    ]
+    lost = [name for name, value, _ in numbers if not np.isfinite(value)]
+    if lost:
+        raise ArithmeticError(f"{', '.join(lost)}: no number was found")
+    return [{"name": name, "value": f"{value:.12g}", "what": what} for name, value, what in numbers]
+
+
+def write(output: str, paths: Mapping[str, str]) -> None:
+    """Write the table of key numbers, or why there is none, which those who read it will say."""
+    try:
+        csv_tables.write_table(output, found(read(paths)), COLUMNS)
+    except Exception as error:
+        traceback.print_exc()
+        csv_tables.write_rows(output, ["error"], [[f"{type(error).__name__}: {error}"]])
+
+
+def by_name(table: Sequence[Row]) -> dict[str, float]:
+    """Numbers by their names.
+
+    >>> by_name([{"name": "ledger.wrong", "value": "25", "what": "wrong entries"}])
+    {'ledger.wrong': 25.0}
+    """
+    return {row["name"]: float(row["value"]) for row in table}
+
+
+_Numbers = Iterator[tuple[str, float, str]]
+
+
+def _counts(tables: Tables) -> _Numbers:
+    verdicts = Counter(row["verdict"] for row in tables.verdicts)
+    for verdict in sorted(verdicts):
+        yield f"rows.{verdict}", verdicts[verdict], f"comparisons with the verdict: {verdict}"
+    published = Counter(row["verdict"] for row in tables.verdicts if row["p"])
+    what = "comparisons with published points that agree"
+    yield "rows.published.agrees", published["agrees"], what
+    yield "ledger.entries", len(tables.ledger), "entries of the ledger"
+    counts = Counter(row["verdict"] for row in tables.ledger)
+    for verdict in sorted(counts):
+        yield f"ledger.{verdict}", counts[verdict], f"entries of the ledger that are {verdict}"
+    for grade, number in outcome.grades(tables.ledger).items():
+        yield f"ledger.{grade}", number, f"wrong entries of the ledger with the grade: {grade}"
+    causes = {row["cause"] for row in tables.ledger if row["cause"]}
+    yield "ledger.causes", len(causes), "causes of the wrong entries"
+
+
+def _elastic(curves: Curves) -> _Numbers:
+    lumped, continuum = curves["lumped"], curves["continuum"]
+    if not np.array_equal(lumped[X], continuum[X]):
+        raise ValueError("Fig. 5: lumped model and continuum have other incidences")
+    distance = np.abs(lumped[W] - continuum[W])
+    what = "lumped model from the elastic continuum, e = 1, largest, mu v2(0)"
+    yield "elastic.largest", distance.max(), what
+    yield "elastic.at", lumped[X][distance.argmax()], "incidence at which it is largest"
+
+
+def series_of(measured: Columns) -> Series:
+    """Measured pairs as the figure has them."""
+    sigma = tuple(measured[key.replace(" [1]", "_uncertainty [1]")] for key in (E, BETA_0))
+    return {"x": measured[E], "y": measured[BETA_0], "sigma": sigma, "columns": measured}
+
+
+def _pairs(curves: Curves, measured: Columns) -> _Numbers:
+    series = series_of(measured)
+    yield "pairs.number", len(series["x"]), "measured pairs of materials"
+    trials = inelastic.trials(curves)
+    for model in MODELS:
+        fits = [inelastic.goodness(curves, model, series, trial) for trial in trials]
+        for trial, fit in zip(trials, fits, strict=True):
+            name = "" if trial is trials[0] else f".{trial.words}"
+            yield f"pairs.{model}{name}.chi2", fit.value, f"chi^2 of the pairs, {trial.words}"
+            yield f"pairs.{model}{name}.p", fit.p, f"its probability, {trial.words}"
+        spreads = [
+            fit.p <= inelastic.SIGNIFICANCE
+            for trial, fit in zip(trials, fits, strict=True)
+            if not trial.without and trial.share == 1
+        ]
+        yield f"pairs.{model}.failed", sum(spreads), "spreads of impacts with which it fails"
+    yield "pairs.spreads", len(spreads), "spreads of impacts that were tried"
+    for name, without in (("", []), (".without", [inelastic.SOFT])):
+        slope, sigma = inelastic.slope(series, without)
+        words = f"slope of the measured beta_0 against e, without {without or 'none'}"
+        yield f"pairs.slope{name}", slope, words
+        yield f"pairs.slope{name}.sigma", sigma, "its standard deviation"
+    least, second = np.sort(series["x"])[:2]
+    yield "pairs.least_e", least, "smallest restitution of a pair"
+    yield "pairs.second_e", second, "smallest restitution but one"
+    soft, hard = (
+        int(np.flatnonzero(measured["pair"] == name)[0])
+        for name in (inelastic.SOFT, inelastic.HARD)
+    )
+    for name, place in (("soft", soft), ("hard", hard)):
+        yield f"pairs.{name}.measured", series["y"][place], f"beta_0 of {measured['pair'][place]}"
+        yield f"pairs.{name}.sigma", series["sigma"][1][place], "its uncertainty as stated"
+        for model in MODELS:
+            own = curves[f"{model}, pairs"]
+            beta_0 = own[BETA_0][own["pair"] == measured["pair"][place]][0]
+            yield f"pairs.{name}.{model}", beta_0, "beta_0 computed for it"
+
+
+def _finite_elements(curves: Curves, runs: Columns) -> _Numbers:
+    e, friction = runs[E], runs["friction [1]"]
+    held = (friction <= FRICTION + 1e-9) & (e >= LOSSY)
+    near = held & (e >= NEAR[0]) & (e <= NEAR[1])
+    yield "yielding.runs", len(e), "finite-element runs of spheres that yield"
+    for model in MODELS:
+        off = curves[f"{model}, runs"][W] - runs[W]
+        words = f"from our finite elements of yielding spheres, mu to {FRICTION}, e from {LOSSY}"
+        yield f"yielding.{model}.rms", _rms(off[held]), f"{words}, root mean square, mu v2(0)"
+        yield f"yielding.{model}.max", np.abs(off[held]).max(), f"{words}, largest"
+        yield (
+            f"yielding.{model}.near.rms",
+            _rms(off[near]),
+            f"the same, e from {NEAR[0]} to {NEAR[1]}",
+        )
+        yield f"yielding.{model}.near.max", np.abs(off[near]).max(), f"{words}, largest"
+
+
+def _rubber(curves: Curves) -> _Numbers:
+    for name in (name for name in curves if name.endswith(", rms")):
+        model, columns = name.removesuffix(", rms"), curves[name]
+        low, high = columns["incidence_limit [mu v2(0)]"].argsort()
+        for kind, of in (
+            ("distance", "measured"),
+            ("from_velocity", "of the velocity alone"),
+            ("from_spin", "of the spin alone"),
+        ):
+            what = f"from e_t {of}, root mean square over the rubber sphere's impacts"
+            means = columns[f"rms_{kind} [1]"]
+            yield f"rubber.{model}.{kind}", means[high], what
+            yield f"rubber.{model}.{kind}.small", means[low], f"{what} at small incidence"
+
+
+def _others(tables: Tables) -> _Numbers:
+    shares = [
+        columns["kinetic_energy [K0]"].max()
+        for name, columns in tables.rod.items()
+        if name.startswith("rigid, Newton")
+    ]
+    yield "rod.newton", max(shares) - 1, "energy gained with Newton's coefficient, over K0"
+    errors = {row["name"]: float(row["max_velocity [mu v2(0)]"]) for row in tables.trade}
+    lossy = {name: error for name, error in errors.items() if ", e = 0.8" in name}
+    paper = [error for name, error in lossy.items() if name.startswith("lumped, ")]
+    yield "loss.paper", max(paper), "paper's model from the farther continuum, e = 0.8, largest"
+    other = [error for name, error in lossy.items() if name.startswith("continuum.")]
+    yield "loss.other", max(other), "viscous from plastic continuum, e = 0.8, largest"
+    for name, values in tables.nature.items():
+        for model, value in values._asdict().items():
+            yield f"nature.{name}.{model}", value, f"measure in nature: {name}, {model}"
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(np.square(values))))

@@ -1,0 +1,91 @@
+"""Write the note on the replication of the paper, as a page and as a PDF of the same words.
+
+Every number that a run finds is read from the table of key numbers.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from markupsafe import Markup
+
+from stronge1994 import csv_tables, verdict_table
+from stronge1994.pages import key_numbers, ledger_page, pdf, templates
+
+TITLE = "Planar impact of rough compliant bodies: a replication"
+# Models below e = 1, in the words of the note.
+MODELS = {
+    "lumped": "as in the paper",
+    "lumped.plastic": "with e^2 zeta^2",
+    "lumped.viscous": "two Kelvin-Voigt",
+    "continuum.viscous": "viscous continuum",
+    "continuum.plastic": "plastic continuum",
+}
+COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
+# A smaller probability says no more than this.
+LEAST = 1e-3
+
+
+def probability(p: float) -> str:
+    """A probability in two figures; how small a very small one is depends on tails nobody knows.
+
+    >>> probability(0.2234), probability(3.6e-26)
+    ('0.22', '< 0.001')
+    """
+    return f"{p:.2g}" if p >= LEAST else f"< {LEAST:g}"
+
+
+def count(number: float) -> str:
+    """A small number in words.
+
+    >>> count(0.0), count(4.0)
+    ('none', 'four')
+    """
+    return COUNTS[round(number)]
+
+
+def page(numbers: Mapping[str, float], pictures: Mapping[str, bytes], template: str) -> str:
+    """The note as a page. `numbers` are the key numbers, `pictures` are SVG by their figures."""
+    environment = templates.environment(Path(template).parent)
+    environment.filters |= {
+        "maths": ledger_page.mathematical,
+        "probability": probability,
+        "count": count,
+    }
+    judged = [verdict for verdict in verdict_table.ORDER if verdict != "as before"]
+    return environment.get_template(Path(template).name).render(
+        title=TITLE,
+        n=numbers,
+        judged=sum(numbers.get(f"rows.{verdict}", 0) for verdict in judged),
+        models=MODELS,
+        pictures={name: templates.embedded(svg) for name, svg in pictures.items()},
+    )
+
+
+def without_numbers(why: Exception) -> Markup:
+    """What stands in place of the note where a solver failed, which the gate reports."""
+    return Markup(
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width"><title>Failed</title></head>'
+        "<body><main><article><header><h1>{}</h1></header>\n<p>This note could not be written: {}. "
+        'The <a href="report.html">report</a> says more.</p></article></main></body></html>\n'
+    ).format(TITLE, why)
+
+
+def write(
+    output: str, output_pdf: str, table: str, pictures: Mapping[str, str], template: str
+) -> None:
+    """Read what the run has made and write both files.
+
+    `table` is that of key numbers. `pictures` are the PNG files of figures by their names; each has
+    an SVG beside it.
+    """
+    try:
+        numbers = key_numbers.by_name(csv_tables.read_rows(table))
+        svgs = {
+            name: Path(path).with_suffix(".svg").read_bytes() for name, path in pictures.items()
+        }
+        text = page(numbers, svgs, template)
+    except (csv_tables.Failed, ArithmeticError, LookupError) as error:
+        text = without_numbers(error)
+    Path(output).write_text(text, encoding="utf-8")
+    pdf.write(output_pdf, text, pictures, TITLE)

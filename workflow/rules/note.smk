@@ -1,0 +1,60 @@
+# Figures that the note shows.
+SHOWN = ["fig5", "inelastic", "rubber_sphere"]
+
+
+rule key_numbers:
+    """The numbers that several pages state, each found once."""
+    input:
+        plan=planned("key_numbers", "find_key_numbers", "pages", "figures/inelastic/drawing.py",
+            "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
+            "judging"),
+        tables=[
+            "results/verdicts.csv",
+            "results/ledger.csv",
+            "results/in_nature.csv",
+            "results/trade.csv",
+            *expand("results/curves/{figure}.csv", figure=["fig5", "inelastic", "yielding", "rubber_sphere", "rod"]),
+            *expand("results/series/{source}.csv", source=["cornell1999", "finite_elements"]),
+        ],
+    output:
+        table="results/key_numbers.csv",
+        record="results/records/key_numbers.json",
+    log:
+        "results/logs/key_numbers.log",
+    message:
+        "Finding the numbers that pages state"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/find_key_numbers.py"
+
+
+rule note:
+    """A note on the replication of the paper, as a page and as a PDF."""
+    input:
+        plan=planned("note", "write_note", "pages", "figures/inelastic/drawing.py",
+            "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
+            "judging"),
+        template="workflow/report/note.html",
+        parts=["workflow/report/page.css", "workflow/report/note.css"],
+        shared=EVERY_PAGE,
+        numbers=rules.key_numbers.output.table,
+        pictures=expand("figures/{figure}.png", figure=SHOWN),
+        svgs=expand("figures/{figure}.svg", figure=SHOWN),
+    output:
+        page=report(
+            "figures/note.html",
+            caption="../report/note.rst",
+            category="Ledger",
+            labels={"page": "a note on the replication"},
+        ),
+        pdf="figures/note.pdf",
+        record="results/records/note.json",
+    log:
+        "results/logs/note.log",
+    message:
+        "Writing the note"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/write_note.py"
