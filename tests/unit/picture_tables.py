@@ -132,7 +132,7 @@ def _rubber_sphere(settings):
         named[f"{model}, {name('e', e)}"] = {rubber.X: x, rubber.E_T: np.cos(x) / (2 + i)}
         rms = {rubber.LIMIT: np.array([2.5, 8.5]), rubber.RMS: np.array([0.3, 0.2]) + i / 30}
         named[f"{model}, rms"] = rms
-    return settings, named
+    return settings | {"uncertainty": {"friction_2010": 0.144}}, named
 
 
 def _stability(settings):

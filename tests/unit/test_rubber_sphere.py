@@ -36,20 +36,20 @@ def test_the_table_is_made_from_the_markers():
 
 
 def test_the_markers_of_an_impact_agree_among_themselves():
-    """e_t was read, and follows again from ratios of velocities and spins that were read too."""
+    """e_t was read, and follows again from other ratios that were read, to two pixels each."""
     rows = csv_tables.read_rows(FOLDER / "impacts.csv")
     for impact, row in enumerate(rows, 1):
         found = cross_tables.quantities(impact)
         along, across = (np.cos(t := np.radians(found["angle"])), np.sin(t))
         after = found["velocity_ratio"] * along * (1 - found["spin_ratio"])
         before = float(row["tangential_before [1]"]) * across
-        assert abs(-after / before - found["tangential_restitution"]) < 0.02, impact
+        assert abs(-after / before - found["tangential_restitution"]) < 0.03, impact
 
 
 def test_both_halves_of_the_measurement_weigh_as_the_source_says(solved, inventory):
     velocity, spin = (solved[half][rubber.E_T] for half in rubber.ALONE)
     e_t = [float(row[rubber.E_T]) for row in csv_tables.read_rows(FOLDER / "impacts.csv")]
-    np.testing.assert_allclose(2 / 7 * velocity + 5 / 7 * spin, e_t, rtol=0, atol=0.02)
+    np.testing.assert_allclose(2 / 7 * velocity + 5 / 7 * spin, e_t, rtol=0, atol=0.03)
     ratio, near = (1 + spin) / (1 + velocity), solved[rubber.ALONE[0]][rubber.X] <= 2.5
     note = " ".join(inventory["cross2014"]["note"].split())
     said = f"{ratio.mean():.2f} of the first on average ({ratio.min():.2f} to {ratio.max():.2f})"
