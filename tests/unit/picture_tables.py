@@ -9,7 +9,7 @@ import numpy as np
 from stronge1994 import plan, reference_data
 from stronge1994.curve_names import name, shifted
 from stronge1994.figures.convergence import drawing as convergence
-from stronge1994.figures.fig5.drawing import MEASURED_ANGLES
+from stronge1994.figures.fig5.drawing import LOSSY_RUBBER, MEASURED_ANGLES
 from stronge1994.figures.inelastic import drawing as inelastic
 from stronge1994.figures.rubber_sphere import drawing as rubber
 from stronge1994.figures.stability import drawing as stability
@@ -158,6 +158,10 @@ MADE_UP = {
     "rubber_sphere": _rubber_sphere,
     "stability": _stability,
 }
+RUBBER_COLUMNS = {
+    "tangential_before [1]": np.array([0.2, 0.8]),
+    "tangential_before_uncertainty [1]": np.array([0.01, 0.02]),
+}
 SERIES = {
     "fig5": {
         "chung_ooi2011/rebound": series((X, W), [0.5, 2.0], [0.1, -0.5], (0.03, 0.05)),
@@ -167,6 +171,14 @@ SERIES = {
             [0.7, 0.8],
             (np.full(2, 0.5), np.full(2, 0.02)),
             parameters={"mass_ratio": 3.5, "friction": 0.092},
+        ),
+        LOSSY_RUBBER: series(
+            ("angle [deg]", "tangential_restitution [1]"),
+            [11.0, 39.0],
+            [0.6, 0.7],
+            (0.7, 0.02),
+            columns=RUBBER_COLUMNS,
+            parameters={"friction": 0.4},
         ),
     },
     "fig8": {
@@ -190,10 +202,7 @@ SERIES = {
             [11.0, 39.0],
             [0.6, 0.7],
             (0.7, 0.02),
-            columns={
-                "tangential_before [1]": np.array([0.2, 0.8]),
-                "tangential_before_uncertainty [1]": np.array([0.01, 0.02]),
-            },
+            columns=RUBBER_COLUMNS,
             parameters={"friction": 0.4},
         ),
         rubber.STATED: series(
