@@ -91,12 +91,13 @@ def curves(
             }
         found = _solved(model, own, ball, tolerance)
         e_of_line = own["line"][1][0]
-        named[f"{model}, impacts"] = labels | {X: at, E_T: found["impacts"]}
+        named[f"{model}, impacts"] = {X: at, E_T: found["impacts"]}
         named[f"{model}, {name('e', e_of_line)}"] = {X: x, E_T: found["line"]}
         squares = np.square(found["impacts"] - measured)
         means = np.array([squares[:, at <= limit].mean(axis=1) for limit in limits])
         named[f"{model}, rms"] = {LIMIT: limits} | dict(zip(RMS, np.sqrt(means).T, strict=True))
-        if model != ELASTIC:
+        if model != ELASTIC:  # labels are for what is compared with measurements
+            named[f"{model}, impacts"] |= labels
             named[f"{model}, stated"] = balls | {X: groups["stated"][0], E_T: found["stated"]}
         if uncertainty and model != ELASTIC:
             named |= _shifted(f"{model}, impacts", labels, found)
