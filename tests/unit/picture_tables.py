@@ -9,8 +9,9 @@ import numpy as np
 from stronge1994 import plan, reference_data
 from stronge1994.curve_names import name, shifted
 from stronge1994.figures.convergence import drawing as convergence
-from stronge1994.figures.fig5.drawing import MEASURED_ANGLES
+from stronge1994.figures.fig5.drawing import LOSSY_RUBBER, MEASURED_ANGLES
 from stronge1994.figures.inelastic import drawing as inelastic
+from stronge1994.figures.rubber_sphere import drawing as rubber
 from stronge1994.figures.stability import drawing as stability
 from stronge1994.figures.trade import drawing as trade
 from stronge1994.plan import config as configuration
@@ -119,6 +120,21 @@ def _inelastic(settings):
     return settings, named
 
 
+def _rubber_sphere(settings):
+    """Lines and distances of every model, and both halves of two impacts."""
+    x = np.linspace(*settings["incidence"], 9)
+    named = {
+        half: {rubber.X: np.array([0.5, 2.0]), rubber.E_T: np.array([0.6, 0.7]) + sign * 0.1}
+        for half, sign in zip(rubber.ALONE, (1, -1), strict=True)
+    }
+    for i, model in enumerate(rubber.MODELS):
+        e = 1.0 if model == rubber.ELASTIC else settings["restitution"]
+        named[f"{model}, {name('e', e)}"] = {rubber.X: x, rubber.E_T: np.cos(x) / (2 + i)}
+        rms = {rubber.LIMIT: np.array([2.5, 8.5]), rubber.RMS: np.array([0.3, 0.2]) + i / 30}
+        named[f"{model}, rms"] = rms
+    return settings | {"uncertainty": {"friction_2010": 0.144}}, named
+
+
 def _stability(settings):
     """Impacts with some digits each."""
     impacts = {
@@ -139,7 +155,12 @@ MADE_UP = {
     "convergence": _convergence,
     "trade": _trade,
     "inelastic": _inelastic,
+    "rubber_sphere": _rubber_sphere,
     "stability": _stability,
+}
+RUBBER_COLUMNS = {
+    "tangential_before [1]": np.array([0.2, 0.8]),
+    "tangential_before_uncertainty [1]": np.array([0.01, 0.02]),
 }
 SERIES = {
     "fig5": {
@@ -150,6 +171,14 @@ SERIES = {
             [0.7, 0.8],
             (np.full(2, 0.5), np.full(2, 0.02)),
             parameters={"mass_ratio": 3.5, "friction": 0.092},
+        ),
+        LOSSY_RUBBER: series(
+            ("angle [deg]", "tangential_restitution [1]"),
+            [11.0, 39.0],
+            [0.6, 0.7],
+            (0.7, 0.02),
+            columns=RUBBER_COLUMNS,
+            parameters={"friction": 0.4},
         ),
     },
     "fig8": {
@@ -166,5 +195,23 @@ SERIES = {
             (np.full(3, 0.01), np.full(3, 0.05)),
             columns={"pair": np.array(["a", "b", "c"])},
         )
+    },
+    "rubber_sphere": {
+        rubber.IMPACTS: series(
+            ("angle [deg]", rubber.E_T),
+            [11.0, 39.0],
+            [0.6, 0.7],
+            (0.7, 0.02),
+            columns=RUBBER_COLUMNS,
+            parameters={"friction": 0.4},
+        ),
+        rubber.STATED: series(
+            ("angle [deg]", rubber.E_T),
+            [25.0],
+            [0.49],
+            (np.array([1.0]), np.array([0.01])),
+            columns={"ball": np.array(["Cross 2010"])},
+            parameters={"friction_2010": 0.65},
+        ),
     },
 }

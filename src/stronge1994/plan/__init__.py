@@ -133,18 +133,24 @@ def references(config: Config, inventory: Inventory, name: str) -> dict[str, Ent
     With the parameters of their source, which say where a regime begins.
     """
     named = [c["reference"] for c in comparisons(config, name).values() if "reference" in c]
-    found = {}
-    for full in named:
-        stated = inventory[full.split("/")[0]]["parameters"]
-        parameters = {key: parameter["value"] for key, parameter in stated.items()}
-        found[full] = reference(inventory, full)[1] | {"parameters": parameters}
-    return found
+    return {full: _with_parameters(inventory, full) for full in named}
+
+
+def _with_parameters(inventory: Inventory, full: str) -> Entry:
+    stated = inventory[full.split("/")[0]]["parameters"]
+    parameters = {key: parameter["value"] for key, parameter in stated.items()}
+    return reference(inventory, full)[1] | {"parameters": parameters}
 
 
 def series_of(config: Config, inventory: Inventory, figure: str) -> dict[str, Entry]:
-    """Series at hand for one figure: `{source/series: entry}`, awaited ones left out."""
-    chosen = references(config, inventory, figure).items()
-    return {name: entry for name, entry in chosen if entry.get("path")}
+    """Series at hand for one figure: `{source/series: entry}`, awaited ones left out.
+
+    Its comparisons name them, or it asks to draw them.
+    """
+    chosen = references(config, inventory, figure)
+    asked = figures.stated().get(figure, {}).get("draws", [])
+    chosen |= {full: _with_parameters(inventory, full) for full in asked}
+    return {name: entry for name, entry in chosen.items() if entry.get("path")}
 
 
 def sources_of(config: Config, inventory: Inventory, figure: str) -> list[str]:
@@ -155,7 +161,7 @@ def sources_of(config: Config, inventory: Inventory, figure: str) -> list[str]:
 def overlays(config: Config, inventory: Inventory, figure: str) -> dict[str, Entry]:
     """What to draw over one figure: measured series, with the parameters of their source, facts.
 
-    And the computed series that it asks for.
+    And the series that it asks for: computed ones, and those that another figure compares.
     """
     named = references(config, inventory, figure).items()
     asked = figures.stated()[figure].get("draws", [])

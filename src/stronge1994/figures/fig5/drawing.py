@@ -19,13 +19,17 @@ RUBBER = {"color": house_style.GREEN, "linewidth": 1.0, "zorder": 1.9}
 SOFT_CONTINUUM = RUBBER | {"linestyle": house_style.DASHES[1]}
 RUBBER_SPHERE = "johnson1983/rubber_sphere"
 RUBBER_POINTS: Style = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
+# Measured with loss, so that they stand beside curves of e = 1.
+LOSSY_RUBBER = "cross2014/impacts"
+LOSSY_POINTS: Style = {"color": house_style.GREEN, "marker": "o", "markerfacecolor": "white"}
 ELEMENT_POINTS: Style = {"color": house_style.VERMILLION, "marker": "s", "markerfacecolor": "white"}
 GLASS_POINTS: Style = {"color": house_style.BLUE, "marker": "o", "markersize": 3}
 # These points are measured against the angle: they must be converted to the axes of the figure.
 MEASURED_ANGLES = "kharaz2001/tangential_restitution"
 # What words of the picture mean, see `shared.drawing.words`.
 LEGEND_MEANS = {
-    "rubber": "rubber",
+    "rubber": "rubber|cross2014",
+    "Cross": "cross2014",
     "finite elements": "chung_ooi2011|finite elements",
     "Kharaz": "kharaz2001",
 }
@@ -33,6 +37,8 @@ LEGEND_MEANS = {
 
 def shown_series(name: str, series: Series) -> Series:
     """Measurements against the angle, converted to the axes of the figure with their errors."""
+    if name == LOSSY_RUBBER:
+        return series | _turned_round(series)
     if name != MEASURED_ANGLES:
         return series
     groups = [series["parameters"][key] for key in ("mass_ratio", "friction")]
@@ -44,6 +50,17 @@ def shown_series(name: str, series: Series) -> Series:
     columns = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
     sigma = np.hypot(by_angle, by_ratio)
     return {"x": x, "y": y, "sigma": sigma, "line": False, "axes": columns}
+
+
+def _turned_round(series: Series) -> Series:
+    """Points of which the share of the tangential velocity is measured that is turned round."""
+    share, friction = series["y"], series["parameters"]["friction"]
+    x, x_error = (
+        series["columns"][f"{column} [1]"] / friction
+        for column in ("tangential_before", "tangential_before_uncertainty")
+    )
+    sigma = x_error, np.hypot(share * x_error, series["sigma"][1] * x)
+    return {"x": x, "y": -share * x, "sigma": sigma, "axes": (X, Y)}
 
 
 def contact_velocities(
@@ -135,6 +152,7 @@ def _draw_added(axes: Axes, curves: Curves, points: Points, settings: Settings) 
     ]
     entries += house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")
     series = {"chung_ooi2011/rebound": ("finite elements (Chung & Ooi)", ELEMENT_POINTS)}
+    series[LOSSY_RUBBER] = (r"rubber sphere (Cross 2014), $e \approx 0.9$", LOSSY_POINTS)
     return entries + house_style.references(axes, points, series)
 
 
