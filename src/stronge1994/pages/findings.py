@@ -102,8 +102,8 @@ def restitution(
 def elastic(verdicts: Mapping[str, Row], numbers: Mapping[str, float], curves: Curves) -> Finding:
     """How far the lumped model is from the elastic continuum, and where.
 
-    `numbers` are the key numbers, `curves` those of Fig. 5. It raises `Untold` if the verdicts are others than the words say,
-    or the largest difference is elsewhere than where initial stick ends.
+    `numbers` are the key numbers, `curves` those of Fig. 5. It raises `Untold` if the verdicts are
+    others than the words say, or the largest difference is elsewhere than where initial stick ends.
     """
     rows = [verdicts[f"fig5-lumped-maw-{part}"] for part in PARTS]
     expected = "explained difference", "explained difference", "agrees"
