@@ -1,5 +1,5 @@
 # Figures that the note shows.
-SHOWN = ["fig5", "inelastic", "rubber_sphere"]
+SHOWN = ["fig5", "inelastic", "rubber_sphere", "yielding"]
 
 
 rule key_numbers:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.ground.arrays import Array
-from stronge1994 import csv_tables
+from stronge1994 import csv_tables, verdict_table
 from stronge1994.csv_tables import Columns, Curves, Row
 from stronge1994.figures.inelastic import drawing as inelastic
 from stronge1994.figures.shared.drawing.house_style import Series
@@ -20,6 +20,7 @@ from stronge1994.ledger import in_nature, outcome
 from stronge1994.ledger.in_nature import Values
 
 COLUMNS = ["name", "value", "what"]
+KINDS = ("agree", "differ", "other")
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
 MODELS = tuple(inelastic.MODELS)
@@ -103,6 +104,10 @@ def _counts(tables: Tables) -> _Numbers:
     verdicts = Counter(row["verdict"] for row in tables.verdicts)
     for verdict in sorted(verdicts):
         yield f"rows.{verdict}", verdicts[verdict], f"comparisons with the verdict: {verdict}"
+    for figure in sorted({row["figure"] for row in tables.verdicts}):
+        own = Counter(_kind(row["verdict"]) for row in tables.verdicts if row["figure"] == figure)
+        for kind in KINDS:
+            yield f"rows.{figure}.{kind}", own[kind], f"comparisons of {figure} that {kind}"
     published = Counter(row["verdict"] for row in tables.verdicts if row["p"])
     what = "comparisons with published points that agree"
     yield "rows.published.agrees", published["agrees"], what
@@ -114,6 +119,13 @@ def _counts(tables: Tables) -> _Numbers:
         yield f"ledger.{grade}", number, f"wrong entries of the ledger with the grade: {grade}"
     causes = {row["cause"] for row in tables.ledger if row["cause"]}
     yield "ledger.causes", len(causes), "causes of the wrong entries"
+
+
+def _kind(verdict: str) -> str:
+    """What a verdict says, in one word; nothing of a curve that was only solved."""
+    if verdict in verdict_table.DIFFERENCES:
+        return "differ"
+    return {"agrees": "agree", "as before": "", "diverges": "diverge"}.get(verdict, "other")
 
 
 def _elastic(curves: Curves) -> _Numbers:

@@ -9,17 +9,11 @@ from pathlib import Path
 from markupsafe import Markup
 
 from stronge1994 import csv_tables, verdict_table
-from stronge1994.pages import key_numbers, ledger_page, pdf, templates
+from stronge1994.pages import key_numbers, pdf, templates
 
 TITLE = "Planar impact of rough compliant bodies: a replication"
-# Models below e = 1, in the words of the note.
-MODELS = {
-    "lumped": "as in the paper",
-    "lumped.plastic": "with e^2 zeta^2",
-    "lumped.viscous": "two Kelvin-Voigt",
-    "continuum.viscous": "viscous continuum",
-    "continuum.plastic": "plastic continuum",
-}
+# Models below e = 1, in the order of the note.
+MODELS = ("lumped", "lumped.plastic", "lumped.viscous", "continuum.viscous", "continuum.plastic")
 COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
 # A smaller probability says no more than this.
 LEAST = 1e-3
@@ -47,7 +41,6 @@ def page(numbers: Mapping[str, float], pictures: Mapping[str, bytes], template: 
     """The note as a page. `numbers` are the key numbers, `pictures` are SVG by their figures."""
     environment = templates.environment(Path(template).parent)
     environment.filters |= {
-        "maths": ledger_page.mathematical,
         "probability": probability,
         "count": count,
     }

@@ -34,7 +34,9 @@ FACES = {"": "STIXGeneral", "bold": "STIXGeneralBol", "italic": "STIXGeneralItal
 MARGIN, GAP = 17 * mm, 7 * mm
 COLUMN = (A4[0] - 2 * MARGIN - GAP) / 2
 # Elements within a line, as ReportLab names them.
-INLINE = {"i": "i", "b": "b", "em": "i", "strong": "b", "sub": "sub", "sup": "super"}
+INLINE = {"i": "i", "b": "b", "sub": "sub", "sup": "super"}
+# How far indices stand off their line, and how small they are, in points.
+INDEX = {"sub": ' rise="2" size="6.5"', "sup": ' rise="3.5" size="6.5"'}
 BLOCKS = ("h1", "h2", "h3", "p", "li", "th", "td", "figcaption", "caption")
 
 
@@ -75,6 +77,7 @@ class _Article(HTMLParser):
         self._line: list[str] | None = None
         self._style = self.styles["p"]
         self._rows: list[list[Paragraph]] = []
+        self._shares: list[float] = []  # of the column's width, in per cent
         self._kept: list[Flowable] = []  # a picture, or the heading of a table
 
     def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
@@ -88,12 +91,14 @@ class _Article(HTMLParser):
         elif tag in BLOCKS:
             kind = "small" if tag == "p" and given.get("class") == "small" else tag
             self._line, self._style = [], self.styles[kind]
+        elif tag == "table":
+            self._shares = [float(share) for share in str(given["data-widths"]).split()]
         elif tag == "tr":
             self._rows.append([])
         elif tag == "img":
             self._kept.append(self._picture(str(given["data-figure"])))
         elif self._line is not None and tag in INLINE:
-            self._line.append(f"<{INLINE[tag]}>")
+            self._line.append(f"<{INLINE[tag]}{INDEX.get(tag, '')}>")
 
     def handle_data(self, data: str) -> None:
         if self._line is not None:
@@ -110,7 +115,9 @@ class _Article(HTMLParser):
             self._end_block(tag, " ".join("".join(self._line).split()))
             self._line = None
         elif tag == "table":
-            table = Table(self._rows, colWidths=_widths(len(self._rows[0])), repeatRows=1)
+            table = Table(
+                self._rows, colWidths=[COLUMN * share / 100 for share in self._shares], repeatRows=1
+            )
             table.setStyle(RULES)
             self._into.append(KeepTogether([*self._kept, table]))
             self._rows, self._kept = [], []
@@ -150,12 +157,6 @@ RULES = TableStyle(
         ("VALIGN", (0, 0), (-1, -1), "TOP"),
     ]
 )
-
-
-def _widths(columns: int) -> list[float]:
-    """Widths of columns: the first one, of names, is wider."""
-    other = COLUMN * 0.72 / (columns - 1)
-    return [COLUMN * 0.28] + [other] * (columns - 1)
 
 
 def write(path: str, page: str, pictures: Mapping[str, str], title: str) -> int:
