@@ -177,6 +177,7 @@ def report(first_run, expected, tmp_path, monkeypatch):
                     "which_model",
                     "stability",
                     "sensitivity",
+                    "key_numbers",
                 )
             },
             {name: f"results/residuals/{name}.csv" for name in names},

@@ -19,7 +19,7 @@ import planarimpact
 from stronge1994 import reference_data, verdict_table
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.ledger import outcome
-from stronge1994.pages import findings, ledger_page, run_facts
+from stronge1994.pages import findings, key_numbers, ledger_page, run_facts
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
@@ -133,7 +133,7 @@ def test_the_first_words_say_how_it_went_and_what_was_found(first_run, text, rep
     head = report.read_text(encoding="utf-8").split('<h2 id="verdicts">')[0]
     assert all(f'<a href="ledger.html#{entry}">' in head for entry in grave[1:])
     verdicts = {row["comparison"]: row for row in rows_of(results / "verdicts.csv")}
-    assert f"chi² = {float(verdicts['inelastic-lumped-pairs']['chi^2']):g}" in first
+    assert f"chi² = {float(verdicts['inelastic-lumped-pairs']['chi^2']):.0f}" in first
     half = next(r for r in rows_of(results / "in_nature.csv") if r["measure"] == "reversal_half")
     assert all(f"{float(half[kind]):.2f}" in first for kind in ("paper", "viscous", "plastic"))
     most = verdicts["stability-digits"]["max [sigma]"]
@@ -147,11 +147,13 @@ def test_a_finding_is_told_only_where_the_tables_say_it(first_run):
     verdicts, ledger = rows_of(results / "verdicts.csv"), rows_of(results / "ledger.csv")
     names = ("which_model", "trade", "stability")
     tables = {name: {"rows": rows_of(results / f"{name}.csv")} for name in names}
-    files = ("in_nature", "curves/fig5", "curves/inelastic", "series/cornell1999")
+    files = ("curves/fig5", "curves/inelastic", "series/cornell1999")
     paths = {Path(name).name: results / f"{name}.csv" for name in files}
 
-    def untold(verdicts=verdicts, ledger=ledger, tables=tables, paths=paths):
-        found = findings.all_of(verdicts, ledger, tables, paths, CONFIG)
+    numbers = key_numbers.by_name(rows_of(results / "key_numbers.csv"))
+
+    def untold(verdicts=verdicts, ledger=ledger, tables=tables, paths=paths, numbers=numbers):
+        found = findings.all_of(verdicts, ledger, tables, paths, CONFIG, numbers)
         return {name for name, finding in found.items() if finding is None}
 
     def judged(comparison, verdict):
@@ -168,6 +170,10 @@ def test_a_finding_is_told_only_where_the_tables_say_it(first_run):
     assert untold(judged("stability-digits", "diverges")) == {"digits"}
     assert untold(ledger=[row | {"holds": "no"} for row in ledger]) == {"paper"}
     assert untold(paths={}) == {"restitution", "elastic"}
+    assert untold(numbers={}) == {"restitution", "elastic"}
+    # A rubber sphere that is nearer to a continuum, or pairs that contradict one, are other news.
+    for name, value in (("rubber.continuum.viscous.distance", 0), ("pairs.lumped.failed", 9)):
+        assert untold(numbers=numbers | {name: value}) == {"restitution"}
     crashed = {"rows": [{"error": "oh"}]}
     assert untold(tables=dict.fromkeys(names, crashed)) == {"tolerance", "digits"}
 

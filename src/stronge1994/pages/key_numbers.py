@@ -13,7 +13,7 @@ import numpy as np
 
 from planarimpact.ground.arrays import Array
 from stronge1994 import csv_tables, verdict_table
-from stronge1994.csv_tables import Columns, Curves, Row
+from stronge1994.csv_tables import Columns, Curves, Failed, Row
 from stronge1994.figures.inelastic import drawing as inelastic
 from stronge1994.figures.shared.drawing.house_style import Series
 from stronge1994.ledger import in_nature, outcome
@@ -85,15 +85,18 @@ def write(output: str, paths: Mapping[str, str]) -> None:
         csv_tables.write_table(output, found(read(paths)), COLUMNS)
     except Exception as error:
         traceback.print_exc()
-        csv_tables.write_rows(output, ["error"], [[f"{type(error).__name__}: {error}"]])
+        why = f"{error}" if isinstance(error, Failed) else f"{type(error).__name__}: {error}"
+        csv_tables.write_rows(output, ["error"], [[why]])
 
 
 def by_name(table: Sequence[Row]) -> dict[str, float]:
-    """Numbers by their names.
+    """Numbers by their names; `csv_tables.Failed` says why there are none.
 
     >>> by_name([{"name": "ledger.wrong", "value": "25", "what": "wrong entries"}])
     {'ledger.wrong': 25.0}
     """
+    if table and "error" in table[0]:
+        raise Failed(table[0]["error"])
     return {row["name"]: float(row["value"]) for row in table}
 
 

@@ -1,0 +1,182 @@
+"""Numbers in words: each that a run finds is that of the run, on every page that states it."""
+
+import re
+
+import pytest
+
+from planarimpact import continuum
+from stronge1994 import csv_tables
+from stronge1994.figures.inelastic import drawing as inelastic
+from stronge1994.figures.rod import curves as rod
+from stronge1994.pages import key_numbers, note
+from tests.workflow.project import ROOT
+
+COUNTS = {15: "Fifteen", 22: "Twenty-two", 29: "Twenty-nine", 5: "Five"}
+NAMES = {11: "Eleven", 10: "ten", 5: "five", 4: "four", 0: "none"}
+
+
+@pytest.fixture(scope="module")
+def numbers(first_run):
+    table = first_run[0] / "results/key_numbers.csv"
+    return key_numbers.by_name(csv_tables.read_rows(table))
+
+
+def said(n):
+    """Sentences of the READMEs, with the numbers of the run in them."""
+    word = {name: NAMES.get(round(value)) for name, value in n.items()}
+    model = "pairs.continuum.viscous"
+    return {
+        "README.md": [
+            f"{COUNTS[n['rows.inconclusive']]} rows are inconclusive",
+            f"count as agreement, with {word['rows.published.agrees']} models",
+            f"{COUNTS[n['rows.explained difference']]} differences are explained",
+            f"{COUNTS[n['rows.unexplained difference']]} are unexplained",
+            f"{COUNTS[n['rows.untested difference']]} are untested",
+            f"Of {n['ledger.entries']:.0f} entries {n['ledger.confirmed']:.0f} are confirmed, "
+            f"{n['ledger.confirmed within rounding']:.0f} confirmed within rounding, "
+            f"{n['ledger.wrong']:.0f} wrong, {n['ledger.not testable']:.0f} not testable here. "
+            f"Of the wrong ones {n['ledger.changes a result']:.0f} change a result, "
+            f"{n['ledger.sign or misprint']:.0f} are signs or misprints (perhaps of the scan that "
+            f"we read), and {n['ledger.matter of judgement']:.0f} are matters of judgement. "
+            f"The {n['ledger.wrong']:.0f} have {n['ledger.causes']:.0f} causes.",
+            f"differs by up to {n['elastic.largest']:.3f} mu v2(0), most where",
+            f"{word['pairs.number']} measured pairs of materials differ from it (chi^2 = "
+            f"{n['pairs.lumped.chi2']:.0f}; p = {n['pairs.lumped.without polyurethane.p']:.1g} "
+            f"without polyurethane, {n['pairs.lumped.without both.p']:.2g} without chrome steel as "
+            f"well), and agree with a viscous continuum ({n[f'{model}.chi2']:.0f}), a plastic one "
+            f"({n['pairs.continuum.plastic.chi2']:.0f}) and two Kelvin-Voigt elements "
+            f"({n['pairs.lumped.viscous.chi2']:.0f})",
+            f"Of {word['pairs.spreads']} choices the paper's model fails all, two Kelvin-Voigt "
+            f"elements {word['pairs.lumped.viscous.failed']}, the viscous continuum "
+            f"{word[f'{model}.failed']}.",
+            f"tangential restitution is {n['rubber.lumped.distance']:.2f} off, root mean square, "
+            f"that of the viscous continuum {n['rubber.continuum.viscous.distance']:.2f}.",
+            f"viscous and plastic spheres differ by up to {n['loss.other']:.2f} mu v2(0), the "
+            f"paper's model by {n['loss.paper']:.1f}.",
+            f"plastic law is {n['yielding.continuum.plastic.rms']:.2f} from our own finite",
+            f"in microseconds, {n['yielding.lumped.viscous.near.rms']:.2f} (e from 0.62 to 0.92)",
+            f"up to {100 * n['rod.newton']:.0f} % more energy than it had for e = 0.9",
+        ],
+        "src/README.md": [
+            f"{n['yielding.continuum.plastic.rms']:.2f} mu v2(0) (root mean square), "
+            f"{n['yielding.continuum.plastic.max']:.2f} at most",
+            "The viscous continuum differs from them by "
+            f"{n['yielding.continuum.viscous.rms']:.2f}, the paper's model by {n['yielding.lumped.rms']:.1f}, that with e^2 zeta^2 by "
+            f"{n['yielding.lumped.plastic.rms']:.2f}. Two Kelvin-Voigt elements differ by "
+            f"{n['yielding.lumped.viscous.near.rms']:.2f} for e from 0.62 to 0.92, "
+            f"{n['yielding.lumped.viscous.near.max']:.2f} at most",
+        ],
+        "workflow/notebooks/choosing_a_model.ipynb": [
+            f"wrong loss is off by up to {n['loss.other']:.2f}",
+            f"off by up to {n['loss.paper']:.2f} from the plastic continuum",
+        ],
+        "workflow/notebooks/where_friction_turns_round.ipynb": [
+            f"but **{n['nature.limit_half.viscous']:.2f}** in the viscous continuum",
+            f"at **{n['nature.limit_half.plastic']:.2f}** for *e* = 0.5",
+        ],
+        "data/stronge1994/ledger.yaml": [f"differ by up to {n['elastic.largest']:.3f} mu v2(0)"],
+    }
+
+
+def flat(text):
+    """The text with its lines joined, also those of a notebook."""
+    return " ".join(text.replace('\\n",', " ").replace('    "', " ").split())
+
+
+def test_sentences_have_the_numbers_of_the_run(numbers):
+    for name, sentences in said(numbers).items():
+        text = flat((ROOT / name).read_text(encoding="utf-8"))
+        assert [sentence for sentence in sentences if sentence not in text] == []
+
+
+def test_another_number_is_noticed(numbers):
+    """Each number is off by a tenth: no sentence that has one of them stays as it is."""
+    text = flat((ROOT / "README.md").read_text(encoding="utf-8"))
+    names = ("elastic.largest", "pairs.lumped.chi2", "rubber.lumped.distance", "loss.other")
+    for name in names:
+        other = said(numbers | {name: 1.1 * numbers[name]})["README.md"]
+        assert sum(sentence not in text for sentence in other) == 1
+
+
+# What is given: settings, equations, and what the paper states. 65 is tested in test_readme.py.
+GIVEN = "0 1 2 25 38 39 40 45 0.1 0.45 0.5 0.588 0.62 0.8 0.9 0.92 1.21 1.6 3.5 5.25 5.79 7"
+GIVEN += " 27.8 35 65 56"
+
+
+def test_no_other_number_is_in_what_the_readme_says_was_found(numbers):
+    """What no sentence ties to the run is a setting, of an equation, or tested by name below."""
+    text = flat((ROOT / "README.md").read_text(encoding="utf-8"))
+    part = text.split("## What we found")[1].split("## An example")[0]
+    for sentence in said(numbers)["README.md"]:
+        part = part.replace(sentence, " ")
+    part = re.sub(r"\]\([^)]*\)|\bv2\b|v2\(0\)|m2/m1|zeta\^2|e\^2", " ", part)
+    left = set(re.findall(r"\d+(?:\.\d+)?", part))
+    assert left - set(GIVEN.split()) == set()
+
+
+def test_newtons_coefficient_creates_more_at_e_1():
+    found = rod.curves(
+        stiffness_ratio=1.21, tilt=[-45.0, 45.0], velocity_ratio=[0.6], friction=1.6,
+        restitution=1.0, samples=3, contact={"tilt": 25.0, "velocity_ratio": 10.0},
+    )  # fmt: skip
+    most = max(found["rigid, Newton, v1/v2 = 0.6"]["kinetic_energy [K0]"])
+    text = flat((ROOT / "README.md").read_text(encoding="utf-8"))
+    assert f"and {100 * (most - 1):.0f} % for e = 1" in text
+
+
+def typed(path, start, end=None):
+    """Numbers that are typed into a template between two marks."""
+    source = (ROOT / path).read_text(encoding="utf-8").partition(start)[2]
+    source = source.partition(end)[0] if end else source
+    words = re.sub(r"\{[%{#].*?[%}#]\}|<[^>]*>", " ", source, flags=re.S)
+    return set(re.findall(r"(?<![\d.])\d+(?:\.\d+)?", words))
+
+
+def test_no_number_that_a_run_finds_is_typed_into_the_first_screen():
+    found = typed("workflow/report/report.html", "What we found</h2>", "</section>")
+    assert found <= {"0", "1", "0.5", "2", "5", "1976"}  # settings, "Fig. 5", Maw et al. (1976)
+
+
+# Of the note: settings and equations of the paper, years, volumes and pages of references.
+STATED = "0 0.002 0.01 0.1 0.18 0.22 0.3 0.45 0.5 0.588 0.62 0.6 0.8 0.88 0.91 0.92 0.99 0.78"
+
+
+def test_no_number_that_a_run_finds_is_typed_into_the_note():
+    words = typed("workflow/report/note.html", "<article>", "<h2>References</h2>")
+    years = {word for word in words if re.fullmatch(r"(19|20)\d\d", word)}
+    sections = {"1", "2", "3", "4", "5", "6"}
+    paper = {"3.5", "1.21", "5.79", "7", "5.25", "27.8", "35", "40", "38", "41", "27", "28"}
+    paper |= {"15", "435", "450", "444", "11", "21", "25", "8", "9", "1.00", "2.5", "13", "5.5"}
+    paper |= {"10", "4.34", "0.1"}
+    assert words - years - sections - paper <= set(STATED.split())
+
+
+def test_what_the_note_says_in_words_is_so(numbers, first_run):
+    """The nearest to the rubber sphere, the farthest pair, and how other limits differ."""
+    n = numbers
+    nearest = min(note.MODELS, key=lambda model: n[f"rubber.{model}.distance"])
+    assert nearest == "lumped"
+    assert all(
+        n[f"pairs.{model}.the stated sigmas are two sigmas.p"] < 0.01 for model in note.MODELS
+    )
+    assert n["pairs.lumped.failed"] == n["pairs.spreads"] == 10
+    for loss in ("viscous", "plastic"):
+        repaired, paper = (n[f"nature.stick_from_{loss}.{m}"] for m in ("repaired", "paper"))
+        assert repaired > paper
+        assert n[f"nature.from_{loss}.repaired"] < n[f"nature.from_{loss}.paper"]
+    for e, quoted in ((1.0, 5.79), (0.5, 4.34)):
+        assert round((1 + e) * (3.5 - 1.21 / 2), 2) == quoted
+    assert round(float(continuum.slip_throughout_limit()), 2) == 5.79
+    curves = csv_tables.read(first_run[0] / "results/curves/inelastic.csv")
+    series = key_numbers.series_of(
+        csv_tables.read(first_run[0] / "results/series/cornell1999.csv")["pairs"]
+    )
+    own = [curves[f"continuum.{loss}, pairs"] for loss in ("viscous", "plastic")]
+    off = {
+        pair: min(abs(y - c[inelastic.BETA_0][c["pair"] == pair][0]) / sigma for c in own)
+        for pair, y, sigma in zip(
+            series["columns"]["pair"], series["y"], series["sigma"][1], strict=True
+        )
+    }
+    assert max(off, key=off.get) == inelastic.HARD
+    assert min(zip(series["x"], series["columns"]["pair"], strict=True))[1] == inelastic.SOFT
