@@ -61,7 +61,8 @@ def said(n):
             f"{n['yielding.continuum.plastic.rms']:.2f} mu v2(0) (root mean square), "
             f"{n['yielding.continuum.plastic.max']:.2f} at most",
             "The viscous continuum differs from them by "
-            f"{n['yielding.continuum.viscous.rms']:.2f}, the paper's model by {n['yielding.lumped.rms']:.1f}, that with e^2 zeta^2 by "
+            f"{n['yielding.continuum.viscous.rms']:.2f}, the paper's model by "
+            f"{n['yielding.lumped.rms']:.1f}, that with e^2 zeta^2 by "
             f"{n['yielding.lumped.plastic.rms']:.2f}. Two Kelvin-Voigt elements differ by "
             f"{n['yielding.lumped.viscous.near.rms']:.2f} for e from 0.62 to 0.92, "
             f"{n['yielding.lumped.viscous.near.max']:.2f} at most",
@@ -74,6 +75,7 @@ def said(n):
             f"but **{n['nature.limit_half.viscous']:.2f}** in the viscous continuum",
             f"at **{n['nature.limit_half.plastic']:.2f}** for *e* = 0.5",
         ],
+        "src/stronge1994/figures/fig8/figure.yaml": [f"begins at {n['fig8.normal']:.1f} N"],
         "data/stronge1994/ledger.yaml": [f"differ by up to {n['elastic.largest']:.3f} mu v2(0)"],
     }
 

@@ -13,7 +13,7 @@ rule key_numbers:
             "results/ledger.csv",
             "results/in_nature.csv",
             "results/trade.csv",
-            *expand("results/curves/{figure}.csv", figure=["fig5", "inelastic", "yielding", "rubber_sphere", "rod"]),
+            *expand("results/curves/{figure}.csv", figure=["fig5", "fig8", "inelastic", "yielding", "rubber_sphere", "rod"]),
             *expand("results/series/{source}.csv", source=["cornell1999", "finite_elements"]),
         ],
     output:

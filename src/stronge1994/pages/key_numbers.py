@@ -36,6 +36,7 @@ class Tables(NamedTuple):
     ledger: Sequence[Row]
     nature: Mapping[str, Values]
     fig5: Curves
+    fig8: Curves
     inelastic: Curves
     yielding: Curves
     rubber: Curves
@@ -53,6 +54,7 @@ def read(paths: Mapping[str, str]) -> Tables:
         ledger=rows(paths["ledger"]),
         nature=in_nature.read(rows(paths["in_nature"])),
         fig5=curves(paths["fig5"]),
+        fig8=curves(paths["fig8"]),
         inelastic=curves(paths["inelastic"]),
         yielding=curves(paths["yielding"]),
         rubber=curves(paths["rubber_sphere"]),
@@ -219,6 +221,8 @@ def _rubber(curves: Curves) -> _Numbers:
 
 
 def _others(tables: Tables) -> _Numbers:
+    normal = tables.fig8["normal"]["peak_force [N]"]
+    yield "fig8.normal", normal.max(), "largest normal force on the pendulum ball, N"
     shares = [
         columns["kinetic_energy [K0]"].max()
         for name, columns in tables.rod.items()

@@ -99,7 +99,7 @@ def _cheapest(rows: Sequence[Row], batch: int) -> Row:
     if not quiet and others and others[0][0] < time:
         return dict(zip(keys, (BUSY, "", ""), strict=True))
     name = best["curve"].rsplit(", e = ", 1)[0]
-    cells = name, f"{float(best[ERROR]):.2g}", f"{time:.2g}" if quiet else ""
+    cells = name, f"{float(best[ERROR]):.3g}", f"{time:.2g}" if quiet else ""
     return dict(zip(keys, cells, strict=True))
 
 
