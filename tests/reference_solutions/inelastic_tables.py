@@ -34,6 +34,10 @@ E = [0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
 NU = [0.2, 0.5]
 CONTACT_E, CONTACT_NU = 0.6, 0.3
 INCIDENCES = [0.5 * i for i in range(1, 17)]
+# The impacts that beta_0 of a pair is fitted to: up to where, and whether evenly over the angle.
+REACHES = ["to 45 deg", "to 60 deg", "to 0.5 (1 + e) m2/m1", "to 1.5 (1 + e) m2/m1"]
+SPREADS = ["", *REACHES]
+SPREADS += [f"{reach}, by angle" for reach in ["to (1 + e) m2/m1", *REACHES]]
 # Impacts of a fit, and how many of them are solved; the others lie on chords.
 IMPACTS, SOLVED = 3000, 121
 STEPS, SPRINGS = 1600, 400
@@ -90,7 +94,12 @@ def tables():
         ),
         "pairs": Table(
             ["curve", "pair", "restitution [1]", "tangential_restitution [1]"],
-            [functools.partial(_of_pair, model, pair) for model in MODELS for pair in _pairs()],
+            [
+                functools.partial(_of_pair, model, pair, spread)
+                for model in MODELS
+                for pair in _pairs()
+                for spread in SPREADS
+            ],
         ),
         "rubber_sphere": Table(
             ["curve", INCIDENCE, "tangential_restitution [1]"],
@@ -139,21 +148,46 @@ def like(nu):
     return (2 - nu) / (2 * (1 - nu))
 
 
-def slope(model, zeta2, e):
-    """beta_0 of the lines that fit best, over incidences spread evenly from 0 to (1 + e) beta."""
-    reach = (1 + e) * BETA
-    x = reach * (np.arange(IMPACTS) + 0.5) / IMPACTS
-    solved = np.linspace(0, reach, SOLVED)
-    w = np.interp(x, solved, velocities(model, solved, zeta2, e))
+def slope(model, zeta2, e, spread=""):
+    """beta_0 of the lines that fit best, over impacts spread evenly from 0 to (1 + e) beta.
+
+    A `spread` is an other one: up to another incidence or angle, or evenly over the angle.
+    """
+    end = (1 + e) * BETA
+    x = _spread(end, spread)
+    solved, w = _solved(model, zeta2, e)
+    w = np.where(x < end, np.interp(x, solved, w), x - end)
 
     def squares(beta_0):
-        return np.sum((w - np.maximum(-beta_0 * x, x - reach)) ** 2)
+        return np.sum((w - np.maximum(-beta_0 * x, x - end)) ** 2)
 
     # There may be several minima: the lowest of a scan is refined.
     scan = np.linspace(-1, 1, 401)
     near = scan[np.argmin([squares(b) for b in scan])]
     bounds = (near - 0.005, near + 0.005)
     return float(minimize_scalar(squares, bounds=bounds, options={"xatol": 1e-9}).x)
+
+
+@functools.cache
+def _solved(model, zeta2, e):
+    solved = np.linspace(0, (1 + e) * BETA, SOLVED)
+    return solved, velocities(model, solved, zeta2, e)
+
+
+def _spread(end, words):
+    """Incidences of the impacts of a fit; words such as "0.3: to 45 deg, by angle", 0.3 being mu."""
+    share = (np.arange(IMPACTS) + 0.5) / IMPACTS
+    if not words:
+        return end * share
+    friction, words = float(words.split(": ")[0]), words.split(": ")[1]
+    number = float(words.split()[1].strip("(")) if "to (1" not in words else 1.0
+    # Beyond 1.5 end no impact has a part in the slope.
+    reach = number * end
+    if " deg" in words:
+        reach = min(np.tan(np.radians(number)) / friction, 1.5 * end)
+    if "by angle" not in words:
+        return reach * share
+    return np.tan(np.arctan(friction * reach) * share) / friction
 
 
 def extrapolated(model, zeta2, e, x):
@@ -250,9 +284,12 @@ def _at_restitution(model, nu, e):
     return [f"{model}, nu = {nu:g}", e, round(slope(model, like(nu), e), 5)]
 
 
-def _of_pair(model, pair):
-    e = float(_pairs()[pair]["restitution [1]"])
-    return [f"{model}, pairs", pair, e, round(slope(model, _ratio(pair), e), 5)]
+def _of_pair(model, pair, spread):
+    row = _pairs()[pair]
+    e = float(row["restitution [1]"])
+    words = f"{row['friction [1]']}: {spread}" if spread else ""
+    name = f"{model}, pairs, {spread}" if spread else f"{model}, pairs"
+    return [name, pair, e, round(slope(model, _ratio(pair), e, words), 5)]
 
 
 def _rubber_rows():

@@ -223,9 +223,9 @@ def test_a_wrong_repair_trips_the_gate(power, lumped_alone, judge, monkeypatch):
 def test_a_repair_of_the_model_as_in_the_paper_is_no_silent_change(
     lumped_alone, judge, monkeypatch
 ):
-    """Its difference is explained: if it goes away, the entry must go too."""
+    """Its difference is known: if it goes away, the entry must go too."""
     title = "inelastic-lumped-pairs"
-    assert judge(title)[title]["verdict"] == "explained difference"
+    assert judge(title)[title]["verdict"] == "unexplained difference"
     original = models.rebound
     monkeypatch.setattr(
         models,

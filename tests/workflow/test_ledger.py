@@ -578,7 +578,7 @@ def test_comparisons_that_the_ledger_names_are_judged_by_the_run(first_run):
         verdicts = {row["comparison"]: row["verdict"] for row in csv.DictReader(file)}
     assert named <= set(configuration.load(ROOT)["comparisons"])
     for name in named:
-        wanted = "agrees" if "continuum" in name else "explained difference"
+        wanted = "agrees" if "continuum" in name else "unexplained difference"
         assert verdicts[name] == wanted, name
 
 

@@ -77,7 +77,7 @@ def restitution(
     """
     models = "lumped", "continuum.viscous", "continuum.plastic"
     rows = {model: verdicts[f"inelastic-{model}-pairs"] for model in models}
-    _need(rows["lumped"]["verdict"] == "explained difference")
+    _need(rows["lumped"]["verdict"] == "unexplained difference")
     _need(all(rows[model]["verdict"] == "agrees" for model in models[1:]))
     _need(all(numbers[f"pairs.{model}.failed"] == 0 for model in models[1:2]))
     _need(numbers["pairs.lumped.failed"] == numbers["pairs.spreads"])

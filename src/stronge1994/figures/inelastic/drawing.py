@@ -90,11 +90,12 @@ def trials(curves: Curves) -> list[Trial]:
     """As the verdicts judge the pairs, and with one choice at a time made otherwise.
 
     Which incidences were measured is not known, nor whether a printed uncertainty is one standard
-    deviation or two.
+    deviation or two. No model knows that unlike bodies spread differently under pressure.
     """
     start = f"{next(iter(MODELS))}, pairs, "
     names = [name for name in curves if name.startswith(start) and not curve_names.is_shifted(name)]
     spreads = [name.removeprefix(start) for name in names]
+    pairs = curves[names[0]]
     return [
         Trial("as judged"),
         *(Trial(f"fit {spread}", spread) for spread in spreads),
@@ -102,6 +103,10 @@ def trials(curves: Curves) -> list[Trial]:
         Trial(f"without {SOFT}", without=[SOFT]),
         Trial(f"without {HARD}", without=[HARD]),
         Trial("without both", without=[SOFT, HARD]),
+        Trial(
+            "pairs of one material alone",
+            without=list(pairs["pair"][pairs["body"] != pairs["other"]]),
+        ),
     ]
 
 
