@@ -175,7 +175,7 @@ def _solved(model, zeta2, e):
 
 
 def _spread(end, words):
-    """Incidences of the impacts of a fit; words such as "0.3: to 45 deg, by angle", 0.3 being mu."""
+    """Incidences of the impacts of a fit by words such as "0.3: to 45 deg, by angle", mu first."""
     share = (np.arange(IMPACTS) + 0.5) / IMPACTS
     if not words:
         return end * share

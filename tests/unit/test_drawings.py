@@ -128,7 +128,7 @@ FAULTS = [
     ("convergence", "bars = np.stack([too_long", "bars = np.stack([2 * too_long"),
     ("inelastic", "curve[X], curve[W]", "curve[X], -curve[W]"),
     ("inelastic", "order], high[BETA_0][order]", "order], 2 * high[BETA_0][order]"),
-    ("inelastic", "axes.barh(row, value,", "axes.barh(row, value / 2,"),
+    ("inelastic", "[OVER_LIMIT], [height]", "[OVER_LIMIT] / 2, [height]"),
     ("inelastic", "house_style.key(model.words", "house_style.key(model.words[::-1]"),
     ("rubber_sphere", "curve[X], curve[E_T]", "curve[X], -curve[E_T]"),
     ("rubber_sphere", "axes.plot([near]", "axes.plot([near / 2]"),

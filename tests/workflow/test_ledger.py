@@ -190,7 +190,7 @@ def test_the_readme_counts_grades_and_causes():
     grades = Counter(entry["grade"] for entry in wrong)
     words = (
         f"Of the wrong ones {grades['changes a result']} change a result, "
-        f"{grades['sign or misprint']} are signs or "
+        f"{grades['sign or misprint']} are single signs, "
     )
     assert words in " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
 

@@ -76,7 +76,7 @@ BAD_CONFIG = [
     (figure("convergence", steps=["32", "33"]), "figures.convergence.steps.1: 33 is not a mult"),
     (comparison("fig5-continuum-maw", reference="maw1976/no"), "'maw1976/no' is neither"),
     (figure("inelastic", points="maw1976/slip_throughout_limit"), "limit' is no series"),
-    (figure("inelastic", fit={"evenly": "speed"}), "fit.evenly: 'speed' is not one of"),
+    (figure("inelastic", solved="3"), "inelastic.solved: 3 is less than the minimum of 16"),
     (
         comparison("inelastic-lumped-pairs", metric="distance"),
         "a stated series goes with metric vertices",

@@ -349,7 +349,8 @@ def doctored(*lapsed):
         ROOT / "workflow/report/report.html",
         ["diverges: fig6-rebound: max 9"] if not lapsed else ["eq-1 no longer holds"],
         write_report.Salvage(),
-        findings.all_of(verdicts, ledger, tables, {}, CONFIG),
+        findings.all_of(verdicts, ledger, tables, {}, CONFIG, {}),
+        {},
     )
 
 

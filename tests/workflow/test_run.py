@@ -53,7 +53,7 @@ def test_headers_carry_units(first_run):
     for figure in FIGURES:
         header = (first_run[0] / f"results/curves/{figure}.csv").read_text().splitlines()[0]
         words = {"curve", "event", "regime", "model", "loss", "pair", "body", "other"}
-        words |= {"set", "contact", "run"}
+        words |= {"set", "contact", "run", "impact", "ball"}
         assert all("[" in name for name in header.split(",") if name not in words), header
 
 
@@ -146,7 +146,16 @@ def test_a_change_of_the_config_reruns_what_it_concerns(finished):
         "workflow/config.yaml", "superball: {tolerance: 1.0e-4", "superball: {tolerance: 0.1"
     )
     _, counts = finished.planned("--config", "study={grid: {incidence: {points: 100}}}")
-    once = ["scene", "gather", "report", "all", "gather_chunks", "draw_study"]
+    once = [
+        "scene",
+        "gather",
+        "report",
+        "all",
+        "gather_chunks",
+        "draw_study",
+        "key_numbers",
+        "note",
+    ]
     assert counts == dict.fromkeys(once, 1) | {"judge": 3, "solve_chunk": 4}
 
 

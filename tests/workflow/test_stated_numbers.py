@@ -39,13 +39,14 @@ def said(n):
             f"{n['ledger.matter of judgement']:.0f} are matters of judgement. "
             f"The {n['ledger.wrong']:.0f} have {n['ledger.causes']:.0f} causes.",
             f"impact differs by up to {n['elastic.largest']:.3f} mu v2(0).",
-            f"{COUNTS[n['pairs.number']]} pairs of materials differ from the paper's model (chi^2 = "
-            f"{chi2['lumped']}, of which polyurethane gives {n['pairs.lumped.polyurethane.chi2']:.0f}) "
-            f"and agree with a viscous continuum ({chi2['continuum.viscous']}), a plastic one "
-            f"({chi2['continuum.plastic']}) and two Kelvin-Voigt elements ({chi2['lumped.viscous']})",
+            f"{COUNTS[n['pairs.number']]} pairs of materials differ from the paper's model (chi^2 "
+            f"= {chi2['lumped']}, of which polyurethane gives "
+            f"{n['pairs.lumped.polyurethane.chi2']:.0f}) and agree with a viscous continuum "
+            f"({chi2['continuum.viscous']}), a plastic one ({chi2['continuum.plastic']}) and two "
+            f"Kelvin-Voigt elements ({chi2['lumped.viscous']})",
             f"Of {word['pairs.spreads']} choices of them the paper's model fails all, and "
-            f"{word['pairs.lumped.both.failed']} without polyurethane and chrome steel; the viscous "
-            f"continuum fails {word['pairs.continuum.viscous.failed']}, the plastic one "
+            f"{word['pairs.lumped.both.failed']} without polyurethane and chrome steel; the "
+            f"viscous continuum fails {word['pairs.continuum.viscous.failed']}, the plastic one "
             f"{word['pairs.continuum.plastic.failed']}, two Kelvin-Voigt elements "
             f"{word['pairs.lumped.viscous.failed']}.",
             f"tangential restitution is {n['rubber.lumped.distance']:.2f} off, root mean square, "

@@ -6,10 +6,8 @@ It knows the elements that the note uses. A PDF of the same article has the same
 from collections.abc import Mapping
 from html import escape
 from html.parser import HTMLParser
-from pathlib import Path
 from typing import Any
 
-import matplotlib
 from reportlab.lib.enums import TA_JUSTIFY
 from reportlab.lib.pagesizes import A4
 from reportlab.lib.styles import ParagraphStyle
@@ -29,7 +27,8 @@ from reportlab.platypus import (
     TableStyle,
 )
 
-FONTS = Path(matplotlib.get_data_path()) / "fonts/ttf"
+from stronge1994.figures.shared.drawing import house_style
+
 FACES = {"": "STIXGeneral", "bold": "STIXGeneralBol", "italic": "STIXGeneralItalic"}
 MARGIN, GAP = 17 * mm, 7 * mm
 COLUMN = (A4[0] - 2 * MARGIN - GAP) / 2
@@ -167,7 +166,7 @@ def write(path: str, page: str, pictures: Mapping[str, str], title: str) -> int:
     """
     for kind, file in FACES.items():
         name = f"STIX-{kind}" if kind else "STIX"
-        pdfmetrics.registerFont(TTFont(name, str(FONTS / f"{file}.ttf")))
+        pdfmetrics.registerFont(TTFont(name, str(house_style.FONTS / f"{file}.ttf")))
     pdfmetrics.registerFontFamily(
         "STIX", normal="STIX", bold="STIX-bold", italic="STIX-italic", boldItalic="STIX-bold"
     )

@@ -224,6 +224,14 @@ def _entry_of(names: Collection[str]) -> Callable[[Row], str | None]:
     return entry_of
 
 
+def _key_numbers(path: str) -> dict[str, float]:
+    """Key numbers of a run; none where a table that they need has the message of a crash."""
+    try:
+        return key_numbers.by_name(csv_tables.read_rows(path))
+    except csv_tables.Failed:
+        return {}
+
+
 def _svg(name: str, strips: Mapping[draw_residuals.Strip, Curves]) -> bytes:
     file, tables = io.BytesIO(), draw_residuals.tables_of_strips(strips)
     checked.save(draw_residuals.draw(strips), tables, f"residuals of {name}", file)
@@ -271,7 +279,7 @@ def write(
     figures = {name: found for name, found in figures.items() if found}
     tables = {name: tried(name, {"rows": [], "caption": ""}, table, name) for name in SECTIONS}
     peers = tried("peers", [], read, paths["peers"], ("model",)) if "peers" in paths else []
-    numbers = tried("key numbers", {}, lambda: key_numbers.by_name(read(paths["key_numbers"])))
+    numbers = tried("key numbers", {}, _key_numbers, paths["key_numbers"])
     run = parts.pop("run")
     run = {name: tried(name, missing, function) for name, (missing, function) in run.items()}
     template = Path(parts["template"]).with_name("sources.html")

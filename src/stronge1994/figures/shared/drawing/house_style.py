@@ -47,6 +47,8 @@ Points: TypeAlias = dict[str, Series]
 Entries: TypeAlias = list[Any]  # of a legend: artists, and containers of them
 _Item = TypeVar("_Item")
 
+# The typefaces that come with matplotlib.
+FONTS = Path(matplotlib.get_data_path(), "fonts/ttf")
 # Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
 WIDTH = 5.0
 # Size in points of notes, of words over brackets and of labels at lines.
@@ -126,7 +128,7 @@ STYLE = {
 }
 # These letters come with matplotlib. Its list of fonts may be older than this installation and lack
 # them: then it would take other letters, which are wider than the places made for these.
-for _font in sorted(Path(matplotlib.get_data_path(), "fonts/ttf").glob("STIX*.ttf")):
+for _font in sorted(FONTS.glob("STIX*.ttf")):
     font_manager.fontManager.addfont(_font)
 matplotlib.rcdefaults()
 matplotlib.rcParams.update(STYLE)

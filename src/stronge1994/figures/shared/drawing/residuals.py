@@ -26,13 +26,14 @@ MARKS = {
     "inconclusive": _hollow("o", house_style.BLACK),
     "explained difference": _hollow("s", house_style.BLUE),
     "unexplained difference": _hollow("D", house_style.PURPLE),
-    "untested difference": _hollow("^", house_style.BLUE),
     "diverges": {"color": house_style.VERMILLION, "marker": "x", "markersize": 4},
 }
 ALL_AREA = {"color": house_style.PALE, "linewidth": 0, "zorder": 0.5}
 RMS_AREA = {"color": house_style.GREEN, "alpha": 0.35, "linewidth": 0, "zorder": 0.6}
 RMS_LINE = {"color": house_style.GREEN, "linewidth": 0.9, "linestyle": "-", "zorder": 1.9}
 DISTANCE = "distance [sigma]"
+# A distance in sigmas says nothing where sigma is not known.
+UNTESTED = "untested difference"
 # A comparison with more points is left out: it would be a block of ink, and a large file.
 MOST_POINTS = 1000
 
@@ -59,6 +60,8 @@ def strips(
     counts = Counter(row["comparison"] for row in residuals)
     for row in residuals:
         entry = comparisons[row["comparison"]]
+        if verdicts[row["comparison"]]["verdict"] == UNTESTED:
+            continue
         if entry["metric"] in ("distance", "vertices") and counts[row["comparison"]] <= MOST_POINTS:
             key = entry.get("curve", "all curves"), entry["reference"], row["quantity"]
             part = found.setdefault(key, {}).setdefault(row["comparison"], [])
