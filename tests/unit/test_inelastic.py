@@ -152,7 +152,7 @@ def test_trials_of_the_pairs(inventory, lumped_alone, settings, monkeypatch):
     found = inelastic.curves(**settings)
     series = series_of(inventory)
     tried = {trial.words: trial for trial in draw_inelastic.trials(found)}
-    assert len(tried) == 14
+    assert len(tried) == 15
 
     def value(words, model="lumped"):
         return draw_inelastic.goodness(found, model, series, tried[words])

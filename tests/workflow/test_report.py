@@ -128,7 +128,7 @@ def test_the_first_words_say_how_it_went_and_what_was_found(first_run, text, rep
     ledger = rows_of(results / "ledger.csv")
     grave = [row["entry"] for row in ledger if row["grade"] == "changes a result"]
     wrong = sum(row["verdict"] == "wrong" for row in ledger)
-    words = f"Of {len(ledger)} equations and sentences {wrong} are wrong; {len(grave)} change a"
+    words = f"of {len(ledger)} entries; of {wrong} wrong ones {len(grave)} change a result"
     assert words in first
     head = report.read_text(encoding="utf-8").split('<h2 id="verdicts">')[0]
     assert all(f'<a href="ledger.html#{entry}">' in head for entry in grave[1:])

@@ -97,7 +97,7 @@ def test_another_number_is_noticed(numbers):
     names = ("elastic.largest", "pairs.lumped.chi2", "rubber.lumped.distance", "loss.other")
     for name in names:
         other = said(numbers | {name: 1.1 * numbers[name]})["README.md"]
-        assert sum(sentence not in text for sentence in other) == 1
+        assert any(sentence not in text for sentence in other)
 
 
 # What is given: settings, equations, what the paper states, and 5.5 and 56, which tests hold.

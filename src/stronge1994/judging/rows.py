@@ -25,6 +25,7 @@ EVIDENCE = {
     "fact": "stated value",
     "law": "law or limit",
     "itself": "none: regression",
+    "as before": "none: the curve was fitted to these points",
     "inconclusive": "none: it would agree with a wrong curve too",
 }
 # The cells of a row by `COLUMNS`. `residuals` holds rows of the table of residuals.

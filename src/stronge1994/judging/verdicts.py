@@ -20,9 +20,10 @@ SEEN = 2.0
 class Verdict(StrEnum):
     """The outcome of one comparison; only DIVERGES fails a run.
 
-    UNCHANGED is the verdict of a check against an earlier result of this repository. It guards
-    against accidents and is evidence of nothing. INCONCLUSIVE does not count as evidence either:
-    published points agree with the curve, but would also if it were wrong by `SEEN` sigmas. A
+    UNCHANGED is the verdict of a check against an earlier result of this repository, or against
+    points that the curve was fitted to. It guards against accidents and is evidence of nothing.
+    INCONCLUSIVE does not count as evidence either: published points agree with the curve, but would
+    also if it were wrong by `SEEN` sigmas. A
     known difference is EXPLAINED; or its cause is not known; or it is UNTESTED, because the
     reference does not state how much its values scatter.
 
@@ -48,6 +49,8 @@ def chi_squared_of(known: Reference, found: Measured) -> ChiSquared:
 def judge(entry: Entry, known: Reference | None, found: Measured, significance: float) -> Verdict:
     """Verdict on what `measure` found; published points agree if p is above `significance`."""
     outcome = _outcome(entry, known, found, significance)
+    if outcome == Verdict.AGREES and entry.get("fitted"):
+        return Verdict.UNCHANGED
     if outcome == Verdict.AGREES and is_published(known):
         noticed = notices(entry, known, found, significance, SEEN)
         return outcome if noticed else Verdict.INCONCLUSIVE

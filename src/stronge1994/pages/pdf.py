@@ -6,7 +6,7 @@ It knows the elements that the note uses. A PDF of the same article has the same
 from collections.abc import Mapping
 from html import escape
 from html.parser import HTMLParser
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 from reportlab.lib.enums import TA_JUSTIFY
 from reportlab.lib.pagesizes import A4
@@ -14,14 +14,11 @@ from reportlab.lib.styles import ParagraphStyle
 from reportlab.lib.units import mm
 from reportlab.pdfbase import pdfmetrics
 from reportlab.pdfbase.ttfonts import TTFont
+from reportlab.pdfgen.canvas import Canvas
 from reportlab.platypus import (
-    BaseDocTemplate,
     Flowable,
     Frame,
     Image,
-    KeepTogether,
-    NextPageTemplate,
-    PageTemplate,
     Paragraph,
     Table,
     TableStyle,
@@ -31,7 +28,9 @@ from stronge1994.figures.shared.drawing import house_style
 
 FACES = {"": "STIXGeneral", "bold": "STIXGeneralBol", "italic": "STIXGeneralItalic"}
 MARGIN, GAP = 17 * mm, 7 * mm
-COLUMN = (A4[0] - 2 * MARGIN - GAP) / 2
+COLUMN, HEIGHT = (A4[0] - 2 * MARGIN - GAP) / 2, A4[1] - 2 * MARGIN
+# Room that a heading needs below it, for some lines of text.
+KEPT = 36.0
 # Elements within a line, as ReportLab names them.
 INLINE = {"i": "i", "b": "b", "sub": "sub", "sup": "super"}
 # How far indices stand off their line, and how small they are, in points.
@@ -63,6 +62,15 @@ def styles() -> dict[str, ParagraphStyle]:
     }
 
 
+class _Float(NamedTuple):
+    """A picture or a table, and the words that belong to it: they stay together."""
+
+    parts: list[Flowable]
+
+
+_Part: TypeAlias = Flowable | _Float
+
+
 class _Article(HTMLParser):
     """Flowables of the element `article`; pictures by the name in their `data-figure`."""
 
@@ -70,9 +78,9 @@ class _Article(HTMLParser):
         super().__init__()
         self.pictures = pictures
         self.styles = styles()
-        self.head: list[Flowable] = []  # up to the end of the element `header`
-        self.body: list[Flowable] = []
-        self._into: list[Flowable] | None = None
+        self.head: list[_Part] = []  # up to the end of the element `header`
+        self.body: list[_Part] = []
+        self._into: list[_Part] | None = None
         self._line: list[str] | None = None
         self._style = self.styles["p"]
         self._rows: list[list[Paragraph]] = []
@@ -118,7 +126,7 @@ class _Article(HTMLParser):
                 self._rows, colWidths=[COLUMN * share / 100 for share in self._shares], repeatRows=1
             )
             table.setStyle(RULES)
-            self._into.append(KeepTogether([*self._kept, table]))
+            self._into.append(_Float([*self._kept, table]))
             self._rows, self._kept = [], []
         elif tag in INLINE and self._line is not None:
             self._line.append(f"</{INLINE[tag]}>")
@@ -132,7 +140,7 @@ class _Article(HTMLParser):
         elif tag == "caption":
             self._kept.append(paragraph)
         elif tag == "figcaption":
-            self._into.append(KeepTogether([*self._kept, paragraph]))
+            self._into.append(_Float([*self._kept, paragraph]))
             self._kept = []
         else:
             self._into.append(paragraph)
@@ -158,6 +166,93 @@ RULES = TableStyle(
 )
 
 
+class _Pages:
+    """Pages of two columns, filled from top to bottom.
+
+    A picture or table that has no room in a column moves to the top of the next one, and the words
+    after it take its place.
+    """
+
+    def __init__(self, path: str, title: str, head: list[_Part]) -> None:
+        # The same words give the same bytes.
+        self.canvas = Canvas(path, pagesize=A4, invariant=1)
+        self.canvas.setTitle(title)
+        self.page, self.columns = 1, [0.0]
+        width = 2 * COLUMN + GAP
+        # A frame that is exactly as high as its content may refuse it.
+        top = _height(head, width) + 11.0
+        _frame(MARGIN, HEIGHT - top, width, top).addFromList(list(head), self.canvas)
+        self.columns = [MARGIN, MARGIN + COLUMN + GAP]
+        self.below = top + GAP
+        self.waiting: list[_Float] = []
+        self.frame = self._column()
+
+    def _column(self) -> Frame:
+        return _frame(self.columns.pop(0), 0.0, COLUMN, HEIGHT - self.below)
+
+    def _next(self) -> None:
+        """Go to the next column, and put on its top what waits."""
+        if not self.columns:
+            self._end_page()
+            self.canvas.showPage()
+            self.page, self.below = self.page + 1, 0.0
+            self.columns = [MARGIN, MARGIN + COLUMN + GAP]
+        self.frame = self._column()
+        waiting, self.waiting = self.waiting, []
+        for part in waiting:
+            self._float(part)
+
+    def _float(self, part: _Float) -> None:
+        """Put a picture here, or in the next column if it has no room."""
+        high = _height(part.parts)
+        if high > HEIGHT:
+            raise ValueError(f"a picture is {high:.0f} points high: allowed are {HEIGHT:.0f}")
+        if self.waiting or high > self._room():
+            self.waiting.append(part)
+        else:
+            self.frame.addFromList(list(part.parts), self.canvas)
+
+    def _room(self) -> float:
+        return float(self.frame._y - self.frame._y1p)
+
+    def add(self, part: _Part) -> None:
+        """Put a part where there is room for it."""
+        if isinstance(part, _Float):
+            self._float(part)
+            return
+        if part.getKeepWithNext() and _height([part]) + KEPT > self._room():
+            self._next()
+        while not self.frame.add(part, self.canvas):
+            pieces = self.frame.split(part, self.canvas)
+            if len(pieces) > 1:
+                self.frame.add(pieces[0], self.canvas)
+                part = pieces[1]
+            self._next()
+
+    def end(self) -> int:
+        """Put what still waits, close the file, and return the number of pages."""
+        while self.waiting:
+            self._next()
+        self._end_page()
+        self.canvas.save()
+        return self.page
+
+    def _end_page(self) -> None:
+        self.canvas.setFont("STIX", 8)
+        self.canvas.drawCentredString(A4[0] / 2, MARGIN / 2, f"{self.page}")
+
+
+def _height(parts: list[Any], width: float = COLUMN) -> float:
+    return sum(
+        part.wrap(width, HEIGHT)[1] + part.getSpaceBefore() + part.getSpaceAfter() for part in parts
+    )
+
+
+def _frame(left: float, bottom: float, width: float, height: float) -> Frame:
+    bare = dict.fromkeys(("leftPadding", "rightPadding", "topPadding", "bottomPadding"), 0)
+    return Frame(left, MARGIN + bottom, width, height, **bare)
+
+
 def write(path: str, page: str, pictures: Mapping[str, str], title: str) -> int:
     """Write the element `article` of a page as a PDF, and return the number of its pages.
 
@@ -172,35 +267,7 @@ def write(path: str, page: str, pictures: Mapping[str, str], title: str) -> int:
     )
     article = _Article(pictures)
     article.feed(page)
-    top = _height(article.head)
-    bare: dict[str, Any] = dict.fromkeys(
-        ("leftPadding", "rightPadding", "topPadding", "bottomPadding"), 0
-    )
-    height = A4[1] - 2 * MARGIN
-
-    def columns(below: float) -> list[Frame]:
-        left = MARGIN, MARGIN + COLUMN + GAP
-        return [Frame(x, MARGIN, COLUMN, height - below, **bare) for x in left]
-
-    head = Frame(MARGIN, A4[1] - MARGIN - top, 2 * COLUMN + GAP, top, **bare)
-    document = BaseDocTemplate(path, pagesize=A4, title=title, invariant=1)
-    document.addPageTemplates(
-        [
-            PageTemplate("first", [head, *columns(top + GAP)], onPage=_number),
-            PageTemplate("later", columns(0.0), onPage=_number),
-        ]
-    )
-    document.build([NextPageTemplate("later"), *article.head, *article.body])
-    return int(document.page)
-
-
-def _height(parts: list[Flowable]) -> float:
-    """Height of what stands over both columns."""
-    width = 2 * COLUMN + GAP
-    # One line of room: a frame that is exactly as high as its content may refuse it.
-    return sum(part.wrap(width, A4[1])[1] + part.getSpaceAfter() for part in parts) + 11.0
-
-
-def _number(canvas: Any, document: Any) -> None:
-    canvas.setFont("STIX", 8)
-    canvas.drawCentredString(A4[0] / 2, MARGIN / 2, f"{document.page}")
+    pages = _Pages(path, title, article.head)
+    for part in article.body:
+        pages.add(part)
+    return pages.end()

@@ -55,7 +55,7 @@ MEANING = {
     "inconclusive": "it agrees, but would also if all points lay "
     f"{SEEN:g} sigmas beside the curve: it does not count as evidence",
     "agrees": "with published points (p is large enough), or within the tolerance of its reference",
-    "as before": "it ran; this guards against accidents and is evidence of nothing",
+    "as before": "it ran, or was fitted to these points: a guard against accidents, no evidence",
 }
 Shown: TypeAlias = dict[str, Any]  # what the template is given of a figure or a table
 # Tables that have a section of the report; captions stand in files of the same names.

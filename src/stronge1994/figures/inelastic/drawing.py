@@ -95,7 +95,7 @@ def trials(curves: Curves) -> list[Trial]:
     start = f"{next(iter(MODELS))}, pairs, "
     names = [name for name in curves if name.startswith(start) and not curve_names.is_shifted(name)]
     spreads = [name.removeprefix(start) for name in names]
-    pairs = curves[names[0]]
+    pairs = curves[start.removesuffix(", ")]
     return [
         Trial("as judged"),
         *(Trial(f"fit {spread}", spread) for spread in spreads),
