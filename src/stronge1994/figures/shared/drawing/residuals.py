@@ -21,6 +21,8 @@ def _hollow(marker: str, colour: str) -> dict[str, Any]:
     return style | {"markerfacecolor": "white", "markeredgewidth": 0.7}
 
 
+# Of verdicts that say something. Distances in sigmas do not where sigma is not known, or where the
+# curve was fitted to the points.
 MARKS = {
     "agrees": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
     "inconclusive": _hollow("o", house_style.BLACK),
@@ -32,8 +34,6 @@ ALL_AREA = {"color": house_style.PALE, "linewidth": 0, "zorder": 0.5}
 RMS_AREA = {"color": house_style.GREEN, "alpha": 0.35, "linewidth": 0, "zorder": 0.6}
 RMS_LINE = {"color": house_style.GREEN, "linewidth": 0.9, "linestyle": "-", "zorder": 1.9}
 DISTANCE = "distance [sigma]"
-# A distance in sigmas says nothing where sigma is not known.
-UNTESTED = "untested difference"
 # A comparison with more points is left out: it would be a block of ink, and a large file.
 MOST_POINTS = 1000
 
@@ -60,7 +60,7 @@ def strips(
     counts = Counter(row["comparison"] for row in residuals)
     for row in residuals:
         entry = comparisons[row["comparison"]]
-        if verdicts[row["comparison"]]["verdict"] == UNTESTED:
+        if verdicts[row["comparison"]]["verdict"] not in MARKS:
             continue
         if entry["metric"] in ("distance", "vertices") and counts[row["comparison"]] <= MOST_POINTS:
             key = entry.get("curve", "all curves"), entry["reference"], row["quantity"]
