@@ -108,6 +108,7 @@ def _inelastic(settings):
     named = {}
     for i, model in enumerate(inelastic.MODELS):
         pairs = {"pair": np.array(["a", "b", "c"]), inelastic.E: np.array([0.6, 0.9, 0.9])}
+        pairs |= {"body": np.array(["a", "b", "c"]), "other": np.array(["a", "c", "c"])}
         beta_0 = np.array([0.3, 0.5, 0.6]) + i / 50
         named[f"{model}, pairs"] = pairs | {inelastic.BETA_0: beta_0}
         for sign in (1, -1):

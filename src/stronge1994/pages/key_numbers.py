@@ -167,10 +167,10 @@ def _pairs(curves: Curves, measured: Columns) -> _Numbers:
                     number = value(fit.value for fit in fits)
                     yield f"pairs.{model}.{end}", number, f"{end} chi^2 over all spreads"
     yield "pairs.spreads", len(spreads), "spreads of impacts that were tried"
-    for name in (SOFT, HARD):
-        one = inelastic.Trial(name, without=sorted(set(measured["pair"]) - {name}))
-        share = inelastic.goodness(curves, "lumped", series, one).value
-        yield f"pairs.lumped.{name}.chi2", share, f"what {name} adds to chi^2 of the paper's model"
+    others = [pair for pair in measured["pair"] if pair != SOFT]
+    alone = inelastic.Trial(SOFT, without=others)
+    share = inelastic.goodness(curves, "lumped", series, alone).value
+    yield f"pairs.lumped.{SOFT}.chi2", share, f"what {SOFT} adds to chi^2 of the paper's model"
     for name, without in (("", []), (".without", [SOFT])):
         slope, sigma = inelastic.slope(series, without)
         words = f"slope of the measured beta_0 against e, without {without or 'none'}"
@@ -200,11 +200,8 @@ def _finite_elements(curves: Curves, runs: Columns) -> _Numbers:
         words = f"from our finite elements of yielding spheres, mu to {FRICTION}, e from {LOSSY}"
         yield f"yielding.{model}.rms", _rms(off[held]), f"{words}, root mean square, mu v2(0)"
         yield f"yielding.{model}.max", np.abs(off[held]).max(), f"{words}, largest"
-        yield (
-            f"yielding.{model}.near.rms",
-            _rms(off[near]),
-            f"the same, e from {NEAR[0]} to {NEAR[1]}",
-        )
+        words = f"the same, e from {NEAR[0]} to {NEAR[1]}"
+        yield f"yielding.{model}.near.rms", _rms(off[near]), f"{words}, root mean square"
         yield f"yielding.{model}.near.max", np.abs(off[near]).max(), f"{words}, largest"
 
 
@@ -212,12 +209,8 @@ def _rubber(curves: Curves) -> _Numbers:
     for name in (name for name in curves if name.endswith(", rms")):
         model, columns = name.removesuffix(", rms"), curves[name]
         low, high = columns["incidence_limit [mu v2(0)]"].argsort()
-        for kind, of in (
-            ("distance", "measured"),
-            ("from_velocity", "of the velocity alone"),
-            ("from_spin", "of the spin alone"),
-        ):
-            what = f"from e_t {of}, root mean square over the rubber sphere's impacts"
+        for kind in ("distance", "from_velocity", "from_spin"):
+            what = f"{kind} of e_t, root mean square over the rubber sphere's impacts"
             means = columns[f"rms_{kind} [1]"]
             yield f"rubber.{model}.{kind}", means[high], what
             yield f"rubber.{model}.{kind}.small", means[low], f"{what} at small incidence"

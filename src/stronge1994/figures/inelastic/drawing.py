@@ -110,13 +110,10 @@ def trials(curves: Curves) -> list[Trial]:
     ]
 
 
-def goodness(
-    curves: Curves, model: str, series: Series, trial: Trial | None = None, e_below: float = np.inf
-) -> ChiSquared:
+def goodness(curves: Curves, model: str, series: Series, trial: Trial | None = None) -> ChiSquared:
     """Chi-squared of a model over the measured pairs, with the uncertainty of their parameters.
 
-    Without a trial it is that of the verdicts. With `e_below` only pairs of a smaller restitution
-    count.
+    Without a trial it is that of the verdicts.
     """
     trial = trial or Trial("as judged")
     name = f"{model}, pairs" + (f", {trial.spread}" if trial.spread else "")
@@ -129,7 +126,7 @@ def goodness(
     )
     distance = (series["y"] - curves[name][BETA_0][rows]) / sigma
     moved = trial.share * (up - down) / 2 / sigma
-    kept = ~np.isin(pairs, list(trial.without)) & (series["x"] < e_below)
+    kept = ~np.isin(pairs, list(trial.without))
     return chi_squared(distance[kept], np.diag(moved[kept]))
 
 
