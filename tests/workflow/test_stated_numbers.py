@@ -11,7 +11,7 @@ from stronge1994.figures.rod import curves as rod
 from stronge1994.pages import key_numbers, note
 from tests.workflow.project import ROOT
 
-COUNTS = {6: "Six", 11: "Eleven", 15: "Fifteen", 22: "Twenty-two", 28: "Twenty-eight"}
+COUNTS = {7: "Seven", 11: "Eleven", 15: "Fifteen", 22: "Twenty-two", 27: "Twenty-seven"}
 
 
 @pytest.fixture(scope="module")
@@ -24,6 +24,10 @@ def said(n):
     """Sentences of pages, with the numbers of the run in them."""
     word = {name: note.COUNTS[round(n[name])] for name in n if 0 <= n[name] < 10.5}
     chi2 = {model: f"{n[f'pairs.{model}.chi2']:.0f}" for model in note.MODELS}
+    span = {
+        model: f"{n[f'pairs.{model}.least']:.0f} to {n[f'pairs.{model}.most']:.0f}"
+        for model in note.MODELS
+    }
     return {
         "README.md": [
             f"{COUNTS[n['rows.inconclusive']]} rows are inconclusive",
@@ -38,21 +42,27 @@ def said(n):
             f"{n['ledger.sign or misprint']:.0f} are single signs, digits or words",
             f"{n['ledger.matter of judgement']:.0f} are matters of judgement. "
             f"The {n['ledger.wrong']:.0f} have {n['ledger.causes']:.0f} causes.",
-            f"impact differs by up to {n['elastic.largest']:.3f} mu v2(0).",
+            f"impact differs by up to {n['elastic.largest']:.3f} mu v2(0), where",
             f"{COUNTS[n['pairs.number']]} pairs of materials differ from the paper's model (chi^2 "
             f"= {chi2['lumped']}, of which polyurethane gives "
             f"{n['pairs.lumped.polyurethane.chi2']:.0f}) and agree with a viscous continuum "
             f"({chi2['continuum.viscous']}), a plastic one ({chi2['continuum.plastic']}) and two "
             f"Kelvin-Voigt elements ({chi2['lumped.viscous']})",
-            f"Of {word['pairs.spreads']} choices of them the paper's model fails all, and "
+            f"over {word['pairs.spreads']} choices chi^2 is {span['lumped']}, "
+            f"{span['continuum.viscous']}, {span['continuum.plastic']} and "
+            f"{span['lumped.viscous']}.",
+            f"The paper's model fails all {word['pairs.lumped.failed']}, and "
             f"{word['pairs.lumped.both.failed']} without polyurethane and chrome steel; the "
             f"viscous continuum fails {word['pairs.continuum.viscous.failed']}, the plastic one "
             f"{word['pairs.continuum.plastic.failed']}, two Kelvin-Voigt elements "
             f"{word['pairs.lumped.viscous.failed']}.",
             f"tangential restitution is {n['rubber.lumped.distance']:.2f} off, root mean square, "
-            f"that of the viscous continuum {n['rubber.continuum.viscous.distance']:.2f}.",
-            f"the plastic continuum is up to {n['loss.other']:.2f} mu v2(0) from the viscous one, "
-            f"the paper's model {n['loss.paper']:.1f}.",
+            f"that of a viscous continuum {n['rubber.continuum.viscous.distance']:.2f}, without "
+            f"any loss {n['rubber.continuum.distance']:.2f}.",
+            f"the two continua differ by up to {n['loss.other']:.2f} mu v2(0), the paper's model "
+            f"from one of them by {n['loss.paper']:.1f}.",
+            f"(continua have {n['nature.limit_half.viscous']:.2f} or "
+            f"{n['nature.limit_half.plastic']:.2f}, nearer to 5.25)",
             f"the plastic one is {n['yielding.continuum.plastic.rms']:.2f} from our own finite",
             f"two Kelvin-Voigt elements {n['yielding.lumped.viscous.rms']:.2f}.",
             f"up to {100 * n['rod.newton']:.0f} % more energy than it had for e = 0.9",
@@ -140,7 +150,9 @@ def test_no_number_that_a_run_finds_is_typed_into_the_first_screen():
 
 # Of the note: sections and figures, equations and what the paper states, settings.
 GIVEN_IN_NOTE = "0 1 2 3 4 5 6 7 8 9 10 11 13 15 21 25 27 28 35 38 40 41 435 444 450"
-GIVEN_IN_NOTE += " 0.01 0.1 0.18 0.22 0.3 0.4 0.45 0.5 0.53 0.588 0.6 0.62 0.78 0.8 0.88 0.91 0.92"
+GIVEN_IN_NOTE += (
+    " 0.01 0.05 0.1 0.18 0.22 0.3 0.4 0.45 0.5 0.53 0.588 0.6 0.62 0.78 0.8 0.88 0.91 0.92"
+)
 GIVEN_IN_NOTE += " 0.99 1.00 1.21 2.5 3.5 4.34 5.25 5.5 5.79 27.8"
 
 

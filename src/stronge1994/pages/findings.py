@@ -172,8 +172,6 @@ def digits(verdicts: Mapping[str, Row], stability: Sequence[Row]) -> Finding:
     return {
         "impacts": int(row["points"]),
         "lost": float(row["max [sigma]"]),
-        "agree": independent.count("agrees"),
-        "differ": len(independent) - independent.count("agrees"),
         "picture": sketch(lines),
     }
 
