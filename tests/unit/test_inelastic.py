@@ -153,6 +153,7 @@ def test_trials_of_the_pairs(inventory, lumped_alone, settings, monkeypatch):
     series = series_of(inventory)
     tried = {trial.words: trial for trial in draw_inelastic.trials(found)}
     assert len(tried) == 15
+    assert configuration.load(ROOT)["significance"] == draw_inelastic.SIGNIFICANCE
 
     def value(words, model="lumped"):
         return draw_inelastic.goodness(found, model, series, tried[words])
