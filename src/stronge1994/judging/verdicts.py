@@ -23,9 +23,8 @@ class Verdict(StrEnum):
     UNCHANGED is the verdict of a check against an earlier result of this repository, or against
     points that the curve was fitted to. It guards against accidents and is evidence of nothing.
     INCONCLUSIVE does not count as evidence either: published points agree with the curve, but would
-    also if it were wrong by `SEEN` sigmas. A
-    known difference is EXPLAINED; or its cause is not known; or it is UNTESTED, because the
-    reference does not state how much its values scatter.
+    also if it were wrong by `SEEN` sigmas. A known difference is EXPLAINED; or its cause is not
+    known; or it is UNTESTED, because the reference does not state how much its values scatter.
 
     >>> print(Verdict.EXPLAINED)
     explained difference

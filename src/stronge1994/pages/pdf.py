@@ -224,6 +224,8 @@ class _Pages:
             self._next()
         while not self.frame.add(part, self.canvas):
             pieces = self.frame.split(part, self.canvas)
+            if len(pieces) < 2 and (high := _height([part])) > HEIGHT:
+                raise ValueError(f"a line is {high:.0f} points high: allowed are {HEIGHT:.0f}")
             if len(pieces) > 1:
                 self.frame.add(pieces[0], self.canvas)
                 part = pieces[1]

@@ -5,27 +5,23 @@ fits w(x) where the contact does not slide. It is computed here as it was measur
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from planarimpact import bodies, models
+from planarimpact import bodies
 from planarimpact.bodies import Material
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import EACH, SIGNS, name, shifted
+from stronge1994.curve_names import EACH, name
+from stronge1994.figures.shared.curves import lossy
 from stronge1994.figures.shared.curves import materials as of_material
+from stronge1994.figures.shared.curves.lossy import MODELS
 from stronge1994.figures.shared.curves.sampling import vertices
 
-MODELS = (
-    "continuum.viscous",
-    "continuum.plastic",
-    "lumped.viscous",
-    "lumped.plastic",
-    "lumped",
-)
 # Slopes that are tried before the best is refined. Friction never pushes, so no |w| is above x.
 TRIED = np.linspace(-1.0, 1.0, 201)
 # Impacts of a fit, so many that their number plays no part.
@@ -54,11 +50,9 @@ RANGES = {
     "to 0.5 (1 + e) m2/m1": Spread(reach=0.5),
     "to 1.5 (1 + e) m2/m1": Spread(reach=1.5),
 }
-BY_ANGLE = ", by angle"
 SPREADS = RANGES | {
-    f"{words}{BY_ANGLE}": spread._replace(by_angle=True) for words, spread in RANGES.items()
+    f"{words}, by angle": spread._replace(by_angle=True) for words, spread in RANGES.items()
 }
-
 FARTHEST = max(spread.reach for spread in SPREADS.values())
 
 
@@ -100,11 +94,7 @@ def curves(
     x = vertices(incidence, samples)
     named: Curves = {}
     for model in MODELS:
-
-        def solve(*groups: ArrayLike, model: str = model) -> Array:
-            settings = {"tolerance": tolerance} if model.startswith("continuum") else {}
-            return models.rebound(model, *groups, **settings).velocity
-
+        solve = partial(lossy.velocity, model, tolerance)
         fitted = _fitted(solve, mass_ratio, [pairs, *bands, *lowered], solved)
         labels = {key: np.array(points[key]) for key in ("pair", "body", "other")}
         own: Columns = labels | {E: pairs.restitution}
@@ -112,11 +102,8 @@ def curves(
             title = f"{model}, pairs" + (f", {spread}" if spread != WHOLE else "")
             named[title] = own | {BETA_0: beta_0}
             if lowered:
-                changes = [other - beta_0 for other in others[-len(lowered) :]]
-                sigma = np.sqrt(np.sum(np.square(changes), axis=0))
-                for sign in SIGNS:
-                    column = {BETA_0: beta_0 + sign * sigma}
-                    named[shifted(title, PARAMETERS, sign)] = own | column
+                off = others[-len(lowered) :]
+                named |= lossy.each_off(title, PARAMETERS, own, BETA_0, beta_0, off)
         for nu, band, beta_0 in zip(poisson_ratio, bands, fitted[WHOLE][1:], strict=False):
             named[f"{model}, {name('nu', nu)}"] = {E: band.restitution, BETA_0: beta_0}
         named[f"{model}, {name('e', contact['restitution'])}"] = {

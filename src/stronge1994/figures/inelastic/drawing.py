@@ -14,12 +14,12 @@ from stronge1994 import curve_names
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import (
-    Dashes,
     Points,
     Series,
     Settings,
     Style,
 )
+from stronge1994.figures.shared.drawing.lossy import MODELS, Model
 from stronge1994.goodness import ChiSquared, chi_squared
 
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
@@ -151,29 +151,6 @@ def slope(series: Series, without: Sequence[str] = ()) -> tuple[float, float]:
     return float((covariance @ line.T @ (beta_0 / sigma))[1]), float(np.sqrt(covariance[1, 1]))
 
 
-class Model(NamedTuple):
-    """How a model is drawn, and what it is called."""
-
-    words: str
-    colour: str
-    dashes: Dashes
-    marker: str
-
-
-# A colour for each cause of loss: black for the normal element of the paper, vermillion for plastic
-# flow, blue for viscosity.
-MODELS = {
-    name: Model(words, colour, dashes, marker)
-    for (name, words, colour, marker), dashes in house_style.patterned(
-        (
-            ("lumped", "lumped, as in the paper", house_style.BLACK, "o"),
-            ("lumped.plastic", r"lumped, $e^2\zeta^2$", house_style.VERMILLION, "D"),
-            ("lumped.viscous", "lumped, Kelvin–Voigt", house_style.BLUE, "s"),
-            ("continuum.plastic", "continuum, elastic-plastic", house_style.VERMILLION, "^"),
-            ("continuum.viscous", "continuum, viscoelastic", house_style.BLUE, "v"),
-        )
-    )
-}
 MEASURED = {"color": house_style.BLACK, "marker": "o", "markersize": 3, "markerfacecolor": "white"}
 # Height of a label, as a share of the axes.
 LINE = 0.066

@@ -9,20 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact import models
 from planarimpact.ground.arrays import Array
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import EACH, SIGNS, name, shifted
+from stronge1994.figures.shared.curves import lossy
+from stronge1994.figures.shared.curves.lossy import MODELS
 from stronge1994.figures.shared.curves.sampling import vertices
 
-# Models of an impact with loss, each solved at the restitution of the impact.
-MODELS = (
-    "continuum.viscous",
-    "continuum.plastic",
-    "lumped.viscous",
-    "lumped.plastic",
-    "lumped",
-)
 ELASTIC = "continuum"  # without loss, whatever the restitution
 # Impacts of which a text states one each, with parameters of their own in source.yaml.
 STATED = {"Cross 2010": "2010", "Cross 2002": "2002"}
@@ -168,11 +161,9 @@ def _solved(
 ) -> dict[str, Array]:
     """e_t of several groups of impacts, which are solved together."""
     x, e = (np.concatenate(parts) for parts in zip(*groups.values(), strict=True))
-    settings = {"tolerance": tolerance} if model.startswith("continuum") else {}
-    bodies = ball["mass_ratio"], ball["stiffness_ratio"]
-    e_t = -models.rebound(model, x, *bodies, e, **settings).velocity / x
+    w = lossy.velocity(model, tolerance, x, ball["mass_ratio"], ball["stiffness_ratio"], e)
     ends = np.cumsum([len(at) for at, _ in groups.values()])[:-1]
-    return dict(zip(groups, np.split(e_t, ends), strict=True))
+    return dict(zip(groups, np.split(-w / x, ends), strict=True))
 
 
 def _shifted(curve: str, labels: Columns, found: Mapping[str, Array]) -> Curves:
@@ -188,9 +179,5 @@ def _own_shifts(
     curve: str, parameter: str, labels: Columns, found: Mapping[str, Array], group: str
 ) -> Curves:
     """e_t with the standard deviation that it has from what is each impact's own."""
-    changes = [found[key] - found[group] for key in found if key.startswith(f"{group}, ")]
-    sigma = np.sqrt(np.sum(np.square(changes), axis=0))
-    return {
-        shifted(curve, parameter, sign): labels | {E_T: found[group] + sign * sigma}
-        for sign in SIGNS
-    }
+    off = [found[key] for key in found if key.startswith(f"{group}, ")]
+    return lossy.each_off(curve, parameter, labels, E_T, found[group], off)

@@ -1,15 +1,14 @@
 """Beyond the paper: a rubber sphere that bounces off granite, six models beside 13 impacts."""
 
-from typing import NamedTuple
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import name
-from stronge1994.figures.shared.drawing import house_style
-from stronge1994.figures.shared.drawing.house_style import Dashes, Points, Series, Settings, Style
+from stronge1994.figures.shared.drawing import house_style, lossy
+from stronge1994.figures.shared.drawing.house_style import Points, Series, Settings, Style
+from stronge1994.figures.shared.drawing.lossy import Model
 
 X, E_T = "incidence [mu v2(0)]", "tangential_restitution [1]"
 LIMIT, RMS = "incidence_limit [mu v2(0)]", "rms_distance [1]"
@@ -32,33 +31,10 @@ LEGEND_MEANS = {
 }
 
 
-class Model(NamedTuple):
-    """How a model is drawn, and what it is called."""
-
-    words: str
-    colour: str
-    dashes: Dashes
-
-    @property
-    def line(self) -> Style:
-        """Its line."""
-        return {"color": self.colour, "linestyle": self.dashes, "linewidth": 1.1}
-
-
-# A colour for each cause of loss, as in the figure `inelastic`: black for the normal element of the
-# paper, vermillion for plastic flow, blue for viscosity; green for none.
-MODELS = {
-    name: Model(words, colour, dashes)
-    for (name, words, colour), dashes in house_style.patterned(
-        (
-            ("lumped", "lumped, as in the paper", house_style.BLACK),
-            ("lumped.plastic", r"lumped, $e^2\zeta^2$", house_style.VERMILLION),
-            ("lumped.viscous", "lumped, Kelvin–Voigt", house_style.BLUE),
-            ("continuum.plastic", "continuum, elastic-plastic", house_style.VERMILLION),
-            ("continuum.viscous", "continuum, viscoelastic", house_style.BLUE),
-        )
-    )
-} | {ELASTIC: Model("elastic continuum, $e = 1$", house_style.GREEN, house_style.DASHES[1])}
+# Green is for no loss. It has no marker.
+MODELS = lossy.MODELS | {
+    ELASTIC: Model("elastic continuum, $e = 1$", house_style.GREEN, house_style.DASHES[1], "")
+}
 POINT: Style = {"color": house_style.BLACK, "markerfacecolor": "white", "linestyle": "none"}
 MEASURED = POINT | {"marker": "o", "markersize": 4}
 TOLD = POINT | {"marker": "D", "markersize": 4}

@@ -1,0 +1,38 @@
+"""How five models of an impact that loses energy are drawn, and what they are called.
+
+A colour stands for the cause of the loss: black for the normal element of the paper, vermillion for
+plastic flow, blue for viscosity.
+"""
+
+from typing import NamedTuple
+
+from stronge1994.figures.shared.drawing import house_style
+from stronge1994.figures.shared.drawing.house_style import Dashes, Style
+
+
+class Model(NamedTuple):
+    """How a model is drawn, and what it is called."""
+
+    words: str
+    colour: str
+    dashes: Dashes
+    marker: str
+
+    @property
+    def line(self) -> Style:
+        """Its line."""
+        return {"color": self.colour, "linestyle": self.dashes, "linewidth": 1.1}
+
+
+MODELS = {
+    name: Model(words, colour, dashes, marker)
+    for (name, words, colour, marker), dashes in house_style.patterned(
+        (
+            ("lumped", "lumped, as in the paper", house_style.BLACK, "o"),
+            ("lumped.plastic", r"lumped, $e^2\zeta^2$", house_style.VERMILLION, "D"),
+            ("lumped.viscous", "lumped, Kelvin–Voigt", house_style.BLUE, "s"),
+            ("continuum.plastic", "continuum, elastic-plastic", house_style.VERMILLION, "^"),
+            ("continuum.viscous", "continuum, viscoelastic", house_style.BLUE, "v"),
+        )
+    )
+}
