@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from planarimpact import lumped
+from planarimpact import lumped, models
 from planarimpact.ground import checks
 from stronge1994 import csv_tables, plan, reference_data
 from stronge1994.figures.inelastic import curves as inelastic
@@ -140,7 +140,7 @@ def test_a_wrong_repair_of_the_lumped_model_is_seen(power, tables, monkeypatch):
     settings |= solving.read_nodes(plan.nodes_of(CONFIG, INVENTORY, "inelastic"))
     monkeypatch.setattr(inelastic, "MODELS", (model,))
     monkeypatch.setattr(
-        inelastic.models,
+        models,
         "rebound",
         lambda _, x, beta, zeta2, e: lumped.rebound(x, beta, np.power(e, power) * zeta2, e),
     )
