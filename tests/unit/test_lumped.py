@@ -275,19 +275,3 @@ def test_a_bracket_finds_the_onsets_that_free_steps_find(monkeypatch):
     bracketed = lumped.rebound(*groups)
     np.testing.assert_allclose(bracketed.velocity, free.velocity, rtol=0, atol=1e-14)
     np.testing.assert_array_equal(bracketed.regime, free.regime)
-
-
-@pytest.mark.parametrize(
-    "impact",
-    [
-        (2.0, 3.5, 1.21, 0.5),  # crossing of N by a rising T
-        (0.7479681011096113, 3.847930832708696, 0.3742534479740521, 0.3433422554521216),  # behind
-        (9.9, 3.5, 10.0, 0.5),  # in compression
-    ],
-)
-def test_a_search_that_finds_no_onset_says_so(impact, monkeypatch):
-    assert np.isfinite(lumped.rebound(*impact).velocity)
-    monkeypatch.setattr(slip_onset, "FREE_STEPS", 1)
-    monkeypatch.setattr(slip_onset, "MOST_TURNS", 1)
-    with pytest.raises(ConvergenceError, match="1 impacts: no onset of slip after 1 turns"):
-        lumped.rebound(*impact)

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from mpmath import mp
 
-from planarimpact import ConvergenceError, EventKind, InputError, Regime, lumped, rigid
+from planarimpact import EventKind, InputError, Regime, lumped, rigid
 from planarimpact.lumped import viscous
-from planarimpact.lumped.viscous import searches
 from tests.reference_solutions import viscous_precision
 
 X = np.linspace(0, 20, 401)
@@ -254,13 +253,6 @@ def test_bad_input_is_named(arguments, words):
         for call in (lumped.history, lumped.friction_work):
             with pytest.raises(InputError, match=words):
                 call(**groups)
-
-
-def test_a_search_that_finds_no_end_says_so(monkeypatch):
-    assert np.isfinite(lumped.rebound(2.5, 3.5, 1.21, 0.5, loss="viscous").velocity)
-    monkeypatch.setattr(searches, "MOST_TURNS", 1)
-    with pytest.raises(ConvergenceError, match="1 impacts: no end of a phase after 1 turns"):
-        lumped.rebound(2.5, 3.5, 1.21, 0.5, loss="viscous")
 
 
 def test_next_to_resonance_rounding_starts_no_stick():

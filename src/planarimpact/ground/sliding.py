@@ -1,7 +1,10 @@
-"""Slip throughout: a contact that slides from its first instant to separation.
+"""Coulomb's friction: its limit, and a contact that slides from its first instant to separation.
 
 Units are those of every model: tangential velocity mu |v2(0)|, impulse of friction mu m2 |v2(0)|,
 normal velocity |v2(0)|, normal impulse m2 |v2(0)|.
+
+**The limit.** A contact sticks while friction is below mu times the normal force, and slides at
+that limit (`stick_limit`).
 
 **The line.** While a contact slides, friction is mu times the normal force. Over the whole contact
 the normal impulse is 1 + e, so the impulse of friction is 1 + e too, and the velocity falls by beta
@@ -37,6 +40,20 @@ from planarimpact.ground.arrays import Array, Numbers
 _Number = TypeVar("_Number", float, Array)
 # The least number above 0.
 SMALLEST = float(np.finfo(float).smallest_subnormal)
+
+
+def stick_limit(normal_force: _Number) -> _Number:
+    """Largest friction without slip at a normal force: Coulomb's limit, friction in units of mu.
+
+    It is proportional to the normal force, so that it takes its derivatives by the time as well.
+    Every search for the onset of slip asks for it.
+
+    Examples
+    --------
+    >>> stick_limit(0.5)
+    0.5
+    """
+    return normal_force
 
 
 def change(beta: _Number, e: float | _Number) -> _Number:

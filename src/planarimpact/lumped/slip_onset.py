@@ -1,5 +1,6 @@
-"""Where slip starts: the first instant of stick at which |T| reaches N.
+"""Where slip starts: the first instant of stick at which friction |T| reaches its limit.
 
+The limit is `sliding.stick_limit`, Coulomb's: the normal force N, as friction is in units of mu.
 T = A sin(theta) and N = sin(eta), with the angle `eta` of `normal`. A prime is the derivative with
 respect to the time, counted as `eta`: eta' = 1 in compression and -1 in restitution, where `eta`
 falls to 0; theta' = rate. A half-wave of T lies between two zeros of T.
@@ -18,29 +19,18 @@ The root is searched only where it is alone:
 
 import numpy as np
 
+from planarimpact.ground import roots
 from planarimpact.ground.angles import HALF_PI, sin_cos
 from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.ground.checks import ConvergenceError
+from planarimpact.ground.sliding import stick_limit
 
-# A step is the last if it is below LAST_STEP of the bracket, and its cubic term below LAST_CUBIC.
-# What is left is then below rounding: it is like the fourth power of the step, and where two zeros
-# are close, like the square of the cubic term over the step.
-LAST_STEP = 1e-4
-LAST_CUBIC = 1e-12
-# Rounding may put a root at the very end of the bracket beyond it, by less than this share.
-BEYOND = 1e-6
-# Steps without a bracket. They find nearly every root.
+# Rounding may put an onset at the very end of its bracket beyond it, by less than this share.
+BEYOND = 1 + 1e-6
+# Steps without a bracket. They find nearly every onset.
 FREE_STEPS = 3
 # Above this rate the onset is close to the crest of |T|: a second zero lies just behind the crest.
-# The steps then start from the crest, the end of the bracket.
+# The search then starts from the crest, the end of the bracket.
 HIGH_RATE = 10.0
-# The cubic term may lengthen a step by this share at most. It is far smaller near the root.
-LONGEST_CORRECTION = 0.5
-# After FREE_TURNS turns every other turn halves the bracket: 40 halvings leave LAST_CUBIC of it.
-FREE_TURNS = 8
-MOST_TURNS = 100
-# The distance of two subnormal neighbours: there is no number left between them.
-SMALLEST = float(np.finfo(float).smallest_subnormal)
 # Above this phase of an oscillation rounding hides the place within its period.
 LARGEST_PHASE = 1e15
 
@@ -112,155 +102,87 @@ def in_restitution(
     widest = np.where(fast, np.minimum(eta, (HALF_PI - rho) / rate), eta)
     if dip.size:
         widest[dip[met]] = latest[met]
-    advance = _crossing(eta, rho, amplitude, rate, np.maximum(widest, 0.0))
+    advance = _onset(eta, rho, amplitude, rate, np.maximum(widest, 0.0))
     advance = np.minimum(advance, eta)  # rounding may put a root at separation behind it
     return eta - advance, rho + rate * advance, wave
 
 
-def _crossing(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array) -> Array:
-    """The one zero a in [0, widest] of N - |T| = sin(eta - a) - amplitude sin(rho + rate a)."""
-    advance = np.where(rate > HIGH_RATE, widest, 0.0)
-    with np.errstate(all="ignore"):  # a step to infinity is no root
-        for _ in range(FREE_STEPS):
-            _, descent, step, last = _step(advance, eta, rho, amplitude, rate, widest)
-            advance = np.minimum(np.maximum(advance + step, 0.0), widest)
-    rest = np.flatnonzero(~(last & (descent > 0)))  # N - |T| falls at its zero
-    if rest.size:
-        advance[rest] = _bracketed(*(a[rest] for a in (eta, rho, amplitude, rate, widest)))
-    return advance
+def _onset(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array) -> Array:
+    """The one advance a from 0 to `widest` at which |T| reaches its limit.
 
-
-def _step(
-    advance: Array, eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array
-) -> tuple[Array, Array, Array, Booleans]:
-    """The step from an advance to the zero of the margin N - |T|.
-
-    Returns
-    -------
-    margin, descent, step : ndarray
-        The margin, how fast it falls, and the step.
-    last : ndarray of bool
-        Whether the zero is then exact to rounding.
+    There N is sin(eta - a) and |T| is amplitude sin(rho + rate a).
     """
-    force, fall = sin_cos(eta - advance)
-    friction, swing = sin_cos(rho + rate * advance)
-    friction, swing = friction * amplitude, swing * (amplitude * rate)
-    margin, descent = force - friction, fall + swing
-    # The nearer root of the Taylor parabola. It exists also where the slope vanishes.
-    square = rate * rate
-    root = descent * descent - 2 * margin * (square * friction - force)
-    root = np.sqrt(np.maximum(root, 0.0))
-    step = 2 * margin / (descent + root)
-    # The cubic term, over the slope of the parabola at its root.
-    reach = step * step  # first, as rate^3 leaves the range of numbers
-    correction = (reach * square * swing + reach * fall) / (6 * root)
-    cubic = step * np.minimum(correction, LONGEST_CORRECTION)
-    last = (np.abs(step) <= LAST_STEP * widest) & (np.abs(cubic) <= LAST_CUBIC * widest)
-    return margin, descent, step + cubic, last
+    square, swings = rate * rate, amplitude * rate
 
+    def margin(which: Integers | slice, advance: Array) -> tuple[Array, Array, Array]:
+        force, fall = sin_cos(eta[which] - advance)
+        friction, swing = sin_cos(rho[which] + rate[which] * advance)
+        limit, friction = stick_limit(force), friction * amplitude[which]
+        slope = -(stick_limit(fall) + swing * swings[which])
+        return limit - friction, slope, square[which] * friction - limit
 
-def _bracketed(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array) -> Array:
-    """As `_crossing`, slower, for every lane."""
-    advance = np.zeros_like(eta)
-    lane, low, high, trial = np.arange(eta.size), advance, widest * (1 + BEYOND), advance
-    for turn in range(MOST_TURNS):
-        # A turn moves one end of the bracket to the trial, and takes the next trial. A contact (a
-        # lane) is done when its step is small enough.
-        before = trial
-        with np.errstate(all="ignore"):
-            margin, descent, step, last = _step(before, eta, rho, amplitude, rate, widest)
-            trial = before + step
-        ahead = margin > 0
-        if turn == 0:  # while the margin grows the root is ahead: a negative value is rounding
-            ahead |= descent < 0
-        low, high = np.where(ahead, before, low), np.where(ahead, high, before)
-        inside = (trial >= low) & (trial <= high)
-        # Halve the bracket instead if the trial lies outside, and in every other late turn:
-        # rounding can throw the trial to and fro. The halvings end the loop in any case.
-        if turn >= FREE_TURNS and turn % 2:
-            inside[:] = False
-        trial = np.where(inside, trial, (low + high) / 2)
-        open_ = high - low > np.maximum(LAST_CUBIC * widest, SMALLEST)
-        # Lanes that are done keep this trial, and leave the arrays.
-        advance[lane] = trial
-        on = np.flatnonzero(open_ & ~(inside & last))
-        if not on.size:
-            return advance
-        lane, trial, low, high = lane[on], trial[on], low[on], high[on]
-        eta, rho, amplitude, rate, widest = (a[on] for a in (eta, rho, amplitude, rate, widest))
-    raise _lost(lane)
+    start, none = np.where(rate > HIGH_RATE, widest, 0.0), np.zeros_like(widest)
+    return roots.crossing(margin, none, widest * BEYOND, start=start, unguarded=FREE_STEPS)
 
 
 def _meets_behind_crest(
     eta: Array, rho: Array, amplitude: Array, rate: Array
 ) -> tuple[Booleans, Array]:
-    """Whether a falling |T| whose ratio to N still rises meets N in this half-wave, for rate > 1.
+    """Whether a falling |T| whose ratio to N still rises meets its limit in this half-wave.
 
-    |T| = A sin(theta), where theta counts from the start of the half-wave, lies behind the crest:
-    it grows from `rho` > pi/2 to pi. The ratio |T|/N is at most 1 at the start. It rises while
+    The rate is above 1. |T| = A sin(theta), where theta counts from the start of the half-wave,
+    lies behind the crest: it grows from `rho` > pi/2 to pi. The ratio |T|/N rises while
 
         rise = (|T|'N - |T|N')/A > 0.
 
     1. The rise falls all along, since rise' = (1 - rate^2) |T| N/A < 0.
     2. The contact may end before the half-wave does. There N = 0, so the rise is still positive:
-       the ratio rises all the way, without bound. So |T| meets N.
+       the ratio rises all the way, without bound. So |T| meets its limit.
     3. Else the half-wave ends first. There T = 0 and |T|' < 0, so the rise is negative: it has one
-       zero before, where the ratio is largest. |T| meets N if the ratio is 1 or more there.
-    4. That zero is searched by Newton's method. Both |T| and N fall, so rise' grows: the rise is
-       convex. A tangent of a convex curve lies below it. So no step of Newton goes past the zero,
-       and at every trial the ratio has only risen so far. If N <= |T| at a trial, there is one
-       onset before it, and the trial is the end of the bracket for `_crossing`.
-
-    The search moves theta. It ends when rounding hides a step in theta: the next trial would be the
-    same.
-
-    Newton's method is slow where the half-wave ends just before the contact does. There T and N are
-    nearly proportional to the time to go, so rise' is like its square, and the rise is like its
-    cube plus a small constant. A step then takes a third of the time to go. The constant, or
-    rounding of the rise, ends the search long before `MOST_TURNS`.
+       zero before, where the ratio is largest. |T| meets its limit if it is at or above it there.
 
     Returns
     -------
     met : ndarray of bool
-        Whether |T| meets N.
     latest : ndarray
-        Where it does: an advance at or behind the onset.
+        Where it is met: an advance at or behind the onset, before any other.
     """
     met, latest = rate * eta <= np.pi - rho, eta.copy()
-    open_ = np.flatnonzero(~met)
-    if not open_.size:
+    unsure = np.flatnonzero(~met)
+    if not unsure.size:
         return met, latest
-    eta, rho, amplitude, rate = eta[open_], rho[open_], amplitude[open_], rate[open_]
-    theta = rho
-    for _ in range(MOST_TURNS):
-        # One Newton step towards the zero of the rise, for lanes that have not met N and whose
-        # ratio still rises. `theta` never falls, so the loop ends when no lane moves.
-        advance = (theta - rho) / rate
-        force, fall = sin_cos(eta - advance)
-        friction, swing = sin_cos(theta)
-        meets = force <= amplitude * friction
-        rise = rate * swing * force + friction * fall
-        descent = (rate - 1 / rate) * friction * force  # minus the derivative of rise by theta
-        moving = ~meets & (rise > 0) & (descent > 0)
-        step = np.divide(rise, descent, out=np.zeros_like(rise), where=moving)
-        before, theta = theta, np.minimum(theta + step, np.pi)
-        if (theta == before).all():
-            met[open_], latest[open_] = meets, advance
-            return met, latest
-    raise _lost(theta)
+    eta, rho, amplitude, rate = eta[unsure], rho[unsure], amplitude[unsure], rate[unsure]
+
+    def forces(which: Integers | slice, theta: Array) -> tuple[Array, Array, Array, Array]:
+        force, fall = sin_cos(eta[which] - (theta - rho[which]) / rate[which])
+        return force, fall, *sin_cos(theta)
+
+    def rise(which: Integers, theta: Array) -> tuple[Array, ...]:
+        force, fall, friction, swing = forces(which, theta)
+        own = rate[which]
+        falls = 1 / own - own
+        bend = falls * (swing * force - friction * fall / own)
+        return own * swing * force + friction * fall, falls * friction * force, bend
+
+    # The ratio is level at its largest value: half of the digits of the place are enough.
+    top = roots.crossing(rise, rho, np.full_like(rho, np.pi), start=rho, resolution=1e-8)
+    force, _, friction, _ = forces(slice(None), top)
+    met[unsure] = amplitude * friction >= stick_limit(force)
+    latest[unsure] = (top - rho) / rate
+    return met, latest
 
 
-def _lost(lanes: Array | Integers) -> ConvergenceError:
-    return ConvergenceError(f"{lanes.size} impacts: no onset of slip after {MOST_TURNS} turns")
+def breaks_in_compression(amplitude: Array, theta: Array) -> Booleans:
+    """Whether stick with T = amplitude sin(theta) at the end has broken before, for rate < 1."""
+    return amplitude * np.sin(theta) > stick_limit(1.0)
 
 
 def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
-    """First eta > 0 with x/(zeta^2 rate) sin(rate eta) = sin(eta), for rate < 1.
+    """First eta > 0 with x/(zeta^2 rate) sin(rate eta) at the limit of friction, for rate < 1.
 
-    T must exceed N at maximum compression. With u = eta^2, (T - N)/eta is increasing and concave in
-    u: its tangents lie above it. So Newton's iterates that start left of the root rise to it. The
-    first one starts from u = 0. The first iterate that does not rise has reached the rounding of u,
-    or of T - N where T and N are close all along.
+    T must be above its limit at maximum compression. With u = eta^2, (T - N)/eta is increasing and
+    concave in u. So the search starts from the zero of the tangent at u = 0, which lies before the
+    onset.
 
     Parameters
     ----------
@@ -279,17 +201,16 @@ def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
     True
     """
     amplitude, ratio = x / (zeta2 * rate), x / zeta2
-    # The zero of the tangent at u = 0.
-    u = np.minimum(6 * (1 - ratio) / (1 - ratio * rate * rate), HALF_PI**2)
-    for _ in range(MOST_TURNS):
-        # One Newton step in u, which never falls: the loop ends when no u rises any more.
-        eta = np.sqrt(u)
-        (friction, swing), (force, fall) = sin_cos(rate * eta), sin_cos(eta)
-        lead = amplitude * friction - force  # T - N
-        # 2 eta^3 times the derivative of (T - N)/eta by u.
-        slope_eta3 = amplitude * (rate * eta * swing - friction) - eta * fall + force
-        step = np.divide(-2 * u * lead, slope_eta3, out=np.zeros_like(u), where=slope_eta3 > 0)
-        before, u = u, np.clip(u + step, u, HALF_PI**2)
-        if (u == before).all():
-            return eta
-    raise _lost(u)
+    first = np.minimum(6 * (1 - ratio) / (1 - ratio * rate * rate), HALF_PI**2)
+
+    def margin(which: Integers, u: Array) -> tuple[Array, Array]:
+        eta, own = np.sqrt(u), rate[which]
+        (friction, swing), (force, fall) = sin_cos(own * eta), sin_cos(eta)
+        friction, swing = amplitude[which] * friction, amplitude[which] * swing * own
+        limit, fall = stick_limit(force), stick_limit(fall)
+        safe = np.where(eta > 0, eta, 1.0)
+        slope = (eta * (fall - swing) - (limit - friction)) / (2 * safe**3)
+        return (limit - friction) / safe, slope
+
+    end = np.full_like(first, HALF_PI**2)
+    return np.sqrt(roots.crossing(margin, first, end, start=first))

@@ -186,7 +186,7 @@ def _initial_stick(
     if trace is not None:
         trace.append(Phase(True, False, 0.0, 1.0, 0.0, amplitude, 0.0))
     broken = np.flatnonzero((omega < 1) & (amplitude > 1))
-    broken = broken[amplitude[broken] * np.sin(theta[broken]) > 1]
+    broken = broken[slip_onset.breaks_in_compression(amplitude[broken], theta[broken])]
     if broken.size:
         _break_in_compression(lanes[broken], impacts.take(broken), outcome, trace)
         on = np.delete(np.arange(lanes.size), broken)

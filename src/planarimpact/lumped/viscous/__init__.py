@@ -30,13 +30,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground import checks, sliding
+from planarimpact.ground import checks, roots, sliding
 from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.checks import ConvergenceError
 from planarimpact.ground.results import Event, EventKind, History, Regime
 from planarimpact.lumped.stick_slip import Impacts, Outcome
 from planarimpact.lumped.viscous.elements import Elements, damping_ratio, elements, phase_angle
-from planarimpact.lumped.viscous.searches import Slip, Stick, crossing, slip_end, stick_end
+from planarimpact.lumped.viscous.searches import Slip, Stick, slip_end, stick_end
 
 # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
 CHUNK = 65536
@@ -264,7 +264,7 @@ def _solve_alike(x: Array, pair: Elements, trace: list[Phase] | None) -> Outcome
     if late.size:
         part, start = pair.take(late), x[late]
         slip = Slip(part, part.duration, start - part.beta, np.zeros_like(start))
-        time = crossing(slip.velocity, np.zeros_like(start), part.duration)
+        time = roots.crossing(slip.velocity, np.zeros_like(start), part.duration)
         ahead = part.duration - time
         force, _ = part.motion(ahead)
         v = (part.beta - start) / slip.k

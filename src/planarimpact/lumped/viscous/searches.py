@@ -36,80 +36,17 @@ once if D < 0 at separation, else not at all. For k > 0 it rises, falls, and ris
 If D <= 0 at separation, or else at the minimum, it vanishes once before.
 """
 
-from collections.abc import Callable
-
 import numpy as np
 
+from planarimpact.ground import roots
 from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.ground.checks import ConvergenceError
+from planarimpact.ground.roots import Function
+from planarimpact.ground.sliding import stick_limit
 from planarimpact.lumped.viscous.elements import Elements
 
-# A function, its slope and its second derivative, at times of these lanes.
-Function = Callable[[Integers, Array], tuple[Array, Array, Array]]
-
-# The root finder is cubic. It is done after a step that is below LAST_STEP of the bracket and of
-# the time itself, over which the slope changes by less than LAST_BEND of itself. The time counts,
-# as a slip that begins just before separation must be known relative to its own duration.
-LAST_STEP, LAST_BEND = 1e-6, 1e-5
-# A smaller step is rounding, as a share of the bracket or of the time itself.
-LEAST_STEP = 1e-15
-# After FREE_TURNS turns every other turn halves the bracket.
-FREE_TURNS = 10
-MOST_TURNS = 200
 # A slip velocity that falls below 0 by less, as a share of its terms, is rounding. Where b is next
 # to 1, the forces of stick and slip differ by rounding only, and nothing else tells them apart.
 ROUNDING = 1e-15
-
-
-def crossing(function: Function, low: Array, high: Array) -> Array:
-    """The place between `low` and `high` where a function passes from + to -, once.
-
-    Parameters
-    ----------
-    function : callable
-        Takes lanes and times, one a lane. A second derivative of 0 makes the search Newton's.
-    low, high : ndarray, shape (n,)
-        The function is positive behind `low`, where it may start from 0, and not at `high`.
-
-    Examples
-    --------
-    >>> def line(lanes, time):
-    ...     return 2 - time, -np.ones_like(time), np.zeros_like(time)
-    >>> crossing(line, np.array([0.0]), np.array([5.0])).tolist()
-    [2.0]
-    """
-    found = high.copy()
-    if not found.size:
-        return found
-    lane, trial, width = np.arange(high.size), high, np.maximum(high - low, 0.0)
-    for turn in range(MOST_TURNS):
-        before = trial
-        value, slope, bend = function(lane, before)
-        ahead = value > 0
-        low, high = np.where(ahead, before, low), np.where(ahead, high, before)
-        # The nearer root of the Taylor parabola.
-        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            root = np.sqrt(np.maximum(slope * slope - 2 * value * bend, 0.0))
-            step = 2 * value / (root - slope)
-            trial = before + step
-            inside = (trial >= low) & (trial <= high)
-            small = (np.abs(step) <= LAST_STEP * np.minimum(width, np.abs(before))) & (
-                np.abs(bend * step) <= LAST_BEND * np.abs(slope)
-            )
-        least = LEAST_STEP * np.maximum(width, np.abs(before))
-        small |= np.abs(step) <= least
-        if turn >= FREE_TURNS and turn % 2:
-            inside[:] = False
-        trial = np.where(inside, trial, (low + high) / 2)
-        on = np.flatnonzero((~inside | ~small) & (high - low > least))
-        if on.size == lane.size:
-            continue
-        # Lanes that are done keep this trial, and leave the arrays.
-        found[lane] = trial
-        if not on.size:
-            return found
-        lane, trial, low, high, width = lane[on], trial[on], low[on], high[on], width[on]
-    raise ConvergenceError(f"{lane.size} impacts: no end of a phase after {MOST_TURNS} turns")
 
 
 class Stick:
@@ -177,15 +114,16 @@ class Stick:
             force, v = pair.motion(-time)
             tau = 2 * pair.xi
             fall = v - tau * force
-            bend = 2 * pair.gamma * swing + pair.b * friction - tau * fall - force
-            return force - friction, fall - swing, bend
+            limit, falls, bends = (stick_limit(a) for a in (force, fall, -tau * fall - force))
+            bend = 2 * pair.gamma * swing + pair.b * friction + bends
+            return limit - friction, falls - swing, bend
 
         return function
 
     def rise(self, sign: Array) -> Function:
         """W: it has the sign of the slope of |T|/N."""
 
-        def function(lanes: Integers, time: Array) -> tuple[Array, Array, Array]:
+        def function(lanes: Integers, time: Array) -> tuple[Array, Array]:
             part, pair = _part(self, lanes)
             friction, swing, force, v = part.forces(sign[lanes], time)
             tau = 2 * pair.xi
@@ -193,7 +131,7 @@ class Stick:
             value = swing * force - friction * fall
             slope = -2 * pair.gamma * value - (pair.b - 1) * friction * (force + tau * fall)
             # W falls through its zero for b > 1 before t_M, and for b < 1 after it.
-            return value, slope, np.zeros_like(value)
+            return value, slope
 
         return function
 
@@ -249,7 +187,7 @@ def stick_end(stick: Stick, at_contact: bool) -> tuple[Array, Array]:
         start[lanes] = end[lanes]
         end[lanes] += half[lanes]
         sign[lanes] *= -1
-    return np.maximum(-crossing(stick.margin(sign), low - ahead, high - ahead), 0.0), sign
+    return np.maximum(-roots.crossing(stick.margin(sign), low - ahead, high - ahead), 0.0), sign
 
 
 def _before_highest(
@@ -274,7 +212,7 @@ def _before_highest(
     above = np.where(stiff, np.minimum(above, turn), above)
     friction, swing, force, v = stick.forces(sign, above)
     least = force
-    met, high = force <= friction, above.copy()
+    met, high = stick_limit(force) <= friction, above.copy()
     fall = v - 2 * pair.xi * force
     # W >= 0 at t_M: the ratio rises on to separation.
     rises = stiff & (turn < end) & (swing * force - friction * fall >= 0) & ~met
@@ -291,17 +229,17 @@ def _before_highest(
         largest, _ = part.pair.stick(part.friction, part.velocity, crest)
         at_start, _ = part.pair.motion(part.ahead - start[open_])
         # N is nowhere smaller, up to `above`, than at the ends.
-        near = np.abs(largest) >= np.minimum(at_start, least[open_])
+        near = np.abs(largest) >= stick_limit(np.minimum(at_start, least[open_]))
         inside = near & (crest > start[open_]) & (crest < above[open_])
         force, _ = part.pair.motion(part.ahead - np.where(inside, crest, 0.0))
-        at_crest = inside & (np.abs(largest) >= force)
+        at_crest = inside & (np.abs(largest) >= stick_limit(force))
         met[open_[at_crest]], high[open_[at_crest]] = True, crest[at_crest]
         open_ = open_[near & ~at_crest]
     if open_.size:
         part, side = stick.take(open_), sign[open_]
-        top = crossing(part.rise(side), below[open_], above[open_])
+        top = roots.crossing(part.rise(side), below[open_], above[open_])
         friction, _, force, _ = part.forces(side, top)
-        reached = friction >= force
+        reached = friction >= stick_limit(force)
         met[open_[reached]], high[open_[reached]] = True, top[reached]
     return met, above, high
 
@@ -370,10 +308,10 @@ def slip_end(slip: Slip) -> tuple[Integers, Array]:
             falls = np.flatnonzero((value > 0) & (slope < 0))
             if falls.size:
                 dip = part.take(falls)
-                lowest[falls] = crossing(dip.fall, at_turn[falls], dip.ahead)
+                lowest[falls] = roots.crossing(dip.fall, at_turn[falls], dip.ahead)
                 value[falls] = dip.velocity(np.arange(falls.size), lowest[falls])[0]
             reached = value <= 0
             stops[open_[reached]], high[open_[reached]] = True, lowest[reached]
     lanes = np.flatnonzero(stops)
     part = slip.take(lanes)
-    return lanes, crossing(part.velocity, np.zeros(lanes.size), high[lanes])
+    return lanes, roots.crossing(part.velocity, np.zeros(lanes.size), high[lanes])

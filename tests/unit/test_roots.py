@@ -1,0 +1,70 @@
+"""The finder of events: every number of derivatives, every kind of corner."""
+
+import numpy as np
+import pytest
+
+from planarimpact import ConvergenceError, lumped
+from planarimpact.ground import roots
+from planarimpact.lumped import slip_onset
+
+PLACES = np.array([1e-70, 1e-8, 0.3, 1 - 1e-12, 1.0, 7.0, 1e12])
+
+
+def cubic(which, x):
+    """Falls through PLACES, and is steep on one side."""
+    ratio = x / PLACES[which]
+    return 1 - ratio**3, -3 * ratio**2 / PLACES[which], -6 * ratio / PLACES[which] ** 2
+
+
+@pytest.mark.parametrize("known", [1, 2, 3])
+@pytest.mark.parametrize("width", [1.0, 1 + 1e-9, 50.0])
+def test_places_are_right_to_rounding(known, width):
+    with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
+        place = roots.crossing(
+            lambda which, x: cubic(which, x)[:known], np.zeros(PLACES.size), width * PLACES
+        )
+    np.testing.assert_allclose(place, PLACES, rtol=3e-15)
+
+
+def test_a_sign_alone_is_enough():
+    place = roots.crossing(
+        lambda which, x: (np.where(x < PLACES[which], 1.0, -1.0),), 0 * PLACES, 3 * PLACES
+    )
+    np.testing.assert_allclose(place, PLACES, rtol=1e-14)
+
+
+def test_a_coarse_place_costs_few_turns():
+    turns = []
+
+    def function(which, x):
+        turns.append(x.size)
+        return (np.where(x < 0.3, 1.0, -1.0),)
+
+    place = roots.crossing(function, np.zeros(1), np.ones(1), resolution=2.0**-10)
+    assert abs(place[0] - 0.3) < 2.0**-9
+    assert len(turns) <= 12
+
+
+def test_a_function_that_stays_positive_ends_at_the_end():
+    place = roots.crossing(lambda which, x: (1 + x, 1 + 0 * x), np.zeros(2), np.array([1.0, 5.0]))
+    np.testing.assert_allclose(place, [1.0, 5.0], rtol=1e-14)
+
+
+def test_steps_without_a_bracket_come_back_to_it():
+    """From 0 the first step leaves the bracket, or is no number."""
+    place = roots.crossing(
+        lambda which, x: (1 - x * x, -2 * x),
+        np.zeros(1),
+        np.ones(1) * 4,
+        start=np.zeros(1),
+        unguarded=3,
+    )
+    np.testing.assert_allclose(place, 1.0, rtol=1e-15)
+
+
+def test_a_search_that_does_not_end_says_so(monkeypatch):
+    monkeypatch.setattr(roots, "MOST_TURNS", 0)
+    monkeypatch.setattr(slip_onset, "FREE_STEPS", 0)
+    for loss in ("hysteretic", "viscous"):
+        with pytest.raises(ConvergenceError, match="1 events: not found in 0 turns"):
+            lumped.rebound(2.5, 3.5, 1.21, 0.5, loss=loss)
