@@ -40,7 +40,6 @@ REPRODUCTION = {
     "curve_names": "",
     "goodness": "ground",
     "reference_data": "csv_tables",
-    "scene_parts": "scene csv_tables",
     "printed": "ground lumped",
     "explorer": "planarimpact lumped bodies export pages",
     "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
