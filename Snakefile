@@ -22,7 +22,6 @@ localrules:
     figures,
     measurements,
     notebooks,
-    study,
     peers,
     sphere_tables,
     series,
@@ -34,8 +33,6 @@ localrules:
     note,
     trade,
     stability,
-    gather_chunks,
-    draw_study,
     explorer,
     interface,
     report,
@@ -67,14 +64,6 @@ rule notebooks:
         expand("figures/{notebook}.html", notebook=NOTEBOOKS),
 
 
-rule study:
-    """The parameter study alone: its grid solved and drawn."""
-    input:
-        gather.study("results/study/{scatteritem}.npz"),
-        "results/study.npz",
-        expand("figures/study.{kind}", kind=["svg", "png"]),
-
-
 rule peers:
     """Error against time with LAMMPS and pooltool, where they are installed."""
     input:
@@ -97,7 +86,6 @@ include: "workflow/rules/note.smk"
 include: "workflow/rules/trade.smk"
 include: "workflow/rules/stability.smk"
 include: "workflow/rules/scene.smk"
-include: "workflow/rules/study.smk"
 include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/explorer.smk"
 include: "workflow/rules/report.smk"
@@ -120,9 +108,6 @@ MAKERS = [
     rules.trade,
     rules.stability,
     rules.scene,
-    rules.solve_chunk,
-    rules.gather_chunks,
-    rules.draw_study,
     rules.notebook,
     rules.explorer,
     rules.interface,

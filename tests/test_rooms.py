@@ -27,7 +27,6 @@ SOLVER = {
     "models": "ground normal_impact rigid lumped continuum spheres",
     "response": "ground models",
     "export": "planarimpact ground response spheres",
-    "study": "ground",
     "scene": "ground bodies rigid lumped continuum models response spheres pandas",
     "__init__": "ground",
     "__main__": "planarimpact ground bodies lumped continuum models response export scene",
@@ -41,11 +40,10 @@ REPRODUCTION = {
     "curve_names": "",
     "goodness": "ground",
     "reference_data": "csv_tables",
-    "scene_parts": "scene csv_tables",
     "printed": "ground lumped",
     "explorer": "planarimpact lumped bodies export pages",
     "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
-    " response scene study pandas printed csv_tables curve_names figures plan",
+    " response scene pandas printed csv_tables curve_names figures plan",
     "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"
     " matplotlib",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
@@ -156,7 +154,7 @@ def test_rooms_enter_only_where_they_may(package, room):
         ("planarimpact", "lumped", "def late():\n    import planarimpact.rigid"),
         ("planarimpact", "models", "from planarimpact.continuum import tangential_motion"),
         ("planarimpact", "response", "import pandas as pd"),
-        ("planarimpact", "study", "from stronge1994 import run"),
+        ("planarimpact", "rigid", "from stronge1994 import run"),
         ("stronge1994", "figures/drawing", "from planarimpact.lumped import rebound"),
         ("stronge1994", "figures/drawing", "from stronge1994.figures.fig5 import curves"),
         ("stronge1994", "figures/solving", "from planarimpact.lumped.stick_slip import solve"),

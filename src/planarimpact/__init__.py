@@ -7,7 +7,7 @@
 - `spheres`: the continuum from a table, for impacts that are each their own pair.
 - `models`: every model by its name, with those that others use (`models.laws`, `models.timestep`).
 - `response`: compiles any of them. `export`: writes them as C or JavaScript.
-- `scene`: solves tables of impacts. `study`: solves grids.
+- `scene`: solves tables of impacts.
 - `bodies`: from physical bodies to the groups that all models take. `noncollinear`: bodies that
   strike off their centre.
 - `normal_impact.hertz`, `normal_impact.kelvin_voigt`, `normal_impact.thornton`: head-on impact of
@@ -41,7 +41,6 @@ _ROOMS = [
     "response",
     "export",
     "scene",
-    "study",
     "bodies",
     "noncollinear",
     "normal_impact",
@@ -64,6 +63,11 @@ __version__ = "0.1.0"
 def __getattr__(name: str) -> ModuleType:
     if name in _ROOMS:
         return importlib.import_module(f"planarimpact.{name}")
+    if name == "study":
+        raise AttributeError(
+            "module 'planarimpact' has no attribute 'study' any more: arguments broadcast, so a "
+            "grid is lumped.rebound(incidence[:, None], restitution=restitution)"
+        )
     raise AttributeError(f"module 'planarimpact' has no attribute {name!r}")
 
 

@@ -9,7 +9,6 @@ from planarimpact import response as response
 from planarimpact import rigid as rigid
 from planarimpact import scene as scene
 from planarimpact import spheres as spheres
-from planarimpact import study as study
 from planarimpact.ground.checks import ConvergenceError as ConvergenceError
 from planarimpact.ground.checks import InputError as InputError
 from planarimpact.ground.results import ContinuumHistory as ContinuumHistory

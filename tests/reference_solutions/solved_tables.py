@@ -1,4 +1,4 @@
-"""Write data/scenes_solved and data/study_solved: what scenes and the study must come to.
+"""Write data/scenes_solved and data/study_solved: what scenes and the figure `study` must come to.
 
     python -m tests.reference_solutions.solved_tables data
 
@@ -15,8 +15,6 @@ from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
-import yaml
 from mpmath import mp
 
 from tests.reference_solutions import high_precision, inelastic_contact
@@ -26,13 +24,14 @@ SCENES = ("shot_peening", "billiard_cushion", "superball")
 DIGITS = 40
 # Of the second code; solved with half of each too, and extrapolated.
 STEPS, SPRINGS = 6400, 1600
-REGIMES = ("STICK", "SLIP_STICK", "STICK_SLIP", "SLIP_STICK_SLIP", "SLIP_THROUGHOUT", "MULTIPLE")
 SPACE = tuple(f"{kind}_{axis}" for kind in ("velocity", "spin") for axis in "xyz")
 PLANE = ("velocity_tangential", "velocity_normal", "spin")
 UNITS = {"velocity": "m/s", "spin": "rad/s"}
-# Some at a limit of a regime or beside it: zeta^2, beta, and slip throughout at e = 1.
-INCIDENCES = (0.0, 0.025, 0.8, 1.2, 1.225, 3.0, 3.5, 4.0, 5.775, 5.8, 8.0)
-RESTITUTIONS = (0.0, 0.005, 0.15, 0.5, 0.59, 0.9, 1.0)
+# Points of the figure `study`; its incidences are a twentieth apart, its restitutions a hundredth.
+# Some lie at a limit of a regime or beside it: zeta^2, beta, and slip throughout at e = 1.
+MASS_RATIO, STIFFNESS_RATIOS = 3.5, (1.21, 3.0)
+INCIDENCES = (0.0, 0.025, 0.8, 24 * 0.05, 1.225, 3.0, 3.5, 4.0, 5.775, 116 * 0.05, 8.0)
+RESTITUTIONS = (0.0, 0.01, 0.15, 0.5, 0.59, 0.9, 1.0)
 
 
 # Scenes ------------------------------------------------------------------------------------
@@ -245,44 +244,16 @@ def _cross(a, b):
 
 
 def study_table(step=1):
-    """Every `step`-th point chosen from the study's grid: header, and rows of text."""
-    header = ["restitution", "stiffness_ratio", "incidence [mu v2(0)]", "velocity [mu v2(0)]"]
-    header += ["peak_friction [mu F2max]", "dissipation [mu^2 m2 v2(0)^2]", "regime [code]"]
+    """Every `step`-th point chosen from the figure `study`: header, and rows of text."""
+    header = ["curve", "restitution [1]", "regime", "incidence [mu v2(0)]"]
+    header += ["velocity [mu v2(0)]", "peak_friction [mu F2max]", "dissipation [mu^2 m2 v2(0)^2]"]
     rows = []
-    for x, beta, zeta2, e in study_points()[::step]:
-        answer = high_precision.rebound(x, beta, zeta2, e, DIGITS)
+    for zeta2, e, x in [*product(STIFFNESS_RATIOS, RESTITUTIONS, INCIDENCES)][::step]:
+        answer = high_precision.rebound(x, MASS_RATIO, zeta2, e, DIGITS)
         numbers = answer.velocity, answer.peak_friction, answer.dissipation
-        code = REGIMES.index(regime(answer))
-        rows.append([repr(e), repr(zeta2), repr(x), *map(_text, numbers), str(code)])
+        labels = [f"zeta^2 = {zeta2:g}", repr(e), regime(answer)]
+        rows.append([*labels, repr(x), *map(_text, numbers)])
     return header, rows
-
-
-def study_points():
-    """Points of the grid, in its order: chosen ones, and the first and last of every chunk."""
-    config = yaml.safe_load((ROOT / "workflow/config.yaml").read_text(encoding="utf-8"))
-    study = config["study"]
-    grid = {name: [config[name]] for name in ("mass_ratio", "stiffness_ratio")} | study["grid"]
-    names = ("incidence", "mass_ratio", "stiffness_ratio", "restitution")
-    axes = [_axis(grid[name]) for name in names]
-    shape = [len(axis) for axis in axes]
-    chosen = INCIDENCES, axes[1], axes[2], RESTITUTIONS
-    nearest = [
-        sorted({int(np.argmin(np.abs(np.array(axis) - value))) for value in values})
-        for axis, values in zip(axes, chosen, strict=True)
-    ]
-    # Points are numbered with the last axis fastest, and divided among the chunks.
-    points = {int(np.ravel_multi_index(place, shape)) for place in product(*nearest)}
-    count = int(np.prod(shape))
-    ends = [count * i // study["chunks"] for i in range(study["chunks"] + 1)]
-    points |= {*ends[:-1], *(end - 1 for end in ends[1:])}
-    places = np.transpose(np.unravel_index(sorted(points), shape))
-    return [tuple(axis[i] for axis, i in zip(axes, place, strict=True)) for place in places]
-
-
-def _axis(given):
-    if isinstance(given, dict):
-        return np.linspace(given["from"], given["to"], given["points"]).tolist()
-    return [float(value) for value in given]
 
 
 # Answers in 40 digits ------------------------------------------------------------------------

@@ -4,7 +4,6 @@ import importlib
 import types
 from pathlib import Path
 
-import numpy as np
 import pytest
 from matplotlib import font_manager
 from matplotlib.transforms import Affine2D
@@ -18,14 +17,6 @@ from tests.unit import picture_tables
 
 STRIPS = {"curve": "lumped", "reference": "a/b", "metric": "distance"}
 STRIPS |= {"documented": {}, "regression": {"rms": [2.0, 4.0], "max": [0.0, 5.0]}}
-
-
-def study(module):
-    axes = {"incidence": np.linspace(0, 2, 5), "mass_ratio": np.array([1.0, 3.0])}
-    axes |= {"stiffness_ratio": np.array([1.0]), "restitution": np.array([0.0, 0.4, 1.0])}
-    shape = [len(values) for values in axes.values()]
-    velocity = np.random.default_rng(1994).normal(size=shape)
-    return module.draw(axes, velocity, np.zeros(shape))
 
 
 def residuals(module, factor=1):
@@ -56,7 +47,6 @@ def peers(module, below=False):
 
 
 OTHERS = {
-    "study": study,
     "residuals": residuals,
     "peers": peers,
     "peers_errors": lambda module: peers(module, below=True),
@@ -151,7 +141,8 @@ FAULTS = [
     ("peers_errors", "axes.plot(error, height", "axes.plot(error / 2, height"),
     ("peers_errors", 'f"$e = {e:g}$", line', 'f"$e = {1.4 - e:g}$", line'),
     ("study", "*grid, values, shading", "*grid, -values, shading"),
-    ("study", "xlabel=LABELS[across], ylabel", "xlabel=LABELS[upright], ylabel"),
+    ("study", "xlabel=house_style.INCIDENCE, ylabel", 'xlabel="restitution $e$", ylabel'),
+    ("study", "panel.set_title(title)", "panel.set_title(title.replace('1.21', '3'))"),
     ("residuals", 'axes.plot(x, y, linestyle="none"', 'axes.plot(x, y / 10, linestyle="none"'),
     ("residuals", "plot(x[i : i + 2], y[i : i + 2]", "plot(x[i : i + 2], y[i : i + 2] / 2"),
 ]  # fmt: skip

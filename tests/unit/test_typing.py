@@ -91,6 +91,8 @@ def test_modules_are_there_without_an_import_of_their_own():
         assert getattr(planarimpact, name).__name__ == f"planarimpact.{name}"
     with pytest.raises(AttributeError, match="module 'planarimpact' has no attribute 'lumpd'"):
         planarimpact.lumpd  # noqa: B018
+    with pytest.raises(AttributeError, match="'study' any more: arguments broadcast, so a grid is"):
+        planarimpact.study  # noqa: B018
 
 
 def test_one_version():

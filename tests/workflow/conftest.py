@@ -20,7 +20,7 @@ collect_ignore = ["toy"]  # a workflow for test_proof.py
 def pytest_collection_modifyitems(items):
     """What needs a whole run of the workflow is slow."""
     for item in items:
-        if {"first_run", "cluster"} & set(getattr(item, "fixturenames", ())):
+        if "first_run" in getattr(item, "fixturenames", ()):
             item.add_marker("slow")
 
 

@@ -147,4 +147,4 @@ def test_stability_is_as_printed(first_run):
 def test_points_of_the_study_are_counted():
     with open(ROOT / "data/study_solved/grid.csv", newline="") as file:
         points = len(list(csv.DictReader(file)))
-    assert f"| {points} points of the parameter study |" in TEXTS["data/README.md"]
+    assert f"| {points} points of the figure `study` |" in TEXTS["data/README.md"]

@@ -139,24 +139,24 @@ def test_an_edit_reruns_what_reads_the_file_and_nothing_more(finished):
 
 
 def test_a_change_of_the_config_reruns_what_it_concerns(finished):
-    """A tolerance compares again; that of a scene solves it, the study's grid the study."""
+    """A tolerance compares again; that of a scene solves it, a setting of a figure the figure."""
     old = "rms: [717.0, 791.0]"
     finished.edit("src/stronge1994/figures/fig5/figure.yaml", old, old.replace("7.0", "6.0"))
     finished.edit(
         "workflow/config.yaml", "superball: {tolerance: 1.0e-4", "superball: {tolerance: 0.1"
     )
-    _, counts = finished.planned("--config", "study={grid: {incidence: {points: 100}}}")
+    _, counts = finished.planned("--config", "figures={study: {samples: 100}}")
     once = [
         "scene",
         "gather",
         "report",
         "all",
-        "gather_chunks",
-        "draw_study",
+        "curves",
+        "draw",
         "key_numbers",
         "note",
     ]
-    assert counts == dict.fromkeys(once, 1) | {"judge": 3, "solve_chunk": 4}
+    assert counts == dict.fromkeys(once, 1) | {"judge": 3}
 
 
 def test_a_crash_and_a_new_series_are_judged_and_all_the_rest_is_there(finished):

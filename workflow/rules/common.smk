@@ -1,6 +1,5 @@
 # Checked config and data before any work, and the plan of every job.
 from stronge1994.ledger import entries
-from stronge1994.figures.study import grid
 
 LEDGER = "data/stronge1994/ledger.yaml"
 NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
@@ -11,7 +10,6 @@ try:
     ENTRIES = entries.load(LEDGER, LEDGER_SCHEMA)
     SYMBOLS = reference_data.load_yaml(LEDGER)["symbols"]
     configuration.check_config(config, SOURCES, ENTRIES)
-    grid.check(config)
     FIGURES = {
         figure: plan.plan_of_figure(config, SOURCES, figure) for figure in config["figures"]
     }
@@ -34,10 +32,6 @@ UNTIMED = [figure for figure in FIGURES if figure not in TIMED]
 CAPTIONS = {figure: stated["caption"] for figure, stated in figures.stated().items()}
 
 
-scattergather:
-    study=config["study"]["chunks"],
-
-
 # Every value that a wildcard has in a run.
 VALUES = {
     "figure": list(FIGURES),
@@ -45,7 +39,6 @@ VALUES = {
     "source": COMPARED,
     "scene": list(config["scenes"]),
     "notebook": NOTEBOOKS,
-    "scatteritem": gather.study("{scatteritem}"),
     "table": ["fine", "coarse"],
 }
 

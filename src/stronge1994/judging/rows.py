@@ -42,9 +42,9 @@ def compare(
 ) -> list[VerdictRow]:
     """Rows of the verdict table, the first on the table itself.
 
-    `name` is that of a figure, `scene_` and that of a scene, or `study`. `references` has the
-    series and facts of source.yaml under `source/entry`, each with the parameters of its source.
-    Published points agree if p is above `significance`. Beside the cells of the table each row has
+    `name` is that of a figure, or `scene_` and that of a scene. `references` has the series and
+    facts of source.yaml under `source/entry`, each with the parameters of its source. Published
+    points agree if p is above `significance`. Beside the cells of the table each row has
     `residuals`, its rows of the table of residuals.
     """
     problem, curves = "", {}

@@ -71,7 +71,7 @@ def settings_of_explorer(config: Config) -> dict[str, Any]:
 
 
 def comparisons(config: Config, name: str) -> dict[str, Entry]:
-    """Comparisons of one figure, of a scene or of the study: `{name: entry}`."""
+    """Comparisons of one figure or of a scene: `{name: entry}`."""
     chosen = config["comparisons"].items()
     return {title: dict(entry) for title, entry in chosen if entry["figure"] == name}
 
@@ -88,7 +88,7 @@ def expected_rows(config: Config, inventory: Inventory) -> dict[str, bool]:
 
 
 def plan_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
-    """What the job is told that judges one figure, scene or study, and the files that it reads."""
+    """What the job is told that judges one figure or scene, and the files that it reads."""
     sources = sources_of(config, inventory, name)
     told: dict[str, Any] = {
         "comparisons": comparisons(config, name),

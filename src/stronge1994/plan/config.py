@@ -13,7 +13,7 @@ Inventory: TypeAlias = dict[str, Any]  # `{source: contents of its source.yaml}`
 Entry: TypeAlias = dict[str, Any]  # a comparison of the config; a series or fact of a source
 
 FILE = "workflow/config.yaml"  # what a user edits
-SHARED = ("mass_ratio", "stiffness_ratio")  # groups that figures and the study share
+SHARED = ("mass_ratio", "stiffness_ratio")  # groups that figures share
 # Largest allowance for a model, as a share of the range of its axis.
 LARGEST_ALLOWANCE = 0.02
 SCENE = "scene_"  # before the name of a scene, among what is judged
@@ -35,9 +35,9 @@ def load(folder: str | Path = ".") -> Config:
 
 def complete(config: Config) -> Config:
     """A config with the settings and comparisons of all figures, which it may override."""
-    solved = figures.solved().items()
+    every = figures.stated().items()
     stated = {
-        "figures": {name: figures.values(figure["settings"]) for name, figure in solved},
+        "figures": {name: figures.values(figure["settings"]) for name, figure in every},
         "comparisons": figures.comparisons() | _of_scenes(config.get("scenes")),
     }
     return overridden(stated, config)
@@ -72,11 +72,11 @@ def _of_scenes(scenes: Any) -> dict[str, Entry]:
 def schema() -> dict[str, Any]:
     """JSON schema of the whole config, with the settings of each figure."""
     found = reference_data.load_yaml(figures.PROJECT / "workflow/schemas/config.schema.yaml")
-    solved = figures.solved().items()
+    stated = figures.stated().items()
     found["properties"]["figures"] = {
         "type": "object",
         "additionalProperties": False,
-        "properties": {name: figures.schema_of(figure["settings"]) for name, figure in solved},
+        "properties": {name: figures.schema_of(figure["settings"]) for name, figure in stated},
     }
     found["$defs"] |= figures.definitions()
     return found
@@ -118,7 +118,7 @@ def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) ->
         reference_data.refuse_invalid(config, schema(), "config")
     except reference_data.SourceError as error:
         raise ConfigError(str(error)) from None
-    for figure, stated in figures.solved().items():
+    for figure, stated in figures.stated().items():
         for key, setting in stated["settings"].items():
             where, value = f"config: figures.{figure}.{key}", config["figures"][figure][key]
             kind = setting.get("allowed")
@@ -196,8 +196,8 @@ def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> No
 
 
 def judged(config: Config) -> list[str]:
-    """Names of all that comparisons may judge: figures, scenes, the parameter study."""
-    return [*config["figures"], *(f"{SCENE}{name}" for name in config["scenes"]), "study"]
+    """Names of all that comparisons may judge: figures and scenes."""
+    return [*config["figures"], *(f"{SCENE}{name}" for name in config["scenes"])]
 
 
 def table_of(name: str) -> str:
@@ -206,8 +206,6 @@ def table_of(name: str) -> str:
     >>> table_of("fig5"), table_of("scene_superball")
     ('results/curves/fig5.csv', 'results/scenes/superball.csv')
     """
-    if name == "study":
-        return "results/study.npz"
     if name.startswith(SCENE):
         return f"results/scenes/{name.removeprefix(SCENE)}.csv"
     return f"results/curves/{name}.csv"

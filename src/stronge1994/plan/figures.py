@@ -21,10 +21,7 @@ GIVEN = ("nodes", "materials", "uncertainty")  # what `curves` may get beside se
 
 @functools.cache
 def stated() -> dict[str, Stated]:
-    """Every folder's figure.yaml, checked; the figures of the paper first, by number.
-
-    One without settings has a solver and rules of its own, as the parameter study has.
-    """
+    """Every folder's figure.yaml, checked; the figures of the paper first, by number."""
     # A folder that git has emptied may still hold bytecode, in a folder of its own.
     names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}
     found = {}
@@ -34,15 +31,14 @@ def stated() -> dict[str, Stated]:
             raise reference_data.SourceError(f"{path.parent}: allowed are a to z, 0 to 9 and _")
         found[name] = reference_data.load_yaml(path)
         reference_data.refuse_invalid(found[name], _schema(), path)
-        if settings := found[name].get("settings"):
-            _refuse_unknown_kinds(settings, f"{path}: settings")
-            own = schema_of(settings) | {"$defs": _kinds()}
-            reference_data.refuse_invalid(values(settings), own, f"{path}: settings")
-        for file in ("drawing.py", *(["curves.py"] if "settings" in found[name] else [])):
+        settings = found[name]["settings"]
+        _refuse_unknown_kinds(settings, f"{path}: settings")
+        own = schema_of(settings) | {"$defs": _kinds()}
+        reference_data.refuse_invalid(values(settings), own, f"{path}: settings")
+        for file in ("curves.py", "drawing.py"):
             if not (FOLDER / name / file).is_file():
                 raise reference_data.SourceError(f"{path.parent / file}: missing")
-        if "settings" in found[name]:
-            _refuse_other_parameters(name, found[name])
+        _refuse_other_parameters(name, found[name])
     return found
 
 
@@ -86,14 +82,9 @@ def _place(name: str) -> tuple[bool, int, str]:
     return not number, int(number[1]) if number else 0, name
 
 
-def solved() -> dict[str, Stated]:
-    """The figures that have settings and curves."""
-    return {name: figure for name, figure in stated().items() if "settings" in figure}
-
-
 def with_trait(trait: str) -> list[str]:
     """Names of the figures that state a trait."""
-    return [name for name, figure in solved().items() if figure.get(trait, False) is not False]
+    return [name for name, figure in stated().items() if figure.get(trait, False) is not False]
 
 
 def values(settings: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,11 +1,7 @@
-"""The parameter study: maps of the rebound over its two longest axes, slices of the others.
+"""Maps of the velocity at separation over incidence and restitution, one for each spring."""
 
-A study along one axis is a curve.
-"""
-
-import itertools
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple, TypeAlias
+from collections.abc import Mapping
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,22 +12,17 @@ from scipy import ndimage
 
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.results import Regime
-from stronge1994.csv_tables import Columns, Curves
+from stronge1994 import curve_names
+from stronge1994.csv_tables import Column, Columns, Curves
 from stronge1994.figures.shared.drawing import house_style
+from stronge1994.figures.shared.drawing.house_style import Points, Settings
 
 Cell: TypeAlias = tuple[int, int]  # row and column
 
-SYMBOLS = {
-    "incidence": house_style.INCIDENCE,
-    "mass_ratio": "$m_2/m_1$",
-    "stiffness_ratio": r"$\zeta^2$",
-    "restitution": "$e$",
-}
-LABELS = SYMBOLS | {"restitution": "restitution $e$"}
-# At most so many slices are drawn.
-SLICES = 6
-# At most so many points along an axis are drawn: more could not be seen.
-POINTS = 400
+X, E = "incidence [mu v2(0)]", "restitution [1]"
+VELOCITY = "velocity [mu v2(0)]"
+# Most maps beside each other.
+COLUMNS = 2
 COLOURS = "RdBu_r"
 ZERO = {"colors": house_style.BLACK, "linewidths": 1.4}
 BOUNDARY = {"colors": house_style.BLACK, "linewidths": 0.7, "linestyles": [(0, (4, 2))]}
@@ -53,66 +44,45 @@ NAME = {
 NAME |= {"bbox": PLATE, "label": house_style.NO_DATA}
 LEADER = {"arrowstyle": "-|>", "mutation_scale": 6, "linewidth": 0.6, "color": house_style.BLACK}
 LEADER |= {"shrinkA": 0, "shrinkB": 0}
-# What words of the picture mean, see `shared.drawing.words`.
-AXIS_MEANS = {
-    "$m_2/m_1$": r": mass_ratio",
-    r"$\zeta^2$": r": stiffness_ratio",
-}
 
 
-def slice_of(axes: Mapping[str, Array], velocity: Array, places: Mapping[str, int]) -> Columns:
-    """All of a grid that has the given places on some of its axes."""
-    cut = tuple(places.get(name, slice(None)) for name in axes)
-    free = [values for name, values in axes.items() if name not in places]
-    names = [name for name in axes if name not in places]
-    grid = np.meshgrid(*free, indexing="ij")
-    units = {"incidence": "mu v2(0)"}
-    found = {f"{n} [{units.get(n, '1')}]": g.ravel() for n, g in zip(names, grid, strict=True)}
-    return found | {"velocity [mu v2(0)]": velocity[cut].ravel()}
+def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+    """The curves by the titles of their maps, so that each map is looked up in its own table."""
+    return {
+        _title(settings["mass_ratio"], zeta2): curves[curve_names.name("zeta^2", zeta2)]
+        for zeta2 in settings["stiffness_ratio"]
+    }
 
 
-def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> tuple[Figure, Curves]:
-    """Draw the velocity at separation in colours, where it is zero, and where regimes meet.
+def _title(mass_ratio: float, stiffness_ratio: float) -> str:
+    return rf"$m_2/m_1$ = {mass_ratio:g}, $\zeta^2$ = {stiffness_ratio:g}"
 
-    `velocity` and `regime` have a dimension for each of the `axes`. Also returned are the tables of
-    which the figure shows numbers.
-    """
-    names = list(axes)
-    across, upright = sorted(sorted(names, key=lambda name: -len(axes[name]))[:2], key=names.index)
-    if min(len(axes[across]), len(axes[upright])) < 2:
-        return _curve(axes, velocity.ravel())
-    others = [name for name in names if name not in (across, upright)]
-    slices = list(itertools.product(*(range(len(axes[name])) for name in others)))
-    shown = [slices[i] for i in _thinned(len(slices), SLICES)]
-    columns = min(len(shown), 2)
-    rows = -(-len(shown) // columns)
+
+def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+    """Draw the velocity at separation in colours, where it is zero, and where regimes meet."""
+    columns = min(len(curves), COLUMNS)
+    rows = -(-len(curves) // columns)
     figure = house_style.new(0.9 + 2.3 * rows)
     panels = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
-    limit = np.abs(velocity).max() or 1.0
-    tables = {}
-    for panel, places in zip(panels, shown, strict=False):
-        cut: dict[str, Any] = dict(zip(others, places, strict=True))
-        title = _place(axes, cut, others)
-        tables[title] = slice_of(axes, velocity, cut)
-        cut |= {name: _thinned(len(axes[name]), POINTS) for name in (across, upright)}
-        grid = axes[across][cut[across]], axes[upright][cut[upright]]
-        where = np.ix_(*(np.atleast_1d(cut[name]) for name in names))
-        shape = len(grid[0]), len(grid[1])
-        values, codes = (field[where].reshape(shape).T for field in (velocity, regime))
+    limit = max(np.abs(curve[VELOCITY]).max() for curve in curves.values()) or 1.0
+    for panel, (title, curve) in zip(panels, curves.items(), strict=False):
+        grid = np.unique(curve[X]), np.unique(curve[E])
+        values, regimes = (_map(curve, column) for column in (VELOCITY, "regime"))
         colours = {"cmap": COLOURS, "norm": Normalize(-limit, limit)}
-        # As pixels inside the SVG: a hundred thousand cells would be too many shapes.
+        # As pixels inside the SVG: tens of thousands of cells would be too many shapes.
         mesh = panel.pcolormesh(*grid, values, shading="nearest", rasterized=True, **colours)
         if values.min() < 0 < values.max():
             panel.contourf(*grid, values, [-limit, 0.0], colors="none", hatches=[NEGATIVE["hatch"]])
             panel.contour(*grid, values, [0.0], **ZERO)
+        codes = np.array([[Regime[regime] for regime in row] for row in regimes])
         _draw_regimes(panel, grid, codes, values < 0)
         panel.set_title(title)
         panel.set(xlim=grid[0][[0, -1]], ylim=grid[1][[0, -1]])
-        panel.set(xlabel=LABELS[across], ylabel=LABELS[upright])
+        panel.set(xlabel=house_style.INCIDENCE, ylabel="restitution $e$")
         panel.label_outer()
-    for panel in panels[len(shown) :]:
+    for panel in panels[len(curves) :]:
         panel.remove()
-    bar = figure.colorbar(mesh, ax=panels[: len(shown)], aspect=30, pad=0.02)
+    bar = figure.colorbar(mesh, ax=panels[: len(curves)], aspect=30, pad=0.02)
     bar.set_label(house_style.REBOUND)
     entries = [
         house_style.key("zero", color=house_style.BLACK, linewidth=1.4),
@@ -121,38 +91,13 @@ def draw(axes: Mapping[str, Array], velocity: Array, regime: Integers) -> tuple[
             "regimes meet", color=house_style.BLACK, linewidth=0.7, linestyle=(0, (4, 2))
         ),
     ]
-    if len(shown) < len(slices):
-        words = f"{len(shown)} of {len(slices)} slices"
-        entries.append(house_style.key(words, linestyle="none"))
     figure.legend(handles=entries, loc="outside lower center", ncols=len(entries))
-    return figure, tables
+    return figure
 
 
-def _curve(axes: Mapping[str, Array], velocity: Array) -> tuple[Figure, Curves]:
-    """Draw the velocity along the only axis that has more than one point."""
-    across = max(axes, key=lambda name: len(axes[name]))
-    figure = house_style.new(2.8)
-    panel = figure.subplots()
-    panel.axhline(0, **house_style.GUIDE)
-    panel.plot(
-        axes[across], velocity, color=house_style.BLACK, marker="." if len(velocity) < 9 else ""
-    )
-    others = [name for name in axes if name != across]
-    cut = dict.fromkeys(others, 0)
-    panel.set_title(_place(axes, cut, others))
-    panel.set(xlabel=LABELS[across], ylabel=house_style.REBOUND)
-    table = slice_of(axes, velocity.reshape([len(v) for v in axes.values()]), cut)
-    return figure, {panel.get_title(): table}
-
-
-def _place(axes: Mapping[str, Array], cut: Mapping[str, Any], others: Sequence[str]) -> str:
-    """Where a slice lies."""
-    return ", ".join(f"{SYMBOLS[name]} = {axes[name][cut[name]]:g}" for name in others)
-
-
-def _thinned(count: int, most: int) -> Integers:
-    """Up to `most` places of `count`, evenly spread, both ends among them."""
-    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
+def _map(curve: Columns, column: str) -> Column:
+    """A column of a grid as a map: a row for each restitution, the incidence runs along it."""
+    return curve[column].reshape(len(np.unique(curve[E])), -1)
 
 
 def _draw_regimes(
@@ -167,7 +112,10 @@ def _draw_regimes(
             named[Regime(code).words.replace(" - ", "-")] = inside
         # Each line is drawn once, by the regime with the smaller code: two lines on top of each
         # other would fill the gaps between their dashes.
-        field = np.ma.masked_array(inside.astype(float), ~np.isin(codes, regimes) | (codes < code))
+        visible = np.isin(codes, regimes) & (codes >= code)
+        # Smoothed, a slanted line has no steps from cell to cell.
+        share, whole = (ndimage.gaussian_filter(1.0 * part, 1) for part in (inside, visible))
+        field = np.ma.masked_array(share, ~visible) / whole
         if field.min() < field.max():
             panel.contour(*grid, field, [0.5], **BOUNDARY)
     lines = _edges(negative) | _edges(np.where(np.isin(codes, regimes), codes, -1))

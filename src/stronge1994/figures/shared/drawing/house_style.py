@@ -12,7 +12,7 @@ A figure is a folder with figure.yaml, curves.py and drawing.py. Its drawing.py 
   computed only what figure.yaml `draws`; and stated facts, as in source.yaml.
 
 A drawing.py may also have `shown_series`, which converts such a series, and AXIS_MEANS and
-LEGEND_MEANS, see `words`. Only the parameter study differs: it has a solver and rules of its own.
+LEGEND_MEANS, see `words`.
 
 Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
 figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
