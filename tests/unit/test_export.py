@@ -18,6 +18,7 @@ from planarimpact.export import spheres as table_of_spheres
 from planarimpact.spheres import making, table
 from tests.workflow import browser
 
+TEMPLATES = Path(export.__file__).parent / "templates"
 README = Path(__file__).parents[2] / "src/README.md"
 COUNT = 100_000
 ACCURACY = 1e-14  # of the largest value
@@ -29,7 +30,11 @@ PAIRS = {
     "many": ("lumped", 1e-10, {"mass_ratio": 8.0, "stiffness_ratio": 0.03}),  # more than 256 pieces
 }
 CONSTANTS = "MASS_RATIO", "STIFFNESS_RATIO", "RESTITUTION"
-WRONG = {"wrong_plain": "plain", "wrong_coarse": "coarse"}
+# Files that are a little wrong: which file is right, what it has, and what stands there instead.
+WRONG = {
+    "wrong_plain": ("plain", "value * root", "value * root * 1.0000000001"),
+    "wrong_coarse": ("coarse", "* 3 + 4) / 6", "* 3 + 4) / 6.0000000001"),
+}
 # Of the table of spheres: values for x, mass ratio, stiffness ratio, restitution and loss.
 REFUSED = [
     (np.nan, np.nan, np.nan, np.nan, 2.0),
@@ -216,31 +221,18 @@ def cases(pairs):
 
 @pytest.fixture(scope="module")
 def folder(pairs, cases, tmp_path_factory):
-    """Headers, modules and impacts; each of `WRONG` has two functions a little too large."""
+    """Headers, modules and impacts, and those of `WRONG`."""
     folder = tmp_path_factory.mktemp("export")
-    for file, language in (("{}.h", "c"), ("{}.mjs", "js")):
-        for name, built in pairs.items():
-            export.write(built, folder / file.format(name), language)
-        for bound, name in export.TABLES.items():
-            export.write_spheres(folder / file.format(name), language, bound)
-        wrong = export.text(pairs["plain"], file.format("wrong_plain"), language)
-        for value in map(float, pairs["plain"].pieces.coefficients[:, 0, 3]):
-            assert wrong.count(repr(value)) == 1
-            wrong = wrong.replace(repr(value), repr(value * (1 + 1e-10)))
-        (folder / file.format("wrong_plain")).write_text(wrong)
-        panels = dict(table.shipped("coarse").panels)
-        for name, panel in panels.items():
-            panels[name] = panel._replace(velocity=panel.velocity.copy(), peak=panel.peak.copy())
-            for values in panels[name].velocity, panels[name].peak:
-                values[1, 1, 1] += 2.0 ** -table.shipped("coarse").exponent
-        shipped = table.shipped("coarse")._replace(panels=panels)
-        bounds = table_of_spheres.BOUNDS["coarse"]
-        wrong = table_of_spheres.text(shipped, bounds, "x", "wrong_coarse", language)
-        (folder / file.format("wrong_coarse")).write_text(wrong)
-    for name, case in cases.items():
-        case.impacts.tofile(folder / f"{name}.x")
-    for name, right in WRONG.items():
-        shutil.copy(folder / f"{right}.x", folder / f"{name}.x")
+    tolerances = {name: tolerance for tolerance, name in export.TABLES.items()}
+    for name, (right, good, bad) in ({name: (name, "", "") for name in cases} | WRONG).items():
+        for file, language in ((f"{name}.h", "c"), (f"{name}.mjs", "js")):
+            if right in pairs:
+                code = export.text(pairs[right], file, language)
+            else:
+                code = export.spheres_text(file, language, tolerances[right])
+            assert good in code
+            (folder / file).write_text(code.replace(good, bad))
+        cases[right].impacts.tofile(folder / f"{name}.x")
     return folder
 
 
@@ -298,7 +290,7 @@ def javascript(folder, cases):
 
 @pytest.mark.parametrize("run", [c, pytest.param(cpp, marks=pytest.mark.long), javascript])
 def test_other_languages_answer_as_python_does(run, cases, folder):
-    every = cases | {name: cases[right] for name, right in WRONG.items()}
+    every = cases | {name: cases[right] for name, (right, *_) in WRONG.items()}
     for name, found in run(folder, every).items():
         case = every[name]
         constants, rows = np.split(found, [len(case.constants)])
@@ -308,6 +300,19 @@ def test_other_languages_answer_as_python_does(run, cases, folder):
         else:
             assert same == [True] * 5, name
             assert constants.tolist() == list(case.constants.values())
+
+
+@pytest.mark.parametrize("command", ["cc -std=c99 -xc", "c++ -xc++", "node --check"])
+def test_a_template_is_code_as_it_stands(command):
+    program, *options = command.split()
+    if not shutil.which(program):
+        pytest.skip(f"{program} is not installed")
+    if program != "node":  # Clang calls functions of a header unused where the header is all
+        options += ["-Wall", "-Wextra", "-Werror", "-Wno-unused-function", "-fsyntax-only"]
+    templates = list(TEMPLATES.glob("*.mjs" if program == "node" else "*.h"))
+    assert len(templates) == 2
+    for template in templates:
+        subprocess.run([program, *options, template], check=True)
 
 
 @pytest.mark.parametrize("compiler", [["cc", "-std=c99"], ["c++", "-xc++"]], ids=["C", "C++"])

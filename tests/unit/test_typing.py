@@ -183,6 +183,10 @@ def test_a_wheel_holds_the_package_and_nothing_else(tmp_path):
     assert wheel.name.split("-")[1] == planarimpact.__version__
     assert names == {str(path) for path in shipped} | {
         "planarimpact/__init__.pyi",
+        "planarimpact/export/templates/pair.h",
+        "planarimpact/export/templates/pair.mjs",
+        "planarimpact/export/templates/spheres.h",
+        "planarimpact/export/templates/spheres.mjs",
         "planarimpact/py.typed",
         "planarimpact/spheres/coarse.npz",
         "planarimpact/spheres/fine.npz",

@@ -1,10 +1,15 @@
-"""How C and JavaScript write what every file has: its frame, constants, tables and comments."""
+"""How C and JavaScript write a file: its template, numbers, tables and comments.
+
+A template is a file of its language. It has samples between two marks in comments, `<start>` and
+`</start>`, and its own name, which a file replaces by what it has.
+"""
 
 import re
 import textwrap
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
+from importlib import resources
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +17,14 @@ from numpy.typing import NDArray
 from planarimpact.ground import checks
 from planarimpact.ground.checks import InputError
 
-WIDTH = 96
+WIDTH = 99
+COLUMNS = 12
 # A name in C, and not one of those that begin with an underscore: C reserves many of them.
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*", re.ASCII)
+# Lines with the marks of a block, and what is between them.
+BLOCK = re.compile(r"^[^\n]*<(\w+)>[^\n]*\n.*?</\1>[^\n]*\n", re.MULTILINE | re.DOTALL)
+# Paragraphs of a comment, named constants, a table of numbers, rows of integers, or a string.
+Block: TypeAlias = list[str] | Mapping[str, float] | NDArray[Any] | list[list[int]] | str
 
 
 class Language(NamedTuple):
@@ -23,65 +33,38 @@ class Language(NamedTuple):
     Attributes
     ----------
     endings : tuple of str
-        Of the names of files.
+        Of the names of files; the template has the first.
     named : bool
         Whether functions have the name of the file in front of their own.
-    others : mapping
+    numbers : mapping
         Numbers that have no digits, by their names in Python.
-    types : mapping
-        Types of tables, by NumPy's types of arrays.
-    constant : str
-        A number that users may read, for `str.format` with name and value.
-    table : str
-        A table, for `str.format` with type, name, count and rows.
-    file : str
-        The whole file, for `str.format` with words, NAME and code.
+    constants : mapping
+        A constant, for `str.format` with name and value, by the block that it is in.
+    row : str
+        A row of a table of rows, for `str.format`.
     """
 
     endings: tuple[str, ...]
     named: bool
-    others: Mapping[str, str]
-    types: Mapping[str, str]
-    constant: str
-    table: str
-    file: str
+    numbers: Mapping[str, str]
+    constants: Mapping[str, str]
+    row: str
 
-
-# A compiler without NaN may drop the test of the range, and a table is read beyond its ends. GCC
-# and Clang always define the first of these names, MSVC defines the last with /fp:fast.
-NAN_IS_KNOWN = """\
-#if defined(__FINITE_MATH_ONLY__) ? __FINITE_MATH_ONLY__ : defined(__FAST_MATH__)
-#error "This header needs NaN: add -fno-finite-math-only after -ffast-math"
-#elif defined(_M_FP_FAST)
-#error "This header needs NaN: compile it without /fp:fast"
-#endif
-"""
 
 LANGUAGES = {
     "c": Language(
         endings=(".h",),
         named=True,
-        others={"nan": "(double)NAN", "inf": "(double)INFINITY"},
-        types={
-            **{"float64": "double", "uint8": "unsigned char", "uint16": "unsigned short"},
-            "int32": "int",
-        },
-        constant="#define {name} {value}\n",
-        table="static const {type} {name}[{count}] = {{\n{rows}\n}};\n",
-        file="{words}\n#ifndef PLANARIMPACT_{NAME}_H\n#define PLANARIMPACT_{NAME}_H\n\n"
-        f"{NAN_IS_KNOWN}\n#include <math.h>\n\n{{code}}\n#endif\n",
+        numbers={"nan": "(double)NAN", "inf": "(double)INFINITY"},
+        constants=dict.fromkeys(("public", "private"), "#define {} {}\n"),
+        row="{{{}}},\n",
     ),
     "js": Language(
         endings=(".mjs", ".js"),
         named=False,
-        others={"nan": "NaN", "inf": "Infinity"},
-        types={
-            **{"float64": "Float64Array", "uint8": "Uint8Array", "uint16": "Uint16Array"},
-            "int32": "Int32Array",
-        },
-        constant="export const {name} = {value};\n",
-        table="const {name} = new {type}([\n{rows}\n]);\n",
-        file="{words}\n{code}",
+        numbers={"nan": "NaN", "inf": "Infinity"},
+        constants={"public": "export const {} = {};\n", "private": "const {} = {};\n"},
+        row="[{}],\n",
     ),
 }
 
@@ -127,64 +110,55 @@ def checked_name(path: str | Path, language: str) -> str:
     return file.stem
 
 
-def number(value: float, language: Language) -> str:
+def filled(stem: str, blocks: Mapping[str, Block], file: str, name: str, language: str) -> str:
+    """The template with this stem, with the names of a file and its blocks."""
+    chosen = LANGUAGES[language]
+    template = stem + chosen.endings[0]
+    text = resources.files(__package__).joinpath("templates", template).read_text(encoding="utf-8")
+    names = {template: file, f"{stem}_": f"{name}_", f"{stem}_".upper(): f"{name}_".upper()}
+    text = re.sub("|".join(map(re.escape, names)), lambda found: names[found[0]], text)
+    prefix = f"{name}_".upper() if chosen.named else ""
+    return BLOCK.sub(lambda mark: _written(blocks[mark[1]], mark[1], prefix, chosen), text)
+
+
+def _written(block: Block, mark: str, prefix: str, language: Language) -> str:
+    """A block as lines of code."""
+    if isinstance(block, str):
+        return f'"{block}"\n'
+    if isinstance(block, Mapping):
+        constant = language.constants[mark]
+        return "".join(
+            constant.format(prefix + key, _number(value, language)) for key, value in block.items()
+        )
+    if isinstance(block, np.ndarray):
+        values = [_number(value, language) for value in block.ravel().tolist()]
+        rows = [values[i : i + COLUMNS] for i in range(0, len(values), COLUMNS)]
+        return "".join(",".join(row) + ",\n" for row in rows)
+    return "".join(
+        _comment(one) if isinstance(one, str) else language.row.format(",".join(map(str, one)))
+        for one in block
+    )
+
+
+def _number(value: float, language: Language) -> str:
     """A number with all digits, so that it is read as the same float64.
 
-    Examples
-    --------
-    >>> [number(value, LANGUAGES["js"]) for value in (0.1, 1e300, float("inf"))]
-    ['0.1', '1e+300', 'Infinity']
+    >>> [_number(value, LANGUAGES["js"]) for value in (0.1, 1e300, float("inf"), 3)]
+    ['0.1', '1e+300', 'Infinity', '3']
     """
-    text = repr(float(value))
-    return language.others.get(text, text)
+    text = str(value)
+    return language.numbers.get(text, text)
 
 
-def table(name: str, values: NDArray[Any], language: Language) -> str:
-    """An array of constants, flat and row by row, in the type of the values.
-
-    Parameters
-    ----------
-    name : str
-    values : ndarray of float64, uint8 or uint16, shape (n,) or (rows, n)
-    language : Language
-
-    Examples
-    --------
-    >>> print(table("start", np.array([0.0, 0.1, np.inf]), LANGUAGES["c"]), end="")
-    static const double start[3] = {
-        0.0, 0.1, (double)INFINITY
-    };
-    """
-    kind = values.dtype.name
-    write = str if kind != "float64" else lambda value: number(value, language)
-    rows = [", ".join(map(write, row)) for row in np.atleast_2d(values).tolist()]
-    return language.table.format(
-        type=language.types[kind],
-        name=name,
-        count=values.size,
-        rows=",\n".join(_wrapped("    " + row) for row in rows),
+def _comment(paragraph: str) -> str:
+    """Lines of a comment, all with the indent of the first; a number such as 1e-05 stays in one."""
+    indent = " * " + paragraph[: len(paragraph) - len(paragraph.lstrip())]
+    lines = textwrap.wrap(
+        paragraph.strip(),
+        WIDTH,
+        initial_indent=indent,
+        subsequent_indent=indent,
+        break_on_hyphens=False,
+        break_long_words=False,
     )
-
-
-def comment(paragraphs: Iterable[str]) -> str:
-    """Paragraphs as one comment, which C and JavaScript write alike.
-
-    Examples
-    --------
-    >>> print(comment(["One pair.", "", "Another line."]), end="")
-    /*
-     * One pair.
-     *
-     * Another line.
-     */
-    """
-    lines = "\n".join(map(_wrapped, paragraphs)).split("\n")
-    return "\n".join(["/*", *(f" * {line}".rstrip() for line in lines), " */"]) + "\n"
-
-
-def _wrapped(text: str) -> str:
-    """Lines with the indent of the first; a number such as 1e-05 stays in one."""
-    indent = text[: len(text) - len(text.lstrip())]
-    return textwrap.fill(
-        text, WIDTH, subsequent_indent=indent, break_on_hyphens=False, break_long_words=False
-    )
+    return "\n".join(lines or [" *"]) + "\n"

@@ -110,7 +110,7 @@ def continuum() -> str:
     names = re.findall(r"^export (?:const|function) (\w+)", module, flags=re.M)
     left_out = r"/\*.*?\*/|^export |^function bytes\(text\) \{.*?^\}"
     code = re.sub(left_out, "", module, flags=re.M | re.S)
-    code = re.sub(r'(?<=\(")[A-Za-z0-9+/=]+(?="\))', _in_base_85, code)
+    code = re.sub(r'(?<=^")[A-Za-z0-9+/=]+(?="$)', _in_base_85, code, flags=re.M)
     return f"const spheres = (() => {{\n{code}\nreturn {{ {', '.join(names)} }}; }})();\n"
 
 
