@@ -18,13 +18,13 @@ from stronge1994.printed import dissipation, slip
 
 RESTITUTIONS = np.array([0.5, 0.6, 0.7, 0.8, 0.9, 1.0])
 INCIDENCE = np.linspace(0.1, 8.0, 80)
-# Of the histories, which take longer: restitutions, and incidences of stick and of slip at first.
+# Histories take longer, so they have fewer restitutions, and few incidences of each first phase.
 FEW = (0.5, 0.6, 0.8, 1.0)
 STICK, SLIP = (0.3, 1.0), (1.5, 2.0, 2.5, 3.4)
 # The restitution of the least elastic pair that was measured.
 LEAST_MEASURED = 0.6
-# Of the search for the limit of slip throughout. One call for many incidences costs hardly more
-# than one for a few.
+# Search for the limit of slip throughout: its range, incidences in one call, and refinements. One
+# call for many incidences costs hardly more than one for a few.
 SEARCHED, AT_ONCE, SEARCHES = (3.0, 8.0), 40, 3
 # Above this incidence, (1 + e) m2/m1 at e = 1, all models have the same rebound.
 WITH_STICK = 2 * contact.MASS_RATIO
@@ -39,10 +39,10 @@ def peak_spread(model: Model) -> float:
 def peak_time(model: Model) -> float:
     """Latest time at which friction is largest, in t_c."""
     times = []
-    for found in _histories(model, (*STICK, *SLIP)):
-        size = np.abs(found.friction)
+    for history in _histories(model, (*STICK, *SLIP)):
+        size = np.abs(history.friction)
         # Friction may reach the same peak twice.
-        times.append(found.time[np.argmax(size >= (1 - 1e-3) * size.max())])
+        times.append(history.time[np.argmax(size >= (1 - 1e-3) * size.max())])
     return float(max(times))
 
 
@@ -57,16 +57,16 @@ def indentation(model: Model) -> float:
     return float(max(abs(_indentation(model.history(1.0, e)) - (1 - e**2)) for e in FEW))
 
 
-def _indentation(found: History | ContinuumHistory) -> float:
+def _indentation(history: History | ContinuumHistory) -> float:
     """u2(tf)/u2(t_c), from the normal force integrated twice."""
-    deflection = cumulative_simpson(1 - _impulse(found), x=found.time, initial=0)
-    return float(deflection[-1] / np.interp(1.0, found.time, deflection))
+    deflection = cumulative_simpson(1 - _impulse(history), x=history.time, initial=0)
+    return float(deflection[-1] / np.interp(1.0, history.time, deflection))
 
 
-def _impulse(found: History | ContinuumHistory) -> Array:
+def _impulse(history: History | ContinuumHistory) -> Array:
     """Normal impulse over that of compression."""
-    impulse = cumulative_simpson(found.normal, x=found.time, initial=0)
-    return impulse / np.interp(1.0, found.time, impulse)
+    impulse = cumulative_simpson(history.normal, x=history.time, initial=0)
+    return impulse / np.interp(1.0, history.time, impulse)
 
 
 def compression_spread(model: Model) -> float:
@@ -75,15 +75,15 @@ def compression_spread(model: Model) -> float:
     return float(np.ptp(ends, axis=1).max())
 
 
-def _at_compression(found: History | ContinuumHistory) -> float:
-    return float(np.interp(1.0, found.time, found.velocity))
+def _at_compression(history: History | ContinuumHistory) -> float:
+    return float(np.interp(1.0, history.time, history.velocity))
 
 
 def restitution_change(model: Model) -> float:
     """Largest gain of |v1(tf) - v1(t_c)|/(mu v2(0)) as e falls."""
     change = np.abs(
         [
-            [found.velocity[-1] - _at_compression(found) for found in _histories(model, [x])]
+            [history.velocity[-1] - _at_compression(history) for history in _histories(model, [x])]
             for x in (*STICK, *SLIP)
         ]
     )
@@ -150,9 +150,9 @@ def kept_after_slip(model: Model) -> float:
 
 def _kept(model: Model, incidences: tuple[float, ...]) -> float:
     kept = []
-    for found in _histories(model, incidences):
-        before_separation = found.time < 0.999 * found.time[-1]
-        kept.append(found.friction[before_separation][-1] > 0)
+    for history in _histories(model, incidences):
+        before_separation = history.time < 0.999 * history.time[-1]
+        kept.append(history.friction[before_separation][-1] > 0)
     return float(np.mean(kept))
 
 
@@ -211,7 +211,7 @@ def stick_from_plastic(model: Model) -> float:
 
 
 def _from(model: Model, loss: str, e: float, below: float = WITH_STICK) -> float:
-    """Over mu v2(0), for incidences below a limit."""
+    """Distance of the rebounds from those of a continuum, over mu v2(0), below an incidence."""
     x = INCIDENCE[below > INCIDENCE]
     gap = model.rebound(x, e).velocity - _model(loss).rebound(x, e).velocity
     return float(np.sqrt(np.mean(gap**2)))
