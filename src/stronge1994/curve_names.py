@@ -1,4 +1,4 @@
-"""Names of curves: what solves, draws and judges them must spell alike."""
+"""Names of curves, spelled here for the modules that solve, draw and judge them."""
 
 from collections.abc import Iterable
 

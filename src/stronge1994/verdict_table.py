@@ -24,7 +24,7 @@ ORDER = ["diverges", *DIFFERENCES, "awaited", "inconclusive", "agrees", "as befo
 def gather(paths: Iterable[str]) -> list[Row]:
     """Rows of several tables, the worst verdict first, otherwise in the order of the figures.
 
-    A word that is no verdict comes before all others: the gate will name it.
+    An unknown verdict comes before all others: the gate will name it.
     """
     rows = [row for path in paths for row in csv_tables.read_rows(path, COLUMNS)]
     rank = {verdict: place for place, verdict in enumerate(ORDER)}
@@ -40,11 +40,11 @@ def why(row: Row) -> str:
     """Why a row fails."""
     measured = _measured(row)
     limits = f"{measured}; allowed is {_allowed(row)}" if measured else ""
-    return ": ".join(words for words in (row["note"], limits) if words)
+    return ": ".join(part for part in (row["note"], limits) if part)
 
 
 def _allowed(row: Row) -> str:
-    """What a row must keep to; with a documented difference that it stays as it was."""
+    """The bound of a row; with a documented difference, that it stays as before."""
     if not row["regression"]:
         return row["allowed"]
     return f"a difference, and as before {row['regression']}"

@@ -28,7 +28,7 @@ except (reference_data.SourceError, ConfigError) as error:
     raise WorkflowError(str(error))
 
 # Sources with whose series something is compared.
-COMPARED = sorted({source for told in JUDGED.values() for source in told["told"]["sources"]})
+COMPARED = sorted({name for job in JUDGED.values() for name in job["settings"]["sources"]})
 TIMED = figures.with_trait("timed")
 UNTIMED = [figure for figure in FIGURES if figure not in TIMED]
 CAPTIONS = {figure: stated["caption"] for figure, stated in figures.stated().items()}

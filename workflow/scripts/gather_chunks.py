@@ -3,5 +3,5 @@
 from stronge1994.figures.study import files as study_files
 from stronge1994.run import record
 
-with record.recorded(snakemake) as told:
-    study_files.gather(snakemake.input.chunks, **told, path=snakemake.output.table)
+with record.recorded(snakemake) as settings:
+    study_files.gather(snakemake.input.chunks, **settings, path=snakemake.output.table)

@@ -4,5 +4,5 @@ from stronge1994 import scene_parts
 from stronge1994.run import record
 
 with record.recorded(snakemake):
-    given, made = snakemake.input, snakemake.output
-    scene_parts.gather(given.tables, given.accounts, made.summary, made.bad_rows)
+    inputs, made = snakemake.input, snakemake.output
+    scene_parts.gather(inputs.tables, inputs.accounts, made.summary, made.bad_rows)

@@ -4,6 +4,6 @@ from stronge1994 import scene_parts
 from stronge1994.run import record
 
 with record.log_to(snakemake.log[0]):
-    words = scene_parts.words(snakemake.input.summary)
-    print(words)
-print(words)
+    summary = scene_parts.words(snakemake.input.summary)
+    print(summary)
+print(summary)

@@ -43,9 +43,9 @@ def presets(settings: Mapping[str, Any]) -> dict[str, State]:
         "mass_ratio": settings["mass_ratio"],
     }
     figures = settings["figures"]
-    found = {}
+    states = {}
     for figure, own in figures.items():
-        if "throw" in own:  # bounces, of which the first is meant
+        if "throw" in own:  # its first bounce is added below
             continue
         friction = own.get("friction", own["open"].get("friction"))
         friction = max(friction) if isinstance(friction, list) else friction
@@ -53,18 +53,18 @@ def presets(settings: Mapping[str, Any]) -> dict[str, State]:
         if angle is None:
             angle = math.degrees(math.atan(friction * own["incidence"]))
         restitution = _middle(own.get("restitution", 1.0))
-        found[figure] = {"angle": angle, "friction": friction, "restitution": restitution}
-    found = {figure: state | shared for figure, state in found.items()}
+        states[figure] = {"angle": angle, "friction": friction, "restitution": restitution}
+    states = {figure: state | shared for figure, state in states.items()}
     throw = figures["superball"]["throw"]
     along, up = throw["velocity"]
-    found["superball"] = {
+    states["superball"] = {
         "angle": math.degrees(math.atan2(along + throw["radius"] * throw["spin"], -up)),
         **{key: throw[key] for key in ("friction", "restitution", "poisson_ratio")},
         "mass_ratio": _mass_ratios()["solid sphere"],
     }
     rounded = {
         figure: {control: round(float(state[control]), 4) for control in LIMITS}
-        for figure, state in found.items()
+        for figure, state in states.items()
     }
     return {figure: state for figure, state in rounded.items() if _within_limits(state)}
 
@@ -120,7 +120,7 @@ def _in_base_85(table: re.Match[str]) -> str:
 
 
 def refuse_other_answers(solver: str, check: str, answers: Sequence[Any]) -> str:
-    """Compare the solver of the page with the package, if there is node to run it; words for a log.
+    """Compare the solver of the page with the package, if node is installed; a sentence for a log.
 
     Without node the comparison is left to the page, which makes it whenever it is opened. `solver`
     and `check` are the files solver.js and check.js, `answers` those of the package.

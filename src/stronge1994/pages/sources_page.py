@@ -1,4 +1,4 @@
-"""Where the numbers come from: sources of data, settings, versions and times of a run."""
+"""Page of the sources of data, settings, versions and times of a run."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -25,20 +25,20 @@ def page(
     comparisons = config["comparisons"].items()
     settings = {
         figure: {"figures": {figure: entry}}
-        | {"comparisons": {c: told for c, told in comparisons if told["figure"] == figure}}
+        | {"comparisons": {name: c for name, c in comparisons if c["figure"] == figure}}
         for figure, entry in config["figures"].items()
     }
     environment = templates.environment(Path(template).parent)
     environment.filters |= {
         "maths": ledger_page.mathematical,
-        "header": headers.words,
+        "header": headers.header,
         "number": templates.number,
         "title_of": templates.title,
     }
     return environment.get_template(Path(template).name).render(
         sources=sources,
         shared={key: config[key] for key in SHARED},
-        settings={figure: in_yaml(found) for figure, found in settings.items()},
+        settings={figure: in_yaml(part) for figure, part in settings.items()},
         run=run,
     )
 

@@ -21,7 +21,7 @@ COLUMNS = (
     "digits_allowed_least [1]",
     "digits_lost_most [1]",
 )
-# What lies more than so many decades away from 1 is one row.
+# Values more than this many decades away from 1 share one row.
 FAR = 16
 
 
@@ -53,7 +53,7 @@ def by_decade(impacts: Columns) -> list[list[Any]]:
 
 
 def _span(decade: float) -> tuple[str, str]:
-    """Ends of a decade in words."""
+    """Ends of a decade as texts."""
     if decade == -np.inf:
         return "0", "0"
     low = "0" if decade < -FAR else f"1e{decade:.0f}"

@@ -45,7 +45,7 @@ def title(name: str) -> str:
 
 
 def number(text: str) -> str:
-    """A cell of a table with three digits at most; words stay.
+    """A cell of a table with three digits at most; a cell that is no number stays.
 
     >>> number("0.123456"), number("1.56e+03"), number("1e-05"), number("lumped")
     ('0.123', '1560', '1e-5', 'lumped')

@@ -25,13 +25,13 @@ def sources(script: str, *rooms: str) -> list[str]:
     >>> [path for path in sources("draw", "figures/fig6/drawing.py") if "fig6" in path]
     ['src/stronge1994/figures/fig6/drawing.py']
     """
-    found = [f"workflow/scripts/{script}.py"]
+    paths = [f"workflow/scripts/{script}.py"]
     for folder in EVERY_JOB:
-        found += _files(folder)
-    found += map(str, sorted(Path("src/stronge1994").glob("*.py")))
+        paths += _files(folder)
+    paths += map(str, sorted(Path("src/stronge1994").glob("*.py")))
     for room in rooms:
-        found += _files(f"src/stronge1994/{room}")
-    return list(dict.fromkeys(found))
+        paths += _files(f"src/stronge1994/{room}")
+    return list(dict.fromkeys(paths))
 
 
 @functools.cache

@@ -26,7 +26,7 @@ ELEMENT_POINTS: Style = {"color": house_style.VERMILLION, "marker": "s", "marker
 GLASS_POINTS: Style = {"color": house_style.BLUE, "marker": "o", "markersize": 3}
 # These points are measured against the angle: they must be converted to the axes of the figure.
 MEASURED_ANGLES = "kharaz2001/tangential_restitution"
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 LEGEND_MEANS = {
     "rubber": "rubber|cross2014",
     "Cross": "cross2014",
@@ -35,7 +35,7 @@ LEGEND_MEANS = {
 }
 
 
-def shown_series(name: str, series: Series) -> Series:
+def drawn_series(name: str, series: Series) -> Series:
     """Measurements against the angle, converted to the axes of the figure with their errors."""
     if name == LOSSY_RUBBER:
         return series | _turned_round(series)
@@ -101,11 +101,11 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     _draw_printed_limit(axes, printed)
     frequency = math.sqrt(settings["mass_ratio"] / settings["stiffness_ratio"])
     groups = [settings["experiment"][key] for key in ("restitution", "stiffness_ratio")]
-    for part, words in (
+    for part, title in (
         (axes, rf"$e = {settings['restitution']:g}$,  $\omega/\Omega = {frequency:.2f}$"),
         (shots, rf"$e = {groups[0]:g}$,  $\zeta^2 = {groups[1]:g}$"),
     ):
-        part.text(0.97, 0.06, words, ha="right", transform=part.transAxes)
+        part.text(0.97, 0.06, title, ha="right", transform=part.transAxes)
     gaps = [""] * (2 + len(paper) - len(added))
     house_style.legend_below(
         figure,

@@ -22,7 +22,7 @@ STATED = {
     "stronge1994/peak_angle_mu_0.18": (r"{:g}$\degree$, stated in the paper", 1.45),
     "lewis_rogers1988/peak_angle": (r"$\approx {:g}\degree$, measured", 1.2),
 }
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     "largest normal force, N": r"normal.*: peak_force \[N\]",
     "largest tangential force, N": r"friction.*: peak_force \[N\]",

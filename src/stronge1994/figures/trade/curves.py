@@ -79,7 +79,7 @@ def curves(
                 "input_spread [mu v2(0)]": root_mean_square(spread),
                 "input_spread_stick [mu v2(0)]": root_mean_square(spread[sticks]),
             }
-            for contender, found, seconds in timed:
+            for contender, rebound, seconds in timed:
                 # What the wrong loss costs does not depend on the tolerance.
                 coarsest = contender.settings.get("tolerance", np.inf) >= max(wanted)
                 if _loss(contender.model) not in ("", loss) and not coarsest:
@@ -89,8 +89,8 @@ def curves(
                     "restitution [1]": e,
                     "loss": loss,
                     **{SETTINGS[key]: value for key, value in contender.settings.items()},
-                    **errors(found, exact),
-                    "seen [1]": float(np.mean(np.abs(found.velocity - exact.velocity) > spread)),
+                    **errors(rebound, exact),
+                    "seen [1]": float(np.mean(np.abs(rebound.velocity - exact.velocity) > spread)),
                     **against,
                     **seconds,
                 }
@@ -157,8 +157,8 @@ def _solver(model: Model, groups: dict[str, float], settings: dict[str, float]) 
 
 
 def _name(contender: _Contender, e: float, loss: str) -> str:
-    words = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
-    settings = [words[key].format(value) for key, value in contender.settings.items()]
+    formats = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
+    settings = [formats[key].format(value) for key, value in contender.settings.items()]
     return ", ".join([contender.model, *settings, f"e = {e:g}", *filter(None, [loss])])
 
 
@@ -196,21 +196,20 @@ def root_mean_square(values: Array) -> float:
     return float(np.sqrt(np.mean(np.square(values)))) if values.size else float("nan")
 
 
-def errors(found: Rebound, exact: Rebound) -> dict[str, float]:
-    """Root mean square and largest error of each field that a model answers.
+def errors(rebound: Rebound, exact: Rebound) -> dict[str, float]:
+    """Root mean square and largest error of each field that a model has.
 
-    A field, other than velocity, that `found` leaves open is NaN there, and has no columns.
+    A field that `rebound` leaves NaN has no columns, other than velocity.
 
     >>> from planarimpact import rigid
     >>> from planarimpact.models import laws
     >>> x = np.array([1.0, 8.0])
-    >>> list(errors(laws.brach(x), rigid.rebound(x)))[:3]
-    ['rms_velocity [mu v2(0)]', 'max_velocity [mu v2(0)]', \
-'rms_dissipation [mu^2 m2 v2(0)^2]']
+    >>> list(errors(laws.brach(x), rigid.rebound(x)))[:2]
+    ['rms_velocity [mu v2(0)]', 'max_velocity [mu v2(0)]']
     """
     columns = {}
     for field, unit in FIELDS.items():
-        gap = np.abs(getattr(found, field) - getattr(exact, field))
+        gap = np.abs(getattr(rebound, field) - getattr(exact, field))
         # A velocity that is no number is a fault, and must show.
         if field == "velocity" or np.isfinite(gap).all():
             columns[f"rms_{field} [{unit}]"] = root_mean_square(gap)
