@@ -191,8 +191,8 @@ def _rigid_gap(formula: Callable[..., Numbers], shares: Sequence[float]) -> Find
     impact, top = motion.impact, motion.top + 1
     force = impact.path.force_2[:top] / impact.force_scale
     share = motion.impulse[:top] / (-impact.m2 * impact.v2)
-    # Slip halts at a known impulse p. F2 rises with p in compression, and dp/dF2 is 0 at t_c, so F2^2
-    # is smooth there.
+    # Slip halts at a known impulse p. F2 rises with p in compression, and dp/dF2 is 0 at t_c, so
+    # F2^2 is smooth there.
     at_impulse = CubicSpline(share, force**2)
     gaps = []
     for beta, _ in contact.PAIRS:
