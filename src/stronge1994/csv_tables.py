@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-Column: TypeAlias = NDArray[Any]  # numbers, or words
+Column: TypeAlias = NDArray[Any]  # numbers, or texts
 Columns: TypeAlias = dict[str, Column]
 Curves: TypeAlias = dict[str, Columns]
 # A row of any other table: its cells as text, by the names of the columns.
@@ -56,7 +56,7 @@ def write_table(path: Path, rows: Iterable[Mapping[str, Any]], columns: Sequence
 
 
 def read(path: Path) -> Curves:
-    """Read what `write` wrote: numbers as float64, words as text, empty columns left out."""
+    """Read what `write` wrote: numbers as float64, others as text, empty columns left out."""
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file))
     if header == ["error"]:

@@ -152,9 +152,9 @@ def test_a_range_that_is_too_wide_is_refused(values):
     assert measured(largest).residuals.summary().max <= 1.0
     assert measured(99 * largest).residuals.summary().max <= 1.0
     for high in largest * 10.0 ** np.arange(3, 30):
-        with pytest.raises(ValueError, match="the range says nothing"):
+        with pytest.raises(ValueError, match="a wider range tests nothing"):
             measured(high)
-    with pytest.raises(ValueError, match="the range says nothing"):
+    with pytest.raises(ValueError, match="a wider range tests nothing"):
         measured(largest, -1e9)
 
 

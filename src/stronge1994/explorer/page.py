@@ -115,7 +115,7 @@ def continuum() -> str:
 
 
 def _in_base_85(table: re.Match[str]) -> str:
-    # The letter "<" has a meaning in a page.
+    # "<" would begin a tag in a page.
     return base64.b85encode(base64.b64decode(table[0])).decode().replace("<", ",")
 
 

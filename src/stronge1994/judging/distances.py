@@ -101,7 +101,7 @@ def curve_residuals(
     order = np.argsort(x)
     inside = (line_x >= x.min()) & (line_x <= x.max())
     of_vertices = _from_polyline(line_x[inside], line_y[inside], x[order], y[order], sigma)
-    # These distances are seen from the curve, so their sign is the other one.
+    # These distances are those of the curve from the points, so their sign is reversed.
     return Residuals(
         np.concatenate([of_points.x, of_vertices.x]),
         np.concatenate([of_points.sigmas, -of_vertices.sigmas]),

@@ -22,7 +22,7 @@ from stronge1994.judging.points import Entry, Reference, kind, points, printed_s
 BALANCE_SIGMA = 1e-12
 # Both ends of a range lie within this many times the largest value: two digits are for the rounding
 # of other machines, and a wider range tests nothing.
-ROOM = 100
+LARGEST_RANGE_RATIO = 100
 
 
 class Measured(NamedTuple):
@@ -218,11 +218,11 @@ def _range(entry: Entry, curves: Curves) -> Measured:
     names, (low, high) = entry["columns"], entry["range"]
     first, x, values = _concatenated(entry, curves, names)
     joined = np.concatenate(values)
-    most = ROOM * np.abs(joined).max()
+    most = LARGEST_RANGE_RATIO * np.abs(joined).max()
     if max(abs(low), abs(high)) >= most:
         raise ValueError(
-            f"range {low:g} to {high:g}: allowed are ends nearer to 0 than {most:g}, {ROOM} times "
-            "the largest value found; beyond, the range says nothing"
+            f"range {low:g} to {high:g}: allowed are ends nearer to 0 than {most:g}, "
+            f"{LARGEST_RANGE_RATIO} times the largest value; a wider range tests nothing"
         )
     middle = np.full(len(joined), (low + high) / 2)
     at = np.tile(x, len(names))

@@ -35,9 +35,9 @@ SIZES = 10.0 ** np.arange(-15, -0.25, 0.1)
 # Metrics that hold for all parameters.
 LAWS = ("balance", "range", "contraction")
 # Sizes that are solved one by one where distances do not change in proportion.
-TRIED = 10.0 ** np.arange(-15, -2)
+TRIAL_SIZES = 10.0 ** np.arange(-15, -2)
 # Sigmas by which all published points are moved.
-MOVED = range(1, 10)
+SIGMAS_MOVED = range(1, 10)
 
 
 def sensitivities(
@@ -68,7 +68,7 @@ def sensitivities(
         settings["as_printed"] = False
     try:
         curves = judged_tables.read(path) if tried else {}
-    except Exception:  # the row `...-solved` says so
+    except Exception:  # the row `...-solved` has the error
         curves = {}
     if not curves:
         return [[title, *[""] * len(verdict_table.SENSITIVITY[1:])] for title in comparisons]
@@ -97,7 +97,7 @@ def sensitivities(
             ]
         elif entry["metric"] == "largest":
             sizes = [_by_trial(solved[group], measured, caught) for group in GROUPS]
-        else:  # the impacts themselves, of which only some are tried
+        else:  # every single impact, of which the trial solves too few
             sizes = [""] * len(GROUPS)
         moved = ""
         if is_published(reference):
@@ -226,7 +226,7 @@ def _by_trial(solved: _Solved | None, measure: _Measure, caught: _Caught) -> str
     """Size that is caught, by solving with each size."""
     if not solved:
         return ""
-    return _first_size(size for size in TRIED if caught(measure(solved(float(size)))))
+    return _first_size(size for size in TRIAL_SIZES if caught(measure(solved(float(size)))))
 
 
 def _by_moving(curves: Curves, measure: _Measure, noticed: Callable[..., bool]) -> str:
@@ -235,7 +235,7 @@ def _by_moving(curves: Curves, measure: _Measure, noticed: Callable[..., bool]) 
         measured = measure(curves)
     except Exception:  # the reference is awaited, or the row of the comparison gives the reason
         return ""
-    return _first_size(size for size in MOVED if noticed(measured, sigmas=size))
+    return _first_size(size for size in SIGMAS_MOVED if noticed(measured, sigmas=size))
 
 
 def _first_size(sizes: Iterable[float]) -> str:

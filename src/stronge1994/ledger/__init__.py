@@ -5,7 +5,7 @@ Every check is a function without arguments. It compares one statement of the pa
 rounding by `planarimpact.lumped`: "exact" means that solution, not nature. data/stronge1994/
 ledger.yaml has an entry for each: what the paper says, when it counts as true, the verdict, and
 the correction. `dynamics`, `slip`, `peak_force` and `dissipation` check the equations of one
-section each and what is said of them, `rebound` sentences alone.
+section each and the sentences about them, `rebound` sentences alone.
 
 What the paper says of restitution has a second verdict, "in nature", which never changes the first.
 `nature` measures it on the models of `nature_models`, and `in_nature` judges.

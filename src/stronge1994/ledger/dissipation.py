@@ -15,7 +15,7 @@ from stronge1994.ledger.dynamics import PLATE
 from stronge1994.ledger.finding import Finding, largest
 from stronge1994.printed import dissipation, slip
 
-# Of Fig. 9.
+# Parameters of Fig. 9.
 FRICTIONS, RESTITUTIONS = (0.1, 0.5), (1.0, 0.5)
 ANGLES = np.linspace(0.0, 89.95, 17991)[1:]  # degrees
 
@@ -26,7 +26,7 @@ def kinetic_energy() -> Finding:
     v1, v2 = -0.8, -1.3
     ratios = []
     for clockwise in (0.0, 1.9, -0.4):
-        # Velocity of the centre: that of C less the part of turning, v = V + spin x r.
+        # Velocity of the centre: that of C less that from rotation, v = V + spin x r.
         centre = v1 - clockwise * x2, v2
         exact = mass * (centre[0] ** 2 + centre[1] ** 2 + (gyration * clockwise) ** 2) / 2
         ratios.append(dissipation.kinetic_energy(mass, gyration, x2, v1, v2, clockwise) / exact)
@@ -207,7 +207,7 @@ def strain_decreases() -> Finding:
     for impact in contact.slip_stick_slip():
         onset, end = impact.last(EventKind.SLIP), impact.last(EventKind.SEPARATION)
         path = impact.between(onset.t, end.t)
-        # What the normal element gives back: stiffness kappa/e^2 in restitution.
+        # Energy of the normal element, with the stiffness kappa/e^2 of restitution.
         normal = impact.restitution**2 * path.force_2**2 / (2 * impact.stiffness)
         for energy in (_spring(impact, path), normal):
             rises += [np.diff(energy).max() / energy[0], energy[-1] / energy[0]]

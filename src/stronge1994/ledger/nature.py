@@ -19,13 +19,13 @@ from stronge1994.printed import dissipation, slip
 RESTITUTIONS = np.array([0.5, 0.6, 0.7, 0.8, 0.9, 1.0])
 INCIDENCE = np.linspace(0.1, 8.0, 80)
 # Histories take longer, so they have fewer restitutions, and few incidences of each first phase.
-FEW = (0.5, 0.6, 0.8, 1.0)
+HISTORY_RESTITUTIONS = (0.5, 0.6, 0.8, 1.0)
 STICK, SLIP = (0.3, 1.0), (1.5, 2.0, 2.5, 3.4)
 # The restitution of the least elastic pair that was measured.
 LEAST_MEASURED = 0.6
 # Search for the limit of slip throughout: its range, incidences in one call, and refinements. One
 # call for many incidences costs hardly more than one for a few.
-SEARCHED, AT_ONCE, SEARCHES = (3.0, 8.0), 40, 3
+LIMIT_RANGE, LIMIT_SAMPLES, LIMIT_REFINEMENTS = (3.0, 8.0), 40, 3
 # Above this incidence, (1 + e) m2/m1 at e = 1, all models have the same rebound.
 WITH_STICK = 2 * contact.MASS_RATIO
 
@@ -48,13 +48,15 @@ def peak_time(model: Model) -> float:
 
 def duration(model: Model) -> float:
     """Largest distance of tf/t_c from 1 + e."""
-    ends = np.array([model.history(1.0, e).time[-1] for e in FEW])
-    return float(np.abs(ends - 1 - FEW).max())
+    ends = np.array([model.history(1.0, e).time[-1] for e in HISTORY_RESTITUTIONS])
+    return float(np.abs(ends - 1 - HISTORY_RESTITUTIONS).max())
 
 
 def indentation(model: Model) -> float:
     """Largest distance of u2(tf)/u2(t_c) from 1 - e^2."""
-    return float(max(abs(_indentation(model.history(1.0, e)) - (1 - e**2)) for e in FEW))
+    return float(
+        max(abs(_indentation(model.history(1.0, e)) - (1 - e**2)) for e in HISTORY_RESTITUTIONS)
+    )
 
 
 def _indentation(history: History | ContinuumHistory) -> float:
@@ -71,7 +73,10 @@ def _impulse(history: History | ContinuumHistory) -> Array:
 
 def compression_spread(model: Model) -> float:
     """Largest change of v1(t_c)/(mu v2(0)) with e."""
-    ends = [[_at_compression(model.history(x, e)) for e in FEW] for x in (*STICK, *SLIP)]
+    ends = [
+        [_at_compression(model.history(x, e)) for e in HISTORY_RESTITUTIONS]
+        for x in (*STICK, *SLIP)
+    ]
     return float(np.ptp(ends, axis=1).max())
 
 
@@ -107,7 +112,9 @@ def _reversal(model: Model, e: float) -> float:
 
 def limit_gap(model: Model) -> float:
     """Largest distance of the limit of slip throughout from (1 + e) m2/m1."""
-    gaps = slip.slip_throughout_limit(contact.MASS_RATIO, np.array(FEW)) - _limits(model)
+    gaps = slip.slip_throughout_limit(contact.MASS_RATIO, np.array(HISTORY_RESTITUTIONS)) - _limits(
+        model
+    )
     return float(np.abs(gaps).max())
 
 
@@ -128,12 +135,12 @@ def limit_rise(model: Model) -> float:
 
 def _limits(model: Model) -> Array:
     """Incidence from which a contact slides throughout, by restitution, in ever finer grids."""
-    low, high = (np.full(len(FEW), edge) for edge in SEARCHED)
-    for _ in range(SEARCHES):
-        x = np.linspace(low, high, AT_ONCE + 2)
-        slides = model.rebound(x[1:-1], FEW).regime == Regime.SLIP_THROUGHOUT
-        first = np.where(slides.any(axis=0), slides.argmax(axis=0), AT_ONCE)
-        lanes = np.arange(len(FEW))
+    low, high = (np.full(len(HISTORY_RESTITUTIONS), edge) for edge in LIMIT_RANGE)
+    for _ in range(LIMIT_REFINEMENTS):
+        x = np.linspace(low, high, LIMIT_SAMPLES + 2)
+        slides = model.rebound(x[1:-1], HISTORY_RESTITUTIONS).regime == Regime.SLIP_THROUGHOUT
+        first = np.where(slides.any(axis=0), slides.argmax(axis=0), LIMIT_SAMPLES)
+        lanes = np.arange(len(HISTORY_RESTITUTIONS))
         low, high = x[first, lanes], x[first + 1, lanes]
     return (low + high) / 2
 
@@ -172,9 +179,9 @@ def slip_velocity(model: Model) -> float:
 
     The largest, with the normal impulse p(tf) by quadrature.
     """
-    x = slip.slip_throughout_limit(contact.MASS_RATIO, np.array(FEW)) * 1.1
-    impulse = np.array([_impulse(model.history(STICK[-1], e))[-1] for e in FEW])
-    velocity = model.rebound(x, FEW).velocity
+    x = slip.slip_throughout_limit(contact.MASS_RATIO, np.array(HISTORY_RESTITUTIONS)) * 1.1
+    impulse = np.array([_impulse(model.history(STICK[-1], e))[-1] for e in HISTORY_RESTITUTIONS])
+    velocity = model.rebound(x, HISTORY_RESTITUTIONS).velocity
     return float(np.abs(velocity - (x - contact.MASS_RATIO * impulse)).max())
 
 
@@ -221,4 +228,4 @@ def _histories(
     model: Model, incidences: tuple[float, ...] | list[float]
 ) -> Iterator[History | ContinuumHistory]:
     """Histories of incidences, for each of `FEW` restitutions."""
-    return (model.history(x, e) for x in incidences for e in FEW)
+    return (model.history(x, e) for x in incidences for e in HISTORY_RESTITUTIONS)

@@ -10,7 +10,7 @@ COLUMNS = [
     "confirms", "between", "corrected", "problem", "reading", "range", "correction", "derivation",
     "because", "why", "in_nature", "nature", "nature_test", "nature_found", "nature_true_if",
 ]  # fmt: skip
-# How grave a wrong entry is, the gravest first, and how a sentence goes on after their number.
+# Grades of wrong entries, the gravest first, each with a text to stand after its number.
 GRADES = {
     "changes a result": "change a result",
     "sign or misprint": "are signs or misprints (perhaps the scan's)",

@@ -22,8 +22,8 @@ from stronge1994.pages import ledger_page, note, which_model
 Finding = dict[str, Any]
 INCIDENCE, VELOCITY = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
-# Beyond it all models of Fig. 5 have the same straight line.
-FARTHEST = 8.0
+# Beyond this incidence all models of Fig. 5 have the same straight line.
+LARGEST_INCIDENCE = 8.0
 POINTS = 80  # of a curve in a small picture
 WIDTH, HEIGHT, MARGIN = 200, 104, 6  # of a small picture
 BAR = 80  # length of the longest bar
@@ -32,7 +32,7 @@ PARTS = ("initial-stick", "slip-and-stick", "slip-throughout")
 
 
 MARK = ledger_page.STYLE | ledger_page.GRADE_STYLE
-SOUND = "confirmed", "confirmed within rounding"
+CONFIRMED = "confirmed", "confirmed within rounding"
 OPEN = "not testable"
 
 # A finding is left out where a comparison of its figure diverges.
@@ -58,7 +58,9 @@ def paper(ledger: Sequence[Row]) -> Finding:
         "verdicts": verdicts,
         "grades": grades,
         "grave": grave,
-        "picture": bars({word: verdicts[word] for word in SOUND} | grades | {OPEN: verdicts[OPEN]}),
+        "picture": bars(
+            {word: verdicts[word] for word in CONFIRMED} | grades | {OPEN: verdicts[OPEN]}
+        ),
     }
 
 
@@ -109,7 +111,7 @@ def elastic(verdicts: Mapping[str, Row], numbers: Mapping[str, float], curves: C
     at = numbers["elastic.at"]
     sticks_first = np.isin(lumped["regime"], ["STICK", "STICK_SLIP"])
     _require(np.isclose(at, lumped[INCIDENCE][sticks_first].max()))
-    near = lumped[INCIDENCE] <= FARTHEST
+    near = lumped[INCIDENCE] <= LARGEST_INCIDENCE
     step = slice(None, None, -(-int(near.sum()) // POINTS))
     lines = [
         (style, curve[INCIDENCE][near][step], curve[VELOCITY][near][step])

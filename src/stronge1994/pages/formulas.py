@@ -1,6 +1,6 @@
 """Plain formulas in a text, such as `zeta^2 F1(t2) < mu`, as MathML.
 
-A formula is found where it begins, and read as far as this grammar goes. All else is text.
+A formula is recognised by its beginning, and read as far as this grammar goes. All else is text.
 
 - A formula is sides with relations between them: `zeta^2 < mu x`.
 - A side is terms with signs between them: `1 + e - e^2`.
@@ -36,7 +36,7 @@ INDEXED = re.compile(
 )
 # Not a letter: the initials in "M. S. Smith".
 LETTER = re.compile(rf"(?P<name>{'|'.join(GREEK)}|[eskx]|[MS](?!\. [A-Z]))(?P<prime>'?)(?!\w|-\w)")
-# p, t and v have no index, and are words elsewhere, unless this follows or a d stands before.
+# p, t and v without an index are symbols only if this follows, or a d stands before them.
 BARE = re.compile(r"[ptv](?=\(| [=+-] |/)|d[ptv]\b|t\b(?!\.)")
 # A formula begins behind one of these, not inside a word or behind the stroke of a unit. The 38 of
 # "In Eq. 38 s has" is no factor, and the letter of "part (e)" no symbol.

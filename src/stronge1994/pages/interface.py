@@ -34,7 +34,7 @@ def write(folder: str, templates: str | Path) -> None:
     pdoc.render.env.globals["dark_code"] = dark
     files = [path.relative_to(SRC).with_suffix("") for path in sorted(SRC.glob(CURVES))]
     curves = [".".join(file.parts) for file in files]
-    # pdoc has no option for how a type is written.
+    # pdoc has no option for the names of types.
     with mock.patch("inspect.formatannotation", named):
         pdoc.pdoc(*PACKAGES, *curves, output_directory=Path(folder))
 

@@ -25,8 +25,8 @@ E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
 MODELS = tuple(inelastic.MODELS)
 SOFT, HARD = inelastic.SOFT, inelastic.HARD
 # Models are compared with the finite elements up to this friction, from this restitution on.
-FRICTION, LOSSY = 0.1, 0.45
-NEAR = (0.62, 0.92)  # restitutions at which two Kelvin-Voigt elements are near
+LARGEST_FRICTION, LEAST_RESTITUTION = 0.1, 0.45
+NEAR_RESTITUTIONS = (0.62, 0.92)  # restitutions at which two Kelvin-Voigt elements are near
 
 
 class Tables(NamedTuple):
@@ -77,7 +77,7 @@ def table_rows(tables: Tables) -> list[Row]:
     ]
     not_finite = [name for name, value, _ in numbers if not np.isfinite(value)]
     if not_finite:
-        raise ArithmeticError(f"{', '.join(not_finite)}: no number was found")
+        raise ArithmeticError(f"{', '.join(not_finite)}: not a finite number")
     return [{"name": name, "value": f"{value:.12g}", "what": what} for name, value, what in numbers]
 
 
@@ -191,16 +191,18 @@ def _pairs(curves: Curves, measured: Columns) -> _Numbers:
 
 def _finite_elements(curves: Curves, runs: Columns) -> _Numbers:
     e, friction = runs[E], runs["friction [1]"]
-    # What the constant of the plastic law was fitted to is no evidence.
-    compared = (friction <= FRICTION + 1e-9) & (e >= LOSSY) & (runs["set"] != "calibration")
-    near = compared & (e >= NEAR[0]) & (e <= NEAR[1])
+    # Runs to which the constant of the plastic law was fitted are no evidence.
+    compared = (friction <= LARGEST_FRICTION + 1e-9) & (e >= LEAST_RESTITUTION)
+    compared &= runs["set"] != "calibration"
+    near = compared & (e >= NEAR_RESTITUTIONS[0]) & (e <= NEAR_RESTITUTIONS[1])
     yield "yielding.runs", len(e), "finite-element runs of spheres that yield"
     for model in MODELS:
         off = curves[f"{model}, runs"][W] - runs[W]
-        what = f"from our finite elements of yielding spheres, mu to {FRICTION}, e from {LOSSY}"
+        limits = f"mu to {LARGEST_FRICTION}, e from {LEAST_RESTITUTION}"
+        what = f"from our finite elements of yielding spheres, {limits}"
         yield f"yielding.{model}.rms", _rms(off[compared]), f"{what}, root mean square, mu v2(0)"
         yield f"yielding.{model}.max", np.abs(off[compared]).max(), f"{what}, largest"
-        what = f"the same, e from {NEAR[0]} to {NEAR[1]}"
+        what = f"the same, e from {NEAR_RESTITUTIONS[0]} to {NEAR_RESTITUTIONS[1]}"
         yield f"yielding.{model}.near.rms", _rms(off[near]), f"{what}, root mean square"
         yield f"yielding.{model}.near.max", np.abs(off[near]).max(), f"{what}, largest"
 

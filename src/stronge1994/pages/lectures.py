@@ -40,7 +40,7 @@ class ThisPython(AsyncKernelManager):
     def kernel_spec(self) -> Any:
         """How this Python is started."""
         arguments = ["-m", "ipykernel_launcher", "-f", "{connection_file}"]
-        # Pictures stay sharp on paper and at any size, and bear no date.
+        # SVG pictures are sharp at any size; they are written without a date.
         arguments.append("--InlineBackend.figure_formats={'svg'}")
         arguments.append("--InlineBackend.print_figure_kwargs={'metadata': {'Date': None}}")
         return KernelSpec(argv=[sys.executable, *arguments], language="python")
@@ -94,9 +94,10 @@ def parts(cells: Iterable[Any]) -> list[tuple[str, list[Any]]]:
     is its collapsed heading. It ends where JupyterLab ends it: before the next heading of the same
     or a higher level.
 
-    >>> from nbformat.v4 import new_markdown_cell as words
+    >>> from nbformat.v4 import new_markdown_cell as markdown
     >>> folded = {"jp-MarkdownHeadingCollapsed": True}
-    >>> cells = [words("Why?"), words("### Answer", metadata=folded), words("So."), words("## 2")]
+    >>> cells = [markdown("Why?"), markdown("### Answer", metadata=folded), markdown("So.")]
+    >>> cells.append(markdown("## 2"))
     >>> [(title, [cell.source for cell in group]) for title, group in parts(cells)]
     [('', ['Why?']), ('Answer', ['So.']), ('', ['## 2'])]
     """

@@ -16,7 +16,7 @@ TITLE = "Planar impact of rough compliant bodies: a replication"
 MODELS = ("lumped", "lumped.plastic", "lumped.viscous", "continuum.viscous", "continuum.plastic")
 COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
 # Smaller probabilities are shown as `< 0.001`.
-LEAST = 1e-3
+LEAST_PROBABILITY = 1e-3
 
 
 def probability(p: float) -> str:
@@ -25,7 +25,7 @@ def probability(p: float) -> str:
     >>> probability(0.2234), probability(3.6e-26)
     ('0.22', '< 0.001')
     """
-    return f"{p:.2g}" if p >= LEAST else f"< {LEAST:g}"
+    return f"{p:.2g}" if p >= LEAST_PROBABILITY else f"< {LEAST_PROBABILITY:g}"
 
 
 def count(number: float) -> str:

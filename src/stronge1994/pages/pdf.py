@@ -29,8 +29,8 @@ from stronge1994.figures.shared.drawing import house_style
 FACES = {"": "STIXGeneral", "bold": "STIXGeneralBol", "italic": "STIXGeneralItalic"}
 MARGIN, GAP = 17 * mm, 7 * mm
 COLUMN, HEIGHT = (A4[0] - 2 * MARGIN - GAP) / 2, A4[1] - 2 * MARGIN
-# Room that a heading needs below it, for some lines of text.
-KEPT = 36.0
+# Room below a heading for a few lines of text.
+ROOM_BELOW_HEADING = 36.0
 # Elements within a line, as ReportLab names them.
 INLINE = {"i": "i", "b": "b", "sub": "sub", "sup": "super"}
 # Distance of indices from their line, and their size, in points.
@@ -216,7 +216,7 @@ class _Pages:
         if isinstance(part, _Float):
             self._float(part)
             return
-        if part.getKeepWithNext() and _height([part]) + KEPT > self._room():
+        if part.getKeepWithNext() and _height([part]) + ROOM_BELOW_HEADING > self._room():
             self._next()
         while not self.frame.add(part, self.canvas):
             pieces = self.frame.split(part, self.canvas)
@@ -255,7 +255,7 @@ def write(path: str, page: str, pictures: Mapping[str, str], title: str) -> int:
     """Write the element `article` of a page as a PDF, and return the number of its pages.
 
     `pictures` are PNG files by their names. Links lead to pages that a PDF does not have beside it,
-    so their words alone are set.
+    so only their texts are set.
     """
     for kind, file in FACES.items():
         name = f"STIX-{kind}" if kind else "STIX"

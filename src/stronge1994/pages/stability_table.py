@@ -22,7 +22,7 @@ COLUMNS = (
     "digits_lost_most [1]",
 )
 # Values more than this many decades away from 1 share one row.
-FAR = 16
+LARGEST_DECADE = 16
 
 
 def by_decade(impacts: Columns) -> list[list[Any]]:
@@ -39,7 +39,7 @@ def by_decade(impacts: Columns) -> list[list[Any]]:
         values = impacts[quantity]
         with np.errstate(divide="ignore"):
             decades = np.floor(np.log10(values))
-        decades[values > 0] = np.clip(decades[values > 0], -FAR - 1, FAR)
+        decades[values > 0] = np.clip(decades[values > 0], -LARGEST_DECADE - 1, LARGEST_DECADE)
         for decade in np.unique(decades):
             here = decades == decade
             cells = [
@@ -56,8 +56,8 @@ def _span(decade: float) -> tuple[str, str]:
     """Ends of a decade as texts."""
     if decade == -np.inf:
         return "0", "0"
-    low = "0" if decade < -FAR else f"1e{decade:.0f}"
-    return low, "inf" if decade >= FAR else f"1e{decade + 1:.0f}"
+    low = "0" if decade < -LARGEST_DECADE else f"1e{decade:.0f}"
+    return low, "inf" if decade >= LARGEST_DECADE else f"1e{decade + 1:.0f}"
 
 
 def write(curves: str, table: str) -> None:

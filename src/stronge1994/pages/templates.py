@@ -7,7 +7,7 @@ import jinja2
 
 from stronge1994.plan.config import SCENE
 
-# What all pages share: their theme and the bar of pages.
+# Folder of the theme and the bar of pages, which all pages share.
 SHARED = Path(__file__).parents[3] / "workflow/report"
 
 

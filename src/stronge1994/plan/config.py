@@ -94,7 +94,7 @@ def with_values(node: Any) -> Any:
         for tag, number in {"int": int, "float": float}.items():
             if strict_yaml.NUMBERS[tag].fullmatch(node):
                 return number(node)
-        if node.lower() in ("nan", "inf", "-inf"):  # to be refused as numbers, not as words
+        if node.lower() in ("nan", "inf", "-inf"):  # to be refused as numbers, not as texts
             return float(node)
     return node
 
@@ -150,8 +150,8 @@ def _check_source(where: str, name: str, needed: list[str], inventory: Inventory
         raise ConfigError(f"{where}: '{name}' is not in data/; allowed are {', '.join(inventory)}")
     missing = set(needed) - set(inventory[name]["parameters"])
     if missing:
-        words = f"'{name}' states no {min(missing)}; needed are {', '.join(needed)}"
-        raise ConfigError(f"{where}: {words}")
+        problem = f"'{name}' states no {min(missing)}; needed are {', '.join(needed)}"
+        raise ConfigError(f"{where}: {problem}")
 
 
 def _ascending(where: str, span: Any) -> None:

@@ -15,7 +15,7 @@ from stronge1994 import reference_data
 Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
 FOLDER = Path(__file__).parents[1] / "figures"
 PROJECT = Path(__file__).parents[3]
-SHARED = "shared"  # beside the figures: what several of them use
+SHARED = "shared"  # folder beside the figures, of code for several of them
 MORE_ARGUMENTS = ("nodes", "materials", "uncertainty")  # of `curves`, beside settings
 
 
@@ -67,7 +67,7 @@ def _refuse_other_parameters(name: str, content: Stated) -> None:
     """Refuse settings that `curves` does not take, or lacks; its imports are not followed."""
     try:
         tree = ast.parse((FOLDER / name / "curves.py").read_text(encoding="utf-8"))
-    except SyntaxError:  # the row `...-solved` says so
+    except SyntaxError:  # the row `...-solved` has the error
         return
     for node in tree.body:
         if isinstance(node, ast.FunctionDef) and node.name == "curves":

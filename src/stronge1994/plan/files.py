@@ -6,7 +6,7 @@ They are listed by folders, coarsely. A job that imports a module which is not l
 import functools
 from pathlib import Path
 
-# What every job imports: the solver, the modules that stand in no room, the record of the job.
+# Files that every job imports: the solver, modules outside of rooms, the record of the job.
 EVERY_JOB = (
     "src/planarimpact",
     "src/stronge1994/run/__init__.py",

@@ -21,7 +21,7 @@ import jsonschema
 from stronge1994.reference_data import digitiser_export, strict_yaml
 from stronge1994.reference_data.digitiser_export import NumberedRow
 
-# As in source.yaml; a loaded series has its `path` too.
+# Contents of a source.yaml; a loaded series also has its `path`.
 Source: TypeAlias = dict[str, Any]
 Series: TypeAlias = Mapping[str, Any]
 Axis: TypeAlias = Mapping[str, Any]

@@ -20,7 +20,7 @@ def faults(
     `faults_of_tables`.
     """
     messages = record.faults(made)
-    if messages:  # rows of a table that was changed prove nothing
+    if messages:  # rows of a changed table prove nothing
         return messages
     verdicts, ledger = map(csv_tables.read_rows, TABLES)
     messages = faults_of_tables(verdicts, ledger, comparisons, entries)

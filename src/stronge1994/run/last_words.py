@@ -27,7 +27,7 @@ STOPPED = [
 INTERRUPTED = (
     "Interrupted. Nothing needs mending: type the same command again, finished work is kept."
 )
-# What helps after Snakemake has said that the folder is locked.
+# Help after Snakemake has reported that the folder is locked.
 UNLOCK = "Does no other run work here? Then type:  snakemake --unlock  and the same command again."
 # Snakemake's own log says this after Ctrl-C, and after a job has failed.
 ON_REQUEST = "Terminating processes on user request"
@@ -61,7 +61,7 @@ def text(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str] 
     where = f"All columns: {', '.join(TABLES)}"
     if not faults:
         parts += [f"PASSED. {where}; pictures: figures/", *NEXT]
-        if stopped:  # what was asked for beside the verdict
+        if stopped:  # a job beside the verdict
             parts += _stopped(logs)
     else:
         again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]

@@ -16,7 +16,7 @@ from stronge1994.run import record
 
 FOLDER = "results/plans"
 GATE_LOG = "results/logs/all.log"
-# Options that only ask. One that is missing here costs a verdict, until the next run.
+# Options that only ask. One that is missing here would remove a verdict until the next run.
 ONLY_ASKS = {"--dry-run", "--dryrun", "--lint", "--report", "--summary", "--detailed-summary"}
 ONLY_ASKS |= {"--list-rules", "-l", "--list-target-rules", "--rulegraph", "--dag", "--filegraph"}
 DRY = re.compile("-[npqFk]*n[npqFk]*")  # -n, also among other letters, as in -np

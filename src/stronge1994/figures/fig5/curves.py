@@ -17,8 +17,8 @@ from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
 
-# Curves with a parameter off by one sigma only show how far it moves the others. They have this
-# many times fewer vertices.
+# Curves with a parameter off by one sigma serve only for its effect. They have this many times
+# fewer vertices.
 COARSER = 4
 
 

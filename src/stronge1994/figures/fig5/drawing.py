@@ -14,12 +14,12 @@ from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Entries, Points, Series, Settings, Style
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-# Below the paper's curves, with which these coincide where the contact slips throughout.
+# Drawn below the paper's curves, with which these coincide where the contact slips throughout.
 RUBBER = {"color": house_style.GREEN, "linewidth": 1.0, "zorder": 1.9}
 SOFT_CONTINUUM = RUBBER | {"linestyle": house_style.DASHES[1]}
 RUBBER_SPHERE = "johnson1983/rubber_sphere"
 RUBBER_POINTS: Style = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
-# Measured with loss, so that they stand beside curves of e = 1.
+# Measured with loss, and so not on the curves, which have e = 1.
 LOSSY_RUBBER = "cross2014/impacts"
 LOSSY_POINTS: Style = {"color": house_style.GREEN, "marker": "o", "markerfacecolor": "white"}
 ELEMENT_POINTS: Style = {"color": house_style.VERMILLION, "marker": "s", "markerfacecolor": "white"}

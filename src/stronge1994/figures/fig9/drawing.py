@@ -59,7 +59,7 @@ def _draw_printed(axes: Axes, curves: Curves, settings: Settings) -> Entries:
         differs = np.concatenate([[], *(part[X] for part in own if part)])
         if own[0]:
             axes.plot(own[0][X], own[0][Y], **style)
-        # Elsewhere, as in slip throughout, the printed equations give the same.
+        # Elsewhere, as in slip throughout, the printed equations agree with the balance.
         for same in (x <= min(differs, default=np.inf), x >= max(differs, default=np.inf)):
             axes.plot(x[same], curve[Y][same], **style)
     axes.axhline(0, **house_style.GUIDE)

@@ -23,9 +23,9 @@ from stronge1994.figures.shared.curves.lossy import MODELS
 from stronge1994.figures.shared.curves.sampling import vertices
 
 # Slopes from which the fit starts. Friction never accelerates the body, so |w| is at most x.
-TRIED = np.linspace(-1.0, 1.0, 201)
+TRIAL_SLOPES = np.linspace(-1.0, 1.0, 201)
 # Number of impacts in a fit, so large that beta_0 does not depend on it.
-FITTED = 2000
+FIT_SIZE = 2000
 E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
 PARAMETERS = f"{EACH}pair's parameters"
 
@@ -54,7 +54,7 @@ SPREADS = RANGES | {
     f"{spread_name}, by angle": spread._replace(by_angle=True)
     for spread_name, spread in RANGES.items()
 }
-FARTHEST = max(spread.reach for spread in SPREADS.values())
+LARGEST_REACH = max(spread.reach for spread in SPREADS.values())
 
 
 def curves(
@@ -179,7 +179,7 @@ def _fitted(
     whole = _Contacts(*map(np.concatenate, zip(*groups, strict=True)))
     e = whole.restitution
     ends = sliding.change(np.full_like(e, beta), e)
-    x = FARTHEST * ends[:, None] * np.linspace(0.0, 1.0, solved)
+    x = LARGEST_REACH * ends[:, None] * np.linspace(0.0, 1.0, solved)
     # Contacts that differ by friction alone have the same rebounds.
     groups_of_rebound = np.stack([whole.stiffness_ratio, e], axis=1)
     _, first, same = np.unique(groups_of_rebound, axis=0, return_index=True, return_inverse=True)
@@ -199,8 +199,8 @@ def _impacts(end: float, friction: float, spread: Spread) -> Array:
     """Incidences of the impacts of one fit, up to `FARTHEST` times the end of the sliding line."""
     reach = spread.reach * end
     if spread.angle is not None:
-        reach = min(np.tan(np.radians(spread.angle)) / friction, FARTHEST * end)
-    share = (np.arange(FITTED) + 0.5) / FITTED
+        reach = min(np.tan(np.radians(spread.angle)) / friction, LARGEST_REACH * end)
+    share = (np.arange(FIT_SIZE) + 0.5) / FIT_SIZE
     if not spread.by_angle:
         return share * reach
     return np.tan(share * np.arctan(friction * reach)) / friction
@@ -218,8 +218,10 @@ def tangential_restitution(x: ArrayLike, w: ArrayLike, beta: float, e: float) ->
     """
     x, w = np.asarray(x, float), np.asarray(w, float)
     slip = sliding.velocity(x, beta, e)
-    squares = [np.sum((w - np.maximum(-tried_slope * x, slip)) ** 2) for tried_slope in TRIED]
-    slope, previous = float(TRIED[np.argmin(squares)]), np.nan
+    squares = [
+        np.sum((w - np.maximum(-tried_slope * x, slip)) ** 2) for tried_slope in TRIAL_SLOPES
+    ]
+    slope, previous = float(TRIAL_SLOPES[np.argmin(squares)]), np.nan
     # The slope decides which impacts lie above the line of slip, and these decide the slope.
     while slope != previous:
         first, previous = -slope * x > slip, slope

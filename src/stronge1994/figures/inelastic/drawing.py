@@ -28,8 +28,8 @@ PARAMETERS = f"{curve_names.EACH}pair's parameters"
 CHI_SQUARED, OVER_LIMIT = "chi_squared [1]", "chi_squared_over_limit [1]"
 # The pairs that decide most: the least elastic one, and the one farthest from all models.
 SOFT, HARD = "polyurethane", "chrome steel"
-# Points of one restitution are drawn side by side, so far apart.
-APART = 0.0055
+# Distance of points of one restitution, which are drawn side by side.
+PAIR_SPACING = 0.0055
 # Pairs agree with a model if chance gives their chi-squared with at least this probability.
 SIGNIFICANCE = 0.01
 # Meanings of labels, see `shared.drawing.words`.
@@ -51,8 +51,8 @@ def side_by_side(x: Array) -> Array:
     [0.897, 0.97, 0.903]
     """
     moved, order = x.copy(), np.argsort(x, kind="stable")
-    for same in np.split(order, np.flatnonzero(np.diff(x[order]) > APART) + 1):
-        moved[same] = x[same].mean() + APART * (np.arange(len(same)) - (len(same) - 1) / 2)
+    for same in np.split(order, np.flatnonzero(np.diff(x[order]) > PAIR_SPACING) + 1):
+        moved[same] = x[same].mean() + PAIR_SPACING * (np.arange(len(same)) - (len(same) - 1) / 2)
     return moved
 
 
@@ -154,12 +154,12 @@ def slope(series: Series, without: Sequence[str] = ()) -> tuple[float, float]:
 
 MEASURED = {"color": house_style.BLACK, "marker": "o", "markersize": 3, "markerfacecolor": "white"}
 # Height of a label, as a share of the axes.
-LINE = 0.066
+LABEL_HEIGHT = 0.066
 TICKS = (0.3, 1, 3, 10, 30)  # of chi-squared over its limit
-# Points of one trial stand so far apart, over the height of its row.
-BESIDE = 0.16
-# A point so far from all others has its label beside it; the others have theirs at the right.
-ALONE = 0.1
+# Distance of the models' points in one trial, over the height of its row.
+MODEL_SPACING = 0.16
+# A point this far from all others has its label beside it; the others have theirs at the right.
+ISOLATED = 0.1
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -222,14 +222,14 @@ def _draw_pairs(axes: Axes, series: house_style.Series) -> None:
     low, high = axes.get_ylim()
     left, right = axes.get_xlim()
     names, gaps = series["columns"]["pair"], np.abs(e[:, None] - e) + np.eye(len(e))
-    alone = gaps.min(axis=0) > ALONE
+    alone = gaps.min(axis=0) > ISOLATED
     for x, y, name in zip(
         e[alone], (beta_0 + series["sigma"][1])[alone], names[alone], strict=True
     ):
         place = {"ha": "center", "va": "bottom", "fontsize": house_style.NOTE}
         axes.annotate(name, (x, y), (0, 6), textcoords="offset points", **place)
     crowd = beside[~alone], beta_0[~alone]
-    heights = spread(crowd[1], LINE * (high - low), low, high)
+    heights = spread(crowd[1], LABEL_HEIGHT * (high - low), low, high)
     for x, y, height, name in zip(*crowd, heights, names[~alone], strict=True):
         bend = right + 0.015 * (right - left)
         axes.plot(
@@ -266,7 +266,7 @@ def spread(y: Array, apart: float, low: float, high: float) -> Array:
         for i in range(int(count))
     ]
     heights[order] = flat
-    # What sticks out is moved inside as a whole.
+    # If the outermost label lies outside, all are moved together.
     heights += max(0.0, low + apart / 2 - heights.min())
     heights -= max(0.0, heights.max() - high + apart / 2)
     return heights
@@ -295,7 +295,7 @@ def _draw_trials(axes: Axes, curves: Curves) -> None:
     trial_names = [trial.name for trial in trials(curves)]
     rows = np.arange(len(trial_names))
     for place, (name, model) in enumerate(MODELS.items()):
-        beside = rows + BESIDE * (place - (len(MODELS) - 1) / 2)
+        beside = rows + MODEL_SPACING * (place - (len(MODELS) - 1) / 2)
         for trial, height in zip(trial_names, beside, strict=True):
             axes.plot(curves[f"{name}, {trial}"][OVER_LIMIT], [height], **_dot(model))
     axes.axvline(1.0, color=house_style.BLACK, linewidth=0.8, linestyle=house_style.DASHES[1])

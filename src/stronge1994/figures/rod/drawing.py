@@ -26,7 +26,7 @@ NEWTON = {"color": house_style.VERMILLION, "linestyle": (0, (7, 2, 1.5, 2)), "li
 CREATED = {"facecolor": house_style.VERMILLION, "alpha": 0.25, "linewidth": 0}
 JAM = {"facecolor": "white", "hatch": "//////", "edgecolor": "0.4", "linewidth": 0.6}
 SHADES = {"STICK_SLIP": "white", "SLIP_STICK_SLIP": "0.93", "SLIP_THROUGHOUT": "0.8"}
-RIBBONS = {"regime": "", "jams": "", "rigid: jams": "rigid, "}  # whose regime or jams
+RIBBONS = {"regime": "", "jams": "", "rigid: jams": "rigid, "}  # beginnings of the curves' names
 # Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     r"tilt $\alpha$": r": tilt \[deg\]",
@@ -139,7 +139,7 @@ def _draw_ribbons(axes: Axes, ribbons: Sequence[Columns], letters: float) -> Non
         shade = SHADES.get(regime, "0.6")
         frame = {"facecolor": shade, "edgecolor": house_style.BLACK, "linewidth": 0.6}
         axes.barh(0.5, end - start, 0.8, start, clip_on=False, **frame)
-        # A bar that is too short for its word has only its shade.
+        # A bar that is too short for its label has only its shade.
         if (end - start) / whole * letters > len(label := Regime[regime].words):
             place = {"ha": "center", "va": "center_baseline", "fontsize": house_style.NOTE - 1}
             axes.text((start + end) / 2, 0.5, label, **place)
@@ -178,7 +178,7 @@ def _mark_events(axes: Axes, contact: Columns) -> None:
         spans.append((time[start], time[end], word))
         axes.axvline(time[end], **house_style.GUIDE)
     house_style.brackets(axes, spans)
-    # A short last bracket has its word behind it.
+    # A short last bracket has its label behind it.
     place = {"va": "center_baseline", "transform": axes.get_xaxis_transform()}
     if spans[-1][1] - spans[-1][0] < 0.08 * time[-1]:
         axes.text(time[-1] * 1.01, 1.07, spans[-1][2], fontsize=house_style.NOTE, **place)

@@ -17,7 +17,7 @@ from stronge1994.figures.shared.curves.lossy import MODELS
 from stronge1994.figures.shared.curves.sampling import vertices
 
 ELASTIC = "continuum"  # without loss, whatever the restitution
-# Impacts of which a text states one each, with parameters of their own in source.yaml.
+# Impacts that are stated singly in the text of a paper, with their own parameters in source.yaml.
 STATED = {"Cross 2010": "2010", "Cross 2002": "2002"}
 X, E_T, ANGLE = "incidence [mu v2(0)]", "tangential_restitution [1]", "angle [deg]"
 LIMIT = "incidence_limit [mu v2(0)]"
@@ -89,7 +89,7 @@ def curves(
         squares = np.square(solved["impacts"] - measured)
         means = np.array([squares[:, at <= limit].mean(axis=1) for limit in limits])
         named[f"{model}, rms"] = {LIMIT: limits} | dict(zip(RMS, np.sqrt(means).T, strict=True))
-        if model != ELASTIC:  # labels are for what is compared with measurements
+        if model != ELASTIC:  # only compared curves need labels
             named[f"{model}, impacts"] |= labels
             named[f"{model}, stated"] = balls | {X: groups["stated"][0], E_T: solved["stated"]}
         if uncertainty and model != ELASTIC:

@@ -31,7 +31,7 @@ LEGEND_MEANS = {
 }
 
 
-# Green is for no loss. It has no marker.
+# The model without loss is green and has no marker.
 MODELS = lossy.MODELS | {
     ELASTIC: Model("elastic continuum, $e = 1$", house_style.GREEN, house_style.DASHES[1], "")
 }

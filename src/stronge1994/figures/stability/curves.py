@@ -18,7 +18,7 @@ GROUPS = {
 }
 OUTPUTS = ("velocity", "peak_friction", "dissipation")
 ROUNDING = 2.0**-52
-# Below this, a hundred times the smallest number, float64 cannot hold two digits.
+# Smaller numbers have less than two digits in float64: a hundred times its smallest number.
 FLOOR = 100 * 5e-324
 # Largest number of digits that is counted.
 DIGITS = 16.0

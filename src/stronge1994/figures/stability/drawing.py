@@ -29,8 +29,8 @@ KINDS = {"digits": "correct digits found", "digits_allowed": "allowed by the con
 MOST_DIGITS = 16
 LEVELS = np.arange(0, MOST_DIGITS + 1, 2)
 # Digits that may be lost, see the comparison `stability-digits`.
-WORSE = 2
-LINES = {0: "as many as allowed", WORSE: f"{WORSE} digits fewer"}
+LOST_DIGITS_ALLOWED = 2
+LINES = {0: "as many as allowed", LOST_DIGITS_ALLOWED: f"{LOST_DIGITS_ALLOWED} digits fewer"}
 ACROSS, MEDIAN = "omega [cell]", "median [1]"
 # Lower edges of the cells, each with its label. The first cell has none: it holds all below.
 OMEGAS = {10.0**k: f"$10^{{{k}}}$" if k % 3 == 0 else "" for k in range(-5, 7)}

@@ -16,7 +16,7 @@ Place: TypeAlias = tuple[float, float]
 
 PLACE, HEIGHT, SPIN = "place [m]", "height [m]", "spin_y [rad/s]"
 # Place of the number of a flight, as a share of the flight, and its size as a share of the gap.
-NEAR, SIZE = 0.36, 0.065
+NUMBER_PLACE, NUMBER_SIZE = 0.36, 0.065
 # Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     "distance from the first impact (m)": r": place \[m\]",
@@ -31,7 +31,7 @@ def sense(flight: int) -> str:
 
 def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
     """Round arrows, clockwise if spin_y > 0, and open where no flight crosses them."""
-    path, radius = curves["path"], SIZE * settings["throw"]["gap"]
+    path, radius = curves["path"], NUMBER_SIZE * settings["throw"]["gap"]
     ways = np.diff(path[PLACE]) + 1j * np.diff(path[HEIGHT])
     tables = dict(curves)
     for number, (x, y, way, spin) in enumerate(
@@ -39,8 +39,8 @@ def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
     ):
         angles = np.angle(1j * way) - np.sign(spin) * np.radians(np.linspace(35, 325, 60))
         tables[sense(number)] = {
-            PLACE: x + NEAR * way.real + radius * np.cos(angles),
-            HEIGHT: y + NEAR * way.imag + radius * np.sin(angles),
+            PLACE: x + NUMBER_PLACE * way.real + radius * np.cos(angles),
+            HEIGHT: y + NUMBER_PLACE * way.imag + radius * np.sin(angles),
         }
     return tables
 
@@ -69,8 +69,8 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         label = f"({number + 1}) {_plain(v, 1)} m/s, spin_y {_plain(spin)} rad/s"
         _draw_flight(axes, (x, y), (x_next, y_next), label, last=number + 2 == len(place))
         entries.append(house_style.key(label, **_style(v < 0)))
-        near = x + NEAR * (x_next - x), y + NEAR * (y_next - y)
-        _draw_number(axes, number + 1, near, SIZE * gap)
+        near = x + NUMBER_PLACE * (x_next - x), y + NUMBER_PLACE * (y_next - y)
+        _draw_number(axes, number + 1, near, NUMBER_SIZE * gap)
         if round(spin):
             _draw_spin(axes, curves[sense(number)])
     for x, y, regime in zip(place[1:-1], height[1:-1], path["regime"][1:-1], strict=True):

@@ -16,15 +16,15 @@ from stronge1994.figures.shared.curves.watch import BUSY, Watch
 FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
 SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
 LUMPED_RESPONSE_TOLERANCE = 1e-10
-# Of the spread, of which two digits matter.
+# Tolerance of the spread, of which two digits matter.
 SPREAD_TOLERANCE = 1e-3
 
 SEED = 1994
-# Medians are of so many calls, or of those begun in so many seconds. The incidence decides how long
-# one impact takes; a batch holds many incidences, so fewer of its calls give the same median.
-REPEATS, ENOUGH, ENOUGH_TOGETHER = 25, 0.1, 0.05
-# One impact costs little less than so many solved together: the overhead of arrays.
-TOGETHER = 300
+# A median is over at most this many calls, begun within this many seconds. The time of an impact
+# depends on its incidence; a large batch holds many incidences, so fewer of its calls are enough.
+MOST_CALLS, SECONDS_OF_CALLS, SECONDS_OF_LARGE_BATCHES = 25, 0.1, 0.05
+# Up to about this many impacts together take as long as one, because of the overhead of arrays.
+LARGE_BATCH = 300
 
 
 def curves(
@@ -210,7 +210,7 @@ def errors(rebound: Rebound, exact: Rebound) -> dict[str, float]:
     columns = {}
     for field, unit in FIELDS.items():
         gap = np.abs(getattr(rebound, field) - getattr(exact, field))
-        # A velocity that is no number is a fault, and must show.
+        # A velocity that is not a number is a fault, and must appear in the table.
         if field == "velocity" or np.isfinite(gap).all():
             columns[f"rms_{field} [{unit}]"] = root_mean_square(gap)
             columns[f"max_{field} [{unit}]"] = np.max(gap)
@@ -240,12 +240,12 @@ def times(
     columns: dict[str, float] = {}
     before, alone = 1, 0.0
     for batch in sorted(batches):
-        if alone * batch / max(before, TOGETHER) > budget:
+        if alone * batch / max(before, LARGE_BATCH) > budget:
             break
-        enough = ENOUGH if batch < TOGETHER else ENOUGH_TOGETHER
+        enough = SECONDS_OF_CALLS if batch < LARGE_BATCH else SECONDS_OF_LARGE_BATCHES
         taken: list[float] = []
         watch = Watch()
-        while len(taken) < REPEATS and sum(taken) < enough:
+        while len(taken) < MOST_CALLS and sum(taken) < enough:
             x = random.uniform(low, high, batch)
             with watch:
                 taken.append(seconds(x))

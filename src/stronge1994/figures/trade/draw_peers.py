@@ -49,7 +49,7 @@ TICKS = (0.05, 0.1, 0.2, 0.5, 1)
 # Height in inches of a line of a legend or of the second figure, and of all else in that figure.
 LINE, FRAME = 0.22, 1.1
 # Distance of the points of two restitutions, in lines, so that none hides another.
-APART = 0.27
+RESTITUTION_SPACING = 0.27
 
 _Row: TypeAlias = dict[str, Any]
 # Meanings of labels, see `shared.drawing.words`.
@@ -246,7 +246,10 @@ def _draw_loss(
     places = {line.label: place for place, line in enumerate(lines) if not line.heading}
     for label, place in places.items():
         errors = {e: tables.get(f"{label}, {loss}, e = {e:g}") for e in styles}
-        heights = {e: place + (i - (len(styles) - 1) / 2) * APART for i, e in enumerate(styles)}
+        heights = {
+            e: place + (i - (len(styles) - 1) / 2) * RESTITUTION_SPACING
+            for i, e in enumerate(styles)
+        }
         known = {e: table[ERROR][0] for e, table in errors.items() if table}
         points = list(known.values()), [heights[e] for e in known]
         axes.plot(*points, color=house_style.GREY, linewidth=0.6, zorder=1)

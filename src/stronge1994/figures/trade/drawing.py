@@ -113,7 +113,7 @@ FAMILIES = {
     "laws.brach": FORMULA,
     "lumped": Family("lumped, as in the paper", "o", 3.5, BLACK, True, None),
     "timestep.linear": Family("linear spring", "s", 5.5, BLACK, False, LOWER_RIGHT),
-    # At the number of steps of the next.
+    # It has no label: its numbers of steps are those of the next model.
     "timestep.mindlin": Family("Mindlin", "^", 5, BLACK, True, None),
     "timestep.mindlin_rescaled": Family("Mindlin, rescaled", "v", 5, BLACK, False, UPPER_RIGHT),
     "lumped.viscous": Family("lumped, viscous", "P", 5, VISCOUS, True, None),
@@ -161,7 +161,7 @@ GROWTH = {
     "annuli": house_style.DASHES[3],
     "response of continuum": house_style.DASHES[4],
 }
-# The part of the answer that uncertain inputs hide.
+# Range of errors that uncertain inputs hide.
 HIDDEN = {"color": "0.9", "linewidth": 0, "zorder": 0.5}
 FRONT = {"color": house_style.BLACK, "linewidth": 0.6, "zorder": 0.9}
 FRONT_WITH_RESPONSES = FRONT | {"linestyle": (0, (4, 2))}

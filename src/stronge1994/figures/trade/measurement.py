@@ -28,7 +28,7 @@ STEPS = (64, 256)
 BATCHES = (1, 1000)
 # Longest time of a batch, in seconds.
 BUDGET = 10.0
-# Of our own continua, solved and compiled: far below the errors of both codes.
+# Tolerance of our own continua, solved and compiled: far below the errors of both codes.
 OWN_TOLERANCE = 1e-3
 # The rooms of ours whose models are measured beside the codes, and those that are compiled too.
 ROOMS, COMPILED = ("lumped", "continuum", "spheres"), "continuum"

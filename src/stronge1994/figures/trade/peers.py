@@ -119,10 +119,10 @@ def damping_for(
     tangential: float = 0.0,
     limited: bool = False,
 ) -> Damping:
-    """The damping of a user who wants this restitution.
+    """The damping that gives a restitution.
 
-    The restitution is the kinematic coefficient. A style in `NOMINAL` takes the restitution
-    itself, and may deliver another. For `DEFAULT` a search over impacts along the normal finds the
+    The restitution is the kinematic coefficient. A style in `NOMINAL` takes the restitution itself,
+    and may deliver another. For `DEFAULT` a search over impacts along the normal gives the
     coefficient that delivers it; `steps` are the time steps in one Hertzian contact, those of the
     impacts that follow.
 
@@ -339,7 +339,7 @@ def _pooltool_impact(
     stiffness_ratio: float,
     friction: float,
 ) -> float:
-    """w of one impact, or nan. pooltool wants both velocities negative; mass and kn are free."""
+    """w of one impact, or nan; pooltool takes negative velocities; mass and kn are arbitrary."""
     try:
         tangential, _ = resolve(
             -friction * x, -1.0, 1.0, mass_ratio, 1.0, friction, restitution, 1.0, stiffness_ratio

@@ -26,7 +26,7 @@ MODELS: dict[str, Callable[..., Rebound]] = {
 # Columns of data/finite_elements/spheres.csv that tell its rows apart.
 LABELS = ("set", "contact", "run")
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-# Springs of the row under a contact that is pushed, and points that are kept of them.
+# Number of springs in the row under a pushed contact, and of points that its curve keeps.
 SPRINGS, KEPT = 4000, 100
 # Largest restitution of a sphere that yields.
 ALMOST_ELASTIC = 1 - 1e-9

@@ -5,9 +5,9 @@ import time
 
 import numpy as np
 
-# Wall time over CPU time beyond which the machine was busy: a time is a fifth too long, more than
-# it changes from run to run. A quiet machine stays below 1.05; as many other jobs as it has cores
-# make it 1.5 and more.
+# Wall time over CPU time beyond which the machine counts as busy. A time is then a fifth too long,
+# more than it changes from run to run. A quiet machine stays below 1.05; with as many other jobs as
+# cores it is 1.5 and more.
 BUSY = 1.2
 
 

@@ -38,11 +38,11 @@ from stronge1994.figures.shared.drawing.words import SHARED, Meanings
 
 File: TypeAlias = str | IO[bytes]
 
-# What stands behind the name of a column for the ends of its error bars.
+# Endings of the names of columns with the ends of error bars.
 BARS = (" - error", " + error")
-# Two numbers closer than this share are one: Matplotlib computes ends of bars and edges of cells.
+# Relative difference up to which two numbers are equal: Matplotlib rounds ends of bars and edges.
 CLOSE = 1e-9
-# Where an area ends that is filled down to a constant, and a bar begins.
+# Constants down to which areas are filled, and at which bars begin.
 BASES = (0.0, 1.0)
 HINT = (
     "Meanings of labels stand in AXIS_MEANS and LEGEND_MEANS of drawing.py, and in shared/drawing/"
@@ -108,7 +108,7 @@ def save(
     figure.set_layout_engine("none")
     for axes in figure.axes:
         axes.set_position(np.round(axes.get_position().bounds, 6))
-    # `Figure.savefig` would draw once more, unseen, to solve a layout that is solved.
+    # `Figure.savefig` would draw once more to solve the layout again.
     FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
     if png:
         figure.dpi = 200
@@ -270,7 +270,7 @@ class _Panel:
             if not self.meanings.names_a_curve(text):
                 return
         if not any(self.meanings.is_curve(text, one.curve, one.names) for one in matches):
-            raise NotInTable(f"{self}: '{text}' is said of {_named(matches)}. {HINT}")
+            raise NotInTable(f"{self}: '{text}' is the label of {_named(matches)}. {HINT}")
 
     def _numbers(self, columns: _Columns, point: Array) -> Iterator[float]:
         """Numbers of the rows at a point, and those in the name of the curve."""
@@ -443,7 +443,7 @@ def _style(artist: Artist | None) -> tuple[Any, ...]:
 
 
 def _dashes(artist: Any) -> Any:
-    # Matplotlib tells no more than that there are dashes.
+    # Matplotlib has no public access to the pattern of dashes.
     offset, dashes = artist._unscaled_dash_pattern
     return offset, tuple(dashes or ())
 

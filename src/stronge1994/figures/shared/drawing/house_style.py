@@ -74,7 +74,7 @@ CYCLE = tuple(zip(COLOURS, DASHES, strict=True))
 LUMPED: Style = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
 CONTINUUM: Style = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
 RIGID: Style = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zorder": 1.8}
-# Label of what shows no number of a table, see `checked`; also of axes that hold a sketch.
+# Label of artists that show no number of a table, see `checked`, and of axes that hold a sketch.
 NO_DATA = "_no data"
 GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9, "label": NO_DATA}
 SURFACE: Style = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
@@ -126,8 +126,8 @@ STYLE = {
     "ytick.direction": "in",
     "ytick.labelsize": 9.5,
 }
-# These letters come with matplotlib. Its list of fonts may be older than this installation and lack
-# them: then it would take other letters, which are wider than the places made for these.
+# These fonts come with matplotlib. Its cached list of fonts may be older than this installation and
+# lack them: then it would use another font, whose letters are too wide for their places.
 for _font in sorted(FONTS.glob("STIX*.ttf")):
     font_manager.fontManager.addfont(_font)
 matplotlib.rcdefaults()

@@ -21,8 +21,8 @@ def _hollow(marker: str, colour: str) -> dict[str, Any]:
     return style | {"markerfacecolor": "white", "markeredgewidth": 0.7}
 
 
-# Of verdicts that say something. Distances in sigmas do not where sigma is not known, or where the
-# curve was fitted to the points.
+# Marks of verdicts. Other verdicts are not drawn: where sigma is not known, or the curve was fitted
+# to the points, distances in sigmas have no meaning.
 MARKS = {
     "agrees": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
     "inconclusive": _hollow("o", house_style.BLACK),
@@ -34,7 +34,7 @@ ALL_AREA = {"color": house_style.PALE, "linewidth": 0, "zorder": 0.5}
 RMS_AREA = {"color": house_style.GREEN, "alpha": 0.35, "linewidth": 0, "zorder": 0.6}
 RMS_LINE = {"color": house_style.GREEN, "linewidth": 0.9, "linestyle": "-", "zorder": 1.9}
 DISTANCE = "distance [sigma]"
-# A comparison with more points is left out: it would be a block of ink, and a large file.
+# A comparison with more points is left out: its points would overlap, and the file be large.
 MOST_POINTS = 1000
 
 Entry: TypeAlias = Mapping[str, Any]  # a comparison of the config
