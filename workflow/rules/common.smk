@@ -1,4 +1,4 @@
-# Checked config and data before any work, and the plan of every job.
+# Check config and data before any work, and plan every job.
 from stronge1994.ledger import entries
 from stronge1994.figures.study import grid
 
@@ -27,7 +27,7 @@ try:
 except (reference_data.SourceError, ConfigError) as error:
     raise WorkflowError(str(error))
 
-# Sources with whose series something is compared.
+# Sources whose series are compared with something.
 COMPARED = sorted({name for job in JUDGED.values() for name in job["settings"]["sources"]})
 TIMED = figures.with_trait("timed")
 UNTIMED = [figure for figure in FIGURES if figure not in TIMED]
@@ -83,7 +83,7 @@ def planned(job, script, *rooms, settings=lambda value: {}, reads=lambda value: 
 
 
 def of_figure(part, plans=FIGURES, wildcard="figure"):
-    """Input function: a part of what `plan.plan_of_figure` says of a figure, or of another plan."""
+    """Input function: one entry of `plan.plan_of_figure`, or of another plan."""
     return lambda wildcards: plans[getattr(wildcards, wildcard)][part]
 
 
@@ -91,5 +91,5 @@ def all_cores(wildcards):
     return workflow.cores
 
 
-# What every page includes, beside its own template.
+# Files that every page includes, beside its own template.
 EVERY_PAGE = ["workflow/report/theme.css", "workflow/report/site.html"]

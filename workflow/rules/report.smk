@@ -11,7 +11,7 @@ REPORT_PARTS = [
 ]
 
 
-# What only the findings need: key numbers, curves, and the measured pairs of materials.
+# Tables that only the findings need: key numbers, curves, and the measured pairs of materials.
 FOUND = [
     "results/key_numbers.csv",
     "results/curves/fig5.csv",
@@ -65,7 +65,7 @@ rule interface:
 
 
 rule report:
-    """The run as one page, its sources and settings as another; always succeeds, whatever it reads."""
+    """The run as one page, its sources and settings as another; always succeeds, also after failures."""
     input:
         plan=planned("report", "write_report", "pages", "figures/inelastic/drawing.py",
             "figures/shared/drawing", "judging", "ledger", "printed", "plan",

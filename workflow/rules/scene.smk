@@ -38,7 +38,7 @@ localrules:
 
 
 rule solve_part:
-    """Solve one table of a scene in many tables; the tables know nothing of each other."""
+    """Solve one table of a scene in many tables; the tables are independent."""
     input:
         plan=planned("scene_part_{part}", "solve_part", settings=lambda part: parts.settings(config)),
         table=lambda wildcards: PARTS[wildcards.part],

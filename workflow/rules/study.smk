@@ -4,7 +4,7 @@
 
 
 rule solve_chunk:
-    """Solve some points of the study's grid; the chunks know nothing of each other."""
+    """Solve one chunk of the study's grid; the chunks are independent."""
     input:
         plan=planned("study_{scatteritem}", "solve_chunk", "figures/study/files.py", settings=lambda _: grid.settings(config)),
     output:
