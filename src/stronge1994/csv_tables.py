@@ -74,11 +74,7 @@ def read(path: Path) -> Curves:
 
 
 def read_rows(path: Path, columns: Iterable[str] = ()) -> list[Row]:
-    """Rows of a table.
-
-    A `ValueError` names file and line if one of `columns` is missing, or a row is not as wide as
-    the header.
-    """
+    """Rows of a table; a `ValueError` names the line of a missing column or of a wrong width."""
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file, strict=True)) or [[]]
     missing = [column for column in columns if column not in header]

@@ -22,10 +22,7 @@ ORDER = ["diverges", *DIFFERENCES, "awaited", "inconclusive", "agrees", "as befo
 
 
 def gather(paths: Iterable[str]) -> list[Row]:
-    """Rows of several tables, the worst verdict first, otherwise in the order of the figures.
-
-    An unknown verdict comes before all others: the gate will name it.
-    """
+    """Rows of several tables, the worst verdict first; an unknown one before all others."""
     rows = [row for path in paths for row in csv_tables.read_rows(path, COLUMNS)]
     rank = {verdict: place for place, verdict in enumerate(ORDER)}
     return sorted(rows, key=lambda row: rank.get(row["verdict"], -1))

@@ -12,7 +12,7 @@ REPORT_PARTS = [
 
 
 # Tables that only the findings need: key numbers, curves, and the measured pairs of materials.
-FOUND = [
+FINDING_TABLES = [
     "results/key_numbers.csv",
     "results/curves/fig5.csv",
     "results/curves/inelastic.csv",
@@ -77,7 +77,7 @@ rule report:
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
-        tables=[rules.trade.output.table, rules.trade.output.answers, rules.stability.output.table, "results/sensitivity.csv", *FOUND, *PEERS],
+        tables=[rules.trade.output.table, rules.trade.output.answers, rules.stability.output.table, "results/sensitivity.csv", *FINDING_TABLES, *PEERS],
     output:
         page="figures/report.html",
         sources=report(

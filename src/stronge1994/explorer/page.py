@@ -33,11 +33,7 @@ BODIES = {
 
 
 def presets(settings: Mapping[str, Any]) -> dict[str, State]:
-    """States of the page's controls for figures of the paper and the superball.
-
-    `settings` are those of `plan.settings_of_explorer`. Impacts that the sliders cannot show are
-    left out.
-    """
+    """States of the page's controls for figures and the superball, where the sliders reach them."""
     shared = {
         "poisson_ratio": _poisson_ratio(settings["stiffness_ratio"]),
         "mass_ratio": settings["mass_ratio"],
@@ -99,9 +95,7 @@ def address(state: Mapping[str, float]) -> str:
 
 
 def continuum() -> str:
-    """The coarse table of spheres as the script of a page, which is no module.
-
-    Its tables are written to base 85; the page has a function `bytes` that reads that.
+    """The coarse table of spheres as a script for a page, its tables in base 85.
 
     >>> print(continuum().splitlines()[0])
     const spheres = (() => {
@@ -141,11 +135,7 @@ def refuse_other_answers(solver: str, check: str, answers: Sequence[Any]) -> str
 
 
 def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[Any]) -> str:
-    """The page as text.
-
-    `sources` are the files of the template explorer.html and of the style and scripts that it
-    names, in the same folder. The page checks itself against `answers`, those of the package.
-    """
+    """The page as text, from the template explorer.html and the files in the same folder."""
     texts = {Path(path).name: Markup(Path(path).read_text(encoding="utf-8")) for path in sources}
     template = templates.environment(Path(sources[0]).parent).get_template("explorer.html")
     return template.render(

@@ -166,10 +166,7 @@ def difference_residuals(
 def with_allowance(
     sigma: tuple[float, float], allowance: tuple[float, float]
 ) -> tuple[float, float]:
-    """Uncertainty of a point and of the model together: root of the sum of squares.
-
-    The allowance is how far the model may be off by its form. Both are in units of the x and the y
-    axis.
+    """Uncertainty of a point and of the form of the model together: root of the sum of squares.
 
     >>> with_allowance((0.0, 0.4), (0.1, 0.3))
     (0.1, 0.5)

@@ -29,7 +29,7 @@ def is_published(reference: Reference | None) -> bool:
 
 
 def points(entry: Entry, reference: Reference, series_paths: Mapping[str, str]) -> Columns:
-    """Columns of the reference in the regime and with the labels that the comparison asks for."""
+    """Columns of the reference in the regime and with the labels of the comparison."""
     source, name = entry["reference"].split("/")
     series = csv_tables.read(series_paths[source])[name]
     x = series[reference_data.column_name(reference["x"])]

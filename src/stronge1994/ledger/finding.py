@@ -43,10 +43,7 @@ def largest(values: Iterable) -> float:
 
 
 def verdict(value: float, confirms: Mapping[str, float]) -> str:
-    """Verdict that a number supports.
-
-    `confirms` says when the statement counts as true: `at_most`, `at_least`, or `value` with
-    `rounding`, which is half a unit of its last figure or what the sentence leaves open.
+    """Verdict that a number supports; `confirms` has `at_most`, `at_least`, or `value`, `rounding`.
 
     >>> verdict(1.7007, {"value": 1.7, "rounding": 0.05})
     'confirmed within rounding'
@@ -54,6 +51,7 @@ def verdict(value: float, confirms: Mapping[str, float]) -> str:
     'wrong'
     """
     if "value" in confirms:
+        # `rounding` is half a unit of the last figure, or what the sentence leaves open.
         gap = abs(value - confirms["value"])
         if gap <= EXACT:
             return CONFIRMED

@@ -214,9 +214,7 @@ def all_of(
 
 
 def if_supported(finding: Callable[..., Finding], *arguments: Callable[[], Any]) -> Finding | None:
-    """A finding, or None where a table is missing or contradicts it.
-
-    Each of `arguments` is called for one argument of the finding.
+    """A finding of some arguments, or None where a table is missing or contradicts it.
 
     >>> print(if_supported(paper, list))
     None
@@ -255,9 +253,7 @@ def bars(counts: Mapping[str, int]) -> Markup:
 def sketch(
     lines: Sequence[tuple[str, Array, Array]], points: tuple[Array, Array, Array] | None = None
 ) -> Markup:
-    """Curves without axes, as SVG: each is its class, x and y.
-
-    Points are x, y, and half the length of the bar of each.
+    """Lines (class, x, y) and points (x, y, half a bar) without axes, as SVG.
 
     >>> print(sketch([("ours", np.array([0, 1]), np.array([0, 1]))]).count("polyline"))
     2

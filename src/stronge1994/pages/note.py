@@ -67,11 +67,7 @@ def without_numbers(why: Exception) -> Markup:
 def write(
     output: str, output_pdf: str, table: str, pictures: Mapping[str, str], template: str
 ) -> None:
-    """Read what the run has made and write both files.
-
-    `table` is that of key numbers. `pictures` are the PNG files of figures by their names; each has
-    an SVG beside it.
-    """
+    """Write both files, from the table of key numbers and pictures (PNG, with SVG beside them)."""
     try:
         numbers = key_numbers.by_name(csv_tables.read_rows(table))
         svgs = {

@@ -252,11 +252,7 @@ def _frame(left: float, bottom: float, width: float, height: float) -> Frame:
 
 
 def write(path: str, page: str, pictures: Mapping[str, str], title: str) -> int:
-    """Write the element `article` of a page as a PDF, and return the number of its pages.
-
-    `pictures` are PNG files by their names. Links lead to pages that a PDF does not have beside it,
-    so only their texts are set.
-    """
+    """Write the element `article` of a page as a PDF without links; return the number of pages."""
     for kind, file in FACES.items():
         name = f"STIX-{kind}" if kind else "STIX"
         pdfmetrics.registerFont(TTFont(name, str(house_style.FONTS / f"{file}.ttf")))

@@ -63,9 +63,7 @@ ROOT = Path(__file__).parents[3]
 
 
 class Salvage:
-    """Call functions, go on where one fails, and keep a message of each failure.
-
-    Each of `problems` has the error, and the file and line where it happened.
+    """Call functions, go on where one fails, and keep a message with file and line.
 
     >>> salvage = Salvage()
     >>> salvage("Fig. 5", "nothing", lambda: {}["curve"])
@@ -185,10 +183,7 @@ def figure(
     verdicts: list[Row],
     config: Mapping[str, Any],
 ) -> TemplateValues:
-    """Values of the template for one figure.
-
-    `verdicts` may be of other figures too. `config` is as it was in the run.
-    """
+    """Values of the template for one figure."""
     rows = [row for row in verdicts if row["figure"] == name]
     entries = {c: e for c, e in config["comparisons"].items() if e["figure"] == name}
     strips = draw_residuals.strips(residuals, entries, {row["comparison"]: row for row in rows})

@@ -38,10 +38,7 @@ def date() -> str:
 
 
 def commit(folder: str | Path) -> str:
-    """Commit of a checkout, and whether something in it is not committed.
-
-    `NO_COMMIT` if there is none, also for a folder that only lies inside some other checkout.
-    """
+    """Commit of a checkout, and whether it has uncommitted changes; else `NO_COMMIT`."""
     try:
         root, name = _git(folder, "rev-parse", "--show-toplevel", "HEAD").split("\n")
         if Path(root).resolve() != Path(folder).resolve():

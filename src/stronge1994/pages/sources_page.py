@@ -18,10 +18,7 @@ def page(
     run: Mapping[str, Any],
     template: str | Path,
 ) -> str:
-    """The page of sources and settings.
-
-    `sources` are the contents of data/*/source.yaml, and `config` is as it was in the run.
-    """
+    """The page of sources and settings, from data/*/source.yaml and the config of the run."""
     comparisons = config["comparisons"].items()
     settings = {
         figure: {"figures": {figure: entry}}

@@ -26,10 +26,7 @@ LARGEST_DECADE = 16
 
 
 def by_decade(impacts: Columns) -> list[list[Any]]:
-    """Digits of the worst output of the impacts in each decade of each quantity.
-
-    The value 0 has a row of its own.
-    """
+    """Digits of the worst output of the impacts in each decade of each quantity, and at 0."""
     digits, allowed = (
         np.min([impacts[f"{kind}_{name} [1]"] for name in OUTPUTS], axis=0)
         for kind in ("digits", "digits_allowed")

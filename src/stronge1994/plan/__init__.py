@@ -131,10 +131,7 @@ def plan_of_figure(config: Config, inventory: Inventory, figure: str) -> dict[st
 
 
 def references(config: Config, inventory: Inventory, name: str) -> dict[str, Entry]:
-    """Series and facts that some comparisons name: `{source/entry: entry}`.
-
-    With the parameters of their source, which say where a regime begins.
-    """
+    """Series and facts that comparisons name, with the parameters of their source."""
     named = [c["reference"] for c in comparisons(config, name).values() if "reference" in c]
     return {full: _with_parameters(inventory, full) for full in named}
 
@@ -146,10 +143,7 @@ def _with_parameters(inventory: Inventory, full: str) -> Entry:
 
 
 def series_of(config: Config, inventory: Inventory, figure: str) -> dict[str, Entry]:
-    """Series at hand for one figure: `{source/series: entry}`, awaited ones left out.
-
-    Its comparisons name them, or it asks to draw them.
-    """
+    """Series at hand that a figure compares or draws: `{source/series: entry}`."""
     chosen = references(config, inventory, figure)
     asked = figures.stated().get(figure, {}).get("draws", [])
     chosen |= {full: _with_parameters(inventory, full) for full in asked}
@@ -162,10 +156,7 @@ def sources_of(config: Config, inventory: Inventory, figure: str) -> list[str]:
 
 
 def overlays(config: Config, inventory: Inventory, figure: str) -> dict[str, Entry]:
-    """Series and facts to draw over one figure, each series with the parameters of its source.
-
-    They are its measured series and facts, and what figure.yaml lists under `draws`.
-    """
+    """Series and facts to draw over one figure: those that it compares, and those under `draws`."""
     named = references(config, inventory, figure).items()
     asked = figures.stated()[figure].get("draws", [])
     chosen = {name: entry for name, entry in named if "statement" in entry}
@@ -176,10 +167,7 @@ def overlays(config: Config, inventory: Inventory, figure: str) -> dict[str, Ent
 
 
 def nodes_of(config: Config, inventory: Inventory, figure: str) -> dict[str, str | None]:
-    """Reference tables whose points the curves must pass through: `{path: column of x}`.
-
-    A column None stands for the whole table, of the figure that is given one.
-    """
+    """Tables through whose points curves must pass: `{path: column of x}`, None for all of it."""
     stated = figures.stated()[figure]
     for key, setting in stated["settings"].items():
         if setting.get("allowed") == "table":

@@ -21,10 +21,7 @@ MORE_ARGUMENTS = ("nodes", "materials", "uncertainty")  # of `curves`, beside se
 
 @functools.cache
 def stated() -> dict[str, Stated]:
-    """Every figure.yaml, checked; the figures of the paper first, by number.
-
-    A figure without settings has a solver and rules of its own, as the parameter study has.
-    """
+    """Every figure.yaml, checked; the figures of the paper first, by number."""
     # A folder that git has emptied may still hold bytecode, in a folder of its own.
     names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}
     contents = {}
@@ -34,6 +31,7 @@ def stated() -> dict[str, Stated]:
             raise reference_data.SourceError(f"{path.parent}: allowed are a to z, 0 to 9 and _")
         contents[name] = reference_data.load_yaml(path)
         reference_data.refuse_invalid(contents[name], _schema(), path)
+        # A figure without settings has a solver and rules of its own, as the parameter study has.
         if settings := contents[name].get("settings"):
             _refuse_unknown_kinds(settings, f"{path}: settings")
             own = schema_of(settings) | {"$defs": _kinds()}

@@ -17,10 +17,7 @@ KINDS = (".py", ".pyi", ".npz")
 
 
 def sources(script: str, *rooms: str) -> list[str]:
-    """Files that a job reads before it looks at its inputs.
-
-    `script` is a name in workflow/scripts, without ending; rooms are folders of src/stronge1994, or
-    single files there.
+    """Files of a job: its script in workflow/scripts, and rooms or files of src/stronge1994.
 
     >>> [path for path in sources("draw", "figures/fig6/drawing.py") if "fig6" in path]
     ['src/stronge1994/figures/fig6/drawing.py']

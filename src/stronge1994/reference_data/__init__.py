@@ -62,10 +62,7 @@ class SourceError(Exception):
 
 
 def load(folder: Path, schema: Schema) -> Source:
-    """Load and check the source in data/<source>: its source.yaml, each series with its `path`.
-
-    The path of an awaited series is None. A `SourceError` names file, line, column and value.
-    """
+    """Load and check a folder of data/; each series gets its `path`, None while awaited."""
     path = folder / "source.yaml"
     source = load_yaml(path)
     refuse_invalid(source, schema, path)
@@ -121,10 +118,7 @@ def _refuse_axis(where: str, axis: Axis) -> None:
 
 
 def load_yaml(path: str | Path) -> dict[str, Any]:
-    """Read a YAML file: a mapping whose keys are texts, each once.
-
-    A `SourceError` has one line, with the file and where possible the line in it.
-    """
+    """Read a YAML file: a mapping whose keys are texts; a `SourceError` names file and line."""
     try:
         return copy.deepcopy(_parsed("".join(_lines(path))))
     except ValueError as error:

@@ -14,11 +14,7 @@ PROBLEMS, REPORT = "results/problems.csv", "figures/report.html"
 def faults(
     made: Iterable[str], comparisons: Mapping[str, bool], entries: Mapping[str, bool]
 ) -> list[str]:
-    """Why the run must not pass, one line for each fault.
-
-    `made` is every file that the run makes. `comparisons` and `entries` are as for
-    `faults_of_tables`.
-    """
+    """Why the run must not pass, one line for each fault; `made` is every file of the run."""
     messages = record.faults(made)
     if messages:  # rows of a changed table prove nothing
         return messages

@@ -107,10 +107,7 @@ def read(path: str) -> dict[str, Any] | None:
 
 
 def faults(made: Iterable[str]) -> list[str]:
-    """Faults of files, one line each: not as their job wrote them, or made from other inputs.
-
-    `made` is every file that the jobs of a run write, their records among them.
-    """
+    """Faults of the files `made`: not as their job wrote them, or made from other inputs."""
     made = list(made)
     records = [path for path in made if path.startswith(f"{FOLDER}/")]
     messages, wrote = [], set(records)

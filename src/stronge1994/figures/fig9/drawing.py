@@ -21,10 +21,7 @@ AXIS_MEANS = {
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Draw (a) the balance of energy, with two continua; (b) the printed equations over it.
-
-    Each friction has its colour and width of line, each restitution its pattern of line.
-    """
+    """Draw (a) the balance of energy, with two continua; (b) the printed equations over it."""
     heights = [4.0, 3.6][: 1 + any(map(is_printed, curves))]
     figure = house_style.new(0.75 * sum(heights) + 1.5)
     panels = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)

@@ -112,10 +112,7 @@ def trials(curves: Curves) -> list[Trial]:
 
 
 def goodness(curves: Curves, model: str, series: Series, trial: Trial | None = None) -> ChiSquared:
-    """Chi-squared of a model over the measured pairs, with the uncertainty of their parameters.
-
-    Without a trial it is that of the verdicts.
-    """
+    """Chi-squared of a model over the measured pairs; without a trial, that of the verdicts."""
     trial = trial or Trial("as judged")
     name = f"{model}, pairs" + (f", {trial.spread}" if trial.spread else "")
     sigma = series["sigma"][1] * trial.share
@@ -141,10 +138,7 @@ def over_limit(fit: ChiSquared) -> float:
 
 
 def slope(series: Series, without: Sequence[str] = ()) -> tuple[float, float]:
-    """Slope of the measured beta_0 against restitution, and its standard deviation.
-
-    A straight line fits the pairs by least squares, weighted by their printed uncertainties.
-    """
+    """Slope of beta_0 against restitution by weighted least squares, and its standard deviation."""
     kept = ~np.isin(series["columns"]["pair"], list(without))
     e, beta_0, sigma = (np.asarray(a)[kept] for a in (series["x"], series["y"], series["sigma"][1]))
     line: Array = np.stack([np.ones_like(e), e], axis=1) / sigma[:, None]

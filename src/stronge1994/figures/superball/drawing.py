@@ -46,10 +46,7 @@ def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Draw the path of the ball's centre and the ball at each impact; the spin of each flight.
-
-    An arrow has the sense of the spin, the legend its size.
-    """
+    """Draw the path of the ball, its impacts, and the direction of the spin of each flight."""
     path, throw = curves["path"], settings["throw"]
     radius, gap = throw["radius"], throw["gap"]
     place, height = path[PLACE], path[HEIGHT]

@@ -121,10 +121,7 @@ def _draw_laws(axes: Axes, peers: Curves, batch: int) -> None:
 
 
 def draw_errors(peers: Curves) -> tuple[Figure, Curves]:
-    """Draw the errors below e = 1 of each code and model, a panel for each loss; and their tables.
-
-    If no code is installed, the figure says so.
-    """
+    """Draw the errors below e = 1 of each code and model, a panel for each loss; with tables."""
     rows = [{key: value[0] for key, value in row.items()} for row in peers.values()]
     rows = [row for row in rows if row.get(LOSS) in PANELS and ERROR in row and _is_drawn(row)]
     missing = _missing(peers)
@@ -266,10 +263,7 @@ def _draw_loss(
 def write(
     curves: str, peers: str, settings: Settings, pictures: Sequence[str], errors: Sequence[str]
 ) -> None:
-    """Draw the tables `curves` and `peers`; the error of a failed solver is drawn instead.
-
-    `pictures` are the SVG and PNG of `draw`, `errors` those of `draw_errors`.
-    """
+    """Draw both figures as SVG and PNG, or the error of a failed solver."""
     try:
         theirs = csv_tables.read(peers)
         drawn = [draw(csv_tables.read(curves), theirs, settings), draw_errors(theirs)]

@@ -218,8 +218,6 @@ def draw(
 def warning(rows: Sequence[_Row]) -> str:
     """A sentence if the machine was busy while some times were taken, else an empty text.
 
-    The rows are those of results/curves/trade.csv, as texts or numbers.
-
     >>> warning([{"time_1 [s]": 2.0, "busy_1 [1]": 1.9}, {"time_1 [s]": 1.0}])
     'the machine was busy: 1 of 2 times are up to 1.9 times too long'
     """

@@ -55,10 +55,7 @@ class _Solve(Protocol):
 
 
 class Contender(NamedTuple):
-    """A code with its settings; `solve` returns velocities, seconds, and seconds of set-up.
-
-    `columns` holds further columns of its rows.
-    """
+    """A code with its settings; `solve` returns velocities, seconds, and seconds of set-up."""
 
     model: str
     settings: dict[str, Any]

@@ -15,9 +15,7 @@ MODELS = ("continuum.viscous", "continuum.plastic")
 def beside(
     continua: Mapping[str, Any] | None, x: ArrayLike, mass_ratio: float, stiffness_ratio: float
 ) -> Iterator[tuple[str, Rebound]]:
-    """Names of curves and the rebounds of each continuum at each restitution.
-
-    `continua` is the setting of a figure, without which none are solved; `x` holds incidences.
+    """Names of curves and rebounds of each continuum at each restitution, if `continua` is set.
 
     >>> settings = {"models": ["continuum.viscous"], "restitution": [0.5], "tolerance": 1e-3}
     >>> [(name, rebound.velocity.tolist()) for name, rebound in beside(settings, [6.0], 3.5, 1.21)]

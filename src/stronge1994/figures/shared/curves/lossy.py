@@ -19,9 +19,7 @@ MODELS = (
 
 
 def velocity(model: str, tolerance: float, *groups: ArrayLike) -> Array:
-    """Velocity at separation by a model; the tolerance is that of a continuum.
-
-    `groups` are incidence, m2/m1, zeta^2 and e, as `planarimpact.models.rebound` takes them.
+    """Velocity at separation; `groups` as for `models.rebound`, `tolerance` of a continuum.
 
     >>> float(velocity("lumped", 1e-3, 8.0, 3.5, 1.21, 1.0))
     1.0

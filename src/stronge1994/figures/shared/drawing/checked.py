@@ -116,10 +116,7 @@ def save(
 
 
 def check(figure: Figure, tables: Curves, name: str, meanings: Meanings = SHARED) -> None:
-    """Look up all that a figure shows. `NotInTable` names the figure, the panel and the artist.
-
-    `tables` holds the curves, the reference series, and what `drawn_curves` adds.
-    """
+    """Refuse a figure that shows numbers of no table; `NotInTable` names panel and artist."""
     try:
         bars = [axes for axes in figure.axes if axes.get_label() == "<colorbar>"]
         colour = bars[0].get_ylabel() if bars else ""

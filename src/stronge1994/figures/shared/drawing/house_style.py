@@ -164,9 +164,7 @@ def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
 
 
 def of_restitution(e: float) -> Dashes:
-    """Pattern of line of a restitution, the same in every figure.
-
-    It is solid for 1 and dash-dot for 0. Between them are dashes, longer for a larger `e`.
+    """Pattern of a restitution: solid for 1, dashes that shorten with e, dash-dot for 0.
 
     >>> of_restitution(1), of_restitution(0.5)
     ('-', (0, (5.0, 2)))
@@ -270,10 +268,7 @@ def measured(axes: Axes, series: Series, **style: Any) -> Artist:
 
 
 def references(axes: Axes, points: Points, wanted: Mapping[str, tuple[str, Style]]) -> Entries:
-    """Draw reference series; the legend has an entry for each, also for awaited ones.
-
-    `wanted` is `{"source/series": (label, style)}`.
-    """
+    """Draw reference series `{name: (label, style)}`; the legend also has the awaited ones."""
     return [
         measured(axes, points[name], label=label, **style)
         if name in points
