@@ -145,8 +145,8 @@ if workflow.is_main_process:
 
 
 onsuccess:
-    print(last_words.words(workflow.config_settings.config_args or ()))
+    print(last_words.text(workflow.config_settings.config_args or ()))
 
 
 onerror:
-    print(last_words.words(workflow.config_settings.config_args or (), stopped=True, logs=log))
+    print(last_words.text(workflow.config_settings.config_args or (), stopped=True, logs=log))

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-Column: TypeAlias = NDArray[Any]  # numbers, or words
+Column: TypeAlias = NDArray[Any]  # numbers, or texts
 Columns: TypeAlias = dict[str, Column]
 Curves: TypeAlias = dict[str, Columns]
 # A row of any other table: its cells as text, by the names of the columns.
@@ -56,7 +56,7 @@ def write_table(path: Path, rows: Iterable[Mapping[str, Any]], columns: Sequence
 
 
 def read(path: Path) -> Curves:
-    """Read what `write` wrote: numbers as float64, words as text, empty columns left out."""
+    """Read what `write` wrote: numbers as float64, others as text, empty columns left out."""
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file))
     if header == ["error"]:
@@ -74,11 +74,7 @@ def read(path: Path) -> Curves:
 
 
 def read_rows(path: Path, columns: Iterable[str] = ()) -> list[Row]:
-    """Rows of a table.
-
-    A `ValueError` names file and line if one of `columns` is missing, or a row is not as wide as
-    the header.
-    """
+    """Rows of a table; a `ValueError` names the line of a missing column or of a wrong width."""
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file, strict=True)) or [[]]
     missing = [column for column in columns if column not in header]

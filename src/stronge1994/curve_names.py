@@ -1,11 +1,11 @@
-"""Names of curves: what solves, draws and judges them must spell alike."""
+"""Names of curves, spelled here for the modules that solve, draw and judge them."""
 
 from collections.abc import Iterable
 
 # A curve of the printed equations begins with one of these.
 AS_PRINTED, NO_SOLUTION = "as printed", "no solution as printed"
 SIGNS = {1: "+", -1: "-"}
-# The name of a parameter begins so if each point of the curve has a value of its own.
+# Beginning of the name of a parameter of which each point of the curve has its own value.
 EACH = "each "
 
 

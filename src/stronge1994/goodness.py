@@ -34,8 +34,8 @@ def chi_squared(
     gives the same chi-squared, if it holds them to their stated values with their stated sigmas.
     `of_sigma` is as in `ChiSquared`.
 
-    >>> found = chi_squared([1.0, 2.0])
-    >>> found.value, found.degrees, round(found.p, 3)
+    >>> fit = chi_squared([1.0, 2.0])
+    >>> fit.value, fit.degrees, round(fit.p, 3)
     (5.0, 2, 0.082)
     >>> round(chi_squared([1.0, 1.0], [[3.0, 3.0]]).value, 3)  # one shift explains both
     0.105

@@ -13,8 +13,8 @@ COLUMNS = [
     "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
     "rms [axis units]", "found", "stated", "allowed", "regression", "note", "reason",
 ]  # fmt: skip
-# Groups of the physics. The table of sensitivity has the smallest change of each that a comparison
-# catches, and how far all of its published points must lie beside the curve.
+# Groups of the physics. The table of sensitivity has the smallest change of each group that a
+# comparison catches, and the smallest shift of all its published points that it catches.
 GROUPS = ["zeta^2", "beta", "e", "mu"]
 SENSITIVITY = ["comparison", "all_points [sigma]", *GROUPS]
 DIFFERENCES = ["unexplained difference", "untested difference", "explained difference"]
@@ -22,10 +22,7 @@ ORDER = ["diverges", *DIFFERENCES, "awaited", "inconclusive", "agrees", "as befo
 
 
 def gather(paths: Iterable[str]) -> list[Row]:
-    """Rows of several tables, the worst verdict first, otherwise in the order of the figures.
-
-    A word that is no verdict comes before all others: the gate will name it.
-    """
+    """Rows of several tables, the worst verdict first; an unknown one before all others."""
     rows = [row for path in paths for row in csv_tables.read_rows(path, COLUMNS)]
     rank = {verdict: place for place, verdict in enumerate(ORDER)}
     return sorted(rows, key=lambda row: rank.get(row["verdict"], -1))
@@ -40,11 +37,11 @@ def why(row: Row) -> str:
     """Why a row fails."""
     measured = _measured(row)
     limits = f"{measured}; allowed is {_allowed(row)}" if measured else ""
-    return ": ".join(words for words in (row["note"], limits) if words)
+    return ": ".join(part for part in (row["note"], limits) if part)
 
 
 def _allowed(row: Row) -> str:
-    """What a row must keep to; with a documented difference that it stays as it was."""
+    """The bound of a row; with a documented difference, that it stays as before."""
     if not row["regression"]:
         return row["allowed"]
     return f"a difference, and as before {row['regression']}"

@@ -17,7 +17,7 @@ from stronge1994.judging.distances import (
     vertex_residuals,
 )
 from stronge1994.judging.points import limits_of_regimes
-from stronge1994.judging.verdicts import SEEN, verdict
+from stronge1994.judging.verdicts import VISIBLE_SHIFT, verdict
 
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
 
@@ -132,7 +132,7 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, sigma_values
             low = middle
     for sigmas in (0.0, 0.5, 1.0):
         # Moved back by two sigmas the points are still on one side of the curve, or on the other.
-        noticed = Verdict.AGREES if high < SEEN - sigmas else Verdict.INCONCLUSIVE
+        noticed = Verdict.AGREES if high < VISIBLE_SHIFT - sigmas else Verdict.INCONCLUSIVE
         assert verdict_at(sigmas) == (noticed if sigmas < high else Verdict.DIVERGES)
     fact = {"kind": "computed"}
     residuals = Residuals(np.zeros(number), np.zeros(number), np.zeros(number))
@@ -152,9 +152,9 @@ def test_a_range_that_is_too_wide_is_refused(values):
     assert measured(largest).residuals.summary().max <= 1.0
     assert measured(99 * largest).residuals.summary().max <= 1.0
     for high in largest * 10.0 ** np.arange(3, 30):
-        with pytest.raises(ValueError, match="the range says nothing"):
+        with pytest.raises(ValueError, match="a wider range tests nothing"):
             measured(high)
-    with pytest.raises(ValueError, match="the range says nothing"):
+    with pytest.raises(ValueError, match="a wider range tests nothing"):
         measured(largest, -1e9)
 
 

@@ -119,12 +119,12 @@ FAULTS = [
     ("inelastic", "curve[X], curve[W]", "curve[X], -curve[W]"),
     ("inelastic", "order], high[BETA_0][order]", "order], 2 * high[BETA_0][order]"),
     ("inelastic", "[OVER_LIMIT], [height]", "[OVER_LIMIT] / 2, [height]"),
-    ("inelastic", "house_style.key(model.words", "house_style.key(model.words[::-1]"),
+    ("inelastic", "house_style.key(model.label", "house_style.key(model.label[::-1]"),
     ("rubber_sphere", "curve[X], curve[E_T]", "curve[X], -curve[E_T]"),
     ("rubber_sphere", "axes.plot([near]", "axes.plot([near / 2]"),
     ("rubber_sphere", "ends[E_T][pair], **HALF", "2 * ends[E_T][pair], **HALF"),
     ("rubber_sphere", 'series["x"], series["y"], yerr=y', 'series["x"], -series["y"], yerr=y'),
-    ("rubber_sphere", "house_style.key(model.words", "house_style.key(model.words[::-1]"),
+    ("rubber_sphere", "house_style.key(model.label", "house_style.key(model.label[::-1]"),
     ("rod", "compliant[TILT], compliant[column]", "compliant[TILT], -compliant[column]"),
     ("rod", "contact[TIME], contact[OVER_MU]", "contact[TIME], -contact[OVER_MU]"),
     ("rod", "1, energy, where", "1, energy / 2, where"),
@@ -153,7 +153,7 @@ def test_a_picture_that_shows_something_else_is_not_saved(figure, old, new):
     """The message names the figure and what is wrong; no file is written."""
     with pytest.raises(NotInTable, match=rf"^{figure}: (panel|the legend|Line2D)"):
         picture, tables, own = drawn(figure, old, new)
-        checked.save(picture, tables, figure, "/nowhere/picture.svg", words=own)
+        checked.save(picture, tables, figure, "/nowhere/picture.svg", meanings=own)
 
 
 def test_what_stands_elsewhere_than_its_numbers_say_is_seen():

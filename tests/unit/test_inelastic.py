@@ -151,7 +151,7 @@ def test_trials_of_the_pairs(inventory, lumped_alone, settings, monkeypatch):
     """Each makes one choice otherwise; the numbers are those of a plain sum of squares."""
     found = inelastic.curves(**settings)
     series = series_of(inventory)
-    tried = {trial.words: trial for trial in draw_inelastic.trials(found)}
+    tried = {trial.name: trial for trial in draw_inelastic.trials(found)}
     assert len(tried) == 15
     assert configuration.load(ROOT)["significance"] == draw_inelastic.SIGNIFICANCE
 

@@ -60,7 +60,7 @@ def largest_peak(model, friction, *groups):
 
 def test_stiffness_is_judged_over_all_poisson_ratios():
     """Over nu = 0 to 0.5 it matters more than Hertz' compliance; from 0.3 on alone it does not."""
-    found = ledger.run("peak_force.stiffness_matters_more").found
+    found = ledger.run("peak_force.stiffness_matters_more").value
     soft, paper, hard = (
         largest_peak(lumped.rebound, 0.1, 3.5, bodies.stiffness_ratio(bodies.Material(1.0, nu)))
         for nu in (0.5, 0.3, 0.0)
@@ -94,7 +94,7 @@ def test_dissipation_at_small_angles_is_judged_on_the_axes_of_fig_9():
     for e, quoted in ((1.0, (0.66, 0.93)), (0.5, (0.46, 0.57))):
         assert np.round([np.min(ratios[e]), np.max(ratios[e])], 2) == pytest.approx(quoted)
     assert np.round(np.max(whole, axis=0), 4).tolist() == [0.0083, 0.0086]
-    found = ledger.run("dissipation.small_incidence").found
+    found = ledger.run("dissipation.small_incidence").value
     # No more than all tangential energy, m1 v1(0)^2/2, can go.
     assert 0 < found <= np.sin(np.radians(10)) ** 2 / 3.5 < 0.01
 
@@ -114,7 +114,7 @@ def test_micro_slip_is_judged_by_what_the_paper_compares():
         ("whole", "lumped", 0.39),
     ):
         assert np.abs(models[first] - models[second]).max() == pytest.approx(quoted, abs=0.025)
-    found = ledger.run("rebound.practically_identical").found
+    found = ledger.run("rebound.practically_identical").value
     assert found == pytest.approx(0.215, abs=5e-4)
 
 
@@ -123,15 +123,15 @@ def test_the_reduction_of_the_largest_friction_grows_with_mu():
         1 - largest_peak(lumped.rebound, mu, *contact.SPHERE) / largest_peak(rigid.rebound, mu, 3.5)
         for mu in (0.1, 1.0)
     ]
-    assert ledger.run("peak_force.smallest_reduction").found == pytest.approx(less[0], rel=1e-2)
-    assert ledger.run("peak_force.largest_reduction").found == pytest.approx(less[1], rel=1e-3)
+    assert ledger.run("peak_force.smallest_reduction").value == pytest.approx(less[0], rel=1e-2)
+    assert ledger.run("peak_force.largest_reduction").value == pytest.approx(less[1], rel=1e-3)
 
 
 def test_no_sign_saves_the_equations_of_dissipation():
     """Eqs 38 to 40 are judged by the best choice of the signs that the scan leaves open."""
     for check in ("after_stick", "after_stick_in_groups", "of_two_slips"):
         found = ledger.run(f"dissipation.friction_{check}")
-        assert found.found > 0.8 and found.corrected < 1e-12
+        assert found.value > 0.8 and found.corrected < 1e-12
     gaps = {sign: [] for sign in (-1, 1)}
     for found in contact.initial_stick():
         onset = found.last(EventKind.SLIP)
@@ -141,12 +141,12 @@ def test_no_sign_saves_the_equations_of_dissipation():
             lost = impulse * onset.v1 + sign * impulse**2 / (2 * found.m1)
             gap.append(abs(lost - (energy[0] - energy[1])) / energy[0])
     nearest = min(max(gap) for gap in gaps.values())
-    assert ledger.run("dissipation.friction_after_stick").found == pytest.approx(nearest, rel=1e-6)
+    assert ledger.run("dissipation.friction_after_stick").value == pytest.approx(nearest, rel=1e-6)
 
 
 def test_no_sign_saves_the_deflection_in_stick():
     found = ledger.run("peak_force.signs_of_deflection")
-    assert found.found > 1 and found.corrected < 1e-12
+    assert found.value > 1 and found.corrected < 1e-12
 
 
 @pytest.mark.slow
@@ -174,7 +174,7 @@ def test_readings_quote_what_a_kept_direction_costs():
         )
 
     for check in ("slip.rebound_after_stick", "slip.final_velocity_after_second_slip"):
-        assert ledger.run(check).found < 1e-9
+        assert ledger.run(check).value < 1e-9
     largest = {zeta2: over(zeta2) for zeta2 in (1.0, 1.21, 1.35, 1.5)}
     costs = [found[0] for found in largest.values()]
     assert costs == sorted(costs)
@@ -185,7 +185,7 @@ def test_readings_quote_what_a_kept_direction_costs():
 
 def test_losses_are_decoupled_in_collinear_impact_only():
     """Off centre friction changes what the normal element takes: 15 and 21 % of the energy."""
-    assert ledger.run("dissipation.losses_decoupled").found < 1e-9
+    assert ledger.run("dissipation.losses_decoupled").value < 1e-9
     rod = noncollinear.inverse_mass(1.0, 12**-0.5, 0.125**0.5, 0.125**0.5)
     energy = noncollinear.kinetic_energy(1.0, 1.0, rod)
     lost = noncollinear.rebound(1.0, 1.0, rod, friction=[0.0, 0.5], restitution=0.5).hysteresis
@@ -194,8 +194,8 @@ def test_losses_are_decoupled_in_collinear_impact_only():
 
 def test_strain_energy_is_given_back_by_the_spring_but_not_all_to_the_body():
     """85 % is quoted in the reading of strain-recovered; at e = 0 the spring keeps all it has."""
-    assert ledger.run("dissipation.strain_recovered").found < 1e-12
-    assert ledger.run("dissipation.strain_decreases").found < 1e-12
+    assert ledger.run("dissipation.strain_recovered").value < 1e-12
+    assert ledger.run("dissipation.strain_decreases").value < 1e-12
     assert abs(lumped.history(2.0, *contact.SPHERE, 0.0).spring[-1]) > 0.1
     shares = []
     for found in contact.with_stick():
@@ -208,7 +208,7 @@ def test_strain_energy_is_given_back_by_the_spring_but_not_all_to_the_body():
 
 def test_sliding_of_the_particle_may_speed_up_where_that_of_the_body_slows():
     """At e = 0.5 by zeta^2/e - e m2/m1 = 0.67, as the reading of sliding-slows has it."""
-    assert ledger.run("rebound.sliding_slows").found < 1e-9
+    assert ledger.run("rebound.sliding_slows").value < 1e-9
     found = lumped.history(8.0, *contact.SPHERE, 0.5, samples=20001)
     sliding = found.velocity - np.gradient(found.spring, found.time * np.pi / 2)
     inside = (found.time > 1.001) & (found.time < 1.499)

@@ -38,7 +38,7 @@ SETTINGS = {
 @pytest.fixture(scope="module")
 def named():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(trade, "ENOUGH", 0.01)  # s; no number of these times is looked at
+        patch.setattr(trade, "SECONDS_OF_CALLS", 0.01)  # s; no number of these times is looked at
         return trade.curves(**SETTINGS)
 
 
@@ -230,7 +230,7 @@ def test_one_impact_is_solved_more_often_than_a_batch_which_holds_many_incidence
         return 0.01
 
     trade.times(solve, (0, 8), [1, 1000], 10.0)
-    assert 5 <= calls.count(1000) < calls.count(1) <= trade.REPEATS
+    assert 5 <= calls.count(1000) < calls.count(1) <= trade.MOST_CALLS
 
 
 @pytest.mark.parametrize(("share", "busy"), [(1.0, None), (0.5, [2.0, 2.0])])

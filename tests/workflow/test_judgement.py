@@ -241,7 +241,7 @@ def test_the_report_survives_itself(report, monkeypatch):
     """Where the page cannot be made at all, a short one says why."""
     monkeypatch.setitem(write_report.MEANING, "agrees", None)
     monkeypatch.delitem(write_report.MARKS, "awaited")
-    monkeypatch.setattr(write_report.ledger_page, "words", lambda *_: 1 / 0)
+    monkeypatch.setattr(write_report.ledger_page, "template_values", lambda *_: 1 / 0)
     page, problems = report[0]()
     assert "FAILED" in page and "ZeroDivisionError" in page
     assert problems[-1].startswith("report: ZeroDivisionError")

@@ -125,7 +125,7 @@ def page_of(rows, folder):
 def test_the_head_of_the_page_names_all_that_is_wrong_by_cause(rows, tmp_path):
     html = page_of(list(rows.values()), tmp_path).read_text(encoding="utf-8")
     grades = Counter(entry["grade"] for entry in ENTRIES.values() if "grade" in entry)
-    assert f"Of the wrong ones {escape(outcome.grades_in_words(list(rows.values())))}." in html
+    assert f"Of the wrong ones {escape(outcome.sentence_of_grades(list(rows.values())))}." in html
     head = html[html.index('<h2 id="wrong">') : html.index('<h2 id="in-nature">')]
     assert f"The {grades.total()} wrong entries" in head
     groups = head[: head.index("</ol>")].split("<li><p>")[1:]
@@ -735,4 +735,4 @@ def test_every_run_prints_the_ledger(first_run):
 
 
 def test_ledger_run_is_importable_by_name():
-    assert ledger.run("slip.end_of_first_slip").found < 1e-12
+    assert ledger.run("slip.end_of_first_slip").value < 1e-12

@@ -59,7 +59,7 @@ def pretend(patch):
     patch.setattr(peers, "missing", lambda code: [])
     patch.setattr(peers, "lammps_impacts", thrown)
     patch.setattr(peers, "pooltool_impacts", resolved)
-    patch.setattr(trade, "ENOUGH", 0.01)
+    patch.setattr(trade, "SECONDS_OF_CALLS", 0.01)
     patch.setattr(trade, "BUSY", np.inf)  # whatever else runs beside the test
 
 
@@ -162,7 +162,7 @@ def test_bodies_that_lammps_does_not_have_are_named(monkeypatch):
 
 
 def test_figure_has_their_points_and_names_what_is_missing(measured, tmp_path, monkeypatch):
-    monkeypatch.setattr(trade, "ENOUGH", 0.01)
+    monkeypatch.setattr(trade, "SECONDS_OF_CALLS", 0.01)
     settings = {**TRADE, **TRIED, "restitution": [1.0], "budget": 10.0}
     tables = {
         "curves": trade.curves(**settings),

@@ -54,21 +54,21 @@ def ended(folder, log=None, passed=False, verdict="agrees", holds="yes"):
 
 def test_a_passed_run_says_where_to_look_and_what_next(folder):
     ended(folder, "\n", passed=True)
-    words = last_words.words()
+    words = last_words.text()
     assert "1 agrees" in words and "PASSED." in words
     for path in ("figures/report.html", "figures/explorer.html", "workflow/config.yaml"):
         assert path in words
 
 
 def test_a_failed_run_names_its_rows_last_and_repeats_the_config(folder):
-    faults = [f"diverges: row-{i}: far off" for i in range(last_words.SHOWN + 2)]
+    faults = [f"diverges: row-{i}: far off" for i in range(last_words.MOST_FAULTS + 2)]
     ended(folder, "\n".join(faults), verdict="diverges")
-    words = last_words.words(["a=1", "figures={fig6: {restitution: [0, 1]}}"], stopped=True)
+    words = last_words.text(["a=1", "figures={fig6: {restitution: [0, 1]}}"], stopped=True)
     assert "PASSED" not in words and "Play" not in words and "figures/report.html" in words
     assert "figures --config a=1 'figures={fig6: {restitution: [0, 1]}}'" in words
-    last = words.strip().splitlines()[-last_words.SHOWN - 2 :]
+    last = words.strip().splitlines()[-last_words.MOST_FAULTS - 2 :]
     assert last[0] == f"FAILED. Reasons: {len(faults)}"
-    assert last[1:-1] == [f"  {fault}" for fault in faults[: last_words.SHOWN]]
+    assert last[1:-1] == [f"  {fault}" for fault in faults[: last_words.MOST_FAULTS]]
     assert last[-1] == f"  and 2 more: {plans.GATE_LOG}"
 
 
@@ -76,13 +76,13 @@ def test_a_failed_run_names_its_rows_last_and_repeats_the_config(folder):
 def test_a_gate_that_found_nothing_and_let_nothing_pass_is_no_verdict(folder, log):
     """It was stopped or touched, or other jobs came after it."""
     ended(folder, log)
-    words = last_words.words()
+    words = last_words.text()
     assert "No verdict in this run" in words and "FAILED" not in words
 
 
 def test_tables_without_the_gate_are_no_verdict(folder):
     ended(folder, verdict="diverges")
-    words = last_words.words()
+    words = last_words.text()
     assert "No verdict in this run" in words and "diverges" not in words
     assert "stopped" not in words and "On purpose" not in words
 
@@ -96,7 +96,7 @@ def test_tables_without_the_gate_are_no_verdict(folder):
 )
 def test_a_stopped_run_says_why_and_no_older_table(folder, said, words):
     (folder / "snakemake.log").write_text(said)
-    found = last_words.words(stopped=True, logs=["snakemake.log"])
+    found = last_words.text(stopped=True, logs=["snakemake.log"])
     assert words in found and "No verdict in this run" in found and "finished work" in found
     assert "agrees" not in found and "PASSED" not in found
-    assert "stopped" not in last_words.words()
+    assert "stopped" not in last_words.text()

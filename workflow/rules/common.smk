@@ -1,4 +1,4 @@
-# Checked config and data before any work, and the plan of every job.
+# Check config and data before any work, and plan every job.
 from stronge1994.ledger import entries
 
 LEDGER = "data/stronge1994/ledger.yaml"
@@ -25,8 +25,8 @@ try:
 except (reference_data.SourceError, ConfigError) as error:
     raise WorkflowError(str(error))
 
-# Sources with whose series something is compared.
-COMPARED = sorted({source for told in JUDGED.values() for source in told["told"]["sources"]})
+# Sources whose series are compared with something.
+COMPARED = sorted({name for job in JUDGED.values() for name in job["settings"]["sources"]})
 TIMED = figures.with_trait("timed")
 UNTIMED = [figure for figure in FIGURES if figure not in TIMED]
 CAPTIONS = {figure: stated["caption"] for figure, stated in figures.stated().items()}
@@ -76,7 +76,7 @@ def planned(job, script, *rooms, settings=lambda value: {}, reads=lambda value: 
 
 
 def of_figure(part, plans=FIGURES, wildcard="figure"):
-    """Input function: a part of what `plan.plan_of_figure` says of a figure, or of another plan."""
+    """Input function: one entry of `plan.plan_of_figure`, or of another plan."""
     return lambda wildcards: plans[getattr(wildcards, wildcard)][part]
 
 
@@ -84,5 +84,5 @@ def all_cores(wildcards):
     return workflow.cores
 
 
-# What every page includes, beside its own template.
+# Files that every page includes, beside its own template.
 EVERY_PAGE = ["workflow/report/theme.css", "workflow/report/site.html"]

@@ -5,7 +5,7 @@ EXPLORER_PARTS += [f"{part}.js" for part in EXPLORER_SCRIPTS]
 
 
 rule explorer:
-    """A page to play with one impact; it solves the lumped model itself."""
+    """A page to explore one impact; it solves the lumped model itself."""
     input:
         plan=planned("explorer", "write_explorer", "explorer", "pages/__init__.py",
             "pages/templates.py", "plan", "reference_data",

@@ -6,7 +6,7 @@ rule judge:
     input:
         plan=planned("judge_{judged}", "judge", "judging", "reference_data", "figures/shared/curves",
             "figures/{figure}/curves.py", "printed",
-            settings=lambda name: JUDGED[name]["told"]),
+            settings=lambda name: JUDGED[name]["settings"]),
         table=of_figure("table", JUDGED, "judged"),
         series=of_figure("series", JUDGED, "judged"),
         nodes=lambda wildcards: FIGURES.get(wildcards.judged, {"tables": []})["tables"],

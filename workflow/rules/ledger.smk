@@ -4,7 +4,7 @@ rule ledger:
         plan=planned("ledger", "check_ledger", "ledger", "printed", "reference_data", "judging",
             settings=lambda _: LEDGER_SCHEMA),
         entries=LEDGER,
-        facts="data/stronge1994/source.yaml",  # beside the ledger, which names some
+        facts="data/stronge1994/source.yaml",  # beside the ledger, which refers to them
     output:
         table="results/ledger.csv",
         measures="results/in_nature.csv",

@@ -3,7 +3,7 @@ SHOWN = ["fig5", "inelastic", "rubber_sphere", "yielding"]
 
 
 rule key_numbers:
-    """The numbers that several pages state, each found once."""
+    """The numbers that several pages state, each computed once."""
     input:
         plan=planned("key_numbers", "find_key_numbers", "pages", "figures/inelastic/drawing.py",
             "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
@@ -22,7 +22,7 @@ rule key_numbers:
     log:
         "results/logs/key_numbers.log",
     message:
-        "Finding the numbers that pages state"
+        "Computing the numbers that pages state"
     conda:
         "../envs/planarimpact.yaml"
     script:

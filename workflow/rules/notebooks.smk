@@ -2,9 +2,9 @@
 
 
 rule notebook:
-    """Run one notebook: a lecture whose numbers are checked beside the words that state them."""
+    """Run one notebook: a lecture that checks the numbers that it states."""
     input:
-        # Rooms that cells may import: they run in a process of their own, which nobody looks at.
+        # Rooms that cells may import: the check of imports does not see their process.
         plan=planned("notebook_{notebook}", "run_notebook", "pages", "printed"),
         notebook="workflow/notebooks/{notebook}.ipynb",
         style="workflow/notebooks/lecture.mplstyle",

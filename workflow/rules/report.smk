@@ -11,8 +11,8 @@ REPORT_PARTS = [
 ]
 
 
-# What only the findings need: key numbers, curves, and the measured pairs of materials.
-FOUND = [
+# Tables that only the findings need: key numbers, curves, and the measured pairs of materials.
+FINDING_TABLES = [
     "results/key_numbers.csv",
     "results/curves/fig5.csv",
     "results/curves/inelastic.csv",
@@ -65,7 +65,7 @@ rule interface:
 
 
 rule report:
-    """The run as one page, its sources and settings as another; always succeeds, whatever it reads."""
+    """The run as one page, its sources and settings as another; always succeeds, also after failures."""
     input:
         plan=planned("report", "write_report", "pages", "figures/inelastic/drawing.py",
             "figures/shared/drawing", "judging", "ledger", "printed", "plan",
@@ -77,7 +77,7 @@ rule report:
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
-        tables=[rules.trade.output.table, rules.trade.output.answers, rules.stability.output.table, "results/sensitivity.csv", *FOUND, *PEERS],
+        tables=[rules.trade.output.table, rules.trade.output.answers, rules.stability.output.table, "results/sensitivity.csv", *FINDING_TABLES, *PEERS],
     output:
         page="figures/report.html",
         sources=report(

@@ -1,5 +1,5 @@
-# The tables of spheres, which the package brings along: `snakemake --cores 2 sphere_tables`, not part
-# of `all`. Whoever changes the continuum makes them anew, and copies them to src/planarimpact/spheres.
+# The tables of spheres, which are part of the package: `snakemake --cores 2 sphere_tables`, not part
+# of `all`. After a change of the continuum, make them again and copy them to src/planarimpact/spheres.
 
 rule make_spheres:
     """Solve the continuum at nodes and fit a table of spheres to it; takes some minutes."""

@@ -1,4 +1,4 @@
-# What is refused before Snakemake reads the config: it would read some of it wrongly in silence.
+# Refuse here what Snakemake would silently misread in the config.
 import os
 import sys
 from pathlib import Path

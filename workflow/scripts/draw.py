@@ -3,13 +3,13 @@
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.run import record
 
-with record.recorded(snakemake) as told:
+with record.recorded(snakemake) as plan:
     drawings.draw(
         snakemake.wildcards.figure,
-        told["settings"],
-        told["overlays"],
+        plan["settings"],
+        plan["overlays"],
         snakemake.input.curves,
-        dict(zip(told["sources"], snakemake.input.series, strict=True)),
+        dict(zip(plan["sources"], snakemake.input.series, strict=True)),
         snakemake.output.svg,
         snakemake.output.png,
     )

@@ -4,6 +4,6 @@ from stronge1994.figures.trade import draw_peers as peers
 from stronge1994.run import record
 
 with record.recorded(snakemake) as settings:
-    given, made = snakemake.input, snakemake.output
+    inputs, made = snakemake.input, snakemake.output
     pictures, errors = (made.svg, made.png), (made.errors_svg, made.errors_png)
-    peers.write(given.curves, given.peers, settings, pictures, errors)
+    peers.write(inputs.curves, inputs.peers, settings, pictures, errors)

@@ -1,4 +1,4 @@
-"""Find the numbers that several pages state."""
+"""Compute the numbers that several pages state."""
 
 from pathlib import Path
 

@@ -9,11 +9,11 @@ from stronge1994.run import gate, plans, record
 with record.log_to(snakemake.log[0]):
     record.withdraw()
     expected = json.loads(Path(snakemake.input.plan).read_text(encoding="utf-8"))["settings"]
-    found = gate.faults(snakemake.input.made, **expected)
+    messages = gate.faults(snakemake.input.made, **expected)
     if plans.digest(snakemake.params.jobs) != snakemake.params.plans:
-        found = [f"{plans.FOLDER}: another command has changed the plans of this run: run again"]
-    print("\n".join(found))
-    if not found:
-        words = "no comparison diverges, every entry of the ledger holds\n"
-        Path(record.PASSED).write_text(words, encoding="utf-8")
-sys.exit(bool(found))
+        messages = [f"{plans.FOLDER}: another command has changed the plans of this run: run again"]
+    print("\n".join(messages))
+    if not messages:
+        text = "no comparison diverges, every entry of the ledger holds\n"
+        Path(record.PASSED).write_text(text, encoding="utf-8")
+sys.exit(bool(messages))

@@ -4,14 +4,15 @@ from stronge1994 import csv_tables, judging, one_thread, verdict_table  # noqa: 
 from stronge1994.judging import sensitivity
 from stronge1994.run import record
 
-with record.recorded(snakemake) as told:
+with record.recorded(snakemake) as plan:
     name, table, made = snakemake.wildcards.judged, snakemake.input.table, snakemake.output
-    series = dict(zip(told["sources"], snakemake.input.series, strict=True))
-    entries, significance = (told["comparisons"], told["references"]), told["significance"]
-    rows = judging.compare(name, *entries, table, series, significance)
+    series = dict(zip(plan["sources"], snakemake.input.series, strict=True))
+    comparisons, references = plan["comparisons"], plan["references"]
+    significance = plan["significance"]
+    rows = judging.compare(name, comparisons, references, table, series, significance)
     judging.write(rows, made.verdicts, made.residuals)
     caught = []
-    if "curves" in told:  # settings and nodes of a figure, which can be solved again
-        found = name, *told["curves"], table, *entries, series, significance, told["sensitivity"]
-        caught = sensitivity.sensitivities(*found)
+    if "curves" in plan:  # settings and nodes of a figure, which can be solved again
+        judged = table, comparisons, references, series, significance
+        caught = sensitivity.sensitivities(name, *plan["curves"], *judged, plan["sensitivity"])
     csv_tables.write_rows(made.sensitivity, verdict_table.SENSITIVITY, caught)

@@ -5,5 +5,5 @@ from stronge1994.pages import lectures
 from stronge1994.run import record
 
 with record.recorded(snakemake):
-    given, made = snakemake.input, snakemake.output
-    lectures.run(given.notebook, given.template, made.executed, made.page)
+    inputs, made = snakemake.input, snakemake.output
+    lectures.run(inputs.notebook, inputs.template, made.executed, made.page)

@@ -4,5 +4,5 @@ from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
 from stronge1994.figures.shared.curves import solving
 from stronge1994.run import record
 
-with record.recorded(snakemake) as told:
-    solving.solve(snakemake.wildcards.figure, **told, output=snakemake.output.table)
+with record.recorded(snakemake) as settings:
+    solving.solve(snakemake.wildcards.figure, **settings, output=snakemake.output.table)

@@ -5,20 +5,20 @@ from pathlib import Path
 from stronge1994.pages import report, run_facts
 from stronge1994.run import record
 
-with record.recorded(snakemake) as given:
+with record.recorded(snakemake) as settings:
     files = snakemake.input
     report.write(
         snakemake.output.page,
         snakemake.output.problems,
         {Path(path).stem: path for path in (files.verdicts, files.ledger, *files.tables)},
-        dict(zip(given["figures"], files.residuals, strict=True)),
-        dict(zip(given["figures"], files.pictures, strict=True)),
-        given["captions"],
-        given["config"],
-        (given["comparisons"], given["entries"]),
-        sources=given["sources"],
+        dict(zip(settings["figures"], files.residuals, strict=True)),
+        dict(zip(settings["figures"], files.pictures, strict=True)),
+        settings["captions"],
+        settings["config"],
+        (settings["comparisons"], settings["entries"]),
+        sources=settings["sources"],
         run=run_facts.everything(),
-        symbols=given["symbols"],
-        links=given["links"],
+        symbols=settings["symbols"],
+        links=settings["links"],
         template=files.template,
     )

@@ -1,1 +1,1 @@
-"""The page to play with one impact, and answers of the package, which it must give too."""
+"""The page to explore one impact, and rebounds of the package that it must reproduce."""

@@ -1,4 +1,4 @@
-"""What the package answers within the sliders of the explorer, whose page solves by itself."""
+"""Rebounds of the package within the sliders of the explorer, whose page solves by itself."""
 
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias
@@ -33,9 +33,9 @@ def answers(limits: Mapping[str, Sequence[float]]) -> list[Answer]:
             x = np.array([0.0, 0.5, zeta2, 2.0, beta, (beta + limit) / 2, limit, 2 * limit])
             own = np.broadcast_arrays(x, beta, zeta2, e)
             groups = [np.append(one, more) for one, more in zip(groups, own, strict=True)]
-    found = lumped.rebound(*groups)
-    names = Regime.names(found.regime)
-    columns = found.velocity, found.peak_friction, found.dissipation, names
+    rebound = lumped.rebound(*groups)
+    names = Regime.names(rebound.regime)
+    columns = rebound.velocity, rebound.peak_friction, rebound.dissipation, names
     return [
         (list(map(float, row)), [*map(float, numbers), str(name)])
         for row, *numbers, name in zip(np.transpose(groups), *columns, strict=True)

@@ -33,19 +33,15 @@ BODIES = {
 
 
 def presets(settings: Mapping[str, Any]) -> dict[str, State]:
-    """States of the page's controls for figures of the paper and the superball.
-
-    `settings` are those of `plan.settings_of_explorer`. Impacts that the sliders cannot show are
-    left out.
-    """
+    """States of the page's controls for figures and the superball, where the sliders reach them."""
     shared = {
         "poisson_ratio": _poisson_ratio(settings["stiffness_ratio"]),
         "mass_ratio": settings["mass_ratio"],
     }
     figures = settings["figures"]
-    found = {}
+    states = {}
     for figure, own in figures.items():
-        if "throw" in own:  # bounces, of which the first is meant
+        if "throw" in own:  # its first bounce is added below
             continue
         friction = own.get("friction", own["open"].get("friction"))
         friction = max(friction) if isinstance(friction, list) else friction
@@ -53,18 +49,18 @@ def presets(settings: Mapping[str, Any]) -> dict[str, State]:
         if angle is None:
             angle = math.degrees(math.atan(friction * own["incidence"]))
         restitution = _middle(own.get("restitution", 1.0))
-        found[figure] = {"angle": angle, "friction": friction, "restitution": restitution}
-    found = {figure: state | shared for figure, state in found.items()}
+        states[figure] = {"angle": angle, "friction": friction, "restitution": restitution}
+    states = {figure: state | shared for figure, state in states.items()}
     throw = figures["superball"]["throw"]
     along, up = throw["velocity"]
-    found["superball"] = {
+    states["superball"] = {
         "angle": math.degrees(math.atan2(along + throw["radius"] * throw["spin"], -up)),
         **{key: throw[key] for key in ("friction", "restitution", "poisson_ratio")},
         "mass_ratio": _mass_ratios()["solid sphere"],
     }
     rounded = {
         figure: {control: round(float(state[control]), 4) for control in LIMITS}
-        for figure, state in found.items()
+        for figure, state in states.items()
     }
     return {figure: state for figure, state in rounded.items() if _within_limits(state)}
 
@@ -99,9 +95,7 @@ def address(state: Mapping[str, float]) -> str:
 
 
 def continuum() -> str:
-    """The coarse table of spheres as the script of a page, which is no module.
-
-    Its tables are written to base 85; the page has a function `bytes` that reads that.
+    """The coarse table of spheres as a script for a page, its tables in base 85.
 
     >>> print(continuum().splitlines()[0])
     const spheres = (() => {
@@ -115,12 +109,12 @@ def continuum() -> str:
 
 
 def _in_base_85(table: re.Match[str]) -> str:
-    # The letter "<" has a meaning in a page.
+    # "<" would begin a tag in a page.
     return base64.b85encode(base64.b64decode(table[0])).decode().replace("<", ",")
 
 
 def refuse_other_answers(solver: str, check: str, answers: Sequence[Any]) -> str:
-    """Compare the solver of the page with the package, if there is node to run it; words for a log.
+    """Compare the solver of the page with the package, if node is installed; a sentence for a log.
 
     Without node the comparison is left to the page, which makes it whenever it is opened. `solver`
     and `check` are the files solver.js and check.js, `answers` those of the package.
@@ -141,11 +135,7 @@ def refuse_other_answers(solver: str, check: str, answers: Sequence[Any]) -> str
 
 
 def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[Any]) -> str:
-    """The page as text.
-
-    `sources` are the files of the template explorer.html and of the style and scripts that it
-    names, in the same folder. The page checks itself against `answers`, those of the package.
-    """
+    """The page as text, from the template explorer.html and the files in the same folder."""
     texts = {Path(path).name: Markup(Path(path).read_text(encoding="utf-8")) for path in sources}
     template = templates.environment(Path(sources[0]).parent).get_template("explorer.html")
     return template.render(

@@ -1,7 +1,7 @@
 """Judge a run: how far each table is from its references, and whether that is allowed.
 
 `compare` gives the rows of one table. It has three parts: `measure` finds distances, `judge` turns
-them into a verdict, and `rows` puts both into words. `verdict_table` gathers the rows of a run.
+them into a verdict, and `rows` writes both into tables. `verdict_table` gathers the rows of a run.
 `sensitivity` finds the smallest change of the physics that each comparison catches.
 """
 

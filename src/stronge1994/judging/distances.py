@@ -82,9 +82,9 @@ def curve_residuals(
 ) -> Residuals:
     """Distances of points from a curve; with `both_ways` also of the curve from the points' line.
 
-    With `both_ways` the points are a dense line. Each vertex of the curve within their span must
-    then lie near it too, so that a spike of the curve between two points is seen. The residuals of
-    these vertices follow those of the points.
+    With `both_ways` the points are a dense line, and each vertex of the curve within their span
+    must lie near it too, so that a spike of the curve between two points is noticed. The residuals
+    of these vertices follow those of the points.
 
     >>> line = ([0.0, 1.0, 2.0], [0.0, 5.0, 0.0])
     >>> curve_residuals(([0.0, 2.0], [-1.0, 0.0]), line, (1.0, 1.0)).sigmas.tolist()
@@ -94,18 +94,18 @@ def curve_residuals(
     """
     x, y = (np.asarray(axis, float) for axis in points)
     line_x, line_y = (np.asarray(axis, float) for axis in curve)
-    _refuse_none(x)
-    found = _from_polyline(x, y, line_x, line_y, sigma)
+    _refuse_no_points(x)
+    of_points = _from_polyline(x, y, line_x, line_y, sigma)
     if not both_ways:
-        return found
+        return of_points
     order = np.argsort(x)
     inside = (line_x >= x.min()) & (line_x <= x.max())
-    back = _from_polyline(line_x[inside], line_y[inside], x[order], y[order], sigma)
-    # These distances are seen from the curve, so their sign is the other one.
+    of_vertices = _from_polyline(line_x[inside], line_y[inside], x[order], y[order], sigma)
+    # These distances are those of the curve from the points, so their sign is reversed.
     return Residuals(
-        np.concatenate([found.x, back.x]),
-        np.concatenate([found.sigmas, -back.sigmas]),
-        np.concatenate([found.plain, -back.plain]),
+        np.concatenate([of_points.x, of_vertices.x]),
+        np.concatenate([of_points.sigmas, -of_vertices.sigmas]),
+        np.concatenate([of_points.plain, -of_vertices.plain]),
     )
 
 
@@ -134,7 +134,7 @@ def vertex_residuals(
     """
     x, y = (np.asarray(axis, float) for axis in points[:2])
     vertex_x, vertex_y = (np.asarray(axis, float) for axis in vertices[:2])
-    _refuse_none(x)
+    _refuse_no_points(x)
     of_label: dict[Any, list[int]] = {}
     for index, label in enumerate(vertices[2]):
         of_label.setdefault(label, []).append(index)
@@ -159,17 +159,14 @@ def difference_residuals(
     [0.0, -1.0]
     """
     gap = np.asarray(left, float) - np.asarray(right, float)
-    _refuse_none(gap)
+    _refuse_no_points(gap)
     return Residuals(np.asarray(x, float), gap / sigma, gap)
 
 
 def with_allowance(
     sigma: tuple[float, float], allowance: tuple[float, float]
 ) -> tuple[float, float]:
-    """Uncertainty of a point and of the model together: root of the sum of squares.
-
-    The allowance is how far the model may be off by its form. Both are in units of the x and the y
-    axis.
+    """Uncertainty of a point and of the form of the model together: root of the sum of squares.
 
     >>> with_allowance((0.0, 0.4), (0.1, 0.3))
     (0.1, 0.5)
@@ -178,7 +175,7 @@ def with_allowance(
     return x, y
 
 
-def fact_residuals(found: float, fact: Mapping[str, Any]) -> Residuals:
+def fact_residuals(value: float, fact: Mapping[str, Any]) -> Residuals:
     """Distance of a landmark from a stated fact, in the fact's own tolerance.
 
     A fact is a `value` with a `tolerance`, or an inequality: `less_than`, or `greater_than`. For an
@@ -190,15 +187,15 @@ def fact_residuals(found: float, fact: Mapping[str, Any]) -> Residuals:
     [-inf]
     """
     stated = next(fact[key] for key in ("value", "less_than", "greater_than") if key in fact)
-    gap = stated - found
+    gap = stated - value
     if "value" in fact:
         sigmas = gap / fact["tolerance"]
     else:
         holds = gap > 0 if "less_than" in fact else gap < 0
         sigmas = 0.0 if holds else math.copysign(math.inf, gap)
-    return Residuals(np.array([found]), np.array([sigmas]), np.array([gap]))
+    return Residuals(np.array([value]), np.array([sigmas]), np.array([gap]))
 
 
-def _refuse_none(points: Array) -> None:
+def _refuse_no_points(points: Array) -> None:
     if not len(points):
         raise ValueError("no points")

@@ -9,9 +9,7 @@ from planarimpact.ground.arrays import ArrayLike, Integers
 
 
 def peak(x: ArrayLike, y: ArrayLike) -> float:
-    """Place of the largest value, refined by the parabola through its neighbours.
-
-    A largest value at an end of the curve is not taken for a peak.
+    """Place of the largest inner value, refined by the parabola through its neighbours.
 
     >>> peak([0.0, 1.0, 3.0], [0.0, 1.0, -3.0])
     1.0

@@ -2,8 +2,8 @@
 
 Against a series of points: `distance` from a curve, or from its `vertices`. Against a stated fact:
 a `landmark` of a curve. Against a law, without a reference: two columns that must be equal
-(`balance`), one that must be small (`largest`), some that have a `range`, or neighbours that must
-not leave further apart than they arrive (`contraction`).
+(`balance`), one that must be small (`largest`), columns whose values have a `range`, or neighbours
+that must not leave further apart than they arrive (`contraction`).
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -20,18 +20,18 @@ from stronge1994.judging.points import Entry, Reference, kind, points, printed_s
 
 # Two ways to compute one energy agree to this; see the reason of the comparison.
 BALANCE_SIGMA = 1e-12
-# Both ends of a range are within so many times the largest value found: two digits of room are for
-# the rounding of other machines; with more the range says nothing.
-ROOM = 100
+# Both ends of a range lie within this many times the largest value: two digits are for the rounding
+# of other machines, and a wider range tests nothing.
+LARGEST_RANGE_RATIO = 100
 
 
 class Measured(NamedTuple):
     """How far curves are from what a comparison names.
 
-    `quantity` is the column that says where the points lie; `columns` names the column that each
-    residual is of. `shifts` has a row for each uncertain parameter: the change of all residuals if
-    it is off by one sigma. Only a landmark has a `gap`, the value found minus the stated one, and
-    `texts`, both values as a page shows them.
+    `quantity` is the column of the points' positions; `columns` names the column of each residual.
+    `shifts` has a row for each uncertain parameter: the change of all residuals if it is off by one
+    sigma. Only a landmark has a `gap`, its value minus the stated one, and `texts`, both values as
+    a page shows them.
     """
 
     quantity: str
@@ -43,89 +43,93 @@ class Measured(NamedTuple):
 
 
 def measure(
-    entry: Entry, known: Reference | None, curves: Curves, series_paths: Mapping[str, str]
+    entry: Entry, reference: Reference | None, curves: Curves, series_paths: Mapping[str, str]
 ) -> Measured:
     """Distances of one comparison; a `ValueError` says what is missing."""
     if entry["metric"] in _LAWS:
         return _LAWS[entry["metric"]](entry, curves)
-    if known is None:
+    if reference is None:
         raise ValueError("the reference is not there")
     if entry["metric"] == "landmark":
-        return _landmark(entry, known, curves)
+        return _landmark(entry, reference, curves)
     find = _from_curve if entry["metric"] == "distance" else _from_vertices
-    series = points(entry, known, series_paths)
-    residuals, columns = find(entry, known, curves, series)
+    series = points(entry, reference, series_paths)
+    residuals, columns = find(entry, reference, curves, series)
     # The curve is solved again with each uncertain parameter off by one sigma, up and down.
     shifts = []
     for up, down in curve_names.shifted_by(entry.get("curve"), curves):
-        upper, _ = find({**entry, "curve": up}, known, curves, series)
-        lower, _ = find({**entry, "curve": down}, known, curves, series)
+        upper, _ = find({**entry, "curve": up}, reference, curves, series)
+        lower, _ = find({**entry, "curve": down}, reference, curves, series)
         shift = (upper.sigmas - lower.sigmas) / 2
         # An error of a parameter moves all points together, unless each point has its own.
         shifts += list(np.diag(shift)) if curve_names.EACH in up else [shift]
-    x = reference_data.column_name(known["x"])
+    x = reference_data.column_name(reference["x"])
     return Measured(x, residuals, columns, np.reshape(shifts, (len(shifts), len(columns))))
 
 
-# Distances, and the column that each of them is of.
-_Found: TypeAlias = tuple[Residuals, list[str]]
+# Distances, and the column of each.
+_ResidualsAndColumns: TypeAlias = tuple[Residuals, list[str]]
 
 
-def _from_curve(entry: Entry, known: Reference, curves: Curves, series: Columns) -> _Found:
-    """Distances from the polyline of the named curve, or of each point's own."""
-    x = reference_data.column_name(known["x"])
+def _from_curve(
+    entry: Entry, reference: Reference, curves: Curves, series: Columns
+) -> _ResidualsAndColumns:
+    """Distances from the polyline of the named curve, or of the curve that each point names."""
+    x = reference_data.column_name(reference["x"])
     parts: list[Residuals] = []
     columns: list[str] = []
     names = [entry["curve"]] if "curve" in entry else dict.fromkeys(series["curve"])
     for name in names:
         own = slice(None) if "curve" in entry else series["curve"] == name
-        for axis in reference_data.ordinates(known):
+        for axis in reference_data.ordinates(reference):
             y = reference_data.column_name(axis)
             at, value = series[x][own], series[y][own]
-            there = ~np.isnan(value)
-            if there.any():
+            present = ~np.isnan(value)
+            if present.any():
                 polyline = _columns_of(curves, name, x, y)
                 part = distances.curve_residuals(
-                    (at[there], value[there]),
+                    (at[present], value[present]),
                     polyline,
-                    sigma(entry, known["x"], axis),
-                    both_ways=known.get("line", False),
+                    sigma(entry, reference["x"], axis),
+                    both_ways=reference.get("line", False),
                 )
                 parts.append(part)
                 columns += [f"{y} of {name}"] * len(part.x)
     return _joined(parts), columns
 
 
-def _from_vertices(entry: Entry, known: Reference, curves: Curves, series: Columns) -> _Found:
+def _from_vertices(
+    entry: Entry, reference: Reference, curves: Curves, series: Columns
+) -> _ResidualsAndColumns:
     """Distances from the vertices with the same labels."""
-    x, label_columns = reference_data.column_name(known["x"]), known.get("labels", [])
+    x, label_columns = reference_data.column_name(reference["x"]), reference.get("labels", [])
     needed = {x, *label_columns} - {"curve"}
     labelled = [
         (columns, _labels(columns | {"curve": np.full(len(columns[x]), name)}, label_columns))
-        for name, columns in _chosen(entry, curves).items()
+        for name, columns in _selected_curves(entry, curves).items()
         if needed <= set(columns)
     ]
     labels = _labels(series, label_columns)
     parts: list[Residuals] = []
     columns: list[str] = []
-    for axis in reference_data.ordinates(known):
+    for axis in reference_data.ordinates(reference):
         y = reference_data.column_name(axis)
-        there = ~np.isnan(series[y])
-        if there.any():
-            own = [label for label, inside in zip(labels, there, strict=True) if inside]
-            labelled_points = series[x][there], series[y][there], own
-            vertices, scale = _vertices(labelled, x, y), _scale(entry, known, axis, series)
+        present = ~np.isnan(series[y])
+        if present.any():
+            own = [label for label, inside in zip(labels, present, strict=True) if inside]
+            labelled_points = series[x][present], series[y][present], own
+            vertices, scale = _vertices(labelled, x, y), _scale(entry, reference, axis, series)
             parts.append(distances.vertex_residuals(labelled_points, vertices, scale))
             columns += [f"{y} of {label}" if label else y for label in own]
     return _joined(parts), columns
 
 
 def _scale(
-    entry: Entry, known: Reference, axis: Mapping[str, Any], series: Columns
+    entry: Entry, reference: Reference, axis: Mapping[str, Any], series: Columns
 ) -> tuple[ArrayLike, ArrayLike]:
-    if kind(known) == "stated":
-        return printed_sigma(known, series)
-    return sigma(entry, known["x"], axis)
+    if kind(reference) == "stated":
+        return printed_sigma(reference, series)
+    return sigma(entry, reference["x"], axis)
 
 
 def _joined(parts: Iterable[Residuals]) -> Residuals:
@@ -147,7 +151,7 @@ def _vertices(
 
 
 def _labels(columns: Columns, label_columns: Iterable[str]) -> list[str]:
-    """A label for each row: its entries in the label columns. Without such columns it is empty."""
+    """A label for each row: its entries in the label columns, else empty."""
     if not label_columns:
         return [""] * len(next(iter(columns.values())))
     rows = zip(*(columns[name] for name in label_columns), strict=True)
@@ -160,29 +164,29 @@ def _landmark(entry: Entry, fact: Reference, curves: Curves) -> Measured:
     options = [landmark[key] for key in ("regime", "level", "at") if key in landmark]
     names = [landmark["x"], "regime" if "regime" in landmark else landmark["y"]]
     find = getattr(landmarks, landmark["kind"])
-    found = find(*_columns_of(curves, entry["curve"], *names), *options)
+    value = find(*_columns_of(curves, entry["curve"], *names), *options)
     unit = "" if fact["unit"] == "1" else f" {fact['unit']}"
     signs = {"value": "", "less_than": "< ", "greater_than": "> "}
     stated = "".join(f"{sign}{fact[key]:g}{unit}" for key, sign in signs.items() if key in fact)
-    gap = found - fact["value"] if "value" in fact else None
+    gap = value - fact["value"] if "value" in fact else None
     quantity = names[1] if landmark["kind"] == "value_at" else names[0]
-    texts = {"found": f"{found:.4g}", "stated": stated}
-    residuals = distances.fact_residuals(found, fact)
+    texts = {"found": f"{value:.4g}", "stated": stated}
+    residuals = distances.fact_residuals(value, fact)
     return Measured(quantity, residuals, [quantity], gap=gap, texts=texts)
 
 
 class _Table(NamedTuple):
-    """Some columns of all curves that have them, one curve after the other."""
+    """The same columns of all curves that have them, one curve after the other."""
 
     first: str  # the first column of numbers, which says where the points lie
     x: Array  # its values
     values: list[Array]  # of the columns asked for
 
 
-def _together(entry: Entry, curves: Curves, names: list[str]) -> _Table:
+def _concatenated(entry: Entry, curves: Curves, names: list[str]) -> _Table:
     holders = [
         columns
-        for columns in _chosen(entry, curves).values()
+        for columns in _selected_curves(entry, curves).values()
         if all(name in columns for name in names)
     ]
     if not holders:
@@ -196,7 +200,7 @@ def _together(entry: Entry, curves: Curves, names: list[str]) -> _Table:
 def _balance(entry: Entry, curves: Curves) -> Measured:
     """Two columns that must be equal."""
     names = entry["columns"]
-    first, x, (left, right) = _together(entry, curves, names)
+    first, x, (left, right) = _concatenated(entry, curves, names)
     residuals = distances.difference_residuals(x, left, right, BALANCE_SIGMA)
     return Measured(first, residuals, [names[0]] * len(x))
 
@@ -204,41 +208,35 @@ def _balance(entry: Entry, curves: Curves) -> Measured:
 def _largest(entry: Entry, curves: Curves) -> Measured:
     """A column that must be small."""
     name = entry["largest"]
-    first, x, (values,) = _together(entry, curves, [name])
+    first, x, (values,) = _concatenated(entry, curves, [name])
     residuals = distances.difference_residuals(x, values, np.zeros(len(x)), 1.0)
     return Measured(first, residuals, [name] * len(x))
 
 
 def _range(entry: Entry, curves: Curves) -> Measured:
-    """Columns whose values must lie in a range: distances from its middle, in half its width.
-
-    A range that ends at far larger values is an error.
-    """
+    """Columns that must lie in a range: distances from its middle, in half its width."""
     names, (low, high) = entry["columns"], entry["range"]
-    first, x, values = _together(entry, curves, names)
-    found = np.concatenate(values)
-    most = ROOM * np.abs(found).max()
+    first, x, values = _concatenated(entry, curves, names)
+    joined = np.concatenate(values)
+    most = LARGEST_RANGE_RATIO * np.abs(joined).max()
     if max(abs(low), abs(high)) >= most:
         raise ValueError(
-            f"range {low:g} to {high:g}: allowed are ends nearer to 0 than {most:g}, {ROOM} times "
-            "the largest value found; beyond, the range says nothing"
+            f"range {low:g} to {high:g}: allowed are ends nearer to 0 than {most:g}, "
+            f"{LARGEST_RANGE_RATIO} times the largest value; a wider range tests nothing"
         )
-    middle = np.full(len(found), (low + high) / 2)
+    middle = np.full(len(joined), (low + high) / 2)
     at = np.tile(x, len(names))
-    residuals = distances.difference_residuals(at, found, middle, (high - low) / 2)
+    residuals = distances.difference_residuals(at, joined, middle, (high - low) / 2)
     return Measured(first, residuals, np.repeat(names, len(x)).tolist())
 
 
 def _contraction(entry: Entry, curves: Curves) -> Measured:
-    """How much further apart neighbours of a curve leave than they arrive; the most at each place.
-
-    The printed equations are left out: they need not keep to that. So are curves whose names do
-    not begin as the comparison says.
-    """
+    """Largest excess of the distance of neighbours at departure over that at arrival, by place."""
     x, y = entry["columns"]
     beginning = entry.get("beginning", "")
     parts = []
     for name, columns in curves.items():
+        # The printed equations need not obey this law.
         drawn = not (curve_names.is_printed(name) or curve_names.is_shifted(name))
         drawn &= name.startswith(beginning)
         if drawn and x in columns and y in columns:
@@ -271,7 +269,7 @@ def _first_of_numbers(columns: Columns) -> str:
     return next(name for name, values in columns.items() if values.dtype.kind == "f")
 
 
-def _chosen(entry: Entry, curves: Curves) -> Curves:
+def _selected_curves(entry: Entry, curves: Curves) -> Curves:
     """The one curve that the comparison names, or all of them."""
     if "curve" not in entry:
         return curves

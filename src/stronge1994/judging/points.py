@@ -18,35 +18,35 @@ Reference: TypeAlias = Mapping[str, Any]
 PARTS = ("initial stick", "slip and stick", "slip throughout")
 
 
-def kind(known: Reference | None) -> str:
+def kind(reference: Reference | None) -> str:
     """Kind of a reference: a series has its own; else `fact`, or `law` without a reference."""
-    return "law" if known is None else known.get("kind", "fact")
+    return "law" if reference is None else reference.get("kind", "fact")
 
 
-def is_published(known: Reference | None) -> bool:
+def is_published(reference: Reference | None) -> bool:
     """Whether a reference holds points that somebody has published."""
-    return kind(known) in ("digitised", "stated", "awaited")
+    return kind(reference) in ("digitised", "stated", "awaited")
 
 
-def points(entry: Entry, known: Reference, series_paths: Mapping[str, str]) -> Columns:
-    """Columns of the reference in the regime and with the labels that the comparison asks for."""
+def points(entry: Entry, reference: Reference, series_paths: Mapping[str, str]) -> Columns:
+    """Columns of the reference in the regime and with the labels of the comparison."""
     source, name = entry["reference"].split("/")
     series = csv_tables.read(series_paths[source])[name]
-    x = series[reference_data.column_name(known["x"])]
-    low, high = _window(entry, known)
+    x = series[reference_data.column_name(reference["x"])]
+    low, high = _window(entry, reference)
     chosen = (x >= low) & (x < high)
     for label, word in entry.get("points", {}).items():
         chosen &= series[label] == word
-    if "curve" in entry and "curve" in known.get("labels", []):
+    if "curve" in entry and "curve" in reference.get("labels", []):
         chosen &= series["curve"] == entry["curve"]
     if not chosen.any():
         raise ValueError("the reference has no such points")
     return {column: values[chosen] for column, values in series.items()}
 
 
-def printed_sigma(known: Reference, series: Columns) -> tuple[Array, Array]:
+def printed_sigma(reference: Reference, series: Columns) -> tuple[Array, Array]:
     """Uncertainties of each point of a stated series on both axes."""
-    x, y = (series[f"{reference_data.sigma_column(known[axis])}"] for axis in "xy")
+    x, y = (series[f"{reference_data.sigma_column(reference[axis])}"] for axis in "xy")
     if not (x.all() and y.all()):
         raise ValueError("a point that is compared has an uncertainty of 0")
     return x, y
@@ -60,14 +60,14 @@ def sigma(entry: Entry, x: Mapping[str, Any], y: Mapping[str, Any]) -> tuple[flo
     return with_allowance(both, (allowance["x"], allowance["y"]))
 
 
-def _window(entry: Entry, known: Reference) -> tuple[float, float]:
+def _window(entry: Entry, reference: Reference) -> tuple[float, float]:
     """Where a regime begins and ends on the axis of the reference, by its source's parameters."""
     if "regime" not in entry:
         return -np.inf, np.inf
-    stated = known["parameters"]
+    stated = reference["parameters"]
     keys = ("mass_ratio", "stiffness_ratio", "restitution")
     limits = limits_of_regimes(*(stated[key] for key in keys))
-    if known["x"]["column"] == "angle":
+    if reference["x"]["column"] == "angle":
         limits = np.degrees(np.arctan(stated["friction"] * limits))
     ends = [-np.inf, *limits, np.inf]
     place = PARTS.index(entry["regime"])
@@ -80,8 +80,8 @@ def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: fl
     Every model with Coulomb friction and both compliances has these limits (Stronge 1994, Eq. 11,
     and the incidence beyond which its Eq. 21 has no root). They are in mu v2(0), and e must be
     above 0. For zeta^2 > beta both are zeta^2: a contact that slips at first slips throughout. The
-    limits choose the points of a comparison. A judge does not ask the solver that it judges, so
-    they are computed here.
+    limits select the points of a comparison. They are computed here, because a judge must not ask
+    the solver that it judges.
 
     >>> limits_of_regimes(3.5, 1.21, 1.0).round(2).tolist()
     [1.21, 5.79]

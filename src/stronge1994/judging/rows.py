@@ -16,7 +16,7 @@ from stronge1994.judging.verdicts import Verdict, chi_squared_of, judge
 from stronge1994.verdict_table import COLUMNS
 
 RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
-# What a row rests on, by the kind of its reference.
+# Evidence of a row, by the kind of its reference.
 EVIDENCE = {
     "digitised": "published points",
     "stated": "published points",
@@ -53,80 +53,83 @@ def compare(
     except Exception as error:
         problem = f"no curves: {error}"
     solved = Verdict.DIVERGES if problem else Verdict.UNCHANGED
-    facts: VerdictRow = {"evidence": EVIDENCE["itself"], "reason": "it must run"}
-    rows = [_row(name, f"{name}-solved", solved, note=problem, **facts)]
+    cells: VerdictRow = {"evidence": EVIDENCE["itself"], "reason": "it must run"}
+    rows = [_row(name, f"{name}-solved", solved, note=problem, **cells)]
     for title, entry in comparisons.items():
-        known = references.get(entry.get("reference", ""))
-        facts = {"reference": entry.get("reference", ""), "reason": entry["reason"]}
-        facts["evidence"] = EVIDENCE[kind(known)]
-        if known is not None and kind(known) == "awaited" and not known["path"]:
-            rows.append(_row(name, title, Verdict.AWAITED, note=known["figure"], **facts))
+        reference = references.get(entry.get("reference", ""))
+        cells = {"reference": entry.get("reference", ""), "reason": entry["reason"]}
+        cells["evidence"] = EVIDENCE[kind(reference)]
+        if reference is not None and kind(reference) == "awaited" and not reference["path"]:
+            rows.append(_row(name, title, Verdict.AWAITED, note=reference["figure"], **cells))
             continue
         try:
             if problem:
                 raise ValueError(problem)
-            found = measure(entry, known, curves, series_paths)
-            verdict = judge(entry, known, found, significance)
-            facts["evidence"] = EVIDENCE.get(verdict, facts["evidence"])
-            facts |= _numbers(entry, known, found, significance) | found.texts
-            points = zip(found.residuals.x.tolist(), found.residuals.sigmas.tolist(), strict=True)
-            facts["residuals"] = [[title, found.quantity, *point] for point in points]
-            note = _note(entry, found, verdict)
+            measured = measure(entry, reference, curves, series_paths)
+            verdict = judge(entry, reference, measured, significance)
+            cells["evidence"] = EVIDENCE.get(verdict, cells["evidence"])
+            cells |= _numbers(entry, reference, measured, significance) | measured.texts
+            points = zip(
+                measured.residuals.x.tolist(), measured.residuals.sigmas.tolist(), strict=True
+            )
+            cells["residuals"] = [[title, measured.quantity, *point] for point in points]
+            note = _note(entry, measured, verdict)
         except Exception as error:
             verdict, note = Verdict.DIVERGES, f"{error}"
-        rows.append(_row(name, title, verdict, note=note, **facts))
+        rows.append(_row(name, title, verdict, note=note, **cells))
     return rows
 
 
-def _note(entry: Entry, found: Measured, verdict: Verdict) -> str:
-    """What is known of a difference; of a new one, where it is largest."""
+def _note(entry: Entry, measured: Measured, verdict: Verdict) -> str:
+    """The documented cause of a difference; of a new difference, where it is largest."""
     documented = entry.get("documented", {})
-    known: str = (
+    recorded: str = (
         f"ledger: {documented['entry']}" if "entry" in documented else documented.get("note", "")
     )
-    sigmas = np.abs(found.residuals.sigmas)
+    sigmas = np.abs(measured.residuals.sigmas)
     if verdict != Verdict.DIVERGES or len(sigmas) == 1:
-        return known
+        return recorded
     worst = int(sigmas.argmax())
-    place = f"largest for {found.columns[worst]} at {found.quantity} = {found.residuals.x[worst]:g}"
-    return "; ".join(words for words in (known, place) if words)
+    at = f"{measured.quantity} = {measured.residuals.x[worst]:g}"
+    place = f"largest for {measured.columns[worst]} at {at}"
+    return "; ".join(part for part in (recorded, place) if part)
 
 
 def _numbers(
-    entry: Entry, known: Reference | None, found: Measured, significance: float
+    entry: Entry, reference: Reference | None, measured: Measured, significance: float
 ) -> VerdictRow:
-    distance = found.residuals.summary()
+    distance = measured.residuals.summary()
     cells: VerdictRow = {
         "points": distance.points,
         "rms [sigma]": f"{distance.rms:.3g}",
         "max [sigma]": f"{distance.max:.3g}",
         "rms [axis units]": f"{distance.plain_rms:.3g}",
-        "allowed": _allowed(entry, known, significance),
+        "allowed": _allowed(entry, reference, significance),
         "regression": ", ".join(
             f"{low:g} <= {key} <= {high:g}"
             for key, (low, high) in entry.get("regression", {}).items()
         ),
     }
-    if known is not None and is_published(known):
-        chi2 = chi_squared_of(known, found)
+    if reference is not None and is_published(reference):
+        chi2 = chi_squared_of(reference, measured)
         cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
         cells["degrees of sigma"] = chi2.of_sigma or ""
         cells["p"] = f"{chi2.p:.2g}"
     return cells
 
 
-def _allowed(entry: Entry, known: Reference | None, significance: float) -> str:
+def _allowed(entry: Entry, reference: Reference | None, significance: float) -> str:
     if "range" in entry:
         return "{:g} to {:g}".format(*entry["range"])
-    if known is None or not is_published(known):
+    if reference is None or not is_published(reference):
         return f"max <= {entry.get('limit', 1.0):g}"
-    words = f"p > {significance:g}"
+    criterion = f"p > {significance:g}"
     if "allowance" not in entry:
-        return words
-    axes = known["x"], known["y"]
+        return criterion
+    axes = reference["x"], reference["y"]
     sizes = zip(axes, sigma(entry, *axes), strict=True)
     unit = ", ".join(f"{axis['column']} {size:.3g} {axis['unit']}" for axis, size in sizes)
-    return f"{words}; 1 is {unit}: allowance for the model and sigma together".replace("_", " ")
+    return f"{criterion}; 1 is {unit}: allowance for the model and sigma together".replace("_", " ")
 
 
 def _row(figure: str, name: str, verdict: Verdict, **cells: Any) -> VerdictRow:

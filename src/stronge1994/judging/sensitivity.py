@@ -1,8 +1,8 @@
 """The smallest change of each group of the physics that a comparison catches.
 
-The curves are solved once more with each group off by a little. The distances change in proportion
-to it, so they are extrapolated until the verdict is `diverges`. Fewer vertices than in the figure
-are enough for that.
+The curves are solved once more with each group slightly changed. Distances change in proportion to
+the change, so they are extrapolated until the verdict is `diverges`. Fewer vertices than in the
+figure are enough for that.
 """
 
 import functools
@@ -32,12 +32,12 @@ COARSER, FEWEST = 20, 10
 STEP = 1e-4
 # Sizes of change that are tried on the extrapolated distances.
 SIZES = 10.0 ** np.arange(-15, -0.25, 0.1)
-# Metrics that hold whatever the parameters are.
+# Metrics that hold for all parameters.
 LAWS = ("balance", "range", "contraction")
-# Tried one by one where distances do not change in proportion.
-TRIED = 10.0 ** np.arange(-15, -2)
-# All published points are moved by so many sigmas.
-MOVED = range(1, 10)
+# Sizes that are solved one by one where distances do not change in proportion.
+TRIAL_SIZES = 10.0 ** np.arange(-15, -2)
+# Sigmas by which all published points are moved.
+SIGMAS_MOVED = range(1, 10)
 
 
 def sensitivities(
@@ -49,18 +49,18 @@ def sensitivities(
     references: Mapping[str, Reference],
     series: Mapping[str, str],
     significance: float,
-    how: Mapping[str, Any] | None,
+    options: Mapping[str, Any] | None,
 ) -> list[list[str]]:
-    """Rows of the table: what each comparison of one figure catches; `how` is as in figure.yaml.
+    """Rows of the table: what each comparison of one figure catches; `options` are of figure.yaml.
 
     A row has the name of the comparison, by how many whole sigmas all published points must be
     moved, and the sizes of the changes of `GROUPS`: relative ones, of e an absolute one. `none`
-    stands where even the largest change that is tried is not caught. A cell is empty where the
-    figure does not depend on the group, or the comparison cannot be made. If `how` is None all are:
-    the solver takes long, and what it solves is in other figures too.
+    stands where even the largest change is not caught. A cell is empty where the figure does not
+    depend on the group, or the comparison cannot be made. If `options` is None, all are empty: the
+    solver takes long, and other figures show what it solves.
     """
-    tried, how = how is not None, how or {}
-    settings = settings | solving.read_nodes(nodes) | how.get("settings", {})
+    tried, options = options is not None, options or {}
+    settings = settings | solving.read_nodes(nodes) | options.get("settings", {})
     settings.pop("uncertainty", None)
     if "samples" in settings:
         settings["samples"] = max(FEWEST, settings["samples"] // COARSER)
@@ -68,38 +68,40 @@ def sensitivities(
         settings["as_printed"] = False
     try:
         curves = judged_tables.read(path) if tried else {}
-    except Exception:  # the row `...-solved` says so
+    except Exception:  # the row `...-solved` has the error
         curves = {}
     if not curves:
         return [[title, *[""] * len(verdict_table.SENSITIVITY[1:])] for title in comparisons]
-    # A group that is off by nothing has the same curves as every other: they are solved once.
+    # A change of size 0 gives the same curves for every group: they are solved once.
     solve = _once(functools.partial(_solve, figure, curves), operator.eq)
-    solved = {group: _solver(solve, settings, group, how) for group in GROUPS}
+    solved = {group: _solver(solve, settings, group, options) for group in GROUPS}
     rows = []
     for title, entry in comparisons.items():
-        known = references.get(entry.get("reference", ""))
+        reference = references.get(entry.get("reference", ""))
 
         measured: _Measure = _once(
-            functools.partial(measure, entry, known, series_paths=series), operator.is_
+            functools.partial(measure, entry, reference, series_paths=series), operator.is_
         )
 
-        def caught(found: Measured, entry: Entry = entry, known: Reference | None = known) -> bool:
-            return judge(entry, known, found, significance) == Verdict.DIVERGES
+        def caught(
+            result: Measured, entry: Entry = entry, reference: Reference | None = reference
+        ) -> bool:
+            return judge(entry, reference, result, significance) == Verdict.DIVERGES
 
         if entry["metric"] in LAWS:
             sizes = ["none"] * len(GROUPS)
-        elif not how.get("by_trial"):
+        elif not options.get("by_trial"):
             sizes = [
                 _in_proportion(curves, solved[group], measured, caught, one_way=group == "e")
                 for group in GROUPS
             ]
         elif entry["metric"] == "largest":
             sizes = [_by_trial(solved[group], measured, caught) for group in GROUPS]
-        else:  # the impacts themselves, of which only some are tried
+        else:  # every single impact, of which the trial solves too few
             sizes = [""] * len(GROUPS)
         moved = ""
-        if is_published(known):
-            noticed = functools.partial(notices, entry, known, significance=significance)
+        if is_published(reference):
+            noticed = functools.partial(notices, entry, reference, significance=significance)
             moved = _by_moving(curves, measured, noticed)
         rows.append([title, moved, *sizes])
     return rows
@@ -119,9 +121,9 @@ def _once(
     known: list[tuple[_Argument, _Result]] = []
 
     def answer(argument: _Argument) -> _Result:
-        for before, found in known:
-            if same(before, argument):
-                return found
+        for earlier, result in known:
+            if same(earlier, argument):
+                return result
         known.append((argument, function(argument)))
         return known[-1][1]
 
@@ -129,10 +131,7 @@ def _once(
 
 
 def _solve(figure: str, curves: Curves, settings: Settings) -> Curves:
-    """Curves of other settings, under the names that `curves` have.
-
-    Those of the printed equations are left as they are.
-    """
+    """Curves of other settings, under the names of `curves`; printed ones stay as they are."""
     module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
     printed = {name: curves[name] for name in curves if curve_names.is_printed(name)}
     own = [name for name in curves if not curve_names.is_shifted(name) and name not in printed]
@@ -140,19 +139,21 @@ def _solve(figure: str, curves: Curves, settings: Settings) -> Curves:
 
 
 def _solver(
-    solve: Callable[[Settings], Curves], settings: Settings, group: str, how: Mapping[str, Any]
+    solve: Callable[[Settings], Curves], settings: Settings, group: str, options: Mapping[str, Any]
 ) -> _Solved | None:
-    """Function that solves curves with a group off by a size; None if there is no such group."""
-    without = (*how.get("without", ()), "nodes")
+    """Function that solves curves with a group changed by a size; None if the group is absent."""
+    without = (*options.get("without", ()), "nodes")
     if changed(settings, group, STEP, without) == settings:
         return None
 
     def solved(size: float) -> Curves:
-        wrong = changed(settings, group, size, without)
-        if "every" in how:
-            columns = wrong["points"].items()
-            wrong["points"] = {key: column[:: how["every"]] for key, column in columns}
-        return solve(wrong)
+        changed_settings = changed(settings, group, size, without)
+        if "every" in options:
+            columns = changed_settings["points"].items()
+            changed_settings["points"] = {
+                key: column[:: options["every"]] for key, column in columns
+            }
+        return solve(changed_settings)
 
     return solved
 
@@ -169,21 +170,21 @@ def changed(settings: Settings, group: str, size: float, without: Sequence[str] 
     >>> changed({"throw": {"friction": 0.5}}, "mu", 0.5)
     {'throw': {'friction': 0.75}}
     """
-    wrong: Settings = {}
+    changed_settings: Settings = {}
     for key, value in settings.items():
         if key in without:
-            wrong[key] = value
+            changed_settings[key] = value
         elif isinstance(value, dict):
-            wrong[key] = changed(value, group, size, without)
+            changed_settings[key] = changed(value, group, size, without)
         elif key in GROUPS[group]:
-            several = [_off(key, number, size) for number in np.ravel(value).tolist()]
-            wrong[key] = several if isinstance(value, list) else several[0]
+            numbers = [_changed_number(key, number, size) for number in np.ravel(value).tolist()]
+            changed_settings[key] = numbers if isinstance(value, list) else numbers[0]
         else:
-            wrong[key] = value
-    return wrong
+            changed_settings[key] = value
+    return changed_settings
 
 
-def _off(key: str, number: float, size: float) -> float:
+def _changed_number(key: str, number: float, size: float) -> float:
     if key == "restitution":
         return number - size if number > size else number + size
     if key == "poisson_ratio":
@@ -195,43 +196,47 @@ def _off(key: str, number: float, size: float) -> float:
 def _in_proportion(
     curves: Curves, solved: _Solved | None, measure: _Measure, caught: _Caught, one_way: bool
 ) -> str:
-    """Size that is caught in either direction, by extrapolation from one small change."""
+    """Size that is caught in both directions, by extrapolation from one small change."""
     try:
-        found = measure(curves)
-        if not solved or all(map(curve_names.is_printed, found.columns)):
+        measured = measure(curves)
+        if not solved or all(map(curve_names.is_printed, measured.columns)):
             return ""
-        same, other = measure(solved(0.0)), measure(solved(STEP))
+        unchanged, stepped = measure(solved(0.0)), measure(solved(STEP))
     except Exception:  # the reference is awaited, or the row of the comparison gives the reason
         return ""
 
-    def off(size: float) -> Measured:
+    def extrapolated(size: float) -> Measured:
         share = size / STEP
-        three = zip(found.residuals, same.residuals, other.residuals, strict=True)
-        parts = [a + share * (c - b) for a, b, c in three]
-        gap = found.gap
+        triples = zip(measured.residuals, unchanged.residuals, stepped.residuals, strict=True)
+        parts = [a + share * (c - b) for a, b, c in triples]
+        gap = measured.gap
         if gap is not None:
-            gap += share * ((other.gap or 0.0) - (same.gap or 0.0))
-        return found._replace(residuals=Residuals(*parts), gap=gap)
+            gap += share * ((stepped.gap or 0.0) - (unchanged.gap or 0.0))
+        return measured._replace(residuals=Residuals(*parts), gap=gap)
 
-    ways = (1,) if one_way else (1, -1)
-    return _words(size for size in SIZES if all(caught(off(way * size)) for way in ways))
+    directions = (1,) if one_way else (1, -1)
+    return _first_size(
+        size
+        for size in SIZES
+        if all(caught(extrapolated(direction * size)) for direction in directions)
+    )
 
 
 def _by_trial(solved: _Solved | None, measure: _Measure, caught: _Caught) -> str:
     """Size that is caught, by solving with each size."""
     if not solved:
         return ""
-    return _words(size for size in TRIED if caught(measure(solved(float(size)))))
+    return _first_size(size for size in TRIAL_SIZES if caught(measure(solved(float(size)))))
 
 
 def _by_moving(curves: Curves, measure: _Measure, noticed: Callable[..., bool]) -> str:
-    """Whole number of sigmas by which all points must be moved, whichever way."""
+    """Whole number of sigmas by which all points must be moved in either direction."""
     try:
-        found = measure(curves)
+        measured = measure(curves)
     except Exception:  # the reference is awaited, or the row of the comparison gives the reason
         return ""
-    return _words(size for size in MOVED if noticed(found, sigmas=size))
+    return _first_size(size for size in SIGMAS_MOVED if noticed(measured, sigmas=size))
 
 
-def _words(sizes: Iterable[float]) -> str:
+def _first_size(sizes: Iterable[float]) -> str:
     return next((f"{size:.1g}" for size in sizes), "none")

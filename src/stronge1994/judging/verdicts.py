@@ -1,7 +1,7 @@
 """From distances to a verdict: chi-squared for published points, a tolerance for all others.
 
 Published points that agree with a curve are evidence only if they could have disagreed. So the
-verdict is found again with all of them moved by `SEEN` sigmas.
+verdict is computed again with all of them moved by `VISIBLE_SHIFT` sigmas.
 """
 
 from collections.abc import Mapping
@@ -12,9 +12,9 @@ from stronge1994.goodness import ChiSquared, chi_squared
 from stronge1994.judging.metrics import Measured
 from stronge1994.judging.points import Entry, Reference, is_published
 
-# If all points lie this many sigmas on one side of a curve, whoever looks at the picture sees that
-# the curve is wrong. A comparison that does not notice it says less than the picture.
-SEEN = 2.0
+# If all points lie this many sigmas on one side of a curve, a reader of the picture sees that the
+# curve is wrong. A comparison that does not notice it says less than the picture.
+VISIBLE_SHIFT = 2.0
 
 
 class Verdict(StrEnum):
@@ -23,8 +23,9 @@ class Verdict(StrEnum):
     UNCHANGED is the verdict of a check against an earlier result of this repository, or against
     points that the curve was fitted to. It guards against accidents and is evidence of nothing.
     INCONCLUSIVE does not count as evidence either: published points agree with the curve, but would
-    also if it were wrong by `SEEN` sigmas. A known difference is EXPLAINED; or its cause is not
-    known; or it is UNTESTED, because the reference does not state how much its values scatter.
+    also agree if they lay `VISIBLE_SHIFT` sigmas beside it. A known difference is EXPLAINED; or its
+    cause is not known; or it is UNTESTED, because the reference does not state how much its values
+    scatter.
 
     >>> print(Verdict.EXPLAINED)
     explained difference
@@ -40,47 +41,55 @@ class Verdict(StrEnum):
     UNCHANGED = "as before"
 
 
-def chi_squared_of(known: Reference, found: Measured) -> ChiSquared:
-    """Chi-squared of what `measure` found beside published points."""
-    return chi_squared(found.residuals.sigmas, found.shifts, known.get("sigma_values"))
+def chi_squared_of(reference: Reference, measured: Measured) -> ChiSquared:
+    """Chi-squared of measured distances from published points."""
+    return chi_squared(measured.residuals.sigmas, measured.shifts, reference.get("sigma_values"))
 
 
-def judge(entry: Entry, known: Reference | None, found: Measured, significance: float) -> Verdict:
-    """Verdict on what `measure` found; published points agree if p is above `significance`."""
-    outcome = _outcome(entry, known, found, significance)
+def judge(
+    entry: Entry, reference: Reference | None, measured: Measured, significance: float
+) -> Verdict:
+    """Verdict on measured distances; published points agree if p is above `significance`."""
+    outcome = _outcome(entry, reference, measured, significance)
     if outcome == Verdict.AGREES and entry.get("fitted"):
         return Verdict.UNCHANGED
-    if outcome == Verdict.AGREES and is_published(known):
-        noticed = notices(entry, known, found, significance, SEEN)
+    if outcome == Verdict.AGREES and is_published(reference):
+        noticed = notices(entry, reference, measured, significance, VISIBLE_SHIFT)
         return outcome if noticed else Verdict.INCONCLUSIVE
     return outcome
 
 
 def notices(
-    entry: Entry, known: Reference | None, found: Measured, significance: float, sigmas: float
+    entry: Entry,
+    reference: Reference | None,
+    measured: Measured,
+    significance: float,
+    sigmas: float,
 ) -> bool:
     """Whether a comparison diverges if all points lay this many sigmas higher, and if lower."""
     ways = (
-        found.residuals._replace(sigmas=found.residuals.sigmas + off) for off in (sigmas, -sigmas)
+        measured.residuals._replace(sigmas=measured.residuals.sigmas + off)
+        for off in (sigmas, -sigmas)
     )
     return all(
-        _outcome(entry, known, found._replace(residuals=moved), significance) == Verdict.DIVERGES
+        _outcome(entry, reference, measured._replace(residuals=moved), significance)
+        == Verdict.DIVERGES
         for moved in ways
     )
 
 
 def _outcome(
-    entry: Entry, known: Reference | None, found: Measured, significance: float
+    entry: Entry, reference: Reference | None, measured: Measured, significance: float
 ) -> Verdict:
-    distance = found.residuals.summary()
-    measured: dict[str, Any] = {"rms": distance.rms, "max": distance.max, "difference": found.gap}
-    if known is not None and is_published(known):
-        chi2 = chi_squared_of(known, found)
-        good, measured["chi2"] = chi2.p > significance, chi2.value
+    distance = measured.residuals.summary()
+    numbers: dict[str, Any] = {"rms": distance.rms, "max": distance.max, "difference": measured.gap}
+    if reference is not None and is_published(reference):
+        chi2 = chi_squared_of(reference, measured)
+        good, numbers["chi2"] = chi2.p > significance, chi2.value
     else:
         good = distance.max <= entry.get("limit", 1.0)
     bounds: Mapping[str, tuple[float, float]] = entry.get("regression", {})
-    unchanged = all(low <= measured[key] <= high for key, (low, high) in bounds.items())
+    unchanged = all(low <= numbers[key] <= high for key, (low, high) in bounds.items())
     return verdict(good, entry.get("documented", {}).get("as", ""), unchanged)
 
 
@@ -89,8 +98,8 @@ def verdict(good: bool, known: str = "", unchanged: bool = True) -> Verdict:
 
     `good` says that the curve meets its reference: p is large enough, or the distance is within the
     tolerance. `known` is empty, or says of a known difference `explained`, `unexplained` or
-    `untested`; if there is no difference any more, that is a fault too. `unchanged` says that what
-    was found lies within the bounds of its regression test, if it has one.
+    `untested`; if there is no difference any more, that is a fault too. `unchanged` says that the
+    measured distances lie within the bounds of the regression test, if there is one.
 
     >>> print(verdict(True), verdict(False), verdict(False, "explained"), sep="; ")
     agrees; diverges; explained difference

@@ -16,7 +16,7 @@ from stronge1994.ledger.in_nature import Values
 def check(every: Mapping[str, Entry], measured: Mapping[str, Values] | None = None) -> list[Row]:
     """Rows of the ledger's table, one for each entry, in the order of the ledger.
 
-    `measured` is what `measure` found; without it the measures are taken here.
+    `measured` is what `measure` returns; without it the measures are taken here.
     """
     tests = entries.checks()
     measured = measure(every) if measured is None else measured
@@ -27,16 +27,16 @@ def check(every: Mapping[str, Entry], measured: Mapping[str, Values] | None = No
 
 
 def measure(every: Mapping[str, Entry]) -> dict[str, Values]:
-    """What the measures find that the claims in nature need; nan where one crashes."""
+    """Values of the measures that the claims in nature need; nan where a measure crashes."""
     claims = [entry["in_nature"] for entry in every.values() if "in_nature" in entry]
-    found = {}
+    values = {}
     for name in in_nature.needed(claims):
         try:
-            found[name] = in_nature.measure(name)
+            values[name] = in_nature.measure(name)
         except Exception:
             traceback.print_exc()
-            found[name] = in_nature.NOTHING
-    return found
+            values[name] = in_nature.NOTHING
+    return values
 
 
 def _row(name: str, entry: Entry, test: str) -> Row:
@@ -46,7 +46,7 @@ def _row(name: str, entry: Entry, test: str) -> Row:
     row |= {"entry": name, "test": test, "range": entry.get("holds", "")}
     if "check" not in entry:
         return row
-    row["confirms"] = _words(entry["confirms"])
+    row["confirms"] = _criterion(entry["confirms"])
     row["between"] = " to ".join(f"{bound:g}" for bound in entry.get("between", []))
     try:
         finding = ledger.run(entry["check"])
@@ -57,18 +57,18 @@ def _row(name: str, entry: Entry, test: str) -> Row:
     corrected = "" if finding.corrected is None else f"{finding.corrected:.2g}"
     return row | {
         "holds": "yes" if judgement.holds else "no",
-        "found": f"{finding.found:.6g}",
+        "found": f"{finding.value:.6g}",
         "corrected": corrected,
         "problem": judgement.why,
     }
 
 
 def _with_nature(row: Row, entry: Entry, measured: Mapping[str, Values]) -> Row:
-    """A row with the verdict in nature. The entry holds if each of its verdicts does."""
+    """A row with the verdict in nature; the entry holds if each of its verdicts holds."""
     if "in_nature" not in entry:
         return row
     claim = entry["in_nature"]
-    row = row | in_nature.cells(claim, _words(claim.get("confirms", {})), measured)
+    row = row | in_nature.cells(claim, _criterion(claim.get("confirms", {})), measured)
     judgement = in_nature.judge(claim, measured)
     if "check" in claim and judgement.holds:
         return row | {"holds": row["holds"] or "yes"}
@@ -78,10 +78,11 @@ def _with_nature(row: Row, entry: Entry, measured: Mapping[str, Values]) -> Row:
     return row | {"holds": "no", "problem": "; ".join(filter(None, problems))}
 
 
-def _words(confirms: Mapping[str, float]) -> str:
+def _criterion(confirms: Mapping[str, float]) -> str:
+    """When a statement counts as true, as a text."""
     if "value" in confirms:
         return f"{confirms['value']:g} within {confirms['rounding']:g}"
     if not confirms:
         return ""
-    (word, bound), *_ = confirms.items()
-    return f"{word.replace('_', ' ')} {bound:g}"
+    (bound_kind, bound), *_ = confirms.items()
+    return f"{bound_kind.replace('_', ' ')} {bound:g}"

@@ -1,7 +1,7 @@
 """One contact of the paper's model, solved to rounding, in the symbols and signs of the paper.
 
-v1(0), v2(0) < 0, F2 > 0, F1 = (kappa/zeta^2) u1 and du1/dt = -v1 in stick. Scales are arbitrary
-numbers with no common factor, so that a formula with a wrong one cannot agree by accident.
+v1(0), v2(0) < 0, F2 > 0, F1 = (kappa/zeta^2) u1 and du1/dt = -v1 in stick. The scales have no
+common factor, so that a formula with a wrong factor cannot agree by accident.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -29,9 +29,9 @@ _KNOWN: dict[tuple[Any, ...], Any] = {}
 
 
 def once(solver: Callable[..., _Answer], *groups: ArrayLike, **settings: float | str) -> _Answer:
-    """What a solver answers. Many checks ask the same question: it is solved for the first alone.
+    """What a solver returns, computed once for equal arguments, as many checks share an impact.
 
-    Nobody may change an answer. Another solver under the same name, in a test, is asked anew.
+    Callers must not change the result.
 
     >>> once(lumped.rebound, 1.0) is once(lumped.rebound, 1.0)
     True
@@ -121,11 +121,11 @@ class Contact:
 
     def first(self, kind: EventKind) -> State:
         """State at the first event of a kind."""
-        return next(state for found, state in self.events if found == kind)
+        return next(state for event_kind, state in self.events if event_kind == kind)
 
     def last(self, kind: EventKind) -> State:
         """State at the last event of a kind."""
-        return [state for found, state in self.events if found == kind][-1]
+        return [state for event_kind, state in self.events if event_kind == kind][-1]
 
     def between(self, start: Numbers, end: Numbers) -> State:
         """States of the path from one time to another, both included."""
@@ -136,7 +136,7 @@ class Contact:
 
     @property
     def rebound(self) -> Rebound:
-        """What `lumped.rebound` finds: another way than the path's."""
+        """The rebound by `lumped.rebound`, which is not computed from the path."""
         groups = self.mass_ratio, self.stiffness_ratio, self.restitution
         return once(lumped.rebound, self.incidence, *groups)
 
@@ -159,13 +159,13 @@ class Contact:
         """s of the last slip, from the force there: F1 = -mu s F2."""
         return -float(np.sign(self.last(EventKind.SLIP).force_1))
 
-    def _state(self, found: Event | History) -> State:
+    def _state(self, event_or_history: Event | History) -> State:
         return State(
-            np.asarray(found.time) * self.compression_time,
-            np.asarray(found.normal) * self.force_scale,
-            np.asarray(found.friction) * self.friction_scale,
-            np.asarray(found.velocity) * self.velocity_scale,
-            np.asarray(found.spring) * -self.velocity_scale / self.normal_frequency,
+            np.asarray(event_or_history.time) * self.compression_time,
+            np.asarray(event_or_history.normal) * self.force_scale,
+            np.asarray(event_or_history.friction) * self.friction_scale,
+            np.asarray(event_or_history.velocity) * self.velocity_scale,
+            np.asarray(event_or_history.spring) * -self.velocity_scale / self.normal_frequency,
         )
 
 
@@ -178,25 +178,25 @@ def contact(
 ) -> Contact:
     """Solve one contact.
 
-    >>> found = contact(1.0)
-    >>> bool(found.v1 < 0 and found.first(EventKind.STICK).t == 0)
+    >>> impact = contact(1.0)
+    >>> bool(impact.v1 < 0 and impact.first(EventKind.STICK).t == 0)
     True
     """
     groups = incidence, mass_ratio, stiffness_ratio, restitution
     return Contact(*groups, once(lumped.history, *groups, samples=samples))
 
 
-def integral(found: Contact, values: Array) -> Array:
+def integral(impact: Contact, values: Array) -> Array:
     """Integral over time of values along a path, piece by piece between its kinks.
 
-    >>> found = contact(1.0, samples=2001)
-    >>> gained = integral(found, found.path.force_2)[-1] / (-found.m2 * found.v2)
+    >>> impact = contact(1.0, samples=2001)
+    >>> gained = integral(impact, impact.path.force_2)[-1] / (-impact.m2 * impact.v2)
     >>> round(float(gained), 9)  # 1 + e
     2.0
     """
-    t = found.path.t
+    t = impact.path.t
     result, total = np.zeros_like(t), 0.0
-    kinks = [state.t for _, state in found.events]
+    kinks = [state.t for _, state in impact.events]
     for start, end in zip(kinks, kinks[1:], strict=False):
         inside = (t >= start) & (t <= end)
         if inside.sum() > 1:
@@ -207,9 +207,9 @@ def integral(found: Contact, values: Array) -> Array:
 
 @dataclass(frozen=True)
 class NormalMotion:
-    """What the exact normal force does along one contact, by quadrature."""
+    """Normal impulse, velocity, displacement and work along one contact, by quadrature."""
 
-    found: Contact
+    impact: Contact
     impulse: Array
     velocity: Array
     displacement: Array
@@ -218,7 +218,7 @@ class NormalMotion:
     @property
     def top(self) -> int:
         """Index of maximum compression."""
-        return int(np.flatnonzero(self.found.path.t == self.found.compression_time)[0])
+        return int(np.flatnonzero(self.impact.path.t == self.impact.compression_time)[0])
 
 
 def without_micro_slip(incidence: Array) -> Rebound:
@@ -234,12 +234,12 @@ def normal_motions() -> Iterator[tuple[float, NormalMotion]]:
 
 def normal_motion(restitution: float) -> NormalMotion:
     """Normal motion of a contact of the paper's sphere, good to 1e-9."""
-    found = contact(0.7, restitution=restitution, samples=4001)
-    force = found.path.force_2
-    impulse = integral(found, force)
-    velocity = found.v2 + impulse / found.m2
-    work = integral(found, force * velocity)
-    return NormalMotion(found, impulse, velocity, integral(found, velocity), work)
+    impact = contact(0.7, restitution=restitution, samples=4001)
+    force = impact.path.force_2
+    impulse = integral(impact, force)
+    velocity = impact.v2 + impulse / impact.m2
+    work = integral(impact, force * velocity)
+    return NormalMotion(impact, impulse, velocity, integral(impact, velocity), work)
 
 
 def initial_stick() -> Iterator[Contact]:
@@ -253,7 +253,7 @@ def initial_stick() -> Iterator[Contact]:
 def slip_stick_slip(
     restitutions: Sequence[float] = RESTITUTIONS, late: bool | None = None
 ) -> Iterator[Contact]:
-    """Contacts that slip, stick and slip; `late`: stick begins in restitution, or not."""
+    """Contacts that slip, stick and slip; `late` selects whether stick begins in restitution."""
     for beta, zeta2 in PAIRS:
         for e in restitutions:
             limit = float(lumped.slip_throughout_limit(beta, zeta2, e))
@@ -273,7 +273,7 @@ def with_stick() -> Iterator[Contact]:
 
 def reversed_last_slip(contacts: Iterable[Contact]) -> Iterator[Contact]:
     """Those contacts whose last slip runs against the incident direction, s = +1."""
-    return (found for found in contacts if found.last_slip_direction > 0)
+    return (impact for impact in contacts if impact.last_slip_direction > 0)
 
 
 def slip_throughout() -> Iterator[Contact]:

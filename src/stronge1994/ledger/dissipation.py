@@ -15,7 +15,7 @@ from stronge1994.ledger.dynamics import PLATE
 from stronge1994.ledger.finding import Finding, largest
 from stronge1994.printed import dissipation, slip
 
-# Of Fig. 9.
+# Parameters of Fig. 9.
 FRICTIONS, RESTITUTIONS = (0.1, 0.5), (1.0, 0.5)
 ANGLES = np.linspace(0.0, 89.95, 17991)[1:]  # degrees
 
@@ -26,7 +26,7 @@ def kinetic_energy() -> Finding:
     v1, v2 = -0.8, -1.3
     ratios = []
     for clockwise in (0.0, 1.9, -0.4):
-        # Velocity of the centre: that of C less the part of turning, v = V + spin x r.
+        # Velocity of the centre: that of C less that from rotation, v = V + spin x r.
         centre = v1 - clockwise * x2, v2
         exact = mass * (centre[0] ** 2 + centre[1] ** 2 + (gyration * clockwise) ** 2) / 2
         ratios.append(dissipation.kinetic_energy(mass, gyration, x2, v1, v2, clockwise) / exact)
@@ -37,27 +37,27 @@ def hysteresis() -> Finding:
     """Eqs 36 and 37 against the normal kinetic energy that the exact contact loses."""
     gaps = []
     for e, motion in contact.normal_motions():
-        found = motion.found
-        kinetic = found.m2 * found.v2**2 / 2
-        lost = kinetic - found.m2 * motion.velocity[-1] ** 2 / 2
-        gaps.append((dissipation.eq_36_hysteresis(found.m2, found.v2, e) - lost) / kinetic)
+        impact = motion.impact
+        kinetic = impact.m2 * impact.v2**2 / 2
+        lost = kinetic - impact.m2 * motion.velocity[-1] ** 2 / 2
+        gaps.append((dissipation.eq_36_hysteresis(impact.m2, impact.v2, e) - lost) / kinetic)
         gaps.append(dissipation.eq_37_hysteresis_share(e) - lost / kinetic)
     return Finding(largest(gaps))
 
 
-def _unit(found: Contact) -> float:
+def _unit(impact: Contact) -> float:
     """Tangential kinetic energy m1 v1(0)^2/2, in which the gaps are measured."""
-    return found.m1 * found.v1**2 / 2
+    return impact.m1 * impact.v1**2 / 2
 
 
-def _exact(found: Contact) -> float:
+def _exact(impact: Contact) -> float:
     """Exact dissipation by friction, in the paper's units."""
-    return float(found.rebound.dissipation) * found.m2 * found.velocity_scale**2
+    return float(impact.rebound.dissipation) * impact.m2 * impact.velocity_scale**2
 
 
-def _spring(found: Contact, state: State) -> Array:
+def _spring(impact: Contact, state: State) -> Array:
     """Tangential strain energy in a state."""
-    return found.stiffness / found.stiffness_ratio * state.u1**2 / 2
+    return impact.stiffness / impact.stiffness_ratio * state.u1**2 / 2
 
 
 def friction_after_stick() -> Finding:
@@ -68,20 +68,20 @@ def friction_after_stick() -> Finding:
     """
     printed: dict[int, list[Numbers]] = {-1: [], 1: []}
     corrected = []
-    for found in contact.initial_stick():
-        onset, s = found.last(EventKind.SLIP), found.last_slip_direction
-        left, groups = found.impulse_left(onset.t), (found.friction, found.m1)
+    for impact in contact.initial_stick():
+        onset, s = impact.last(EventKind.SLIP), impact.last_slip_direction
+        left, groups = impact.impulse_left(onset.t), (impact.friction, impact.m1)
         for sign, gaps in printed.items():
             lost = dissipation.eq_38_friction(onset.v1, left, *groups, sign)
-            gaps.append((lost - _exact(found)) / _unit(found))
-        lost = dissipation.eq_38_friction(onset.v1, s * left, *groups, -1) + _spring(found, onset)
-        corrected.append((lost - _exact(found)) / _unit(found))
+            gaps.append((lost - _exact(impact)) / _unit(impact))
+        lost = dissipation.eq_38_friction(onset.v1, s * left, *groups, -1) + _spring(impact, onset)
+        corrected.append((lost - _exact(impact)) / _unit(impact))
     return Finding(_of_best_reading(printed), largest(corrected))
 
 
-def _of_best_reading(gaps: Mapping[Any, Iterable[Numbers]]) -> float:
+def _of_best_reading(gaps_of_readings: Mapping[Any, Iterable[Numbers]]) -> float:
     """Largest distance under that reading of a formula which comes nearest."""
-    return min(largest(found) for found in gaps.values())
+    return min(largest(gaps) for gaps in gaps_of_readings.values())
 
 
 def friction_after_stick_in_groups() -> Finding:
@@ -92,18 +92,20 @@ def friction_after_stick_in_groups() -> Finding:
     """
     printed: dict[int, list[Numbers]] = {-1: [], 1: []}
     corrected = []
-    for found in contact.initial_stick():
-        onset, normal = found.last(EventKind.SLIP), found.m2 * found.v2**2
-        swing = np.cos(found.tangential_frequency * onset.t)
-        g1 = slip.impulse_ratio(onset.t, found.normal_frequency, found.restitution)
-        groups = found.mass_ratio, found.friction
-        lost = dissipation.eq_39_friction(found.incidence, swing, g1, *groups)
+    for impact in contact.initial_stick():
+        onset, normal = impact.last(EventKind.SLIP), impact.m2 * impact.v2**2
+        swing = np.cos(impact.tangential_frequency * onset.t)
+        g1 = slip.impulse_ratio(onset.t, impact.normal_frequency, impact.restitution)
+        groups = impact.mass_ratio, impact.friction
+        lost = dissipation.eq_39_friction(impact.incidence, swing, g1, *groups)
         for sign, gaps in printed.items():
-            gaps.append((-sign * lost * normal / 2 - _exact(found)) / _unit(found))
-        signed = found.last_slip_direction * g1
-        lost = dissipation.eq_39_friction(found.incidence, swing, signed, *groups)
-        strain = found.stiffness_ratio * (found.friction * onset.force_2 / found.force_scale) ** 2
-        corrected.append(((lost + strain) * normal / 2 - _exact(found)) / _unit(found))
+            gaps.append((-sign * lost * normal / 2 - _exact(impact)) / _unit(impact))
+        signed = impact.last_slip_direction * g1
+        lost = dissipation.eq_39_friction(impact.incidence, swing, signed, *groups)
+        strain = (
+            impact.stiffness_ratio * (impact.friction * onset.force_2 / impact.force_scale) ** 2
+        )
+        corrected.append(((lost + strain) * normal / 2 - _exact(impact)) / _unit(impact))
     return Finding(_of_best_reading(printed), largest(corrected))
 
 
@@ -117,15 +119,15 @@ def friction_of_two_slips() -> Finding:
         signs: [] for signs in product((-1, 1), repeat=3)
     }
     corrected = []
-    for found in contact.slip_stick_slip():
-        scale, unit = found.velocity_scale, _unit(found)
-        start, onset = found.first(EventKind.STICK), found.last(EventKind.SLIP)
-        w2, w3, final = start.v1 / scale, onset.v1 / scale, found.final_velocity / scale
-        speeds, groups = (found.incidence, w2, w3, final), (found.mass_ratio, found.friction)
+    for impact in contact.slip_stick_slip():
+        scale, unit = impact.velocity_scale, _unit(impact)
+        start, onset = impact.first(EventKind.STICK), impact.last(EventKind.SLIP)
+        w2, w3, final = start.v1 / scale, onset.v1 / scale, impact.final_velocity / scale
+        speeds, groups = (impact.incidence, w2, w3, final), (impact.mass_ratio, impact.friction)
         for signs, gaps in printed.items():
             lost = dissipation.eq_40_friction(*speeds, *groups, signs)
-            gaps.append((lost * found.m2 * found.v2**2 / 2 - _exact(found)) / unit)
-        strain = _spring(found, onset) - _spring(found, start)
+            gaps.append((lost * impact.m2 * impact.v2**2 / 2 - _exact(impact)) / unit)
+        strain = _spring(impact, onset) - _spring(impact, start)
         corrected.append(printed[-1, 1, -1][-1] + strain / unit)
     return Finding(_of_best_reading(printed), largest(corrected))
 
@@ -133,10 +135,10 @@ def friction_of_two_slips() -> Finding:
 def friction_of_slip_throughout() -> Finding:
     """Eq. 41 against the exact energy lost above x = (1 + e) beta."""
     gaps = []
-    for found in contact.slip_throughout():
-        groups = found.incidence, found.mass_ratio, found.friction, found.restitution
-        lost = dissipation.eq_41_friction(*groups) * found.m2 * found.v2**2 / 2
-        gaps.append((lost - _exact(found)) / _unit(found))
+    for impact in contact.slip_throughout():
+        groups = impact.incidence, impact.mass_ratio, impact.friction, impact.restitution
+        lost = dissipation.eq_41_friction(*groups) * impact.m2 * impact.v2**2 / 2
+        gaps.append((lost - _exact(impact)) / _unit(impact))
     return Finding(largest(gaps))
 
 
@@ -148,27 +150,27 @@ def theorem() -> Finding:
     """
     printed, corrected = [], []
     for x in (2.0, 3.0, 4.5):
-        found = contact.contact(x, samples=2001)
-        start = found.first(EventKind.STICK)
-        path, first = found.path, found.path.t <= start.t
-        on_body = contact.integral(found, path.force_1 * path.v1)[first][-1]
+        impact = contact.contact(x, samples=2001)
+        start = impact.first(EventKind.STICK)
+        path, first = impact.path, impact.path.t <= start.t
+        on_body = contact.integral(impact, path.force_1 * path.v1)[first][-1]
         # F1 is proportional to u1, so the trapezoidal rule is exact.
         on_spring = np.trapezoid(path.force_1[first], path.u1[first])
-        impulse = found.m1 * (start.v1 - found.v1)
-        lost = dissipation.footnote_theorem(found.v1, start.v1, impulse)
+        impulse = impact.m1 * (start.v1 - impact.v1)
+        lost = dissipation.footnote_theorem(impact.v1, start.v1, impulse)
         exact = -(on_body + on_spring)
-        printed.append((lost - exact) / _unit(found))
-        corrected.append((lost - _spring(found, start) - exact) / _unit(found))
+        printed.append((lost - exact) / _unit(impact))
+        corrected.append((lost - _spring(impact, start) - exact) / _unit(impact))
     return Finding(largest(printed), largest(corrected))
 
 
 def only_in_slip() -> Finding:
     """Work of friction over the phases of slip against the exact balance of energy."""
     gaps = []
-    for found in contact.with_stick():
-        groups = found.incidence, found.mass_ratio, found.stiffness_ratio, found.restitution
-        gap = lumped.friction_work(*groups) - found.rebound.dissipation
-        gaps.append(gap / (found.incidence**2 / (2 * found.mass_ratio)))
+    for impact in contact.with_stick():
+        groups = impact.incidence, impact.mass_ratio, impact.stiffness_ratio, impact.restitution
+        gap = lumped.friction_work(*groups) - impact.rebound.dissipation
+        gaps.append(gap / (impact.incidence**2 / (2 * impact.mass_ratio)))
     return Finding(largest(gaps))
 
 
@@ -180,19 +182,19 @@ def body_velocity_alone() -> Finding:
     """
     ratios = []
     for share in (0.02, 0.2, 0.4, 0.6, 0.8, 0.99):
-        found = contact.contact(share * contact.STIFFNESS_RATIO)
-        onset = found.last(EventKind.SLIP)
-        change = found.m1 * (onset.v1**2 - found.final_velocity**2) / 2
-        ratios.append(change / _exact(found))
+        impact = contact.contact(share * contact.STIFFNESS_RATIO)
+        onset = impact.last(EventKind.SLIP)
+        change = impact.m1 * (onset.v1**2 - impact.final_velocity**2) / 2
+        ratios.append(change / _exact(impact))
     return Finding(float(min(ratios)))
 
 
 def strain_recovered() -> Finding:
     """Tangential strain energy at separation over that at the onset of the last slip, e > 0."""
     shares = []
-    for found in contact.with_stick():
-        onset, end = found.last(EventKind.SLIP), found.last(EventKind.SEPARATION)
-        shares.append(_spring(found, end) / _spring(found, onset))
+    for impact in contact.with_stick():
+        onset, end = impact.last(EventKind.SLIP), impact.last(EventKind.SEPARATION)
+        shares.append(_spring(impact, end) / _spring(impact, onset))
     return Finding(largest(shares))
 
 
@@ -202,12 +204,12 @@ def strain_decreases() -> Finding:
     Over its value at the onset; the largest of those sampled that slip, stick and slip, e > 0.
     """
     rises = []
-    for found in contact.slip_stick_slip():
-        onset, end = found.last(EventKind.SLIP), found.last(EventKind.SEPARATION)
-        path = found.between(onset.t, end.t)
-        # What the normal element gives back: stiffness kappa/e^2 in restitution.
-        normal = found.restitution**2 * path.force_2**2 / (2 * found.stiffness)
-        for energy in (_spring(found, path), normal):
+    for impact in contact.slip_stick_slip():
+        onset, end = impact.last(EventKind.SLIP), impact.last(EventKind.SEPARATION)
+        path = impact.between(onset.t, end.t)
+        # Energy of the normal element, with the stiffness kappa/e^2 of restitution.
+        normal = impact.restitution**2 * path.force_2**2 / (2 * impact.stiffness)
+        for energy in (_spring(impact, path), normal):
             rises += [np.diff(energy).max() / energy[0], energy[-1] / energy[0]]
     return Finding(float(max(rises)))
 
@@ -218,10 +220,10 @@ def losses_decoupled() -> Finding:
     for e in contact.RESTITUTIONS:
         shares = []
         for x, zeta2 in ((0.3, 1.21), (2.0, 1.21), (8.0, 1.21), (2.0, 0.5)):
-            found = contact.contact(x, contact.MASS_RATIO, zeta2, e, samples=2001)
-            impulse = contact.integral(found, found.path.force_2)
-            work = contact.integral(found, found.path.force_2 * (found.v2 + impulse / found.m2))
-            shares.append(-work[-1] / (found.m2 * found.v2**2 / 2))
+            impact = contact.contact(x, contact.MASS_RATIO, zeta2, e, samples=2001)
+            impulse = contact.integral(impact, impact.path.force_2)
+            work = contact.integral(impact, impact.path.force_2 * (impact.v2 + impulse / impact.m2))
+            shares.append(-work[-1] / (impact.m2 * impact.v2**2 / 2))
         spreads.append(np.ptp(shares))
     return Finding(largest(spreads))
 

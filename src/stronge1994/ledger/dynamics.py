@@ -50,10 +50,10 @@ def velocity_change() -> Finding:
     gap = dynamics.eq_3_velocity_change(inverse, impulse) - _change_of_velocity(impulse, **PLATE)
     gaps = [gap]
     for x in (0.7, 2.0, 4.5, 9.0):
-        found = contact.contact(x, restitution=0.6, samples=2001)
-        impulse = contact.integral(found, found.path.force_1)
-        change = dynamics.eq_3_velocity_change(np.array([[1 / found.m1]]), [impulse])[0]
-        gaps.append((found.v1 + change - found.path.v1) / found.velocity_scale)
+        impact = contact.contact(x, restitution=0.6, samples=2001)
+        impulse = contact.integral(impact, impact.path.force_1)
+        change = dynamics.eq_3_velocity_change(np.array([[1 / impact.m1]]), [impulse])[0]
+        gaps.append((impact.v1 + change - impact.path.v1) / impact.velocity_scale)
     return Finding(largest(gaps))
 
 
@@ -68,15 +68,15 @@ def frequencies() -> Finding:
     """Eq. 4: compression takes up the normal momentum in t_c; stick swings with omega."""
     gaps = []
     for beta, zeta2 in contact.PAIRS:
-        found = contact.contact(zeta2 / 2, beta, zeta2, 1.0, samples=2001)
-        groups = found.m1, found.m2, found.stiffness, zeta2
+        impact = contact.contact(zeta2 / 2, beta, zeta2, 1.0, samples=2001)
+        groups = impact.m1, impact.m2, impact.stiffness, zeta2
         normal, tangential = dynamics.eq_4_frequencies(*groups)
-        top = found.first(EventKind.MAXIMUM_COMPRESSION)
-        impulse = contact.integral(found, found.path.force_2)[found.path.t == top.t]
+        top = impact.first(EventKind.MAXIMUM_COMPRESSION)
+        impulse = contact.integral(impact, impact.path.force_2)[impact.path.t == top.t]
         gaps += [
-            impulse / (-found.m2 * found.v2) - 1,
+            impulse / (-impact.m2 * impact.v2) - 1,
             top.t * normal / (np.pi / 2) - 1,
-            top.v1 / found.v1 - np.cos(tangential * top.t),
+            top.v1 / impact.v1 - np.cos(tangential * top.t),
         ]
     return Finding(largest(gaps))
 
@@ -94,12 +94,12 @@ def normal_velocity() -> Finding:
     """Eqs 6a and 6b against the momentum that the exact normal force has brought."""
     gaps = []
     for e, motion in contact.normal_motions():
-        found, t = motion.found, motion.found.path.t
-        groups = found.v2, found.normal_frequency
+        impact, t = motion.impact, motion.impact.path.t
+        groups = impact.v2, impact.normal_frequency
         early = dynamics.eq_6a_normal_velocity(t, *groups)
         late = dynamics.eq_6b_normal_velocity(t, *groups, e)
-        printed = np.where(t <= found.compression_time, early, late)
-        gaps.append((printed - motion.velocity) / found.v2)
+        printed = np.where(t <= impact.compression_time, early, late)
+        gaps.append((printed - motion.velocity) / impact.v2)
     return Finding(largest(gaps))
 
 
@@ -107,11 +107,11 @@ def table_1() -> Finding:
     """All rows of Table 1 against the exact normal force and its integrals."""
     gaps = []
     for e, motion in contact.normal_motions():
-        found, t, force = motion.found, motion.found.path.t, motion.found.path.force_2
-        v2, m2, omega = found.v2, found.m2, found.normal_frequency
+        impact, t, force = motion.impact, motion.impact.path.t, motion.impact.path.force_2
+        v2, m2, omega = impact.v2, impact.m2, impact.normal_frequency
         displacement = dynamics.table_1_displacement(t, v2, omega, e)
         gaps += [
-            (dynamics.table_1_force(t, v2, m2, omega, e) - force) / found.force_scale,
+            (dynamics.table_1_force(t, v2, m2, omega, e) - force) / impact.force_scale,
             (dynamics.table_1_impulse(t, v2, m2, omega, e) - motion.impulse) / (m2 * v2),
             (dynamics.table_1_velocity(t, v2, omega, e) - motion.velocity) / v2,
             (displacement - motion.displacement) * omega / v2,
@@ -142,11 +142,11 @@ def stored_work() -> Finding:
     """Work at t_c over F2(t_c) u2(t_c)/2, and slope of unloading over kappa/e^2, less 1."""
     gaps = []
     for e, motion in contact.normal_motions():
-        found, force = motion.found, motion.found.path.force_2
+        impact, force = motion.impact, motion.impact.path.force_2
         top, depth = motion.top, motion.displacement
         gaps.append(motion.work[top] / (force[top] * depth[top] / 2) - 1)
         unloading = force[top] / (depth[-1] - depth[top])
-        gaps.append(unloading / (found.stiffness / e**2) - 1)
+        gaps.append(unloading / (impact.stiffness / e**2) - 1)
     return Finding(largest(gaps))
 
 
@@ -154,12 +154,12 @@ def velocity_continuous() -> Finding:
     """Eqs 6a and 6b at t_c, over v2(0), and the momentum brought till then."""
     gaps = []
     for e, motion in contact.normal_motions():
-        found = motion.found
-        groups = found.compression_time, found.v2, found.normal_frequency
+        impact = motion.impact
+        groups = impact.compression_time, impact.v2, impact.normal_frequency
         gaps += [
-            dynamics.eq_6a_normal_velocity(*groups) / found.v2,
-            dynamics.eq_6b_normal_velocity(*groups, e) / found.v2,
-            motion.velocity[motion.top] / found.v2,
+            dynamics.eq_6a_normal_velocity(*groups) / impact.v2,
+            dynamics.eq_6b_normal_velocity(*groups, e) / impact.v2,
+            motion.velocity[motion.top] / impact.v2,
         ]
     return Finding(largest(gaps))
 
@@ -190,16 +190,16 @@ def normal_independence() -> Finding:
 def stick() -> Finding:
     """Eqs 7a to 7c along the first stick of exact contacts, and against numerical integration."""
     gaps = _integrated_stick()
-    for found in contact.with_stick():
-        start, end = found.first(EventKind.STICK), found.last(EventKind.SLIP)
-        path = found.between(start.t, end.t)
-        elapsed, omega = path.t - start.t, found.tangential_frequency
-        speed, force = -found.velocity_scale, found.friction_scale
-        given = start.u1, start.v1
+    for impact in contact.with_stick():
+        start, end = impact.first(EventKind.STICK), impact.last(EventKind.SLIP)
+        path = impact.between(start.t, end.t)
+        elapsed, omega = path.t - start.t, impact.tangential_frequency
+        speed, force = -impact.velocity_scale, impact.friction_scale
+        initial = start.u1, start.v1
         gaps += [
-            (dynamics.eq_7a_deflection(elapsed, *given, omega) - path.u1) * omega / speed,
-            (dynamics.eq_7b_velocity(elapsed, *given, omega) - path.v1) / speed,
-            (dynamics.eq_7c_force(elapsed, *given, found.m1, omega) - path.force_1) / force,
+            (dynamics.eq_7a_deflection(elapsed, *initial, omega) - path.u1) * omega / speed,
+            (dynamics.eq_7b_velocity(elapsed, *initial, omega) - path.v1) / speed,
+            (dynamics.eq_7c_force(elapsed, *initial, impact.m1, omega) - path.force_1) / force,
         ]
     return Finding(largest(gaps))
 
@@ -216,14 +216,14 @@ def noncollinear_stick() -> Finding:
 def _not_harmonic(tilt: float) -> float:
     place = np.sin(np.radians(tilt)) / 2, np.cos(np.radians(tilt)) / 2
     rod = noncollinear.inverse_mass(1.0, 12**-0.5, *place)
-    found = noncollinear.history(-0.5, 1.0, rod, friction=1.0, samples=2001)
-    end = next(e.time for e in found.events if e.kind == EventKind.MAXIMUM_COMPRESSION)
-    sticks = found.time <= end
-    impulse = cumulative_simpson(found.normal_force[sticks], x=found.time[sticks], initial=0)
+    history = noncollinear.history(-0.5, 1.0, rod, friction=1.0, samples=2001)
+    end = next(e.time for e in history.events if e.kind == EventKind.MAXIMUM_COMPRESSION)
+    sticks = history.time <= end
+    impulse = cumulative_simpson(history.normal_force[sticks], x=history.time[sticks], initial=0)
     # F2' = kappa v2 in compression: over each step, the second derivative over kappa, and F2.
-    change, force = np.diff(found.normal[sticks]), np.diff(impulse)
-    rest = change - force * (change @ force) / (force @ force)
-    return float(np.linalg.norm(rest) / np.linalg.norm(change))
+    change, force = np.diff(history.normal[sticks]), np.diff(impulse)
+    unexplained = change - force * (change @ force) / (force @ force)
+    return float(np.linalg.norm(unexplained) / np.linalg.norm(change))
 
 
 def _integrated_stick() -> list[Array]:
@@ -231,7 +231,7 @@ def _integrated_stick() -> list[Array]:
     start = 0.3, -0.8
     stiffness, m1 = contact.STIFFNESS / contact.STIFFNESS_RATIO, 0.6
     omega, end = np.sqrt(stiffness / m1), 2.0
-    found = solve_ivp(
+    solution = solve_ivp(
         lambda _, state: [-state[1], stiffness / m1 * state[0]],
         (0, end),
         start,
@@ -239,36 +239,36 @@ def _integrated_stick() -> list[Array]:
         rtol=1e-12,
         atol=1e-13,
     )
-    elapsed = found.t
+    elapsed = solution.t
     printed = (
         dynamics.eq_7a_deflection(elapsed, *start, omega),
         dynamics.eq_7b_velocity(elapsed, *start, omega),
     )
-    return [value - exact for value, exact in zip(printed, found.y, strict=True)]
+    return [value - exact for value, exact in zip(printed, solution.y, strict=True)]
 
 
 def friction_cone() -> Finding:
     """Largest excess of |F1| over mu F2 along exact contacts, over the largest mu F2."""
     excess = [
-        np.max(np.abs(found.path.force_1) - found.friction * found.path.force_2)
-        / found.friction_scale
-        for found in contact.with_stick()
+        np.max(np.abs(impact.path.force_1) - impact.friction * impact.path.force_2)
+        / impact.friction_scale
+        for impact in contact.with_stick()
     ]
     return Finding(max(0.0, float(np.max(excess))))
 
 
 def _last_slips() -> Iterator[tuple[Contact, State, float]]:
-    for found in contact.with_stick():
-        start, end = found.last(EventKind.SLIP), found.last(EventKind.SEPARATION)
-        yield found, found.between(start.t, end.t), found.last_slip_direction
+    for impact in contact.with_stick():
+        start, end = impact.last(EventKind.SLIP), impact.last(EventKind.SEPARATION)
+        yield impact, impact.between(start.t, end.t), impact.last_slip_direction
 
 
 def slip_force() -> Finding:
     """Eq. 8 along the last slip, with s from the velocity of the particle."""
     gaps = []
-    for found, path, direction in _last_slips():
-        tangential, normal = dynamics.eq_8_impulse(path.force_2, found.friction, direction)
-        gaps.append((tangential - path.force_1) / found.friction_scale)
+    for impact, path, direction in _last_slips():
+        tangential, normal = dynamics.eq_8_impulse(path.force_2, impact.friction, direction)
+        gaps.append((tangential - path.force_1) / impact.friction_scale)
         gaps.append(normal / path.force_2.max() - path.force_2 / path.force_2.max())
         slipped = path.v1[:-1] * np.diff(path.t) + np.diff(path.u1)
         gaps.append(np.minimum(direction * np.sum(slipped), 0.0))
@@ -278,18 +278,18 @@ def slip_force() -> Finding:
 def velocity_slope() -> Finding:
     """Eq. 9 along the last slip: dv1/dp, with p(t) of Table 1."""
     gaps = []
-    for found, path, direction in _last_slips():
-        impulse = found.impulse(path.t)
-        inverse = np.diag([1 / found.m1, 1 / found.m2])
-        slope = dynamics.eq_9_velocity_slope(inverse, found.friction, direction)
+    for impact, path, direction in _last_slips():
+        impulse = impact.impulse(path.t)
+        inverse = np.diag([1 / impact.m1, 1 / impact.m2])
+        slope = dynamics.eq_9_velocity_slope(inverse, impact.friction, direction)
         change = slope[0] * (impulse - impulse[0])
-        gaps.append((path.v1[0] + change - path.v1) / found.velocity_scale)
-        gaps.append(slope[1] * (impulse[-1] - impulse[0]) / found.v2 + _restored(found, path))
+        gaps.append((path.v1[0] + change - path.v1) / impact.velocity_scale)
+        gaps.append(slope[1] * (impulse[-1] - impulse[0]) / impact.v2 + _restored(impact, path))
     return Finding(largest(gaps))
 
 
-def _restored(found: Contact, path: State) -> float:
+def _restored(impact: Contact, path: State) -> float:
     """Fall of v2 from the start of a path to its end, over v2(0), by Eq. 6."""
-    groups = found.v2, found.normal_frequency, found.restitution
+    groups = impact.v2, impact.normal_frequency, impact.restitution
     velocity = dynamics.table_1_velocity(path.t, *groups)
-    return (velocity[0] - velocity[-1]) / found.v2
+    return (velocity[0] - velocity[-1]) / impact.v2

@@ -1,4 +1,4 @@
-"""The ledger of the paper: its entries. Those that cannot be run are refused before any work."""
+"""The entries of the ledger; those that cannot be run are refused before any work."""
 
 import ast
 import re
@@ -19,10 +19,10 @@ REFERENCE = re.compile(r"\bsee ([a-z0-9]+(?:-[a-z0-9.]*[a-z0-9])+)")
 
 
 def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
-    """Entries of a ledger, `{name: entry}`, with what stands elsewhere filled in.
+    """Entries of a ledger, `{name: entry}`, with defaults filled in.
 
-    Each has its `kind` (equation or sentence). A wrong one has its `cause` in words too, `because`.
-    A `fact` of the source.yaml beside the ledger is replaced by its value and tolerance. A
+    Each has its `kind` (equation or sentence). A wrong one has also `because`, the text of its
+    cause. A `fact` of the source.yaml beside the ledger is replaced by its value and tolerance. A
     `SourceError` names file, field, value and what is allowed.
     """
     ledger = reference_data.load_yaml(path)
@@ -68,7 +68,7 @@ def _with_fact(where: str, entry: Entry, facts: Mapping[str, dict[str, float]]) 
 
 
 def _explain(path: str | Path, entries: dict[str, Entry], causes: Mapping[str, str]) -> None:
-    """Add to wrong entries their cause in words; refuse unknown causes, and unused ones."""
+    """Add to wrong entries the text of their cause; refuse unknown causes, and unused ones."""
     for name, entry in entries.items():
         if "cause" in entry:
             if entry["cause"] not in causes:
@@ -105,7 +105,7 @@ def _refuse_contradiction(where: str, entry: Entry, known: Collection[str]) -> N
 
 
 def _refuse_unmeasured(where: str, claim: Mapping[str, Any] | None) -> None:
-    """Refuse a verdict in nature on what nothing measures, or with bounds that cannot be met."""
+    """Refuse a verdict in nature without a measure, or with bounds that cannot be met."""
     if claim is None:
         return
     problem = None
@@ -136,13 +136,13 @@ def _refuse_dangling(where: str, text: Any, entries: dict[str, Entry]) -> None:
 
 def checks() -> dict[str, str]:
     """All checks of this room: `{module.function: its docstring in one line}`."""
-    found = {}
+    docstrings = {}
     for module in MODULES:
         for node in ast.parse((PACKAGE / f"{module}.py").read_text(encoding="utf-8")).body:
             if isinstance(node, ast.FunctionDef) and _is_check(node):
-                words = " ".join((ast.get_docstring(node) or "").split())
-                found[f"{module}.{node.name}"] = words
-    return found
+                docstring = " ".join((ast.get_docstring(node) or "").split())
+                docstrings[f"{module}.{node.name}"] = docstring
+    return docstrings
 
 
 def _is_check(node: ast.FunctionDef) -> bool:

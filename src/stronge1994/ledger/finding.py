@@ -13,15 +13,15 @@ CONFIRMED, ROUNDED, WRONG = "confirmed", "confirmed within rounding", "wrong"
 
 
 class Finding(NamedTuple):
-    """What a check found.
+    """The result of a check.
 
-    For an equation `found` is the largest distance of the printed formula from the paper's model
+    For an equation `value` is the largest distance of the printed formula from the paper's model
     among the samples, in the unit that the check names; between the samples it may be larger. For a
     sentence it is the number that decides it. `corrected` is the same for the corrected formula,
     where the printed one is wrong.
     """
 
-    found: float
+    value: float
     corrected: float | None = None
 
 
@@ -42,11 +42,8 @@ def largest(values: Iterable) -> float:
     return float(np.max([np.max(np.abs(value), initial=0) for value in values]))
 
 
-def verdict(found: float, confirms: Mapping[str, float]) -> str:
-    """Verdict that a number supports.
-
-    `confirms` says when the statement counts as true: `at_most`, `at_least`, or `value` with
-    `rounding`, which is half a unit of its last figure or what its words leave open.
+def verdict(value: float, confirms: Mapping[str, float]) -> str:
+    """Verdict that a number supports; `confirms` has `at_most`, `at_least`, or `value`, `rounding`.
 
     >>> verdict(1.7007, {"value": 1.7, "rounding": 0.05})
     'confirmed within rounding'
@@ -54,20 +51,21 @@ def verdict(found: float, confirms: Mapping[str, float]) -> str:
     'wrong'
     """
     if "value" in confirms:
-        gap = abs(found - confirms["value"])
+        # `rounding` is half a unit of the last figure, or what the sentence leaves open.
+        gap = abs(value - confirms["value"])
         if gap <= EXACT:
             return CONFIRMED
         return ROUNDED if gap <= confirms["rounding"] else WRONG
     above = "at_least" in confirms
-    good = found >= confirms["at_least"] if above else found <= confirms["at_most"]
+    good = value >= confirms["at_least"] if above else value <= confirms["at_most"]
     return CONFIRMED if good else WRONG
 
 
 def judge(finding: Finding, entry: Mapping[str, Any]) -> Judgement:
     """Judge whether an entry of the ledger still holds.
 
-    The entry has `verdict`, `confirms`, and where the verdict is wrong `between`, bounds of `found`
-    on both sides. Where there is a corrected formula it must be exact.
+    The entry has `verdict`, `confirms`, and where the verdict is wrong `between`, bounds of
+    `value` on both sides. Where there is a corrected formula it must be exact.
 
     >>> entry = {"verdict": "wrong", "confirms": {"at_most": 1e-9}, "between": [1.1, 1.3]}
     >>> judge(Finding(1.2, 1e-14), entry).holds
@@ -75,13 +73,13 @@ def judge(finding: Finding, entry: Mapping[str, Any]) -> Judgement:
     >>> print(judge(Finding(0.0, 1e-14), entry).why)
     recorded as wrong, found confirmed
     """
-    supported = verdict(finding.found, entry["confirms"])
+    supported = verdict(finding.value, entry["confirms"])
     complaints = []
     if supported != entry["verdict"]:
         complaints.append(f"recorded as {entry['verdict']}, found {supported}")
     low, high = entry.get("between", (-np.inf, np.inf))
-    if not complaints and not low <= finding.found <= high:
-        complaints.append(f"{finding.found:.4g} lies outside {low:g} to {high:g}")
+    if not complaints and not low <= finding.value <= high:
+        complaints.append(f"{finding.value:.4g} lies outside {low:g} to {high:g}")
     if finding.corrected is not None and not finding.corrected <= EXACT:
         complaints.append(f"the corrected formula is off by {finding.corrected:.2g}")
     return Judgement(supported, not complaints, "; ".join(complaints))

@@ -18,14 +18,14 @@ from stronge1994.printed import dissipation, slip
 
 RESTITUTIONS = np.array([0.5, 0.6, 0.7, 0.8, 0.9, 1.0])
 INCIDENCE = np.linspace(0.1, 8.0, 80)
-# Of the histories, which take longer: restitutions, and incidences of stick and of slip at first.
-FEW = (0.5, 0.6, 0.8, 1.0)
+# Histories take longer, so they have fewer restitutions, and few incidences of each first phase.
+HISTORY_RESTITUTIONS = (0.5, 0.6, 0.8, 1.0)
 STICK, SLIP = (0.3, 1.0), (1.5, 2.0, 2.5, 3.4)
 # The restitution of the least elastic pair that was measured.
 LEAST_MEASURED = 0.6
-# Of the search for the limit of slip throughout. One call for many incidences costs hardly more
-# than one for a few.
-SEARCHED, AT_ONCE, SEARCHES = (3.0, 8.0), 40, 3
+# Search for the limit of slip throughout: its range, incidences in one call, and refinements. One
+# call for many incidences costs hardly more than one for a few.
+LIMIT_RANGE, LIMIT_SAMPLES, LIMIT_REFINEMENTS = (3.0, 8.0), 40, 3
 # Above this incidence, (1 + e) m2/m1 at e = 1, all models have the same rebound.
 WITH_STICK = 2 * contact.MASS_RATIO
 
@@ -39,51 +39,56 @@ def peak_spread(model: Model) -> float:
 def peak_time(model: Model) -> float:
     """Latest time at which friction is largest, in t_c."""
     times = []
-    for found in _histories(model, (*STICK, *SLIP)):
-        size = np.abs(found.friction)
+    for history in _histories(model, (*STICK, *SLIP)):
+        size = np.abs(history.friction)
         # Friction may reach the same peak twice.
-        times.append(found.time[np.argmax(size >= (1 - 1e-3) * size.max())])
+        times.append(history.time[np.argmax(size >= (1 - 1e-3) * size.max())])
     return float(max(times))
 
 
 def duration(model: Model) -> float:
     """Largest distance of tf/t_c from 1 + e."""
-    ends = np.array([model.history(1.0, e).time[-1] for e in FEW])
-    return float(np.abs(ends - 1 - FEW).max())
+    ends = np.array([model.history(1.0, e).time[-1] for e in HISTORY_RESTITUTIONS])
+    return float(np.abs(ends - 1 - HISTORY_RESTITUTIONS).max())
 
 
 def indentation(model: Model) -> float:
     """Largest distance of u2(tf)/u2(t_c) from 1 - e^2."""
-    return float(max(abs(_indentation(model.history(1.0, e)) - (1 - e**2)) for e in FEW))
+    return float(
+        max(abs(_indentation(model.history(1.0, e)) - (1 - e**2)) for e in HISTORY_RESTITUTIONS)
+    )
 
 
-def _indentation(found: History | ContinuumHistory) -> float:
+def _indentation(history: History | ContinuumHistory) -> float:
     """u2(tf)/u2(t_c), from the normal force integrated twice."""
-    deflection = cumulative_simpson(1 - _impulse(found), x=found.time, initial=0)
-    return float(deflection[-1] / np.interp(1.0, found.time, deflection))
+    deflection = cumulative_simpson(1 - _impulse(history), x=history.time, initial=0)
+    return float(deflection[-1] / np.interp(1.0, history.time, deflection))
 
 
-def _impulse(found: History | ContinuumHistory) -> Array:
+def _impulse(history: History | ContinuumHistory) -> Array:
     """Normal impulse over that of compression."""
-    impulse = cumulative_simpson(found.normal, x=found.time, initial=0)
-    return impulse / np.interp(1.0, found.time, impulse)
+    impulse = cumulative_simpson(history.normal, x=history.time, initial=0)
+    return impulse / np.interp(1.0, history.time, impulse)
 
 
 def compression_spread(model: Model) -> float:
     """Largest change of v1(t_c)/(mu v2(0)) with e."""
-    ends = [[_at_compression(model.history(x, e)) for e in FEW] for x in (*STICK, *SLIP)]
+    ends = [
+        [_at_compression(model.history(x, e)) for e in HISTORY_RESTITUTIONS]
+        for x in (*STICK, *SLIP)
+    ]
     return float(np.ptp(ends, axis=1).max())
 
 
-def _at_compression(found: History | ContinuumHistory) -> float:
-    return float(np.interp(1.0, found.time, found.velocity))
+def _at_compression(history: History | ContinuumHistory) -> float:
+    return float(np.interp(1.0, history.time, history.velocity))
 
 
 def restitution_change(model: Model) -> float:
     """Largest gain of |v1(tf) - v1(t_c)|/(mu v2(0)) as e falls."""
     change = np.abs(
         [
-            [found.velocity[-1] - _at_compression(found) for found in _histories(model, [x])]
+            [history.velocity[-1] - _at_compression(history) for history in _histories(model, [x])]
             for x in (*STICK, *SLIP)
         ]
     )
@@ -107,7 +112,9 @@ def _reversal(model: Model, e: float) -> float:
 
 def limit_gap(model: Model) -> float:
     """Largest distance of the limit of slip throughout from (1 + e) m2/m1."""
-    gaps = slip.slip_throughout_limit(contact.MASS_RATIO, np.array(FEW)) - _limits(model)
+    gaps = slip.slip_throughout_limit(contact.MASS_RATIO, np.array(HISTORY_RESTITUTIONS)) - _limits(
+        model
+    )
     return float(np.abs(gaps).max())
 
 
@@ -128,12 +135,12 @@ def limit_rise(model: Model) -> float:
 
 def _limits(model: Model) -> Array:
     """Incidence from which a contact slides throughout, by restitution, in ever finer grids."""
-    low, high = (np.full(len(FEW), edge) for edge in SEARCHED)
-    for _ in range(SEARCHES):
-        x = np.linspace(low, high, AT_ONCE + 2)
-        slides = model.rebound(x[1:-1], FEW).regime == Regime.SLIP_THROUGHOUT
-        first = np.where(slides.any(axis=0), slides.argmax(axis=0), AT_ONCE)
-        lanes = np.arange(len(FEW))
+    low, high = (np.full(len(HISTORY_RESTITUTIONS), edge) for edge in LIMIT_RANGE)
+    for _ in range(LIMIT_REFINEMENTS):
+        x = np.linspace(low, high, LIMIT_SAMPLES + 2)
+        slides = model.rebound(x[1:-1], HISTORY_RESTITUTIONS).regime == Regime.SLIP_THROUGHOUT
+        first = np.where(slides.any(axis=0), slides.argmax(axis=0), LIMIT_SAMPLES)
+        lanes = np.arange(len(HISTORY_RESTITUTIONS))
         low, high = x[first, lanes], x[first + 1, lanes]
     return (low + high) / 2
 
@@ -150,9 +157,9 @@ def kept_after_slip(model: Model) -> float:
 
 def _kept(model: Model, incidences: tuple[float, ...]) -> float:
     kept = []
-    for found in _histories(model, incidences):
-        before_separation = found.time < 0.999 * found.time[-1]
-        kept.append(found.friction[before_separation][-1] > 0)
+    for history in _histories(model, incidences):
+        before_separation = history.time < 0.999 * history.time[-1]
+        kept.append(history.friction[before_separation][-1] > 0)
     return float(np.mean(kept))
 
 
@@ -172,9 +179,9 @@ def slip_velocity(model: Model) -> float:
 
     The largest, with the normal impulse p(tf) by quadrature.
     """
-    x = slip.slip_throughout_limit(contact.MASS_RATIO, np.array(FEW)) * 1.1
-    impulse = np.array([_impulse(model.history(STICK[-1], e))[-1] for e in FEW])
-    velocity = model.rebound(x, FEW).velocity
+    x = slip.slip_throughout_limit(contact.MASS_RATIO, np.array(HISTORY_RESTITUTIONS)) * 1.1
+    impulse = np.array([_impulse(model.history(STICK[-1], e))[-1] for e in HISTORY_RESTITUTIONS])
+    velocity = model.rebound(x, HISTORY_RESTITUTIONS).velocity
     return float(np.abs(velocity - (x - contact.MASS_RATIO * impulse)).max())
 
 
@@ -211,7 +218,7 @@ def stick_from_plastic(model: Model) -> float:
 
 
 def _from(model: Model, loss: str, e: float, below: float = WITH_STICK) -> float:
-    """Over mu v2(0), for incidences below a limit."""
+    """Distance of the rebounds from those of a continuum, over mu v2(0), below an incidence."""
     x = INCIDENCE[below > INCIDENCE]
     gap = model.rebound(x, e).velocity - _model(loss).rebound(x, e).velocity
     return float(np.sqrt(np.mean(gap**2)))
@@ -221,4 +228,4 @@ def _histories(
     model: Model, incidences: tuple[float, ...] | list[float]
 ) -> Iterator[History | ContinuumHistory]:
     """Histories of incidences, for each of `FEW` restitutions."""
-    return (model.history(x, e) for x in incidences for e in FEW)
+    return (model.history(x, e) for x in incidences for e in HISTORY_RESTITUTIONS)

@@ -13,7 +13,7 @@ LOSSES = ("viscous", "plastic")
 MODELS = (PAPER, REPAIRED, *LOSSES)
 # The loss of the paper's model, and that of the same model with e^2 zeta^2 in place of zeta^2.
 LUMPED = {PAPER: "hysteretic", REPAIRED: "plastic"}
-# Error of the continua. It is small beside every bound of the ledger.
+# Error of the continua. It is small compared with every bound of the ledger.
 TOLERANCE = 1e-3
 
 

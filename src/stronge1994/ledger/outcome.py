@@ -1,4 +1,4 @@
-"""The table of what running the ledger's entries found."""
+"""The table of the ledger's results: its columns and its summary."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -10,7 +10,7 @@ COLUMNS = [
     "confirms", "between", "corrected", "problem", "reading", "range", "correction", "derivation",
     "because", "why", "in_nature", "nature", "nature_test", "nature_found", "nature_true_if",
 ]  # fmt: skip
-# How grave a wrong entry is, the gravest first, and how a sentence goes on after their number.
+# Grades of wrong entries, the gravest first, each with a text to stand after its number.
 GRADES = {
     "changes a result": "change a result",
     "sign or misprint": "are signs or misprints (perhaps the scan's)",
@@ -29,10 +29,10 @@ def grades(rows: Sequence[Row]) -> dict[str, int]:
     return {grade: counts[grade] for grade in GRADES if counts[grade]}
 
 
-def grades_in_words(rows: Sequence[Row]) -> str:
-    """The numbers of `grades` in words.
+def sentence_of_grades(rows: Sequence[Row]) -> str:
+    """The numbers of `grades` as a part of a sentence.
 
-    >>> grades_in_words([{"grade": "changes a result"}, {"grade": ""}])
+    >>> sentence_of_grades([{"grade": "changes a result"}, {"grade": ""}])
     '1 change a result'
     """
     return ", ".join(f"{count} {GRADES[grade]}" for grade, count in grades(rows).items())
@@ -41,10 +41,10 @@ def grades_in_words(rows: Sequence[Row]) -> str:
 def summary(rows: Sequence[Row]) -> str:
     """Lines for a terminal: counts, and each entry that no longer holds with its reason."""
     counts = Counter(row["verdict"] for row in rows)
-    bad, graded = failing(rows), grades_in_words(rows)
-    words = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
-    words += f"; of the wrong {graded}" if graded else ""
-    lines = [f"ledger of the paper: {words}; {len(bad)} no longer hold"]
+    bad, graded = failing(rows), sentence_of_grades(rows)
+    counted = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+    counted += f"; of the wrong {graded}" if graded else ""
+    lines = [f"ledger of the paper: {counted}; {len(bad)} no longer hold"]
     for row in bad:
         lines.append(f"  no longer holds: {row['entry']} ({row['where']}): {row['problem']}")
     return "\n".join(lines)

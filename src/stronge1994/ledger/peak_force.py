@@ -34,31 +34,31 @@ def _rigid(x: Array) -> Rebound:
     return rigid.rebound(x, contact.MASS_RATIO)
 
 
-def _speed(found: Contact) -> tuple[float, float]:
+def _speed(impact: Contact) -> tuple[float, float]:
     """S(0) of a contact, and v1(0)/v2(0)."""
-    return np.hypot(found.v1, found.v2), found.v1 / found.v2
+    return np.hypot(impact.v1, impact.v2), impact.v1 / impact.v2
 
 
 def _against(
     contacts: Iterable[Contact],
     printed: Callable[[Contact, float], Numbers],
-    force: Callable[[Contact], Numbers] = lambda found: np.abs(found.path.force_1).max(),
+    force: Callable[[Contact], Numbers] = lambda impact: np.abs(impact.path.force_1).max(),
 ) -> float:
     """Largest distance of a printed force over m2 Omega S from that of exact contacts, in mu."""
     gaps = []
-    for found in contacts:
-        speed, slope = _speed(found)
-        scale = found.m2 * found.normal_frequency * speed
-        gaps.append((printed(found, slope) - force(found) / scale) / found.friction)
+    for impact in contacts:
+        speed, slope = _speed(impact)
+        scale = impact.m2 * impact.normal_frequency * speed
+        gaps.append((printed(impact, slope) - force(impact) / scale) / impact.friction)
     return largest(gaps)
 
 
 def normal() -> Finding:
     """Eq. 28 against the exact normal force, which is largest at t_c."""
 
-    def at_compression(found: Contact) -> Numbers:
-        top = found.first(EventKind.MAXIMUM_COMPRESSION).force_2
-        return top if top == found.path.force_2.max() else np.nan
+    def at_compression(impact: Contact) -> Numbers:
+        top = impact.first(EventKind.MAXIMUM_COMPRESSION).force_2
+        return top if top == impact.path.force_2.max() else np.nan
 
     contacts = [*contact.initial_stick(), *contact.slip_throughout()]
     return Finding(
@@ -66,17 +66,17 @@ def normal() -> Finding:
     )
 
 
-def _peak(found: Contact) -> Array:
+def _peak(impact: Contact) -> Array:
     """Exact peak of friction."""
-    return found.rebound.peak_friction * found.friction_scale
+    return impact.rebound.peak_friction * impact.friction_scale
 
 
 def stick() -> Finding:
     """Eq. 29 against the exact peak of friction, initial stick."""
     gaps = []
-    for found in contact.initial_stick():
-        printed = peak_force.eq_29_friction(found.v1, found.m1, found.tangential_frequency)
-        gaps.append(printed / _peak(found) - 1)
+    for impact in contact.initial_stick():
+        printed = peak_force.eq_29_friction(impact.v1, impact.m1, impact.tangential_frequency)
+        gaps.append(printed / _peak(impact) - 1)
     return Finding(largest(gaps))
 
 
@@ -85,8 +85,8 @@ def stick_over_speed() -> Finding:
     return Finding(
         _against(
             contact.initial_stick(),
-            lambda found, slope: peak_force.eq_30_friction(
-                slope, found.mass_ratio, found.stiffness_ratio
+            lambda impact, slope: peak_force.eq_30_friction(
+                slope, impact.mass_ratio, impact.stiffness_ratio
             ),
             _peak,
         )
@@ -97,46 +97,43 @@ def stick_velocity() -> Finding:
     """v1 at t = pi/(2 omega), where friction is largest in initial stick, over v1(0)."""
     gaps = []
     for beta, zeta2 in contact.PAIRS:
-        found = contact.contact(zeta2 / 2, beta, zeta2, samples=2001)
-        path = found.path
+        impact = contact.contact(zeta2 / 2, beta, zeta2, samples=2001)
+        path = impact.path
         # dv1/dt is known at the samples too: F1/m1.
-        velocity = CubicHermiteSpline(path.t, path.v1, path.force_1 / found.m1)
-        gaps.append(velocity(np.pi / 2 / found.tangential_frequency) / found.v1)
+        velocity = CubicHermiteSpline(path.t, path.v1, path.force_1 / impact.m1)
+        gaps.append(velocity(np.pi / 2 / impact.tangential_frequency) / impact.v1)
     return Finding(largest(gaps))
 
 
-def _start(found: Contact) -> tuple[State, tuple[Numbers, Numbers]]:
+def _start(impact: Contact) -> tuple[State, tuple[Numbers, Numbers]]:
     """Both values of Eq. 32 at the exact start of stick, and that start."""
-    start = found.first(EventKind.STICK)
-    angle = found.normal_frequency * start.t
-    groups = found.incidence, found.mass_ratio, found.stiffness_ratio
+    start = impact.first(EventKind.STICK)
+    angle = impact.normal_frequency * start.t
+    groups = impact.incidence, impact.mass_ratio, impact.stiffness_ratio
     return start, peak_force.eq_32_start(angle, *groups)
 
 
 def _along_stick(
-    found: Contact, values: tuple[Numbers, Numbers] | None = None
+    impact: Contact, values: tuple[Numbers, Numbers] | None = None
 ) -> tuple[State, Numbers]:
-    """States of the stick after the first slip, and Eq. 31 there, as a force.
-
-    `values` at t2 are those of Eq. 32 where not given.
-    """
-    start, of_eq_32 = _start(found)
+    """States of the stick after the first slip, and Eq. 31 there; `values` default to Eq. 32."""
+    start, of_eq_32 = _start(impact)
     values = of_eq_32 if values is None else values
-    path = found.between(start.t, found.last(EventKind.SLIP).t)
-    speed, slope = _speed(found)
-    elapsed = found.normal_frequency * (path.t - start.t)
-    ratio = found.tangential_frequency / found.normal_frequency
-    groups = slope, found.friction, found.stiffness_ratio, ratio
+    path = impact.between(start.t, impact.last(EventKind.SLIP).t)
+    speed, slope = _speed(impact)
+    elapsed = impact.normal_frequency * (path.t - start.t)
+    ratio = impact.tangential_frequency / impact.normal_frequency
+    groups = slope, impact.friction, impact.stiffness_ratio, ratio
     force = peak_force.eq_31_friction(elapsed, *values, *groups)
-    return path, force * found.m2 * found.normal_frequency * speed
+    return path, force * impact.m2 * impact.normal_frequency * speed
 
 
 def stick_after_slip() -> Finding:
     """Eq. 31 with Eq. 32 along the stick that begins in compression, over mu F2max."""
     gaps = []
-    for found in contact.slip_stick_slip(late=False):
-        path, printed = _along_stick(found)
-        gaps.append((printed - path.force_1) / found.friction_scale)
+    for impact in contact.slip_stick_slip(late=False):
+        path, printed = _along_stick(impact)
+        gaps.append((printed - path.force_1) / impact.friction_scale)
     return Finding(largest(gaps))
 
 
@@ -152,15 +149,15 @@ def signs_of_deflection() -> Finding:
         signs: [] for signs in product((-1, 1), (-1, 1))
     }
     corrected = []
-    for found in contact.slip_stick_slip(late=False):
-        start, (stretch, velocity) = _start(found)
-        exact = found.normal_frequency * start.u1 / found.velocity_scale
+    for impact in contact.slip_stick_slip(late=False):
+        start, (stretch, velocity) = _start(impact)
+        exact = impact.normal_frequency * start.u1 / impact.velocity_scale
         for (sign, leading), gaps in printed.items():
-            path, force = _along_stick(found, (sign * stretch, velocity))
+            path, force = _along_stick(impact, (sign * stretch, velocity))
             gaps.append(sign * stretch - exact)
-            gaps.append((leading * force - path.force_1) / found.friction_scale)
-        path, force = _along_stick(found, (-stretch, -velocity))
-        corrected += [-stretch - exact, (-force - path.force_1) / found.friction_scale]
+            gaps.append((leading * force - path.force_1) / impact.friction_scale)
+        path, force = _along_stick(impact, (-stretch, -velocity))
+        corrected += [-stretch - exact, (-force - path.force_1) / impact.friction_scale]
     return Finding(min(largest(gaps) for gaps in printed.values()), largest(corrected))
 
 
@@ -170,10 +167,10 @@ def peak_after_late_stick() -> Finding:
     In mu F2max, at e = 1, where both formulas of Table 1 coincide; corrected by Eq. 33.
     """
     printed, corrected = [], []
-    for found in contact.slip_stick_slip((1.0,), late=True):
-        _, force = _along_stick(found)
-        exact = _peak(found) / found.friction_scale
-        printed.append(np.abs(force).max() / found.friction_scale - exact)
+    for impact in contact.slip_stick_slip((1.0,), late=True):
+        _, force = _along_stick(impact)
+        exact = _peak(impact) / impact.friction_scale
+        printed.append(np.abs(force).max() / impact.friction_scale - exact)
         corrected.append(peak_force.eq_33_friction(0.0, 1.0) - exact)
     return Finding(largest(printed), largest(corrected))
 
@@ -183,22 +180,19 @@ def slip_throughout() -> Finding:
     contacts = [*contact.slip_throughout(), *contact.slip_stick_slip(late=True)]
     return Finding(
         _against(
-            contacts, lambda found, slope: peak_force.eq_33_friction(slope, found.friction), _peak
+            contacts, lambda impact, slope: peak_force.eq_33_friction(slope, impact.friction), _peak
         )
     )
 
 
 def _rigid_gap(formula: Callable[..., Numbers], shares: Sequence[float]) -> Finding:
-    """Distance of a formula of the rigid limit from mu F2 where slip halts or F2 is largest, in mu.
-
-    The instant from the exact normal impulse by quadrature, and `rigid` with it; x = shares of
-    beta.
-    """
+    """Distance of a formula of the rigid limit from mu F2, in mu; x = shares of beta."""
     motion = contact.normal_motion(1.0)
-    found, top = motion.found, motion.top + 1
-    force = found.path.force_2[:top] / found.force_scale
-    share = motion.impulse[:top] / (-found.m2 * found.v2)
-    # F2 rises with p in compression; dp/dF2 is 0 at t_c, so F2^2 is smooth there.
+    impact, top = motion.impact, motion.top + 1
+    force = impact.path.force_2[:top] / impact.force_scale
+    share = motion.impulse[:top] / (-impact.m2 * impact.v2)
+    # Slip halts at a known impulse p. F2 rises with p in compression, and dp/dF2 is 0 at t_c, so
+    # F2^2 is smooth there.
     at_impulse = CubicSpline(share, force**2)
     gaps = []
     for beta, _ in contact.PAIRS:
@@ -258,9 +252,9 @@ def late_stick() -> Finding:
     beta, zeta2 = contact.SPHERE
     limit = float(lumped.slip_throughout_limit(beta, zeta2, 1.0))
     x = np.linspace(zeta2, limit, 202)[1:-1]
-    found = [contact.contact(value, samples=2).first(EventKind.STICK) for value in x]
+    starts = [contact.contact(value, samples=2).first(EventKind.STICK) for value in x]
     top = contact.contact(1.0, samples=2).compression_time
-    return Finding(float(np.mean([state.t > top for state in found])))
+    return Finding(float(np.mean([state.t > top for state in starts])))
 
 
 def velocity_at_stick() -> Finding:
@@ -269,9 +263,9 @@ def velocity_at_stick() -> Finding:
     Negative means that the body has turned round.
     """
     lowest = min(
-        found.first(EventKind.STICK).v1 / found.velocity_scale
-        for found in contact.slip_stick_slip((1.0,))
-        if (found.mass_ratio, found.stiffness_ratio) == contact.SPHERE
+        impact.first(EventKind.STICK).v1 / impact.velocity_scale
+        for impact in contact.slip_stick_slip((1.0,))
+        if (impact.mass_ratio, impact.stiffness_ratio) == contact.SPHERE
     )
     return Finding(float(lowest))
 
@@ -282,19 +276,19 @@ def peak_after_stick() -> Finding:
     limit = float(lumped.slip_throughout_limit(beta, zeta2, 1.0))
     shares = []
     for x in np.linspace(zeta2, limit, 102)[1:-1]:
-        found = contact.contact(x, samples=401)
-        largest_at = found.path.t[np.argmax(np.abs(found.path.force_1))]
-        shares.append(largest_at < found.first(EventKind.STICK).t)
+        impact = contact.contact(x, samples=401)
+        largest_at = impact.path.t[np.argmax(np.abs(impact.path.force_1))]
+        shares.append(largest_at < impact.first(EventKind.STICK).t)
     return Finding(float(np.mean(shares)))
 
 
 def simultaneous() -> Finding:
     """Distance of the instants of both peaks in slip throughout, in t_c."""
     gaps = []
-    for found in contact.slip_throughout():
-        path = found.path
+    for impact in contact.slip_throughout():
+        path = impact.path
         instants = path.t[path.force_1.argmax()], path.t[path.force_2.argmax()]
-        gaps.append((instants[1] - instants[0]) / found.compression_time)
+        gaps.append((instants[1] - instants[0]) / impact.compression_time)
     return Finding(largest(gaps))
 
 

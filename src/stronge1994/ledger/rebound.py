@@ -25,8 +25,8 @@ def first_slip_in_restitution() -> Finding:
     return Finding(
         float(
             min(
-                found.last(EventKind.SLIP).t / found.compression_time
-                for found in contact.initial_stick()
+                impact.last(EventKind.SLIP).t / impact.compression_time
+                for impact in contact.initial_stick()
             )
         )
     )
@@ -34,8 +34,8 @@ def first_slip_in_restitution() -> Finding:
 
 def deflection_when_slip_reverses() -> Finding:
     """Share of contacts with reversed last slip, s = +1, whose u1 is positive as it begins."""
-    found = [c for c in contact.initial_stick() if c.last_slip_direction > 0]
-    return Finding(float(np.mean([c.last(EventKind.SLIP).u1 > 0 for c in found])))
+    impacts = [impact for impact in contact.initial_stick() if impact.last_slip_direction > 0]
+    return Finding(float(np.mean([impact.last(EventKind.SLIP).u1 > 0 for impact in impacts])))
 
 
 def _largest_restitution_of_kept_direction(incidences: Sequence[float]) -> float:
@@ -76,8 +76,8 @@ def three_sequences() -> Finding:
     ratio = np.linspace(1.02, 6, 60)[:, None]
     x = np.linspace(0.01, 1, 60)
     beta = contact.MASS_RATIO
-    found = lumped.rebound(2 * beta * x, beta, beta / ratio**2, 1.0)
-    return Finding(float(np.mean(found.regime == Regime.MULTIPLE)))
+    rebound = lumped.rebound(2 * beta * x, beta, beta / ratio**2, 1.0)
+    return Finding(float(np.mean(rebound.regime == Regime.MULTIPLE)))
 
 
 def three_sequences_of_spheres() -> Finding:
@@ -140,8 +140,8 @@ def transition_at_compression() -> Finding:
     gaps = []
     for beta, zeta2 in contact.PAIRS:
         for e in (0.9, 1.0):
-            found = contact.contact(beta, beta, zeta2, e)
-            gaps.append(found.first(EventKind.STICK).t / found.compression_time - 1)
+            impact = contact.contact(beta, beta, zeta2, e)
+            gaps.append(impact.first(EventKind.STICK).t / impact.compression_time - 1)
     return Finding(largest(gaps))
 
 
@@ -151,8 +151,8 @@ def sliding_slows() -> Finding:
     Slip throughout above (1 + e) beta, up to the separation that `lumped.rebound` finds.
     """
     gains = []
-    for found in contact.slip_throughout():
-        speed = np.append(found.path.v1, found.final_velocity) / found.velocity_scale
+    for impact in contact.slip_throughout():
+        speed = np.append(impact.path.v1, impact.final_velocity) / impact.velocity_scale
         gains.append(np.diff(np.abs(speed)).max())
     return Finding(float(max(gains)))
 
@@ -167,7 +167,7 @@ def reversal_without_compliance() -> Finding:
         rigid.rebound(x, contact.MASS_RATIO, restitution=e),
         lumped.rebound(x, contact.MASS_RATIO, 1e-4, e),
     )
-    return Finding(float(min(found.velocity.min() for found in models)))
+    return Finding(float(min(rebound.velocity.min() for rebound in models)))
 
 
 def _halts(e: float, x: float) -> bool:
@@ -184,7 +184,7 @@ def rigid_rebound_limit() -> Finding:
     for e in contact.RESTITUTIONS:
         limit = boundary(partial(_halts, e), 0.0, 20.0)
         motion = contact.normal_motion(e)
-        impulse = motion.impulse[-1] / (-motion.found.m2 * motion.found.v2)
+        impulse = motion.impulse[-1] / (-motion.impact.m2 * motion.impact.v2)
         gaps += [
             limit / (beta * impulse) - 1,
             limit / slip.slip_throughout_limit(beta, e) - 1,
@@ -254,10 +254,10 @@ def last_slip_prolonged() -> Finding:
     """
     leads = []
     for x in (0.5, 1.0, 2.0, 3.0):
-        found = contact.once(continuum.history, x, *contact.SPHERE)
-        whole = (found.stick_radius == 0) & (found.contact_radius > 0) & (found.time > 1)
+        history = contact.once(continuum.history, x, *contact.SPHERE)
+        whole = (history.stick_radius == 0) & (history.contact_radius > 0) & (history.time > 1)
         start = contact.contact(x).last(EventKind.SLIP).t / contact.contact(x).compression_time
-        leads.append(found.time[whole][0] - start)
+        leads.append(history.time[whole][0] - start)
     return Finding(float(min(leads)))
 
 
@@ -276,7 +276,7 @@ def mostly_reversed() -> Finding:
     """
     limit = 2 * contact.MASS_RATIO - contact.STIFFNESS_RATIO
     return Finding(
-        float(min(np.mean(found.velocity[limit >= INCIDENCE] < 0) for found in _both_models()))
+        float(min(np.mean(rebound.velocity[limit >= INCIDENCE] < 0) for rebound in _both_models()))
     )
 
 
@@ -287,9 +287,9 @@ def early_micro_slip() -> Finding:
     """
     shares = []
     for x in (0.1, 0.5, 1.0):
-        found = contact.once(continuum.history, x, *contact.SPHERE)
-        early = (found.time > 0) & (found.time < 0.5)
-        stick, edge = found.stick_radius[early], found.contact_radius[early]
+        history = contact.once(continuum.history, x, *contact.SPHERE)
+        early = (history.time > 0) & (history.time < 0.5)
+        stick, edge = history.stick_radius[early], history.contact_radius[early]
         shares.append(np.mean((stick > 0) & (stick < 0.999 * edge)))
     return Finding(float(max(shares)))
 
@@ -301,15 +301,17 @@ def micro_slip() -> Finding:
     """
     shares = []
     for x in (0.1, 0.5, 1.0):
-        found = contact.once(continuum.history, x, *contact.SPHERE)
-        inside = (found.stick_radius > 0) & (found.stick_radius < 0.999 * found.contact_radius)
+        history = contact.once(continuum.history, x, *contact.SPHERE)
+        inside = (history.stick_radius > 0) & (
+            history.stick_radius < 0.999 * history.contact_radius
+        )
         shares.append(np.mean(inside))
     return Finding(float(min(shares)))
 
 
 def continuum_reverses() -> Finding:
     """Lowest rebound velocity of the continuum and the lumped model, the higher of the two."""
-    return Finding(float(max(found.velocity.min() for found in _both_models())))
+    return Finding(float(max(rebound.velocity.min() for rebound in _both_models())))
 
 
 def limit_falls_with_losses() -> Finding:

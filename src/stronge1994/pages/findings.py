@@ -1,8 +1,8 @@
-"""What a run found, for the first screen of the report: numbers of its tables, small pictures.
+"""Findings of a run for the first screen of the report: numbers of its tables, small pictures.
 
-The words stand in the template. A finding is left out where a table that it needs is missing, or
-where its verdicts no longer say what its words say. In the second case it raises `Untold`. Here
-`verdicts` are rows by the names of their comparisons.
+The sentences stand in the template. A finding is left out where a table that it needs is missing,
+or where the verdicts contradict its sentences; then its function raises `Unsupported`. `verdicts`
+are rows by the names of their comparisons.
 """
 
 from collections import Counter
@@ -22,17 +22,17 @@ from stronge1994.pages import ledger_page, note, which_model
 Finding = dict[str, Any]
 INCIDENCE, VELOCITY = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
-# Beyond it all models of Fig. 5 have the same straight line.
-FARTHEST = 8.0
+# Beyond this incidence all models of Fig. 5 have the same straight line.
+LARGEST_INCIDENCE = 8.0
 POINTS = 80  # of a curve in a small picture
 WIDTH, HEIGHT, MARGIN = 200, 104, 6  # of a small picture
 BAR = 80  # length of the longest bar
-# Parts of the measured range of e = 1, in the words of the names of their comparisons.
+# Parts of the measured range of e = 1, as the names of their comparisons spell them.
 PARTS = ("initial-stick", "slip-and-stick", "slip-throughout")
 
 
 MARK = ledger_page.STYLE | ledger_page.GRADE_STYLE
-SOUND = "confirmed", "confirmed within rounding"
+CONFIRMED = "confirmed", "confirmed within rounding"
 OPEN = "not testable"
 
 # A finding is left out where a comparison of its figure diverges.
@@ -44,51 +44,49 @@ FIGURE = {
 }
 
 
-class Untold(Exception):
-    """The run does not say what the words of a finding say."""
+class Unsupported(Exception):
+    """The verdicts or numbers of a run contradict the sentences of a finding."""
 
 
 def paper(ledger: Sequence[Row]) -> Finding:
-    """What is wrong in the paper: counts, and the entries that change a result.
-
-    It raises `Untold` if an entry no longer holds, or none changes a result.
-    """
+    """Errors of the paper: counts, and the entries that change a result."""
     grave = [row for row in ledger if row["grade"] == next(iter(outcome.GRADES))]
-    _need(grave and not outcome.failing(ledger))
+    _require(grave and not outcome.failing(ledger))
     verdicts, grades = Counter(row["verdict"] for row in ledger), outcome.grades(ledger)
     return {
         "entries": len(ledger),
         "verdicts": verdicts,
         "grades": grades,
         "grave": grave,
-        "picture": bars({word: verdicts[word] for word in SOUND} | grades | {OPEN: verdicts[OPEN]}),
+        "picture": bars(
+            {word: verdicts[word] for word in CONFIRMED} | grades | {OPEN: verdicts[OPEN]}
+        ),
     }
 
 
 def restitution(
     verdicts: Mapping[str, Row], numbers: Mapping[str, float], curves: Curves, measured: Columns
 ) -> Finding:
-    """What happens below e = 1.
+    """Impacts below e = 1, from the key numbers, the curves of `inelastic` and the measured pairs.
 
-    `numbers` are the key numbers, `curves` those of the figure `inelastic`, and `measured` has the
-    measured pairs of materials. It raises `Untold` if the pairs do not contradict the paper's
-    model, or contradict a continuum; if the paper's model is not the nearest to the rubber sphere;
-    or if the reversed velocity does not grow in the paper's model and fall in the continua.
+    It raises `Unsupported` if the pairs do not contradict the paper's model, or contradict a
+    continuum; if the paper's model is not the nearest to the rubber sphere; or if the reversed
+    velocity does not grow in the paper's model and fall in the continua.
     """
     models = "lumped", "continuum.viscous", "continuum.plastic"
     rows = {model: verdicts[f"inelastic-{model}-pairs"] for model in models}
-    _need(rows["lumped"]["verdict"] == "unexplained difference")
-    _need(all(rows[model]["verdict"] == "agrees" for model in models[1:]))
-    _need(numbers["pairs.continuum.viscous.failed"] == 0)
-    _need(numbers["pairs.lumped.failed"] == numbers["pairs.spreads"])
+    _require(rows["lumped"]["verdict"] == "unexplained difference")
+    _require(all(rows[model]["verdict"] == "agrees" for model in models[1:]))
+    _require(numbers["pairs.continuum.viscous.failed"] == 0)
+    _require(numbers["pairs.lumped.failed"] == numbers["pairs.spreads"])
     distances = {model: numbers[f"rubber.{model}.distance"] for model in note.MODELS}
-    _need(min(distances, key=lambda model: distances[model]) == "lumped")
+    _require(min(distances, key=lambda model: distances[model]) == "lumped")
     grows = {
         model: numbers[f"nature.reversal_half.{model}"]
         - numbers[f"nature.reversal_elastic.{model}"]
         for model in nature_models.MODELS
     }
-    _need(grows["paper"] > 0 > max(grows[loss] for loss in nature_models.LOSSES))
+    _require(grows["paper"] > 0 > max(grows[loss] for loss in nature_models.LOSSES))
     lines = [
         (style, curves[name][E], curves[name][BETA_0])
         for style, model in (("theirs", "lumped"), ("ours", "continuum.viscous"))
@@ -100,20 +98,20 @@ def restitution(
 
 
 def elastic(verdicts: Mapping[str, Row], numbers: Mapping[str, float], curves: Curves) -> Finding:
-    """How far the lumped model is from the elastic continuum, and where.
+    """How far the lumped model is from the elastic continuum, from the key numbers and Fig. 5.
 
-    `numbers` are the key numbers, `curves` those of Fig. 5. It raises `Untold` if the verdicts are
-    others than the words say, or the largest difference is elsewhere than where initial stick ends.
+    It raises `Unsupported` if the verdicts are others than the sentences say, or if the largest
+    difference is not where initial stick ends.
     """
     rows = [verdicts[f"fig5-lumped-maw-{part}"] for part in PARTS]
     expected = "explained difference", "explained difference", "agrees"
-    _need(tuple(row["verdict"] for row in rows) == expected)
-    _need(verdicts["fig5-continuum-maw"]["verdict"] == "agrees")
+    _require(tuple(row["verdict"] for row in rows) == expected)
+    _require(verdicts["fig5-continuum-maw"]["verdict"] == "agrees")
     lumped, continuum = curves["lumped"], curves["continuum"]
     at = numbers["elastic.at"]
     sticks_first = np.isin(lumped["regime"], ["STICK", "STICK_SLIP"])
-    _need(np.isclose(at, lumped[INCIDENCE][sticks_first].max()))
-    near = lumped[INCIDENCE] <= FARTHEST
+    _require(np.isclose(at, lumped[INCIDENCE][sticks_first].max()))
+    near = lumped[INCIDENCE] <= LARGEST_INCIDENCE
     step = slice(None, None, -(-int(near.sum()) // POINTS))
     lines = [
         (style, curve[INCIDENCE][near][step], curve[VELOCITY][near][step])
@@ -123,23 +121,22 @@ def elastic(verdicts: Mapping[str, Row], numbers: Mapping[str, float], curves: C
 
 
 def tolerance(answers: Sequence[Row], trade: Sequence[Row]) -> Finding:
-    """Which model to take.
+    """Which model to choose for a tolerance.
 
-    The answers begin with those of e = 1. `steps` are the cheapest models there in the middle
-    batch, each with the smallest tolerance that it meets; `lossy` are the cases in which energy is
-    lost.
+    `steps` are the cheapest models for e = 1 in the middle batch, each with the smallest tolerance
+    that it meets; `lossy` are the cases in which energy is lost.
     """
     cases = which_model.cases(answers)
-    _need(cases and not cases[0]["loss"])
+    _require(cases and not cases[0]["loss"])
     batch = cases[0]["batches"][len(cases[0]["batches"]) // 2]
     steps = {}
     for row in cases[0]["rows"]:
         answer = row["answers"][batch]
         if answer["error"]:
             steps[answer["model"]] = row["tolerance"]
-    shown = [row for row in trade if row["loss"] == "" and row[f"time_{batch} [s]"]]
+    timed = [row for row in trade if row["loss"] == "" and row[f"time_{batch} [s]"]]
     x, y = (
-        np.log10([float(row[key]) for row in shown])
+        np.log10([float(row[key]) for row in timed])
         for key in (f"time_{batch} [s]", "max_velocity [mu v2(0)]")
     )
     return {
@@ -151,14 +148,11 @@ def tolerance(answers: Sequence[Row], trade: Sequence[Row]) -> Finding:
 
 
 def digits(verdicts: Mapping[str, Row], stability: Sequence[Row]) -> Finding:
-    """How exact and how stable the solution of the paper's model is.
-
-    It raises `Untold` if more digits are lost than the comparison allows.
-    """
+    """How exactly and how stably the paper's model is solved."""
     row = verdicts["stability-digits"]
-    _need(row["verdict"] == "agrees")
+    _require(row["verdict"] == "agrees")
     of_second_codes = [r for r in verdicts.values() if r["evidence"] == "independent computation"]
-    _need(all(row["verdict"] != "diverges" for row in of_second_codes))
+    _require(all(row["verdict"] != "diverges" for row in of_second_codes))
     low = "from [unit of quantity]"
     part = [row for row in stability if row["quantity"] == "stiffness_ratio [1]"]
     part = [row for row in part if float(row[low]) > 0]
@@ -182,7 +176,7 @@ def all_of(
     config: Mapping[str, Any],
     numbers: Mapping[str, float],
 ) -> dict[str, Finding | None]:
-    """All findings; None for one that the run does not tell.
+    """All findings; None for one that the run does not support.
 
     `tables` are those of `which_model`, `trade` and `stability` as the report shows them. `paths`
     are the files of other tables: curves by figure, series by source. `numbers` are the key
@@ -206,26 +200,26 @@ def all_of(
     def key() -> Mapping[str, float]:
         return numbers
 
-    found = {
-        "paper": told(paper, lambda: ledger),
-        "restitution": told(restitution, judged, key, curves("inelastic"), measured),
-        "elastic": told(elastic, judged, key, curves("fig5")),
-        "tolerance": told(tolerance, table("which_model"), table("trade")),
-        "digits": told(digits, judged, table("stability")),
+    findings = {
+        "paper": if_supported(paper, lambda: ledger),
+        "restitution": if_supported(restitution, judged, key, curves("inelastic"), measured),
+        "elastic": if_supported(elastic, judged, key, curves("fig5")),
+        "tolerance": if_supported(tolerance, table("which_model"), table("trade")),
+        "digits": if_supported(digits, judged, table("stability")),
     }
     broken = {row["figure"] for row in rows.values() if row["verdict"] == "diverges"}
-    return {name: None if FIGURE.get(name) in broken else told for name, told in found.items()}
+    return {
+        name: None if FIGURE.get(name) in broken else finding for name, finding in findings.items()
+    }
 
 
-def told(finding: Callable[..., Finding], *arguments: Callable[[], Any]) -> Finding | None:
-    """A finding, or None where what it needs is missing or says something else.
+def if_supported(finding: Callable[..., Finding], *arguments: Callable[[], Any]) -> Finding | None:
+    """A finding of some arguments, or None where a table is missing or contradicts it.
 
-    Each of `arguments` is called for one argument of the finding.
-
-    >>> print(told(paper, list))
+    >>> print(if_supported(paper, list))
     None
     """
-    with suppress(Untold, csv_tables.Failed, LookupError, ValueError, OSError):
+    with suppress(Unsupported, csv_tables.Failed, LookupError, ValueError, OSError):
         return finding(*(argument() for argument in arguments))
     return None
 
@@ -242,16 +236,16 @@ def bars(counts: Mapping[str, int]) -> Markup:
             '<rect class="{}" y="{:.1f}" width="{:.1f}" height="{:.1f}"></rect>'
             '<text x="{:.1f}" y="{:.1f}">{} {}</text>'
         ).format(
-            MARK[words],
+            MARK[label],
             row * high + 1,
             BAR * count / max(counts.values()),
             high - 2,
             BAR * count / max(counts.values()) + 5,
             (row + 0.5) * high + 4,
             count,
-            words,
+            label,
         )
-        for row, (words, count) in enumerate(counts.items())
+        for row, (label, count) in enumerate(counts.items())
     ]
     return _svg(parts)
 
@@ -259,9 +253,7 @@ def bars(counts: Mapping[str, int]) -> Markup:
 def sketch(
     lines: Sequence[tuple[str, Array, Array]], points: tuple[Array, Array, Array] | None = None
 ) -> Markup:
-    """Curves without axes, as SVG, for a first look.
-
-    A line is its class, x and y. Points are x, y, and half the length of the bar of each.
+    """Lines (class, x, y) and points (x, y, half a bar) without axes, as SVG.
 
     >>> print(sketch([("ours", np.array([0, 1]), np.array([0, 1]))]).count("polyline"))
     2
@@ -296,6 +288,6 @@ def _svg(parts: Iterable[Markup]) -> Markup:
     return Markup(start).format(WIDTH, HEIGHT, Markup("").join(parts))
 
 
-def _need(condition: Any) -> None:
+def _require(condition: Any) -> None:
     if not condition:
-        raise Untold
+        raise Unsupported

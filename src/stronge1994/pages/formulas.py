@@ -1,6 +1,6 @@
 """Plain formulas in a text, such as `zeta^2 F1(t2) < mu`, as MathML.
 
-A formula is found where it begins, and read as far as this grammar goes. All else is text.
+A formula is recognised by its beginning, and read as far as this grammar goes. All else is text.
 
 - A formula is sides with relations between them: `zeta^2 < mu x`.
 - A side is terms with signs between them: `1 + e - e^2`.
@@ -36,7 +36,7 @@ INDEXED = re.compile(
 )
 # Not a letter: the initials in "M. S. Smith".
 LETTER = re.compile(rf"(?P<name>{'|'.join(GREEK)}|[eskx]|[MS](?!\. [A-Z]))(?P<prime>'?)(?!\w|-\w)")
-# p, t and v have no index, and are words elsewhere, unless this follows or a d stands before.
+# p, t and v without an index are symbols only if this follows, or a d stands before them.
 BARE = re.compile(r"[ptv](?=\(| [=+-] |/)|d[ptv]\b|t\b(?!\.)")
 # A formula begins behind one of these, not inside a word or behind the stroke of a unit. The 38 of
 # "In Eq. 38 s has" is no factor, and the letter of "part (e)" no symbol.
@@ -57,7 +57,7 @@ class _Factor(NamedTuple):
 
 
 class _Part(NamedTuple):
-    """What stands between two operators outside of brackets, with the operator before it."""
+    """A term or side between two operators outside of brackets, with the operator before it."""
 
     start: int
     operator: str
@@ -71,11 +71,11 @@ class _Reader:
         self.text, self.at = text, at
         self.in_bars = False
 
-    def _take(self, *words: str) -> str | None:
-        for word in words:
-            if self.text.startswith(word, self.at):
-                self.at += len(word)
-                return word
+    def _take(self, *candidates: str) -> str | None:
+        for candidate in candidates:
+            if self.text.startswith(candidate, self.at):
+                self.at += len(candidate)
+                return candidate
         return None
 
     def formula(self) -> list[_Part] | None:
@@ -133,15 +133,15 @@ class _Reader:
         return _product(factors)
 
     def factor(self) -> _Factor | None:
-        found = self._number() or self._function() or self._symbol() or self._group()
+        base = self._number() or self._function() or self._symbol() or self._group()
         start = self.at
-        if found is None or not self._take("^"):
-            return _open(found) if found else None
+        if base is None or not self._take("^"):
+            return _open(base) if base else None
         power = self._number() or self._group()
         if power is None:
             self.at = start
-            return found
-        html = f"<msup><mrow>{found.html}</mrow>{_row(power.inside or power.html)}</msup>"
+            return base
+        html = f"<msup><mrow>{base.html}</mrow>{_row(power.inside or power.html)}</msup>"
         return _Factor(html, kind="power")
 
     def _number(self) -> _Factor | None:
@@ -177,18 +177,18 @@ class _Reader:
         return _Factor(f"{html}<mo>&#8289;</mo>{arguments.html}", kind="function")
 
     def _symbol(self) -> _Factor | None:
-        found = self._indexed() or self._letter()
-        if found is None:
+        symbol = self._indexed() or self._letter()
+        if symbol is None:
             return None
         # v1(0) is a value of v1; mu (1 + e), with a space, is a product.
         start = self.at
-        if found.kind == "indexed" and self.text[start : start + 1] == "(":
+        if symbol.kind == "indexed" and self.text[start : start + 1] == "(":
             value = self._group()
             if value is None:
                 self.at = start
                 return None
-            return _Factor(f"{found.html}<mo>&#8289;</mo>{value.html}", found.letter)
-        return found
+            return _Factor(f"{symbol.html}<mo>&#8289;</mo>{value.html}", symbol.letter)
+        return symbol
 
     def _indexed(self) -> _Factor | None:
         match = INDEXED.match(self.text, self.at)
@@ -286,10 +286,7 @@ def _product(factors: list[_Factor]) -> str:
 
 
 def _pieces(text: str, parts: list[_Part], end: int, mark: str) -> str:
-    """A formula, or as few pieces of it as are short, between which a line may be broken.
-
-    The mark behind it stays on the line of the last piece.
-    """
+    """A formula in few short pieces, between which a line may break, and the mark at its end."""
     stops = [part.start for part in parts[1:]] + [end]
     pieces: list[list[_Part]] = []
     for part, stop in zip(parts, stops, strict=True):
@@ -312,7 +309,7 @@ def _math(plain: str, html: str) -> str:
     return f'<math alttext="{escape(plain.strip())}">{html}</math>'
 
 
-def _words(text: str) -> str:
+def _plain_text(text: str) -> str:
     """Text without formulas: degrees, negative numbers, powers of units."""
     html = re.sub(r"(\d) deg\b", r"\1°", str(escape(text)))
     html = re.sub(r"(?<![\w.-])-(?=\d)", "−", html)
@@ -336,15 +333,15 @@ def _formula(text: str, at: int) -> tuple[list[_Part], int] | None:
 def _mathematical(text: str) -> str:
     html, done, at = [], 0, 0
     while at < len(text):
-        found = _formula(text, at)
-        if found is None:
+        formula = _formula(text, at)
+        if formula is None:
             at += 1
             continue
-        parts, end = found
+        parts, end = formula
         mark = MARK.match(text, end)
-        html += [_words(text[done:at]), _pieces(text, parts, end, mark[0] if mark else "")]
+        html += [_plain_text(text[done:at]), _pieces(text, parts, end, mark[0] if mark else "")]
         done = at = mark.end() if mark else end
-    return "".join([*html, _words(text[done:])])
+    return "".join([*html, _plain_text(text[done:])])
 
 
 def mathematical(text: str) -> Markup:

@@ -1,9 +1,9 @@
-"""Headers of the report's tables: what a column is, in words, with its unit."""
+"""Headers of the report's tables: a description of each column, with its unit."""
 
 import re
 
-# Names of columns whose own words would not be understood.
-WORDS = {
+# Descriptions of columns whose names a reader would not understand.
+HEADERS = {
     "rms_velocity": "root mean square error of the velocity at separation",
     "max_velocity": "largest error of the velocity at separation",
     "rms_peak_friction": "root mean square error of the largest friction",
@@ -43,31 +43,33 @@ WORDS = {
     "e": "smallest change of e caught",
     "mu": "smallest change of mu caught, share of mu",
 }
-# Columns that there are for several batches.
+# Columns that exist for several batches.
 BATCHES = {
     "time": "time of an impact in a batch of {}",
     "busy": "how many times too long, as the machine was busy, in a batch of {}",
 }
 SPELLED = {"us": "µs"}
-# Units that are none: the words say what is counted, or the ratio itself.
+# Units that are left out: the description names what is counted, or the ratio itself.
 WITHOUT = {"1", "unit of quantity"}
 RATIOS = {"incidence", "omega"}
 BATCH = re.compile(r"(time|busy)_(\d+)")
 
 
-def words(column: str) -> str:
-    """What a column is, with its unit after a comma.
+def header(column: str) -> str:
+    """Description of a column, with its unit after a comma.
 
-    >>> words("max_velocity [mu v2(0)]")
+    >>> header("max_velocity [mu v2(0)]")
     'largest error of the velocity at separation, mu v2(0)'
-    >>> words("time_1000 [s]"), words("time_1 [s]")
+    >>> header("time_1000 [s]"), header("time_1 [s]")
     ('time of an impact in a batch of 1000, s', 'time of an impact in a batch of 1, s')
-    >>> words("incidence [mu v2(0)]"), words("young_modulus [Pa]")
+    >>> header("incidence [mu v2(0)]"), header("young_modulus [Pa]")
     ('incidence v1(0)/(mu v2(0))', 'young modulus, Pa')
     """
     name, _, unit = column.rstrip("]").partition(" [")
     batch = BATCH.fullmatch(name)
-    plain = BATCHES[batch[1]].format(batch[2]) if batch else WORDS.get(name, name.replace("_", " "))
+    plain = (
+        BATCHES[batch[1]].format(batch[2]) if batch else HEADERS.get(name, name.replace("_", " "))
+    )
     return (
         plain
         if not unit or unit in WITHOUT or name in RATIOS

@@ -9,7 +9,7 @@ from stronge1994.csv_tables import Row
 CODES = {"lammps": "LAMMPS", "pooltool": "pooltool"}
 TIME = re.compile(r"time_(\d+) \[s\]")
 MICROSECONDS = 1e6
-# The answers that the others are compared with: words of the column, and models by loss.
+# Our fastest models, to which all times are compared: part of a column's name, models by loss.
 ANSWERS = {
     "compiled": {
         "": "response of continuum",
@@ -23,11 +23,11 @@ LAMMPS = "LAMMPS mindlin/force"
 
 
 def section(trade: Sequence[Row], peers: Sequence[Row]) -> dict[str, Any]:
-    """What the report says of times.
+    """Times for the report.
 
     `peers` is empty where the other codes were not measured. `rows` are those of `ratios`, from
-    `peers` where a code was measured, else from `trade`: one table has only times of one process.
-    `absent` is a sentence for each code that the rows lack.
+    `peers` where a code was measured, else from `trade`, because times of two processes do not
+    compare. `absent` is a sentence for each code that the rows lack.
 
     >>> section([], [{"model": "lammps", "installed": "no"}])["absent"]
     ['LAMMPS is not installed.', 'pooltool was not measured.']
@@ -35,12 +35,12 @@ def section(trade: Sequence[Row], peers: Sequence[Row]) -> dict[str, Any]:
     measured = [row for row in peers if row["installed"] == "yes"]
     absent = {row["model"] for row in peers if row["installed"] == "no"}
     names = {row["model"].split()[0].lower() for row in measured}
-    words = [
+    sentences = [
         f"{label} {'is not installed' if code in absent else 'was not measured'}."
         for code, label in CODES.items()
         if code not in names
     ]
-    return {"rows": ratios(measured or trade), "absent": words}
+    return {"rows": ratios(measured or trade), "absent": sentences}
 
 
 def ratios(rows: Sequence[Row]) -> list[Row]:
@@ -57,7 +57,7 @@ def ratios(rows: Sequence[Row]) -> list[Row]:
     >>> row |= {"time_1 [s]": "1e-4"}
     >>> slow = row | {"model": "continuum", "time_1000 [s]": "6e-4"}
     >>> fast = row | {"model": "response of continuum", "time_1000 [s]": "2e-7"}
-    >>> [found["times_compiled [1]"] for found in ratios([fast, slow])]
+    >>> [ratio["times_compiled [1]"] for ratio in ratios([fast, slow])]
     ['3e+03', '1']
     """
     timed = [row for row in rows if any(row.get(key) for key in filter(TIME.fullmatch, row))]
@@ -92,14 +92,14 @@ def _coarsest(rows: Sequence[Row]) -> list[Row]:
         tolerance, steps = (row.get(key) for key in ("tolerance [mu v2(0)]", "steps [1]"))
         return -float(tolerance or 0), float(steps or 0)
 
-    found: dict[str, Row] = {}
+    coarsest: dict[str, Row] = {}
     for row in sorted(rows, key=fineness):
-        found.setdefault(row["model"], row)
-    return list(found.values())
+        coarsest.setdefault(row["model"], row)
+    return list(coarsest.values())
 
 
 def _setting(row: Row) -> str:
-    """Words for the steps or the tolerance of a row.
+    """Text for the steps or the tolerance of a row.
 
     >>> _setting({"steps [1]": "64"}), _setting({"tolerance [mu v2(0)]": "0.001"}), _setting({})
     ('64 steps', 'tolerance 0.001', '')

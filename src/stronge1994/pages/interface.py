@@ -8,7 +8,7 @@ from unittest import mock
 from planarimpact.ground import arrays
 
 SRC = Path(__file__).parents[2]
-# What has users: the solver, the paper's formulas, and the curves that use both.
+# Packages for users: the solver and the paper's formulas; beside them the curves that use both.
 PACKAGES = ("planarimpact", "stronge1994.printed")
 CURVES = "stronge1994/figures/*/curves.py"
 
@@ -34,12 +34,12 @@ def write(folder: str, templates: str | Path) -> None:
     pdoc.render.env.globals["dark_code"] = dark
     files = [path.relative_to(SRC).with_suffix("") for path in sorted(SRC.glob(CURVES))]
     curves = [".".join(file.parts) for file in files]
-    # pdoc has no option for how a type is written.
+    # pdoc has no option for the names of types.
     with mock.patch("inspect.formatannotation", named):
         pdoc.pdoc(*PACKAGES, *curves, output_directory=Path(folder))
 
 
 def _name(annotation: object) -> str | None:
-    """What our sources call a type: NumPy's own words for ArrayLike fill a screen."""
+    """Name of a type in our sources: NumPy's own annotation for ArrayLike fills a screen."""
     named = {name: getattr(arrays, name) for name in arrays.__all__}
     return next((name for name, known in named.items() if annotation == known), None)

@@ -1,7 +1,7 @@
-"""Numbers of a run that several pages state: each is found once, in one table.
+"""Numbers of a run that several pages state: each is computed once, for one table.
 
-A number has a name such as `pairs.lumped.chi2`, made of what it is about, and words that say what
-it is. Pages round it; they never find it again.
+A number has a name such as `pairs.lumped.chi2`, made of what it is about, and a text that says what
+it is. Pages round it; they never compute it again.
 """
 
 import traceback
@@ -24,13 +24,13 @@ X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
 MODELS = tuple(inelastic.MODELS)
 SOFT, HARD = inelastic.SOFT, inelastic.HARD
-# Of the finite elements: where the models are held against them, by friction and restitution.
-FRICTION, LOSSY = 0.1, 0.45
-NEAR = (0.62, 0.92)  # restitutions at which two Kelvin-Voigt elements are near
+# Models are compared with the finite elements up to this friction, from this restitution on.
+LARGEST_FRICTION, LEAST_RESTITUTION = 0.1, 0.45
+NEAR_RESTITUTIONS = (0.62, 0.92)  # restitutions at which two Kelvin-Voigt elements are near
 
 
 class Tables(NamedTuple):
-    """What a run has found, as far as pages state numbers of it."""
+    """Tables of a run of which pages state numbers."""
 
     verdicts: Sequence[Row]
     ledger: Sequence[Row]
@@ -65,7 +65,7 @@ def read(paths: Mapping[str, str]) -> Tables:
     )
 
 
-def found(tables: Tables) -> list[Row]:
+def table_rows(tables: Tables) -> list[Row]:
     """All key numbers, as rows of their table; a number that is not finite is an error."""
     numbers = [
         *_counts(tables),
@@ -75,16 +75,16 @@ def found(tables: Tables) -> list[Row]:
         *_rubber(tables.rubber),
         *_others(tables),
     ]
-    lost = [name for name, value, _ in numbers if not np.isfinite(value)]
-    if lost:
-        raise ArithmeticError(f"{', '.join(lost)}: no number was found")
+    not_finite = [name for name, value, _ in numbers if not np.isfinite(value)]
+    if not_finite:
+        raise ArithmeticError(f"{', '.join(not_finite)}: not a finite number")
     return [{"name": name, "value": f"{value:.12g}", "what": what} for name, value, what in numbers]
 
 
 def write(output: str, paths: Mapping[str, str]) -> None:
-    """Write the table of key numbers, or why there is none, which those who read it will say."""
+    """Write the table of key numbers; where it cannot be made, a table with the error."""
     try:
-        csv_tables.write_table(output, found(read(paths)), COLUMNS)
+        csv_tables.write_table(output, table_rows(read(paths)), COLUMNS)
     except Exception as error:
         traceback.print_exc()
         why = f"{error}" if isinstance(error, Failed) else f"{type(error).__name__}: {error}"
@@ -112,8 +112,8 @@ def _counts(tables: Tables) -> _Numbers:
     for figure in sorted({row["figure"] for row in tables.verdicts}):
         own = Counter(row["verdict"] for row in tables.verdicts if row["figure"] == figure)
         for verdict in verdict_table.ORDER:
-            words = f"comparisons of {figure} with the verdict: {verdict}"
-            yield f"rows.{figure}.{verdict}", own[verdict], words
+            what = f"comparisons of {figure} with the verdict: {verdict}"
+            yield f"rows.{figure}.{verdict}", own[verdict], what
     published = Counter(row["verdict"] for row in tables.verdicts if row["p"])
     what = "comparisons with published points that agree"
     yield "rows.published.agrees", published["agrees"], what
@@ -150,18 +150,18 @@ def _pairs(curves: Curves, measured: Columns) -> _Numbers:
     for model in MODELS:
         fits = [inelastic.goodness(curves, model, series, trial) for trial in trials]
         for trial, fit in zip(trials, fits, strict=True):
-            name = "" if trial is trials[0] else f".{trial.words}"
-            yield f"pairs.{model}{name}.chi2", fit.value, f"chi^2 of the pairs, {trial.words}"
-            yield f"pairs.{model}{name}.p", fit.p, f"its probability, {trial.words}"
+            name = "" if trial is trials[0] else f".{trial.name}"
+            yield f"pairs.{model}{name}.chi2", fit.value, f"chi^2 of the pairs, {trial.name}"
+            yield f"pairs.{model}{name}.p", fit.p, f"its probability, {trial.name}"
         spreads = [trial for trial in trials if not trial.without and trial.share == 1]
-        for words, without in (("", ()), (f".{SOFT}", [SOFT]), (".both", [SOFT, HARD])):
+        for suffix, without in (("", ()), (f".{SOFT}", [SOFT]), (".both", [SOFT, HARD])):
             fits = [
                 inelastic.goodness(curves, model, series, trial._replace(without=without))
                 for trial in spreads
             ]
             failed = sum(fit.p <= inelastic.SIGNIFICANCE for fit in fits)
             what = f"spreads of impacts with which it fails, without {without or 'none'}"
-            yield f"pairs.{model}{words}.failed", failed, what
+            yield f"pairs.{model}{suffix}.failed", failed, what
             if not without:
                 for end, value in (("least", min), ("most", max)):
                     number = value(fit.value for fit in fits)
@@ -173,8 +173,8 @@ def _pairs(curves: Curves, measured: Columns) -> _Numbers:
     yield f"pairs.lumped.{SOFT}.chi2", share, f"what {SOFT} adds to chi^2 of the paper's model"
     for name, without in (("", []), (".without", [SOFT])):
         slope, sigma = inelastic.slope(series, without)
-        words = f"slope of the measured beta_0 against e, without {without or 'none'}"
-        yield f"pairs.slope{name}", slope, words
+        what = f"slope of the measured beta_0 against e, without {without or 'none'}"
+        yield f"pairs.slope{name}", slope, what
         yield f"pairs.slope{name}.sigma", sigma, "its standard deviation"
     least, second = np.sort(series["x"])[:2]
     yield "pairs.least_e", least, "smallest restitution of a pair"
@@ -191,18 +191,20 @@ def _pairs(curves: Curves, measured: Columns) -> _Numbers:
 
 def _finite_elements(curves: Curves, runs: Columns) -> _Numbers:
     e, friction = runs[E], runs["friction [1]"]
-    # What the constant of the plastic law was fitted to is no evidence.
-    held = (friction <= FRICTION + 1e-9) & (e >= LOSSY) & (runs["set"] != "calibration")
-    near = held & (e >= NEAR[0]) & (e <= NEAR[1])
+    # Runs to which the constant of the plastic law was fitted are no evidence.
+    compared = (friction <= LARGEST_FRICTION + 1e-9) & (e >= LEAST_RESTITUTION)
+    compared &= runs["set"] != "calibration"
+    near = compared & (e >= NEAR_RESTITUTIONS[0]) & (e <= NEAR_RESTITUTIONS[1])
     yield "yielding.runs", len(e), "finite-element runs of spheres that yield"
     for model in MODELS:
         off = curves[f"{model}, runs"][W] - runs[W]
-        words = f"from our finite elements of yielding spheres, mu to {FRICTION}, e from {LOSSY}"
-        yield f"yielding.{model}.rms", _rms(off[held]), f"{words}, root mean square, mu v2(0)"
-        yield f"yielding.{model}.max", np.abs(off[held]).max(), f"{words}, largest"
-        words = f"the same, e from {NEAR[0]} to {NEAR[1]}"
-        yield f"yielding.{model}.near.rms", _rms(off[near]), f"{words}, root mean square"
-        yield f"yielding.{model}.near.max", np.abs(off[near]).max(), f"{words}, largest"
+        limits = f"mu to {LARGEST_FRICTION}, e from {LEAST_RESTITUTION}"
+        what = f"from our finite elements of yielding spheres, {limits}"
+        yield f"yielding.{model}.rms", _rms(off[compared]), f"{what}, root mean square, mu v2(0)"
+        yield f"yielding.{model}.max", np.abs(off[compared]).max(), f"{what}, largest"
+        what = f"the same, e from {NEAR_RESTITUTIONS[0]} to {NEAR_RESTITUTIONS[1]}"
+        yield f"yielding.{model}.near.rms", _rms(off[near]), f"{what}, root mean square"
+        yield f"yielding.{model}.near.max", np.abs(off[near]).max(), f"{what}, largest"
 
 
 def _rubber(curves: Curves) -> _Numbers:

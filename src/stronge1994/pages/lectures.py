@@ -1,7 +1,7 @@
 """Run one notebook and write it twice: with its outputs, and as a page that needs no other file.
 
-What JupyterLab hides in a notebook until it is asked for, its page folds: the source of a cell, and
-what stands below a heading that is collapsed.
+The page folds what JupyterLab hides at first: the source of a cell, and what stands below a heading
+that is collapsed.
 """
 
 import os
@@ -20,12 +20,12 @@ from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernel
 from nbconvert import HTMLExporter
 from traitlets.config import Config
 
-# A cell may take so many seconds.
+# Longest time of a cell, in seconds.
 CELL_TIMEOUT = 120
 SRC = Path(__file__).parents[2]
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 HEADING = re.compile(r"(#+) (.+)")
-# By this name JupyterLab keeps that a heading is collapsed.
+# Key in the metadata of a cell by which JupyterLab marks a collapsed heading.
 COLLAPSED = "jp-MarkdownHeadingCollapsed"
 
 
@@ -39,11 +39,11 @@ class ThisPython(AsyncKernelManager):
     @property
     def kernel_spec(self) -> Any:
         """How this Python is started."""
-        words = ["-m", "ipykernel_launcher", "-f", "{connection_file}"]
-        # Pictures stay sharp on paper and at any size, and bear no date.
-        words.append("--InlineBackend.figure_formats={'svg'}")
-        words.append("--InlineBackend.print_figure_kwargs={'metadata': {'Date': None}}")
-        return KernelSpec(argv=[sys.executable, *words], language="python")
+        arguments = ["-m", "ipykernel_launcher", "-f", "{connection_file}"]
+        # SVG pictures are sharp at any size; they are written without a date.
+        arguments.append("--InlineBackend.figure_formats={'svg'}")
+        arguments.append("--InlineBackend.print_figure_kwargs={'metadata': {'Date': None}}")
+        return KernelSpec(argv=[sys.executable, *arguments], language="python")
 
 
 def run(notebook: str, template: str, executed: str, page: str) -> None:
@@ -94,25 +94,26 @@ def parts(cells: Iterable[Any]) -> list[tuple[str, list[Any]]]:
     is its collapsed heading. It ends where JupyterLab ends it: before the next heading of the same
     or a higher level.
 
-    >>> from nbformat.v4 import new_markdown_cell as words
+    >>> from nbformat.v4 import new_markdown_cell as markdown
     >>> folded = {"jp-MarkdownHeadingCollapsed": True}
-    >>> cells = [words("Why?"), words("### Answer", metadata=folded), words("So."), words("## 2")]
-    >>> [(title, [cell.source for cell in some]) for title, some in parts(cells)]
+    >>> cells = [markdown("Why?"), markdown("### Answer", metadata=folded), markdown("So.")]
+    >>> cells.append(markdown("## 2"))
+    >>> [(title, [cell.source for cell in group]) for title, group in parts(cells)]
     [('', ['Why?']), ('Answer', ['So.']), ('', ['## 2'])]
     """
-    found: list[tuple[str, list[Any]]] = [("", [])]
+    titled: list[tuple[str, list[Any]]] = [("", [])]
     level = 0  # of the heading whose part is folded
     for cell in cells:
         heading = cell.cell_type == "markdown" and HEADING.match(cell.source)
         if heading and len(heading[1]) <= level:
             level = 0
-            found.append(("", []))
+            titled.append(("", []))
         if heading and not level and cell.metadata.get(COLLAPSED):
             level = len(heading[1])
-            found.append((heading[2], []))
+            titled.append((heading[2], []))
         else:
-            found[-1][1].append(cell)
-    return [(title, some) for title, some in found if some]
+            titled[-1][1].append(cell)
+    return [(title, group) for title, group in titled if group]
 
 
 def _environment(scratch: str) -> dict[str, str]:
@@ -132,5 +133,5 @@ def _failure(book: Any, error: Any) -> str:
     traceback = COLOUR.sub("", error.traceback)
     lines = re.findall(r"^-+> *\d+ +(.*)$", traceback, flags=re.M)
     line = lines[0].strip() if lines else cell.source.splitlines()[0]
-    words = " ".join([f"{error.ename}:", *error.evalue.split()]).removesuffix(":")
-    return f"cell {number}: {line}: {words}"
+    message = " ".join([f"{error.ename}:", *error.evalue.split()]).removesuffix(":")
+    return f"cell {number}: {line}: {message}"

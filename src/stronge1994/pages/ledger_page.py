@@ -52,7 +52,7 @@ NATURE_MEANING = {
     in_nature.DEPENDS: "true with one loss, false with the other",
     in_nature.OPEN: "neither contact can tell",
 }
-# Impacts of the paper's sphere that an entry speaks of: incidence, friction, restitution, and the
+# Impacts of the paper's sphere to which an entry refers: incidence, friction, restitution, and the
 # view of the explorer.
 IN_EXPLORER = {
     "slip-throughout-limit": (6.4, 0.5, 1, "velocity"),
@@ -105,22 +105,22 @@ def linked_maths(names: Collection[str]) -> Callable[[str], Markup]:
     return maths
 
 
-def words(rows: Sequence[Row], symbols: str) -> dict[str, Any]:
-    """What the templates need to show the ledger's rows; `symbols` explains their formulas."""
+def template_values(rows: Sequence[Row], symbols: str) -> dict[str, Any]:
+    """Values of the templates for the ledger's rows; `symbols` explains their formulas."""
     counts = Counter(row["verdict"] for row in rows)
     of_nature = [row for row in rows if row.get("in_nature")]
-    in_words = Counter(row["in_nature"] for row in of_nature)
+    verdicts_in_nature = Counter(row["in_nature"] for row in of_nature)
     return {
         "entries": rows,
         "of_nature": of_nature,
-        "nature_counts": {verdict: in_words[verdict] for verdict in NATURE_STYLE},
+        "nature_counts": {verdict: verdicts_in_nature[verdict] for verdict in NATURE_STYLE},
         "nature_style": NATURE_STYLE,
         "nature_meaning": NATURE_MEANING,
         "symbols": symbols,
         "lapsed": outcome.failing(rows),
         "counts": {verdict: counts[verdict] for verdict in STYLE if counts[verdict]},
         "grades": outcome.grades(rows),
-        "graded": outcome.grades_in_words(rows),
+        "graded": outcome.sentence_of_grades(rows),
         "causes": by_cause(rows),
         "style": STYLE | GRADE_STYLE,
         "meaning": MEANING | GRADE_MEANING,
@@ -128,7 +128,7 @@ def words(rows: Sequence[Row], symbols: str) -> dict[str, Any]:
 
 
 def by_cause(rows: Sequence[Row]) -> dict[str, list[Row]]:
-    """Wrong rows by their cause, `{cause in words: rows}`, the gravest ones first."""
+    """Wrong rows by the text of their cause, the gravest ones first."""
     order = list(outcome.GRADES)
     wrong = [row for row in rows if row.get("cause")]
     causes: dict[str, list[Row]] = {}
@@ -142,7 +142,7 @@ def page(rows: Sequence[Row], symbols: str, template: str) -> str:
     environment = templates.environment(Path(template).parent)
     environment.filters["maths"] = linked_maths({row["entry"] for row in rows})
     return environment.get_template(Path(template).name).render(
-        words(rows, symbols),
+        template_values(rows, symbols),
         kinds=Counter(row["kind"] for row in rows),
         gravest=next(iter(outcome.GRADES)),
         explorer=IN_EXPLORER,

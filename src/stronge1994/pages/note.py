@@ -1,6 +1,6 @@
-"""Write the note on the replication of the paper, as a page and as a PDF of the same words.
+"""Write the note on the replication of the paper, as a page and as a PDF of the same text.
 
-Every number that a run finds is read from the table of key numbers.
+Every number that a run computes is read from the table of key numbers.
 """
 
 from collections.abc import Mapping
@@ -15,21 +15,21 @@ TITLE = "Planar impact of rough compliant bodies: a replication"
 # Models below e = 1, in the order of the note.
 MODELS = ("lumped", "lumped.plastic", "lumped.viscous", "continuum.viscous", "continuum.plastic")
 COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
-# A smaller probability says no more than this.
-LEAST = 1e-3
+# Smaller probabilities are shown as `< 0.001`.
+LEAST_PROBABILITY = 1e-3
 
 
 def probability(p: float) -> str:
-    """A probability in two figures; how small a very small one is depends on tails nobody knows.
+    """A probability in two figures; a very small one as an upper bound, as tails are not known.
 
     >>> probability(0.2234), probability(3.6e-26)
     ('0.22', '< 0.001')
     """
-    return f"{p:.2g}" if p >= LEAST else f"< {LEAST:g}"
+    return f"{p:.2g}" if p >= LEAST_PROBABILITY else f"< {LEAST_PROBABILITY:g}"
 
 
 def count(number: float) -> str:
-    """A small number in words.
+    """A small number as a word.
 
     >>> count(0.0), count(4.0)
     ('none', 'four')
@@ -55,7 +55,7 @@ def page(numbers: Mapping[str, float], pictures: Mapping[str, bytes], template: 
 
 
 def without_numbers(why: Exception) -> Markup:
-    """What stands in place of the note where a solver failed, which the gate reports."""
+    """A page in place of the note where a solver failed, which the gate reports."""
     return Markup(
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width"><title>Failed</title></head>'
@@ -67,11 +67,7 @@ def without_numbers(why: Exception) -> Markup:
 def write(
     output: str, output_pdf: str, table: str, pictures: Mapping[str, str], template: str
 ) -> None:
-    """Read what the run has made and write both files.
-
-    `table` is that of key numbers. `pictures` are the PNG files of figures by their names; each has
-    an SVG beside it.
-    """
+    """Write both files, from the table of key numbers and pictures (PNG, with SVG beside them)."""
     try:
         numbers = key_numbers.by_name(csv_tables.read_rows(table))
         svgs = {

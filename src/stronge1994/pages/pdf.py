@@ -29,11 +29,11 @@ from stronge1994.figures.shared.drawing import house_style
 FACES = {"": "STIXGeneral", "bold": "STIXGeneralBol", "italic": "STIXGeneralItalic"}
 MARGIN, GAP = 17 * mm, 7 * mm
 COLUMN, HEIGHT = (A4[0] - 2 * MARGIN - GAP) / 2, A4[1] - 2 * MARGIN
-# Room that a heading needs below it, for some lines of text.
-KEPT = 36.0
+# Room below a heading for a few lines of text.
+ROOM_BELOW_HEADING = 36.0
 # Elements within a line, as ReportLab names them.
 INLINE = {"i": "i", "b": "b", "sub": "sub", "sup": "super"}
-# How far indices stand off their line, and how small they are, in points.
+# Distance of indices from their line, and their size, in points.
 INDEX = {"sub": ' rise="2" size="6.5"', "sup": ' rise="3.5" size="6.5"'}
 BLOCKS = ("h1", "h2", "h3", "p", "li", "th", "td", "figcaption", "caption")
 
@@ -63,7 +63,7 @@ def styles() -> dict[str, ParagraphStyle]:
 
 
 class _Float(NamedTuple):
-    """A picture or a table, and the words that belong to it: they stay together."""
+    """A picture or a table with its caption: they stay together."""
 
     parts: list[Flowable]
 
@@ -88,7 +88,7 @@ class _Article(HTMLParser):
         self._kept: list[Flowable] = []  # a picture, or the heading of a table
 
     def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
-        given = dict(attributes)
+        values = dict(attributes)
         if tag == "article":
             self._into = self.body
         elif self._into is None:
@@ -96,14 +96,14 @@ class _Article(HTMLParser):
         elif tag == "header":
             self._into = self.head
         elif tag in BLOCKS:
-            kind = "small" if tag == "p" and given.get("class") == "small" else tag
+            kind = "small" if tag == "p" and values.get("class") == "small" else tag
             self._line, self._style = [], self.styles[kind]
         elif tag == "table":
-            self._shares = [float(share) for share in str(given["data-widths"]).split()]
+            self._shares = [float(share) for share in str(values["data-widths"]).split()]
         elif tag == "tr":
             self._rows.append([])
         elif tag == "img":
-            self._kept.append(self._picture(str(given["data-figure"])))
+            self._kept.append(self._picture(str(values["data-figure"])))
         elif self._line is not None and tag in INLINE:
             self._line.append(f"<{INLINE[tag]}{INDEX.get(tag, '')}>")
 
@@ -131,10 +131,10 @@ class _Article(HTMLParser):
         elif tag in INLINE and self._line is not None:
             self._line.append(f"</{INLINE[tag]}>")
 
-    def _end_block(self, tag: str, words: str) -> None:
+    def _end_block(self, tag: str, text: str) -> None:
         assert self._into is not None
         bullet = "•" if tag == "li" else None
-        paragraph = Paragraph(words, self._style, bulletText=bullet)
+        paragraph = Paragraph(text, self._style, bulletText=bullet)
         if tag in ("td", "th"):
             self._rows[-1].append(paragraph)
         elif tag == "caption":
@@ -167,14 +167,10 @@ RULES = TableStyle(
 
 
 class _Pages:
-    """Pages of two columns, filled from top to bottom.
-
-    A picture or table that has no room in a column moves to the top of the next one, and the words
-    after it take its place.
-    """
+    """Pages of two columns; text fills the place of a picture that moves to the next column."""
 
     def __init__(self, path: str, title: str, head: list[_Part]) -> None:
-        # The same words give the same bytes.
+        # The same text gives the same bytes.
         self.canvas = Canvas(path, pagesize=A4, invariant=1)
         self.canvas.setTitle(title)
         self.page, self.columns = 1, [0.0]
@@ -191,7 +187,7 @@ class _Pages:
         return _frame(self.columns.pop(0), 0.0, COLUMN, HEIGHT - self.below)
 
     def _next(self) -> None:
-        """Go to the next column, and put on its top what waits."""
+        """Go to the next column, and put the waiting pictures on its top."""
         if not self.columns:
             self._end_page()
             self.canvas.showPage()
@@ -220,7 +216,7 @@ class _Pages:
         if isinstance(part, _Float):
             self._float(part)
             return
-        if part.getKeepWithNext() and _height([part]) + KEPT > self._room():
+        if part.getKeepWithNext() and _height([part]) + ROOM_BELOW_HEADING > self._room():
             self._next()
         while not self.frame.add(part, self.canvas):
             pieces = self.frame.split(part, self.canvas)
@@ -232,7 +228,7 @@ class _Pages:
             self._next()
 
     def end(self) -> int:
-        """Put what still waits, close the file, and return the number of pages."""
+        """Put the waiting pictures, close the file, and return the number of pages."""
         while self.waiting:
             self._next()
         self._end_page()
@@ -256,11 +252,7 @@ def _frame(left: float, bottom: float, width: float, height: float) -> Frame:
 
 
 def write(path: str, page: str, pictures: Mapping[str, str], title: str) -> int:
-    """Write the element `article` of a page as a PDF, and return the number of its pages.
-
-    `pictures` are PNG files by their names. Links lead to pages that a PDF does not have beside it,
-    so their words alone are set.
-    """
+    """Write the element `article` of a page as a PDF without links; return the number of pages."""
     for kind, file in FACES.items():
         name = f"STIX-{kind}" if kind else "STIX"
         pdfmetrics.registerFont(TTFont(name, str(house_style.FONTS / f"{file}.ttf")))

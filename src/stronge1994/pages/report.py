@@ -1,8 +1,7 @@
 """Write the run as one page, findings first, and its sources and settings as another.
 
-Reads what the run has written and solves nothing. A solver that crashed is a failing row, a picture
-and tables that say so. What cannot be shown is left out and named on top, with file and line; the
-gate fails on it.
+Nothing is solved here. A solver that crashed shows as a failing row, a picture and tables with its
+error. What cannot be shown is left out and named on top, with file and line; the gate fails on it.
 """
 
 import io
@@ -19,7 +18,7 @@ from stronge1994 import csv_tables, verdict_table
 from stronge1994.csv_tables import Curves, Row
 from stronge1994.figures.shared.drawing import checked
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
-from stronge1994.judging.verdicts import SEEN
+from stronge1994.judging.verdicts import VISIBLE_SHIFT
 from stronge1994.ledger import outcome
 from stronge1994.pages import (
     findings,
@@ -53,20 +52,18 @@ MEANING = {
     "explained difference": "the difference is as large as before, and we know its cause",
     "awaited": "we do not have the reference yet",
     "inconclusive": "it agrees, but would also if all points lay "
-    f"{SEEN:g} sigmas beside the curve: it does not count as evidence",
+    f"{VISIBLE_SHIFT:g} sigmas beside the curve: it does not count as evidence",
     "agrees": "with published points (p is large enough), or within the tolerance of its reference",
     "as before": "it ran, or was fitted to these points: a guard against accidents, no evidence",
 }
-Shown: TypeAlias = dict[str, Any]  # what the template is given of a figure or a table
+TemplateValues: TypeAlias = dict[str, Any]  # of a figure or a table
 # Tables that have a section of the report; captions stand in files of the same names.
 SECTIONS = ("which_model", "trade", "stability", "sensitivity")
 ROOT = Path(__file__).parents[3]
 
 
 class Salvage:
-    """Calls functions, goes on where one fails, and keeps what to say of it.
-
-    `problems` say what failed, the error, and the file and line where it happened.
+    """Call functions, go on where one fails, and keep a message with file and line.
 
     >>> salvage = Salvage()
     >>> salvage("Fig. 5", "nothing", lambda: {}["curve"])
@@ -91,7 +88,7 @@ class Salvage:
 
 
 def _place(error: Exception) -> str:
-    """Behind the words of an error, file and line where it arose: the last of this repository."""
+    """File and line of this repository where an error arose, to stand behind its message."""
     frames = traceback.extract_tb(error.__traceback__)
     ours = [f for f in frames if f.filename.startswith((str(ROOT / "workflow"), str(ROOT / "src")))]
     return f" ({Path(ours[-1].filename).relative_to(ROOT)}, line {ours[-1].lineno})" if ours else ""
@@ -100,48 +97,47 @@ def _place(error: Exception) -> str:
 def page(
     verdicts: list[Row],
     ledger: list[Row],
-    figures: Mapping[str, Shown],
-    tables: Mapping[str, Shown],
+    figures: Mapping[str, TemplateValues],
+    tables: Mapping[str, TemplateValues],
     significance: float,
     run: Mapping[str, Any],
     symbols: str,
     links: Mapping[str, str],
     template: str | Path,
     faults: list[str],
-    tried: Salvage,
-    found: Mapping[str, findings.Finding | None],
+    salvage: Salvage,
+    run_findings: Mapping[str, findings.Finding | None],
     numbers: Mapping[str, float],
     peers: Sequence[Row] = (),
 ) -> str:
     """The report.
 
-    `tables` has the rows and captions of `SECTIONS`, `figures` what `figure` gave, `found` what
-    `findings.all_of` gave, `numbers` the key numbers. `symbols` is what stands in the ledger's
-    formulas; `links` are the names of lectures by their files. `faults` say why the run does not
-    pass, as `gate.faults_of_tables`
-    does. `tried` calls what may fail, and its problems so far are shown too. `peers` is empty where
-    other codes were not measured.
+    `tables` has the rows and captions of `SECTIONS`, `figures` the values of `figure`,
+    `run_findings` those of `findings.all_of`, `numbers` the key numbers. `symbols` explains the
+    ledger's formulas; `links` are the names of lectures by their files. `faults` say why the run
+    does not pass, as `gate.faults_of_tables` does. `salvage` calls what may fail, and its problems
+    so far are shown too. `peers` is empty where other codes were not measured.
     """
     names = {row["entry"] for row in ledger}
-    nothing: Shown = {"rows": [], "absent": []}
-    times = tried("times", nothing, impact_times.section, tables["trade"]["rows"], peers)
-    cases = tried("which_model", [], which_model.cases, tables["which_model"]["rows"])
+    nothing: TemplateValues = {"rows": [], "absent": []}
+    times = salvage("times", nothing, impact_times.section, tables["trade"]["rows"], peers)
+    cases = salvage("which_model", [], which_model.cases, tables["which_model"]["rows"])
     environment = templates.environment(Path(template).parent)
     environment.filters |= {
         "maths": _maths(names),
         "number": templates.number,
         "probability": note.probability,
         "microseconds": lambda seconds: templates.number(f"{1e6 * float(seconds)}"),
-        "header": headers.words,
+        "header": headers.header,
         "short": run_facts.short,
         "sentence": sentence,
         "title_of": templates.title,
     }
     return environment.get_template(Path(template).name).render(
-        ledger_page.words(ledger, symbols),
+        ledger_page.template_values(ledger, symbols),
         verdicts=verdicts,
         significance=significance,
-        faults=faults + tried.problems,
+        faults=faults + salvage.problems,
         verdict_counts=Counter(row["verdict"] for row in verdicts),
         evidence=Counter(row["evidence"] for row in verdicts if row["verdict"] == "agrees"),
         marks=MARKS,
@@ -153,7 +149,7 @@ def page(
         times=times,
         run=run,
         links=links,
-        found=found,
+        found=run_findings,
         n=numbers,
     )
 
@@ -186,11 +182,8 @@ def figure(
     residuals: list[Row],
     verdicts: list[Row],
     config: Mapping[str, Any],
-) -> Shown:
-    """What the report shows of one figure.
-
-    `verdicts` may be of other figures too. `config` is as it was in the run.
-    """
+) -> TemplateValues:
+    """Values of the template for one figure."""
     rows = [row for row in verdicts if row["figure"] == name]
     entries = {c: e for c, e in config["comparisons"].items() if e["figure"] == name}
     strips = draw_residuals.strips(residuals, entries, {row["comparison"]: row for row in rows})
@@ -225,7 +218,7 @@ def _entry_of(names: Collection[str]) -> Callable[[Row], str | None]:
 
 
 def _key_numbers(path: str) -> dict[str, float]:
-    """Key numbers of a run; none where a table that they need has the message of a crash."""
+    """Key numbers of a run; none after a crash."""
     try:
         return key_numbers.by_name(csv_tables.read_rows(path))
     except csv_tables.Failed:
@@ -249,44 +242,44 @@ def write(
     expected: tuple[Mapping[str, bool], Mapping[str, bool]],
     **parts: Any,
 ) -> None:
-    """Read the tables and pictures of a run and write the report, and what it could not show.
+    """Read the tables and pictures of a run; write the report, its sources, and its own problems.
 
-    The page of sources and settings is written beside it. `paths` are the files of the tables:
-    `verdicts`, `ledger`, those of `SECTIONS`, those that only the findings need, and `peers` where
-    other codes were measured. `captions` are those of the figures; those of tables stand in files
-    beside the template. `expected` are the rows that `gate.faults_of_tables` asks for. `parts` are
-    `symbols`, `links` and `template` as for `page`; `sources`, the contents of data/*/source.yaml;
-    and `run`, functions of `run_facts` by name, each with what to show if it fails.
+    `paths` are the files of the tables: `verdicts`, `ledger`, those of `SECTIONS`, those that only
+    the findings need, and `peers` where other codes were measured. `captions` are those of the
+    figures; those of tables stand in files beside the template. `expected` are the rows that
+    `gate.faults_of_tables` asks for. `parts` are `symbols`, `links` and `template` as for `page`;
+    `sources`, the contents of data/*/source.yaml; and `run`, functions of `run_facts` by name, each
+    with its value after a failure.
     """
-    tried = Salvage()
+    salvage = Salvage()
     read = csv_tables.read_rows
-    rows = tried("verdicts", [], read, paths["verdicts"], verdict_table.COLUMNS)
-    ledger = tried("ledger", [], read, paths["ledger"], outcome.COLUMNS)
+    rows = salvage("verdicts", [], read, paths["verdicts"], verdict_table.COLUMNS)
+    ledger = salvage("ledger", [], read, paths["ledger"], outcome.COLUMNS)
     faults = gate.faults_of_tables(rows, ledger, *expected)
     rows = [row for row in rows if row["verdict"] in MARKS]
     ledger = [row for row in ledger if row["verdict"] in ledger_page.STYLE]
 
-    def section(name: str) -> Shown:
+    def section(name: str) -> TemplateValues:
         text = captions[name]
         picture = Path(svgs[name]).read_bytes()
         return figure(name, picture, text, read(residuals[name]), rows, config)
 
-    def table(name: str) -> Shown:
+    def table(name: str) -> TemplateValues:
         text = Path(parts["template"]).with_name(f"{name}.rst").read_text(encoding="utf-8")
         return {"rows": read(paths[name]), "caption": text.strip()}
 
-    figures = {name: tried(templates.title(name), None, section, name) for name in svgs}
-    figures = {name: found for name, found in figures.items() if found}
-    tables = {name: tried(name, {"rows": [], "caption": ""}, table, name) for name in SECTIONS}
-    peers = tried("peers", [], read, paths["peers"], ("model",)) if "peers" in paths else []
-    numbers = tried("key numbers", {}, _key_numbers, paths["key_numbers"])
+    figures = {name: salvage(templates.title(name), None, section, name) for name in svgs}
+    figures = {name: section_values for name, section_values in figures.items() if section_values}
+    tables = {name: salvage(name, {"rows": [], "caption": ""}, table, name) for name in SECTIONS}
+    peers = salvage("peers", [], read, paths["peers"], ("model",)) if "peers" in paths else []
+    numbers = salvage("key numbers", {}, _key_numbers, paths["key_numbers"])
     run = parts.pop("run")
-    run = {name: tried(name, missing, function) for name, (missing, function) in run.items()}
+    run = {name: salvage(name, missing, function) for name, (missing, function) in run.items()}
     template = Path(parts["template"]).with_name("sources.html")
-    provenance = tried(
+    provenance = salvage(
         "sources of data", None, sources_page.page, parts.pop("sources"), config, run, template
     )
-    text = tried(
+    text = salvage(
         "report",
         None,
         lambda: page(
@@ -297,14 +290,14 @@ def write(
             config["significance"],
             run=run,
             faults=faults,
-            tried=tried,
-            found=findings.all_of(rows, ledger, tables, paths, config, numbers),
+            salvage=salvage,
+            run_findings=findings.all_of(rows, ledger, tables, paths, config, numbers),
             numbers=numbers,
             peers=peers,
             **parts,
         ),
     )
-    short = without_details(faults + tried.problems)
+    short = without_details(faults + salvage.problems)
     Path(output).write_text(short if text is None else text, encoding="utf-8")
     Path(output).with_name("sources.html").write_text(provenance or short, encoding="utf-8")
-    csv_tables.write_rows(problems, ["problem"], [[problem] for problem in tried.problems])
+    csv_tables.write_rows(problems, ["problem"], [[problem] for problem in salvage.problems])

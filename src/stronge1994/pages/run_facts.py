@@ -18,13 +18,13 @@ NO_COMMIT = "unknown: not a git checkout, or git is missing"
 
 def versions() -> dict[str, str]:
     """Versions of Python and of the packages that a run uses, `{name: version}`."""
-    found = {"python": platform.python_version()}
+    by_package = {"python": platform.python_version()}
     for name in PACKAGES:
         try:
-            found[name] = metadata.version(name)
+            by_package[name] = metadata.version(name)
         except metadata.PackageNotFoundError:
-            found[name] = "not installed"
-    return found
+            by_package[name] = "not installed"
+    return by_package
 
 
 def system() -> str:
@@ -38,10 +38,7 @@ def date() -> str:
 
 
 def commit(folder: str | Path) -> str:
-    """Commit of a checkout, and whether something in it is not committed.
-
-    `NO_COMMIT` if there is none, also for a folder that only lies inside some other checkout.
-    """
+    """Commit of a checkout, and whether it has uncommitted changes; else `NO_COMMIT`."""
     try:
         root, name = _git(folder, "rev-parse", "--show-toplevel", "HEAD").split("\n")
         if Path(root).resolve() != Path(folder).resolve():
@@ -53,7 +50,7 @@ def commit(folder: str | Path) -> str:
 
 
 def short(commit: str) -> str:
-    """A commit with ten of its digits; what is said behind it, or in its place, stays.
+    """A commit with ten of its digits; a text behind it, or in its place, stays.
 
     >>> short("8ab9900d103054b1c3d40c442361c77869d9dbd6, with uncommitted changes")
     '8ab9900d10, with uncommitted changes'
@@ -64,7 +61,7 @@ def short(commit: str) -> str:
 def _git(folder: str | Path, *arguments: str) -> str:
     # GIT_DIR, which hooks of git set, would make git look into another repository.
     environment = {key: value for key, value in os.environ.items() if not key.startswith("GIT_")}
-    found = subprocess.run(
+    completed = subprocess.run(
         ["git", "-C", str(folder), *arguments],
         capture_output=True,
         text=True,
@@ -72,15 +69,15 @@ def _git(folder: str | Path, *arguments: str) -> str:
         timeout=20,
         env=environment,
     )
-    return found.stdout[:-1]
+    return completed.stdout[:-1]
 
 
 def times() -> list[tuple[str, float]]:
     """Seconds that each job took when it last ran, longest first: list of (job, seconds)."""
     known = {path.stem: record.read(str(path)) for path in Path(record.FOLDER).glob("*.json")}
     # A damaged record is left out: another job may be writing it.
-    found = [(job, float(kept["seconds"])) for job, kept in known.items() if kept]
-    return sorted(found, key=lambda job: -job[1])
+    jobs = [(job, float(content["seconds"])) for job, content in known.items() if content]
+    return sorted(jobs, key=lambda job: -job[1])
 
 
 def everything() -> dict[str, tuple[Any, Callable[[], Any]]]:

@@ -1,4 +1,4 @@
-"""Where the numbers come from: sources of data, settings, versions and times of a run."""
+"""Page of the sources of data, settings, versions and times of a run."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -18,27 +18,24 @@ def page(
     run: Mapping[str, Any],
     template: str | Path,
 ) -> str:
-    """The page of sources and settings.
-
-    `sources` are the contents of data/*/source.yaml, and `config` is as it was in the run.
-    """
+    """The page of sources and settings, from data/*/source.yaml and the config of the run."""
     comparisons = config["comparisons"].items()
     settings = {
         figure: {"figures": {figure: entry}}
-        | {"comparisons": {c: told for c, told in comparisons if told["figure"] == figure}}
+        | {"comparisons": {name: c for name, c in comparisons if c["figure"] == figure}}
         for figure, entry in config["figures"].items()
     }
     environment = templates.environment(Path(template).parent)
     environment.filters |= {
         "maths": ledger_page.mathematical,
-        "header": headers.words,
+        "header": headers.header,
         "number": templates.number,
         "title_of": templates.title,
     }
     return environment.get_template(Path(template).name).render(
         sources=sources,
         shared={key: config[key] for key in SHARED},
-        settings={figure: in_yaml(found) for figure, found in settings.items()},
+        settings={figure: in_yaml(part) for figure, part in settings.items()},
         run=run,
     )
 

@@ -21,15 +21,12 @@ COLUMNS = (
     "digits_allowed_least [1]",
     "digits_lost_most [1]",
 )
-# What lies more than so many decades away from 1 is one row.
-FAR = 16
+# Values more than this many decades away from 1 share one row.
+LARGEST_DECADE = 16
 
 
 def by_decade(impacts: Columns) -> list[list[Any]]:
-    """Digits of the worst output of the impacts in each decade of each quantity.
-
-    The value 0 has a row of its own.
-    """
+    """Digits of the worst output of the impacts in each decade of each quantity, and at 0."""
     digits, allowed = (
         np.min([impacts[f"{kind}_{name} [1]"] for name in OUTPUTS], axis=0)
         for kind in ("digits", "digits_allowed")
@@ -39,7 +36,7 @@ def by_decade(impacts: Columns) -> list[list[Any]]:
         values = impacts[quantity]
         with np.errstate(divide="ignore"):
             decades = np.floor(np.log10(values))
-        decades[values > 0] = np.clip(decades[values > 0], -FAR - 1, FAR)
+        decades[values > 0] = np.clip(decades[values > 0], -LARGEST_DECADE - 1, LARGEST_DECADE)
         for decade in np.unique(decades):
             here = decades == decade
             cells = [
@@ -53,11 +50,11 @@ def by_decade(impacts: Columns) -> list[list[Any]]:
 
 
 def _span(decade: float) -> tuple[str, str]:
-    """Ends of a decade in words."""
+    """Ends of a decade as texts."""
     if decade == -np.inf:
         return "0", "0"
-    low = "0" if decade < -FAR else f"1e{decade:.0f}"
-    return low, "inf" if decade >= FAR else f"1e{decade + 1:.0f}"
+    low = "0" if decade < -LARGEST_DECADE else f"1e{decade:.0f}"
+    return low, "inf" if decade >= LARGEST_DECADE else f"1e{decade + 1:.0f}"
 
 
 def write(curves: str, table: str) -> None:

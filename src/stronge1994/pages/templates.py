@@ -7,7 +7,7 @@ import jinja2
 
 from stronge1994.plan.config import SCENE
 
-# What all pages share: their theme and the bar of pages.
+# Folder of the theme and the bar of pages, which all pages share.
 SHARED = Path(__file__).parents[3] / "workflow/report"
 
 
@@ -45,7 +45,7 @@ def title(name: str) -> str:
 
 
 def number(text: str) -> str:
-    """A cell of a table with three digits at most; words stay.
+    """A cell of a table with three digits at most; a cell that is no number stays.
 
     >>> number("0.123456"), number("1.56e+03"), number("1e-05"), number("lumped")
     ('0.123', '1560', '1e-5', 'lumped')

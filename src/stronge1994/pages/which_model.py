@@ -1,4 +1,4 @@
-"""The cheapest model for each tolerance, case by case, for a reader."""
+"""The cheapest model for each tolerance, by restitution and loss."""
 
 import re
 from collections.abc import Sequence
@@ -23,12 +23,12 @@ def cases(rows: Sequence[Row]) -> list[dict[str, Any]]:
     >>> cases([row])[0]["rows"][0]["answers"]
     {'1': {'model': 'lumped', 'error': '0.2', 'time': '1e-4'}}
     """
-    found: dict[tuple[str, str], dict[str, Any]] = {}
+    by_contact: dict[tuple[str, str], dict[str, Any]] = {}
     for row in rows:
         if "error" in row:
             return []
-        batches = [known[1] for known in map(MODEL.fullmatch, row) if known]
-        case = found.setdefault(
+        batches = [match[1] for match in map(MODEL.fullmatch, row) if match]
+        case = by_contact.setdefault(
             (row["restitution [1]"], row["loss"]),
             {
                 "restitution": row["restitution [1]"],
@@ -49,4 +49,4 @@ def cases(rows: Sequence[Row]) -> list[dict[str, Any]]:
             for batch in batches
         }
         case["rows"].append({"tolerance": row["tolerance [mu v2(0)]"], "answers": answers})
-    return list(found.values())
+    return list(by_contact.values())

@@ -1,4 +1,4 @@
-"""What the rules need to know before they run: settings and references."""
+"""Settings and references that the rules need before they run."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -42,10 +42,10 @@ def materials(stated: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
 
     >>> number = {"value": 70e9, "uncertainty": 1e9}
     >>> ratio = {"value": 0.22, "uncertainty": 0.02}
-    >>> found = materials({"float_glass_young_modulus": number, "float_glass_poisson_ratio": ratio})
-    >>> found["materials"]
+    >>> named = materials({"float_glass_young_modulus": number, "float_glass_poisson_ratio": ratio})
+    >>> named["materials"]
     {'material': ['float_glass'], 'young_modulus': [70000000000.0], 'poisson_ratio': [0.22]}
-    >>> found["uncertainty"]["poisson_ratio"]
+    >>> named["uncertainty"]["poisson_ratio"]
     [0.02]
     """
     end = f"_{PROPERTIES[0]}"
@@ -88,9 +88,9 @@ def expected_rows(config: Config, inventory: Inventory) -> dict[str, bool]:
 
 
 def plan_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
-    """What the job is told that judges one figure or scene, and the files that it reads."""
+    """Settings of the job that judges one figure or scene, and the files that it reads."""
     sources = sources_of(config, inventory, name)
-    told: dict[str, Any] = {
+    job_settings: dict[str, Any] = {
         "comparisons": comparisons(config, name),
         "references": references(config, inventory, name),
         "sources": sources,
@@ -98,10 +98,13 @@ def plan_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[s
     }
     if name in config["figures"]:
         stated = figures.stated()[name]
-        told["curves"] = settings(config, inventory, name), nodes_of(config, inventory, name)
-        told["sensitivity"] = None if stated.get("timed") else stated.get("sensitivity", {})
+        job_settings["curves"] = (
+            settings(config, inventory, name),
+            nodes_of(config, inventory, name),
+        )
+        job_settings["sensitivity"] = None if stated.get("timed") else stated.get("sensitivity", {})
     series = [f"results/series/{source}.csv" for source in sources]
-    return {"told": told, "table": table_of(name), "series": series}
+    return {"settings": job_settings, "table": table_of(name), "series": series}
 
 
 def files_of_source(inventory: Inventory, source: str) -> list[str]:
@@ -111,10 +114,10 @@ def files_of_source(inventory: Inventory, source: str) -> list[str]:
 
 
 def plan_of_figure(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
-    """What the rules of one figure are told, and the files that they read.
+    """Settings of the rules of one figure, and the files that they read.
 
-    It is asked for each figure before Snakemake looks at a rule: where an input function raises,
-    Snakemake drops the rule and takes its old output for a source file, without a word.
+    It is called for each figure before Snakemake looks at a rule: where an input function raises,
+    Snakemake drops the rule and silently takes its old output for a source file.
     """
     sources, tables = sources_of(config, inventory, figure), nodes_of(config, inventory, figure)
     return {
@@ -128,10 +131,7 @@ def plan_of_figure(config: Config, inventory: Inventory, figure: str) -> dict[st
 
 
 def references(config: Config, inventory: Inventory, name: str) -> dict[str, Entry]:
-    """Series and facts that some comparisons name: `{source/entry: entry}`.
-
-    With the parameters of their source, which say where a regime begins.
-    """
+    """Series and facts that comparisons name, with the parameters of their source."""
     named = [c["reference"] for c in comparisons(config, name).values() if "reference" in c]
     return {full: _with_parameters(inventory, full) for full in named}
 
@@ -143,10 +143,7 @@ def _with_parameters(inventory: Inventory, full: str) -> Entry:
 
 
 def series_of(config: Config, inventory: Inventory, figure: str) -> dict[str, Entry]:
-    """Series at hand for one figure: `{source/series: entry}`, awaited ones left out.
-
-    Its comparisons name them, or it asks to draw them.
-    """
+    """Series at hand that a figure compares or draws: `{source/series: entry}`."""
     chosen = references(config, inventory, figure)
     asked = figures.stated().get(figure, {}).get("draws", [])
     chosen |= {full: _with_parameters(inventory, full) for full in asked}
@@ -159,10 +156,7 @@ def sources_of(config: Config, inventory: Inventory, figure: str) -> list[str]:
 
 
 def overlays(config: Config, inventory: Inventory, figure: str) -> dict[str, Entry]:
-    """What to draw over one figure: measured series, with the parameters of their source, facts.
-
-    And the series that it asks for: computed ones, and those that another figure compares.
-    """
+    """Series and facts to draw over one figure: those that it compares, and those under `draws`."""
     named = references(config, inventory, figure).items()
     asked = figures.stated()[figure].get("draws", [])
     chosen = {name: entry for name, entry in named if "statement" in entry}
@@ -173,10 +167,7 @@ def overlays(config: Config, inventory: Inventory, figure: str) -> dict[str, Ent
 
 
 def nodes_of(config: Config, inventory: Inventory, figure: str) -> dict[str, str | None]:
-    """Reference tables whose points the curves must pass through: `{path: column of x}`.
-
-    A column None stands for the whole table, of the figure that is given one.
-    """
+    """Tables through whose points curves must pass: `{path: column of x}`, None for all of it."""
     stated = figures.stated()[figure]
     for key, setting in stated["settings"].items():
         if setting.get("allowed") == "table":

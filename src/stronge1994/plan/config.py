@@ -1,4 +1,4 @@
-"""The config: refused before any work where it is not admissible."""
+"""The config, which is refused before any work where it is not admissible."""
 
 from collections.abc import Collection, Iterable
 from pathlib import Path
@@ -17,7 +17,7 @@ SHARED = ("mass_ratio", "stiffness_ratio")  # groups that figures share
 # Largest allowance for a model, as a share of the range of its axis.
 LARGEST_ALLOWANCE = 0.02
 SCENE = "scene_"  # before the name of a scene, among what is judged
-# Why a scene may be as far from its reference as it may be.
+# Reason for the tolerance of the comparison of a scene.
 OF_SCENES = (
     "every row against a second code of the continuum of its loss, with the mechanics of rigid "
     "bodies in 50 digits; sigma is the accuracy of that and the tolerance of the scene"
@@ -25,7 +25,7 @@ OF_SCENES = (
 
 
 class ConfigError(Exception):
-    """What the rules are made from is not admissible: config, a module, a file that they read."""
+    """The config, a module, or a file that the rules read is not admissible."""
 
 
 def load(folder: str | Path = ".") -> Config:
@@ -44,7 +44,7 @@ def complete(config: Config) -> Config:
 
 
 def overridden(stated: Config, config: Config) -> Config:
-    """The first of two configs, with what the second has other or more."""
+    """The first of two configs, with the values of the second in place of its own or added."""
     both = {
         key: overridden(stated[key], value)
         if isinstance(value, dict) and isinstance(stated.get(key), dict)
@@ -71,19 +71,19 @@ def _of_scenes(scenes: Any) -> dict[str, Entry]:
 
 def schema() -> dict[str, Any]:
     """JSON schema of the whole config, with the settings of each figure."""
-    found = reference_data.load_yaml(figures.PROJECT / "workflow/schemas/config.schema.yaml")
+    whole = reference_data.load_yaml(figures.PROJECT / "workflow/schemas/config.schema.yaml")
     stated = figures.stated().items()
-    found["properties"]["figures"] = {
+    whole["properties"]["figures"] = {
         "type": "object",
         "additionalProperties": False,
         "properties": {name: figures.schema_of(figure["settings"]) for name, figure in stated},
     }
-    found["$defs"] |= figures.definitions()
-    return found
+    whole["$defs"] |= figures.definitions()
+    return whole
 
 
 def with_values(node: Any) -> Any:
-    """Numbers and truths for the texts that snakemake makes of them inside braces of --config."""
+    """Numbers and booleans in place of the texts that snakemake makes of them in --config."""
     if isinstance(node, dict):
         return {key: with_values(value) for key, value in node.items()}
     if isinstance(node, list):
@@ -94,13 +94,13 @@ def with_values(node: Any) -> Any:
         for tag, number in {"int": int, "float": float}.items():
             if strict_yaml.NUMBERS[tag].fullmatch(node):
                 return number(node)
-        if node.lower() in ("nan", "inf", "-inf"):  # to be refused as numbers, not as words
+        if node.lower() in ("nan", "inf", "-inf"):  # to be refused as numbers, not as texts
             return float(node)
     return node
 
 
 def refuse_misread_values(arguments: Collection[str]) -> None:
-    """Refuse a --config whose values Snakemake would take for others, or that is there twice."""
+    """Refuse a --config that is given twice, or whose values Snakemake would misread."""
     names = [text.partition("=")[0] for text in arguments]
     for text, name in zip(arguments, names, strict=True):
         if names.count(name) > 1:
@@ -150,8 +150,8 @@ def _check_source(where: str, name: str, needed: list[str], inventory: Inventory
         raise ConfigError(f"{where}: '{name}' is not in data/; allowed are {', '.join(inventory)}")
     missing = set(needed) - set(inventory[name]["parameters"])
     if missing:
-        words = f"'{name}' states no {min(missing)}; needed are {', '.join(needed)}"
-        raise ConfigError(f"{where}: {words}")
+        problem = f"'{name}' states no {min(missing)}; needed are {', '.join(needed)}"
+        raise ConfigError(f"{where}: {problem}")
 
 
 def _ascending(where: str, span: Any) -> None:

@@ -1,4 +1,4 @@
-"""What each folder of `figures` states in its figure.yaml: settings, caption, comparisons."""
+"""The figure.yaml of each folder of `figures`: settings, caption, comparisons."""
 
 import ast
 import copy
@@ -15,31 +15,31 @@ from stronge1994 import reference_data
 Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
 FOLDER = Path(__file__).parents[1] / "figures"
 PROJECT = Path(__file__).parents[3]
-SHARED = "shared"  # beside the figures: what several of them use
-GIVEN = ("nodes", "materials", "uncertainty")  # what `curves` may get beside settings
+SHARED = "shared"  # folder beside the figures, of code for several of them
+MORE_ARGUMENTS = ("nodes", "materials", "uncertainty")  # of `curves`, beside settings
 
 
 @functools.cache
 def stated() -> dict[str, Stated]:
-    """Every folder's figure.yaml, checked; the figures of the paper first, by number."""
+    """Every figure.yaml, checked; the figures of the paper first, by number."""
     # A folder that git has emptied may still hold bytecode, in a folder of its own.
     names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}
-    found = {}
+    contents = {}
     for name in sorted(names - {SHARED, "__pycache__"}, key=_place):
         path = _file(name)
         if not re.fullmatch("[a-z][a-z0-9_]*", name):
             raise reference_data.SourceError(f"{path.parent}: allowed are a to z, 0 to 9 and _")
-        found[name] = reference_data.load_yaml(path)
-        reference_data.refuse_invalid(found[name], _schema(), path)
-        settings = found[name]["settings"]
+        contents[name] = reference_data.load_yaml(path)
+        reference_data.refuse_invalid(contents[name], _schema(), path)
+        settings = contents[name]["settings"]
         _refuse_unknown_kinds(settings, f"{path}: settings")
         own = schema_of(settings) | {"$defs": _kinds()}
         reference_data.refuse_invalid(values(settings), own, f"{path}: settings")
         for file in ("curves.py", "drawing.py"):
             if not (FOLDER / name / file).is_file():
                 raise reference_data.SourceError(f"{path.parent / file}: missing")
-        _refuse_other_parameters(name, found[name])
-    return found
+        _refuse_other_parameters(name, contents[name])
+    return contents
 
 
 def _refuse_unknown_kinds(settings: Mapping[str, Any], where: str, depth: int = 0) -> None:
@@ -50,29 +50,29 @@ def _refuse_unknown_kinds(settings: Mapping[str, Any], where: str, depth: int = 
             continue
         named = [kind] if isinstance(kind, str) else re.findall(r"#/\$defs/(\w+)", f"{kind}")
         if unknown := [name for name in named if name not in _kinds()]:
-            words = f"'{unknown[0]}' is no kind of values; allowed are {', '.join(_kinds())}"
-            raise reference_data.SourceError(f"{where}.{key}.allowed: {words}")
+            problem = f"'{unknown[0]}' is no kind of values; allowed are {', '.join(_kinds())}"
+            raise reference_data.SourceError(f"{where}.{key}.allowed: {problem}")
         if kind in ("source", "table") and depth:
-            words = f"a {kind} stands on top of the settings, in no group"
-            raise reference_data.SourceError(f"{where}.{key}: {words}")
+            problem = f"a {kind} stands on top of the settings, in no group"
+            raise reference_data.SourceError(f"{where}.{key}: {problem}")
         if kind == "table" and key != "points":
             raise reference_data.SourceError(f"{where}.{key}: a table is called `points`")
 
 
-def _refuse_other_parameters(name: str, told: Stated) -> None:
-    """Refuse settings that `curves` does not take, or lacks; what it imports is not looked at."""
+def _refuse_other_parameters(name: str, content: Stated) -> None:
+    """Refuse settings that `curves` does not take, or lacks; its imports are not followed."""
     try:
         tree = ast.parse((FOLDER / name / "curves.py").read_text(encoding="utf-8"))
-    except SyntaxError:  # the row `...-solved` says so
+    except SyntaxError:  # the row `...-solved` has the error
         return
     for node in tree.body:
         if isinstance(node, ast.FunctionDef) and node.name == "curves":
             takes = [argument.arg for argument in node.args.args]
-            needs = set(takes[: len(takes) - len(node.args.defaults)]) - {*GIVEN}
-            has = {*told["settings"], *told.get("shared", [])}
-            for words, names in (("takes no", has - {*takes}), ("needs", needs - has)):
+            needs = set(takes[: len(takes) - len(node.args.defaults)]) - {*MORE_ARGUMENTS}
+            has = {*content["settings"], *content.get("shared", [])}
+            for relation, names in (("takes no", has - {*takes}), ("needs", needs - has)):
                 if names:
-                    wrong = f"`curves` of curves.py {words} '{min(names)}'"
+                    wrong = f"`curves` of curves.py {relation} '{min(names)}'"
                     known = f"it takes {', '.join(takes)}"
                     raise reference_data.SourceError(f"{_file(name)}: settings: {wrong}; {known}")
 
@@ -122,31 +122,31 @@ def schema_of(settings: Mapping[str, Any]) -> dict[str, Any]:
 
 def comparisons() -> dict[str, dict[str, Any]]:
     """All comparisons, `{FIGURE-NAME: entry}`, each with the name of its figure."""
-    found: dict[str, dict[str, Any]] = {}
+    entries: dict[str, dict[str, Any]] = {}
     own = definitions()["comparison"] | {"$defs": definitions()}
-    for figure, told in stated().items():
-        for several, common in told["comparisons"].items():
-            where = f"{_file(figure)}: comparisons.{several}"
-            for name, entry in expanded(several, common):
-                if left := re.search(r"\{\w*\}", f"{name} {entry}"):
-                    raise reference_data.SourceError(f"{where}: `each` has no {left[0]}")
+    for figure, content in stated().items():
+        for pattern, common in content["comparisons"].items():
+            where = f"{_file(figure)}: comparisons.{pattern}"
+            for name, entry in expanded(pattern, common):
+                if placeholder := re.search(r"\{\w*\}", f"{name} {entry}"):
+                    raise reference_data.SourceError(f"{where}: `each` has no {placeholder[0]}")
                 whole = {"figure": figure} | entry
                 reference_data.refuse_invalid(whole, own, where)
-                if f"{figure}-{name}" in found:
+                if f"{figure}-{name}" in entries:
                     raise reference_data.SourceError(f"{where}: '{name}' stands twice")
-                found[f"{figure}-{name}"] = whole
-    return found
+                entries[f"{figure}-{name}"] = whole
+    return entries
 
 
 def expanded(name: str, entry: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Comparisons that differ only by what `each` lists, from one entry.
+    """Comparisons from one entry that differ only by the cases of `each`.
 
-    `each` is a list of cases, or lists of which every combination is a case. What a case states
-    stands for its name in braces, in all texts; a key of a comparison is entered into it, too.
+    `each` is a list of cases, or lists of which every combination is a case. A value of a case
+    replaces its name in braces in all texts; a key of a comparison is also entered into it.
 
     >>> each = {"model": ["lumped"], "regime": ["initial stick", "slip throughout"]}
-    >>> for found in expanded("{model}-{regime}", {"each": each, "curve": "{model}, rubber"}):
-    ...     print(*found)
+    >>> for comparison in expanded("{model}-{regime}", {"each": each, "curve": "{model}, rubber"}):
+    ...     print(*comparison)
     lumped-initial-stick {'curve': 'lumped, rubber', 'regime': 'initial stick'}
     lumped-slip-throughout {'curve': 'lumped, rubber', 'regime': 'slip throughout'}
     """
@@ -161,7 +161,7 @@ def expanded(name: str, entry: Mapping[str, Any]) -> Iterator[tuple[str, dict[st
 
 
 def _filled(node: Any, case: Mapping[str, Any]) -> Any:
-    """A part of an entry, with what a case states in place of its name in braces."""
+    """A part of an entry, with the values of a case in place of their names in braces."""
     if isinstance(node, dict):
         return {key: _filled(value, case) for key, value in node.items()}
     if isinstance(node, str):
@@ -171,7 +171,7 @@ def _filled(node: Any, case: Mapping[str, Any]) -> Any:
 
 
 def definitions() -> dict[str, Any]:
-    """What the schema of a config says of comparisons, as `$defs`."""
+    """The `$defs` of comparisons in the schema of a config."""
     return {key: _schema()["$defs"][key] for key in ("comparison", "span")}
 
 

@@ -6,7 +6,7 @@ They are listed by folders, coarsely. A job that imports a module which is not l
 import functools
 from pathlib import Path
 
-# What every job imports: the solver, the modules that stand in no room, the record of the job.
+# Files that every job imports: the solver, modules outside of rooms, the record of the job.
 EVERY_JOB = (
     "src/planarimpact",
     "src/stronge1994/run/__init__.py",
@@ -17,21 +17,18 @@ KINDS = (".py", ".pyi", ".npz", ".h", ".mjs")
 
 
 def sources(script: str, *rooms: str) -> list[str]:
-    """Files that a job reads before it looks at its inputs.
-
-    `script` is a name in workflow/scripts, without ending; rooms are folders of src/stronge1994, or
-    single files there.
+    """Files of a job: its script in workflow/scripts, and rooms or files of src/stronge1994.
 
     >>> [path for path in sources("draw", "figures/fig6/drawing.py") if "fig6" in path]
     ['src/stronge1994/figures/fig6/drawing.py']
     """
-    found = [f"workflow/scripts/{script}.py"]
+    paths = [f"workflow/scripts/{script}.py"]
     for folder in EVERY_JOB:
-        found += _files(folder)
-    found += map(str, sorted(Path("src/stronge1994").glob("*.py")))
+        paths += _files(folder)
+    paths += map(str, sorted(Path("src/stronge1994").glob("*.py")))
     for room in rooms:
-        found += _files(f"src/stronge1994/{room}")
-    return list(dict.fromkeys(found))
+        paths += _files(f"src/stronge1994/{room}")
+    return list(dict.fromkeys(paths))
 
 
 @functools.cache

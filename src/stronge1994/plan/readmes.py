@@ -15,11 +15,11 @@ ROOT = Path(__file__).parents[3]
 
 def texts() -> dict[Path, str]:
     """Each README with its table as it must be."""
-    pictures = [(f"`{name}`", told["shows"]) for name, told in figures.stated().items()]
+    pictures = [(f"`{name}`", content["shows"]) for name, content in figures.stated().items()]
     sources = [
-        (f"`{path.parent.name}`", told["holds"], told["made"])
+        (f"`{path.parent.name}`", content["holds"], content["made"])
         for path in sorted(ROOT.glob("data/*/source.yaml"))
-        for told in [reference_data.load_yaml(path)]
+        for content in [reference_data.load_yaml(path)]
     ]
     tables: dict[Path, list[tuple[str, ...]]] = {
         ROOT / "figures/README.md": [("figure", "what it shows"), ("---",) * 2, *pictures],

@@ -81,7 +81,7 @@ def _instants(x: float, beta: float, zeta2: float, e: float) -> Instants | None:
     if stick is None:
         return None
     slips = [event.time for event in events if event.kind == EventKind.SLIP]
-    # The paper knows one slip after stick. If there is none, stick lasts to separation.
+    # The paper has one slip after stick. If there is none, stick lasts to separation.
     after = next((time for time in slips if time > stick), 1 + e)
     return Instants(np.pi / 2 * stick, np.pi / 2 * after)
 

@@ -21,16 +21,16 @@ import jsonschema
 from stronge1994.reference_data import digitiser_export, strict_yaml
 from stronge1994.reference_data.digitiser_export import NumberedRow
 
-# As in source.yaml; a loaded series has its `path` too.
+# Contents of a source.yaml; a loaded series also has its `path`.
 Source: TypeAlias = dict[str, Any]
 Series: TypeAlias = Mapping[str, Any]
 Axis: TypeAlias = Mapping[str, Any]
 Schema: TypeAlias = Mapping[str, Any]
 
-# A series has at most so many lines.
+# Largest number of lines of a series.
 MOST_LINES = 10_000
-# A value may lie outside the range of its axis by so many sigmas.
-OUTSIDE = 3
+# Sigmas by which a value may lie outside the range of its axis.
+MOST_SIGMAS_OUTSIDE = 3
 # Largest sigma, as a share of the range of its axis. The series here have a tenth to a half of it.
 LARGEST_SIGMA = 0.01
 _NUMBERS = {
@@ -40,10 +40,10 @@ _NUMBERS = {
 
 
 def _ascends(_: Any, wanted: bool, numbers: Any, schema: Schema) -> Iterator[Exception]:
-    """A keyword of ours."""
-    found = numbers if isinstance(numbers, list) else []
-    are_numbers = all(isinstance(number, int | float) for number in found)
-    if wanted and are_numbers and sorted(set(found)) != found:
+    """The keyword `ascending` of our schemas."""
+    items = numbers if isinstance(numbers, list) else []
+    are_numbers = all(isinstance(number, int | float) for number in items)
+    if wanted and are_numbers and sorted(set(items)) != items:
         yield jsonschema.ValidationError(f"{numbers}: each number must be larger than that before")
 
 
@@ -58,29 +58,11 @@ _Validator = jsonschema.validators.extend(
 
 
 class SourceError(Exception):
-    """Something in data/ is not as source.yaml or its schema says."""
+    """Something in data/ contradicts source.yaml or its schema."""
 
 
 def load(folder: Path, schema: Schema) -> Source:
-    """Load and check one source.
-
-    Parameters
-    ----------
-    folder : Path
-        data/<source>.
-    schema : dict
-        The schema of source.yaml.
-
-    Returns
-    -------
-    dict
-        Contents of source.yaml; each series with its `path` (None while awaited).
-
-    Raises
-    ------
-    SourceError
-        Naming file, line, column and value.
-    """
+    """Load and check a folder of data/; each series gets its `path`, None while awaited."""
     path = folder / "source.yaml"
     source = load_yaml(path)
     refuse_invalid(source, schema, path)
@@ -90,14 +72,13 @@ def load(folder: Path, schema: Schema) -> Source:
         series["path"] = _file_of(folder, name, series)
         if series["path"]:
             _refuse_other_number(f"{path}: series.{name}", series, read_series(name, series))
-    known = {"source.yaml", *(Path(s["path"]).name for s in _found(source))}
+    known = {"source.yaml", *(Path(s["path"]).name for s in _series_at_hand(source))}
     for name in source.get("made_with", []):
         if not (folder / name).is_file():
             raise SourceError(f"{folder / name}: missing, and {path} says it is there")
         known.add(name)
-    # A ledger may lie there, or the program that computes a series. Any other file that is not in
-    # `made_with` is refused: it may be a table with a wrong name, which would be ignored without a
-    # word.
+    # A ledger or the program that computes a series may lie there. Any other file that is not in
+    # `made_with` is refused: it may be a table with a wrong name, which would silently be ignored.
     strays = sorted(
         name for name in _visible(folder) - known if not name.endswith((".yaml", ".py"))
     )
@@ -108,16 +89,16 @@ def load(folder: Path, schema: Schema) -> Source:
 
 
 def _visible(folder: Path) -> set[str]:
-    """Names of what lies in a folder, without hidden files and READMEs."""
+    """Names in a folder, without hidden files and READMEs."""
     return {path.name for path in folder.iterdir() if not path.name.startswith((".", "README"))}
 
 
 def _refuse_other_number(where: str, series: Series, columns: Mapping[str, list[Any]]) -> None:
     """Refuse a file that has more or fewer points than source.yaml says."""
-    found = len(next(iter(columns.values())))
-    if series["kind"] != "awaited" and found != series.get("points"):
+    count = len(next(iter(columns.values())))
+    if series["kind"] != "awaited" and count != series.get("points"):
         raise SourceError(
-            f"{where}.points = {series.get('points')}: {series['path']} has {found} points"
+            f"{where}.points = {series.get('points')}: {series['path']} has {count} points"
         )
 
 
@@ -137,22 +118,7 @@ def _refuse_axis(where: str, axis: Axis) -> None:
 
 
 def load_yaml(path: str | Path) -> dict[str, Any]:
-    """Read a YAML file: a mapping whose keys are texts, each once.
-
-    Parameters
-    ----------
-    path : str or Path
-        Of a source, a schema, a ledger or a config.
-
-    Returns
-    -------
-    dict
-
-    Raises
-    ------
-    SourceError
-        In one line, naming the file, and where possible the line in it.
-    """
+    """Read a YAML file: a mapping whose keys are texts; a `SourceError` names file and line."""
     try:
         return copy.deepcopy(_parsed("".join(_lines(path))))
     except ValueError as error:
@@ -252,8 +218,6 @@ def _named_axes(series: Series) -> Iterator[tuple[str, Axis]]:
 def sigma_column(axis: Axis) -> str | None:
     """Column header of the uncertainties of a stated series; None where one number holds for all.
 
-    Examples
-    --------
     >>> sigma_column({"unit": "1", "sigma": "friction_uncertainty"})
     'friction_uncertainty [1]'
     """
@@ -263,24 +227,10 @@ def sigma_column(axis: Axis) -> str | None:
 
 
 def read_series(name: str, series: Series) -> dict[str, list[Any]]:
-    """Read and check one series: `{column: list}`, numbers for its axes and words for its labels.
+    """Read and check one series: `{column: list}`, numbers for its axes and texts for its labels.
 
-    If there are several y axes, some of their cells may be empty: these become nan.
-
-    Parameters
-    ----------
-    name : str
-    series : dict
-        Its entry in source.yaml, with its `path`.
-
-    Returns
-    -------
-    dict
-
-    Raises
-    ------
-    SourceError
-        Naming file, line, column and value.
+    `series` is its entry in source.yaml, with its `path`. If there are several y axes, some of
+    their cells may be empty: these become nan. A `SourceError` names file, line, column and value.
     """
     path, labels = series["path"], series.get("labels", [])
     axes = {column_name(axis): axis for _, axis in _named_axes(series)}
@@ -337,11 +287,9 @@ def _table(path: str | Path, name: str, series: Series) -> tuple[list[str], str,
 
 
 def _number(cell: str, mark: str, axis: Axis, where: str) -> float:
-    """A decimal number, at most a little outside the range of its axis.
-
-    float() would also take `1_000`, `nan` and digits of other scripts.
-    """
+    """A decimal number, at most a little outside the range of its axis."""
     text = cell.strip(" ")
+    # float() would also take `1_000`, `nan` and digits of other scripts.
     if not _NUMBERS[mark].fullmatch(text):
         strange = [unicodedata.name(letter, "unnamed") for letter in text if not letter.isascii()]
         named = f" ({strange[0].lower()})" if strange else ""
@@ -349,16 +297,16 @@ def _number(cell: str, mark: str, axis: Axis, where: str) -> float:
     value = float(text.replace(",", "."))
     low, high = axis["range"]
     # Values with an uncertainty of their own were printed: they lie in the range.
-    beyond = 0.0 if isinstance(axis["sigma"], str) else OUTSIDE * axis["sigma"]
+    beyond = 0.0 if isinstance(axis["sigma"], str) else MOST_SIGMAS_OUTSIDE * axis["sigma"]
     if not low - beyond <= value <= high + beyond:
         raise SourceError(
-            f"{where}: {text} is outside {low:g} to {high:g} by more than {OUTSIDE} sigmas, "
-            f"{beyond:g}"
+            f"{where}: {text} is outside {low:g} to {high:g} by more than {MOST_SIGMAS_OUTSIDE} "
+            f"sigmas, {beyond:g}"
         )
     return value
 
 
-def _found(source: Source) -> list[Series]:
+def _series_at_hand(source: Source) -> list[Series]:
     return [series for series in source.get("series", {}).values() if series["path"]]
 
 

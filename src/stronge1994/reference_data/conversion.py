@@ -6,11 +6,11 @@ from stronge1994.reference_data import Source
 
 def convert(source: Source, output: str) -> None:
     """Write every series of a loaded `source` that is not awaited."""
-    found = {
+    tables = {
         name: reference_data.read_series(name, series)
         for name, series in source["series"].items()
         if series["path"]
     }
-    csv_tables.write(output, found, first="series")
-    for name, columns in found.items():
+    csv_tables.write(output, tables, first="series")
+    for name, columns in tables.items():
         print(f"{name}: {len(next(iter(columns.values())))} points")

@@ -26,8 +26,8 @@ def points(lines: Sequence[str], name: str) -> tuple[str, list[NumberedRow]]:
     ValueError: line 1: 4 cells where 2 belong; commas separate the cells of this file; beside \
 decimal commas, semicolons must
     """
-    between = ";" if any(";" in line for line in lines[:2]) else ","
-    reader = csv.reader(lines, delimiter=between, strict=True)
+    separator = ";" if any(";" in line for line in lines[:2]) else ","
+    reader = csv.reader(lines, delimiter=separator, strict=True)
     rows = [(reader.line_num, [cell.strip(" ") for cell in row]) for row in reader]
     rows = [(line, row) for line, row in rows if any(row)]
     start, width = 0, 2
@@ -43,9 +43,9 @@ decimal commas, semicolons must
     for line, row in rows:
         if len(row) != width:
             raise ValueError(
-                f"line {line}: {len(row)} cells where {width} belong; {SEPARATORS[between]} "
+                f"line {line}: {len(row)} cells where {width} belong; {SEPARATORS[separator]} "
                 "separate the cells of this file; beside decimal commas, semicolons must"
             )
-    found = [(line, row[start : start + 2]) for line, row in rows]
-    found = [(line, pair) for line, pair in found if any(pair)]
-    return "," if any("," in cell for _, pair in found for cell in pair) else ".", found
+    pairs = [(line, row[start : start + 2]) for line, row in rows]
+    pairs = [(line, pair) for line, pair in pairs if any(pair)]
+    return "," if any("," in cell for _, pair in pairs for cell in pair) else ".", pairs

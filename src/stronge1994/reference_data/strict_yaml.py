@@ -1,6 +1,6 @@
 """YAML that is refused where PyYAML would read something else than the file seems to say.
 
-It keeps the last of two equal keys without a word, and reads 010 as 8, 6:40 as 400, 1_21 as 121.
+PyYAML silently keeps the last of two equal keys, and reads 010 as 8, 6:40 as 400, 1_21 as 121.
 """
 
 import re
@@ -38,8 +38,8 @@ def load(text: str) -> dict[str, Any]:
         return loader.construct_document(node)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        words = " ".join(part for part in (error.context, error.problem) if part)
-        raise ValueError(f"line {mark.line + 1}: {words}") from None
+        problem = " ".join(part for part in (error.context, error.problem) if part)
+        raise ValueError(f"line {mark.line + 1}: {problem}") from None
     except yaml.reader.ReaderError as error:
         raise ValueError(f"line 1 or later: {' '.join(str(error).split())}") from None
     except RecursionError:
@@ -47,7 +47,7 @@ def load(text: str) -> dict[str, Any]:
 
 
 def _check(node: yaml.Node) -> None:
-    """Refuse numbers, dates and keys that would be misread; before what is merged is put in."""
+    """Refuse numbers, dates and keys that would be misread, before merge keys are resolved."""
 
     def refuse(what: str, at: yaml.Node) -> None:
         raise ValueError(f"line {at.start_mark.line + 1}: {what}")

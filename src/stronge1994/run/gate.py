@@ -1,4 +1,4 @@
-"""Is a run good? Its files must be as its jobs left them, and its tables must say so."""
+"""Decide whether a run is good: files are as their jobs left them, and no table has a fault."""
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -14,18 +14,14 @@ PROBLEMS, REPORT = "results/problems.csv", "figures/report.html"
 def faults(
     made: Iterable[str], comparisons: Mapping[str, bool], entries: Mapping[str, bool]
 ) -> list[str]:
-    """Why the run must not pass, one line for each fault.
-
-    `made` is every file that the run makes. `comparisons` and `entries` are as for
-    `faults_of_tables`.
-    """
-    found = record.faults(made)
-    if found:  # rows of a table that was changed prove nothing
-        return found
+    """Why the run must not pass, one line for each fault; `made` is every file of the run."""
+    messages = record.faults(made)
+    if messages:  # rows of a changed table prove nothing
+        return messages
     verdicts, ledger = map(csv_tables.read_rows, TABLES)
-    found = faults_of_tables(verdicts, ledger, comparisons, entries)
-    found += [f"report: {row['problem']}" for row in csv_tables.read_rows(PROBLEMS)]
-    return found + faults_of_report(REPORT, comparisons)
+    messages = faults_of_tables(verdicts, ledger, comparisons, entries)
+    messages += [f"report: {row['problem']}" for row in csv_tables.read_rows(PROBLEMS)]
+    return messages + faults_of_report(REPORT, comparisons)
 
 
 def faults_of_tables(
@@ -44,21 +40,21 @@ def faults_of_tables(
     >>> faults_of_tables([row], [], {"fig6-rebound": False, "fig6-printed": False}, {})
     ['results/verdicts.csv: 0 rows of fig6-printed where 1 belongs']
     """
-    found = _miscounted(TABLES[0], "comparison", verdicts, comparisons)
-    found += _miscounted(TABLES[1], "entry", ledger, entries)
+    messages = _miscounted(TABLES[0], "comparison", verdicts, comparisons)
+    messages += _miscounted(TABLES[1], "entry", ledger, entries)
     for row in verdicts:
         name, verdict = row.get("comparison", ""), row.get("verdict")
         if verdict == "diverges":
-            found.append(f"diverges: {name}: {verdict_table.why(row)}")
+            messages.append(f"diverges: {name}: {verdict_table.why(row)}")
         elif verdict not in verdict_table.ORDER or (verdict == "awaited") != comparisons.get(name):
-            found.append(f"{TABLES[0]}: {name} = {verdict!r} cannot be")
+            messages.append(f"{TABLES[0]}: {name} = {verdict!r} cannot be")
     for row in ledger:
         name, holds = row.get("entry", ""), row.get("holds")
         if holds == "no":
-            found.append(f"no longer holds: {name}: {row.get('problem')}")
+            messages.append(f"no longer holds: {name}: {row.get('problem')}")
         elif holds != ("yes" if entries.get(name) else ""):
-            found.append(f"{TABLES[1]}: {name}, holds = {holds!r} cannot be")
-    return found
+            messages.append(f"{TABLES[1]}: {name}, holds = {holds!r} cannot be")
+    return messages
 
 
 def _miscounted(

@@ -13,8 +13,8 @@ from stronge1994.run.gate import REPORT, TABLES
 from stronge1994.run.plans import GATE_LOG
 from stronge1994.run.record import PASSED
 
-# So many faults are named; the log has them all.
-SHOWN = 8
+# Number of faults that are named; the log has them all.
+MOST_FAULTS = 8
 NEXT = [
     f"Look:     {REPORT}, open it in a browser; everything above, with its reasons",
     "Play:     figures/explorer.html",
@@ -27,7 +27,7 @@ STOPPED = [
 INTERRUPTED = (
     "Interrupted. Nothing needs mending: type the same command again, finished work is kept."
 )
-# What helps after Snakemake has said that the folder is locked.
+# Help after Snakemake has reported that the folder is locked.
 UNLOCK = "Does no other run work here? Then type:  snakemake --unlock  and the same command again."
 # Snakemake's own log says this after Ctrl-C, and after a job has failed.
 ON_REQUEST = "Terminating processes on user request"
@@ -41,17 +41,17 @@ def add_unlock(record: logging.LogRecord) -> bool:
     return True
 
 
-def words(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str] = ()) -> str:
-    """What a run prints last. The gate's log has its faults, and is there only if it has judged.
+def text(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str] = ()) -> str:
+    """The last lines of a run. The gate's log holds its faults, and exists only if it has judged.
 
-    `config` is what the user gave with --config, to be repeated. `stopped` says that a job failed,
-    or that the run was interrupted; then Snakemake's `logs` tell which of them.
+    `config` is the user's --config, to be repeated. `stopped` says that a job failed, or that the
+    run was interrupted; Snakemake's `logs` tell which.
     """
-    passed, log = Path(PASSED).exists(), Path(GATE_LOG)
-    said = log.read_text(encoding="utf-8") if log.exists() else ""
-    faults = [line for line in said.splitlines() if line]
+    passed, path = Path(PASSED).exists(), Path(GATE_LOG)
+    gate_log = path.read_text(encoding="utf-8") if path.exists() else ""
+    faults = [line for line in gate_log.splitlines() if line]
     # The gate has not run, was stopped, or other jobs came after it.
-    if not (faults or (passed and log.exists())):
+    if not (faults or (passed and path.exists())):
         parts = ["No verdict in this run as a whole. Pictures: figures/"]
         return "\n" + "\n".join(parts + (_stopped(logs) if stopped else [])) + "\n"
     parts = [
@@ -61,7 +61,7 @@ def words(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str]
     where = f"All columns: {', '.join(TABLES)}"
     if not faults:
         parts += [f"PASSED. {where}; pictures: figures/", *NEXT]
-        if stopped:  # what was asked for beside the verdict
+        if stopped:  # a job beside the verdict
             parts += _stopped(logs)
     else:
         again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
@@ -75,10 +75,10 @@ def words(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str]
 
 def _failed(faults: Sequence[str]) -> str:
     """Heading of a failed run, and its first faults."""
-    shown = [f"  {fault}" for fault in faults[:SHOWN]]
-    if len(faults) > SHOWN:
-        shown.append(f"  and {len(faults) - SHOWN} more: {GATE_LOG}")
-    return "\n".join([f"FAILED. Reasons: {len(faults)}", *shown])
+    lines = [f"  {fault}" for fault in faults[:MOST_FAULTS]]
+    if len(faults) > MOST_FAULTS:
+        lines.append(f"  and {len(faults) - MOST_FAULTS} more: {GATE_LOG}")
+    return "\n".join([f"FAILED. Reasons: {len(faults)}", *lines])
 
 
 def _rows(path: str, columns: Iterable[str]) -> list[Row]:
@@ -91,8 +91,8 @@ def _rows(path: str, columns: Iterable[str]) -> list[Row]:
 
 def _stopped(logs: Iterable[str]) -> list[str]:
     """Why a run ended early."""
-    said = "".join(Path(log).read_text(encoding="utf-8", errors="replace") for log in logs)
-    if ON_REQUEST in said:
+    log_text = "".join(Path(log).read_text(encoding="utf-8", errors="replace") for log in logs)
+    if ON_REQUEST in log_text:
         return [INTERRUPTED]
-    names = ", ".join(dict.fromkeys(FAILED_JOB.findall(said)))
+    names = ", ".join(dict.fromkeys(FAILED_JOB.findall(log_text)))
     return [f"A job stopped: {names or 'see above'}.", *STOPPED]

@@ -16,7 +16,7 @@ from stronge1994.run import record
 
 FOLDER = "results/plans"
 GATE_LOG = "results/logs/all.log"
-# Options that only ask. One that is missing here costs a verdict, until the next run.
+# Options that only ask. One that is missing here would remove a verdict until the next run.
 ONLY_ASKS = {"--dry-run", "--dryrun", "--lint", "--report", "--summary", "--detailed-summary"}
 ONLY_ASKS |= {"--list-rules", "-l", "--list-target-rules", "--rulegraph", "--dag", "--filegraph"}
 DRY = re.compile("-[npqFk]*n[npqFk]*")  # -n, also among other letters, as in -np
@@ -28,7 +28,7 @@ def path(job: str) -> str:
 
 
 def write(job: str, sources: Iterable[str], settings: Any) -> None:
-    """Write the plan of a job, if it has changed. What an earlier run said then holds no longer."""
+    """Write the plan of a job, if it has changed, and withdraw the verdict of an earlier run."""
     hashes = {source: _hash(source) for source in sorted(sources)}
     text = json.dumps({"settings": settings, "sources": hashes}, indent=1)
     file = Path(path(job))
@@ -49,22 +49,22 @@ def digest(jobs: Iterable[str]) -> str:
 
 @functools.cache  # once a run
 def _remove_bytecode() -> None:
-    """Remove what Python has compiled: it takes a source of the same size and date for the same."""
+    """Remove compiled code: Python does not notice a changed source of the same size and date."""
     for folder in ("src", "workflow"):
         for cache in Path(folder).rglob("__pycache__"):
             shutil.rmtree(cache, ignore_errors=True)
 
 
 def start(arguments: Iterable[str]) -> None:
-    """Begin a run: take away what an earlier one has said, unless the command line only asks."""
-    words = [word.partition("=")[0] for word in arguments]
-    asks = any(word in ONLY_ASKS or DRY.fullmatch(word) for word in words)
+    """Begin a run: withdraw an earlier verdict, unless the command line only asks."""
+    options = [option.partition("=")[0] for option in arguments]
+    asks = any(option in ONLY_ASKS or DRY.fullmatch(option) for option in options)
     # The one option that begins like a question and lets jobs run.
-    if not asks or any(word.startswith("--report-") for word in words):
+    if not asks or any(option.startswith("--report-") for option in options):
         withdraw()
 
 
 def withdraw() -> None:
-    """Take away the verdict of an earlier run, and the log of its gate."""
+    """Remove the verdict of an earlier run, and the log of its gate."""
     record.withdraw()
     Path(GATE_LOG).unlink(missing_ok=True)

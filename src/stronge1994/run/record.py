@@ -17,7 +17,7 @@ SRC = Path(__file__).parents[2]
 
 
 def withdraw() -> None:
-    """Take away the verdict of an earlier run."""
+    """Remove the verdict of an earlier run."""
     Path(PASSED).unlink(missing_ok=True)
 
 
@@ -27,7 +27,7 @@ def path(job: str) -> str:
 
 
 def fingerprint(path: str | Path) -> str:
-    """Hash of what a file holds, or a folder."""
+    """Hash of the content of a file or a folder."""
     if Path(path).is_dir():
         # Snakemake puts a file of its own into a folder that a job has made.
         return digest(str(p) for p in Path(path).rglob("*") if p.is_file() and p.name[0] != ".")
@@ -59,11 +59,11 @@ def log_to(log: str) -> Iterator[None]:
 def recorded(snakemake: Any) -> Iterator[Any]:
     """Do a job of Snakemake by its plan, log it, and record what it read and wrote.
 
-    Gives the settings of the plan. `snakemake.input.plan` and `snakemake.output.record` are files.
-    It is an error if an input or a source was edited since the run began, for nobody knows then
-    which version the job has read; or if the job imports a module that its plan does not name.
+    Yields the settings of the plan. `snakemake.input.plan` and `snakemake.output.record` are files.
+    It is an error if an input or a source was edited since the run began, because then the record
+    is wrong, or if the job imports a module that its plan does not name.
     """
-    # A run that goes on beside this one may have passed meanwhile, and not for what follows.
+    # Another run may have passed meanwhile; its verdict does not hold for this job.
     withdraw()
     began = time.monotonic()
     job = Path(snakemake.output.record).stem
@@ -100,21 +100,17 @@ def _imported() -> set[str]:
 def read(path: str) -> dict[str, Any] | None:
     """A record; None if it is missing or damaged."""
     try:
-        found = json.loads(Path(path).read_text(encoding="utf-8"))
-        return found if {"seconds", "read", "wrote"} <= set(found) else None
+        content = json.loads(Path(path).read_text(encoding="utf-8"))
+        return content if {"seconds", "read", "wrote"} <= set(content) else None
     except (OSError, ValueError, TypeError):
         return None
 
 
 def faults(made: Iterable[str]) -> list[str]:
-    """Files that are not what their job wrote, or were made from others than are there now.
-
-    `made` is every file that the jobs of a run write, their records among them. Each fault is one
-    line, with what mends it.
-    """
+    """Faults of the files `made`: not as their job wrote them, or made from other inputs."""
     made = list(made)
     records = [path for path in made if path.startswith(f"{FOLDER}/")]
-    found, wrote = [], set(records)
+    messages, wrote = [], set(records)
 
     @cache
     def now(path: str) -> str | None:
@@ -124,14 +120,14 @@ def faults(made: Iterable[str]) -> list[str]:
         mend = f"remove {path} and run again"
         record = read(path)
         if record is None:
-            found.append(f"{path}: no record of its job: {mend}")
+            messages.append(f"{path}: no record of its job: {mend}")
             continue
         wrote |= set(record["wrote"])
         changed = [file for file, before in record["wrote"].items() if now(file) != before]
-        found += [f"{file}: not as its job left it: {mend}" for file in changed]
+        messages += [f"{file}: not as its job left it: {mend}" for file in changed]
         other = [file for file, before in record["read"].items() if now(file) != before]
-        found += [f"{Path(path).stem}: made from another {file}: {mend}" for file in other[:1]]
-    return found + [
+        messages += [f"{Path(path).stem}: made from another {file}: {mend}" for file in other[:1]]
+    return messages + [
         f"{path}: no job has recorded it: remove {FOLDER} and run again"
         for path in made
         if path not in wrote

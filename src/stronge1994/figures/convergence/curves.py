@@ -76,10 +76,10 @@ def _errors(
     for number in numbers:
         watch = Watch()
         with watch:
-            found = method(number)
+            velocity = method(number)
         times.append(watch.wall[0] / exact.size)
         over_cpu.append(watch.over_cpu())
-        errors.append(np.sqrt(np.mean((found - exact) ** 2)))
+        errors.append(np.sqrt(np.mean((velocity - exact) ** 2)))
     slope = -np.polyfit(np.log(numbers), np.log(errors), 1)[0]
     columns = {
         column: np.array(numbers),

@@ -17,7 +17,7 @@ CURVES = {
     "annuli, circles": ("circles [1]", ANNULI, "^"),
     "annuli, steps": ("steps [1]", ANNULI, "v"),
 }
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     "steps or circles": r": (steps|circles) \[1\]",
     "time of an impact (ms)": r": time \[ms\]",
@@ -25,7 +25,7 @@ AXIS_MEANS = {
 }
 
 
-def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
     """Times in milliseconds."""
     return {
         name: curve | tables.times(curve, "time [s]", "busy_time [1]", TIME, 1e3)
@@ -56,8 +56,8 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     kept = f"{fixed['circles']} circles where steps vary, {fixed['steps']} steps where circles do"
     busy = max([1.0, *(max(curve[BUSY]) for curve in curves.values() if BUSY in curve)])
     warning = f"\nthe machine was busy: times are up to {busy:.2g} times too long (grey bars)"
-    words = f"annuli: {kept}{warning if busy > 1 else ''}"
-    figure.suptitle(words, fontsize=house_style.NOTE)
+    note = f"annuli: {kept}{warning if busy > 1 else ''}"
+    figure.suptitle(note, fontsize=house_style.NOTE)
     groups = entries[:2], entries[2:]
     titles = "method of dimensionality reduction", "concentric annuli"
     house_style.legend_below(figure, *groups, titles=titles)

@@ -15,7 +15,7 @@ Point: TypeAlias = tuple[float, float]
 DEFLECTION, FORCE = "deflection [v2(0)/Omega]", "force [m2 Omega v2(0)]"
 # End of the axes, over the largest value: to the right of the lines there is room for a label.
 REACH = 1.4
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     "normal deflection $u_2$": r"^normal.*: deflection",
     "normal force $F_2$": r"^normal.*: force",

@@ -17,8 +17,8 @@ from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
 
-# Curves with a parameter off by one sigma only show how far it moves the others. They have this
-# many times fewer vertices.
+# Curves with a parameter off by one sigma serve only for its effect. They have this many times
+# fewer vertices.
 COARSER = 4
 
 
@@ -84,8 +84,8 @@ def curves(
         "continuum, rubber": _velocity(x, elastic["rubber"]),
     }
     whole = lumped.rebound(x, *_groups(finite_elements))
-    for model, found in (("lumped", whole), ("continuum", elastic["finite elements"])):
-        elements = _sphere(x, found, finite_elements["mass_ratio"])
+    for model, sphere_rebound in (("lumped", whole), ("continuum", elastic["finite elements"])):
+        elements = _sphere(x, sphere_rebound, finite_elements["mass_ratio"])
         named[f"{model}, finite elements"] = elements
     for model in ("lumped", *continua.MODELS):
         own = {"tolerance": loss_tolerance} if model in continua.MODELS else {}
@@ -140,25 +140,22 @@ def _shots(samples: int, nodes: ArrayLike, sphere: dict[str, float]) -> _Shots:
 
 
 def _elastic(asked: dict[str, tuple[Array, float, float]], tolerance: float) -> dict[str, Rebound]:
-    """The continuum for several spheres, each with its incidences, beta and zeta^2.
-
-    They are solved together, which takes hardly longer than one of them alone.
-    """
+    """The continuum for several spheres at once, each with its incidences, beta and zeta^2."""
     x, beta, zeta2 = (
         np.concatenate([np.broadcast_to(group[i], group[0].shape) for group in asked.values()])
         for i in range(3)
     )
-    found = continuum.rebound(x, beta, zeta2, tolerance=tolerance)
+    rebound = continuum.rebound(x, beta, zeta2, tolerance=tolerance)
     ends = np.cumsum([group[0].size for group in asked.values()])
     parts = [
         slice(end - group[0].size, end) for group, end in zip(asked.values(), ends, strict=True)
     ]
     return {
         name: Rebound(
-            found.velocity[part],
-            found.peak_friction[part],
-            found.dissipation[part],
-            np.asarray(found.regime)[part],
+            rebound.velocity[part],
+            rebound.peak_friction[part],
+            rebound.dissipation[part],
+            np.asarray(rebound.regime)[part],
         )
         for name, part in zip(asked, parts, strict=True)
     }

@@ -14,19 +14,19 @@ from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Entries, Points, Series, Settings, Style
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-# Below the paper's curves, with which these coincide where the contact slips throughout.
+# Drawn below the paper's curves, with which these coincide where the contact slips throughout.
 RUBBER = {"color": house_style.GREEN, "linewidth": 1.0, "zorder": 1.9}
 SOFT_CONTINUUM = RUBBER | {"linestyle": house_style.DASHES[1]}
 RUBBER_SPHERE = "johnson1983/rubber_sphere"
 RUBBER_POINTS: Style = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
-# Measured with loss, so that they stand beside curves of e = 1.
+# Measured with loss, and so not on the curves, which have e = 1.
 LOSSY_RUBBER = "cross2014/impacts"
 LOSSY_POINTS: Style = {"color": house_style.GREEN, "marker": "o", "markerfacecolor": "white"}
 ELEMENT_POINTS: Style = {"color": house_style.VERMILLION, "marker": "s", "markerfacecolor": "white"}
 GLASS_POINTS: Style = {"color": house_style.BLUE, "marker": "o", "markersize": 3}
 # These points are measured against the angle: they must be converted to the axes of the figure.
 MEASURED_ANGLES = "kharaz2001/tangential_restitution"
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 LEGEND_MEANS = {
     "rubber": "rubber|cross2014",
     "Cross": "cross2014",
@@ -35,7 +35,7 @@ LEGEND_MEANS = {
 }
 
 
-def shown_series(name: str, series: Series) -> Series:
+def drawn_series(name: str, series: Series) -> Series:
     """Measurements against the angle, converted to the axes of the figure with their errors."""
     if name == LOSSY_RUBBER:
         return series | _turned_round(series)
@@ -101,11 +101,11 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     _draw_printed_limit(axes, printed)
     frequency = math.sqrt(settings["mass_ratio"] / settings["stiffness_ratio"])
     groups = [settings["experiment"][key] for key in ("restitution", "stiffness_ratio")]
-    for part, words in (
+    for part, title in (
         (axes, rf"$e = {settings['restitution']:g}$,  $\omega/\Omega = {frequency:.2f}$"),
         (shots, rf"$e = {groups[0]:g}$,  $\zeta^2 = {groups[1]:g}$"),
     ):
-        part.text(0.97, 0.06, words, ha="right", transform=part.transAxes)
+        part.text(0.97, 0.06, title, ha="right", transform=part.transAxes)
     gaps = [""] * (2 + len(paper) - len(added))
     house_style.legend_below(
         figure,

@@ -50,6 +50,6 @@ def curves(
             velocity, _, _ = impact.rebound(x, mass_ratio, stiffness_ratio, e)
             named |= printed_curves.beside(name("e", e), named[name("e", e)], velocity)
     x = vertices(incidence, samples, stiffness_ratio, mass_ratio, extra)
-    for title, found in lossy.beside(continua, x, mass_ratio, stiffness_ratio):
-        named[title] = {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": found.velocity}
+    for title, lossy_rebound in lossy.beside(continua, x, mass_ratio, stiffness_ratio):
+        named[title] = {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": lossy_rebound.velocity}
     return named

@@ -19,7 +19,7 @@ Lines: TypeAlias = Sequence[tuple[str, Columns]]  # label and curve of each fric
 X, Y = "angle [deg]", "peak_force [m2 Omega S]"
 TANGENTIAL = {"color": house_style.BLUE, "linestyle": house_style.DASHES[1]}
 SLIDING = {"facecolor": "none", "edgecolor": "0.75", "linewidth": 0, "hatch": "////"}
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     r"largest force over $m_2\Omega S$": r": peak_force \[m2 Omega S\]",
     rf"${house_style.F1MAX}$ over $m_2\Omega S$": r"mu = .*: peak_force \[m2 Omega S\]",

@@ -1,4 +1,4 @@
-"""Fig. 8: largest forces in newtons on the ball of Lewis & Rogers, and what is said of them."""
+"""Fig. 8: largest forces in newtons on the ball of Lewis & Rogers, and stated angles."""
 
 import math
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from stronge1994.figures.shared.drawing.house_style import Entries, Points, Sett
 X, Y = "angle [deg]", "peak_force [N]"
 TANGENTIAL = {"color": house_style.BLUE, "linestyle": house_style.DASHES[1], "linewidth": 1.4}
 LARGEST = {"color": house_style.VERMILLION, "marker": "o", "linestyle": "none"}
-# The paper draws tangential forces so many times larger, on a second axis.
+# The paper draws tangential forces this many times larger, on a second axis.
 ENLARGED = 2
 # Stated angles of the largest tangential force: name of the fact, label, height of the line over
 # that of the force. The first line is the taller, so that its label stands above the other.
@@ -22,7 +22,7 @@ STATED = {
     "stronge1994/peak_angle_mu_0.18": (r"{:g}$\degree$, stated in the paper", 1.45),
     "lewis_rogers1988/peak_angle": (r"$\approx {:g}\degree$, measured", 1.2),
 }
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     "largest normal force, N": r"normal.*: peak_force \[N\]",
     "largest tangential force, N": r"friction.*: peak_force \[N\]",

@@ -64,15 +64,15 @@ def curves(
                 named |= printed_curves.beside(pair, named[pair], share * printed)
         theta = vertices(angle, samples, extra)
         x, share = _incidence_and_share(theta, mu)
-        for title, found in lossy.beside(continua, x, mass_ratio, stiffness_ratio):
+        for title, lossy_rebound in lossy.beside(continua, x, mass_ratio, stiffness_ratio):
             model, e_name = title.split(", ")
             named[f"{model}, {name('mu', mu)}, {e_name}"] = {
                 "angle [deg]": theta,
-                "friction_dissipation [m2 S^2/2]": share * found.dissipation,
+                "friction_dissipation [m2 S^2/2]": share * lossy_rebound.dissipation,
             }
     return named
 
 
 def _incidence_and_share(theta: Array, mu: float) -> tuple[Array, Array]:
-    """Incidences of some angles in degrees, and what mu^2 m2 v2(0)^2 is in m2 S^2/2."""
+    """Incidences for angles in degrees, and mu^2 m2 v2(0)^2 over m2 S^2/2."""
     return np.tan(np.radians(theta)) / mu, 2 * (mu * np.cos(np.radians(theta))) ** 2

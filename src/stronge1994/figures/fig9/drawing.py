@@ -14,17 +14,14 @@ from stronge1994.figures.shared.drawing.house_style import Entries, Points, Sett
 X, Y = "angle [deg]", "friction_dissipation [m2 S^2/2]"
 LABEL = r"dissipated by friction, $2D_1/m_2S^2$"
 PRINTED = "Eqs 39 to 41 as printed"
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     r"dissipated by friction, $2D_1/m_2S^2$": r": friction_dissipation \[m2 S\^2/2\]",
 }
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Draw (a) the balance of energy, with two continua; (b) the printed equations over it.
-
-    Each friction has its colour and width of line, each restitution its pattern of line.
-    """
+    """Draw (a) the balance of energy, with two continua; (b) the printed equations over it."""
     heights = [4.0, 3.6][: 1 + any(map(is_printed, curves))]
     figure = house_style.new(0.75 * sum(heights) + 1.5)
     panels = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)
@@ -41,15 +38,15 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         axes.set(xlabel="", ylabel=f"(a) {LABEL}")
         added += _draw_printed(part, curves, settings)
         part.set_ylabel(f"(b) {LABEL}")
-        for panel, words in ((axes, "the model's balance of energy"), (part, PRINTED)):
+        for panel, note in ((axes, "the model's balance of energy"), (part, PRINTED)):
             place = {"va": "top", "transform": panel.transAxes}
-            panel.text(0.03, 0.95, words, fontsize=house_style.NOTE, **place)
+            panel.text(0.03, 0.95, note, fontsize=house_style.NOTE, **place)
     house_style.legend_below(figure, *_legend(settings, added))
     return figure
 
 
 def _draw_printed(axes: Axes, curves: Curves, settings: Settings) -> Entries:
-    """Draw the printed equations over the balance of energy, pale; entries of the legend."""
+    """Draw the printed equations over the pale balance of energy; return entries of the legend."""
     pale = {"color": house_style.PALE, "linewidth": 2.5, "linestyle": "-"}
     for pair, style in _pairs(settings):
         axes.plot(curves[pair][X], curves[pair][Y], **(style | pale))
@@ -59,12 +56,12 @@ def _draw_printed(axes: Axes, curves: Curves, settings: Settings) -> Entries:
         differs = np.concatenate([[], *(part[X] for part in own if part)])
         if own[0]:
             axes.plot(own[0][X], own[0][Y], **style)
-        # Elsewhere, as in slip throughout, the printed equations give the same.
+        # Elsewhere, as in slip throughout, the printed equations agree with the balance.
         for same in (x <= min(differs, default=np.inf), x >= max(differs, default=np.inf)):
             axes.plot(x[same], curve[Y][same], **style)
     axes.axhline(0, **house_style.GUIDE)
-    rest = {name: curve for name, curve in curves.items() if name.split(",")[0] == NO_SOLUTION}
-    entries = house_style.as_printed(axes, rest, X, Y, "")
+    unsolved = {name: curve for name, curve in curves.items() if name.split(",")[0] == NO_SOLUTION}
+    entries = house_style.as_printed(axes, unsolved, X, Y, "")
     return [house_style.key("as in (a)", **pale), *entries]
 
 

@@ -22,10 +22,10 @@ from stronge1994.figures.shared.curves import materials as of_material
 from stronge1994.figures.shared.curves.lossy import MODELS
 from stronge1994.figures.shared.curves.sampling import vertices
 
-# Slopes that are tried before the best is refined. Friction never pushes, so no |w| is above x.
-TRIED = np.linspace(-1.0, 1.0, 201)
-# Impacts of a fit, so many that their number plays no part.
-FITTED = 2000
+# Slopes from which the fit starts. Friction never accelerates the body, so |w| is at most x.
+TRIAL_SLOPES = np.linspace(-1.0, 1.0, 201)
+# Number of impacts in a fit, so large that beta_0 does not depend on it.
+FIT_SIZE = 2000
 E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
 PARAMETERS = f"{EACH}pair's parameters"
 
@@ -51,9 +51,10 @@ RANGES = {
     "to 1.5 (1 + e) m2/m1": Spread(reach=1.5),
 }
 SPREADS = RANGES | {
-    f"{words}, by angle": spread._replace(by_angle=True) for words, spread in RANGES.items()
+    f"{spread_name}, by angle": spread._replace(by_angle=True)
+    for spread_name, spread in RANGES.items()
 }
-FARTHEST = max(spread.reach for spread in SPREADS.values())
+LARGEST_REACH = max(spread.reach for spread in SPREADS.values())
 
 
 def curves(
@@ -88,7 +89,7 @@ def curves(
     """
     pairs = _Contacts.of_pairs(points, materials)
     bands = [_Contacts.of_band(restitution, nu) for nu in poisson_ratio]
-    # Each parameter is lowered by its sigma: e cannot be raised where it is 1.
+    # Each parameter is lowered by its sigma, because e cannot exceed 1.
     lowered = [] if uncertainty is None else pairs.lowered(points, materials, uncertainty)
     zeta2 = of_material.stiffness_ratio(contact["poisson_ratio"])
     x = vertices(incidence, samples)
@@ -174,15 +175,11 @@ def _key(material: str) -> str:
 def _fitted(
     solve: Callable[..., Array], beta: float, groups: Sequence[_Contacts], solved: int
 ) -> dict[str, list[Array]]:
-    """beta_0 of several groups of contacts, by the spread of the impacts that it is fitted to.
-
-    All are solved together, up to the farthest reach. Beyond it every contact slides throughout,
-    and what slides has no part in beta_0.
-    """
+    """beta_0 of several groups of contacts by spread; all are solved together, up to `FARTHEST`."""
     whole = _Contacts(*map(np.concatenate, zip(*groups, strict=True)))
     e = whole.restitution
     ends = sliding.change(np.full_like(e, beta), e)
-    x = FARTHEST * ends[:, None] * np.linspace(0.0, 1.0, solved)
+    x = LARGEST_REACH * ends[:, None] * np.linspace(0.0, 1.0, solved)
     # Contacts that differ by friction alone have the same rebounds.
     groups_of_rebound = np.stack([whole.stiffness_ratio, e], axis=1)
     _, first, same = np.unique(groups_of_rebound, axis=0, return_index=True, return_inverse=True)
@@ -191,19 +188,19 @@ def _fitted(
     beta_0 = {spread: np.full(len(ends), np.nan) for spread in SPREADS}
     for i, end in enumerate(ends):
         rebound, friction = CubicSpline(x[i], w[i]), float(whole.friction[i])
-        for words, spread in SPREADS.items():
-            if words == WHOLE or not np.isnan(friction):
+        for spread_name, spread in SPREADS.items():
+            if spread_name == WHOLE or not np.isnan(friction):
                 at = _impacts(end, friction, spread)
-                beta_0[words][i] = tangential_restitution(at, rebound(at), beta, float(e[i]))
-    return {words: np.split(found, splits) for words, found in beta_0.items()}
+                beta_0[spread_name][i] = tangential_restitution(at, rebound(at), beta, float(e[i]))
+    return {spread_name: np.split(values, splits) for spread_name, values in beta_0.items()}
 
 
 def _impacts(end: float, friction: float, spread: Spread) -> Array:
     """Incidences of the impacts of one fit, up to `FARTHEST` times the end of the sliding line."""
     reach = spread.reach * end
     if spread.angle is not None:
-        reach = min(np.tan(np.radians(spread.angle)) / friction, FARTHEST * end)
-    share = (np.arange(FITTED) + 0.5) / FITTED
+        reach = min(np.tan(np.radians(spread.angle)) / friction, LARGEST_REACH * end)
+    share = (np.arange(FIT_SIZE) + 0.5) / FIT_SIZE
     if not spread.by_angle:
         return share * reach
     return np.tan(share * np.arctan(friction * reach)) / friction
@@ -221,10 +218,12 @@ def tangential_restitution(x: ArrayLike, w: ArrayLike, beta: float, e: float) ->
     """
     x, w = np.asarray(x, float), np.asarray(w, float)
     slip = sliding.velocity(x, beta, e)
-    squares = [np.sum((w - np.maximum(-slope * x, slip)) ** 2) for slope in TRIED]
-    found, before = float(TRIED[np.argmin(squares)]), np.nan
-    # The impacts above the line of slip give a slope, and this tells which impacts they are.
-    while found != before:
-        first, before = -found * x > slip, found
-        found = -float(np.sum(w[first] * x[first]) / np.sum(x[first] ** 2))
-    return found
+    squares = [
+        np.sum((w - np.maximum(-tried_slope * x, slip)) ** 2) for tried_slope in TRIAL_SLOPES
+    ]
+    slope, previous = float(TRIAL_SLOPES[np.argmin(squares)]), np.nan
+    # The slope decides which impacts lie above the line of slip, and these decide the slope.
+    while slope != previous:
+        first, previous = -slope * x > slip, slope
+        slope = -float(np.sum(w[first] * x[first]) / np.sum(x[first] ** 2))
+    return slope

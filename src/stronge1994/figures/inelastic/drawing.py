@@ -28,18 +28,18 @@ PARAMETERS = f"{curve_names.EACH}pair's parameters"
 CHI_SQUARED, OVER_LIMIT = "chi_squared [1]", "chi_squared_over_limit [1]"
 # The pairs that decide most: the least elastic one, and the one farthest from all models.
 SOFT, HARD = "polyurethane", "chrome steel"
-# Points of one restitution are drawn side by side, so far apart.
-APART = 0.0055
+# Distance of points of one restitution, which are drawn side by side.
+PAIR_SPACING = 0.0055
 # Pairs agree with a model if chance gives their chi-squared with at least this probability.
 SIGNIFICANCE = 0.01
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     r"tangential restitution $\beta_0$": r": tangential_restitution \[1\]",
     rf"$\chi^2$ over its value at $p = {SIGNIFICANCE:g}$": r": chi_squared_over_limit \[1\]",
 }
 
 
-def shown_series(name: str, series: Series) -> Series:
+def drawn_series(name: str, series: Series) -> Series:
     """Points of nearly the same restitution side by side."""
     return series | {"x": side_by_side(series["x"]), "restitution": series["x"]}
 
@@ -51,18 +51,18 @@ def side_by_side(x: Array) -> Array:
     [0.897, 0.97, 0.903]
     """
     moved, order = x.copy(), np.argsort(x, kind="stable")
-    for same in np.split(order, np.flatnonzero(np.diff(x[order]) > APART) + 1):
-        moved[same] = x[same].mean() + APART * (np.arange(len(same)) - (len(same) - 1) / 2)
+    for same in np.split(order, np.flatnonzero(np.diff(x[order]) > PAIR_SPACING) + 1):
+        moved[same] = x[same].mean() + PAIR_SPACING * (np.arange(len(same)) - (len(same) - 1) / 2)
     return moved
 
 
-def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
     """Chi-squared of each model in each trial."""
     series = points.get(settings["points"])
     if not series:
         return curves
     return curves | {
-        f"{model}, {trial.words}": _columns_of(goodness(curves, model, series, trial))
+        f"{model}, {trial.name}": _columns_of(goodness(curves, model, series, trial))
         for model in MODELS
         for trial in trials(curves)
     }
@@ -76,21 +76,22 @@ def _columns_of(fit: ChiSquared) -> Columns:
 class Trial(NamedTuple):
     """One way to judge the pairs.
 
-    `spread` is that of the impacts to which beta_0 is fitted, in the words of the curves' names.
-    Some pairs are left `without`. All uncertainties are taken as a `share` of those stated.
+    `spread` is that of the impacts to which beta_0 is fitted, as the names of the curves spell it.
+    The pairs in `without` are left out. All uncertainties are taken as a `share` of those stated.
     """
 
-    words: str
+    name: str
     spread: str = ""
     without: Sequence[str] = ()
     share: float = 1.0
 
 
 def trials(curves: Curves) -> list[Trial]:
-    """As the verdicts judge the pairs, and with one choice at a time made otherwise.
+    """The pairs as the verdicts judge them, and with one choice at a time changed.
 
-    Which incidences were measured is not known, nor whether a printed uncertainty is one standard
-    deviation or two. No model knows that unlike bodies spread differently under pressure.
+    It is not known which incidences were measured, nor whether a printed uncertainty is one
+    standard deviation or two. No model includes that unlike bodies spread differently under
+    pressure.
     """
     start = f"{next(iter(MODELS))}, pairs, "
     names = [name for name in curves if name.startswith(start) and not curve_names.is_shifted(name)]
@@ -111,10 +112,7 @@ def trials(curves: Curves) -> list[Trial]:
 
 
 def goodness(curves: Curves, model: str, series: Series, trial: Trial | None = None) -> ChiSquared:
-    """Chi-squared of a model over the measured pairs, with the uncertainty of their parameters.
-
-    Without a trial it is that of the verdicts.
-    """
+    """Chi-squared of a model over the measured pairs; without a trial, that of the verdicts."""
     trial = trial or Trial("as judged")
     name = f"{model}, pairs" + (f", {trial.spread}" if trial.spread else "")
     sigma = series["sigma"][1] * trial.share
@@ -130,20 +128,17 @@ def goodness(curves: Curves, model: str, series: Series, trial: Trial | None = N
     return chi_squared(distance[kept], np.diag(moved[kept]))
 
 
-def over_limit(found: ChiSquared) -> float:
+def over_limit(fit: ChiSquared) -> float:
     """Chi-squared over the largest that agrees.
 
     >>> round(over_limit(chi_squared([3.0, 1.0])), 2)
     1.09
     """
-    return float(found.value / chdtri(found.degrees, SIGNIFICANCE))
+    return float(fit.value / chdtri(fit.degrees, SIGNIFICANCE))
 
 
 def slope(series: Series, without: Sequence[str] = ()) -> tuple[float, float]:
-    """Slope of the measured beta_0 against restitution, and its standard deviation.
-
-    A straight line fits the pairs by least squares, weighted by their printed uncertainties.
-    """
+    """Slope of beta_0 against restitution by weighted least squares, and its standard deviation."""
     kept = ~np.isin(series["columns"]["pair"], list(without))
     e, beta_0, sigma = (np.asarray(a)[kept] for a in (series["x"], series["y"], series["sigma"][1]))
     line: Array = np.stack([np.ones_like(e), e], axis=1) / sigma[:, None]
@@ -153,12 +148,12 @@ def slope(series: Series, without: Sequence[str] = ()) -> tuple[float, float]:
 
 MEASURED = {"color": house_style.BLACK, "marker": "o", "markersize": 3, "markerfacecolor": "white"}
 # Height of a label, as a share of the axes.
-LINE = 0.066
+LABEL_HEIGHT = 0.066
 TICKS = (0.3, 1, 3, 10, 30)  # of chi-squared over its limit
-# Points of one trial stand so far apart, over the height of its row.
-BESIDE = 0.16
-# A point so far from all others has its label beside it; the others have theirs at the right.
-ALONE = 0.1
+# Distance of the models' points in one trial, over the height of its row.
+MODEL_SPACING = 0.16
+# A point this far from all others has its label beside it; the others have theirs at the right.
+ISOLATED = 0.1
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -173,14 +168,14 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     contact = settings["contact"]
     _draw_contact(figure.add_subplot(grid[1]), curves, contact["restitution"])
     keys = [
-        house_style.key(model.words, color=model.colour, linestyle=model.dashes)
+        house_style.key(model.label, color=model.colour, linestyle=model.dashes)
         for model in MODELS.values()
     ]
     columns = {"(a), (b)": keys}
     if series:
         _draw_pairs(top, series)
         _draw_trials(figure.add_subplot(grid[2]), curves)
-        columns["(c)"] = [house_style.key(model.words, **_dot(model)) for model in MODELS.values()]
+        columns["(c)"] = [house_style.key(model.label, **_dot(model)) for model in MODELS.values()]
     low, high = settings["poisson_ratio"]
     top.set_title(rf"(a) bands: $\nu = {low:g}$ to ${high:g}$; circles: measured")
     house_style.legend_below(figure, *columns.values(), titles=columns)
@@ -221,14 +216,14 @@ def _draw_pairs(axes: Axes, series: house_style.Series) -> None:
     low, high = axes.get_ylim()
     left, right = axes.get_xlim()
     names, gaps = series["columns"]["pair"], np.abs(e[:, None] - e) + np.eye(len(e))
-    alone = gaps.min(axis=0) > ALONE
+    alone = gaps.min(axis=0) > ISOLATED
     for x, y, name in zip(
         e[alone], (beta_0 + series["sigma"][1])[alone], names[alone], strict=True
     ):
         place = {"ha": "center", "va": "bottom", "fontsize": house_style.NOTE}
         axes.annotate(name, (x, y), (0, 6), textcoords="offset points", **place)
     crowd = beside[~alone], beta_0[~alone]
-    heights = spread(crowd[1], LINE * (high - low), low, high)
+    heights = spread(crowd[1], LABEL_HEIGHT * (high - low), low, high)
     for x, y, height, name in zip(*crowd, heights, names[~alone], strict=True):
         bend = right + 0.015 * (right - left)
         axes.plot(
@@ -240,8 +235,8 @@ def _draw_pairs(axes: Axes, series: house_style.Series) -> None:
             zorder=2.5,
             label=house_style.NO_DATA,
         )
-        words = axes.text(bend, height, f" {name}", fontsize=house_style.NOTE, va="center")
-        words.set_in_layout(False)
+        text = axes.text(bend, height, f" {name}", fontsize=house_style.NOTE, va="center")
+        text.set_in_layout(False)
     axes.set_ylim(low, high)
 
 
@@ -265,7 +260,7 @@ def spread(y: Array, apart: float, low: float, high: float) -> Array:
         for i in range(int(count))
     ]
     heights[order] = flat
-    # What sticks out is moved inside as a whole.
+    # If the outermost label lies outside, all are moved together.
     heights += max(0.0, low + apart / 2 - heights.min())
     heights -= max(0.0, heights.max() - high + apart / 2)
     return heights
@@ -291,11 +286,11 @@ def _draw_contact(axes: Axes, curves: Curves, restitution: float) -> None:
 
 def _draw_trials(axes: Axes, curves: Curves) -> None:
     """Chi-squared of each model, a row for each trial, over the largest that agrees."""
-    words = [trial.words for trial in trials(curves)]
-    rows = np.arange(len(words))
+    trial_names = [trial.name for trial in trials(curves)]
+    rows = np.arange(len(trial_names))
     for place, (name, model) in enumerate(MODELS.items()):
-        beside = rows + BESIDE * (place - (len(MODELS) - 1) / 2)
-        for trial, height in zip(words, beside, strict=True):
+        beside = rows + MODEL_SPACING * (place - (len(MODELS) - 1) / 2)
+        for trial, height in zip(trial_names, beside, strict=True):
             axes.plot(curves[f"{name}, {trial}"][OVER_LIMIT], [height], **_dot(model))
     axes.axvline(1.0, color=house_style.BLACK, linewidth=0.8, linestyle=house_style.DASHES[1])
     for edge in rows[1:] - 0.5:
@@ -303,7 +298,7 @@ def _draw_trials(axes: Axes, curves: Curves) -> None:
     axes.set(xscale="log", ylim=(rows[-1] + 0.5, -0.5))
     axes.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
     axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_yticks(rows, words, fontsize=house_style.NOTE)
+    axes.set_yticks(rows, trial_names, fontsize=house_style.NOTE)
     axes.tick_params(axis="y", length=0)
     axes.set_xlabel(rf"$\chi^2$ over its value at $p = {SIGNIFICANCE:g}$")
     axes.set_title("(c) what differs from the pairs: right of the line")

@@ -18,9 +18,9 @@ PATTERNS: dict[str, Dashes] = {"continuum": (0, (6, 2)), "lumped": "-"}
 RIM: Style = {"color": house_style.BLACK, "linewidth": 0.6}
 NORMAL_LINE: Style = {"color": house_style.GREY, "linewidth": 0.8}
 FRICTION_LINE: Style = {"linewidth": 1.4}
-# A curve may have its number between these radii.
+# Radii between which a curve may have its number.
 LABELLED = 0.15, 0.9
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     r"radius over $a_\mathrm{max}$": r": (contact|stick)_radius \[a_max\]",
 }
@@ -88,9 +88,9 @@ def _dense(time: Array, radius: Array) -> Array:
 
 def _apart(line: Array, others: Sequence[Array]) -> Array:
     """The point of a line that is farthest from the other lines."""
-    some = line[:, (line[1] > LABELLED[0]) & (line[1] < LABELLED[1])]
-    gaps = np.hypot(*(some[:, :, None] - np.concatenate(others, axis=1)[:, None, :]))
-    return some[:, gaps.min(axis=1).argmax()]
+    inside = line[:, (line[1] > LABELLED[0]) & (line[1] < LABELLED[1])]
+    gaps = np.hypot(*(inside[:, :, None] - np.concatenate(others, axis=1)[:, None, :]))
+    return inside[:, gaps.min(axis=1).argmax()]
 
 
 def _draw_forces(axes: Axes, curves: Curves, x: float, colour: str) -> None:

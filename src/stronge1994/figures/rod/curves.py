@@ -45,14 +45,14 @@ def curves(
     named = {}
     for ratio in velocity_ratio:
         before = noncollinear.kinetic_energy(ratio, 1.0, rod)
-        found = noncollinear.rebound(ratio, 1.0, rod, friction, restitution, stiffness_ratio)
-        columns = _columns(angle, found, rod, before)
+        rebound = noncollinear.rebound(ratio, 1.0, rod, friction, restitution, stiffness_ratio)
+        columns = _columns(angle, rebound, rod, before)
         named[name("v1/v2", ratio)] = columns | {
             "energy_lost [K0]": 1 - columns["kinetic_energy [K0]"],
-            "friction_work [K0]": found.friction_work / before,
-            "hysteresis [K0]": found.hysteresis / before,
-            "energy_dissipated [K0]": (found.friction_work + found.hysteresis) / before,
-            "regime": Regime.names(found.regime),
+            "friction_work [K0]": rebound.friction_work / before,
+            "hysteresis [K0]": rebound.hysteresis / before,
+            "energy_dissipated [K0]": (rebound.friction_work + rebound.hysteresis) / before,
+            "regime": Regime.names(rebound.regime),
         }
         for kind, law in RIGID.items():
             sudden = rigid.rebound(ratio, 1.0, rod, friction, restitution, law)
@@ -106,15 +106,15 @@ def jam_limits(friction: float) -> Array:
 
 
 def _columns(
-    angle: Array, found: NoncollinearRebound | ImpulsiveRebound, rod: InverseMass, before: Array
+    angle: Array, rebound: NoncollinearRebound | ImpulsiveRebound, rod: InverseMass, before: Array
 ) -> Columns:
-    after = noncollinear.kinetic_energy(found.tangential, found.normal, rod)
+    after = noncollinear.kinetic_energy(rebound.tangential, rebound.normal, rod)
     return {
         "tilt [deg]": angle,
-        "tangential_velocity [v2(0)]": found.tangential,
-        "normal_velocity [v2(0)]": found.normal,
+        "tangential_velocity [v2(0)]": rebound.tangential,
+        "normal_velocity [v2(0)]": rebound.normal,
         "kinetic_energy [K0]": after / before,
-        "jams [1]": found.jams.astype(int),
+        "jams [1]": rebound.jams.astype(int),
     }
 
 

@@ -26,8 +26,8 @@ NEWTON = {"color": house_style.VERMILLION, "linestyle": (0, (7, 2, 1.5, 2)), "li
 CREATED = {"facecolor": house_style.VERMILLION, "alpha": 0.25, "linewidth": 0}
 JAM = {"facecolor": "white", "hatch": "//////", "edgecolor": "0.4", "linewidth": 0.6}
 SHADES = {"STICK_SLIP": "white", "SLIP_STICK_SLIP": "0.93", "SLIP_THROUGHOUT": "0.8"}
-RIBBONS = {"regime": "", "jams": "", "rigid: jams": "rigid, "}  # whose regime or jams
-# What words of the picture mean, see `shared.drawing.words`.
+RIBBONS = {"regime": "", "jams": "", "rigid: jams": "rigid, "}  # beginnings of the curves' names
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     r"tilt $\alpha$": r": tilt \[deg\]",
     r"$v_1(t_f)/v_2(0)$": r": tangential_velocity \[v2\(0\)\]",
@@ -49,18 +49,18 @@ def ribbon(row: str, ratio: str) -> str:
     return f"ribbon of {row}, {ratio}"
 
 
-def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
     """Friction over mu, and the parts of the tilt that have one regime, or jam."""
     contact = curves["contact"]
     over_mu = contact["friction_force [m2 Omega v2(0)]"] / settings["friction"]
-    found = curves | {"contact": contact | {OVER_MU: over_mu}}
+    tables = curves | {"contact": contact | {OVER_MU: over_mu}}
     for ratio in settings["velocity_ratio"]:
         name = curve_names.name("v1/v2", ratio)
         for row, kind in RIBBONS.items():
             curve = curves[kind + name]
             labels = curve["regime" if row == "regime" else "jams [1]"]
-            found[ribbon(row, name)] = _parts(curve[TILT], labels)
-    return found
+            tables[ribbon(row, name)] = _parts(curve[TILT], labels)
+    return tables
 
 
 def _parts(x: Array, labels: Column) -> Columns:
@@ -92,8 +92,8 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     for axes, label in zip(panels[1:, 0], ROWS.values(), strict=True):
         axes.set_ylabel(label)
     panels[0, 0].set_yticks([0.5, 1.5, 2.5], list(RIBBONS))
-    shown = rf"$\mu = {settings['friction']:g}$,  $e = {settings['restitution']:g}$"
-    over_tilt.suptitle(f"slender rod,  {shown}", fontsize=house_style.STYLE["axes.titlesize"])
+    groups = rf"$\mu = {settings['friction']:g}$,  $e = {settings['restitution']:g}$"
+    over_tilt.suptitle(f"slender rod,  {groups}", fontsize=house_style.STYLE["axes.titlesize"])
     compliant = house_style.key("compliant", **house_style.LUMPED)
     rigid = house_style.key("rigid impulse", **house_style.RIGID)
     newton = house_style.key("rigid, Newton's coefficient", **NEWTON)
@@ -139,10 +139,10 @@ def _draw_ribbons(axes: Axes, ribbons: Sequence[Columns], letters: float) -> Non
         shade = SHADES.get(regime, "0.6")
         frame = {"facecolor": shade, "edgecolor": house_style.BLACK, "linewidth": 0.6}
         axes.barh(0.5, end - start, 0.8, start, clip_on=False, **frame)
-        # A bar that is too short for its word has only its shade.
-        if (end - start) / whole * letters > len(words := Regime[regime].words):
+        # A bar that is too short for its label has only its shade.
+        if (end - start) / whole * letters > len(label := Regime[regime].words):
             place = {"ha": "center", "va": "center_baseline", "fontsize": house_style.NOTE - 1}
-            axes.text((start + end) / 2, 0.5, words, **place)
+            axes.text((start + end) / 2, 0.5, label, **place)
     for row, parts in zip((1.5, 2.5), jammed, strict=True):
         for start, end, jams in parts:
             if jams:
@@ -178,7 +178,7 @@ def _mark_events(axes: Axes, contact: Columns) -> None:
         spans.append((time[start], time[end], word))
         axes.axvline(time[end], **house_style.GUIDE)
     house_style.brackets(axes, spans)
-    # A short last bracket has its word behind it.
+    # A short last bracket has its label behind it.
     place = {"va": "center_baseline", "transform": axes.get_xaxis_transform()}
     if spans[-1][1] - spans[-1][0] < 0.08 * time[-1]:
         axes.text(time[-1] * 1.01, 1.07, spans[-1][2], fontsize=house_style.NOTE, **place)
@@ -210,5 +210,5 @@ def _draw_rod(axes: Axes, contact: Mapping[str, float]) -> None:
     arrow = {"arrowstyle": "-|>", "color": house_style.BLACK}
     axes.annotate("", (0.7 * way, 0.13), (0.15 * way, 0.13), arrowprops=arrow)
     axes.text(0.5 * way, 0.3, "$v_1$", **place)
-    words = rf"$\alpha = {tilt:g}\degree$", r"$v_1(0)/v_2(0)$", f"$= {ratio:g}$"
-    axes.set_xlabel("\n".join(words), fontsize=house_style.NOTE)
+    lines = rf"$\alpha = {tilt:g}\degree$", r"$v_1(0)/v_2(0)$", f"$= {ratio:g}$"
+    axes.set_xlabel("\n".join(lines), fontsize=house_style.NOTE)

@@ -1,7 +1,7 @@
 """Beyond the paper: a rubber sphere that bounces off granite, six models beside 13 impacts.
 
-The quantity that is judged is e_t = -w/x of each impact: what of the tangential velocity of the
-contact point is turned round.
+The quantity that is judged is e_t = -w/x of each impact: the tangential velocity of the contact
+point after the impact over that before it, with the sign reversed.
 """
 
 from collections.abc import Mapping, Sequence
@@ -17,11 +17,11 @@ from stronge1994.figures.shared.curves.lossy import MODELS
 from stronge1994.figures.shared.curves.sampling import vertices
 
 ELASTIC = "continuum"  # without loss, whatever the restitution
-# Impacts of which a text states one each, with parameters of their own in source.yaml.
+# Impacts that are stated singly in the text of a paper, with their own parameters in source.yaml.
 STATED = {"Cross 2010": "2010", "Cross 2002": "2002"}
 X, E_T, ANGLE = "incidence [mu v2(0)]", "tangential_restitution [1]", "angle [deg]"
 LIMIT = "incidence_limit [mu v2(0)]"
-# Distances from e_t as it was measured, and from what half of the measurement says of it.
+# e_t by one half of the measurement alone, and the columns of distances from e_t by each.
 ALONE = "velocity alone", "spin alone"
 RMS = "rms_distance [1]", "rms_from_velocity [1]", "rms_from_spin [1]"
 IMPACT, BALL = f"{EACH}impact's parameters", f"{EACH}ball's parameters"
@@ -56,8 +56,8 @@ def curves(
     >>> points = {"impact": ["impact 1"], "angle": [27.0], "tangential_restitution": [0.66],
     ...           "restitution": [0.9], "tangential_before": [0.45], "velocity_ratio": [0.51],
     ...           "spin_change": [0.44]}
-    >>> found = curves(ball, points, 0.9, (0.2, 8), 11, 2.5, 1e-3)
-    >>> round(float(found["lumped, impacts"]["tangential_restitution [1]"][0]), 2)
+    >>> named = curves(ball, points, 0.9, (0.2, 8), 11, 2.5, 1e-3)
+    >>> round(float(named["lumped, impacts"]["tangential_restitution [1]"][0]), 2)
     0.43
     """
     x, (at, e) = vertices(incidence, samples), _measured(ball, points)
@@ -82,19 +82,19 @@ def curves(
             own = {
                 key: (groups[key][0], np.ones_like(groups[key][0])) for key in ("impacts", "line")
             }
-        found = _solved(model, own, ball, tolerance)
+        solved = _solved(model, own, ball, tolerance)
         e_of_line = own["line"][1][0]
-        named[f"{model}, impacts"] = {X: at, E_T: found["impacts"]}
-        named[f"{model}, {name('e', e_of_line)}"] = {X: x, E_T: found["line"]}
-        squares = np.square(found["impacts"] - measured)
+        named[f"{model}, impacts"] = {X: at, E_T: solved["impacts"]}
+        named[f"{model}, {name('e', e_of_line)}"] = {X: x, E_T: solved["line"]}
+        squares = np.square(solved["impacts"] - measured)
         means = np.array([squares[:, at <= limit].mean(axis=1) for limit in limits])
         named[f"{model}, rms"] = {LIMIT: limits} | dict(zip(RMS, np.sqrt(means).T, strict=True))
-        if model != ELASTIC:  # labels are for what is compared with measurements
+        if model != ELASTIC:  # only compared curves need labels
             named[f"{model}, impacts"] |= labels
-            named[f"{model}, stated"] = balls | {X: groups["stated"][0], E_T: found["stated"]}
+            named[f"{model}, stated"] = balls | {X: groups["stated"][0], E_T: solved["stated"]}
         if uncertainty and model != ELASTIC:
-            named |= _shifted(f"{model}, impacts", labels, found)
-            named |= _own_shifts(f"{model}, stated", BALL, balls, found, "stated")
+            named |= _shifted(f"{model}, impacts", labels, solved)
+            named |= _own_shifts(f"{model}, stated", BALL, balls, solved, "stated")
     return named
 
 
@@ -140,7 +140,7 @@ def _off(
     points: Mapping[str, Sequence[Any]],
     uncertainty: Mapping[str, float],
 ) -> dict[str, _Impacts]:
-    """Impacts with something off by its sigma. A restitution is lowered: some are almost 1."""
+    """Impacts with one parameter off by its sigma; a restitution is lowered, some are almost 1."""
     groups = {}
     for sign in SIGNS:
         friction = ball["friction"] + sign * uncertainty["friction"]
@@ -166,18 +166,18 @@ def _solved(
     return dict(zip(groups, np.split(-w / x, ends), strict=True))
 
 
-def _shifted(curve: str, labels: Columns, found: Mapping[str, Array]) -> Curves:
-    """The impacts with the friction of all off by its sigma, and with what is each impact's own."""
+def _shifted(curve: str, labels: Columns, solved: Mapping[str, Array]) -> Curves:
+    """The impacts with the common friction off by its sigma, and with each impact's own sigma."""
     friction = {
-        shifted(curve, "friction", sign): labels | {E_T: found[f"friction {sign}"]}
+        shifted(curve, "friction", sign): labels | {E_T: solved[f"friction {sign}"]}
         for sign in SIGNS
     }
-    return friction | _own_shifts(curve, IMPACT, labels, found, "impacts")
+    return friction | _own_shifts(curve, IMPACT, labels, solved, "impacts")
 
 
 def _own_shifts(
-    curve: str, parameter: str, labels: Columns, found: Mapping[str, Array], group: str
+    curve: str, parameter: str, labels: Columns, solved: Mapping[str, Array], group: str
 ) -> Curves:
-    """e_t with the standard deviation that it has from what is each impact's own."""
-    off = [found[key] for key in found if key.startswith(f"{group}, ")]
-    return lossy.each_off(curve, parameter, labels, E_T, found[group], off)
+    """e_t plus and minus its standard deviation from parameters that are each impact's own."""
+    off = [solved[key] for key in solved if key.startswith(f"{group}, ")]
+    return lossy.each_off(curve, parameter, labels, E_T, solved[group], off)

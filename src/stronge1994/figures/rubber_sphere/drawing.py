@@ -15,10 +15,10 @@ LIMIT, RMS = "incidence_limit [mu v2(0)]", "rms_distance [1]"
 IMPACTS, STATED = "cross2014/impacts", "cross2014/stated"
 ELASTIC = "continuum"
 ALONE = "velocity alone", "spin alone"
-# Curves that `shown` adds: e_t from one half of a measurement to the other, and what an unknown
-# friction leaves open.
+# Curves that `drawn_curves` adds: e_t from one half of a measurement to the other, and the range
+# that an unknown friction leaves.
 HALVES, OPEN = "halves of the measurement", "friction 0.4 to 0.9"
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     "tangential restitution $e_t$": r": tangential_restitution \[1\]",
     "rms distance of $e_t$": r": rms_distance \[1\]",
@@ -31,22 +31,22 @@ LEGEND_MEANS = {
 }
 
 
-# Green is for no loss. It has no marker.
+# The model without loss is green and has no marker.
 MODELS = lossy.MODELS | {
     ELASTIC: Model("elastic continuum, $e = 1$", house_style.GREEN, house_style.DASHES[1], "")
 }
 POINT: Style = {"color": house_style.BLACK, "markerfacecolor": "white", "linestyle": "none"}
 MEASURED = POINT | {"marker": "o", "markersize": 4}
-TOLD = POINT | {"marker": "D", "markersize": 4}
+STATED_POINT = POINT | {"marker": "D", "markersize": 4}
 HALF: Style = {"color": "0.75", "linewidth": 2.2, "solid_capstyle": "butt", "zorder": 1.2}
 ALL = {"marker": "s", "markersize": 5, "linestyle": "none"}
 STICKING = ALL | {"markerfacecolor": "white"}
-# End of the axis of distances, which leaves room for words; they stand so far from the marks.
+# End of the axis of distances, with room for labels, and distance of a label from its mark.
 WORST, APART = 0.9, 0.02
 
 
-def shown_series(name: str, series: Series) -> Series:
-    """Impacts measured against the angle, over incidence; friction is drawn by `shown`."""
+def drawn_series(name: str, series: Series) -> Series:
+    """Impacts measured against the angle, over incidence; friction is drawn by `drawn_curves`."""
     known, angle = series["parameters"], np.radians(series["x"])
     if name == STATED:
         friction = np.array([known[f"friction_{ball[-4:]}"] for ball in series["columns"]["ball"]])
@@ -60,27 +60,25 @@ def shown_series(name: str, series: Series) -> Series:
     return series | {"x": x, "sigma": (sigma, series["sigma"][1]), "axes": (X, E_T), "angle": angle}
 
 
-def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
-    """What bars join: e_t by both halves of a measurement, incidences of stated impacts."""
-    found = {}
+def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
+    """Ends of bars: e_t by both halves of a measurement, incidences of stated impacts."""
+    tables = {}
     if IMPACTS in points:
         ends = [curves[alone] for alone in ALONE]
-        found[HALVES] = {
+        tables[HALVES] = {
             column: np.stack([end[column] for end in ends], 1).ravel() for column in (X, E_T)
         }
     if STATED in points:
-        found[OPEN] = _open(points[STATED], settings)
-    return curves | found
+        tables[OPEN] = _open(points[STATED], settings)
+    return curves | tables
 
 
 def _open(series: Series, settings: Settings) -> Columns:
-    """Where stated impacts lie, from the smallest friction to the largest.
-
-    A value that lies evenly between two bounds is known to their distance over the root of 12.
-    """
+    """Where stated impacts lie, from the smallest friction to the largest."""
     ends = []
     for ball, angle in zip(series["columns"]["ball"], series["angle"], strict=True):
         key = f"friction_{ball[-4:]}"
+        # Sigma of a value that lies evenly between two bounds is their distance over sqrt(12).
         half = np.sqrt(3) * settings["uncertainty"][key]
         ends += [np.tan(angle) / (settings["ball"][key] + sign * half) for sign in (1, -1)]
     return {X: np.array(ends), E_T: np.repeat(series["y"], 2)}
@@ -100,7 +98,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     top.set_title(rf"(a) lines: models at $e = {e:g}$")
     measured = _draw_points(top, curves, points)
     _draw_distances(below, curves, settings["sticking"])
-    lines = [house_style.key(model.words, **model.line) for model in MODELS.values()]
+    lines = [house_style.key(model.label, **model.line) for model in MODELS.values()]
     house_style.legend_below(figure, lines, measured)
     return figure
 
@@ -124,8 +122,8 @@ def _draw_points(axes: Axes, curves: Curves, points: Points) -> house_style.Entr
         for row in range(0, len(ends[X]), 2):
             pair = slice(row, row + 2)
             axes.plot(ends[X][pair], ends[E_T][pair], color=house_style.BLACK, linewidth=0.8)
-        axes.errorbar(series["x"], series["y"], yerr=series["sigma"][1], **bars | TOLD)
-        entries.append(house_style.key("stated, 2010 and 2002", **TOLD))
+        axes.errorbar(series["x"], series["y"], yerr=series["sigma"][1], **bars | STATED_POINT)
+        entries.append(house_style.key("stated, 2010 and 2002", **STATED_POINT))
     return entries
 
 
@@ -136,7 +134,7 @@ def _draw_distances(axes: Axes, curves: Curves, sticking: float) -> None:
         axes.plot([whole], [row], color=model.colour, **ALL)
         axes.plot([near], [row], color=model.colour, **STICKING)
         place = {"va": "center", "fontsize": house_style.NOTE}
-        axes.text(max(near, whole) + APART, row, model.words, **place)
+        axes.text(max(near, whole) + APART, row, model.label, **place)
     axes.set(
         yticks=[], ylim=(len(MODELS) - 0.5, -0.5), xlim=(0, WORST), xlabel="rms distance of $e_t$"
     )

@@ -18,9 +18,9 @@ GROUPS = {
 }
 OUTPUTS = ("velocity", "peak_friction", "dissipation")
 ROUNDING = 2.0**-52
-# Below this, a hundred times the smallest number, float64 cannot hold two digits.
+# Smaller numbers have less than two digits in float64: a hundred times its smallest number.
 FLOOR = 100 * 5e-324
-# No more digits than this are counted.
+# Largest number of digits that is counted.
 DIGITS = 16.0
 
 
@@ -53,8 +53,8 @@ def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
 
     columns, lost = {}, []
     solved = dict(zip(OUTPUTS, _solved(groups), strict=True))
-    for name, found in solved.items():
-        digits = _digits(found, table[name], table[f"condition_{name}"])
+    for name, output in solved.items():
+        digits = _digits(output, table[name], table[f"condition_{name}"])
         columns[f"digits_{name} [1]"], columns[f"digits_allowed_{name} [1]"] = digits[:2]
         lost.append(digits[2])
     columns["digits_lost [1]"] = np.max(lost, axis=0)
@@ -71,16 +71,16 @@ def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
 
 def _solved(groups: Array) -> Array:
     """Outputs of impacts, shape (3, n); NaN only for those that raise or warn."""
-    found = _attempt(lambda: np.stack(lumped.rebound(*groups)[:3]))
-    if found is not None:
-        return found
+    outputs = _attempt(lambda: np.stack(lumped.rebound(*groups)[:3]))
+    if outputs is not None:
+        return outputs
     if groups.shape[1] == 1:
         return np.full((len(OUTPUTS), 1), np.nan)
     return np.concatenate([_solved(half) for half in np.array_split(groups, 2, axis=1)], axis=1)
 
 
 def _attempt(call: Callable[[], _Result]) -> _Result | None:
-    """What a call returns; None if it raises or warns."""
+    """Result of a call; None if it raises or warns."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -89,10 +89,10 @@ def _attempt(call: Callable[[], _Result]) -> _Result | None:
         return None
 
 
-def _digits(found: Array, exact: Array, condition: Array) -> tuple[Array, Array, Array]:
-    """Digits found, allowed and lost of one output."""
+def _digits(solved: Array, exact: Array, condition: Array) -> tuple[Array, Array, Array]:
+    """Correct, allowed and lost digits of one output."""
     size = np.maximum(np.abs(exact), FLOOR)
-    error = np.abs(found - exact)
+    error = np.abs(solved - exact)
     error = np.where(error <= FLOOR, 0.0, error)  # NaN stays
     limit = ROUNDING * (np.abs(exact) + condition)
     with np.errstate(divide="ignore", over="ignore"):

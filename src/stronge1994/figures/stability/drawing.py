@@ -28,9 +28,9 @@ OMEGA = "omega [Omega]"
 KINDS = {"digits": "correct digits found", "digits_allowed": "allowed by the condition"}
 MOST_DIGITS = 16
 LEVELS = np.arange(0, MOST_DIGITS + 1, 2)
-# So many digits may be lost, see the comparison `stability-digits`.
-WORSE = 2
-LINES = {0: "as many as allowed", WORSE: f"{WORSE} digits fewer"}
+# Digits that may be lost, see the comparison `stability-digits`.
+LOST_DIGITS_ALLOWED = 2
+LINES = {0: "as many as allowed", LOST_DIGITS_ALLOWED: f"{LOST_DIGITS_ALLOWED} digits fewer"}
 ACROSS, MEDIAN = "omega [cell]", "median [1]"
 # Lower edges of the cells, each with its label. The first cell has none: it holds all below.
 OMEGAS = {10.0**k: f"$10^{{{k}}}$" if k % 3 == 0 else "" for k in range(-5, 7)}
@@ -41,7 +41,7 @@ INCIDENCES = {5e-324: ""}
 INCIDENCES |= {10.0**k: f"$10^{{{k}}}$" for k in (-16, -8, -4, -2, 0, 2, 4, 8)}
 INCIDENCES[1.0] = "1"
 UPRIGHT = {"restitution [1]": RESTITUTIONS, "incidence [mu v2(0)]": INCIDENCES}
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     r"$\omega/\Omega$": r": omega \[cell\]",
     "digits found": r": digits \[1\]",
@@ -50,14 +50,14 @@ AXIS_MEANS = {
 }
 
 
-def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
     """Medians of the digits in cells of the parameters; pairs of digits that occur, to a tenth.
 
-    The least of a cell would be misleading: in every cell some output passes through zero.
+    The least number of a cell would mislead: in every cell an output passes through zero.
     """
     impacts = curves["impacts"]
-    found = dict(curves)
-    for (name, edges), (kind, words) in itertools.product(UPRIGHT.items(), KINDS.items()):
+    tables = dict(curves)
+    for (name, edges), (kind, label) in itertools.product(UPRIGHT.items(), KINDS.items()):
         digits = np.min([impacts[f"{kind}_{output} [1]"] for output in OUTPUTS], axis=0)
         column, row = (
             np.digitize(impacts[OMEGA], list(OMEGAS)),
@@ -68,15 +68,15 @@ def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
             cells[cell] = np.median(digits[(row == cell[0]) & (column == cell[1])])
         rows, columns = np.indices(cells.shape) + 0.5
         places = {ACROSS: columns.ravel(), in_cells(name): rows.ravel()}
-        found[f"{words}, {name}"] = places | {MEDIAN: cells.ravel()}
+        tables[f"{label}, {name}"] = places | {MEDIAN: cells.ravel()}
     for output in OUTPUTS:
         pairs = np.stack([impacts[f"{kind}_{output} [1]"] for kind in ("digits_allowed", "digits")])
         allowed, digits = np.unique(np.round(pairs, 1), axis=1)
-        found[f"digits of {output}"] = {"digits_allowed [1]": allowed, "digits [1]": digits}
+        tables[f"digits of {output}"] = {"digits_allowed [1]": allowed, "digits [1]": digits}
     ends = np.array([0.0, MOST_DIGITS])
-    for fewer, words in LINES.items():
-        found[words] = {"digits_allowed [1]": ends, "digits [1]": ends - fewer}
-    return found
+    for fewer, label in LINES.items():
+        tables[label] = {"digits_allowed [1]": ends, "digits [1]": ends - fewer}
+    return tables
 
 
 def in_cells(column: str) -> str:
@@ -103,17 +103,17 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
             place = {"va": "top", "transform": axes.transAxes, "bbox": PLATE}
             axes.text(0.04, 0.955, f"({letter})", **place)
             axes.tick_params(labelbottom=row == 1, labelleft=axes is maps[row][0])
-    for axes, words in zip(maps[0], KINDS.values(), strict=True):
-        axes.set_title(words)
+    for axes, title in zip(maps[0], KINDS.values(), strict=True):
+        axes.set_title(title)
     maps[0][0].set_yticks(*_with_ends(maps[0][0], "0", "1"))
     maps[1][0].set_yticks(*_with_ends(maps[1][0], "0", ""))
     bar = figure.colorbar(mesh, ax=sum(maps, []), ticks=LEVELS, aspect=40, pad=0.02)
     bar.set_label("digits of the worst output, median of a cell")
     panels = grid[2, :].subgridspec(1, len(OUTPUTS)).subplots(sharey=True)
-    for axes, letter, (name, words) in zip(panels, "efg", OUTPUTS.items(), strict=True):
+    for axes, letter, (name, title) in zip(panels, "efg", OUTPUTS.items(), strict=True):
         lines = _draw_scatter(axes, curves, curves[f"digits of {name}"])
         axes.set_xlabel("digits allowed by the condition", visible=letter == "f")
-        axes.set_title(f"({letter}) {words}")
+        axes.set_title(f"({letter}) {title}")
     panels[0].set_ylabel("digits found")
     house_style.legend_below(figure, lines[:1], lines[1:])
     return figure
@@ -144,8 +144,8 @@ def _draw_scatter(axes: Axes, curves: Curves, table: Columns) -> Entries:
     """Draw a mark for each pair of digits that occurs; entries of the legend."""
     axes.plot(table["digits_allowed [1]"], table["digits [1]"], **MARK)
     lines = []
-    for words, dashes in house_style.patterned(LINES.values()):
-        x, y = curves[words]["digits_allowed [1]"], curves[words]["digits [1]"]
-        lines += axes.plot(x, y, label=words, linestyle=dashes, **LINE)
+    for label, dashes in house_style.patterned(LINES.values()):
+        x, y = curves[label]["digits_allowed [1]"], curves[label]["digits [1]"]
+        lines += axes.plot(x, y, label=label, linestyle=dashes, **LINE)
     axes.set(xlim=(-0.8, 16.8), ylim=(-0.8, 16.8), xticks=LEVELS[::2], yticks=LEVELS[::2])
     return lines

@@ -46,7 +46,7 @@ LEADER = {"arrowstyle": "-|>", "mutation_scale": 6, "linewidth": 0.6, "color": h
 LEADER |= {"shrinkA": 0, "shrinkB": 0}
 
 
-def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
     """The curves by the titles of their maps, so that each map is looked up in its own table."""
     return {
         _title(settings["mass_ratio"], zeta2): curves[curve_names.name("zeta^2", zeta2)]

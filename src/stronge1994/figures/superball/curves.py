@@ -62,10 +62,7 @@ def impacts(
     bounces: int,
     **ball: float,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """The impacts of a throw as a scene, each from the state after the one before, and its result.
-
-    Both tables are as `planarimpact.scene.solve` takes and returns them.
-    """
+    """Impacts of a throw as tables of a scene, each from the state after the last, and results."""
     fixed: dict[str, Any] = ball | {"friction": friction, "restitution": restitution}
     fixed["loss"] = loss
     state = {"velocity_x": velocity[0], "velocity_y": 0.0, "velocity_z": velocity[1]}

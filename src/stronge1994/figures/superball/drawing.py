@@ -15,9 +15,9 @@ from stronge1994.figures.shared.drawing.house_style import Points, Settings, Sty
 Place: TypeAlias = tuple[float, float]
 
 PLACE, HEIGHT, SPIN = "place [m]", "height [m]", "spin_y [rad/s]"
-# Where the number of a flight stands, as a share of the flight, and its size as a share of the gap.
-NEAR, SIZE = 0.36, 0.065
-# What words of the picture mean, see `shared.drawing.words`.
+# Place of the number of a flight, as a share of the flight, and its size as a share of the gap.
+NUMBER_PLACE, NUMBER_SIZE = 0.36, 0.065
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     "distance from the first impact (m)": r": place \[m\]",
     "height (m)": r": height \[m\]",
@@ -25,31 +25,28 @@ AXIS_MEANS = {
 
 
 def sense(flight: int) -> str:
-    """Name of the table of the round arrow that shows the sense of the spin."""
+    """Name of the table of the round arrow that shows the direction of the spin."""
     return f"sense of spin {flight}"
 
 
-def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
     """Round arrows, clockwise if spin_y > 0, and open where no flight crosses them."""
-    path, radius = curves["path"], SIZE * settings["throw"]["gap"]
+    path, radius = curves["path"], NUMBER_SIZE * settings["throw"]["gap"]
     ways = np.diff(path[PLACE]) + 1j * np.diff(path[HEIGHT])
-    found = dict(curves)
+    tables = dict(curves)
     for number, (x, y, way, spin) in enumerate(
         zip(path[PLACE], path[HEIGHT], ways, path[SPIN], strict=False)
     ):
         angles = np.angle(1j * way) - np.sign(spin) * np.radians(np.linspace(35, 325, 60))
-        found[sense(number)] = {
-            PLACE: x + NEAR * way.real + radius * np.cos(angles),
-            HEIGHT: y + NEAR * way.imag + radius * np.sin(angles),
+        tables[sense(number)] = {
+            PLACE: x + NUMBER_PLACE * way.real + radius * np.cos(angles),
+            HEIGHT: y + NUMBER_PLACE * way.imag + radius * np.sin(angles),
         }
-    return found
+    return tables
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
-    """Draw the path of the ball's centre and the ball at each impact; the spin of each flight.
-
-    An arrow has the sense of the spin, the legend its size.
-    """
+    """Draw the path of the ball, its impacts, and the direction of the spin of each flight."""
     path, throw = curves["path"], settings["throw"]
     radius, gap = throw["radius"], throw["gap"]
     place, height = path[PLACE], path[HEIGHT]
@@ -66,11 +63,11 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     entries = []
     flights = zip(place, height, place[1:], height[1:], motions, strict=False)
     for number, (x, y, x_next, y_next, (v, spin)) in enumerate(flights):
-        words = f"({number + 1}) {_plain(v, 1)} m/s, spin_y {_plain(spin)} rad/s"
-        _draw_flight(axes, (x, y), (x_next, y_next), words, last=number + 2 == len(place))
-        entries.append(house_style.key(words, **_style(v < 0)))
-        near = x + NEAR * (x_next - x), y + NEAR * (y_next - y)
-        _draw_number(axes, number + 1, near, SIZE * gap)
+        label = f"({number + 1}) {_plain(v, 1)} m/s, spin_y {_plain(spin)} rad/s"
+        _draw_flight(axes, (x, y), (x_next, y_next), label, last=number + 2 == len(place))
+        entries.append(house_style.key(label, **_style(v < 0)))
+        near = x + NUMBER_PLACE * (x_next - x), y + NUMBER_PLACE * (y_next - y)
+        _draw_number(axes, number + 1, near, NUMBER_SIZE * gap)
         if round(spin):
             _draw_spin(axes, curves[sense(number)])
     for x, y, regime in zip(place[1:-1], height[1:-1], path["regime"][1:-1], strict=True):
@@ -87,8 +84,8 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         )
     axes.set(xlim=(left, right), ylim=(-0.12 * gap, 1.12 * gap), aspect="equal")
     axes.set(xlabel="distance from the first impact (m)", ylabel="height (m)")
-    shown = rf"$e = {throw['restitution']:g}$,  $\mu = {throw['friction']:g}$"
-    axes.set_title(f"{shown},  rubber ball, gravity left out")
+    groups = rf"$e = {throw['restitution']:g}$,  $\mu = {throw['friction']:g}$"
+    axes.set_title(f"{groups},  rubber ball, gravity left out")
     entries.append(house_style.key("round arrow: sense of the spin", linestyle="none"))
     house_style.legend_below(figure, entries[0::2], entries[1::2])
     return figure
@@ -100,8 +97,8 @@ def _style(back: bool) -> Style:
     return {"color": house_style.BLUE, "linestyle": "-"}
 
 
-def _draw_flight(axes: Axes, start: Place, end: Place, words: str, last: bool) -> None:
-    style = _style(end[0] < start[0]) | {"label": words}
+def _draw_flight(axes: Axes, start: Place, end: Place, label: str, last: bool) -> None:
+    style = _style(end[0] < start[0]) | {"label": label}
     tip = {"arrowstyle": "-|>", "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0 if last else 8}
     axes.add_patch(FancyArrowPatch(start, end, **tip, **style))
 

@@ -35,11 +35,11 @@ def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -
     >>> row = {"restitution [1]": "1", "max_velocity [mu v2(0)]": "0.2", "build_time [s]": ""}
     >>> row |= {"reference_error [mu v2(0)]": "1e-7", "time_10 [s]": "3e-5", "loss": ""}
     >>> row |= {"model": "lumped"} | dict.fromkeys(SPREAD, "0.4")
-    >>> found = which_model([row | {"curve": "lumped, e = 1"}], [0.3, 0.1])
-    >>> [entry["model_10"] for entry in found]
+    >>> table = which_model([row | {"curve": "lumped, e = 1"}], [0.3, 0.1])
+    >>> [entry["model_10"] for entry in table]
     ['lumped', 'none']
     """
-    batches = [int(found[1]) for found in map(TIME.fullmatch, rows[0]) if found]
+    batches = [int(match[1]) for match in map(TIME.fullmatch, rows[0]) if match]
     cases = {(row[RESTITUTION], row[LOSS]): None for row in ordered(rows)}
     table = []
     for restitution, loss in cases:
@@ -104,12 +104,14 @@ def _cheapest(rows: Sequence[Row], batch: int) -> Row:
 
 
 def write(curves: str, table: str, cheapest: str) -> None:
-    """Read the `curves` of the figure and write both tables; both get the error of a crash."""
+    """Read the `curves` of the figure and write both tables; after a crash both hold its error."""
     rows = csv_tables.read_rows(curves)
     if "error" in rows[0]:
         for path in (table, cheapest):
             csv_tables.write_rows(path, ["error"], [[rows[0]["error"]]])
         return
     every = [{"name": row.pop("curve"), **row} for row in ordered([dict(row) for row in rows])]
-    for path, found in ((table, every), (cheapest, which_model(rows))):
-        csv_tables.write_rows(path, list(found[0]), [list(row.values()) for row in found])
+    for path, rows_of_table in ((table, every), (cheapest, which_model(rows))):
+        csv_tables.write_rows(
+            path, list(rows_of_table[0]), [list(row.values()) for row in rows_of_table]
+        )

@@ -16,15 +16,15 @@ from stronge1994.figures.shared.curves.watch import BUSY, Watch
 FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
 SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
 LUMPED_RESPONSE_TOLERANCE = 1e-10
-# Of the spread, of which two digits matter.
+# Tolerance of the spread, of which two digits matter.
 SPREAD_TOLERANCE = 1e-3
 
 SEED = 1994
-# Medians are of so many calls, or of those begun in so many seconds. The incidence decides how long
-# one impact takes; a batch holds many incidences, so fewer of its calls give the same median.
-REPEATS, ENOUGH, ENOUGH_TOGETHER = 25, 0.1, 0.05
-# One impact costs little less than so many solved together: the overhead of arrays.
-TOGETHER = 300
+# A median is over at most this many calls, begun within this many seconds. The time of an impact
+# depends on its incidence; a large batch holds many incidences, so fewer of its calls are enough.
+MOST_CALLS, SECONDS_OF_CALLS, SECONDS_OF_LARGE_BATCHES = 25, 0.1, 0.05
+# Up to about this many impacts together take as long as one, because of the overhead of arrays.
+LARGE_BATCH = 300
 
 
 def curves(
@@ -79,7 +79,7 @@ def curves(
                 "input_spread [mu v2(0)]": root_mean_square(spread),
                 "input_spread_stick [mu v2(0)]": root_mean_square(spread[sticks]),
             }
-            for contender, found, seconds in timed:
+            for contender, rebound, seconds in timed:
                 # What the wrong loss costs does not depend on the tolerance.
                 coarsest = contender.settings.get("tolerance", np.inf) >= max(wanted)
                 if _loss(contender.model) not in ("", loss) and not coarsest:
@@ -89,8 +89,8 @@ def curves(
                     "restitution [1]": e,
                     "loss": loss,
                     **{SETTINGS[key]: value for key, value in contender.settings.items()},
-                    **errors(found, exact),
-                    "seen [1]": float(np.mean(np.abs(found.velocity - exact.velocity) > spread)),
+                    **errors(rebound, exact),
+                    "seen [1]": float(np.mean(np.abs(rebound.velocity - exact.velocity) > spread)),
                     **against,
                     **seconds,
                 }
@@ -157,8 +157,8 @@ def _solver(model: Model, groups: dict[str, float], settings: dict[str, float]) 
 
 
 def _name(contender: _Contender, e: float, loss: str) -> str:
-    words = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
-    settings = [words[key].format(value) for key, value in contender.settings.items()]
+    formats = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
+    settings = [formats[key].format(value) for key, value in contender.settings.items()]
     return ", ".join([contender.model, *settings, f"e = {e:g}", *filter(None, [loss])])
 
 
@@ -196,22 +196,21 @@ def root_mean_square(values: Array) -> float:
     return float(np.sqrt(np.mean(np.square(values)))) if values.size else float("nan")
 
 
-def errors(found: Rebound, exact: Rebound) -> dict[str, float]:
-    """Root mean square and largest error of each field that a model answers.
+def errors(rebound: Rebound, exact: Rebound) -> dict[str, float]:
+    """Root mean square and largest error of each field that a model has.
 
-    A field, other than velocity, that `found` leaves open is NaN there, and has no columns.
+    A field that `rebound` leaves NaN has no columns, other than velocity.
 
     >>> from planarimpact import rigid
     >>> from planarimpact.models import laws
     >>> x = np.array([1.0, 8.0])
-    >>> list(errors(laws.brach(x), rigid.rebound(x)))[:3]
-    ['rms_velocity [mu v2(0)]', 'max_velocity [mu v2(0)]', \
-'rms_dissipation [mu^2 m2 v2(0)^2]']
+    >>> list(errors(laws.brach(x), rigid.rebound(x)))[:2]
+    ['rms_velocity [mu v2(0)]', 'max_velocity [mu v2(0)]']
     """
     columns = {}
     for field, unit in FIELDS.items():
-        gap = np.abs(getattr(found, field) - getattr(exact, field))
-        # A velocity that is no number is a fault, and must show.
+        gap = np.abs(getattr(rebound, field) - getattr(exact, field))
+        # A velocity that is not a number is a fault, and must appear in the table.
         if field == "velocity" or np.isfinite(gap).all():
             columns[f"rms_{field} [{unit}]"] = root_mean_square(gap)
             columns[f"max_{field} [{unit}]"] = np.max(gap)
@@ -241,12 +240,12 @@ def times(
     columns: dict[str, float] = {}
     before, alone = 1, 0.0
     for batch in sorted(batches):
-        if alone * batch / max(before, TOGETHER) > budget:
+        if alone * batch / max(before, LARGE_BATCH) > budget:
             break
-        enough = ENOUGH if batch < TOGETHER else ENOUGH_TOGETHER
+        enough = SECONDS_OF_CALLS if batch < LARGE_BATCH else SECONDS_OF_LARGE_BATCHES
         taken: list[float] = []
         watch = Watch()
-        while len(taken) < REPEATS and sum(taken) < enough:
+        while len(taken) < MOST_CALLS and sum(taken) < enough:
             x = random.uniform(low, high, batch)
             with watch:
                 taken.append(seconds(x))

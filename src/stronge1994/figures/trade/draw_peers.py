@@ -33,8 +33,8 @@ ERROR, E, LOSS = draw_trade.ERROR, draw_trade.RESTITUTION, "loss"
 STEPS, USUAL_STEPS = draw_trade.STEPS, 64
 # The continuum of each panel.
 PANELS = {"viscous": "(a) viscous loss", "plastic": "(b) plastic loss"}
-# Words for models of ours. Each continuum is drawn in the panel of the other.
-OUR_WORDS = {
+# Labels of models of ours. Each continuum is drawn in the panel of the other.
+OUR_LABELS = {
     "lumped": "lumped: the paper",
     "continuum.viscous": "continuum of the other loss",
     "continuum.plastic": "continuum of the other loss",
@@ -46,13 +46,13 @@ MARKERS = (
     {"marker": "^", "markersize": 3.8, "markerfacecolor": house_style.BLACK},
 )
 TICKS = (0.05, 0.1, 0.2, 0.5, 1)
-# Inches of a line of a legend or of the second figure, and of all above and below its lines.
+# Height in inches of a line of a legend or of the second figure, and of all else in that figure.
 LINE, FRAME = 0.22, 1.1
-# Points of two restitutions are so many lines apart, so that none hides another.
-APART = 0.27
+# Distance of the points of two restitutions, in lines, so that none hides another.
+RESTITUTION_SPACING = 0.27
 
 _Row: TypeAlias = dict[str, Any]
-# What words of the pictures mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = draw_trade.AXIS_MEANS | {"error, rms": r"^LAMMPS .*: rms_velocity \[mu v2\(0\)\]"}
 LEGEND_MEANS = draw_trade.LEGEND_MEANS | {"^LAMMPS: see": "^LAMMPS "}
 
@@ -60,7 +60,7 @@ LEGEND_MEANS = draw_trade.LEGEND_MEANS | {"^LAMMPS: see": "^LAMMPS "}
 class _Line(NamedTuple):
     """A line of the second figure: a heading, or a code with its settings."""
 
-    words: str
+    label: str
     heading: bool = False
 
 
@@ -76,9 +76,9 @@ def draw(curves: Curves, peers: Curves, settings: Settings) -> tuple[Figure, Cur
         for name, row in peers.items()
         if row["model"][0] in codes and ERROR in row and row[E][0] == 1
     }
-    shown = draw_trade.shown(curves | theirs, settings, {})
-    theirs = {name: shown[name] for name in theirs}
-    figure = draw_trade.draw(shown, settings, {}, draw_trade.FAMILIES | codes)
+    tables = draw_trade.drawn_curves(curves | theirs, settings, {})
+    theirs = {name: tables[name] for name in theirs}
+    figure = draw_trade.draw(tables, settings, {}, draw_trade.FAMILIES | codes)
     models = {row["model"][0] for row in theirs.values()}
     legend = [_keys({codes[model].label: codes[model] for model in sorted(models)}.values())]
     if models & set(LAWS):
@@ -90,9 +90,9 @@ def draw(curves: Curves, peers: Curves, settings: Settings) -> tuple[Figure, Cur
         figure.set_figheight(figure.get_figheight() + LINE * max(map(len, legend)))
         house_style.legend_below(figure, *legend)
     if missing := _missing(peers):
-        words = f"not installed: {missing}\n{figure.get_suptitle()}"
-        figure.suptitle(words, fontsize=house_style.NOTE)
-    return figure, shown
+        note = f"not installed: {missing}\n{figure.get_suptitle()}"
+        figure.suptitle(note, fontsize=house_style.NOTE)
+    return figure, tables
 
 
 def _missing(peers: Curves) -> str:
@@ -114,17 +114,14 @@ def _draw_laws(axes: Axes, peers: Curves, batch: int) -> None:
             family = LAWS[row[draw_trade.MODEL]]
             at = time, row[draw_trade.ERROR]
             axes.semilogx(*at, linestyle="none", **family.style())
-            draw_trade.label(axes, at, draw_trade.words_of(row), family.place)
+            draw_trade.label(axes, at, draw_trade.label_of(row), family.place)
     axes.margins(x=1.0, y=0.15)  # so wide that there are two powers of ten
     axes.locator_params(axis="y", nbins=4)
-    axes.set(xlabel=draw_trade.TIME_WORDS, ylabel="error, rms", title="(d) LAMMPS, part of (a)")
+    axes.set(xlabel=draw_trade.TIME_LABEL, ylabel="error, rms", title="(d) LAMMPS, part of (a)")
 
 
 def draw_errors(peers: Curves) -> tuple[Figure, Curves]:
-    """Draw the errors below e = 1 of each code and model, a panel for each loss; and their tables.
-
-    If no code is installed, the figure says so.
-    """
+    """Draw the errors below e = 1 of each code and model, a panel for each loss; with tables."""
     rows = [{key: value[0] for key, value in row.items()} for row in peers.values()]
     rows = [row for row in rows if row.get(LOSS) in PANELS and ERROR in row and _is_drawn(row)]
     missing = _missing(peers)
@@ -138,17 +135,17 @@ def draw_errors(peers: Curves) -> tuple[Figure, Curves]:
     tables = _errors(rows, values)
     for axes, (loss, title) in zip(both, PANELS.items(), strict=True):
         _draw_loss(axes, tables, loss, lines, styles)
-        axes.set_xlabel(draw_trade.ERROR_WORDS, visible=False)
+        axes.set_xlabel(draw_trade.ERROR_LABEL, visible=False)
         axes.set_title(title)
     ticks = [place for place, line in enumerate(lines) if not line.heading]
-    both[0].set_yticks(ticks, [lines[place].words for place in ticks], fontsize=house_style.NOTE)
+    both[0].set_yticks(ticks, [lines[place].label for place in ticks], fontsize=house_style.NOTE)
     both[0].tick_params(axis="y", length=0)
     both[1].tick_params(axis="y", length=0)
     for place, line in enumerate(lines):
         if line.heading:
             at = {"xytext": (-4, 0), "textcoords": "offset points", "ha": "right", "va": "center"}
             both[0].annotate(
-                line.words,
+                line.label,
                 (0, place),
                 xycoords=both[0].get_yaxis_transform(),
                 fontsize=house_style.NOTE,
@@ -160,11 +157,11 @@ def draw_errors(peers: Curves) -> tuple[Figure, Curves]:
         house_style.key(f"$e = {e:g}$", linestyle="none", color=house_style.BLACK, **style)
         for e, style in styles.items()
     ]
-    words = r"error of $v_1(t_f)/\mu v_2(0)$ against the continuum, rms over the incidences"
+    title = r"error of $v_1(t_f)/\mu v_2(0)$ against the continuum, rms over the incidences"
     absent = f"\nnot installed: {missing}" if missing else ""
     figure.legend(
         handles=keys,
-        title=words + absent,
+        title=title + absent,
         title_fontsize=house_style.NOTE,
         loc="outside lower center",
         ncols=len(keys),
@@ -175,14 +172,14 @@ def draw_errors(peers: Curves) -> tuple[Figure, Curves]:
 
 def _errors(rows: Sequence[_Row], values: Sequence[float]) -> Curves:
     """Errors of each line of a panel, together and for each restitution."""
-    found: Curves = {}
+    tables: Curves = {}
     for e, row in itertools.product(values, rows):
         if row[E] == e:
-            name, error = f"{_words(row)}, {row[LOSS]}", np.array([row[ERROR]])
-            line = found.setdefault(name, {ERROR: np.array([])})
-            found[name] = {ERROR: np.append(line[ERROR], error)}
-            found[f"{name}, e = {e:g}"] = {ERROR: error}
-    return found
+            name, error = f"{_label_of(row)}, {row[LOSS]}", np.array([row[ERROR]])
+            line = tables.setdefault(name, {ERROR: np.array([])})
+            tables[name] = {ERROR: np.append(line[ERROR], error)}
+            tables[f"{name}, e = {e:g}"] = {ERROR: error}
+    return tables
 
 
 def _is_drawn(row: _Row) -> bool:
@@ -209,8 +206,8 @@ def _lines(rows: Sequence[_Row]) -> list[_Line]:
     for row in rows:
         model = row[draw_trade.MODEL]
         group = theirs if model.startswith("LAMMPS") else pooltool if model == "pooltool" else ours
-        if _words(row) not in group:
-            group.append(_words(row))
+        if _label_of(row) not in group:
+            group.append(_label_of(row))
     lines = []
     for heading, group in groups.items():
         if group:
@@ -218,35 +215,38 @@ def _lines(rows: Sequence[_Row]) -> list[_Line]:
     return lines
 
 
-def _words(row: _Row) -> str:
-    """Words for the code and settings of a row.
+def _label_of(row: _Row) -> str:
+    """Label of the code and settings of a row.
 
-    >>> _words({"model": "LAMMPS mindlin, viscoelastic, xt = 0.5", "steps [1]": 256.0})
+    >>> _label_of({"model": "LAMMPS mindlin, viscoelastic, xt = 0.5", "steps [1]": 256.0})
     'mindlin, $x_t = 0.5$, 256 steps'
-    >>> _words({"model": "pooltool"})
+    >>> _label_of({"model": "pooltool"})
     "the paper's model"
     """
     model: str = row[draw_trade.MODEL]
     if model == "pooltool":
         return "the paper's model"
     if not model.startswith("LAMMPS "):
-        words = OUR_WORDS.get(model, model)
+        label = OUR_LABELS.get(model, model)
     else:
-        law, style, tangential, *rest = model.removeprefix("LAMMPS ").split(", ")
+        law, style, tangential, *others = model.removeprefix("LAMMPS ").split(", ")
         known = [] if style == "viscoelastic" else [style]
         known += [] if tangential == "xt = 0" else [f"${tangential.replace('xt', 'x_t')}$"]
-        words = ", ".join([law, *known, *rest])
+        label = ", ".join([law, *known, *others])
     steps = row.get(STEPS, USUAL_STEPS)
-    return words if steps == USUAL_STEPS else f"{words}, {steps:g} steps"
+    return label if steps == USUAL_STEPS else f"{label}, {steps:g} steps"
 
 
 def _draw_loss(
     axes: Axes, tables: Curves, loss: str, lines: Sequence[_Line], styles: Mapping[float, Any]
 ) -> None:
-    places = {line.words: place for place, line in enumerate(lines) if not line.heading}
-    for words, place in places.items():
-        errors = {e: tables.get(f"{words}, {loss}, e = {e:g}") for e in styles}
-        heights = {e: place + (i - (len(styles) - 1) / 2) * APART for i, e in enumerate(styles)}
+    places = {line.label: place for place, line in enumerate(lines) if not line.heading}
+    for label, place in places.items():
+        errors = {e: tables.get(f"{label}, {loss}, e = {e:g}") for e in styles}
+        heights = {
+            e: place + (i - (len(styles) - 1) / 2) * RESTITUTION_SPACING
+            for i, e in enumerate(styles)
+        }
         known = {e: table[ERROR][0] for e, table in errors.items() if table}
         points = list(known.values()), [heights[e] for e in known]
         axes.plot(*points, color=house_style.GREY, linewidth=0.6, zorder=1)
@@ -263,15 +263,12 @@ def _draw_loss(
 def write(
     curves: str, peers: str, settings: Settings, pictures: Sequence[str], errors: Sequence[str]
 ) -> None:
-    """Draw the tables `curves` and `peers`; a solver that failed becomes a picture that says so.
-
-    `pictures` are the SVG and PNG of `draw`, `errors` those of `draw_errors`.
-    """
+    """Draw both figures as SVG and PNG, or the error of a failed solver."""
     try:
         theirs = csv_tables.read(peers)
-        found = [draw(csv_tables.read(curves), theirs, settings), draw_errors(theirs)]
+        drawn = [draw(csv_tables.read(curves), theirs, settings), draw_errors(theirs)]
     except csv_tables.Failed as error:
-        found = [(house_style.failure(f"trade: the solver failed: {error}"), {})] * 2
+        drawn = [(house_style.failure(f"trade: the solver failed: {error}"), {})] * 2
     own = meanings.more(AXIS_MEANS, LEGEND_MEANS)
-    checked.save(*found[0], "trade_with_peers", pictures[0], pictures[1], own)
-    checked.save(*found[1], "peers", errors[0], errors[1], own)
+    checked.save(*drawn[0], "trade_with_peers", pictures[0], pictures[1], own)
+    checked.save(*drawn[1], "peers", errors[0], errors[1], own)

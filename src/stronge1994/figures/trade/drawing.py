@@ -25,11 +25,11 @@ CUT = 0.03
 # Room for labels left of the fastest model, as a share of the axis of time: of the wide panel and
 # of the others.
 MARGINS = 0.12, 0.3
-HIDDEN_WORDS = (
+HIDDEN_NOTE = (
     "grey band: how far $v_1(t_f)$ moves if $e$ changes by 0.02 and $\\mu$ by 10 %;\n"
     "lower edge: impacts that stick at first; upper edge: all impacts"
 )
-ERROR_WORDS, TIME_WORDS = r"error of $v_1(t_f)/\mu v_2(0)$, rms", "time of an impact (µs)"
+ERROR_LABEL, TIME_LABEL = r"error of $v_1(t_f)/\mu v_2(0)$, rms", "time of an impact (µs)"
 
 # Where labels are: horizontal alignment, and distances from the point. The line of a front comes to
 # its point from above and leaves it to the right.
@@ -39,10 +39,10 @@ UPPER_RIGHT = ("left", 4, 2.5)
 OTHER_LOSS, OF_OTHER_LOSS = "other loss", ("right", 5, 5)
 FLOOR = 1e-12  # smaller errors are rounding
 IMPACTS, TIME = "impacts [1]", "time [us]"
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
-    TIME_WORDS: r": time_?\d* \[us\]",
-    ERROR_WORDS: r": rms_velocity \[mu v2\(0\)\]",
+    TIME_LABEL: r": time_?\d* \[us\]",
+    ERROR_LABEL: r": rms_velocity \[mu v2\(0\)\]",
     "impacts together": r": impacts \[1\]",
 }
 LEGEND_MEANS = {
@@ -61,9 +61,9 @@ def over_batches(name: str) -> str:
     return f"{name}, over batches"
 
 
-def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
     """Times in microseconds, errors from rounding on, and a table over the batches of each row."""
-    found = {}
+    named = {}
     for name, row in curves.items():
         known = [b for b in sorted(settings["batches"]) if f"time_{b} [s]" in row]
         times = [
@@ -74,11 +74,11 @@ def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
         for end in ("", tables.LESS):
             cells = [time[f"time_{b} [us]{end}"] for b, time in zip(known, times, strict=True)]
             over[TIME + end] = np.concatenate([[], *cells])
-        found[name] = row | {key: value for time in times for key, value in time.items()}
+        named[name] = row | {key: value for time in times for key, value in time.items()}
         if ERROR in row:
-            found[name] |= {ERROR: np.maximum(row[ERROR], FLOOR)}
-        found[over_batches(name)] = over
-    return found
+            named[name] |= {ERROR: np.maximum(row[ERROR], FLOOR)}
+        named[over_batches(name)] = over
+    return named
 
 
 class Family(NamedTuple):
@@ -113,7 +113,7 @@ FAMILIES = {
     "laws.brach": FORMULA,
     "lumped": Family("lumped, as in the paper", "o", 3.5, BLACK, True, None),
     "timestep.linear": Family("linear spring", "s", 5.5, BLACK, False, LOWER_RIGHT),
-    # At the number of steps of the next.
+    # It has no label: its numbers of steps are those of the next model.
     "timestep.mindlin": Family("Mindlin", "^", 5, BLACK, True, None),
     "timestep.mindlin_rescaled": Family("Mindlin, rescaled", "v", 5, BLACK, False, UPPER_RIGHT),
     "lumped.viscous": Family("lumped, viscous", "P", 5, VISCOUS, True, None),
@@ -161,7 +161,7 @@ GROWTH = {
     "annuli": house_style.DASHES[3],
     "response of continuum": house_style.DASHES[4],
 }
-# The part of the answer that uncertain inputs hide.
+# Range of errors that uncertain inputs hide.
 HIDDEN = {"color": "0.9", "linewidth": 0, "zorder": 0.5}
 FRONT = {"color": house_style.BLACK, "linewidth": 0.6, "zorder": 0.9}
 FRONT_WITH_RESPONSES = FRONT | {"linestyle": (0, (4, 2))}
@@ -190,33 +190,33 @@ def draw(
     for number, (cell, case) in enumerate(zip(cells, cases, strict=False)):
         same = [row for row in rows if _case(row) == case]
         if number:  # more steps do not change an error here, and would hide other points
-            some = sorted({row[STEPS] for row in same if STEPS in row})
-            same = [row for row in same if row.get(STEPS) in (None, some[len(some) // 2])]
+            step_counts = sorted({row[STEPS] for row in same if STEPS in row})
+            same = [
+                row for row in same if row.get(STEPS) in (None, step_counts[len(step_counts) // 2])
+            ]
         rough, fine = cell.subgridspec(2, 1).subplots(sharex=True)
         for axes, span in ((rough, (CUT, np.inf)), (fine, (0, CUT))):
             _draw_errors(axes, same, batch, families, span, MARGINS[min(number, 1)])
         _cut(rough, fine)
         rough.set_title(_title("abc"[number], *case))
-        fine.set_xlabel(TIME_WORDS, visible=True)
-        fine.set_ylabel(ERROR_WORDS, y=1.0, visible=number < 2)
+        fine.set_xlabel(TIME_LABEL, visible=True)
+        fine.set_ylabel(ERROR_LABEL, y=1.0, visible=number < 2)
     below = grid[2, :].subgridspec(1, 2, width_ratios=[2, 3])
     growth = figure.add_subplot(below[0], label=GROWTH_PANEL)
     case = next(iter(cases))
     _draw_growth(
         growth, {n: c for n, c in curves.items() if MODEL in c and _case(c) == case}, curves
     )
-    growth.set(title=f"(d) $e = {ends[0]:g}$", xlabel="impacts together", ylabel=TIME_WORDS)
+    growth.set(title=f"(d) $e = {ends[0]:g}$", xlabel="impacts together", ylabel=TIME_LABEL)
     note = f"numbers at points: steps, circles or tolerance; errors: {batch} impacts together"
-    notes = [note, HIDDEN_WORDS, warning(rows)]
+    notes = [note, HIDDEN_NOTE, warning(rows)]
     figure.suptitle("\n".join(filter(None, notes)), fontsize=house_style.NOTE)
     _add_legend(figure, below[1], bool(warning(rows)))
     return figure
 
 
 def warning(rows: Sequence[_Row]) -> str:
-    """A sentence if the machine was busy while some of the times were taken, else no words.
-
-    The rows are those of results/curves/trade.csv, as texts or numbers.
+    """A sentence if the machine was busy while some times were taken, else an empty text.
 
     >>> warning([{"time_1 [s]": 2.0, "busy_1 [1]": 1.9}, {"time_1 [s]": 1.0}])
     'the machine was busy: 1 of 2 times are up to 1.9 times too long'
@@ -233,7 +233,7 @@ def warning(rows: Sequence[_Row]) -> str:
 
 
 def time_column(batch: int) -> str:
-    """Times of an impact in a batch, as `shown` gives them."""
+    """Times of an impact in a batch, as `drawn_curves` gives them."""
     return f"time_{batch} [us]"
 
 
@@ -260,8 +260,8 @@ def _draw_errors(
     margin: float,
 ) -> None:
     """Draw the points in a span of error, both fronts, and what uncertain inputs hide."""
-    axes.set_xlabel(TIME_WORDS, visible=False)
-    axes.set_ylabel(ERROR_WORDS, visible=False)
+    axes.set_xlabel(TIME_LABEL, visible=False)
+    axes.set_ylabel(ERROR_LABEL, visible=False)
     column = time_column(batch)
     timed = [row for row in rows if column in row]
     if not timed:
@@ -272,8 +272,8 @@ def _draw_errors(
         if span[0] < at[1] <= span[1]:
             family = families[row[MODEL]]
             axes.plot(*at, linestyle="none", **family.style())
-            words = words_of(row)
-            label(axes, at, words, OF_OTHER_LOSS if words == OTHER_LOSS else family.place)
+            text = label_of(row)
+            label(axes, at, text, OF_OTHER_LOSS if text == OTHER_LOSS else family.place)
             if shortest < at[0]:
                 axes.errorbar(*at, xerr=[[at[0] - shortest], [0]], **house_style.BUSY)
     axes.axhspan(timed[0][SPREAD_STICK], timed[0][SPREAD], **HIDDEN)
@@ -285,13 +285,13 @@ def _draw_errors(
         _draw_front(axes, [time[i] for i in chosen], [error[i] for i in chosen], edges, style)
 
 
-def label(axes: Axes, at: Sequence[float], words: str, place: Place | None) -> None:
-    """Write words beside a point, if there are any and a place for them."""
-    if not words or place is None:
+def label(axes: Axes, at: Sequence[float], text: str, place: Place | None) -> None:
+    """Write a text beside a point, if it is not empty and has a place."""
+    if not text or place is None:
         return
     alignment, *offset = place
     axes.annotate(
-        words,
+        text,
         at,
         xytext=offset,
         textcoords="offset points",
@@ -301,7 +301,7 @@ def label(axes: Axes, at: Sequence[float], words: str, place: Place | None) -> N
     )
 
 
-def words_of(row: _Row) -> str:
+def label_of(row: _Row) -> str:
     """Label of a point: the setting of its model, or its name."""
     if loss := row.get("loss"):
         if row[MODEL].endswith(LOSSES) and not row[MODEL].endswith(loss):
@@ -323,11 +323,11 @@ def front(time: Sequence[float], error: Sequence[float]) -> list[int]:
     >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
     [1, 2, 0]
     """
-    found: list[int] = []
+    indices: list[int] = []
     for index in sorted(range(len(time)), key=lambda i: (time[i], error[i])):
-        if not found or error[index] < error[found[-1]]:
-            found.append(index)
-    return found
+        if not indices or error[index] < error[indices[-1]]:
+            indices.append(index)
+    return indices
 
 
 def _draw_front(
@@ -367,9 +367,9 @@ def _draw_growth(axes: Axes, rows: Curves, curves: Curves) -> None:
         batch, time = table[IMPACTS], table[TIME]
         axes.loglog(batch, time, linestyle=dashes, linewidth=0.9, **FAMILIES[model].style())
         below = time - table[TIME + tables.LESS]
-        some = below > 0
-        bars = below[some], 0 * below[some]
-        axes.errorbar(batch[some], time[some], yerr=bars, **house_style.BUSY)
+        too_long = below > 0
+        bars = below[too_long], 0 * below[too_long]
+        axes.errorbar(batch[too_long], time[too_long], yerr=bars, **house_style.BUSY)
 
 
 def _add_legend(figure: Figure, cell: SubplotSpec, busy: bool) -> None:
@@ -380,8 +380,8 @@ def _add_legend(figure: Figure, cell: SubplotSpec, busy: bool) -> None:
         house_style.key("with responses", **FRONT_WITH_RESPONSES),
     ]
     if busy:
-        words = "too long by up to this"
-        lines.append(house_style.key(words, color=house_style.GREY, marker="|", linewidth=0.9))
+        label = "too long by up to this"
+        lines.append(house_style.key(label, color=house_style.GREY, marker="|", linewidth=0.9))
     entries = []
     for title, models in LEGEND.items():
         entries.append(house_style.key(title, linestyle="none"))

@@ -20,15 +20,15 @@ _Row: TypeAlias = dict[str, Any]
 # The continuum for each cause of loss, and that of elastic bodies.
 LOSSES = {"viscous": "continuum.viscous", "plastic": "continuum.plastic"}
 ELASTIC = {"": "continuum"}
-# On which the codes are tried. They err by 0.05 mu v2(0) and more below e = 1: there their errors
-# are known to a few thousandths.
+# Restitutions of the comparison. Below e = 1 the codes err by 0.05 mu v2(0) and more, and their
+# errors are known to a few thousandths.
 RESTITUTIONS = (1.0, 0.9, 0.7, 0.5)
 LOSSY_TOLERANCE = 1e-4
 STEPS = (64, 256)
 BATCHES = (1, 1000)
-# Seconds that a batch may take.
+# Longest time of a batch, in seconds.
 BUDGET = 10.0
-# Of our own continua, solved and compiled: far below the errors of both codes.
+# Tolerance of our own continua, solved and compiled: far below the errors of both codes.
 OWN_TOLERANCE = 1e-3
 # The rooms of ours whose models are measured beside the codes, and those that are compiled too.
 ROOMS, COMPILED = ("lumped", "continuum", "spheres"), "continuum"
@@ -55,10 +55,7 @@ class _Solve(Protocol):
 
 
 class Contender(NamedTuple):
-    """A code with its settings; `solve` returns velocities, seconds, and seconds of set-up.
-
-    `columns` holds what else its rows say.
-    """
+    """A code with its settings; `solve` returns velocities, seconds, and seconds of set-up."""
 
     model: str
     settings: dict[str, Any]
@@ -95,12 +92,12 @@ def measure(
 
     @functools.cache
     def references(e: float) -> dict[str, _Reference]:
-        found = {}
+        by_loss = {}
         for loss, name in (ELASTIC if e == 1 else LOSSES).items():
             error = tolerance if e == 1 else lossy_tolerance
             exact = models.rebound(name, x, mass_ratio, stiffness_ratio, e, tolerance=error)
-            found[loss] = _Reference(exact.velocity, error)
-        return found
+            by_loss[loss] = _Reference(exact.velocity, error)
+        return by_loss
 
     rows: dict[str, _Row] = {}
     notes = []
@@ -136,14 +133,16 @@ def _lammps(
                 solve = functools.partial(_thrown, law=law, steps=steps, poisson_ratio=nu)
                 contenders.append(Contender(f"LAMMPS {law}", settings, solve))
         else:
-            for law, own_steps, words in DAMPED:
+            for law, own_steps, damping_arguments in DAMPED:
                 if own_steps == steps:
-                    contenders.append(_damped(law, steps, nu, restitution, words))
+                    contenders.append(_damped(law, steps, nu, restitution, damping_arguments))
         yield tuple(contenders)
 
 
-def _damped(law: str, steps: int, nu: float, restitution: float, words: _Row) -> Contender:
-    damping = peers.damping_for(restitution, steps=steps, **words)
+def _damped(
+    law: str, steps: int, nu: float, restitution: float, damping_arguments: _Row
+) -> Contender:
+    damping = peers.damping_for(restitution, steps=steps, **damping_arguments)
     along_normal = peers.lammps_impacts(0.0, law, steps, poisson_ratio=nu, damping=damping)
     columns = {
         "damping": damping.style,
@@ -152,7 +151,7 @@ def _damped(law: str, steps: int, nu: float, restitution: float, words: _Row) ->
         "restitution_delivered [1]": along_normal.restitution,
     }
     solve = functools.partial(_thrown, law=law, steps=steps, poisson_ratio=nu, damping=damping)
-    return Contender(f"LAMMPS {law}, {damping.words()}", {"steps": steps}, solve, columns)
+    return Contender(f"LAMMPS {law}, {damping.label()}", {"steps": steps}, solve, columns)
 
 
 def _pooltool(
@@ -181,10 +180,7 @@ def _alone(
 
 
 def _own_names(restitution: float) -> list[str]:
-    """Models of `ROOMS` that admit a restitution.
-
-    At e = 1 all losses are the same: the model without a loss is taken, or the viscous one.
-    """
+    """Models of `ROOMS` that admit a restitution; at e = 1 without repeats of another loss."""
     names = []
     for name, model in models.MODELS.items():
         low, high = model.restitution
@@ -216,8 +212,8 @@ def _compiled(
 
 
 def _thrown(x: Array, **settings: Any) -> Answer:
-    found = peers.lammps_impacts(x, **settings)
-    return found.velocity, found.run_seconds, found.total_seconds - found.run_seconds
+    impacts = peers.lammps_impacts(x, **settings)
+    return impacts.velocity, impacts.run_seconds, impacts.total_seconds - impacts.run_seconds
 
 
 def _ours(
@@ -229,8 +225,8 @@ def _ours(
 ) -> Contender:
     def solve(x: Array) -> Answer:
         start = time.perf_counter()
-        found = models.rebound(model, x, mass_ratio, stiffness_ratio, restitution, **settings)
-        return found.velocity, time.perf_counter() - start, 0.0
+        rebound = models.rebound(model, x, mass_ratio, stiffness_ratio, restitution, **settings)
+        return rebound.velocity, time.perf_counter() - start, 0.0
 
     return Contender(model, dict(settings), solve)
 
@@ -261,8 +257,8 @@ def _rows_of(
                 **{trade.SETTINGS[key]: value for key, value in contender.settings.items()},
             }
             if answered.any():
-                found, exact = velocity[answered], reference.velocity[answered]
-                row |= trade.errors(_velocities(found), _velocities(exact))
+                computed, exact = velocity[answered], reference.velocity[answered]
+                row |= trade.errors(_velocities(computed), _velocities(exact))
             row |= {"reference_error [mu v2(0)]": reference.error, **times}
             row["time_over_ours [1]"] = _largest(times) / first
             rows[_name(contender, e, loss)] = row
@@ -270,7 +266,9 @@ def _rows_of(
 
 
 def _times(contender: Contender, x: Array, incidence: Sequence[float]) -> dict[str, float]:
-    times = trade.times(lambda some: contender.solve(some)[1], incidence, BATCHES, BUDGET)
+    times = trade.times(
+        lambda incidences: contender.solve(incidences)[1], incidence, BATCHES, BUDGET
+    )
     *_, set_up = contender.solve(x)
     return times | ({"build_time [s]": set_up} if set_up else {})
 

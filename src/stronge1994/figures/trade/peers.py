@@ -27,8 +27,8 @@ from planarimpact.ground.arrays import Array, ArrayLike
 
 REQUIREMENTS = "workflow/envs/peers.txt"
 LAWS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
-# LAMMPS is told the restitution for two styles of damping, and a coefficient for its default. The
-# styles left out here have a force at the first touch, which no Hertzian contact has.
+# Two styles of damping in LAMMPS take the restitution; its default takes a coefficient. The styles
+# left out here have a force at the first touch, which no Hertzian contact has.
 NOMINAL = ("coeff_restitution", "tsuji")
 DEFAULT = "viscoelastic"
 
@@ -71,7 +71,7 @@ def poisson_ratio_of(stiffness_ratio: float) -> float:
 
 
 class Damping(NamedTuple):
-    """What `fix wall/gran granular` is told about the loss of energy.
+    """Arguments of `fix wall/gran granular` for the loss of energy.
 
     `style` is the word after `damping`: one of `NOMINAL`, or `DEFAULT`. `number` is the number
     after Young's modulus: for a style in `NOMINAL` a restitution, above 0 and at most 1; for
@@ -85,10 +85,10 @@ class Damping(NamedTuple):
     tangential: float = 0.0
     limited: bool = False
 
-    def words(self) -> str:
+    def label(self) -> str:
         """Short name.
 
-        >>> Damping("tsuji", 0.5, tangential=1.0, limited=True).words()
+        >>> Damping("tsuji", 0.5, tangential=1.0, limited=True).label()
         'tsuji, xt = 1, limited'
         """
         return f"{self.style}, xt = {self.tangential:g}{', limited' if self.limited else ''}"
@@ -98,7 +98,7 @@ UNDAMPED = Damping()
 
 
 class Impacts(NamedTuple):
-    """What LAMMPS makes of some impacts.
+    """Results of LAMMPS for several impacts.
 
     `velocity` is w of each impact. `restitution` is the normal speed after the impact over that
     before it, the same for all. Seconds are wall-clock time, of LAMMPS' `run` and of everything
@@ -119,10 +119,10 @@ def damping_for(
     tangential: float = 0.0,
     limited: bool = False,
 ) -> Damping:
-    """The damping of a user who wants this restitution.
+    """The damping that gives a restitution.
 
-    The restitution is the kinematic coefficient. A style in `NOMINAL` is told the restitution
-    itself, and may deliver another. For `DEFAULT` a search over impacts along the normal finds the
+    The restitution is the kinematic coefficient. A style in `NOMINAL` takes the restitution itself,
+    and may deliver another. For `DEFAULT` a search over impacts along the normal gives the
     coefficient that delivers it; `steps` are the time steps in one Hertzian contact, those of the
     impacts that follow.
 
@@ -138,8 +138,8 @@ def damping_for(
 
     def excess(number: float) -> float:
         damping = Damping(style, number, tangential, limited)
-        found = lammps_impacts(0.0, LAWS[0], steps, damping=damping)
-        return found.restitution - restitution
+        impacts = lammps_impacts(0.0, LAWS[0], steps, damping=damping)
+        return impacts.restitution - restitution
 
     high = 1.0
     while excess(high) > 0:
@@ -210,8 +210,8 @@ def pooltool_impacts(
 
 def _demand(code: str) -> None:
     if names := missing(code):
-        words = f"{code} needs {', '.join(names)}: pip install --no-deps -r {REQUIREMENTS}"
-        raise ImportError(words)
+        message = f"{code} needs {', '.join(names)}: pip install --no-deps -r {REQUIREMENTS}"
+        raise ImportError(message)
 
 
 @functools.cache
@@ -309,28 +309,25 @@ def _contact_velocity(simulation: Any) -> Array:
 
 @functools.cache
 def _pooltool() -> Any:
-    """The one file of pooltool that solves the impact, without the package and its graphics.
-
-    The file takes one setting from the package: whether numba keeps what it has compiled. It must
-    not, because numba would look for it by the name of a module that is not registered.
-    """
+    """The one file of pooltool that solves the impact, without the package and its graphics."""
     _demand("pooltool")
-    found: Any = importlib.util.find_spec("pooltool")
-    path = f"{found.submodule_search_locations[0]}/physics/resolve/stronge_compliant.py"
+    package_spec: Any = importlib.util.find_spec("pooltool")
+    path = f"{package_spec.submodule_search_locations[0]}/physics/resolve/stronge_compliant.py"
     spec: Any = importlib.util.spec_from_file_location("pooltool_stronge_compliant", path)
     module = importlib.util.module_from_spec(spec)
     package: Any = types.ModuleType("pooltool")
     package.constants = types.ModuleType("pooltool.constants")
+    # numba would look for its cache by the name of a module that is not registered.
     package.constants.use_numba_cache = False
     stand_ins = {"pooltool": package, "pooltool.constants": package.constants}
-    genuine = {name: sys.modules[name] for name in stand_ins if name in sys.modules}
+    loaded = {name: sys.modules[name] for name in stand_ins if name in sys.modules}
     sys.modules.update(stand_ins)
     try:
         spec.loader.exec_module(module)
     finally:
         for name in stand_ins:
             del sys.modules[name]
-        sys.modules.update(genuine)
+        sys.modules.update(loaded)
     return module
 
 
@@ -342,7 +339,7 @@ def _pooltool_impact(
     stiffness_ratio: float,
     friction: float,
 ) -> float:
-    """w of one impact, or nan. pooltool wants both velocities negative; mass and kn are free."""
+    """w of one impact, or nan; pooltool takes negative velocities; mass and kn are arbitrary."""
     try:
         tangential, _ = resolve(
             -friction * x, -1.0, 1.0, mass_ratio, 1.0, friction, restitution, 1.0, stiffness_ratio

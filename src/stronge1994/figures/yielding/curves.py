@@ -26,7 +26,7 @@ MODELS: dict[str, Callable[..., Rebound]] = {
 # Columns of data/finite_elements/spheres.csv that tell its rows apart.
 LABELS = ("set", "contact", "run")
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-# Springs of the row under a contact that is pushed, and points that are kept of them.
+# Number of springs in the row under a pushed contact, and of points that its curve keeps.
 SPRINGS, KEPT = 4000, 100
 # Largest restitution of a sphere that yields.
 ALMOST_ELASTIC = 1 - 1e-9
@@ -50,9 +50,9 @@ def curves(
 
     >>> run = {"set": ["a"], "contact": ["b"], "run": ["c"], "incidence": [2.0],
     ...        "restitution": [0.55], "poisson_ratio": [0.3]}
-    >>> found = curves(3.5, run, {"restitution": [0.55], "poisson_ratio": 0.3},
+    >>> named = curves(3.5, run, {"restitution": [0.55], "poisson_ratio": 0.3},
     ...                {"poisson_ratio": [0.3]}, [0.55], [0, 6], 3, 1e-2)
-    >>> round(float(found["continuum.plastic, runs"]["velocity [mu v2(0)]"][0]), 1)
+    >>> round(float(named["continuum.plastic, runs"]["velocity [mu v2(0)]"][0]), 1)
     -0.3
     """
     x = vertices(incidence, samples)
@@ -65,15 +65,15 @@ def curves(
         runs = solve(at, mass_ratio, ratios, e).velocity
         named[f"{model}, runs"] = labels | {X: at, W: runs}
         for one in contact["restitution"]:
-            found = solve(
+            velocity = solve(
                 x, mass_ratio, materials.stiffness_ratio(contact["poisson_ratio"]), one
             ).velocity
-            named[f"{model}, {name('e', one)}"] = {X: x, W: found}
+            named[f"{model}, {name('e', one)}"] = {X: x, W: velocity}
     for nu in elastic["poisson_ratio"]:
-        found = continuum.rebound(
+        velocity = continuum.rebound(
             x, mass_ratio, materials.stiffness_ratio(nu), tolerance=tolerance
         ).velocity
-        named[f"continuum, {name('nu', nu)}"] = {X: x, W: found}
+        named[f"continuum, {name('nu', nu)}"] = {X: x, W: velocity}
     for one in pushed:
         approach, share = share_of_elastic(one)
         columns = {"approach [delta_max]": approach, "share_of_elastic_force [1]": share}

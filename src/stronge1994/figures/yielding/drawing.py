@@ -17,7 +17,7 @@ RMS = "rms_distance [mu v2(0)]"
 SPHERES, PUSHED = "finite_elements/spheres", "finite_elements/pushed"
 # Sets of runs that differ by restitution alone.
 SETS = ("calibration", "other restitutions")
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     r"$\delta/\delta_\mathrm{max}$": r": approach \[delta_max\]",
     "share of elastic force": r": share_of_elastic_force \[1\]",
@@ -31,9 +31,9 @@ LEGEND_MEANS = {
 
 
 class Model(NamedTuple):
-    """How a model is drawn, and what it is called."""
+    """Style and label of a model."""
 
-    words: str
+    label: str
     colour: str
     dashes: Dashes
     marker: str
@@ -71,8 +71,8 @@ MEASURED = {
 POINTS = "finite elements"
 
 
-def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
-    """Root mean square over all incidences of what each model is off, by restitution."""
+def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
+    """Root mean square distance of each model over all incidences, by restitution."""
     if SPHERES not in points:
         return curves
     series = points[SPHERES]["columns"]
@@ -82,12 +82,12 @@ def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
     rows = [own for own in rows if len(own) == max(map(len, rows))]
     rows.sort(key=lambda own: float(series[E][own].mean()))
     e = np.array([series[E][own].mean() for own in rows])
-    found = {}
+    tables = {}
     for model in MODELS:
         square = (curves[f"{model}, runs"][W] - series[W]) ** 2
         rms = np.array([np.sqrt(square[own].mean()) for own in rows])
-        found[f"rms of {model}"] = {E: e, RMS: rms}
-    return curves | found
+        tables[f"rms of {model}"] = {E: e, RMS: rms}
+    return curves | tables
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -102,7 +102,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     panels[0, 1].set_ylabel("")
     _draw_pushed(panels[1, 0], curves, settings["pushed"], points.get(PUSHED))
     _draw_distances(panels[1, 1], curves, points.get(SPHERES))
-    keys = [house_style.key(model.words, **model.line) for model in MODELS.values()]
+    keys = [house_style.key(model.label, **model.line) for model in MODELS.values()]
     measured = house_style.key(POINTS, linestyle="none", **MEASURED)
     house_style.legend_below(figure, keys[:3], [*keys[3:], measured])
     return figure
@@ -151,7 +151,7 @@ def _draw_pushed(
 
 
 def _draw_distances(axes: Axes, curves: Curves, series: Series | None) -> None:
-    """Draw what each model is off, against restitution; a guide stands at sigma."""
+    """Draw the distance of each model against restitution, and a guide at sigma."""
     axes.set(xlabel="restitution $e$", ylabel=r"rms distance $[\mu v_2(0)]$", yscale="log")
     axes.set_title("(d) against finite elements")
     if series is None:

@@ -8,25 +8,23 @@ from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import Rebound
 from stronge1994.curve_names import name
 
-# What loses the energy: one relaxation time in shear and compression, or yield.
+# Energy is lost by relaxation, with one time in shear and compression, or by yield.
 MODELS = ("continuum.viscous", "continuum.plastic")
 
 
 def beside(
     continua: Mapping[str, Any] | None, x: ArrayLike, mass_ratio: float, stiffness_ratio: float
 ) -> Iterator[tuple[str, Rebound]]:
-    """Names of curves and the rebounds of each continuum at each restitution.
-
-    `continua` is the setting of a figure, without which none are solved; `x` holds incidences.
+    """Names of curves and rebounds of each continuum at each restitution, if `continua` is set.
 
     >>> settings = {"models": ["continuum.viscous"], "restitution": [0.5], "tolerance": 1e-3}
-    >>> [(name, found.velocity.tolist()) for name, found in beside(settings, [6.0], 3.5, 1.21)]
+    >>> [(name, rebound.velocity.tolist()) for name, rebound in beside(settings, [6.0], 3.5, 1.21)]
     [('continuum.viscous, e = 0.5', [0.75])]
     """
     if continua:
         for e in continua["restitution"]:
             for model in continua["models"]:
-                found = models.rebound(
+                rebound = models.rebound(
                     model, x, mass_ratio, stiffness_ratio, e, tolerance=continua["tolerance"]
                 )
-                yield f"{model}, {name('e', e)}", found
+                yield f"{model}, {name('e', e)}", rebound

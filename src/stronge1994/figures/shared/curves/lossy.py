@@ -19,9 +19,7 @@ MODELS = (
 
 
 def velocity(model: str, tolerance: float, *groups: ArrayLike) -> Array:
-    """Velocity at separation by a model; the tolerance is that of a continuum.
-
-    `groups` are incidence, m2/m1, zeta^2 and e, as `planarimpact.models.rebound` takes them.
+    """Velocity at separation; `groups` as for `models.rebound`, `tolerance` of a continuum.
 
     >>> float(velocity("lumped", 1e-3, 8.0, 3.5, 1.21, 1.0))
     1.0
@@ -31,18 +29,17 @@ def velocity(model: str, tolerance: float, *groups: ArrayLike) -> Array:
 
 
 def each_off(
-    curve: str, parameter: str, labels: Columns, column: str, found: Array, others: Sequence[Array]
+    curve: str, parameter: str, labels: Columns, column: str, values: Array, others: Sequence[Array]
 ) -> Curves:
     """A curve with its standard deviation added and taken away, as `curve_names.shifted` names it.
 
-    The deviation is each point's own. `others` are what is found instead with one of its parameters
-    off by a sigma.
+    The deviation is each point's own. `others` are the values with one parameter off by a sigma.
 
     >>> named = each_off("a", "each pair's e", {}, "y [1]", np.array([1.0]), [np.array([1.3])])
     >>> [round(float(columns["y [1]"][0]), 1) for columns in named.values()]
     [1.3, 0.7]
     """
-    sigma = np.sqrt(np.sum(np.square([other - found for other in others]), axis=0))
+    sigma = np.sqrt(np.sum(np.square([other - values for other in others]), axis=0))
     return {
-        shifted(curve, parameter, sign): labels | {column: found + sign * sigma} for sign in SIGNS
+        shifted(curve, parameter, sign): labels | {column: values + sign * sigma} for sign in SIGNS
     }

@@ -37,4 +37,4 @@ def read_nodes(nodes: Tables) -> dict[str, Any]:
             table = {name.split(" [")[0]: column.tolist() for name, column in columns.items()}
             return {"points": table}
         points.setdefault(column.split(" [")[0], set()).update(float(row[column]) for row in rows)
-    return {"nodes": {axis: sorted(found) for axis, found in points.items()}} if points else {}
+    return {"nodes": {axis: sorted(places) for axis, places in points.items()}} if points else {}

@@ -5,9 +5,9 @@ import time
 
 import numpy as np
 
-# Wall time over CPU time beyond which the machine was busy: a time is a fifth too long, more than
-# it changes from run to run. A quiet machine stays below 1.05; as many other jobs as it has cores
-# make it 1.5 and more.
+# Wall time over CPU time beyond which the machine counts as busy. A time is then a fifth too long,
+# more than it changes from run to run. A quiet machine stays below 1.05; with as many other jobs as
+# cores it is 1.5 and more.
 BUSY = 1.2
 
 
@@ -28,7 +28,7 @@ class Watch:
         self.cpu: list[float] = []
 
     def __enter__(self) -> None:
-        # The CPU clock is read first and last, so that it never shows less for want of reading it.
+        # The CPU clock is read first and last, so that its time covers the whole block.
         self._start = time.process_time(), time.perf_counter()
 
     def __exit__(self, *_: object) -> None:
@@ -38,16 +38,16 @@ class Watch:
     def over_cpu(self) -> float:
         """Median wall time over median CPU time.
 
-        Of calls shorter than a slice of time of the operating system most are not interrupted, and
-        the median is right beside any load. Calls shorter than a tick of the CPU clock show too
-        little CPU time: by one tick at most, which is added.
+        The operating system interrupts few calls that are shorter than its slice of time, so their
+        median is right under any load. Calls shorter than a tick of the CPU clock show up to one
+        tick too little CPU time, so one tick is added.
         """
         return float(np.median(self.wall) / (np.median(self.cpu) + _tick()))
 
 
 @functools.cache
 def _tick() -> float:
-    """Step of the CPU clock. It is measured: some systems state a finer one than they have."""
+    """Step of the CPU clock, measured, as some systems state a finer one than they have."""
     start = now = time.process_time()
     while now == start:
         now = time.process_time()

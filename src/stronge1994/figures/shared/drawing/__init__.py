@@ -47,13 +47,13 @@ def drawn(
 ) -> tuple[Figure, Curves]:
     """The picture that a module draws, not yet checked, and the tables of its numbers.
 
-    `shown` and `shown_series` of the module, if it has them, add to the curves what it draws beside
-    their columns, and convert reference series.
+    A module may have `drawn_curves`, which adds to the curves what it draws beside their columns,
+    and `drawn_series`, which converts reference series.
     """
-    if hasattr(module, "shown_series"):
-        points = {name: module.shown_series(name, series) for name, series in points.items()}
-    if hasattr(module, "shown"):
-        curves = module.shown(curves, settings, points)
+    if hasattr(module, "drawn_series"):
+        points = {name: module.drawn_series(name, series) for name, series in points.items()}
+    if hasattr(module, "drawn_curves"):
+        curves = module.drawn_curves(curves, settings, points)
     return module.draw(curves, settings, points), tables.tables(curves, points)
 
 

@@ -1,11 +1,12 @@
-"""A picture shows only numbers of its tables: every artist is looked up before a figure is saved.
+"""Check that a picture shows only numbers of its tables, before it is saved.
 
-The points of one line must be rows of one table that follow each other, those of an area or of a
-mesh rows of one table, and of columns that the labels of the axes name. What a legend says of a
-style must be true of all that is drawn in it, and numbers at ticks stand where they say. Not looked
-up are words that name no point, what does not stand in data units (lines across the axes,
+The points of one line must be rows of one table that follow each other; those of an area or a mesh
+must be rows of one table. Their columns must be those that the labels of the axes name. An entry of
+a legend must be true of all that is drawn in its style, and a number at a tick must be its place.
+
+Not checked are texts that name no point, artists outside of data units (lines across the axes,
 brackets), contours of a mesh, second axes above a panel, and artists or axes whose label is
-`NO_DATA`. Nobody misses a curve that is not drawn, or its ends.
+`NO_DATA`. The check does not notice a curve that is missing or drawn in part.
 """
 
 import itertools
@@ -33,18 +34,18 @@ from matplotlib.text import Annotation, Text
 from planarimpact.ground.arrays import Array, Booleans
 from stronge1994.csv_tables import Curves
 from stronge1994.figures.shared.drawing import house_style
-from stronge1994.figures.shared.drawing.words import SHARED, Words
+from stronge1994.figures.shared.drawing.words import SHARED, Meanings
 
 File: TypeAlias = str | IO[bytes]
 
-# What stands behind the name of a column for the ends of its error bars.
+# Endings of the names of columns with the ends of error bars.
 BARS = (" - error", " + error")
-# Two numbers closer than this share are one: Matplotlib computes ends of bars and edges of cells.
+# Relative difference up to which two numbers are equal: Matplotlib rounds ends of bars and edges.
 CLOSE = 1e-9
-# Where an area ends that is filled down to a constant, and a bar begins.
+# Constants down to which areas are filled, and at which bars begin.
 BASES = (0.0, 1.0)
 HINT = (
-    "What words mean stands in AXIS_MEANS and LEGEND_MEANS of drawing.py, and in shared/drawing/"
+    "Meanings of labels stand in AXIS_MEANS and LEGEND_MEANS of drawing.py, and in shared/drawing/"
     "words.py."
 )
 _NUMBER = re.compile(r"[-\N{MINUS SIGN}]?\d+(?:\.\d+)?")
@@ -68,7 +69,7 @@ class _Columns(NamedTuple):
 
     def has_in_order(self, points: Array) -> bool:
         """Whether points are rows that follow each other, to the last digit, or in reverse."""
-        return any(self._follow(some.tolist()) for some in (points, points[::-1]))
+        return any(self._follow(ordered.tolist()) for ordered in (points, points[::-1]))
 
     def _follow(self, points: Iterable[Sequence[float]]) -> bool:
         reached, gap = {-1}, True  # after a gap any later row may follow
@@ -85,10 +86,10 @@ class _Columns(NamedTuple):
 
 
 class _Drawn(NamedTuple):
-    """An artist, and where its points stand."""
+    """An artist, and the columns in which its points stand."""
 
     artist: Artist
-    found: Sequence[_Columns]
+    columns: Sequence[_Columns]
 
 
 def save(
@@ -97,37 +98,34 @@ def save(
     name: str,
     svg: File,
     png: File | None = None,
-    words: Words = SHARED,
+    meanings: Meanings = SHARED,
 ) -> None:
     """Check a figure and write both files. The same figure gives the same bytes."""
-    check(figure, tables, name, words)
+    check(figure, tables, name, meanings)
     # Matplotlib solves the layout in an order that changes from run to run, which changes the last
     # bits. So the places are rounded.
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
     for axes in figure.axes:
         axes.set_position(np.round(axes.get_position().bounds, 6))
-    # `Figure.savefig` would draw once more, unseen, to solve a layout that is solved.
+    # `Figure.savefig` would draw once more to solve the layout again.
     FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
     if png:
         figure.dpi = 200
         FigureCanvasAgg(figure).print_png(png)
 
 
-def check(figure: Figure, tables: Curves, name: str, words: Words = SHARED) -> None:
-    """Look up all that a figure shows. `NotInTable` names the figure, the panel and the artist.
-
-    `tables` holds the curves, the reference series, and what `shown` adds.
-    """
+def check(figure: Figure, tables: Curves, name: str, meanings: Meanings = SHARED) -> None:
+    """Refuse a figure that shows numbers of no table; `NotInTable` names panel and artist."""
     try:
         bars = [axes for axes in figure.axes if axes.get_label() == "<colorbar>"]
         colour = bars[0].get_ylabel() if bars else ""
         drawn: list[_Drawn] = []
         for axes in figure.axes:
             if axes not in bars and axes.get_label() != house_style.NO_DATA:
-                drawn += _Panel(axes, tables, words, colour).look_up()
+                drawn += _Panel(axes, tables, meanings, colour).look_up()
         for legend in figure.findobj(Legend):
-            _check_legend(legend, drawn, words)
+            _check_legend(legend, drawn, meanings)
     except NotInTable as error:
         raise NotInTable(f"{name}: {error}") from None
 
@@ -135,8 +133,8 @@ def check(figure: Figure, tables: Curves, name: str, words: Words = SHARED) -> N
 class _Panel:
     """Axes, and the tables that their labels name."""
 
-    def __init__(self, axes: Axes, tables: Curves, words: Words, colour: str) -> None:
-        self.axes, self.words, self.colour = axes, words, colour
+    def __init__(self, axes: Axes, tables: Curves, meanings: Meanings, colour: str) -> None:
+        self.axes, self.meanings, self.colour = axes, meanings, colour
         titled = {n: table for n, table in tables.items() if _belongs(n, axes.get_title("left"))}
         titled |= {n: table for n, table in tables.items() if n == axes.get_title()}
         self.tables = titled or tables
@@ -147,12 +145,12 @@ class _Panel:
         return "panel '{1}' over '{0}'".format(*self.labels)
 
     def _columns(self, *labels: str) -> Iterator[_Columns]:
-        """Columns that belong to labels; one without words has categories, which have none."""
+        """Columns that belong to labels; an axis of categories has no label and no column."""
         asked = [label for label in labels if label]
         for curve, table in self.tables.items():
             chosen: list[tuple[str, ...]] = [()]
             for label in asked:
-                own = [column for column in table if self.words.is_axis(label, curve, column)]
+                own = [column for column in table if self.meanings.is_axis(label, curve, column)]
                 chosen = [(*before, column) for before in chosen for column in own]
             for names in filter(None, chosen):
                 numbers = [np.asarray(table[column], float) for column in names]
@@ -173,19 +171,19 @@ class _Panel:
                 self._check_mesh(artist)
                 continue
             parts = list(_points(artist))
-            found = [one for part in parts for one in self._find(artist, part)]
-            if found:
-                self._check_words(artist, found, parts[0][0])
-                drawn.append(_Drawn(artist, found))
+            matches = [columns for part in parts for columns in self._find(artist, part)]
+            if matches:
+                self._check_text(artist, matches, parts[0][0])
+                drawn.append(_Drawn(artist, matches))
         for axis in (self.axes.xaxis, self.axes.yaxis):
             if not any("[cell]" in name for columns in self.columns for name in columns.names):
                 self._check_ticks(axis)
         return drawn
 
     def _find(self, artist: Artist, points: Array) -> list[_Columns]:
-        """Where points stand in the tables."""
-        shown = [bool(label) for label in self.labels]
-        with_gaps = points[:, shown]
+        """Columns in which the points of an artist stand."""
+        labelled = [bool(label) for label in self.labels]
+        with_gaps = points[:, labelled]
         points = points[~np.isnan(points).any(axis=1)]
         if not len(points):
             return []
@@ -193,39 +191,41 @@ class _Panel:
         if not self.labels[1]:  # categories, which the ticks may name
             category = _category(self.axes.yaxis, float(points[:, 1].mean()))
             known = [
-                c for c in known if not category or self.words.is_curve(category, c.curve, c.names)
+                c
+                for c in known
+                if not category or self.meanings.is_curve(category, c.curve, c.names)
             ]
-        points = points[:, shown]
+        points = points[:, labelled]
         if isinstance(artist, PolyCollection | Polygon):
             # Below and above it are lines of one or two curves, or one is a constant.
             inside = [(columns, _are_in(points, columns.rows)) for columns in known]
             based = np.isin(points[:, -1], BASES) & isinstance(artist, PolyCollection)
             pairs = itertools.combinations_with_replacement(inside, 2)
-            found = next(([a, b] for (a, m), (b, n) in pairs if (m | n | based).all()), [])
+            matches = next(([a, b] for (a, m), (b, n) in pairs if (m | n | based).all()), [])
         elif isinstance(artist, Annotation):
             at = tuple(points[0].tolist())
-            found = [c for c in self.columns if at in c.places]
-            found = found or [c for c in known if _on_line(points[0], c.rows)]
+            matches = [c for c in self.columns if at in c.places]
+            matches = matches or [c for c in known if _on_line(points[0], c.rows)]
         elif isinstance(artist, Rectangle):
             ends = points[points[:, 0] != 0]
-            found = [columns for columns in known if _among(ends, columns.rows)]
+            matches = [columns for columns in known if _among(ends, columns.rows)]
         elif _is_error_bar(artist):
             parts: dict[str, list[Array]] = {}
             for columns in self.columns:
                 parts.setdefault(columns.curve, []).append(columns.rows)
             own = [name for name, rows in parts.items() if _among(points, np.concatenate(rows))]
-            found = [columns for columns in known if columns.curve in own]
+            matches = [columns for columns in known if columns.curve in own]
         else:
-            found = [columns for columns in known if columns.has_in_order(with_gaps)]
-        if found:
-            return found
+            matches = [columns for columns in known if columns.has_in_order(with_gaps)]
+        if matches:
+            return matches
         first = ", ".join(f"{number:g}" for number in points[0])
         asked = sorted({columns.curve for columns in known})
         raise NotInTable(
-            f"{self}: {_words_of(artist)} does not show rows of a table. Its ({first}) and what "
+            f"{self}: {_description(artist)} does not show rows of a table. Its ({first}) and what "
             f"follows are in none of {', '.join(asked[:6]) or 'the columns that the labels name'}. "
-            f"{HINT} Numbers of no column are made by `shown` in drawing.py; a guide has the label "
-            "house_style.NO_DATA"
+            f"{HINT} Numbers of no column are made by `drawn_curves` in drawing.py; a guide "
+            "has the label house_style.NO_DATA"
         )
 
     def _check_mesh(self, mesh: QuadMesh) -> None:
@@ -234,47 +234,48 @@ class _Panel:
         values = np.ma.filled(mesh.get_array(), np.nan).reshape(len(y), len(x))
         for columns in self._columns(*self.labels, self.colour):
             own = [np.unique(column) for column in columns.rows.T[:2]]
-            grid = np.full([len(some) for some in own], np.nan)
+            grid = np.full([len(centres) for centres in own], np.nan)
             places = [
-                np.searchsorted(some, c) for some, c in zip(own, columns.rows.T, strict=False)
+                np.searchsorted(centres, c) for centres, c in zip(own, columns.rows.T, strict=False)
             ]
             grid[tuple(places)] = columns.rows[:, 2]
             at = [
-                np.abs(some[:, None] - c).argmin(axis=0)
-                for some, c in zip(own, (x, y), strict=True)
+                np.abs(centres[:, None] - c).argmin(axis=0)
+                for centres, c in zip(own, (x, y), strict=True)
             ]
             same = [
-                np.allclose(some[i], c, CLOSE) for some, i, c in zip(own, at, (x, y), strict=True)
+                np.allclose(centres[i], c, CLOSE)
+                for centres, i, c in zip(own, at, (x, y), strict=True)
             ]
             if all(same) and np.array_equal(grid[np.ix_(*at)].T, values, equal_nan=True):
                 return
         raise NotInTable(f"{self}: a mesh in colours of '{self.colour}' is in no table")
 
-    def _check_words(self, artist: Artist, found: Sequence[_Columns], point: Array) -> None:
-        """Words at a point name its curve, and numbers in them are those of its row."""
-        said = artist.get_text() if isinstance(artist, Annotation) else str(artist.get_label())
+    def _check_text(self, artist: Artist, matches: Sequence[_Columns], point: Array) -> None:
+        """Refuse a label that names another curve, or a number that is not in its row."""
+        text = artist.get_text() if isinstance(artist, Annotation) else str(artist.get_label())
         for container in self.axes.containers:
             if artist in container.get_children():
-                said = str(container.get_label())
-        if said in ("", "None") or said.startswith("_"):
+                text = str(container.get_label())
+        if text in ("", "None") or text.startswith("_"):
             return
         if isinstance(artist, Annotation | FancyArrowPatch):
-            numbers = _NUMBER.findall(re.sub(r"\$.*?\$|\(\d+\)", "", said))
-            known = [number for one in found for number in self._numbers(one, point)]
+            numbers = _NUMBER.findall(re.sub(r"\$.*?\$|\(\d+\)", "", text))
+            known = [number for one in matches for number in self._numbers(one, point)]
             if not all(any(_is_written(number, value) for value in known) for number in numbers):
-                raise NotInTable(f"{self}: not every number of '{said}' is in its row")
-            if not self.words.names_a_curve(said):
+                raise NotInTable(f"{self}: not every number of '{text}' is in its row")
+            if not self.meanings.names_a_curve(text):
                 return
-        if not any(self.words.is_curve(said, one.curve, one.names) for one in found):
-            raise NotInTable(f"{self}: '{said}' is said of {_named(found)}. {HINT}")
+        if not any(self.meanings.is_curve(text, one.curve, one.names) for one in matches):
+            raise NotInTable(f"{self}: '{text}' is the label of {_named(matches)}. {HINT}")
 
     def _numbers(self, columns: _Columns, point: Array) -> Iterator[float]:
         """Numbers of the rows at a point, and those in the name of the curve."""
         yield from map(float, _NUMBER.findall(columns.curve))
-        shown = point[[bool(label) for label in self.labels]]
+        labelled = point[[bool(label) for label in self.labels]]
         for column in self.tables[columns.curve].values():
             if len(column) == len(columns.rows) and np.asarray(column).dtype.kind in "fi":
-                yield from np.asarray(column)[_close(columns.rows, shown)].tolist()
+                yield from np.asarray(column)[_close(columns.rows, labelled)].tolist()
 
     def _check_ticks(self, axis: Axis) -> None:
         """Numbers that are written at ticks are those where they stand."""
@@ -319,7 +320,7 @@ def _is_guide(artist: Artist, axes: Axes) -> bool:
     in_data = all(transform.contains_branch_seperately(axes.transData))
     steps = isinstance(artist, Line2D) and artist.get_drawstyle() != "default"
     if in_data and (steps or transform != axes.transData):
-        raise NotInTable(f"{_words_of(artist)} does not stand where its numbers say")
+        raise NotInTable(f"{_description(artist)} does not stand where its numbers say")
     return not in_data
 
 
@@ -346,11 +347,11 @@ def _points(artist: Artist) -> Iterator[Array]:
     elif isinstance(artist, Annotation):
         yield np.array([artist.xy])
     else:
-        raise NotInTable(f"{_words_of(artist)} is of a kind that cannot be looked up")
+        raise NotInTable(f"{_description(artist)} is of a kind that cannot be looked up")
 
 
 def _is_error_bar(artist: Artist) -> bool:
-    """Whether it is such bars or their caps, whose ends Matplotlib computes."""
+    """Whether an artist is error bars or their caps, whose ends Matplotlib computes."""
     caps = isinstance(artist, Line2D) and artist.get_marker() in ("|", "_")
     return caps or isinstance(artist, LineCollection)
 
@@ -365,9 +366,9 @@ def _among(points: Array, rows: Array) -> bool:
 
 def _are_in(points: Array, rows: Array) -> Booleans:
     """Which points are rows, to the last digit."""
-    some, all_ = (np.ascontiguousarray(part + 0.0) for part in (points, rows))
-    row = np.dtype((np.void, some.dtype.itemsize * some.shape[1]))
-    return np.isin(some.view(row).ravel(), all_.view(row).ravel())
+    wanted, all_ = (np.ascontiguousarray(part + 0.0) for part in (points, rows))
+    row = np.dtype((np.void, wanted.dtype.itemsize * wanted.shape[1]))
+    return np.isin(wanted.view(row).ravel(), all_.view(row).ravel())
 
 
 def _on_line(point: Array, rows: Array) -> bool:
@@ -390,7 +391,7 @@ def _centres(edges: Array) -> Array:
 
 
 def _category(axis: Axis, at: float) -> str:
-    """What stands at the tick next to a place."""
+    """Text of the tick next to a place."""
     places = axis.get_majorticklocs()
     if not len(places):
         return ""
@@ -398,34 +399,29 @@ def _category(axis: Axis, at: float) -> str:
     return str(axis.get_major_formatter()(places[nearest], nearest))
 
 
-def _check_legend(legend: Legend, drawn: Sequence[_Drawn], words: Words) -> None:
-    """What a legend says of a style must be true of what is drawn in it.
-
-    An entry whose style nothing has stands for a colour or a pattern: then it is held against what
-    no other entry has, whatever its width.
-    """
+def _check_legend(legend: Legend, drawn: Sequence[_Drawn], meanings: Meanings) -> None:
+    """Refuse an entry of a legend that is not true of all artists drawn in its style."""
     entries = [
         (text.get_text(), _style(handle))
         for text, handle in zip(legend.get_texts(), legend.legend_handles, strict=True)
     ]
     exact = {style for _, style in entries}
-    for said, style in entries:
+    for text, style in entries:
+        # A style that nothing has stands for a colour or a pattern. Then the entry is compared with
+        # the artists whose styles no entry has, whatever their width.
         own = [one for one in drawn if _style(one.artist) == style]
-        rest = [one for one in drawn if _style(one.artist) not in exact]
-        own = own or [one for one in rest if _style(one.artist)[:-1] == style[:-1]]
-        if not any(style) or said in [one.artist.get_label() for one in own]:
+        unlisted = [one for one in drawn if _style(one.artist) not in exact]
+        own = own or [one for one in unlisted if _style(one.artist)[:-1] == style[:-1]]
+        if not any(style) or text in [one.artist.get_label() for one in own]:
             continue
         for one in own:
-            if not any(words.is_curve(said, c.curve, c.names) for c in one.found):
-                wrong = f"the legend calls '{said}' what is {_named(one.found)}"
+            if not any(meanings.is_curve(text, c.curve, c.names) for c in one.columns):
+                wrong = f"the legend calls '{text}' what is {_named(one.columns)}"
                 raise NotInTable(f"{wrong}. {HINT}")
 
 
 def _style(artist: Artist | None) -> tuple[Any, ...]:
-    """Colours, pattern, marker and hatch, and last the width; nothing of what a legend cannot show.
-
-    An arrow looks like a line.
-    """
+    """Colours, pattern, marker, hatch and last the width, as far as a legend shows them."""
     if isinstance(artist, Line2D):
         has_line, marker = artist.get_linestyle() != "None", artist.get_marker()
         face = artist.get_markerfacecolor() if marker != "None" else "none"
@@ -434,7 +430,7 @@ def _style(artist: Artist | None) -> tuple[Any, ...]:
             return ()
         width = artist.get_linewidth() if has_line else None
         return to_rgba(artist.get_color(), artist.get_alpha()), dashes, marker, to_rgba(face), width
-    if isinstance(artist, FancyArrowPatch):
+    if isinstance(artist, FancyArrowPatch):  # looks like a line
         width = artist.get_linewidth()
         return artist.get_edgecolor(), _dashes(artist), "None", to_rgba("none"), width
     if isinstance(artist, Patch | PolyCollection):
@@ -444,13 +440,13 @@ def _style(artist: Artist | None) -> tuple[Any, ...]:
 
 
 def _dashes(artist: Any) -> Any:
-    # Matplotlib tells no more than that there are dashes.
+    # Matplotlib has no public access to the pattern of dashes.
     offset, dashes = artist._unscaled_dash_pattern
     return offset, tuple(dashes or ())
 
 
-def _named(found: Iterable[_Columns]) -> str:
-    return " or ".join(f"'{one.curve}: {one.names[-1]}'" for one in found)
+def _named(matches: Iterable[_Columns]) -> str:
+    return " or ".join(f"'{one.curve}: {one.names[-1]}'" for one in matches)
 
 
 def _is_written(number: str, value: float) -> bool:
@@ -460,7 +456,7 @@ def _is_written(number: str, value: float) -> bool:
     ) or (f"{value:g}" == number)
 
 
-def _words_of(artist: Artist) -> str:
-    said = artist.get_text() if isinstance(artist, Text) else str(artist.get_label())
+def _description(artist: Artist) -> str:
+    text = artist.get_text() if isinstance(artist, Text) else str(artist.get_label())
     kind = type(artist).__name__
-    return kind if said.startswith("_") or not said else f"{kind} '{said}'"
+    return kind if text.startswith("_") or not text else f"{kind} '{text}'"

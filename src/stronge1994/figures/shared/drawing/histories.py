@@ -15,9 +15,9 @@ TIME, VELOCITY = "time [t_c]", "velocity [mu v2(0)]"
 FRICTION = "friction_force [mu m2 Omega v2(0)]"
 
 NORMAL_LINE = {"color": house_style.BLACK, "label": r"$F_2/m_2\Omega v_2(0)$"}
-# Of two restitutions one curve runs for a while along the other: the first is broad and light, the
-# others are thin and dark inside it. The broad line is below the normal force too, with which the
-# friction coincides where the contact slips.
+# Curves of two restitutions coincide for a while. So the first is broad and light, and the others
+# are thin and dark on top of it. The broad line is also below the normal force, with which friction
+# coincides where the contact slips.
 BROAD = {"linewidth": 3, "zorder": 1.9}
 FRICTION_LINES = (BROAD | {"color": house_style.SKY}, {"color": house_style.BLUE})
 VELOCITY_LINES = (BROAD | {"color": "0.65"}, {"color": house_style.BLACK})
@@ -26,7 +26,7 @@ LIMIT_LINE = {"color": house_style.GREY, "linewidth": 0.6, "label": r"added here
 
 CROSS = {"color": house_style.BLACK, "markersize": 6, "clip_on": False}
 NORMAL, LIMIT = "normal_force [m2 Omega v2(0)]", "friction_limit [mu m2 Omega v2(0)]"
-# What words of the picture mean, see `shared.drawing.words`.
+# Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
     r"velocity $v_1(t)/\mu v_2(0)$": r": velocity \[mu v2\(0\)\]",
 }
@@ -36,7 +36,7 @@ LEGEND_MEANS = {
 }
 
 
-def shown(curves: Curves, settings: Settings, points: Points) -> Curves:
+def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
     """Beside the friction its limit, where it acts backward."""
     return {name: curve | {LIMIT: -curve[NORMAL]} for name, curve in curves.items()}
 
@@ -82,7 +82,7 @@ def _draw_bars(axes: Axes, curves: Curves) -> None:
                 "clip_on": False,
             }
             axes.barh(row + 0.5, end - start, 0.76, start, **bar)
-            # A short last bar has its word behind it. Other short bars have only their shade.
+            # A short last bar has its label behind it. Other short bars have no label.
             place = {"va": "center_baseline", "fontsize": house_style.NOTE}
             if end - start > 0.15:
                 axes.text((start + end) / 2, row + 0.5, state, ha="center", **place)
@@ -132,10 +132,7 @@ def _patterns(curves: Curves) -> Iterator[tuple[str, Dashes]]:
 
 
 def _lines(curves: Curves) -> Iterator[tuple[bool, Dashes, Columns]]:
-    """Of each curve: is it not the first, its line pattern and its columns.
-
-    Compression is the same for all: it is drawn once.
-    """
+    """Whether a curve is not the first, its line pattern and columns; compression is drawn once."""
     for index, (name, dashes) in enumerate(_patterns(curves)):
         drawn = curves[name][TIME] >= (1 if index else 0)
         columns = {

@@ -3,15 +3,15 @@
 A figure is a folder with figure.yaml, curves.py and drawing.py. Its drawing.py has a function
 `draw(curves, settings, points)`, which returns a Figure:
 
-- `curves`, what curves.py beside it returns, `{curve: {column: array}}`, and what a function
-  `shown` of drawing.py adds; nothing else may be shown, see `checked`;
+- `curves`, `{curve: {column: array}}`: the result of curves.py beside it, and the curves that a
+  function `drawn_curves` of drawing.py adds; nothing else may be drawn, see `checked`;
 - `settings`, as curves.py gets them, from which labels take their numbers; only of a reference
   table they have no more than the name;
 - `points`, the series of data/ that are at hand, `{"source/series": {...}}` with arrays `x` and
   `y`, their `sigma`, `line`, all `columns` and the source's `parameters`, of those that were
   computed only what figure.yaml `draws`; and stated facts, as in source.yaml.
 
-A drawing.py may also have `shown_series`, which converts such a series, and AXIS_MEANS and
+A drawing.py may also have `drawn_series`, which converts such a series, and AXIS_MEANS and
 LEGEND_MEANS, see `words`.
 
 Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
@@ -51,7 +51,7 @@ _Item = TypeVar("_Item")
 FONTS = Path(matplotlib.get_data_path(), "fonts/ttf")
 # Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
 WIDTH = 5.0
-# Size in points of notes, of words over brackets and of labels at lines.
+# Size in points of notes, of labels over brackets and of labels at lines.
 NOTE = 8.5
 # Distance of lines of text, over that of the typeface, which leaves room for tall mathematics.
 LINES = 1.0
@@ -74,12 +74,12 @@ CYCLE = tuple(zip(COLOURS, DASHES, strict=True))
 LUMPED: Style = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
 CONTINUUM: Style = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
 RIGID: Style = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zorder": 1.8}
-# Label of what shows no number of a table, see `checked`; also of axes that hold a sketch.
+# Label of artists that show no number of a table, see `checked`, and of axes that hold a sketch.
 NO_DATA = "_no data"
 GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9, "label": NO_DATA}
 SURFACE: Style = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
 SURFACE |= {"label": NO_DATA}
-# From a time that was taken on a busy machine down to what the processor worked.
+# From a time taken on a busy machine down to the time that the processor worked.
 BUSY: Style = {"ecolor": GREY, "elinewidth": 0.9, "capsize": 2, "fmt": "none", "zorder": 1.5}
 PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
 AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
@@ -126,8 +126,8 @@ STYLE = {
     "ytick.direction": "in",
     "ytick.labelsize": 9.5,
 }
-# These letters come with matplotlib. Its list of fonts may be older than this installation and lack
-# them: then it would take other letters, which are wider than the places made for these.
+# These fonts come with matplotlib. Its cached list of fonts may be older than this installation and
+# lack them: then it would use another font, whose letters are too wide for their places.
 for _font in sorted(FONTS.glob("STIX*.ttf")):
     font_manager.fontManager.addfont(_font)
 matplotlib.rcdefaults()
@@ -164,9 +164,7 @@ def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
 
 
 def of_restitution(e: float) -> Dashes:
-    """Pattern of line of a restitution, the same in every figure.
-
-    It is solid for 1 and dash-dot for 0. Between them are dashes, longer for a larger `e`.
+    """Pattern of a restitution: solid for 1, dashes that shorten with e, dash-dot for 0.
 
     >>> of_restitution(1), of_restitution(0.5)
     ('-', (0, (5.0, 2)))
@@ -177,7 +175,7 @@ def of_restitution(e: float) -> Dashes:
 
 
 def restitutions(values: Iterable[float]) -> str:
-    """Words for some restitutions.
+    """Label for several restitutions.
 
     >>> restitutions([0.5, 0.8])
     '$e = 0.5, 0.8$'
@@ -240,11 +238,11 @@ def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> En
     return list(entries.values())
 
 
-def lossy(axes: Axes, curves: Curves, x: str, y: str, words: str, end: str = "") -> Entries:
+def lossy(axes: Axes, curves: Curves, x: str, y: str, condition: str, end: str = "") -> Entries:
     """Draw the continua that lose energy, and return entries of the legend.
 
     They are known by the beginnings of their names; only those are drawn whose names end with
-    `end`. The legend adds `words` to the name of each model.
+    `end`. The legend adds `condition` to the name of each model.
     """
     entries = []
     for model, (label, style) in LOSSY.items():
@@ -256,7 +254,7 @@ def lossy(axes: Axes, curves: Curves, x: str, y: str, words: str, end: str = "")
         for curve in own:
             axes.plot(curve[x], curve[y], **style)
         if own:
-            entries.append(key(f"{label}, {words}", **style))
+            entries.append(key(f"{label}, {condition}", **style))
     return entries
 
 
@@ -270,10 +268,7 @@ def measured(axes: Axes, series: Series, **style: Any) -> Artist:
 
 
 def references(axes: Axes, points: Points, wanted: Mapping[str, tuple[str, Style]]) -> Entries:
-    """Draw reference series; the legend has an entry for each, also for awaited ones.
-
-    `wanted` is `{"source/series": (label, style)}`.
-    """
+    """Draw reference series `{name: (label, style)}`; the legend also has the awaited ones."""
     return [
         measured(axes, points[name], label=label, **style)
         if name in points
@@ -315,7 +310,7 @@ def brackets(axes: Axes, spans: Iterable[tuple[float, float, str]]) -> None:
     for start, end, label in spans:
         frame = [start, start, end, end], [foot, top, top, foot]
         axes.plot(*frame, transform=across, clip_on=False, color=BLACK, linewidth=0.7)
-        # So many letters fit: 20 to an inch in this size. The axes are narrower than the figure.
+        # Letters that fit: 20 to an inch in this size. The axes are narrower than the figure.
         letters = int((end - start) / (right - left) * WIDTH * 17)
         if letters < max(map(len, label.split())):
             continue

@@ -1,4 +1,4 @@
-"""How five models of an impact that loses energy are drawn, and what they are called.
+"""Styles and labels of five models of an impact that loses energy.
 
 A colour stands for the cause of the loss: black for the normal element of the paper, vermillion for
 plastic flow, blue for viscosity.
@@ -11,9 +11,9 @@ from stronge1994.figures.shared.drawing.house_style import Dashes, Style
 
 
 class Model(NamedTuple):
-    """How a model is drawn, and what it is called."""
+    """Style and label of a model."""
 
-    words: str
+    label: str
     colour: str
     dashes: Dashes
     marker: str
@@ -25,8 +25,8 @@ class Model(NamedTuple):
 
 
 MODELS = {
-    name: Model(words, colour, dashes, marker)
-    for (name, words, colour, marker), dashes in house_style.patterned(
+    name: Model(label, colour, dashes, marker)
+    for (name, label, colour, marker), dashes in house_style.patterned(
         (
             ("lumped", "lumped, as in the paper", house_style.BLACK, "o"),
             ("lumped.plastic", r"lumped, $e^2\zeta^2$", house_style.VERMILLION, "D"),

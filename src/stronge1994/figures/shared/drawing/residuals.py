@@ -1,4 +1,4 @@
-"""Residuals of a figure as strips, one for each curve and reference. What is allowed is shaded."""
+"""Residuals of a figure as strips, one for each curve and reference; allowed ranges are shaded."""
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -21,8 +21,8 @@ def _hollow(marker: str, colour: str) -> dict[str, Any]:
     return style | {"markerfacecolor": "white", "markeredgewidth": 0.7}
 
 
-# Of verdicts that say something. Distances in sigmas do not where sigma is not known, or where the
-# curve was fitted to the points.
+# Marks of verdicts. Other verdicts are not drawn: where sigma is not known, or the curve was fitted
+# to the points, distances in sigmas have no meaning.
 MARKS = {
     "agrees": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
     "inconclusive": _hollow("o", house_style.BLACK),
@@ -34,7 +34,7 @@ ALL_AREA = {"color": house_style.PALE, "linewidth": 0, "zorder": 0.5}
 RMS_AREA = {"color": house_style.GREEN, "alpha": 0.35, "linewidth": 0, "zorder": 0.6}
 RMS_LINE = {"color": house_style.GREEN, "linewidth": 0.9, "linestyle": "-", "zorder": 1.9}
 DISTANCE = "distance [sigma]"
-# A comparison with more points is left out: it would be a block of ink, and a large file.
+# A comparison with more points is left out: its points would overlap, and the file be large.
 MOST_POINTS = 1000
 
 Entry: TypeAlias = Mapping[str, Any]  # a comparison of the config
@@ -44,19 +44,20 @@ ALL, RMS_ALLOWED, RMS = "allowed for all", "allowed for it", "of the points"
 
 
 def title(strip: Strip) -> str:
-    """What stands over a strip."""
+    """Title of a strip."""
     return f"{strip[0]}  -  {strip[1]}"
 
 
 def strips(
     residuals: Sequence[Row], comparisons: Mapping[str, Entry], verdicts: Mapping[str, Row]
 ) -> dict[Strip, Curves]:
-    """Tables of each strip, those with the same axis after each other.
+    """Tables of each strip; strips with the same axis follow each other.
 
-    The points of a comparison are called "COMPARISON, VERDICT"; what is allowed, and the root mean
-    square, "COMPARISON, " and one of the constants above: the lower line, then the upper one.
+    The points of a comparison are called "COMPARISON, VERDICT". Its allowed range and its root mean
+    square are called "COMPARISON, " and one of the constants above: the lower line, then the upper
+    one.
     """
-    found: dict[Strip, dict[str, list[tuple[float, float]]]] = {}
+    points_of: dict[Strip, dict[str, list[tuple[float, float]]]] = {}
     counts = Counter(row["comparison"] for row in residuals)
     for row in residuals:
         entry = comparisons[row["comparison"]]
@@ -64,18 +65,18 @@ def strips(
             continue
         if entry["metric"] in ("distance", "vertices") and counts[row["comparison"]] <= MOST_POINTS:
             key = entry.get("curve", "all curves"), entry["reference"], row["quantity"]
-            part = found.setdefault(key, {}).setdefault(row["comparison"], [])
+            part = points_of.setdefault(key, {}).setdefault(row["comparison"], [])
             part.append((float(row["at"]), float(row[DISTANCE])))
-    quantities = list(dict.fromkeys(quantity for _, _, quantity in found))
+    quantities = list(dict.fromkeys(quantity for _, _, quantity in points_of))
     return {
         key: {
             name: table
-            for comparison, points in found[key].items()
+            for comparison, points in points_of[key].items()
             for name, table in _strip(
                 key[2], comparison, points, comparisons[comparison], verdicts[comparison]
             )
         }
-        for key in sorted(found, key=lambda key: quantities.index(key[2]))
+        for key in sorted(points_of, key=lambda key: quantities.index(key[2]))
     }
 
 
@@ -101,11 +102,11 @@ def _strip(
         yield f"{name}, {RMS}", lines(-rms, rms)
 
 
-def tables_of_strips(found: Mapping[Strip, Curves]) -> Curves:
+def tables_of_strips(strips: Mapping[Strip, Curves]) -> Curves:
     """All tables of all strips, each with the title of its strip before its name."""
     return {
         f"{title(strip)}: {name}": table
-        for strip, parts in found.items()
+        for strip, parts in strips.items()
         for name, table in parts.items()
     }
 

@@ -11,18 +11,18 @@ LESS, MORE = BARS
 
 def tables(curves: Curves, points: Points) -> Curves:
     """All tables of which a figure may show numbers: its curves, and series with their errors."""
-    found = dict(curves)
+    named = dict(curves)
     for name, series in points.items():
         if "axes" in series:
-            found[name] = {}
+            named[name] = {}
             for which, column, sigma in zip("xy", series["axes"], series["sigma"], strict=True):
                 values = series[which]
-                found[name] |= {column: values, column + LESS: values - sigma}
-                found[name][column + MORE] = values + sigma
-    return found
+                named[name] |= {column: values, column + LESS: values - sigma}
+                named[name][column + MORE] = values + sigma
+    return named
 
 
 def times(columns: Columns, old: str, busy: str, new: str, factor: float) -> Columns:
-    """A time in another unit, and down to what the processor worked."""
+    """A time in another unit, and the time that the processor worked."""
     time = factor * columns[old]
     return {new: time, new + LESS: time / np.maximum(columns.get(busy, 1.0), 1)}

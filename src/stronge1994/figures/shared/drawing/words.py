@@ -1,4 +1,4 @@
-"""What the words of a picture mean: one dictionary for axes, one for legends and labels.
+"""Meanings of the labels of a picture: one dictionary for axes, one for legends.
 
 A meaning is a pattern of "curve: column". The checker of drawings looks it up.
 """
@@ -13,7 +13,7 @@ from stronge1994.figures.shared.drawing import house_style
 _INCIDENCE = r": incidence \[(mu v2\(0\)|cell)\]"
 
 # Labels of axes, without the letter of the panel, that several figures have. A drawing has more in
-# its own AXES. A label that is `of_column` needs no entry.
+# its AXIS_MEANS. A label that is `of_column` needs no entry.
 AXES = {
     "$t/t_c$": r": time \[t_c\]",
     "force": r": (normal_force|friction_force|friction_limit) ",
@@ -32,7 +32,7 @@ UNITS = {
     "sigma": r"$\sigma$",
 }
 
-# Parts of the words of a legend or of a label, as patterns; a drawing has more in its LEGEND_MEANS.
+# Parts of labels in a legend or at a point, as patterns; a drawing has more in its LEGEND_MEANS.
 LEGEND = {
     r"^\$F_2": ": normal_force ",
     r"^\$F_1/": ": friction_(force|over_mu) ",
@@ -64,8 +64,8 @@ def of_column(column: str) -> str:
     return name.replace("_", " ") + ("" if unit == "1" else f" [{UNITS.get(unit, unit)}]")
 
 
-class Words(NamedTuple):
-    """What the words of one picture mean."""
+class Meanings(NamedTuple):
+    """Meanings of the labels of one picture."""
 
     axes: Mapping[str, str]
     legend: Mapping[str, str]
@@ -81,39 +81,39 @@ class Words(NamedTuple):
             return bool(re.search(pattern, f"{curve}: {column}"))
         return label == of_column(column)
 
-    def names_a_curve(self, words: str) -> bool:
-        """Whether a part of some words has a meaning.
+    def names_a_curve(self, text: str) -> bool:
+        """Whether a part of a text has a meaning.
 
         >>> SHARED.names_a_curve("$e = 0.5$"), SHARED.names_a_curve("maximum compression")
         (True, False)
         """
-        return bool(_EQUATION.search(words)) or any(re.search(part, words) for part in self.legend)
+        return bool(_EQUATION.search(text)) or any(re.search(part, text) for part in self.legend)
 
-    def is_curve(self, words: str, curve: str, columns: Sequence[str]) -> bool:
-        """Whether words may name a curve, some columns of which are drawn.
+    def is_curve(self, text: str, curve: str, columns: Sequence[str]) -> bool:
+        """Whether a text may name a curve of which these columns are drawn.
 
         >>> SHARED.is_curve("$e = 0.5$", "e = 0.5", []), SHARED.is_curve("$e = 0.5$", "e = 1", [])
         (True, False)
         """
         drawn = [f"{curve}: {column} " for column in columns] or [f"{curve}: "]
-        asked = [pattern for part, pattern in self.legend.items() if re.search(part, words)]
-        said = {symbol.lstrip("\\"): value for symbol, value in _EQUATION.findall(words)}
+        asked = [pattern for part, pattern in self.legend.items() if re.search(part, text)]
+        stated = {symbol.lstrip("\\"): value for symbol, value in _EQUATION.findall(text)}
         own = dict(_EQUATION.findall(curve))
-        if not asked and not said.keys() & own.keys():
-            return words.split(":")[0] == curve.split(":")[0] or words in curve
-        return all(own.get(symbol, value) == value for symbol, value in said.items()) and all(
+        if not asked and not stated.keys() & own.keys():
+            return text.split(":")[0] == curve.split(":")[0] or text in curve
+        return all(own.get(symbol, value) == value for symbol, value in stated.items()) and all(
             any(re.search(pattern, one) for one in drawn) for pattern in asked
         )
 
 
-SHARED = Words(AXES, LEGEND)
+SHARED = Meanings(AXES, LEGEND)
 
 
-def of(drawing: ModuleType) -> Words:
-    """The words that several pictures have, and those of one drawing."""
+def of(drawing: ModuleType) -> Meanings:
+    """Shared meanings, and those of one drawing."""
     return more(getattr(drawing, "AXIS_MEANS", {}), getattr(drawing, "LEGEND_MEANS", {}))
 
 
-def more(axes: Mapping[str, str], legend: Mapping[str, str]) -> Words:
-    """The words that several pictures have, and others."""
-    return Words({**AXES, **axes}, {**LEGEND, **legend})
+def more(axes: Mapping[str, str], legend: Mapping[str, str]) -> Meanings:
+    """Shared meanings, and others."""
+    return Meanings({**AXES, **axes}, {**LEGEND, **legend})
