@@ -64,7 +64,7 @@ SIDE_DOORS = {
     "continuum.annuli",  # the second method, a check of the first
     "normal_impact.hertz",
     "normal_impact.kelvin_voigt",
-    "normal_impact.thornton",
+    "normal_impact.yielding",
     "models.laws",
     "models.timestep",
     "noncollinear.rigid",

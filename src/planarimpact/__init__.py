@@ -10,7 +10,7 @@
 - `scene`: solves tables of impacts.
 - `bodies`: from physical bodies to the groups that all models take. `noncollinear`: bodies that
   strike off their centre.
-- `normal_impact.hertz`, `normal_impact.kelvin_voigt`, `normal_impact.thornton`: head-on impact of
+- `normal_impact.hertz`, `normal_impact.kelvin_voigt`, `normal_impact.yielding`: head-on impact of
   spheres, elastic, viscous and plastic.
 - `ground`: what all of these stand on.
 

@@ -9,12 +9,12 @@ from scipy.optimize import brentq
 
 from planarimpact import InputError, Regime, continuum
 from planarimpact.continuum import inelastic
-from planarimpact.continuum.inelastic import kelvin_voigt as viscous_springs
-from planarimpact.continuum.inelastic import thornton as thornton_springs
-from planarimpact.continuum.inelastic.kelvin_voigt import ViscousRow
-from planarimpact.continuum.inelastic.thornton import PlasticRow
+from planarimpact.continuum.inelastic import plastic as plastic_springs
+from planarimpact.continuum.inelastic import viscous as viscous_springs
+from planarimpact.continuum.inelastic.plastic import PlasticRow
+from planarimpact.continuum.inelastic.viscous import ViscousRow
 from planarimpact.ground import sliding
-from planarimpact.normal_impact import kelvin_voigt, thornton
+from planarimpact.normal_impact import kelvin_voigt, yielding
 
 LOSSES = list(continuum.LOSSES)
 ELASTIC_SHEAR = "plastic-elastic-shear"
@@ -113,9 +113,9 @@ def test_restitution_of_elastic_plastic_spheres_is_the_work_of_their_forces(yiel
     largest = brentq(lambda d: work(d) - 0.5, 1e-3, 1e3, xtol=1e-13)
     radius = 4 / 3 * largest**1.5 / loading(largest)  # R_p
     back = quad(lambda z: 4 / 3 * np.sqrt(radius) * z**1.5, 0, largest / radius, epsabs=1e-13)[0]
-    found = thornton.restitution(np.array([yield_velocity]))
+    found = yielding.restitution(np.array([yield_velocity]))
     assert found == pytest.approx(np.sqrt(2 * back), abs=1e-9)
-    assert thornton.yield_velocity(found) == pytest.approx(yield_velocity, rel=1e-9)
+    assert yielding.yield_velocity(found) == pytest.approx(yield_velocity, rel=1e-9)
 
 
 # ---- limits ----
@@ -245,7 +245,7 @@ def test_friction_and_flow_in_shear_take_what_the_body_loses(e, loss, monkeypatc
             flow.append(2 * np.sum(width * mean * flowed, axis=0))
             return super().settle(k)
 
-    monkeypatch.setattr(thornton_springs, "PlasticRow", Booked)
+    monkeypatch.setattr(plastic_springs, "PlasticRow", Booked)
     x = np.array([0.3, 0.8, 1.1])  # these stick first, so that every step is booked
     groups = np.full((3, x.size), [[BETA], [ZETA2], [e]])
     off = []

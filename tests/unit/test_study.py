@@ -39,7 +39,7 @@ def test_every_point_of_a_grid_is_that_impact():
 @pytest.mark.parametrize("ratios", [[1.0], [1.0, 2.0], [1.0, 2.0, 3.0, 4.0, 5.0]])
 def test_there_is_a_map_for_every_stiffness_ratio(ratios):
     settings = SETTINGS | {"stiffness_ratio": ratios}
-    curves = drawing.shown(study.curves(**settings), settings, {})
+    curves = drawing.drawn_curves(study.curves(**settings), settings, {})
     figure = drawing.draw(curves, settings, {})
     figure.draw_without_rendering()
     titles = [panel.get_title() for panel in figure.axes if panel.get_title()]

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from planarimpact.continuum.inelastic.thornton import Thornton
-from planarimpact.normal_impact import thornton as law
+from planarimpact.continuum.inelastic.plastic import Thornton
+from planarimpact.normal_impact import yielding as law
 from stronge1994 import csv_tables, plan, reference_data
 from stronge1994.figures.shared.curves import solving
 from stronge1994.figures.yielding import curves as yielding

@@ -13,7 +13,7 @@ from planarimpact.bodies.quantities import OutOfRange, all_positive, in_range, q
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.checks import checked, not_negative, positive
-from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, kelvin_voigt, thornton
+from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, kelvin_voigt, yielding
 
 LOSSES = tuple(LAWS)
 # A relaxation time that `relaxation_time` has found is not refused for its last digits.
@@ -233,7 +233,7 @@ def plastic_restitution(
     )
     # A yield speed that is infinite as a number is above any speed.
     share = np.minimum(_yield_speed(pressure, m2, modulus, radius) / v2, 1.0)
-    e = np.where(share == 1, 1.0, np.minimum(thornton.restitution(share), 1.0))
+    e = np.where(share == 1, 1.0, np.minimum(yielding.restitution(share), 1.0))
     return in_range("restitution", e)[()]
 
 
@@ -275,7 +275,7 @@ def yield_pressure(
     e, v2, m2, modulus, radius = _known(
         restitution, speed, mass, effective_modulus, effective_radius
     )
-    fastest = v2 * np.where(e < 1, thornton.yield_velocity(e), 1.0)
+    fastest = v2 * np.where(e < 1, yielding.yield_velocity(e), 1.0)
     root = np.sqrt(15 / 16) * fastest * np.sqrt(m2 / modulus / radius) / radius
     return in_range("yield pressure", 2 / np.pi * modulus * root**0.4)[()]
 

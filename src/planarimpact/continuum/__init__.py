@@ -84,7 +84,7 @@ def rebound(
 
     With plastic loss a tangential deflection decays while the contact loads and yields, by
     exp(-0.95 g) when the permanent part of the approach has grown by g times d_y, the approach
-    where yield begins (`planarimpact.normal_impact.thornton`). The constant 0.95 was fixed on
+    where yield begins (`planarimpact.normal_impact.yielding`). The constant 0.95 was fixed on
     finite elements of two equal solid spheres with nu = 0.3, mu = 0.1 and e = 0.46, 0.55 and 0.63.
     With mu up to 0.1, nu = 0.3 and 0.45, e from 0.45 to 0.97 finite elements differ from this law
     by 0.04 mu v2(0) (root mean square), 0.16 at most; at e = 0.39 by 0.12, 0.27 at most. It does
@@ -170,7 +170,7 @@ def slip_throughout_limit(
 
     Notes
     -----
-    Derived in `planarimpact.ground.sliding`, and for plastic loss in `inelastic.thornton`.
+    Derived in `planarimpact.ground.sliding`, and for plastic loss in `inelastic.plastic`.
 
     Examples
     --------

@@ -20,10 +20,10 @@ answer at one more incidence, which the table does not know: its error is larger
 import numpy as np
 
 from planarimpact.continuum import inelastic
-from planarimpact.continuum.inelastic.kelvin_voigt import KelvinVoigt
+from planarimpact.continuum.inelastic.viscous import KelvinVoigt
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Booleans
-from planarimpact.normal_impact import thornton
+from planarimpact.normal_impact import yielding
 
 # Steps of the continuum, and impacts solved together.
 STEPS, TOGETHER = 256, 256
@@ -108,8 +108,8 @@ def limits(b: Array) -> Array:
         return inelastic.slides_from(b, one, e, "plastic") > sliding.limit_alike(b, one, e)
 
     def at_the_end(e: Array) -> Booleans:
-        law = thornton.compression(e)
-        return law.pull(law.largest_approach(), thornton.FLOW)[0] > b
+        law = yielding.compression(e)
+        return law.pull(law.largest_approach(), yielding.FLOW)[0] > b
 
     found = []
     for sticks in (at_all, at_the_end):

@@ -1,14 +1,14 @@
 """Oblique impact of inelastic spheres with micro-slip, for e < 1, in steps.
 
 The method is that of dimensionality reduction, as for elastic spheres in `micro_slip`. The contact
-is a row of springs. `kelvin_voigt` and `thornton` give the normal motion, each for one way to lose
+is a row of springs. `viscous` and `plastic` give the normal motion, each for one way to lose
 energy. Here the springs are moved sideways. Let u be the tangential displacement of the body over
 zeta^2, q the deflection of a spring over zeta^2, and L its normal force density. A spring has the
 tangential force density q + tau q', at most L. While it sticks q' = u'. A spring that loses contact
 forgets its deflection. What it remembers is c = q - u. With V = u + tau u' the density is V + c
 while the spring sticks. In slip it is L or -L, and tau c' = density - (V + c): what is beyond the
 limit relaxes. Springs of metal have no tau: q is moved to the limit at once. While the contact
-yields it also decays, see `thornton`.
+yields it also decays, see `plastic`.
 
 Springs stand at the radii where the edge of the contact is at each instant. So the edge is always
 at a spring, and the error falls with the square of the steps.
@@ -20,9 +20,9 @@ import numpy as np
 
 from planarimpact.continuum import refinement
 from planarimpact.continuum.inelastic import peaks
-from planarimpact.continuum.inelastic.kelvin_voigt import KelvinVoigt
-from planarimpact.continuum.inelastic.normal_motion import places
-from planarimpact.continuum.inelastic.thornton import ElasticInShear, Thornton
+from planarimpact.continuum.inelastic.motion import places
+from planarimpact.continuum.inelastic.plastic import ElasticInShear, Thornton
+from planarimpact.continuum.inelastic.viscous import KelvinVoigt
 from planarimpact.continuum.refinement import Solved
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Integers

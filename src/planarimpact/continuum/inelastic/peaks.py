@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from planarimpact.continuum.inelastic.thornton import Thornton, cubic
+from planarimpact.continuum.inelastic.plastic import Thornton, cubic
 from planarimpact.ground.arrays import Array, Integers
 
 # Places where a polynomial through a few instants is looked at.

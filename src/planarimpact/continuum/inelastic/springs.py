@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
-from planarimpact.continuum.inelastic.normal_motion import NormalMotion
+from planarimpact.continuum.inelastic.motion import NormalMotion
 from planarimpact.ground.arrays import Array, Booleans
 
 

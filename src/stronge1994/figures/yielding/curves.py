@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from planarimpact import continuum, lumped
-from planarimpact.continuum.inelastic.thornton import Thornton
+from planarimpact.continuum.inelastic.plastic import Thornton
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound
 from stronge1994.csv_tables import Columns, Curves

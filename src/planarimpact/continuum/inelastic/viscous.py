@@ -6,7 +6,7 @@ while d grows. While d falls it touches where r^2 < D, as a contact does not pul
 
 import numpy as np
 
-from planarimpact.continuum.inelastic.normal_motion import NormalMotion
+from planarimpact.continuum.inelastic.motion import NormalMotion
 from planarimpact.continuum.inelastic.springs import SpringRow
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.normal_impact import kelvin_voigt as law

@@ -1,4 +1,4 @@
-"""Springs of elastic-plastic spheres: the law of `normal_impact.thornton` with a row of springs.
+"""Springs of elastic-plastic spheres: the law of `normal_impact.yielding` with a row of springs.
 
 Friction is at most mu times the pressure, so the pressure itself is needed. Thornton has two, and
 at maximum compression they do not agree: the cut one, and that of Hertz with the radius R_p. If
@@ -16,11 +16,11 @@ largest in the middle, where L = b d, or at the edge, where it is b d'.
 
 import numpy as np
 
-from planarimpact.continuum.inelastic.normal_motion import NormalMotion
+from planarimpact.continuum.inelastic.motion import NormalMotion
 from planarimpact.continuum.inelastic.springs import SpringRow
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.normal_impact import hertz
-from planarimpact.normal_impact import thornton as law
+from planarimpact.normal_impact import yielding as law
 
 # Places where the start of stick in plastic compression is sought before it is homed in.
 PLACES = 33
