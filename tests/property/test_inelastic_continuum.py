@@ -11,8 +11,8 @@ from planarimpact import InputError, Regime, continuum
 from planarimpact.continuum import inelastic
 from planarimpact.continuum.inelastic import plastic as plastic_springs
 from planarimpact.continuum.inelastic import viscous as viscous_springs
-from planarimpact.continuum.inelastic.plastic import PlasticRow
-from planarimpact.continuum.inelastic.viscous import ViscousRow
+from planarimpact.continuum.inelastic.plastic import PlasticSprings
+from planarimpact.continuum.inelastic.viscous import ViscousSprings
 from planarimpact.ground import sliding
 from planarimpact.normal_impact import kelvin_voigt, yielding
 
@@ -74,7 +74,7 @@ def test_restitution_of_viscous_spheres_by_integration_in_time(tau):
 def test_the_normal_motion_obeys_newton_and_the_springs_carry_its_force(loss):
     e = np.array([0.999999, 0.9, 0.6, 0.3, 0.1])
     motion = inelastic.LOSSES[loss](e)
-    motion.stand(np.linspace(0, 1, 2049)[:, None])
+    motion.put_springs(np.linspace(0, 1, 2049)[:, None])
     np.testing.assert_allclose(motion.velocity[-1], -e, atol=1e-11)
     np.testing.assert_allclose(np.trapezoid(motion.force, motion.time, axis=0), 1 + e, atol=1e-6)
     np.testing.assert_allclose(
@@ -132,7 +132,10 @@ def elastic():
 def test_without_loss_it_is_the_elastic_continuum(loss, elastic):
     x, elastic = elastic
     groups = np.full((3, x.size), [[BETA], [ZETA2], [1 - 1e-9]])
-    coarse, fine = (inelastic.path(x, *groups, loss, steps).velocity[-1] for steps in (512, 1024))
+    coarse, fine = (
+        inelastic.path(x, *groups, inelastic.LOSSES[loss], steps).velocity[-1]
+        for steps in (512, 1024)
+    )
     np.testing.assert_allclose(fine + (fine - coarse) / 3, elastic.velocity, atol=1e-6)
     near = solved(x, e=1 - 1e-9, loss=loss, tolerance=1e-4)
     np.testing.assert_allclose(near.peak_friction, elastic.peak_friction, atol=1e-4)
@@ -176,11 +179,11 @@ def no_slip_ratio(beta, zeta2, motion):
     The displacement at first touch, integrated over the radius, replaces the springs. While metal
     yields every deflection decays alike: without the factor by which it does, less, it does not.
     """
-    tau = float(motion.tau[0]) if motion.viscous else 0.0
+    tau = float(motion.tau[0]) if motion.dashpots else 0.0
     time, radius = motion.time[:, 0], np.concatenate([motion.radius, motion.radius[-2::-1]])[:, 0]
     middle = len(motion.radius) - 1
     less = np.ones(len(time))
-    if not motion.viscous:
+    if not motion.dashpots:
         flowed = motion.flowed(motion.approach)[: middle + 1, 0]
         less[: middle + 1] = np.exp(flowed - flowed[-1])
 
@@ -212,7 +215,7 @@ def no_slip_ratio(beta, zeta2, motion):
 @pytest.mark.parametrize(("beta", "zeta2", "e"), [(3.5, 1.21, 0.7), (6.0, 0.9, 0.4)])
 def test_with_endless_friction_the_response_is_linear(loss, beta, zeta2, e):
     motion = inelastic.LOSSES[loss](np.array([e]))
-    motion.stand(np.linspace(0, 1, 4001)[:, None])
+    motion.put_springs(np.linspace(0, 1, 4001)[:, None])
     x = 1e-5
     found = solved(x, beta, zeta2, e, loss, 1e-8 * 100).velocity / x
     assert found == pytest.approx(no_slip_ratio(beta, zeta2, motion), abs=3e-3)
@@ -227,7 +230,7 @@ def test_friction_and_flow_in_shear_take_what_the_body_loses(e, loss, monkeypatc
     """Spring by spring: slip times its limit, and the flow times the density. Neither gives any."""
     friction, flow = [], []
 
-    class Booked(PlasticRow):
+    class Booked(PlasticSprings):
         def move(self, k, step, start, end):
             self.last = k, step, (start[1] + end[1]) / 2
             return super().move(k, step, start, end)
@@ -245,14 +248,14 @@ def test_friction_and_flow_in_shear_take_what_the_body_loses(e, loss, monkeypatc
             flow.append(2 * np.sum(width * mean * flowed, axis=0))
             return super().settle(k)
 
-    monkeypatch.setattr(plastic_springs, "PlasticRow", Booked)
+    monkeypatch.setattr(plastic_springs, "PlasticSprings", Booked)
     x = np.array([0.3, 0.8, 1.1])  # these stick first, so that every step is booked
     groups = np.full((3, x.size), [[BETA], [ZETA2], [e]])
     off = []
     for steps in (512, 1024, 2048):
         friction.clear()
         flow.clear()
-        found = inelastic.path(x, *groups, loss, steps)
+        found = inelastic.path(x, *groups, inelastic.LOSSES[loss], steps)
         assert np.min(friction) > -1e-6 and np.min(flow) >= 0
         assert (np.sum(flow) > 0) == (loss == "plastic")
         off.append(ZETA2 * (np.sum(friction, axis=0) + np.sum(flow, axis=0)) - found.work)
@@ -265,7 +268,7 @@ def test_viscous_springs_share_the_energy_with_friction(e, monkeypatch):
     """Friction, the dashpots, the strain left in springs that fall off: all that the body loses."""
     losses = []
 
-    class Booked(ViscousRow):
+    class Booked(ViscousSprings):
         spent = 0.0
 
         def move(self, k, step, start, end):
@@ -293,13 +296,13 @@ def test_viscous_springs_share_the_energy_with_friction(e, monkeypatch):
             losses.append(self.spent)
             return work
 
-    monkeypatch.setattr(viscous_springs, "ViscousRow", Booked)
+    monkeypatch.setattr(viscous_springs, "ViscousSprings", Booked)
     x = np.array([0.3, 0.8, 1.1])  # these stick first, so that every step is booked
     groups = np.full((3, x.size), [[BETA], [ZETA2], [e]])
     off = []
     for steps in (512, 1024, 2048):
         losses.clear()
-        found = inelastic.path(x, *groups, "viscous", steps)
+        found = inelastic.path(x, *groups, inelastic.LOSSES["viscous"], steps)
         lost = (x**2 - found.velocity[-1] ** 2) / (2 * BETA)
         off.append(found.work + ZETA2 * losses[-1] - lost)
     # The bookkeeping at the edge has an error of first order, the steps one of second order.
@@ -366,7 +369,10 @@ def test_the_error_falls_smoothly_with_the_square_of_the_steps(loss):
     """What blurs events within a step converges all the same, but does not extrapolate."""
     x = np.linspace(0.2, 4.2, 41)
     groups = np.full((3, x.size), [[BETA], [ZETA2], [0.6]])
-    w = [inelastic.path(x, *groups, loss, steps).velocity[-1] for steps in (128, 256, 512)]
+    w = [
+        inelastic.path(x, *groups, inelastic.LOSSES[loss], steps).velocity[-1]
+        for steps in (128, 256, 512)
+    ]
     better = [b + (b - a) / 3 for a, b in zip(w, w[1:], strict=False)]
     # Found 2e-5. An edge with its whole width has 9e-5, slip that ends unseen within steps 1.4e-4.
     assert np.abs(better[1] - better[0]).max() < 4e-5
@@ -397,7 +403,10 @@ def test_slip_that_ends_anywhere_is_resolved_at_every_level(loss, tolerance):
     beta, zeta2, e = rng.uniform(2.5, 8, n), rng.uniform(0.3, 0.75, n), rng.uniform(0.1, 0.3, n)
     e = np.maximum(e, 0.25) if loss == "plastic" else e
     x = beta * (1 + 10 ** rng.uniform(-6, -1, n) * rng.choice([-1, 1], n, p=[0.8, 0.2]))
-    coarse, fine = (inelastic.path(x, beta, zeta2, e, loss, n).velocity[-1] for n in (512, 1024))
+    coarse, fine = (
+        inelastic.path(x, beta, zeta2, e, inelastic.LOSSES[loss], n).velocity[-1]
+        for n in (512, 1024)
+    )
     found = solved(x, beta, zeta2, e, loss, tolerance).velocity
     np.testing.assert_allclose(found, fine + (fine - coarse) / 3, atol=tolerance / 2)
 

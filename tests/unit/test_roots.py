@@ -68,3 +68,11 @@ def test_a_search_that_does_not_end_says_so(monkeypatch):
     for loss in ("hysteretic", "viscous"):
         with pytest.raises(ConvergenceError, match="1 events: not found in 0 turns"):
             lumped.rebound(2.5, 3.5, 1.21, 0.5, loss=loss)
+
+
+def test_a_steep_end_does_not_pass_for_a_root():
+    """The secant from there is nearly upright, and its step is nothing."""
+    place = roots.crossing(
+        lambda which, x: (0.716 - x - 1e-15 / (1 - x + 1e-30),), np.full(1, 0.4), np.ones(1)
+    )
+    np.testing.assert_allclose(place, 0.716, rtol=1e-13)

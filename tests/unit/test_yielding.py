@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from planarimpact.continuum.inelastic.plastic import Thornton
+from planarimpact.continuum.inelastic.plastic import PlasticMotion
 from planarimpact.normal_impact import yielding as law
 from stronge1994 import csv_tables, plan, reference_data
 from stronge1994.figures.shared.curves import solving
@@ -54,7 +54,7 @@ def verdicts(tmp_path, monkeypatch):
     monkeypatch.setattr(yielding, "MODELS", only)
 
     def judged(factor):
-        monkeypatch.setattr(Thornton, "flows", factor * law.FLOW)
+        monkeypatch.setattr(PlasticMotion, "flows", factor * law.FLOW)
         csv_tables.write(table, yielding.curves(**settings | {"samples": 11}))
         paths = {"finite_elements": series}
         rows = compare("yielding", entries, references, table, paths, config["significance"])

@@ -134,7 +134,8 @@ def rebound(
             if is_elastic:
                 found = elastic.rebound(*groups, allowed)
             else:
-                found = inelastic.rebound(*groups, e[rows], allowed, loss or "")
+                law = inelastic.LOSSES[loss or ""]
+                found = inelastic.rebound(*groups, e[rows], allowed, law)
         velocity[rows], peak[rows], work[rows], regime[rows], reversals[rows] = found
     return Rebound.shaped(signed, velocity, peak, work, regime.astype(np.uint8), reversals)
 
@@ -182,7 +183,8 @@ def slip_throughout_limit(
     found = np.array(sliding.limit_alike(beta, zeta2, e))
     lossy = e < 1
     if loss is not None and lossy.any():
-        found[lossy] = inelastic.slides_from(beta[lossy], zeta2[lossy], e[lossy], loss)
+        motion = inelastic.LOSSES[loss](e[lossy])
+        found[lossy] = motion.slides_from(beta[lossy], zeta2[lossy])
     return found[()]
 
 
@@ -282,7 +284,7 @@ def history(
     x, beta, zeta2, e = (a.reshape(1) for a in (np.abs(signed), beta, zeta2, e))
     mirror = float(np.copysign(1.0, signed))
     if e[0] < 1:
-        found = inelastic.contact(x, beta, zeta2, e, loss or "", tolerance)
+        found = inelastic.contact(x, beta, zeta2, e, inelastic.LOSSES[loss or ""], tolerance)
         time, normal, friction, velocity, radius, stick_radius = found
     else:
         phase, friction, velocity, stick_radius = elastic.contact(x, beta, zeta2, tolerance)

@@ -23,14 +23,14 @@ BEST_ORDER = 4
 UNSURE = 2
 
 
-def steps_needed(beta: Array, zeta2: Array, bluntness: Array | float = 1.0) -> Array:
-    """Steps that resolve the tangential oscillation of a contact.
+def steps_needed(beta: Array, zeta2: Array, share_of_hertz: Array | float = 1.0) -> Array:
+    """Steps that resolve the tangential oscillation of a contact, of which it has sqrt(b)/2.
 
-    An elastic contact has sqrt(beta/zeta^2)/2 of it. One that yields is softer, with `bluntness`
-    times the force of Hertz's law, and lasts longer: it has sqrt(beta/(zeta^2 bluntness))/2.
+    b is beta/zeta^2 for an elastic contact. One that yields is softer and lasts longer: b is that
+    over the share that its force has of Hertz's.
     """
     with np.errstate(over="ignore"):
-        frequency = np.sqrt(beta) / (np.sqrt(zeta2) * np.sqrt(bluntness))
+        frequency = np.sqrt(beta) / (np.sqrt(zeta2) * np.sqrt(share_of_hertz))
     return STEPS_A_RADIAN * np.pi * frequency
 
 

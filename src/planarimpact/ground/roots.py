@@ -23,6 +23,8 @@ Function: TypeAlias = Callable[[Any, Array], tuple[Array, ...]]
 LAST_STEP = 1e-15, 1e-8, 2e-6
 # The slope may not change by more than this share over a last step: two zeros may be close.
 LAST_BEND = 1e-5
+# A secant counts as a slope where its places are nearer than this share of the place.
+LAST_SECANT = 1e-6
 # Rounding hides what is left of the bracket, as a share of its width or of the place.
 ROUNDING = 1e-15
 # Between this number and 0 there is no other.
@@ -98,20 +100,21 @@ def crossing(
         if turn == 0:  # where rounding may have the other sign
             ahead |= trial <= low
         low, high = np.where(ahead, trial, low), np.where(ahead, high, trial)
+        size = np.abs(trial)
         if slopes:
             step = _step(value, *slopes)
         else:
             with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
                 step = _step(value, (value - value_before) / (trial - before))
-        size = np.abs(trial)
-        done = _is_last(step, slopes, np.minimum(width, size))
+        hidden = np.maximum(least, ROUNDING * size)
+        done = _is_last(step, slopes, np.minimum(width, size)) | (np.abs(step) <= hidden)
+        if not slopes:  # the secant through a distant place says nothing
+            done &= (np.abs(trial - before) <= LAST_SECANT * size) | (value == 0)
         before, value_before, trial = trial, value, trial + step
         inside = (trial >= low) & (trial <= high)
         if turn >= FREE_TURNS and turn % 2:
             inside[:] = False
         trial = np.where(inside, trial, (low + high) / 2)
-        hidden = np.maximum(least, ROUNDING * size)
-        done |= np.abs(step) <= hidden
         open_ = np.flatnonzero(~(done & inside) & (high - low > hidden))
         place[index] = trial
         if open_.size < index.size:  # searches that are done leave the arrays

@@ -19,10 +19,12 @@ So nothing is singular at contact and separation, and a method of fourth order k
 from collections.abc import Callable
 from copy import copy
 from functools import cache, lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import Chebyshev
 
+from planarimpact.ground import cubics, roots
 from planarimpact.ground.arrays import Array, Integers
 from planarimpact.normal_impact import hertz
 
@@ -36,8 +38,6 @@ SLOWEST = 8.0
 DEGREE = 48
 # Newton's method doubles the digits. It starts with two of them or more.
 NEWTON = 8
-# Halvings of a step, to the last bit of a number.
-BISECTIONS = 52
 
 
 def restitution(relaxation_time: Array) -> Array:
@@ -229,7 +229,7 @@ class Half:
         """State at sigma, shape (3, ...)."""
         row = np.clip((sigma / self._step).astype(np.intp), 0, STEPS - 1)
         share = sigma / self._step - row
-        return np.stack([_value(self._cubic(row, part), share) for part in range(3)])
+        return np.stack([cubics.value(self._cubic(row, part), share) for part in range(3)])
 
     def crossing(self, part: int, level: Array, rises: bool = False) -> Array:
         """sigma where a component that falls, or `rises`, is at a level, shape (k, m)."""
@@ -240,23 +240,23 @@ class Half:
             falling = np.minimum.accumulate(sign * self.values[:, part, i])
             row[:, i] = STEPS + 1 - np.searchsorted(falling[::-1], level[:, i], "right")
         row = np.clip(row - 1, 0, STEPS - 1)
-        cubic = self._cubic(row, part)
-        low, high = np.zeros(level.shape), np.ones(level.shape)
-        for _ in range(BISECTIONS):
-            middle = (low + high) / 2
-            above = sign * _value(cubic, middle) > level
-            low, high = np.where(above, middle, low), np.where(above, high, middle)
-        return (row + high) * self._step
+        cubic = [sign * np.ravel(c) for c in self._cubic(row, part)]
+        goal, none = np.ravel(level), np.zeros(level.size)
+
+        def margin(which: Any, share: Array) -> tuple[Array, Array, Array]:
+            constant, linear, square, third = (c[which] for c in cubic)
+            return (
+                constant - goal[which] + share * (linear + share * (square + share * third)),
+                linear + share * (2 * square + 3 * share * third),
+                2 * square + 6 * share * third,
+            )
+
+        share = roots.crossing(margin, none, none + 1)
+        return (row + share.reshape(level.shape)) * self._step
 
     def _cubic(self, row: Integers, part: int) -> tuple[Array, ...]:
         """Coefficients of the cubic through values and slopes at both ends of a step."""
         column = np.arange(self._step.size)
         before, after = (self.values[row + k, part, column] for k in (0, 1))
         rise, fall = (self._step * self._rates[row + k, part, column] for k in (0, 1))
-        change = after - before
-        return before, rise, 3 * change - 2 * rise - fall, rise + fall - 2 * change
-
-
-def _value(cubic: tuple[Array, ...], share: Array) -> Array:
-    constant, linear, square, third = cubic
-    return constant + share * (linear + share * (square + share * third))
+        return cubics.coefficients(before, after, rise, fall)

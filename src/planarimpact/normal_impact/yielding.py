@@ -1,33 +1,34 @@
 """Normal impact of elastic-plastic spheres by Thornton's law (J. Appl. Mech. 64 (1997) 383-386).
 
-Hertz's law holds until the largest pressure is p_y, at the approach d_y. From there the pressure is
-Hertz's, cut at p_y, so that F = F_y + pi p_y (d - d_y). Unloading is elastic, with Hertz's law of
-the radius R_p = R F_e/F_max, where F_e is the force of Hertz's law at the largest approach. The
-coefficient of restitution depends on the ratio of the yield velocity to the velocity alone.
+- **Loading** (`Loading`): Hertz's law holds until the largest pressure is p_y, at the approach d_y.
+  From there the pressure is Hertz's, cut at p_y, so that F = F_y + pi p_y (d - d_y).
+- **Unloading** (`unloading`) is elastic, with Hertz's law of the radius R_p = R F_e/F_max, where
+  F_e is the force of Hertz's law at the largest approach.
+- **What relaxes** (`Loading.flow`): the flow rule of Prandtl and Reuss relaxes every component of
+  stress while metal yields. So deflections in shear decay by exp(-FLOW g) while the permanent
+  approach grows by g d_y.
+
+All else follows from these three: the coefficient of restitution, which depends on the ratio of the
+yield velocity to the velocity alone, is the energy of unloading.
 
 Units as in `normal_impact`.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from planarimpact.ground import roots
 from planarimpact.ground.arrays import Array
 from planarimpact.normal_impact import hertz
 
 __all__ = ["largest_force", "restitution", "yield_velocity"]
 
-# The equation of `yield_velocity` in the tangent t: t at e = 1, what is added to t, and its largest
-# coefficient.
-_AT_YIELD, _ADDED, _LARGEST = 1 / np.sqrt(5), 2 / np.sqrt(5), 1 / 4.32
-# Deflections in shear decay by exp(-FLOW g) while the permanent approach grows by g d_y. Fixed on
-# finite elements with nu = 0.3, mu = 0.1, e = 0.46, 0.55 and 0.63 (data/finite_elements).
+# Fixed on finite elements with nu = 0.3, mu = 0.1, e = 0.46, 0.55 and 0.63 (data/finite_elements).
 FLOW = 0.95
-# Newton's method doubles the digits. It starts with an error of 0.005 in e.
-NEWTON = 4
 
 
-class Compression(NamedTuple):
+class Loading(NamedTuple):
     """Compression of elastic-plastic spheres, elastic first and then harmonic.
 
     Attributes
@@ -44,6 +45,10 @@ class Compression(NamedTuple):
     centre: Array
     reach: Array
 
+    def take(self, which: Any) -> "Loading":
+        """The loading of some impacts, by an index of them."""
+        return Loading._make(field[which] for field in self)
+
     def largest_approach(self) -> Array:
         """Approach at the end of compression, shape (m,)."""
         return self.centre + self.reach
@@ -52,7 +57,7 @@ class Compression(NamedTuple):
         """Force there, shape (m,)."""
         return self.rate**2 * self.reach
 
-    def bluntness(self, depth: Array) -> Array:
+    def share_of_hertz(self, depth: Array) -> Array:
         """Force over that of Hertz's law at an approach, and so at that radius, shape (..., m)."""
         hertzian = 4 / 3 * np.maximum(depth, self.yields) ** 1.5
         plastic = self.rate**2 * (depth - self.centre) / hertzian
@@ -61,8 +66,7 @@ class Compression(NamedTuple):
     def flow(self, depth: Array) -> Array:
         """How much shear has flowed at an approach: the plastic part of it, over d_y, (..., m).
 
-        The elastic part is what would spring back: that of Hertz's law with the radius R_p, which
-        is `bluntness` times the approach.
+        The elastic part is what would spring back, `share_of_hertz` times the approach.
         """
         share = np.maximum(depth / self.yields, 1.0)
         return share - 1.5 * np.sqrt(share) + 0.5 / np.sqrt(share)
@@ -89,13 +93,18 @@ class Compression(NamedTuple):
         full = hertz.FULL
         time = full**0.4 * hertz.COMPRESSION * hertz.time(np.arcsin(np.sqrt(elastic) / full**0.2))
         plastic = depth > self.yields
-        over = np.clip((depth - self.centre) / self.reach, 0.0, 1.0)
-        harmonic = np.sqrt((1 - over) * (1 + over))
+        to_go = np.clip((self.largest_approach() - depth) / self.reach, 0.0, 1.0)
+        harmonic = np.sqrt(to_go * (2 - to_go))  # exactly 0 at the end
         start = np.arcsin((self.yields - self.centre) / self.reach)
         later = (np.arccos(harmonic) - start) / self.rate
         force = np.where(plastic, self.rate**2 * (depth - self.centre), 4 / 3 * elastic**1.5)
         v = np.where(plastic, self.rate * self.reach * harmonic, v)
         return np.where(plastic, time + later, time), v, force
+
+    def approach(self, velocity: Array) -> Array:
+        """Approach at a velocity from 1 to 0, shape (m,)."""
+        elastic = ((1 - np.clip(velocity, 0.0, 1.0) ** 2) / (2 * hertz.ENERGY)) ** 0.4
+        return np.where(elastic > self.yields, self.plastic_approach(velocity), elastic)
 
     def plastic_approach(self, velocity: Array) -> Array:
         """Approach at a velocity in the plastic part, shape (m,)."""
@@ -103,19 +112,82 @@ class Compression(NamedTuple):
         return self.centre + self.reach * np.sqrt((1 - share) * (1 + share))
 
 
-def compression(restitution: Array) -> Compression:
-    """Compression of an impact with a coefficient of restitution, shape (m,).
+class Unloading(NamedTuple):
+    """Unloading along Hertz's law: at the share s of the largest radius the force is F s^3.
+
+    Attributes
+    ----------
+    springs_back : ndarray, shape (m,)
+        The part of the approach that comes back; s^2 of it is still to come.
+    force : ndarray, shape (m,)
+        F at the end of loading.
+    """
+
+    springs_back: Array
+    force: Array
+
+    def restitution(self) -> Array:
+        """Coefficient of restitution: the root of twice the energy that comes back, shape (m,)."""
+        return np.sqrt(2 / 2.5 * self.force * self.springs_back)
+
+    def at(self, phase: Array, restitution: Array) -> tuple[Array, Array, Array, Array]:
+        """Time since the end of loading, velocity, approach that came back, force; (..., m).
+
+        At a phase of `hertz`, from pi/2 to pi, for a coefficient of restitution.
+        """
+        unit = self.springs_back / restitution * hertz.COMPRESSION
+        share = np.sin(phase)
+        return (
+            unit * (hertz.time(phase) - 1),
+            restitution * hertz.velocity(phase),
+            self.springs_back * (1 - share * share),
+            self.force * share**3,
+        )
+
+    def phase(self, velocity: Array, restitution: Array) -> Array:
+        """Phase of `hertz` at a velocity, from 0 to -e; shape (m,)."""
+        return np.pi - hertz.phase_at(np.clip(-velocity / restitution, 0.0, 1.0))
+
+    def square(self, came_back: Array) -> Array:
+        """s^2 when so much of the approach came back, shape (m,)."""
+        return np.clip(1 - came_back / self.springs_back, 0.0, 1.0)
+
+
+def unloading(loading: Loading) -> Unloading:
+    """How spheres unload, by the state at the end of loading: this function is the law.
+
+    Unloading is elastic, by Hertz's law of a flatter sphere, whose radius R_p belongs to the
+    largest force and the largest radius of contact a: F = (4/3) a^3 R/R_p, and a^2 R/R_p springs
+    back. By Thornton F = F_e R/R_p, with the force F_e of Hertz's law at the largest approach a^2.
 
     Examples
     --------
-    >>> compression(np.array([0.8])).largest_approach().round(4)
+    >>> back = unloading(loading(np.array([0.8])))
+    >>> back.springs_back.round(4), back.restitution().round(12)
+    (array([0.7653]), array([0.8]))
+    """
+    sharpness = loading.share_of_hertz(loading.largest_approach())
+    return Unloading(sharpness * loading.largest_approach(), loading.largest_force())
+
+
+def loading(restitution: Array) -> Loading:
+    """Loading of an impact with a coefficient of restitution, shape (m,).
+
+    Examples
+    --------
+    >>> loading(np.array([0.8])).largest_approach().round(4)
     array([1.0493])
     """
-    yields = (yield_velocity(restitution) ** 2 / (2 * hertz.ENERGY)) ** 0.4
+    return _loading(yield_velocity(restitution))
+
+
+def _loading(yield_velocity: Array) -> Loading:
+    """Loading at a ratio of the yield velocity to the velocity of impact, above 0."""
+    yields = (yield_velocity**2 / (2 * hertz.ENERGY)) ** 0.4
     rate = np.sqrt(2 * np.sqrt(yields))
     centre = yields / 3
     at_yield = np.sqrt(np.maximum(1 - 2 * hertz.ENERGY * yields**2.5, 0.0))  # the velocity
-    return Compression(yields, rate, centre, np.hypot(yields - centre, at_yield / rate))
+    return Loading(yields, rate, centre, np.hypot(yields - centre, at_yield / rate))
 
 
 def largest_force(restitution: Array) -> Array:
@@ -136,7 +208,7 @@ def largest_force(restitution: Array) -> Array:
     >>> largest_force(np.array([1.0, 0.8, 0.5])).round(3)
     array([1.   , 0.815, 0.551])
     """
-    return compression(restitution).largest_force() / hertz.LARGEST_FORCE
+    return loading(restitution).largest_force() / hertz.LARGEST_FORCE
 
 
 def restitution(yield_velocity: Array) -> Array:
@@ -154,16 +226,16 @@ def restitution(yield_velocity: Array) -> Array:
 
     Notes
     -----
-    Thornton (1997), Eq. 44: the energy of unloading over that of the impact.
+    With the unloading of Thornton (1997) it is his Eq. 44.
 
     Examples
     --------
-    >>> restitution(np.array([1.0, 0.1])).round(4)
-    array([1.    , 0.6586])
+    >>> restitution(np.array([1.0, 0.1, 0.0])).round(4)
+    array([1.    , 0.6586, 0.    ])
     """
-    square = yield_velocity**2
-    slowness = yield_velocity / (yield_velocity + 2 * np.sqrt(1.2 - square / 5))
-    return np.sqrt(1.2 * np.sqrt(3) * (1 - square / 6) * np.sqrt(slowness))
+    yields = (yield_velocity > 0) & (yield_velocity < 1)
+    law = _loading(np.where(yields, yield_velocity, 1.0))
+    return np.where(yields, unloading(law).restitution(), yield_velocity)
 
 
 def yield_velocity(restitution_wanted: Array) -> Array:
@@ -179,13 +251,6 @@ def yield_velocity(restitution_wanted: Array) -> Array:
     ndarray
         Of the same shape. `restitution` makes of it what was wanted, to 1e-15.
 
-    Notes
-    -----
-    With the tangent t of the angle whose sine is v_y/(6^(1/2) v), the fourth power of Eq. 44 is
-    e^4/4.32 = t/((t + 2/5^(1/2)) (1 + t^2)^2). The root is the smaller one of two. They meet at
-    e = 1, so that t is smooth as a function of (1 - e^4)^(1/2). Newton's method starts from a
-    parabola in it.
-
     Examples
     --------
     >>> yield_velocity(np.array([1.0, 0.6586])).round(4)
@@ -194,16 +259,11 @@ def yield_velocity(restitution_wanted: Array) -> Array:
     >>> bool(np.abs(restitution(yield_velocity(e)) - e).max() < 1e-15)
     True
     """
-    e = np.minimum(restitution_wanted, np.nextafter(1.0, 0.0))  # at 1 the slope below is 0
-    square = e * e
-    lost = np.sqrt((1 - e) * (1 + e) * (1 + square))
-    share = _LARGEST * square * square
-    # The parabola is right at both ends, its slope too where e = 0.
-    t = (1 - lost) * (_AT_YIELD - (_AT_YIELD - 2 * _ADDED * _LARGEST) * lost)
-    for _ in range(NEWTON):
-        one = 1 + t * t
-        excess = share * (t + _ADDED) * one * one - t
-        slope = share * one * (one + 4 * t * (t + _ADDED)) - 1
-        t = t - excess / slope
-    found = np.minimum(np.sqrt(6) * t / np.sqrt(1 + t * t), 1.0)
-    return np.where(restitution_wanted < 1, found, 1.0)
+    wanted = np.ravel(restitution_wanted)
+    # Restitution is nearly in proportion to the fourth root of the yield velocity.
+    root = roots.crossing(
+        lambda which, root: (wanted[which] - restitution(root**4),),
+        np.zeros_like(wanted),
+        np.ones_like(wanted),
+    )
+    return np.reshape(root**4, np.shape(restitution_wanted))

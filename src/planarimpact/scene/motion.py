@@ -126,7 +126,7 @@ def slides_throughout(impacts: Impacts) -> Booleans:
         known = yields[impacts.restitution[yields] >= bodies.LEAST_RESTITUTION]
         slides[yields] = False
         beta, zeta2, e = (group[known] for group in groups)
-        limit = inelastic.slides_from(beta, zeta2, e, "plastic")
+        limit = inelastic.LOSSES["plastic"](e).slides_from(beta, zeta2)
         slides[known] = impacts.v1[known] >= limit * unit[known]
     return slides
 

@@ -145,7 +145,7 @@ def edges_over(name: str, plan: Plan, limits: Array) -> Array:
     else:
         found = [] if name == "plastic_high" else [thresholds.slides_at_the_end(b, e)]
         if name == "plastic_low":
-            found.append(inelastic.slides_from(b, np.ones_like(b), e, "plastic"))
+            found.append(thresholds.slides_from(b, e))
     return _rounded(np.reshape(found, (len(found), *t.shape)), plan.exponent)
 
 
@@ -199,7 +199,9 @@ def solved(loss: str, y: Array, b: Array, e: Array) -> Array:
     for start in range(0, rest.size, TOGETHER):
         rows = rest[start : start + TOGETHER]
         solutions = (
-            inelastic.path(y[rows], b[rows], np.ones(rows.size), e[rows], loss, steps)
+            inelastic.path(
+                y[rows], b[rows], np.ones(rows.size), e[rows], inelastic.LOSSES[loss], steps
+            )
             for steps in (STEPS, 2 * STEPS)
         )
         coarse, fine = (np.stack([path.velocity[-1], path.peak, path.work]) for path in solutions)

@@ -13,23 +13,25 @@ that rate is negative, and 1 where slip lasts to the largest force.
 **Plastic spheres.** The answer bends where friction is at its limit everywhere at the end of
 compression: it is largest from there on. A sphere that loses little slides until then; one that
 loses much slides again at the end, when shear has flowed so far that the body still moves on. And
-it bends where slip throughout begins (`Thornton.slides_from`). Spheres that lose much bend the
+it bends where slip throughout begins (`PlasticMotion.slides_from`). Spheres that lose much bend the
 answer at one more incidence, which the table does not know: its error is larger there.
 """
+
+from typing import Any
 
 import numpy as np
 
 from planarimpact.continuum import inelastic
-from planarimpact.continuum.inelastic.viscous import KelvinVoigt
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, Booleans
+from planarimpact.continuum.inelastic.plastic import PlasticMotion
+from planarimpact.continuum.inelastic.viscous import ViscousMotion
+from planarimpact.ground import roots, sliding
+from planarimpact.ground.arrays import Array
 from planarimpact.normal_impact import yielding
 
 # Steps of the continuum, and impacts solved together.
 STEPS, TOGETHER = 256, 256
-HALVINGS = 30
-# Of an incidence for which the continuum is solved each time.
-FEW_HALVINGS = 14
+# How exactly an incidence is known for which the continuum is solved each time.
+COARSE = 2.0**-14
 
 
 def friction_falls(b: Array, e: Array) -> Array:
@@ -40,14 +42,15 @@ def friction_falls(b: Array, e: Array) -> Array:
     >>> float(friction_falls(np.array([2.5]), np.array([0.5]))[0].round(3))
     1.426
     """
-    motion = KelvinVoigt(e)
-    low, high = motion.velocity_at_largest_force.copy(), np.ones(e.size)
-    for _ in range(HALVINGS):
-        v = (low + high) / 2
-        approach, force = motion.compressed(v)
-        rises = v + motion.tau * v**2 / (2 * approach) > motion.tau * b * force
-        low, high = np.where(rises, low, v), np.where(rises, v, high)
-    return _slips_until(low, b)
+    motion = ViscousMotion(e)
+
+    def fall(which: Any, v: Array) -> tuple[Array]:
+        approach, force = motion.take(which).compressed(v)
+        tau = motion.tau[which]
+        return (tau * b[which] * force - v - tau * v**2 / (2 * approach),)
+
+    v = roots.crossing(fall, motion.velocity_at_largest_force, np.ones(e.size))
+    return _slips_until(v, b)
 
 
 def lasts_to_largest_force(b: Array, e: Array) -> Array:
@@ -58,7 +61,7 @@ def lasts_to_largest_force(b: Array, e: Array) -> Array:
     >>> float(lasts_to_largest_force(np.array([2.5]), np.array([0.5]))[0].round(3))
     1.912
     """
-    return _slips_until(KelvinVoigt(e).velocity_at_largest_force, b)
+    return _slips_until(ViscousMotion(e).velocity_at_largest_force, b)
 
 
 def slides_at_the_end(b: Array, e: Array) -> Array:
@@ -69,17 +72,18 @@ def slides_at_the_end(b: Array, e: Array) -> Array:
     >>> slides_at_the_end(np.array([2.9, 2.9]), np.array([0.9, 0.45])).round(2)
     array([2.9 , 2.93])
     """
-    one = np.ones_like(b)
-    low, high = np.zeros_like(b), inelastic.slides_from(b, one, e, "plastic")
-    for _ in range(FEW_HALVINGS):
-        y, slides = (low + high) / 2, np.empty(b.size, dtype=bool)
-        for start in range(0, b.size, TOGETHER):
+    one, end = np.ones_like(b), STEPS // 2
+
+    def sticks(which: Any, y: Array) -> tuple[Array]:
+        short = np.empty(y.size)
+        for start in range(0, y.size, TOGETHER):
             part = slice(start, start + TOGETHER)
-            path = inelastic.path(y[part], b[part], one[part], e[part], "plastic", STEPS)
-            end = STEPS // 2
-            slides[part] = path.friction[end] >= inelastic.GROSS * path.normal[end]
-        low, high = np.where(slides, low, y), np.where(slides, y, high)
-    return high
+            own_b, own_one, own_e = (a[which][part] for a in (b, one, e))
+            path = inelastic.path(y[part], own_b, own_one, own_e, PlasticMotion, STEPS)
+            short[part] = inelastic.GROSS * path.normal[end] - path.friction[end]
+        return (np.where(short > 0, 1.0, -1.0),)
+
+    return roots.crossing(sticks, np.zeros_like(b), slides_from(b, e), resolution=COARSE)
 
 
 def limits(b: Array) -> Array:
@@ -102,24 +106,22 @@ def limits(b: Array) -> Array:
     array([[0.692, 0.485],
            [0.831, 0.618]])
     """
-    one = np.ones_like(b)
+    low, high = np.full((2, b.size), [[0.3], [0.99]])
 
-    def at_all(e: Array) -> Booleans:
-        return inelastic.slides_from(b, one, e, "plastic") > sliding.limit_alike(b, one, e)
+    def at_all(which: Any, e: Array) -> tuple[Array]:
+        own = b[which]
+        return (np.where(slides_from(own, e) > sliding.limit_alike(own, 1.0, e), 1.0, -1.0),)
 
-    def at_the_end(e: Array) -> Booleans:
-        law = yielding.compression(e)
-        return law.pull(law.largest_approach(), yielding.FLOW)[0] > b
+    def at_the_end(which: Any, e: Array) -> tuple[Array]:
+        loading = yielding.loading(e)
+        return (loading.pull(loading.largest_approach(), yielding.FLOW)[0] - b[which],)
 
-    found = []
-    for sticks in (at_all, at_the_end):
-        low, high = np.full((2, b.size), [[0.3], [0.99]])
-        for _ in range(HALVINGS):
-            e = (low + high) / 2
-            later = sticks(e)
-            low, high = np.where(later, e, low), np.where(later, high, e)
-        found.append(low)
-    return np.stack(found)
+    return np.stack([roots.crossing(sticks, low, high) for sticks in (at_all, at_the_end)])
+
+
+def slides_from(b: Array, e: Array) -> Array:
+    """Incidence from which plastic spheres slide throughout."""
+    return PlasticMotion(e).slides_from(b, np.ones_like(b))
 
 
 def _slips_until(v: Array, b: Array) -> Array:

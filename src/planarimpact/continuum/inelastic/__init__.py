@@ -1,14 +1,15 @@
 """Oblique impact of inelastic spheres with micro-slip, for e < 1, in steps.
 
 The method is that of dimensionality reduction, as for elastic spheres in `micro_slip`. The contact
-is a row of springs. `viscous` and `plastic` give the normal motion, each for one way to lose
-energy. Here the springs are moved sideways. Let u be the tangential displacement of the body over
-zeta^2, q the deflection of a spring over zeta^2, and L its normal force density. A spring has the
-tangential force density q + tau q', at most L. While it sticks q' = u'. A spring that loses contact
-forgets its deflection. What it remembers is c = q - u. With V = u + tau u' the density is V + c
-while the spring sticks. In slip it is L or -L, and tau c' = density - (V + c): what is beyond the
-limit relaxes. Springs of metal have no tau: q is moved to the limit at once. While the contact
-yields it also decays, see `plastic`.
+is a row of springs. `viscous` and `plastic` give the normal motion and the springs, each for one
+law of `planarimpact.normal_impact`. Here the springs are moved sideways, whatever the law.
+
+Let u be the tangential displacement of the body over zeta^2, q the deflection of a spring over
+zeta^2, and L its normal force density. A spring has the tangential force density q + tau q', at
+most L. While it sticks q' = u'. A spring that loses contact forgets its deflection. What it
+remembers is c = q - u. With V = u + tau u' the density is V + c while the spring sticks. In slip it
+is L or -L, and tau c' = density - (V + c): what is beyond the limit relaxes. Springs of metal have
+no tau: q is moved to the limit at once. While the contact yields it also decays, see `plastic`.
 
 Springs stand at the radii where the edge of the contact is at each instant. So the edge is always
 at a spring, and the error falls with the square of the steps.
@@ -20,17 +21,18 @@ import numpy as np
 
 from planarimpact.continuum import refinement
 from planarimpact.continuum.inelastic import peaks
-from planarimpact.continuum.inelastic.motion import places
-from planarimpact.continuum.inelastic.plastic import ElasticInShear, Thornton
-from planarimpact.continuum.inelastic.viscous import KelvinVoigt
+from planarimpact.continuum.inelastic.motion import NormalMotion, places
+from planarimpact.continuum.inelastic.plastic import ElasticInShear, PlasticMotion
+from planarimpact.continuum.inelastic.viscous import ViscousMotion
 from planarimpact.continuum.refinement import Solved
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.results import Regime
 
-LOSSES: dict[str, type[KelvinVoigt | Thornton]] = {
-    "viscous": KelvinVoigt,
-    "plastic": Thornton,
+# How a law moves its springs, by the name of the loss.
+LOSSES: dict[str, type[NormalMotion]] = {
+    "viscous": ViscousMotion,
+    "plastic": PlasticMotion,
     "plastic-elastic-shear": ElasticInShear,
 }
 # Friction within this share of its limit is gross slip. Near separation less stick than that cannot
@@ -70,91 +72,71 @@ class Path(NamedTuple):
 
 
 def rebound(
-    x: Array, beta: Array, zeta2: Array, e: Array, tolerance: float, loss: str
+    x: Array, beta: Array, zeta2: Array, e: Array, tolerance: float, law: type[NormalMotion]
 ) -> tuple[Array, Array, Array, Integers, Integers]:
     """Velocity, peak friction, work of friction, regime and reversals, each of shape (n,).
 
-    Parameters
-    ----------
-    x, beta, zeta2, e : ndarray, shape (n,)
-        x >= 0; e below 1.
-    tolerance : float
-    loss : str
-        One of `LOSSES`.
-
-    Raises
-    ------
-    Unsolved
-        As `refinement.refine`.
+    For x >= 0 and e below 1; `law` is one of `LOSSES`. Raises `Unsolved` as `refinement.refine`.
 
     Examples
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> rebound(*groups, 1e-5, "viscous")[0].round(4)
+    >>> rebound(*groups, 1e-5, LOSSES["viscous"])[0].round(4)
     array([-0.4805])
     """
-    slides = x >= slides_from(beta, zeta2, e, loss)
+    motion = law(e)
+    slides = x >= motion.slides_from(beta, zeta2)
     velocity = np.where(slides, sliding.velocity(x, beta, e), 0.0)
     peak, regime = slides.astype(float), np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK)
     reversals = np.zeros(x.size, np.int64)
-    work = np.where(slides, _work_sliding(x, beta, zeta2, e, loss), 0.0)
-    rest = np.flatnonzero((x > 0) & ~slides)
-    groups = x[rest], beta[rest], zeta2[rest], e[rest]
+    work = np.where(slides, motion.work_of_first_slip(x, beta, zeta2, -e), 0.0)
+    sticks = np.flatnonzero((x > 0) & ~slides)
+    groups = x[sticks], beta[sticks], zeta2[sticks], e[sticks]
 
     def integrate(groups: tuple[Array, ...], steps: int) -> Solved:
-        x, beta, zeta2, e = groups
-
         def solve(part: slice) -> Solved:
-            return _summary(path(x[part], beta[part], zeta2[part], e[part], loss, steps))
+            x, beta, zeta2, e = (group[part] for group in groups)
+            return _summary(path(x, beta, zeta2, e, law, steps))
 
-        return refinement.in_parts(x.size, max(32, CELLS // steps), solve)
+        return refinement.in_parts(groups[0].size, max(32, CELLS // steps), solve)
 
-    with refinement.counted_among(rest):
-        needed = _steps_needed(*groups[1:], loss)
+    with refinement.counted_among(sticks):
         values, counts = refinement.refine(
-            groups, needed, tolerance, integrate, FIRST_STEPS, MOST_STEPS, SAFETY
+            groups,
+            _steps_needed(*groups[1:], law),
+            tolerance,
+            integrate,
+            FIRST_STEPS,
+            MOST_STEPS,
+            SAFETY,
         )
     # The exact values have these bounds. Extrapolation and rounding may exceed them.
-    velocity[rest] = np.clip(values[0], -x[rest], x[rest])
-    peak[rest], work[rest] = np.clip(values[1], 0.0, 1.0), values[2]
-    regime[rest] = refinement.regime(x[rest], zeta2[rest], counts[0])
-    reversals[rest] = counts[1]
+    velocity[sticks] = np.clip(values[0], -x[sticks], x[sticks])
+    peak[sticks], work[sticks] = np.clip(values[1], 0.0, 1.0), values[2]
+    regime[sticks] = refinement.regime(x[sticks], zeta2[sticks], counts[0])
+    reversals[sticks] = counts[1]
     return velocity, peak, work, regime, reversals
 
 
-def slides_from(beta: Array, zeta2: Array, e: Array, loss: str) -> Array:
-    """Incidence from which a contact slides throughout, shape (n,)."""
-    return LOSSES[loss](e).slides_from(beta, zeta2)
+def path(
+    x: Array, beta: Array, zeta2: Array, e: Array, law: type[NormalMotion], steps: int
+) -> Path:
+    """Integrate from contact to separation, in an even number of steps: half are compression.
 
-
-def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -> Path:
-    """Integrate from contact to separation.
-
-    Parameters
-    ----------
-    x, beta, zeta2, e : ndarray, shape (n,)
-        x > 0; e below 1.
-    loss : str
-        One of `LOSSES`.
-    steps : int
-        Even: half of them are compression.
-
-    Returns
-    -------
-    Path
+    For x > 0 and e below 1, shape (n,); `law` is one of `LOSSES`.
 
     Examples
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> [path(*groups, loss, 128).velocity[-1].round(3) for loss in LOSSES]
+    >>> [path(*groups, law, 128).velocity[-1].round(3) for law in LOSSES.values()]
     [array([-0.482]), array([-0.185]), array([-0.414])]
     """
-    motion, column = LOSSES[loss](e), np.arange(x.size)
+    motion, column = law(e), np.arange(x.size)
     # Gross slip from the start ends at this normal velocity, at once for x <= zeta^2.
     slips = x > zeta2
-    last = np.maximum(motion.grip(x, beta, zeta2), -e)
+    last = np.maximum(motion.end_of_first_slip(x, beta, zeta2), -e)
     where, number = places(steps // 2, np.where(slips, motion.place(last), 0.0))
-    motion.stand(where)
+    motion.put_springs(where)
     onset = np.where(last > 0, number, steps - number) * slips
     throughout = x >= motion.slides_from(beta, zeta2)
     start, approach, last, slid = (
@@ -162,8 +144,8 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
     )
     # The largest force of that slip.
     peak = np.where(last > motion.velocity_at_largest_force, slid, motion.largest_force) * slips
-    work = _work_sliding(x, beta, zeta2, -last, loss)
-    row = motion.row()
+    work = motion.work_of_first_slip(x, beta, zeta2, last)
+    springs = motion.springs()
     friction, velocity = motion.force.copy(), x - beta * (1 - motion.velocity)
     stick_radius, displacement = np.zeros((2, *friction.shape))
     u, w = (x * start - beta * (start - approach)) / zeta2, velocity[onset, column]
@@ -173,31 +155,31 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
     for k in range(1, steps + 1):
         begins, began = (onset == k - 1) & slips, onset < k
         if begins.any():
-            row.slide(k - 1, begins, u)
+            springs.slide(k - 1, begins, u)
             force = np.where(begins, slid, force)
         step = np.where(began, motion.time[k] - motion.time[k - 1], 0.0)
         # Heun's method: a step with the force at its start, then one with the mean of both ends.
         # Springs without a dashpot hardly feel the velocity: once is enough (Verlet's method).
         ahead = w - beta * step * force
-        for _ in range(1 + motion.viscous):
+        for _ in range(1 + motion.dashpots):
             moved = u + step * (w + ahead) / (2 * zeta2)
-            new = row.move(k, step, (u, w / zeta2), (moved, ahead / zeta2))
+            new = springs.move(k, step, (u, w / zeta2), (moved, ahead / zeta2))
             ahead = w - beta * step * (force + new) / 2
         u, w, force = moved, np.where(began, ahead, w), np.where(began, new, force)
-        work += zeta2 * row.settle(k) * began
+        work += zeta2 * springs.settle(k) * began
         friction[k, began], velocity[k, began], displacement[k, began] = (
             a[began] for a in (force, w, u)
         )
-        stick_radius[k] = np.where(began, row.stick_radius, 0.0)
-    searched = 0 if motion.viscous else peaks.instants_after(steps)
-    if isinstance(motion, Thornton):
-        # The springs are empty at separation: all that the body has lost.
+        stick_radius[k] = np.where(began, springs.stick_radius, 0.0)
+    if not motion.dashpots:  # the springs are empty at separation: all that the body has lost
         work = (x - velocity[-1]) * (x + velocity[-1]) / (2 * beta)
+    searched = motion.instants_after_slip(steps)
+    if searched:
         soon = slips & (last > 0) & (onset + searched <= steps)
         after = np.minimum(onset + np.arange(1 + searched)[:, None], steps)
         knots = [motion.time, motion.approach, motion.velocity, displacement, velocity / zeta2]
         with np.errstate(divide="ignore", invalid="ignore"):  # where it is not sought
-            later = peaks.after_slip(motion, np.stack([a[after, column] for a in knots], axis=1))
+            later = motion.peak_after_slip(np.stack([a[after, column] for a in knots], axis=1))
         peak = np.maximum(peak, np.where(soon, later, 0.0))
     peak = peaks.largest(motion.time, friction, onset, peak, searched)
     largest = motion.largest_force
@@ -215,22 +197,22 @@ def path(x: Array, beta: Array, zeta2: Array, e: Array, loss: str, steps: int) -
 
 
 def contact(
-    x: Array, beta: Array, zeta2: Array, e: Array, loss: str, tolerance: float
+    x: Array, beta: Array, zeta2: Array, e: Array, law: type[NormalMotion], tolerance: float
 ) -> list[Array]:
     """One contact, its arguments of shape (1,): columns of `Path` up to the radius of stick."""
     fine = refinement.settled_path(
-        lambda steps: path(x, beta, zeta2, e, loss, steps),
+        lambda steps: path(x, beta, zeta2, e, law, steps),
         (Path._fields.index("friction"), Path._fields.index("velocity")),
         (x, beta, zeta2),
-        _steps_needed(beta, zeta2, e, loss),
+        _steps_needed(beta, zeta2, e, law),
         tolerance,
         MOST_STEPS,
     )
     return [column[:, 0] for column in fine[:-2]]
 
 
-def _steps_needed(beta: Array, zeta2: Array, e: Array, loss: str) -> Array:
-    return refinement.steps_needed(beta, zeta2, LOSSES[loss].least_bluntness(e))
+def _steps_needed(beta: Array, zeta2: Array, e: Array, law: type[NormalMotion]) -> Array:
+    return refinement.steps_needed(beta, zeta2, law.least_share_of_hertz(e))
 
 
 def _summary(found: Path) -> Solved:
@@ -245,13 +227,3 @@ def _summary(found: Path) -> Solved:
     counts = np.stack([slips, refinement.sign_changes(found.friction)])
     values = np.stack([found.velocity[-1], found.peak, found.work])
     return values, counts, np.ones(slips.size)
-
-
-def _work_sliding(x: Array, beta: Array, zeta2: Array, e: Array, loss: str) -> Array:
-    """Work of friction in slip from the start, until the normal velocity is -e.
-
-    With plastic loss it is all that the body loses: strain is included, which is 0 at separation.
-    """
-    if loss != "viscous":
-        return sliding.work(x, beta, e)
-    return sliding.viscous_work(x, beta, zeta2, e)

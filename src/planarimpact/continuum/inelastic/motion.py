@@ -1,11 +1,14 @@
-"""The normal motion of an inelastic contact at the instants where its edge is at a given radius."""
+"""What the steps of an inelastic contact ask of a law: its normal motion, and its row of springs.
+
+`viscous` and `plastic` answer, each for one law of `planarimpact.normal_impact`.
+"""
 
 from abc import ABC, abstractmethod
 
 import numpy as np
 
 from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, Integers
+from planarimpact.ground.arrays import Array, Booleans, Integers
 
 # Slip ends after a whole number of these parts of the instants of compression. So that number
 # doubles with the steps, and both sides of the end of slip are resolved at every level.
@@ -51,16 +54,68 @@ def places(intervals: int, slip_ends: Array) -> tuple[Array, Integers]:
     return found, np.where(slip_ends < 1 - NEAR, number, intervals)
 
 
+class Springs(ABC):
+    """The springs of many contacts, innermost first, moved together from instant to instant.
+
+    Attributes
+    ----------
+    stick_radius : ndarray, shape (n,)
+        Radius inside which no spring slipped in the last step.
+    """
+
+    def __init__(self, motion: "NormalMotion") -> None:
+        self._motion = motion
+        # Limit L and tangential density of the springs that touch.
+        self._limit, self._density = np.zeros((2, 1, motion.largest_force.size))
+        self._tried = self._limit, self._density
+
+    @abstractmethod
+    def slide(self, k: int, which: Booleans, u: Array) -> None:
+        """Put contacts in the state of gross slip at instant k, which is the last one."""
+
+    @abstractmethod
+    def move(
+        self, k: int, step: Array, start: tuple[Array, Array], end: tuple[Array, Array]
+    ) -> Array:
+        """Tangential force at instant k if the body moves from one (u, u') to another; a trial.
+
+        `step` is the time since the last instant, 0 for contacts that still slide from the start.
+        """
+
+    @abstractmethod
+    def settle(self, k: int) -> Array:
+        """Keep the last trial; return the work of friction over zeta^2 in its step, if known."""
+
+    def _keep(self, slid: Booleans) -> None:
+        """Keep the last trial, where each spring `slid` or not, innermost first."""
+        first = np.argmax(slid, axis=0)
+        column = np.arange(first.size)
+        self._limit, self._density = self._tried
+        edge = len(self._density) - 1
+        self.stick_radius = self._motion.radius[np.where(slid[first, column], first, edge), column]
+
+    def _sum(self, k: int) -> Array:
+        """Friction at instant k: mu times the normal force times the share of the limits."""
+        limit, density = self._tried
+        width = self._motion.width[: len(limit)].copy()
+        width[-1] = self._motion.edge_width[len(limit) - 1]
+        whole = np.sum(width * limit, axis=0)
+        share = np.sum(width * density, axis=0) / np.where(whole > 0, whole, 1.0)
+        return share * self._motion.force[k]
+
+
 class NormalMotion(ABC):
     """Normal motions, one a column, in the units E* = 1, R = 1, m2 = 1, |v2(0)| = 1.
 
     The instants are those when the edge of the contact is at one of the radii. So the edge never
-    lies between two springs, and all springs that touch stay in order. `stand` chooses the radii.
+    lies between two springs, and all springs that touch stay in order. `put_springs` chooses the
+    radii.
 
     Attributes
     ----------
-    viscous : bool
-        Whether springs relax.
+    dashpots : bool
+        Whether springs have dashpots: then friction depends on the velocity, and some strain is
+        left at separation.
     restitution : ndarray, shape (m,)
     largest_force, velocity_at_largest_force : ndarray, shape (m,)
     radius : ndarray, shape (n + 1, m)
@@ -73,7 +128,7 @@ class NormalMotion(ABC):
         At these instants. The velocity falls from 1 to -e.
     """
 
-    viscous: bool
+    dashpots: bool
     restitution: Array
     largest_force: Array
     velocity_at_largest_force: Array
@@ -85,44 +140,70 @@ class NormalMotion(ABC):
     approach: Array
     force: Array
 
-    @staticmethod
-    def least_bluntness(restitution: Array) -> Array:
-        """Least force over that of Hertz's law at the same radius of contact, shape (m,)."""
-        return np.ones_like(restitution)
+    @abstractmethod
+    def __init__(self, restitution: Array) -> None:
+        """Motions with these coefficients of restitution, from 0.1 to below 1, shape (m,)."""
+
+    @abstractmethod
+    def springs(self) -> Springs:
+        """Springs for this motion, without deflection."""
 
     @abstractmethod
     def place(self, velocity: Array) -> Array:
         """Place, from 0 to 1, where compression has the radius of contact of a velocity, (m,)."""
 
     @abstractmethod
-    def stand(self, places: Array) -> None:
+    def put_springs(self, places: Array) -> None:
         """Put a spring, and an instant of each half of the contact, at each place."""
 
     @abstractmethod
     def density(self, instant: int) -> Array:
         """Normal force density of the springs that touch, innermost first, shape (edge + 1, m)."""
 
-    def grip(self, x: Array, beta: Array, zeta2: Array) -> Array:
-        """Normal velocity where gross slip from the start ends, for x > zeta^2, shape (m,).
+    @staticmethod
+    def least_share_of_hertz(restitution: Array) -> Array:
+        """Least force over that of Hertz's law at the same radius of contact, shape (m,)."""
+        return np.ones_like(restitution)
+
+    def end_of_first_slip(self, x: Array, beta: Array, zeta2: Array) -> Array:
+        """Normal velocity where slip from contact ends, which it has for x > zeta^2, shape (m,).
 
         There the body is as slow as the springs, w = zeta^2 v, while w = x - beta (1 - v). For
         beta <= zeta^2 it never is.
         """
-        slips, slows = x > zeta2, beta > zeta2
+        slows = beta > zeta2
         with np.errstate(over="ignore"):  # also where it hardly is
-            last = np.where(slows, (beta - x) / np.where(slows, beta - zeta2, 1.0), -np.inf)
-        return np.where(slips, last, 1.0)
+            velocity = np.where(slows, (beta - x) / np.where(slows, beta - zeta2, 1.0), -np.inf)
+        return np.where(x > zeta2, velocity, 1.0)
 
     def slides_from(self, beta: Array, zeta2: Array) -> Array:
         """Incidence from which the contact slides throughout, shape (m,)."""
         return sliding.limit_alike(beta, zeta2, self.restitution)
+
+    def work_of_first_slip(self, x: Array, beta: Array, zeta2: Array, velocity: Array) -> Array:
+        """Work of friction in slip from contact to a normal velocity, shape (m,)."""
+        if self.dashpots:
+            return sliding.viscous_work(x, beta, zeta2, -velocity)
+        return sliding.work(x, beta, -velocity)
+
+    def instants_after_slip(self, steps: int) -> int:
+        """Instants after the first slip for which `peak_after_slip` looks between the instants."""
+        return 0
+
+    def peak_after_slip(self, knots: Array) -> Array:
+        """Largest friction between the instants soon after the first slip, shape (m,).
+
+        `knots` are those instants: time, approach, normal velocity, displacement over zeta^2 and
+        its rate, shape (knots, 5, m).
+        """
+        raise NotImplementedError
 
     def edge(self, instant: int) -> int:
         """Index of the radius where the edge of the contact is at an instant."""
         last = len(self.radius) - 1
         return min(instant, 2 * last - instant)
 
-    def _weigh(self, places: Array, rate: Array) -> None:
+    def _set_weights(self, places: Array, rate: Array) -> None:
         """Set the weights of the radii, which grow by `rate` with the place."""
         left = np.diff(places, axis=0, prepend=places[:1])
         right = np.diff(places, axis=0, append=places[-1:])

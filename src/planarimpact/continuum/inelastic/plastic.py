@@ -1,38 +1,43 @@
-"""Springs of elastic-plastic spheres: the law of `normal_impact.yielding` with a row of springs.
+"""Springs of spheres that yield: the law of `normal_impact.yielding` with a row of springs.
 
 Friction is at most mu times the pressure, so the pressure itself is needed. Thornton has two, and
 at maximum compression they do not agree: the cut one, and that of Hertz with the radius R_p. If
 the pressure jumped there, a contact that slides would stick for an instant, or springs would gain
-energy. So here the pressure is Hertz's at all times, with the force and the radius of contact of
-Thornton's law. Its density is b (a^2 - r^2), with the bluntness b = F/F_e(a).
+energy. So here the pressure is Hertz's at all times, with the force and the radius a of contact of
+the law. Its density is h (a^2 - r^2), where h = F/F_e(a) is the force over that of Hertz's law at
+the same radius.
 
 Thornton's sphere is elastic in shear, but metal that yields is not: the flow rule of Prandtl and
 Reuss relaxes every component of stress, the small tangential ones too. So while the approach d
 grows, the deflection q of a spring decays, q' = u' - q k (d_p/d_y)', at most L. Here d_p is the
-permanent part of the approach, d less what would spring back, b d; d_y is where yield begins, and
+permanent part of the approach, d less what would spring back, h d; d_y is where yield begins, and
 k is a constant. A contact that slides stays in slip where u' exceeds L' + L k (d_p/d_y)'. That is
-largest in the middle, where L = b d, or at the edge, where it is b d'.
+largest in the middle, where L = h d, or at the edge, where it is h d'.
 """
+
+from typing import Any
 
 import numpy as np
 
-from planarimpact.continuum.inelastic.motion import NormalMotion
-from planarimpact.continuum.inelastic.springs import SpringRow
+from planarimpact.continuum.inelastic import peaks
+from planarimpact.continuum.inelastic.motion import NormalMotion, Springs
+from planarimpact.ground import cubics, roots, sliding
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.normal_impact import hertz
 from planarimpact.normal_impact import yielding as law
 
 # Places where the start of stick in plastic compression is sought before it is homed in.
 PLACES = 33
-# Halvings to the last bit of a number.
-BISECTIONS = 60
 # Flow in a step below which two terms of a series are exact enough.
 SMALL = 1e-5
 # Flow in a step up to which a parabola tells where slip stops within it.
 MOST_FLOW = 0.5
+# Instants at which friction is worked out soon after the first slip, and for how long: two instants
+# and this share of the steps.
+INSTANTS, AFTER = 24, 1 / 48
 
 
-class Thornton(NormalMotion):
+class PlasticMotion(NormalMotion):
     """Normal motions of elastic-plastic spheres.
 
     Parameters
@@ -42,165 +47,195 @@ class Thornton(NormalMotion):
 
     Examples
     --------
-    >>> found = Thornton(np.array([0.8]))
-    >>> found.stand(np.linspace(0.0, 1.0, 9)[:, None])
-    >>> round(float(found.velocity[-1, 0]), 9)
+    >>> motion = PlasticMotion(np.array([0.8]))
+    >>> motion.put_springs(np.linspace(0.0, 1.0, 9)[:, None])
+    >>> round(float(motion.velocity[-1, 0]), 9)
     -0.8
     """
 
-    viscous = False
+    dashpots = False
     # Factor of the flow in shear.
     flows = law.FLOW
 
     def __init__(self, restitution: Array) -> None:
         self.restitution = restitution
-        self._law = law.compression(restitution)
-        self._largest = self._law.largest_approach()
-        self.largest_force = self._law.largest_force()
+        self._loading = law.loading(restitution)
+        self._unloading = law.unloading(self._loading)
+        self._largest = self._loading.largest_approach()
+        self.largest_force = self._unloading.force
         self.velocity_at_largest_force = np.zeros_like(self._largest)
-        self._last_blunt = self._law.bluntness(self._largest)
-        self._turn = self._law.at(self._largest)[0]
-        self._unloading = self._last_blunt * self._largest / restitution * hertz.COMPRESSION
+        self._last_share = self._loading.share_of_hertz(self._largest)
 
-    def row(self) -> SpringRow:
-        """Springs for this motion, without deflection."""
-        return PlasticRow(self)
+    def springs(self) -> Springs:
+        """As in `NormalMotion`."""
+        return PlasticSprings(self)
 
     @staticmethod
-    def least_bluntness(restitution: Array) -> Array:
+    def least_share_of_hertz(restitution: Array) -> Array:
         """As in `NormalMotion`: at the end of compression."""
-        compression = law.compression(restitution)
-        return compression.bluntness(compression.largest_approach())
+        loading = law.loading(restitution)
+        return loading.share_of_hertz(loading.largest_approach())
 
     def place(self, velocity: Array) -> Array:
         """As in `NormalMotion`: the angle whose sine is the radius, over a right angle."""
-        depth = self._depth(velocity)
+        depth = np.minimum(self._loading.approach(velocity), self._largest)
         angle = np.arctan2(np.sqrt(depth), np.sqrt(self._largest - depth))
-        back = np.pi - hertz.phase_at(np.clip(velocity / self.restitution, -1.0, 0.0))
-        return np.where(velocity > 0, angle, back) / (np.pi / 2)
+        back = self._unloading.phase(np.minimum(velocity, 0.0), self.restitution)
+        return np.where(velocity > 0, angle, np.pi - back) / (np.pi / 2)
 
-    def stand(self, places: Array) -> None:
+    def put_springs(self, places: Array) -> None:
         """As in `NormalMotion`."""
         angle = places * (np.pi / 2)
         self.radius = np.sqrt(self._largest) * np.sin(angle)
         rate = np.sqrt(self._largest) * np.cos(angle) * (np.pi / 2)
         rate[-1] = 0.0
-        self._weigh(places, rate)
+        self._set_weights(places, rate)
         depth = self.radius**2
         depth[-1] = self._largest
-        back = depth[-2::-1]
-        time, velocity, force = self._law.at(depth)
-        blunt = self._law.bluntness(depth)
+        time, velocity, force = self._loading.at(depth)
         phase = np.pi - angle[-2::-1]
-        later = self._turn + self._unloading * (hertz.time(phase) - 1)
-        self.time = np.concatenate([time, later])
-        self.velocity = np.concatenate([velocity, self.restitution * hertz.velocity(phase)])
-        lost = self._last_blunt * (self._largest - back)
-        self.approach = np.concatenate([depth, self._largest - lost])
-        self.force = np.concatenate([force, 4 / 3 * self._last_blunt * back**1.5])
-        self._blunt = np.concatenate([blunt, np.broadcast_to(self._last_blunt, back.shape)])
-
-    def _depth(self, velocity: Array) -> Array:
-        """Approach at a velocity in compression."""
-        elastic = ((1 - np.clip(velocity, 0.0, 1.0) ** 2) / (2 * hertz.ENERGY)) ** 0.4
-        plastic = self._law.plastic_approach(velocity)
-        return np.minimum(np.where(elastic > self._law.yields, plastic, elastic), self._largest)
+        later, return_velocity, came_back, less = self._unloading.at(phase, self.restitution)
+        self.time = np.concatenate([time, time[-1] + later])
+        self.velocity = np.concatenate([velocity, return_velocity])
+        self.approach = np.concatenate([depth, self._largest - came_back])
+        self.force = np.concatenate([force, less])
+        share = self._loading.share_of_hertz(depth)
+        self._share = np.concatenate([share, np.broadcast_to(self._last_share, less.shape)])
 
     def density(self, instant: int) -> Array:
-        """As in `NormalMotion`: b (a^2 - r^2)."""
+        """As in `NormalMotion`: h (a^2 - r^2)."""
         square = self.radius[: self.edge(instant) + 1] ** 2
-        return self._blunt[instant] * (square[-1] - square)
+        return self._share[instant] * (square[-1] - square)
 
     def limit_at(self, approach: Array, velocity: Array, count: int) -> Array:
         """Density of the normal force of the innermost springs, shape (count, m)."""
-        depth, blunt = self._contact(approach, velocity)
-        return blunt * np.maximum(depth - self.radius[:count] ** 2, 0.0)
+        square, share = self._contact(approach, velocity)
+        return share * np.maximum(square - self.radius[:count] ** 2, 0.0)
 
     def flowed(self, approach: Array) -> Array:
-        """Flow in shear up to an approach in compression, see `Compression.flow`."""
-        return self.flows * self._law.flow(np.clip(approach, 0.0, self._largest))
+        """Flow in shear up to an approach in compression, see `Loading.flow`."""
+        return self.flows * self._loading.flow(np.clip(approach, 0.0, self._largest))
 
     def force_at(self, approach: Array, velocity: Array) -> Array:
         """Normal force, shape (m,)."""
-        depth, blunt = self._contact(approach, velocity)
-        return 4 / 3 * blunt * depth**1.5
+        square, share = self._contact(approach, velocity)
+        return 4 / 3 * share * square**1.5
 
     def _contact(self, approach: Array, velocity: Array) -> tuple[Array, Array]:
-        """Square of the radius of contact, and bluntness."""
-        back = self._largest - (self._largest - approach) / self._last_blunt
-        depth = np.clip(np.where(velocity > 0, approach, back), 0.0, self._largest)
-        return depth, np.where(velocity > 0, self._law.bluntness(depth), self._last_blunt)
+        """Square of the radius of contact, and the share of Hertz's law."""
+        back = self._largest * self._unloading.square(self._largest - approach)
+        square = np.where(velocity > 0, np.clip(approach, 0.0, self._largest), back)
+        share = self._loading.share_of_hertz(square)
+        return square, np.where(velocity > 0, share, self._last_share)
 
-    def grip(self, x: Array, beta: Array, zeta2: Array) -> Array:
-        """As in `NormalMotion`: where w = zeta^2 v, while it yields zeta^2 v times the `_pace`."""
-        alike = super().grip(x, beta, zeta2)
-        # Look for the first time when the body is slower than a spring, between the end of elastic
-        # compression and the time when the body stands still.
-        plastic = np.sqrt(np.maximum(1 - 2 * hertz.ENERGY * self._law.yields**2.5, 0.0))
-        latest = np.clip((beta - x) / beta, 0.0, plastic)
-        places = plastic + np.linspace(0.0, 1.0, PLACES)[:, None] * (latest - plastic)
+    def instants_after_slip(self, steps: int) -> int:
+        """As in `NormalMotion`: friction grows on, turns and falls within a step."""
+        return 2 + int(steps * AFTER)
 
-        def lead(velocity: Array) -> Array:
-            return x - beta * (1 - velocity) - zeta2 * self._pace(velocity) * velocity
+    def peak_after_slip(self, knots: Array) -> Array:
+        """As in `NormalMotion`, by the limits of the springs, as one after the other sticks.
 
-        behind = lead(places) <= 0
-        row = np.maximum(np.argmax(behind, axis=0), 1)
-        column = np.arange(x.size)
-        high, low = places[row - 1, column], places[row, column]
-        for _ in range(BISECTIONS):
-            middle = (low + high) / 2
-            ahead = lead(middle) > 0
-            low, high = np.where(ahead, low, middle), np.where(ahead, middle, high)
-        return np.where((alike < plastic) & behind[row, column], low, alike)
+        Approach and displacement are cubics between the knots.
+        """
+        count = len(self.radius)
+        held, displaced = self.limit_at(knots[0, 1], knots[0, 2], count), knots[0, 3]
+        flowed = self.flowed(knots[0, 1])
+        times, forces = [knots[0, 0]], [self.force_at(knots[0, 1], knots[0, 2])]
+        for left, right in zip(knots, knots[1:], strict=False):
+            step = right[0] - left[0]
+            for share in np.linspace(0.0, 1.0, 1 + max(2, INSTANTS // len(knots)))[1:]:
+                approach = cubics.between(left[1], right[1], step * left[2], step * right[2], share)
+                velocity = left[2] + share * (right[2] - left[2])
+                u = cubics.between(left[3], right[3], step * left[4], step * right[4], share)
+                limit, flow = self.limit_at(approach, velocity, count), self.flowed(approach)
+                half = np.where(velocity > 0, np.exp((flowed - flow) / 2), 1.0)
+                held = np.minimum(limit, (held * half + u - displaced) * half)
+                displaced, flowed = u, flow
+                whole = np.sum(self.width * limit, axis=0)
+                short = np.sum(self.width * (limit - held), axis=0)  # of the limit of friction
+                force = self.force_at(approach, velocity)
+                times.append(left[0] + share * step)
+                forces.append(force * (1 - short / np.where(whole > 0, whole, 1.0)))
+        return peaks.highest(np.stack(times), np.stack(forces))
+
+    def _pull(self, loading: law.Loading, velocity: Array) -> Array:
+        """How fast a spring must be pulled to slide, over v, while the contact yields.
+
+        The largest of that at the edge, h, and that in the middle, where the spring flows most.
+        """
+        depth = loading.plastic_approach(velocity)
+        return np.maximum(loading.share_of_hertz(depth), loading.pull(depth, self.flows)[0])
+
+    def _pull_of_unloading(self) -> Array:
+        """The same in unloading, where it does not change: the limit of friction falls."""
+        return self._last_share * self._largest / self._unloading.springs_back
+
+    def end_of_first_slip(self, x: Array, beta: Array, zeta2: Array) -> Array:
+        """As in `NormalMotion`, where w is zeta^2 v times the pull of a spring that slides."""
+        elastic = super().end_of_first_slip(x, beta, zeta2)
+        unloading = super().end_of_first_slip(x, beta, zeta2 * self._pull_of_unloading())
+        end = np.where(elastic > 0, elastic, np.minimum(unloading, 0.0))
+        # Look for the first time when the body is slower than a spring, between the velocity at
+        # yield and that at which the body stands still.
+        start = np.sqrt(np.maximum(1 - 2 * hertz.ENERGY * self._loading.yields**2.5, 0.0))
+        latest = np.clip((beta - x) / beta, 0.0, start)
+        velocities = start + np.linspace(0.0, 1.0, PLACES)[:, None] * (latest - start)
+
+        def lead(which: Any, minus_velocity: Array) -> tuple[Array]:
+            loading, v = self._loading.take(which), -minus_velocity
+            pull = self._pull(loading, v)
+            return (x[which] - beta[which] * (1 - v) - zeta2[which] * pull * v,)
+
+        behind = lead(slice(None), -velocities)[0] <= 0
+        row, column = np.maximum(np.argmax(behind, axis=0), 1), np.arange(x.size)
+        slower = np.flatnonzero((elastic < start) & behind[row, column])
+        before, after = -velocities[row - 1, column], -velocities[row, column]
+        end[slower] = -roots.crossing(
+            lambda which, v: lead(slower[which], v), before[slower], after[slower]
+        )
+        return end
 
     def slides_from(self, beta: Array, zeta2: Array) -> Array:
         """As in `NormalMotion`: a contact that yields may stick in the middle for a while.
 
         It does not if w = x - beta (1 - v) is never below zeta^2 v times the pull in the middle. So
-        the limit is the largest value of beta - v (beta - zeta^2 pull), if that is larger than what
-        `sliding.limit_alike` says. Its derivative changes sign once.
+        the limit is the largest value of beta - v (beta - zeta^2 pull), if that is larger than the
+        limit at the end of unloading. Its derivative changes sign once.
         """
-        found = super().slides_from(beta, zeta2)
-        sticks = zeta2 * self._law.pull(self._largest, self.flows)[0] > beta  # it grows to the end
-        if not sticks.any():
-            return found
-        some = law.Compression(*(a[sticks] for a in self._law))
-        beta, zeta2 = beta[sticks], zeta2[sticks]
-        low, high = some.yields, some.largest_approach()
-        for _ in range(BISECTIONS):
-            depth = (low + high) / 2
+        at_end = sliding.limit_alike(beta, zeta2 * self._pull_of_unloading(), self.restitution)
+        limit = np.maximum(zeta2, at_end)
+        # The pull grows to the end of loading.
+        sticks = np.flatnonzero(zeta2 * self._loading.pull(self._largest, self.flows)[0] > beta)
+        if not sticks.size:
+            return limit
+        loading, beta, zeta2 = self._loading.take(sticks), beta[sticks], zeta2[sticks]
+
+        def rise(which: Any, depth: Array) -> tuple[Array]:
+            some = loading.take(which)
             _, v, force = some.at(depth)
             pull, change = some.pull(depth, self.flows)
-            rises = zeta2 * change * v**2 > force * (zeta2 * pull - beta)
-            low, high = np.where(rises, depth, low), np.where(rises, high, depth)
-        _, v, _ = some.at(low)
-        in_compression = beta - v * (beta - zeta2 * some.pull(low, self.flows)[0])
-        found[sticks] = np.maximum(found[sticks], in_compression)
-        return found
+            return (zeta2[which] * change * v**2 - force * (zeta2[which] * pull - beta[which]),)
 
-    def _pace(self, velocity: Array) -> Array:
-        """How fast a spring must be pulled to slide, over v, in plastic compression.
-
-        The largest of that at the edge, b, and that in the middle, where the spring flows most.
-        """
-        share = np.clip(velocity / (self._law.rate * self._law.reach), 0.0, 1.0)
-        depth = self._law.centre + self._law.reach * np.sqrt((1 - share) * (1 + share))
-        return np.maximum(self._law.bluntness(depth), self._law.pull(depth, self.flows)[0])
+        depth = roots.crossing(rise, loading.yields, loading.largest_approach())
+        _, v, _ = loading.at(depth)
+        in_loading = beta - v * (beta - zeta2 * loading.pull(depth, self.flows)[0])
+        limit[sticks] = np.maximum(limit[sticks], in_loading)
+        return limit
 
 
-class ElasticInShear(Thornton):
+class ElasticInShear(PlasticMotion):
     """Thornton's own sphere, which forgets no shear while it yields."""
 
     flows = 0.0
 
 
-class PlasticRow(SpringRow):
+class PlasticSprings(Springs):
     """Springs that flow while the contact yields: q' = u' - q times the rate of flow, at most L."""
 
-    _motion: Thornton
+    _motion: PlasticMotion
 
     def slide(self, k: int, which: Booleans, u: Array) -> None:
-        """As in `SpringRow`."""
+        """As in `Springs`."""
         limit = self._motion.density(k)
         for mine in (self._limit, self._density):
             mine[:, which] = limit[:, which]
@@ -208,7 +243,7 @@ class PlasticRow(SpringRow):
     def move(
         self, k: int, step: Array, start: tuple[Array, Array], end: tuple[Array, Array]
     ) -> Array:
-        """As in `SpringRow`.
+        """As in `Springs`.
 
         Slip in direction g stops when g q less the limit, without slip, is largest; what has flowed
         since is taken from it as from q. Every slipped spring remembers that value. In the step it
@@ -221,7 +256,7 @@ class PlasticRow(SpringRow):
         held = self._density[:count]
         pace, later_pace = motion.velocity[k - 1 : k + 1]
         since, until = motion.approach[k - 1 : k + 1]
-        approach = cubic(0.5, since, until, step * pace, step * later_pace)
+        approach = cubics.between(since, until, step * pace, step * later_pace, 0.5)
         early, late = (rate * step for _, rate in (start, end))
         loads = k < len(motion.radius)
         if loads:
@@ -266,7 +301,7 @@ class PlasticRow(SpringRow):
         return self._sum(k)
 
     def settle(self, k: int) -> Array:
-        """As in `SpringRow`; the work follows from the velocity at the end."""
+        """As in `Springs`; the work follows from the velocity at the end."""
         self._keep(self._slips)
         return np.zeros_like(self.stick_radius)
 
@@ -281,10 +316,3 @@ def _gain(flow: Array, early: Array, late: Array) -> Array:
     mean = np.where(small, 1 - flow / 2, -np.expm1(-safe) / safe)
     first = np.where(small, 0.5 - flow / 3, (1 - np.exp(-safe) * (1 + safe)) / safe**2)
     return early * first + late * (mean - first)
-
-
-def cubic(share: float, before: Array, after: Array, rise: Array, fall: Array) -> Array:
-    """Cubic through two values with two changes by the step, at a share of the step."""
-    change = after - before
-    bend = 3 * change - 2 * rise - fall + share * (rise + fall - 2 * change)
-    return before + share * (rise + share * bend)

@@ -4,15 +4,17 @@ The spring at radius r has the force density D - r^2, with D = d + tau d'. It to
 while d grows. While d falls it touches where r^2 < D, as a contact does not pull.
 """
 
+from copy import copy
+from typing import Any
+
 import numpy as np
 
-from planarimpact.continuum.inelastic.motion import NormalMotion
-from planarimpact.continuum.inelastic.springs import SpringRow
+from planarimpact.continuum.inelastic.motion import NormalMotion, Springs
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.normal_impact import kelvin_voigt as law
 
 
-class KelvinVoigt(NormalMotion):
+class ViscousMotion(NormalMotion):
     """Normal motions of viscous spheres.
 
     Parameters
@@ -22,13 +24,13 @@ class KelvinVoigt(NormalMotion):
 
     Examples
     --------
-    >>> found = KelvinVoigt(np.array([0.8]))
-    >>> found.stand(np.linspace(0.0, 1.0, 9)[:, None])
-    >>> round(float(found.velocity[-1, 0]), 9)
+    >>> motion = ViscousMotion(np.array([0.8]))
+    >>> motion.put_springs(np.linspace(0.0, 1.0, 9)[:, None])
+    >>> round(float(motion.velocity[-1, 0]), 9)
     -0.8
     """
 
-    viscous = True
+    dashpots = True
 
     def __init__(self, restitution: Array) -> None:
         different, which = np.unique(restitution, return_inverse=True)
@@ -47,15 +49,15 @@ class KelvinVoigt(NormalMotion):
         early = self._compression.crossing(1, np.maximum(velocity, 0.0)[None])
         edge = self._after.at(self._after.crossing(1, np.minimum(velocity, 0.0)[None]))[0]
         late = self._compression.crossing(0, edge, rises=True)
-        found = np.where(velocity > 0, early, late)[0] / self._compression.end
-        return np.minimum(found, 1.0)  # the radius, which is largest there, ends before it tells
+        share = np.where(velocity > 0, early, late)[0] / self._compression.end
+        return np.minimum(share, 1.0)  # the radius, which is largest there, ends before it tells
 
-    def stand(self, places: Array) -> None:
+    def put_springs(self, places: Array) -> None:
         """As in `NormalMotion`."""
         compression, after = self._compression, self._after
         self.radius, pace, begin = compression.at(places * compression.end)
         self.radius[0] = pace[-1] = 0.0
-        self._weigh(places, pace * compression.end)
+        self._set_weights(places, pace * compression.end)
         back = self.radius[-2::-1]
         late = after.crossing(0, back)
         late[-1] = after.end
@@ -67,13 +69,24 @@ class KelvinVoigt(NormalMotion):
         edge = np.concatenate([self.radius, back])
         self.force = 2 * edge * (self._depth - edge * edge / 3)
 
-    def row(self) -> SpringRow:
-        """Springs for this motion, without deflection."""
-        return ViscousRow(self)
+    def springs(self) -> Springs:
+        """As in `NormalMotion`."""
+        return ViscousSprings(self)
 
     def density(self, instant: int) -> Array:
         """As in `NormalMotion`: D - r^2."""
         return self._depth[instant] - self.radius[: self.edge(instant) + 1] ** 2
+
+    def take(self, which: Any) -> "ViscousMotion":
+        """The motions of some impacts, by an index of them, before springs are put."""
+        motion = copy(self)
+        for name in ("restitution", "tau", "largest_force", "velocity_at_largest_force"):
+            setattr(motion, name, getattr(self, name)[which])
+        motion._compression, motion._after = (
+            self._compression.taken(which),
+            self._after.taken(which),
+        )
+        return motion
 
     def compressed(self, velocity: Array) -> tuple[Array, Array]:
         """Approach and normal force at a velocity in compression, shape (m,)."""
@@ -82,22 +95,22 @@ class KelvinVoigt(NormalMotion):
         return radius**2, 4 / 3 * radius**3 + 2 * self.tau * radius * velocity
 
 
-class ViscousRow(SpringRow):
+class ViscousSprings(Springs):
     """Springs that relax: what is beyond the limit does so with the relaxation time tau.
 
     What a spring remembers is c = q - u. With V = u + tau u' the density is V + c while the spring
     sticks. In slip it is L or -L, and tau c' = density - (V + c).
     """
 
-    _motion: KelvinVoigt
+    _motion: ViscousMotion
 
-    def __init__(self, motion: KelvinVoigt) -> None:
+    def __init__(self, motion: ViscousMotion) -> None:
         super().__init__(motion)
         self._memory = np.zeros_like(self._limit)
         self._next = self._memory
 
     def slide(self, k: int, which: Booleans, u: Array) -> None:
-        """As in `SpringRow`: q + tau q' = D - r^2, so that q = d - r^2."""
+        """As in `Springs`: q + tau q' = D - r^2, so that q = d - r^2."""
         motion = self._motion
         deflection = motion.approach[k] - motion.radius[: len(self._memory)] ** 2
         limit = deflection + motion.tau * motion.velocity[k]
@@ -109,7 +122,7 @@ class ViscousRow(SpringRow):
     def move(
         self, k: int, step: Array, start: tuple[Array, Array], end: tuple[Array, Array]
     ) -> Array:
-        """As in `SpringRow`."""
+        """As in `Springs`."""
         tau, limit = self._motion.tau, self._motion.density(k)
         pull, later = (u + tau * rate for u, rate in (start, end))
         count = min(len(limit), len(self._memory))
@@ -122,7 +135,7 @@ class ViscousRow(SpringRow):
         return self._sum(k)
 
     def settle(self, k: int) -> Array:
-        """As in `SpringRow`."""
+        """As in `Springs`."""
         memory, (_, density) = self._next, self._tried
         count = min(len(memory), len(self._memory))
         slid = self._memory[:count] - memory[:count]

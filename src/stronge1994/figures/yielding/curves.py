@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from planarimpact import continuum, lumped
-from planarimpact.continuum.inelastic.plastic import Thornton
+from planarimpact.continuum.inelastic.plastic import PlasticMotion
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound
 from stronge1994.csv_tables import Columns, Curves
@@ -92,8 +92,8 @@ def share_of_elastic(restitution: float) -> tuple[Array, Array]:
     >>> [round(float(np.interp(at, approach, share)), 2) for at in (0.05, 0.5, 0.8)]
     [1.0, 0.27, 0.19]
     """
-    motion = Thornton(np.array([min(restitution, ALMOST_ELASTIC)]))
-    motion.stand(np.linspace(0.0, 1.0, SPRINGS + 1)[:, None])
+    motion = PlasticMotion(np.array([min(restitution, ALMOST_ELASTIC)]))
+    motion.put_springs(np.linspace(0.0, 1.0, SPRINGS + 1)[:, None])
     radius, displacement = motion.radius[:, 0], motion.time[: SPRINGS + 1, 0]
     approach = motion.approach[: SPRINGS + 1, 0]
     flow = motion.flowed(approach[:, None])[:, 0]
