@@ -28,7 +28,7 @@ SOLVER = {
     "response": "ground models",
     "export": "planarimpact ground response spheres",
     "study": "ground",
-    "scene": "ground bodies rigid lumped continuum models response spheres pandas",
+    "scene": "ground bodies continuum models spheres pandas",
     "__init__": "ground",
     "__main__": "planarimpact ground bodies lumped continuum models response export scene",
 }
