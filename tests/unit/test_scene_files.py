@@ -1,5 +1,6 @@
 """Files of scenes: Parquet beside CSV, text of numbers, and workers."""
 
+import contextlib
 import csv
 import io
 import json
@@ -254,8 +255,13 @@ def test_workers_end_with_their_master(table, tmp_path, number):
     while len(found := psutil.Process(process.pid).children()) < 3:  # two, and Python's tracker
         assert process.poll() is None
         time.sleep(0.01)
-    process.send_signal(number)
-    said = process.communicate()[1]
+    # A signal that comes while a worker starts may go to another thread, and wake nobody who waits
+    # for a pipe: then it takes a second one.
+    said = None
+    while said is None:
+        process.send_signal(number)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            said = process.communicate(timeout=2)[1]
     os.close(held)
     assert process.returncode == -number and "spawn" not in said
     assert not psutil.wait_procs(found, timeout=30)[1]

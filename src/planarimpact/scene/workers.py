@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from multiprocessing import resource_tracker
 from typing import NamedTuple
 
+from planarimpact.ground import files
 from planarimpact.ground.checks import InputError
 from planarimpact.scene import columns, writing
 from planarimpact.scene.reading import Piece
@@ -86,7 +87,7 @@ def _submitted(
     """The results to come; a piece that cannot be read is a result that failed."""
     try:
         for piece in pieces:
-            with _interrupts_held():  # a worker may start
+            with _signals_held():  # a worker may start
                 future = pool.submit(done, task, piece)
             yield future
     except (InputError, OSError) as error:
@@ -96,17 +97,31 @@ def _submitted(
 
 
 @contextmanager
-def _interrupts_held() -> Iterator[None]:
-    """Hold Ctrl-C back in the block. A process that starts in it never gets one."""
-    if not hasattr(signal, "pthread_sigmask"):
+def _signals_held() -> Iterator[None]:
+    """Hold back signals that end this process; a worker that starts in the block gets no Ctrl-C.
+
+    Else a worker might start that the pool does not know yet. Only the main thread gets signals.
+    """
+    main = threading.current_thread() is threading.main_thread()
+    if not main or not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    resource_tracker.ensure_running()  # it belongs to the pool, and would release Ctrl-C
-    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    arrived: list[int] = []
+    handlers = {
+        number: signal.signal(number, lambda number, frame: arrived.append(number))
+        for number in files.SIGNALS
+        if callable(signal.getsignal(number))
+    }
+    resource_tracker.ensure_running()  # it belongs to the pool, and would end the mask
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # workers inherit it
     try:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        for number in arrived[:1]:
+            signal.raise_signal(number)
 
 
 def _end_with_parent() -> None:

@@ -8,6 +8,7 @@ import csv
 import gzip
 import io
 import json
+import math
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from typing import Any, TypeAlias
@@ -47,13 +48,9 @@ def encoded(table: pd.DataFrame, kind: str, header: bool) -> Encoded:
     >>> print(encoded(table[:1], ".json", header=True).decode())
     {"spin [rad/s]": 0.1, "id": "a"}
     """
-    if kind == places.JSON:
-        cells = [_for_json(table[name]) for name in table]
-        return COMMA.join(
-            json.dumps(dict(zip(table, row, strict=True))).encode()
-            for row in zip(*cells, strict=True)
-        )
     rows = pa.Table.from_pandas(table, preserve_index=False, nthreads=1).replace_schema_metadata()
+    if kind == places.JSON:
+        return _objects(rows)
     if kind == places.PARQUET:
         return rows
     text = io.BytesIO()
@@ -67,12 +64,21 @@ def encoded(table: pd.DataFrame, kind: str, header: bool) -> Encoded:
     return gzip.compress(text.getvalue(), LEVEL, mtime=0) if packed else text.getvalue()
 
 
-def _for_json(column: pd.Series) -> list[Any]:
-    """Cells of a column, None for what JSON has no number for."""
-    cells = column.astype(object).where(column.notna(), None).tolist()
-    if pd.api.types.is_float_dtype(column):
-        cells = [files.or_null(cell) for cell in cells]
-    return cells
+def _objects(rows: pa.Table) -> bytes:
+    """Rows as objects of JSON. One template for all rows is faster than a dictionary for each."""
+    names = (json.dumps(name).replace("%", "%%") for name in rows.column_names)
+    template = "{" + ", ".join(f"{name}: %s" for name in names) + "}"
+    cells = map(_cells, rows.columns)
+    return COMMA.join((template % row).encode() for row in zip(*cells, strict=True))
+
+
+def _cells(column: pa.ChunkedArray) -> list[str]:
+    """Cells as JSON has them, null for what it has no number for."""
+    if pa.types.is_floating(column.type):
+        numbers = column.to_numpy().tolist()
+        return [repr(number) if math.isfinite(number) else "null" for number in numbers]
+    words = {cell: json.dumps(cell) for cell in set(column.to_pylist())}
+    return [words[cell] for cell in column.to_pylist()]
 
 
 @contextmanager
@@ -99,7 +105,7 @@ def appended(target: Place) -> Iterator[Write]:
 @contextmanager
 def _array(file: io.BufferedIOBase) -> Iterator[Write]:
     """An array of JSON, one object a line."""
-    before = b"["
+    before = b"[\n"
 
     def write(objects: bytes) -> None:
         nonlocal before
@@ -109,7 +115,7 @@ def _array(file: io.BufferedIOBase) -> Iterator[Write]:
             before = COMMA
 
     yield write
-    file.write(b"[]\n" if before == b"[" else b"\n]\n")
+    file.write(b"[]\n" if before == b"[\n" else b"\n]\n")
 
 
 @contextmanager
