@@ -27,7 +27,7 @@ SOLVER = {
     "models": "ground normal_impact rigid lumped continuum spheres",
     "response": "ground models",
     "export": "planarimpact ground response spheres",
-    "scene": "ground bodies rigid lumped continuum models response spheres pandas",
+    "scene": "ground bodies continuum models spheres pandas",
     "__init__": "ground",
     "__main__": "planarimpact ground bodies lumped continuum models response export scene",
 }

@@ -530,8 +530,8 @@ def _parser() -> argparse.ArgumentParser:
     scene = commands.add_parser(
         "scene",
         help="solve a table of impacts",
-        description="Solve a table of impacts, one a row, each by the cheapest model that is good "
-        "enough.",
+        description="Solve a table of impacts, one a row, each by a formula, the table of spheres "
+        "or the continuum.",
         epilog=COLUMNS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -559,7 +559,7 @@ def _parser() -> argparse.ArgumentParser:
         help="what takes the energy below e = 1, where the table has no column for it [viscous]",
     )
     scene.add_argument(
-        "--explain", action="store_true", help="say which model took how many, and why"
+        "--explain", action="store_true", help="say which model solved how many impacts, and why"
     )
     scene.add_argument(
         "--skip-bad",

@@ -2,8 +2,8 @@
 
 import importlib
 import itertools
+import re
 import sys
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,7 @@ import pytest
 
 from planarimpact import ConvergenceError, InputError, bodies, continuum, scene, spheres
 from planarimpact.ground.results import Regime
-from planarimpact.scene import choice, columns, gaps, motion, solver
+from planarimpact.scene import columns, motion, rungs, solver
 
 STEEL = {
     "radius [m]": 0.01,
@@ -51,7 +51,7 @@ def without(row, *names):
 
 @pytest.fixture
 def no_table(monkeypatch):
-    """Leave all impacts to the models that are solved or compiled."""
+    """Solve all impacts that stick."""
     monkeypatch.setattr(spheres, "covers", lambda beta, *_: np.zeros(beta.shape, dtype=bool))
 
 
@@ -452,63 +452,70 @@ def test_the_table_of_spheres_takes_what_it_covers():
         np.testing.assert_allclose(after["error_bound [m/s]"] / unit, bound, 1e-6)
         far = np.where(e < 1, spheres.rebound(*groups, loss=other).velocity - found.velocity, 0.0)
         np.testing.assert_allclose(after["model_form [m/s]"] / unit, np.abs(far), atol=1e-11)
-    ways = {(rung.model, rung.way) for rung, _ in remembered._taken}
-    assert ways == {(name, "table") for name in choice.REFERENCES}
-    for bound in (*spheres.ERROR_BOUND.values(), spheres.LITTLE_BOUND):
-        words = f"the table of spheres differs by {bound:.2g} at most, as measured"
-        assert f"all pairs in its range: {words}" in remembered.explain()
+    for model in ("continuum", "continuum.viscous", "continuum.plastic"):
+        assert f"  {model}, table" in remembered.explain()
+    assert "solved" not in remembered.explain()
 
 
-def test_what_the_table_does_not_cover_is_solved():
-    """Impacts outside its range, and all of them where it is not fine enough."""
-    rows = table(STEEL, PLANE, restitution=1.0).loc[[0] * 3].assign(restitution=[1.0, 0.2, 1.0])
-    for tolerance, tabled in ((1e-3, 2), (spheres.ERROR_BOUND["viscous"], 0)):
-        remembered = scene.Solver(tolerance)
-        remembered.solve(rows)
-        ways = Counter()
-        for (rung, _), impacts in remembered._taken.items():
-            ways[rung.way] += impacts
-        assert ways == Counter(table=tabled, solved=3 - tabled)
+TABLED, TOO_COARSE, NOT_COVERED = (why for _, why in rungs.CONTINUUM_WAYS)
 
 
-def test_equal_pairs_are_one_whatever_rounding_makes_of_them(no_table):
-    rng = np.random.default_rng(1)
-    rows = pd.DataFrame({**STEEL, **PLANE}, index=range(3000))
-    rows["radius [m]"] = rng.uniform(1e-3, 1e-2, 3000)
-    remembered = scene.Solver()
-    remembered.solve(rows)
-    explained = remembered.explain()
-    assert explained.count("m2/m1 = 3.5") == 1 and "few" not in explained
+def explained(table, tolerance=1e-3, loss=None):
+    """Counts of impacts by rung, and why, as `explain` says."""
+    remembered = scene.Solver(tolerance, loss)
+    remembered.solve(table)
+    lines = [line for line in remembered.explain().splitlines() if line.startswith("   ")]
+    return {tuple(re.split("  +", line.strip())) for line in lines}
 
 
-@pytest.mark.long  # five pairs are compiled
-def test_pairs_are_told_apart_by_every_group(monkeypatch, no_table):
-    """Also where they share all but one, are many, and are compiled.
+def test_each_impact_gets_the_first_rung_that_fits():
+    """A formula, the table where it covers an impact and is fine enough, else the continuum."""
+    e = [0.8, 0.8, 1.0, 0.2, 0.8]
+    speeds = [30.0, -0.3, 0.3, 0.3, 0.3]  # the second one makes it head-on
+    rows = table(STEEL, PLANE).loc[[0] * 5].assign(restitution=e)
+    rows["velocity_tangential [m/s]"] = speeds
+    formulas = {
+        ("1", "slip throughout", "they slide from first to last, by Coulomb's law"),
+        ("1", "head-on", "they have no tangential motion"),
+    }
+    assert explained(rows) == formulas | {
+        ("1", "continuum, table", TABLED),
+        ("1", "continuum.viscous, table", TABLED),
+        ("1", "continuum.viscous, solved", NOT_COVERED),
+    }
+    assert explained(rows, tolerance=spheres.ERROR_BOUND["viscous"]) == formulas | {
+        ("1", "continuum, solved", TOO_COARSE),
+        ("1", "continuum.viscous, solved", TOO_COARSE),
+        ("1", "continuum.viscous, solved", NOT_COVERED),
+    }
+    assert explained(rows, tolerance=2e-4, loss="plastic") == formulas | {
+        ("1", "continuum, table", TABLED),
+        ("1", "continuum.plastic, solved", TOO_COARSE),
+        ("1", "continuum.plastic, solved", NOT_COVERED),
+    }
 
-    The answers of two kinds differ by 0.027 at least.
-    """
-    for loss in columns.LOSSES:
-        monkeypatch.setitem(choice.COST, (f"continuum.{loss}", "compiled"), (0.0, 0.0))
-    first = (0.006, 0.1, 0.8, "viscous")  # compiling takes long for a smaller gyration
+
+def test_impacts_are_solved_by_their_own_groups():
+    """Also where they share all but one. The answers of two kinds differ by 0.027 at least."""
+    first = (0.006, 0.1, 0.8, "viscous")
     kinds = [first, (0.008, *first[1:])]
     kinds += [(0.006, 0.4, *first[2:]), (0.006, 0.1, 0.9, "viscous"), (*first[:3], "plastic")]
     rows = pd.concat(
         [
-            table(without(STEEL, "density [kg/m^3]"), PLANE, loss=loss)
-            .assign(**{"mass [kg]": 0.1, "gyration [m]": g, "poisson_ratio": nu, "restitution": e})
-            .loc[[0] * 100]
+            table(without(STEEL, "density [kg/m^3]"), PLANE, loss=loss).assign(
+                **{"mass [kg]": 0.1, "gyration [m]": g, "poisson_ratio": nu, "restitution": e}
+            )
             for g, nu, e, loss in kinds
         ],
         ignore_index=True,
     )
     after = scene.solve(rows, tolerance=1e-2)
-    for number, (gyration, nu, e, loss) in enumerate(kinds):
+    contact = after["velocity_tangential_after [m/s]"] + 0.01 * after["spin_after [rad/s]"]
+    for (gyration, nu, e, loss), velocity in zip(kinds, contact / 0.6, strict=True):
         groups = 1 + (0.01 / gyration) ** 2, bodies.stiffness_ratio(bodies.Material(1.0, nu)), e
         w = continuum.rebound(1.3 / 0.6, *groups, loss=loss, tolerance=1e-4).velocity
-        part = after.iloc[100 * number : 100 * number + 100]
-        contact = part["velocity_tangential_after [m/s]"] + 0.01 * part["spin_after [rad/s]"]
-        np.testing.assert_allclose(contact / 0.6, w, rtol=0, atol=0.0101)
-        assert set(part["model"]) == {f"continuum.{loss}"}
+        assert velocity == pytest.approx(w, abs=0.0101)
+    assert after["model"].tolist() == [f"continuum.{loss}" for *_, loss in kinds]
 
 
 def test_two_bodies_by_hand():
@@ -535,18 +542,6 @@ def test_an_endless_radius_needs_a_body_that_stays():
     rows = table(STEEL, PLANE, without(OTHER, "other_radius [m]"), **{"other_radius [m]": np.inf})
     with pytest.raises(InputError, match=r"row 1: other_radius \[m\] = inf: allowed are finite"):
         scene.solve(rows)
-
-
-def test_blocks_share_what_they_know(monkeypatch, no_table):
-    """A pair with few impacts in each block is compiled once it has had many."""
-    monkeypatch.setattr(solver, "BLOCK", 100)
-    monkeypatch.setitem(choice.COST, ("continuum.viscous", "compiled"), (1e-3, 0.0))
-    monkeypatch.setitem(choice.COST, ("continuum.viscous", "solved"), (0.0, 5e-6))
-    rows = table(STEEL, PLANE).loc[[0] * 500]
-    remembered = scene.Solver()
-    remembered.solve(rows)
-    ways = {rung.way: count for (rung, _), count in remembered._taken.items()}
-    assert ways == {"solved": 100, "compiled": 400}
 
 
 @pytest.mark.parametrize("cell", ["1e400", np.longdouble("1e400"), 10**400, "1" + 400 * "0"])
@@ -586,9 +581,9 @@ def test_a_contact_too_stiff_for_the_continuum_is_named_by_its_row():
         scene.solve(pd.concat([good, row, good, row]))
 
 
-@pytest.mark.parametrize("count", [1, choice.FEW])
+@pytest.mark.parametrize("count", [1, 3])
 def test_a_contact_without_an_answer_may_be_left_out(count):
-    """Where a response cannot be compiled, its impacts are solved one by one."""
+    """The others have the answers that they have alone."""
     needle = without(STEEL, "density [kg/m^3]") | {"mass [kg]": 0.1, "gyration [m]": 1e-7}
     row = table(needle, PLANE, restitution=1.0)
     good = row.assign(**{"gyration [m]": 0.006})
@@ -606,38 +601,12 @@ def test_a_contact_without_an_answer_may_be_left_out(count):
     assert found.explain().startswith(f"{count + 2} impacts")
 
 
-def test_cheaper_rungs_are_taken_where_they_are_good_enough():
-    assert choice.rung(3.5, 1.21, 1.0, 0.25, 50)[:2] == ("lumped", "solved")
-    assert choice.rung(3.5, 1.21, 1.0, 0.2, 50)[:2] == ("continuum", "solved")
-    assert choice.rung(3.5, 1.21, 1.0, 0.2, 5000)[:2] == ("continuum", "compiled")
-    assert choice.rung(350, 1.21, 1.0, 0.2, 5000)[:2] == ("continuum", "solved")
-    assert choice.rung(3.5, 1e-7, 1.0, 0.9, 50)[:2] == ("continuum", "solved")  # not in the table
-    plastic = 3.5, 1.21, 0.5, 0.5
-    for count, way in ((50, "solved"), (50_000, "compiled")):
-        assert choice.rung(*plastic, count, "continuum.plastic")[:2] == ("continuum.plastic", way)
-    ready = {("continuum.plastic", 3.5, 1.21, 0.5): None}
-    assert choice.rung(*plastic, 500, "continuum.plastic", ready).way == "compiled"
-    assert gaps.elastic("lumped", 3.5, 1e-3) == np.inf
-
-
 def test_units_stand_in_every_header():
     for name, column in columns.KNOWN.items():
         assert columns.header(name) == (f"{name} [{column.unit}]" if column.unit else name)
 
 
-@pytest.mark.parametrize(
-    "ulps",
-    [0, 1, 2**11, *(pytest.param(n, marks=pytest.mark.long) for n in (2**11 - 1, 2**13))],
-)
-def test_elastic_is_restitution_1_alone_however_many_rows_there_are(ulps, no_table):
-    """Rounding to 12 digits, by which pairs are told apart, makes no e < 1 elastic."""
-    row = pd.DataFrame([STEEL | PLANE | {"restitution": 1 - ulps * 2.0**-53}])
-    answers = [
-        scene.solve(pd.concat([row] * count, ignore_index=True), tolerance=1e-3)
-        for count in (1, 63, 64, 5000)
-    ]
-    model = "continuum.viscous" if ulps else "continuum"
-    assert all(set(found["model"]) == {model} for found in answers)
-    after = [found["velocity_tangential_after [m/s]"] for found in answers]
-    error = max(found["error_bound [m/s]"].max() for found in answers)
-    assert max(values.max() for values in after) - min(map(np.min, after)) <= 2 * error
+@pytest.mark.parametrize("ulps", [0, 1, 2**11])
+def test_elastic_is_restitution_1_alone(ulps, no_table):
+    after = scene.solve(table(STEEL, PLANE, restitution=1 - ulps * 2.0**-53))
+    assert after["model"].tolist() == ["continuum.viscous" if ulps else "continuum"]

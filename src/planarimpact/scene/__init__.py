@@ -1,4 +1,4 @@
-"""Scenes: a table of impacts is solved, each impact by the cheapest model that is good enough.
+"""Scenes: a table of impacts is solved, each impact by a formula, a table or the continuum.
 
 A table is a pandas DataFrame with one impact in each row. `columns` lists the columns that it may
 have, with the unit of each in its header. A body is a solid sphere (radius and density), or
@@ -11,8 +11,8 @@ their plane of incidence.
 try:
     import pandas as pd
 except ImportError as error:
-    words = f"planarimpact.scene needs pandas: pip install pandas ({error})"
-    raise ImportError(words, name=error.name) from None
+    message = f"planarimpact.scene needs pandas: pip install pandas ({error})"
+    raise ImportError(message, name=error.name) from None
 
 from planarimpact.scene.solver import Solver
 
@@ -20,7 +20,7 @@ __all__ = ["Solver", "solve"]
 
 
 def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None) -> pd.DataFrame:
-    """Solve every impact of a table by the cheapest model that is good enough.
+    """Solve every impact of a table, by a formula, the table of spheres or the continuum.
 
     Parameters
     ----------
@@ -55,8 +55,8 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None)
         For what is no DataFrame, columns that are missing, unknown or do not go together, or a bad
         row, by its number.
     ConvergenceError
-        If the continuum does not reach the tolerance, by the row. Many pairs of a mass ratio
-        above 100 take seconds; above some 10 000 most of them end like this.
+        If the continuum does not reach the tolerance, by the row. An impact of a mass ratio above
+        100 may take seconds; above some 10 000 most of them end like this.
 
     Examples
     --------

@@ -79,8 +79,6 @@ DECIMALS = "; decimals have a point, not a comma"
 def header(name: str, ending: str = "") -> str:
     """Header of a column: its name, and an ending, with the unit in brackets if it has one.
 
-    Examples
-    --------
     >>> header("radius"), header("friction")
     ('radius [m]', 'friction')
     """
@@ -89,24 +87,8 @@ def header(name: str, ending: str = "") -> str:
 
 
 def named(headers: Iterable[object]) -> dict[str, str]:
-    """Names of the columns of a table, by header; refused if a set of them is incomplete.
+    """`{name: header}` of the columns of a table; refused if they make up no bodies and no state.
 
-    Parameters
-    ----------
-    headers : iterable of str
-
-    Returns
-    -------
-    dict
-        `{name: header}`, with `id` where it is there.
-
-    Raises
-    ------
-    InputError
-        For an unknown or repeated column, a wrong unit, or columns that do not go together.
-
-    Examples
-    --------
     >>> named(["radius [mm]"])
     Traceback (most recent call last):
     ...
@@ -190,20 +172,10 @@ def _listed(names: Iterable[str]) -> str:
 
 
 def numbers(table: pd.DataFrame, names: dict[str, str]) -> tuple[dict[str, Array], dict[int, str]]:
-    """Columns of a table as float64, and what is wrong in which row.
+    """Columns of a table as float64 by name, and `{position: message}` of its bad rows.
 
-    Parameters
-    ----------
-    table : DataFrame
-    names : dict
-        As `named` returns them.
-
-    Returns
-    -------
-    values : dict of ndarray
-        By name; `loss` as the position of the word in `LOSSES`.
-    problems : dict
-        `{position: words}`, the first problem of every bad row, positions from 0.
+    `names` is what `named` returns. The loss is the position of its word in `LOSSES`. Of several
+    problems of a row the first one counts.
     """
     values: dict[str, Array] = {}
     problems: dict[int, str] = {}

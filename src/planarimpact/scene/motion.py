@@ -16,7 +16,7 @@ from planarimpact import bodies, continuum
 from planarimpact.bodies import Body, Material
 from planarimpact.continuum import inelastic
 from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, Booleans
+from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.scene.columns import AXES, LOSSES
 
 # Largest error of the length of a normal.
@@ -55,31 +55,27 @@ class Impacts(NamedTuple):
     peak_normal: Array  # largest normal force by the law of the loss [N], NaN where it has none
     coupling: Array  # size of Dundurs' constant over friction, see `bodies.COUPLING`
 
+    @property
+    def unit(self) -> Array:
+        """The scale of tangential velocity, mu v2(0) [m/s]."""
+        return self.friction * self.v2
+
+    def groups_of(self, rows: Integers) -> tuple[Array, Array, Array]:
+        """Mass ratio, stiffness ratio and restitution of some impacts."""
+        return self.mass_ratio[rows], self.stiffness_ratio[rows], self.restitution[rows]
+
+    def incidence_of(self, rows: Integers) -> Array:
+        """v1(0)/(mu v2(0)) of some impacts: NaN or infinite without friction."""
+        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+            return self.v1[rows] / (self.friction[rows] * self.v2[rows])
+
 
 def impacts(values: dict[str, Array]) -> Impacts:
-    """Impacts of checked columns.
+    """Impacts of columns as `columns.numbers` returns them, without bad rows.
 
-    Parameters
-    ----------
-    values : dict of ndarray, shape (n,)
-        As `columns.numbers` returns them, without bad rows; with `loss` where `restitution` is
-        given.
-
-    Returns
-    -------
-    Impacts
-        v2 may be 0 or negative, where nothing approaches: the caller refuses that.
-
-    Raises
-    ------
-    OutOfRange
-        If a mass, a mass ratio or a force is beyond the range of numbers, or a relaxation time
-        beyond its law; it says where.
-
-    Notes
-    -----
-    Both laws give peak forces from `bodies.LEAST_RESTITUTION` on. Below it they are NaN: a viscous
-    one grows without a bound as e approaches 0, and a plastic one falls to 0.
+    `loss` stands beside `restitution`. v2 may be 0 or negative, where nothing approaches, and other
+    numbers may be infinite: `problems` finds that. OutOfRange says where a mass, a mass ratio or a
+    force is beyond the range of numbers, or a relaxation time beyond its law.
     """
     with np.errstate(over="ignore", invalid="ignore"):  # `problems` finds what is not finite
         body, other = _body(values, ""), _body(values, "other_")
@@ -117,25 +113,23 @@ def impacts(values: dict[str, Array]) -> Impacts:
 
 def slides_throughout(impacts: Impacts) -> Booleans:
     """Whether each impact slides from first to last."""
-    groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
     with np.errstate(over="ignore"):  # where friction stops any velocity that is a number
-        unit = impacts.friction * impacts.v2
+        unit = impacts.unit
+        groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
         slides = impacts.v1 >= sliding.limit_alike(*groups) * unit
         # What yields may slide later. Below its least restitution the law says nothing.
         yields = np.flatnonzero(slides & impacts.plastic & (impacts.restitution < 1))
         known = yields[impacts.restitution[yields] >= bodies.LEAST_RESTITUTION]
         slides[yields] = False
-        beta, zeta2, e = (group[known] for group in groups)
+        beta, zeta2, e = impacts.groups_of(known)
         limit = inelastic.LOSSES["plastic"](e).slides_from(beta, zeta2)
         slides[known] = impacts.v1[known] >= limit * unit[known]
     return slides
 
 
 def problems(impacts: Impacts) -> dict[int, str]:
-    """What is wrong with an impact as a whole: `{index: words}`.
+    """What is wrong with an impact as a whole: `{index: message}`.
 
-    Examples
-    --------
     >>> steel = {"young_modulus": 207e9, "poisson_ratio": 0.3, "radius": 0.01, "density": 7800.0}
     >>> state = {"velocity_tangential": 1.0, "velocity_normal": -1.0, "spin": 0.0}
     >>> row = steel | state | {"friction": 0.1, "restitution": 0.5, "loss": 0}
@@ -146,43 +140,42 @@ def problems(impacts: Impacts) -> dict[int, str]:
     numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.v1
     with np.errstate(over="ignore", invalid="ignore"):
         energy = impacts.m2 * impacts.v2 * impacts.v2 + impacts.m2 * impacts.v1 * impacts.v1
-        unit = impacts.friction * impacts.v2
+        unit = impacts.unit
         spins = [_largest_turn(impacts, body) for body in (impacts.body, impacts.other)]
     finite = np.isfinite([*numbers, impacts.v2, energy, *spins]).all(axis=0)
-    found = {}
-    for i in np.flatnonzero(~finite):
-        found[int(i)] = "its numbers are too large or too small to compute with"
-    for i in np.flatnonzero(~(impacts.v2 > 0) & finite):
-        words = f"normal velocity of approach = {impacts.v2[i]:g}: the bodies must approach"
-        found[int(i)] = f"{words} each other"
-    for i in np.flatnonzero(finite & np.isinf(unit)):
-        words = f"times normal velocity of approach = {impacts.v2[i]:g} is too large a number"
-        found[int(i)] = f"friction = {impacts.friction[i]:g} {words} to compute with"
-    least = continuum.LEAST_RESTITUTION
     sticks = ~slides_throughout(impacts) & (impacts.v1 > 0)
-    for i in np.flatnonzero((impacts.restitution < least) & sticks):
-        words = f"allowed are numbers from {least} where the contact sticks at some time"
-        found[int(i)] = f"restitution = {impacts.restitution[i]}: {words}"
-    for i in np.flatnonzero(impacts.mass_ratio > LARGEST_RATIO):
-        words = f"allowed are numbers up to {LARGEST_RATIO:g}"
-        found[int(i)] = f"mass ratio m2/m1 = {impacts.mass_ratio[i]:g}: {words}"
-    for i in np.flatnonzero(np.abs(length - 1) > UNIT):
-        found[int(i)] = f"normal_x, y, z have the length {length[i]:g}: allowed is 1"
-    return found
+    least = continuum.LEAST_RESTITUTION
+    messages = {}  # of several problems the last one counts
+    for i in np.flatnonzero(~finite).tolist():
+        messages[i] = "its numbers are too large or too small to compute with"
+    for i in np.flatnonzero(~(impacts.v2 > 0) & finite).tolist():
+        messages[i] = (
+            f"normal velocity of approach = {impacts.v2[i]:g}: the bodies must approach each other"
+        )
+    for i in np.flatnonzero(finite & np.isinf(unit)).tolist():
+        messages[i] = (
+            f"friction = {impacts.friction[i]:g} times normal velocity of approach = "
+            f"{impacts.v2[i]:g} is too large a number to compute with"
+        )
+    for i in np.flatnonzero((impacts.restitution < least) & sticks).tolist():
+        messages[i] = (
+            f"restitution = {impacts.restitution[i]}: allowed are numbers from {least} where the "
+            "contact sticks at some time"
+        )
+    for i in np.flatnonzero(impacts.mass_ratio > LARGEST_RATIO).tolist():
+        messages[i] = (
+            f"mass ratio m2/m1 = {impacts.mass_ratio[i]:g}: allowed are numbers up to "
+            f"{LARGEST_RATIO:g}"
+        )
+    for i in np.flatnonzero(np.abs(length - 1) > UNIT).tolist():
+        messages[i] = f"normal_x, y, z have the length {length[i]:g}: allowed is 1"
+    return messages
 
 
 def after(impacts: Impacts, tangential_velocity: Array) -> tuple[State, State]:
-    """State after the impact.
+    """States of the body and the other one after the impact.
 
-    Parameters
-    ----------
-    impacts : Impacts
-    tangential_velocity : ndarray, shape (n,)
-        v1(tf) [m/s] in the direction of `impacts.tangent`.
-
-    Returns
-    -------
-    body, other : State
+    `tangential_velocity` is that of the contact point, in the direction of `impacts.tangent` [m/s].
     """
     change = (tangential_velocity - impacts.v1) / impacts.mass_ratio
     # P1 = m1 (v1(tf) - v1(0)), m1 = m2/beta; P2 = (1 + e) m2 v2(0). Both are divided by m2, so that
@@ -282,7 +275,11 @@ def _largest_turn(impacts: Impacts, body: Body) -> Array:
 
 
 def _normal_impact(values: dict[str, Array], m2: Array, v2: Array) -> tuple[Array, Booleans, Array]:
-    """Restitution, whether the loss is plastic, and the largest normal force by its law."""
+    """Restitution, whether the loss is plastic, and the largest normal force by its law.
+
+    Both laws give peak forces from `bodies.LEAST_RESTITUTION` on. Below it they are NaN: a viscous
+    one grows without a bound as e approaches 0, and a plastic one falls to 0.
+    """
     radius = bodies.effective_radius(values["radius"], values.get("other_radius", np.inf))
     modulus = bodies.effective_modulus(*_materials(values))
     approaches = (v2 > 0) & np.isfinite(v2)  # others are refused later

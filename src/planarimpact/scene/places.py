@@ -25,28 +25,8 @@ class Place(NamedTuple):
 def source(path: str | Path) -> Place:
     """Place of a table that is read; `-` is standard input.
 
-    Parameters
-    ----------
-    path : str or Path
-
-    Returns
-    -------
-    Place
-
-    Raises
-    ------
-    InputError
-        If the name is none that can be read.
-
-    Examples
-    --------
     >>> source("shots.csv").kind, source("-").name
     ('.csv', 'standard input')
-    >>> source("shots.xlsx")
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: shots.xlsx: allowed are names that end in .csv, .csv.gz or .parquet, \
-pipes, and - for standard input
     """
     return _place(path, ("-", "/dev/stdin"), 0, "standard input", (CSV, GZIP, PARQUET))
 
@@ -54,21 +34,6 @@ pipes, and - for standard input
 def target(path: str | Path) -> Place:
     """Place of a table that is written, JSON too; `-` is standard output.
 
-    Parameters
-    ----------
-    path : str or Path
-
-    Returns
-    -------
-    Place
-
-    Raises
-    ------
-    InputError
-        If the name is none that can be written.
-
-    Examples
-    --------
     >>> target("after.json").kind, target("-").stream
     ('.json', True)
     """
@@ -76,32 +41,26 @@ def target(path: str | Path) -> Place:
 
 
 def beside(target: Place) -> Place | None:
-    """Place of the list of bad rows: `<name>.bad.csv`; a stream has nothing beside it.
-
-    Examples
-    --------
-    >>> beside(target("after.json")).name, beside(target("-"))
-    ('after.json.bad.csv', None)
-    """
+    """Place of the list of bad rows: `<name>.bad.csv`; a stream has nothing beside it."""
     name = f"{target.name}.bad.csv"
     return None if target.stream else Place(name, name, CSV, stream=False)
 
 
 def _place(
-    path: str | Path, standard: tuple[str, ...], number: int, words: str, kinds: tuple[str, ...]
+    path: str | Path, standard: tuple[str, ...], number: int, called: str, kinds: tuple[str, ...]
 ) -> Place:
     name = str(path)
     kind = next((kind for kind in kinds if name.lower().endswith(kind)), None)
     flows = Path(path).is_fifo() or Path(path).is_char_device()
     # A file with a known ending is opened by its name, even if it is standard input or output too.
     if name in standard or ((flows or not kind) and _is_open(path, number)):
-        return Place(words, number, CSV, stream=True)
+        return Place(called, number, CSV, stream=True)
     if flows:
         return Place(name, name, CSV, stream=True)
     if kind:
         return Place(name, name, kind, stream=False)
     endings = f"{', '.join(kinds[:-1])} or {kinds[-1]}"
-    raise InputError(f"{name}: allowed are names that end in {endings}, pipes, and - for {words}")
+    raise InputError(f"{name}: allowed are names that end in {endings}, pipes, and - for {called}")
 
 
 def _is_open(path: str | Path, number: int) -> bool:

@@ -1,19 +1,20 @@
 """Tables of scenes read piece by piece, from CSV or Parquet.
 
-`pieces` cuts a table into pieces of whole rows, and leaves the text of CSV alone. `table` reads one
-piece, perhaps in another process. pyarrow refuses a row that is too short and a cell that is no
-number, but it does not know the number of the line. Such a piece is read once more, row by row.
+CSV is cut into whole rows here, read by pyarrow as text, and each column becomes numbers if all of
+its cells are numbers. pyarrow does not say which row has too few or too many cells. Such a piece is
+read once more by the module csv, and so is a piece with quotation marks, of which pyarrow takes
+everything.
 """
 
 import csv
 import gzip
 import io
 import zlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from itertools import chain, islice
+from itertools import islice
 from pathlib import Path
-from typing import NamedTuple, TextIO, TypeAlias
+from typing import NamedTuple
 
 import pandas as pd
 import pyarrow as pa
@@ -26,103 +27,57 @@ from planarimpact.scene import columns, places
 from planarimpact.scene.places import Place
 
 SEPARATORS = {";": "semicolons", "\t": "tabs"}
-
-
-class Text(NamedTuple):
-    """Rows as they stand in CSV, blank lines among them; `line` is the number of the first."""
-
-    header: list[str]
-    line: int
-    body: str
-
-
-Content: TypeAlias = Text | pa.RecordBatch
+# A cell has fewer lines than this. It bounds what one quotation mark without a second one reads.
+MOST_LINES = 10_000
 
 
 class Piece(NamedTuple):
-    """Rows of a table.
+    """Rows of a table, after `before` others.
 
-    There are `rows` of them, after `before` others. `share` of the source is
-    read when they are: 0 to 1, or None where nobody knows how much there is, as in a pipe.
+    `share` of the source is read when they are: 0 to 1, or None where nobody knows how much there
+    is, as in a pipe. A column of CSV that has a cell that is no finite number is text as it stands:
+    text tells inf from 1e400.
     """
 
     share: float | None
     before: int
-    rows: int
-    content: Content
+    rows: pa.Table
+
+    def table(self) -> pd.DataFrame:
+        """The rows for pandas."""
+        table = self.rows.to_pandas(use_threads=False, ignore_metadata=True)
+        label = columns.named(self.rows.column_names).get(columns.LABEL)
+        if label is not None:  # pandas would write 7 as 7.0 where another cell is empty
+            table[label] = pd.Series(pd.arrays.ArrowExtensionArray(_plain(self.rows[label])))
+        return table
 
 
 def pieces(source: Place, rows: int) -> Iterator[Piece]:
-    """Pieces of a table.
-
-    Parameters
-    ----------
-    source : Place
-    rows : int
-        Of a piece, at most.
-
-    Yields
-    ------
-    Piece
-        Each has at least one row, but for a table without rows, which is one piece.
-
-    Raises
-    ------
-    InputError
-        If the source is no table, by the number of its line.
-    """
+    """Pieces of a table, of so many rows at most; a table without rows is one piece."""
     before = 0
-    cut = _cut_parquet if source.kind == places.PARQUET else _cut_csv
-    for share, count, content in cut(source, rows):
-        piece = Piece(share, before, count, content)
-        before += count
-        if count:
+    read = _parquet if source.kind == places.PARQUET else _csv
+    for share, table in read(source, rows):
+        piece = Piece(share, before, table)
+        before += len(table)
+        if len(table):
             yield piece
     if not before:
         yield piece
 
 
-def table(content: Content) -> pd.DataFrame:
-    """The table of a piece.
-
-    Parameters
-    ----------
-    content : Text or RecordBatch
-
-    Returns
-    -------
-    DataFrame
-        A column of CSV where a cell is no number, or inf, is text as it stands: text tells inf from
-        1e400.
-
-    Raises
-    ------
-    InputError
-        If a row of CSV has too few or too many cells, by the number of its line.
-    """
-    if isinstance(content, Text):
-        return _read(content).to_pandas(use_threads=False)
-    found = pa.Table.from_batches([content])
-    read = found.to_pandas(use_threads=False, ignore_metadata=True)
-    label = columns.named(found.column_names).get(columns.LABEL)
-    if label is not None:  # pandas would write 7 as 7.0 where another cell is empty
-        read[label] = pd.Series(pd.arrays.ArrowExtensionArray(_plain(found[label])))
-    return read
-
-
-def _cut_parquet(source: Place, rows: int) -> Iterator[tuple[float, int, pa.RecordBatch]]:
-    """Shares that are read, counts of rows, and the rows; the first piece is empty."""
+def _parquet(source: Place, rows: int) -> Iterator[tuple[float, pa.Table]]:
+    """Shares that are read, and the rows; the first piece is empty."""
     try:
         with open(source.opened, "rb") as raw, pa.parquet.ParquetFile(raw) as file:
             schema = file.schema_arrow
             label = columns.named(schema.names).get(columns.LABEL)
             if label is not None:
                 _refuse_label(label, schema.field(label).type)
-            yield 0.0, 0, pa.RecordBatch.from_pylist([], schema)
-            done, whole = 0, file.metadata.num_rows
+            yield 0.0, schema.empty_table()
+            count = 0
             for batch in file.iter_batches(rows, use_threads=False):
-                done += batch.num_rows
-                yield done / whole, batch.num_rows, batch
+                count += batch.num_rows
+                yield count / file.metadata.num_rows, pa.Table.from_batches([batch])
     except (pa.ArrowException, OSError) as error:
         if isinstance(error, OSError) and error.errno:
             raise
@@ -144,23 +99,18 @@ def _plain(cells: pa.ChunkedArray) -> pa.ChunkedArray:
     return cells.cast(cells.type.value_type) if pa.types.is_dictionary(cells.type) else cells
 
 
-def _cut_csv(source: Place, rows: int) -> Iterator[tuple[float | None, int, Text]]:
-    """As `_cut_parquet`, from CSV."""
+def _csv(source: Place, rows: int) -> Iterator[tuple[float | None, pa.Table]]:
+    """As `_parquet`, from CSV."""
     with _opened(source) as (lines, share):
         try:
-            line, header = _header(lines)
+            header = _header(lines)
             columns.named(header)
-            line += 1
-            yield share(), 0, Text(header, line, "")
-            while taken := list(islice(lines, rows)):
-                used = len(taken)
-                if any('"' in entry for entry in taken):  # a row may have several lines
-                    found = list(islice(_rows(chain(taken, lines), line, len(header)), rows))
-                    taken = [row.text for row in found]
-                    used = sum(row.lines for row in found)
-                count = len(taken) - sum(map(str.isspace, taken))
-                yield share(), count, Text(header, line, "".join(taken))
-                line += used
+            yield share(), _read(b"", header, 0)
+            before = 0
+            for text in _cut(lines, rows):
+                table = _read(text, header, before)
+                before += len(table)
+                yield share(), table
         except UnicodeDecodeError:
             raise InputError("it is no text in UTF-8") from None
         except (EOFError, zlib.error, gzip.BadGzipFile) as error:
@@ -168,34 +118,35 @@ def _cut_csv(source: Place, rows: int) -> Iterator[tuple[float | None, int, Text
 
 
 @contextmanager
-def _opened(source: Place) -> Iterator[tuple[TextIO, Callable[[], float | None]]]:
+def _opened(source: Place) -> Iterator[tuple[Iterator[bytes], Callable[[], float | None]]]:
     """Lines of a source, and a function for the share of it that is read."""
     whole = 0 if source.stream else Path(source.name).stat().st_size
     with open(source.opened, "rb", closefd=isinstance(source.opened, str)) as raw:
-        binary = gzip.GzipFile(fileobj=raw) if source.kind == places.GZIP else raw
-        with io.TextIOWrapper(binary, encoding="utf-8-sig", newline="") as text:
-            yield text, lambda: raw.tell() / whole if whole else None
+        lines = gzip.GzipFile(fileobj=raw) if source.kind == places.GZIP else raw
+        yield lines, lambda: raw.tell() / whole if whole else None
 
 
-def _header(lines: Iterable[str]) -> tuple[int, list[str]]:
-    """Number of the first line that is not blank, and the names in it."""
-    numbered = enumerate(lines, start=1)
-    number, line = next((entry for entry in numbered if not entry[1].isspace()), (0, ""))
+def _header(lines: Iterator[bytes]) -> list[str]:
+    """The names in the first line that is not blank."""
+    texts = (line.decode("utf-8-sig") for line in lines)
+    number, line = next((entry for entry in enumerate(texts, 1) if not entry[1].isspace()), (0, ""))
     if not line:
         raise InputError("it is empty: the first line must name the columns")
-    for separator, words in SEPARATORS.items():
+    for separator, called in SEPARATORS.items():
         if separator in line:
             raise InputError(
-                f"it is separated by {words}; allowed are commas, and points in decimals"
+                f"it is separated by {called}; allowed are commas, and points in decimals"
             )
     try:
         (header,) = csv.reader([line], strict=True)
     except csv.Error as error:
-        raise _unmatched(number, error) from None
+        raise InputError(
+            f"line {number}: its quotation marks do not match, or its end is wrong ({error})"
+        ) from None
     for cell in header:
         if _is_number(cell):
             raise InputError(f"line {number}: {cell!r} stands where the name of a column belongs")
-    return number, header
+    return header
 
 
 def _is_number(cell: str) -> bool:
@@ -206,83 +157,69 @@ def _is_number(cell: str) -> bool:
     return True
 
 
-class _Row(NamedTuple):
-    """Text of a row, and how many lines it has."""
-
-    text: str
-    lines: int
-
-
-def _rows(lines: Iterable[str], line: int, width: int) -> Iterator[_Row]:
-    """Rows of so many cells and blank lines; of the lines the first has the number `line`."""
-    taken: list[str] = []  # lines of the row
-
-    def take() -> Iterator[str]:
-        for entry in lines:
-            taken.append(entry)
-            yield entry
-
-    try:
-        for cells in csv.reader(take(), strict=True):
-            row = _Row("".join(taken), len(taken))
-            if len(cells) != width and not row.text.isspace():
-                hint = columns.DECIMALS if len(cells) > width else ""
-                raise InputError(f"line {line}: {len(cells)} cells where {width} belong{hint}")
-            yield row
-            line += row.lines
-            taken.clear()
-    except csv.Error as error:
-        raise _unmatched(line, error) from None
+def _cut(lines: Iterator[bytes], rows: int) -> Iterator[bytes]:
+    """Text of so many lines, and of more where the last cell goes on in the next line."""
+    while taken := list(islice(lines, rows)):
+        if sum(line.count(b'"') for line in taken) % 2:
+            for line in islice(lines, MOST_LINES):
+                taken.append(line)
+                if line.count(b'"') % 2:
+                    break
+        yield b"".join(taken)
 
 
-def _unmatched(number: int, error: csv.Error) -> InputError:
-    return InputError(f"line {number}: its quotation marks do not match ({error})")
+def _read(text: bytes, header: list[str], before: int) -> pa.Table:
+    """Rows of CSV: a column is numbers if all of its cells are finite numbers, else text."""
+    table = _text_cells(text, header, before)
+    names = columns.named(header)
+    for name in names.keys() - {columns.LABEL, "loss"}:
+        position = header.index(names[name])
+        table = table.set_column(position, names[name], _numbers(table[position]))
+    return table
 
 
-def _read(text: Text) -> pa.Table:
-    """Rows of CSV: all columns but words are numbers, if all cells of a column are."""
-    words = {columns.LABEL, "loss"}
-    numbers = [header for name, header in columns.named(text.header).items() if name not in words]
-    try:
-        found = _parsed(text, numbers)
-        if not any(_is_endless(found[name]) for name in numbers):
-            return found
-    except (
-        pa.ArrowInvalid
-    ):  # a row that does not fit, blanks in a line, or a cell that is no number
-        pass
-    rows = _rows(io.StringIO(text.body, newline=""), text.line, len(text.header))
-    body = "".join(row.text for row in rows if not row.text.isspace())
-    found = _parsed(text._replace(body=body), [])
-    for name in numbers:
-        found = found.set_column(text.header.index(name), name, _numbers(found[name]))
-    return found
-
-
-def _parsed(text: Text, numbers: list[str]) -> pa.Table:
-    """Rows of CSV; the other columns are text."""
-    kinds = dict.fromkeys(text.header, pa.string()) | dict.fromkeys(numbers, pa.float64())
-    if not text.body or text.body.isspace():
+def _text_cells(text: bytes, header: list[str], before: int) -> pa.Table:
+    """Rows of CSV, all cells as text."""
+    kinds = dict.fromkeys(header, pa.string())
+    if not text or text.isspace():
         return pa.schema(kinds).empty_table()
-    rows = text.body.encode()
-    return pa.csv.read_csv(
-        pa.BufferReader(rows),
-        # One block has all rows, as no row may stand in two.
-        pa.csv.ReadOptions(use_threads=False, block_size=len(rows), column_names=text.header),
-        pa.csv.ParseOptions(newlines_in_values=True),
-        # Empty cells and words such as NA stay as they are.
-        pa.csv.ConvertOptions(column_types=kinds, null_values=[], strings_can_be_null=False),
+    if b'"' in text:
+        _refuse_rows(text, len(header), before)
+    # One block has all rows, as no row may stand in two.
+    whole = pa.csv.ReadOptions(use_threads=False, block_size=len(text), column_names=header)
+    blank_lines_left_out = pa.csv.ParseOptions(
+        newlines_in_values=True,
+        invalid_row_handler=lambda row: "skip" if row.text.isspace() else "error",
     )
+    # Empty cells and words such as NA stay as they are.
+    as_text = pa.csv.ConvertOptions(column_types=kinds, null_values=[], strings_can_be_null=False)
+    try:
+        return pa.csv.read_csv(pa.BufferReader(text), whole, blank_lines_left_out, as_text)
+    except pa.ArrowInvalid as error:
+        _refuse_rows(text, len(header), before)
+        raise InputError(f"it is no table of CSV: {error}") from None
+
+
+def _refuse_rows(text: bytes, width: int, before: int) -> None:
+    """Refuse the first row that has not so many cells, or whose quotation marks do not match."""
+    row = before + 1
+    try:
+        for cells in csv.reader(io.StringIO(text.decode(), newline=""), strict=True):
+            if not cells or (len(cells) == 1 and not cells[0].strip()):
+                continue  # a blank line
+            if len(cells) != width:
+                hint = columns.DECIMALS if len(cells) > width else ""
+                raise InputError(f"row {row}: {len(cells)} cells where {width} belong{hint}")
+            row += 1
+    except csv.Error as error:
+        raise InputError(f"row {row}: its quotation marks do not match ({error})") from None
 
 
 def _numbers(cells: pa.ChunkedArray) -> pa.ChunkedArray:
     """Text as numbers, if all cells are finite numbers or NaN."""
     try:
-        found = cells.cast(pa.float64())
+        numbers = pa.compute.ascii_trim_whitespace(cells).cast(pa.float64())
     except pa.ArrowInvalid:
         return cells
-    return cells if _is_endless(found) else found
-
-
-def _is_endless(cells: pa.ChunkedArray) -> bool:
-    return bool(pa.compute.any(pa.compute.is_inf(cells)).as_py())
+    infinite = pa.compute.any(pa.compute.is_inf(numbers)).as_py()
+    return cells if infinite else numbers

@@ -1,44 +1,30 @@
-"""Solves tables of impacts, block by block, and remembers what it did."""
+"""Solves tables of impacts, block by block, and counts what it did."""
 
 import reprlib
 from collections import Counter
-from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from planarimpact import bodies, continuum
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array, Booleans, Integers, Numbers
+from planarimpact import bodies
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.ground.checks import ConvergenceError, InputError
-from planarimpact.ground.results import Rebound, Regime
-from planarimpact.scene import choice, columns, model_form, motion
+from planarimpact.ground.results import Regime
+from planarimpact.scene import columns, continua, model_form, motion, rungs
 
 # Rows that are solved together: this bounds the memory.
 BLOCK = 2**17
 # What takes the energy below e = 1 where a table does not say.
 LOSS = "viscous"
-
-
 # Columns from which the loss is known.
 SAYS_LOSS = ("loss", *(name for name, loss in columns.LOSS_OF.items() if loss))
 ASSUMED = f"restitution below 1: the loss is taken to be {LOSS}, as none was given"
 
 
-class Report(NamedTuple):
-    """What a solver did: as the attributes of `Solver`, impacts by model, model forms, coupling."""
-
-    rows: int
-    bad: list[tuple[int, str]]
-    assumed: bool
-    taken: Counter[tuple[choice.Rung, str]]
-    differences: model_form.Summary
-    coupled: tuple[int, float]
-
-
 class Solver:
-    """Solves one table after another, and remembers compiled responses and what it did.
+    """Solves one table after another, and counts what it did.
 
     Parameters
     ----------
@@ -63,13 +49,10 @@ class Solver:
         self.assumed = False
         self.bad: list[tuple[int, str]] = []
         self.rows = 0
-        self._responses: choice.Responses = {}
-        self._seen: Counter[tuple[str, tuple[float, ...]]] = Counter()
-        self._taken: Counter[tuple[choice.Rung, str]] = Counter()
-        self._curves: model_form.Curves = {}
+        self._count_by_rung: Counter[int] = Counter()  # by place in `rungs.RUNGS`
         self._differences = model_form.Summary()
         # Impacts of bodies that are too dissimilar, and the largest coupling.
-        self._coupled = 0, 0.0
+        self._coupled, self._largest_coupling = 0, 0.0
 
     @checks.default_errors
     def solve(self, table: pd.DataFrame, skip_bad: bool = False) -> pd.DataFrame:
@@ -97,30 +80,20 @@ class Solver:
         ]
         return pd.concat(blocks) if len(blocks) > 1 else blocks[0]
 
-    def report(self) -> Report:
-        """What it did, for another solver to `join`.
-
-        Returns
-        -------
-        Report
-        """
-        return Report(
-            self.rows, self.bad, self.assumed, self._taken, self._differences, self._coupled
-        )
-
-    def join(self, other: Report) -> None:
-        """Take in what a solver of other rows of the same table did.
+    def join(self, following: "Solver") -> None:
+        """Take in what a solver of the rows that follow did.
 
         Parameters
         ----------
-        other : Report
+        following : Solver
         """
-        self.rows = max(self.rows, other.rows)
-        self.bad += other.bad
-        self.assumed |= other.assumed
-        self._taken += other.taken
-        self._differences.join(other.differences)
-        self._count_coupled(*other.coupled)
+        self.rows = following.rows
+        self.bad += following.bad
+        self.assumed |= following.assumed
+        self._count_by_rung += following._count_by_rung
+        self._differences = self._differences.joined(following._differences)
+        self._coupled += following._coupled
+        self._largest_coupling = max(self._largest_coupling, following._largest_coupling)
 
     def explain(self) -> str:
         """How many impacts each model solved and why, in words, a line for each.
@@ -130,23 +103,21 @@ class Solver:
         str
         """
         lines = [f"{self.rows - len(self.bad)} impacts, tolerance {self.tolerance:g}"]
-        for (rung, pair), count in self._taken.most_common():
-            lines.append(f"{count:>10}  {rung.name:<27}  {pair}: {rung.why}")
-        count, largest = self._coupled
-        if count:
+        for place, count in self._count_by_rung.most_common():
+            rung = rungs.RUNGS[place]
+            lines.append(f"{count:>10}  {rung.name:<27}  {rung.why}")
+        if self._coupled:
             lines.append(
-                f"the bodies spread differently under pressure, which no model here has: {count} "
-                f"impacts may be off by more than 0.1 mu v2(0) (Dundurs' constant over friction up "
-                f"to {largest:.2g}, allowed is {bodies.COUPLING:g})"
+                "the bodies spread differently under pressure, which no model here has: "
+                f"{self._coupled} impacts may be off by more than 0.1 mu v2(0) (Dundurs' constant "
+                f"over friction up to {self._largest_coupling:.2g}, allowed is {bodies.COUPLING:g})"
             )
         if self.assumed:
             lines.append(ASSUMED)
-        return "\n".join(lines + self._differences.words())
-
-    def _count_coupled(self, count: int, largest: float) -> None:
-        self._coupled = self._coupled[0] + count, max(self._coupled[1], largest)
+        return "\n".join(lines + self._differences.lines())
 
     def _block(self, table: pd.DataFrame, names: dict[str, str], skip_bad: bool) -> pd.DataFrame:
+        """The result for some rows of a table."""
         self._refuse_two_losses(names)
         values, problems = columns.numbers(table, names)
         if "restitution" in names and "loss" not in names:
@@ -154,25 +125,22 @@ class Solver:
             values["loss"] = np.full(len(table), float(code))
         good = np.ones(len(table), dtype=bool)
         good[list(problems)] = False
-        impacts = self._impacts(values, good, problems)
-        positions = np.flatnonzero(good)
+        impacts = _impacts(values, good, problems)
         wrong = motion.problems(impacts)
-        problems |= {int(positions[i]): words for i, words in wrong.items()}
+        problems |= _by_position(good, wrong)
         self._refuse(problems, skip_bad, InputError)
         if wrong:
             good[list(problems)] = False
-            impacts = self._impacts(values, good, problems)
-        result, unsolved = self._after(impacts, names)
-        positions = np.flatnonzero(good)
-        unsolved = {int(positions[i]): words for i, words in unsolved.items()}
+            impacts = _impacts(values, good, problems)
+        answers = rungs.answers(impacts, self.tolerance)
+        unsolved = _by_position(good, answers.unsolved)
         self._refuse(unsolved, skip_bad, ConvergenceError)
+        self._count(impacts, answers, names)
         problems |= unsolved
-        self.bad += [
-            (self.rows + position + 1, problems[position]) for position in sorted(problems)
-        ]
+        self.bad += [(self.rows + row + 1, problems[row]) for row in sorted(problems)]
         self.rows += len(table)
-        found = table[good].assign(**result)
-        return found[~np.isin(positions, list(unsolved))] if unsolved else found
+        result = table[good].assign(**_result(impacts, answers, names))
+        return result[_solved(answers)] if unsolved else result
 
     def _refuse_two_losses(self, names: dict[str, str]) -> None:
         for name in SAYS_LOSS:
@@ -181,17 +149,6 @@ class Solver:
                     f"loss = {self._loss!r}: it does not apply, as the column {names[name]!r} says "
                     "what takes the energy"
                 )
-
-    def _impacts(
-        self, values: dict[str, Array], good: Booleans, problems: dict[int, str]
-    ) -> motion.Impacts:
-        """Impacts of the good rows; those whose physical quantities are no numbers become bad."""
-        while True:
-            try:
-                return motion.impacts({name: column[good] for name, column in values.items()})
-            except bodies.OutOfRange as error:
-                for position in np.flatnonzero(good)[error.where].tolist():
-                    problems[position], good[position] = str(error), False
 
     def _refuse(
         self, problems: dict[int, str], skip_bad: bool, kind: type[InputError | ConvergenceError]
@@ -202,112 +159,78 @@ class Solver:
             more = f"; {len(problems) - 1} more rows are bad" if len(problems) > 1 else ""
             raise kind(f"row {self.rows + first + 1}: {problems[first]}{more}")
 
-    def _after(
-        self, impacts: motion.Impacts, names: dict[str, str]
-    ) -> tuple[dict[str, Any], dict[int, str]]:
-        """Columns of the result, and what has none: `{position: words}`."""
-        unit = impacts.friction * impacts.v2
-        groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
-        slides = motion.slides_throughout(impacts)
-        head_on = ~slides & (impacts.v1 == 0)
-        with np.errstate(over="ignore"):
-            lost = sliding.change(impacts.mass_ratio, impacts.restitution) * unit
-        unsolved: dict[int, str] = {}
-        velocity = impacts.v1 - np.where(slides, lost, 0.0)
-        peak, error, form = slides.astype(float), np.zeros(unit.size), np.zeros(unit.size)
-        regime = np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK).astype(np.uint8)
-        model = np.where(slides, 0, 1)
-        for rung, impact in ((choice.SLIDING, slides), (choice.HEAD_ON, head_on)):
-            if impact.any():
-                self._taken[rung, "all pairs"] += int(np.sum(impact))
-        lossy = (groups[2] < 1) & (groups[2] >= continuum.LEAST_RESTITUTION)
-        viscous = np.flatnonzero(slides & ~impacts.plastic & lossy)
-        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-            x = impacts.v1[viscous] / unit[viscous]
-        moved = model_form.of_sliding(x, *(group[viscous] for group in groups))
-        form[viscous] = np.where(moved != 0, np.abs(moved) * unit[viscous], 0.0)
-        stick = np.flatnonzero(~slides & ~head_on)
-        coupled = impacts.coupling[stick][impacts.coupling[stick] > bodies.COUPLING]
-        self._count_coupled(coupled.size, float(np.max(coupled, initial=0.0)))
-        jobs = choice.jobs(
-            *groups, impacts.plastic, stick, self.tolerance, self._responses, self._seen
-        )
-        for job in jobs:
-            x = impacts.v1[job.rows] / unit[job.rows]
-            rung, (found, known), left, without = self._answers(job, x)
-            unsolved |= {int(job.rows[i]): words for i, words in without.items()}
-            part = job.of(left)._replace(rung=rung)
-            rows = part.rows
-            velocity[rows] = found.velocity * unit[rows]
-            peak[rows], regime[rows] = found.peak_friction, found.regime
-            error[rows] = known * unit[rows]
-            difference = model_form.difference(part, x[left], found.velocity, self._curves)
-            form[rows] = np.abs(difference) * unit[rows]
-            model[rows] = 2 + choice.MODELS.index(rung.model)
-            self._taken[rung, job.pair] += rows.size
-            if rung.model in choice.REFERENCES[1:]:
-                self._differences.add(difference)
+    def _count(
+        self, impacts: motion.Impacts, answers: rungs.Answers, names: dict[str, str]
+    ) -> None:
+        """Count the impacts of each rung, and what `explain` says of the models."""
+        place, solved = answers.place, _solved(answers)
+        counts = np.bincount(place[solved], minlength=len(rungs.RUNGS)).tolist()
+        self._count_by_rung += Counter(dict(enumerate(counts)))
+        lossy = [rung.model in continua.MODELS[1:] for rung in rungs.RUNGS]
+        rows = np.flatnonzero(np.array(lossy)[place] & solved)
+        differences = answers.model_form[rows] / impacts.unit[rows]
+        self._differences = self._differences.joined(model_form.summary(differences))
+        coupling = impacts.coupling[place >= rungs.FIRST_OF_CONTINUA]
+        large = coupling[coupling > bodies.COUPLING]
+        self._coupled += large.size
+        self._largest_coupling = max(self._largest_coupling, float(np.max(large, initial=0.0)))
         # Peak normal forces depend on the loss, whatever model takes the tangential motion.
         unsaid = self._loss is None and not set(SAYS_LOSS) & set(names)
         self.assumed |= unsaid and bool((impacts.restitution < 1).any())
-        found_columns = velocity, peak, error, form, regime, model
-        return self._columns(impacts, names, *found_columns), unsolved
 
-    def _answers(
-        self, job: choice.Job, x: Array
-    ) -> tuple[choice.Rung, tuple[Rebound, Numbers], Integers, dict[int, str]]:
-        """The rung, results and errors, which impacts they belong to, and why others have none."""
 
-        def solve(rung: choice.Rung, left: Integers) -> tuple[Rebound, Numbers]:
-            beta, zeta2, e = job.of(left).groups
-            return choice.solve(rung, x[left], beta, zeta2, e, self.tolerance, self._responses)
+def _impacts(values: dict[str, Array], good: Booleans, problems: dict[int, str]) -> motion.Impacts:
+    """Impacts of the good rows; those whose physical quantities are no numbers become bad."""
+    while True:
+        try:
+            return motion.impacts({name: column[good] for name, column in values.items()})
+        except bodies.OutOfRange as error:
+            for position in np.flatnonzero(good)[error.where].tolist():
+                problems[position], good[position] = str(error), False
 
-        rung = job.rung
-        if rung.way == "compiled":
-            every = np.arange(x.size)
-            try:
-                return rung, solve(rung, every), every, {}
-            except ConvergenceError:  # some of its impacts may have an answer
-                rung = rung._replace(way="solved")
-        return rung, *choice.without_unsolved(partial(solve, rung), x.size)
 
-    def _columns(
-        self,
-        impacts: motion.Impacts,
-        names: dict[str, str],
-        velocity: Array,
-        peak: Array,
-        error: Array,
-        form: Array,
-        regime: Integers,
-        model: Integers,
-    ) -> dict[str, Any]:
-        body, other = motion.after(impacts, velocity)
-        plane = "spin" in names
-        states = motion.columns_of(body, plane)
-        if {"other_density", "other_mass"} & set(names):
-            states |= {f"other_{k}": v for k, v in motion.columns_of(other, plane).items()}
-        after = {columns.header(name, "_after"): values for name, values in states.items()}
-        # Without friction there is no incidence, with very little it is larger than any number.
-        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-            incidence = impacts.v1 / (impacts.friction * impacts.v2)
-        models = [choice.SLIDING.model, choice.HEAD_ON.model, *choice.MODELS]
-        if "restitution" not in names:
-            after |= {"restitution": impacts.restitution}
-        if "loss" not in names:
-            code = np.where(impacts.restitution < 1, impacts.plastic, -1)
-            after |= {"loss": pd.Categorical.from_codes(code, columns.LOSSES)}
-        return after | {
-            "contact_velocity_after [m/s]": velocity,
-            "model": pd.Categorical.from_codes(model, models),
-            "error_bound [m/s]": error,
-            "model_form [m/s]": form,
-            "regime": pd.Categorical.from_codes(regime, list(Regime.__members__)),
-            "incidence": incidence,
-            "peak_normal_force [N]": impacts.peak_normal,
-            # Without friction there is none, also where the normal force is not known.
-            "peak_friction_force [N]": np.where(
-                peak > 0, impacts.friction * peak * impacts.peak_normal, 0.0
-            ),
-            "energy_lost [J]": motion.energy_lost(impacts, velocity),
-        }
+def _by_position(good: Booleans, messages: dict[int, str]) -> dict[int, str]:
+    """Messages by the position of their rows, for messages by the index among good rows."""
+    positions = np.flatnonzero(good)
+    return {int(positions[i]): message for i, message in messages.items()}
+
+
+def _solved(answers: rungs.Answers) -> Booleans:
+    """Which impacts have an answer."""
+    solved = np.ones(answers.place.size, dtype=bool)
+    solved[list(answers.unsolved)] = False
+    return solved
+
+
+def _result(
+    impacts: motion.Impacts, answers: rungs.Answers, names: dict[str, str]
+) -> dict[str, Any]:
+    """Columns that follow those of the table."""
+    plane, peak = "spin" in names, answers.peak_friction
+    body, other = motion.after(impacts, answers.velocity)
+    states = motion.columns_of(body, plane)
+    if {"other_density", "other_mass"} & set(names):
+        states |= {f"other_{k}": v for k, v in motion.columns_of(other, plane).items()}
+    result: dict[str, Any] = {
+        columns.header(name, "_after"): values for name, values in states.items()
+    }
+    if "restitution" not in names:
+        result |= {"restitution": impacts.restitution}
+    if "loss" not in names:
+        code = np.where(impacts.restitution < 1, impacts.plastic, -1)
+        result |= {"loss": pd.Categorical.from_codes(code, columns.LOSSES)}
+    model = np.array([rungs.MODELS.index(rung.model) for rung in rungs.RUNGS])[answers.place]
+    return result | {
+        "contact_velocity_after [m/s]": answers.velocity,
+        "model": pd.Categorical.from_codes(model, rungs.MODELS),
+        "error_bound [m/s]": answers.error,
+        "model_form [m/s]": answers.model_form,
+        "regime": pd.Categorical.from_codes(answers.regime, list(Regime.__members__)),
+        "incidence": impacts.incidence_of(np.arange(model.size)),
+        "peak_normal_force [N]": impacts.peak_normal,
+        # Without friction there is none, also where the normal force is not known.
+        "peak_friction_force [N]": np.where(
+            peak > 0, impacts.friction * peak * impacts.peak_normal, 0.0
+        ),
+        "energy_lost [J]": motion.energy_lost(impacts, answers.velocity),
+    }

@@ -1,0 +1,151 @@
+"""The rung of each impact: a formula, the table of spheres, or the continuum, solved.
+
+Slip throughout and head-on impacts have a formula that is exact. `spheres` has a table of the
+continuum, nearly as fast as a formula; it takes the impacts that it covers, where its error is
+below the tolerance. For all others the continuum is solved, elastic for e = 1, else with the loss
+of the impact. That takes up to some milliseconds an impact.
+"""
+
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact import continuum, spheres
+from planarimpact.ground import sliding
+from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.ground.results import Regime
+from planarimpact.scene import continua, model_form, motion
+
+# Error by rounding, for a unit of the mass ratio.
+ROUNDING = 1e-12
+
+
+class Rung(NamedTuple):
+    """A model, the way to its answer ("formula", "table" or "solved"), and why impacts get it."""
+
+    model: str
+    way: str
+    why: str
+
+    @property
+    def name(self) -> str:
+        """Model and way, in words."""
+        return self.model if self.way == "formula" else f"{self.model}, {self.way}"
+
+
+CONTINUUM_WAYS = (
+    ("table", "the table of spheres covers them, and its error is below the tolerance"),
+    ("solved", "the table of spheres covers them, but its error is above the tolerance"),
+    ("solved", "the table of spheres does not cover them"),
+)
+TABLED, TOO_COARSE, NOT_COVERED = range(len(CONTINUUM_WAYS))
+RUNGS = (
+    Rung("slip throughout", "formula", "they slide from first to last, by Coulomb's law"),
+    Rung("head-on", "formula", "they have no tangential motion"),
+    *(Rung(model, way, why) for (way, why), model in product(CONTINUUM_WAYS, continua.MODELS)),
+)
+SLIDING, HEAD_ON, FIRST_OF_CONTINUA = 0, 1, 2
+MODELS = list(dict.fromkeys(rung.model for rung in RUNGS))
+
+
+def of_each(impacts: motion.Impacts, tolerance: float) -> tuple[Integers, Array]:
+    """The place of each impact's rung in `RUNGS`, and the largest error of its answer, mu v2(0).
+
+    Here alone is decided why an impact gets its rung: it is the first of `RUNGS` that fits. The
+    error is one of velocity (mu v2(0)) and of peak friction (mu times the peak normal force).
+    """
+    slides = motion.slides_throughout(impacts)
+    head_on = ~slides & (impacts.v1 == 0)
+    place, error = np.where(slides, SLIDING, HEAD_ON), np.zeros(slides.size)
+    rows = np.flatnonzero(~slides & ~head_on)
+    groups = impacts.groups_of(rows)
+    elastic = groups[2] == 1
+    kind = np.where(elastic, 0, np.where(impacts.plastic[rows], 2, 1))  # in `continua.MODELS`
+    covered = spheres.covers(*groups)
+    table_error = _table_error(groups, covered, kind == 2)
+    way = np.where(table_error <= tolerance, TABLED, TOO_COARSE)
+    way = np.where(covered, way, NOT_COVERED)
+    place[rows] = FIRST_OF_CONTINUA + len(continua.MODELS) * way + kind
+    error[rows] = np.where(way == TABLED, table_error, tolerance)
+    return place, error
+
+
+def _table_error(groups: tuple[Array, ...], covered: Booleans, plastic: Booleans) -> Array:
+    """Largest error of the table of spheres where it covers impacts, as measured, mu v2(0)."""
+    error = np.where(plastic, spheres.ERROR_BOUND["plastic"], spheres.ERROR_BOUND["viscous"])
+    rows = np.flatnonzero(covered & plastic)
+    little = spheres.loses_little(*(group[rows] for group in groups))
+    error[rows[little]] = spheres.LITTLE_BOUND
+    return error + ROUNDING * groups[0]
+
+
+class Answers(NamedTuple):
+    """What the rungs say of impacts, arrays of shape (n,), and why some of them have no answer."""
+
+    place: Integers  # of the rung, in `RUNGS`
+    velocity: Array  # of the contact point at separation [m/s]
+    peak_friction: Array  # mu times the peak normal force
+    regime: Integers
+    error: Array  # of the velocity, at most [m/s]
+    model_form: Array  # how far the velocity would move with the other loss [m/s]
+    unsolved: dict[int, str]  # `{index: message}`
+
+
+def answers(impacts: motion.Impacts, tolerance: float) -> Answers:
+    """Each impact answered by its rung."""
+    place, error = of_each(impacts, tolerance)
+    result = _of_formulas(impacts, place, error)
+    for number in np.unique(place[place >= FIRST_OF_CONTINUA]).tolist():
+        _add_continuum(result, impacts, number, tolerance)
+    return result
+
+
+def _of_formulas(impacts: motion.Impacts, place: Integers, error: Array) -> Answers:
+    """Answers of impacts that slide throughout and head-on ones; the others are to come."""
+    slides = place == SLIDING
+    with np.errstate(over="ignore"):
+        lost = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit
+    velocity = impacts.v1 - np.where(slides, lost, 0.0)
+    regime = np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK).astype(np.uint8)
+    form = np.zeros(place.size)
+    lossy = (impacts.restitution < 1) & (impacts.restitution >= continuum.LEAST_RESTITUTION)
+    rows = np.flatnonzero(slides & lossy & ~impacts.plastic)
+    moved = model_form.of_sliding(impacts.incidence_of(rows), impacts.groups_of(rows))
+    form[rows] = np.abs(moved) * impacts.unit[rows]
+    return Answers(place, velocity, slides.astype(float), regime, error * impacts.unit, form, {})
+
+
+def _add_continuum(result: Answers, impacts: motion.Impacts, number: int, tolerance: float) -> None:
+    """Write the answers of one rung into the result."""
+    rung, rows = RUNGS[number], np.flatnonzero(result.place == number)
+    x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
+    solved = _of_continuum(rung, x, groups, tolerance)
+    result.unsolved.update({int(rows[i]): message for i, message in solved.messages.items()})
+    rows, rebound = rows[solved.rows], solved.rebound
+    unit = impacts.unit[rows]
+    result.velocity[rows] = rebound.velocity * unit
+    result.peak_friction[rows] = rebound.peak_friction
+    result.regime[rows] = rebound.regime
+    loss = _loss(rung)
+    if loss:
+        x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
+        other = model_form.velocity_with_other_loss(loss, x, groups)
+        result.model_form[rows] = np.abs(other - rebound.velocity) * unit
+
+
+def _of_continuum(
+    rung: Rung, incidence: Array, groups: tuple[Array, ...], tolerance: float
+) -> continua.Solved:
+    """Impacts by the table of spheres, or solved."""
+    if rung.way == "solved":
+        return continua.rebound(rung.model, incidence, groups, tolerance)
+    # At e = 1 the table has the same answer for both losses.
+    loss = _loss(rung) or continuum.LOSSES[0]
+    rebound = spheres.rebound(incidence, *groups, loss=loss)
+    return continua.Solved(rebound, np.arange(incidence.size), {})
+
+
+def _loss(rung: Rung) -> str:
+    """The loss of a rung's model, empty for the elastic continuum."""
+    return rung.model.partition(".")[2]
