@@ -1,0 +1,116 @@
+"""The paper's element: linear in both directions, with a stiffer normal one in restitution.
+
+Functions of impacts x >= 0, which `stick_slip` solves, whatever the size of their groups.
+"""
+
+import numpy as np
+
+from planarimpact.ground.arrays import Array, Numbers
+from planarimpact.ground.results import Event, EventKind, History
+from planarimpact.lumped import normal, stick_slip
+from planarimpact.lumped.extremes import scaling
+from planarimpact.lumped.stick_slip import Impacts
+
+# Impacts solved together: few enough for the cache, enough to hide Python's overhead.
+CHUNK = 32768
+# Nodes and weights of Gauss on -1 to 1, for the work of friction within a phase.
+QUADRATURE = np.polynomial.legendre.leggauss(20)
+
+
+def solve(impacts: Impacts) -> stick_slip.Outcome:
+    """Outcome of impacts, arrays of shape (n,), chunk by chunk."""
+    x = impacts.x
+    velocity, peak, work = (np.empty(x.size) for _ in range(3))
+    regime = np.empty(x.size, np.uint8)
+    for start in range(0, x.size, CHUNK):
+        part = slice(start, start + CHUNK)
+        outcome = scaling.solve(Impacts(*(group[part] for group in impacts)))
+        velocity[part], peak[part], work[part], regime[part] = outcome
+    return stick_slip.Outcome(velocity, peak, work, regime)
+
+
+def history(mirror: float, impacts: Impacts, samples: int) -> History:
+    """Forces and velocity over one contact, as `lumped.history`; `mirror` is the sign of x."""
+    scale, groups, contact = phases(impacts)
+    zeta2, e = groups[1] / scale, groups[2]
+    grid = np.linspace(0.0, 1.0 + e, samples)
+    columns, events, before = [], [], None
+    for phase, eta_end in contact:
+        start, end = (normal.time(eta, e, phase.in_restitution) for eta in (phase.eta, eta_end))
+        inside = grid[(grid > start) & (grid < end)]
+        time = np.concatenate([[start], inside, [end]])
+        eta = np.concatenate([[phase.eta], _angle(inside, e, phase.in_restitution), [eta_end]])
+        friction, velocity = stick_slip.state(phase, eta, *groups)
+        velocity = mirror * velocity / scale
+        columns.append(np.stack([time, normal.force(eta), mirror * friction, velocity]))
+        events += [_event(kind, columns[-1][:, 0], zeta2) for kind in _kinds(phase, before)]
+        before = phase
+    if e == 0:
+        events.append(_event(EventKind.MAXIMUM_COMPRESSION, columns[-1][:, -1], zeta2))
+    events.append(_event(EventKind.SEPARATION, columns[-1][:, -1], zeta2))
+    joined = [piece[:, :-1] for piece in columns[:-1]] + columns[-1:]
+    time, force, friction, velocity = np.concatenate(joined, axis=1)
+    return History(time, force, friction, velocity, zeta2 * friction, tuple(events))
+
+
+def friction_work(impacts: Impacts) -> float:
+    """Work of friction in one contact, integrated over its phases of slip."""
+    scale, groups, contact = phases(impacts)
+    _, zeta2, e = groups
+    nodes, weights = QUADRATURE
+    work = 0.0
+    for phase, eta_end in contact:
+        if phase.sticks:
+            continue
+        half = (eta_end - phase.eta) / 2
+        eta = phase.eta + half * (1 + nodes)
+        friction, velocity = stick_slip.state(phase, eta, *groups)
+        # Slip velocity w - s' times dt, in the angle of either half.
+        pace = -e if phase.in_restitution else 1.0
+        slip = pace * velocity - phase.side * zeta2 * np.cos(eta)
+        work += float(half * (weights @ (friction * slip)))
+    return work / scale
+
+
+def phases(
+    impacts: Impacts,
+) -> tuple[float, tuple[float, float, float], list[tuple[stick_slip.Phase, Numbers]]]:
+    """One impact: scale, (beta, zeta^2, e), and its phases, each with its last eta.
+
+    Ratios and velocities have been multiplied by the scale.
+    """
+    impacts, scale = scaling.shrunk(impacts)
+    _, beta, zeta2, e = impacts
+    trace: list[stick_slip.Phase] = []
+    stick_slip.solve(impacts, trace)
+    if e[0] == 0:  # separation at maximum compression
+        trace = [phase for phase in trace if not phase.in_restitution]
+    trace = [stick_slip.Phase._make(np.ravel(field)[0] for field in phase) for phase in trace]
+    # A phase ends where the next one starts, or with its half of the contact.
+    ends = [
+        after.eta if after.in_restitution == phase.in_restitution else np.pi / 2
+        for phase, after in zip(trace, trace[1:], strict=False)
+    ]
+    ends.append(0.0 if trace[-1].in_restitution else np.pi / 2)
+    ratios = float(beta[0]), float(zeta2[0]), float(e[0])
+    return float(scale[0]), ratios, list(zip(trace, ends, strict=True))
+
+
+def _angle(time: Array, e: float, in_restitution: bool) -> Array:
+    """The angle `eta` of `normal` at a time within one half."""
+    return np.pi / 2 * np.clip((1 + e - time) / e if in_restitution else time, 0.0, 1.0)
+
+
+def _event(kind: EventKind, column: Array, zeta2: float) -> Event:
+    time, force, friction, velocity = (float(value) for value in column)
+    return Event(kind, time, force, friction, velocity, float(zeta2 * friction))
+
+
+def _kinds(phase: stick_slip.Phase, before: stick_slip.Phase | None) -> list[EventKind]:
+    """Events where a phase starts; one that goes on through maximum compression is not new."""
+    kind = EventKind.STICK if phase.sticks else EventKind.SLIP
+    if before is None:
+        return [EventKind.CONTACT, kind]
+    if phase.in_restitution == before.in_restitution:
+        return [kind]
+    return [EventKind.MAXIMUM_COMPRESSION, *([kind] if phase.sticks != before.sticks else [])]

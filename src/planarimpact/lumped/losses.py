@@ -1,0 +1,114 @@
+"""What takes the normal energy of a lumped contact: each loss by its name.
+
+A loss answers four questions about impacts x >= 0. At e = 1 all losses are the same model.
+"""
+
+import warnings
+
+import numpy as np
+
+from planarimpact.ground import checks, sliding
+from planarimpact.ground.arrays import Array
+from planarimpact.ground.results import History
+from planarimpact.lumped import hysteretic, viscous
+from planarimpact.lumped.stick_slip import Impacts, Outcome
+
+
+class Hysteretic:
+    """The paper's element, of which only the normal direction loses energy."""
+
+    def stiffness_ratio(self, zeta2: Array, e: Array) -> Array:
+        """Stiffness ratio of the element of the paper that is solved."""
+        return zeta2
+
+    def slides_from(self, beta: Array, zeta2: Array, e: Array) -> Array:
+        """Incidence from which the contact slides throughout."""
+        return sliding.limit(beta, self.stiffness_ratio(zeta2, e), e)
+
+    def solve(self, impacts: Impacts) -> Outcome:
+        """Outcome of impacts, arrays of shape (n,)."""
+        return hysteretic.solve(self._element(impacts))
+
+    def history(self, mirror: float, impacts: Impacts, samples: int) -> History:
+        """One contact, its arrays of shape (1,)."""
+        return hysteretic.history(mirror, self._element(impacts), samples)
+
+    def friction_work(self, impacts: Impacts) -> float:
+        """Work of friction in one contact, by another way than `solve`, where there is one."""
+        return hysteretic.friction_work(self._element(impacts))
+
+    def _element(self, impacts: Impacts) -> Impacts:
+        return impacts._replace(zeta2=self.stiffness_ratio(impacts.zeta2, impacts.e))
+
+
+class UnloadingStiffness(Hysteretic):
+    """The same with the stiffness of elastic unloading, kappa/e^2, in both directions.
+
+    The tangential stiffness is kappa/(e^2 zeta^2).
+    """
+
+    def stiffness_ratio(self, zeta2: Array, e: Array) -> Array:
+        """As in `Hysteretic`: e^2 zeta^2, rounded as in `sliding.restick_coefficient`."""
+        return e * (e * zeta2)
+
+
+class Viscous(Hysteretic):
+    """Two Kelvin-Voigt elements with one relaxation time: a dashpot beside each spring."""
+
+    def slides_from(self, beta: Array, zeta2: Array, e: Array) -> Array:
+        """As in `Hysteretic`."""
+        return sliding.limit_alike(beta, zeta2, e)
+
+    def solve(self, impacts: Impacts) -> Outcome:
+        """As in `Hysteretic`; where e = 1 the elements are the same."""
+        damped = impacts.e < 1
+        if not damped.any():
+            return super().solve(impacts)
+        lossy = impacts if damped.all() else impacts.take(np.flatnonzero(damped))
+        viscous.check_range(lossy)
+        if lossy is impacts:
+            return viscous.solve(impacts)
+        outcome = super().solve(impacts)
+        for field, values in zip(outcome, viscous.solve(lossy), strict=True):
+            field[damped] = values
+        return outcome
+
+    def history(self, mirror: float, impacts: Impacts, samples: int) -> History:
+        """As in `Hysteretic`."""
+        if impacts.e[0] == 1:
+            return super().history(mirror, impacts, samples)
+        viscous.check_range(impacts)
+        return viscous.history(mirror, impacts, samples)
+
+    def friction_work(self, impacts: Impacts) -> float:
+        """As in `Hysteretic`; below e = 1 `solve` has it in closed form."""
+        if impacts.e[0] == 1:
+            return super().friction_work(impacts)
+        return float(self.solve(impacts).dissipation[0])
+
+
+LOSSES: dict[str, Hysteretic] = {
+    "hysteretic": Hysteretic(),
+    "unloading-stiffness": UnloadingStiffness(),
+    "viscous": Viscous(),
+}
+# Names of an earlier release.
+OLD_NAMES = {"plastic": "unloading-stiffness"}
+
+
+def loss_of(name: str) -> Hysteretic:
+    """The loss of a name.
+
+    Examples
+    --------
+    >>> loss_of("magic")
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: loss = 'magic': allowed are hysteretic, unloading-stiffness, viscous
+    """
+    if isinstance(name, str) and name in OLD_NAMES:
+        current = OLD_NAMES[name]
+        words = f"loss = {name!r} of lumped elements is called {current!r} now"
+        warnings.warn(words, DeprecationWarning, stacklevel=4)
+        name = current
+    return LOSSES[checks.loss(name, tuple(LOSSES))]
