@@ -45,7 +45,7 @@ def tables():
         for steps in STEPS
     }
     response = {"response of lumped, tolerance 1e-10": lumped}
-    springs = {"lumped.plastic": lumped_plastic, "lumped.viscous": lumped_viscous}
+    springs = {"lumped.unloading-stiffness": lumped_unloading_stiffness, "lumped.viscous": lumped_viscous}
     below, wrong = [], []
     for loss, other in (LOSSES, LOSSES[::-1]):
         against = inelastic_tables.GRID_E, lossy(loss), f", {loss}"
@@ -117,7 +117,7 @@ def lumped(e, zeta2=ZETA2):
     return _of_each(lambda x: exact_tables.solve(x, BETA, zeta2, e))
 
 
-def lumped_plastic(e):
+def lumped_unloading_stiffness(e):
     """The lumped model of the elastic unloading: e^2 zeta^2."""
     return lumped(e, e * e * ZETA2)
 

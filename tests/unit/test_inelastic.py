@@ -38,7 +38,7 @@ def settings(inventory):
 @pytest.fixture
 def lumped_alone(monkeypatch):
     """Only both models of springs, which take no time."""
-    monkeypatch.setattr(inelastic, "MODELS", ("lumped", "lumped.plastic"))
+    monkeypatch.setattr(inelastic, "MODELS", ("lumped", "lumped.unloading-stiffness"))
 
 
 def beta_0(settings, model="lumped"):
@@ -182,11 +182,11 @@ def test_the_trend_of_the_pairs_rests_on_one(inventory):
 
 
 def wrong_repair(power):
-    """The repaired model with another power of e than the second."""
+    """The model with e^2 zeta^2, with another power of e than the second."""
     original = models.rebound
 
     def rebound(model, x, beta, zeta2, e, **settings):
-        if model == "lumped.plastic":
+        if model == "lumped.unloading-stiffness":
             return lumped.rebound(x, beta, np.power(e, power) * zeta2, e)
         return original(model, x, beta, zeta2, e, **settings)
 
@@ -215,7 +215,7 @@ def judge(inventory, settings, tmp_path):
 
 @pytest.mark.parametrize("power", [1, 0, -2])
 def test_a_wrong_repair_trips_the_gate(power, lumped_alone, judge, monkeypatch):
-    title = "inelastic-lumped.plastic-pairs"
+    title = "inelastic-lumped.unloading-stiffness-pairs"
     assert judge(title)[title]["verdict"] == "agrees"
     monkeypatch.setattr(models, "rebound", wrong_repair(power))
     assert judge(title)[title]["verdict"] == "diverges"
@@ -252,7 +252,7 @@ def series_of(inventory):
 
 
 def test_the_picture_has_the_numbers_of_the_gate(lumped_alone, judge, settings, inventory):
-    rows = judge("inelastic-lumped-pairs", "inelastic-lumped.plastic-pairs")
+    rows = judge("inelastic-lumped-pairs", "inelastic-lumped.unloading-stiffness-pairs")
     found = inelastic.curves(**settings)
     for row in rows.values():
         model = row["comparison"].split("-")[1]

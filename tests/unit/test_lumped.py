@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from planarimpact import ConvergenceError, EventKind, InputError, Regime, lumped, rigid
-from planarimpact.lumped import slip_onset, stick_slip
+from planarimpact.lumped import hysteretic, slip_onset, stick_slip
 from tests.reference_solutions import high_precision
 
 EXTREMES = Path(__file__).parents[2] / "data/lumped_extremes/impacts.csv"

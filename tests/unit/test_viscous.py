@@ -10,7 +10,7 @@ from tests.reference_solutions import viscous_precision
 
 X = np.linspace(0, 20, 401)
 GROUPS = [(3.5, 1.21, 0.8), (8.0, 0.1, 0.97), (2.5, 1.5, 0.01), (1.0, 10.0, 0.3), (8.0, 0.5, 0.1)]
-LOSSES = ["hysteretic", "plastic", "viscous"]
+LOSSES = ["hysteretic", "unloading-stiffness", "viscous"]
 
 
 def drawn(count, seed=1):
@@ -44,18 +44,18 @@ def test_some_of_many_without_loss():
         same([field[part] for field in mixed[:4]], alone)
 
 
-def test_plastic_loss_is_the_elastic_stiffness_of_unloading():
+def test_unloading_stiffness_is_the_elastic_stiffness_of_unloading():
     x, beta, zeta2, e = drawn(5000)
-    found = lumped.rebound(x, beta, zeta2, e, loss="plastic")
+    found = lumped.rebound(x, beta, zeta2, e, loss="unloading-stiffness")
     same(found, lumped.rebound(x, beta, e * (e * zeta2), e))
-    one = lumped.history(2.0, 3.5, 1.21, 0.5, loss="plastic")
+    one = lumped.history(2.0, 3.5, 1.21, 0.5, loss="unloading-stiffness")
     other = lumped.history(2.0, 3.5, 1.21 * 0.25, 0.5)
     np.testing.assert_allclose(one.velocity, other.velocity, rtol=1e-13)
 
 
-def test_plastic_contact_without_restitution_has_no_tangential_compliance():
+def test_unloading_stiffness_without_restitution_has_no_tangential_compliance():
     for e in (0.0, 1e-200):
-        found = lumped.rebound(X, 3.5, 1.21, e, loss="plastic")
+        found = lumped.rebound(X, 3.5, 1.21, e, loss="unloading-stiffness")
         limit = rigid.rebound(X, 3.5, 1.21, e)
         for name in ("velocity", "peak_friction", "dissipation"):
             np.testing.assert_allclose(getattr(found, name), getattr(limit, name), atol=1e-13)
@@ -148,7 +148,7 @@ def test_contact_that_never_slips_against_a_matrix_exponential(groups):
 def test_normal_impact_leaves_no_tangential_velocity():
     for contact in (
         lumped.rebound(0.0, restitution=[1e-3, 0.1, 0.9, 1 - 1e-16], loss="viscous"),
-        lumped.rebound(0.0, restitution=[0.0, 0.1, 0.9, 1 - 1e-16], loss="plastic"),
+        lumped.rebound(0.0, restitution=[0.0, 0.1, 0.9, 1 - 1e-16], loss="unloading-stiffness"),
     ):
         assert not contact.velocity.any() and not contact.dissipation.any()
         assert (contact.regime == Regime.STICK).all()
@@ -237,7 +237,7 @@ def test_restitution_of_a_kelvin_voigt_element():
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ({"loss": "magic"}, "loss = 'magic': allowed are hysteretic, plastic, viscous"),
+        ({"loss": "magic"}, "loss = 'magic': allowed are hysteretic, unloading-stiffness, viscous"),
         ({"loss": None}, "loss = None"),
         ({"restitution": 0.0}, "restitution = 0.0: allowed are numbers from 0.001 to 1 where loss"),
         ({"restitution": [0.5, 1e-9]}, "restitution = 1e-09"),
@@ -277,3 +277,9 @@ def test_the_whole_range_is_solved():
     result = lumped.rebound(x, beta, share * beta, e, loss="viscous")
     assert (np.abs(result.velocity) <= x).all() and np.isfinite(result.dissipation).all()
     assert ((result.peak_friction >= 0) & (result.peak_friction <= 1)).all()
+
+
+def test_the_old_name_of_a_loss_still_works_and_says_so():
+    with pytest.warns(DeprecationWarning, match="'plastic' .* is called 'unloading-stiffness' now"):
+        old = lumped.rebound(2.0, restitution=0.8, loss="plastic")
+    assert old == lumped.rebound(2.0, restitution=0.8, loss="unloading-stiffness")

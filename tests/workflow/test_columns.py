@@ -129,9 +129,9 @@ def test_a_fault_between_the_points_of_reference_is_seen(name, curve, rows, tabl
 
 @pytest.mark.parametrize("power", [1, 0, -2])
 def test_a_wrong_repair_of_the_lumped_model_is_seen(power, tables, monkeypatch):
-    """The repaired model has e^2 zeta^2; here e has another power."""
+    """The model has e^2 zeta^2; here e has another power."""
     folder, series = tables
-    path, model = folder / configuration.table_of("inelastic"), "lumped.plastic"
+    path, model = folder / configuration.table_of("inelastic"), "lumped.unloading-stiffness"
     settings = plan.settings(CONFIG, INVENTORY, "inelastic")
     settings |= solving.read_nodes(plan.nodes_of(CONFIG, INVENTORY, "inelastic"))
     monkeypatch.setattr(inelastic, "MODELS", (model,))

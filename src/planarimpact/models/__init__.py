@@ -89,7 +89,7 @@ def get(name: str) -> Model:
     Traceback (most recent call last):
     ...
     planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, lumped, \
-lumped.plastic, lumped.viscous, timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, \
+lumped.unloading-stiffness, lumped.viscous, timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, \
 continuum, continuum.viscous, continuum.plastic, spheres.viscous, spheres.plastic, annuli
     """
     if not isinstance(name, str) or name not in MODELS:
@@ -361,15 +361,15 @@ MODELS = {
             _with_limit(_compliant_limit),
         ),
         Model(
-            "lumped.plastic",
-            partial(lumped.rebound, loss="plastic"),
+            "lumped.unloading-stiffness",
+            partial(lumped.rebound, loss="unloading-stiffness"),
             {},
             "phases",
             _ANY,
             "as lumped, with e^2 zeta^2 for zeta^2: both stiffnesses elastic; solved to rounding",
             "Stronge 1994, with the elastic stiffness of unloading in the ratio",
-            _lumped_limit("plastic"),
-            lambda beta, zeta2, e: (e * e * zeta2, beta, _lumped_limit("plastic")(beta, zeta2, e)),
+            _lumped_limit("unloading-stiffness"),
+            lambda beta, zeta2, e: (e * e * zeta2, beta, _lumped_limit("unloading-stiffness")(beta, zeta2, e)),
         ),
         Model(
             "lumped.viscous",

@@ -30,7 +30,7 @@ class Values(NamedTuple):
     """Values of one measure for each of `nature_models.MODELS`."""
 
     paper: float
-    repaired: float
+    unloading_stiffness: float
     viscous: float
     plastic: float
 

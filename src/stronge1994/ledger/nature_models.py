@@ -8,11 +8,11 @@ from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import ContinuumHistory, History, Rebound
 from stronge1994.ledger import contact
 
-PAPER, REPAIRED = "paper", "repaired"
+PAPER, UNLOADING_STIFFNESS = "paper", "unloading_stiffness"
 LOSSES = ("viscous", "plastic")
-MODELS = (PAPER, REPAIRED, *LOSSES)
+MODELS = (PAPER, UNLOADING_STIFFNESS, *LOSSES)
 # The loss of the paper's model, and that of the same model with e^2 zeta^2 in place of zeta^2.
-LUMPED = {PAPER: "hysteretic", REPAIRED: "plastic"}
+LUMPED = {PAPER: "hysteretic", UNLOADING_STIFFNESS: "unloading-stiffness"}
 # Error of the continua. It is small compared with every bound of the ledger.
 TOLERANCE = 1e-3
 
@@ -27,7 +27,7 @@ class Model(NamedTuple):
 def model(name: str) -> Model:
     """One of `MODELS`.
 
-    In the repaired model e^2 zeta^2 takes the place of zeta^2. That is a ratio of elastic
+    With the unloading stiffness e^2 zeta^2 takes the place of zeta^2. That is a ratio of elastic
     stiffnesses, and the elastic normal stiffness of the paper's contact is that of unloading,
     kappa/e^2.
 

@@ -117,7 +117,7 @@ FAMILIES = {
     "timestep.mindlin": Family("Mindlin", "^", 5, BLACK, True, None),
     "timestep.mindlin_rescaled": Family("Mindlin, rescaled", "v", 5, BLACK, False, UPPER_RIGHT),
     "lumped.viscous": Family("lumped, viscous", "P", 5, VISCOUS, True, None),
-    "lumped.plastic": Family("lumped, plastic", "P", 5, PLASTIC, False, None),
+    "lumped.unloading-stiffness": Family("lumped, plastic", "P", 5, PLASTIC, False, None),
     "continuum": Family("continuum", "o", 5, ELASTIC, False, LOWER_LEFT),
     "continuum.viscous": Family("continuum, viscous", "o", 5, VISCOUS, True, LOWER_LEFT),
     "continuum.plastic": Family("continuum, plastic", "o", 5, PLASTIC, False, LOWER_LEFT),
@@ -131,7 +131,7 @@ FAMILIES = {
 }
 # Two columns of equal length.
 LEGEND = {
-    "closed form": ("rigid", "lumped", "lumped.viscous", "lumped.plastic"),
+    "closed form": ("rigid", "lumped", "lumped.viscous", "lumped.unloading-stiffness"),
     "compiled responses": (
         "response of lumped",
         "response of continuum",

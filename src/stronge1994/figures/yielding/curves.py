@@ -21,7 +21,7 @@ MODELS: dict[str, Callable[..., Rebound]] = {
     "continuum.viscous": partial(continuum.rebound, loss="viscous"),
     "lumped": lumped.rebound,
     "lumped.viscous": partial(lumped.rebound, loss="viscous"),
-    "lumped.plastic": partial(lumped.rebound, loss="plastic"),
+    "lumped.unloading-stiffness": partial(lumped.rebound, loss="unloading-stiffness"),
 }
 # Columns of data/finite_elements/spheres.csv that tell its rows apart.
 LABELS = ("set", "contact", "run")

@@ -58,7 +58,7 @@ MODELS = {
     ),
     "lumped": Model("lumped, as in the paper", house_style.BLACK, "-", "D", width=0.8),
     "lumped.viscous": Model("lumped, Kelvin–Voigt", house_style.SKY, house_style.DASHES[2], "^"),
-    "lumped.plastic": Model(
+    "lumped.unloading-stiffness": Model(
         r"lumped, $e^2\zeta^2$", house_style.PURPLE, house_style.DASHES[1], "P", width=0.9
     ),
 }

@@ -13,7 +13,7 @@ MODELS = (
     "continuum.viscous",
     "continuum.plastic",
     "lumped.viscous",
-    "lumped.plastic",
+    "lumped.unloading-stiffness",
     "lumped",
 )
 

@@ -29,7 +29,7 @@ MODELS = {
     for (name, label, colour, marker), dashes in house_style.patterned(
         (
             ("lumped", "lumped, as in the paper", house_style.BLACK, "o"),
-            ("lumped.plastic", r"lumped, $e^2\zeta^2$", house_style.VERMILLION, "D"),
+            ("lumped.unloading-stiffness", r"lumped, $e^2\zeta^2$", house_style.VERMILLION, "D"),
             ("lumped.viscous", "lumped, Kelvin–Voigt", house_style.BLUE, "s"),
             ("continuum.plastic", "continuum, elastic-plastic", house_style.VERMILLION, "^"),
             ("continuum.viscous", "continuum, viscoelastic", house_style.BLUE, "v"),
