@@ -356,10 +356,16 @@ def _model(options: argparse.Namespace) -> str:
     if options.loss is None or (name, options.loss) == ("lumped", "hysteretic"):
         return name
     losses = [other.partition(".")[2] for other in models.MODELS if other.startswith(name + ".")]
-    if name not in ("lumped", "continuum") or options.loss not in losses:
+    named = _current(f"{name}.{options.loss}")
+    if name not in ("lumped", "continuum") or named.partition(".")[2] not in losses:
         allowed = "are " + ", ".join(losses) if losses else "is none"
         raise checks.InputError(f"--loss {options.loss}: with model {name} allowed {allowed}")
-    return f"{name}.{options.loss}"
+    return named
+
+
+def _current(name: str) -> str:
+    """A model's name of today: one of an earlier release warns."""
+    return models.get(name).name if name in models.OLD_NAMES else name
 
 
 def _groups(options: argparse.Namespace) -> dict[str, Any]:
@@ -596,7 +602,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_model(parser: argparse.ArgumentParser, names: list[str], settings: bool = True) -> None:
-    parser.add_argument("--model", choices=names, help="[lumped]")
+    parser.add_argument("--model", choices=names, type=_current, help="[lumped]")
     parser.add_argument(
         "--loss",
         choices=sorted({*lumped.LOSSES, *continuum.LOSSES}),

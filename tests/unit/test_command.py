@@ -139,6 +139,18 @@ def test_numbers_that_are_none_reach_our_own_words(command, option, capsys, tmp_
         assert name in error and f"{float(text)}: allowed are" in error and error.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    "options", [["--model", "lumped.plastic"], ["--model", "lumped", "--loss", "plastic"]]
+)
+def test_the_old_name_of_a_model_still_works_and_says_so(options, capsys):
+    command = ["rebound", "--incidence", "2", "--restitution", "0.8", "--model"]
+    assert main([*command, "lumped.unloading-stiffness"]) == 0
+    table = capsys.readouterr().out
+    with pytest.warns(DeprecationWarning, match="'lumped.plastic' is called"):
+        assert main([*command[:-1], *options]) == 0
+    assert capsys.readouterr().out == table
+
+
 def test_angles_settings_and_json(capsys):
     command = ["rebound", "--angle", "45", "--friction", "0.5", "--format", "json"]
     assert main([*command, "--model", "timestep.linear", "--set", "steps=256"]) == 0

@@ -5,7 +5,7 @@ import inspect
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Rebound, Regime, lumped, models
+from planarimpact import InputError, Rebound, Regime, lumped, models, normal_impact, response
 
 COARSE = {
     "continuum": {"tolerance": 1e-3},
@@ -183,3 +183,22 @@ def test_inputs_that_are_certain_have_no_spread_and_bad_errors_are_refused():
         models.input_spread("lumped", 1.0, friction_error=0.6)
     with pytest.raises(InputError, match="restitution_error = -1"):
         models.input_spread("lumped", 1.0, restitution_error=-1)
+
+
+def test_the_old_name_of_a_model_still_works_and_says_so():
+    name = "lumped.unloading-stiffness"
+    with pytest.warns(DeprecationWarning, match=f"'lumped.plastic' is called '{name}' now"):
+        assert models.get("lumped.plastic") is models.get(name)
+    with pytest.warns(DeprecationWarning, match="'lumped.plastic' is called"):
+        old = models.rebound("lumped.plastic", X, restitution=0.6)
+    np.testing.assert_equal(old, models.rebound(name, X, restitution=0.6))
+    with pytest.warns(DeprecationWarning, match="'lumped.plastic' is called"):
+        compiled = response.compile("lumped.plastic", incidence_max=9, tolerance=1e-3)
+    assert compiled.model == name
+
+
+def test_the_old_name_of_the_law_of_yielding_spheres_still_works_and_says_so():
+    with pytest.warns(DeprecationWarning, match="thornton is called yielding now"):
+        assert normal_impact.thornton is normal_impact.yielding
+    with pytest.raises(AttributeError, match="no attribute 'hooke'"):
+        _ = normal_impact.hooke

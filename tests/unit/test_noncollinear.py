@@ -360,20 +360,23 @@ def test_only_newtons_law_creates_energy():
     assert largest[rigid.Law.KINEMATIC] > 10
 
 
-def test_plastic_loss_stiffens_the_tangential_element_by_the_square_of_e():
+def test_the_unloading_stiffness_stiffens_the_tangential_element_by_the_square_of_e():
     rod = noncollinear.inverse_mass(1.0, 12**-0.5, offset=0.2, depth=0.4)
-    plastic = noncollinear.rebound(0.2, 1.0, rod, 0.3, 0.6, 1.21, loss="plastic")
-    assert plastic == noncollinear.rebound(0.2, 1.0, rod, 0.3, 0.6, 0.36 * 1.21)
-    assert plastic.tangential != noncollinear.rebound(0.2, 1.0, rod, 0.3, 0.6, 1.21).tangential
-    history = noncollinear.history(0.2, 1.0, rod, 0.3, 0.6, 1.21, loss="plastic")
-    assert history.tangential[-1] == pytest.approx(plastic.tangential, abs=1e-12)
+    stiffer = noncollinear.rebound(0.2, 1.0, rod, 0.3, 0.6, 1.21, loss="unloading-stiffness")
+    assert stiffer == noncollinear.rebound(0.2, 1.0, rod, 0.3, 0.6, 0.36 * 1.21)
+    assert stiffer.tangential != noncollinear.rebound(0.2, 1.0, rod, 0.3, 0.6, 1.21).tangential
+    history = noncollinear.history(0.2, 1.0, rod, 0.3, 0.6, 1.21, loss="unloading-stiffness")
+    assert history.tangential[-1] == pytest.approx(stiffer.tangential, abs=1e-12)
+    with pytest.warns(DeprecationWarning, match="'plastic' .* is called 'unloading-stiffness' now"):
+        old = noncollinear.rebound(0.2, 1.0, rod, 0.3, 0.6, 1.21, loss="plastic")
+    assert old == stiffer
 
 
 @pytest.mark.parametrize(
     ("loss", "e", "words"),
     [
-        ("viscous", 0.5, "loss = 'viscous': allowed are hysteretic, plastic"),
-        ("plastic", 0.0, "restitution = 0: with loss = 'plastic' allowed are numbers above 0"),
+        ("viscous", 0.5, "loss = 'viscous': allowed are hysteretic, unloading-stiffness"),
+        ("unloading-stiffness", 0.0, "restitution = 0: .* 'unloading-stiffness' allowed are .* 0"),
     ],
 )
 def test_losses_that_do_not_make_sense_are_refused(loss, e, words):

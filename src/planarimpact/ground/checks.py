@@ -2,6 +2,7 @@
 
 import math
 import reprlib
+import warnings
 from collections.abc import Collection, Sequence
 from functools import partial
 from typing import Any
@@ -210,6 +211,10 @@ def loss(value: str, allowed: tuple[str, ...]) -> str:
     ...
     planarimpact.InputError: loss = 'magic': allowed are hysteretic, viscous
     """
+    if value == "plastic" and "unloading-stiffness" in allowed:  # the name in an earlier release
+        words = "loss = 'plastic' of lumped elements is called 'unloading-stiffness' now"
+        warnings.warn(words, DeprecationWarning, stacklevel=5)
+        return "unloading-stiffness"
     if not isinstance(value, str) or value not in allowed:
         raise InputError(f"loss = {brief(value)}: allowed are {', '.join(allowed)}")
     return value

@@ -3,8 +3,6 @@
 A loss answers four questions about impacts x >= 0. At e = 1 all losses are the same model.
 """
 
-import warnings
-
 import numpy as np
 
 from planarimpact.ground import checks, sliding
@@ -92,8 +90,6 @@ LOSSES: dict[str, Hysteretic] = {
     "unloading-stiffness": UnloadingStiffness(),
     "viscous": Viscous(),
 }
-# Names of an earlier release.
-OLD_NAMES = {"plastic": "unloading-stiffness"}
 
 
 def loss_of(name: str) -> Hysteretic:
@@ -106,9 +102,4 @@ def loss_of(name: str) -> Hysteretic:
     ...
     planarimpact.InputError: loss = 'magic': allowed are hysteretic, unloading-stiffness, viscous
     """
-    if isinstance(name, str) and name in OLD_NAMES:
-        current = OLD_NAMES[name]
-        words = f"loss = {name!r} of lumped elements is called {current!r} now"
-        warnings.warn(words, DeprecationWarning, stacklevel=4)
-        name = current
     return LOSSES[checks.loss(name, tuple(LOSSES))]

@@ -5,6 +5,7 @@ the four groups by position or name and its own settings by name. It returns a `
 workflow measures what each model costs and how large its error is (`results/trade.csv`).
 """
 
+import warnings
 from collections.abc import Callable, Mapping
 from functools import partial
 from itertools import product
@@ -21,6 +22,8 @@ from planarimpact.models import laws, timestep
 
 # What is known of a pair of materials in practice: e to 0.02, mu to 10 %.
 RESTITUTION_ERROR, FRICTION_ERROR = 0.02, 0.1
+# Names of an earlier release.
+OLD_NAMES = {"lumped.plastic": "lumped.unloading-stiffness"}
 # Gauss's points of a normal distribution, in standard deviations, and their weights.
 POINTS = ((-(3**0.5), 1 / 6), (0.0, 2 / 3), (3**0.5, 1 / 6))
 
@@ -89,9 +92,14 @@ def get(name: str) -> Model:
     Traceback (most recent call last):
     ...
     planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, lumped, \
-lumped.unloading-stiffness, lumped.viscous, timestep.linear, timestep.mindlin, timestep.mindlin_rescaled, \
-continuum, continuum.viscous, continuum.plastic, spheres.viscous, spheres.plastic, annuli
+lumped.unloading-stiffness, lumped.viscous, timestep.linear, timestep.mindlin, \
+timestep.mindlin_rescaled, continuum, continuum.viscous, continuum.plastic, spheres.viscous, \
+spheres.plastic, annuli
     """
+    if isinstance(name, str) and name in OLD_NAMES:
+        words = f"model {name!r} is called {OLD_NAMES[name]!r} now"
+        warnings.warn(words, DeprecationWarning, stacklevel=3)
+        name = OLD_NAMES[name]
     if not isinstance(name, str) or name not in MODELS:
         raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
     return MODELS[name]
@@ -369,7 +377,11 @@ MODELS = {
             "as lumped, with e^2 zeta^2 for zeta^2: both stiffnesses elastic; solved to rounding",
             "Stronge 1994, with the elastic stiffness of unloading in the ratio",
             _lumped_limit("unloading-stiffness"),
-            lambda beta, zeta2, e: (e * e * zeta2, beta, _lumped_limit("unloading-stiffness")(beta, zeta2, e)),
+            lambda beta, zeta2, e: (
+                e * e * zeta2,
+                beta,
+                _lumped_limit("unloading-stiffness")(beta, zeta2, e),
+            ),
         ),
         Model(
             "lumped.viscous",

@@ -49,7 +49,7 @@ __all__ = [
     "rigid",
 ]
 
-LOSSES = "hysteretic", "plastic"
+LOSSES = "hysteretic", "unloading-stiffness"
 # Impacts solved together: few enough for memory, enough to hide Python's overhead.
 CHUNK = 65536
 # Groups beyond this belong to no body, and their products would leave float64.
@@ -127,11 +127,11 @@ def rebound(
     stiffness : array_like
         kappa [N/m] of the normal element; it scales forces and duration, nothing else.
     loss : str
-        "hysteretic", the paper's: the tangential stiffness is kappa/zeta^2. "plastic": it is
-        kappa/(e^2 zeta^2), as zeta^2 is a ratio of elastic stiffnesses and the elastic one of the
-        normal element is that of unloading, kappa/e^2; e above 0. There is no viscous loss here: a
-        normal dashpot leaves the contact with forces that pull, and where a coupled contact lets go
-        and closes again under them is not solved.
+        "hysteretic", the paper's: the tangential stiffness is kappa/zeta^2.
+        "unloading-stiffness": it is kappa/(e^2 zeta^2), as zeta^2 is a ratio of elastic stiffnesses
+        and the elastic one of the normal element is that of unloading, kappa/e^2; e above 0. There
+        is no viscous loss here: a normal dashpot leaves the contact with forces that pull, and
+        where a coupled contact lets go and closes again under them is not solved.
 
     Returns
     -------
@@ -334,7 +334,7 @@ def _checked(
     stiffness: ArrayLike,
     loss: str,
 ) -> tuple[Array, ...]:
-    checks.loss(loss, LOSSES)
+    loss = checks.loss(loss, LOSSES)
     v1, v2, mu, e, zeta2, *others = checked_impact(
         tangential,
         normal,
@@ -344,10 +344,10 @@ def _checked(
         stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
         stiffness=positive("stiffness", stiffness),
     )
-    if loss == "plastic":
+    if loss == "unloading-stiffness":
         if not e.all():
             raise InputError(
-                "restitution = 0: with loss = 'plastic' allowed are numbers above 0 (for no "
+                f"restitution = 0: with loss = {loss!r} allowed are numbers above 0 (for no "
                 "tangential compliance use noncollinear.rigid)"
             )
         zeta2 = e * (e * zeta2)

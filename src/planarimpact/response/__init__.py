@@ -326,7 +326,7 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
     if silent:  # a law of impulses
         unknown = np.full_like(pieces.coefficients[1], np.nan)
         pieces = pieces._replace(coefficients=np.stack([pieces.coefficients[0], unknown]))
-    return _made(model, groups | settings, reach, tolerance, bound, slides, pieces)
+    return _made(chosen.name, groups | settings, reach, tolerance, bound, slides, pieces)
 
 
 @checks.default_errors
@@ -433,7 +433,9 @@ def _restored(content: Any) -> Response:
         k: checks.number(f"error_bound.{k}", v, allowed, least, most) for k, v in bound.items()
     }
     parameters = asked.groups | asked.settings
-    return _made(model, parameters, asked.reach, most, Bound(**bound), asked.slides, pieces)
+    return _made(
+        asked.model.name, parameters, asked.reach, most, Bound(**bound), asked.slides, pieces
+    )
 
 
 def _refuse_strangers(found: Response) -> None:
