@@ -166,8 +166,8 @@ class History(NamedTuple):
     velocity : ndarray, shape (n,)
         w = v1/(mu v2(0)).
     spring : ndarray, shape (n,)
-        Deflection of the tangential element in mu |v2(0)|/Omega: zeta^2 friction,
-        with plastic loss e^2 zeta^2 friction, with viscous loss what the dashpot leaves of it.
+        Deflection of the tangential element in mu |v2(0)|/Omega: zeta^2 friction, with the
+        unloading stiffness e^2 zeta^2 friction, with viscous loss what the dashpot leaves of it.
     events : tuple of Event
         In order of time, from contact to separation; STICK and SLIP mark where a phase starts.
     """

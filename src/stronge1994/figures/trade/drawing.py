@@ -117,7 +117,7 @@ FAMILIES = {
     "timestep.mindlin": Family("Mindlin", "^", 5, BLACK, True, None),
     "timestep.mindlin_rescaled": Family("Mindlin, rescaled", "v", 5, BLACK, False, UPPER_RIGHT),
     "lumped.viscous": Family("lumped, viscous", "P", 5, VISCOUS, True, None),
-    "lumped.unloading-stiffness": Family("lumped, plastic", "P", 5, PLASTIC, False, None),
+    "lumped.unloading-stiffness": Family(r"lumped, $e^2\zeta^2$", "P", 5, PLASTIC, False, None),
     "continuum": Family("continuum", "o", 5, ELASTIC, False, LOWER_LEFT),
     "continuum.viscous": Family("continuum, viscous", "o", 5, VISCOUS, True, LOWER_LEFT),
     "continuum.plastic": Family("continuum, plastic", "o", 5, PLASTIC, False, LOWER_LEFT),
