@@ -59,7 +59,7 @@ def test_both_halves_of_the_measurement_weigh_as_the_source_says(solved, invento
 
 
 def test_the_caption_says_which_model_is_nearest(solved):
-    """The paper's to what was measured; to the spin alone the viscoelastic one is as near."""
+    """The paper's to what was measured; to the spin alone the viscous one is as near."""
     rms = {model: solved[f"{model}, rms"] for model in (*rubber.MODELS, rubber.ELASTIC)}
     for row in (0, 1):
         measured = {model: found[rubber.RMS[0]][row] for model, found in rms.items()}

@@ -27,7 +27,7 @@ LEGEND_MEANS = {
     "Cross 2014": f"^{IMPACTS}",
     "stated, 2010": f"^({STATED}|{OPEN})",
     "velocity alone": f"^{HALVES}",
-    "e\\^2": r"^lumped\.plastic",
+    "e\\^2": r"^lumped\.unloading-stiffness",
 }
 
 

@@ -53,9 +53,7 @@ MODELS = {
     "continuum.plastic-elastic-shear": Model(
         "continuum, elastic in shear", house_style.ORANGE, house_style.DASHES[3], "v"
     ),
-    "continuum.viscous": Model(
-        "continuum, viscoelastic", house_style.BLUE, house_style.DASHES[4], "s"
-    ),
+    "continuum.viscous": Model("continuum, viscous", house_style.BLUE, house_style.DASHES[4], "s"),
     "lumped": Model("lumped, as in the paper", house_style.BLACK, "-", "D", width=0.8),
     "lumped.viscous": Model("lumped, Kelvin–Voigt", house_style.SKY, house_style.DASHES[2], "^"),
     "lumped.unloading-stiffness": Model(

@@ -86,11 +86,11 @@ AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorde
 # Light and thin: continua that lose energy, beside the curves of a figure of the paper.
 LOSSY: dict[str, tuple[str, Style]] = {
     "continuum.viscous": (
-        "continuum, viscoelastic",
+        "continuum, viscous",
         {"color": SKY, "linestyle": DASHES[4], "linewidth": 1.0, "zorder": 1.9},
     ),
     "continuum.plastic": (
-        "continuum, elastic-plastic",
+        "continuum, plastic",
         {"color": ORANGE, "linestyle": DASHES[3], "linewidth": 1.0, "zorder": 1.9},
     ),
 }

@@ -31,8 +31,8 @@ MODELS = {
             ("lumped", "lumped, as in the paper", house_style.BLACK, "o"),
             ("lumped.unloading-stiffness", r"lumped, $e^2\zeta^2$", house_style.VERMILLION, "D"),
             ("lumped.viscous", "lumped, Kelvin–Voigt", house_style.BLUE, "s"),
-            ("continuum.plastic", "continuum, elastic-plastic", house_style.VERMILLION, "^"),
-            ("continuum.viscous", "continuum, viscoelastic", house_style.BLUE, "v"),
+            ("continuum.plastic", "continuum, plastic", house_style.VERMILLION, "^"),
+            ("continuum.viscous", "continuum, viscous", house_style.BLUE, "v"),
         )
     )
 }
