@@ -114,7 +114,12 @@ def largest_errors(found):
     st.floats(-0.3, 1.7).map(lambda power: 10.0**power),
 )
 @example("lumped", (3.0605651918961225, 0.06721472096141552, 0.7855824770710292), 3.156e-3, 45.1)
-@example("lumped.unloading-stiffness", (4.612480098835151, 0.0584104979584844, 0.62348975), 1.6348e-3, 8.43)
+@example(
+    "lumped.unloading-stiffness",
+    (4.612480098835151, 0.0584104979584844, 0.62348975),
+    1.6348e-3,
+    8.43,
+)
 @example("timestep.linear", (4.39633682, 5.69764727, 0.96165719), 4.204e-3, 1.79383465)
 def test_no_search_finds_a_larger_error_than_was_measured(model, groups, tolerance, largest):
     """Nor a piece without a width, or a velocity that gains energy beside the start of a piece."""

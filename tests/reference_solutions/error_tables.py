@@ -45,7 +45,10 @@ def tables():
         for steps in STEPS
     }
     response = {"response of lumped, tolerance 1e-10": lumped}
-    springs = {"lumped.unloading-stiffness": lumped_unloading_stiffness, "lumped.viscous": lumped_viscous}
+    springs = {
+        "lumped.unloading-stiffness": lumped_unloading_stiffness,
+        "lumped.viscous": lumped_viscous,
+    }
     below, wrong = [], []
     for loss, other in (LOSSES, LOSSES[::-1]):
         against = inelastic_tables.GRID_E, lossy(loss), f", {loss}"

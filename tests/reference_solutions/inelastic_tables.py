@@ -29,7 +29,13 @@ from tests.reference_solutions.table_files import Table, write
 
 ROOT = Path(__file__).parents[2]
 BETA = 3.5
-MODELS = ["continuum.viscous", "continuum.plastic", "lumped.viscous", "lumped.unloading-stiffness", "lumped"]
+MODELS = [
+    "continuum.viscous",
+    "continuum.plastic",
+    "lumped.viscous",
+    "lumped.unloading-stiffness",
+    "lumped",
+]
 E = [0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
 NU = [0.2, 0.5]
 CONTACT_E, CONTACT_NU = 0.6, 0.3

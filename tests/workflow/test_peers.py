@@ -124,7 +124,13 @@ def test_below_1_every_velocity_is_measured_against_both_losses(measured):
     for loss, other in (("viscous", "plastic"), ("plastic", "viscous")):
         names = {row["model"] for row in by_loss[loss]}
         own = {f"{word}continuum.{end}" for word in ("", "response of ") for end in (loss, other)}
-        assert {*own, "lumped", "lumped.viscous", "lumped.unloading-stiffness", "timestep.mindlin"} <= names
+        assert {
+            *own,
+            "lumped",
+            "lumped.viscous",
+            "lumped.unloading-stiffness",
+            "timestep.mindlin",
+        } <= names
         assert {row["reference_error [mu v2(0)]"] for row in by_loss[loss]} == {1e-2}
     # The distance between the continua is the same from either.
     apart = [

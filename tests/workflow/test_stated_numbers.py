@@ -73,8 +73,8 @@ def said(n):
             "The viscous continuum differs from them by "
             f"{n['yielding.continuum.viscous.rms']:.2f}, the paper's model by "
             f"{n['yielding.lumped.rms']:.1f}, that with e^2 zeta^2 by "
-            f"{n['yielding.lumped.unloading-stiffness.rms']:.2f}. Two Kelvin-Voigt elements differ by "
-            f"{n['yielding.lumped.viscous.near.rms']:.2f} for e from 0.62 to 0.92, "
+            f"{n['yielding.lumped.unloading-stiffness.rms']:.2f}. Two Kelvin-Voigt elements differ "
+            f"by {n['yielding.lumped.viscous.near.rms']:.2f} for e from 0.62 to 0.92, "
             f"{n['yielding.lumped.viscous.near.max']:.2f} at most",
         ],
         "workflow/notebooks/choosing_a_model.ipynb": [
@@ -179,7 +179,9 @@ def test_what_the_note_says_in_words_is_so(numbers, first_run):
     )
     assert n["pairs.lumped.failed"] == n["pairs.spreads"] == 10
     for loss in ("viscous", "plastic"):
-        stiff, paper = (n[f"nature.stick_from_{loss}.{m}"] for m in ("unloading_stiffness", "paper"))
+        stiff, paper = (
+            n[f"nature.stick_from_{loss}.{m}"] for m in ("unloading_stiffness", "paper")
+        )
         assert stiff > paper
         assert n[f"nature.from_{loss}.unloading_stiffness"] < n[f"nature.from_{loss}.paper"]
     for e, quoted in ((1.0, 5.79), (0.5, 4.34)):

@@ -13,7 +13,13 @@ from stronge1994.pages import key_numbers, pdf, templates
 
 TITLE = "Planar impact of rough compliant bodies: a replication"
 # Models below e = 1, in the order of the note.
-MODELS = ("lumped", "lumped.unloading-stiffness", "lumped.viscous", "continuum.viscous", "continuum.plastic")
+MODELS = (
+    "lumped",
+    "lumped.unloading-stiffness",
+    "lumped.viscous",
+    "continuum.viscous",
+    "continuum.plastic",
+)
 COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
 # Smaller probabilities are shown as `< 0.001`.
 LEAST_PROBABILITY = 1e-3
