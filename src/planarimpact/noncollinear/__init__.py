@@ -5,7 +5,7 @@ solved as they stand, with the contact of `planarimpact.lumped`: linear normal a
 elements, Coulomb friction, energetic restitution. Normal and tangential motion are coupled. So
 compression may end and begin again. And friction may press the body into the surface faster than
 the normal force slows it (jam), until the contact point sticks. For a contact without restitution
-`held` has the limit e -> 0 of what follows compression.
+`closed_contact` has the limit e -> 0 of what follows compression.
 
 `inverse_mass` turns a body, or with `combined` two, into what `rebound` and `history` take. `rigid`
 has the same impact without compliance. `phases` and `stick_end` hold the closed forms and the

@@ -6,7 +6,7 @@ import numpy as np
 
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.results import Regime
-from planarimpact.noncollinear import held, stick_end
+from planarimpact.noncollinear import closed_contact, stick_end
 from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
 
 # A contact with more phases than this is given up.
@@ -48,7 +48,7 @@ class Outcome(NamedTuple):
 class Phase(NamedTuple):
     """One phase of one contact: its motion, the half it belongs to, how long."""
 
-    motion: Slip | Stick | held.Swing
+    motion: Slip | Stick | closed_contact.Swing
     unloading: bool
     duration: float
 
@@ -262,7 +262,7 @@ def _stick(
 
 def _record(
     trace: list[Phase] | None,
-    motion: Slip | Stick | held.Swing,
+    motion: Slip | Stick | closed_contact.Swing,
     contacts: Contacts,
     duration: Array,
 ) -> None:
@@ -316,10 +316,10 @@ def _hold(
     """
     lanes = contacts.lanes[which]
     some, groups = _take(contacts, which), _groups(impacts, lanes, np.zeros(which.size, bool))
-    closed, lowest = held.lowest_force(some.state, groups)
+    closed, lowest = closed_contact.lowest_force(some.state, groups)
     which, lanes, kept = which[closed], lanes[closed], np.flatnonzero(closed)
     some, groups = _take(some, kept), Groups(*(group[kept] for group in groups))
-    release = held.Release.of(some.state, groups, lowest[kept])
+    release = closed_contact.Release.of(some.state, groups, lowest[kept])
     outcome.peak_friction[lanes] = np.maximum(outcome.peak_friction[lanes], release.peak_friction)
     outcome.friction_work[lanes] += release.work
     outcome.duration[lanes] += release.stick_time + release.creep_time

@@ -6,7 +6,7 @@ import numpy as np
 
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Event, EventKind
-from planarimpact.noncollinear.held import Swing
+from planarimpact.noncollinear.closed_contact import Swing
 from planarimpact.noncollinear.phases import Slip
 from planarimpact.noncollinear.solver import Phase
 
@@ -30,7 +30,7 @@ class NoncollinearHistory(NamedTuple):
 
     Notes
     -----
-    Without restitution, a contact that friction holds closed swings without end (`held`). The
+    Without restitution, a contact that friction holds closed swings without end (`closed_contact`). The
     normal force is then its mean. It jumps to that value, and after a burst of slip friction jumps
     too: two vertices have the same time. Creep, which is many short slips, counts as slip.
     """
