@@ -8,7 +8,7 @@ import math
 import os
 import re
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TextIO
 
@@ -19,7 +19,7 @@ from planarimpact.ground import checks, files
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import ContinuumHistory, History, Rebound, Regime
 
-WORDS = """
+ABOUT = """
 What happens when a rough, elastic body strikes a surface at an angle?
 Incidence is v1(0)/(mu v2(0)): tangential over normal speed, over friction. All velocities come in
 mu v2(0), negative where the contact point has turned round.
@@ -63,7 +63,7 @@ Example:
 velocity_tangential [m/s],velocity_normal [m/s],spin [rad/s]
   0.01,7800,207e9,0.3,0.2,0.8,plastic,0.5,1,0
 """
-# Units of the columns that are written, by what has them; words have none.
+# Columns that are written and their units, by type of result; columns of text have no unit.
 UNITS: dict[type, dict[str, str]] = {
     Rebound: {
         "incidence": "mu v2(0)",
@@ -89,13 +89,13 @@ UNITS: dict[type, dict[str, str]] = {
         "stick_radius": "a_max",
     },
 }
-# Numbers as the command line takes them: Python's own reading has more, such as 1_000.
+# Numbers that the command line accepts; Python's float() accepts others too, such as 1_000.
 NUMBER = re.compile(
     r"[+-]?((?P<digits>\d+\.?\d*|\.\d+)(e[+-]?\d+)?|inf|infinity|nan)", re.ASCII | re.IGNORECASE
 )
-# `models` takes errors at so many incidences.
+# Number of incidences at which `models` measures errors.
 INCIDENCES = 65
-# What `compile` calls the table of spheres.
+# Name of the table of spheres in `compile`.
 SPHERES = "spheres"
 WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
 GROUPS = {
@@ -106,7 +106,7 @@ GROUPS = {
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command; returns the exit status: 0, or 2 for what cannot be done, said in a line.
+    """Run a command and return the exit status: 0, or 2 after a refusal, which prints one line.
 
     Examples
     --------
@@ -116,18 +116,18 @@ dissipation [mu^2 m2 v2(0)^2],regime
     8.0,1.0,1.0,9.0,SLIP_THROUGHOUT
     0
     """
-    if sys.stdout is None:  # closed by whoever called: the next file opened might take its place
-        print("planarimpact: standard output is closed: allowed is an open one", file=sys.stderr)
+    if sys.stdout is None:  # the next file that is opened might get its descriptor
+        print("planarimpact: standard output is closed", file=sys.stderr)
         return 2
-    given = sys.argv[1:] if arguments is None else arguments
-    options = _parser().parse_args([_spaced(word) for word in given])
+    arguments = sys.argv[1:] if arguments is None else arguments
+    options = _parser().parse_args([_spaced(argument) for argument in arguments])
     try:
         options.command(options)
         sys.stdout.flush()
     except (checks.InputError, checks.ConvergenceError) as error:
         print(f"planarimpact: {error}", file=sys.stderr)
         return 2
-    except BrokenPipeError:  # whoever reads our output has had enough
+    except BrokenPipeError:  # the reader of the output has closed the pipe
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
         print(f"planarimpact: {error.filename or 'output'}: {error.strerror}", file=sys.stderr)
@@ -138,13 +138,13 @@ dissipation [mu^2 m2 v2(0)^2],regime
     return 0
 
 
-def _spaced(word: str) -> str:
+def _spaced(argument: str) -> str:
     """A negative number with a space in front: else argparse takes -1e-3 or -inf for an option."""
     try:
-        float(word)
+        float(argument)
     except ValueError:
-        return word
-    return f" {word}" if word.startswith("-") else word
+        return argument
+    return f" {argument}" if argument.startswith("-") else argument
 
 
 def _table(options: argparse.Namespace) -> None:
@@ -174,59 +174,62 @@ def _is_json(options: argparse.Namespace) -> bool:
 
 
 def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
+    """Columns of `rebound`."""
     x = options.incidence
     if options.angle is None:
-        _refuse_given(options, ["friction"], "an incidence has it in it")
+        _refuse_ignored(options, ["friction"], "an incidence includes it")
     elif options.friction is None:
         raise checks.InputError("--angle: it needs --friction, from which the incidence follows")
     else:
         x = bodies.incidence_from_angle(options.angle, options.friction)
     if options.response is not None:
-        _refuse_given(options, ["model", "loss", "setting", *GROUPS], "a response has its own")
+        _refuse_ignored(options, ["model", "loss", "setting", *GROUPS], "a response has its own")
         _refuse_replacing(options)
-        found = response.load(options.response)(x)
+        result = response.load(options.response)(x)
     else:
-        found = models.rebound(_model(options), x, **_groups(options), **_settings(options))
-    named = found._replace(regime=Regime.names(found.regime))
+        result = models.rebound(
+            _model(options), x, **_chosen(options, GROUPS), **_settings(options)
+        )
+    named = result._replace(regime=Regime.names(result.regime))
     return _with_units(Rebound, {"incidence": x, **named._asdict()})
 
 
 def _refuse_replacing(options: argparse.Namespace) -> None:
-    """Refuse a response without a name, and a table that would take its place."""
+    """Refuse a response without a name, and a table that would overwrite it."""
     if not options.response:
         raise checks.InputError("--response '': allowed are names of files that `compile` writes")
     source, target = Path(options.response), Path(options.output or os.devnull)
     if source.exists() and target.exists() and source.samefile(target):
         raise checks.InputError(
-            f"--output {target}: it is the response that is read; the table needs another name"
+            f"--output {target}: this is the file of --response; the table needs another name"
         )
 
 
 def _history(options: argparse.Namespace) -> dict[str, ArrayLike]:
-    groups = _groups(options)
-    found: History | ContinuumHistory
+    """Columns of `history`."""
+    chosen = _chosen(options, [*GROUPS, "samples", "tolerance"])
+    result: History | ContinuumHistory
     model, _, loss = _model(options).partition(".")
     if model == "continuum":
-        _refuse_given(options, ["samples"], "the continuum has a tolerance instead")
-        given = {} if options.tolerance is None else {"tolerance": options.tolerance}
-        found = continuum.history(options.incidence, **groups, **given, loss=loss or None)
+        _refuse_ignored(options, ["samples"], "the continuum has a tolerance instead")
+        result = continuum.history(options.incidence, **chosen, loss=loss or None)
     else:
-        _refuse_given(options, ["tolerance"], "the lumped model is solved to rounding")
-        given = {} if options.samples is None else {"samples": options.samples}
-        found = lumped.history(options.incidence, **groups, **given, loss=loss or "hysteretic")
-    return _with_units(type(found), found._asdict())
+        _refuse_ignored(options, ["tolerance"], "the lumped model is solved to rounding")
+        result = lumped.history(options.incidence, **chosen, loss=loss or "hysteretic")
+    return _with_units(type(result), result._asdict())
 
 
-def _with_units(kind: type, fields: Mapping[str, Any]) -> dict[str, ArrayLike]:
-    """Columns of the fields that are written and have a value, by name and unit."""
+def _with_units(result_type: type, fields: Mapping[str, Any]) -> dict[str, ArrayLike]:
+    """Columns by name and unit, from the fields of a result that have a value."""
     return {
         f"{name} [{unit}]" if unit else name: fields[name]
-        for name, unit in UNITS[kind].items()
+        for name, unit in UNITS[result_type].items()
         if fields[name] is not None
     }
 
 
 def _compile(options: argparse.Namespace) -> None:
+    """Write a response, or the table of spheres."""
     if options.model == SPHERES:
         _compile_spheres(options)
         return
@@ -240,24 +243,21 @@ def _compile(options: argparse.Namespace) -> None:
         raise checks.InputError(
             f"{options.output}: allowed are names that end in .json; with --as c or --as js others"
         )
-    with files.written(options.output) as partial:  # a bad name is refused before any work
-        built = response.compile(
-            _model(options),
-            incidence_max=20.0 if options.incidence_max is None else options.incidence_max,
-            tolerance=1e-6 if options.tolerance is None else options.tolerance,
-            **_groups(options),
-            **settings,
-        )
+    arguments: dict[str, Any] = {"incidence_max": 20.0, "tolerance": 1e-6}
+    arguments |= _chosen(options, [*arguments, *GROUPS]) | settings
+    with files.written(options.output) as partial:  # it refuses a name before any computation
+        compiled = response.compile(_model(options), **arguments)
         if as_json:
-            built.save(partial)
+            compiled.save(partial)
         else:
-            code = export.text(built, options.output, options.language)
+            code = export.text(compiled, options.output, options.language)
             partial.write_text(code, encoding="utf-8")
-    print(f"{options.output}: {built}")
+    print(f"{options.output}: {compiled}")
 
 
 def _compile_spheres(options: argparse.Namespace) -> None:
-    _refuse_given(
+    """Write the table of spheres as code."""
+    _refuse_ignored(
         options,
         ["incidence_max", "loss", "setting", *GROUPS],
         "the table of spheres takes every impact with its own",
@@ -311,34 +311,38 @@ def _say(words: str, file: TextIO | None) -> None:
 
 
 def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:
-    columns: dict[str, ArrayLike] = {"model": list(models.MODELS)}
-    every = models.MODELS.values()
-    columns["cost"] = [model.cost for model in every]
-    columns["settings"] = [
-        " ".join(f"{key}={value}" for key, value in model.settings.items()) for model in every
-    ]
-    columns["restitution"] = ["{:g} to {:g}".format(*model.restitution) for model in every]
-    columns["valid"] = [model.valid for model in every]
-    columns["source"] = [model.source for model in every]
+    """Columns of `models`."""
+    rows = models.MODELS.values()
+    columns: dict[str, ArrayLike] = {
+        "model": list(models.MODELS),
+        "cost": [model.cost for model in rows],
+        "settings": [" ".join(f"{k}={v}" for k, v in model.settings.items()) for model in rows],
+        "restitution": ["{:g} to {:g}".format(*model.restitution) for model in rows],
+        "valid": [model.valid for model in rows],
+        "source": [model.source for model in rows],
+    }
     if options.restitution is not None:
-        return columns | _distances(options)
-    _refuse_given(options, ["loss", "mass_ratio", "stiffness_ratio"], "without --restitution")
+        return columns | _errors(options)
+    _refuse_ignored(options, ["loss", "mass_ratio", "stiffness_ratio"], "without --restitution")
     return columns
 
 
-def _distances(options: argparse.Namespace) -> dict[str, ArrayLike]:
-    """Errors of every model against the continuum, and how much of them can be seen."""
-    groups = {name: value for name, (value, _) in GROUPS.items()} | _groups(options)
+def _errors(options: argparse.Namespace) -> dict[str, ArrayLike]:
+    """Errors of every model against the continuum, and where a measurement can show them."""
+    groups = {name: value for name, (value, _) in GROUPS.items()} | _chosen(options, GROUPS)
     loss = options.loss or continuum.LOSSES[0]
-    name = models.reference(groups["restitution"], loss)
+    reference = models.reference(groups["restitution"], loss)
     limit = continuum.slip_throughout_limit(*groups.values(), loss=loss)
     x = np.linspace(0.0, float(limit), INCIDENCES)
-    # A tenth of what the continuum promises, so that its own error shows too.
-    tolerance = models.get(name).settings["tolerance"] / 10
-    exact = models.rebound(name, x, **groups, tolerance=tolerance).velocity
+    # A tenth of the default tolerance, so that the continuum itself has an error, too.
+    tolerance = models.get(reference).settings["tolerance"] / 10
+    exact = models.rebound(reference, x, **groups, tolerance=tolerance).velocity
     spread = models.input_spread(f"continuum.{loss}", x, **groups, tolerance=1e-3)
-    columns: dict[str, list[float]] = {f"{word} [mu v2(0)]": [] for word in ("rms", "max")}
-    columns["seen [1]"] = []
+    columns: dict[str, list[float]] = {
+        "rms [mu v2(0)]": [],
+        "max [mu v2(0)]": [],
+        "seen [1]": [],
+    }
     for model in models.MODELS.values():
         error = np.full(x.size, np.nan)
         if models.admits(model, **groups):
@@ -351,7 +355,7 @@ def _distances(options: argparse.Namespace) -> dict[str, ArrayLike]:
 
 
 def _model(options: argparse.Namespace) -> str:
-    """Name of the model, with the loss if one is given that is not the model's own."""
+    """Name of the model, with the option --loss."""
     name = options.model or "lumped"
     if options.loss is None or (name, options.loss) == ("lumped", "hysteretic"):
         return name
@@ -368,22 +372,21 @@ def _current(name: str) -> str:
     return models.get(name).name if name in models.OLD_NAMES else name
 
 
-def _groups(options: argparse.Namespace) -> dict[str, Any]:
-    """Groups that were given; models have defaults for the others."""
-    given = {name: getattr(options, name) for name in GROUPS}
-    return {name: value for name, value in given.items() if value is not None}
+def _chosen(options: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]:
+    """Options of these names that have a value; for the others the called function has defaults."""
+    values = {name: getattr(options, name) for name in names}
+    return {name: value for name, value in values.items() if value not in (None, [])}
 
 
-def _refuse_given(options: argparse.Namespace, names: list[str], why: str) -> None:
-    """Refuse options that would be ignored."""
-    for name in names:
-        if getattr(options, name) not in (None, []):
-            option = "--set" if name == "setting" else "--" + name.replace("_", "-")
-            raise checks.InputError(f"{option}: it does not apply, {why}")
+def _refuse_ignored(options: argparse.Namespace, names: list[str], why: str) -> None:
+    """Refuse options that have a value but would have no effect."""
+    for name in _chosen(options, names):
+        option = "--set" if name == "setting" else "--" + name.replace("_", "-")
+        raise checks.InputError(f"{option}: it does not apply, {why}")
 
 
 def _settings(options: argparse.Namespace) -> dict[str, float]:
-    """Settings of the model that were given, `NAME=NUMBER`."""
+    """Settings of the model, from the options --set NAME=NUMBER."""
     settings = {}
     for text in options.setting:
         name, equals, value = text.partition("=")
@@ -400,7 +403,7 @@ def _settings(options: argparse.Namespace) -> dict[str, float]:
 
 
 def decimal(text: str) -> float:
-    """Number of a text, in ASCII and as everybody writes it; a refusal is for argparse to name.
+    """Number of a text in decimal notation; argparse adds the option's name to a refusal.
 
     Examples
     --------
@@ -408,13 +411,13 @@ def decimal(text: str) -> float:
     (64.0, -1000.0)
     """
     text = text.strip(" ")
-    written = NUMBER.fullmatch(text)
-    if not written:
+    match = NUMBER.fullmatch(text)
+    if not match:
         raise argparse.ArgumentTypeError(
             f"{text!r}: allowed are decimal numbers, such as 0.5 or -1e-3"
         )
     value = float(text)
-    if value == 0 and re.search("[1-9]", written["digits"]):
+    if value == 0 and re.search("[1-9]", match["digits"]):
         raise argparse.ArgumentTypeError(
             f"{text!r}: it is too small for a number; allowed are 0 and numbers from 5e-324"
         )
@@ -447,7 +450,7 @@ def _text(columns: Mapping[str, ArrayLike], as_json: bool) -> str:
 
 
 class _Once(argparse.Action):
-    """Store what an option is given, and refuse the option where it comes a second time."""
+    """Store the value of an option, and refuse a second one."""
 
     def __call__(
         self,
@@ -456,31 +459,31 @@ class _Once(argparse.Action):
         values: Any,
         option_string: str | None = None,
     ) -> None:
-        given = vars(namespace).setdefault("given", set())
-        if self.dest in given:
+        stored = vars(namespace).setdefault("stored", set())
+        if self.dest in stored:
             raise argparse.ArgumentError(self, f"{values!r} is a second value, allowed is one")
-        given.add(self.dest)
+        stored.add(self.dest)
         setattr(namespace, self.dest, values)
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser, and those of its commands, that stores an option once."""
+    """A parser that accepts each option once; the parsers of its commands do so too."""
 
-    def __init__(self, **given: Any) -> None:
-        super().__init__(**given)
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
         self.register("action", None, _Once)
 
 
 def _parser() -> argparse.ArgumentParser:
-    called = (
-        "planarimpact" if Path(sys.argv[0]).stem == "planarimpact" else "python -m planarimpact"
-    )
-    parser = _Parser(prog=called, description=WORDS)
+    """Parser of the command line, with one parser for each command."""
+    installed = Path(sys.argv[0]).stem == "planarimpact"
+    program = "planarimpact" if installed else "python -m planarimpact"
+    parser = _Parser(prog=program, description=ABOUT)
     parser.add_argument("--version", action="version", version=f"planarimpact {__version__}")
     commands = parser.add_subparsers(required=True, metavar="command")
 
     rebound = commands.add_parser(
-        "rebound", help="state at separation", description="State at separation." + WORDS
+        "rebound", help="state at separation", description="State at separation." + ABOUT
     )
     impact = rebound.add_mutually_exclusive_group(required=True)
     impact.add_argument("--incidence", type=decimal, nargs="+", metavar="X")
@@ -497,7 +500,7 @@ def _parser() -> argparse.ArgumentParser:
         "history",
         help="forces and velocity over one contact",
         description="Forces and velocity over one contact, against time in that of compression."
-        + WORDS,
+        + ABOUT,
     )
     history.add_argument("--incidence", type=decimal, required=True, metavar="X")
     history.add_argument("--samples", type=number, help="of lumped [400]")
@@ -511,7 +514,7 @@ def _parser() -> argparse.ArgumentParser:
         help="make a fast response of one pair of bodies",
         description="Make a response, a table of polynomials that gives the rebound of one pair of "
         "bodies in nanoseconds, and write it to a file. With --model spheres the table of spheres "
-        "is written as code: it takes every impact with its own bodies." + WORDS,
+        "is written as code: it takes every impact with its own bodies." + ABOUT,
     )
     compiled.add_argument("output", metavar="FILE", help="NAME.json, NAME.h, NAME.mjs or NAME.js")
     compiled.add_argument(
@@ -602,6 +605,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_model(parser: argparse.ArgumentParser, names: list[str], settings: bool = True) -> None:
+    """Add the options of a model, its loss, its groups and, if wanted, its settings."""
     parser.add_argument("--model", choices=names, type=_current, help="[lumped]")
     parser.add_argument(
         "--loss",
@@ -621,12 +625,14 @@ def _add_model(parser: argparse.ArgumentParser, names: list[str], settings: bool
 
 
 def _add_groups(parser: argparse.ArgumentParser) -> None:
-    for name, (value, words) in GROUPS.items():
+    """Add the options of the groups."""
+    for name, (default, meaning) in GROUPS.items():
         option = "--" + name.replace("_", "-")
-        parser.add_argument(option, type=decimal, help=f"{words} [{value}]")
+        parser.add_argument(option, type=decimal, help=f"{meaning} [{default}]")
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
+    """Add the options of a table that is written."""
     parser.add_argument("--format", choices=["csv", "json"], help="on the terminal [csv]")
     parser.add_argument(
         "--output", metavar="FILE", help="instead of the terminal: NAME.csv or NAME.json"

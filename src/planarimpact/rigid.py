@@ -48,8 +48,8 @@ def rebound(
     impulse_to_halt = x / beta
     slides = impulse_to_halt >= 1 + e
     final = np.where(slides, sliding.velocity(x, beta, e), 0.0)
-    compressed = np.minimum(impulse_to_halt, 1.0)
-    peak = np.sqrt(compressed * (2 - compressed))
-    halted = np.where(x > 0, Regime.SLIP_STICK, Regime.STICK)
-    regime = np.where(slides, Regime.SLIP_THROUGHOUT, halted).astype(np.uint8)
+    impulse_at_peak = np.minimum(impulse_to_halt, 1.0)
+    peak = np.sqrt(impulse_at_peak * (2 - impulse_at_peak))
+    halted_regime = np.where(x > 0, Regime.SLIP_STICK, Regime.STICK)
+    regime = np.where(slides, Regime.SLIP_THROUGHOUT, halted_regime).astype(np.uint8)
     return Rebound.of(signed, final, np.minimum(impulse_to_halt, 1 + e), peak, regime)

@@ -1,16 +1,23 @@
 """Physical bodies and materials, in SI units, to and from the groups that the models take.
 
 Collinear configurations only: each centre of mass lies on the contact normal. Arguments are
-numbers or arrays that broadcast. Every refusal is an `InputError` with the field and its value. Any
-unit is possible; a result below 1e-308 or above 1e308 is refused.
+numbers or arrays that broadcast. Every refusal is an `InputError` with the field and its value.
+Other consistent units give the same numbers. A result below 1e-308 or above 1e308 is refused.
 
 Signs. The normal velocity is positive while the body approaches, so it is positive before the
-impact and negative after it. The tangential velocity is positive in the incident direction (or
-any other, kept throughout). Spin is positive where it moves the contact point in that direction:
-v1 = tangential + radius spin, so rolling without slip, v1 = 0, is spin = -tangential/radius, and
-positive spin is backspin.
+impact and negative after it. The tangential velocity is positive in one direction along the
+surface, the same one for all quantities; usually it is the incident direction. Spin is positive
+where it moves the contact point in that direction: v1 = tangential + radius spin, so rolling
+without slip, v1 = 0, is spin = -tangential/radius, and positive spin is backspin.
 
-All names of `masses`, `materials`, `quantities` and `restitution` that users need are here too.
+Symbols in all files of this room: v1, v2 tangential and normal velocity of the contact point before
+impact; m1, m2 tangential and normal effective mass; beta = m2/m1; M mass, k radius of gyration and
+r radius of a body; mu coefficient of friction; e restitution; x incidence, w velocity at
+separation over mu v2; E, G, nu Young's modulus, shear modulus and Poisson's ratio; E*, G*, R
+effective moduli and effective radius; zeta^2 normal over tangential stiffness.
+
+Users need only this module: it also exports what `masses`, `materials`, `quantities` and
+`restitution` define.
 """
 
 from functools import partial
@@ -162,8 +169,7 @@ def incidence(v1: ArrayLike, v2: ArrayLike, friction: ArrayLike) -> Array:
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `contact_velocity`.
 
     Examples
     --------
@@ -195,8 +201,7 @@ def angle_of_incidence(incidence: ArrayLike, friction: ArrayLike) -> Array:
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `contact_velocity`.
 
     Examples
     --------
@@ -228,8 +233,7 @@ def incidence_from_angle(theta_deg: ArrayLike, friction: ArrayLike) -> Array:
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `contact_velocity`.
 
     Examples
     --------
@@ -272,8 +276,7 @@ def rebound_motion(
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `contact_velocity`.
 
     Examples
     --------
@@ -283,7 +286,7 @@ def rebound_motion(
     [0.5, -1.0, -5.0]
     """
     before = fields("motion", motion, Motion)
-    before["motion.normal"] = positive("motion.normal", motion.normal)  # it must approach
+    before["motion.normal"] = positive("motion.normal", motion.normal)  # the body approaches
     beta, _, gyration, radius, tangential, v2, spin, mu, w, e = checks.broadcast(
         mass_ratio=mass_ratio(body),  # refuses an infinite mass
         **fields("body", body, Body),

@@ -56,8 +56,7 @@ def thin_shell(radius: ArrayLike, mass: ArrayLike) -> Body:
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `solid_sphere`.
 
     Examples
     --------
@@ -85,8 +84,7 @@ def disc(radius: ArrayLike, mass: ArrayLike) -> Body:
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `solid_sphere`.
 
     Examples
     --------
@@ -97,19 +95,19 @@ def disc(radius: ArrayLike, mass: ArrayLike) -> Body:
     return Body(m[()], r * np.sqrt(1 / 2), r[()])
 
 
-def _shares_of_mass(body: Body, other: Body) -> tuple[Array, Array, Array]:
-    """The smaller mass, and by how much it divides for m1 and for m2."""
+def _scaled_inverse_masses(body: Body, other: Body) -> tuple[Array, Array, Array]:
+    """The smaller mass of the two bodies, and this mass over m1 and over m2."""
     mass, gyration, radius, other_mass, other_gyration, other_radius = checks.broadcast(
         **fields("body", body, Body), **fields("other", other, Body)
     )
-    lighter = np.minimum(mass, other_mass)
-    if np.isinf(lighter).any():
+    smaller_mass = np.minimum(mass, other_mass)
+    if np.isinf(smaller_mass).any():
         raise InputError("body.mass = inf, other.mass = inf: one of the two must be finite")
-    # Relative to the smaller mass nothing is lost, whatever the unit.
-    share, other_share = lighter / mass, lighter / other_mass
-    turning = (1 + (radius / gyration) ** 2) * share
-    turning = turning + (1 + (other_radius / other_gyration) ** 2) * other_share
-    return lighter, turning, share + other_share
+    # Ratios to the smaller mass are at most 1, whatever the unit.
+    inverse, other_inverse = smaller_mass / mass, smaller_mass / other_mass
+    tangential = (1 + (radius / gyration) ** 2) * inverse
+    tangential = tangential + (1 + (other_radius / other_gyration) ** 2) * other_inverse
+    return smaller_mass, tangential, inverse + other_inverse
 
 
 @quietly
@@ -131,16 +129,15 @@ def effective_masses(body: Body, other: Body = HALF_SPACE) -> tuple[Array, Array
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `solid_sphere`.
 
     Examples
     --------
     >>> [round(float(m), 3) for m in effective_masses(Body(mass=7.0, gyration=1.0, radius=1.0))]
     [3.5, 7.0]
     """
-    lighter, turning, moving = _shares_of_mass(body, other)
-    return in_range("m1", lighter / turning), lighter / moving
+    smaller_mass, tangential, normal = _scaled_inverse_masses(body, other)
+    return in_range("m1", smaller_mass / tangential), smaller_mass / normal
 
 
 @quietly
@@ -162,13 +159,12 @@ def mass_ratio(body: Body, other: Body = HALF_SPACE) -> Array:
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `solid_sphere`.
 
     Examples
     --------
     >>> round(float(mass_ratio(solid_sphere(0.01, 2500.0))), 12)
     3.5
     """
-    _, turning, moving = _shares_of_mass(body, other)
-    return in_range("mass_ratio", turning / moving)
+    _, tangential, normal = _scaled_inverse_masses(body, other)
+    return in_range("mass_ratio", tangential / normal)

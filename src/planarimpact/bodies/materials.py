@@ -3,7 +3,7 @@
 Stiffnesses are those of a circular contact of radius a: 2 a E* normally, 8 a G* tangentially
 (Mindlin). They leave out the coupling of pressure with tangential displacement, which vanishes
 where (1 - 2 nu)/G is the same for both bodies: for equal materials, where each body is
-incompressible or rigid, and for other pairs by chance.
+incompressible or rigid, and for a few other pairs.
 """
 
 import numpy as np
@@ -21,12 +21,12 @@ from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.checks import positive
 
 
-def _elastic(material: Material, other: Material | None) -> list[tuple[Array, Array]]:
+def _elastic_constants(material: Material, other: Material | None) -> list[tuple[Array, Array]]:
     """Young's modulus and Poisson's ratio of each body that is not rigid (None), checked."""
-    given = fields("material", material, Material)
+    constants = fields("material", material, Material)
     if other is not None:
-        given |= fields("other", other, Material)
-    arrays = checks.broadcast(**given)
+        constants |= fields("other", other, Material)
+    arrays = checks.broadcast(**constants)
     return list(zip(arrays[::2], arrays[1::2], strict=True))
 
 
@@ -64,7 +64,7 @@ def effective_modulus(material: Material, other: Material | None = None) -> Arra
     >>> round(float(effective_modulus(Material(380e9, 0.23), Material(70e9, 0.25)) / 1e9))
     63
     """
-    return in_range("E*", 1 / _compliances(_elastic(material, other))[0])
+    return in_range("E*", 1 / _compliances(_elastic_constants(material, other))[0])
 
 
 @quietly
@@ -86,15 +86,14 @@ def effective_shear_modulus(material: Material, other: Material | None = None) -
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `effective_modulus`.
 
     Examples
     --------
     >>> round(float(effective_shear_modulus(Material(380e9, 0.23), Material(70e9, 0.25)) / 1e9), 1)
     13.5
     """
-    return in_range("G*", 1 / _compliances(_elastic(material, other))[1])
+    return in_range("G*", 1 / _compliances(_elastic_constants(material, other))[1])
 
 
 @quietly
@@ -117,8 +116,7 @@ def stiffness_ratio(material: Material, other: Material | None = None) -> Array:
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `effective_modulus`.
 
     Examples
     --------
@@ -127,7 +125,7 @@ def stiffness_ratio(material: Material, other: Material | None = None) -> Array:
     >>> round(float(stiffness_ratio(Material(380e9, 0.23), Material(70e9, 0.25))), 3)
     1.164
     """
-    normal, tangential = _compliances(_elastic(material, other))
+    normal, tangential = _compliances(_elastic_constants(material, other))
     return tangential / normal / 4
 
 
@@ -140,9 +138,9 @@ COUPLING = 0.8
 def dundurs(material: Material, other: Material | None = None) -> Array:
     """Dundurs' second constant: how far pressure alone pushes two surfaces past each other.
 
-    Where it is not 0, two surfaces under pressure spread differently. Friction resists that, and
-    has less left for the motion of the bodies. All models of this package leave it out. What
-    matters is its size over the coefficient of friction, see `COUPLING`.
+    Where it is not 0, two surfaces under pressure spread differently. Friction resists that, so
+    less friction is left to change the motion of the bodies. All models of this package leave it
+    out. The error depends on its size over the coefficient of friction, see `COUPLING`.
 
     Parameters
     ----------
@@ -160,8 +158,7 @@ def dundurs(material: Material, other: Material | None = None) -> Array:
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `effective_modulus`.
 
     References
     ----------
@@ -175,10 +172,10 @@ def dundurs(material: Material, other: Material | None = None) -> Array:
     >>> round(float(dundurs(Material(380e9, 0.23), Material(70e9, 0.25))), 2)  # alumina on glass
     -0.23
     """
-    pairs = _elastic(material, other)
+    pairs = _elastic_constants(material, other)
     normal, _ = _compliances(pairs)
-    spread, *less = ((1 - 2 * nu) * (1 + nu) / young for young, nu in pairs)
-    return in_range("Dundurs' constant", (spread - sum(less)) / normal / 2, above=-1.0)
+    spread, *other_spread = ((1 - 2 * nu) * (1 + nu) / young for young, nu in pairs)
+    return in_range("Dundurs' constant", (spread - sum(other_spread)) / normal / 2, above=-1.0)
 
 
 @checks.default_errors
@@ -200,8 +197,7 @@ def effective_radius(radius: ArrayLike, other: ArrayLike = np.inf) -> Array:
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `effective_modulus`.
 
     Examples
     --------
@@ -241,8 +237,7 @@ def hertz_peak_force(
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `effective_modulus`.
 
     Examples
     --------
@@ -255,7 +250,7 @@ def hertz_peak_force(
         effective_modulus=effective_modulus,
         effective_radius=effective_radius,
     )
-    # v2^1.2, since v2^2 would overflow first.
+    # The powers are taken one by one, since v2^2 would overflow before the result does.
     force = (4 / 3 * modulus * np.sqrt(radius)) ** 0.4 * (1.25 * m2) ** 0.6 * v2**1.2
     return in_range("peak force", force)
 
@@ -281,13 +276,12 @@ def normal_frequency(peak_force: ArrayLike, mass: ArrayLike, speed: ArrayLike) -
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `effective_modulus`.
 
     Notes
     -----
-    At any other speed Omega stays; forces are in newtons after multiplying N by m2 Omega v2, and
-    friction (as `Rebound.peak_friction`) by mu times that.
+    Omega is the same at any other speed. To get newtons, multiply a normal force of `History` by
+    m2 Omega v2, and a friction (as `Rebound.peak_friction`) by mu m2 Omega v2.
 
     Examples
     --------

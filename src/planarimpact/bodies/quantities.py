@@ -12,7 +12,7 @@ from planarimpact.ground.checks import InputError, checked, finite, not_negative
 
 
 class OutOfRange(InputError):
-    """A result beyond the range of numbers or of a law; `where` says which of an array."""
+    """A result beyond the range of numbers or of a law; `where` marks these entries."""
 
     def __init__(self, message: str, where: Booleans) -> None:
         super().__init__(message)
@@ -33,35 +33,33 @@ _Tuple = TypeVar("_Tuple", bound=tuple[Any, ...])
 _RULES: dict[type, dict[str, _Rule]] = {}
 
 
-def _made_of(**rules: _Rule) -> Callable[[type[_Tuple]], type[_Tuple]]:
-    """Give every field of a named tuple a rule, which is asked wherever one is made.
+def _check_fields(**rules: _Rule) -> Callable[[type[_Tuple]], type[_Tuple]]:
+    """Decorator of a named tuple: every new tuple's fields are checked by these rules."""
 
-    Fields stay as they are given: numbers, or arrays that broadcast later.
-    """
+    def decorate(tuple_type: type[_Tuple]) -> type[_Tuple]:
+        unchecked: Callable[..., _Tuple] = tuple_type.__new__
 
-    def with_rules(kind: type[_Tuple]) -> type[_Tuple]:
-        plain: Callable[..., _Tuple] = kind.__new__
-
-        @wraps(plain)
-        def new(cls: type[_Tuple], *given: Any, **named: Any) -> _Tuple:
-            made = plain(cls, *given, **named)
-            for (name, rule), value in zip(rules.items(), made, strict=True):
+        @wraps(unchecked)
+        def new(cls: type[_Tuple], *values: Any, **named_values: Any) -> _Tuple:
+            instance = unchecked(cls, *values, **named_values)
+            # The fields stay what the caller passed: numbers, or arrays that broadcast later.
+            for (name, rule), value in zip(rules.items(), instance, strict=True):
                 rule(name, value)
-            return made
+            return instance
 
         def make(cls: type[_Tuple], values: Iterable[Any]) -> _Tuple:  # `_replace` calls it too
             return cls(*values)
 
-        _RULES[kind] = rules
+        _RULES[tuple_type] = rules
         # A named tuple may not define these itself. Any, as mypy refuses to replace methods.
-        replaced: Any = kind
-        replaced.__new__, replaced._make = staticmethod(new), classmethod(make)
-        return kind
+        untyped: Any = tuple_type
+        untyped.__new__, untyped._make = staticmethod(new), classmethod(make)
+        return tuple_type
 
-    return with_rules
+    return decorate
 
 
-@_made_of(young_modulus=positive, poisson_ratio=_poisson)
+@_check_fields(young_modulus=positive, poisson_ratio=_poisson)
 class Material(NamedTuple):
     """An isotropic elastic material: Young's modulus [Pa] and Poisson's ratio (-1 < nu <= 0.5)."""
 
@@ -69,7 +67,7 @@ class Material(NamedTuple):
     poisson_ratio: Numbers
 
 
-@_made_of(mass=positive_or_infinite, gyration=positive_or_infinite, radius=not_negative)
+@_check_fields(mass=positive_or_infinite, gyration=positive_or_infinite, radius=not_negative)
 class Body(NamedTuple):
     """A rigid body: mass [kg], radius of gyration [m], distance centre to contact point [m].
 
@@ -81,7 +79,7 @@ class Body(NamedTuple):
     radius: Numbers
 
 
-@_made_of(tangential=finite, normal=finite, spin=finite)
+@_check_fields(tangential=finite, normal=finite, spin=finite)
 class Motion(NamedTuple):
     """Velocity of the centre of mass [m/s] and spin [rad/s]; signs as in `planarimpact.bodies`."""
 
@@ -90,19 +88,19 @@ class Motion(NamedTuple):
     spin: Numbers
 
 
-# It cannot turn, so its radius has no effect. Its curvature is the default of effective_radius.
+# A body that cannot turn, so its radius has no effect.
 HALF_SPACE = Body(mass=np.inf, gyration=np.inf, radius=0.0)
 
-# `in_range` refuses bad results, so NumPy need not warn, whatever the caller has set.
+# NumPy does not warn, whatever the caller has set: `in_range` refuses bad results.
 quietly = np.errstate(over="ignore", invalid="ignore", divide="ignore", under="ignore")
 
 
 def in_range(name: str, values: Array, above: float = 0.0) -> Array:
-    """Return values as they are, if all are finite and larger than `above` in size."""
-    lost = np.atleast_1d(~(np.isfinite(values) & (np.abs(values) > above)))
-    if lost.any():
-        first = np.atleast_1d(values)[lost][0]
-        raise OutOfRange(f"{name} = {first:g}: it is beyond the range of numbers", lost)
+    """Return the values unchanged, or refuse them where one is not finite or |value| <= above."""
+    beyond = np.atleast_1d(~(np.isfinite(values) & (np.abs(values) > above)))
+    if beyond.any():
+        first = np.atleast_1d(values)[beyond][0]
+        raise OutOfRange(f"{name} = {first:g}: it is beyond the range of numbers", beyond)
     return values
 
 
@@ -116,7 +114,7 @@ def fields(
 ) -> dict[str, Array]:
     """Checked fields of a `kind`, keyed by the names that a refusal shows."""
     if not isinstance(value, kind):
-        form = f"{kind.__name__}({', '.join(kind._fields)})"
-        raise InputError(f"{name} = {value!r}: allowed are {form} tuples")
+        signature = f"{kind.__name__}({', '.join(kind._fields)})"
+        raise InputError(f"{name} = {value!r}: allowed are {signature} tuples")
     named = zip(_RULES[kind].items(), value, strict=True)
     return {f"{name}.{field}": rule(f"{name}.{field}", v) for (field, rule), v in named}

@@ -2,8 +2,11 @@
 
 Two laws of normal impact, those of `planarimpact.normal_impact`. A viscous body has a relaxation
 time, and e falls slowly with speed. A plastic body has a yield pressure: it is elastic up to the
-yield speed, and then e falls with speed. Each function holds for a contact of two spheres, by
+yield speed, and then e falls with speed. Each function describes a contact of two spheres by its
 effective mass, modulus and radius.
+
+Symbols beside those of `planarimpact.bodies`: tau relaxation time; p_y yield pressure, v_y yield
+speed, and a_y the radius of contact where yield begins.
 """
 
 import numpy as np
@@ -16,7 +19,7 @@ from planarimpact.ground.checks import checked, not_negative, positive
 from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, kelvin_voigt, yielding
 
 LOSSES = tuple(LAWS)
-# A relaxation time that `relaxation_time` has found is not refused for its last digits.
+# Relative rounding error of a relaxation time that `relaxation_time` returns.
 ROUNDING = 1e-12
 
 
@@ -58,8 +61,8 @@ def viscous_restitution(
     -----
     While the approach d grows the force is (4/3) E* R^(1/2) (d^(3/2) + (3/2) tau d^(1/2) d').
     While it falls the force is (4/3) E* R^(1/2) (d + tau d')^(3/2), until that is 0. The first
-    formula would count springs at the edge that pull; they have left a contact that does not stick
-    together, so that its radius shrinks faster. All depends on tau v2/L with the length
+    formula would count springs at the edge that pull. In a contact without adhesion they have let
+    go, so that its radius shrinks faster. e depends on tau v2/L alone, with the length
     L = (m2 v2^2/(E* R^(1/2)))^(2/5), and e = 1 - 1.94 tau v2/L for a small loss. So 1 - e grows
     like the fifth root of the speed.
 
@@ -80,14 +83,17 @@ def viscous_restitution(
         effective_modulus=positive("effective_modulus", effective_modulus),
         effective_radius=positive("effective_radius", effective_radius),
     )
-    unit = _unit_of_time(v2, m2, modulus, radius)
-    longest = kelvin_voigt.relaxation_time(np.array(LEAST_RESTITUTION)) * unit
-    lost = np.atleast_1d(tau > longest * (1 + ROUNDING))
-    if lost.any():
-        value, allowed = (np.atleast_1d(a)[lost][0] for a in (tau, longest))
-        words = f"allowed are numbers up to {allowed:.4g} here, where restitution is"
-        raise OutOfRange(f"relaxation_time = {value:g}: {words} {LEAST_RESTITUTION}", lost)
-    return np.maximum(kelvin_voigt.restitution(tau / unit), LEAST_RESTITUTION)[()]
+    time_unit = _time_unit(v2, m2, modulus, radius)
+    longest = kelvin_voigt.relaxation_time(np.array(LEAST_RESTITUTION)) * time_unit
+    too_long = np.atleast_1d(tau > longest * (1 + ROUNDING))
+    if too_long.any():
+        value, allowed = (np.atleast_1d(a)[too_long][0] for a in (tau, longest))
+        raise OutOfRange(
+            f"relaxation_time = {value:g}: allowed are numbers up to {allowed:.4g} here, where "
+            f"restitution is {LEAST_RESTITUTION}",
+            too_long,
+        )
+    return np.maximum(kelvin_voigt.restitution(tau / time_unit), LEAST_RESTITUTION)[()]
 
 
 @quietly
@@ -125,11 +131,11 @@ def relaxation_time(
     >>> round(float(viscous_restitution(1.0, tau, **ball)), 9)
     0.8
     """
-    e, v2, m2, modulus, radius = _known(
+    e, v2, m2, modulus, radius = _checked_impact(
         restitution, speed, mass, effective_modulus, effective_radius
     )
-    found = kelvin_voigt.relaxation_time(e) * _unit_of_time(v2, m2, modulus, radius)
-    return in_range("relaxation time", np.where(e < 1, found, 0.0), above=-1.0)[()]
+    tau = kelvin_voigt.relaxation_time(e) * _time_unit(v2, m2, modulus, radius)
+    return in_range("relaxation time", np.where(e < 1, tau, 0.0), above=-1.0)[()]
 
 
 @quietly
@@ -158,8 +164,7 @@ def yield_speed(
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `relaxation_time`.
 
     Notes
     -----
@@ -211,8 +216,7 @@ def plastic_restitution(
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `relaxation_time`.
 
     References
     ----------
@@ -231,9 +235,9 @@ def plastic_restitution(
         effective_modulus=effective_modulus,
         effective_radius=effective_radius,
     )
-    # A yield speed that is infinite as a number is above any speed.
-    share = np.minimum(_yield_speed(pressure, m2, modulus, radius) / v2, 1.0)
-    e = np.where(share == 1, 1.0, np.minimum(yielding.restitution(share), 1.0))
+    # A yield speed that overflows to inf is above any speed: the contact stays elastic.
+    yield_share = np.minimum(_yield_speed(pressure, m2, modulus, radius) / v2, 1.0)
+    e = np.where(yield_share == 1, 1.0, np.minimum(yielding.restitution(yield_share), 1.0))
     return in_range("restitution", e)[()]
 
 
@@ -262,8 +266,7 @@ def yield_pressure(
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `relaxation_time`.
 
     Examples
     --------
@@ -272,12 +275,13 @@ def yield_pressure(
     >>> round(float(plastic_restitution(1.0, pressure, **steel)), 9)
     0.8
     """
-    e, v2, m2, modulus, radius = _known(
+    e, v2, m2, modulus, radius = _checked_impact(
         restitution, speed, mass, effective_modulus, effective_radius
     )
-    fastest = v2 * np.where(e < 1, yielding.yield_velocity(e), 1.0)
-    root = np.sqrt(15 / 16) * fastest * np.sqrt(m2 / modulus / radius) / radius
-    return in_range("yield pressure", 2 / np.pi * modulus * root**0.4)[()]
+    v_y = v2 * np.where(e < 1, yielding.yield_velocity(e), 1.0)
+    # The inverse of `_yield_speed`: (a_y/R)^(5/2), then p_y.
+    power = np.sqrt(15 / 16) * v_y * np.sqrt(m2 / modulus / radius) / radius
+    return in_range("yield pressure", 2 / np.pi * modulus * power**0.4)[()]
 
 
 @quietly
@@ -309,8 +313,7 @@ def peak_force(
     Raises
     ------
     InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+        As in `relaxation_time`.
 
     Notes
     -----
@@ -326,21 +329,21 @@ def peak_force(
     [1347, 960]
     """
     law = LAWS[checks.loss(loss, LOSSES)]
-    e, v2, m2, modulus, radius = _known(
+    e, v2, m2, modulus, radius = _checked_impact(
         restitution, speed, mass, effective_modulus, effective_radius
     )
     factor = np.where(e < 1, law.largest_force(e), 1.0)
     return in_range("peak force", factor * hertz_peak_force(m2, v2, modulus, radius))[()]
 
 
-def _known(
+def _checked_impact(
     restitution: ArrayLike,
     speed: ArrayLike,
     mass: ArrayLike,
     effective_modulus: ArrayLike,
     effective_radius: ArrayLike,
 ) -> tuple[Array, ...]:
-    """Restitution from the least that the laws have, and what it belongs to, broadcast."""
+    """Restitution in the range of the laws, speed, mass, modulus and radius; checked, broadcast."""
     allowed = f"numbers from {LEAST_RESTITUTION} to 1"
     return checks.broadcast(
         restitution=checked("restitution", restitution, allowed, LEAST_RESTITUTION, 1),
@@ -351,12 +354,13 @@ def _known(
     )
 
 
-def _unit_of_time(v2: Array, m2: Array, modulus: Array, radius: Array) -> Array:
+def _time_unit(v2: Array, m2: Array, modulus: Array, radius: Array) -> Array:
     """L/v2 [s], of powers that do not overflow before it does."""
-    unit = m2**0.4 / modulus**0.4 / radius**0.2 / v2**0.2
-    return in_range("unit of relaxation time", unit)
+    time_unit = m2**0.4 / modulus**0.4 / radius**0.2 / v2**0.2
+    return in_range("unit of relaxation time", time_unit)
 
 
 def _yield_speed(pressure: Array, m2: Array, modulus: Array, radius: Array) -> Array:
-    share = np.pi / 2 * (pressure / modulus)  # a_y/R
-    return np.sqrt(16 / 15 * modulus / m2 * radius) * radius * share**2.5
+    """v_y [m/s] of checked arrays; it may overflow."""
+    relative_radius = np.pi / 2 * (pressure / modulus)  # a_y/R
+    return np.sqrt(16 / 15 * modulus / m2 * radius) * radius * relative_radius**2.5

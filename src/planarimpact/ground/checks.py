@@ -1,4 +1,4 @@
-"""Refusals: what the package raises, and the checks of arguments before any work."""
+"""The exceptions that the package raises, and the checks of arguments before any computation."""
 
 import math
 import reprlib
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from planarimpact.ground.arrays import Array, ArrayLike, Integers, Numbers
 
-# Largest incidence and mass ratio: twice as much is still a number.
+# Largest incidence and mass ratio: twice as much is still below the largest float64.
 LARGEST = 8e307
 # Largest count of samples, circles or points: their tables still fit into memory.
 MOST = 10_000_000
@@ -29,19 +29,19 @@ _BRIEF.maxstring = _BRIEF.maxother = 60
 
 
 class InputError(ValueError):
-    """An argument that is not allowed. The message names it, its value and what is allowed."""
+    """An argument is not allowed. The message names it, its value and what is allowed."""
 
     __module__ = "planarimpact"  # where users find it, and what a traceback shows
 
 
 class ConvergenceError(ArithmeticError):
-    """A numerical method that did not reach the tolerance. The message says how far it came."""
+    """A numerical method did not reach the tolerance. The message says which error it reached."""
 
     __module__ = "planarimpact"
 
 
 class Unsolved(ConvergenceError):
-    """Some impacts of many have no answer within the tolerance.
+    """Impacts of an array have no answer within the tolerance.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class Unsolved(ConvergenceError):
 
 
 def brief(value: object) -> str:
-    """A value for a message, in one line; long values are shortened.
+    """A value as a message shows it: in one line, shortened where it is long.
 
     Examples
     --------
@@ -80,30 +80,10 @@ def checked(
     open_low: bool = False,
     infinite: bool = False,
 ) -> Array:
-    """Return `value` as float64, or refuse it.
+    """Return real numbers as float64 of the same shape, or refuse them and say what is allowed.
 
-    Parameters
-    ----------
-    name : str
-        The argument's name, for the message.
-    value : array_like of real numbers, any shape
-        What the caller gave. Booleans, strings, bytes and complex numbers are refused, in lists
-        too, and masked arrays of which an entry is masked.
-    allowed : str
-        What is allowed, in words, for the message.
-    low, high : float
-        Bounds, inclusive (`low` exclusive with `open_low`). NaN never passes.
-    infinite : bool
-        Whether an infinity within the bounds passes.
-
-    Returns
-    -------
-    ndarray of float64, same shape
-
-    Raises
-    ------
-    InputError
-        Naming the field, the first offending value (with its index in an array) and the rule.
+    The bounds are inclusive, `low` exclusive with `open_low`; an infinity passes with `infinite`
+    only, NaN never. Booleans, strings, bytes, complex numbers and masked entries are refused.
 
     Examples
     --------
@@ -120,51 +100,51 @@ def checked(
             "compressed(), or replace them with filled(value)"
         )
     try:
-        given = np.asarray(value)
+        array = np.asarray(value)
     except ValueError:
         raise InputError(f"{name} = {brief(value)}: not a regular array of numbers") from None
-    if given.dtype == object and set(map(type, given.flat)) <= {int, float}:
-        given = _whole_numbers(name, given, allowed)
-    if given.dtype.kind not in "iuf" or _has_other(value):
+    if array.dtype == object and set(map(type, array.flat)) <= {int, float}:
+        array = _large_integers(name, array, allowed)
+    if array.dtype.kind not in "iuf" or _has_booleans_or_bytes(value):
         raise InputError(f"{name} = {brief(value)}: allowed are {allowed}, as real numbers")
     with np.errstate(invalid="ignore", over="ignore", under="ignore"):
-        numbers = given.astype(np.float64)
-        good = (numbers > low if open_low else numbers >= low) & (numbers <= high)
+        numbers = array.astype(np.float64)
+        passes = (numbers > low if open_low else numbers >= low) & (numbers <= high)
     # A number that is infinite only as float64 was too large.
-    good &= np.isfinite(numbers) | (np.isinf(given) & infinite)
-    if not good.all():
-        index = tuple(int(i) for i in np.argwhere(~good)[0])
+    passes &= np.isfinite(numbers) | (np.isinf(array) & infinite)
+    if not passes.all():
+        index = tuple(int(i) for i in np.argwhere(~passes)[0])
         where = f"[{', '.join(map(str, index))}]" if index else ""
         raise InputError(f"{name}{where} = {float(numbers[index])!r}: allowed are {allowed}")
     return numbers
 
 
 def _is_masked(value: object) -> bool:
-    """Whether NumPy's conversion would make data of masked entries, in lists of arrays too."""
+    """Whether an entry is masked, in lists of arrays too: NumPy's conversion ignores the mask."""
     if isinstance(value, (list, tuple)):
         nested = list, tuple, np.ma.MaskedArray
         return any(_is_masked(entry) for entry in value if isinstance(entry, nested))
     return bool(np.ma.is_masked(value))
 
 
-def _whole_numbers(name: str, given: NDArray[np.object_], allowed: str) -> Array:
+def _large_integers(name: str, array: NDArray[np.object_], allowed: str) -> Array:
     """Python's numbers as float64: NumPy has no integers as large as Python has."""
     try:
-        return given.astype(np.float64)
+        return array.astype(np.float64)
     except OverflowError:
         raise InputError(
             f"{name}: an integer is beyond the range of numbers, allowed are {allowed}"
         ) from None
 
 
-def _has_other(value: object) -> bool:
-    """Whether NumPy's conversion would make numbers of booleans or bytes, in lists too."""
+def _has_booleans_or_bytes(value: object) -> bool:
+    """Whether there are any, in lists too: NumPy's conversion makes numbers of them."""
     if isinstance(value, (bytearray, memoryview)):
         return True
     if isinstance(value, Sequence) and not isinstance(value, (str, bytes)):
-        kinds = set(map(type, value))  # the one look at every entry of a long list of numbers
-        unclear = {kind for kind in kinds if kind is bool or not issubclass(kind, _NUMBERS)}
-        return bool(unclear) and any(_has_other(x) for x in value if type(x) in unclear)
+        types = set(map(type, value))  # the only pass over all entries of a long list of numbers
+        suspect = {kind for kind in types if kind is bool or not issubclass(kind, _NUMBERS)}
+        return bool(suspect) and any(_has_booleans_or_bytes(x) for x in value if type(x) in suspect)
     return isinstance(value, bool) or getattr(getattr(value, "dtype", None), "kind", "") == "b"
 
 
@@ -197,12 +177,12 @@ def restitution(value: ArrayLike) -> Array:
 
 
 def elastic(value: ArrayLike) -> Array:
-    """Check the restitution of a contact that is elastic whatever happens: e = 1."""
+    """Check the restitution of an elastic contact: e = 1."""
     return checked("restitution", value, "numbers equal to 1, as this contact is elastic", 1, 1)
 
 
 def loss(value: str, allowed: tuple[str, ...]) -> str:
-    """Check the name of what takes the normal energy below e = 1.
+    """Check the name of a loss: the law by which a contact loses normal energy where e < 1.
 
     Examples
     --------
@@ -220,7 +200,7 @@ def loss(value: str, allowed: tuple[str, ...]) -> str:
     return value
 
 
-# In the order of every model's call.
+# The groups, in the order of every model's arguments, and their checks.
 RULES = {
     "incidence": incidence,
     "mass_ratio": mass_ratio,
@@ -230,22 +210,7 @@ RULES = {
 
 
 def impact(*values: ArrayLike) -> tuple[Array, ...]:
-    """Check and broadcast the four groups of an impact, in the order that every model has.
-
-    Parameters
-    ----------
-    *values : array_like
-        incidence, mass_ratio, stiffness_ratio, restitution.
-
-    Returns
-    -------
-    tuple of ndarray of float64
-        In this order, of one shape.
-
-    Raises
-    ------
-    InputError
-        If a group is out of its range, or shapes do not broadcast.
+    """Check and broadcast incidence, mass_ratio, stiffness_ratio and restitution, in this order.
 
     Examples
     --------
@@ -257,7 +222,7 @@ def impact(*values: ArrayLike) -> tuple[Array, ...]:
 
 
 def elastic_impact(*values: ArrayLike) -> tuple[Array, ...]:
-    """Check them as `impact` does for an elastic contact; e must be 1 and is left out.
+    """Check the groups of an elastic contact as `impact` does; e must be 1 and is left out.
 
     Examples
     --------
@@ -269,7 +234,7 @@ def elastic_impact(*values: ArrayLike) -> tuple[Array, ...]:
 
 
 def single(name: str, value: Array) -> float:
-    """Return a checked array that holds one number as float, or refuse it.
+    """Return a checked array without dimensions as float, or refuse it.
 
     Examples
     --------
@@ -302,7 +267,7 @@ def number(
 
 
 def count(name: str, value: int, least: int, most: int = MOST) -> int:
-    """Return a number of steps, circles or samples as int: an integer from `least` to `most`.
+    """Check a number of steps, circles or samples: an integer from `least` to `most`.
 
     Examples
     --------
@@ -318,7 +283,7 @@ def count(name: str, value: int, least: int, most: int = MOST) -> int:
 
 
 def record(name: str, value: Any, keys: Collection[str]) -> dict[str, Any]:
-    """Return a dict that was read from a file, if it has certain keys and no others.
+    """Check that a value that was read from a file is a dict of these keys and no others.
 
     Examples
     --------
@@ -329,31 +294,15 @@ def record(name: str, value: Any, keys: Collection[str]) -> dict[str, Any]:
 peak_friction
     """
     if not isinstance(value, dict) or set(value) != set(keys):
-        found = brief(list(value) if isinstance(value, dict) else value)
-        raise InputError(f"{name} has {found}: allowed are {', '.join(keys)}")
+        content = brief(list(value) if isinstance(value, dict) else value)
+        raise InputError(f"{name} has {content}: allowed are {', '.join(keys)}")
     return value
 
 
 def listed(name: str, value: Any, shape: tuple[int, ...]) -> Array:
     """Return nested lists of numbers that were read from a file as an array of this shape.
 
-    Parameters
-    ----------
-    name : str
-        For the message.
-    value : object
-        Lists, with ints and floats for entries, perhaps infinite or NaN: the caller's to refuse.
-    shape : tuple of int
-        Lengths of the lists, from the outermost on.
-
-    Returns
-    -------
-    ndarray of float64
-
-    Raises
-    ------
-    InputError
-        Naming the first entry or list that is something else.
+    Infinite numbers and NaN pass.
 
     Examples
     --------
@@ -372,6 +321,7 @@ def listed(name: str, value: Any, shape: tuple[int, ...]) -> Array:
 
 
 def _refuse_other_lists(name: str, value: Any, shape: tuple[int, ...]) -> None:
+    """Refuse what is no nested lists of numbers of this shape."""
     if not shape:
         if type(value) not in (int, float):
             raise InputError(f"{name} = {brief(value)}: allowed are numbers")
@@ -383,20 +333,7 @@ def _refuse_other_lists(name: str, value: Any, shape: tuple[int, ...]) -> None:
 
 
 def explicit_steps(steps: int, needed: Numbers, least: int, most: int) -> int:
-    """Return a number of explicit steps as int, if the tangential oscillation is stable with it.
-
-    Parameters
-    ----------
-    steps : int
-        From `least` to `most`.
-    needed : float or ndarray of float64
-        How many are needed for each impact, or infinity.
-    least, most : int
-
-    Raises
-    ------
-    InputError
-        If `steps` is no such number, or below one of those needed.
+    """Check a number of explicit steps: from `least` to `most`, and as many as each impact needs.
 
     Examples
     --------
@@ -422,7 +359,7 @@ fewer explicit steps the tangential oscillation is unstable)
 
 
 def path(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, ...]:
-    """Check a path of contact: radii in a_max and displacements, as many of one as of the other.
+    """Check a path of contact: radii in a_max, and one displacement for each.
 
     Examples
     --------
@@ -439,7 +376,7 @@ def path(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, ...]:
 
 
 def broadcast(**arguments: Array) -> tuple[Array, ...]:
-    """Broadcast checked arguments against each other, or say which shapes do not fit.
+    """Broadcast checked arguments against each other, or refuse them and name their shapes.
 
     Examples
     --------

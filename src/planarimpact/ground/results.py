@@ -1,4 +1,4 @@
-"""What every model returns, and the names of the contact regimes."""
+"""What every model returns: rebound and history of a contact, its regime and its events."""
 
 from enum import IntEnum, StrEnum
 from typing import Any, NamedTuple, Self
@@ -12,10 +12,10 @@ from planarimpact.ground.arrays import Array, Integers
 class Regime(IntEnum):
     """The order of stick and slip during one contact.
 
-    The paper's three regimes are STICK_SLIP, SLIP_STICK_SLIP and SLIP_THROUGHOUT. The others
-    complete them: a contact that ends in stick (e = 0, or no tangential compliance), and
-    MULTIPLE, where stick comes back a second time. A normal impact, x = 0, is STICK. UNRESOLVED
-    means that the order is not known: a law of impulses does not tell it, or the solver gave up.
+    The paper's three regimes are STICK_SLIP, SLIP_STICK_SLIP and SLIP_THROUGHOUT. Others are a
+    contact that ends in stick (e = 0, or no tangential compliance), and MULTIPLE, where the contact
+    sticks twice or more. A normal impact, x = 0, is STICK. UNRESOLVED means that the order is not
+    known: the model is a law of impulses, or the solver gave up.
 
     Examples
     --------
@@ -59,11 +59,10 @@ class Rebound(NamedTuple):
     ----------
     velocity : ndarray of float64 or float
         w(tf) = v1(tf)/(mu v2(0)), tangential velocity of the contact point; positive in the
-        direction of a positive incidence, negative when it has turned round.
+        direction of a positive incidence.
     peak_friction : ndarray of float64 or float
         Largest |F1| over the contact, in mu times the largest normal force (m2 Omega |v2(0)| where
-        the normal contact is linear); between 0 and 1. NaN where a law of impulses alone leaves
-        it open.
+        the normal contact is linear); between 0 and 1. NaN where a law of impulses has none.
     dissipation : ndarray of float64 or float
         Work of friction in mu^2 m2 v2(0)^2, from the balance of tangential energy. For
         e = 0 it includes the tangential strain energy that is lost at separation.
@@ -71,14 +70,14 @@ class Rebound(NamedTuple):
         Codes of `Regime`. In a contact with micro-slip, slip means gross slip, of the whole
         contact, and stick that some of it sticks.
     reversals : ndarray of int64, int or None
-        How often the tangential force changes its sign, as far as the steps of the solver tell;
-        None where the model does not count.
+        How often the tangential force changes its sign from step to step of the solver; None where
+        the model does not count this.
     """
 
     velocity: Array
     peak_friction: Array
     dissipation: Array
-    regime: Any  # an array of codes, or one Regime: two types with nothing in common
+    regime: Any  # an array of codes, or one Regime
     reversals: Integers | None = None
 
     @classmethod
@@ -91,9 +90,9 @@ class Rebound(NamedTuple):
         regime: Integers,
         reversals: Integers | None = None,
     ) -> Self:
-        """The result for `incidence`, from what a solver found for |x|, in flat arrays.
+        """The result for `incidence`, from flat arrays of a solver's answers for |x|.
 
-        `impulse` is that of friction, in mu m2 |v2(0)|. Times the mean velocity it is the work:
+        `impulse` is that of friction, in mu m2 |v2(0)|. The work is impulse times mean velocity:
         Stronge's theorem (the paper's footnote).
         """
         size = np.abs(incidence).reshape(-1)
@@ -110,10 +109,7 @@ class Rebound(NamedTuple):
         regime: Integers,
         reversals: Integers | None = None,
     ) -> Self:
-        """As `of`, for a solver that knows the dissipation to more digits.
-
-        `dissipation` is in mu^2 m2 v2(0)^2.
-        """
+        """As `of`, from the dissipation in mu^2 m2 v2(0)^2, where the impulse has fewer digits."""
         velocity = velocity * np.copysign(1.0, incidence.reshape(-1))
         fields = velocity, peak_friction, dissipation, regime
         if incidence.ndim == 0:

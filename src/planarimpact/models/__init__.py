@@ -9,7 +9,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from functools import partial
 from itertools import product
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.results import Rebound
 from planarimpact.models import laws, timestep
 
-# What is known of a pair of materials in practice: e to 0.02, mu to 10 %.
+# How well e and mu of a pair of materials are known in practice: e to 0.02, mu to 10 %.
 RESTITUTION_ERROR, FRICTION_ERROR = 0.02, 0.1
 # Names of an earlier release.
 OLD_NAMES = {"lumped.plastic": "lumped.unloading-stiffness"}
@@ -45,15 +45,16 @@ class Model(NamedTuple):
     restitution : (float, float)
         Range of restitution that it admits.
     valid : str
-        What it describes, and what it leaves out.
+        What it describes, and what it neglects.
     source : str
-        Where it comes from.
+        Publication that it is taken from.
     sliding_limit : callable or None
         Incidence from which it slides throughout, w = x - (1 + e) beta, as a function of mass
         ratio, stiffness ratio, restitution (numbers) and settings. None if it never has that
         velocity exactly.
     kinks : callable
-        Incidences, by the same arguments, where its answer is known to bend; there may be more.
+        Incidences, by the same arguments, where its velocity is known to have a kink; there may be
+        more.
     """
 
     name: str
@@ -160,7 +161,7 @@ def input_spread(
 ) -> Array:
     """Root mean square change of the velocity at separation under uncertain inputs.
 
-    An error of a model that is smaller cannot be seen in a measurement of the same bodies.
+    A measurement of the same bodies cannot show an error of a model that is smaller than this.
 
     Parameters
     ----------
@@ -209,12 +210,13 @@ def input_spread(
         groups = x / ratio, mass_ratio, stiffness_ratio, e
         return ratio * rebound(model, *groups, **settings).velocity
 
-    middle = velocity(1.0, e)
-    squares = np.zeros_like(middle)
-    for (of_e, share), (of_mu, weight) in product(POINTS, POINTS):
-        moved = velocity(1 + of_mu * mu_error, float(np.clip(e + of_e * e_error, low, 1.0)))
-        squares += share * weight * (moved - middle) ** 2
-    return np.sqrt(squares)
+    believed = velocity(1.0, e)
+    variance = np.zeros_like(believed)
+    for (e_point, e_weight), (mu_point, mu_weight) in product(POINTS, POINTS):
+        changed_e = float(np.clip(e + e_point * e_error, low, 1.0))
+        changed = velocity(1 + mu_point * mu_error, changed_e)
+        variance += e_weight * mu_weight * (changed - believed) ** 2
+    return np.sqrt(variance)
 
 
 def admits(model: Model, mass_ratio: float, stiffness_ratio: float, restitution: float) -> bool:
@@ -252,7 +254,7 @@ def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
     Raises
     ------
     InputError
-        Naming the first setting that it does not have, and those it has.
+        If there is such a setting. The message names the first one, and those of the model.
 
     Examples
     --------
@@ -264,57 +266,51 @@ def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
             raise checks.InputError(f"{key} = {checks.brief(value)}: {model.name} has {known}")
 
 
-def _all_impulse(beta: float, zeta2: float, e: float, **settings: float) -> float:
-    """Limit of a contact without compliance: friction takes all of the normal impulse."""
-    return sliding.change(beta, e)
+# What the table below has as `sliding_limit` and `kinks`: functions of mass ratio, stiffness ratio,
+# restitution and the model's settings, most of which have no effect on them.
+_Limit: TypeAlias = Callable[..., float]
+_Kinks: TypeAlias = Callable[..., tuple[float, ...]]
 
 
-def _brach_limit(
-    beta: float,
-    zeta2: float,
-    e: float,
-    tangential_restitution: float = laws.BRACH_TANGENTIAL_RESTITUTION,
+def _stiff_limit(
+    beta: float, zeta2: float, e: float, *, tangential_restitution: float = 0.0
 ) -> float:
+    """Sliding limit without compliance, where just below it w = -tangential_restitution x."""
     return sliding.change(beta, e) / (1 + tangential_restitution)
 
 
-def _compliant_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
-    return float(lumped.slip_throughout_limit(beta, zeta2, e))
-
-
-def _lumped_limit(loss: str) -> Callable[..., float]:
-    return lambda beta, zeta2, e, **_: float(
+def _compliant_limit(loss: str) -> _Limit:
+    """Sliding limit of a contact with tangential compliance, elastic or with this loss."""
+    return lambda beta, zeta2, e, **settings: float(
         lumped.slip_throughout_limit(beta, zeta2, e, loss=loss)
     )
 
 
-def _alike_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
-    return float(sliding.limit_alike(beta, zeta2, e))
-
-
-def _plastic_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
+def _yielding_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
+    """Sliding limit of the plastic continuum."""
     return float(continuum.slip_throughout_limit(beta, zeta2, e, loss="plastic"))
 
 
-def _tabled_limit(beta: float, zeta2: float, e: float, **settings: float) -> float:
-    if not spheres.covers(beta, zeta2, e):  # it has no answer
-        return _plastic_limit(beta, zeta2, e)
+def _tabled_yielding_limit(beta: float, zeta2: float, e: float) -> float:
+    """Sliding limit of the plastic continuum, from the table of spheres where it covers this."""
+    if not spheres.covers(beta, zeta2, e):
+        return _yielding_limit(beta, zeta2, e)
     return float(spheres.plastic_limit(*np.array([[beta], [zeta2], [e]]))[0])
 
 
-def _rigid_kinks(beta: float, zeta2: float, e: float, **settings: float) -> tuple[float, ...]:
-    return beta, sliding.change(beta, e)
-
-
-def _with_limit(limit: Callable[..., float]) -> Callable[..., tuple[float, ...]]:
-    """Where stick at first ends, where slip lasts through compression, and slip throughout."""
-    return lambda beta, zeta2, e, **settings: (zeta2, beta, limit(beta, zeta2, e))
-
-
-def _limit_alone(limit: Callable[..., float]) -> Callable[..., tuple[float, ...]]:
+def _limit_alone(limit: _Limit) -> _Kinks:
+    """The limit of sliding throughout is the only kink."""
     return lambda *groups, **settings: (limit(*groups, **settings),)
 
 
+def _compliant_kinks(limit: _Limit) -> _Kinks:
+    """Where the contact no longer starts in stick, where slip lasts through compression, limit."""
+    return lambda beta, zeta2, e, **settings: (zeta2, beta, limit(beta, zeta2, e, **settings))
+
+
+_BRACH_SETTINGS = {"tangential_restitution": laws.BRACH_TANGENTIAL_RESTITUTION}
+_BRACH_LIMIT = partial(_stiff_limit, **_BRACH_SETTINGS)
+_HYSTERETIC_LIMIT, _UNLOADING_LIMIT, _VISCOUS_LIMIT = map(_compliant_limit, lumped.LOSSES)
 _ANY, _ELASTIC = (0.0, 1.0), (1.0, 1.0)
 _LOSSY = (continuum.LEAST_RESTITUTION, 1.0)
 _STEPPED = "fixed time step, as discrete-element codes have it"
@@ -331,8 +327,8 @@ MODELS = {
             _ANY,
             "no tangential compliance: the contact never turns round",
             "Stronge 1994, Eqs 34, 35, 41",
-            _all_impulse,
-            _rigid_kinks,
+            _stiff_limit,
+            lambda beta, zeta2, e: (beta, _stiff_limit(beta, zeta2, e)),
         ),
         Model(
             "laws.smith",
@@ -342,20 +338,20 @@ MODELS = {
             _ANY,
             _IMPULSES + "; tends to a perfect bounce, w = -x, at small incidence",
             "C. E. Smith, J. Appl. Mech. 58 (1991) 754-758",
-            _all_impulse,
-            _limit_alone(_all_impulse),
+            _stiff_limit,
+            _limit_alone(_stiff_limit),
         ),
         Model(
             "laws.brach",
             laws.brach,
-            {"tangential_restitution": laws.BRACH_TANGENTIAL_RESTITUTION},
+            _BRACH_SETTINGS,
             "formula",
             _ANY,
             _IMPULSES + "; two straight lines, the first with a constant to be fitted",
             "O. R. Walton, in Particulate Two-Phase Flow, 1993; R. M. Brach, J. Appl. Mech. 56 "
             "(1989) 133-138",
-            _brach_limit,
-            _limit_alone(_brach_limit),
+            _BRACH_LIMIT,
+            _limit_alone(_BRACH_LIMIT),
         ),
         Model(
             "lumped",
@@ -365,8 +361,8 @@ MODELS = {
             _ANY,
             "linear springs, contact sticks and slips as a whole; solved to rounding",
             "Stronge 1994",
-            _compliant_limit,
-            _with_limit(_compliant_limit),
+            _HYSTERETIC_LIMIT,
+            _compliant_kinks(_HYSTERETIC_LIMIT),
         ),
         Model(
             "lumped.unloading-stiffness",
@@ -376,12 +372,8 @@ MODELS = {
             _ANY,
             "as lumped, with e^2 zeta^2 for zeta^2: both stiffnesses elastic; solved to rounding",
             "Stronge 1994, with the elastic stiffness of unloading in the ratio",
-            _lumped_limit("unloading-stiffness"),
-            lambda beta, zeta2, e: (
-                e * e * zeta2,
-                beta,
-                _lumped_limit("unloading-stiffness")(beta, zeta2, e),
-            ),
+            _UNLOADING_LIMIT,
+            lambda beta, zeta2, e: (e * e * zeta2, beta, _UNLOADING_LIMIT(beta, zeta2, e)),
         ),
         Model(
             "lumped.viscous",
@@ -391,8 +383,8 @@ MODELS = {
             (lumped.viscous.LEAST_RESTITUTION, 1.0),
             "two Kelvin-Voigt elements of one relaxation time; solved to 1e-12",
             "T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469, for the normal element",
-            _alike_limit,
-            _with_limit(_alike_limit),
+            _VISCOUS_LIMIT,
+            _compliant_kinks(_VISCOUS_LIMIT),
         ),
         Model(
             "timestep.linear",
@@ -403,7 +395,7 @@ MODELS = {
             f"linear spring and slider, {_STEPPED}; tends to the lumped model",
             "P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65",
             None,
-            _with_limit(_compliant_limit),
+            _compliant_kinks(_HYSTERETIC_LIMIT),
         ),
         Model(
             "timestep.mindlin",
@@ -414,7 +406,7 @@ MODELS = {
             f"Hertz contact, friction in increments by Mindlin's stiffness, {_STEPPED}",
             "R. D. Mindlin, J. Appl. Mech. 16 (1949) 259-268; as in LAMMPS, mindlin/force",
             None,
-            _with_limit(_compliant_limit),
+            _compliant_kinks(_HYSTERETIC_LIMIT),
         ),
         Model(
             "timestep.mindlin_rescaled",
@@ -425,7 +417,7 @@ MODELS = {
             "as timestep.mindlin, the force rescaled with the radius of contact on unloading",
             "C. Thornton et al., Powder Technology 233 (2013) 30-46; LAMMPS, mindlin_rescale/force",
             None,
-            _with_limit(_compliant_limit),
+            _compliant_kinks(_HYSTERETIC_LIMIT),
         ),
         Model(
             "continuum",
@@ -436,8 +428,8 @@ MODELS = {
             "elastic spheres with micro-slip, to a tolerance; e = 1 only",
             "N. Maw et al., Wear 38 (1976) 101-114; V. L. Popov, M. Hess, Method of Dimensionality "
             "Reduction in Contact Mechanics and Friction, Springer 2015",
-            _compliant_limit,
-            _with_limit(_compliant_limit),
+            _HYSTERETIC_LIMIT,
+            _compliant_kinks(_HYSTERETIC_LIMIT),
         ),
         Model(
             "continuum.viscous",
@@ -448,8 +440,8 @@ MODELS = {
             "Kelvin-Voigt spheres with micro-slip, to a tolerance; one relaxation time",
             "V. L. Popov, E. Willert, M. Hess, Facta Univ. Mech. Eng. 16 (2018) 141-156; G. "
             "Kuwabara, K. Kono, Jpn. J. Appl. Phys. 26 (1987) 1230-1233",
-            _alike_limit,
-            _with_limit(_alike_limit),
+            _VISCOUS_LIMIT,
+            _compliant_kinks(_VISCOUS_LIMIT),
         ),
         Model(
             "continuum.plastic",
@@ -459,8 +451,8 @@ MODELS = {
             _LOSSY,
             "elastic-plastic spheres with micro-slip, to a tolerance; contained yielding",
             "C. Thornton, J. Appl. Mech. 64 (1997) 383-386",
-            _plastic_limit,
-            _with_limit(_plastic_limit),
+            _yielding_limit,
+            _compliant_kinks(_yielding_limit),
         ),
         *(
             Model(
@@ -473,9 +465,11 @@ MODELS = {
                 f"m2/m1 over zeta^2 from {spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
                 "solved by this package, planarimpact.spheres.making",
                 limit,
-                _with_limit(limit),
+                _compliant_kinks(limit),
             )
-            for loss, limit in zip(spheres.LOSSES, (_alike_limit, _tabled_limit), strict=True)
+            for loss, limit in zip(
+                spheres.LOSSES, (_VISCOUS_LIMIT, _tabled_yielding_limit), strict=True
+            )
         ),
         Model(
             "annuli",
@@ -486,7 +480,7 @@ MODELS = {
             "elastic spheres with micro-slip by the scheme of 1976: a check of the continuum",
             "N. Maw et al., Wear 38 (1976) 101-114",
             None,
-            _with_limit(_compliant_limit),
+            _compliant_kinks(_HYSTERETIC_LIMIT),
         ),
     )
 }
@@ -495,8 +489,8 @@ MODELS = {
 def reference(restitution: float, loss: str = "viscous") -> str:
     """Name of the model that others are measured against.
 
-    It is a continuum: elastic, or for e < 1 the one that loses its energy in the given way. What
-    it costs to be wrong about the loss is the distance between the two.
+    It is a continuum: elastic, or for e < 1 the one with this loss. If the loss is not known, the
+    error is up to the distance between the two lossy ones.
 
     Parameters
     ----------

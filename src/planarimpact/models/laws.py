@@ -1,10 +1,13 @@
 """Laws of impulses: velocity at separation without a history of the contact.
 
-Each law gives the tangential impulse as a function of the incidence alone. From some incidence on
-it is the line of slip throughout, as in every model; below that it is an assumption. No law knows
-the tangential stiffness, so none can follow the curve between both ends. No law tells what happens
-during contact: there is no peak friction and no order of stick and slip, except in slip throughout.
-Units as in `planarimpact.lumped`; B = (1 + e) beta is the change of velocity in slip throughout.
+Each law gives the tangential impulse as a function of the incidence alone. Above one incidence it
+is the line of slip throughout, as in every model; below that it is an assumption. The tangential
+stiffness is no argument of these laws, so they miss the shape of the curve below that line. They
+do not describe what happens during contact: there is no peak friction and no order of stick and
+slip, except in slip throughout.
+
+Units as in `planarimpact.lumped`. Symbols: x incidence, w velocity at separation, e restitution,
+b tangential restitution; B = (1 + e) beta, the change of velocity in slip throughout.
 """
 
 import numpy as np
@@ -98,7 +101,7 @@ def smith(
     Notes
     -----
     The impulse of friction is (1 + e)(x |x| + w |w|)/(x^2 + w^2), in mu m2 |v2(0)|. With
-    w = -u x < 0 and s = x/B that is s (1 + u^2) = 1 - u, whose positive root is
+    w = -u x < 0 and s = x/B this becomes s (1 + u^2) = 1 - u, whose positive root is
     u = 2 (1 - s)/(1 + sqrt(1 + 4 s - 4 s^2)). Near normal incidence, s -> 0, nothing is
     lost: u = 1.
 
@@ -116,26 +119,26 @@ def smith(
     change = sliding.change(beta, e)
     slides = x >= change
     s = np.minimum(x / change, 1.0)
-    reversed_part = 2 * (1 - s) / (1 + np.sqrt(1 + 4 * s * (1 - s)))
-    velocity = np.where(slides, x - change, -reversed_part * x)
+    u = 2 * (1 - s) / (1 + np.sqrt(1 + 4 * s * (1 - s)))
+    velocity = np.where(slides, x - change, -u * x)
     return _rebound(signed, velocity, beta, e, slides)
 
 
 def _groups(tangential_restitution: ArrayLike, *impact: ArrayLike) -> tuple[Array, ...]:
     """Checked groups and tangential restitution, of one shape."""
-    b = checks.checked(
+    tangential_restitution = checks.checked(
         "tangential_restitution", tangential_restitution, "numbers from 0 to 1", 0, 1
     )
     groups = dict(zip(checks.RULES, checks.impact(*impact), strict=True))
-    return checks.broadcast(**groups, tangential_restitution=b)
+    return checks.broadcast(**groups, tangential_restitution=tangential_restitution)
 
 
 def _rebound(signed: Array, velocity: Array, beta: Array, e: Array, slides: Booleans) -> Rebound:
-    """A law's velocity for |x|, and what follows from whether it slides throughout."""
+    """Rebound of a law from its velocity for |x|, and from where it slides throughout."""
     x = np.abs(signed).reshape(-1)
-    # From velocities the impulse of sliding would lose its digits where x is large.
+    # The difference of velocities would have few digits in slip throughout at large x.
     impulse = np.where(slides, 1 + e, (x / beta - velocity / beta))
     peak = np.where(slides, 1.0, np.nan)
-    open_order = np.where(x > 0, Regime.UNRESOLVED, Regime.STICK)
-    regime = np.where(slides, Regime.SLIP_THROUGHOUT, open_order).astype(np.uint8)
+    other_regime = np.where(x > 0, Regime.UNRESOLVED, Regime.STICK)
+    regime = np.where(slides, Regime.SLIP_THROUGHOUT, other_regime).astype(np.uint8)
     return Rebound.of(signed, velocity, impulse, peak, regime)

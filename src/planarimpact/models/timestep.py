@@ -1,10 +1,10 @@
-"""Contact laws of discrete-element codes, integrated as they do it: in few equal steps in time.
+"""Contact laws of discrete-element codes, integrated as these codes do: in few equal time steps.
 
 The method is velocity Verlet (leapfrog): half a kick of the velocities, a drift, forces from
 positions at the new time and velocities half a step old, half a kick. The tangential force is
 carried from step to step. It grows by stiffness times displacement, and is cut back to mu times the
-normal force. Normal and tangential motion both have the error of the steps. There is no search for
-events.
+normal force. Normal and tangential motion both have the error of the steps. Events are not located
+within a step.
 
 The contact starts at a step. For e < 1 all three laws lose normal energy in the paper's hysteretic
 spring (Walton & Braun's with latching): below the largest depth reached, the normal force follows a
@@ -12,12 +12,12 @@ line, or a Hertz curve, that is steeper by 1/e^2. So restitution takes e times a
 compression. The length of the step stays the same: restitution has e/(1 + e) of the steps. If that
 is less than one step, the impulse of friction is wrong by up to 0.75 of what the largest force
 gives in a step. Measurements contradict this spring, see `planarimpact.lumped`. For e = 0 the
-contact ends with the step nearest to maximum compression. Codes often damp by a dashpot instead,
-which is another law.
+contact ends with the step nearest to maximum compression. Many codes use a dashpot instead, which
+is another law.
 
-`Regime` is what the steps show. They do not show a slip or a stick that is shorter than a step: if
-the last slip is so short, the contact is said to end in stick. But a contact whose slip turns
-round, and that was not seen to stick, counts as having stuck once. Hertz contact starts in slip
+`Regime` is read from the steps. A slip or a stick that is shorter than a step is missed: if the
+last slip is so short, the regime ends in stick. But a contact whose slip changes its direction
+counts as having stuck once, even if no step was in stick. Hertz contact starts in slip
 from x = 2 zeta^2/3, not zeta^2, however many steps there are, because the first step already has
 the stiffness of its end.
 
@@ -37,17 +37,17 @@ from planarimpact.ground.results import Rebound, Regime
 from planarimpact.normal_impact import hertz
 
 STEPS = 64
-# They take some minutes.
+# So many steps take a few minutes.
 MOST_STEPS = 10**7
 
 # Impacts solved together, as in `planarimpact.lumped`.
 CHUNK = 16384
 
-# Explicit steps are stable while an oscillation turns by no larger angle a step.
+# Explicit steps are stable while the phase of an oscillation grows by no more than this [rad].
 STABLE_ANGLE = 2.0
 
-# Bounds of the velocity over zeta^2 that is solved. Below the least the contact sticks to its last
-# step and the answer is in proportion to x. Above the largest it slides throughout.
+# Velocity over zeta^2 is clipped to these bounds. Below, the contact sticks to its last step and
+# the answer is proportional to x. Above, it slides throughout.
 LEAST, LARGEST = 1e-100, 1e300
 
 
@@ -87,7 +87,7 @@ def linear(
     Notes
     -----
     The bound of velocity is that of a contact that sticks throughout, where each step is the same
-    linear map. That slip only lowers it was found by search, not proved.
+    linear map. A search showed that slip only lowers it; this is not proved.
     The error of the steps falls with their square, unevenly, as events fall between them. For a
     solid sphere at e = 1 and 64 steps it is 0.0008 (root mean square over x from 0 to 8) and 0.0026
     at most, against the lumped model. It is not the error of that model.
@@ -128,8 +128,8 @@ def mindlin(
     steps : int
         Over the duration of contact; 3 to 10^7, and at least 1.0076 (1 + e) times the root
         of beta/zeta^2: with fewer the tangential oscillation turns by more than 2 in a step and
-        grows. Close to that number it may still create energy: |velocity| = 11 |x| was found with
-        the least number, many steps and e near 0; 1.8 |x| with twice as many.
+        grows. Close to that number it may still create energy: a search reached |velocity| = 11 |x|
+        with the least number, many steps and e near 0; 1.8 |x| with twice as many.
 
     Returns
     -------
@@ -148,9 +148,9 @@ def mindlin(
     Its limit of many steps is not the elastic continuum: at beta = 3.5, zeta^2 = 17/14 the root
     mean square of the difference in velocity is 0.29 over x from 0 to 8, with 16 steps as with
     4096. The error of the steps falls with their first power, since friction grows with the
-    radius at the end of each step. Nor does the law conserve energy: friction that is kept while
-    its spring softens gains some (Elata & Berryman 1996), and where beta/zeta^2 is small enough
-    for stick to last, a solid sphere may leave up to 5 % faster than it came: |velocity| <= |x|
+    radius at the end of each step. Nor does the law conserve energy: a friction force that is kept
+    while its spring softens creates energy (Elata & Berryman 1996). Where beta/zeta^2 is so small
+    that stick lasts, a solid sphere may leave up to 5 % faster than it came: |velocity| <= |x|
     and dissipation >= 0 do not hold for this law, however many steps there are.
 
     References
@@ -175,7 +175,7 @@ def mindlin_rescaled(
     *,
     steps: int = STEPS,
 ) -> Rebound:
-    """Hertz contact as `mindlin`, where a contact that shrinks gives up its share of friction.
+    """Hertz contact as `mindlin`, but friction shrinks in proportion to the radius of contact.
 
     Parameters
     ----------
@@ -198,9 +198,9 @@ def mindlin_rescaled(
     -----
     The elastic continuum without micro-slip: a Hertz contact that sticks and slips as a whole. It
     is no nearer to the continuum than `mindlin`: the root mean square of the difference is 0.31.
-    Close to the least number of steps it may create energy: a search for the worst found
-    |velocity| = 4.3 |x| with that number, 1.01 |x| with twice as many, none gained with four
-    times as many. Friction that shrinks with the radius sticks more easily in restitution: at
+    Close to the least number of steps it may create energy: a search for the worst case reached
+    |velocity| = 4.3 |x| with that number and 1.01 |x| with twice as many; no energy is created
+    with four times as many. Friction that shrinks with the radius favours stick in restitution: at
     e = 1 the contact slides throughout from x = 2 beta - 2 zeta^2/3 on, where the continuum does
     from 2 beta - zeta^2. The error of the steps falls with their first
     power where the contact starts in stick.
@@ -219,7 +219,7 @@ def mindlin_rescaled(
 
 
 class _Law(NamedTuple):
-    """A law of contact; depth means the elastic depth."""
+    """A law of contact; depth means the elastic depth, in units of d_max."""
 
     to_maximum: float  # time to maximum compression
     peak_force: float  # largest normal force, at depth 1
@@ -252,8 +252,8 @@ def _rebound(
     beta, zeta2, e = (a.reshape(-1) for a in groups)
     with np.errstate(over="ignore"):
         frequency = math.sqrt(law.stiffness) * (np.sqrt(beta) / np.sqrt(zeta2))
-        turn = (1 + e) * law.to_maximum * frequency
-    steps = checks.explicit_steps(steps, turn / STABLE_ANGLE, 3, MOST_STEPS)
+        angle = (1 + e) * law.to_maximum * frequency
+    steps = checks.explicit_steps(steps, angle / STABLE_ANGLE, 3, MOST_STEPS)
     x = np.abs(signed).reshape(-1)
     velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
     regime = np.empty(x.size, np.uint8)
@@ -275,9 +275,9 @@ class _Instant(NamedTuple):
 
 
 def _normal_motion(law: _Law, e: Array, steps: int) -> Iterator[_Instant]:
-    """Yield every `_Instant` of contact but the first and the last, where there is no force."""
+    """Yield the `_Instant` of every step with a force: all but the first and the last step."""
     step = (1 + e) * (law.to_maximum / steps)
-    # For e = 0, which never touches again below the largest depth, any tiny number will do.
+    # With e = 0 there is no force below the largest depth: any tiny number has this effect.
     compliance = np.maximum(e * e, 1e-300)
     depth, deepest = np.zeros((2, e.size))
     radius: Numbers = np.zeros(e.size)
@@ -291,18 +291,18 @@ def _normal_motion(law: _Law, e: Array, steps: int) -> Iterator[_Instant]:
         touches = elastic > 0
         if not touches.any():
             return
-        before, radius = radius, np.sqrt(elastic) if law.hertzian else 1.0
+        radius_before, radius = radius, np.sqrt(elastic) if law.hertzian else 1.0
         force = law.peak_force * elastic * radius
         velocity = velocity - step * force
-        # Velocity never increases: once negative, it brings every contact to its end.
+        # Velocity never increases. Once it is negative, every contact comes to its end.
         ended = ended | ((e == 0) & (velocity <= 0))
-        kept = _share_kept(before, radius) if law.rescales else None
+        kept = _share_kept(radius_before, radius) if law.rescales else None
         rate = step * law.stiffness * radius * touches
         yield _Instant(force, touches, rate, kept, np.where(ended, step / 2, step))
 
 
 def _share_kept(before: Numbers, after: Numbers) -> Array:
-    """Radius of contact over that a step before, where it shrinks."""
+    """Radius of contact over that of the step before where it shrinks, else 1."""
     return np.divide(after, before, out=np.ones_like(after), where=after < before)
 
 
@@ -310,19 +310,19 @@ def _impacts(
     law: _Law, x: Array, beta: Array, zeta2: Array, e: Array, steps: int
 ) -> tuple[Array, Array, Array, Integers]:
     """Velocity, impulse, peak friction and regime of impacts solved together, x >= 0."""
-    # Normal motion knows e alone: it is integrated once where all impacts share it.
+    # Normal motion depends on e alone: it is integrated once where all impacts have the same e.
     if (e == e[0]).all():
         e = e[:1]
     # Tangential velocity over zeta^2, half a step ahead.
     with np.errstate(over="ignore"):
         start = np.clip(x / zeta2, LEAST, LARGEST)
-        start_share = np.minimum(x / zeta2 / LEAST, 1.0)  # of x in what is solved
+        start_share = np.minimum(x / zeta2 / LEAST, 1.0)  # x over the incidence that is solved
     velocity = start.copy()
     slowing = beta / zeta2
     friction, work, peak, lowest = np.zeros((4, x.size))
     slips, starts_in_slip = np.zeros((2, x.size), bool)
-    slipped = np.ones(x.size, bool)  # as if in slip before, so that an initial stick counts
-    sticks = np.zeros(x.size, np.int64)  # phases of stick so far
+    slipped = np.ones(x.size, bool)  # slip before contact, so that an initial stick is counted
+    sticks = np.zeros(x.size, np.int64)  # number of phases of stick
     started, normal_impulse = False, np.zeros(e.size)
     for normal in _normal_motion(law, e, steps):
         np.multiply(velocity, normal.rate, out=work)
@@ -343,9 +343,9 @@ def _impacts(
         work *= normal.kick
         velocity -= work
         normal_impulse = normal_impulse + normal.kick * normal.force
-    # A slip that has turned round has stuck, for less than a step.
+    # Where the direction of slip has changed the contact has stuck, for less than a step.
     sticks += (sticks == 0) & (lowest < 0)
-    # Where it slides throughout, no digit of a large x may be lost from the impulse.
+    # In slip throughout the difference of velocities would have few digits at large x.
     slides = sticks == 0
     impulse = np.where(slides, normal_impulse, 0.0)
     final = x - beta * impulse
@@ -357,9 +357,9 @@ def _impacts(
 
 
 def _regime(sticks: Integers, starts_in_slip: Booleans, ends_in_slip: Booleans) -> Integers:
-    """Regime by the number of phases of stick and by what was seen first and last."""
+    """Regime by the number of phases of stick and by the first and the last step."""
     after_stick = np.where(ends_in_slip, Regime.STICK_SLIP, Regime.STICK)
     after_slip = np.where(ends_in_slip, Regime.SLIP_STICK_SLIP, Regime.SLIP_STICK)
     once = np.where(starts_in_slip, after_slip, after_stick)
-    often = np.where(sticks > 1, Regime.MULTIPLE, once)
-    return np.where(sticks == 0, Regime.SLIP_THROUGHOUT, often)
+    once_or_more = np.where(sticks > 1, Regime.MULTIPLE, once)
+    return np.where(sticks == 0, Regime.SLIP_THROUGHOUT, once_or_more)

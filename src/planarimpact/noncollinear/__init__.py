@@ -1,15 +1,20 @@
 """Impact of a body whose centre is not on the contact normal (Stronge 1994, Eqs 1-5, 8, 9).
 
-The paper derives the coupled equations and then solves the collinear case only. Here they are
-solved as they stand, with the contact of `planarimpact.lumped`: linear normal and tangential
+The paper derives the coupled equations and then solves the collinear case only. Here the coupled
+equations are solved, with the contact of `planarimpact.lumped`: linear normal and tangential
 elements, Coulomb friction, energetic restitution. Normal and tangential motion are coupled. So
 compression may end and begin again. And friction may press the body into the surface faster than
-the normal force slows it (jam), until the contact point sticks. For a contact without restitution
-`held` has the limit e -> 0 of what follows compression.
+the normal force slows it (jam), until the contact point sticks.
 
-`inverse_mass` turns a body, or with `combined` two, into what `rebound` and `history` take. `rigid`
-has the same impact without compliance. `phases` and `stick_end` hold the closed forms and the
-search for the end of stick, `solver` their order. Axes and signs: `configuration`.
+`inverse_mass` makes the argument of `rebound` and `history` from a body, and `combined` from two.
+`rigid` solves the same impact without compliance. Files of the solver: `phases` has the closed
+forms of stick and slip, `stick_end` the search for the end of stick, `closed_contact` the limit
+e -> 0 of contacts without restitution, `solver` the order of the phases, `timeline` the history.
+Axes and signs: `configuration`.
+
+Symbols: v1, v2 tangential and normal velocity of the contact point; mu friction, e restitution,
+kappa stiffness, zeta^2 stiffness ratio; 1/m1, c and 1/m2 the inverse mass; V = v1/v2, C = m2 c and
+beta = m2/m1 in the solver's units.
 """
 
 import warnings
@@ -32,7 +37,7 @@ from planarimpact.noncollinear.configuration import (
     motion_after,
     refuse_overflow,
 )
-from planarimpact.noncollinear.solver import Impacts, Phase, solve
+from planarimpact.noncollinear.solver import Impacts, Outcome, Phase, solve
 from planarimpact.noncollinear.timeline import NoncollinearHistory, timeline
 
 __all__ = [
@@ -50,9 +55,9 @@ __all__ = [
 ]
 
 LOSSES = "hysteretic", "unloading-stiffness"
-# Impacts solved together: few enough for memory, enough to hide Python's overhead.
+# Impacts solved together: few enough for memory, enough that Python's overhead is small.
 CHUNK = 65536
-# Groups beyond this belong to no body, and their products would leave float64.
+# Largest group: its products with others are within float64, and no real body has a larger one.
 LARGEST = 1e50
 
 
@@ -69,17 +74,17 @@ class NoncollinearRebound(NamedTuple):
         Largest |F1| and F2 [N].
     friction_work : ndarray of float64 or float
         Energy that friction dissipates [J]; for e = 0 with the tangential strain energy that is
-        lost where the contact lets go at maximum compression.
+        lost where the contact separates at maximum compression.
     hysteresis : ndarray of float64 or float
         Energy lost in the normal element [J].
     duration : ndarray of float64 or float
         Of the contact [s].
     regime : ndarray of uint8 or Regime
-        Codes of `Regime`; UNRESOLVED where the impact has been given up.
+        Codes of `Regime`; UNRESOLVED where the solver gave up.
     jams : ndarray of bool or bool
         Whether the contact slips, for a time, while friction presses the body into the surface
-        more than the normal force holds it off. For e = 0 the slip of a contact that lets go takes
-        no time, in `regime` too.
+        more than the normal force pushes it off. For e = 0 the last slip before separation takes no
+        time: it counts neither here nor in `regime`.
     """
 
     tangential: Array
@@ -120,8 +125,8 @@ def rebound(
     restitution : array_like
         Energetic coefficient e, 0 to 1: the normal element has the stiffness kappa in
         compression and kappa/e^2 below its largest compression. e = 0 is the limit e -> 0: the
-        contact lets go at a maximum of compression, unless it sticks there and friction holds it
-        closed (mu |c| m2 > 1). Then it lets go when friction has fallen to zero.
+        contact separates at a maximum of compression, unless it sticks there and friction holds it
+        closed (mu |c| m2 > 1). Then it separates when friction has fallen to zero.
     stiffness_ratio : array_like
         zeta^2 > 0, normal over tangential stiffness.
     stiffness : array_like
@@ -130,8 +135,8 @@ def rebound(
         "hysteretic", the paper's: the tangential stiffness is kappa/zeta^2.
         "unloading-stiffness": it is kappa/(e^2 zeta^2), as zeta^2 is a ratio of elastic stiffnesses
         and the elastic one of the normal element is that of unloading, kappa/e^2; e above 0. There
-        is no viscous loss here: a normal dashpot leaves the contact with forces that pull, and
-        where a coupled contact lets go and closes again under them is not solved.
+        is no viscous loss here: a normal dashpot would pull at the end of contact, and a coupled
+        contact that separates and closes again under such a force is not solved.
 
     Returns
     -------
@@ -143,28 +148,28 @@ def rebound(
         If an argument is not a finite real number in its range, if shapes do not broadcast, if
         a ratio of velocities or masses, zeta^2 or mu is beyond 1e50, or a result beyond float64.
     ConvergenceError
-        If the arguments are scalars and their impact is given up, as below.
+        If the arguments are scalars and the solver gives up, as below.
 
     Warns
     -----
     RuntimeWarning
-        If impacts of an array are given up: their numbers are NaN, the others have theirs. The
-        warning names the flat indices; `numpy.isnan(result.tangential)` finds them. An impact is
-        given up if it takes more than 5 000 phases of stick and slip, or as many steps in one of
-        them. This happens where the tangential spring is very stiff, where c^2 m1 m2 is within
-        about 1e-7 of 1, and where friction holds the contact closed (mu |c| m2 > 1) while it
-        rattles with a small e that is not 0. Many phases take long: a thousand random impacts some
-        0.1 s at e = 0.5, and 40 s at e = 1e-4.
+        If the solver gives up some impacts of an array: their numbers are NaN, the others are
+        solved. The warning names the flat indices; they are `numpy.isnan(result.tangential)`. The
+        solver gives up after 5 000 phases of stick and slip, or as many steps in one of them. This
+        happens where the tangential spring is very stiff, where c^2 m1 m2 is within about 1e-7 of
+        1, and where friction holds the contact closed (mu |c| m2 > 1) while the normal force
+        oscillates with a small e that is not 0. Many phases take long: a thousand random impacts
+        about 0.1 s at e = 0.5, and 40 s at e = 1e-4.
 
     Notes
     -----
-    Closed forms within a phase. The energy balances to 1e-12 of the kinetic energy or, where that
+    Each phase has a closed form. The energy balances to 1e-12 of the kinetic energy or, where that
     is more, 1e-14/(1 - c^2 m1 m2) of it: near c^2 m1 m2 = 1 the energy is a small difference of
     velocities. With c = 0 it is `planarimpact.lumped.rebound` in other units, to 1e-12.
 
     The state at separation is continuous in all arguments, with one exception. Where
-    mu |c| m2 >= 1 the contact may come to N = 0 and rest there in the normal direction. Friction
-    then either lets it go or presses it in for another compression.
+    mu |c| m2 >= 1 the contact may come to N = 0 with no normal velocity. Then it either separates,
+    or friction presses it in for another compression.
 
     Examples
     --------
@@ -182,45 +187,45 @@ def rebound(
         tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
     )
     v1, v2, coupling, m2, e, kappa, impacts = _groups(arguments)
-    pieces = [
+    chunks = [
         solve(Impacts._make(field[start : start + CHUNK] for field in impacts))
-        for start in range(0, max(v1.size, 1), CHUNK)  # one even of none
+        for start in range(0, max(v1.size, 1), CHUNK)  # one chunk even without an impact
     ]
-    found = [np.concatenate(column) for column in zip(*pieces, strict=True)]
-    velocity, approach, peak_friction, peak_normal, work, duration, regime, jams, given_up = found
-    # p = -(inverse mass)^-1 times the change of velocity.
+    outcome = Outcome(*(np.concatenate(column) for column in zip(*chunks, strict=True)))
+    velocity, approach, peak_friction, peak_normal, work, duration, regime, jams, given_up = outcome
+    # The impulses are the effective masses times the fall of velocity.
     change = impacts.velocity - velocity, 1 - approach
     determinant = impacts.mass_ratio - coupling**2
     friction_impulse = (change[0] + coupling * change[1]) / determinant
     normal_impulse = (coupling * change[0] + impacts.mass_ratio * change[1]) / determinant
-    force = np.sqrt(m2) * np.sqrt(kappa) * v2
+    force_unit = np.sqrt(m2) * np.sqrt(kappa) * v2
     with np.errstate(over="ignore"):
         fields = [
             velocity * v2,
             approach * v2,
             friction_impulse * v2 * m2,
             normal_impulse * v2 * m2,
-            peak_friction * force,
-            peak_normal * force,
+            peak_friction * force_unit,
+            peak_normal * force_unit,
             work * v2 * (m2 * v2),
             (1 - e) * (1 + e) * peak_normal**2 / 2 * v2 * (m2 * v2),
             duration * np.sqrt(m2) / np.sqrt(kappa),
         ]
     refuse_overflow(NoncollinearRebound._fields, fields)
     shape = arguments[0].shape
-    lost = np.flatnonzero(given_up)
-    if lost.size:
+    unsolved = np.flatnonzero(given_up)
+    if unsolved.size:
         if not shape:
-            raise ConvergenceError(_given_up(impacts, lost))
-        # As NumPy does where a function of an array has no value for some entries.
-        warnings.warn(_given_up(impacts, lost), RuntimeWarning, stacklevel=3)
+            raise ConvergenceError(_given_up(impacts, unsolved))
+        # As NumPy does where a function of an array has no value for an entry.
+        warnings.warn(_given_up(impacts, unsolved), RuntimeWarning, stacklevel=3)
         for field in fields:
-            field[lost] = np.nan
-        regime[lost], jams[lost] = Regime.UNRESOLVED, False
-    fields = [field.reshape(shape)[()] for field in (*fields, regime, jams)]
+            field[unsolved] = np.nan
+        regime[unsolved], jams[unsolved] = Regime.UNRESOLVED, False
+    results: list[Any] = [field.reshape(shape)[()] for field in (*fields, regime, jams)]
     if not shape:
-        fields[-2:] = Regime(int(fields[-2])), bool(fields[-1])
-    return NoncollinearRebound(*fields)
+        results[-2:] = Regime(int(results[-2])), bool(results[-1])
+    return NoncollinearRebound(*results)
 
 
 @checks.default_errors
@@ -243,8 +248,7 @@ def history(
     tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
         As in `rebound`; scalars.
     samples : int
-        At least 2: instants evenly spread over the contact. Events come on top, so that every
-        one is a vertex.
+        At least 2: instants evenly spread over the contact. Those of the events are added.
 
     Returns
     -------
@@ -277,9 +281,9 @@ def history(
         raise ConvergenceError(_given_up(impacts, np.zeros(1, int)))
     units = (float(a[0]) for a in (v2, np.sqrt(m2) * np.sqrt(kappa), np.sqrt(m2) / np.sqrt(kappa)))
     with np.errstate(over="ignore", invalid="ignore"):
-        found = timeline(trace, float(e[0]), float(impacts.stiffness_ratio[0]), samples, *units)
-    refuse_overflow(found._fields, found[:-1])
-    return found
+        result = timeline(trace, float(e[0]), float(impacts.stiffness_ratio[0]), samples, *units)
+    refuse_overflow(result._fields, result[:-1])
+    return result
 
 
 @checks.default_errors
@@ -313,13 +317,14 @@ def kinetic_energy(tangential: ArrayLike, normal: ArrayLike, inverse_mass: Inver
     11.0
     """
     mass = fields_of(inverse_mass)
-    v1, v2, a, c, b = checks.broadcast(
+    v1, v2, inverse_m1, c, inverse_m2 = checks.broadcast(
         tangential=finite("tangential", tangential),
         normal=finite("normal", normal),
         **mass,
     )
     with np.errstate(over="ignore"):
-        energy = (v1 * v1 / a + (v2 + v1 * (c / a)) ** 2 / (b - c * (c / a))) / 2
+        ratio = c / inverse_m1
+        energy = (v1 * v1 / inverse_m1 + (v2 + v1 * ratio) ** 2 / (inverse_m2 - c * ratio)) / 2
     refuse_overflow(["kinetic energy"], [energy])
     return energy
 
@@ -334,6 +339,7 @@ def _checked(
     stiffness: ArrayLike,
     loss: str,
 ) -> tuple[Array, ...]:
+    """Checked arguments of one shape, with the stiffness ratio of this loss."""
     loss = checks.loss(loss, LOSSES)
     v1, v2, mu, e, zeta2, *others = checked_impact(
         tangential,
@@ -358,12 +364,12 @@ def _groups(
     arguments: tuple[Array, ...],
 ) -> tuple[Array, Array, Array, Array, Array, Array, Impacts]:
     """Flat arrays: v1, v2, coupling m2 c, m2, e, kappa, and the impacts in the solver's units."""
-    v1, v2, mu, e, zeta2, kappa, a, c, b = arguments
+    v1, v2, mu, e, zeta2, kappa, inverse_m1, c, inverse_m2 = arguments
     with np.errstate(over="ignore", under="ignore"):
         groups = {
             "tangential/normal": (v1 / v2, -LARGEST),
-            "inverse_mass.tangential/normal": (a / b, 1 / LARGEST),
-            "inverse_mass.coupling/normal": (c / b, -LARGEST),
+            "inverse_mass.tangential/normal": (inverse_m1 / inverse_m2, 1 / LARGEST),
+            "inverse_mass.coupling/normal": (c / inverse_m2, -LARGEST),
             "stiffness_ratio": (zeta2, 1 / LARGEST),
             "friction": (mu, -LARGEST),
         }
@@ -371,17 +377,19 @@ def _groups(
         checked(name, group, f"numbers from {low:g} to {LARGEST:g}", low, LARGEST).reshape(-1)
         for name, (group, low) in groups.items()
     )
-    v1, v2, e, kappa, b = (field.reshape(-1) for field in (v1, v2, e, kappa, b))
+    v1, v2, e, kappa, inverse_m2 = (a.reshape(-1) for a in (v1, v2, e, kappa, inverse_m2))
     impacts = Impacts(ratio, beta, coupling, zeta2, mu, e)
-    return v1, v2, coupling, 1 / b, e, kappa, impacts
+    return v1, v2, coupling, 1 / inverse_m2, e, kappa, impacts
 
 
-def _given_up(impacts: Impacts, lost: Integers) -> str:
+def _given_up(impacts: Impacts, unsolved: Integers) -> str:
     """The message for impacts that have too many phases, by their flat indices."""
-    first = dict(zip(impacts._fields, (float(field[lost[0]]) for field in impacts), strict=True))
-    which = f"impact {lost[0]}" if lost.size == 1 else f"impacts {checks.brief(lost.tolist())}"
+    groups = (float(field[unsolved[0]]) for field in impacts)
+    first = dict(zip(impacts._fields, groups, strict=True))
+    indices = checks.brief(unsolved.tolist())
+    which = f"impact {unsolved[0]}" if unsolved.size == 1 else f"impacts {indices}"
     return (
-        f"{lost.size} of {impacts.velocity.size} impacts given up, with too many phases or"
+        f"{unsolved.size} of {impacts.velocity.size} impacts given up, with too many phases or"
         f" oscillations: {which}, counted from 0 in the flattened arguments. With V = v1/v2, C ="
         " m2 c they are many where omega/Omega is large, where C^2 is near m2/m1, or where friction"
         f" holds the contact closed (mu |C| > 1) while it rattles (e << 1). The first has {first}"

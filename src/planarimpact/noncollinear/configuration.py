@@ -1,4 +1,4 @@
-"""Bodies that strike off their centre: inverse mass at the contact point, motion before and after.
+"""Inverse mass of a body at its contact point, and motion before and after an impact.
 
 Axes and signs as in `planarimpact.bodies`: tangential velocities and forces along any one direction
 of the surface, normal velocities positive while the body approaches. The contact point lies at
@@ -67,9 +67,10 @@ def inverse_mass(
         depth=finite("depth", depth),
     )
     with np.errstate(over="ignore", invalid="ignore"):  # refused as not finite
-        along, down = offset / gyration, depth / gyration
-        found = InverseMass((1 + down**2) / mass, along * down / mass, (1 + along**2) / mass)
-    return checked_inverse_mass(found)
+        offset, depth = offset / gyration, depth / gyration
+        tangential, normal = (1 + depth**2) / mass, (1 + offset**2) / mass
+        result = InverseMass(tangential, offset * depth / mass, normal)
+    return checked_inverse_mass(result)
 
 
 @checks.default_errors
@@ -136,7 +137,7 @@ def checked_impact(
     restitution: ArrayLike,
     **others: Array,
 ) -> tuple[Array, ...]:
-    """Check an impact, and broadcast it with checked `others`, the inverse mass last."""
+    """Check an impact and broadcast it with checked `others`; the inverse mass comes last."""
     mass = fields_of(inverse_mass)
     return checks.broadcast(
         tangential=finite("tangential", tangential),
@@ -194,7 +195,7 @@ def motion_after(
     offset: ArrayLike,
     depth: ArrayLike,
 ) -> Motion:
-    """Motion of a body after friction and normal force have given their impulses.
+    """Motion of a body after an impact, from the impulses of friction and normal force.
 
     Parameters
     ----------
@@ -226,8 +227,8 @@ def motion_after(
         depth=finite("depth", depth),
         **{f"motion.{n}": finite(f"motion.{n}", v) for n, v in motion._asdict().items()},
     )
-    turned = (normal * offset - friction * depth) / mass / gyration**2
-    return Motion(tangential - friction / mass, approach - normal / mass, spin + turned)
+    spin_change = (normal * offset - friction * depth) / mass / gyration**2
+    return Motion(tangential - friction / mass, approach - normal / mass, spin + spin_change)
 
 
 def refuse_overflow(names: Iterable[str], fields: Iterable[Array]) -> None:

@@ -1,20 +1,24 @@
 """Closed forms of stick and slip in a non-collinear contact (Stronge 1994, Eqs 1-5, 8, 9).
 
 Units: 1/Omega, |v2(0)|, m2 Omega |v2(0)| with Omega^2 = kappa/m2, for both directions (friction
-is not in units of mu here, so mu = 0 is a case like any other). N normal force, y velocity of
-approach, F friction, V tangential velocity, C = m2 c the coupling, beta = m2/m1:
+is not in units of mu here, so mu = 0 needs no formula of its own).
+
+Symbols of the solver: N normal force, y velocity of approach, F friction, V tangential velocity, J
+normal impulse; C = m2 c coupling, beta = m2/m1 mass ratio, zeta^2 stiffness ratio, mu coefficient
+of friction, e restitution; g = +1 or -1 direction of slip; p and q modes of stick. The equations:
 
     y' = -N + C F,   V' = -beta F + C N,   stick: F' = V/zeta^2,   slip: F = g mu N.
 
 In compression N' = y. On the line of unloading N' = y/e^2. With time in units of e and y in units
-of e this is N' = y again, and V' gets the factor e. This factor is the `pace`, which is 1 in
-compression. So e may be as small as one likes.
+of e this is N' = y again, and V' gets the factor e. This factor is the `time_scale`, which is 1 in
+compression. So e may have any size above 0.
 
-Slip. N, y and V depend on the normal impulse P alone: y and V are linear in P, N^2 is quadratic.
+Slip. N, y and V depend on the normal impulse J alone: y and V are linear in J, N^2 is quadratic.
 Every event of slip is the root of a polynomial of degree one or two. The effective normal inverse
 mass 1 - g mu C may be negative: then the body jams, and its forces grow exponentially.
 
-Stick. N and zeta F/pace are two oscillators coupled by one symmetric matrix: two modes.
+Stick. N and zeta F/time_scale are two oscillators coupled by one symmetric matrix. Its two modes p
+and q oscillate independently.
 """
 
 from typing import NamedTuple, Self
@@ -25,17 +29,17 @@ from planarimpact.ground.arrays import Array, Numbers
 
 
 class Groups(NamedTuple):
-    """Groups of impacts, arrays of shape (n,): beta, C, zeta^2, mu, and the pace of this half."""
+    """Groups of impacts, arrays of shape (n,): beta, C, zeta^2, mu, and the time scale."""
 
     mass_ratio: Array
     coupling: Array
     stiffness_ratio: Array
     friction: Array
-    pace: Array
+    time_scale: Array
 
 
 class State(NamedTuple):
-    """Forces N, F and velocities y, V of contacts, arrays of shape (n,); y in units of the pace."""
+    """Forces N, F and velocities y, V, arrays of shape (n,); y in units of the time scale."""
 
     normal: Array
     approach: Array
@@ -44,70 +48,70 @@ class State(NamedTuple):
 
 
 class Slip(NamedTuple):
-    """Slip in the direction g = +1 or -1 from a state on.
+    """Slip in the direction g that begins at a state.
 
-    `mass` is 1 - g mu C; the speed of slip, per unit of time at this pace, is
-    `speed + slope P`.
+    `inverse_mass` is 1 - g mu C. The speed of slip, in scaled time, is `speed + slope J`.
     """
 
     state: State
     groups: Groups
     direction: Numbers
-    mass: Array
+    inverse_mass: Array
     speed: Array
     slope: Array
 
     @classmethod
     def start(cls, state: State, groups: Groups, direction: Numbers) -> Self:
         """Slip that starts at this state."""
-        beta, coupling, zeta2, mu, pace = groups
-        mass = 1 - direction * mu * coupling
-        speed = pace * direction * state.velocity - mu * zeta2 * state.approach
-        slope = pace**2 * (direction * coupling - mu * beta) + mu * zeta2 * mass
-        return cls(state, groups, direction, mass, np.maximum(speed, 0.0), slope)
+        beta, coupling, zeta2, mu, time_scale = groups
+        inverse_mass = 1 - direction * mu * coupling
+        speed = time_scale * direction * state.velocity - mu * zeta2 * state.approach
+        slope = time_scale**2 * (direction * coupling - mu * beta) + mu * zeta2 * inverse_mass
+        return cls(state, groups, direction, inverse_mass, np.maximum(speed, 0.0), slope)
 
     def stop(self) -> Array:
         """Impulse at which the speed of slip vanishes, or inf; never without friction."""
         slows = (self.slope < 0) & (self.groups.friction > 0)
         return np.where(slows, self.speed / np.where(slows, -self.slope, 1.0), np.inf)
 
-    def turn(self) -> Array:
+    def approach_end(self) -> Array:
         """Impulse at which approach ends, or inf where the body jams."""
-        y = self.state.approach
-        return np.where(self.mass > 0, y / np.where(self.mass > 0, self.mass, 1.0), np.inf)
+        ends = self.inverse_mass > 0
+        return np.where(ends, self.state.approach / np.where(ends, self.inverse_mass, 1.0), np.inf)
 
     def separation(self) -> Array:
         """Impulse at which the normal force vanishes, or inf."""
-        n, y, m = self.state.normal, self.state.approach, self.mass
-        square = y * y + m * n * n
+        n, y, inverse_mass = self.state.normal, self.state.approach, self.inverse_mass
+        square = y * y + inverse_mass * n * n
         root = np.sqrt(np.maximum(square, 0.0))
-        falls = (y <= 0) & (square >= 0)
-        turns = (y > 0) & (m > 0)
-        late = (y + root) / np.where(turns, m, 1.0)
-        # Without cancellation; no force is left where n = 0.
-        early = n * n / np.where(falls & (n > 0), root - y, 1.0)
-        return np.where(falls, early, np.where(turns, late, np.inf))
+        force_falls = (y <= 0) & (square >= 0)
+        force_rises_first = (y > 0) & (inverse_mass > 0)
+        after_rise = (y + root) / np.where(force_rises_first, inverse_mass, 1.0)
+        # Without cancellation; the contact is at separation already where n = 0.
+        without_rise = n * n / np.where(force_falls & (n > 0), root - y, 1.0)
+        return np.where(force_falls, without_rise, np.where(force_rises_first, after_rise, np.inf))
 
     def reload(self, peak: Array) -> Array:
         """Impulse at which the force reaches its earlier `peak` again, or inf."""
-        n, y, m = self.state.normal, self.state.approach, self.mass
-        missing = (peak - n) * (peak + n)
-        square = y * y - m * missing
+        n, y, inverse_mass = self.state.normal, self.state.approach, self.inverse_mass
+        gap = (peak - n) * (peak + n)
+        square = y * y - inverse_mass * gap
         root = np.sqrt(np.maximum(square, 0.0))
-        rises = (y > 0) & (square >= 0)
-        jams = (y <= 0) & (m < 0)
-        early = missing / np.where(rises, y + root, 1.0)
-        late = (root - y) / np.where(jams, -m, 1.0)
-        return np.where(rises, early, np.where(jams, late, np.inf))
+        force_rises = (y > 0) & (square >= 0)
+        force_falls_first = (y <= 0) & (inverse_mass < 0)
+        without_fall = gap / np.where(force_rises, y + root, 1.0)
+        after_fall = (root - y) / np.where(force_falls_first, -inverse_mass, 1.0)
+        return np.where(force_rises, without_fall, np.where(force_falls_first, after_fall, np.inf))
 
     def after(self, impulse: Array, separation: Array) -> State:
-        """State after an impulse, given that of separation (inf where there is none)."""
+        """State after an impulse, where `separation` is the impulse at separation, or inf."""
         n, y = self.state.normal, self.state.approach
-        ends = np.isfinite(separation) & (separation > 0)
-        last = np.where(ends, separation, 1.0)
-        near = (last - impulse) * (self.mass * impulse + n * n / last)  # no cancellation near it
-        far = n * n + impulse * (2 * y - self.mass * impulse)
-        normal = np.sqrt(np.maximum(np.where(ends, near, far), 0.0))
+        separates = np.isfinite(separation) & (separation > 0)
+        # N^2 has a root at separation: as a product it does not cancel there.
+        end = np.where(separates, separation, 1.0)
+        factored = (end - impulse) * (self.inverse_mass * impulse + n * n / end)
+        expanded = n * n + impulse * (2 * y - self.inverse_mass * impulse)
+        normal = np.sqrt(np.maximum(np.where(separates, factored, expanded), 0.0))
         return self._state(impulse, normal)
 
     def work(self, impulse: Array) -> Array:
@@ -115,48 +119,50 @@ class Slip(NamedTuple):
         return self.groups.friction * impulse * (self.speed + self.slope * impulse / 2)
 
     def duration(self, impulse: Array, normal_after: Array) -> Array:
-        """Time at this pace: by the tangent of its half, which is P/(N + N')."""
+        """Scaled time of an impulse, from tan(rate time/2)/rate = J/(N before + N after)."""
         forces = self.state.normal + normal_after
         half = impulse / np.where(forces > 0, forces, 1.0)
-        rate = np.sqrt(np.abs(self.mass))
-        # An approach to N = 0 may take forever: rounding then decides how long it lasts.
+        rate = np.sqrt(np.abs(self.inverse_mass))
+        # The time to reach N = 0 may be infinite: it is then as long as rounding permits.
         tangent = np.minimum(rate * half, np.nextafter(1.0, 0.0))
-        angle = np.where(self.mass > 0, np.arctan(rate * half), np.arctanh(tangent))
+        angle = np.where(self.inverse_mass > 0, np.arctan(rate * half), np.arctanh(tangent))
         return 2 * np.where(rate * half > 1e-9, angle / np.maximum(rate, 1e-300), half)
 
     def at(self, time: Array) -> State:
-        """States at times of this pace, for one contact and an array of times."""
+        """States of one contact at an array of scaled times."""
         n, y = self.state.normal, self.state.approach
-        sine, half = self._sine(time), self._sine(time / 2)
-        lag = 2 * half * half  # (1 - cosine)/mass
-        impulse = n * sine + y * lag
-        normal = n * (1 - self.mass * lag) + y * sine
+        sine, half_sine = self._sine(time), self._sine(time / 2)
+        versine = 2 * half_sine * half_sine  # (1 - cosine)/inverse_mass
+        impulse = n * sine + y * versine
+        normal = n * (1 - self.inverse_mass * versine) + y * sine
         return self._state(impulse, normal)
 
     def _state(self, impulse: Array, normal: Array) -> State:
-        """State after an impulse, which leaves this normal force."""
-        beta, coupling, _, mu, pace = self.groups
-        push = coupling - self.direction * mu * beta
+        """State after an impulse, with the normal force that it leaves."""
+        beta, coupling, _, mu, time_scale = self.groups
+        slope = coupling - self.direction * mu * beta  # of V over J
         return State(
             normal,
-            self.state.approach - self.mass * impulse,
+            self.state.approach - self.inverse_mass * impulse,
             self.direction * mu * normal,
-            self.state.velocity + pace * push * impulse,
+            self.state.velocity + time_scale * slope * impulse,
         )
 
     def _sine(self, time: Array) -> Array:
-        """sin(rate t)/rate with rate^2 = mass, of either sign."""
-        rate = np.sqrt(np.abs(self.mass))
+        """sin(rate t)/rate with rate^2 = inverse_mass, of either sign."""
+        rate = np.sqrt(np.abs(self.inverse_mass))
         if np.all(rate == 0):
             return time
-        return (np.sin(rate * time) if np.all(self.mass > 0) else np.sinh(rate * time)) / rate
+        sine = np.sin if np.all(self.inverse_mass > 0) else np.sinh
+        return sine(rate * time) / rate
 
 
 class Stick(NamedTuple):
-    """Stick from a state on, as two modes a cos(rate t) + b sin(rate t).
+    """Stick that begins at a state, as two modes p and q, sinusoids of the scaled time.
 
     `cosine` and `sine` turn modes into forces: N = cosine p + sine q, F scale = cosine q - sine p.
-    `p` and `q` hold (a, b). `sizes` are the sizes of the terms of p and q, before any cancellation.
+    `p` and `q` hold the amplitudes of cos(rate t) and sin(rate t). `sizes` are bounds of |p| and
+    |q| from the sizes of their terms, so that rounding errors are in proportion to them.
     """
 
     cosine: Array
@@ -172,38 +178,41 @@ class Stick(NamedTuple):
     @classmethod
     def start(cls, state: State, groups: Groups) -> Self:
         """Stick that starts at this state."""
-        beta, coupling, zeta2, _, pace = groups
+        beta, coupling, zeta2, _, time_scale = groups
         zeta = np.sqrt(zeta2)
-        scale = zeta / pace
-        # Matrix [[1, -d], [-d, b]] of N and F scale, diagonalised by one rotation of Jacobi's.
-        own = pace**2 * beta / zeta2
+        scale = zeta / time_scale
+        # One rotation of Jacobi's method diagonalises [[1, mixed], [mixed, tangential]].
+        tangential = time_scale**2 * beta / zeta2
         mixed = -coupling / scale
-        gap = own - 1
-        reach = gap + np.where(gap < 0, -1.0, 1.0) * np.hypot(gap, 2 * mixed)
-        tangent = 2 * mixed / np.where(reach == 0, 1.0, reach)
+        difference = tangential - 1
+        sign = np.where(difference < 0, -1.0, 1.0)
+        divisor = difference + sign * np.hypot(difference, 2 * mixed)
+        tangent = 2 * mixed / np.where(divisor == 0, 1.0, divisor)
         cosine = 1 / np.sqrt(1 + tangent * tangent)
         sine = tangent * cosine
-        first, second = 1 - tangent * mixed, own + tangent * mixed
+        square_p, square_q = 1 - tangent * mixed, tangential + tangent * mixed
         # The smaller eigenvalue from the determinant, which does not cancel.
-        determinant = (pace / zeta) ** 2 * (beta - coupling * coupling)
-        first, second = (
-            np.where(first < second, determinant / second, first),
-            np.where(first < second, second, determinant / first),
+        determinant = (time_scale / zeta) ** 2 * (beta - coupling * coupling)
+        square_p, square_q = (
+            np.where(square_p < square_q, determinant / square_q, square_p),
+            np.where(square_p < square_q, square_q, determinant / square_p),
         )
-        rate_p, rate_q = np.sqrt(first), np.sqrt(second)
-        force, swing = scale * state.friction, state.velocity / zeta
-        p = cosine * state.normal - sine * force, (cosine * state.approach - sine * swing) / rate_p
-        q = sine * state.normal + cosine * force, (sine * state.approach + cosine * swing) / rate_q
-        across = np.abs(sine)
+        rate_p, rate_q = np.sqrt(square_p), np.sqrt(square_q)
+        n, y = state.normal, state.approach
+        force, force_rate = scale * state.friction, state.velocity / zeta  # F scale, its derivative
+        p = cosine * n - sine * force, (cosine * y - sine * force_rate) / rate_p
+        q = sine * n + cosine * force, (sine * y + cosine * force_rate) / rate_q
         sizes = tuple(
-            own * np.hypot(state.normal, state.approach / rate)
-            + other * np.hypot(force, swing / rate)
-            for own, other, rate in ((cosine, across, rate_p), (across, cosine, rate_q))
+            n_share * np.hypot(n, y / rate) + f_share * np.hypot(force, force_rate / rate)
+            for n_share, f_share, rate in (
+                (cosine, np.abs(sine), rate_p),
+                (np.abs(sine), cosine, rate_q),
+            )
         )
         return cls(cosine, sine, scale, zeta, rate_p, rate_q, p, q, sizes)
 
     def at(self, time: Array) -> State:
-        """States at times of this pace, of the shape of the contacts or for one contact."""
+        """States at scaled times: one for each contact, or many for one contact."""
         cos_p, sin_p = np.cos(self.rate_p * time), np.sin(self.rate_p * time)
         cos_q, sin_q = np.cos(self.rate_q * time), np.sin(self.rate_q * time)
         p = self.p[0] * cos_p + self.p[1] * sin_p

@@ -1,8 +1,8 @@
-"""The same impact without compliance: velocities against normal impulse (Stronge 1990).
+"""Non-collinear impact without compliance: velocities against normal impulse (Stronge 1990).
 
 The contact point slides until friction stops it, then sticks if friction can hold it, or slides
-back. Tangential and normal velocity are piecewise linear in the normal impulse. Where the impulse
-ends is a matter of the law of restitution:
+back. Tangential and normal velocity are piecewise linear in the normal impulse. The law of
+restitution gives the impulse at separation:
 
 - energetic (Stronge): the work of the normal force in restitution is e^2 of that in compression;
 - kinematic (Newton): the normal velocity is -e times what it was;
@@ -10,16 +10,19 @@ ends is a matter of the law of restitution:
 
 They agree if the direction of slip does not change. If it does, only Newton's law may create
 energy. Per unit of normal impulse the impact loses G = v2 + mu |v1| where it slides and G = v2
-where it sticks. With a = 1/m1, b = 1/m2 and the direction g of slip, the slope of G is
--(b - 2 g mu c + mu^2 a) in slip and -(b - c^2/a) in stick. So G always falls, and never more
-steeply after a halt than before: G is convex.
+where it sticks. With the direction g of slip, the slope of G is -(1/m2 - 2 g mu c + mu^2/m1) in
+slip and -(1/m2 - c^2 m1) in stick. So G always falls, and never more steeply after a halt than
+before: G is convex in the impulse J.
 
-- Poisson's: G >= 0 at maximum compression, where v2 = 0. What restitution gives back is no more
-  than e of the impulse that compression took, and by convexity no more than it lost:
-  G(p + s) + G(p - s) >= 2 G(p) >= 0.
-- Stronge's: the normal force gives back e^2 of the work it took, and friction dissipates.
-- Newton's: restitution may take more impulse than compression did, and nothing makes up for the
-  part of it where G < 0.
+- Poisson's: G >= 0 at maximum compression, where v2 = 0. The impulse of restitution is at most e
+  times that of compression. So the energy that restitution creates is, by convexity, at most the
+  energy that compression lost: G(J + s) + G(J - s) >= 2 G(J) >= 0.
+- Stronge's: the normal force returns e^2 of the work that it took, and friction dissipates.
+- Newton's: the impulse of restitution may be larger than that of compression, and the energy that
+  is created where G < 0 may be more than compression lost.
+
+Symbols: v1, v2 tangential and normal velocity, 1/m1, c and 1/m2 the inverse mass, mu friction, e
+restitution, beta = m2/m1, C = m2 c.
 """
 
 from enum import StrEnum
@@ -56,8 +59,8 @@ class ImpulsiveRebound(NamedTuple):
     tangential_impulse, normal_impulse : ndarray of float64 or float
         Of friction and normal force [N s].
     jams : ndarray of bool or bool
-        Whether friction presses the body into the surface, more than the normal force holds it
-        off, while it slides at first.
+        Whether friction presses the body into the surface more than the normal force pushes it off
+        while it slides at first.
     """
 
     tangential: Array
@@ -112,58 +115,65 @@ def rebound(
     """
     if not isinstance(law, str) or law not in list(Law):
         raise InputError(f"law = {law!r}: allowed are {', '.join(Law)}")
-    v1, v2, mu, e, a, c, b = checked_impact(tangential, normal, inverse_mass, friction, restitution)
+    v1, v2, mu, e, inverse_m1, c, inverse_m2 = checked_impact(
+        tangential, normal, inverse_mass, friction, restitution
+    )
     with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):
-        *fields, jams = _rebound(v1 / v2, mu, e, a / b, c / b, Law(law))
-        units = v2, v2, v2 / b, v2 / b
+        beta, coupling = inverse_m1 / inverse_m2, c / inverse_m2
+        *fields, jams = _rebound(v1 / v2, mu, e, beta, coupling, Law(law))
+        units = v2, v2, v2 / inverse_m2, v2 / inverse_m2
         fields = [(field * unit)[()] for field, unit in zip(fields, units, strict=True)]
     refuse_overflow(ImpulsiveRebound._fields, fields)
     return ImpulsiveRebound._make([*fields, jams[()]])
 
 
 def _rebound(
-    v1: Array, mu: Array, e: Array, a: Array, c: Array, law: Law
+    v1: Array, mu: Array, e: Array, beta: Array, coupling: Array, law: Law
 ) -> tuple[Array, Array, Array, Array, Booleans]:
-    """The fields of the result for v2 = 1 and an inverse normal mass of 1."""
-    # Rates of change with the normal impulse: of v1 and, times -1, of v2, sliding at first ...
-    slides_back = np.abs(c) > mu * a
-    direction = np.where(v1 != 0, np.sign(v1), np.where(slides_back, np.sign(c), 0.0))
-    share = np.where(direction != 0, direction * mu, c / a)  # friction over normal force
-    drift, first = c - share * a, 1 - share * c
-    # ... and after it has come to rest at the impulse `halt`.
-    later_share = np.where(slides_back, np.sign(c) * mu, c / a)
-    later_drift, second = np.where(slides_back, c - later_share * a, 0.0), 1 - later_share * c
-    slows = drift * v1 < 0
-    halt = np.where(slows, -v1 / np.where(slows, drift, 1.0), np.inf)
-    v2_halt = np.where(slows, 1 - first * np.where(slows, halt, 0.0), -np.inf)
+    """The fields of the result in units of v2 and m2."""
+    # Rates of change with the normal impulse: `drift` of v1 and `slowing` of -v2. First while the
+    # contact slides as at first ...
+    slides_back = np.abs(coupling) > mu * beta
+    direction = np.where(v1 != 0, np.sign(v1), np.where(slides_back, np.sign(coupling), 0.0))
+    # Friction over normal force.
+    first_share = np.where(direction != 0, direction * mu, coupling / beta)
+    first_drift, first_slowing = coupling - first_share * beta, 1 - first_share * coupling
+    # ... then after the halt of the contact point.
+    later_share = np.where(slides_back, np.sign(coupling) * mu, coupling / beta)
+    later_drift = np.where(slides_back, coupling - later_share * beta, 0.0)
+    later_slowing = 1 - later_share * coupling
+    # The halt: impulse and normal velocity.
+    halts = first_drift * v1 < 0
+    halt = np.where(halts, -v1 / np.where(halts, first_drift, 1.0), np.inf)
+    v2_halt = np.where(halts, 1 - first_slowing * np.where(halts, halt, 0.0), -np.inf)
+    halts_in_compression = v2_halt > 0
 
-    early = v2_halt > 0  # at rest before maximum compression
-    compression = np.where(early, halt + v2_halt / second, 1 / first)
+    # Impulse and work of compression.
+    compression = np.where(halts_in_compression, halt + v2_halt / later_slowing, 1 / first_slowing)
     work = np.where(
-        early,
-        halt * (1 + v2_halt) / 2 + v2_halt**2 / (2 * second),
+        halts_in_compression,
+        halt * (1 + v2_halt) / 2 + v2_halt**2 / (2 * later_slowing),
         compression / 2,
     )
-    # Sliding on through restitution as at first, or late: at rest within it.
-    rate = np.where(early, second, first)
-    until_halt = np.where(early, np.inf, halt - compression)
+    # Impulse of restitution, as if the contact point did not halt in it; then with the halt.
+    slowing = np.where(halts_in_compression, later_slowing, first_slowing)
+    until_halt = np.where(halts_in_compression, np.inf, halt - compression)
     if law is Law.KINETIC:
-        end = e * compression
+        restitution = e * compression
     elif law is Law.KINEMATIC:
-        end = e / rate
-        late = end > until_halt
-        end = np.where(late, until_halt + (e - rate * until_halt) / second, end)
+        restitution = e / slowing
+        with_halt = until_halt + (e - slowing * until_halt) / later_slowing
+        restitution = np.where(restitution > until_halt, with_halt, restitution)
     else:
-        end = e * np.sqrt(2 * work / rate)
-        late = end > until_halt
-        missing = e**2 * work - rate * until_halt**2 / 2
-        speed = rate * until_halt
-        rest = 2 * missing / (speed + np.sqrt(np.maximum(speed**2 + 2 * second * missing, 0)))
-        end = np.where(late, until_halt + rest, end)
-    total = compression + end
+        restitution = e * np.sqrt(2 * work / slowing)
+        work_after_halt = e**2 * work - slowing * until_halt**2 / 2
+        speed = slowing * until_halt  # of separation at the halt
+        root = np.sqrt(np.maximum(speed**2 + 2 * later_slowing * work_after_halt, 0))
+        with_halt = until_halt + 2 * work_after_halt / (speed + root)
+        restitution = np.where(restitution > until_halt, with_halt, restitution)
+    total = compression + restitution
     before, after = np.minimum(total, halt), np.maximum(total - halt, 0.0)
-    halted = total >= halt
-    tangential = np.where(halted, later_drift * after, v1 + drift * before)
-    normal = 1 - first * before - np.where(after > 0, second * after, 0.0)
-    friction = share * before + np.where(after > 0, later_share * after, 0.0)
-    return tangential, np.minimum(normal, 0.0), friction, total, first < 0
+    tangential = np.where(total >= halt, later_drift * after, v1 + first_drift * before)
+    normal = 1 - first_slowing * before - np.where(after > 0, later_slowing * after, 0.0)
+    friction = first_share * before + np.where(after > 0, later_share * after, 0.0)
+    return tangential, np.minimum(normal, 0.0), friction, total, first_slowing < 0

@@ -1,4 +1,4 @@
-"""The phases of a non-collinear contact in turn, from contact to separation."""
+"""Solves non-collinear contacts phase by phase, from contact to separation."""
 
 from typing import NamedTuple
 
@@ -6,14 +6,15 @@ import numpy as np
 
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.results import Regime
-from planarimpact.noncollinear import held, stick_end
+from planarimpact.noncollinear import closed_contact, stick_end
 from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
 
-# A contact with more phases than this is given up.
+# The solver gives up a contact with more phases than this.
 MOST_PHASES = 5_000
-# All restitutions below this one leave the same tangential motion, to rounding.
-SMALLEST_PACE = 1e-50
-# Two impulses that differ by less than this share are equal but for rounding.
+# Time scale of unloading where restitution is smaller: then the tangential motion is the same, to
+# rounding.
+SMALLEST_TIME_SCALE = 1e-50
+# Two impulses whose relative difference is smaller are considered equal.
 TIE = 1e-14
 
 
@@ -29,7 +30,7 @@ class Impacts(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """What is known of each impact so far, arrays of shape (n,), filled in place.
+    """Results of impacts so far, arrays of shape (n,), filled in place.
 
     `given_up` marks impacts with too many phases or oscillations: they have no result.
     """
@@ -46,9 +47,9 @@ class Outcome(NamedTuple):
 
 
 class Phase(NamedTuple):
-    """One phase of one contact: its motion, the half it belongs to, how long."""
+    """One phase of one contact: its motion, whether in unloading, and its scaled duration."""
 
-    motion: Slip | Stick | held.Swing
+    motion: Slip | Stick | closed_contact.ClosedPhase
     unloading: bool
     duration: float
 
@@ -56,61 +57,50 @@ class Phase(NamedTuple):
 class Contacts(NamedTuple):
     """Contacts that have not ended, arrays of shape (n,).
 
-    `lanes` are their places in the batch, `unloading` tells the half of the contact. `direction` is
-    that of slip, 0 in stick. `rising` tells whether in unloading the force has begun to rise again.
-    `peak` is the normal force at maximum compression so far, `sticks` the number of sticks.
+    `impact` is the index of each in `Impacts` and `Outcome`. `unloading` is true on the line of
+    unloading, and there `rising` is true while the force rises again. `direction` is that of slip,
+    0 in stick. `peak` is the normal force at maximum compression so far.
     """
 
-    lanes: Integers
+    impact: Integers
     state: State
     unloading: Booleans
     direction: Array
     rising: Booleans
     peak: Array
-    sticks: Integers
+    stick_count: Integers
     slid_first: Booleans
 
 
 def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
-    """Velocities, peak forces, work of friction, duration and regime.
-
-    Parameters
-    ----------
-    impacts : Impacts
-    trace : list, optional
-        For a single impact: its phases are appended in order.
-
-    Returns
-    -------
-    Outcome
-    """
+    """Solve impacts; the phases of a single impact are appended to `trace` in order."""
     size = impacts.velocity.size
     outcome = Outcome._make(
         [*np.zeros((6, size)), np.zeros(size, np.uint8), *np.zeros((2, size), bool)]
     )
-    contacts = _first(impacts)
+    contacts = _start(impacts)
     for _ in range(MOST_PHASES):
-        if not contacts.lanes.size:
+        if not contacts.impact.size:
             break
-        contacts = _advance(contacts, impacts, outcome, trace)
-    outcome.given_up[contacts.lanes] = True
+        contacts = _next_phase(contacts, impacts, outcome, trace)
+    outcome.given_up[contacts.impact] = True
     return outcome
 
 
-def _first(impacts: Impacts) -> Contacts:
-    """Contacts at their first instant: they stick, unless the body outruns the spring."""
+def _start(impacts: Impacts) -> Contacts:
+    """Contacts at their first instant: they stick, unless the body is faster than the spring."""
     velocity, mu, zeta2 = impacts.velocity, impacts.friction, impacts.stiffness_ratio
     size = velocity.size
     direction = np.where(velocity < 0, -1.0, 1.0)
     start = State(np.zeros(size), np.ones(size), np.zeros(size), velocity)
-    all_lanes = np.arange(size)
-    groups = _groups(impacts, all_lanes, np.zeros(size, bool))
+    groups = _groups(impacts, np.arange(size), np.zeros(size, bool))
     limit = mu * zeta2
-    # At the limit itself both forces leave zero together. Then it slides if slip would get faster.
-    grows = Slip.start(start, groups, direction).slope >= 0
-    slides = (np.abs(velocity) > limit) | ((np.abs(velocity) == limit) & grows) | (mu == 0)
+    # At the limit itself |F| = mu N to first order in time: the contact slips if slip gets faster.
+    gets_faster = Slip.start(start, groups, direction).slope >= 0
+    at_limit = np.abs(velocity) == limit
+    slides = (np.abs(velocity) > limit) | (at_limit & gets_faster) | (mu == 0)
     return Contacts(
-        all_lanes,
+        np.arange(size),
         start,
         np.zeros(size, bool),
         np.where(slides, direction, 0.0),
@@ -121,41 +111,42 @@ def _first(impacts: Impacts) -> Contacts:
     )
 
 
-def _groups(impacts: Impacts, lanes: Integers, unloading: Booleans) -> Groups:
-    pace = np.where(unloading, np.maximum(impacts.restitution[lanes], SMALLEST_PACE), 1.0)
+def _groups(impacts: Impacts, chosen: Integers, unloading: Booleans) -> Groups:
+    """Groups of the chosen impacts, with the time scale of loading or unloading."""
+    e = np.maximum(impacts.restitution[chosen], SMALLEST_TIME_SCALE)
     return Groups(
-        impacts.mass_ratio[lanes],
-        impacts.coupling[lanes],
-        impacts.stiffness_ratio[lanes],
-        impacts.friction[lanes],
-        pace,
+        impacts.mass_ratio[chosen],
+        impacts.coupling[chosen],
+        impacts.stiffness_ratio[chosen],
+        impacts.friction[chosen],
+        np.where(unloading, e, 1.0),
     )
 
 
-def _advance(
+def _next_phase(
     contacts: Contacts, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
 ) -> Contacts:
-    """One phase for every contact; those that end leave."""
-    groups = _groups(impacts, contacts.lanes, contacts.unloading)
-    sticks = contacts.direction == 0
-    pieces = []
-    for chosen, move in ((~sticks, _slide), (sticks, _stick)):
-        which = np.flatnonzero(chosen)
-        if which.size:
-            part, some = _take(contacts, which), Groups(*(g[which] for g in groups))
-            moved = move(part, some, impacts, outcome, trace)
-            pieces.append(_leave(*moved, impacts, outcome, trace))
-    if len(pieces) == 1:
-        return pieces[0]
-    return _join(*pieces)
+    """Advance every contact by one phase, and return those that have not ended."""
+    groups = _groups(impacts, contacts.impact, contacts.unloading)
+    in_stick = contacts.direction == 0
+    remaining = []
+    for mask, advance in ((~in_stick, _slip_phase), (in_stick, _stick_phase)):
+        chosen = np.flatnonzero(mask)
+        if chosen.size:
+            chosen_groups = Groups(*(group[chosen] for group in groups))
+            event = advance(_take(contacts, chosen), chosen_groups, outcome, trace)
+            remaining.append(_after_event(*event, impacts, outcome, trace))
+    return remaining[0] if len(remaining) == 1 else _join(*remaining)
 
 
-def _take(contacts: Contacts, which: Integers) -> Contacts:
-    state = State._make(field[which] for field in contacts.state)
-    return Contacts._make(state if field is contacts.state else field[which] for field in contacts)
+def _take(contacts: Contacts, chosen: Integers) -> Contacts:
+    """The chosen contacts."""
+    state = State._make(field[chosen] for field in contacts.state)
+    return Contacts._make(state if field is contacts.state else field[chosen] for field in contacts)
 
 
 def _join(first: Contacts, second: Contacts) -> Contacts:
+    """The contacts of both."""
     state = State(*(np.concatenate(pair) for pair in zip(first.state, second.state, strict=True)))
     return Contacts._make(
         state if one is first.state else np.concatenate([one, two])
@@ -163,195 +154,191 @@ def _join(first: Contacts, second: Contacts) -> Contacts:
     )
 
 
-def _slide(
-    contacts: Contacts,
-    groups: Groups,
-    impacts: Impacts,
-    outcome: Outcome,
-    trace: list[Phase] | None,
+def _slip_phase(
+    contacts: Contacts, groups: Groups, outcome: Outcome, trace: list[Phase] | None
 ) -> tuple[Contacts, Booleans, Booleans]:
-    """Slip to its next event: the contacts after it, those that separate, those that turn."""
+    """Slip to its next event: contacts there, where a half ends, where N is at its peak again."""
     slip = Slip.start(contacts.state, groups, contacts.direction)
     unloading = contacts.unloading
     separation = np.where(unloading, slip.separation(), np.inf)
     candidates = np.stack(
         [
-            # If it stops at the instant of another event, the other one comes first: the next phase
-            # then tells whether slip goes on.
+            # If slip stops at the instant of another event, the other one comes first: the next
+            # phase then shows whether slip goes on.
             slip.stop() * (1 + TIE),
-            np.where(unloading, separation, slip.turn()),
+            np.where(unloading, separation, slip.approach_end()),
             np.where(unloading, slip.reload(contacts.peak), np.inf),
         ]
     )
     event = candidates.argmin(axis=0)
     impulse = candidates.min(axis=0)
-    # No event: rounding does this where C^2 equals m2/m1 to the last digits.
-    endless = ~np.isfinite(impulse)
-    outcome.given_up[contacts.lanes] = endless
-    impulse = np.where(endless, 0.0, impulse)
+    # Where C^2 equals m2/m1 to the last digits, rounding may leave no event.
+    no_event = ~np.isfinite(impulse)
+    outcome.given_up[contacts.impact] = no_event
+    impulse = np.where(no_event, 0.0, impulse)
     after = slip.after(impulse, separation)
-    stops, ends, again = (event == kind for kind in range(3))
+    stops, half_ends, at_peak = (event == kind for kind in range(3))
     after = after._replace(
-        approach=np.where(ends & ~unloading, 0.0, after.approach),
-        normal=np.where(ends & unloading, 0.0, np.where(again, contacts.peak, after.normal)),
+        approach=np.where(half_ends & ~unloading, 0.0, after.approach),
+        normal=np.where(half_ends & unloading, 0.0, np.where(at_peak, contacts.peak, after.normal)),
     )
-    lanes, mu = contacts.lanes, groups.friction
+    impact, mu = contacts.impact, groups.friction
     after = after._replace(friction=contacts.direction * mu * after.normal)
-    # A reloading that stays below the earlier peak has a largest force of its own.
-    crest = slip.turn()
-    inside = (contacts.state.approach > 0) & (after.approach < 0) & unloading
-    top = slip.after(np.where(inside, crest, 0.0), separation).normal
-    force = np.maximum(np.maximum(contacts.state.normal, after.normal), top)
-    outcome.peak_friction[lanes] = np.maximum(outcome.peak_friction[lanes], mu * force)
-    outcome.friction_work[lanes] += slip.work(impulse)
+    # A force that rises again and stays below the earlier peak has a maximum within the phase.
+    has_maximum = (contacts.state.approach > 0) & (after.approach < 0) & unloading
+    maximum = slip.after(np.where(has_maximum, slip.approach_end(), 0.0), separation).normal
+    largest = np.maximum(np.maximum(contacts.state.normal, after.normal), maximum)
+    outcome.peak_friction[impact] = np.maximum(outcome.peak_friction[impact], mu * largest)
+    outcome.friction_work[impact] += slip.work(impulse)
     duration = slip.duration(impulse, after.normal)
-    outcome.duration[lanes] += groups.pace * duration
-    outcome.jams[lanes] |= (slip.mass < 0) & (impulse > 0)
+    outcome.duration[impact] += groups.time_scale * duration
+    outcome.jams[impact] |= (slip.inverse_mass < 0) & (impulse > 0)
     _record(trace, slip, contacts, duration)
-    moved = contacts._replace(
+    contacts_after = contacts._replace(
         state=after,
         direction=np.where(stops, 0.0, contacts.direction),
         rising=unloading & (after.approach > 0),
-        sticks=contacts.sticks + stops,
+        stick_count=contacts.stick_count + stops,
     )
-    return moved, ends, again
+    return contacts_after, half_ends, at_peak
 
 
-def _stick(
-    contacts: Contacts,
-    groups: Groups,
-    impacts: Impacts,
-    outcome: Outcome,
-    trace: list[Phase] | None,
+def _stick_phase(
+    contacts: Contacts, groups: Groups, outcome: Outcome, trace: list[Phase] | None
 ) -> tuple[Contacts, Booleans, Booleans]:
-    """Stick to its next event."""
+    """Stick to its next event; returns as `_slip_phase`."""
     stick = Stick.start(contacts.state, groups)
     unloading = contacts.unloading
-    which = stick_end.functions(
+    functions = stick_end.functions_of(
         stick, contacts.state, groups, contacts.peak, unloading, contacts.rising
     )
-    time, event = stick_end.first_zero(which)
-    outcome.given_up[contacts.lanes] = event < 0
+    time, event = stick_end.first_zero(functions)
+    impact = contacts.impact
+    outcome.given_up[impact] = event < 0
     after = stick.at(time)
-    forward, backward, turns, ends, other = (event == kind for kind in range(5))
-    again = other & contacts.rising
+    forward, backward, friction_turns, half_ends, last = (event == kind for kind in range(5))
+    at_peak = last & contacts.rising
     direction = np.where(forward, 1.0, np.where(backward, -1.0, 0.0))
     slides = forward | backward
     mu = groups.friction
-    normal = np.where(ends & unloading, 0.0, np.where(again, contacts.peak, after.normal))
-    # At the onset of slip |F| = mu N, and the larger of the two forces is known to more digits.
+    normal = np.where(half_ends & unloading, 0.0, np.where(at_peak, contacts.peak, after.normal))
+    # At the onset of slip |F| = mu N, and the larger of the two forces has more correct digits.
     normal = np.where(slides & (mu > 1), np.abs(after.friction) / np.maximum(mu, 1.0), normal)
     normal = np.maximum(normal, 0.0)
     after = State(
         normal,
-        np.where(ends & ~unloading, 0.0, after.approach),
+        np.where(half_ends & ~unloading, 0.0, after.approach),
         np.where(slides, direction * mu * normal, after.friction),
-        np.where(turns, 0.0, after.velocity),
+        np.where(friction_turns, 0.0, after.velocity),
     )
-    lanes = contacts.lanes
-    outcome.peak_friction[lanes] = np.maximum(outcome.peak_friction[lanes], np.abs(after.friction))
-    outcome.duration[lanes] += groups.pace * time
+    outcome.peak_friction[impact] = np.maximum(
+        outcome.peak_friction[impact], np.abs(after.friction)
+    )
+    outcome.duration[impact] += groups.time_scale * time
     _record(trace, stick, contacts, time)
-    moved = contacts._replace(
+    contacts_after = contacts._replace(
         state=after,
         direction=direction,
-        rising=(contacts.rising | other) & ~again,
+        rising=(contacts.rising | last) & ~at_peak,
     )
-    return moved, ends, again
+    return contacts_after, half_ends, at_peak
 
 
 def _record(
     trace: list[Phase] | None,
-    motion: Slip | Stick | held.Swing,
+    motion: Slip | Stick | closed_contact.ClosedPhase,
     contacts: Contacts,
     duration: Array,
 ) -> None:
+    """Append a phase to the trace of a single contact."""
     if trace is not None:
         trace.append(Phase(motion, bool(contacts.unloading[0]), float(duration[0])))
 
 
-def _leave(
+def _after_event(
     contacts: Contacts,
-    ends: Booleans,
-    again: Booleans,
+    half_ends: Booleans,
+    at_peak: Booleans,
     impacts: Impacts,
     outcome: Outcome,
     trace: list[Phase] | None,
 ) -> Contacts:
-    """Turn contacts at maximum compression and at the earlier peak; settle those that separate."""
-    lanes, state = contacts.lanes, contacts.state
-    e = impacts.restitution[lanes]
-    pace = np.maximum(e, SMALLEST_PACE)
-    compressed = ends & ~contacts.unloading
+    """Start unloading or loading, write the outcome of contacts that separate, and drop them."""
+    impact, state = contacts.impact, contacts.state
+    e = impacts.restitution[impact]
+    compressed = half_ends & ~contacts.unloading
     peak = np.where(compressed, state.normal, contacts.peak)
-    dead = compressed & (e == 0)
-    separates = (ends & contacts.unloading) | dead
-    approach = np.where(again, pace * state.approach, state.approach)
-    moved = contacts._replace(
+    no_restitution = compressed & (e == 0)
+    separates = (half_ends & contacts.unloading) | no_restitution
+    time_scale = np.maximum(e, SMALLEST_TIME_SCALE)
+    approach = np.where(at_peak, time_scale * state.approach, state.approach)
+    contacts = contacts._replace(
         state=state._replace(approach=approach),
-        unloading=(contacts.unloading | compressed) & ~again,
+        unloading=(contacts.unloading | compressed) & ~at_peak,
         peak=peak,
     )
-    sticks = np.flatnonzero(dead & (contacts.direction == 0))
-    if sticks.size:
-        moved, goes_on = _hold(moved, sticks, impacts, outcome, trace)
-        separates[goes_on] = False
-    gone = np.flatnonzero(separates)
-    if gone.size:
-        _settle(_take(moved, gone), e[gone], impacts, outcome)
-    over = separates | outcome.given_up[lanes]
-    return _take(moved, np.flatnonzero(~over)) if over.any() else moved
+    in_stick = np.flatnonzero(no_restitution & (contacts.direction == 0))
+    if in_stick.size:
+        contacts, reloading = _closed_course(contacts, in_stick, impacts, outcome, trace)
+        separates[reloading] = False
+    separating = np.flatnonzero(separates)
+    if separating.size:
+        _write_outcome(_take(contacts, separating), e[separating], impacts, outcome)
+    ended = separates | outcome.given_up[impact]
+    return _take(contacts, np.flatnonzero(~ended)) if ended.any() else contacts
 
 
-def _hold(
+def _closed_course(
     contacts: Contacts,
-    which: Integers,
+    in_stick: Integers,
     impacts: Impacts,
     outcome: Outcome,
     trace: list[Phase] | None,
 ) -> tuple[Contacts, Integers]:
-    """Move on those of `which`, in stick without restitution, that friction holds closed.
+    """Advance contacts in stick without restitution if friction holds them closed.
 
-    Returns the contacts and which of them compression goes on for.
+    Returns all contacts, and the indices of those whose compression goes on.
     """
-    lanes = contacts.lanes[which]
-    some, groups = _take(contacts, which), _groups(impacts, lanes, np.zeros(which.size, bool))
-    closed, lowest = held.lowest_force(some.state, groups)
-    which, lanes, kept = which[closed], lanes[closed], np.flatnonzero(closed)
-    some, groups = _take(some, kept), Groups(*(group[kept] for group in groups))
-    release = held.Release.of(some.state, groups, lowest[kept])
-    outcome.peak_friction[lanes] = np.maximum(outcome.peak_friction[lanes], release.peak_friction)
-    outcome.friction_work[lanes] += release.work
-    outcome.duration[lanes] += release.stick_time + release.creep_time
-    outcome.jams[lanes] |= release.bursts | ~release.reloads
+    candidates = _take(contacts, in_stick)
+    groups = _groups(impacts, candidates.impact, np.zeros(in_stick.size, bool))
+    is_held, lowest = closed_contact.held_closed(candidates.state, groups)
+    kept = np.flatnonzero(is_held)
+    held, closed = in_stick[kept], _take(candidates, kept)
+    groups = Groups(*(group[kept] for group in groups))
+    course = closed_contact.ClosedCourse.of(closed.state, groups, lowest[kept])
+    impact = closed.impact
+    outcome.peak_friction[impact] = np.maximum(outcome.peak_friction[impact], course.peak_friction)
+    outcome.friction_work[impact] += course.work
+    outcome.duration[impact] += course.stick_time + course.creep_time
+    outcome.jams[impact] |= course.slips_first | ~course.reloads
     if kept.size:
-        _record(trace, release.stick, some, release.stick_time)
-        if not release.reloads.all():
-            _record(trace, release.creep, some, release.creep_time)
+        _record(trace, course.stick, closed, course.stick_time)
+        if not course.reloads.all():
+            _record(trace, course.creep, closed, course.creep_time)
     state = State(*(field.copy() for field in contacts.state))
-    for field, end in zip(state, release.end, strict=True):
-        field[which] = end
-    # Each burst, and creep again and again, brings a new stick.
-    sticks, unloading = contacts.sticks.copy(), contacts.unloading.copy()
-    sticks[which] += release.bursts + 2 * ~release.reloads
-    unloading[which] = ~release.reloads
-    moved = contacts._replace(state=state, sticks=sticks, unloading=unloading)
-    return moved, which[release.reloads]
+    for field, end in zip(state, course.end, strict=True):
+        field[held] = end
+    # A slip in the first oscillation is followed by a new stick, and creep has many.
+    stick_count, unloading = contacts.stick_count.copy(), contacts.unloading.copy()
+    stick_count[held] += course.slips_first + 2 * ~course.reloads
+    unloading[held] = ~course.reloads
+    contacts = contacts._replace(state=state, stick_count=stick_count, unloading=unloading)
+    return contacts, held[course.reloads]
 
 
-def _settle(contacts: Contacts, e: Array, impacts: Impacts, outcome: Outcome) -> None:
-    """Write down the outcome of contacts that separate, with the strain energy that is lost.
+def _write_outcome(contacts: Contacts, e: Array, impacts: Impacts, outcome: Outcome) -> None:
+    """Write the outcome of contacts that separate, with the strain energy that is lost.
 
     At separation the tangential spring may still be strained: for e = 0, and where mu is so large
-    that the last slip cannot be told from separation.
+    that rounding hides the last slip.
     """
-    lanes, state = contacts.lanes, contacts.state
-    outcome.velocity[lanes] = state.velocity
-    outcome.approach[lanes] = e * state.approach
-    outcome.peak_normal[lanes] = contacts.peak
-    outcome.friction_work[lanes] += impacts.stiffness_ratio[lanes] * state.friction**2 / 2
-    sticks, slid_first, slides = contacts.sticks, contacts.slid_first, contacts.direction != 0
-    outcome.regime[lanes] = np.select(
+    impact, state = contacts.impact, contacts.state
+    outcome.velocity[impact] = state.velocity
+    outcome.approach[impact] = e * state.approach
+    outcome.peak_normal[impact] = contacts.peak
+    outcome.friction_work[impact] += impacts.stiffness_ratio[impact] * state.friction**2 / 2
+    sticks, slid_first, slides = contacts.stick_count, contacts.slid_first, contacts.direction != 0
+    outcome.regime[impact] = np.select(
         [sticks == 0, sticks > 1, slid_first & slides, slid_first, slides],
         [
             Regime.SLIP_THROUGHOUT,

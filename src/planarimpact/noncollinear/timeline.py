@@ -1,4 +1,4 @@
-"""The course of one non-collinear contact in physical units, from the solver's phases."""
+"""The history of one non-collinear contact in physical units, from the solver's phases."""
 
 from typing import NamedTuple
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Event, EventKind
-from planarimpact.noncollinear.held import Swing
+from planarimpact.noncollinear.closed_contact import ClosedPhase
 from planarimpact.noncollinear.phases import Slip
 from planarimpact.noncollinear.solver import Phase
 
@@ -30,9 +30,10 @@ class NoncollinearHistory(NamedTuple):
 
     Notes
     -----
-    Without restitution, a contact that friction holds closed swings without end (`held`). The
-    normal force is then its mean. It jumps to that value, and after a burst of slip friction jumps
-    too: two vertices have the same time. Creep, which is many short slips, counts as slip.
+    Without restitution, the normal force of a contact that friction holds closed oscillates without
+    end (`closed_contact`). `normal_force` is then its mean. It jumps to that value, and if the
+    first oscillation slips, friction jumps too: two vertices have the same time. Creep, which is
+    many short slips, counts as slip.
     """
 
     time: Array
@@ -50,71 +51,59 @@ def timeline(
     e: float,
     zeta2: float,
     samples: int,
-    speed: float,
-    force: float,
-    time: float,
+    speed_unit: float,
+    impedance_unit: float,
+    time_unit: float,
 ) -> NoncollinearHistory:
-    """History of a contact.
-
-    Parameters
-    ----------
-    trace : list of solver.Phase
-    e, zeta2 : float
-        Restitution and stiffness ratio.
-    samples : int
-        Instants evenly spread over the contact, beside those of the events.
-    speed, force, time : float
-        v2(0) [m/s], m2 Omega [N s/m] and 1/Omega [s].
-
-    Returns
-    -------
-    NoncollinearHistory
-    """
-    ends = np.cumsum([_pace(phase, e) * phase.duration for phase in trace])
+    """History of a contact; units are v2(0) [m/s], m2 Omega [N s/m] and 1/Omega [s]."""
+    ends = np.cumsum([_time_scale(phase, e) * phase.duration for phase in trace])
     grid = np.linspace(0.0, ends[-1], samples)
-    pieces: list[Array] = []
-    starts: list[int] = []
-    marks: list[tuple[EventKind, int]] = []
+    blocks: list[Array] = []
+    repeated: list[int] = []  # columns that repeat the one before
+    event_columns: list[tuple[EventKind, int]] = []
     before, peak = None, 0.0
     for phase, start, end in zip(trace, np.append(0.0, ends[:-1]), ends, strict=True):
-        first = sum(piece.shape[1] for piece in pieces)
-        jumps = isinstance(phase.motion, Swing) and not (before and before.unloading)
+        first = sum(block.shape[1] for block in blocks)
+        jumps = isinstance(phase.motion, ClosedPhase) and not (before and before.unloading)
         # The end of a phase is the start of the next one. Events at a jump belong to the end.
-        marks += [(kind, first - jumps) for kind in _kinds(phase, before)]
+        event_columns += [(kind, first - jumps) for kind in _kinds(phase, before)]
         if before and not jumps:
-            starts.append(first)
+            repeated.append(first)
         inside = grid[(grid > start) & (grid < end)]
         instants = np.concatenate([[start], inside, [end]])
-        # A phase in unloading with a small e is so short that the difference of its ends would lose
-        # digits.
-        elapsed = np.concatenate([[0.0], (inside - start) / _pace(phase, e), [phase.duration]])
+        # A phase in unloading with a small e is so short that the difference of its ends would have
+        # few digits.
+        time_scale = _time_scale(phase, e)
+        elapsed = np.concatenate([[0.0], (inside - start) / time_scale, [phase.duration]])
         state = phase.motion.at(elapsed)
         normal = np.maximum(state.normal, 0.0)
         if not phase.unloading:
             peak = normal[-1]
         # On the line of unloading u = u_max - e^2 (N_max - N).
         compression = peak - e * e * (peak - normal) if phase.unloading else normal
-        approach = _pace(phase, e) * state.approach
-        pieces.append(
+        approach = time_scale * state.approach
+        blocks.append(
             np.stack([instants, normal, state.friction, state.velocity, approach, compression])
         )
         before = phase
-    columns = np.concatenate(pieces, axis=1)
+    columns = np.concatenate(blocks, axis=1)
     last = columns.shape[1] - 1
     if not trace[-1].unloading:
-        marks.append((EventKind.MAXIMUM_COMPRESSION, last))
-    marks.append((EventKind.SEPARATION, last))
-    scales = [time, speed * force, speed * force, speed, speed, speed * time, speed * time]
-    columns = np.vstack([columns, zeta2 * columns[2]]) * np.array(scales)[:, None]
+        event_columns.append((EventKind.MAXIMUM_COMPRESSION, last))
+    event_columns.append((EventKind.SEPARATION, last))
+    force_unit, length_unit = speed_unit * impedance_unit, speed_unit * time_unit
+    units = [time_unit, *[force_unit] * 2, *[speed_unit] * 2, *[length_unit] * 2]
+    columns = np.vstack([columns, zeta2 * columns[2]]) * np.array(units)[:, None]
     events = tuple(
         Event(kind, *(float(columns[row, column]) for row in (0, 1, 2, 3, 6)))
-        for kind, column in marks
+        for kind, column in event_columns
     )
-    return NoncollinearHistory._make([*np.delete(columns, starts, axis=1), events])
+    return NoncollinearHistory._make([*np.delete(columns, repeated, axis=1), events])
 
 
-def _pace(phase: Phase, e: float) -> float:
-    return e if phase.unloading and not isinstance(phase.motion, Swing) else 1.0
+def _time_scale(phase: Phase, e: float) -> float:
+    """Time scale of a phase: e on the line of unloading."""
+    return e if phase.unloading and not isinstance(phase.motion, ClosedPhase) else 1.0
 
 
 def _kinds(phase: Phase, before: Phase | None) -> list[EventKind]:
@@ -133,6 +122,7 @@ def _kinds(phase: Phase, before: Phase | None) -> list[EventKind]:
 
 
 def _kind(phase: Phase) -> EventKind:
+    """Whether a phase is slip or stick."""
     motion = phase.motion
-    slides = motion.creeps if isinstance(motion, Swing) else isinstance(motion, Slip)
+    slides = motion.creeps if isinstance(motion, ClosedPhase) else isinstance(motion, Slip)
     return EventKind.SLIP if slides else EventKind.STICK

@@ -1,9 +1,11 @@
 """Compiled responses: the rebound of one pair of bodies as a table of polynomials.
 
-For given groups the rebound is a function of the incidence alone, smooth between a few kinks. A
-response holds that function. It takes tens of nanoseconds an impact, whichever model it was made
-from. If the model slides throughout from some incidence on, that formula is kept. Its error is
+With fixed groups the rebound is a function of the incidence alone, smooth between a few kinks. A
+response holds that function. It takes tens of nanoseconds an impact, whatever the model it stands
+for. Where the model slides throughout by formula, the response has this formula. Its error is
 measured against the model, not against nature, and must be within a tolerance.
+
+Symbols: x incidence, beta = m2/m1 mass ratio, e restitution.
 """
 
 import hashlib
@@ -34,15 +36,15 @@ CONTENT = (
 )
 # Impacts evaluated together: they stay in the cache.
 CHUNK = 16384
-# Errors below this share of the largest incidence that is fitted cannot be told from rounding.
+# Rounding error of a fit, as a share of the largest incidence that is fitted.
 ROUNDING = 2.0**-48
-# A kink below this share of the span counts as 0.
+# A kink below this share of the largest incidence that is fitted counts as 0.
 NARROWEST = 1e-30
-# Share of the tolerance for a model that has one of its own: it costs more than the fit.
+# Share of the tolerance that a model with a tolerance setting gets: it costs more than the fit.
 MODEL_SHARE = 1 / 2
-# Shares of the tolerance for the fit, at the first try and at the second.
+# Share of the tolerance that the fit gets, at the first try and at the second.
 FIT_SHARES = 1 / 4, 1 / 32
-# A model with a tolerance is asked with this one first when a file is checked.
+# When a file is checked, a model with a tolerance setting is solved with this one first.
 COARSE = 1e-3
 
 
@@ -68,14 +70,14 @@ class Response:
     incidence_max : float
         Largest |incidence| that it answers; infinite where the model slides throughout beyond.
     tolerance : float
-        What was asked for.
+        The largest error that was allowed.
     error_bound : Bound
-        What was measured: twice the largest difference from the model that a search found, plus
-        the model's own tolerance if it has one. The search begins at 32 places of every
-        piece, its ends among them, and looks closer beside the largest differences. Nothing is
-        proved: a narrow kink may hide between the places, above all in a model in time steps.
-        Rounding, up to 4e-15 of the largest incidence, comes on top. The bound does not hold for
-        the regime, which changes within a hundredth of the tolerance from where the model's does.
+        Measured: twice the largest difference from the model at the points of a search, plus the
+        model's own tolerance if it has one. The search begins at 32 points of every piece, its ends
+        among them, and takes more points beside the largest differences. It is no proof: a narrow
+        kink may lie between the points, above all in a model in time steps. Rounding adds up to
+        4e-15 of the largest incidence. The bound does not hold for the regime, which changes within
+        a hundredth of the tolerance from where the model's does.
     slides_from : float
         Incidence from which the formula of slip throughout holds, or infinity.
     pieces : planarimpact.response.piecewise.Pieces
@@ -92,12 +94,12 @@ class Response:
     error_bound: Bound
     slides_from: float
     pieces: piecewise.Pieces
-    _maker: InitVar[object] = None
+    _token: InitVar[object] = None
     _piecewise: piecewise.Piecewise = field(init=False)
     gains: bool = field(init=False)
 
-    def __post_init__(self, _maker: object) -> None:
-        if _maker is not _MAKER:  # it may be `dataclasses.replace`, which measures nothing
+    def __post_init__(self, _token: object) -> None:
+        if _token is not _TOKEN:  # such as `dataclasses.replace`, which measures no error
             raise checks.InputError(
                 f"response of {checks.brief(self.model)}: allowed are those that `compile` or "
                 "`load` makes, as they are measured against their model"
@@ -106,13 +108,13 @@ class Response:
         table = piecewise.Piecewise(self.pieces)
         object.__setattr__(self, "_piecewise", table)
         x, (velocity, _) = table.sample(piecewise.MEASURED)
-        most = x + self.error_bound.velocity + ROUNDING * self.pieces.end
-        object.__setattr__(self, "gains", bool((np.abs(velocity) > most).any()))
+        largest = x + self.error_bound.velocity + ROUNDING * self.pieces.end
+        object.__setattr__(self, "gains", bool((np.abs(velocity) > largest).any()))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle and copy it by what it is made of; a read-only mapping has no pickle."""
-        made_of = (self.model, dict(self.parameters), self.incidence_max, self.tolerance)
-        return _made, (*made_of, self.error_bound, self.slides_from, self.pieces)
+        """Pickle and copy it by its fields; a read-only mapping has no pickle."""
+        question = (self.model, dict(self.parameters), self.incidence_max, self.tolerance)
+        return _new_response, (*question, self.error_bound, self.slides_from, self.pieces)
 
     def __repr__(self) -> str:
         groups = ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
@@ -148,19 +150,19 @@ class Response:
         x = checks.incidence(incidence)
         velocity, impulse, peak, regime = (np.empty(x.size) for _ in range(4))
         e, beta = self.parameters["restitution"], self.parameters["mass_ratio"]
-        for part, size, slides, piece, root in self._parts(x):
-            velocity[part] = self._velocity(size, slides, piece, root)
-            impulse[part] = np.where(slides, 1 + e, (size - velocity[part]) / beta)
-            fitted = np.clip(self._piecewise.value(1, piece, root), 0.0, 1.0)
+        for part, abs_x, slides, piece, variable in self._parts(x):
+            velocity[part] = self._velocity(abs_x, slides, piece, variable)
+            impulse[part] = np.where(slides, 1 + e, (abs_x - velocity[part]) / beta)
+            fitted = np.clip(self._piecewise.value(1, piece, variable), 0.0, 1.0)
             peak[part] = np.where(slides, 1.0, fitted)
             labels = self.pieces.label.take(piece)
             regime[part] = np.where(slides, Regime.SLIP_THROUGHOUT, labels)
-            regime[part][size == 0] = Regime.STICK
+            regime[part][abs_x == 0] = Regime.STICK
         return Rebound.of(x, velocity, impulse, peak, regime.astype(np.uint8))
 
     @checks.default_errors
     def velocity(self, incidence: ArrayLike) -> Array:
-        """Velocity at separation alone: the fastest way to it.
+        """Velocity at separation alone, in less time than a call takes.
 
         Parameters
         ----------
@@ -182,34 +184,34 @@ class Response:
         if type(x) is not np.ndarray or x.dtype != np.float64:
             x = checks.incidence(x)
         velocity, flat = np.empty(x.size), x.reshape(-1)
-        for part, size, slides, piece, root in self._parts(x):
-            found = self._velocity(size, slides, piece, root)
-            np.multiply(found, np.copysign(1.0, flat[part]), out=velocity[part])
+        for part, abs_x, slides, piece, variable in self._parts(x):
+            forward = self._velocity(abs_x, slides, piece, variable)
+            np.multiply(forward, np.copysign(1.0, flat[part]), out=velocity[part])
         return velocity.reshape(x.shape)[()]
 
     def _parts(self, x: Array) -> Iterator[tuple[slice, Array, Booleans, Integers, Array]]:
-        """Parts of the impacts: slice, |x|, whether it slides, piece and its variable."""
+        """Parts of the impacts: slice, |x|, whether it slides throughout, piece, its variable."""
         limit, flat = min(self.incidence_max, checks.LARGEST), x.reshape(-1)
         for start in range(0, flat.size, CHUNK):
             part = slice(start, start + CHUNK)
-            size = np.abs(flat[part])
-            if not (size <= limit).all():
+            abs_x = np.abs(flat[part])
+            if not (abs_x <= limit).all():
                 checks.incidence(x)
                 allowed = f"finite numbers from {-limit:g} to {limit:g}"
                 checks.checked("incidence", x, allowed, -limit, limit)
-            slides = size >= self.slides_from
-            piece, root = self._piecewise.find(np.minimum(size, self.pieces.end))
-            yield part, size, slides, piece, root
+            slides = abs_x >= self.slides_from
+            piece, variable = self._piecewise.find(np.minimum(abs_x, self.pieces.end))
+            yield part, abs_x, slides, piece, variable
 
-    def _velocity(self, size: Array, slides: Booleans, piece: Integers, root: Array) -> Array:
+    def _velocity(self, abs_x: Array, slides: Booleans, piece: Integers, variable: Array) -> Array:
         """Velocity at separation for |x|."""
-        found = self._piecewise.value(0, piece, root)
+        velocity = self._piecewise.value(0, piece, variable)
         if not self.gains:  # then rounding and the fit must not create energy either
-            np.clip(found, -size, size, out=found)
+            np.clip(velocity, -abs_x, abs_x, out=velocity)
         if slides.any():
             e, beta = self.parameters["restitution"], self.parameters["mass_ratio"]
-            np.copyto(found, sliding.velocity(size, beta, e), where=slides)
-        return found
+            np.copyto(velocity, sliding.velocity(abs_x, beta, e), where=slides)
+        return velocity
 
     def save(self, path: str | Path) -> None:
         """Write the response to a file, whole or not at all.
@@ -227,7 +229,7 @@ class Response:
         Raises
         ------
         InputError
-            If there can be no such file.
+            If no such file can be written.
         """
         values = (
             self.model,
@@ -239,18 +241,18 @@ class Response:
             {key: np.asarray(value).tolist() for key, value in self.pieces._asdict().items()},
         )
         content = dict(zip(CONTENT, values, strict=True))
-        text = json.dumps({"format": FORMAT, "version": VERSION, "sha256": _digest(content)})
-        whole = f'{text[:-1]}, "content": {json.dumps(content)}}}\n'
+        header = json.dumps({"format": FORMAT, "version": VERSION, "sha256": _digest(content)})
+        text = f'{header[:-1]}, "content": {json.dumps(content)}}}\n'
         with files.written(path) as partial:
-            partial.write_text(whole, encoding="utf-8")
+            partial.write_text(text, encoding="utf-8")
 
 
-_MAKER = object()
+_TOKEN = object()
 
 
-def _made(*made_of: Any) -> Response:
+def _new_response(*fields: Any) -> Response:
     """A response of fields that belong together: from `compile`, a checked file or a response."""
-    return Response(*(*made_of, _MAKER))
+    return Response(*(*fields, _TOKEN))
 
 
 @checks.default_errors
@@ -270,7 +272,7 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
         by formula.
     **parameters
         mass_ratio, stiffness_ratio and restitution (defaults 3.5, 1.21, 1), numbers; and the
-        model's settings. A tolerance of the model is not among them: it is chosen here.
+        model's settings. A tolerance of the model has no effect: it follows from `tolerance`.
 
     Returns
     -------
@@ -292,19 +294,20 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
     >>> response.incidence_max  # slides throughout from 3.5 on
     inf
     """
-    chosen, groups, settings, tolerance, slides, end, reach = _asked(
+    chosen, groups, settings, tolerance, slides_from, end, answered_to = _checked_question(
         model, incidence_max, tolerance, parameters
     )
-    silent = np.isnan(chosen.rebound(end / 2, *groups.values(), **settings).peak_friction)
+    # A law of impulses has no peak friction.
+    no_peak = np.isnan(chosen.rebound(end / 2, *groups.values(), **settings).peak_friction)
 
     def function(x: Array) -> tuple[Array, Integers]:
-        found = chosen.rebound(x, *groups.values(), **settings)
-        peak = np.zeros(x.size) if silent else found.peak_friction
-        return np.stack([found.velocity, peak]), found.regime
+        result = chosen.rebound(x, *groups.values(), **settings)
+        peak = np.zeros(x.size) if no_peak else result.peak_friction
+        return np.stack([result.velocity, peak]), result.regime
 
     kinks = [x for x in chosen.kinks(*groups.values(), **settings) if NARROWEST * end < x < end]
     for share in FIT_SHARES:
-        # A change of regime bends the answer: it is located to a hundredth of the tolerance.
+        # A change of regime is a kink: it is located to a hundredth of the tolerance.
         try:
             pieces, error = piecewise.fit(
                 function,
@@ -312,9 +315,9 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
                 tolerance * share,
                 max(tolerance / 100 / max(end, 1.0), 1e-13),
             )
-        except checks.ConvergenceError as why:
+        except checks.ConvergenceError as problem:
             raise checks.ConvergenceError(
-                f"tolerance = {tolerance:g}: {model} is not compiled: {why}"
+                f"tolerance = {tolerance:g}: {model} is not compiled: {problem}"
             ) from None
         bound = Bound(*(error + settings.get("tolerance", 0.0)).tolist())
         if max(bound) <= tolerance:
@@ -323,20 +326,24 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
         raise checks.ConvergenceError(
             f"tolerance = {tolerance:g}: {model} was fitted to {max(bound):.1e} only"
         )
-    if silent:  # a law of impulses
+    if no_peak:
         unknown = np.full_like(pieces.coefficients[1], np.nan)
         pieces = pieces._replace(coefficients=np.stack([pieces.coefficients[0], unknown]))
-    return _made(chosen.name, groups | settings, reach, tolerance, bound, slides, pieces)
+    parameters = groups | settings
+    return _new_response(
+        chosen.name, parameters, answered_to, tolerance, bound, slides_from, pieces
+    )
 
 
 @checks.default_errors
 def load(path: str | Path) -> Response:
     """Read a response that `Response.save` wrote.
 
-    All that the file says is checked. It must follow from the question that was asked, and its
-    pieces must agree with the model within the error bound, at the places of each where the search
-    of `compile` begins. A model with a tolerance of its own gives one coarse answer for each piece.
-    Then the pieces must also meet each other within the error bound.
+    The whole content of the file is checked. What follows from the arguments of `compile` must be
+    as `compile` has it, and the pieces must agree with the model within the error bound, at the
+    points where the search of `compile` begins. A model with a tolerance setting is solved once for
+    each piece, with a coarse tolerance; then the jumps between the pieces must also be within the
+    error bound.
 
     Parameters
     ----------
@@ -349,7 +356,7 @@ def load(path: str | Path) -> Response:
     Raises
     ------
     InputError
-        If the file is not of this format and version, is damaged, or says anything that is not so.
+        If the file is not of this format and version, is damaged, or its content is wrong.
     OSError
         If it cannot be read.
 
@@ -363,17 +370,17 @@ def load(path: str | Path) -> Response:
     """
     content = _content(path)
     try:
-        # What overflows is no answer of any model.
+        # A response that overflows disagrees with every model, and is refused.
         with np.errstate(over="ignore", invalid="ignore"):
-            found = _restored(content)
-            _refuse_strangers(found)
+            response = _restored(content)
+            _refuse_disagreement(response)
     except (checks.InputError, checks.ConvergenceError) as error:
         raise checks.InputError(f"{path}: {error}; compile it again") from None
-    return found
+    return response
 
 
 def _content(path: str | Path) -> Any:
-    """What a file holds, if it is of this format and nothing in it has changed."""
+    """The content of a file of this format, if its digest is right."""
     try:
         text = Path(path).read_text(encoding="utf-8")
         file = json.loads(text, object_pairs_hook=_without_doubles)
@@ -394,120 +401,128 @@ def _content(path: str | Path) -> Any:
 
 
 def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """An object of JSON, of which Python would keep the last value of a key that comes twice."""
-    found: dict[str, Any] = {}
+    """An object of JSON; a key that comes twice is refused, where Python takes the last value."""
+    unique: dict[str, Any] = {}
     for key, value in pairs:
-        if key in found:
+        if key in unique:
             raise checks.InputError(f"{checks.brief(key)} is there twice, allowed is once")
-        found[key] = value
-    return found
+        unique[key] = value
+    return unique
 
 
 def _digest(content: Any) -> str:
+    """SHA-256 of the content, whatever the order of its keys."""
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
 def _restored(content: Any) -> Response:
-    """The response that a content describes, if `compile` would say the same of its question."""
+    """The response of a file's content, if it is what `compile` makes for its arguments."""
     content = checks.record("content", content, CONTENT)
-    model, reach = content["model"], content["incidence_max"]
+    model, incidence_max = content["model"], content["incidence_max"]
     names = [*list(checks.RULES)[1:], *models.get(model).settings]
     parameters = checks.record("parameters", content["parameters"], names)
     pieces = piecewise.restored("pieces", content["pieces"], len(Bound._fields))
-    largest = pieces.end if reach is None else reach
-    asked = _asked(model, largest, content["tolerance"], parameters)
-    follows = {
-        "incidence_max": (reach, files.or_null(asked.reach)),
-        "slides_from": (content["slides_from"], files.or_null(asked.slides)),
-        "pieces.end": (pieces.end, asked.end),
+    largest = pieces.end if incidence_max is None else incidence_max
+    question = _checked_question(model, largest, content["tolerance"], parameters)
+    fields = {
+        "incidence_max": (incidence_max, files.or_null(question.answered_to)),
+        "slides_from": (content["slides_from"], files.or_null(question.slides_from)),
+        "pieces.end": (pieces.end, question.end),
     }
-    follows |= {f"parameters.{key}": (parameters[key], v) for key, v in asked.settings.items()}
-    for name, (given, expected) in follows.items():
-        if given != expected:
-            words = f"{name} = {checks.brief(given)}: allowed is {expected!r}"
-            raise checks.InputError(f"{words}, as the rest of it has it")
-    least, most = asked.settings.get("tolerance", 0.0), asked.tolerance
-    allowed = f"numbers from {least:g} to the tolerance, {most:g}"
+    fields |= {f"parameters.{key}": (parameters[key], v) for key, v in question.settings.items()}
+    for name, (value, expected) in fields.items():
+        if value != expected:
+            raise checks.InputError(
+                f"{name} = {checks.brief(value)}: allowed is {expected!r}, which follows from the "
+                "rest of the file"
+            )
+    low, high = question.settings.get("tolerance", 0.0), question.tolerance
+    allowed = f"numbers from {low:g} to the tolerance, {high:g}"
     bound = checks.record("error_bound", content["error_bound"], Bound._fields)
-    bound = {
-        k: checks.number(f"error_bound.{k}", v, allowed, least, most) for k, v in bound.items()
-    }
-    parameters = asked.groups | asked.settings
-    return _made(
-        asked.model.name, parameters, asked.reach, most, Bound(**bound), asked.slides, pieces
+    bound = {k: checks.number(f"error_bound.{k}", v, allowed, low, high) for k, v in bound.items()}
+    return _new_response(
+        question.model.name,
+        question.groups | question.settings,
+        question.answered_to,
+        question.tolerance,
+        Bound(**bound),
+        question.slides_from,
+        pieces,
     )
 
 
-def _refuse_strangers(found: Response) -> None:
-    """Refuse a response that is farther from its model than its error bound."""
-    own = found.parameters.get("tolerance")
-    if own is None:
-        words = _disagreement(found, piecewise.MEASURED, found.parameters)
+def _refuse_disagreement(response: Response) -> None:
+    """Refuse a response that differs from its model by more than its error bound."""
+    parameters = response.parameters
+    tolerance = parameters.get("tolerance")
+    if tolerance is None:
+        problem = _disagreement(response, piecewise.MEASURED, parameters)
     else:
-        # A model with a tolerance takes long for a small one. A few coarse ones, and pieces that
-        # meet each other, are enough. In doubt the model is asked with its own tolerance.
-        coarse, middle = {"tolerance": max(own, COARSE)}, np.zeros(1)
-        words = _jump(found) or (
-            _disagreement(found, middle, dict(found.parameters) | coarse)
-            and _disagreement(found, middle, found.parameters)
+        # A small tolerance takes the model long. One point of each piece with a coarse tolerance
+        # is enough if the pieces do not jump. The model's own tolerance decides in doubt.
+        coarse, middle = {"tolerance": max(tolerance, COARSE)}, np.zeros(1)
+        problem = _jump(response) or (
+            _disagreement(response, middle, dict(parameters) | coarse)
+            and _disagreement(response, middle, parameters)
         )
-    if words:
-        raise checks.InputError(words)
+    if problem:
+        raise checks.InputError(problem)
 
 
-def _jump(found: Response) -> str:
-    """Where a response jumps from one piece to the next, in words."""
-    jumps = found._piecewise.jumps()
-    for (name, bound), jump in zip(found.error_bound._asdict().items(), jumps, strict=True):
+def _jump(response: Response) -> str:
+    """Message: where a response jumps between two pieces by more than its error bound, or ""."""
+    jumps = response._piecewise.jumps()
+    for (name, bound), jump in zip(response.error_bound._asdict().items(), jumps, strict=True):
         if (jump > bound).any():
             i = int(np.argmax(jump > bound))
             return (
-                f"pieces.start[{i + 1}] = {found.pieces.start[i + 1]:g}: {name} jumps by "
+                f"pieces.start[{i + 1}] = {response.pieces.start[i + 1]:g}: {name} jumps by "
                 f"{jump[i]:.1e} there, but error_bound is {bound:.1e}"
             )
     return ""
 
 
-def _disagreement(found: Response, at: Array, parameters: Mapping[str, float]) -> str:
-    """Where a model answers otherwise than a response, at places `at` of every piece, in words."""
-    x, values = found._piecewise.sample(at)
-    answer = models.rebound(found.model, x, **parameters)
-    spare = parameters.get("tolerance", 0.0) + ROUNDING * found.pieces.end
-    for (name, bound), value in zip(found.error_bound._asdict().items(), values, strict=True):
-        model = getattr(answer, name)
-        # A law of impulses knows friction in sliding alone, which may begin at the very end.
-        silent = np.isnan(value) & (np.isnan(model) | (at == 1))
-        right = (np.abs(value - model) <= bound + spare) | silent
-        if not right.all():
-            at_x, one, other = (field[~right][0] for field in (x, value, model))
+def _disagreement(response: Response, places: Array, parameters: Mapping[str, float]) -> str:
+    """Message: where a response differs from its model at these places of every piece, or ""."""
+    x, values = response._piecewise.sample(places)
+    result = models.rebound(response.model, x, **parameters)
+    margin = parameters.get("tolerance", 0.0) + ROUNDING * response.pieces.end
+    for (name, bound), value in zip(response.error_bound._asdict().items(), values, strict=True):
+        expected = getattr(result, name)
+        # A law of impulses has a peak friction only in slip throughout, perhaps at the last point.
+        both_unknown = np.isnan(value) & (np.isnan(expected) | (places == 1))
+        agrees = (np.abs(value - expected) <= bound + margin) | both_unknown
+        if not agrees.all():
+            first_x, first, first_expected = (a[~agrees][0] for a in (x, value, expected))
             return (
-                f"pieces, incidence {at_x:g}: {name} = {one:g}, but {found.model} has {other:g} "
-                f"and error_bound is {bound:.1e}"
+                f"pieces, incidence {first_x:g}: {name} = {first:g}, but {response.model} has "
+                f"{first_expected:g} and error_bound is {bound:.1e}"
             )
-    label = found.pieces.label
-    regime = answer.regime[:, np.abs(at) < 1]  # the end of a piece itself may have another one
+    label = response.pieces.label
+    regime = result.regime[:, np.abs(places) < 1]  # that of an end may be the neighbour's
     wrong = (regime != label[:, None]).all(axis=1)
     if wrong.any():
         i = int(wrong.argmax())
-        return f"pieces.label[{i}] = {label[i]}, but {found.model} has {regime[i, 0]} there"
+        return f"pieces.label[{i}] = {label[i]}, but {response.model} has {regime[i, 0]} there"
     return ""
 
 
-class _Asked(NamedTuple):
-    """What is asked of a response, checked, and what follows from it."""
+class _Question(NamedTuple):
+    """The arguments of `compile`, checked, and what follows from them."""
 
     model: models.Model
     groups: dict[str, float]
     settings: dict[str, float]
     tolerance: float
-    slides: float  # incidence from which the formula of slip throughout holds, or inf
-    end: float  # of what is fitted
-    reach: float  # largest incidence that is answered
+    slides_from: float  # incidence from which the formula of slip throughout holds, or inf
+    end: float  # largest incidence that is fitted
+    answered_to: float  # largest incidence that is answered, or inf
 
 
-def _asked(
+def _checked_question(
     model: str, incidence_max: float, tolerance: float, parameters: Mapping[str, float]
-) -> _Asked:
+) -> _Question:
+    """Check the arguments of `compile`, and add what follows from them."""
     chosen = models.get(model)
     largest = checks.number(
         "incidence_max", incidence_max, "numbers from 1e-9 to 1e300", 1e-9, 1e300
@@ -516,29 +531,29 @@ def _asked(
     groups, settings = _parameters(chosen, parameters)
     if "tolerance" in chosen.settings:
         settings["tolerance"] = tolerance * MODEL_SHARE
-    # A call without impacts costs nothing, and the model refuses arguments that it does not admit.
+    # Without an impact the model only checks its arguments.
     chosen.rebound(np.zeros(0), *groups.values(), **settings)
-    slides = np.inf
+    slides_from = np.inf
     if chosen.sliding_limit is not None:
-        slides = float(chosen.sliding_limit(*groups.values(), **settings))
-    end = min(largest, slides)
+        slides_from = float(chosen.sliding_limit(*groups.values(), **settings))
+    end = min(largest, slides_from)
     if tolerance < ROUNDING * end:
         raise checks.InputError(
             f"tolerance = {tolerance:g}: allowed are numbers from {ROUNDING * end:.1e} for "
-            f"incidences up to {end:g}, as rounding goes"
+            f"incidences up to {end:g}, because of rounding"
         )
-    reach = np.inf if slides <= largest else largest
-    return _Asked(chosen, groups, settings, tolerance, slides, end, reach)
+    answered_to = np.inf if slides_from <= largest else largest
+    return _Question(chosen, groups, settings, tolerance, slides_from, end, answered_to)
 
 
 def _parameters(
-    model: models.Model, given: Mapping[str, float]
+    model: models.Model, parameters: Mapping[str, float]
 ) -> tuple[dict[str, float], dict[str, float]]:
     """The three groups, and the settings of a model with their defaults; scalars."""
     groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 1.0}
-    settings = {key: value for key, value in given.items() if key not in groups}
+    settings = {key: value for key, value in parameters.items() if key not in groups}
     models.refuse_unknown(model, settings)
-    groups |= {key: value for key, value in given.items() if key in groups}
+    groups |= {key: value for key, value in parameters.items() if key in groups}
     groups = {key: checks.single(key, checks.RULES[key](value)) for key, value in groups.items()}
     for key, value in settings.items():
         checks.number(key, value, "finite numbers")

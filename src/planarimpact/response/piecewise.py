@@ -1,9 +1,12 @@
 """Functions of one variable by polynomials between kinks, with an error that is measured.
 
 Right of a kink the rebound of a compliant contact often bends like (x - kink)^(3/2), since a phase
-of slip grows from nothing there. It is smooth in sqrt(x - kink). So each piece is a polynomial in
-that variable, with the nearest kink on its left. A kink that is not known in advance shows as
-pieces that must be halved again and again. It is located, and the fit is made anew beside it.
+of slip begins with zero length there. It is smooth in sqrt(x - kink). So each piece is a polynomial
+in that variable, with the nearest kink on its left. Pieces around a kink that is not known in
+advance must be halved again and again. In this way it is located, and both sides of it are fitted
+again.
+
+`root` is sqrt(x - kink), and `variable`, that of the polynomials, is root - centre of the piece.
 """
 
 from collections.abc import Callable, Sequence
@@ -22,19 +25,19 @@ DEGREE = 7
 FIRST = 2
 # A span below this share of the whole begins with one part.
 NARROW = 1e-3
-# A part that was halved more often than this may contain a kink.
+# A kink is expected in a part that was halved more often than this.
 DEEP = 7
-# Narrowest part, relative to x: 256 neighbouring numbers. A function that changes by more than the
-# tolerance even there jumps.
+# Narrowest part, relative to x: 256 neighbouring numbers. If a function changes by more than the
+# tolerance even there, it has a jump.
 NARROWEST = 2.0**-44
-# Kinks are located and the fit made anew at most so many times.
+# How often kinks are located and their sides are fitted again, at most.
 ROUNDS = 8
 MOST_PIECES = 4096
-# The bound is the largest error found times this.
+# The bound is the largest measured error times this.
 SAFETY = 2
-# Beside so many of the largest maxima of the error it is measured at points so many times closer.
+# The error is measured again beside its `PEAKS` largest maxima, at distances `CLOSER` times less.
 PEAKS, CLOSER = 3, 8
-# Sizes that are tried for the table that finds the piece of a point.
+# Numbers of cells that are tried for the table that gives the piece of a point.
 CELLS = 4096, 8192, 16384, 32768
 
 # Values, shape (functions, n), and labels of points x, shape (n,).
@@ -42,7 +45,7 @@ Function: TypeAlias = Callable[[Array], tuple[Array, Integers]]
 
 _NODES = np.cos(np.pi * (2 * np.arange(DEGREE + 1) + 1) / (2 * DEGREE + 2))
 _BETWEEN = np.cos(np.pi * np.arange(DEGREE + 2) / (DEGREE + 1))
-_BETWEEN[[0, -1]] = 1 - 1e-7, -1 + 1e-4  # a hair inside: a kink itself may have another label
+_BETWEEN[[0, -1]] = 1 - 1e-7, -1 + 1e-4  # inside the part: a kink itself may have another label
 _POINTS = np.concatenate([_NODES, _BETWEEN])
 # Where the error of a piece is measured first, from -1 at its left end to 1 at its right one. They
 # are close at the ends, where a power 3/2 of the distance has its largest error.
@@ -88,9 +91,9 @@ def restored(name: str, rows: Any, functions: int) -> Pieces:
     Parameters
     ----------
     name : str
-        What the dict is called, for the message.
+        Of the dict, for the message.
     rows : object
-        What was read.
+        As it was read.
     functions : int
         How many functions the pieces must have.
 
@@ -101,7 +104,7 @@ def restored(name: str, rows: Any, functions: int) -> Pieces:
     Raises
     ------
     InputError
-        If these are no pieces, in their order, of [0, end]. Coefficients may be NaN.
+        If the dict does not describe ascending pieces of [0, end]. Coefficients may be NaN.
 
     Examples
     --------
@@ -118,8 +121,10 @@ to less than end = 0.5
     rows = checks.record(name, rows, Pieces._fields)
     end = checks.number(f"{name}.end", rows["end"], "finite numbers above 0", 0, open_low=True)
     if not isinstance(rows["start"], list) or not rows["start"]:
-        words = f"{name}.start = {checks.brief(rows['start'])}"
-        raise InputError(f"{words}: allowed is a list of numbers, at least one")
+        raise InputError(
+            f"{name}.start = {checks.brief(rows['start'])}: allowed is a list of numbers, at least "
+            "one"
+        )
     count = len(rows["start"])
     start, kink, centre, coefficients, label = (
         checks.listed(f"{name}.{field}", rows[field], shape)
@@ -133,39 +138,40 @@ to less than end = 0.5
     )
     in_order = (np.diff(start, prepend=-1.0) > 0) & (start < end)
     in_order[0] = start[0] == 0
-    wrong = {
+    rules = {
         "start": (start, in_order, f"numbers that ascend from 0 to less than end = {end:g}"),
         "kink": (kink, (kink >= 0) & (kink <= start), "numbers from 0 to the start of the piece"),
         "centre": (centre, np.isfinite(centre), "finite numbers"),
         "coefficients": (coefficients, ~np.isinf(coefficients), "numbers that are not infinite"),
         "label": (label, np.isin(label, np.arange(256)), "integers from 0 to 255"),
     }
-    for field, (values, good, allowed) in wrong.items():
-        if not good.all():
-            index = tuple(int(i) for i in np.argwhere(~good)[0])
+    for field, (values, passes, allowed) in rules.items():
+        if not passes.all():
+            index = tuple(int(i) for i in np.argwhere(~passes)[0])
             raise InputError(
                 f"{name}.{field}{list(index)} = {float(values[index])!r}: allowed are {allowed}"
             )
     return Pieces(start, kink, centre, coefficients, label.astype(np.int64), end)
 
 
-class _Halves(NamedTuple):
-    """Parts of spans between kinks while they are fitted: ends in the root variable, and a fit."""
+class _Parts(NamedTuple):
+    """Parts of spans between kinks while they are fitted."""
 
     kink: Array
-    low: Array
+    low: Array  # left and right end, as root
     high: Array
-    depth: Integers
+    depth: Integers  # how often the part was halved
     coefficients: Array  # (parts, functions, DEGREE + 1), of Chebyshev polynomials
     labels: Integers  # (parts, points)
 
-    def points(self, at: Array) -> Array:
-        """Points x of every part, shape (parts, points), at places `at` in -1 to 1."""
+    def points(self, places: Array) -> Array:
+        """Points x of every part, shape (parts, places), at places from -1 to 1."""
         middle, half = (self.low + self.high) / 2, (self.high - self.low) / 2
-        return self.kink[:, None] + (middle[:, None] + half[:, None] * at) ** 2
+        return self.kink[:, None] + (middle[:, None] + half[:, None] * places) ** 2
 
-    def take(self, chosen: Booleans | Integers) -> "_Halves":
-        return _Halves._make(field[chosen] for field in self)
+    def take(self, chosen: Booleans | Integers) -> "_Parts":
+        """The chosen parts."""
+        return _Parts._make(field[chosen] for field in self)
 
 
 def fit(
@@ -181,7 +187,7 @@ def fit(
     kinks : sequence of float
         Known ones, the ends of the span among them; the first is 0.
     tolerance : float
-        Wanted of the bound, which may come out larger.
+        Aim for the bound, which may be larger in the end.
     resolution : float
         Precision, relative to the span, to which a change of label is located, or to rounding
         where that is coarser.
@@ -212,17 +218,17 @@ def fit(
         spans = [ends for ends in pairwise(kinks) if ends not in settled]
         if not spans:
             break
-        parts = _halve(function, spans, tolerance)
-        found = [*_changes_of_label(function, parts, resolution * span), *_located(parts)]
+        parts = _fitted_parts(function, spans, tolerance)
+        located = [*_label_changes(function, parts, resolution * span), *_deep_parts(parts)]
         for left, right in spans:
-            inside = [left, *(x for x in found if left < x < right), right]
-            inside = _apart(inside, resolution * span)[1:-1]
-            if attempt < ROUNDS - 1 and inside:
-                kinks += inside
+            inside = [left, *(x for x in located if left < x < right), right]
+            new_kinks = _apart(inside, resolution * span)[1:-1]
+            if attempt < ROUNDS - 1 and new_kinks:
+                kinks += new_kinks
             else:
                 settled[left, right] = parts.take(parts.kink == left)
         kinks.sort()
-    parts = _Halves._make(map(np.concatenate, zip(*settled.values(), strict=True)))
+    parts = _Parts._make(map(np.concatenate, zip(*settled.values(), strict=True)))
     pieces = _pieces(_ordered(parts), span)
     return pieces, SAFETY * largest_errors(function, pieces)
 
@@ -237,7 +243,7 @@ def _apart(kinks: Sequence[float], least: float) -> list[float]:
     return [*kept, last]
 
 
-def _halve(function: Function, spans: list[tuple[float, float]], tolerance: float) -> _Halves:
+def _fitted_parts(function: Function, spans: list[tuple[float, float]], tolerance: float) -> _Parts:
     """Parts of the spans, halved until their fits agree with the function between its nodes."""
     left, right = np.array(spans).T
     shares = np.where(right - left > NARROW * right[-1], FIRST, 1)
@@ -245,25 +251,25 @@ def _halve(function: Function, spans: list[tuple[float, float]], tolerance: floa
     left, width = np.repeat([left, np.sqrt(right - left) / shares], shares, axis=1)
     low, count = low * width, left.size
     blank = np.zeros((count, 0, DEGREE + 1)), np.zeros((count, 0))
-    todo = _Halves(left, low, low + width, np.zeros(count, int), *blank)
-    done, number = [], 0
-    while todo.low.size:
-        number += todo.low.size
-        if number > MOST_PIECES:
+    pending = _Parts(left, low, low + width, np.zeros(count, int), *blank)
+    fitted, tried = [], 0
+    while pending.low.size:
+        tried += pending.low.size
+        if tried > MOST_PIECES:
             raise ConvergenceError(
                 f"it is too rough: after trying {MOST_PIECES} polynomials they are not within "
                 f"{tolerance:.1e}"
             )
-        x = todo.points(_POINTS)
+        x = pending.points(_POINTS)
         values, labels = function(x.reshape(-1))
         values = values.reshape(len(values), *x.shape).swapaxes(0, 1)
         coefficients = values[..., : DEGREE + 1] @ _FROM_VALUES.T
         error = np.abs(coefficients @ _ELSEWHERE.T - values[..., DEGREE + 1 :])
-        todo = todo._replace(
+        pending = pending._replace(
             coefficients=coefficients, labels=labels.reshape(x.shape)[:, _ASCENDING]
         )
         good = SAFETY * error.max(axis=(1, 2)) <= tolerance
-        low, high = todo.kink + todo.low**2, todo.kink + todo.high**2
+        low, high = pending.kink + pending.low**2, pending.kink + pending.high**2
         narrow = ~good & (high - low <= NARROWEST * high)
         if narrow.any():
             i = int(narrow.argmax())
@@ -271,20 +277,21 @@ def _halve(function: Function, spans: list[tuple[float, float]], tolerance: floa
                 f"it jumps by {np.ptp(values[i], axis=1).max():.1e} at x = {high[i]:.12g}, and "
                 f"polynomials are wanted within {tolerance:.1e}"
             )
-        done.append(todo.take(good))
-        todo = _halved(todo.take(~good))
-    return _Halves._make(map(np.concatenate, zip(*done, strict=True)))
+        fitted.append(pending.take(good))
+        pending = _halved(pending.take(~good))
+    return _Parts._make(map(np.concatenate, zip(*fitted, strict=True)))
 
 
-def _halved(parts: _Halves) -> _Halves:
+def _halved(parts: _Parts) -> _Parts:
+    """Both halves of every part."""
     middle, depth = (parts.low + parts.high) / 2, parts.depth + 1
     below = parts._replace(high=middle, depth=depth)
     above = parts._replace(low=middle, depth=depth)
-    return _Halves._make(map(np.concatenate, zip(below, above, strict=True)))
+    return _Parts._make(map(np.concatenate, zip(below, above, strict=True)))
 
 
-def _changes_of_label(function: Function, parts: _Halves, resolution: float) -> list[float]:
-    """Where labels change within spans, by bisection."""
+def _label_changes(function: Function, parts: _Parts, resolution: float) -> list[float]:
+    """Points where the label changes within a span, by bisection."""
     parts = _ordered(parts)
     x, label = parts.points(_POINTS[_ASCENDING]).ravel(), parts.labels.ravel()
     span = np.repeat(parts.kink, _POINTS.size)
@@ -292,30 +299,32 @@ def _changes_of_label(function: Function, parts: _Halves, resolution: float) -> 
     low, high, label = x[before], x[before + 1], label[before]
     while True:
         middle = (low + high) / 2
-        apart = (high - low > resolution) & (low < middle) & (middle < high)
-        if not apart.any():
+        wide = (high - low > resolution) & (low < middle) & (middle < high)
+        if not wide.any():
             return high.tolist()
         same = function(middle)[1] == label
         low, high = np.where(same, middle, low), np.where(same, high, middle)
 
 
-def _located(parts: _Halves) -> list[float]:
-    """Where parts had to be halved too often: around the deepest of such neighbours."""
+def _deep_parts(parts: _Parts) -> list[float]:
+    """Ends around parts that were halved too often; of neighbouring ones the deepest counts."""
     parts = _ordered(parts)
     deep = np.flatnonzero(parts.depth > DEEP)
-    rows = np.split(deep, np.flatnonzero(np.diff(deep) > 1) + 1) if deep.size else []
-    deepest = parts.take(np.array([row[np.argmax(parts.depth[row])] for row in rows], dtype=int))
-    # With as much again on both sides: the kink may lie at an end of it.
+    runs = np.split(deep, np.flatnonzero(np.diff(deep) > 1) + 1) if deep.size else []
+    deepest = parts.take(np.array([run[np.argmax(parts.depth[run])] for run in runs], dtype=int))
+    # Wider by the width of the part on both sides: the kink may lie at its end.
     width = deepest.high - deepest.low
     ends = np.stack([np.maximum(deepest.low - width, 0.0), deepest.high + width])
     return (deepest.kink + ends**2).ravel().tolist()
 
 
-def _ordered(parts: _Halves) -> _Halves:
+def _ordered(parts: _Parts) -> _Parts:
+    """Parts from left to right."""
     return parts.take(np.argsort(parts.kink + parts.low**2))
 
 
-def _pieces(parts: _Halves, end: float) -> Pieces:
+def _pieces(parts: _Parts, end: float) -> Pieces:
+    """Polynomials of the parts in powers of `variable`."""
     half = (parts.high - parts.low) / 2
     powers = (parts.coefficients @ _POWERS) / half[:, None, None] ** np.arange(DEGREE + 1)
     return Pieces(
@@ -329,9 +338,9 @@ def _pieces(parts: _Halves, end: float) -> Pieces:
 
 
 def largest_errors(function: Function, pieces: Pieces) -> Array:
-    """Largest errors of pieces, measured: at `MEASURED` of each, and closer beside the largest.
+    """Largest errors of pieces: measured at `MEASURED` of each, then beside the largest of these.
 
-    A kink that hides between two places and is narrower than their distance may be missed.
+    A kink between two of these points that is narrower than their distance may be missed.
 
     Parameters
     ----------
@@ -355,33 +364,33 @@ def largest_errors(function: Function, pieces: Pieces) -> Array:
     x, values = table.sample(MEASURED)
     x, error = x.ravel(), np.abs(values.reshape(len(values), -1) - function(x.ravel())[0])
     largest = error.max(axis=1)
-    beside = np.pad(error, ((0, 0), (1, 1)))
-    peak = np.where((error >= beside[:, :-2]) & (error >= beside[:, 2:]), error, 0.0)
-    best = np.unique(np.argsort(peak, axis=1)[:, -PEAKS:])
+    padded = np.pad(error, ((0, 0), (1, 1)))
+    maxima = np.where((error >= padded[:, :-2]) & (error >= padded[:, 2:]), error, 0.0)
+    largest_at = np.unique(np.argsort(maxima, axis=1)[:, -PEAKS:])
     # One batch: many models take as long for few points as for a hundred.
     share = np.arange(1, CLOSER)[:, None] / CLOSER
-    beside = x[np.clip([best - 1, best + 1], 0, x.size - 1)][:, None]
-    x = (x[best] + share * (beside - x[best])).ravel()
-    piece, root = table.find(x)
-    fitted = np.stack([table.value(f, piece, root) for f in range(len(error))])
+    neighbours = x[np.clip([largest_at - 1, largest_at + 1], 0, x.size - 1)][:, None]
+    x = (x[largest_at] + share * (neighbours - x[largest_at])).ravel()
+    piece, variable = table.find(x)
+    fitted = np.stack([table.value(f, piece, variable) for f in range(len(error))])
     return np.maximum(largest, np.abs(fitted - function(x)[0]).max(axis=1))
 
 
 class Piecewise:
-    """Evaluates `Pieces`: which piece, its variable, and one function there.
+    """Evaluates `Pieces`: the piece of a point, its variable there, and the functions.
 
     The arrays of the pieces are read-only from then on.
 
     Examples
     --------
     >>> pieces, _ = fit(lambda x: (np.sqrt(x)[None], x.astype(int)), [0.0, 1.0, 2.0], 1e-12)
-    >>> found = Piecewise(pieces)
+    >>> table = Piecewise(pieces)
     >>> x = np.array([0.25, 1.44])
-    >>> piece, root = found.find(x)
-    >>> found.value(0, piece, root).round(12).tolist(), pieces.label[piece].tolist()
+    >>> piece, variable = table.find(x)
+    >>> table.value(0, piece, variable).round(12).tolist(), pieces.label[piece].tolist()
     ([0.5, 1.2], [0, 1])
-    >>> x, values = found.sample(np.zeros(1))
-    >>> float(x[0, 0]), round(float(values[0, 0, 0]), 12), round(float(found.jumps().max()), 12)
+    >>> x, values = table.sample(np.zeros(1))
+    >>> float(x[0, 0]), round(float(values[0, 0, 0]), 12), round(float(table.jumps().max()), 12)
     (0.0625, 0.25, 0.0)
     """
 
@@ -399,7 +408,7 @@ class Piecewise:
     def _starts(self, cells: int) -> Integers:
         """Piece at the left of each cell, and after the last one: where the search begins."""
         left = np.arange(cells + 1) * (self.pieces.end / cells)
-        # A hair to the left: rounding must not skip a piece, only begin one too early.
+        # Slightly to the left: with rounding the search may begin too early, but never too late.
         first = np.searchsorted(self.pieces.start, left * (1 - 1e-14), side="right") - 1
         return np.append(np.maximum(first, 0), len(self.pieces.start) - 1)
 
@@ -408,35 +417,24 @@ class Piecewise:
         piece = self._table.take((x * self._scale).astype(np.intp), mode="clip")
         for _ in range(self._moves):
             piece += x >= self._following.take(piece, mode="clip")
-        root = x - self.pieces.kink.take(piece, mode="clip")
-        np.sqrt(root, out=root)
-        root -= self.pieces.centre.take(piece, mode="clip")
-        return piece, root
+        variable = x - self.pieces.kink.take(piece, mode="clip")
+        np.sqrt(variable, out=variable)
+        variable -= self.pieces.centre.take(piece, mode="clip")
+        return piece, variable
 
-    def value(self, function: int, piece: Integers, root: Array) -> Array:
-        """One function there, by Horner's rule."""
+    def value(self, function: int, piece: Integers, variable: Array) -> Array:
+        """One function at points of these pieces, by Horner's rule."""
         rows = self.pieces.coefficients[function]
         value = rows[-1].take(piece, mode="clip")
         for row in rows[-2::-1]:
-            value *= root
+            value *= variable
             value += row.take(piece, mode="clip")
         return value
 
-    def sample(self, at: Array) -> tuple[Array, Array]:
-        """Points of every piece, and the functions there.
-
-        Parameters
-        ----------
-        at : ndarray, shape (n,)
-            Places in each piece, from -1 at its left end to 1 at its right one.
-
-        Returns
-        -------
-        x : ndarray, shape (pieces, n)
-        values : ndarray, shape (functions, pieces, n)
-        """
+    def sample(self, places: Array) -> tuple[Array, Array]:
+        """Points x (pieces, n) at places (n,) from -1 to 1, and values (functions, pieces, n)."""
         low, high = (ends[:, None] for ends in self._ends())
-        root = (low + high) / 2 + (high - low) / 2 * at
+        root = (low + high) / 2 + (high - low) / 2 * places
         # The end of a piece is the last number in front of the next one.
         last = np.append(np.nextafter(self.pieces.start[1:], 0), self.pieces.end)
         x = self.pieces.kink[:, None] + root**2
@@ -456,6 +454,6 @@ class Piecewise:
         )
 
     def _ends(self) -> tuple[Array, Array]:
-        """Ends of every piece in sqrt(x - kink)."""
+        """Left and right end of every piece, as root."""
         following = np.append(self.pieces.start[1:], self.pieces.end)
         return np.sqrt(self.pieces.start - self.pieces.kink), np.sqrt(following - self.pieces.kink)
