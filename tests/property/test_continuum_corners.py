@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from planarimpact import continuum, lumped
-from planarimpact.continuum.micro_slip import SpringRow
+from planarimpact.continuum.micro_slip import ElasticSprings
 from planarimpact.normal_impact import hertz
 
 STEPS = 1024, 2048, 4096
@@ -24,7 +24,7 @@ def plain(x, beta, zeta2, steps):
     Returns the velocity, the largest friction at a step, and the number of gross slips.
     """
     step = np.pi / steps
-    row = SpringRow(np.zeros(x.size), steps)
+    springs = ElasticSprings(np.zeros(x.size), steps)
     u, w, peak, slips = np.zeros(x.size), x.copy(), np.zeros(x.size), np.zeros(x.size, int)
     slid = np.ones(x.size, bool)
     for n in range(steps):
@@ -32,10 +32,10 @@ def plain(x, beta, zeta2, steps):
             u = u + step / 2 * hertz.state(phase)[1] * w / zeta2
             if phase < (n + 0.5) * step:
                 middle = (n + 0.5) * step
-                force = row.move(np.full(x.size, np.sin(middle)), u)
+                force = springs.move(np.full(x.size, np.sin(middle)), u)
                 w = w - step * 1.25 * beta * hertz.state(middle)[1] * force
         peak = np.maximum(peak, np.abs(force))
-        gross = row.stick_radius == 0
+        gross = springs.stick_radius == 0
         slips += gross & ~slid
         slid = gross
     return w, peak, slips

@@ -22,7 +22,7 @@ from planarimpact.normal_impact import hertz
 LOSSES = "viscous", "plastic"
 # Below this restitution most contacts need more steps than are allowed.
 LEAST_RESTITUTION = 0.1
-# Tolerances where none is given.
+# Default tolerances.
 ELASTIC_TOLERANCE, LOSSY_TOLERANCE = 1e-6, 1e-4
 
 
@@ -75,10 +75,10 @@ def rebound(
 
     Notes
     -----
-    The error of the steps falls with their square. The extrapolated error falls with their power
-    2.5 on average, as gross slip sets in with a root of time. The error is estimated, not bounded:
-    it is five times, with a loss twice, the largest of three numbers, the last change of the
-    extrapolated answer, a quarter of the change before it, and a quarter of what extrapolation
+    The error falls with the square of the number of steps. After extrapolation it falls with the
+    power 2.5 on average, as gross slip sets in with a root of time. The error is estimated, not
+    bounded: it is five times, with a loss twice, the largest of three numbers, the last change of
+    the extrapolated answer, a quarter of the change before it, and a quarter of what extrapolation
     corrects. All of the correction counts where one gross slip more or less is within reach of the
     error. A reversal of friction shorter than a step, just below slip throughout, is not counted.
 
@@ -132,11 +132,11 @@ def rebound(
         groups = x[rows], beta[rows], zeta2[rows]
         with refinement.counted_among(rows):
             if is_elastic:
-                found = elastic.rebound(*groups, allowed)
+                solved = elastic.rebound(*groups, allowed)
             else:
                 law = inelastic.LOSSES[loss or ""]
-                found = inelastic.rebound(*groups, e[rows], allowed, law)
-        velocity[rows], peak[rows], work[rows], regime[rows], reversals[rows] = found
+                solved = inelastic.rebound(*groups, e[rows], allowed, law)
+        velocity[rows], peak[rows], work[rows], regime[rows], reversals[rows] = solved
     return Rebound.shaped(signed, velocity, peak, work, regime.astype(np.uint8), reversals)
 
 
@@ -180,12 +180,12 @@ def slip_throughout_limit(
     """
     _, beta, zeta2, e = checks.impact(0.0, mass_ratio, stiffness_ratio, restitution)
     _refuse_lossy(restitution, loss)
-    found = np.array(sliding.limit_alike(beta, zeta2, e))
+    incidence = np.array(sliding.limit_alike(beta, zeta2, e))
     lossy = e < 1
     if loss is not None and lossy.any():
         motion = inelastic.LOSSES[loss](e[lossy])
-        found[lossy] = motion.slides_from(beta[lossy], zeta2[lossy])
-    return found[()]
+        incidence[lossy] = motion.slides_from(beta[lossy], zeta2[lossy])
+    return incidence[()]
 
 
 @checks.default_errors
@@ -284,8 +284,9 @@ def history(
     x, beta, zeta2, e = (a.reshape(1) for a in (np.abs(signed), beta, zeta2, e))
     mirror = float(np.copysign(1.0, signed))
     if e[0] < 1:
-        found = inelastic.contact(x, beta, zeta2, e, inelastic.LOSSES[loss or ""], tolerance)
-        time, normal, friction, velocity, radius, stick_radius = found
+        time, normal, friction, velocity, radius, stick_radius = inelastic.contact(
+            x, beta, zeta2, e, inelastic.LOSSES[loss or ""], tolerance
+        )
     else:
         phase, friction, velocity, stick_radius = elastic.contact(x, beta, zeta2, tolerance)
         radius = np.sin(phase)
@@ -296,16 +297,18 @@ def history(
     )
 
 
-def _tolerance(given: float | None, default: float) -> float:
-    value = default if given is None else given
+def _tolerance(tolerance: float | None, default: float) -> float:
+    value = default if tolerance is None else tolerance
     return checks.number("tolerance", value, "numbers above 0", 0, open_low=True)
 
 
 def _refuse_lossy(restitution: ArrayLike, loss: str | None) -> None:
     """Refuse impacts that lose energy and do not say how, or that lose too much."""
     if loss is None:
-        words = f"below 1 it needs a loss, {' or '.join(LOSSES)}"
-        allowed = f"numbers equal to 1, as this contact is elastic; {words}"
+        losses = " or ".join(LOSSES)
+        allowed = (
+            f"numbers equal to 1, as this contact is elastic; below 1 it needs a loss, {losses}"
+        )
         checks.checked("restitution", restitution, allowed, 1, 1)
         return
     checks.loss(loss, tuple(inelastic.LOSSES))

@@ -152,7 +152,7 @@ def _impacts(
     kick = 1.25 * step  # F2max = (5/4) m2 v2(0)^2/d_max
     with np.errstate(over="ignore"):
         start = np.clip(x / zeta2, LEAST, LARGEST)
-        share = np.minimum(x / zeta2 / LEAST, 1.0)  # of x in what is solved
+        share = np.minimum(x / zeta2 / LEAST, 1.0)  # below 1 where LEAST is solved instead
     slowing = beta / zeta2
     for edge in radius:
         impulse += kick / 2 * force
@@ -175,8 +175,8 @@ def _impacts(
     slides = usual == Regime.SLIP_THROUGHOUT
     usual = np.where(x == 0, Regime.STICK, usual)
     regime = np.where(gross_slips > 1, Regime.MULTIPLE, usual).astype(np.uint8)
-    left = 1 - slowing * (impulse / start)  # share of the velocity
-    velocity = np.where(slides, x - beta * impulse, x * left)
+    velocity_kept = 1 - slowing * (impulse / start)  # the velocity at separation over x
+    velocity = np.where(slides, x - beta * impulse, x * velocity_kept)
     impulse = np.where(slides, impulse, impulse * share)
     peak = np.minimum(peak * share, 1.0)
     return velocity, impulse, peak, regime, reversals.astype(np.int64) * (x > 0)
@@ -223,7 +223,7 @@ class _Contact:
         fit it. A contact leaves the loop when no state changes.
         """
         annuli, contacts = goal.shape
-        # Annuli are counted from within: those that were there keep their state.
+        # Annuli are counted from the middle: those that were there before keep their state.
         slip = np.zeros((annuli, contacts), dtype=np.int8)
         kept = min(annuli, len(self.slip))
         slip[:kept] = self.slip[:kept]
@@ -234,11 +234,11 @@ class _Contact:
             stuck = state == 0
             system = np.where(stuck.T[:, :, None], influence, np.eye(annuli))
             known = np.where(stuck, wanted, state * limit)
-            found = np.linalg.solve(system, known.T[:, :, None])[:, :, 0].T
-            traction[:, unsettled] = found
-            exceeds = np.abs(found) > limit * (1 + ROUNDING)
-            resists = state * (wanted - influence @ found) < -ROUNDING * np.abs(wanted)
-            new = np.where(stuck, np.sign(found) * exceeds, np.where(resists, 0, state))
+            solved = np.linalg.solve(system, known.T[:, :, None])[:, :, 0].T
+            traction[:, unsettled] = solved
+            exceeds = np.abs(solved) > limit * (1 + ROUNDING)
+            resists = state * (wanted - influence @ solved) < -ROUNDING * np.abs(wanted)
+            new = np.where(stuck, np.sign(solved) * exceeds, np.where(resists, 0, state))
             slip[:, unsettled] = new
             unsettled = unsettled[(new != state).any(axis=0)]
             if not unsettled.size:

@@ -23,58 +23,41 @@ _UNSOLVED = 255
 def rebound(
     x: Array, beta: Array, zeta2: Array, tolerance: float
 ) -> tuple[Array, Array, Array, Integers, Integers]:
-    """Velocity, peak friction, work of friction, regime and reversals, each of shape (n,).
-
-    Parameters
-    ----------
-    x, beta, zeta2 : ndarray, shape (n,)
-        x >= 0.
-    tolerance : float
-
-    Raises
-    ------
-    Unsolved
-        As `refinement.refine`.
-
-    Examples
-    --------
-    >>> groups = np.array([[2.0], [3.5], [1.21]])
-    >>> rebound(*groups, 1e-6)[0].round(5)
-    array([-0.66592])
-    """
+    """Velocity, peak friction, work of friction, regime and reversals, each (n,), for x >= 0."""
     velocity, impulse, peak, regime, reversals = _at_limits(x, beta, zeta2)
-    rest = np.flatnonzero(regime == _UNSOLVED)
-    groups = x[rest], beta[rest], zeta2[rest]
-    with refinement.counted_among(rest):
+    stepped = np.flatnonzero(regime == _UNSOLVED)
+    groups = x[stepped], beta[stepped], zeta2[stepped]
+    with refinement.counted_among(stepped):
         needed = refinement.steps_needed(*groups[1:])
         values, counts = refinement.refine(
             groups, needed, tolerance, _integrate, FIRST_STEPS, MOST_STEPS, SAFETY
         )
     # The exact values have these bounds. Extrapolation and rounding may exceed them.
-    velocity[rest] = np.clip(values[0], -groups[0], groups[0])
-    full = (groups[0] > groups[2]) & (groups[0] >= groups[1])
-    peak[rest] = np.where(full, 1.0, np.clip(values[1], 0.0, 1.0))
-    regime[rest] = refinement.regime(groups[0], groups[2], counts[0])
-    reversals[rest] = counts[1]
-    impulse[rest] = ((x - velocity) / beta)[rest]
+    velocity[stepped] = np.clip(values[0], -groups[0], groups[0])
+    at_limit = (groups[0] > groups[2]) & (groups[0] >= groups[1])
+    peak[stepped] = np.where(at_limit, 1.0, np.clip(values[1], 0.0, 1.0))
+    regime[stepped] = refinement.regime(groups[0], groups[2], counts[0])
+    reversals[stepped] = counts[1]
+    impulse[stepped] = ((x - velocity) / beta)[stepped]
     # Stronge's theorem, the paper's footnote: impulse times mean velocity.
     return velocity, peak, impulse * (x / 2 + velocity / 2), regime, reversals
 
 
 def velocity(x: Array, beta: Array, zeta2: Array, steps: int, extrapolate: bool) -> Array:
     """Velocity at separation with a number of steps, shape (n,); as `continuum.fixed_steps`."""
-    found, _, _, regime, _ = _at_limits(x, beta, zeta2)
-    rest = np.flatnonzero(regime == _UNSOLVED)
-    groups = x[rest], beta[rest], zeta2[rest]
+    at_separation, _, _, regime, _ = _at_limits(x, beta, zeta2)
+    stepped = np.flatnonzero(regime == _UNSOLVED)
+    groups = x[stepped], beta[stepped], zeta2[stepped]
     resolved = np.max(refinement.steps_needed(*groups[1:]), initial=0.0)
     needed = resolved / refinement.STEPS_A_RADIAN * (2 if extrapolate else 1)
     steps = checks.explicit_steps(steps, needed, 2, MOST_STEPS)
     if extrapolate and steps % 2:
         raise checks.InputError(f"steps = {steps}: allowed are even integers where extrapolated")
-    found[rest] = _integrate(groups, steps)[0][0]
+    at_separation[stepped] = _integrate(groups, steps)[0][0]
     if extrapolate:
-        found[rest] += (found[rest] - _integrate(groups, steps // 2)[0][0]) / 3
-    return found
+        coarse = _integrate(groups, steps // 2)[0][0]
+        at_separation[stepped] += (at_separation[stepped] - coarse) / 3
+    return at_separation
 
 
 def contact(x: Array, beta: Array, zeta2: Array, tolerance: float) -> list[Array]:
@@ -135,7 +118,7 @@ def _summary(
 
 
 def _nearest(reserve: Array, centre: Array, gross: Booleans) -> Array:
-    """How far each contact is from one gross slip more or less, in the unit of the spring row.
+    """How far each contact is from one gross slip more or less, a displacement of `micro_slip`.
 
     This is the smallest displacement that was missing for a gross slip, or that the contact slid in
     a gross slip between two sticks. It is 1, which no reserve exceeds, if there is neither.
@@ -154,34 +137,35 @@ def _nearest(reserve: Array, centre: Array, gross: Booleans) -> Array:
 def _peak(phase: Array, force: Array, gross: Booleans) -> Array:
     """Largest force of each column, between the points too.
 
-    Between the points the force is a share of sin(phase)^3 less a parabola. As gross slip sets in,
-    the share is 1 and the deficit vanishes with the power 3/2 of the time left. There the power 2/3
-    of the deficit is the parabola, through three points before gross slip.
+    Between the points the force is a share of sin(phase)^3 minus a deficit, which is a parabola. As
+    gross slip sets in, the share is 1, and the deficit vanishes with the power 3/2 of the time that
+    is left. There the power 2/3 of the deficit is a parabola, through three points before gross
+    slip.
     """
     top = force.argmax(axis=0)
-    lanes = np.arange(top.size)
+    column = np.arange(top.size)
     last = np.clip(top + 1, 2, len(force) - 2)
-    last -= gross[last, lanes]  # up to two points of gross slip may be among the three
-    last -= gross[last, lanes]
-    slides = gross[last, lanes]
+    last -= gross[last, column]  # up to two points of gross slip may be among the three
+    last -= gross[last, column]
+    slides = gross[last, column]
     last = np.maximum(last, 2)
     points = np.stack([last - 2, last - 1, last])
-    normal, forces = np.sin(phase[points, lanes]) ** 3, force[points, lanes]
+    normal, forces = np.sin(phase[points, column]) ** 3, force[points, column]
     deficits = np.maximum(normal - forces, 0.0)
     nears = (deficits[2] < deficits[0]) & (2 * forces[1] > normal[1])
     share = np.where(nears | slides, 1.0, forces[1] / normal[1])
     before, at, after = np.where(nears, deficits ** (2 / 3), share * normal - forces)
     slope, bend = (after - before) / 2, before - 2 * at + after
-    middle, step = phase[last - 1, lanes], phase[1] - phase[0]
+    middle, step = phase[last - 1, column], phase[1] - phase[0]
 
     def between(at_phase: Array) -> Array:
         t = (at_phase - middle) / step
-        lack = at + t * (slope + t * bend / 2)
-        lack = np.where(nears, np.maximum(lack, 0.0) ** 1.5, lack)
-        return share * np.sin(at_phase) ** 3 - np.where(slides, 0.0, lack)
+        deficit = at + t * (slope + t * bend / 2)
+        deficit = np.where(nears, np.maximum(deficit, 0.0) ** 1.5, deficit)
+        return share * np.sin(at_phase) ** 3 - np.where(slides, 0.0, deficit)
 
-    low = phase[np.maximum(top - 1, 0), lanes]
-    high = phase[np.minimum(top + 1, len(force) - 1), lanes]
+    low = phase[np.maximum(top - 1, 0), column]
+    high = phase[np.minimum(top + 1, len(force) - 1), column]
     for _ in range(SECTIONS):
         third = (high - low) * GOLDEN
         left, right = low + third, high - third

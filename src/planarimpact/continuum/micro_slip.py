@@ -7,10 +7,10 @@ slides, at |u + c| = d - r^2. So c is confined to the cone
 
     d - r^2 >= |u + c|,
 
-whose tip is at r^2 = d, c = -u. Over q = r^2 the cone has edges of slope 1 and -1. As the tip
+whose tip is at r^2 = d, c = -u. Over r^2 the cone has edges of slope 1 and -1. As the tip
 moves, every c outside the cone is brought to the nearer edge. Where the contact grows without slip,
 the tip itself draws c. After any motion in straight steps c is therefore a chain of straight pieces
-in q. This module keeps the vertices of that chain. The row is not divided into springs, so the
+in r^2. This module keeps the vertices of that chain. The row is not divided into springs, so the
 answer to a path in straight steps is exact. Only an outer annulus can slip.
 
 Units: radius a_max, approach d_max, force its largest normal value (times mu for friction), and
@@ -24,28 +24,11 @@ from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Integers, Numbers
 
 
-class SpringRow:
-    """The rows of many contacts, moved together step by step.
+class ElasticSprings:
+    """The springs of many elastic contacts, moved together at most `steps` times.
 
-    Parameters
-    ----------
-    radius : ndarray, shape (n,)
-        Radius of contact at the start.
-    steps : int
-        How many times `move` will be called: room for the vertices.
-
-    Notes
-    -----
-    The row starts at u = 0 with every spring at the limit of friction, u + c = d - r^2: gross
-    slip, or no contact yet where the radius is 0.
-
-    Examples
-    --------
-    >>> row = SpringRow(np.zeros(1), steps=2)
-    >>> float(row.move(np.ones(1), np.zeros(1))[0])  # pressed straight down
-    0.0
-    >>> round(float(row.move(np.ones(1), np.full(1, 0.5))[0]), 9)  # 1 - (1 - 0.5)^(3/2)
-    0.646446609
+    They start at u = 0 with every spring at the limit of friction, u + c = d - r^2: gross slip, or
+    no contact yet where the radius, shape (n,), is 0.
     """
 
     def __init__(self, radius: Array, steps: int) -> None:
@@ -67,30 +50,21 @@ class SpringRow:
     def move(
         self, radius: Array, displacement: Array, which: slice | Integers = slice(None)
     ) -> Array:
-        """Move the tips in one straight step (in r^2, u); return the tangential force.
+        """Move the tips of some contacts in one straight step (in r^2, u); return the forces.
 
-        Parameters
-        ----------
-        radius, displacement : ndarray, shape (m,)
-            Radius of contact and u at the end of the step. Afterwards `stick_radius` holds the
-            radius inside which nothing slipped in this step.
-        which : slice or ndarray of int, shape (m,)
-            Contacts that move; all by default.
-
-        Returns
-        -------
-        ndarray, shape (m,)
+        `radius` and `displacement` are those at the end of the step. Afterwards `stick_radius`
+        holds the radius inside which nothing slipped in this step.
         """
         # The new cone has its tip at c = -u. Vertices inside it stay; those outside have slipped.
         column, top, memory = self._column[which], self._top[which], -displacement
-        highest, lowest = radius**2 + memory, memory - radius**2  # of c + q, of c - q
+        highest, lowest = radius**2 + memory, memory - radius**2  # of c + r^2, of c - r^2
         last = self._last_inside(column, top, highest, lowest)
         slips, gross = last < top, last < 0
         kept = np.maximum(last, 0)
-        left = np.minimum(last + 1, top)  # the innermost vertex outside, if there is one
+        outside = np.minimum(last + 1, top)  # the innermost vertex outside, if there is one
         r, c, integral = (a[kept, column] for a in (self._radius, self._memory, self._integral))
         edge_r, edge_c = _crossing(
-            r, c, self._radius[left, column], self._memory[left, column], highest, lowest
+            r, c, self._radius[outside, column], self._memory[outside, column], highest, lowest
         )
         # In gross slip no vertex stays: the chain starts anew on the edge of the cone, at r = 0.
         edge_r[gross] = 0.0
@@ -116,8 +90,8 @@ class SpringRow:
         # vertex is inside the cone, or when none is left. So the loop ends.
         while active.size:
             vertex = last[active], column[active]
-            q, c = self._radius[vertex] ** 2, self._memory[vertex]
-            active = active[(c + q > highest[active]) | (c - q < lowest[active])]
+            square, c = self._radius[vertex] ** 2, self._memory[vertex]
+            active = active[(c + square > highest[active]) | (c - square < lowest[active])]
             last[active] -= 1
             active = active[last[active] >= 0]
         return last
@@ -137,14 +111,14 @@ def _crossing(
 
     `above` and `below` are the shares of the piece up to the upper and to the lower edge.
     """
-    q, outer_q = r * r, outer_r * outer_r
+    square, outer = r * r, outer_r * outer_r
     with np.errstate(divide="ignore", invalid="ignore"):  # where there is no vertex inside
-        above = np.maximum(highest - (c + q), 0) / (outer_c + outer_q - (c + q))
-        below = np.maximum(c - q - lowest, 0) / (c - q - (outer_c - outer_q))
-    above = np.where(outer_c + outer_q > highest, above, 1.0)
-    below = np.where(outer_c - outer_q < lowest, below, 1.0)
-    q = q + np.minimum(above, below) * (outer_q - q)
-    return np.sqrt(q), np.where(above <= below, highest - q, lowest + q)
+        above = np.maximum(highest - (c + square), 0) / (outer_c + outer - (c + square))
+        below = np.maximum(c - square - lowest, 0) / (c - square - (outer_c - outer))
+    above = np.where(outer_c + outer > highest, above, 1.0)
+    below = np.where(outer_c - outer < lowest, below, 1.0)
+    square = square + np.minimum(above, below) * (outer - square)
+    return np.sqrt(square), np.where(above <= below, highest - square, lowest + square)
 
 
 def _integral(r: Numbers, c: Array, outer_r: Array, outer_c: Numbers) -> Array:
@@ -190,9 +164,9 @@ def friction(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, Array]:
     (0.875, 0.5)
     """
     radius, displacement = checks.path(radius, displacement)
-    row = SpringRow(np.zeros(1), radius.size)
+    springs = ElasticSprings(np.zeros(1), radius.size)
     force, stick = np.empty((2, radius.size))
     for step, point in enumerate(zip(radius[:, None], displacement[:, None], strict=True)):
-        force[step] = row.move(*point)[0]
-        stick[step] = row.stick_radius[0]
+        force[step] = springs.move(*point)[0]
+        stick[step] = springs.stick_radius[0]
     return force, stick

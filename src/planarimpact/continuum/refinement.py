@@ -17,7 +17,7 @@ Solved: TypeAlias = tuple[Array, Integers, Array]
 STEPS_A_RADIAN = 4
 # Errors below this share of the incidence cannot be told from rounding.
 ROUNDING = 2.0**-48
-# An estimated error falls at best with this power of the steps, as measured.
+# The estimated error falls at best with this power of the steps, as measured.
 BEST_ORDER = 4
 # A gross slip may still come or go if it is nearer than this many times the last change.
 UNSURE = 2
@@ -65,43 +65,23 @@ def refine(
     most: int,
     safety: float,
 ) -> tuple[Array, Integers]:
-    """Values and counts of impacts, with steps doubled until velocity and peak settle.
+    """Values (k, n) and counts (2, n) of impacts, with steps doubled until they meet the tolerance.
 
-    Parameters
-    ----------
-    groups : tuple of ndarray, shape (n,)
-        Incidence, mass ratio, stiffness ratio, and what else `integrate` wants.
-    needed : ndarray, shape (n,)
-        `steps_needed` of each impact.
-    tolerance : float
-    integrate : callable
-        With groups of some impacts and a number of steps, returns the values (k, m), velocity and
-        peak friction first; the counts of gross slips and of reversals (2, m); and how far each
-        contact is from one gross slip more or less (m,).
-    first, most : int
-        Steps to begin and to end with.
-    safety : float
-        Factor of the estimated error.
-
-    Returns
-    -------
-    values : ndarray, shape (k, n)
-    counts : ndarray, shape (2, n)
-
-    Raises
-    ------
-    Unsolved
-        If the tolerance is not met.
+    `groups` are incidence, mass ratio, stiffness ratio, and what else `integrate` takes, each (n,);
+    `needed` are their `steps_needed`. With groups of m impacts and a number of steps `integrate`
+    returns `Solved`: values (k, m), of which velocity and peak friction come first and must meet
+    the tolerance; counts (2, m); and how near one gross slip more or less is (m,).
     """
     x, beta, zeta2 = groups[:3]
     refuse_hopeless(x, beta, zeta2, needed, tolerance, most)
     values = np.zeros((3, x.size))  # if there is nothing to do
     counts, nearest = np.zeros((2, x.size), dtype=np.int64), np.full(x.size, np.nan)
-    lost, why = [], None
+    unsolved, message = [], None
     todo, steps = np.arange(x.size), first
     while todo.size:
-        # A turn solves what is left with twice the steps, and estimates the error. Impacts leave
-        # when they have settled or when no number of steps up to `most` can help.
+        # Each turn solves the impacts that remain with twice the steps, and estimates the error. An
+        # impact leaves when it meets the tolerance or when no number of steps up to `most` can
+        # help.
         fine, number, near = integrate(tuple(group[todo] for group in groups), steps)
         if steps == first:
             values = np.zeros((len(fine), x.size))
@@ -110,9 +90,9 @@ def refine(
         better = fine + correction
         changed = np.abs(better - values[:, todo])
         # A change may be small by chance, where the steps resolve an event of the contact late. So
-        # the change before counts too, less what a doubling gains, and a share of the correction.
-        # All of the correction counts where a gross slip may still come or go: the velocity has a
-        # kink there. Steps displace the kink, and answers on one side of it do not show that.
+        # a quarter of the change before counts too, and a quarter of the correction. All of the
+        # correction counts where a gross slip may still come or go: the velocity has a kink there.
+        # Steps displace the kink, and answers on one side of it do not show that.
         moved = np.abs(near - nearest[todo])
         unsure = (number[0] != counts[0, todo]) | (near <= UNSURE * moved)
         chances = change[:, todo] / 4, np.abs(correction) / np.where(unsure, 1, 4)
@@ -128,13 +108,13 @@ def refine(
         beyond = ~np.isfinite(fine).all(axis=0) | (
             sure & ~settled & ~in_reach(worst, tolerance, steps, most)
         )
-        if beyond.any() and not why:
+        if beyond.any() and not message:
             i, error = todo[beyond][0], worst[beyond][0]
-            why = not_met(x[i], beta[i], zeta2[i], tolerance, steps, error, most)
-        lost += todo[beyond].tolist()
+            message = not_met(x[i], beta[i], zeta2[i], tolerance, steps, error, most)
+        unsolved += todo[beyond].tolist()
         todo, steps = todo[~settled & ~beyond], 2 * steps
-    if why:
-        raise Unsolved(why, np.sort(lost))
+    if message:
+        raise Unsolved(message, np.sort(unsolved))
     return values, counts
 
 
@@ -148,7 +128,7 @@ def in_reach(error: Array, tolerance: float, steps: int, most: int) -> Booleans:
 def not_met(
     x: float, beta: float, zeta2: float, tolerance: float, steps: int, error: float, most: int
 ) -> str:
-    """Words for an impact that does not meet the tolerance."""
+    """Message about an impact that does not meet the tolerance."""
     beyond = f", and out of reach of {most}" if steps < most else ""
     return (
         f"tolerance = {tolerance:g}: not met with {steps} steps{beyond}, at incidence = {x:g}, "
@@ -164,33 +144,16 @@ def settled_path(
     tolerance: float,
     most: int,
 ) -> Sequence[Array]:
-    """Columns over one contact, as fine as the tolerance asks.
+    """Columns over one contact, of which those numbered `judged` meet the tolerance.
 
-    Parameters
-    ----------
-    solve : callable
-        Columns of shape (steps + 1, 1) for a number of steps. The instants of a coarse path are
-        among those of one with twice the steps.
-    judged : (int, int)
-        The columns that must meet the tolerance.
-    groups : tuple of ndarray, shape (1,)
-        Incidence, mass ratio, stiffness ratio.
-    needed : ndarray, shape (1,)
-        Its `steps_needed`.
-    tolerance : float
-    most : int
-        Steps to end with.
-
-    Raises
-    ------
-    ConvergenceError
-        If the tolerance is not met.
+    `solve` returns columns of shape (steps + 1, 1) for a number of steps. The instants of a coarse
+    path are among those of one with twice the steps.
     """
     x, beta, zeta2 = groups
     refuse_hopeless(x, beta, zeta2, needed, tolerance, most)
-    why, steps = None, 128
+    message, steps = None, 128
     coarse = solve(steps)
-    while not why:
+    while not message:
         steps *= 2
         fine = solve(steps)
         # An error that falls with the square of the steps is a third of the change.
@@ -199,9 +162,9 @@ def settled_path(
         if resolved and change <= tolerance:
             return fine
         if resolved and not in_reach(np.asarray(change), tolerance, steps, most):
-            why = not_met(x[0], beta[0], zeta2[0], tolerance, steps, change, most)
+            message = not_met(x[0], beta[0], zeta2[0], tolerance, steps, change, most)
         coarse = fine
-    raise ConvergenceError(why)
+    raise ConvergenceError(message)
 
 
 @contextmanager
@@ -215,7 +178,7 @@ def counted_among(rows: Integers) -> Iterator[None]:
 
 
 def in_parts(count: int, together: int, solve: Callable[[slice], Solved]) -> Solved:
-    """What an `integrate` of `refine` returns, solved for so many impacts at a time."""
+    """What `refine` wants of `integrate`, solved for `together` impacts at a time."""
     parts = [slice(start, start + together) for start in range(0, max(count, 1), together)]
     values, counts, nearest = zip(*(solve(part) for part in parts), strict=True)
     return np.concatenate(values, axis=1), np.concatenate(counts, axis=1), np.concatenate(nearest)
@@ -225,8 +188,10 @@ def sign_changes(force: Array) -> Integers:
     """How often each column changes sign; zeros do not count."""
     sign = np.sign(force)
     # Carry the last sign over zeros.
-    held = np.maximum.accumulate(np.where(sign != 0, np.arange(len(sign))[:, None], 0), axis=0)
-    sign = np.take_along_axis(sign, held, axis=0)
+    last_nonzero = np.maximum.accumulate(
+        np.where(sign != 0, np.arange(len(sign))[:, None], 0), axis=0
+    )
+    sign = np.take_along_axis(sign, last_nonzero, axis=0)
     return np.sum(sign[1:] * sign[:-1] < 0, axis=0)
 
 

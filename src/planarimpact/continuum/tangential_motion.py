@@ -1,7 +1,7 @@
 """Tangential motion over a Hertz contact: gross slip first, which has a closed form, then steps.
 
 The method is Stoermer-Verlet in equal steps of the phase of `normal_impact.hertz`. The force is
-that of the row of springs of `micro_slip`.
+that of the springs of `micro_slip`.
 
 A contact starts with a share g = min(1, x/zeta^2) of the limit of friction at every radius. If that
 share stayed, the displacement would be g d, and the velocity would fall by g beta (1 - v). Only the
@@ -15,34 +15,17 @@ force mu times the largest normal force, radius a_max.
 
 import numpy as np
 
-from planarimpact.continuum.micro_slip import SpringRow
+from planarimpact.continuum.micro_slip import ElasticSprings
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array
 from planarimpact.normal_impact import hertz
 
 
 def first_stick(x: Array, beta: Array, zeta2: Array) -> tuple[Array, Array]:
-    """Where gross slip from the start of contact ends: at once for x <= zeta^2.
+    """Phase and velocity where gross slip from the start of contact ends: at once for x <= zeta^2.
 
-    Parameters
-    ----------
-    x, beta, zeta2 : ndarray, shape (n,)
-        Impacts that do not slide throughout, x >= 0.
-
-    Returns
-    -------
-    phase, velocity : ndarray, shape (n,)
-
-    Notes
-    -----
-    Slip lasts while the body outruns the spring in the middle, w > zeta^2 v. With friction mu F2,
-    w = x - beta (1 - v), which yields v.
-
-    Examples
-    --------
-    >>> phase, velocity = first_stick(np.array([3.5]), np.array([3.5]), np.array([1.21]))
-    >>> round(float(phase[0] / np.pi), 9), float(velocity[0])  # maximum compression
-    (0.5, 0.0)
+    Slip lasts while the body is faster than the spring in the middle, w > zeta^2 v. With friction
+    mu F2, w = x - beta (1 - v), which yields v.
     """
     slips = x > zeta2
     normal = np.where(slips, (beta - x) / np.where(slips, beta - zeta2, 1.0), 1.0)
@@ -50,22 +33,9 @@ def first_stick(x: Array, beta: Array, zeta2: Array) -> tuple[Array, Array]:
 
 
 def gross_slip(x: Array, beta: Array, zeta2: Array) -> list[Array]:
-    """Path of one contact from its start to the end of gross slip, which may be separation.
+    """Phase, friction, velocity and radius of stick (zeros) of one contact while it first slips.
 
-    Parameters
-    ----------
-    x, beta, zeta2 : ndarray, shape (1,)
-
-    Returns
-    -------
-    list of ndarray, shape (m,)
-        Phase, friction, velocity and radius of stick (zeros); one point where nothing slips.
-
-    Examples
-    --------
-    >>> phase, friction, velocity, _ = gross_slip(*np.array([[8.0], [3.5], [1.21]]))
-    >>> float(velocity[-1])
-    1.0
+    From the start of contact to the end of gross slip or to separation; one point for no slip.
     """
     end = np.full(1, np.pi)
     if x[0] < sliding.limit(beta[0], zeta2[0], 1.0):
@@ -77,91 +47,85 @@ def gross_slip(x: Array, beta: Array, zeta2: Array) -> list[Array]:
 
 
 def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
-    """Integrate from the end of gross slip to separation.
+    """Integrate impacts that do not slide throughout, from the end of gross slip to separation.
 
-    Parameters
-    ----------
-    x, beta, zeta2 : ndarray, shape (n,)
-        Impacts that do not slide throughout, x >= 0.
-    steps : int
-
-    Returns
-    -------
-    phase, friction, velocity, stick_radius, reserve, centre : ndarray, shape (steps + 1, n)
-        The last two in the unit of the spring row: the displacement that the spring in the middle
-        is short of its limit, and what it remembers.
-
-    Examples
-    --------
-    >>> path(*np.array([[2.0], [3.5], [1.21]]), steps=64)[2, -1].round(3)
-    array([-0.665])
+    Returns phase, friction, velocity, radius of stick, reserve and centre, shape (6, steps + 1, n).
+    The last two are displacements of `micro_slip`: by how much the spring in the middle is below
+    its limit, and what it remembers.
     """
     start, velocity = first_stick(x, beta, zeta2)
     step = (np.pi - start) / steps
     radius, pace, normal = hertz.state(start)
     separated = np.zeros(x.size), np.zeros(x.size), np.full(x.size, -1.0)
     first = radius * radius
-    row = SpringRow(radius, 2 * steps)
-    found = np.empty((6, steps + 1, x.size))
-    found[:, 0] = start, radius**3, velocity, row.stick_radius, np.zeros(x.size), row.centre
+    springs = ElasticSprings(radius, 2 * steps)
+    columns = np.empty((6, steps + 1, x.size))
+    columns[:, 0] = (
+        *(start, radius**3, velocity),
+        *(springs.stick_radius, np.zeros(x.size), springs.centre),
+    )
     share = np.minimum(x / zeta2, 1.0)
     drag = share * beta
     kick = beta * hertz.PEAK_FORCE * step / 2
     bend = drag - share * zeta2
-    # Differences from the motion with the share g: `excess` of velocity, w - g beta v, `lead` of
-    # displacement, u - g d, and `lack` of friction, which is missing to that share.
-    excess, lead, lack = velocity - drag * normal, np.zeros(x.size), np.zeros(x.size)
+    # The differences from the motion with the share g: of velocity, w - g beta v; of displacement,
+    # u - g d; and of friction, g d^(3/2) minus the friction.
+    velocity_difference = velocity - drag * normal
+    displacement_difference, friction_difference = np.zeros((2, x.size))
     for n in range(1, steps + 1):
         # One step of Stoermer-Verlet: half a kick, a drift by the velocity in the middle, the new
-        # force, half a kick. `early` and `middle` are rates of `lead` by phase, `growth` that of d.
-        early = pace * (excess + bend * normal) / zeta2
+        # force, half a kick. `early` and `middle` are the rates of the difference of displacement
+        # by phase, at the start and in the middle of the step; `growth` is the rate of d.
+        early = pace * (velocity_difference + bend * normal) / zeta2
         growth = pace * normal
-        excess = excess + kick * pace * lack
+        velocity_difference = velocity_difference + kick * pace * friction_difference
         phase = start + (n - 0.5) * step
         _, pace, normal = hertz.state(phase)
-        middle = pace * (excess + bend * normal) / zeta2
+        middle = pace * (velocity_difference + bend * normal) / zeta2
         rates = (early, growth), (middle, pace * normal)
-        # The row first stops at the place within the step where slip ends, if there is one.
-        _turn(row, phase - step / 2, step, share, lead - share * first, rates)
-        lead = lead + step * middle
+        # The springs first stop at the place within the step where slip ends, if there is one.
+        displacement = displacement_difference - share * first
+        _stop_where_slip_ends(springs, phase - step / 2, step, share, displacement, rates)
+        displacement_difference = displacement_difference + step * middle
         phase = phase + step / 2
         radius, pace, normal = hertz.state(phase) if n < steps else separated
         depth = radius * radius
-        displacement = lead + share * (depth - first)
-        friction = row.move(radius, displacement)
-        lack = share * (depth * radius) - friction
-        excess = excess + kick * pace * lack
-        reserve = depth - np.abs(displacement + row.centre)
-        found[:, n] = phase, friction, excess + drag * normal, row.stick_radius, reserve, row.centre
-    return found
+        displacement = displacement_difference + share * (depth - first)
+        friction = springs.move(radius, displacement)
+        friction_difference = share * (depth * radius) - friction
+        velocity_difference = velocity_difference + kick * pace * friction_difference
+        velocity = velocity_difference + drag * normal
+        reserve = depth - np.abs(displacement + springs.centre)
+        columns[:, n] = phase, friction, velocity, springs.stick_radius, reserve, springs.centre
+    return columns
 
 
-def _turn(
-    row: SpringRow,
+def _stop_where_slip_ends(
+    springs: ElasticSprings,
     phase: Array,
     step: Array,
     share: Array,
-    lead: Array,
+    displacement: Array,
     rates: tuple[tuple[Array, Array], tuple[Array, Array]],
 ) -> None:
-    """Move the row to where slip ends within a step, if it does.
+    """Move the springs to where slip ends within a step, if it does.
 
     Slip in the direction g stops when g u - d is largest. Every slipped spring remembers that
     value. A step over it leaves an error that varies irregularly, which extrapolation cannot
-    remove. `rates` are those of the lead and of d, by phase, at the start of the step and in its
-    middle.
+    remove. `rates` are those by phase of u - g d and of d, at the start of the step and in its
+    middle; `displacement` is u - g d less g times the first d.
     """
     (early, growth_early), (middle, growth_middle) = rates
     for direction in (1, -1):
         # The rate of g u - d at both ends of the step, as a straight line through its values at the
         # start and in the middle. Slip ends at the zero of that line, if it falls through zero.
-        surplus = direction * share - 1
-        at_start = direction * early + surplus * growth_early
-        at_end = 2 * (direction * middle + surplus * growth_middle) - at_start
+        growth_share = direction * share - 1  # g u - d = g (u - g d) + (g^2 - 1) d
+        at_start = direction * early + growth_share * growth_early
+        at_end = 2 * (direction * middle + growth_share * growth_middle) - at_start
         turns = np.flatnonzero((at_start > 0) & (at_end < 0))
         if turns.size:
             part = at_start[turns] / (at_start - at_end)[turns]
             travel = part * (early[turns] + (middle - early)[turns] * part)
             radius = np.sin(phase[turns] + part * step[turns])
-            moved = lead[turns] + step[turns] * travel + share[turns] * radius * radius
-            row.move(radius, moved, turns)
+            moved = displacement[turns] + step[turns] * travel + share[turns] * radius * radius
+            springs.move(radius, moved, turns)

@@ -9,7 +9,7 @@ zeta^2, and L its normal force density. A spring has the tangential force densit
 most L. While it sticks q' = u'. A spring that loses contact forgets its deflection. What it
 remembers is c = q - u. With V = u + tau u' the density is V + c while the spring sticks. In slip it
 is L or -L, and tau c' = density - (V + c): what is beyond the limit relaxes. Springs of metal have
-no tau: q is moved to the limit at once. While the contact yields it also decays, see `plastic`.
+no tau: q is moved to the limit at once. While the contact yields q also decays, see `plastic`.
 
 Springs stand at the radii where the edge of the contact is at each instant. So the edge is always
 at a spring, and the error falls with the square of the steps.
@@ -175,12 +175,12 @@ def path(
         work = (x - velocity[-1]) * (x + velocity[-1]) / (2 * beta)
     searched = motion.instants_after_slip(steps)
     if searched:
-        soon = slips & (last > 0) & (onset + searched <= steps)
+        has_search = slips & (last > 0) & (onset + searched <= steps)
         after = np.minimum(onset + np.arange(1 + searched)[:, None], steps)
         knots = [motion.time, motion.approach, motion.velocity, displacement, velocity / zeta2]
-        with np.errstate(divide="ignore", invalid="ignore"):  # where it is not sought
+        with np.errstate(divide="ignore", invalid="ignore"):  # impacts that are not used
             later = motion.peak_after_slip(np.stack([a[after, column] for a in knots], axis=1))
-        peak = np.maximum(peak, np.where(soon, later, 0.0))
+        peak = np.maximum(peak, np.where(has_search, later, 0.0))
     peak = peaks.largest(motion.time, friction, onset, peak, searched)
     largest = motion.largest_force
     radius = np.concatenate([motion.radius, motion.radius[-2::-1]]) / motion.radius[-1]
@@ -215,15 +215,15 @@ def _steps_needed(beta: Array, zeta2: Array, e: Array, law: type[NormalMotion]) 
     return refinement.steps_needed(beta, zeta2, law.least_share_of_hertz(e))
 
 
-def _summary(found: Path) -> Solved:
+def _summary(impacts: Path) -> Solved:
     """Raw velocity, peak and work; counts of gross slips after stick and of reversals; ones.
 
-    The last stands for how far a contact is from one gross slip more or less. That is not known
-    here, so only a change of the count tells `refinement.refine` that one came or went.
+    How near one gross slip more or less is, is not known here: 1 stands for it. So only a change of
+    the count tells `refinement.refine` that a gross slip came or went.
     """
-    size = np.abs(found.friction)
-    gross = (size >= GROSS * found.normal)[1:-1]
+    size = np.abs(impacts.friction)
+    gross = (size >= GROSS * impacts.normal)[1:-1]
     slips = np.sum(gross[1:] & ~gross[:-1], axis=0)
-    counts = np.stack([slips, refinement.sign_changes(found.friction)])
-    values = np.stack([found.velocity[-1], found.peak, found.work])
+    counts = np.stack([slips, refinement.sign_changes(impacts.friction)])
+    values = np.stack([impacts.velocity[-1], impacts.peak, impacts.work])
     return values, counts, np.ones(slips.size)

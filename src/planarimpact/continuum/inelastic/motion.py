@@ -1,4 +1,4 @@
-"""What the steps of an inelastic contact ask of a law: its normal motion, and its row of springs.
+"""What the steps of an inelastic contact ask of a law: its normal motion, and its springs.
 
 `viscous` and `plastic` answer, each for one law of `planarimpact.normal_impact`.
 """
@@ -10,8 +10,8 @@ import numpy as np
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers
 
-# Slip ends after a whole number of these parts of the instants of compression. So that number
-# doubles with the steps, and both sides of the end of slip are resolved at every level.
+# The instants of compression are divided into this many parts, and slip ends between two of them.
+# So the number of instants on both sides of the end of slip doubles with the steps.
 PARTS = 16
 # Slip that ends nearer than this to either end of compression ends there. Friction falls from its
 # limit only gradually then, so that the error is of the order of the square of this.
@@ -19,28 +19,16 @@ NEAR = 1e-4
 
 
 def places(intervals: int, slip_ends: Array) -> tuple[Array, Integers]:
-    """Places of instants in compression, from 0 to 1, one of them where slip ends.
+    """Places of instants in compression, from 0 to 1, and the number of that where slip ends, (m,).
 
-    Before the end of slip they are spread evenly, and after it too. Steps displace an event that
-    lies between two instants, and they do so alike however many there are as long as it stays
-    between the same two: then doubling them shows no error.
-
-    Parameters
-    ----------
-    intervals : int
-    slip_ends : ndarray, shape (m,)
-        The place where slip ends; 0 where there is none.
-
-    Returns
-    -------
-    places : ndarray, shape (intervals + 1, m)
-    number : ndarray of int, shape (m,)
-        Of the place where slip ends.
+    Before the end of slip the places, shape (intervals + 1, m), are spread evenly, and after it
+    too. `slip_ends` is 0 where there is no slip. If slip ended between two instants, its error
+    would not change when doubled steps leave it between the same two, and so it would not show.
 
     Examples
     --------
-    >>> found, number = places(16, np.array([0.0, 0.97]))
-    >>> number.tolist(), found[[1, 14, 15], 1].round(3).tolist()
+    >>> place, number = places(16, np.array([0.0, 0.97]))
+    >>> number.tolist(), place[[1, 14, 15], 1].round(3).tolist()
     ([0, 14], [0.069, 0.97, 0.985])
     """
     inside = (slip_ends > NEAR) & (slip_ends < 1 - NEAR)
@@ -50,8 +38,8 @@ def places(intervals: int, slip_ends: Array) -> tuple[Array, Integers]:
     count = np.arange(intervals + 1)[:, None]
     before = slip_ends * count / np.maximum(number, 1)
     after = 1 - (1 - np.where(inside, slip_ends, 0.0)) * (intervals - count) / (intervals - number)
-    found = np.where(count < number, before, after)
-    return found, np.where(slip_ends < 1 - NEAR, number, intervals)
+    place = np.where(count < number, before, after)
+    return place, np.where(slip_ends < 1 - NEAR, number, intervals)
 
 
 class Springs(ABC):

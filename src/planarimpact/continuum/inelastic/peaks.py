@@ -4,26 +4,15 @@ import numpy as np
 
 from planarimpact.ground.arrays import Array, Integers
 
-# Places where a polynomial through a few instants is looked at.
+# Places at which a polynomial through a few instants is evaluated.
 SAMPLES = 49
 
 
 def largest(time: Array, friction: Array, onset: Integers, peak: Array, searched: int) -> Array:
-    """Largest friction of each contact.
+    """Largest friction of each contact, shape (n,), from columns of shape (steps + 1, n).
 
-    Parameters
-    ----------
-    time, friction : ndarray, shape (steps + 1, n)
-    onset : ndarray of int, shape (n,)
-        The instant when gross slip from the start ends.
-    peak : ndarray, shape (n,)
-        Largest friction up to then, or as far as it has been sought.
-    searched : int
-        How many instants after that the search has covered.
-
-    Returns
-    -------
-    ndarray, shape (n,)
+    Gross slip from the start ends at the instant `onset`. `peak` is the largest friction up to
+    `searched` instants after that.
     """
     size = np.abs(friction)
     column = np.arange(onset.size)
@@ -34,11 +23,11 @@ def largest(time: Array, friction: Array, onset: Integers, peak: Array, searched
     # A polynomial must not reach over the kink where gross slip ends.
     smooth = around[0] > first + np.where(onset > 0, searched // 2, 0)
     late = [(time[k, column], size[k, column]) for k in around]
-    found = np.maximum(peak, np.where(smooth, _highest(late), size[top, column]))
+    largest_friction = np.maximum(peak, np.where(smooth, _highest(late), size[top, column]))
     if searched:
-        return found
+        return largest_friction
     early = [(time[first + k, column], size[first + k, column]) for k in range(3)]
-    return np.maximum(found, _highest(early))
+    return np.maximum(largest_friction, _highest(early))
 
 
 def highest(times: Array, forces: Array) -> Array:

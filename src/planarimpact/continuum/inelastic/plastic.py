@@ -26,7 +26,7 @@ from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.normal_impact import hertz
 from planarimpact.normal_impact import yielding as law
 
-# Places where the start of stick in plastic compression is sought before it is homed in.
+# Places among which the start of stick in plastic compression is first sought.
 PLACES = 33
 # Flow in a step below which two terms of a series are exact enough.
 SMALL = 1e-5
@@ -39,11 +39,6 @@ INSTANTS, AFTER = 24, 1 / 48
 
 class PlasticMotion(NormalMotion):
     """Normal motions of elastic-plastic spheres.
-
-    Parameters
-    ----------
-    restitution : ndarray, shape (m,)
-        0.1 to 1, without 1.
 
     Examples
     --------
@@ -94,13 +89,15 @@ class PlasticMotion(NormalMotion):
         depth[-1] = self._largest
         time, velocity, force = self._loading.at(depth)
         phase = np.pi - angle[-2::-1]
-        later, return_velocity, came_back, less = self._unloading.at(phase, self.restitution)
+        later, return_velocity, came_back, return_force = self._unloading.at(
+            phase, self.restitution
+        )
         self.time = np.concatenate([time, time[-1] + later])
         self.velocity = np.concatenate([velocity, return_velocity])
         self.approach = np.concatenate([depth, self._largest - came_back])
-        self.force = np.concatenate([force, less])
+        self.force = np.concatenate([force, return_force])
         share = self._loading.share_of_hertz(depth)
-        self._share = np.concatenate([share, np.broadcast_to(self._last_share, less.shape)])
+        self._share = np.concatenate([share, np.broadcast_to(self._last_share, return_force.shape)])
 
     def density(self, instant: int) -> Array:
         """As in `NormalMotion`: h (a^2 - r^2)."""
@@ -138,7 +135,7 @@ class PlasticMotion(NormalMotion):
         Approach and displacement are cubics between the knots.
         """
         count = len(self.radius)
-        held, displaced = self.limit_at(knots[0, 1], knots[0, 2], count), knots[0, 3]
+        density, displaced = self.limit_at(knots[0, 1], knots[0, 2], count), knots[0, 3]
         flowed = self.flowed(knots[0, 1])
         times, forces = [knots[0, 0]], [self.force_at(knots[0, 1], knots[0, 2])]
         for left, right in zip(knots, knots[1:], strict=False):
@@ -149,13 +146,13 @@ class PlasticMotion(NormalMotion):
                 u = cubics.between(left[3], right[3], step * left[4], step * right[4], share)
                 limit, flow = self.limit_at(approach, velocity, count), self.flowed(approach)
                 half = np.where(velocity > 0, np.exp((flowed - flow) / 2), 1.0)
-                held = np.minimum(limit, (held * half + u - displaced) * half)
+                density = np.minimum(limit, (density * half + u - displaced) * half)
                 displaced, flowed = u, flow
                 whole = np.sum(self.width * limit, axis=0)
-                short = np.sum(self.width * (limit - held), axis=0)  # of the limit of friction
+                below_limit = np.sum(self.width * (limit - density), axis=0)
                 force = self.force_at(approach, velocity)
                 times.append(left[0] + share * step)
-                forces.append(force * (1 - short / np.where(whole > 0, whole, 1.0)))
+                forces.append(force * (1 - below_limit / np.where(whole > 0, whole, 1.0)))
         return peaks.highest(np.stack(times), np.stack(forces))
 
     def _pull(self, loading: law.Loading, velocity: Array) -> Array:
@@ -211,9 +208,9 @@ class PlasticMotion(NormalMotion):
         loading, beta, zeta2 = self._loading.take(sticks), beta[sticks], zeta2[sticks]
 
         def rise(which: Any, depth: Array) -> tuple[Array]:
-            some = loading.take(which)
-            _, v, force = some.at(depth)
-            pull, change = some.pull(depth, self.flows)
+            chosen = loading.take(which)
+            _, v, force = chosen.at(depth)
+            pull, change = chosen.pull(depth, self.flows)
             return (zeta2[which] * change * v**2 - force * (zeta2[which] * pull - beta[which]),)
 
         depth = roots.crossing(rise, loading.yields, loading.largest_approach())
@@ -237,8 +234,8 @@ class PlasticSprings(Springs):
     def slide(self, k: int, which: Booleans, u: Array) -> None:
         """As in `Springs`."""
         limit = self._motion.density(k)
-        for mine in (self._limit, self._density):
-            mine[:, which] = limit[:, which]
+        for values in (self._limit, self._density):
+            values[:, which] = limit[:, which]
 
     def move(
         self, k: int, step: Array, start: tuple[Array, Array], end: tuple[Array, Array]
@@ -253,7 +250,7 @@ class PlasticSprings(Springs):
         motion, limit = self._motion, self._motion.density(k)
         count = min(len(limit), len(self._density))
         before, after = self._limit[:count], limit[:count]
-        held = self._density[:count]
+        density_before = self._density[:count]
         pace, later_pace = motion.velocity[k - 1 : k + 1]
         since, until = motion.approach[k - 1 : k + 1]
         approach = cubics.between(since, until, step * pace, step * later_pace, 0.5)
@@ -265,9 +262,9 @@ class PlasticSprings(Springs):
         else:
             first = last = np.zeros_like(step)
         # Without slip, half a step later and at its end.
-        halfway = np.exp(-first) * held + _gain(first, early, (early + late) / 2) / 2
+        halfway = np.exp(-first) * density_before + _gain(first, early, (early + late) / 2) / 2
         wanted = np.exp(-last) * halfway + _gain(last, (early + late) / 2, late) / 2
-        slips = np.zeros(held.shape, dtype=bool)
+        slips = np.zeros(density_before.shape, dtype=bool)
         # A spring turns if the rate of its limit lies between those of the body. That rate differs
         # from the edge, where the limit grows most, to the middle, where most has flowed.
         grown = after[-1] - before[-1]
@@ -284,9 +281,9 @@ class PlasticSprings(Springs):
                 continue
             if between is None:
                 between = motion.limit_at(approach, (pace + later_pace) / 2, count)
-            fade, rest = np.exp(-(first + last)[which]), np.exp(-last[which])
-            at_start = fade * (side * held[:, which] - before[:, which])
-            middle = rest * (side * halfway[:, which] - between[:, which])
+            decay, half_decay = np.exp(-(first + last)[which]), np.exp(-last[which])
+            at_start = decay * (side * density_before[:, which] - before[:, which])
+            middle = half_decay * (side * halfway[:, which] - between[:, which])
             at_end = side * wanted[:, which] - after[:, which]
             bulge = np.maximum(8 * middle - 4 * (at_start + at_end), 1e-300)
             part = np.clip(0.5 + (at_end - at_start) / bulge, 0.0, 1.0)

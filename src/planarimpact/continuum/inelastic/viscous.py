@@ -17,11 +17,6 @@ from planarimpact.normal_impact import kelvin_voigt as law
 class ViscousMotion(NormalMotion):
     """Normal motions of viscous spheres.
 
-    Parameters
-    ----------
-    restitution : ndarray, shape (m,)
-        0.1 to 1, without 1.
-
     Examples
     --------
     >>> motion = ViscousMotion(np.array([0.8]))
@@ -50,7 +45,7 @@ class ViscousMotion(NormalMotion):
         edge = self._after.at(self._after.crossing(1, np.minimum(velocity, 0.0)[None]))[0]
         late = self._compression.crossing(0, edge, rises=True)
         share = np.where(velocity > 0, early, late)[0] / self._compression.end
-        return np.minimum(share, 1.0)  # the radius, which is largest there, ends before it tells
+        return np.minimum(share, 1.0)  # near 1 the radius hardly changes
 
     def put_springs(self, places: Array) -> None:
         """As in `NormalMotion`."""
@@ -96,11 +91,7 @@ class ViscousMotion(NormalMotion):
 
 
 class ViscousSprings(Springs):
-    """Springs that relax: what is beyond the limit does so with the relaxation time tau.
-
-    What a spring remembers is c = q - u. With V = u + tau u' the density is V + c while the spring
-    sticks. In slip it is L or -L, and tau c' = density - (V + c).
-    """
+    """Springs that relax: what is beyond the limit does so with the relaxation time tau."""
 
     _motion: ViscousMotion
 
@@ -114,10 +105,10 @@ class ViscousSprings(Springs):
         motion = self._motion
         deflection = motion.approach[k] - motion.radius[: len(self._memory)] ** 2
         limit = deflection + motion.tau * motion.velocity[k]
-        for mine, new in zip(
+        for values, new in zip(
             (self._memory, self._limit, self._density), (deflection - u, limit, limit), strict=True
         ):
-            mine[:, which] = new[:, which]
+            values[:, which] = new[:, which]
 
     def move(
         self, k: int, step: Array, start: tuple[Array, Array], end: tuple[Array, Array]
