@@ -96,7 +96,7 @@ def in_words(page):
 
 
 def test_each_is_one_file_that_needs_nothing_else(report, page, provenance):
-    assert report.stat().st_size < 6.5e6
+    assert report.stat().st_size < 6e6
     assert all(resource.startswith("data:image/svg+xml;base64,") for resource in page.resources)
     outside = [link for link in provenance.links if ":" in link]
     assert outside and all(link.startswith("https://doi.org/10.") for link in outside)
@@ -409,6 +409,11 @@ def test_strips_show_points_bounds_and_verdicts():
     assert second.lines[0].get_ydata().tolist() == [0.5]
     assert {area.get_datalim(second.transData).y1 for area in second.collections} == {1.0}
     assert not draw_residuals.strips(residuals[-1:], comparisons, verdicts)
+    # Points that agree so closely lie on the line at zero; those that diverge are always shown.
+    close = [row | {"distance [sigma]": "0.009"} for row in residuals if row["comparison"] == "low"]
+    assert draw_residuals.strips(close, comparisons, verdicts)
+    verdicts["low"] = {"verdict": "agrees", "p": ""}
+    assert not draw_residuals.strips(close, comparisons, verdicts)
 
 
 def test_the_interface_has_a_page_a_module_and_names_types_as_the_sources_do(first_run):

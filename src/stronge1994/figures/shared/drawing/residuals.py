@@ -1,6 +1,5 @@
 """Residuals of a figure as strips, one for each curve and reference; allowed ranges are shaded."""
 
-from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
@@ -36,6 +35,8 @@ RMS_LINE = {"color": house_style.GREEN, "linewidth": 0.9, "linestyle": "-", "zor
 DISTANCE = "distance [sigma]"
 # A comparison with more points is left out: its points would overlap, and the file be large.
 MOST_POINTS = 1000
+# A comparison that agrees this closely is left out: all its points would lie on the line at zero.
+ON_THE_LINE = 0.01  # sigma
 
 Entry: TypeAlias = Mapping[str, Any]  # a comparison of the config
 # Curve, reference and quantity of a strip.
@@ -57,15 +58,17 @@ def strips(
     square are called "COMPARISON, " and one of the constants above: the lower line, then the upper
     one.
     """
-    points_of: dict[Strip, dict[str, list[tuple[float, float]]]] = {}
-    counts = Counter(row["comparison"] for row in residuals)
+    rows_of: dict[str, list[Row]] = {}
     for row in residuals:
-        entry = comparisons[row["comparison"]]
-        if verdicts[row["comparison"]]["verdict"] not in MARKS:
+        rows_of.setdefault(row["comparison"], []).append(row)
+    points_of: dict[Strip, dict[str, list[tuple[float, float]]]] = {}
+    for comparison, rows in rows_of.items():
+        entry = comparisons[comparison]
+        if not _is_drawn(rows, entry, verdicts[comparison]["verdict"]):
             continue
-        if entry["metric"] in ("distance", "vertices") and counts[row["comparison"]] <= MOST_POINTS:
+        for row in rows:
             key = entry.get("curve", "all curves"), entry["reference"], row["quantity"]
-            part = points_of.setdefault(key, {}).setdefault(row["comparison"], [])
+            part = points_of.setdefault(key, {}).setdefault(comparison, [])
             part.append((float(row["at"]), float(row[DISTANCE])))
     quantities = list(dict.fromkeys(quantity for _, _, quantity in points_of))
     return {
@@ -78,6 +81,14 @@ def strips(
         }
         for key in sorted(points_of, key=lambda key: quantities.index(key[2]))
     }
+
+
+def _is_drawn(rows: Sequence[Row], entry: Entry, verdict: str) -> bool:
+    """Whether points of a comparison, drawn, show more than its row in the table of verdicts."""
+    if verdict not in MARKS or entry["metric"] not in ("distance", "vertices"):
+        return False
+    largest = max(abs(float(row[DISTANCE])) for row in rows)
+    return len(rows) <= MOST_POINTS and (verdict != "agrees" or largest >= ON_THE_LINE)
 
 
 def _strip(
