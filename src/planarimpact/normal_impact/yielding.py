@@ -14,6 +14,7 @@ yield velocity to the velocity alone, is the energy of unloading.
 Units as in `normal_impact`.
 """
 
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -259,11 +260,16 @@ def yield_velocity(restitution_wanted: Array) -> Array:
     >>> bool(np.abs(restitution(yield_velocity(e)) - e).max() < 1e-15)
     True
     """
-    wanted = np.ravel(restitution_wanted)
-    # Restitution is nearly in proportion to the fourth root of the yield velocity.
+    wanted, (nodes, values) = np.ravel(restitution_wanted), _table()
+    above = np.clip(np.searchsorted(values, wanted, "right"), 1, values.size - 1)
     root = roots.crossing(
-        lambda which, root: (wanted[which] - restitution(root**4),),
-        np.zeros_like(wanted),
-        np.ones_like(wanted),
+        lambda which, root: (wanted[which] - restitution(root**4),), nodes[above - 1], nodes[above]
     )
     return np.reshape(root**4, np.shape(restitution_wanted))
+
+
+@cache
+def _table() -> tuple[Array, Array]:
+    """Fourth roots of yield velocities, and restitution, which is nearly in proportion to them."""
+    nodes = np.linspace(0.0, 1.0, 1025)
+    return nodes, restitution(nodes**4)
