@@ -255,7 +255,7 @@ def test_the_picture_has_the_numbers_of_the_gate(lumped_alone, judge, settings, 
     rows = judge("inelastic-lumped-pairs", "inelastic-lumped.unloading-stiffness-pairs")
     found = inelastic.curves(**settings)
     for row in rows.values():
-        model = row["comparison"].split("-")[1]
+        model = row["comparison"].removeprefix("inelastic-").removesuffix("-pairs")
         fit = draw_inelastic.goodness(found, model, series_of(inventory))
         assert (f"{fit.value:.3g}", f"{fit.p:.2g}") == (row["chi^2"], row["p"])
 
