@@ -120,7 +120,8 @@ def _contenders(
         if not models.admits(model, **groups):
             continue
         # For e = 1 a model with a loss is the same as the model without.
-        if elastic and _loss(model.name) and model.name.partition(".")[0] in models.MODELS:
+        without_loss, _, loss = model.name.partition(".")
+        if elastic and loss and without_loss in models.MODELS:
             continue
         for settings in _variants(model, tried):
             yield _Contender(model.name, settings, _solver(model, groups, settings))

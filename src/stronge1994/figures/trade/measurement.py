@@ -185,8 +185,7 @@ def _own_names(restitution: float) -> list[str]:
     for name, model in models.MODELS.items():
         low, high = model.restitution
         stem, _, loss = name.rpartition(".")
-        double = restitution == 1 and loss in LOSSES
-        double = double and (stem in models.MODELS or loss == "plastic")
+        double = restitution == 1 and (stem in models.MODELS or loss == "plastic")
         if name.startswith(ROOMS) and low <= restitution <= high and not double:
             names.append(name)
     return names
