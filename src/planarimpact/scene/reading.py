@@ -2,8 +2,8 @@
 
 CSV is cut into whole rows here, read by pyarrow as text, and each column becomes numbers if all of
 its cells are numbers. pyarrow does not say which row has too few or too many cells. Such a piece is
-read once more by the module csv, and so is a piece with quotation marks, of which pyarrow takes
-everything.
+read once more by the module csv, and so is a piece with quotation marks, as pyarrow accepts also
+marks that do not match.
 """
 
 import csv
@@ -85,7 +85,7 @@ def _parquet(source: Place, rows: int) -> Iterator[tuple[float, pa.Table]]:
 
 
 def _refuse_label(label: str, kind: pa.DataType) -> None:
-    """Refuse an id that CSV has no words for."""
+    """Refuse an id whose type CSV cannot hold."""
     value = kind.value_type if pa.types.is_dictionary(kind) else kind
     text = pa.types.is_string(value) or pa.types.is_large_string(value)
     if not (text or pa.types.is_integer(value)):
@@ -132,10 +132,10 @@ def _header(lines: Iterator[bytes]) -> list[str]:
     number, line = next((entry for entry in enumerate(texts, 1) if not entry[1].isspace()), (0, ""))
     if not line:
         raise InputError("it is empty: the first line must name the columns")
-    for separator, called in SEPARATORS.items():
+    for separator, name in SEPARATORS.items():
         if separator in line:
             raise InputError(
-                f"it is separated by {called}; allowed are commas, and points in decimals"
+                f"it is separated by {name}; allowed are commas, and points in decimals"
             )
     try:
         (header,) = csv.reader([line], strict=True)

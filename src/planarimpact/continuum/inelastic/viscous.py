@@ -150,10 +150,10 @@ def _relaxed(
     ratio = step / tau
     decay = np.exp(-ratio)
     gain = np.where(ratio > 0, -np.expm1(-ratio) / np.where(ratio > 0, ratio, 1.0), 1.0)
-    wanted = memory + pull_after
-    side = np.copysign(1.0, wanted)
+    unlimited = memory + pull_after
+    side = np.copysign(1.0, unlimited)
     # What is beyond the limit before the step, and after it if nothing relaxed.
-    before, after = side * (memory + pull) - limit, side * wanted - limit_after
+    before, after = side * (memory + pull) - limit, side * unlimited - limit_after
     change = after - before
     with np.errstate(divide="ignore", invalid="ignore"):
         # From slip: exact. If it ends within the step, change is all that stick adds after that.
