@@ -55,7 +55,7 @@ def _first(start: NDArray[np.float64], left: NDArray[np.float64]) -> NDArray[np.
 
 
 def _model(response: Response) -> list[str]:
-    """What the file says about its model, a paragraph each."""
+    """Paragraphs about the model, for the head of the file."""
     paragraphs = [
         f"Written by planarimpact {__version__}. Do not edit it: write it anew.",
         "",

@@ -1,4 +1,4 @@
-"""The columns of a scene's table: which there are, what they admit, and what is missing."""
+"""The columns of a scene's table: names, units, allowed numbers, and which columns are needed."""
 
 import difflib
 import re
@@ -19,7 +19,7 @@ HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
 
 
 class Column(NamedTuple):
-    """A column: its unit, what it admits in words, and between which numbers."""
+    """A column: its unit, the text of what is allowed, and the range of its numbers."""
 
     unit: str
     allowed: str

@@ -53,7 +53,7 @@ class Piece(NamedTuple):
 
 
 def pieces(source: Place, rows: int) -> Iterator[Piece]:
-    """Pieces of a table, of so many rows at most; a table without rows is one piece."""
+    """Pieces of a table, of `rows` rows at most; a table without rows is one piece."""
     before = 0
     read = _parquet if source.kind == places.PARQUET else _csv
     for share, table in read(source, rows):
@@ -158,7 +158,7 @@ def _is_number(cell: str) -> bool:
 
 
 def _cut(lines: Iterator[bytes], rows: int) -> Iterator[bytes]:
-    """Text of so many lines, and of more where the last cell goes on in the next line."""
+    """Text of `rows` lines each; of more where the last cell goes on in the next line."""
     while taken := list(islice(lines, rows)):
         if sum(line.count(b'"') for line in taken) % 2:
             for line in islice(lines, MOST_LINES):
@@ -201,7 +201,7 @@ def _text_cells(text: bytes, header: list[str], before: int) -> pa.Table:
 
 
 def _refuse_rows(text: bytes, width: int, before: int) -> None:
-    """Refuse the first row that has not so many cells, or whose quotation marks do not match."""
+    """Refuse the first row with other than `width` cells, or with unmatched quotation marks."""
     row = before + 1
     try:
         for cells in csv.reader(io.StringIO(text.decode(), newline=""), strict=True):

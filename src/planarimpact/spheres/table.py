@@ -312,7 +312,7 @@ def _over_both(grids: Array, t: Array, u: Array) -> list[Array]:
 
 
 def _places(value: Array, count: int | Integers) -> tuple[Integers, Array]:
-    """Which of so many intervals a value from 0 to 1 is in, and where."""
+    """The interval, one of `count`, that a value from 0 to 1 is in, and the place in it."""
     at = value * count
     index = np.clip(at.astype(np.intp), 0, count - 1)
     return index, at - index

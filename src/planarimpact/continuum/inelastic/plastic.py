@@ -242,10 +242,10 @@ class PlasticSprings(Springs):
     ) -> Array:
         """As in `Springs`.
 
-        Slip in direction g stops when g q less the limit, without slip, is largest; what has flowed
-        since is taken from it as from q. Every slipped spring remembers that value. In the step it
-        is a parabola, through its values at both ends and in the middle. A step over its top leaves
-        an error that varies irregularly, which extrapolation cannot remove.
+        Slip in direction g stops when g q minus the limit, computed without slip, is largest. That
+        value decays afterwards as q does. Every slipped spring remembers it. In the step it is a
+        parabola, through its values at both ends and in the middle. A step over its top leaves an
+        error that varies irregularly, which extrapolation cannot remove.
         """
         motion, limit = self._motion, self._motion.density(k)
         count = min(len(limit), len(self._density))
@@ -261,7 +261,7 @@ class PlasticSprings(Springs):
             first, last = np.diff(flowed, axis=0)
         else:
             first = last = np.zeros_like(step)
-        # Without slip, half a step later and at its end.
+        # The density without slip, half a step later and at the end of the step.
         halfway = np.exp(-first) * density_before + _gain(first, early, (early + late) / 2) / 2
         unlimited = np.exp(-last) * halfway + _gain(last, (early + late) / 2, late) / 2
         slips = np.zeros(density_before.shape, dtype=bool)
