@@ -55,8 +55,8 @@ def courses(groups):
 
     def end(*state):
         eta, rho, wave = onset(*state)
-        sticks[now[0].lanes] += 1
-        side[now[0].lanes] = now[0].side * (-1) ** (wave % 2)
+        sticks[now[0].which] += 1
+        side[now[0].which] = now[0].side * (-1) ** (wave % 2)
         return eta, rho, wave
 
     with pytest.MonkeyPatch.context() as patch:

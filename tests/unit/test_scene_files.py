@@ -225,7 +225,7 @@ def ended(*_):
 
 @pytest.mark.parametrize("end", [killed, ended])
 def test_a_worker_that_ends_leaves_nothing_behind(table, tmp_path, monkeypatch, end):
-    monkeypatch.setattr(workers, "done", end)
+    monkeypatch.setattr(workers, "solved", end)
     out = tmp_path / "out.csv"
     words = "in.csv: a worker ended before its work was done: it may lack memory"
     with pytest.raises(InputError, match=words):

@@ -230,14 +230,14 @@ class _Contact:
         traction = np.empty(goal.shape)
         unsettled = np.arange(contacts)
         for _ in range(MOST_TRIALS):
-            state, wanted = slip[:, unsettled], goal[:, unsettled]
+            state, moved = slip[:, unsettled], goal[:, unsettled]
             stuck = state == 0
             system = np.where(stuck.T[:, :, None], influence, np.eye(annuli))
-            known = np.where(stuck, wanted, state * limit)
+            known = np.where(stuck, moved, state * limit)
             solved = np.linalg.solve(system, known.T[:, :, None])[:, :, 0].T
             traction[:, unsettled] = solved
             exceeds = np.abs(solved) > limit * (1 + ROUNDING)
-            resists = state * (wanted - influence @ solved) < -ROUNDING * np.abs(wanted)
+            resists = state * (moved - influence @ solved) < -ROUNDING * np.abs(moved)
             new = np.where(stuck, np.sign(solved) * exceeds, np.where(resists, 0, state))
             slip[:, unsettled] = new
             unsettled = unsettled[(new != state).any(axis=0)]

@@ -158,7 +158,7 @@ def _peak(phase: Array, force: Array, gross: Booleans) -> Array:
     slope, bend = (after - before) / 2, before - 2 * at + after
     middle, step = phase[last - 1, column], phase[1] - phase[0]
 
-    def between(at_phase: Array) -> Array:
+    def force_at(at_phase: Array) -> Array:
         t = (at_phase - middle) / step
         deficit = at + t * (slope + t * bend / 2)
         deficit = np.where(nears, np.maximum(deficit, 0.0) ** 1.5, deficit)
@@ -169,6 +169,6 @@ def _peak(phase: Array, force: Array, gross: Booleans) -> Array:
     for _ in range(SECTIONS):
         third = (high - low) * GOLDEN
         left, right = low + third, high - third
-        rises = between(left) < between(right)
+        rises = force_at(left) < force_at(right)
         low, high = np.where(rises, left, low), np.where(rises, high, right)
-    return between((low + high) / 2)
+    return force_at((low + high) / 2)

@@ -24,10 +24,10 @@ UNSURE = 2
 
 
 def steps_needed(beta: Array, zeta2: Array, share_of_hertz: Array | float = 1.0) -> Array:
-    """Steps that resolve the tangential oscillation of a contact, of which it has sqrt(b)/2.
+    """Steps that resolve the tangential oscillation of a contact.
 
-    b is beta/zeta^2 for an elastic contact. One that yields is softer and lasts longer: b is that
-    over the share that its force has of Hertz's.
+    An elastic contact has sqrt(b)/2 oscillations, b = beta/zeta^2. One that yields is softer and
+    lasts longer: b is divided by the share that its force has of Hertz's.
     """
     with np.errstate(over="ignore"):
         frequency = np.sqrt(beta) / (np.sqrt(zeta2) * np.sqrt(share_of_hertz))

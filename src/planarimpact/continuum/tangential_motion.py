@@ -3,14 +3,15 @@
 The method is Stoermer-Verlet in equal steps of the phase of `normal_impact.hertz`. The force is
 that of the springs of `micro_slip`.
 
-A contact starts with a share g = min(1, x/zeta^2) of the limit of friction at every radius. If that
-share stayed, the displacement would be g d, and the velocity would fall by g beta (1 - v). Only the
-difference from this motion is integrated. So gross slip is exact. Close to gross slip the distance
-from it decides whether the contact slips or sticks, and that distance may be far smaller than the
-error of a step in the whole motion.
+Symbols: incidence x, tangential velocity w and displacement u of the body, normal velocity v and
+approach d. Units: w mu |v2(0)|, v |v2(0)|, force mu times the largest normal force, radius a_max,
+u and d as in `micro_slip`.
 
-Arguments have been checked by `planarimpact.continuum`. The units are its own: velocity mu |v2(0)|,
-force mu times the largest normal force, radius a_max.
+A contact starts with a share g = min(1, x/zeta^2) of the limit of friction at every radius. If that
+share stayed, u would be g d, and w would fall by g beta (1 - v). Only the difference from this
+motion is integrated. So gross slip is exact. Close to gross slip the distance from it decides
+whether the contact slips or sticks, and that distance may be far smaller than the error of a step
+in the whole motion.
 """
 
 import numpy as np
@@ -60,28 +61,26 @@ def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
     first = radius * radius
     springs = ElasticSprings(radius, 2 * steps)
     columns = np.empty((6, steps + 1, x.size))
-    columns[:, 0] = (
-        *(start, radius**3, velocity),
-        *(springs.stick_radius, np.zeros(x.size), springs.centre),
-    )
+    columns[:3, 0] = start, radius**3, velocity
+    columns[3:, 0] = springs.stick_radius, np.zeros(x.size), springs.centre
     share = np.minimum(x / zeta2, 1.0)
-    drag = share * beta
+    deceleration = share * beta
     kick = beta * hertz.PEAK_FORCE * step / 2
-    bend = drag - share * zeta2
+    coupling = deceleration - share * zeta2  # of the difference of displacement to v
     # The differences from the motion with the share g: of velocity, w - g beta v; of displacement,
     # u - g d; and of friction, g d^(3/2) minus the friction.
-    velocity_difference = velocity - drag * normal
+    velocity_difference = velocity - deceleration * normal
     displacement_difference, friction_difference = np.zeros((2, x.size))
     for n in range(1, steps + 1):
         # One step of Stoermer-Verlet: half a kick, a drift by the velocity in the middle, the new
         # force, half a kick. `early` and `middle` are the rates of the difference of displacement
         # by phase, at the start and in the middle of the step; `growth` is the rate of d.
-        early = pace * (velocity_difference + bend * normal) / zeta2
+        early = pace * (velocity_difference + coupling * normal) / zeta2
         growth = pace * normal
         velocity_difference = velocity_difference + kick * pace * friction_difference
         phase = start + (n - 0.5) * step
         _, pace, normal = hertz.state(phase)
-        middle = pace * (velocity_difference + bend * normal) / zeta2
+        middle = pace * (velocity_difference + coupling * normal) / zeta2
         rates = (early, growth), (middle, pace * normal)
         # The springs first stop at the place within the step where slip ends, if there is one.
         displacement = displacement_difference - share * first
@@ -94,7 +93,7 @@ def path(x: Array, beta: Array, zeta2: Array, steps: int) -> Array:
         friction = springs.move(radius, displacement)
         friction_difference = share * (depth * radius) - friction
         velocity_difference = velocity_difference + kick * pace * friction_difference
-        velocity = velocity_difference + drag * normal
+        velocity = velocity_difference + deceleration * normal
         reserve = depth - np.abs(displacement + springs.centre)
         columns[:, n] = phase, friction, velocity, springs.stick_radius, reserve, springs.centre
     return columns

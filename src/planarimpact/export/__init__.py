@@ -1,6 +1,6 @@
 """Responses and the table of spheres in other languages: a header of C99, or a JavaScript module.
 
-The file needs nothing else, and says itself what it computes, in which units, to which error.
+The file needs no other file. Its head says what it computes, in which units, to which error.
 """
 
 from pathlib import Path
@@ -18,12 +18,12 @@ TABLES = table_of_spheres.TABLES
 
 
 def text(response: Response, path: str | Path, language: str) -> str:
-    """What `write` writes.
+    """The code that `write` writes.
 
     Parameters
     ----------
     response, path, language
-        As there.
+        As for `write`.
 
     Returns
     -------
@@ -43,7 +43,7 @@ def write(response: Response, path: str | Path, language: str) -> None:
     """Write a response as code, whole or not at all.
 
     The code computes what the response computes, by the same operations in the same order. Where
-    the response refuses an incidence, as it is beyond `incidence_max` or no number, the code
+    the response refuses an incidence, because it is beyond `incidence_max` or no number, the code
     returns NaN.
 
     Parameters
@@ -72,18 +72,18 @@ def write(response: Response, path: str | Path, language: str) -> None:
     >>> "double wall_velocity(double x)" in path.read_text()
     True
     """
-    whole = text(response, path, language)
+    code = text(response, path, language)
     with files.written(path) as partial:
-        partial.write_text(whole, encoding="utf-8")
+        partial.write_text(code, encoding="utf-8")
 
 
 def spheres_text(path: str | Path, language: str, tolerance: float = min(TABLES)) -> str:
-    """What `write_spheres` writes.
+    """The code that `write_spheres` writes.
 
     Parameters
     ----------
     path, language, tolerance
-        As there.
+        As for `write_spheres`.
 
     Returns
     -------
@@ -135,6 +135,6 @@ def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES
     >>> "export function velocity(x, mass_ratio" in path.read_text()
     True
     """
-    whole = spheres_text(path, language, tolerance)
+    code = spheres_text(path, language, tolerance)
     with files.written(path) as partial:
-        partial.write_text(whole, encoding="utf-8")
+        partial.write_text(code, encoding="utf-8")

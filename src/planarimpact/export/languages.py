@@ -1,7 +1,7 @@
 """How C and JavaScript write a file: its template, numbers, tables and comments.
 
-A template is a file of its language. It has samples between two marks in comments, `<start>` and
-`</start>`, and its own name, which a file replaces by what it has.
+A template is a file of its language. The samples between two marks in comments, such as `<start>`
+and `</start>`, are replaced by the blocks of a file, and the name of the template by its own name.
 """
 
 import re
@@ -33,7 +33,7 @@ class Language(NamedTuple):
     Attributes
     ----------
     endings : tuple of str
-        Of the names of files; the template has the first.
+        Endings of the names of files; the template has the first.
     named : bool
         Whether functions have the name of the file in front of their own.
     numbers : mapping
@@ -116,9 +116,9 @@ def filled(stem: str, blocks: Mapping[str, Block], file: str, name: str, languag
     template = stem + chosen.endings[0]
     text = resources.files(__package__).joinpath("templates", template).read_text(encoding="utf-8")
     names = {template: file, f"{stem}_": f"{name}_", f"{stem}_".upper(): f"{name}_".upper()}
-    text = re.sub("|".join(map(re.escape, names)), lambda found: names[found[0]], text)
+    text = re.sub("|".join(map(re.escape, names)), lambda match: names[match[0]], text)
     prefix = f"{name}_".upper() if chosen.named else ""
-    return BLOCK.sub(lambda mark: _written(blocks[mark[1]], mark[1], prefix, chosen), text)
+    return BLOCK.sub(lambda match: _written(blocks[match[1]], match[1], prefix, chosen), text)
 
 
 def _written(block: Block, mark: str, prefix: str, language: Language) -> str:
@@ -133,10 +133,10 @@ def _written(block: Block, mark: str, prefix: str, language: Language) -> str:
     if isinstance(block, np.ndarray):
         values = [_number(value, language) for value in block.ravel().tolist()]
         rows = [values[i : i + COLUMNS] for i in range(0, len(values), COLUMNS)]
-        return "".join(",".join(row) + ",\n" for row in rows)
+        return "".join(",".join(numbers) + ",\n" for numbers in rows)
     return "".join(
-        _comment(one) if isinstance(one, str) else language.row.format(",".join(map(str, one)))
-        for one in block
+        _comment(row) if isinstance(row, str) else language.row.format(",".join(map(str, row)))
+        for row in block
     )
 
 

@@ -12,8 +12,8 @@ from planarimpact.ground import checks, sliding
 from planarimpact.ground.results import Regime
 from planarimpact.response import Response
 
-# The search for a piece begins at the left of one of so many cells for each piece, or more: few
-# cells have a second piece.
+# There are at least this many cells for each piece, so that few cells have a second piece. The
+# search for a piece begins at the left end of a cell.
 CELLS = 8
 MEANINGS = {
     "mass_ratio": "m2/m1, effective normal over tangential mass",
@@ -50,12 +50,12 @@ def text(response: Response, file: str, name: str, language: str) -> str:
 
 def _first(start: NDArray[np.float64], left: NDArray[np.float64]) -> NDArray[np.int64]:
     """Pieces at the left ends of cells, where the search begins."""
-    # A hair to the left: rounding must not skip a piece, only begin one too early.
+    # Slightly to the left, so that rounding may begin one piece too early but never too late.
     return np.maximum(np.searchsorted(start, left * (1 - 1e-14), side="right") - 1, 0)
 
 
 def _model(response: Response) -> list[str]:
-    """What the file says about its model, a paragraph each."""
+    """Paragraphs about the model, for the head of the file."""
     paragraphs = [
         f"Written by planarimpact {__version__}. Do not edit it: write it anew.",
         "",

@@ -70,7 +70,7 @@ def _laid_out(table: Table) -> _Layout:
 
 
 def _public(bounds: Mapping[str, float]) -> dict[str, float]:
-    """What users may read: losses, range, errors and the codes of regimes."""
+    """Public constants: losses, range, errors and the codes of regimes."""
     return {
         **{loss.upper(): code for code, loss in enumerate(spheres.LOSSES)},
         "INCIDENCE_MAX": checks.LARGEST,
@@ -84,7 +84,7 @@ def _public(bounds: Mapping[str, float]) -> dict[str, float]:
 
 
 def _private(table: Table) -> dict[str, float]:
-    """Numbers of the functions."""
+    """Constants that the functions use."""
     return {
         "B_LEAST": tables.B_LEAST,
         "B_SPAN": tables.B_MOST - tables.B_LEAST,
@@ -103,7 +103,7 @@ def _private(table: Table) -> dict[str, float]:
 
 
 def _packed(values: list[Integers]) -> str:
-    """The values for JavaScript, as `unfolded` reads them: most are near what neighbours tell."""
+    """The values for JavaScript, as `unfolded` reads them: small differences take one byte."""
     steps = np.concatenate([tables.steps(part).ravel() for part in values]).astype(np.int64)
     bits = np.where(steps < 0, -2 * steps - 1, 2 * steps)[:, None] >> 7 * np.arange(5)
     goes_on = bits[:, 1:] > 0

@@ -48,7 +48,7 @@ def history(mirror: float, impacts: Impacts, samples: int) -> History:
     if e == 0:
         events.append(_event(EventKind.MAXIMUM_COMPRESSION, columns[-1][:, -1], zeta2))
     events.append(_event(EventKind.SEPARATION, columns[-1][:, -1], zeta2))
-    joined = [piece[:, :-1] for piece in columns[:-1]] + columns[-1:]
+    joined = [phase_columns[:, :-1] for phase_columns in columns[:-1]] + columns[-1:]
     time, force, friction, velocity = np.concatenate(joined, axis=1)
     return History(time, force, friction, velocity, zeta2 * friction, tuple(events))
 

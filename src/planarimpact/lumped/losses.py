@@ -1,6 +1,6 @@
 """What takes the normal energy of a lumped contact: each loss by its name.
 
-A loss answers four questions about impacts x >= 0. At e = 1 all losses are the same model.
+A loss has four functions of impacts x >= 0. At e = 1 all losses are the same model.
 """
 
 import numpy as np
@@ -32,7 +32,7 @@ class Hysteretic:
         return hysteretic.history(mirror, self._element(impacts), samples)
 
     def friction_work(self, impacts: Impacts) -> float:
-        """Work of friction in one contact, by another way than `solve`, where there is one."""
+        """Work of friction in one contact, computed in another way than by `solve`, if possible."""
         return hysteretic.friction_work(self._element(impacts))
 
     def _element(self, impacts: Impacts) -> Impacts:
@@ -40,10 +40,7 @@ class Hysteretic:
 
 
 class UnloadingStiffness(Hysteretic):
-    """The same with the stiffness of elastic unloading, kappa/e^2, in both directions.
-
-    The tangential stiffness is kappa/(e^2 zeta^2).
-    """
+    """The paper's element with the tangential stiffness kappa/(e^2 zeta^2), that of unloading."""
 
     def stiffness_ratio(self, zeta2: Array, e: Array) -> Array:
         """As in `Hysteretic`: e^2 zeta^2, rounded as in `sliding.restick_coefficient`."""
@@ -93,13 +90,5 @@ LOSSES: dict[str, Hysteretic] = {
 
 
 def loss_of(name: str) -> Hysteretic:
-    """The loss of a name.
-
-    Examples
-    --------
-    >>> loss_of("magic")
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: loss = 'magic': allowed are hysteretic, unloading-stiffness, viscous
-    """
+    """The loss with this name, which may be the one of an earlier release."""
     return LOSSES[checks.loss(name, tuple(LOSSES))]

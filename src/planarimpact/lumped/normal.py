@@ -12,26 +12,12 @@ from planarimpact.ground.arrays import Array, Numbers
 
 
 def force(eta: Numbers) -> Array:
-    """Normal force F2 at `eta` (Table 1), in m2 Omega |v2(0)|.
-
-    Examples
-    --------
-    >>> float(force(np.pi / 2))
-    1.0
-    """
+    """Normal force F2 at `eta` (Table 1), in m2 Omega |v2(0)|."""
     return np.sin(eta)
 
 
 def impulse(eta: Numbers) -> Array:
-    """Impulse between `eta` and the nearer end of contact (Table 1), in m2 |v2(0)|.
-
-    From contact in compression; in restitution multiply by e: what is still to come.
-
-    Examples
-    --------
-    >>> round(float(impulse(np.pi / 2)), 12)
-    1.0
-    """
+    """Impulse from contact to `eta` in compression; times e from `eta` to separation (Table 1)."""
     return 2 * np.sin(eta / 2) ** 2
 
 
@@ -49,12 +35,6 @@ def force_and_impulse(eta: Numbers) -> tuple[Array, Array]:
 
 
 def time(eta: Numbers, restitution: float, in_restitution: bool) -> Array:
-    """Time t/t_c at `eta`: 0 at contact, 1 at maximum compression, 1 + e at separation.
-
-    Examples
-    --------
-    >>> float(time(np.pi / 4, 0.5, in_restitution=True))
-    1.25
-    """
+    """Time t/t_c at `eta`: 0 at contact, 1 at maximum compression, 1 + e at separation."""
     share = np.asarray(eta) / (np.pi / 2)
     return 1 + restitution * (1 - share) if in_restitution else share

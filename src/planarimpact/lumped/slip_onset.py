@@ -41,19 +41,13 @@ def in_restitution(
     """Where slip starts in restitution: stick starts at `eta`, and |T| reaches N at an angle below.
 
     T has the angle `theta` at the start. `eta` falls by the advance a, and `theta` grows by rate a.
-    The advance found is the first with sin(eta - a) = |amplitude sin(theta + rate a)|.
+    The onset is at the smallest a with sin(eta - a) = |amplitude sin(theta + rate a)|.
 
     For rate > 1 and theta < pi the ratio |T|/N must be past its maximum. It is so at every start
     of stick in this model, and after compression. So that half-wave is not searched.
 
-    Returns
-    -------
-    eta : ndarray
-        Angle at the onset.
-    rho : ndarray
-        theta there, from the start of its half-wave.
-    wave : ndarray
-        Number of the half-wave: T has the sign of sin(theta) = (-1)^wave.
+    Returns eta at the onset; rho, which is theta there, counted from the start of its half-wave;
+    and the number of that half-wave, in which T has the sign of sin(theta) = (-1)^wave.
     """
     # No slip starts while N exceeds the largest |T|: go on at once to where N has fallen to it.
     rate = np.maximum(rate, np.finfo(float).tiny)
@@ -66,25 +60,32 @@ def in_restitution(
         highest[slow] *= np.sin(np.minimum(end, HALF_PI))
     reached = np.minimum(eta, np.arcsin(np.minimum(highest, 1.0)))
     theta_reached = theta + rate * (eta - reached)
-    if theta_reached.max() > LARGEST_PHASE:  # any place within the period is as good
-        lost = theta_reached > LARGEST_PHASE
-        theta_reached = np.where(lost, 2 * np.pi + theta_reached % (2 * np.pi), theta_reached)
+    if theta_reached.max() > LARGEST_PHASE:  # the place within the period is not known
+        unresolved = theta_reached > LARGEST_PHASE
+        theta_reached = np.where(unresolved, 2 * np.pi + theta_reached % (2 * np.pi), theta_reached)
     # For rate > 1 the half-wave of the onset is the present one or the next. It is the next where
     # |T|/N is past its maximum (`passed`): in the first half-wave always, later where it falls.
     present = np.floor(theta_reached / np.pi)
     rho = theta_reached - present * np.pi
     passed = present == 0
     # Behind the crest of |T|, where |T| falls, |T|/N may fall too. If it still rises, |T| may meet
-    # N in this half-wave or miss it.
-    dip = np.flatnonzero(fast & ~passed & (rho > HALF_PI))
-    if dip.size:
-        (force, fall), (friction, swing) = sin_cos(reached[dip]), sin_cos(rho[dip])
-        falling = rate[dip] * swing * force + friction * fall <= 0  # (|T|'N - |T|N')/A; N' = -fall
-        passed[dip[falling]] = True
-        dip = dip[~falling]
-    if dip.size:
-        met, latest = _meets_behind_crest(reached[dip], rho[dip], amplitude[dip], rate[dip])
-        passed[dip] = ~met
+    # N in this half-wave or stay below it.
+    behind_crest = np.flatnonzero(fast & ~passed & (rho > HALF_PI))
+    if behind_crest.size:
+        (force, fall), (friction, swing) = (
+            sin_cos(reached[behind_crest]),
+            sin_cos(rho[behind_crest]),
+        )
+        falling = (
+            rate[behind_crest] * swing * force + friction * fall <= 0
+        )  # (|T|'N - |T|N')/A; N' = -fall
+        passed[behind_crest[falling]] = True
+        behind_crest = behind_crest[~falling]
+    if behind_crest.size:
+        met, latest = _meets_behind_crest(
+            reached[behind_crest], rho[behind_crest], amplitude[behind_crest], rate[behind_crest]
+        )
+        passed[behind_crest] = ~met
     wave = present + passed
     if slow.size:
         # For rate <= 1 slip starts in the half-wave in which stick would reach separation. Where
@@ -100,8 +101,8 @@ def in_restitution(
     eta = np.maximum(reached - (start - theta_reached) / rate, 0.0)
     rho = start - wave * np.pi
     widest = np.where(fast, np.minimum(eta, (HALF_PI - rho) / rate), eta)
-    if dip.size:
-        widest[dip[met]] = latest[met]
+    if behind_crest.size:
+        widest[behind_crest[met]] = latest[met]
     advance = _onset(eta, rho, amplitude, rate, np.maximum(widest, 0.0))
     advance = np.minimum(advance, eta)  # rounding may put a root at separation behind it
     return eta - advance, rho + rate * advance, wave
@@ -121,14 +122,16 @@ def _onset(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array)
         slope = -(stick_limit(fall) + swing * swings[which])
         return limit - friction, slope, square[which] * friction - limit
 
-    start, none = np.where(rate > HIGH_RATE, widest, 0.0), np.zeros_like(widest)
-    return roots.crossing(margin, none, widest * BEYOND, start=start, unguarded=FREE_STEPS)
+    start, low = np.where(rate > HIGH_RATE, widest, 0.0), np.zeros_like(widest)
+    return roots.crossing(margin, low, widest * BEYOND, start=start, unguarded=FREE_STEPS)
 
 
 def _meets_behind_crest(
     eta: Array, rho: Array, amplitude: Array, rate: Array
 ) -> tuple[Booleans, Array]:
     """Whether a falling |T| whose ratio to N still rises meets its limit in this half-wave.
+
+    Where it does, the second result is an advance at or behind the onset, before any other onset.
 
     The rate is above 1. |T| = A sin(theta), where theta counts from the start of the half-wave,
     lies behind the crest: it grows from `rho` > pi/2 to pi. The ratio |T|/N rises while
@@ -140,18 +143,17 @@ def _meets_behind_crest(
        the ratio rises all the way, without bound. So |T| meets its limit.
     3. Else the half-wave ends first. There T = 0 and |T|' < 0, so the rise is negative: it has one
        zero before, where the ratio is largest. |T| meets its limit if it is at or above it there.
-
-    Returns
-    -------
-    met : ndarray of bool
-    latest : ndarray
-        Where it is met: an advance at or behind the onset, before any other.
     """
     met, latest = rate * eta <= np.pi - rho, eta.copy()
-    unsure = np.flatnonzero(~met)
-    if not unsure.size:
+    undecided = np.flatnonzero(~met)
+    if not undecided.size:
         return met, latest
-    eta, rho, amplitude, rate = eta[unsure], rho[unsure], amplitude[unsure], rate[unsure]
+    eta, rho, amplitude, rate = (
+        eta[undecided],
+        rho[undecided],
+        amplitude[undecided],
+        rate[undecided],
+    )
 
     def forces(which: Integers | slice, theta: Array) -> tuple[Array, Array, Array, Array]:
         force, fall = sin_cos(eta[which] - (theta - rho[which]) / rate[which])
@@ -159,16 +161,16 @@ def _meets_behind_crest(
 
     def rise(which: Integers, theta: Array) -> tuple[Array, ...]:
         force, fall, friction, swing = forces(which, theta)
-        own = rate[which]
-        falls = 1 / own - own
-        bend = falls * (swing * force - friction * fall / own)
-        return own * swing * force + friction * fall, falls * friction * force, bend
+        rates = rate[which]
+        falls = 1 / rates - rates
+        bend = falls * (swing * force - friction * fall / rates)
+        return rates * swing * force + friction * fall, falls * friction * force, bend
 
     # The ratio is level at its largest value: half of the digits of the place are enough.
     top = roots.crossing(rise, rho, np.full_like(rho, np.pi), start=rho, resolution=1e-8)
     force, _, friction, _ = forces(slice(None), top)
-    met[unsure] = amplitude * friction >= stick_limit(force)
-    latest[unsure] = (top - rho) / rate
+    met[undecided] = amplitude * friction >= stick_limit(force)
+    latest[undecided] = (top - rho) / rate
     return met, latest
 
 
@@ -182,31 +184,15 @@ def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
 
     T must be above its limit at maximum compression. With u = eta^2, (T - N)/eta is increasing and
     concave in u. So the search starts from the zero of the tangent at u = 0, which lies before the
-    onset.
-
-    Parameters
-    ----------
-    x, zeta2, rate : ndarray
-        Incidence up to zeta^2, stiffness ratio, omega/Omega below 1.
-
-    Returns
-    -------
-    ndarray
-        Angle at the onset, 0 for x = zeta^2.
-
-    Examples
-    --------
-    >>> eta = in_compression(np.array([1.9]), np.array([2.0]), np.array([0.5]))
-    >>> bool(abs(1.9 * np.sin(eta / 2) - np.sin(eta))[0] < 1e-14)
-    True
+    onset. For x = zeta^2 it is 0.
     """
     amplitude, ratio = x / (zeta2 * rate), x / zeta2
     first = np.minimum(6 * (1 - ratio) / (1 - ratio * rate * rate), HALF_PI**2)
 
     def margin(which: Integers, u: Array) -> tuple[Array, Array]:
-        eta, own = np.sqrt(u), rate[which]
-        (friction, swing), (force, fall) = sin_cos(own * eta), sin_cos(eta)
-        friction, swing = amplitude[which] * friction, amplitude[which] * swing * own
+        eta, rates = np.sqrt(u), rate[which]
+        (friction, swing), (force, fall) = sin_cos(rates * eta), sin_cos(eta)
+        friction, swing = amplitude[which] * friction, amplitude[which] * swing * rates
         limit, fall = stick_limit(force), stick_limit(fall)
         safe = np.where(eta > 0, eta, 1.0)
         slope = (eta * (fall - swing) - (limit - friction)) / (2 * safe**3)

@@ -6,19 +6,19 @@ and normal force, with friction T in mu times that; omega^2 = beta/zeta^2:
     w' = -beta T,   T = s/zeta^2,   stick: s' = w while |T| <= N,   slip: T = side N.
 
 In stick T = A sin(theta) and w = sqrt(beta zeta^2) A cos(theta): a phase is its amplitude A and
-its angle. Time runs as the angle `eta` of `normal`, in which theta has the rate
-omega in compression and e omega in restitution. Slip ends in closed form; where it starts,
-`slip_onset` finds.
+its angle. The angle `eta` of `normal` stands for the time; by it theta has the rate omega in
+compression and e omega in restitution. Slip ends in closed form; `slip_onset` searches where it
+starts.
 
 Errors do not grow: any two solutions approach each other in the tangential energy
 w^2/(2 beta) + zeta^2 T^2/2, and an event misplaced by epsilon moves the result by the order of
 epsilon^2.
 
 While the contact slides, s = side zeta^2 N. So s' is side zeta^2 cos(eta) in compression and
--side zeta^2 cos(eta)/e in restitution. The velocity of slip is w - s'. In each half of the contact
-it is linear in the normal impulse (see `sliding`). So the work of friction in one half is the
-normal impulse of the slip, times the mean of the slip velocities at its ends. The sum of these,
-all positive, keeps its digits where x^2 - w^2 would lose them.
+-side zeta^2 cos(eta)/e in restitution. The slip velocity is w_s = w - s'. In each half of the
+contact it is linear in the normal impulse (see `sliding`). So the work of friction in one half is
+the normal impulse of the slip, times the mean of the slip velocities at its ends. The sum of
+these, all positive, keeps its digits where x^2 - w^2 would lose them.
 """
 
 from typing import NamedTuple
@@ -33,7 +33,7 @@ from planarimpact.ground.results import Regime
 from planarimpact.lumped import normal, slip_onset
 from planarimpact.lumped.extremes import many_phases
 
-# An impact that still alternates after this many sticks may skip the rest by `many_phases`.
+# An impact that still alternates after this many sticks may skip most others by `many_phases`.
 STICKS_BEFORE_SKIP = 16
 # A trace of more phases would take minutes.
 MOST_TRACED = 100_000
@@ -47,13 +47,13 @@ class Impacts(NamedTuple):
     zeta2: Array
     e: Array
 
-    def take(self, lanes: Integers) -> "Impacts":
+    def take(self, which: Integers) -> "Impacts":
         """The impacts with these indices."""
-        return Impacts._make(field[lanes] for field in self)
+        return Impacts._make(field[which] for field in self)
 
 
 class Outcome(NamedTuple):
-    """What is known of each impact so far, arrays of shape (n,), filled in place."""
+    """Results of impacts, arrays of shape (n,), which the phases fill in place."""
 
     velocity: Array
     peak_friction: Array
@@ -67,7 +67,7 @@ class Stick(NamedTuple):
     Arrays of their own, which may be changed in place.
     """
 
-    lanes: Integers
+    which: Integers
     eta: Array
     theta: Array
     amplitude: Array
@@ -91,29 +91,7 @@ class Phase(NamedTuple):
 
 
 def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
-    """Outcome of impacts.
-
-    Parameters
-    ----------
-    impacts : Impacts
-    trace : list, optional
-        For a single impact: its phases are appended in order.
-
-    Returns
-    -------
-    Outcome
-
-    Raises
-    ------
-    InputError
-        If a trace would have more than 100 000 phases.
-
-    Examples
-    --------
-    >>> outcome = solve(Impacts(*np.array([[8.0], [3.5], [1.21], [1.0]])))
-    >>> float(outcome.velocity[0]), float(outcome.dissipation[0])
-    (1.0, 9.0)
-    """
+    """Outcome of impacts; a `trace`, for a single impact only, gets its phases in order."""
     x, beta, zeta2, e = impacts
     outcome = Outcome(
         sliding.velocity(x, beta, e),
@@ -121,18 +99,18 @@ def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
         sliding.work(x, beta, e),
         np.full(x.shape, Regime.SLIP_THROUGHOUT, np.uint8),
     )
-    sticks = x < sliding.limit(beta, zeta2, e)
+    ever_sticks = x < sliding.limit(beta, zeta2, e)
     slips_first = x > zeta2
-    initial = np.flatnonzero(sticks & ~slips_first)
-    early = np.flatnonzero(sticks & slips_first & (x <= beta))
-    late = np.flatnonzero(sticks & slips_first & (x > beta))
+    initial = np.flatnonzero(ever_sticks & ~slips_first)
+    early = np.flatnonzero(ever_sticks & slips_first & (x <= beta))
+    late = np.flatnonzero(ever_sticks & slips_first & (x > beta))
     if trace is not None and not initial.size:
         trace.append(Phase(False, False, 0.0, 1.0, x))
         trace += [] if early.size else [Phase(False, True, HALF_PI, 1.0, x - beta)]
     starts = (initial, _initial_stick), (early, _after_early_slip), (late, _after_late_slip)
-    found = [start(lanes, impacts, outcome, trace) for lanes, start in starts if lanes.size]
-    if found:
-        stick = Stick(*(np.concatenate(fields) for fields in zip(*found, strict=True)))
+    sticks = [start(which, impacts, outcome, trace) for which, start in starts if which.size]
+    if sticks:
+        stick = Stick(*(np.concatenate(fields) for fields in zip(*sticks, strict=True)))
         _alternate(stick, impacts, outcome, trace)
     # Rounding must not create energy.
     np.minimum(np.maximum(outcome.velocity, -x), x, out=outcome.velocity)
@@ -141,12 +119,7 @@ def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
 
 
 def state(phase: Phase, eta: Array, beta: float, zeta2: float, e: float) -> tuple[Array, Array]:
-    """Friction and velocity of one phase at angles `eta` of its half.
-
-    Returns
-    -------
-    friction, velocity : ndarray, shape of eta
-    """
+    """Friction and velocity of one phase at angles `eta` of its half."""
     if phase.sticks:
         omega = np.sqrt(beta / zeta2)
         rate = omega * (e if phase.in_restitution else 1.0)
@@ -171,81 +144,82 @@ def _tangent(slope: Array, gap: Array, rate: Array) -> tuple[Array, Array, Array
 
 
 def _initial_stick(
-    lanes: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
+    which: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
 ) -> Stick:
     """Stick from the start, with no force and T' = x/zeta^2, up to maximum compression.
 
     Contacts that end there, or slip before and to the end, get their outcome. The others are
     returned: they stick on in restitution.
     """
-    x, beta, zeta2, _ = impacts = impacts.take(lanes)
+    x, beta, zeta2, _ = impacts = impacts.take(which)
     omega = np.sqrt(beta / zeta2)
     amplitude, theta = x / zeta2 / omega, omega * HALF_PI
-    outcome.dissipation[lanes] = 0.0
-    outcome.regime[lanes] = Regime.STICK_SLIP
+    outcome.dissipation[which] = 0.0
+    outcome.regime[which] = Regime.STICK_SLIP
     if trace is not None:
         trace.append(Phase(True, False, 0.0, 1.0, 0.0, amplitude, 0.0))
     broken = np.flatnonzero((omega < 1) & (amplitude > 1))
     broken = broken[slip_onset.breaks_in_compression(amplitude[broken], theta[broken])]
     if broken.size:
-        _break_in_compression(lanes[broken], impacts.take(broken), outcome, trace)
-        on = np.delete(np.arange(lanes.size), broken)
-        lanes, impacts, amplitude, theta = lanes[on], impacts.take(on), amplitude[on], theta[on]
-    return _at_compression(lanes, impacts, amplitude, theta, outcome, trace)
+        _break_in_compression(which[broken], impacts.take(broken), outcome, trace)
+        goes_on = np.delete(np.arange(which.size), broken)
+        which, impacts = which[goes_on], impacts.take(goes_on)
+        amplitude, theta = amplitude[goes_on], theta[goes_on]
+    return _at_compression(which, impacts, amplitude, theta, outcome, trace)
 
 
 def _after_early_slip(
-    lanes: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
+    which: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
 ) -> Stick:
     """As `_initial_stick`, for stick after a first slip that ended in compression."""
-    x, beta, zeta2, _ = impacts = impacts.take(lanes)
+    x, beta, zeta2, _ = impacts = impacts.take(which)
     omega = np.sqrt(beta / zeta2)
     # Slip has the velocity x - beta + (beta - zeta^2) cos(eta), so it ends where cos(eta) = slope.
     coefficient = beta - zeta2
     slope, gap = (beta - x) / coefficient, (x - zeta2) / coefficient
     amplitude, theta, eta = _tangent(slope, gap, omega)
     # The first slip has the normal impulse `gap`; its velocity falls from x - zeta^2 to 0.
-    outcome.dissipation[lanes] = gap * gap * coefficient / 2
-    outcome.regime[lanes] = Regime.SLIP_STICK_SLIP
+    outcome.dissipation[which] = gap * gap * coefficient / 2
+    outcome.regime[which] = Regime.SLIP_STICK_SLIP
     if trace is not None:
         trace.append(Phase(True, False, eta, 1.0, 0.0, amplitude, theta))
     theta = theta + omega * (HALF_PI - eta)
-    return _at_compression(lanes, impacts, amplitude, theta, outcome, trace)
+    return _at_compression(which, impacts, amplitude, theta, outcome, trace)
 
 
 def _at_compression(
-    lanes: Integers,
+    which: Integers,
     impacts: Impacts,
     amplitude: Array,
     theta: Array,
     outcome: Outcome,
     trace: list[Phase] | None,
 ) -> Stick:
-    """Stick at maximum compression; contacts with nothing to come get their outcome.
+    """Stick at maximum compression; contacts that end there, or have x = 0, get their outcome.
 
-    They lose the strain energy of stick at separation.
+    The strain energy of stick is lost at separation.
     """
     x, beta, zeta2, e = impacts
     last = (e == 0) | (x == 0)
     if last.any():
-        ends, on = np.flatnonzero(last), np.flatnonzero(~last)
+        ends, goes_on = np.flatnonzero(last), np.flatnonzero(~last)
         if trace is not None:
             trace.append(Phase(True, True, HALF_PI, 1.0, 0.0, amplitude, theta))
         sine, cosine = sin_cos(theta[ends])
-        where, largest, stiffness = lanes[ends], amplitude[ends], zeta2[ends]
+        ending, largest, ratio = which[ends], amplitude[ends], zeta2[ends]
         friction = largest * sine
-        outcome.velocity[where] = np.sqrt(beta[ends] / stiffness) * stiffness * largest * cosine
-        outcome.peak_friction[where] = np.where(theta[ends] < HALF_PI, friction, largest)
-        outcome.dissipation[where] += stiffness * friction * friction / 2
+        outcome.velocity[ending] = np.sqrt(beta[ends] / ratio) * ratio * largest * cosine
+        outcome.peak_friction[ending] = np.where(theta[ends] < HALF_PI, friction, largest)
+        outcome.dissipation[ending] += ratio * friction * friction / 2
         # No slip follows: STICK_SLIP becomes STICK, and SLIP_STICK_SLIP becomes SLIP_STICK. By the
         # order of the codes both are the same step.
-        outcome.regime[where] -= np.uint8(Regime.STICK_SLIP - Regime.STICK)
-        lanes, amplitude, theta = lanes[on], amplitude[on], theta[on]
-    return Stick(lanes, np.full_like(theta, HALF_PI), theta, amplitude, np.ones_like(theta))
+        outcome.regime[ending] -= np.uint8(Regime.STICK_SLIP - Regime.STICK)
+        which, amplitude, theta = which[goes_on], amplitude[goes_on], theta[goes_on]
+    return Stick(which, np.full_like(theta, HALF_PI), theta, amplitude, np.ones_like(theta))
 
 
 def _break_in_compression(
-    lanes: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
+    which: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
 ) -> None:
     """Initial stick that breaks before maximum compression (omega < Omega) slips to the end."""
     x, beta, zeta2, e = impacts
@@ -260,29 +234,29 @@ def _break_in_compression(
     # e; s' falls from 0 to -zeta^2/e.
     work = (1 - passed) * (w_onset - zeta2 * (1 - passed) + w_compressed)
     work += e * w_compressed + e * w_final + zeta2
-    outcome.velocity[lanes] = w_final
-    outcome.peak_friction[lanes] = 1.0
-    outcome.dissipation[lanes] = work / 2
-    outcome.regime[lanes] = Regime.STICK_SLIP
+    outcome.velocity[which] = w_final
+    outcome.peak_friction[which] = 1.0
+    outcome.dissipation[which] = work / 2
+    outcome.regime[which] = Regime.STICK_SLIP
     if trace is not None:
         trace.append(Phase(False, False, eta, 1.0, w_onset))
         trace.append(Phase(False, True, HALF_PI, 1.0, w_compressed))
 
 
 def _after_late_slip(
-    lanes: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
+    which: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
 ) -> Stick:
     """Stick after a first slip that ended in restitution, at cos(eta) = (x - beta)/K."""
-    x, beta, zeta2, e = impacts.take(lanes)
+    x, beta, zeta2, e = impacts.take(which)
     coefficient = sliding.restick_coefficient(beta, zeta2, e)
     slope, gap = (beta - x) / coefficient, (coefficient + (beta - x)) / coefficient
     # Twice the work. In compression the impulse is 1, and the slip velocity falls from x - zeta^2
     # to x - beta. In restitution the impulse is e cos(eta) = -e slope, and it falls to 0.
     work = x - zeta2 + (x - beta) + e * (beta - x) * slope
-    outcome.dissipation[lanes] = work / 2
-    outcome.regime[lanes] = Regime.SLIP_STICK_SLIP
+    outcome.dissipation[which] = work / 2
+    outcome.regime[which] = Regime.SLIP_STICK_SLIP
     amplitude, theta, eta = _tangent(slope, gap, e * np.sqrt(beta / zeta2))
-    return Stick(lanes, eta, theta, amplitude, np.ones_like(eta))
+    return Stick(which, eta, theta, amplitude, np.ones_like(eta))
 
 
 def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None) -> None:
@@ -293,17 +267,17 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
     T, and a contact has room for fewer than `_most_sticks` of these.
     """
     count = 0
-    while stick.lanes.size:
+    while stick.which.size:
         if count == STICKS_BEFORE_SKIP:
             _skip(stick, impacts, outcome, trace)
-        lanes, amplitude = stick.lanes, stick.amplitude
-        beta, zeta2, e = (field[lanes] for field in impacts[1:])
+        which, amplitude = stick.which, stick.amplitude
+        beta, zeta2, e = (field[which] for field in impacts[1:])
         omega = np.sqrt(beta / zeta2)
         rate = e * omega
         if count == 0:
             most = _most_sticks(rate)
         if count == most:
-            raise ConvergenceError(f"{lanes.size} impacts stick more often than they can")
+            raise ConvergenceError(f"{which.size} impacts stick more often than they can")
         # The end of stick: slip starts with the velocity `w_onset`. If it lasts to separation, it
         # ends with `w_final`. Both count in the direction of slip.
         eta, rho, wave = slip_onset.in_restitution(stick.eta, stick.theta, amplitude, rate)
@@ -311,7 +285,7 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
         w_onset = omega * zeta2 * amplitude * sin_cos(rho)[1]
         force, ahead = normal.force_and_impulse(eta)
         w_final = w_onset - beta * e * ahead
-        outcome.velocity[lanes] = side * w_final
+        outcome.velocity[which] = side * w_final
         if trace is not None:
             trace.append(Phase(True, True, stick.eta, stick.side, 0.0, amplitude, stick.theta))
             trace.append(Phase(False, True, eta, side, side * w_onset))
@@ -319,28 +293,28 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
             rising = (wave == 0) & (rho < HALF_PI)
             crest = np.where(rising, force, amplitude)
             slid = stick.eta < HALF_PI  # slip went through maximum compression, where N = 1
-            outcome.peak_friction[lanes] = np.where(slid, 1.0, crest)
-        # e times the slip velocity v = w + zeta^2 cos(eta)/e, at the onset and at separation.
-        ev_onset, ev_final = e * w_onset + zeta2 * (1 - ahead), e * w_final + zeta2
+            outcome.peak_friction[which] = np.where(slid, 1.0, crest)
+        # e times the slip velocity w_s = w + zeta^2 cos(eta)/e, at the onset and at separation.
+        e_times_onset, e_times_final = e * w_onset + zeta2 * (1 - ahead), e * w_final + zeta2
         # Twice the work, if slip lasts to separation: the impulse is e times `ahead`.
-        work = ahead * (ev_onset + ev_final)
-        # If rate > 1, e v falls all the way: by e_k = e^2 beta - zeta^2 if cos(eta) grows by 1.
+        work = ahead * (e_times_onset + e_times_final)
+        # If rate > 1, e w_s falls all the way: by e_k = e^2 beta - zeta^2 if cos(eta) grows by 1.
         # Where it would be negative at separation, slip ends before: when cos(eta) has grown by
-        # ev_onset/e_k. Then stick comes again.
-        again = np.flatnonzero((rate > 1) & (ev_final < 0))
+        # e_times_onset/e_k. Then stick comes again.
+        again = np.flatnonzero((rate > 1) & (e_times_final < 0))
         e_k = e[again] * (e[again] * beta[again]) - zeta2[again]
-        work[again] = ev_onset[again] * (ev_onset[again] / e_k)
-        outcome.dissipation[lanes] += work / 2
+        work[again] = e_times_onset[again] * (e_times_onset[again] / e_k)
+        outcome.dissipation[which] += work / 2
         # The slip of these impacts ends at cos(eta) = 1 - gap; their next stick starts there.
-        gap = -ev_final[again] / e_k
+        gap = -e_times_final[again] / e_k
         amplitude, theta, eta = _tangent(gap - 1, gap, rate[again])
-        stick = Stick(lanes[again], eta, theta, amplitude, side[again])
-        outcome.regime[stick.lanes] = Regime.MULTIPLE
+        stick = Stick(which[again], eta, theta, amplitude, side[again])
+        outcome.regime[stick.which] = Regime.MULTIPLE
         count += 1
 
 
 def _most_sticks(rate: Array) -> int:
-    """A number of sticks in restitution that no impact reaches: it ends a loop gone wrong.
+    """A number of sticks in restitution that no impact reaches: the loop must end.
 
     In restitution the phase of T grows by rate pi/2, that is rate/2 half-waves. A stick and its
     slip together take about one (`many_phases` says how nearly). With a part of one at both ends
@@ -355,7 +329,7 @@ def _skip(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Phase] |
     `many_phases` gives the angle at which a later stick starts, and how many half-waves lie
     between. The work is the tangential energy that is lost between the two starts of stick.
     """
-    beta, zeta2, e = (field[stick.lanes] for field in impacts[1:])
+    beta, zeta2, e = (field[stick.which] for field in impacts[1:])
     rate = e * np.sqrt(beta / zeta2)
     far = np.flatnonzero(many_phases.worth_skipping(stick.eta, rate))
     if not far.size:
@@ -371,7 +345,7 @@ def _skip(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Phase] |
     rate, zeta2 = rate[far], zeta2[far]
     eta, half_waves = many_phases.skip(stick.eta[far], rate)
     amplitude, theta, eta = _tangent(-np.cos(eta), normal.impulse(eta), rate)
-    lost = zeta2 * (stick.amplitude[far] ** 2 - amplitude**2) / 2
-    outcome.dissipation[stick.lanes[far]] += lost
+    energy_lost = zeta2 * (stick.amplitude[far] ** 2 - amplitude**2) / 2
+    outcome.dissipation[stick.which[far]] += energy_lost
     stick.eta[far], stick.theta[far], stick.amplitude[far] = eta, theta, amplitude
     stick.side[far] *= np.where(half_waves % 2 == 0, 1.0, -1.0)

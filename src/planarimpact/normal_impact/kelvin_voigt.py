@@ -1,4 +1,4 @@
-"""Normal impact of Kelvin-Voigt spheres: the law of Kuwabara & Kono until the contact falls off.
+"""Normal impact of Kelvin-Voigt spheres: the law of Kuwabara & Kono without attraction.
 
 Let d be the approach, tau the relaxation time and D = d + tau d'. A contact does not pull. So
 
@@ -58,8 +58,8 @@ def restitution(relaxation_time: Array) -> Array:
     >>> restitution(np.array([0.0, 0.5])).round(6)
     array([1.     , 0.46894])
     """
-    found = np.minimum(_restitutions()(np.sqrt(relaxation_time)), 1.0)
-    return np.where(relaxation_time > 0, found, 1.0)
+    e = np.minimum(_restitutions()(np.sqrt(relaxation_time)), 1.0)
+    return np.where(relaxation_time > 0, e, 1.0)
 
 
 def relaxation_time(restitution: Array) -> Array:
@@ -73,7 +73,7 @@ def relaxation_time(restitution: Array) -> Array:
     Returns
     -------
     ndarray, shape (m,)
-        The function `restitution` makes of it what was wanted, to 1e-11.
+        Its `restitution` is the argument, to 1e-11.
 
     Examples
     --------
@@ -115,10 +115,10 @@ def _loss(restitution: Array) -> Array:
 def _restitutions() -> Chebyshev:
     """Restitution against the root of the relaxation time."""
 
-    def solved(root: Array) -> Array:
-        return -_both(root * root)[1].last[1]
+    def restitution_at(root: Array) -> Array:
+        return -_both_halves(root * root)[1].last[1]
 
-    return Chebyshev.interpolate(solved, DEGREE, [0.0, np.sqrt(SLOWEST)])
+    return Chebyshev.interpolate(restitution_at, DEGREE, [0.0, np.sqrt(SLOWEST)])
 
 
 @cache
@@ -127,37 +127,37 @@ def _roots() -> Chebyshev:
     table = _restitutions()
     slope = table.deriv()
 
-    def solved(loss: Array) -> Array:
+    def root_at(loss: Array) -> Array:
         e = np.exp(-loss * loss)
         root = np.sqrt((1 - e) / (2 * e))
         for _ in range(NEWTON):
             root = np.clip(root - (table(root) - e) / slope(root), 0.0, np.sqrt(SLOWEST))
         return root
 
-    return Chebyshev.interpolate(solved, DEGREE, [0.0, _loss(table(np.sqrt(SLOWEST)))])
+    return Chebyshev.interpolate(root_at, DEGREE, [0.0, _loss(table(np.sqrt(SLOWEST)))])
 
 
 @cache
 def _largest_forces() -> Chebyshev:
     """Largest force over Hertz's, against `_loss`."""
-    roots = _roots()
+    tau_roots = _roots()
 
-    def solved(loss: Array) -> Array:
-        tau = roots(loss) ** 2
-        return at_largest_force(_both(tau)[0], tau)[0] / hertz.LARGEST_FORCE
+    def force_at(loss: Array) -> Array:
+        tau = tau_roots(loss) ** 2
+        return at_largest_force(_both_halves(tau)[0], tau)[0] / hertz.LARGEST_FORCE
 
-    return Chebyshev.interpolate(solved, DEGREE, roots.domain)
+    return Chebyshev.interpolate(force_at, DEGREE, tau_roots.domain)
 
 
 @lru_cache(maxsize=16)
 def halves(restitution: tuple[float, ...]) -> tuple[Array, "Half", "Half"]:
-    """Relaxation times, compression and restitution; remembered, as steps are doubled."""
+    """Relaxation times, compression and restitution; cached for repeats with doubled steps."""
     tau = relaxation_time(np.array(restitution))
-    return tau, *_both(tau)
+    return tau, *_both_halves(tau)
 
 
-def _both(tau: Array) -> tuple["Half", "Half"]:
-    none = np.zeros_like(tau)
+def _both_halves(tau: Array) -> tuple["Half", "Half"]:
+    zero = np.zeros_like(tau)
 
     def compress(state: Array) -> Array:
         radius, v, _ = state
@@ -170,8 +170,8 @@ def _both(tau: Array) -> tuple["Half", "Half"]:
         return np.stack([v - (4 / 3) * tau * cube, -(8 / 3) * radius * cube, 2 * radius])
 
     # Longer than sigma lasts: 1.2378 in compression and, with little loss, in restitution.
-    compression = Half(compress, np.stack([none, 1 + none, none]), 1.25 + none, 1)
-    start = np.stack([compression.last[0], none, none])
+    compression = Half(compress, np.stack([zero, 1 + zero, zero]), 1.25 + zero, 1)
+    start = np.stack([compression.last[0], zero, zero])
     return compression, Half(restore, start, 1.26 + tau, 0)
 
 
@@ -241,7 +241,7 @@ class Half:
             row[:, i] = STEPS + 1 - np.searchsorted(falling[::-1], level[:, i], "right")
         row = np.clip(row - 1, 0, STEPS - 1)
         cubic = [sign * np.ravel(c) for c in self._cubic(row, part)]
-        goal, none = np.ravel(level), np.zeros(level.size)
+        goal, zero = np.ravel(level), np.zeros(level.size)
 
         def margin(which: Any, share: Array) -> tuple[Array, Array, Array]:
             constant, linear, square, third = (c[which] for c in cubic)
@@ -251,7 +251,7 @@ class Half:
                 2 * square + 6 * share * third,
             )
 
-        share = roots.crossing(margin, none, none + 1)
+        share = roots.crossing(margin, zero, zero + 1)
         return (row + share.reshape(level.shape)) * self._step
 
     def _cubic(self, row: Integers, part: int) -> tuple[Array, ...]:

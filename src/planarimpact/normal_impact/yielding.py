@@ -70,9 +70,9 @@ class Loading(NamedTuple):
         return np.where(depth > self.yields, plastic, 1.0)
 
     def flow(self, depth: Array) -> Array:
-        """How much shear has flowed at an approach: the plastic part of it, over d_y, (..., m).
+        """g at an approach: its permanent part over d_y, (..., m).
 
-        The elastic part is what would spring back, `share_of_hertz` times the approach.
+        The elastic part, which would spring back, is `share_of_hertz` times the approach.
         """
         share = np.maximum(depth / self.yields, 1.0)
         return share - 1.5 * np.sqrt(share) + 0.5 / np.sqrt(share)
@@ -160,7 +160,7 @@ class Unloading(NamedTuple):
 
 
 def unloading(loading: Loading) -> Unloading:
-    """How spheres unload, by the state at the end of loading: this function is the law.
+    """The law of unloading, from the state at the end of loading.
 
     Unloading is elastic, by Hertz's law of a flatter sphere, whose radius R_p belongs to the
     largest force and the largest radius of contact a: F = (4/3) a^3 R/R_p, and a^2 R/R_p springs
@@ -207,7 +207,7 @@ def largest_force(restitution: Array) -> Array:
     Returns
     -------
     ndarray, shape (m,)
-        It falls with restitution: what yields is softer.
+        It falls with restitution: spheres that yield are softer.
 
     Examples
     --------
@@ -244,18 +244,18 @@ def restitution(yield_velocity: Array) -> Array:
     return np.where(yields, unloading(law).restitution(), yield_velocity)
 
 
-def yield_velocity(restitution_wanted: Array) -> Array:
+def yield_velocity(coefficient: Array) -> Array:
     """Ratio of the yield velocity to the velocity of impact, the inverse of `restitution`.
 
     Parameters
     ----------
-    restitution_wanted : ndarray
-        0 to 1.
+    coefficient : ndarray
+        Restitution, 0 to 1.
 
     Returns
     -------
     ndarray
-        Of the same shape. `restitution` makes of it what was wanted, to 1e-15.
+        Of the same shape. Its `restitution` is the argument, to 1e-15.
 
     Examples
     --------
@@ -266,12 +266,12 @@ def yield_velocity(restitution_wanted: Array) -> Array:
     True
     """
     root, slope = _roots()
-    loss = np.sqrt(1 - restitution_wanted)
+    loss = np.sqrt(1 - coefficient)
     of_e = np.clip(root(loss), 0.0, 1.0)
     # One step of Newton's method, but where rounding of the restitution would be all that is left.
     far = loss > LITTLE
     change = slope(loss) / (-2 * np.where(far, loss, 1.0))
-    return (of_e + np.where(far, change * (restitution_wanted - restitution(of_e**4)), 0.0)) ** 4
+    return (of_e + np.where(far, change * (coefficient - restitution(of_e**4)), 0.0)) ** 4
 
 
 @cache

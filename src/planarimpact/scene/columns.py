@@ -1,4 +1,4 @@
-"""The columns of a scene's table: which there are, what they admit, and what is missing."""
+"""The columns of a scene's table: names, units, allowed numbers, and which columns are needed."""
 
 import difflib
 import re
@@ -13,13 +13,13 @@ from planarimpact import continuum
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.ground.checks import InputError
 
-# What takes the normal energy below e = 1: the words of the column `loss`.
+# What takes the normal energy below e = 1: the cells of the column `loss`.
 LOSSES = continuum.LOSSES
 HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
 
 
 class Column(NamedTuple):
-    """A column: its unit, what it admits in words, and between which numbers."""
+    """A column: its unit, the text of what is allowed, and the range of its numbers."""
 
     unit: str
     allowed: str
@@ -94,7 +94,7 @@ def named(headers: Iterable[object]) -> dict[str, str]:
     ...
     planarimpact.InputError: column 'radius [mm]': the unit of radius is [m]
     """
-    found = {}
+    header_of = {}
     for text in map(str, headers):
         parts = HEADER.fullmatch(text.strip())
         name, unit = (parts["name"], parts["unit"]) if parts else (text, None)
@@ -103,13 +103,13 @@ def named(headers: Iterable[object]) -> dict[str, str]:
             hint = f"; did you mean '{header(close[0])}'?" if close else ""
             raise InputError(f"column {text!r}: unknown{hint}")
         if name != LABEL and unit not in ((KNOWN[name].unit,) if KNOWN[name].unit else (None, "1")):
-            wanted = f"is [{KNOWN[name].unit}]" if KNOWN[name].unit else "is none: it is a number"
-            raise InputError(f"column {text!r}: the unit of {name} {wanted}")
-        if name in found:
+            allowed = f"is [{KNOWN[name].unit}]" if KNOWN[name].unit else "is none: it is a number"
+            raise InputError(f"column {text!r}: the unit of {name} {allowed}")
+        if name in header_of:
             raise InputError(f"column {text!r} is there twice")
-        found[name] = text
-    _refuse_incomplete(set(found))
-    return found
+        header_of[name] = text
+    _refuse_incomplete(set(header_of))
+    return header_of
 
 
 def _refuse_incomplete(names: set[str]) -> None:
@@ -139,18 +139,20 @@ def _refuse_incomplete(names: set[str]) -> None:
 
 def _refuse_restitution(names: set[str]) -> None:
     """Refuse a table that does not say restitution in one way."""
-    given = names & set(LOSS_OF)
-    if len(given) != 1:
-        there = f" {_listed(given)}" if given else ""
-        raise InputError(f"columns{there}: needed is exactly one of {_listed(LOSS_OF)}")
-    (name,) = given
+    present = names & set(LOSS_OF)
+    if len(present) != 1:
+        listed = f" {_listed(present)}" if present else ""
+        raise InputError(f"columns{listed}: needed is exactly one of {_listed(LOSS_OF)}")
+    (name,) = present
     if "loss" in names and LOSS_OF[name]:
-        words = f"{header(name)} is always {LOSS_OF[name]}"
-        raise InputError(f"column loss: allowed only beside restitution, as {words}")
+        raise InputError(
+            f"column loss: allowed only beside restitution, as {header(name)} is always "
+            f"{LOSS_OF[name]}"
+        )
 
 
-def _need(names: set[str], wanted: Iterable[str]) -> None:
-    missing = [name for name in wanted if name not in names]
+def _need(names: set[str], needed: Iterable[str]) -> None:
+    missing = [name for name in needed if name not in names]
     if missing:
         raise InputError(f"columns {_listed(missing)}: missing")
 
@@ -162,9 +164,9 @@ def _need_one_of(names: set[str], single: str, several: Iterable[str]) -> None:
         _need(names, several)
 
 
-def _all_or_none(names: set[str], wanted: Iterable[str]) -> None:
-    if names & set(wanted):
-        _need(names, wanted)
+def _all_or_none(names: set[str], group: Iterable[str]) -> None:
+    if names & set(group):
+        _need(names, group)
 
 
 def _listed(names: Iterable[str]) -> str:
@@ -174,7 +176,7 @@ def _listed(names: Iterable[str]) -> str:
 def numbers(table: pd.DataFrame, names: dict[str, str]) -> tuple[dict[str, Array], dict[int, str]]:
     """Columns of a table as float64 by name, and `{position: message}` of its bad rows.
 
-    `names` is what `named` returns. The loss is the position of its word in `LOSSES`. Of several
+    `names` is what `named` returns. The loss is its position in `LOSSES`. Of several
     problems of a row the first one counts.
     """
     values: dict[str, Array] = {}
@@ -190,10 +192,10 @@ def numbers(table: pd.DataFrame, names: dict[str, str]) -> tuple[dict[str, Array
             shown = repr(cell) if isinstance(cell, str) else str(cell)
             hint = DECIMALS if "," in shown else ""
             problems.setdefault(position, f"{text} = {shown}: allowed are {column.allowed}{hint}")
-    endless = np.isinf(values.get("other_radius", 0.0)) & _moves(values)
-    for position in np.flatnonzero(endless).tolist():
-        words = "allowed are finite numbers where the other body can move or turn"
-        problems.setdefault(position, f"{names['other_radius']} = inf: {words}")
+    infinite = np.isinf(values.get("other_radius", 0.0)) & _moves(values)
+    for position in np.flatnonzero(infinite).tolist():
+        allowed = "allowed are finite numbers where the other body can move or turn"
+        problems.setdefault(position, f"{names['other_radius']} = inf: {allowed}")
     return values, problems
 
 
@@ -201,8 +203,8 @@ def _moves(values: dict[str, Array]) -> Booleans:
     """Whether the other body has a mass, or a radius of gyration, that is finite."""
     if "other_density" in values:
         return np.ones(values["other_density"].size, dtype=bool)
-    given = [values[name] for name in ("other_mass", "other_gyration") if name in values]
-    return np.any(np.isfinite(given), axis=0) if given else np.zeros((), dtype=bool)
+    inertia = [values[name] for name in ("other_mass", "other_gyration") if name in values]
+    return np.any(np.isfinite(inertia), axis=0) if inertia else np.zeros((), dtype=bool)
 
 
 def _checked(series: pd.Series, column: Column) -> tuple[Array, Booleans]:
@@ -221,8 +223,8 @@ def _checked(series: pd.Series, column: Column) -> tuple[Array, Booleans]:
 
 
 def _losses(series: pd.Series) -> tuple[Array, Booleans]:
-    """Position in `LOSSES` of the word in each cell, and which are no such words."""
-    known = {word: position for position, word in enumerate(LOSSES)}
+    """Position in `LOSSES` of the loss in each cell, and which cells name no loss."""
+    known = {loss: position for position, loss in enumerate(LOSSES)}
     cells = series.to_numpy(dtype=object)  # pandas' own loop over words takes ten times as long
     values = np.array([known.get(str(cell).strip(), -1) for cell in cells], dtype=float)
     return values, values < 0
@@ -231,12 +233,12 @@ def _losses(series: pd.Series) -> tuple[Array, Booleans]:
 def _number(cell: Any) -> float:
     """The number in a cell, or of its text in plain digits, else NaN.
 
-    Only a cell that says so is infinite. A number that is too large for float64 is NaN.
+    Only the text inf is infinite. A number that is too large for float64 is NaN.
     """
     text = str(cell)
-    odd = isinstance(cell, (bool, np.bool_, complex)) or "_" in text or not text.isascii()
+    refused = isinstance(cell, (bool, np.bool_, complex)) or "_" in text or not text.isascii()
     try:
-        value = np.nan if odd else float(cell)
+        value = np.nan if refused else float(cell)
     except (TypeError, ValueError, OverflowError):
         return np.nan
     return np.nan if np.isinf(value) and "inf" not in text.lower() else value

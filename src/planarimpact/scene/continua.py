@@ -22,7 +22,7 @@ class Solved(NamedTuple):
 
 
 def rebound(model: str, incidence: Array, groups: tuple[Array, ...], tolerance: float) -> Solved:
-    """Impacts by one of `MODELS`, each with an error of at most so many mu v2(0)."""
+    """Impacts solved by one of `MODELS`; the tolerance of each is in mu v2(0)."""
     rows, messages = np.arange(incidence.size), dict[int, str]()
     while True:
         try:
@@ -30,7 +30,7 @@ def rebound(model: str, incidence: Array, groups: tuple[Array, ...], tolerance: 
             answer = models.rebound(model, *arguments, tolerance=tolerance)
             return Solved(answer, rows, messages)
         except ConvergenceError as error:
-            # An error that names no impacts is of all of them.
-            lost = error.impacts if isinstance(error, Unsolved) else slice(None)
-            messages |= dict.fromkeys(rows[lost].tolist(), str(error))
-            rows = np.delete(rows, lost)
+            # An error that names no impacts concerns all of them.
+            unsolved = error.impacts if isinstance(error, Unsolved) else slice(None)
+            messages |= dict.fromkeys(rows[unsolved].tolist(), str(error))
+            rows = np.delete(rows, unsolved)

@@ -21,11 +21,11 @@ except ImportError as error:
     message = f"planarimpact.scene.files needs pyarrow: pip install pyarrow ({error})"
     raise ImportError(message, name=error.name) from None
 
-from planarimpact.scene.workers import Done, Task, done, elsewhere
+from planarimpact.scene.workers import Done, Task, solved, solved_by_workers
 
 # Rows that are read, solved and written at a time. Less would take longer, more would take memory.
 ROWS = 100_000
-# Each worker takes some 0.3 GB, so that more are a mistake of typing.
+# Each worker takes some 0.3 GB: a larger number is probably a typing error.
 MOST_WORKERS = 64
 
 
@@ -49,7 +49,7 @@ def solve(
         it, pipes and devices are CSV, and a target of this kind has each piece as soon as it is
         solved. NaN is an empty cell in CSV, else null.
     tolerance : float
-        As there.
+        As in `solve`.
     skip_bad : bool
         Leave bad rows out instead of refusing the table. They are listed in a file beside the
         target, `<its name>.bad.csv`, unless that is no file, and in `bad` of the result; the list
@@ -104,7 +104,7 @@ def solve(
                 solver.join(piece.solver)
                 if progress:
                     progress(piece.share, solver.rows)
-        if bad and write_bad:  # also where no row is: an old list says nothing of a new result
+        if bad and write_bad:  # also without a bad row: an old list is not about the new result
             table = pd.DataFrame(solver.bad, columns=["row", "problem"])
             write_bad(writing.encoded(table, bad.kind, header=True))
     return solver
@@ -119,9 +119,9 @@ def _solved(task: Task, source: Place, rows: int, workers: int) -> Generator[Don
     try:
         pieces = reading.pieces(source, rows)
         if workers == 1:
-            yield from (done(task, piece) for piece in pieces)
+            yield from (solved(task, piece) for piece in pieces)
         else:
-            yield from elsewhere(task, pieces, workers)
+            yield from solved_by_workers(task, pieces, workers)
     except InputError as error:
         raise InputError(f"{source.name}: {error}") from None
     except OSError as error:

@@ -14,7 +14,7 @@ from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array
 from planarimpact.scene import continua
 
-# Of the other continuum, mu v2(0). Nobody needs the third digit of a difference between models.
+# Tolerance of the continuum with the other loss, mu v2(0): two digits of the difference suffice.
 TOLERANCE = 1e-2
 
 
@@ -36,7 +36,7 @@ class Summary(NamedTuple):
         )
 
     def lines(self) -> list[str]:
-        """Text for people; no line where no energy is lost."""
+        """One line of text; none where no energy is lost."""
         count = self.known + self.unknown
         if not count:
             return []
@@ -69,8 +69,8 @@ def velocity_with_other_loss(loss: str, incidence: Array, groups: tuple[Array, .
     velocity[rows] = tabled.velocity
     rows = np.flatnonzero(~covered)
     if rows.size:
-        of_rows = tuple(group[rows] for group in groups)
-        solved = continua.rebound(f"continuum.{other}", incidence[rows], of_rows, TOLERANCE)
+        groups = tuple(group[rows] for group in groups)
+        solved = continua.rebound(f"continuum.{other}", incidence[rows], groups, TOLERANCE)
         velocity[rows[solved.rows]] = solved.rebound.velocity
     return velocity
 

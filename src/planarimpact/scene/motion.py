@@ -48,7 +48,7 @@ class Impacts(NamedTuple):
     v2: Array  # normal velocity of approach [m/s]
     friction: Array
     restitution: Array
-    plastic: Booleans  # which loss, else viscous; without a meaning where e = 1
+    plastic: Booleans  # else viscous; no meaning where e = 1
     m2: Array  # normal effective mass [kg]
     mass_ratio: Array
     stiffness_ratio: Array
@@ -113,11 +113,11 @@ def impacts(values: dict[str, Array]) -> Impacts:
 
 def slides_throughout(impacts: Impacts) -> Booleans:
     """Whether each impact slides from first to last."""
-    with np.errstate(over="ignore"):  # where friction stops any velocity that is a number
+    with np.errstate(over="ignore"):  # friction may stop any finite velocity
         unit = impacts.unit
         groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
         slides = impacts.v1 >= sliding.limit_alike(*groups) * unit
-        # What yields may slide later. Below its least restitution the law says nothing.
+        # Spheres that yield may slide from a larger incidence on. The law has a least restitution.
         yields = np.flatnonzero(slides & impacts.plastic & (impacts.restitution < 1))
         known = yields[impacts.restitution[yields] >= bodies.LEAST_RESTITUTION]
         slides[yields] = False
@@ -145,7 +145,7 @@ def problems(impacts: Impacts) -> dict[int, str]:
     finite = np.isfinite([*numbers, impacts.v2, energy, *spins]).all(axis=0)
     sticks = ~slides_throughout(impacts) & (impacts.v1 > 0)
     least = continuum.LEAST_RESTITUTION
-    messages = {}  # of several problems the last one counts
+    messages = {}  # the last one of several problems counts
     for i in np.flatnonzero(~finite).tolist():
         messages[i] = "its numbers are too large or too small to compute with"
     for i in np.flatnonzero(~(impacts.v2 > 0) & finite).tolist():
@@ -183,8 +183,8 @@ def after(impacts: Impacts, tangential_velocity: Array) -> tuple[State, State]:
     impulse = change * impacts.tangent + (1 + impacts.restitution) * impacts.v2 * impacts.normal
     m2 = impacts.m2
     return (
-        _kicked(impacts.before, impacts.body, m2, impulse, -impacts.normal),
-        _kicked(impacts.other_before, impacts.other, m2, -impulse, impacts.normal),
+        _after_impulse(impacts.before, impacts.body, m2, impulse, -impacts.normal),
+        _after_impulse(impacts.other_before, impacts.other, m2, -impulse, impacts.normal),
     )
 
 
@@ -218,7 +218,7 @@ def _body(values: dict[str, Array], prefix: str) -> Body:
     if f"{prefix}mass" not in values:
         return Body(np.full(count, np.inf), np.full(count, np.inf), np.zeros(count))
     mass, gyration = values[f"{prefix}mass"], values[f"{prefix}gyration"]
-    # A body that cannot move needs no arm. Its radius may be infinite.
+    # The radius of a body that can neither move nor turn has no effect. It may be infinite.
     radius = np.where(np.isinf(mass) & np.isinf(gyration), 0.0, radius)
     return Body(mass, gyration, radius)
 
@@ -261,8 +261,8 @@ def _contact_velocity(state: State, body: Body, towards: Array) -> Array:
     return state.velocity + body.radius * np.cross(state.spin, towards, axis=0)
 
 
-def _kicked(state: State, body: Body, m2: Array, impulse: Array, towards: Array) -> State:
-    """State after an impulse, given over m2, at the contact point."""
+def _after_impulse(state: State, body: Body, m2: Array, impulse: Array, towards: Array) -> State:
+    """State after an impulse at the contact point, which is given over m2."""
     change = impulse * (m2 / body.mass)
     turn = np.cross(towards, change, axis=0) * (body.radius / body.gyration) / body.gyration
     return State(state.velocity + change, state.spin + turn)
@@ -295,10 +295,10 @@ def _normal_impact(values: dict[str, Array], m2: Array, v2: Array) -> tuple[Arra
         e, loss = values["restitution"], values["loss"]
     known = e >= bodies.LEAST_RESTITUTION
     peak = np.full(v2.size, np.nan)
-    for position, word in enumerate(LOSSES):
-        mine = known & (loss == position)
-        if mine.any():
-            # All impacts are computed, so that a refusal finds its place.
-            force = bodies.peak_force(m2, speed, modulus, radius, np.where(mine, e, 1.0), word)
-            peak = np.where(mine, force, peak)
+    for position, name in enumerate(LOSSES):
+        rows = known & (loss == position)
+        if rows.any():
+            # All impacts are computed, so that a refusal has the index of its row.
+            force = bodies.peak_force(m2, speed, modulus, radius, np.where(rows, e, 1.0), name)
+            peak = np.where(rows, force, peak)
     return e, loss == LOSSES.index("plastic"), peak

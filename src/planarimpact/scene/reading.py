@@ -2,8 +2,8 @@
 
 CSV is cut into whole rows here, read by pyarrow as text, and each column becomes numbers if all of
 its cells are numbers. pyarrow does not say which row has too few or too many cells. Such a piece is
-read once more by the module csv, and so is a piece with quotation marks, of which pyarrow takes
-everything.
+read once more by the module csv, and so is a piece with quotation marks, as pyarrow accepts also
+marks that do not match.
 """
 
 import csv
@@ -53,7 +53,7 @@ class Piece(NamedTuple):
 
 
 def pieces(source: Place, rows: int) -> Iterator[Piece]:
-    """Pieces of a table, of so many rows at most; a table without rows is one piece."""
+    """Pieces of a table, of `rows` rows at most; a table without rows is one piece."""
     before = 0
     read = _parquet if source.kind == places.PARQUET else _csv
     for share, table in read(source, rows):
@@ -85,7 +85,7 @@ def _parquet(source: Place, rows: int) -> Iterator[tuple[float, pa.Table]]:
 
 
 def _refuse_label(label: str, kind: pa.DataType) -> None:
-    """Refuse an id that CSV has no words for."""
+    """Refuse an id whose type CSV cannot hold."""
     value = kind.value_type if pa.types.is_dictionary(kind) else kind
     text = pa.types.is_string(value) or pa.types.is_large_string(value)
     if not (text or pa.types.is_integer(value)):
@@ -132,10 +132,10 @@ def _header(lines: Iterator[bytes]) -> list[str]:
     number, line = next((entry for entry in enumerate(texts, 1) if not entry[1].isspace()), (0, ""))
     if not line:
         raise InputError("it is empty: the first line must name the columns")
-    for separator, called in SEPARATORS.items():
+    for separator, name in SEPARATORS.items():
         if separator in line:
             raise InputError(
-                f"it is separated by {called}; allowed are commas, and points in decimals"
+                f"it is separated by {name}; allowed are commas, and points in decimals"
             )
     try:
         (header,) = csv.reader([line], strict=True)
@@ -158,7 +158,7 @@ def _is_number(cell: str) -> bool:
 
 
 def _cut(lines: Iterator[bytes], rows: int) -> Iterator[bytes]:
-    """Text of so many lines, and of more where the last cell goes on in the next line."""
+    """Text of `rows` lines each; of more where the last cell goes on in the next line."""
     while taken := list(islice(lines, rows)):
         if sum(line.count(b'"') for line in taken) % 2:
             for line in islice(lines, MOST_LINES):
@@ -201,7 +201,7 @@ def _text_cells(text: bytes, header: list[str], before: int) -> pa.Table:
 
 
 def _refuse_rows(text: bytes, width: int, before: int) -> None:
-    """Refuse the first row that has not so many cells, or whose quotation marks do not match."""
+    """Refuse the first row with other than `width` cells, or with unmatched quotation marks."""
     row = before + 1
     try:
         for cells in csv.reader(io.StringIO(text.decode(), newline=""), strict=True):

@@ -52,7 +52,7 @@ MODELS = list(dict.fromkeys(rung.model for rung in RUNGS))
 def of_each(impacts: motion.Impacts, tolerance: float) -> tuple[Integers, Array]:
     """The place of each impact's rung in `RUNGS`, and the largest error of its answer, mu v2(0).
 
-    Here alone is decided why an impact gets its rung: it is the first of `RUNGS` that fits. The
+    The rung of an impact is the first of `RUNGS` that fits; no other function decides it. The
     error is one of velocity (mu v2(0)) and of peak friction (mu times the peak normal force).
     """
     slides = motion.slides_throughout(impacts)
@@ -75,13 +75,13 @@ def _table_error(groups: tuple[Array, ...], covered: Booleans, plastic: Booleans
     """Largest error of the table of spheres where it covers impacts, as measured, mu v2(0)."""
     error = np.where(plastic, spheres.ERROR_BOUND["plastic"], spheres.ERROR_BOUND["viscous"])
     rows = np.flatnonzero(covered & plastic)
-    little = spheres.loses_little(*(group[rows] for group in groups))
-    error[rows[little]] = spheres.LITTLE_BOUND
+    loses_little = spheres.loses_little(*(group[rows] for group in groups))
+    error[rows[loses_little]] = spheres.LITTLE_BOUND
     return error + ROUNDING * groups[0]
 
 
 class Answers(NamedTuple):
-    """What the rungs say of impacts, arrays of shape (n,), and why some of them have no answer."""
+    """Answers to impacts, arrays of shape (n,), and messages for impacts without an answer."""
 
     place: Integers  # of the rung, in `RUNGS`
     velocity: Array  # of the contact point at separation [m/s]
@@ -102,17 +102,17 @@ def answers(impacts: motion.Impacts, tolerance: float) -> Answers:
 
 
 def _of_formulas(impacts: motion.Impacts, place: Integers, error: Array) -> Answers:
-    """Answers of impacts that slide throughout and head-on ones; the others are to come."""
+    """Answers to impacts that slide throughout and to head-on ones; the others follow later."""
     slides = place == SLIDING
     with np.errstate(over="ignore"):
-        lost = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit
-    velocity = impacts.v1 - np.where(slides, lost, 0.0)
+        change = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit
+    velocity = impacts.v1 - np.where(slides, change, 0.0)
     regime = np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK).astype(np.uint8)
     form = np.zeros(place.size)
     lossy = (impacts.restitution < 1) & (impacts.restitution >= continuum.LEAST_RESTITUTION)
     rows = np.flatnonzero(slides & lossy & ~impacts.plastic)
-    moved = model_form.of_sliding(impacts.incidence_of(rows), impacts.groups_of(rows))
-    form[rows] = np.abs(moved) * impacts.unit[rows]
+    difference = model_form.of_sliding(impacts.incidence_of(rows), impacts.groups_of(rows))
+    form[rows] = np.abs(difference) * impacts.unit[rows]
     return Answers(place, velocity, slides.astype(float), regime, error * impacts.unit, form, {})
 
 

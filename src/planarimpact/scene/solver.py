@@ -16,10 +16,10 @@ from planarimpact.scene import columns, continua, model_form, motion, rungs
 
 # Rows that are solved together: this bounds the memory.
 BLOCK = 2**17
-# What takes the energy below e = 1 where a table does not say.
+# The loss below e = 1 where neither the table nor its user names one.
 LOSS = "viscous"
-# Columns from which the loss is known.
-SAYS_LOSS = ("loss", *(name for name, loss in columns.LOSS_OF.items() if loss))
+# Columns that determine the loss.
+LOSS_COLUMNS = ("loss", *(name for name, loss in columns.LOSS_OF.items() if loss))
 ASSUMED = f"restitution below 1: the loss is taken to be {LOSS}, as none was given"
 
 
@@ -56,17 +56,9 @@ class Solver:
 
     @checks.default_errors
     def solve(self, table: pd.DataFrame, skip_bad: bool = False) -> pd.DataFrame:
-        """State after each impact of a table, as the function `solve`; bad rows may be left out.
+        """State after each impact of a table, as the function `solve`.
 
-        Parameters
-        ----------
-        table : DataFrame
-        skip_bad : bool
-            Leave bad rows out, and those without an answer, and keep them in `bad`.
-
-        Returns
-        -------
-        DataFrame
+        With `skip_bad`, bad rows and those without an answer are left out, and listed in `bad`.
         """
         if not isinstance(table, pd.DataFrame):
             raise InputError(
@@ -81,12 +73,7 @@ class Solver:
         return pd.concat(blocks) if len(blocks) > 1 else blocks[0]
 
     def join(self, following: "Solver") -> None:
-        """Take in what a solver of the rows that follow did.
-
-        Parameters
-        ----------
-        following : Solver
-        """
+        """Add the counts of a solver of the rows that follow."""
         self.rows = following.rows
         self.bad += following.bad
         self.assumed |= following.assumed
@@ -96,12 +83,7 @@ class Solver:
         self._largest_coupling = max(self._largest_coupling, following._largest_coupling)
 
     def explain(self) -> str:
-        """How many impacts each model solved and why, in words, a line for each.
-
-        Returns
-        -------
-        str
-        """
+        """Text that says how many impacts each model solved and why, a line for each."""
         lines = [f"{self.rows - len(self.bad)} impacts, tolerance {self.tolerance:g}"]
         for place, count in self._count_by_rung.most_common():
             rung = rungs.RUNGS[place]
@@ -126,10 +108,10 @@ class Solver:
         good = np.ones(len(table), dtype=bool)
         good[list(problems)] = False
         impacts = _impacts(values, good, problems)
-        wrong = motion.problems(impacts)
-        problems |= _by_position(good, wrong)
+        bad_impacts = motion.problems(impacts)
+        problems |= _by_position(good, bad_impacts)
         self._refuse(problems, skip_bad, InputError)
-        if wrong:
+        if bad_impacts:
             good[list(problems)] = False
             impacts = _impacts(values, good, problems)
         answers = rungs.answers(impacts, self.tolerance)
@@ -143,7 +125,7 @@ class Solver:
         return result[_solved(answers)] if unsolved else result
 
     def _refuse_two_losses(self, names: dict[str, str]) -> None:
-        for name in SAYS_LOSS:
+        for name in LOSS_COLUMNS:
             if self._loss is not None and name in names:
                 raise InputError(
                     f"loss = {self._loss!r}: it does not apply, as the column {names[name]!r} says "
@@ -175,12 +157,12 @@ class Solver:
         self._coupled += large.size
         self._largest_coupling = max(self._largest_coupling, float(np.max(large, initial=0.0)))
         # Peak normal forces depend on the loss, whatever model takes the tangential motion.
-        unsaid = self._loss is None and not set(SAYS_LOSS) & set(names)
-        self.assumed |= unsaid and bool((impacts.restitution < 1).any())
+        loss_unknown = self._loss is None and not set(LOSS_COLUMNS) & set(names)
+        self.assumed |= loss_unknown and bool((impacts.restitution < 1).any())
 
 
 def _impacts(values: dict[str, Array], good: Booleans, problems: dict[int, str]) -> motion.Impacts:
-    """Impacts of the good rows; those whose physical quantities are no numbers become bad."""
+    """Impacts of the good rows; those whose physical quantities are out of range become bad."""
     while True:
         try:
             return motion.impacts({name: column[good] for name, column in values.items()})
@@ -190,7 +172,7 @@ def _impacts(values: dict[str, Array], good: Booleans, problems: dict[int, str])
 
 
 def _by_position(good: Booleans, messages: dict[int, str]) -> dict[int, str]:
-    """Messages by the position of their rows, for messages by the index among good rows."""
+    """Messages by the positions of rows in the table, from those by the index among good rows."""
     positions = np.flatnonzero(good)
     return {int(positions[i]): message for i, message in messages.items()}
 
@@ -205,7 +187,7 @@ def _solved(answers: rungs.Answers) -> Booleans:
 def _result(
     impacts: motion.Impacts, answers: rungs.Answers, names: dict[str, str]
 ) -> dict[str, Any]:
-    """Columns that follow those of the table."""
+    """The columns that are added to those of the table."""
     plane, peak = "spin" in names, answers.peak_friction
     body, other = motion.after(impacts, answers.velocity)
     states = motion.columns_of(body, plane)

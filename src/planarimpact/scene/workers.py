@@ -24,7 +24,7 @@ AHEAD = 2
 
 
 class Task(NamedTuple):
-    """What is done with pieces: as in `files.solve`, and the kind of the file that is written."""
+    """How pieces are solved, as in `files.solve`, and the kind of the file that is written."""
 
     tolerance: float
     loss: str | None
@@ -33,14 +33,14 @@ class Task(NamedTuple):
 
 
 class Done(NamedTuple):
-    """What stands in the file for a piece, the share that is read by then, and its solver."""
+    """The content of the file for a piece, the share that is read by then, and its solver."""
 
     share: float | None
     content: Encoded
     solver: Solver
 
 
-def done(task: Task, piece: Piece) -> Done:
+def solved(task: Task, piece: Piece) -> Done:
     """Solve a piece."""
     solver = Solver(task.tolerance, task.loss)
     solver.rows = piece.before
@@ -53,7 +53,7 @@ def done(task: Task, piece: Piece) -> Done:
     return Done(piece.share, content, solver)
 
 
-def elsewhere(task: Task, pieces: Iterator[Piece], count: int) -> Iterator[Done]:
+def solved_by_workers(task: Task, pieces: Iterator[Piece], count: int) -> Iterator[Done]:
     """Solve pieces by several workers.
 
     The results have the order of the pieces. So have the refusals, those of `pieces` among them:
@@ -75,7 +75,7 @@ def elsewhere(task: Task, pieces: Iterator[Piece], count: int) -> Iterator[Done]
                 "need less of, or standard error has its last words"
             ) from None
         except BaseException:
-            # Else the pool would wait for the pieces that are being solved.
+            # Otherwise the pool would wait for the pieces that are being solved.
             for process in pool._processes.values():
                 process.kill()
             raise
@@ -84,11 +84,11 @@ def elsewhere(task: Task, pieces: Iterator[Piece], count: int) -> Iterator[Done]
 def _submitted(
     pool: ProcessPoolExecutor, task: Task, pieces: Iterator[Piece]
 ) -> Iterator[Future[Done]]:
-    """The results to come; a piece that cannot be read is a result that failed."""
+    """Futures of the results; a piece that cannot be read is a future that failed."""
     try:
         for piece in pieces:
             with _signals_held():  # a worker may start
-                future = pool.submit(done, task, piece)
+                future = pool.submit(solved, task, piece)
             yield future
     except (InputError, OSError) as error:
         failed: Future[Done] = Future()
@@ -100,7 +100,8 @@ def _submitted(
 def _signals_held() -> Iterator[None]:
     """Hold back signals that end this process; a worker that starts in the block gets no Ctrl-C.
 
-    Else a worker might start that the pool does not know yet. Only the main thread gets signals.
+    Otherwise a worker might start that the pool does not know yet. Only the main thread gets
+    signals.
     """
     main = threading.current_thread() is threading.main_thread()
     if not main or not hasattr(signal, "pthread_sigmask"):

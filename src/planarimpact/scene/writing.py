@@ -1,7 +1,7 @@
 """Tables of scenes written piece by piece: CSV, JSON or Parquet.
 
-`encoded` makes of a table what stands in the file, perhaps in another process. `appended` puts one
-piece after the other.
+`encoded` turns a table into the content of a file, perhaps in another process. `appended` writes
+one piece after the other.
 """
 
 import csv
@@ -23,7 +23,7 @@ from planarimpact.ground.checks import InputError
 from planarimpact.scene import places
 from planarimpact.scene.places import Place
 
-# What stands in a file for a table: text, or the columns of Parquet.
+# The content of a file: text, or the columns of Parquet.
 Encoded: TypeAlias = bytes | pa.Table
 Write: TypeAlias = Callable[[Any], object]
 
@@ -34,7 +34,7 @@ LEVEL = 6
 
 
 def encoded(table: pd.DataFrame, kind: str, header: bool) -> Encoded:
-    """What stands in a file of a kind for the rows of a table, perhaps with a header before them.
+    """Content of a file of this kind for the rows of a table, with a header before them or not.
 
     Numbers have the fewest digits that read back to the same float64. NaN is an empty cell, null in
     JSON and Parquet; in JSON infinity is null too. Text of CSV stands in quotation marks.
@@ -73,19 +73,19 @@ def _objects(rows: pa.Table) -> bytes:
 
 
 def _cells(column: pa.ChunkedArray) -> list[str]:
-    """Cells as JSON has them, null for what it has no number for."""
+    """Cells as JSON writes them, null for NaN and infinite numbers."""
     if pa.types.is_floating(column.type):
         numbers = column.to_numpy().tolist()
         return [repr(number) if math.isfinite(number) else "null" for number in numbers]
-    words = {cell: json.dumps(cell) for cell in set(column.to_pylist())}
-    return [words[cell] for cell in column.to_pylist()]
+    text = {cell: json.dumps(cell) for cell in set(column.to_pylist())}
+    return [text[cell] for cell in column.to_pylist()]
 
 
 @contextmanager
 def appended(target: Place) -> Iterator[Write]:
     """A function that appends what `encoded` returns. A file gets its name when all is written.
 
-    A pipe that nobody reads any more is a BrokenPipeError, what else cannot be written InputError.
+    A pipe that nobody reads any more is a BrokenPipeError; other failures are an InputError.
     """
     try:
         with ExitStack() as stack:

@@ -1,11 +1,10 @@
-"""The continuum of spheres from a table: every impact its own pair, at the cost of a formula.
+"""The continuum of spheres from a table: fast, also where every impact has groups of its own.
 
 The table holds the rebound of elastic, viscous and plastic spheres, as `planarimpact.continuum`
 solves it, for every incidence, restitution from 0.3 to 1, and mass over stiffness ratio from 1.5625
 to 3.5. Solid spheres (mass ratio 3.5) and thin shells (2.5) of every Poisson's ratio from 0 to 1/2
-(stiffness ratio 1 to 1.5) are among them, and so is whatever lies between, such as discs (3). There
-is nothing to compile and nothing is remembered. `thresholds` and `making` made it, `table`
-evaluates it.
+(stiffness ratio 1 to 1.5) are among them, and so is whatever lies between, such as discs (3).
+`thresholds` and `making` made it, `table` evaluates it.
 """
 
 import numpy as np
@@ -132,7 +131,7 @@ def rebound(
     ------
     InputError
         If an argument is not a finite real number in its range, the table does not cover it, the
-        loss is no such word, or shapes do not broadcast.
+        loss is none of these two, or shapes do not broadcast.
 
     Examples
     --------
@@ -146,12 +145,12 @@ def rebound(
 table of spheres
     """
     groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    words = _is_plastic(loss)
+    is_plastic = _is_plastic(loss)
     try:
-        signed, beta, zeta2, e, _ = np.broadcast_arrays(*groups, words)
-        plastic = np.broadcast_to(words, signed.shape).reshape(-1)
+        signed, beta, zeta2, e, _ = np.broadcast_arrays(*groups, is_plastic)
+        plastic = np.broadcast_to(is_plastic, signed.shape).reshape(-1)
     except ValueError:
-        shapes = f"groups {groups[0].shape}, loss {words.shape}"
+        shapes = f"groups {groups[0].shape}, loss {is_plastic.shape}"
         raise checks.InputError(f"shapes do not broadcast: {shapes}") from None
     _refuse_uncovered(beta, zeta2, e)
     x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
@@ -159,16 +158,17 @@ table of spheres
     regime = np.empty(x.size, dtype=np.uint8)
     for start in range(0, x.size, CHUNK):
         part = slice(start, start + CHUNK)
-        found = _rebound(x[part], beta[part], zeta2[part], e[part], plastic[part])
-        velocity[part], peak[part], work[part], regime[part] = found
+        velocity[part], peak[part], work[part], regime[part] = _rebound(
+            x[part], beta[part], zeta2[part], e[part], plastic[part]
+        )
     return Rebound.shaped(signed, velocity, peak, work, regime)
 
 
 def _is_plastic(loss: str | ArrayLike) -> Booleans:
-    words = np.asarray(loss)
-    plastic = np.asarray(words == LOSSES[1])
-    other = words[~plastic]
-    unknown = other[other != LOSSES[0]]
+    losses = np.asarray(loss)
+    plastic = np.asarray(losses == LOSSES[1])
+    not_plastic = losses[~plastic]
+    unknown = not_plastic[not_plastic != LOSSES[0]]
     if unknown.size:
         checks.loss(unknown.tolist()[0], LOSSES)
     return plastic
@@ -192,23 +192,23 @@ def _rebound(
     x: Array, beta: Array, zeta2: Array, e: Array, plastic: Booleans
 ) -> tuple[Array, Array, Array, Integers]:
     """Velocity, peak friction, work of friction and regime of impacts with x >= 0."""
-    with np.errstate(over="ignore"):  # of what surely slides
+    with np.errstate(over="ignore"):  # of impacts that slide
         y, b = x / zeta2, beta / zeta2
     velocity = sliding.velocity(x, beta, e)
     peak = np.ones(x.size)
     work = np.where(plastic, sliding.work(x, beta, e), sliding.viscous_work(x, beta, zeta2, e))
     regime = np.full(x.size, Regime.SLIP_THROUGHOUT, dtype=np.uint8)
     # Plastic spheres that lose much may stick for a while at larger incidences too.
-    rest = np.flatnonzero(plastic | (y < (b + e * (b - 1)) * table.NEARLY))
-    found = table.evaluate(table.shipped(), y[rest], b[rest], e[rest], plastic[rest])
-    some = np.flatnonzero(~found.slides)
-    rest = rest[some]
-    x, beta, zeta2, plastic = x[rest], beta[rest], zeta2[rest], plastic[rest]
+    rows = np.flatnonzero(plastic | (y < (b + e * (b - 1)) * table.NEARLY))
+    answer = table.evaluate(table.shipped(), y[rows], b[rows], e[rows], plastic[rows])
+    sticks = np.flatnonzero(~answer.slides)
+    rows = rows[sticks]
+    x, beta, zeta2, plastic = x[rows], beta[rows], zeta2[rows], plastic[rows]
     # The exact values have these bounds.
-    w = np.clip(zeta2 * found.velocity[some], -x, x)
-    velocity[rest], peak[rest] = w, np.clip(found.peak[some], 0.0, 1.0)
+    w = np.clip(zeta2 * answer.velocity[sticks], -x, x)
+    velocity[rows], peak[rows] = w, np.clip(answer.peak[sticks], 0.0, 1.0)
     balance = (x - w) * (x + w) / (2 * beta)  # of energy, where the springs are empty at the end
-    work[rest] = np.where(plastic, balance, np.maximum(zeta2 * found.work[some], 0.0))
-    regime[rest] = np.where(x > zeta2, Regime.SLIP_STICK_SLIP, Regime.STICK_SLIP)
-    regime[rest[x == 0]] = Regime.STICK
+    work[rows] = np.where(plastic, balance, np.maximum(zeta2 * answer.work[sticks], 0.0))
+    regime[rows] = np.where(x > zeta2, Regime.SLIP_STICK_SLIP, Regime.STICK_SLIP)
+    regime[rows[x == 0]] = Regime.STICK
     return velocity, peak, work, regime

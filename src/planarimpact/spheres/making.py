@@ -70,19 +70,7 @@ PLANS = {
 
 
 def make(name: str = "fine", say: Callable[[str], None] = print) -> Table:
-    """Make a table; the fine one takes some twenty minutes.
-
-    Parameters
-    ----------
-    name : str
-        One of `PLANS`.
-    say : callable
-        Is told of each patch that is done.
-
-    Returns
-    -------
-    Table
-    """
+    """Make a table, one of `PLANS`; the fine one takes some twenty minutes."""
     plan = PLANS[name]
     limits = thresholds.limits(b_at(np.linspace(0.0, 1.0, plan.edges[1] + 1)))
     panels = {}
@@ -91,7 +79,7 @@ def make(name: str = "fine", say: Callable[[str], None] = print) -> Table:
         patches = []
         for number in range(len(over_s)):
             values = nodes_of(panel, plan, edges, limits, number)
-            patches.append([splined(one) for one in values])
+            patches.append([splined(function) for function in values])
             say(f"{panel}, patch {number + 1} of {len(over_s)}: {values[0].size} nodes")
         panels[panel] = _joined(panel, plan, edges, patches)
     return Table(plan.exponent, limits, panels)
@@ -99,12 +87,8 @@ def make(name: str = "fine", say: Callable[[str], None] = print) -> Table:
 
 def _joined(name: str, plan: Plan, edges: Array, patches: list[list[Array]]) -> Panel:
     """A panel from the coefficients of its patches, rounded."""
-    velocity, peak, work = (np.concatenate(each) for each in zip(*patches, strict=True))
-    splines = (
-        velocity,
-        peak,
-        work if name == "viscous" else work[:0],
-    )
+    velocity, peak, work = (np.concatenate(parts) for parts in zip(*patches, strict=True))
+    splines = velocity, peak, work if name == "viscous" else work[:0]
     return Panel(
         name,
         np.array(plan.nodes[name][0]) - 1,
@@ -141,32 +125,16 @@ def edges_over(name: str, plan: Plan, limits: Array) -> Array:
     e = e_at(name, t, limits[:, None]).ravel()
     if name == "viscous":
         e = np.minimum(e, VISCOUS)
-        found = [thresholds.friction_falls(b, e), thresholds.lasts_to_largest_force(b, e)]
+        edges = [thresholds.friction_falls(b, e), thresholds.lasts_to_largest_force(b, e)]
     else:
-        found = [] if name == "plastic_high" else [thresholds.slides_at_the_end(b, e)]
+        edges = [] if name == "plastic_high" else [thresholds.slides_at_the_end(b, e)]
         if name == "plastic_low":
-            found.append(thresholds.slides_from(b, e))
-    return _rounded(np.reshape(found, (len(found), *t.shape)), plan.exponent)
+            edges.append(thresholds.slides_from(b, e))
+    return _rounded(np.reshape(edges, (len(edges), *t.shape)), plan.exponent)
 
 
 def nodes_of(name: str, plan: Plan, edges: Array, limits: Array, number: int) -> Array:
-    """Velocity, peak friction and work of friction at the nodes of a patch.
-
-    Parameters
-    ----------
-    name : str
-        Of the panel.
-    plan : Plan
-    edges : ndarray
-        Of `edges_over`.
-    limits : ndarray, shape (2, nu + 1)
-    number : int
-        Of the patch, from 0.
-
-    Returns
-    -------
-    ndarray, shape (3, s, t, u)
-    """
+    """Velocity, peak and work of friction at the nodes of a panel's patch, shape (3, s, t, u)."""
     over_s, over_t, over_u = plan.nodes[name]
     shape = over_s[number], over_t, over_u
     s, t, u = np.meshgrid(*(np.linspace(0.0, 1.0, count) for count in shape), indexing="ij")
@@ -188,16 +156,16 @@ def impacts(
 
 
 def solved(loss: str, y: Array, b: Array, e: Array) -> Array:
-    """The functions of `nodes_of`, shape (3, n)."""
-    found = np.empty((FUNCTIONS, y.size))
+    """Velocity, peak friction and work of friction over zeta^2 = 1, shape (3, n)."""
+    functions = np.empty((FUNCTIONS, y.size))
     y = np.maximum(y, LEAST_INCIDENCE)
     elastic = e >= ELASTIC
     result = continuum.rebound(y[elastic], b[elastic], 1.0, tolerance=1e-6)
-    found[:, elastic] = result.velocity, result.peak_friction, result.dissipation
-    rest = np.flatnonzero(~elastic)
-    rest = rest[np.lexsort((b[rest], e[rest]))]  # the same e is solved once
-    for start in range(0, rest.size, TOGETHER):
-        rows = rest[start : start + TOGETHER]
+    functions[:, elastic] = result.velocity, result.peak_friction, result.dissipation
+    lossy = np.flatnonzero(~elastic)
+    lossy = lossy[np.lexsort((b[lossy], e[lossy]))]  # impacts of the same e together: one motion
+    for start in range(0, lossy.size, TOGETHER):
+        rows = lossy[start : start + TOGETHER]
         solutions = (
             inelastic.path(
                 y[rows], b[rows], np.ones(rows.size), e[rows], inelastic.LOSSES[loss], steps
@@ -205,24 +173,16 @@ def solved(loss: str, y: Array, b: Array, e: Array) -> Array:
             for steps in (STEPS, 2 * STEPS)
         )
         coarse, fine = (np.stack([path.velocity[-1], path.peak, path.work]) for path in solutions)
-        found[:, rows] = fine + (fine - coarse) / 3
-    return found
+        functions[:, rows] = fine + (fine - coarse) / 3
+    return functions
 
 
 def splined(values: Array) -> Array:
     """Coefficients of uniform B-splines whose sum runs through values at evenly spread nodes.
 
     Each variable has two coefficients more than nodes. As with a spline that is "not a knot", the
-    third derivative does not jump at the second node and the last but one.
-
-    Parameters
-    ----------
-    values : ndarray
-        At least 4 nodes along each axis.
-
-    Returns
-    -------
-    ndarray
+    third derivative does not jump at the second node and the last but one. There are at least four
+    nodes along each axis.
 
     Examples
     --------
@@ -236,6 +196,6 @@ def splined(values: Array) -> Array:
         matrix[count, :5] = matrix[count + 1, -5:] = 1, -4, 6, -4, 1
         rows = np.moveaxis(values, axis, 0)
         right = np.concatenate([rows, np.zeros((2, *rows.shape[1:]))]).reshape(count + 2, -1)
-        found = np.linalg.solve(matrix, right).reshape(count + 2, *rows.shape[1:])
-        values = np.moveaxis(found, 0, axis)
+        coefficients = np.linalg.solve(matrix, right).reshape(count + 2, *rows.shape[1:])
+        values = np.moveaxis(coefficients, 0, axis)
     return values

@@ -5,8 +5,8 @@ is a loss, or a part of it, with the same edges throughout. Its impacts are mapp
 0 to 1 over e and b, and s, from 0 to 1 between two edges. That is a patch. In a patch velocity,
 peak friction and work are cubic splines in s, t and u: sums of products of uniform B-splines. All
 patches of a panel have the same B-splines over t and u, so that neighbours agree at their common
-edge. Edges are interpolated linearly in t and u, when the table is made as when it is used: so a
-small error of an edge bends the answer a little late, and no more.
+edge. Edges are interpolated linearly in t and u, when the table is made as when it is used: so with
+a small error of an edge the answer bends at a slightly wrong y, but it does not jump.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ import numpy as np
 
 from planarimpact.ground.arrays import Array, Booleans, Integers
 
-# Bounds of b and e: those of spheres, with room for rounding and for what is next to them.
+# Bounds of b and e: a little wider than those that `spheres` admits.
 B_LEAST, B_MOST, E_LEAST = 1.55, 3.55, 0.295
 # Where s has its root: nowhere, at the left edge of a patch, or at its right edge. The answer bends
 # there like a power 3/2 of the distance.
@@ -30,7 +30,7 @@ ROOTS = {
     "plastic_middle": (EVEN, LEFT, RIGHT, RIGHT),
     "plastic_high": (EVEN, LEFT, RIGHT, RIGHT),
 }
-# Slip throughout begins here already, for rounding.
+# Slip throughout begins at this share of its threshold, because of rounding.
 NEARLY = 1 - 2.0**-50
 # B-splines that are not zero within an interval.
 ORDER = 4
@@ -46,13 +46,13 @@ class Panel(NamedTuple):
     name : str
         One of `ROOTS`.
     intervals : ndarray of int, shape (patches,)
-        Of the splines over s.
+        How many the splines over s have.
     edges : ndarray, shape (edges, nt + 1, nu + 1)
-        Those that vary, in y, over t and u, ascending.
+        y of the edges that vary with t and u, ascending.
     velocity, peak : ndarray, shape (s, t, u)
         Coefficients of velocity over zeta^2, and of peak friction.
     work : ndarray, shape (s or 0, t, u)
-        Of the work of friction over zeta^2; with viscous loss alone.
+        Coefficients of the work of friction over zeta^2; with viscous loss alone.
     """
 
     name: str
@@ -102,7 +102,7 @@ def write(file: IO[bytes], table: Table) -> None:
         arrays[f"{name}.intervals"] = panel.intervals
         for key in PACKED:
             difference = steps(whole(getattr(panel, key), table.exponent))
-            # The low bytes side by side, then the others: those alike are compressed.
+            # The low bytes side by side, then the others: similar bytes compress well.
             arrays[f"{name}.{key}"] = np.moveaxis(
                 difference.astype("<i4")[..., None].view(np.uint8), -1, 0
             )
@@ -120,7 +120,7 @@ def real(whole: Integers, exponent: int) -> Array:
 
 
 def steps(values: Integers) -> Integers:
-    """What neighbours along each axis do not tell: small where values are smooth.
+    """Differences of neighbours along every axis in turn: small where values are smooth.
 
     Examples
     --------
@@ -153,43 +153,31 @@ class Answer(NamedTuple):
 
 
 def evaluate(table: Table, y: Array, b: Array, e: Array, plastic: Booleans) -> Answer:
-    """Answers to impacts; those of impacts that slide throughout have no meaning.
-
-    Parameters
-    ----------
-    table : Table
-    y, b, e : ndarray, shape (n,)
-        y >= 0.
-    plastic : ndarray of bool, shape (n,)
-
-    Returns
-    -------
-    Answer
-    """
+    """Answers to impacts with y >= 0; those of impacts that slide throughout have no meaning."""
     u = over_b(b)
     limits = limits_at(table, u)
     velocity, peak, work = np.empty((3, y.size))
-    found = Answer(velocity, peak, work, np.zeros(y.size, dtype=bool))
+    answer = Answer(velocity, peak, work, np.zeros(y.size, dtype=bool))
     below = e < limits
     panels = ~plastic, plastic & below[0], plastic & ~below[0] & below[1], plastic & ~below[1]
     for panel, rows in zip(table.panels.values(), panels, strict=True):
         which = np.flatnonzero(rows)
         if which.size:
             part = _answer(panel, *(a[..., which] for a in (y, b, e, u, limits)))
-            for every, some in zip(found, part, strict=True):
-                every[which] = some
-    return found
+            for values, panel_values in zip(answer, part, strict=True):
+                values[which] = panel_values
+    return answer
 
 
 def slides_from(table: Table, b: Array, e: Array) -> Array:
     """y from which plastic spheres slide throughout, as `evaluate` has it, shape (n,)."""
-    found, u = b + e * (b - 1), over_b(b)
+    y, u = b + e * (b - 1), over_b(b)
     limits = limits_at(table, u)
     low = np.flatnonzero(e < limits[0])
-    panel, some = table.panels["plastic_low"], e[low]
-    t = over_e(panel.name, some, limits[:, low])
-    found[low] = edges_of(panel.name, panel.edges, t, u[low], b[low], some)[-1]
-    return found
+    panel = table.panels["plastic_low"]
+    t = over_e(panel.name, e[low], limits[:, low])
+    y[low] = edges_of(panel.name, panel.edges, t, u[low], b[low], e[low])[-1]
+    return y
 
 
 def limits_at(table: Table, u: Array) -> Array:
@@ -261,24 +249,14 @@ def _answer(panel: Panel, y: Array, b: Array, e: Array, u: Array, limits: Array)
 
 
 def spline(coefficients: Array, base: Integers, weights: Sequence[Sequence[Array]]) -> Array:
-    """Sums of products of B-splines.
+    """Sums of products of B-splines over s, t and u, whose weights have the shape (3, 4, n).
 
-    Parameters
-    ----------
-    coefficients : ndarray, shape (s, t, u)
-    base : ndarray of int, shape (n,)
-        The first coefficient of each place, counted as in memory.
-    weights : sequence, shape (3, 4, n)
-        B-splines over s, t and u.
-
-    Returns
-    -------
-    ndarray, shape (n,)
+    `base` numbers, in the order of memory, the first of the 64 coefficients of each place.
     """
     _, rows, columns = coefficients.shape
     flat = coefficients.reshape(-1)
     over_s, over_t, over_u = weights
-    found, middle, inner, term = np.empty((4, base.size))
+    outer, middle, inner, term = np.empty((4, base.size))
     for i in range(ORDER):
         for j in range(ORDER):
             for k in range(ORDER):
@@ -294,10 +272,10 @@ def spline(coefficients: Array, base: Integers, weights: Sequence[Sequence[Array
                 middle[:] = inner
         middle *= over_s[i]
         if i:
-            found += middle
+            outer += middle
         else:
-            found[:] = middle
-    return found
+            outer[:] = middle
+    return outer
 
 
 def _weights(x: Array) -> list[Array]:
@@ -323,18 +301,18 @@ def _over_both(grids: Array, t: Array, u: Array) -> list[Array]:
     i, over = _places(t, rows - 1)
     j, across = _places(u, columns - 1)
     corner = i * columns + j
-    found = []
+    values = []
     for grid in grids.reshape(len(grids), rows * columns):
         before = (1 - across) * grid.take(corner) + across * grid.take(corner + 1)
         after = (1 - across) * grid.take(corner + columns) + across * grid.take(
             corner + columns + 1
         )
-        found.append((1 - over) * before + over * after)
-    return found
+        values.append((1 - over) * before + over * after)
+    return values
 
 
 def _places(value: Array, count: int | Integers) -> tuple[Integers, Array]:
-    """Which of so many intervals a value from 0 to 1 is in, and where."""
+    """The interval, one of `count`, that a value from 0 to 1 is in, and the place in it."""
     at = value * count
     index = np.clip(at.astype(np.intp), 0, count - 1)
     return index, at - index

@@ -30,7 +30,7 @@ from planarimpact.normal_impact import yielding
 
 # Steps of the continuum, and impacts solved together.
 STEPS, TOGETHER = 256, 256
-# How exactly an incidence is known for which the continuum is solved each time.
+# Resolution of an incidence that is searched by solving the continuum.
 COARSE = 2.0**-14
 
 
@@ -75,30 +75,22 @@ def slides_at_the_end(b: Array, e: Array) -> Array:
     one, end = np.ones_like(b), STEPS // 2
 
     def sticks(which: Any, y: Array) -> tuple[Array]:
-        short = np.empty(y.size)
+        below_limit = np.empty(y.size)
         for start in range(0, y.size, TOGETHER):
             part = slice(start, start + TOGETHER)
-            own_b, own_one, own_e = (a[which][part] for a in (b, one, e))
-            path = inelastic.path(y[part], own_b, own_one, own_e, PlasticMotion, STEPS)
-            short[part] = inelastic.GROSS * path.normal[end] - path.friction[end]
-        return (np.where(short > 0, 1.0, -1.0),)
+            beta, zeta2, restitution = (a[which][part] for a in (b, one, e))
+            path = inelastic.path(y[part], beta, zeta2, restitution, PlasticMotion, STEPS)
+            below_limit[part] = inelastic.GROSS * path.normal[end] - path.friction[end]
+        return (np.where(below_limit > 0, 1.0, -1.0),)
 
     return roots.crossing(sticks, np.zeros_like(b), slides_from(b, e), resolution=COARSE)
 
 
 def limits(b: Array) -> Array:
-    """Plastic: two restitutions where what happens between y = 1 and slip throughout changes.
+    """Plastic: two restitutions, shape (2, n), at which the phases of contact change.
 
     Below the second, the middle of a contact with y = b sticks for a while before the end of
     compression. Below the first, that happens even where `limit_alike` says slip throughout.
-
-    Parameters
-    ----------
-    b : ndarray, shape (n,)
-
-    Returns
-    -------
-    ndarray, shape (2, n)
 
     Examples
     --------
@@ -109,8 +101,8 @@ def limits(b: Array) -> Array:
     low, high = np.full((2, b.size), [[0.3], [0.99]])
 
     def at_all(which: Any, e: Array) -> tuple[Array]:
-        own = b[which]
-        return (np.where(slides_from(own, e) > sliding.limit_alike(own, 1.0, e), 1.0, -1.0),)
+        alike = sliding.limit_alike(b[which], 1.0, e)
+        return (np.where(slides_from(b[which], e) > alike, 1.0, -1.0),)
 
     def at_the_end(which: Any, e: Array) -> tuple[Array]:
         loading = yielding.loading(e)

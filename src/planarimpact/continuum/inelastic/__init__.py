@@ -2,13 +2,13 @@
 
 The method is that of dimensionality reduction, as for elastic spheres in `micro_slip`. The contact
 is a row of springs. `viscous` and `plastic` give the normal motion and the springs, each for one
-law of `planarimpact.normal_impact`. Here the springs are moved sideways, whatever the law.
+law of `planarimpact.normal_impact`. Here the springs of either law are moved sideways.
 
 Let u be the tangential displacement of the body over zeta^2, q the deflection of a spring over
 zeta^2, and L its normal force density. A spring has the tangential force density q + tau q', at
 most L. While it sticks q' = u'. A spring that loses contact forgets its deflection. What it
 remembers is c = q - u. With V = u + tau u' the density is V + c while the spring sticks. In slip it
-is L or -L, and tau c' = density - (V + c): what is beyond the limit relaxes. Springs of metal have
+is L or -L, and tau c' = density - (V + c): the part beyond the limit relaxes. Springs of metal have
 no tau: q is moved to the limit at once. While the contact yields q also decays, see `plastic`.
 
 Springs stand at the radii where the edge of the contact is at each instant. So the edge is always

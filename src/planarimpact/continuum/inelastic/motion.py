@@ -1,6 +1,6 @@
-"""What the steps of an inelastic contact ask of a law: its normal motion, and its springs.
+"""The interface of a law for the steps of an inelastic contact: normal motion and springs.
 
-`viscous` and `plastic` answer, each for one law of `planarimpact.normal_impact`.
+`viscous` and `plastic` implement it, each for one law of `planarimpact.normal_impact`.
 """
 
 from abc import ABC, abstractmethod

@@ -178,17 +178,17 @@ class PlasticMotion(NormalMotion):
         latest = np.clip((beta - x) / beta, 0.0, start)
         velocities = start + np.linspace(0.0, 1.0, PLACES)[:, None] * (latest - start)
 
-        def lead(which: Any, minus_velocity: Array) -> tuple[Array]:
+        def slip_velocity(which: Any, minus_velocity: Array) -> tuple[Array]:
             loading, v = self._loading.take(which), -minus_velocity
             pull = self._pull(loading, v)
             return (x[which] - beta[which] * (1 - v) - zeta2[which] * pull * v,)
 
-        behind = lead(slice(None), -velocities)[0] <= 0
-        row, column = np.maximum(np.argmax(behind, axis=0), 1), np.arange(x.size)
-        slower = np.flatnonzero((elastic < start) & behind[row, column])
+        sticks = slip_velocity(slice(None), -velocities)[0] <= 0
+        row, column = np.maximum(np.argmax(sticks, axis=0), 1), np.arange(x.size)
+        ends = np.flatnonzero((elastic < start) & sticks[row, column])
         before, after = -velocities[row - 1, column], -velocities[row, column]
-        end[slower] = -roots.crossing(
-            lambda which, v: lead(slower[which], v), before[slower], after[slower]
+        end[ends] = -roots.crossing(
+            lambda which, v: slip_velocity(ends[which], v), before[ends], after[ends]
         )
         return end
 
@@ -242,10 +242,10 @@ class PlasticSprings(Springs):
     ) -> Array:
         """As in `Springs`.
 
-        Slip in direction g stops when g q less the limit, without slip, is largest; what has flowed
-        since is taken from it as from q. Every slipped spring remembers that value. In the step it
-        is a parabola, through its values at both ends and in the middle. A step over its top leaves
-        an error that varies irregularly, which extrapolation cannot remove.
+        Slip in direction g stops when g q minus the limit, computed without slip, is largest. That
+        value decays afterwards as q does. Every slipped spring remembers it. In the step it is a
+        parabola, through its values at both ends and in the middle. A step over its top leaves an
+        error that varies irregularly, which extrapolation cannot remove.
         """
         motion, limit = self._motion, self._motion.density(k)
         count = min(len(limit), len(self._density))
@@ -261,9 +261,9 @@ class PlasticSprings(Springs):
             first, last = np.diff(flowed, axis=0)
         else:
             first = last = np.zeros_like(step)
-        # Without slip, half a step later and at its end.
+        # The density without slip, half a step later and at the end of the step.
         halfway = np.exp(-first) * density_before + _gain(first, early, (early + late) / 2) / 2
-        wanted = np.exp(-last) * halfway + _gain(last, (early + late) / 2, late) / 2
+        unlimited = np.exp(-last) * halfway + _gain(last, (early + late) / 2, late) / 2
         slips = np.zeros(density_before.shape, dtype=bool)
         # A spring turns if the rate of its limit lies between those of the body. That rate differs
         # from the edge, where the limit grows most, to the middle, where most has flowed.
@@ -284,14 +284,14 @@ class PlasticSprings(Springs):
             decay, half_decay = np.exp(-(first + last)[which]), np.exp(-last[which])
             at_start = decay * (side * density_before[:, which] - before[:, which])
             middle = half_decay * (side * halfway[:, which] - between[:, which])
-            at_end = side * wanted[:, which] - after[:, which]
+            at_end = side * unlimited[:, which] - after[:, which]
             bulge = np.maximum(8 * middle - 4 * (at_start + at_end), 1e-300)
             part = np.clip(0.5 + (at_end - at_start) / bulge, 0.0, 1.0)
             top = at_start + part * (at_end - at_start + (1 - part) * bulge / 2)
-            wanted[:, which] -= side * np.maximum(top, 0.0)
+            unlimited[:, which] -= side * np.maximum(top, 0.0)
             slips[:, which] |= top > 0
-        density = np.clip(wanted, -after, after)
-        self._slips = slips | (density != wanted)
+        density = np.clip(unlimited, -after, after)
+        self._slips = slips | (density != unlimited)
         if count < len(limit):  # a spring comes into contact, without deflection
             density = np.vstack([density, np.zeros_like(step)])
         self._tried = limit, density

@@ -1,7 +1,8 @@
 """Springs of viscous spheres: the law of `normal_impact.kelvin_voigt` with a row of springs.
 
-The spring at radius r has the force density D - r^2, with D = d + tau d'. It touches where r^2 < d
-while d grows. While d falls it touches where r^2 < D, as a contact does not pull.
+With the approach d and the relaxation time tau, the spring at radius r has the force density
+D - r^2, D = d + tau d'. It touches where r^2 < d while d grows. While d falls it touches where
+r^2 < D, as a contact does not pull.
 """
 
 from copy import copy
@@ -150,10 +151,10 @@ def _relaxed(
     ratio = step / tau
     decay = np.exp(-ratio)
     gain = np.where(ratio > 0, -np.expm1(-ratio) / np.where(ratio > 0, ratio, 1.0), 1.0)
-    wanted = memory + pull_after
-    side = np.copysign(1.0, wanted)
-    # What is beyond the limit before the step, and after it if nothing relaxed.
-    before, after = side * (memory + pull) - limit, side * wanted - limit_after
+    unlimited = memory + pull_after
+    side = np.copysign(1.0, unlimited)
+    # The part of the density beyond the limit: before the step, and after it if nothing relaxed.
+    before, after = side * (memory + pull) - limit, side * unlimited - limit_after
     change = after - before
     with np.errstate(divide="ignore", invalid="ignore"):
         # From slip: exact. If it ends within the step, change is all that stick adds after that.

@@ -194,29 +194,29 @@ static inline double pair_velocity(double x)
 /* The state at separation; NaN, and PAIR_UNRESOLVED, out of range. */
 static inline struct pair_result pair_rebound(double x)
 {
-    struct pair_result found = {(double)NAN, (double)NAN, (double)NAN, PAIR_UNRESOLVED};
+    struct pair_result result = {(double)NAN, (double)NAN, (double)NAN, PAIR_UNRESOLVED};
     double size = fabs(x), impulse;
     if (!(size <= PAIR_INCIDENCE_MAX))
-        return found;
+        return result;
     if (size >= PAIR_SLIDES_FROM) {
-        found.velocity = size - PAIR_CHANGE;
+        result.velocity = size - PAIR_CHANGE;
         impulse = PAIR_IMPULSE;
-        found.peak_friction = 1.0;
-        found.regime = PAIR_SLIP_THROUGHOUT;
+        result.peak_friction = 1.0;
+        result.regime = PAIR_SLIP_THROUGHOUT;
     } else {
         int piece = pair_piece(size);
         double root = pair_root(piece, size);
         const double *c = pair_rows + 18 * piece + 10;
-        found.velocity = pair_fitted(piece, root, PAIR_GAINS ? (double)INFINITY : size);
-        impulse = (size - found.velocity) / PAIR_MASS_RATIO;
-        found.peak_friction = pair_clipped(pair_polynomial(c, root), 0.0, 1.0);
-        found.regime = pair_label[piece];
+        result.velocity = pair_fitted(piece, root, PAIR_GAINS ? (double)INFINITY : size);
+        impulse = (size - result.velocity) / PAIR_MASS_RATIO;
+        result.peak_friction = pair_clipped(pair_polynomial(c, root), 0.0, 1.0);
+        result.regime = pair_label[piece];
     }
     if (!(size > 0.0))
-        found.regime = PAIR_STICK;
-    found.dissipation = impulse * (size / 2.0 + found.velocity / 2.0);
-    found.velocity *= copysign(1.0, x);
-    return found;
+        result.regime = PAIR_STICK;
+    result.dissipation = impulse * (size / 2.0 + result.velocity / 2.0);
+    result.velocity *= copysign(1.0, x);
+    return result;
 }
 
 #endif

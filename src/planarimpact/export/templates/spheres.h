@@ -194,7 +194,7 @@ static inline int spheres_place(double value, int count, double *weights)
 static inline double spheres_spline(const struct spheres_spot *spot, int begin)
 {
     const int *first = spheres_values + begin + spot->base;
-    double found = 0;
+    double outer = 0;
     int i, j, k;
     for (i = 0; i < 4; ++i) {
         double middle = 0;
@@ -205,9 +205,9 @@ static inline double spheres_spline(const struct spheres_spot *spot, int begin)
                 inner += c[k] * spot->over_u[k];
             middle += inner * spot->over_t[j];
         }
-        found += middle * spot->over_s[i];
+        outer += middle * spot->over_s[i];
     }
-    return found * SPHERES_UNIT;
+    return outer * SPHERES_UNIT;
 }
 
 static inline struct spheres_spot spheres_find(double y, double b, double e, int loss)
@@ -218,20 +218,20 @@ static inline struct spheres_spot spheres_find(double y, double b, double e, int
     const double *limit = spheres_limits + spheres_index(at, SPHERES_INTERVALS);
     const double *above = limit + SPHERES_INTERVALS + 1;
     double part = at - spheres_index(at, SPHERES_INTERVALS);
-    double less = (1 - part) * limit[0] + part * limit[1];
-    double more = (1 - part) * above[0] + part * above[1];
-    int which = loss == SPHERES_VISCOUS ? 0 : e < less ? 1 : e < more ? 2 : 3, i, j, k;
+    double low_e = (1 - part) * limit[0] + part * limit[1];
+    double high_e = (1 - part) * above[0] + part * above[1];
+    int which = loss == SPHERES_VISCOUS ? 0 : e < low_e ? 1 : e < high_e ? 2 : 3, i, j, k;
     const struct spheres_panel *panel = spheres_panels + which;
     const int *patch;
-    struct spheres_spot found;
+    struct spheres_spot spot;
     if (which == 0)
         t = (e - least) / SPHERES_E_SPAN;
     else if (which == 1)
-        t = 1 - sqrt(spheres_clipped(least / e - least / less, 0, 1) / (1 - least / less));
+        t = 1 - sqrt(spheres_clipped(least / e - least / low_e, 0, 1) / (1 - least / low_e));
     else if (which == 2)
-        t = (e - less) / (more - less);
+        t = (e - low_e) / (high_e - low_e);
     else
-        t = sqrt(sqrt((1 - e) / (1 - more)));
+        t = sqrt(sqrt((1 - e) / (1 - high_e)));
 
     /* Edges, between four nodes. */
     at = t * panel->rows;
@@ -278,12 +278,12 @@ static inline struct spheres_spot spheres_find(double y, double b, double e, int
     else if (patch[0] == SPHERES_LEFT)
         s = sqrt(s);
 
-    found.panel = panel;
-    found.slides = y >= edge[panel->patches] * SPHERES_NEARLY;
-    found.base = patch[2] + spheres_place(s, patch[1], found.over_s);
-    found.base = found.base * panel->over_t + spheres_place(t, panel->over_t - 3, found.over_t);
-    found.base = found.base * panel->over_u + spheres_place(u, panel->over_u - 3, found.over_u);
-    return found;
+    spot.panel = panel;
+    spot.slides = y >= edge[panel->patches] * SPHERES_NEARLY;
+    spot.base = patch[2] + spheres_place(s, patch[1], spot.over_s);
+    spot.base = spot.base * panel->over_t + spheres_place(t, panel->over_t - 3, spot.over_t);
+    spot.base = spot.base * panel->over_u + spheres_place(u, panel->over_u - 3, spot.over_u);
+    return spot;
 }
 
 /* Whether the table has an answer. */
@@ -321,37 +321,37 @@ static inline double spheres_velocity(
 static inline struct spheres_result spheres_rebound(
     double x, double mass_ratio, double stiffness_ratio, double restitution, int loss)
 {
-    struct spheres_result found = {(double)NAN, (double)NAN, (double)NAN, SPHERES_UNRESOLVED};
+    struct spheres_result result = {(double)NAN, (double)NAN, (double)NAN, SPHERES_UNRESOLVED};
     double size = fabs(x), beta = mass_ratio, zeta2 = stiffness_ratio, e = restitution, w;
     struct spheres_spot spot;
     if (!spheres_covers(x, beta, zeta2, e, loss))
-        return found;
+        return result;
     spot = spheres_find(size / zeta2, beta / zeta2, e, loss);
     if (spot.slides) {
         double change = (1 + e) * beta;
         w = size - change;
-        found.peak_friction = 1.0;
+        result.peak_friction = 1.0;
         if (loss == SPHERES_VISCOUS)
-            found.dissipation = (1 + e) * (size - zeta2 - (beta - zeta2) * (1 + e) / 2);
+            result.dissipation = (1 + e) * (size - zeta2 - (beta - zeta2) * (1 + e) / 2);
         else
-            found.dissipation = (1 + e) * (size - change / 2);
-        found.regime = SPHERES_SLIP_THROUGHOUT;
+            result.dissipation = (1 + e) * (size - change / 2);
+        result.regime = SPHERES_SLIP_THROUGHOUT;
     } else {
         double peak = spheres_spline(&spot, spot.panel->peak);
         w = spheres_clipped(zeta2 * spheres_spline(&spot, spot.panel->velocity), 0.0 - size, size);
-        found.peak_friction = spheres_clipped(peak, 0.0, 1.0);
+        result.peak_friction = spheres_clipped(peak, 0.0, 1.0);
         if (loss == SPHERES_VISCOUS) {
             double work = zeta2 * spheres_spline(&spot, spot.panel->work);
-            found.dissipation = work > 0 ? work : 0.0;
+            result.dissipation = work > 0 ? work : 0.0;
         } else {
-            found.dissipation = (size - w) * (size + w) / (2 * beta);
+            result.dissipation = (size - w) * (size + w) / (2 * beta);
         }
-        found.regime = size > zeta2 ? SPHERES_SLIP_STICK_SLIP : SPHERES_STICK_SLIP;
+        result.regime = size > zeta2 ? SPHERES_SLIP_STICK_SLIP : SPHERES_STICK_SLIP;
         if (!(size > 0.0))
-            found.regime = SPHERES_STICK;
+            result.regime = SPHERES_STICK;
     }
-    found.velocity = w * copysign(1.0, x);
-    return found;
+    result.velocity = w * copysign(1.0, x);
+    return result;
 }
 
 #endif

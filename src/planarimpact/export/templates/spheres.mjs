@@ -153,7 +153,7 @@ function bytes(text) {
  */
 function unfolded(packed) {
     const count = shapes.reduce((sum, [layers, rows, columns]) => sum + layers * rows * columns, 0);
-    const all = new Uint8Array(packed), found = new Int32Array(count);
+    const all = new Uint8Array(packed), numbers = new Int32Array(count);
     let next = 0, begin = 0;
     for (const [layers, rows, columns] of shapes) {
         const end = begin + layers * rows * columns;
@@ -161,14 +161,14 @@ function unfolded(packed) {
             let value = 0, shift = 0;
             for (; all[next] > 127; shift += 7) value += (all[next++] - 128) << shift;
             value += all[next++] << shift;
-            found[i] = value % 2 ? -(value + 1) / 2 : value / 2;
+            numbers[i] = value % 2 ? -(value + 1) / 2 : value / 2;
         }
         for (const [step, size] of [[1, columns], [columns, rows], [rows * columns, layers]])
             for (let i = begin; i < end; i += 1)
-                if (Math.trunc((i - begin) / step) % size) found[i] += found[i - step];
+                if (Math.trunc((i - begin) / step) % size) numbers[i] += numbers[i - step];
         begin = end;
     }
-    return found;
+    return numbers;
 }
 
 const values = unfolded(bytes(
@@ -224,13 +224,13 @@ function find(y, b, e, loss) {
     const u = (b - B_LEAST) / B_SPAN, interval = index_of(u * INTERVALS, INTERVALS);
     const part = u * INTERVALS - interval, alike = b + e * (b - 1);
     const between = (k) => (1 - part) * limits[k] + part * limits[k + 1];
-    const less = between(interval), more = between(interval + INTERVALS + 1);
-    const which = loss === VISCOUS ? 0 : e < less ? 1 : e < more ? 2 : 3, panel = panels[which];
+    const low_e = between(interval), high_e = between(interval + INTERVALS + 1);
+    const which = loss === VISCOUS ? 0 : e < low_e ? 1 : e < high_e ? 2 : 3, panel = panels[which];
     const t = [
         () => (e - E_LEAST) / E_SPAN,
-        () => 1 - Math.sqrt(clipped(E_LEAST / e - E_LEAST / less, 0, 1) / (1 - E_LEAST / less)),
-        () => (e - less) / (more - less),
-        () => Math.sqrt(Math.sqrt((1 - e) / (1 - more))),
+        () => 1 - Math.sqrt(clipped(E_LEAST / e - E_LEAST / low_e, 0, 1) / (1 - E_LEAST / low_e)),
+        () => (e - low_e) / (high_e - low_e),
+        () => Math.sqrt(Math.sqrt((1 - e) / (1 - high_e))),
     ][which]();
 
     // Edges, between four nodes.
@@ -279,13 +279,13 @@ function find(y, b, e, loss) {
 }
 
 /**
- * A spline at a place that `find` found, whose coefficients begin at a number of the values.
+ * A spline at a place of `find`, whose coefficients begin at a number of the values.
  * @param {ReturnType<typeof find>} spot
  * @param {number} begin
  * @returns {number}
  */
 function spline({ panel, base, weights: [over_s, over_t, over_u] }, begin) {
-    let found = 0;
+    let outer = 0;
     for (let i = 0; i < 4; i += 1) {
         let middle = 0;
         for (let j = 0; j < 4; j += 1) {
@@ -294,9 +294,9 @@ function spline({ panel, base, weights: [over_s, over_t, over_u] }, begin) {
             for (let k = 0; k < 4; k += 1) inner += values[c + k] * over_u[k];
             middle += inner * over_t[j];
         }
-        found += middle * over_s[i];
+        outer += middle * over_s[i];
     }
-    return found * UNIT;
+    return outer * UNIT;
 }
 
 /**

@@ -1,4 +1,4 @@
-"""Extremes of the lumped model: a reader of its physics need not enter.
+"""Groups of any size (`scaling`) and contacts of thousands of phases (`many_phases`).
 
-`scaling` admits groups of any size, `many_phases` skips thousands of phases.
+The physics of the lumped model is understood without this room.
 """

@@ -38,69 +38,34 @@ def last_phase(rate: Numbers) -> Array:
 
     At this phase the count of half-waves has the error 6e-13 (1000/phase)^4. It must not exceed
     the rounding of nu by much.
-
-    Examples
-    --------
-    >>> last_phase(np.array([2e3, 6e7, 1e300])).tolist()
-    [1000.0, 100.0, 100.0]
     """
     return np.clip(1000 * (6e3 / rate) ** 0.25, 100.0, 1000.0)
 
 
 def worth_skipping(eta: Array, rate: Numbers) -> Booleans:
-    """Whether stick that starts at `eta`, after a slip, is far from separation.
-
-    Examples
-    --------
-    >>> worth_skipping(np.array([0.1, 1.5]), 1e3).tolist()
-    [False, True]
-    """
+    """Whether stick that starts at `eta`, after a slip, is far from separation."""
     return rate * eta > last_phase(rate) + LEAST_GAIN
 
 
 def skip(eta: Array, rate: Array) -> tuple[Array, Array]:
-    """Go on by a whole number of half-waves, to about `last_phase` before separation.
+    """Angle where a stick about `last_phase` before separation starts, and half-waves until then.
 
-    Parameters
-    ----------
-    eta : ndarray, shape (n,)
-        Angle (see `normal`) at which stick starts after slip in restitution;
-        `worth_skipping`, and some half-waves below pi/2, where delta is not smooth.
-    rate : ndarray, shape (n,)
-        nu = e omega/Omega.
-
-    Returns
-    -------
-    eta : ndarray
-        Angle at which a later stick starts.
-    half_waves : ndarray
-        Number of half-waves between, whole numbers; each turns the sign of T.
-
-    Examples
-    --------
-    >>> eta, half_waves = skip(np.array([1.5]), np.array([1e8]))
-    >>> float(half_waves[0])
-    47746450.0
+    `eta` is where stick starts after slip in restitution; `worth_skipping`, and some half-waves
+    below pi/2, where delta is not smooth. Each half-wave turns the sign of T.
     """
     end = last_phase(rate) / rate
     count = half_waves(eta, end, rate)
     whole = np.floor(count)
-    # Two of Newton's iterates: the count is almost linear, so its error is then below rounding.
+    # Two steps of Newton's method: the count is almost linear, so its error is then below rounding.
     goal = end
     for _ in range(2):
-        surplus = count - whole - half_waves(goal, end, rate)
-        goal = goal + surplus * (np.pi + excess_phase(goal, rate)) / rate
+        count_error = count - whole - half_waves(goal, end, rate)
+        goal = goal + count_error * (np.pi + excess_phase(goal, rate)) / rate
     return goal, whole
 
 
 def half_waves(start: Array, end: Numbers, rate: Array) -> Array:
-    """How many half-waves lie between two angles, start >= end; a real number.
-
-    Examples
-    --------
-    >>> bool(abs(half_waves(np.array([1.0]), 0.5, np.array([1e8])) - 0.5e8 / np.pi)[0] < 1e-3)
-    True
-    """
+    """How many half-waves lie between two angles, start >= end; a real number."""
     low = np.log(np.maximum(1 / np.tan(start), LEAST_DECLINE * rate))
     high = np.log(1 / np.tan(end))
     panels = int(np.max((high - low) / PANEL)) + 1
@@ -126,11 +91,6 @@ def excess_phase(middle: Numbers, rate: Numbers) -> Array:
     phi and psi depend on each other through delta. Each turn of the loop computes them anew from
     the last delta. Where a skip goes, a turn reduces the error to a twelfth or less: eight turns
     leave 4e-15 at the last half-waves, and less before. All sums have positive terms only.
-
-    Examples
-    --------
-    >>> round(float(excess_phase(1e-4, 1e8)) * 1e6, 3)
-    5.25
     """
     ratio = 1 / (rate * np.tan(middle))
     phi = psi = np.sqrt(2 * np.pi * ratio)

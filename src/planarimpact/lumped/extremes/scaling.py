@@ -1,4 +1,4 @@
-"""Groups of any size: the solver is asked in units in which no product leaves the range of numbers.
+"""Groups of any size: impacts are solved in units in which no product overflows or underflows.
 
 Three changes, none of which alters a digit of an ordinary answer:
 
@@ -27,14 +27,7 @@ LEAST_STIFFNESS = 1e-280
 
 
 def solve(impacts: Impacts) -> Outcome:
-    """Outcome of impacts x >= 0 of any size.
-
-    Examples
-    --------
-    >>> outcome = solve(Impacts(*np.array([[1e305], [3.5], [1e302], [1.0]])))
-    >>> float(outcome.velocity[0])
-    1e+305
-    """
+    """Outcome of impacts x >= 0 of any size."""
     x, beta, zeta2, _ = impacts
     ordinary = x.min() >= SMALL and max(x.max(), beta.max(), zeta2.max()) <= LARGE
     if ordinary and zeta2.min() >= LEAST_STIFFNESS * beta.max():

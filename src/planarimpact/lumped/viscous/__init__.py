@@ -2,7 +2,7 @@
 
 Each element is a spring beside a dashpot, and both have the relaxation time tau = 2 xi/Omega: the
 tangential one obeys T = (s + tau s')/zeta^2 with its deflection s, the normal one N = u + tau u'
-(Schwager and Poeschel 2007, DOI 10.1007/s10035-007-0065-z). The rest is as in the paper's model:
+(Schwager and Poeschel 2007, DOI 10.1007/s10035-007-0065-z). All else is as in the paper's model:
 w' = -beta T, stick has s' = w while |T| <= N, slip in direction g has T = g N. Units are those of
 `stick_slip`. `elements` holds the closed forms, `searches` the ends of phases.
 
@@ -10,12 +10,12 @@ w' = -beta T, stick has s' = w while |T| <= N, slip in direction g has T = g N. 
 The deflection relaxes: s - g zeta^2 u falls as y = exp(-t/tau), with t from the onset. So the slip
 velocity is
 
-    D = g (w - s') = A + k v + B y,   A = g w0 - beta v0,   k = beta - zeta^2.
+    w_s = g (w - s') = A + k v + B y,   A = g w0 - beta v0,   k = beta - zeta^2.
 
-Slip from contact has B = 0. At an onset after stick s' has no jump, so D = 0 and
+Slip from contact has B = 0. At an onset after stick s' has no jump, so w_s = 0 and
 B = -(g w0 - zeta^2 v0).
 
-**The work of friction** in a slip is the integral of N D. With -v' = N and
+**The work of friction** in a slip is the integral of N w_s. With -v' = N and
 
     (1 + 2 tau^2) N y = -((tau N + tau^2 v) y)'
 
@@ -35,7 +35,7 @@ from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.checks import ConvergenceError
 from planarimpact.ground.results import Event, EventKind, History, Regime
 from planarimpact.lumped.stick_slip import Impacts, Outcome
-from planarimpact.lumped.viscous.elements import Elements, damping_ratio, elements, phase_angle
+from planarimpact.lumped.viscous.elements import Elements, damping_ratio, elements_of, phase_angle
 from planarimpact.lumped.viscous.searches import Slip, Stick, slip_end, stick_end
 
 # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
@@ -45,8 +45,8 @@ CHUNK = 65536
 LEAST_RESTITUTION = 1e-3
 LARGEST_MASS_RATIO = 1e6
 LEAST_SHARE, LARGEST_SHARE = 1e-4, 1e6  # of the stiffness ratio in the mass ratio
-# The closed form of the work of a slip cancels where this is short beside tau and 1/tau: then the
-# nodes of Gauss, with which nothing cancels, leave an error below rounding.
+# A slip is short if its time over tau, and times tau, is below this. There the closed form of its
+# work loses digits; the quadrature of Gauss does not, and its error is below rounding.
 SHORT = 1.0
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
 
@@ -55,7 +55,7 @@ class Phase(NamedTuple):
     """A phase of one contact: times to separation at both ends, and the state at its start.
 
     `side` is the direction of slip, or the sign of T at the start of stick. Friction and velocity
-    are mirrored by it. `layer` is B in slip.
+    are mirrored by it. `transient` is B in slip.
     """
 
     sticks: bool
@@ -64,20 +64,11 @@ class Phase(NamedTuple):
     side: float
     friction: float
     velocity: float
-    layer: float
+    transient: float
 
 
 def check_range(impacts: Impacts) -> None:
-    """Refuse impacts beyond the range of this solver.
-
-    Examples
-    --------
-    >>> check_range(Impacts(*np.array([[1.0], [3.5], [1.21], [0.0]])))
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: restitution = 0.0: allowed are numbers from 0.001 to 1 where \
-loss='viscous' (a viscous element stops no body at once)
-    """
+    """Refuse impacts beyond the range of this solver."""
     _, beta, zeta2, e = impacts
     rules = [
         (
@@ -110,12 +101,6 @@ def solve(impacts: Impacts) -> Outcome:
 
     The peak of friction is in mu times the largest normal force of the impact. The dissipation is
     the work of friction alone.
-
-    Examples
-    --------
-    >>> outcome = solve(Impacts(*np.array([[8.0], [3.5], [1.21], [0.5]])))
-    >>> float(outcome.velocity[0])  # x - (1 + e) beta
-    2.75
     """
     outcome = Outcome(
         np.empty_like(impacts.x),
@@ -123,36 +108,29 @@ def solve(impacts: Impacts) -> Outcome:
         np.empty_like(impacts.x),
         np.empty(impacts.x.size, np.uint8),
     )
-    for lanes, pair in _alike(impacts):
-        found = _solve_alike(impacts.x[lanes], pair, None)
-        for field, values in zip(outcome, found, strict=True):
-            field[lanes] = values
+    for which, elements in _alike_chunks(impacts):
+        solved = _solve_alike(impacts.x[which], elements, None)
+        for field, values in zip(outcome, solved, strict=True):
+            field[which] = values
     return outcome
 
 
 def phases(impacts: Impacts) -> tuple[Elements, list[Phase]]:
     """Elements and phases of one impact with e < 1."""
     trace: list[Phase] = []
-    [(_, pair)] = _alike(impacts)
-    _solve_alike(impacts.x, pair, trace)
-    return pair, trace
+    [(_, elements)] = _alike_chunks(impacts)
+    _solve_alike(impacts.x, elements, trace)
+    return elements, trace
 
 
 def history(mirror: float, impacts: Impacts, samples: int) -> History:
-    """Forces, velocity and spring over one contact with e < 1; `mirror` is the sign of x.
-
-    Examples
-    --------
-    >>> contact = history(1.0, Impacts(*np.array([[1.0], [3.5], [1.21], [0.5]])), 5)
-    >>> [float(contact.time[0]), float(contact.time[-1])], bool(contact.normal[0] > 0)
-    ([0.0, 2.0], True)
-    """
-    pair, trace = phases(impacts)
-    half = pair.duration[0] / 2
+    """Forces, velocity and spring over one contact with e < 1; `mirror` is the sign of x."""
+    elements, trace = phases(impacts)
+    half = elements.duration[0] / 2
     grid = np.linspace(2.0, 0.0, samples) * half
 
     def column(phase: Phase, ahead: Array) -> Array:
-        normal, friction, velocity, spring = state(phase, pair, ahead)
+        normal, friction, velocity, spring = state(phase, elements, ahead)
         mirrored = mirror * friction, mirror * velocity, mirror * spring
         return np.stack([2.0 - ahead / half, normal, *mirrored])
 
@@ -174,63 +152,52 @@ def history(mirror: float, impacts: Impacts, samples: int) -> History:
             values = column(phase, np.array([half]))[:, 0]
             events.append(event(EventKind.MAXIMUM_COMPRESSION, values))
     events.append(event(EventKind.SEPARATION, columns[-1][:, -1]))
-    joined = [piece[:, :-1] for piece in columns[:-1]] + columns[-1:]
+    joined = [phase_columns[:, :-1] for phase_columns in columns[:-1]] + columns[-1:]
     time, normal, friction, velocity, spring = np.concatenate(joined, axis=1)
     return History(time, normal, friction, velocity, spring, tuple(events))
 
 
-def state(phase: Phase, pair: Elements, ahead: Array) -> tuple[Array, Array, Array, Array]:
-    """Normal force, friction, velocity and deflection of the spring at times to separation.
-
-    Returns
-    -------
-    normal, friction, velocity, spring : ndarray, shape of ahead
-    """
-    tau, zeta2 = 2 * pair.xi, pair.zeta2
-    force, v = pair.motion(ahead)
+def state(phase: Phase, elements: Elements, ahead: Array) -> tuple[Array, Array, Array, Array]:
+    """Normal force, friction, velocity and deflection of the spring at times to separation."""
+    tau, zeta2 = 2 * elements.xi, elements.zeta2
+    force, v = elements.motion(ahead)
     time = phase.ahead - ahead
     start, rate = np.full_like(ahead, phase.friction), np.full_like(ahead, phase.velocity)
     if phase.sticks:
-        friction, velocity = pair.stick(start, rate, time)
+        friction, velocity = elements.stick(start, rate, time)
         spring = zeta2 * friction - tau * velocity
     else:
-        _, v_start = pair.motion(np.full_like(ahead, phase.ahead))
-        friction, velocity = force, rate + pair.beta * (v - v_start)
-        spring = zeta2 * (force - tau * v) + tau * phase.layer * np.exp(-time / tau)
+        _, v_start = elements.motion(np.full_like(ahead, phase.ahead))
+        friction, velocity = force, rate + elements.beta * (v - v_start)
+        spring = zeta2 * (force - tau * v) + tau * phase.transient * np.exp(-time / tau)
     return force, phase.side * friction, phase.side * velocity, phase.side * spring
 
 
-def peak_normal(pair: Elements) -> Array:
-    """Largest normal force over the contact, in m2 Omega |v2(0)|: at contact it is tau.
-
-    Examples
-    --------
-    >>> _, pair = next(_alike(Impacts(*np.array([[1.0], [3.5], [1.21], [0.01]]))))
-    >>> bool(peak_normal(pair)[0] == 2 * pair.xi[0])
-    True
-    """
-    crest = pair.crest_ahead()
-    force, _ = pair.motion(crest)
-    return np.where(crest < pair.duration, force, 2 * pair.xi)
+def peak_normal(elements: Elements) -> Array:
+    """Largest normal force over the contact, in m2 Omega |v2(0)|: at contact it is tau."""
+    crest = elements.crest_ahead()
+    force, _ = elements.motion(crest)
+    return np.where(crest < elements.duration, force, 2 * elements.xi)
 
 
-def _alike(impacts: Impacts) -> Iterator[tuple[Integers, Elements]]:
-    """Impacts by index in groups for the cache, of which all elements are alike."""
+def _alike_chunks(impacts: Impacts) -> Iterator[tuple[Integers, Elements]]:
+    """Indices of impacts with alike elements, `CHUNK` or fewer at a time, and these elements."""
     _, beta, zeta2, e = impacts
     angle, under = phase_angle(e)
     xi = damping_ratio(e, angle, np.where(under, np.sin(angle), np.sinh(angle)))
     swings = beta * xi * xi < zeta2
     for normal_under in (True, False):
         for tangential_under in (True, False):
-            lanes = np.flatnonzero((under == normal_under) & (swings == tangential_under))
-            for first in range(0, lanes.size, CHUNK):
-                part = lanes[first : first + CHUNK]
+            which = np.flatnonzero((under == normal_under) & (swings == tangential_under))
+            for first in range(0, which.size, CHUNK):
+                part = which[first : first + CHUNK]
                 groups = beta[part], zeta2[part], e[part], angle[part]
-                yield part, elements(normal_under, tangential_under, groups)
+                yield part, elements_of(normal_under, tangential_under, groups)
 
 
-def _solve_alike(x: Array, pair: Elements, trace: list[Phase] | None) -> Outcome:
-    beta, zeta2, e = pair.beta, pair.zeta2, pair.e
+def _solve_alike(x: Array, elements: Elements, trace: list[Phase] | None) -> Outcome:
+    """Outcome of impacts with alike elements; a `trace`, for one impact, gets its phases."""
+    beta, zeta2, e = elements.beta, elements.zeta2, elements.e
     k = beta - zeta2
     # The slip velocity falls from x - zeta^2, linearly in the normal impulse, 1 + e in all.
     mean = (x - zeta2 + (x - beta - e * k)) / 2
@@ -243,11 +210,11 @@ def _solve_alike(x: Array, pair: Elements, trace: list[Phase] | None) -> Outcome
     sticks = x < sliding.limit_alike(beta, zeta2, e)
     early, late = np.flatnonzero(sticks & (x <= zeta2)), np.flatnonzero(sticks & (x > zeta2))
     if trace is not None and not sticks[0]:
-        trace.append(Phase(False, pair.duration[0], 0.0, 1.0, 0.0, x[0], 0.0))
+        trace.append(Phase(False, elements.duration[0], 0.0, 1.0, 0.0, x[0], 0.0))
     if trace is not None and x[0] == 0:
-        trace.append(Phase(True, pair.duration[0], 0.0, 1.0, 0.0, 0.0, 0.0))
+        trace.append(Phase(True, elements.duration[0], 0.0, 1.0, 0.0, 0.0, 0.0))
     if early.size:
-        part, start = pair.take(early), x[early]
+        part, start = elements.take(early), x[early]
         for field in outcome[:3]:
             field[early] = 0.0
         outcome.regime[early] = Regime.STICK
@@ -262,7 +229,7 @@ def _solve_alike(x: Array, pair: Elements, trace: list[Phase] | None) -> Outcome
             )
         _alternate(early, Stick(part, part.duration, friction, start), True, outcome, trace)
     if late.size:
-        part, start = pair.take(late), x[late]
+        part, start = elements.take(late), x[late]
         slip = Slip(part, part.duration, start - part.beta, np.zeros_like(start))
         time = roots.crossing(slip.velocity, np.zeros_like(start), part.duration)
         ahead = part.duration - time
@@ -282,24 +249,29 @@ def _solve_alike(x: Array, pair: Elements, trace: list[Phase] | None) -> Outcome
 
 
 def _alternate(
-    lanes: Integers, stick: Stick, at_contact: bool, outcome: Outcome, trace: list[Phase] | None
+    which: Integers, stick: Stick, at_contact: bool, outcome: Outcome, trace: list[Phase] | None
 ) -> None:
     """Stick and slip in turn until every impact slides to separation; adds to the outcome.
 
     A stick that follows slip lasts at least to the next zero of T, or its slip to separation. So
     there are no more sticks than half-waves of T, and two: `most` is more than that.
     """
-    side, count = np.ones(lanes.size), 0
-    while lanes.size:
-        pair, ahead = stick.pair, stick.ahead
+    side, count = np.ones(which.size), 0
+    while which.size:
+        elements, ahead = stick.elements, stick.ahead
         if count == 0:
-            most = 8 + float(np.max(pair.rate * pair.duration)) * pair.tangential_under / np.pi
+            most = (
+                8
+                + float(np.max(elements.rate * elements.duration))
+                * elements.tangential_under
+                / np.pi
+            )
         if count > most:
-            raise ConvergenceError(f"{lanes.size} impacts stick more often than they can")
+            raise ConvergenceError(f"{which.size} impacts stick more often than they can")
         end, sign = stick_end(stick, at_contact and count == 0)
         time = ahead - end
-        _, velocity = pair.stick(stick.friction, stick.velocity, time)
-        _raise_peak(outcome.peak_friction, lanes, stick, time)
+        _, velocity = elements.stick(stick.friction, stick.velocity, time)
+        _raise_peak(outcome.peak_friction, which, stick, time)
         if trace is not None:
             fields = stick.friction[0], stick.velocity[0]
             trace.append(Phase(True, ahead[0], end[0], side[0], *fields, 0.0))
@@ -307,60 +279,62 @@ def _alternate(
         side = side * sign
         velocity = velocity * sign
         ahead = end
-        force, v = pair.motion(ahead)
-        impulse = pair.impulse_ahead(ahead, v)
-        layer = pair.zeta2 * v - velocity
-        slip = Slip(pair, ahead, velocity - pair.beta * v, layer)
+        force, v = elements.motion(ahead)
+        impulse = elements.impulse_ahead(ahead, v)
+        transient = elements.zeta2 * v - velocity
+        slip = Slip(elements, ahead, velocity - elements.beta * v, transient)
         stopped, time = slip_end(slip)
-        outcome.velocity[lanes] = side * (velocity - pair.beta * impulse)
-        outcome.regime[lanes] += np.uint8(Regime.STICK_SLIP - Regime.STICK if count == 0 else 0)
+        outcome.velocity[which] = side * (velocity - elements.beta * impulse)
+        outcome.regime[which] += np.uint8(Regime.STICK_SLIP - Regime.STICK if count == 0 else 0)
         # The end of slip, at separation or before.
-        end, v_end, force_end = np.zeros_like(ahead), -pair.e, np.zeros_like(ahead)
+        end, v_end, force_end = np.zeros_like(ahead), -elements.e, np.zeros_like(ahead)
         if stopped.size:
             end[stopped] = np.maximum(ahead[stopped] - time, 0.0)
-            part = pair.take(stopped)
+            part = elements.take(stopped)
             force_end[stopped], v_end[stopped] = part.motion(end[stopped])
             impulse[stopped] -= part.impulse_ahead(end[stopped], v_end[stopped])
-            outcome.regime[lanes[stopped]] = Regime.MULTIPLE
+            outcome.regime[which[stopped]] = Regime.MULTIPLE
         ends = force, v, force_end, v_end
-        outcome.dissipation[lanes] += _work(slip, end, impulse, *ends)
-        crest = pair.crest_ahead()
-        outcome.peak_friction[lanes[(end <= crest) & (crest <= ahead)]] = 1.0
+        outcome.dissipation[which] += _work(slip, end, impulse, *ends)
+        crest = elements.crest_ahead()
+        outcome.peak_friction[which[(end <= crest) & (crest <= ahead)]] = 1.0
         if trace is not None:
-            trace.append(Phase(False, ahead[0], end[0], side[0], force[0], velocity[0], layer[0]))
-        velocity = velocity - pair.beta * impulse
-        lanes, side = lanes[stopped], side[stopped]
-        stick = Stick(pair, end, force_end, velocity).take(stopped)
+            trace.append(
+                Phase(False, ahead[0], end[0], side[0], force[0], velocity[0], transient[0])
+            )
+        velocity = velocity - elements.beta * impulse
+        which, side = which[stopped], side[stopped]
+        stick = Stick(elements, end, force_end, velocity).take(stopped)
         count += 1
 
 
-def _raise_peak(peak: Array, lanes: Integers, stick: Stick, time: Array) -> None:
-    """Take a stick of this duration into account that starts before the normal force is largest.
+def _raise_peak(peak: Array, which: Integers, stick: Stick, time: Array) -> None:
+    """Raise the peak of friction to that of a stick of this duration.
 
-    Later ones have no larger friction: it is at most N, which falls.
+    Only a stick that starts before the normal force is largest can raise it: later N falls.
     """
-    crest = stick.pair.crest_ahead()
+    crest = stick.elements.crest_ahead()
     early = np.flatnonzero(stick.ahead >= crest)
     if not early.size:
         return
     part = stick.take(early)
     # The first crest is the highest of them.
     place = np.minimum(part.first_crest(part.first_zero()), time[early])
-    highest = np.abs(part.pair.stick(part.friction, part.velocity, place)[0])
-    last = np.abs(part.pair.stick(part.friction, part.velocity, time[early])[0])
-    highest = np.maximum(np.maximum(highest, last), part.friction) / peak_normal(part.pair)
-    peak[lanes[early]] = np.maximum(peak[lanes[early]], highest)
+    highest = np.abs(part.elements.stick(part.friction, part.velocity, place)[0])
+    last = np.abs(part.elements.stick(part.friction, part.velocity, time[early])[0])
+    highest = np.maximum(np.maximum(highest, last), part.friction) / peak_normal(part.elements)
+    peak[which[early]] = np.maximum(peak[which[early]], highest)
 
 
 def _work(
     slip: Slip, end: Array, impulse: Array, force: Array, v: Array, force_end: Array, v_end: Array
 ) -> Array:
-    """Work of friction in slips that start with D = 0, with the normal impulse of each."""
-    tau = 2 * slip.pair.xi
-    fade = slip.fade(slip.ahead - end)
-    mean = (slip.constant + slip.k * v_end - slip.layer) / 2
-    weighted = tau * (force - force_end * fade) + tau * tau * (v - v_end * fade)
-    work = impulse * mean + slip.layer * weighted / (1 + 2 * tau * tau)
+    """Work of friction in slips that start with w_s = 0, with the normal impulse of each."""
+    tau = 2 * slip.elements.xi
+    decay = slip.decay(slip.ahead - end)
+    mean = (slip.constant + slip.k * v_end - slip.transient) / 2
+    weighted = tau * (force - force_end * decay) + tau * tau * (v - v_end * decay)
+    work = impulse * mean + slip.transient * weighted / (1 + 2 * tau * tau)
     time = slip.ahead - end
     short = np.flatnonzero(time * np.maximum(tau, 1 / tau) < SHORT)
     if short.size:
@@ -369,7 +343,7 @@ def _work(
         total = np.zeros_like(half)
         for node, weight in zip(NODES, WEIGHTS, strict=True):
             at = half * (1 + node)
-            normal, _ = part.pair.motion(part.ahead - at)
+            normal, _ = part.elements.motion(part.ahead - at)
             total += weight * normal * part.velocity(np.arange(short.size), at)[0]
         work[short] = half * total
     return work

@@ -38,8 +38,8 @@ from planarimpact.ground.arrays import Array, Booleans, Integers
 
 # A frequency of 0 counts as this one: sin(omega t)/omega is then t to all digits.
 LEAST_FREQUENCY = 1e-150
-# For every e, three turns of Newton's method leave an error of q below 3e-12 (1 + |q|). The next
-# turn reaches rounding, and one more makes sure.
+# For every e, three steps of Newton's method leave an error of delta^2 below 3e-12 (1 + |delta^2|).
+# The fourth reaches rounding; the fifth is a reserve.
 TURNS = 5
 # Below this delta^2 the derivative of delta cot(delta) is taken from its series.
 SERIES = 1e-4
@@ -48,23 +48,12 @@ SHORT, TERMS = 1.0, 17
 
 
 def phase_angle(restitution: Array) -> tuple[Array, Booleans]:
-    """Angle delta with e = exp(-2 delta cot(delta)), or eta = delta/i, and which of them it is.
+    """Angle delta with e = exp(-2 delta cot(delta)), or delta/i, and whether it is delta.
 
-    With q = delta^2, the function delta cot(delta) = 1 - q/3 - q^2/45 - ... falls, and has a
-    negative second derivative, for all q below pi^2. Newton's method in q therefore converges from
-    every start, and q has all its digits through xi = 1, where q changes its sign.
-
-    Parameters
-    ----------
-    restitution : ndarray
-        0 < e < 1.
-
-    Returns
-    -------
-    angle : ndarray
-        delta, 0 to pi/2, or eta where overdamped.
-    under : ndarray of bool
-        Whether the normal element is underdamped, e > exp(-2).
+    It is delta, 0 to pi/2, where the normal element is underdamped, e > exp(-2). The function
+    delta cot(delta) = 1 - delta^2/3 - delta^4/45 - ... of delta^2 falls, and has a negative second
+    derivative, for all delta^2 below pi^2. Newton's method in delta^2 therefore converges from
+    every start, and delta^2 has all its digits through xi = 1, where it changes its sign.
 
     Examples
     --------
@@ -78,20 +67,21 @@ def phase_angle(restitution: Array) -> tuple[Array, Booleans]:
     goal = -np.log(restitution) / 2
     under = goal < 1
     short = 1 - goal
-    # The start: the first terms of the inverse series, and a form that is also right for large eta.
-    q = np.where(under, short * (3 - 0.6 * short), short * (goal + 2))
+    # The start: the first terms of the inverse series, and a form that also fits strong damping.
+    delta2 = np.where(under, short * (3 - 0.6 * short), short * (goal + 2))
     for _ in range(TURNS):
-        angle = np.sqrt(np.abs(q))
+        angle = np.sqrt(np.abs(delta2))
         angle = np.maximum(angle, LEAST_FREQUENCY)
         tangent = np.where(under, np.tan(np.where(under, angle, 1.0)), np.tanh(angle))
         value = angle / tangent
-        # The derivative by q: (value - value^2/cos^2 or cosh^2)/2q, where 1/cos^2 = 1 + tan^2.
+        # The derivative by delta^2: (value - delta^2/sin^2)/(2 delta^2), where delta^2/sin^2 is
+        # value^2 + delta^2; sinh for sin where overdamped.
         with np.errstate(divide="ignore", invalid="ignore"):
-            slope = (value - value * value - q) / (2 * q)
-        slope = np.where(np.abs(q) < SERIES, -1 / 3 - 2 * q / 45, slope)
-        q = q - (value - goal) / slope
-        q = np.where(under, np.clip(q, 0.0, (np.pi / 2) ** 2), np.minimum(q, 0.0))
-    return np.maximum(np.sqrt(np.abs(q)), LEAST_FREQUENCY), under
+            slope = (value - value * value - delta2) / (2 * delta2)
+        slope = np.where(np.abs(delta2) < SERIES, -1 / 3 - 2 * delta2 / 45, slope)
+        delta2 = delta2 - (value - goal) / slope
+        delta2 = np.where(under, np.clip(delta2, 0.0, (np.pi / 2) ** 2), np.minimum(delta2, 0.0))
+    return np.maximum(np.sqrt(np.abs(delta2)), LEAST_FREQUENCY), under
 
 
 class Elements(NamedTuple):
@@ -106,7 +96,7 @@ class Elements(NamedTuple):
     xi : ndarray
         Damping ratio of the normal element; tau is 2 xi.
     angle, frequency : ndarray
-        delta and sin(delta) of the normal element, or eta and sinh(eta).
+        delta and sin(delta) of the normal element, or those of delta/i and sinh.
     duration : ndarray
         Time from contact to separation.
     b, gamma, rate : ndarray
@@ -126,9 +116,9 @@ class Elements(NamedTuple):
     gamma: Array
     rate: Array
 
-    def take(self, lanes: Integers | Booleans) -> "Elements":
+    def take(self, which: Integers | Booleans) -> "Elements":
         """The impacts with these indices."""
-        return Elements(self[0], self[1], *(field[lanes] for field in self[2:]))
+        return Elements(self[0], self[1], *(field[which] for field in self[2:]))
 
     def motion(self, ahead: Array) -> tuple[Array, Array]:
         """Normal force N and rate of compression v = u' at a time `ahead` of separation."""
@@ -137,7 +127,7 @@ class Elements(NamedTuple):
             share = self.e * np.exp(self.xi * ahead)
             force = share * sine / self.frequency
             return force, self.xi * force - share * cosine
-        # sinh(kappa a) and sinh(kappa a - eta), without large numbers that cancel.
+        # sinh(omega a) and sinh(omega a - delta), without large numbers that cancel.
         growth = self.frequency * ahead
         share = self.e * np.exp((self.xi + self.frequency) * ahead) / (2 * self.frequency)
         velocity = -np.exp(-self.angle) * share * np.expm1(2 * (self.angle - growth))
@@ -196,14 +186,14 @@ class Elements(NamedTuple):
         return later, velocity * even + (self.gamma * velocity - self.beta * friction) * odd
 
 
-def elements(normal_under: bool, tangential_under: bool, groups: tuple[Array, ...]) -> Elements:
+def elements_of(normal_under: bool, tangential_under: bool, groups: tuple[Array, ...]) -> Elements:
     """Elements of impacts with the groups beta, zeta^2, e and the angle of `phase_angle`.
 
     Examples
     --------
     >>> e = np.array([0.5])
-    >>> pair = elements(True, True, (np.array([3.5]), np.array([1.21]), e, phase_angle(e)[0]))
-    >>> [round(float(value[0]), 12) for value in pair.motion(pair.duration)]  # tau, 1
+    >>> both = elements_of(True, True, (np.array([3.5]), np.array([1.21]), e, phase_angle(e)[0]))
+    >>> [round(float(value[0]), 12) for value in both.motion(both.duration)]  # tau, 1
     [0.510551275297, 1.0]
     """
     beta, zeta2, e, angle = groups
