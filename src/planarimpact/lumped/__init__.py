@@ -197,7 +197,7 @@ def history(
     """
     samples = checks.count("samples", samples, 2)
     chosen = loss_of(loss)
-    mirror, impact = _one(incidence, mass_ratio, stiffness_ratio, restitution)
+    mirror, impact = _one_impact(incidence, mass_ratio, stiffness_ratio, restitution)
     return chosen.history(mirror, impact, samples)
 
 
@@ -241,11 +241,11 @@ def friction_work(
     True
     """
     chosen = loss_of(loss)
-    _, impact = _one(incidence, mass_ratio, stiffness_ratio, restitution)
+    _, impact = _one_impact(incidence, mass_ratio, stiffness_ratio, restitution)
     return chosen.friction_work(impact)
 
 
-def _one(
+def _one_impact(
     incidence: float, mass_ratio: float, stiffness_ratio: float, restitution: float
 ) -> tuple[float, Impacts]:
     """Sign of the incidence, and one impact with its size."""

@@ -58,7 +58,15 @@ class Solver:
     def solve(self, table: pd.DataFrame, skip_bad: bool = False) -> pd.DataFrame:
         """State after each impact of a table, as the function `solve`.
 
-        With `skip_bad`, bad rows and those without an answer are left out, and listed in `bad`.
+        Parameters
+        ----------
+        table : DataFrame
+        skip_bad : bool
+            Leave out bad rows, and rows without an answer, and list them in `bad`.
+
+        Returns
+        -------
+        DataFrame
         """
         if not isinstance(table, pd.DataFrame):
             raise InputError(
@@ -73,7 +81,12 @@ class Solver:
         return pd.concat(blocks) if len(blocks) > 1 else blocks[0]
 
     def join(self, following: "Solver") -> None:
-        """Add the counts of a solver of the rows that follow."""
+        """Add the counts of a solver of the rows that follow.
+
+        Parameters
+        ----------
+        following : Solver
+        """
         self.rows = following.rows
         self.bad += following.bad
         self.assumed |= following.assumed
@@ -83,7 +96,12 @@ class Solver:
         self._largest_coupling = max(self._largest_coupling, following._largest_coupling)
 
     def explain(self) -> str:
-        """Text that says how many impacts each model solved and why, a line for each."""
+        """Text that says how many impacts each model solved and why, a line for each.
+
+        Returns
+        -------
+        str
+        """
         lines = [f"{self.rows - len(self.bad)} impacts, tolerance {self.tolerance:g}"]
         for place, count in self._count_by_rung.most_common():
             rung = rungs.RUNGS[place]

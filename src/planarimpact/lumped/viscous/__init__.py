@@ -260,12 +260,8 @@ def _alternate(
     while which.size:
         elements, ahead = stick.elements, stick.ahead
         if count == 0:
-            most = (
-                8
-                + float(np.max(elements.rate * elements.duration))
-                * elements.tangential_under
-                / np.pi
-            )
+            largest_phase = float(np.max(elements.rate * elements.duration))
+            most = 8 + largest_phase * elements.tangential_under / np.pi
         if count > most:
             raise ConvergenceError(f"{which.size} impacts stick more often than they can")
         end, sign = stick_end(stick, at_contact and count == 0)
@@ -299,9 +295,8 @@ def _alternate(
         crest = elements.crest_ahead()
         outcome.peak_friction[which[(end <= crest) & (crest <= ahead)]] = 1.0
         if trace is not None:
-            trace.append(
-                Phase(False, ahead[0], end[0], side[0], force[0], velocity[0], transient[0])
-            )
+            onset = force[0], velocity[0], transient[0]
+            trace.append(Phase(False, ahead[0], end[0], side[0], *onset))
         velocity = velocity - elements.beta * impulse
         which, side = which[stopped], side[stopped]
         stick = Stick(elements, end, force_end, velocity).take(stopped)

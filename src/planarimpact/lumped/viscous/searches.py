@@ -53,12 +53,8 @@ class Stick:
     """Stick of some impacts, from friction T > 0 and velocity w on, `ahead` of separation."""
 
     def __init__(self, elements: Elements, ahead: Array, friction: Array, velocity: Array) -> None:
-        self.elements, self.ahead, self.friction, self.velocity = (
-            elements,
-            ahead,
-            friction,
-            velocity,
-        )
+        self.elements, self.ahead = elements, ahead
+        self.friction, self.velocity = friction, velocity
 
     def take(self, which: Integers | Booleans) -> "Stick":
         """The impacts with these indices."""
@@ -245,22 +241,14 @@ class Slip:
     """
 
     def __init__(self, elements: Elements, ahead: Array, constant: Array, transient: Array) -> None:
-        self.elements, self.ahead, self.constant, self.transient = (
-            elements,
-            ahead,
-            constant,
-            transient,
-        )
+        self.elements, self.ahead = elements, ahead
+        self.constant, self.transient = constant, transient
         self.k = elements.beta - elements.zeta2
 
     def take(self, which: Integers | Booleans) -> "Slip":
         """The impacts with these indices."""
-        return Slip(
-            self.elements.take(which),
-            self.ahead[which],
-            self.constant[which],
-            self.transient[which],
-        )
+        fields = self.ahead, self.constant, self.transient
+        return Slip(self.elements.take(which), *(field[which] for field in fields))
 
     def decay(self, time: Array) -> Array:
         """y = exp(-t/tau)."""
