@@ -161,7 +161,7 @@ REFUSED = {
     "to 32768": lambda: continuum.fixed_steps(1e-9, 1.0, 1e-300),
     "rounding alone": lambda: continuum.rebound(2.0, tolerance=1e-16),
     "out of reach of 32768": lambda: continuum.rebound(2.0, tolerance=1e-13),
-    "as rounding goes": lambda: response.compile(
+    "because of rounding": lambda: response.compile(
         "rigid", incidence_max=1e12, tolerance=1e-6, mass_ratio=1e12
     ),
 }

@@ -105,7 +105,7 @@ def test_a_factor_or_a_sign_leaves_the_table(name):
 FAULTS = {
     "a spin by a wrong lever": (
         motion,
-        "_kicked",
+        "_after_impulse",
         lambda right: (
             lambda state, body, *rest: right(
                 state, body._replace(gyration=body.gyration * 1.1), *rest
@@ -114,7 +114,7 @@ FAULTS = {
     ),
     "an impulse of the wrong sign": (
         motion,
-        "_kicked",
+        "_after_impulse",
         lambda right: (
             lambda state, body, m2, impulse, towards: right(state, body, m2, -impulse, towards)
         ),
@@ -136,7 +136,7 @@ CHEAPER = {
     "rigid": lambda model, *groups: rigid.rebound(*groups),
     "lumped": lambda model, *groups: lumped.rebound(*groups),
     "lumped with the loss": lambda model, *groups: lumped.rebound(
-        *groups, loss=model.removeprefix("continuum.")
+        *groups, loss={"continuum.viscous": "viscous"}.get(model, "unloading-stiffness")
     ),
 }
 

@@ -166,6 +166,9 @@ def unloading(loading: Loading) -> Unloading:
     largest force and the largest radius of contact a: F = (4/3) a^3 R/R_p, and a^2 R/R_p springs
     back. By Thornton F = F_e R/R_p, with the force F_e of Hertz's law at the largest approach a^2.
 
+    Restitution, its inverse and the motion of the springs follow from it. `Loading.flow` and
+    `Loading.pull` take the same share of the approach for elastic: keep them in step.
+
     Examples
     --------
     >>> back = unloading(loading(np.array([0.8])))
