@@ -46,7 +46,8 @@ def stick_limit(normal_force: _Number) -> _Number:
     """Largest friction without slip at a normal force: Coulomb's limit, friction in units of mu.
 
     It is proportional to the normal force, so that it takes its derivatives by the time as well.
-    Every search for the onset of slip asks for it.
+    Every search for the onset of slip asks for it. Slip itself has friction N: where the limit is
+    larger, friction and its spring jump at the onset, which nothing else here allows for.
 
     Examples
     --------

@@ -58,7 +58,7 @@ def in_restitution(
         end = theta[slow] + rate[slow] * eta[slow]
         highest = amplitude.copy()  # a T that still rises at separation stays below A
         highest[slow] *= np.sin(np.minimum(end, HALF_PI))
-    reached = np.minimum(eta, np.arcsin(np.minimum(highest, 1.0)))
+    reached = np.minimum(eta, np.arcsin(np.minimum(highest / stick_limit(1.0), 1.0)))
     theta_reached = theta + rate * (eta - reached)
     if theta_reached.max() > LARGEST_PHASE:  # the place within the period is not known
         unresolved = theta_reached > LARGEST_PHASE
