@@ -10,10 +10,12 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Array", "ArrayLike", "Booleans", "Integers", "Numbers"]
+__all__ = ["SMALLEST", "Array", "ArrayLike", "Booleans", "Integers", "Numbers"]
 
 Array: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.integer]
 Booleans: TypeAlias = NDArray[np.bool_]
 # Arguments of formulas that do not check them: a number, or an array of numbers.
 Numbers: TypeAlias = float | Array
+# The least number above 0.
+SMALLEST = float(np.finfo(float).smallest_subnormal)

@@ -191,13 +191,14 @@ def loss(value: str, allowed: tuple[str, ...]) -> str:
     ...
     planarimpact.InputError: loss = 'magic': allowed are hysteretic, viscous
     """
-    if value == "plastic" and "unloading-stiffness" in allowed:  # the name in an earlier release
+    if isinstance(value, str) and value in allowed:
+        return value
+    # The name in an earlier release.
+    if isinstance(value, str) and value == "plastic" and "unloading-stiffness" in allowed:
         words = "loss = 'plastic' of lumped elements is called 'unloading-stiffness' now"
         warnings.warn(words, DeprecationWarning, stacklevel=5)
         return "unloading-stiffness"
-    if not isinstance(value, str) or value not in allowed:
-        raise InputError(f"loss = {brief(value)}: allowed are {', '.join(allowed)}")
-    return value
+    raise InputError(f"loss = {brief(value)}: allowed are {', '.join(allowed)}")
 
 
 # The groups, in the order of every model's arguments, and their checks.

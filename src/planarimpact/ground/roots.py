@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Booleans
+from planarimpact.ground.arrays import SMALLEST, Array, Booleans
 from planarimpact.ground.checks import ConvergenceError
 
 # Takes an index of brackets (integers, or a slice for all) and a place in each. Returns a tuple:
@@ -27,8 +27,6 @@ LAST_BEND = 1e-5
 LAST_SECANT = 1e-6
 # Rounding hides what is left of the bracket, as a share of its width or of the place.
 ROUNDING = 1e-15
-# Between this number and 0 there is no other.
-SMALLEST = float(np.finfo(float).smallest_subnormal)
 # After so many turns every other one halves the bracket: rounding can throw steps to and fro.
 FREE_TURNS = 8
 MOST_TURNS = 250

@@ -35,11 +35,9 @@ from typing import TypeVar
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Numbers
+from planarimpact.ground.arrays import SMALLEST, Array, Numbers
 
 _Number = TypeVar("_Number", float, Array)
-# The least number above 0.
-SMALLEST = float(np.finfo(float).smallest_subnormal)
 
 
 def stick_limit(normal_force: _Number) -> _Number:

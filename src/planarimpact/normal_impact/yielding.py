@@ -95,7 +95,7 @@ class Loading(NamedTuple):
     def at(self, depth: Array) -> tuple[Array, Array, Array]:
         """Time, velocity and force at an approach, shape (..., m)."""
         elastic = np.minimum(depth, self.yields)
-        v = np.sqrt(1 - 2 * hertz.ENERGY * elastic**2.5)
+        v = elastic_velocity(elastic)
         full = hertz.FULL
         time = full**0.4 * hertz.COMPRESSION * hertz.time(np.arcsin(np.sqrt(elastic) / full**0.2))
         plastic = depth > self.yields
@@ -195,8 +195,13 @@ def _loading(yield_velocity: Array) -> Loading:
     yields = (yield_velocity**2 / (2 * hertz.ENERGY)) ** 0.4
     rate = np.sqrt(2 * np.sqrt(yields))
     centre = yields / 3
-    at_yield = np.sqrt(np.maximum(1 - 2 * hertz.ENERGY * yields**2.5, 0.0))  # the velocity
-    return Loading(yields, rate, centre, np.hypot(yields - centre, at_yield / rate))
+    reach = np.hypot(yields - centre, elastic_velocity(yields) / rate)
+    return Loading(yields, rate, centre, reach)
+
+
+def elastic_velocity(depth: Array) -> Array:
+    """Velocity in elastic loading at an approach up to d_y."""
+    return np.sqrt(np.maximum(1 - 2 * hertz.ENERGY * depth**2.5, 0.0))
 
 
 def largest_force(restitution: Array) -> Array:

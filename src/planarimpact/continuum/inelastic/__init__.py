@@ -103,7 +103,7 @@ def rebound(
     with refinement.counted_among(sticks):
         values, counts = refinement.refine(
             groups,
-            _steps_needed(*groups[1:], law),
+            refinement.steps_needed(beta[sticks], zeta2[sticks], motion.least_share()[sticks]),
             tolerance,
             integrate,
             FIRST_STEPS,
@@ -204,15 +204,11 @@ def contact(
         lambda steps: path(x, beta, zeta2, e, law, steps),
         (Path._fields.index("friction"), Path._fields.index("velocity")),
         (x, beta, zeta2),
-        _steps_needed(beta, zeta2, e, law),
+        refinement.steps_needed(beta, zeta2, law(e).least_share()),
         tolerance,
         MOST_STEPS,
     )
     return [column[:, 0] for column in fine[:-2]]
-
-
-def _steps_needed(beta: Array, zeta2: Array, e: Array, law: type[NormalMotion]) -> Array:
-    return refinement.steps_needed(beta, zeta2, law.least_share_of_hertz(e))
 
 
 def _summary(impacts: Path) -> Solved:

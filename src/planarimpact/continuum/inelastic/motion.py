@@ -148,10 +148,9 @@ class NormalMotion(ABC):
     def density(self, instant: int) -> Array:
         """Normal force density of the springs that touch, innermost first, shape (edge + 1, m)."""
 
-    @staticmethod
-    def least_share_of_hertz(restitution: Array) -> Array:
+    def least_share(self) -> Array:
         """Least force over that of Hertz's law at the same radius of contact, shape (m,)."""
-        return np.ones_like(restitution)
+        return np.ones_like(self.restitution)
 
     def end_of_first_slip(self, x: Array, beta: Array, zeta2: Array) -> Array:
         """Normal velocity where slip from contact ends, which it has for x > zeta^2, shape (m,).
@@ -184,7 +183,7 @@ class NormalMotion(ABC):
         `knots` are those instants: time, approach, normal velocity, displacement over zeta^2 and
         its rate, shape (knots, 5, m).
         """
-        raise NotImplementedError
+        return np.zeros_like(self.largest_force)
 
     def edge(self, instant: int) -> int:
         """Index of the radius where the edge of the contact is at an instant."""

@@ -23,7 +23,6 @@ from planarimpact.continuum.inelastic import peaks
 from planarimpact.continuum.inelastic.motion import NormalMotion, Springs
 from planarimpact.ground import cubics, roots, sliding
 from planarimpact.ground.arrays import Array, Booleans
-from planarimpact.normal_impact import hertz
 from planarimpact.normal_impact import yielding as law
 
 # Places among which the start of stick in plastic compression is first sought.
@@ -65,11 +64,9 @@ class PlasticMotion(NormalMotion):
         """As in `NormalMotion`."""
         return PlasticSprings(self)
 
-    @staticmethod
-    def least_share_of_hertz(restitution: Array) -> Array:
+    def least_share(self) -> Array:
         """As in `NormalMotion`: at the end of compression."""
-        loading = law.loading(restitution)
-        return loading.share_of_hertz(loading.largest_approach())
+        return self._last_share
 
     def place(self, velocity: Array) -> Array:
         """As in `NormalMotion`: the angle whose sine is the radius, over a right angle."""
@@ -174,7 +171,7 @@ class PlasticMotion(NormalMotion):
         end = np.where(elastic > 0, elastic, np.minimum(unloading, 0.0))
         # Look for the first time when the body is slower than a spring, between the velocity at
         # yield and that at which the body stands still.
-        start = np.sqrt(np.maximum(1 - 2 * hertz.ENERGY * self._loading.yields**2.5, 0.0))
+        start = law.elastic_velocity(self._loading.yields)
         latest = np.clip((beta - x) / beta, 0.0, start)
         velocities = start + np.linspace(0.0, 1.0, PLACES)[:, None] * (latest - start)
 
