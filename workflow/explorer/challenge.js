@@ -2,7 +2,7 @@
 
 // Challenges: wishes about the rebound, and whether the present impact fulfils them.
 const challenge = (() => {
-  const UNCOVERED = "The continuum has no table for this impact.";
+  const UNCOVERED = "The continuum has no answer for this impact.";
 
   // What is missing, in words; nothing if a value is good enough.
   function near(what, value, wanted, tolerance) {
@@ -12,8 +12,8 @@ const challenge = (() => {
   }
   function at_least(what, share, wanted) {
     if (share >= wanted) return "";
-    const is = share < 0 ? "less than nothing" : `${(100 * share).toFixed(1)} %`;
-    return `${what.replace("#", is)}; at least ${100 * wanted} % is wanted.`;
+    const is = `${(100 * share).toFixed(1).replace("-", "\u2212")} %`;
+    return `${what.replace("#", is)}. It must be ${100 * wanted} % or more.`;
   }
   const at_45 = (mu, x) => near("The angle (in °)", (Math.atan(mu * x) * 180) / Math.PI, 45, 0.5);
   const elastic = (e) => near("Restitution", e, 1, 0.005);
@@ -26,7 +26,7 @@ const challenge = (() => {
       hint: "The less friction can do, the longer the point slips.",
       answer: [45, 0.1, 0.3, 3.5],
       missing: ({ mu, x, beta, e }, kept) => at_45(mu, x) ||
-        at_least("Friction’s impulse is # of its limit", (x * (1 - kept)) / beta / (1 + e), 0.999),
+        at_least("The impulse of friction is # of its limit", (x * (1 - kept)) / beta / (1 + e), 0.999),
     },
     {
       wish: "At 45°, make it stick from the first moment.",
@@ -40,13 +40,13 @@ const challenge = (() => {
       answer: [45, 0.14, 0.3, 3.5],
       missing: ({ mu, x, beta, e }, kept) =>
         at_45(mu, x) || elastic(e) || near("m₂/m₁", beta, 3.5, 0.01) ||
-        at_least("Friction takes #", (1 - kept * kept) / (1 + beta / (mu * x) ** 2), 0.22),
+        at_least("The share that friction takes is #", (1 - kept * kept) / (1 + beta / (mu * x) ** 2), 0.22),
     },
     {
       wish: "With <i>e</i> = 1, make the contact point come back with 60 % of its tangential speed.",
       hint: "No solid ball can: its best is 59 % here, 59.7 % in the continuum. A hollow one can.",
       answer: [42, 0.5, 0.5, 2.5],
-      missing: ({ e }, kept) => elastic(e) || at_least("It comes back with #", -kept, 0.6),
+      missing: ({ e }, kept) => elastic(e) || at_least("The share that comes back is #", -kept, 0.6),
     },
     {
       wish: "With <i>e</i> = 1, make the models disagree: in the lumped one the point goes on with" +
@@ -55,27 +55,25 @@ const challenge = (() => {
       answer: [32.6, 0.5, 0.3, 3.5],
       missing: ({ e, x, result }, _, round) =>
         elastic(e) || (round === undefined ? UNCOVERED : "") ||
-        at_least("In the lumped model it goes on with #", result.velocity / x, 0.05) ||
-        at_least("In the continuum it comes back with #", -round, 0.05),
+        at_least("In the lumped model the share that goes on is #", result.velocity / x, 0.05) ||
+        at_least("In the continuum the share that comes back is #", -round, 0.05),
     },
   ];
 
-  function continuum({ x, beta, zeta2, e }) {
-    const kinds = [["viscous ", spheres.VISCOUS], ["plastic ", spheres.PLASTIC]];
-    return (e < 1 ? kinds : [["", spheres.VISCOUS]])
-      .filter(([, loss]) => spheres.covers(x, beta, zeta2, e, loss))
-      .map(([name, loss]) => [name, spheres.velocity(x, beta, zeta2, e, loss) / x]);
-  }
+  // The share that the continuum keeps, with each loss.
+  const rounds_of = (impact) =>
+    models.outcomes(models.chosen(impact, ["continuum"]), impact)
+      .map(({ name, velocity }) => [name, velocity / impact.x]);
 
   function judge({ missing }, impact) {
     if (impact.x === 0) return { words: "The blow is straight." };
-    const rounds = continuum(impact);
+    const rounds = rounds_of(impact);
     const [lacks, ...others] = [impact.result.velocity / impact.x, ...rounds.map(([, kept]) => kept)]
       .map((kept) => missing(impact, kept, rounds[0]?.[1]));
     const words = [lacks || "\u2713 You have met it."];
     others.forEach((other, i) => {
       if (!other === !lacks) return;
-      words.push(`In the ${rounds[i][0]}continuum: ${other || "it is met."}`);
+      words.push(`${rounds[i][0]}: ${other || "it is met."}`);
     });
     if (!lacks && !rounds.length) words.push(UNCOVERED);
     return { holds: !lacks, words: words.join(" ") };
@@ -95,6 +93,13 @@ const challenge = (() => {
       verdicts[i].textContent = words;
       if (holds && !classList.contains("holds")) heard.textContent = `Challenge ${i + 1} is met.`;
       classList.toggle("holds", Boolean(holds));
+    });
+  }
+
+  // The stage and the controls come into view with an open challenge, which stays at the bottom.
+  for (const details of list.querySelectorAll("li > details")) {
+    details.addEventListener("toggle", () => {
+      if (details.open) document.getElementById("stage").scrollIntoView({ block: "start" });
     });
   }
 

@@ -4,10 +4,10 @@
 // so that type keeps its size on a phone. Drawing only: the impact has been solved before.
 const charts = (() => {
   const HEIGHT = 190; // of the charts over time
-  const TALL = 262; // of the chart over incidence
+  const tall = (width) => Math.min(262, Math.max(190, 0.56 * width)); // of that over incidence
   const MARGIN = { right: 10, top: 20, bottom: 20 };
   const LETTER = 7.6; // width of one, at most
-  const CURVE = 240; // vertices
+  const CURVE = 100; // vertices
 
   const number = (value, digits = 2) =>
     Number(value.toFixed(digits)).toString().replace("-", "\u2212");
@@ -67,11 +67,12 @@ const charts = (() => {
       height="16"/><text class="word" x="${left + width / 2}" y="14">${word}</text>`;
   }
 
-  const phase_bands = (impact, scales) =>
-    impact.phases
+  const phase_bands = ({ contact, phases }, scales) =>
+    phases
       .map((phase) => {
         const arrow = phase.side > 0 ? "\u2192" : "\u2190";
-        const words = phase.sticks ? ["stick"] : [`slip ${arrow}`, arrow];
+        const stick = contact.style === "lumped" ? ["stick"] : ["middle sticks", "stick"];
+        const words = phase.sticks ? stick : [`slip ${arrow}`, arrow];
         return band(phase.sticks ? "stick" : "slip", phase.start, phase.end, words, scales);
       })
       .join("");
@@ -96,7 +97,8 @@ const charts = (() => {
 
   function forces(svg, width, impact) {
     const scales = axes(svg, [width, HEIGHT], [0, 2], [-1.1, 1.1], [0, 0.5, 1, 1.5, 2]);
-    const { time, normal, friction } = impact.contact;
+    const column = (name) => impact.contact.rows.map((row) => row[name]);
+    const [time, normal, friction] = ["time", "normal", "friction"].map(column);
     svg.innerHTML =
       phase_bands(impact, scales) + scales.markup + guide(1, scales) +
       line("limit", time, normal.map((force) => -force), scales) +
@@ -106,7 +108,8 @@ const charts = (() => {
   }
 
   function velocity(svg, width, impact) {
-    const { time, velocity } = impact.contact;
+    const column = (name) => impact.contact.rows.map((row) => row[name]);
+    const [time, velocity] = ["time", "velocity"].map(column);
     const [low, high] = [Math.min(0, ...velocity), Math.max(0, ...velocity)];
     const room = 0.08 * (high - low || 1);
     const y = [low - room, high + room];
@@ -150,7 +153,7 @@ const charts = (() => {
   // The curves of the models over all incidences up to `far`, thresholds among their vertices, with
   // the present impact on each.
   function incidence(svg, width, impact, view, list, far) {
-    const { mu, x, beta, zeta2, e, limit } = impact;
+    const { mu, x, beta, zeta2, e, limit, contact } = impact;
     const { over_angle, quantity, value, beside } = VIEWS[view];
     const to_angle = (incidence) => (Math.atan(mu * incidence) * 180) / Math.PI;
     const place = (incidence) => (over_angle ? to_angle(incidence) : incidence);
@@ -165,7 +168,8 @@ const charts = (() => {
     xs.push(...limits.filter((threshold) => threshold > 0 && place(threshold) < range[1]));
     xs.sort((a, b) => a - b);
     const cosine = (incidence) => 1 / Math.hypot(1, mu * incidence);
-    const curves = list.map(({ style, solve }) => {
+    const curves = list.map((style) => {
+      const solve = models.curve(style, impact);
       const measure = (one) => value(solve(one), mu, cosine(one));
       return { style, ys: xs.map(measure), present: measure(x) };
     });
@@ -174,21 +178,24 @@ const charts = (() => {
     const [low, high] = [Math.min(0, ...every), Math.max(0.1, ...every)];
     const room = 0.06 * (high - low);
     const y = [low < 0 ? low - room : 0, high + room];
-    const scales = axes(svg, [width, TALL], range, y, x_ticks);
+    const scales = axes(svg, [width, tall(width)], range, y, x_ticks);
     const places = xs.map(place);
     const edges = [0, zeta2, limit, Infinity].map((edge) => Math.min(place(edge), range[1]));
-    const lumped = curves.some(({ style }) => style === "lumped");
+    // The bands are those of the model that is looked at closer.
     const bands = REGIMES.map(([style, ...words], i) =>
-      lumped && edges[i + 1] > edges[i] ? band(style, edges[i], edges[i + 1], words, scales) : "");
+      edges[i + 1] > edges[i] ? band(style, edges[i], edges[i + 1], words, scales) : "");
     const here = Math.min(place(x), range[1]);
-    // The lumped model, whose impact the pictures show, lies on top.
-    const drawn = [...curves].reverse();
+    // The model that the pictures show lies on top.
+    const drawn = [...curves].sort((a, b) =>
+      (a.style === contact.style) - (b.style === contact.style));
+    const none = curves.length ? "" : `<text class="word" x="${width / 2}" y="${tall(width) / 2}">No model is
+      chosen: tick one below.</text>`;
     svg.innerHTML =
       bands.join("") + scales.markup + guide(here, scales) +
       (beside ? line("normal", places, beyond, scales) : "") +
       drawn.map(({ style, ys }) => line(`curve ${style}`, places, ys, scales)).join("") +
       drawn.map(({ style, present }) => `<circle class="present ${style}" cx="${scales.X(here)}"
-        cy="${scales.Y(present)}" r="${style === "lumped" ? 6 : 4}"/>`).join("");
+        cy="${scales.Y(present)}" r="${style === contact.style ? 6 : 4}"/>`).join("") + none;
     const angle = (event) => (over_angle ? scales.at(event) : to_angle(scales.at(event)));
     return { ...scales, angle, quantity, xs, curves };
   }

@@ -1,9 +1,10 @@
 "use strict";
 
-// The microscope: the contact after Fig. 1 of the paper. A rigid body stands on a normal and a
-// tangential spring; below them are a contact particle without mass and the surface. The picture
-// travels with the body: what moves sideways is the surface, and in stick the particle moves with
-// it. Units are those of the drawing.
+// The microscope: the contact during the first bounce, by the model that is chosen. In the lumped
+// model (Fig. 1 of the paper) a rigid body stands on a normal and a tangential spring; below them are
+// a contact particle without mass and the surface. In the continuum it stands on a row of pairs of
+// springs, of which the outer ones slip first. The picture travels with the body: what moves sideways
+// is the surface, and what sticks moves with it. Units are those of the drawing.
 const diagram = (() => {
   const MIDDLE = 220;
   const GROUND = 262;
@@ -13,16 +14,20 @@ const diagram = (() => {
   const SPEED = 66; // the speed before the impact
   const FOOT = 290; // where the plate shows the velocity of the contact point
   const HATCH = 14; // of the surface
+  const ROW = 150; // half the length of the row of springs
+  const PAIRS = 15; // springs drawn in the row
+  const LEAN = 0.09; // of a spring in the row at the limit of friction, of its largest length
   const part = (name) => document.getElementById(`diagram-${name}`);
 
-  function spring(x1, y1, x2, y2) {
+  function spring(x1, y1, x2, y2, width = 7) {
     const [dx, dy] = [x2 - x1, y2 - y1];
     const length = Math.hypot(dx, dy);
     const aside = (share, side) =>
-      `${(x1 + share * dx - (side * 7 * dy) / length).toFixed(1)},` +
-      `${(y1 + share * dy + (side * 7 * dx) / length).toFixed(1)}`;
+      `${(x1 + share * dx - (side * width * dy) / length).toFixed(1)},` +
+      `${(y1 + share * dy + (side * width * dx) / length).toFixed(1)}`;
     const turns = Array.from({ length: 8 }, (_, i) => aside(0.15 + 0.1 * i, i % 2 ? 1 : -1));
-    return `M${x1},${y1}L${aside(0.1, 0)}L${turns.join("L")}L${aside(0.9, 0)}L${x2},${y2}`;
+    return `M${x1.toFixed(1)},${y1}L${aside(0.1, 0)}L${turns.join("L")}L${aside(0.9, 0)}` +
+      `L${x2.toFixed(1)},${y2}`;
   }
 
   const draw_arrow = (name, ...ends) => part(name).setAttribute("d", arrows.straight(...ends));
@@ -30,52 +35,88 @@ const diagram = (() => {
   const move = (name, x, y) => part(name).setAttribute("transform", `translate(${x},${y})`);
 
   // A label beside an arrow that is long enough to bear one.
-  function label(name, shown, x, y) {
-    part(name).style.visibility = shown ? "visible" : "hidden";
+  function label(name, visible, x, y) {
+    part(name).style.visibility = visible ? "visible" : "hidden";
     move(name, x, y);
   }
 
-  // now: state of the contact; way: distance that the body has gone along the surface.
-  function show(impact, now, way) {
-    const particle = MIDDLE - DEFLECTION * now.spring;
-    const plate = PLATE + DEFLECTION * now.depth;
+  // now: row of the contact; way: distance that the body has gone along the surface; touching: false
+  // while the ball flies.
+  function show(impact, now, way, touching) {
+    const lumped = impact.contact.style === "lumped";
+    part("svg").classList.toggle("row", !lumped);
+    part("svg").classList.toggle("flying", !touching);
+    const plate = PLATE + DEFLECTION * (touching ? now.depth : 0);
+    const foot = lumped && touching ? MIDDLE - DEFLECTION * now.spring : MIDDLE;
     move("body", MIDDLE, plate);
-    move("carriage", particle, plate + 5);
-    move("particle", particle, GROUND);
-    part("normal-spring").setAttribute("d", spring(particle, plate + 19, particle, GROUND - 16));
-    part("tangential-spring").setAttribute("d", spring(128, plate + 12, particle - 15, plate + 12));
+    if (lumped) show_particle(foot, plate);
+    else show_row(impact, now, plate, touching);
     const shift = -DEFLECTION * way;
     part("surface").setAttribute("patternTransform", `translate(${shift % HATCH},0)`);
     move("origin", Math.max(MIDDLE + shift, -60), GROUND);
-    draw_state(now);
-    draw_forces(now, particle);
-    draw_velocity(impact, now, plate);
+    show_state(now, lumped, touching);
+    show_forces(touching ? now : { normal: 0, friction: 0 }, foot);
+    show_velocity(impact, now, plate);
   }
 
-  function draw_state({ phase }) {
-    const backwards = phase.side < 0;
-    part("svg").classList.toggle("sticking", phase.sticks);
+  function show_particle(foot, plate) {
+    move("carriage", foot, plate + 5);
+    move("particle", foot, GROUND);
+    part("normal-spring").setAttribute("d", spring(foot, plate + 19, foot, GROUND - 16));
+    part("tangential-spring").setAttribute("d", spring(128, plate + 12, foot - 15, plate + 12));
+  }
+
+  // Springs of the row where they touch: their feet stick or slip, and they lean by their deflection.
+  function show_row({ contact, e }, { density, slips, limit, radius }, plate, touching) {
+    const motion = continuum.normal(e, contact.style);
+    const unit = motion.radius ** 2 * motion.largest_share;
+    let [sticking, slipping, free, bodies] = ["", "", "", ""];
+    for (let i = 0; i < PAIRS; i++) {
+      const share = (2 * i) / (PAIRS - 1) - 1;
+      const top = MIDDLE + ROW * share;
+      const k = Math.min(Math.floor(Math.abs(share) * motion.springs), motion.springs - 1);
+      const touches = touching && Math.abs(share) < radius;
+      const lean = touches ? (ROW * LEAN * 3 * density[k]) / unit : 0;
+      const round = 46 * share * share; // the body is round: its springs begin higher at the edge
+      const end = touches ? GROUND : Math.min(GROUND - 2, plate + (GROUND - PLATE) - round + 4);
+      bodies += spring(top, plate + 4 - round, top - lean, end - 7, 4);
+      const foot = `M${(top - lean - 5).toFixed(1)},${end - 7}h10v7h-10z`;
+      if (!touches) free += foot;
+      else if (slips[k] === 0) sticking += foot;
+      else slipping += foot;
+    }
+    part("row-springs").setAttribute("d", bodies);
+    part("row-stuck").setAttribute("d", sticking);
+    part("row-slipping").setAttribute("d", slipping);
+    part("row-free").setAttribute("d", free);
+  }
+
+  function show_state({ sticks, side, in_restitution, approach }, lumped, touching) {
+    const backwards = side < 0;
+    part("svg").classList.toggle("sticking", touching && sticks);
     part("chevrons").setAttribute("transform", backwards ? "scale(-1,1)" : "");
     const slip = backwards ? "\u2190 SLIPS" : "SLIPS \u2192";
-    part("state").textContent = phase.sticks ? "\u25A0 STICKS" : slip;
-    part("half").textContent = phase.in_restitution ? "restitution" : "compression";
+    const stick = lumped ? "\u25A0 STICKS" : "\u25A0 MIDDLE STICKS";
+    part("state").textContent = touching ? (sticks ? stick : slip) : "in flight: no contact";
+    const back = in_restitution ?? approach < 0;
+    part("half").textContent = touching ? (back ? "restitution" : "compression") : "";
   }
 
   // Forces of the surface on the body, below it; the cone holds all that friction can bear.
-  function draw_forces({ normal, friction }, particle) {
-    const [x, y] = [particle + FORCE * friction, GROUND + FORCE * normal];
-    move("cone", particle, GROUND);
-    draw_arrow("normal-force", particle, y, particle, GROUND);
-    draw_arrow("friction-force", x, y, particle, y);
-    draw_arrow("force", x, y, particle, GROUND);
+  function show_forces({ normal, friction }, foot) {
+    const [x, y] = [foot + FORCE * friction, GROUND + FORCE * normal];
+    move("cone", foot, GROUND);
+    draw_arrow("normal-force", foot, y, foot, GROUND);
+    draw_arrow("friction-force", x, y, foot, y);
+    draw_arrow("force", x, y, foot, GROUND);
     const half = FORCE * normal;
-    part("limit").setAttribute("d", `M${particle - half},${y}H${particle + half}`);
+    part("limit").setAttribute("d", `M${foot - half},${y}H${foot + half}`);
     const away = friction > 0 ? -1 : 1;
-    label("normal-label", normal > 0.4, particle + away * 14, y - half / 2 + 4);
-    label("friction-label", Math.abs(friction) > 0.4, (x + particle) / 2, y + 15);
+    label("normal-label", normal > 0.4, foot + away * 14, y - half / 2 + 4);
+    label("friction-label", Math.abs(friction) > 0.4, (x + foot) / 2, y + 15);
   }
 
-  function draw_velocity({ mu, x }, { velocity, approach }, plate) {
+  function show_velocity({ mu, x }, { velocity, approach }, plate) {
     const unit = SPEED / Math.hypot(1, mu * x);
     draw_arrow("before", FOOT, plate, FOOT + unit * mu * x, plate + unit);
     const tip = [FOOT + unit * mu * velocity, plate + unit * approach];

@@ -2,137 +2,159 @@
 
 // The page: its controls, its address, and what moves. State is what the controls show and what
 // stands behind # in the address; everything else follows from it. After each change it sends the
-// document an event "impact", whose detail is the impact as solved.
+// document an event "impact", whose detail is the first bounce as solved.
 const page = (() => {
   const element = (id) => document.getElementById(id);
-  const SLIDERS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"];
-  const MILLISECONDS = 2200; // that one t_c takes at speed 1
-  const FLIGHT = 1300; // ms of the flight in or out at speed 1
-  const REST = 700; // ms between two showings
-  const SAMPLES = 240;
+  const SLIDERS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio", "speed", "spin",
+    "table"];
+  const VIEWED = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"];
+  // What the address leaves out where it is so. Radius in mm, gravity in m/s^2.
+  const DEFAULTS = {
+    poisson_ratio: 0.3, mass_ratio: 3.5, speed: 5, spin: 0, table: 0, radius: 25, gravity: 9.81,
+    loss: "viscous", of: "continuum", view: "velocity",
+  };
+  const LIMITS = { radius: [1, 200], gravity: [0, 30] }; // of numbers without a slider
   const SETTLED = 300; // ms without a change, after which the address says the state
+  const TOLD = 6000; // ms that a message stays
   const INTENT = 8; // pixels that a finger moves before its direction counts
   // A comma is read as a decimal point, never as a separator of thousands.
   const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i;
+  const still = matchMedia("(prefers-reduced-motion: reduce)");
+  const root = document.documentElement;
+  // `explorer.html?stage` is the stage alone, for the frames of the lectures.
+  const embedded = new URLSearchParams(location.search).has("stage");
 
-  const state = { view: "velocity", models: models.TOGGLES };
-  let impact; // solved from the state
-  let list; // the models shown
-  let scales; // of the charts
+  const state = { ...DEFAULTS, models: models.TOGGLES };
+  let impact; // the first bounce, solved from the state
+  let flights; // of both balls
+  let list; // the models shown in the curves
+  const scales = {}; // of the charts
   let frozen; // the end of the axis of incidence while its chart is dragged
-  let playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-  const beginning = () => (playing ? -1 : 0);
-  let t = beginning(); // t/t_c in contact; below 0 and above 1 + e it is flight, of length 1 each
+  let playing = false;
+  let now = 0; // s of the show
 
   // ---- state --------------------------------------------------------------------------------
 
-  function set(name, text) {
-    const { min, max } = element(name);
-    const value = Number(text);
-    if (text === "" || !Number.isFinite(value)) return;
-    state[name] = Math.min(Math.max(value, Number(min)), Number(max));
+  const limits = (name) =>
+    LIMITS[name] ?? [Number(element(name).min), Number(element(name).max)];
+
+  const name_of = (name) =>
+    document.querySelector(`label[for=${name}]`)?.textContent.trim() ?? name;
+
+  const refuse = (name, text, allowed) =>
+    (element("refused").textContent =
+      `${name_of(name)}: \u201C${text}\u201D is refused. Allowed: ${allowed}.`);
+
+  // What a reader has typed, or NaN.
+  function parsed(text) {
+    const trimmed = text.trim();
+    return NUMBER.test(trimmed) ? Number(trimmed.replace(",", ".")) : NaN;
   }
 
+  const is_allowed = (name, value) => value >= limits(name)[0] && value <= limits(name)[1];
+
+  const between = (name) => `numbers from ${limits(name).join(" to ")}`;
+
+  // Takes what an address says; what is not allowed stays as it was, and is told.
   function read(address) {
     const given = new URLSearchParams(address);
-    for (const name of SLIDERS) if (given.has(name)) set(name, given.get(name));
-    const known = [...element("view").options].map((option) => option.value);
-    if (known.includes(given.get("view"))) state.view = given.get("view");
+    for (const name of [...SLIDERS, ...Object.keys(LIMITS)]) {
+      if (!given.has(name)) continue;
+      const value = parsed(given.get(name));
+      if (is_allowed(name, value)) state[name] = value;
+      else refuse(name, given.get(name), between(name));
+    }
+    for (const name of ["view", "loss", "of"]) {
+      if (!given.has(name)) continue;
+      const known = [...element(name).options].map((option) => option.value);
+      if (known.includes(given.get(name))) state[name] = given.get(name);
+      else refuse(name, given.get(name), known.join(", "));
+    }
     const wanted = given.get("models")?.split(" ");
     if (wanted) state.models = models.TOGGLES.filter((name) => wanted.includes(name));
   }
 
-  // The part of the address that presets have too.
-  function impact_address() {
-    const rounded = SLIDERS.map((name) => [name, Number(state[name].toFixed(4))]);
-    return new URLSearchParams([...rounded, ["view", state.view]]).toString();
-  }
-
   // The models are named where some are left out.
   function address() {
-    if (state.models.length === models.TOGGLES.length) return impact_address();
-    const shown = new URLSearchParams({ models: state.models.join(" ") });
-    return `${impact_address()}&${shown}`;
+    const written = (name) => typeof state[name] === "number" ? Number(state[name].toFixed(4))
+      : state[name];
+    const said = ["angle", "friction", "restitution", ...Object.keys(DEFAULTS)]
+      .filter((name) => VIEWED.includes(name) || state[name] !== DEFAULTS[name])
+      .map((name) => [name, written(name)]);
+    if (state.models.length < models.TOGGLES.length) said.push(["models", state.models.join(" ")]);
+    return new URLSearchParams(said).toString();
   }
 
-  // ---- the impact ---------------------------------------------------------------------------
+  // ---- the throw ----------------------------------------------------------------------------
 
   // zeta^2 of a body that strikes one of the same material, or a rigid one.
   const stiffness_ratio = (nu) => (2 - nu) / (2 * (1 - nu));
 
-  function solved() {
-    const { angle, friction: mu, restitution: e, mass_ratio: beta } = state;
-    const zeta2 = stiffness_ratio(state.poisson_ratio);
-    const x = Math.tan((angle * Math.PI) / 180) / mu;
-    const contact = solver.history(x, beta, zeta2, e, SAMPLES);
+  // The throw as the flights need it, in SI, with the groups of its impacts.
+  function thrown() {
+    const { friction: mu, restitution: e, mass_ratio: beta } = state;
+    const groups = { mu, e, beta, zeta2: stiffness_ratio(state.poisson_ratio) };
+    const radius = state.radius / 1000;
+    const table = state.table > 4 * radius ? state.table : 0;
+    return { ...state, radius, table, groups };
+  }
+
+  const continuum_style = () => models.style_of(state.restitution, state.loss);
+
+  // The models that fly: the lumped one, and the continuum where it answers.
+  const styles_of_lanes = () => ({
+    lumped: "lumped",
+    ...(continuum.covers(state.restitution) ? { continuum: continuum_style() } : {}),
+  });
+
+  function solved(throw_) {
+    flights = {};
+    for (const [lane, style] of Object.entries(styles_of_lanes())) {
+      flights[lane] = flight.fly(throw_, (x) => models.contact(style, { ...throw_.groups, x }));
+    }
+    const parts = flights[state.of] ?? flights.lumped;
+    const { x, contact, ball, after } = parts.find(({ kind }) => kind === "bounce");
+    const groups = { ...throw_.groups, x };
     return {
-      mu, x, beta, zeta2, e, contact,
-      result: solver.rebound(x, beta, zeta2, e),
-      limit: solver.slip_throughout_limit(beta, zeta2, e),
-      phases: words.phases(contact),
-      ways: ways(contact),
+      ...groups, contact, before: ball, after,
+      result: solver.rebound(x, groups.beta, groups.zeta2, groups.e), // of the lumped model
+      limit: models.slip_throughout_limit(contact.style, groups),
+      phases: models.phases(contact.rows),
     };
   }
 
-  // Distance along the surface in mu v2(0)/Omega at the samples; for the drawing, by trapezia.
-  function ways({ time, velocity }) {
+  // Distance along the surface at the rows, in about v2(0)/Omega; for the drawing, by trapezia.
+  function ways(rows) {
     let way = 0;
-    return time.map((now, i) => {
-      const mean = i ? (velocity[i] + velocity[i - 1]) / 2 : 0;
-      return (way += ((now - (time[i - 1] ?? 0)) * mean * Math.PI) / 2);
+    return rows.map((row, i) => {
+      const before = rows[Math.max(i - 1, 0)];
+      const mean = (row.velocity + before.velocity) / 2;
+      return (way += ((row.time - before.time) * mean * Math.PI) / 2);
     });
   }
 
-  function way_at({ contact, ways }, now) {
-    const after = contact.time.findIndex((one) => one > now);
-    if (after < 1) return after ? ways[ways.length - 1] : 0;
-    const [start, end] = [contact.time[after - 1], contact.time[after]];
-    return ways[after - 1] + ((now - start) / (end - start)) * (ways[after] - ways[after - 1]);
-  }
-
-  // t within the contact: during a flight the nearer end of it.
-  const in_contact = () => Math.min(Math.max(t, 0), 1 + impact.e);
-
-  // The contact at t, with its approach v2/v2(0) and depth u2 in v2(0)/Omega.
-  function present() {
-    const { contact, beta, zeta2, e } = impact;
-    const now = solver.at(contact, in_contact(), beta, zeta2, e);
-    const back = now.phase.in_restitution || (e === 0 && t >= 1);
-    return {
-      ...now,
-      back,
-      approach: (back ? -e : 1) * Math.cos(now.eta),
-      depth: back ? 1 - e * e * (1 - now.normal) : now.normal,
-    };
-  }
-
-  // Shares of the energy before: of the motion, in the springs, lost; by normal and tangential.
-  function energies({ velocity, approach, normal, friction }, back) {
-    const { mu, x, beta, zeta2, e } = impact;
-    const before = (mu * x) ** 2 / beta + 1;
-    const shares = {
-      towards: approach ** 2 / before,
-      along: (mu * velocity) ** 2 / beta / before,
-      pressed: ((back ? e : 1) * normal) ** 2 / before,
-      sheared: (zeta2 * (mu * friction) ** 2) / before,
-      deformed: back ? (1 - e * e) / before : 0,
-    };
-    const rest = Object.values(shares).reduce((sum, share) => sum + share);
-    return { ...shares, rubbed: Math.max(1 - rest, 0) };
+  function way_at({ contact }, time) {
+    const after = contact.rows.findIndex((row) => row.time > time);
+    return ways(contact.rows.slice(0, after < 0 ? undefined : Math.max(after, 1))).at(-1);
   }
 
   // ---- drawing ------------------------------------------------------------------------------
 
+  // What changes while time runs.
   function show_time() {
-    const now = present();
-    const here = in_contact();
-    ball.show(impact, now, t);
-    diagram.show(impact, now, way_at(impact, here));
-    charts.move_cursor(element("forces"), scales.forces, here, [now.normal, now.friction]);
-    charts.move_cursor(element("velocity"), scales.velocity, here, [now.velocity]);
-    element("time").value = t;
-    element("clock").textContent = t === here ? t.toFixed(2) : "\u2013";
-    show_energies(2, "now", energies(now, now.back));
+    stage.show(now);
+    element("time").value = now;
+    if (scales.forces) show_closer();
+  }
+
+  function show_closer() {
+    const { time, touching } = stage.first_bounce(now);
+    const here = Math.min(time, impact.contact.end);
+    const row = models.at(impact.contact, here);
+    diagram.show(impact, row, way_at(impact, here), touching && time <= impact.contact.end);
+    charts.move_cursor(element("forces"), scales.forces, here, [row.normal, row.friction]);
+    charts.move_cursor(element("velocity"), scales.velocity, here, [row.velocity]);
+    show_energies(2, "now", row.energy);
   }
 
   function show_energies(column, moment, shares) {
@@ -147,28 +169,25 @@ const page = (() => {
   }
 
   function show_numbers() {
-    const { x, beta, zeta2, limit, mu, result } = impact;
-    const angle = (incidence) =>
-      `${charts.number((Math.atan(mu * incidence) * 180) / Math.PI, 1)}\u00B0`;
-    const after = ball.motion(impact, result.velocity);
-    const found = {
+    const { x, beta, zeta2, limit, contact, after } = impact;
+    const texts = {
       incidence: charts.number(x, 3),
-      velocity: charts.number(result.velocity, 3),
-      centre: charts.number(after.centre, 3),
-      spin: charts.number(after.spin, 3),
-      friction: charts.number(result.peak_friction, 3),
-      stick: angle(zeta2),
-      slip: angle(limit),
+      velocity: charts.number(contact.state.velocity, 3),
+      centre: charts.number(after.along, 3),
+      spin: charts.number(after.spin, 1),
+      friction: charts.number(contact.state.peak_friction, 3),
+      stick: charts.number(zeta2, 3),
+      slip: charts.number(limit, 3),
       frequency: charts.number(Math.sqrt(beta / zeta2), 2),
     };
-    for (const name in found) element(`number-${name}`).textContent = found[name];
+    for (const name in texts) element(`number-${name}`).textContent = texts[name];
   }
 
-  // What each model says of this impact, with a word beside the numbers where they disagree.
+  // What each model says of the first bounce, with a word beside the numbers where they disagree.
   function show_models() {
-    const { mu, x, beta } = impact;
+    const { mu, x, beta, e } = impact;
     const before = 1 + (mu * x) ** 2 / beta;
-    const found = models.outcomes(list, impact);
+    const outcomes = models.outcomes(list, impact);
     const row = ({ style, name, velocity, peak_friction, dissipation, direction, slides }) => {
       const way = ["back", "stops", "on"][direction + 1] + (slides ? ", slips throughout" : "");
       const lost = (200 * mu * mu * dissipation) / before;
@@ -176,20 +195,18 @@ const page = (() => {
         `<td>${charts.number(velocity, Math.abs(velocity) < 1000 ? 3 : 0)}</td><td>${way}</td>` +
         `<td>${charts.number(peak_friction, 3)}</td><td>${lost.toFixed(1)}</td></tr>`;
     };
-    element("outcomes").tBodies[0].innerHTML = found.map(row).join("");
-    const { agrees, text } = words.agreement(found);
+    element("outcomes").tBodies[0].innerHTML = outcomes.map(row).join("");
+    const { agrees, text } = words.agreement(outcomes);
     element("agreement").textContent = text;
     element("agreement").classList.toggle("disagree", !agrees);
-    // The sentence is that of the lumped model, whether its curve is shown or not.
-    const [lumped] = models.outcomes(models.chosen(impact, ["lumped"]), impact);
+    // The sentence is that of the chosen model, whether its curve is shown or not.
+    const [own] = models.outcomes([impact.contact.style], impact);
     const other = ({ direction, slides, mute }) =>
-      !mute && (direction !== lumped.direction || slides !== lumped.slides);
+      !mute && (direction !== own.direction || slides !== own.slides);
     element("doubt").textContent =
-      found.some(other) ? "Other models say otherwise: see the table." : "";
-    const wanted = state.models.includes("continuum");
-    const covered = found.some(({ style }) => style !== "lumped" && style !== "rigid");
-    element("uncovered").hidden = !wanted || covered;
-    element("own-force").hidden = !covered || state.view !== "forces";
+      outcomes.some(other) ? "Other models say otherwise: see the table." : "";
+    element("uncovered").hidden = continuum.covers(e);
+    element("own-force").hidden = state.view !== "forces" || !state.models.includes("continuum");
   }
 
   function show_controls() {
@@ -200,8 +217,9 @@ const page = (() => {
     }
     element("stiffness_ratio").textContent = charts.number(impact.zeta2, 3);
     element("no-ball").hidden = state.mass_ratio >= 2;
-    element("view").value = state.view;
-    element("time").max = 2 + state.restitution;
+    for (const name of ["view", "loss", "of"]) element(name).value = state[name];
+    element("loss").disabled = state.restitution === 1;
+    element("time").max = stage.duration();
     for (const name of models.TOGGLES) {
       element(`model-${name}`).checked = state.models.includes(name);
     }
@@ -211,51 +229,101 @@ const page = (() => {
     for (const button of document.querySelectorAll(".body")) {
       button.ariaPressed = Number(button.dataset.mass_ratio) === state.mass_ratio;
     }
-    const here = impact_address();
-    let about = "";
-    for (const button of document.querySelectorAll(".preset")) {
-      button.ariaPressed = button.dataset.state === here;
-      if (button.dataset.state === here) about = button.dataset.about;
-    }
-    element("about").textContent = about;
+    const here = address();
+    const option = [...element("preset").options].find(({ value }) => value && normal(value) === here);
+    element("preset").value = option?.value ?? "";
+    element("about").innerHTML = option?.dataset.about ?? "";
     const hollow = element("thin-shell").ariaPressed === "true";
-    element("ball-svg").classList.toggle("shell", hollow);
+    element("stage-svg").classList.toggle("shell", hollow);
+    element("caution").hidden = state.restitution === 1;
+    element("whole").href = `explorer.html#${here}`;
+  }
+
+  // An address as `address` writes it.
+  const normals = new Map();
+  function normal(text) {
+    if (!normals.has(text)) {
+      const kept = { ...state };
+      Object.assign(state, DEFAULTS, { models: models.TOGGLES });
+      read(text);
+      normals.set(text, address());
+      Object.assign(state, kept);
+    }
+    return normals.get(text);
+  }
+
+  function show_names() {
+    const name = models.NAMES[continuum_style()];
+    const lanes = { lumped: models.NAMES.lumped, continuum: name };
+    for (const lane in lanes) {
+      const short = innerWidth < 600 ? lane : lanes[lane];
+      element(`stage-${lane}-name`).textContent = `\u25CF ${short}:`;
+      document.querySelector(`.patch.${lane} .patch-name`).textContent = `${lanes[lane]}: `;
+    }
+    for (const part of document.querySelectorAll(".of-model")) {
+      part.textContent = models.NAMES[impact.contact.style];
+    }
+    for (const part of document.querySelectorAll(".continuum")) {
+      part.classList.toggle("plastic", continuum_style() === "plastic");
+    }
   }
 
   const show_typed = (name) =>
     (element(`${name}-number`).value = Number(state[name].toFixed(4)));
 
   function refresh() {
+    const throw_ = thrown();
     // Sizes are read before anything changes, which would cost time. Type is larger on a projector,
     // and a chart is drawn larger with it.
-    const zoom = parseFloat(getComputedStyle(document.documentElement).fontSize) / 16;
-    const names = ["forces", "velocity", "incidence"];
-    const wide = Object.fromEntries(names.map((one) => [one, element(one).clientWidth / zoom]));
-    impact = solved();
+    const wide = width_of("incidence");
+    impact = solved(throw_);
     list = models.chosen(impact, state.models);
-    t = Math.min(t, 2 + state.restitution);
+    stage.prepare(throw_, flights);
+    now = Math.min(now, stage.duration());
     element("sentence").textContent = words.sentence(impact);
     element("of-the-centre").textContent = words.centre(impact);
-    // Hidden, it keeps its place: nothing jumps while the slider is moved.
-    element("caution").classList.toggle("idle", impact.e === 1);
-    const end = frozen ?? charts.widest(impact);
-    scales = {
-      forces: charts.forces(element("forces"), wide.forces, impact),
-      velocity: charts.velocity(element("velocity"), wide.velocity, impact),
-      incidence: charts.incidence(
-        element("incidence"), wide.incidence, impact, state.view, list, end),
-    };
-    ball.prepare(impact);
-    show_numbers();
+    if (!embedded) {
+      const end = frozen ?? charts.widest(impact);
+      scales.incidence = charts.incidence(
+        element("incidence"), wide, impact, state.view, list, end);
+      show_models();
+    }
     show_controls();
-    show_models();
-    const motion = { velocity: impact.x, approach: 1, normal: 0, friction: 0 };
-    show_energies(1, "before", energies(motion, false));
-    const left = { ...motion, velocity: impact.result.velocity, approach: impact.e };
-    show_energies(3, "after", energies(left, true));
+    show_names();
+    look_closer();
     show_time();
     document.dispatchEvent(new CustomEvent("impact", { detail: impact }));
   }
+
+  const width_of = (name) => element(name).clientWidth /
+    (parseFloat(getComputedStyle(root).fontSize) / 16);
+
+  // The closer look is drawn at once where it can be seen, and else when a change is over.
+  const closer = document.querySelector(".closer");
+  let seen = false;
+  let later;
+  function look_closer() {
+    clearTimeout(later);
+    scales.forces = undefined;
+    if (embedded) return;
+    if (seen) draw_closer();
+    else later = setTimeout(draw_closer, SETTLED);
+  }
+
+  function draw_closer() {
+    const [forces, velocity] = ["forces", "velocity"].map(width_of);
+    scales.forces = charts.forces(element("forces"), forces, impact);
+    scales.velocity = charts.velocity(element("velocity"), velocity, impact);
+    show_numbers();
+    show_energies(1, "before", impact.contact.rows[0].energy);
+    show_energies(3, "after", impact.contact.rows.at(-1).energy);
+    show_closer();
+  }
+
+  new IntersectionObserver(([entry]) => {
+    seen = entry.isIntersecting;
+    if (seen && !scales.forces) look_closer();
+  }, { rootMargin: "100px" }).observe(closer);
 
   // ---- what the reader does -----------------------------------------------------------------
 
@@ -264,50 +332,50 @@ const page = (() => {
     addEventListener(kind, () => (pressed = kind === "pointerdown"), true);
   }
 
-  // At the end of a change, one entry in the history of the browser: Back undoes the change.
+  // At the end of a change, one entry in the history of the browser: Back undoes the change. A stage
+  // in a frame leaves the history of its page alone.
   let waiting;
   function remember() {
     clearTimeout(waiting);
     waiting = setTimeout(() => {
       if (pressed) remember();
-      else if (location.hash !== `#${address()}`) history.pushState(null, "", `#${address()}`);
+      else if (location.hash !== `#${address()}`) {
+        const how = embedded ? "replaceState" : "pushState";
+        history[how](null, "", `#${address()}`);
+      }
     }, SETTLED);
   }
 
+  let due = false; // a change that the next frame draws: not more than one in a frame
   function changed() {
-    refresh();
     remember();
+    if (due) return;
+    due = true;
+    requestAnimationFrame(() => {
+      due = false;
+      refresh();
+    });
   }
 
-  // What a reader has typed, or NaN.
-  function parsed(text) {
-    const trimmed = text.trim();
-    return NUMBER.test(trimmed) ? Number(trimmed.replace(",", ".")) : NaN;
-  }
-
-  function type(name, value) {
-    set(name, value);
+  function take(values) {
+    for (const [name, value] of Object.entries(values)) {
+      const [least, most] = limits(name);
+      state[name] = Math.min(Math.max(value, least), most);
+    }
     element("refused").textContent = "";
+    if (!playing) now = 0;
     changed();
   }
-
-  const allowed = (name, value) =>
-    value >= Number(element(name).min) && value <= Number(element(name).max);
 
   // Numbers count while they are typed; one that is not allowed is refused when it is complete.
   function on_typing(name) {
     const box = element(`${name}-number`);
     box.addEventListener("input", () => {
       const value = parsed(box.value);
-      if (allowed(name, value)) type(name, value);
+      if (is_allowed(name, value)) take({ [name]: value });
     });
     box.addEventListener("change", () => {
-      if (!allowed(name, parsed(box.value))) {
-        const label = document.querySelector(`label[for=${name}]`).textContent;
-        const { min, max } = element(name);
-        element("refused").textContent = `${label}: \u201C${box.value}\u201D is refused. ` +
-          `Allowed are numbers from ${min} to ${max}.`;
-      }
+      if (!is_allowed(name, parsed(box.value))) refuse(name, box.value, between(name));
       show_typed(name);
     });
     box.addEventListener("blur", () => show_typed(name));
@@ -315,15 +383,15 @@ const page = (() => {
       const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];
       if (!way) return;
       event.preventDefault();
-      type(name, Number((state[name] + way * Number(box.dataset.step)).toFixed(4)));
+      take({ [name]: Number((state[name] + way * Number(box.dataset.step)).toFixed(4)) });
       show_typed(name);
     });
   }
 
   for (const name of SLIDERS) {
     const slider = element(name);
-    state[name] = Number(slider.value);
-    slider.addEventListener("input", () => type(name, slider.value));
+    state[name] ??= Number(slider.value);
+    slider.addEventListener("input", () => take({ [name]: Number(slider.value) }));
     on_typing(name);
   }
   for (const name of models.TOGGLES) {
@@ -332,60 +400,103 @@ const page = (() => {
       changed();
     });
   }
-  element("view").addEventListener("change", (event) => {
-    state.view = event.target.value;
-    changed();
-  });
-  for (const button of document.querySelectorAll(".preset")) {
-    button.addEventListener("click", () => go(button.dataset.state));
-  }
-  for (const button of document.querySelectorAll(".body")) {
-    button.addEventListener("click", () => {
-      set("mass_ratio", button.dataset.mass_ratio);
+  for (const name of ["view", "loss", "of"]) {
+    element(name).addEventListener("change", (event) => {
+      state[name] = event.target.value;
       changed();
     });
   }
+  element("preset").addEventListener("change", (event) => {
+    if (event.target.value) go(event.target.value);
+  });
+  for (const button of document.querySelectorAll(".body")) {
+    button.addEventListener("click", () => take({ mass_ratio: Number(button.dataset.mass_ratio) }));
+  }
+
+  // ---- the show -----------------------------------------------------------------------------
 
   let last; // time of the frame before
-  let rested = 0;
-  function frame(now) {
+  function frame(time) {
     if (!playing) return;
-    const passed = Math.min(now - (last ?? now), 100);
-    last = now;
-    const end = 2 + state.restitution;
-    if (t < end) {
-      const slow = t >= 0 && t < end - 1 ? MILLISECONDS : FLIGHT;
-      t = Math.min(t + (passed / slow) * Number(element("speed").value), end);
-      rested = 0;
-      show_time();
-    } else if ((rested += passed) > REST) {
-      t = -1;
-    }
-    requestAnimationFrame(frame);
+    const passed = Math.min(time - (last ?? time), 100) / 1000;
+    last = time;
+    now = Math.min(now + passed * Number(element("pace").value), stage.duration());
+    show_time();
+    if (now >= stage.duration()) play(false);
+    else requestAnimationFrame(frame);
   }
 
   function play(on) {
+    if (on && now >= stage.duration()) now = 0;
     playing = on;
     last = undefined;
-    element("play").textContent = on ? "\u275A\u275A" : "\u25B6";
-    element("play").ariaLabel = on ? "Pause" : "Play";
+    element("play").textContent = on ? "\u275A\u275A Pause" : now > 0 && now < stage.duration()
+      ? "\u25B6 Go on" : "\u25B6 Throw";
     if (on) requestAnimationFrame(frame);
   }
 
+  // Throws the ball from the hand. Who wants no motion sees where it went.
+  function throw_ball() {
+    now = still.matches ? stage.duration() : 0;
+    if (still.matches) show_time();
+    else play(true);
+  }
+
+  function go_to(time) {
+    now = Math.min(Math.max(time, 0), stage.duration());
+    play(false);
+    show_time();
+  }
+
   element("play").addEventListener("click", () => play(!playing));
+  element("do-reset").addEventListener("click", () => go_to(0));
+  element("time").addEventListener("input", (event) => go_to(Number(event.target.value)));
   document.addEventListener("keydown", (event) => {
-    const typing = event.target.matches("a, button, select, summary, input:not([type=range])");
-    if (event.key !== " " || typing) return;
+    if (event.key === "Escape" && root.dataset.mode === "projector") ACTIONS.projector();
+    const own = "a, button, select, summary, [role=button], input:not([type=range])";
+    if (event.key !== " " || event.target.matches(own)) return;
     event.preventDefault();
     play(!playing);
   });
 
-  function go_to(time) {
-    play(false);
-    t = Math.min(Math.max(time, -1), 2 + state.restitution);
-    show_time();
+  // The ball in the hand: dragged, it aims, and let go, it flies. The knob on its rim gives it spin.
+  function on_hand(name, move, release) {
+    const handle = stage.part(name);
+    let moved = false;
+    // A touch here throws, it does not scroll; browsers ignore touch-action inside SVG.
+    handle.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
+    handle.addEventListener("pointerdown", (event) => {
+      if (!event.isPrimary || event.button !== 0) return;
+      go_to(0);
+      stage.hold(true);
+      moved = false;
+      handle.setPointerCapture(event.pointerId);
+    });
+    handle.addEventListener("pointermove", (event) => {
+      if (!handle.hasPointerCapture(event.pointerId)) return;
+      moved = true;
+      take(move(event));
+    });
+    handle.addEventListener("pointerup", () => {
+      stage.hold(false);
+      refresh();
+      release(moved);
+    });
+    handle.addEventListener("pointercancel", () => stage.hold(false));
   }
-  element("time").addEventListener("input", (event) => go_to(Number(event.target.value)));
+  on_hand("grasp", (event) => stage.aim_at(event), throw_ball);
+  on_hand("knob", (event) => ({ spin: Math.round(stage.spin_at(event) / 5) * 5 }), () => {});
+  stage.part("grasp").addEventListener("keydown", (event) => {
+    const turn = (name, by) => ({ [name]: Number((state[name] + by).toFixed(4)) });
+    const change = {
+      ArrowRight: turn("angle", 1), ArrowLeft: turn("angle", -1), ArrowUp: turn("speed", 0.2),
+      ArrowDown: turn("speed", -0.2), PageUp: turn("spin", 20), PageDown: turn("spin", -20),
+    }[event.key];
+    if (change) take(change);
+    else if (event.key === "Enter" || event.key === " ") throw_ball();
+    else return;
+    event.preventDefault();
+  });
 
   // Pressing or dragging in a chart: the time there, or the incidence. A mouse acts at once. A
   // finger acts by a tap, or once it has moved more along the chart than across it: to scroll the
@@ -424,24 +535,30 @@ const page = (() => {
     });
     svg.addEventListener("pointercancel", finish);
   }
-  on_drag(element("forces"), (event) => go_to(scales.forces.at(event)));
-  on_drag(element("velocity"), (event) => go_to(scales.velocity.at(event)));
+  function go_to_contact(time) {
+    const { segment } = stage.first_bounce(now);
+    // Just inside the contact, so that it still touches.
+    const share = Math.min(Math.max(time / segment.end, 1e-4), 1 - 1e-4);
+    go_to(segment.start + share * segment.length);
+  }
+  on_drag(element("forces"), (event) => go_to_contact(scales.forces.at(event)));
+  on_drag(element("velocity"), (event) => go_to_contact(scales.velocity.at(event)));
+  // The chart says the incidence of the contact point, to which spin adds.
+  function to_incidence(event) {
+    const wanted = Math.tan((scales.incidence.angle(event) * Math.PI) / 180);
+    const spins = (impact.before.spin * state.radius) / 1000 / -impact.before.up;
+    take({ angle: (Math.atan(wanted + spins) * 180) / Math.PI });
+  }
   on_drag(
-    element("incidence"),
-    (event) => {
-      set("angle", scales.incidence.angle(event));
-      changed();
-    },
+    element("incidence"), to_incidence,
     () => (frozen = charts.widest(impact)),
     () => {
       frozen = undefined;
-      refresh();
+      changed();
     },
   );
 
   // ---- how it looks, and what a reader takes along --------------------------------------------
-
-  const root = document.documentElement;
 
   // Some browsers keep nothing for a page that is a file.
   function stored(name) {
@@ -468,13 +585,17 @@ const page = (() => {
   function look({ theme, mode }) {
     if (theme) root.dataset.theme = theme;
     if (mode) root.dataset.mode = mode;
+    if (embedded) root.dataset.mode = "stage";
     element("do-dark").ariaPressed = is_dark();
-    const projector = root.dataset.mode === "projector";
-    element("do-projector").ariaPressed = projector;
-    element(projector ? "rebound" : "stage").after(element("controls"));
+    element("do-projector").ariaPressed = root.dataset.mode === "projector";
   }
 
-  const tell = (text) => (element("told").textContent = text);
+  let telling;
+  function tell(text) {
+    element("told").textContent = text;
+    clearTimeout(telling);
+    telling = setTimeout(() => (element("told").textContent = ""), TOLD);
+  }
 
   const about_impact = () =>
     `θ = ${charts.number(state.angle)}°, µ = ${charts.number(state.friction)}, ` +
@@ -492,6 +613,7 @@ const page = (() => {
       store("explorer-mode", mode);
       look({ mode });
       refresh();
+      if (mode === "projector") tell("Escape leaves the projector mode.");
     },
     async copy() {
       const link = `${location.href.split("#")[0]}#${address()}`;
@@ -504,10 +626,9 @@ const page = (() => {
       tell("impact.csv has the curves shown and the numbers of this impact.");
     },
     async ball() {
-      const above = [words.sentence(impact), words.centre(impact)];
-      const below = [`Lumped model: ${about_impact()}`];
-      files.save("ball.png", await files.picture(element("ball-svg"), above, below));
-      tell("ball.png has the picture of the ball.");
+      const above = [element("sentence").textContent, words.centre(impact)];
+      files.save("stage.png", await files.picture(element("stage-svg"), above, [about_impact()]));
+      tell("stage.png has the picture of the stage.");
     },
     async curve() {
       const legend = scales.incidence.curves.map(({ style }) =>
@@ -525,21 +646,24 @@ const page = (() => {
 
   // ---- start --------------------------------------------------------------------------------
 
+  const opening = element("preset").options[1].value;
+
   // The state of the page's address; what that does not say is as the page opens.
   function restore() {
     clearTimeout(waiting);
-    state.models = models.TOGGLES;
-    state.view = "velocity";
-    const named = document.querySelector(".preset[data-opening]");
-    const opening = named ?? document.querySelector(".preset");
-    if (opening) read(opening.dataset.state);
-    read(location.hash.slice(1));
+    const place = location.hash.slice(1);
+    for (const option of element("preset").options) if (option.value) normal(option.value);
+    element("refused").textContent = "";
+    Object.assign(state, DEFAULTS, { models: models.TOGGLES, angle: 50, friction: 0.4, restitution: 1 });
+    read(place.includes("=") ? place : opening);
+    now = 0;
+    playing = false;
     refresh();
+    play(false);
   }
 
   look({ theme: stored("explorer-theme"), mode: stored("explorer-mode") });
   restore();
-  play(playing);
   addEventListener("popstate", () => {
     const place = location.hash.slice(1);
     // A place on the page, as #main, says no state.
@@ -553,10 +677,12 @@ const page = (() => {
 
   // Goes to the state that an address says, as a preset does.
   function go(to) {
+    element("refused").textContent = "";
+    Object.assign(state, DEFAULTS);
     read(to);
-    t = beginning();
+    go_to(0);
     changed();
   }
 
-  return { go, address, impact: () => impact };
+  return { go, address, impact: () => impact, flights: () => flights };
 })();

@@ -336,43 +336,27 @@ const solver = (() => {
     };
   }
 
-  // Forces and velocity over the contact: `samples` instants evenly spread, and every event.
+  // The contact at `samples` instants evenly spread, and where each phase starts: time t/t_c,
+  // normal force and friction in m2 Omega v2(0) and mu times that, velocity in mu v2(0), whether it
+  // sticks, the direction of slip, and whether it is in restitution.
   function history(x, beta, zeta2, e, samples = 400) {
     const phases = ended(solve(x, beta, zeta2, e).phases, e);
     const step = (1 + e) / (samples - 1);
     const grid = Array.from({ length: samples }, (_, i) => i * step);
     grid[samples - 1] = 1 + e;
-    const columns = { time: [], normal: [], friction: [], velocity: [], spring: [] };
-    const events = [];
-    phases.forEach((phase, index) => {
-      const { start, end } = phase;
-      const inside = grid.filter((t) => t > start && t < end);
-      const etas = inside.map((t) => angle(t, e, phase.in_restitution));
-      const before = phases[index - 1];
-      const first = instant(phase, phase.eta, start, beta, zeta2, e);
-      events.push(...kinds(phase, before).map((kind) => ({ kind, ...first })));
-      const last = instant(phase, phase.eta_end, end, beta, zeta2, e);
-      const rows = [first, ...inside.map((t, i) => instant(phase, etas[i], t, beta, zeta2, e))];
-      if (index === phases.length - 1) {
-        rows.push(last);
-        if (e === 0) events.push({ kind: "maximum compression", ...last });
-        events.push({ kind: "separation", ...last });
-      }
-      for (const row of rows) for (const name in columns) columns[name].push(row[name]);
+    const rows = phases.flatMap((phase) => {
+      const instant = (eta, t) => {
+        const [friction, velocity] = state(phase, eta, beta, zeta2, e);
+        const { sticks, side, in_restitution } = phase;
+        return { time: t, normal: force(eta), friction, velocity, sticks, side, in_restitution };
+      };
+      const inside = grid.filter((t) => t > phase.start && t < phase.end);
+      const row_at = (t) => instant(angle(t, e, phase.in_restitution), t);
+      const last = phase === phases.at(-1) ? [instant(phase.eta_end, phase.end)] : [];
+      return [instant(phase.eta, phase.start), ...inside.map(row_at), ...last];
     });
-    return { ...columns, events, phases };
-  }
-
-  // The state at one time of a history, exact at any time between its samples.
-  function at(contact, t, beta, zeta2, e) {
-    const phase = contact.phases.filter((one) => one.start <= t).pop() ?? contact.phases[0];
-    const eta = angle(t, e, phase.in_restitution);
-    return { phase, eta, ...instant(phase, eta, t, beta, zeta2, e) };
-  }
-
-  function instant(phase, eta, t, beta, zeta2, e) {
-    const [friction, velocity] = state(phase, eta, beta, zeta2, e);
-    return { time: t, normal: force(eta), friction, velocity, spring: zeta2 * friction };
+    if (e === 0) rows.at(-1).in_restitution = true; // what is pressed in stays there
+    return rows;
   }
 
   // Phases with their last eta, and their times: each ends where the next one starts, or with its
@@ -388,13 +372,5 @@ const solver = (() => {
     });
   }
 
-  // Events where a phase starts; one that goes on through maximum compression is not new.
-  function kinds(phase, before) {
-    const kind = phase.sticks ? "stick" : "slip";
-    if (!before) return ["contact", kind];
-    if (phase.in_restitution === before.in_restitution) return [kind];
-    return ["maximum compression", ...(phase.sticks === before.sticks ? [] : [kind])];
-  }
-
-  return { rebound, rigid_rebound, slip_throughout_limit, history, at };
+  return { rebound, rigid_rebound, slip_throughout_limit, history };
 })();

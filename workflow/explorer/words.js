@@ -2,72 +2,60 @@
 
 // What happens, in plain words.
 const words = (() => {
-  const SHORTEST = 1e-6; // t_c, of a phase worth a word
-
-  // Stick and slip as they follow each other, whatever the half of the contact.
-  function phases(contact) {
-    const merged = [];
-    for (const { sticks, side, start, end } of contact.phases) {
-      const last = merged[merged.length - 1];
-      if (last && last.sticks === sticks && (sticks || last.side === side)) last.end = end;
-      else if (end - start > SHORTEST) merged.push({ sticks, side, start, end });
-    }
-    return merged;
-  }
-
-  const verb = (phase) => (phase.sticks ? "sticks" : `slips ${way(phase.side)}`);
   const way = (sign) => (sign > 0 ? "forwards" : "backwards");
 
   function percent(share) {
     return `${(100 * share).toFixed(share < 0.095 ? 1 : 0)}\u00A0%`;
   }
 
-  function order(phases) {
-    if (phases.length === 1) return `It ${verb(phases[0])} throughout`;
-    if (phases.length > 4) return `It sticks and slips in turn, ${phases.length} times in all`;
-    const [first, ...rest] = phases.map(verb);
-    return `It ${first} first, ${rest.map((one) => `then ${one}`).join(", ")}`;
+  // In the continuum a contact that sticks does so in its middle; its edge slips.
+  function order({ phases, contact: { style } }) {
+    const sticks = style === "lumped" ? "sticks" : "sticks in the middle";
+    const verb = (phase) => (phase.sticks ? sticks : `slips ${way(phase.side)}`);
+    if (phases.length === 1) return `the contact ${verb(phases[0])} throughout`;
+    if (phases.length > 4) return `the contact sticks and slips in turn, ${phases.length} times in all`;
+    const [first, ...others] = phases.map(verb);
+    return `the contact ${first} first, ${others.map((one) => `then ${one}`).join(", ")}`;
   }
 
-  function end({ x, e, result }) {
-    const share = Math.abs(result.velocity) / x;
+  function end({ x, e, contact: { state } }) {
+    const share = Math.abs(state.velocity) / x;
     const leaves = e === 0 ? "does not bounce off, and moves on" : "leaves";
     if (share < models.STOPPED) return `The contact point ${leaves} without tangential velocity`;
-    const how = `${leaves} ${way(result.velocity)}`;
+    const how = `${leaves} ${way(state.velocity)}`;
     return `The contact point ${how}, with ${percent(share)} of its tangential velocity`;
   }
 
-  const sentence = (impact) =>
-    impact.x === 0
-      ? "A straight blow: it sticks, and nothing moves along the surface."
-      : `${order(impact.phases)}. ${end(impact)}.`;
-
-  // What the centre of a ball does that came without spin.
-  function centre(impact) {
-    const { x, e, result } = impact;
-    const after = ball.motion(impact, result.velocity);
-    if (x === 0) return "The ball does not begin to spin.";
-    const angle = e === 0 ? "" : ` It leaves at ${ball.angle(impact).toFixed(0)}\u00B0.`;
-    const goes = after.centre < 0 ? "turns back" : "goes on forwards";
-    const share = percent(Math.abs(after.centre) / x);
-    let spin = "The ball spins forwards.";
-    if (Math.abs(after.spin) < models.STOPPED * x) spin = "It does not spin.";
-    else if (result.velocity < 0 && after.centre > 0) {
-      spin = "The ball spins so fast that its contact point runs backwards.";
-    }
-    return `The centre ${goes} with ${share} of its tangential velocity.${angle} ${spin}`;
+  // What the contact does in the first bounce, by the model that is looked at closer.
+  function sentence(impact) {
+    const name = models.NAMES[impact.contact.style];
+    const model = `${name[0].toUpperCase()}${name.slice(1)}: `;
+    if (impact.x === 0) return `${model}the contact point comes straight, and nothing slips.`;
+    return `${model}${order(impact)}. ${end(impact)}.`;
   }
 
-  const listed = (found) => found.map((one) => one.name).join("; ");
+  // What the centre of the ball does.
+  function centre({ before, after, e }) {
+    const turned = Math.sign(after.along) * Math.sign(before.along) < 0;
+    const goes = Math.abs(after.along) < 0.005 ? "does not move along the surface"
+      : turned ? "turns back" : "goes on";
+    const angle = (Math.atan2(Math.abs(after.along), after.up) * 180) / Math.PI;
+    const leaving = e === 0 ? "" : ` and leaves at ${angle.toFixed(0)}\u00B0 to the normal`;
+    return `Its centre ${goes}${leaving}.`;
+  }
+
+  const listed = (outcomes) => outcomes.map((one) => one.name).join("; ");
 
   // Whether the models shown agree: first in direction, then in whether it slips throughout.
   function agreement(all) {
-    const found = all.filter((one) => !one.mute);
-    const rigid = found.length < all.length ? " The rigid limit has no spring: it only stops." : "";
-    if (found.length < 2) return { agrees: true, text: rigid.trim() };
+    const speaking = all.filter((one) => !one.mute);
+    const rigid = speaking.length < all.length
+      ? " The rigid limit has no spring: it only stops." : "";
+    if (!all.length) return { agrees: true, text: "No model is chosen: tick one above." };
+    if (speaking.length < 2) return { agrees: true, text: rigid.trim() };
     const split = (parts) =>
       parts
-        .map(([name, is]) => [name, found.filter(is)])
+        .map(([name, is]) => [name, speaking.filter(is)])
         .filter(([, those]) => those.length)
         .map(([name, those]) => `${name}: ${listed(those)}.`);
     const directions = split([
@@ -89,5 +77,5 @@ const words = (() => {
     return { agrees: true, text: `The models shown agree on the direction.${rigid}` };
   }
 
-  return { phases, sentence, centre, agreement };
+  return { sentence, centre, agreement };
 })();

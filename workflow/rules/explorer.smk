@@ -1,11 +1,12 @@
-EXPLORER_PARTS = ["explorer.html", "superball.html", "challenge.html", "explorer.css", "play.css"]
-EXPLORER_SCRIPTS = ["solver", "check", "base85", "models", "charts", "arrows", "ball", "diagram", "words"]
-EXPLORER_SCRIPTS += ["files", "page", "superball", "challenge"]
-EXPLORER_PARTS += [f"{part}.js" for part in EXPLORER_SCRIPTS]
+from stronge1994.explorer.page import SCRIPTS as EXPLORER_SCRIPTS
+
+
+EXPLORER_PARTS = ["explorer.html", "challenge.html", "explorer.css", "materials.yaml"]
+EXPLORER_PARTS += [f"{script}.js" for script in [*EXPLORER_SCRIPTS, "check"]]
 
 
 rule explorer:
-    """A page to explore one impact; it solves the lumped model itself."""
+    """A page to throw balls and explore impacts; it solves both models itself."""
     input:
         plan=planned("explorer", "write_explorer", "explorer", "pages/__init__.py",
             "pages/templates.py", "plan", "reference_data",
@@ -17,7 +18,7 @@ rule explorer:
             "figures/explorer.html",
             caption="../report/explorer.rst",
             category="Explorer",
-            labels={"page": "an impact to play with"},
+            labels={"page": "a ball to throw"},
         ),
         record="results/records/explorer.json",
     log:

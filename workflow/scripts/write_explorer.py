@@ -1,4 +1,4 @@
-"""Write the page to play with one impact, whose solver must answer as the package does."""
+"""Write the page to throw a ball, whose solvers must answer as the package does."""
 
 from pathlib import Path
 
@@ -9,6 +9,7 @@ from stronge1994.run import record
 with record.recorded(snakemake) as settings:
     known = answers(explorer.LIMITS)
     paths = {Path(path).name: path for path in snakemake.input.sources}
-    print(explorer.refuse_other_answers(paths["solver.js"], paths["check.js"], known))
+    solvers = [paths[name] for name in ("solver.js", "continuum.js", "check.js")]
+    print(explorer.refuse_other_answers(solvers, known))
     text = explorer.page(settings, snakemake.input.sources, known)
     Path(snakemake.output.page).write_text(text, encoding="utf-8")

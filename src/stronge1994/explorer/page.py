@@ -1,18 +1,18 @@
-"""Write the impact explorer: one page that solves the paper's model and needs no other file."""
+"""Write the impact explorer: one page that solves both models and needs no other file."""
 
-import base64
 import json
 import math
-import re
 import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
+from urllib.parse import urlencode
 
-from markupsafe import Markup
+import yaml
+from markupsafe import Markup, escape
 
-from planarimpact import bodies, export
+from planarimpact import bodies, continuum
 from stronge1994.pages import templates
 
 State: TypeAlias = dict[str, float]  # of the controls, by their names
@@ -24,7 +24,17 @@ LIMITS = {
     "restitution": (0, 1, 0.01),
     "poisson_ratio": (0, 0.5, 0.005),
     "mass_ratio": (1, 10, 0.05),
+    "speed": (0.5, 12, 0.1),  # m/s
+    "spin": (-400, 400, 5),  # rad/s
+    "table": (0, 2, 0.05),  # m
 }
+# The controls that a figure of the paper sets; the others are as the page opens.
+OF_FIGURES = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"]
+# Scripts of the page, each after those that it uses.
+SCRIPTS = ["solver", "continuum", "models", "flight", "charts", "arrows", "patch", "diagram", "stage"]
+SCRIPTS += ["words", "files", "page", "challenge"]
+# Largest error of the continuum of the page, in mu v2(0) and in the largest normal force.
+CONTINUUM_ERROR = 0.01
 BODIES = {
     "solid sphere": bodies.solid_sphere(radius=1.0, density=1.0),
     "thin shell": bodies.thin_shell(radius=1.0, mass=1.0),
@@ -33,7 +43,7 @@ BODIES = {
 
 
 def presets(settings: Mapping[str, Any]) -> dict[str, State]:
-    """States of the page's controls for figures and the superball, where the sliders reach them."""
+    """States of the page's controls for figures, where the sliders reach them."""
     shared = {
         "poisson_ratio": _poisson_ratio(settings["stiffness_ratio"]),
         "mass_ratio": settings["mass_ratio"],
@@ -41,8 +51,6 @@ def presets(settings: Mapping[str, Any]) -> dict[str, State]:
     figures = settings["figures"]
     states = {}
     for figure, own in figures.items():
-        if "throw" in own:  # its first bounce is added below
-            continue
         friction = own.get("friction", own["open"].get("friction"))
         friction = max(friction) if isinstance(friction, list) else friction
         angle = own["open"].get("angle")
@@ -51,15 +59,8 @@ def presets(settings: Mapping[str, Any]) -> dict[str, State]:
         restitution = _middle(own.get("restitution", 1.0))
         states[figure] = {"angle": angle, "friction": friction, "restitution": restitution}
     states = {figure: state | shared for figure, state in states.items()}
-    throw = figures["superball"]["throw"]
-    along, up = throw["velocity"]
-    states["superball"] = {
-        "angle": math.degrees(math.atan2(along + throw["radius"] * throw["spin"], -up)),
-        **{key: throw[key] for key in ("friction", "restitution", "poisson_ratio")},
-        "mass_ratio": _mass_ratios()["solid sphere"],
-    }
     rounded = {
-        figure: {control: round(float(state[control]), 4) for control in LIMITS}
+        figure: {control: round(float(state[control]), 4) for control in OF_FIGURES}
         for figure, state in states.items()
     }
     return {figure: state for figure, state in rounded.items() if _within_limits(state)}
@@ -94,44 +95,45 @@ def address(state: Mapping[str, float]) -> str:
     return "&".join(f"{control}={value:g}" for control, value in state.items())
 
 
-def continuum() -> str:
-    """The coarse table of spheres as a script for a page, its tables in base 85.
+def balls(text: str) -> list[dict[str, str]]:
+    """The balls of materials.yaml: name, address, and what the page says about their numbers.
 
-    >>> print(continuum().splitlines()[0])
-    const spheres = (() => {
+    >>> balls("[{name: steel, state: {friction: 0.1}, source: measured, beware: It yields.}]")
+    [{'name': 'steel', 'address': 'friction=0.1', 'about': 'It yields. Numbers: measured.'}]
     """
-    module = export.spheres_text("spheres.mjs", "js", max(export.TABLES))
-    names = re.findall(r"^export (?:const|function) (\w+)", module, flags=re.M)
-    left_out = r"/\*.*?\*/|^export |^function bytes\(text\) \{.*?^\}"
-    code = re.sub(left_out, "", module, flags=re.M | re.S)
-    code = re.sub(r'(?<=^")[A-Za-z0-9+/=]+(?="$)', _in_base_85, code, flags=re.M)
-    return f"const spheres = (() => {{\n{code}\nreturn {{ {', '.join(names)} }}; }})();\n"
+    return [
+        {
+            "name": ball["name"],
+            "address": urlencode(ball["state"]),
+            "about": str(escape(f"{ball.get('beware', '')} Numbers: {ball['source']}.".strip())),
+        }
+        for ball in yaml.safe_load(text)
+    ]
 
 
-def _in_base_85(table: re.Match[str]) -> str:
-    # "<" would begin a tag in a page.
-    return base64.b85encode(base64.b64decode(table[0])).decode().replace("<", ",")
+def refuse_other_answers(scripts: Sequence[str], answers: Sequence[Any]) -> str:
+    """Compare the solvers of the page with the package, if node is installed; a sentence for a log.
 
-
-def refuse_other_answers(solver: str, check: str, answers: Sequence[Any]) -> str:
-    """Compare the solver of the page with the package, if node is installed; a sentence for a log.
-
-    Without node the comparison is left to the page, which makes it whenever it is opened. `solver`
-    and `check` are the files solver.js and check.js, `answers` those of the package.
+    Without node the comparison is left to the page, which makes it whenever it is opened. `scripts`
+    are the files of both solvers and check.js, `answers` those of the package.
     """
     if not (node := shutil.which("node")):
         return "not compared with the package here, as there is no node; the page does it"
-    code = "".join(Path(path).read_text(encoding="utf-8") for path in (solver, check))
+    code = _constants() + "".join(Path(path).read_text(encoding="utf-8") for path in scripts)
     code += f"console.log(JSON.stringify(check.differing({json.dumps(answers)})));"
     done = subprocess.run([node, "-"], input=code, text=True, capture_output=True, timeout=60)
     differing = json.loads(done.stdout) if done.returncode == 0 else [[done.stderr[-500:], "run"]]
     if differing:
         groups, wanted = differing[0]
         raise ArithmeticError(
-            f"{solver} differs from the package in {len(differing)} of {len(answers)} impacts: "
-            f"x, m2/m1, zeta^2, e = {groups} is {wanted}"
+            f"the explorer differs from the package in {len(differing)} of {len(answers)} impacts: "
+            f"x, m2/m1, zeta^2, e, loss = {groups} is {wanted}"
         )
-    return f"the solver of the page answers {len(answers)} impacts as the package does"
+    return f"the solvers of the page answer {len(answers)} impacts as the package does"
+
+
+def _constants() -> str:
+    return f"const CONTINUUM_ERROR = {CONTINUUM_ERROR};\n"
 
 
 def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[Any]) -> str:
@@ -142,7 +144,11 @@ def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[
         limits=LIMITS,
         presets={figure: address(state) for figure, state in presets(settings).items()},
         bodies=_mass_ratios(),
-        sources=texts | {"spheres.js": Markup(continuum())},
-        error=max(export.TABLES),
+        materials=balls(texts["materials.yaml"]),
+        sources=texts,
+        scripts=SCRIPTS,
+        constants=Markup(_constants()),
+        error=CONTINUUM_ERROR,
+        least_restitution=continuum.LEAST_RESTITUTION,
         answers=Markup(json.dumps(answers)),
     )

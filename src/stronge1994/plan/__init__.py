@@ -62,7 +62,7 @@ def materials(stated: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
 
 def settings_of_explorer(config: Config) -> dict[str, Any]:
     """Shared physics, and the impacts of the figures that the explorer offers."""
-    keys = ("incidence", "friction", "restitution", "throw")
+    keys = ("incidence", "friction", "restitution")
     chosen = {}
     for figure in figures.with_trait("explorer"):
         own = {key: value for key, value in config["figures"][figure].items() if key in keys}

@@ -1,0 +1,255 @@
+"use strict";
+
+// The continuum of planarimpact.continuum for one impact at a time: a round contact whose edge
+// slips before its middle. The package bounds its error; this page takes fixed steps, and check.js
+// compares it with answers of the package.
+//
+// The contact is a row of springs (method of dimensionality reduction), in the units E* = 1, R = 1,
+// m2 = 1, |v2(0)| = 1: the spring at radius r bears a normal force of density L = h (a^2 - r^2), and
+// tangential force of at most L, in mu times that. Its tangential deflection q follows the body,
+// zeta^2 q' = w, and
+//     w' = -beta T,   T = N times (sum of the tangential densities)/(sum of L).
+// The loss is "elastic" (e = 1), "viscous" (each spring has a dashpot with the relaxation time tau)
+// or "plastic" (Thornton's law, with tangential deflections that flow while metal yields).
+const continuum = (() => {
+  const LEAST_RESTITUTION = 0.1;
+  // Springs, and steps in each half of the contact: for one impact, and for curves of many.
+  const FINE = { springs: 40, steps: 240 };
+  const COARSE = { springs: 20, steps: 100 };
+  const TURNS = 60;
+  const FLOW = 0.95; // as in planarimpact.normal_impact.yielding
+  const ENERGY = 8 / 15; // of Hertz's law at the approach 1
+
+  const covers = (e) => e >= LEAST_RESTITUTION;
+
+  // The place between low and high where a function that is negative at low becomes positive, by
+  // the rule of false position; an end that stays put counts half (Illinois).
+  function root(low, high, of) {
+    let [below, above] = [of(low), of(high)];
+    let kept = 0;
+    let place = low;
+    for (let turn = 0; turn < TURNS; turn++) {
+      if (above <= below) break;
+      const before = place;
+      place = (low * above - high * below) / (above - below);
+      if (turn && Math.abs(place - before) <= 1e-9 * (high - low)) break;
+      const value = of(place);
+      if (value > 0) {
+        [high, above] = [place, value];
+        if (kept > 0) below /= 2;
+        kept = 1;
+      } else {
+        [low, below] = [place, value];
+        if (kept < 0) above /= 2;
+        kept = -1;
+      }
+    }
+    return place;
+  }
+
+  // ---- normal motion ------------------------------------------------------------------------
+  // Each law gives, for an approach d and its rate v: force N, square of the radius of contact a^2,
+  // h (or, with dashpots, `lift`: L = a^2 + lift - r^2), and the elastic energy held.
+
+  // Hertz's law in loading and unloading; tau = 0 is elastic.
+  function viscous(tau) {
+    return (d, v) => {
+      const depth = d + tau * v;
+      const square = Math.max(v > 0 ? d : depth, 0);
+      const radius = Math.sqrt(square);
+      return {
+        force: Math.max(2 * radius * (depth - square / 3), 0),
+        square,
+        share: 1,
+        lift: depth - square,
+        stored: d * d * radius - (2 / 3) * d * radius ** 3 + radius ** 5 / 5,
+      };
+    };
+  }
+
+  // Thornton's law: loading is elastic up to the approach d_y and linear from there; unloading is
+  // elastic along Hertz's law of a flatter sphere.
+  function plastic(yield_velocity) {
+    const yields = (yield_velocity ** 2 / (2 * ENERGY)) ** 0.4;
+    const rate = Math.sqrt(2 * Math.sqrt(yields));
+    const centre = yields / 3;
+    const at_yield = Math.sqrt(Math.max(1 - 2 * ENERGY * yields ** 2.5, 0));
+    const largest = centre + Math.hypot(yields - centre, at_yield / rate);
+    const share_at = (d) =>
+      d > yields ? (rate * rate * (d - centre)) / ((4 / 3) * d ** 1.5) : 1;
+    const last = share_at(largest);
+    const springs_back = last * largest;
+    const peak = rate * rate * (largest - centre);
+    const law = (d, v) => {
+      const part = Math.max(1 - (largest - d) / springs_back, 0);
+      const square = Math.max(v > 0 ? d : largest * part, 0);
+      const share = v > 0 ? share_at(d) : last;
+      const force = (4 / 3) * share * square ** 1.5;
+      return { force, square, share, lift: 0, stored: 0.4 * force * share * square };
+    };
+    const flowed = (d) => {
+      const over = Math.max(d / yields, 1);
+      return FLOW * (over - 1.5 * Math.sqrt(over) + 0.5 / Math.sqrt(over));
+    };
+    return { law, flowed, restitution: Math.sqrt(0.8 * peak * springs_back) };
+  }
+
+  // Approach and rate after a time, by one step of Runge and Kutta.
+  function step([d, v], time, law) {
+    const slope = (a, b) => [b, -law(a, b).force];
+    const k1 = slope(d, v);
+    const k2 = slope(d + (time / 2) * k1[0], v + (time / 2) * k1[1]);
+    const k3 = slope(d + (time / 2) * k2[0], v + (time / 2) * k2[1]);
+    const k4 = slope(d + time * k3[0], v + time * k3[1]);
+    const mean = (i) => (time / 6) * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
+    return [d + mean(0), v + mean(1)];
+  }
+
+  // Instants from contact to separation: compression and restitution in equal steps each.
+  function instants(law, tau, steps) {
+    // The duration of compression, then that of restitution, by coarse steps and the last part.
+    const half = (start, ended) => {
+      const coarse = 4 / steps;
+      let [now, time] = [start, 0];
+      while (true) {
+        const next = step(now, coarse, law);
+        if (ended(next) > 0 || time > 60) {
+          const part = root(0, coarse, (short) => ended(step(now, short, law)));
+          return time + part;
+        }
+        [now, time] = [next, time + coarse];
+      }
+    };
+    const rows = [];
+    const run = (start, duration, into) => {
+      let now = start;
+      for (let k = 0; k < steps; k++) {
+        now = step(now, duration / steps, law);
+        into.push({ time: duration * ((k + 1) / steps), d: now[0], v: now[1] });
+      }
+      return now;
+    };
+    const compression = half([0, 1], ([, v]) => -v);
+    const deepest = run([0, 1], compression, rows);
+    const turned = [deepest[0], -Number.MIN_VALUE];
+    const left = ([d, v]) => (tau ? -(d + tau * v) : 1e-9 - law(d, v).force);
+    const restitution = half(turned, left);
+    const back = [];
+    run(turned, restitution, back);
+    for (const row of back) rows.push({ ...row, time: row.time + compression });
+    return { compression, rows };
+  }
+
+  // The relaxation time that leaves this restitution; few steps tell it.
+  let last = {};
+  function relaxation_time(e) {
+    const left = (trial) => instants(viscous(trial), trial, 60).rows.at(-1).v;
+    if (last.e !== e) last = { e, tau: root(0, 8, (trial) => e + left(trial)) };
+    return last.tau;
+  }
+
+  const known = new Map();
+
+  // The normal motion with this restitution and loss: columns over the instants, times over t_c.
+  function normal(e, loss, { springs, steps } = FINE) {
+    const key = `${e} ${loss} ${springs}`;
+    if (known.has(key)) return known.get(key);
+    let law, flowed, tau = 0;
+    if (loss === "plastic" && e < 1) {
+      ({ law, flowed } = plastic(root(0.01, 1, (s) => plastic(s ** 4).restitution - e) ** 4));
+    } else {
+      if (e < 1) tau = relaxation_time(e);
+      law = viscous(tau);
+    }
+    const { compression, rows } = instants(law, tau, steps);
+    const contact = [{ time: 0, d: 0, v: 1 }, ...rows].map(({ time, d, v }, k) =>
+      ({ time: time / compression, d, v, ...law(d, k <= steps ? Math.max(v, 0) || 1e-300 : v) }));
+    contact[steps].v = 0;
+    const end = contact.at(-1);
+    Object.assign(end, { v: -e, force: 0, square: 0, lift: 0 });
+    const largest = Math.max(...contact.map(({ force }) => force));
+    const radius = Math.sqrt(Math.max(...contact.map(({ square }) => square)));
+    const flow = contact.map(({ d }, k) => (flowed && k <= steps ? flowed(d) : 0));
+    const motion = { e, loss, tau, springs, steps, compression, contact, largest, radius, flow,
+      largest_share: contact[steps].share };
+    if (known.size > 40) known.clear();
+    known.set(key, motion);
+    return motion;
+  }
+
+  // ---- springs ------------------------------------------------------------------------------
+
+  // One impact. With `keep`, also its history: at each instant friction, velocity and the springs.
+  function solve(x, beta, zeta2, motion, keep = false) {
+    const { contact, compression, largest, radius, flow, tau, springs, steps, loss } = motion;
+    const width = radius / springs;
+    const squares = Float64Array.from({ length: springs }, (_, i) => ((i + 0.5) * width) ** 2);
+    const q = new Float64Array(springs);
+    const density = new Float64Array(springs);
+    const slips = new Int8Array(springs);
+    const rows = keep ? [] : null;
+    let w = x;
+    let T = 0;
+    let peak = 0;
+    let work = 0;
+    let sticks_ever = false;
+    const keep_row = () =>
+      rows.push({
+        friction: T / largest, velocity: w, work, density: density.slice(), slips: slips.slice(),
+        sheared: zeta2 * width * q.reduce((sum, one) => sum + one * one, 0),
+      });
+    if (keep) {
+      slips.fill(x > zeta2 ? 1 : 0);
+      keep_row();
+    }
+    for (let k = 1; k < contact.length; k++) {
+      const now = contact[k];
+      const time = (now.time - contact[k - 1].time) * compression;
+      const du = (w - (beta * T * time) / 2) * time / zeta2;
+      const flows = k <= steps ? flow[k] - flow[k - 1] : 0;
+      const decay = Math.exp(-flows);
+      const gain = flows > 1e-6 ? (1 - decay) / flows : 1;
+      const damping = tau / time;
+      const top = now.square + now.lift;
+      let [sum, limits, rubbed] = [0, 0, 0];
+      for (let i = 0; i < springs; i++) {
+        if (squares[i] >= now.square) {
+          q[i] = density[i] = slips[i] = 0;
+          continue;
+        }
+        const limit = now.share * (top - squares[i]);
+        const before = q[i] * decay;
+        const free = before + du * gain;
+        // p = q + tau q' stays within the limit; q' is the change in this step over its time.
+        const most = (limit + damping * before) / (1 + damping);
+        const least = (damping * before - limit) / (1 + damping);
+        const held = free > most ? most : free < least ? least : free;
+        slips[i] = free > most ? 1 : free < least ? -1 : 0;
+        q[i] = held;
+        density[i] = held + damping * (held - before);
+        sum += density[i];
+        limits += limit;
+        rubbed += density[i] * (free - held);
+        if (!slips[i] && now.force > 0) sticks_ever = true;
+      }
+      const share = limits > 0 ? sum / limits : 0;
+      const T_now = share * now.force;
+      w -= (beta * time * (T + T_now)) / 2;
+      T = T_now;
+      work += 2 * width * zeta2 * rubbed;
+      peak = Math.max(peak, Math.abs(T));
+      if (keep) keep_row();
+    }
+    const velocity = sticks_ever ? w : x - beta * (1 + motion.e);
+    // Without dashpots all that the tangential motion loses is work of friction and flow.
+    const lost = loss === "viscous" ? work : (x * x - velocity * velocity) / (2 * beta);
+    return {
+      velocity, peak_friction: peak / largest, dissipation: lost, slides: !sticks_ever, rows,
+    };
+  }
+
+  // State at separation as in solver.rebound; peak_friction over mu times the largest normal force.
+  const rebound = (x, beta, zeta2, e, loss) => solve(x, beta, zeta2, normal(e, loss));
+
+  return { covers, normal, rebound, solve, COARSE, LEAST_RESTITUTION };
+})();

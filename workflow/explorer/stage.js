@@ -1,0 +1,290 @@
+"use strict";
+
+// The stage: two balls thrown alike, one by the lumped model and one by the continuum, with what the
+// contact of each looks like below them. The time of the show, in seconds, stretches each contact.
+const stage = (() => {
+  const SLOW_FLIGHT = 3; // times slower than in nature
+  const FIRST_CONTACT = 1.5; // s that one t_c takes in the first bounce, and in the others
+  const LATER_CONTACT = 0.6;
+  const FLASH = 0.04; // s between two images of a ball, at least
+  const SHOWN = 3; // flights that the frame shows; later ones may leave it
+  const STEP = 0.012; // s between two corners of a path
+  const LANES = ["lumped", "continuum"];
+  const element = (id) => document.getElementById(id);
+  const svg = element("stage-svg");
+  const part = (name) => element(`stage-${name}`);
+
+  let shown; // what `prepare` was given, and what follows from it
+  let frame; // of the picture: see `framed`
+  let held; // the frame while the ball is aimed
+
+  // ---- the show in time ---------------------------------------------------------------------
+
+  // Segments of the show. Both balls bounce at the same instants, as both have the same restitution.
+  function segments(flights) {
+    const list = [];
+    let start = 0;
+    const [first, second] = Object.values(flights);
+    first.forEach((one, i) => {
+      const end = Math.max(one.contact?.end ?? 0, second?.[i]?.contact?.end ?? 0);
+      const pace = list.some(({ kind }) => kind === "bounce") ? LATER_CONTACT : FIRST_CONTACT;
+      const length = one.kind === "flight" ? SLOW_FLIGHT * one.time : pace * end;
+      list.push({ kind: one.kind, index: i, start, length, end });
+      start += length;
+    });
+    return list;
+  }
+
+  // The show ends with the last flight, or when both balls have left the frame.
+  function ended() {
+    const last = shown.segments.at(-1);
+    const leaving = Object.entries(shown.traces).map(([lane, { corners }]) =>
+      corners.find((corner) => {
+        const [x] = place_of(corner, lane);
+        return x < -frame.radius || x > frame.width + frame.radius;
+      })?.now ?? Infinity);
+    return Math.min(last.start + last.length, Math.max(...leaving));
+  }
+
+  const duration = () => shown.end;
+
+  // The segment at a time of the show, and how far it has gone, from 0 to 1.
+  function moment(now) {
+    const segment = shown.segments.findLast(({ start }) => start <= now) ?? shown.segments[0];
+    const share = segment.length ? Math.min((now - segment.start) / segment.length, 1) : 1;
+    return { segment, share };
+  }
+
+  // The first bounce: its segment, and t/t_c in it: before it 0, after it the end.
+  function first_bounce(now) {
+    const segment = shown.segments.find(({ kind }) => kind === "bounce");
+    const share = Math.min(Math.max((now - segment.start) / segment.length, 0), 1);
+    return { time: share * segment.end, touching: share > 0 && share < 1, segment };
+  }
+
+  // Ball, contact and wall of one lane now.
+  function lane_at(parts, { segment, share }) {
+    const one = parts[segment.index];
+    if (one.kind === "flight") return { ball: flight.later(one.ball, share * one.time) };
+    const time = Math.min(share * segment.end, one.contact.end);
+    const row = models.at(one.contact, time);
+    const gone = (row.velocity - one.x) / (one.contact.state.velocity - one.x || 1);
+    const mix = (name) => one.ball[name] + gone * (one.after[name] - one.ball[name]);
+    const touches = share < 1 && share * segment.end < one.contact.end;
+    return {
+      ball: { ...one.ball, along: mix("along"), spin: mix("spin") },
+      bounce: one, row: touches ? row : null, slip: one.sign * one.unit * row.velocity,
+    };
+  }
+
+  // ---- the frame ----------------------------------------------------------------------------
+
+  // Size in pixels, and the scale in pixels for a metre that shows the first bounces. Balls are drawn
+  // larger than they are.
+  function framed(flights, gap, speed) {
+    const width = Math.max(svg.clientWidth, 200);
+    const height = Math.max(svg.clientHeight, 120);
+    const small = width < 600;
+    const radius = (small ? 15 : 24) * (gap ? 0.65 : 1);
+    const floor = height - (small ? 18 : 28);
+    const ceiling = small ? 46 : 54;
+    const places = [0];
+    const heights = [gap || 0.3];
+    const count = gap ? Infinity : SHOWN;
+    for (const parts of Object.values(flights)) {
+      for (const one of parts.filter(({ kind }) => kind === "flight").slice(0, count)) {
+        for (let i = 0; i <= 8; i++) {
+          const ball = flight.later(one.ball, (one.time * i) / 8);
+          places.push(ball.place);
+          heights.push(ball.height);
+        }
+      }
+    }
+    const [left, right] = [Math.min(...places), Math.max(...places)];
+    const room = width - 5 * radius;
+    const tall = floor - ceiling - (gap ? 14 + 3.6 * radius : 3 * radius);
+    const scale = Math.min(room / Math.max(right - left, 0.4), tall / Math.max(...heights));
+    // What the flights leave free parts the lanes.
+    const free = floor - ceiling - 2 * radius - scale * Math.max(...heights) - (gap ? 14 : 0);
+    const depth = Math.min(Math.max(free, 1.6 * radius), 0.36 * height);
+    const used = Math.min((right - left) * scale, room);
+    const origin = 2 * radius - left * scale + (room - used) / 2;
+    // Under a table the paths cross, and images would hide them.
+    const flash = gap ? Infinity : Math.max(FLASH, (1.5 * radius) / scale / Math.max(speed, 1));
+    return { width, height, radius, depth, floor, scale, origin, gap, flash };
+  }
+
+  const place_of = ({ place, height }, lane) => {
+    const back = lane === "continuum" ? 0 : 1; // the lumped model flies behind
+    return [
+      frame.origin + frame.scale * place + back * 0.8 * frame.radius,
+      frame.floor - frame.scale * height - frame.radius - back * frame.depth,
+    ];
+  };
+
+  // ---- drawing ------------------------------------------------------------------------------
+
+  // Corners of the path of a lane and the instants of its images, with the time of the show.
+  function traced(parts, list) {
+    const corners = [];
+    const images = [];
+    let passed = 0;
+    parts.forEach((one, i) => {
+      if (one.kind !== "flight") return;
+      const { start, length } = list[i];
+      const steps = Math.max(Math.ceil(one.time / STEP), 1);
+      for (let k = 0; k <= steps; k++) {
+        corners.push({ now: start + (length * k) / steps,
+          ...flight.later(one.ball, (one.time * k) / steps) });
+      }
+      for (; passed < one.time && frame.flash < Infinity; passed += frame.flash) {
+        images.push({ now: start + SLOW_FLIGHT * passed, ...flight.later(one.ball, passed) });
+      }
+      passed = Math.max(passed - one.time, 0);
+    });
+    return { corners, images };
+  }
+
+  function prepare(given, flights) {
+    const gap = given.table ? given.table - 2 * given.radius : 0;
+    const list = segments(flights);
+    shown = { given, flights, segments: list, drawn: {} };
+    frame = held ?? framed(flights, gap, given.speed);
+    shown.traces = Object.fromEntries(
+      Object.entries(flights).map(([lane, parts]) => [lane, traced(parts, list)]));
+    shown.end = ended();
+    svg.setAttribute("viewBox", `0 0 ${frame.width} ${frame.height}`);
+    part("floor").setAttribute("d", `M0,${frame.floor - frame.depth - 8}H${frame.width}` +
+      `V${frame.height}H0Z`);
+    part("edge").setAttribute("d", `M0,${frame.floor - frame.depth - 8}H${frame.width}`);
+    // A glass table: its lower side, above both lanes.
+    const under = frame.floor - frame.scale * gap - 2 * frame.radius;
+    part("table").setAttribute("d", gap ? `M0,${under - frame.depth}H${frame.width}V${under}H0Z` : "");
+    part("ruler").setAttribute("d",
+      `M${frame.width - 12},${frame.height - 8}h${-frame.scale * 0.5}m0,-4v8m${frame.scale * 0.5},-8v8`);
+    const metre = part("metre");
+    metre.setAttribute("x", frame.width - 12 - frame.scale * 0.25);
+    metre.setAttribute("y", frame.height - 12);
+    for (const lane of LANES) part(lane).classList.toggle("absent", !flights[lane]);
+    show_hand();
+  }
+
+  // Numbers beside the name of each lane.
+  const speed_words = ({ along, spin }) => {
+    const way = along < -0.005 ? "back" : "forwards";
+    const turning = Math.abs(spin) < 0.5 ? "no spin" :
+      `${Math.abs(spin).toFixed(0)} rad/s ${spin > 0 ? "clockwise" : "anticlockwise"}`;
+    return `${Math.abs(along).toFixed(1)} m/s ${way}, ${turning}`;
+  };
+
+  function show_lane(lane, now, at_moment) {
+    const parts = shown.flights[lane];
+    if (!parts) return;
+    const { ball, bounce, row, slip } = lane_at(parts, at_moment);
+    const [x, y] = place_of(ball, lane);
+    const { radius, scale } = frame;
+    const degrees = (ball.turn * 180) / Math.PI;
+    const size = radius / 20;
+    part(`${lane}-ball`).setAttribute("transform",
+      `translate(${x.toFixed(1)},${y.toFixed(1)}) rotate(${degrees.toFixed(1)}) scale(${size})`);
+    const ground = place_of({ place: ball.place, height: 0 }, lane)[1] + radius;
+    const shadow = part(`${lane}-shadow`);
+    shadow.setAttribute("cx", x.toFixed(1));
+    shadow.setAttribute("cy", ground.toFixed(1));
+    shadow.setAttribute("rx", Math.max(radius * (1 - 0.25 * ball.height), 5).toFixed(1));
+    shadow.setAttribute("ry", radius / 5);
+    const { corners, images } = shown.traces[lane];
+    const until = corners.findIndex((corner) => corner.now > now);
+    const behind = (until < 0 ? corners : corners.slice(0, until)).map((one) => place_of(one, lane));
+    behind.push([x, y]);
+    part(`${lane}-path`).setAttribute("d",
+      `M${behind.map(([a, b]) => `${a.toFixed(1)},${b.toFixed(1)}`).join("L")}`);
+    const count = images.filter((image) => image.now <= now).length;
+    if (shown.drawn[lane] !== count) {
+      shown.drawn[lane] = count;
+      part(`${lane}-images`).setAttribute("d", images.slice(0, count).map((image) => {
+        const [a, b] = place_of(image, lane);
+        const [u, v] = [radius * Math.sin(image.turn), -radius * Math.cos(image.turn)];
+        return `M${a - radius},${b}a${radius},${radius} 0 1 0 ${2 * radius},0a${radius},${radius}` +
+          ` 0 1 0 ${-2 * radius},0M${(a - u).toFixed(1)},${(b - v).toFixed(1)}` +
+          `L${(a + u).toFixed(1)},${(b + v).toFixed(1)}`;
+      }).join(""));
+    }
+    const foot = bounce?.wall === "table" ? y - radius : y + radius;
+    const arrow = bounce ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
+    part(`${lane}-slip`).setAttribute("d", arrow);
+    part(`${lane}-numbers`).textContent = speed_words(ball);
+    patch_of(lane, bounce, row);
+  }
+
+  // Pixels for 1 m/s, of arrows.
+  const speed_scale = () => (frame.width < 600 ? 12 : 18);
+
+  function patch_of(lane, bounce, row) {
+    const style = bounce?.contact.style;
+    const { e } = shown.given.groups;
+    const motion = style && style !== "lumped" ? continuum.normal(e, style) : null;
+    const zones = patch.show(lane, row, bounce?.sign ?? 1, motion);
+    element(`patch-${lane}-words`).textContent = patch.words(zones);
+  }
+
+  function show(now) {
+    const at_moment = moment(now);
+    for (const lane of LANES) show_lane(lane, now, at_moment);
+    const { segment } = at_moment;
+    const bounces = shown.segments.slice(0, segment.index + 1)
+      .filter(({ kind }) => kind === "bounce").length;
+    part("moment").textContent = segment.kind === "bounce"
+      ? `bounce ${bounces}, in slow motion`
+      : now === 0 ? "" : `in flight, ${SLOW_FLIGHT} times slower`;
+    svg.classList.toggle("waiting", now === 0);
+  }
+
+  // ---- the hand -----------------------------------------------------------------------------
+
+  function show_hand() {
+    const ball = flight.start(shown.given);
+    const [x, y] = place_of(ball, "continuum");
+    const { radius } = frame;
+    const k = speed_scale();
+    part("hand").setAttribute("transform", `translate(${x.toFixed(1)},${y.toFixed(1)})`);
+    part("grasp").setAttribute("r", Math.max(radius + 8, 24));
+    part("aim").setAttribute("d", arrows.straight(0, 0, k * ball.along, -k * ball.up));
+    const turn = Math.max(-5.2, Math.min(5.2, shown.given.spin / 80));
+    part("spin").setAttribute("d", arrows.round(0, 0, radius + 8, turn));
+    part("knob").setAttribute("cx", ((radius + 8) * Math.sin(turn)).toFixed(1));
+    part("knob").setAttribute("cy", (-(radius + 8) * Math.cos(turn)).toFixed(1));
+    part("aim-words").setAttribute("y", -radius - 20);
+    part("invitation").setAttribute("x", x + radius + 60);
+    part("invitation").setAttribute("y", Math.max(y - radius - 24, 64));
+    part("moment").setAttribute("x", frame.width - 10);
+    part("moment").setAttribute("y", frame.width < 600 ? 58 : 20);
+    part("aim-words").textContent = `${shown.given.speed.toFixed(1)} m/s`;
+  }
+
+  // What a drag asks for. Pulled back, as a slingshot, the ball flies the other way.
+  function aim_at(event) {
+    const point = new DOMPoint(event.clientX, event.clientY)
+      .matrixTransform(svg.getScreenCTM().inverse());
+    const ball = flight.start(shown.given);
+    const [x, y] = place_of(ball, "continuum");
+    let [right, down] = [point.x - x, point.y - y];
+    if (right < 0) [right, down] = [-right, -down];
+    const k = speed_scale();
+    const aimed = flight.aimed({ along: right / k, up: -Math.max(down, 0) / k, height: ball.height,
+      gravity: shown.given.gravity });
+    return { angle: Number(aimed.angle.toFixed(1)), speed: Number(aimed.speed.toFixed(1)) };
+  }
+
+  // Spin by the angle at which the knob stands round the ball.
+  function spin_at(event) {
+    const point = new DOMPoint(event.clientX, event.clientY)
+      .matrixTransform(svg.getScreenCTM().inverse());
+    const [x, y] = place_of(flight.start(shown.given), "continuum");
+    return 80 * Math.atan2(point.x - x, y - point.y);
+  }
+
+  const hold = (on) => (held = on ? frame : undefined);
+
+  return { prepare, show, duration, first_bounce, aim_at, spin_at, hold, part };
+})();
