@@ -102,22 +102,23 @@ const stage = (() => {
     }
     const [left, right] = [Math.min(...places), Math.max(...places)];
     const room = width - 5 * radius;
-    const tall = floor - ceiling - (gap ? 14 + 3.6 * radius : 3 * radius);
+    const tall = floor - ceiling - 4 * radius;
     const scale = Math.min(room / Math.max(right - left, 0.4), tall / Math.max(...heights));
-    // What the flights leave free parts the lanes.
-    const free = floor - ceiling - 2 * radius - scale * Math.max(...heights) - (gap ? 14 : 0);
+    // What the flights leave free above and aside parts the lanes.
+    const free = floor - ceiling - 2 * radius - scale * Math.max(...heights);
     const depth = Math.min(Math.max(free, 1.6 * radius), 0.36 * height);
     const used = Math.min((right - left) * scale, room);
-    const origin = 2 * radius - left * scale + (room - used) / 2;
+    const aside = Math.max(0.8 * radius, gap ? 0 : Math.min(0.6 * (room - used), used + 3 * radius));
+    const origin = 2 * radius - left * scale + Math.max(room - used - aside, 0) / 2;
     // Under a table the paths cross, and images would hide them.
     const flash = gap ? Infinity : Math.max(FLASH, (1.5 * radius) / scale / Math.max(speed, 1));
-    return { width, height, radius, depth, floor, scale, origin, gap, flash };
+    return { width, height, radius, depth, aside, floor, scale, origin, gap, flash };
   }
 
   const place_of = ({ place, height }, lane) => {
     const back = lane === "continuum" ? 0 : 1; // the lumped model flies behind
     return [
-      frame.origin + frame.scale * place + back * 0.8 * frame.radius,
+      frame.origin + frame.scale * place + back * frame.aside,
       frame.floor - frame.scale * height - frame.radius - back * frame.depth,
     ];
   };
@@ -172,8 +173,9 @@ const stage = (() => {
   // Numbers beside the name of each lane.
   const speed_words = ({ along, spin }) => {
     const way = along < -0.005 ? "back" : "forwards";
+    const senses = frame.width < 600 ? ["\u21BB", "\u21BA"] : ["clockwise", "anticlockwise"];
     const turning = Math.abs(spin) < 0.5 ? "no spin" :
-      `${Math.abs(spin).toFixed(0)} rad/s ${spin > 0 ? "clockwise" : "anticlockwise"}`;
+      `${Math.abs(spin).toFixed(0)} rad/s ${senses[spin > 0 ? 0 : 1]}`;
     return `${Math.abs(along).toFixed(1)} m/s ${way}, ${turning}`;
   };
 
