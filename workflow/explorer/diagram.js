@@ -77,9 +77,9 @@ const diagram = (() => {
       const k = Math.min(Math.floor(Math.abs(share) * motion.springs), motion.springs - 1);
       const touches = touching && Math.abs(share) < radius;
       const lean = touches ? (ROW * LEAN * 3 * density[k]) / unit : 0;
-      const round = 46 * share * share; // the body is round: its springs begin higher at the edge
+      const round = 100 * Math.abs(share) ** 2.4; // springs begin on the round body
       const end = touches ? GROUND : Math.min(GROUND - 2, plate + (GROUND - PLATE) - round + 4);
-      bodies += spring(top, plate + 4 - round, top - lean, end - 7, 4);
+      bodies += spring(top, plate - round, top - lean, end - 7, 4);
       const foot = `M${(top - lean - 5).toFixed(1)},${end - 7}h10v7h-10z`;
       if (!touches) free += foot;
       else if (slips[k] === 0) sticking += foot;
