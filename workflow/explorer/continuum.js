@@ -17,6 +17,7 @@ const continuum = (() => {
   const FINE = { springs: 40, steps: 240 };
   const COARSE = { springs: 20, steps: 100 };
   const TURNS = 60;
+  const LONGEST = 60; // of half a contact; with the smallest restitution it is about 12
   const FLOW = 0.95; // as in planarimpact.normal_impact.yielding
   const ENERGY = 8 / 15; // of Hertz's law at the approach 1
 
@@ -48,14 +49,13 @@ const continuum = (() => {
   }
 
   // ---- normal motion ------------------------------------------------------------------------
-  // Each law gives, for an approach d and its rate v: force N, square of the radius of contact a^2,
-  // h (or, with dashpots, `lift`: L = a^2 + lift - r^2), and the elastic energy held.
+  // A law has a function for loading and one for unloading. Of an approach d and its rate v they tell
+  // the force N, the square of the radius of contact a^2, h (with dashpots `lift`: L is
+  // a^2 + lift - r^2), and the elastic energy held; `touching` is a^2 in unloading, below 0 after it.
 
-  // Hertz's law in loading and unloading; tau = 0 is elastic.
+  // Hertz's law with dashpots; tau = 0 is elastic.
   function viscous(tau) {
-    return (d, v) => {
-      const depth = d + tau * v;
-      const square = Math.max(v > 0 ? d : depth, 0);
+    const at = (d, depth, square) => {
       const radius = Math.sqrt(square);
       return {
         force: Math.max(2 * radius * (depth - square / 3), 0),
@@ -65,10 +65,15 @@ const continuum = (() => {
         stored: d * d * radius - (2 / 3) * d * radius ** 3 + radius ** 5 / 5,
       };
     };
+    return {
+      loading: (d, v) => at(d, d + tau * v, Math.max(d, 0)),
+      unloading: (d, v) => at(d, d + tau * v, Math.max(d + tau * v, 0)),
+      touching: (d, v) => d + tau * v,
+    };
   }
 
   // Thornton's law: loading is elastic up to the approach d_y and linear from there; unloading is
-  // elastic along Hertz's law of a flatter sphere.
+  // elastic along Hertz's law of a flatter sphere. While it yields, deflections in shear flow.
   function plastic(yield_velocity) {
     const yields = (yield_velocity ** 2 / (2 * ENERGY)) ** 0.4;
     const rate = Math.sqrt(2 * Math.sqrt(yields));
@@ -79,24 +84,26 @@ const continuum = (() => {
       d > yields ? (rate * rate * (d - centre)) / ((4 / 3) * d ** 1.5) : 1;
     const last = share_at(largest);
     const springs_back = last * largest;
-    const peak = rate * rate * (largest - centre);
-    const law = (d, v) => {
-      const part = Math.max(1 - (largest - d) / springs_back, 0);
-      const square = Math.max(v > 0 ? d : largest * part, 0);
-      const share = v > 0 ? share_at(d) : last;
+    const touching = (d) => largest * (1 - (largest - d) / springs_back);
+    const at = (square, share) => {
       const force = (4 / 3) * share * square ** 1.5;
       return { force, square, share, lift: 0, stored: 0.4 * force * share * square };
     };
-    const flowed = (d) => {
-      const over = Math.max(d / yields, 1);
-      return FLOW * (over - 1.5 * Math.sqrt(over) + 0.5 / Math.sqrt(over));
+    return {
+      loading: (d) => at(Math.max(d, 0), share_at(d)),
+      unloading: (d) => at(Math.max(touching(d), 0), last),
+      touching,
+      flowed: (d) => {
+        const over = Math.max(d / yields, 1);
+        return FLOW * (over - 1.5 * Math.sqrt(over) + 0.5 / Math.sqrt(over));
+      },
+      restitution: Math.sqrt(0.8 * rate * rate * (largest - centre) * springs_back),
     };
-    return { law, flowed, restitution: Math.sqrt(0.8 * peak * springs_back) };
   }
 
-  // Approach and rate after a time, by one step of Runge and Kutta.
-  function step([d, v], time, law) {
-    const slope = (a, b) => [b, -law(a, b).force];
+  // Approach and rate after a time, by one step of Runge and Kutta; `half` is loading or unloading.
+  function step([d, v], time, half) {
+    const slope = (a, b) => [b, -half(a, b).force];
     const k1 = slope(d, v);
     const k2 = slope(d + (time / 2) * k1[0], v + (time / 2) * k1[1]);
     const k3 = slope(d + (time / 2) * k2[0], v + (time / 2) * k2[1]);
@@ -105,45 +112,38 @@ const continuum = (() => {
     return [d + mean(0), v + mean(1)];
   }
 
-  // Instants from contact to separation: compression and restitution in equal steps each.
-  function instants(law, tau, steps) {
-    // The duration of compression, then that of restitution, by coarse steps and the last part.
-    const half = (start, ended) => {
-      const coarse = 4 / steps;
-      let [now, time] = [start, 0];
-      while (true) {
-        const next = step(now, coarse, law);
-        if (ended(next) > 0 || time > 60) {
-          const part = root(0, coarse, (short) => ended(step(now, short, law)));
-          return time + part;
-        }
-        [now, time] = [next, time + coarse];
-      }
-    };
+  // Half a contact in equal steps, from a state to where `over` becomes positive: its duration is
+  // sought first, by steps of another length and a part of the last one.
+  function run(start, half, over, steps) {
+    const length = 4 / steps;
+    let [now, duration] = [start, 0];
+    while (over(step(now, length, half)) <= 0 && duration < LONGEST) {
+      now = step(now, length, half);
+      duration += length;
+    }
+    duration += root(0, length, (part) => over(step(now, part, half)));
     const rows = [];
-    const run = (start, duration, into) => {
-      let now = start;
-      for (let k = 0; k < steps; k++) {
-        now = step(now, duration / steps, law);
-        into.push({ time: duration * ((k + 1) / steps), d: now[0], v: now[1] });
-      }
-      return now;
-    };
-    const compression = half([0, 1], ([, v]) => -v);
-    const deepest = run([0, 1], compression, rows);
-    const turned = [deepest[0], -Number.MIN_VALUE];
-    const left = ([d, v]) => (tau ? -(d + tau * v) : 1e-9 - law(d, v).force);
-    const restitution = half(turned, left);
-    const back = [];
-    run(turned, restitution, back);
-    for (const row of back) rows.push({ ...row, time: row.time + compression });
+    now = start;
+    for (let k = 1; k <= steps; k++) {
+      now = step(now, duration / steps, half);
+      rows.push({ time: (duration * k) / steps, d: now[0], v: now[1], ...half(...now) });
+    }
+    return rows;
+  }
+
+  // Instants after contact, to separation; and the duration of compression.
+  function instants({ loading, unloading, touching }, steps) {
+    const rows = run([0, 1], loading, ([, v]) => -v, steps);
+    const { time: compression, d: deepest } = rows.at(-1);
+    const back = run([deepest, 0], unloading, ([d, v]) => -touching(d, v), steps);
+    for (const row of back) rows.push({ ...row, time: compression + row.time });
     return { compression, rows };
   }
 
   // The relaxation time that leaves this restitution; few steps tell it.
   let last = {};
   function relaxation_time(e) {
-    const left = (trial) => instants(viscous(trial), trial, 60).rows.at(-1).v;
+    const left = (trial) => instants(viscous(trial), 60).rows.at(-1).v;
     if (last.e !== e) last = { e, tau: root(0, 8, (trial) => e + left(trial)) };
     return last.tau;
   }
@@ -154,24 +154,23 @@ const continuum = (() => {
   function normal(e, loss, { springs, steps } = FINE) {
     const key = `${e} ${loss} ${springs}`;
     if (known.has(key)) return known.get(key);
-    let law, flowed, tau = 0;
-    if (loss === "plastic" && e < 1) {
-      ({ law, flowed } = plastic(root(0.01, 1, (s) => plastic(s ** 4).restitution - e) ** 4));
-    } else {
-      if (e < 1) tau = relaxation_time(e);
-      law = viscous(tau);
-    }
-    const { compression, rows } = instants(law, tau, steps);
-    const contact = [{ time: 0, d: 0, v: 1 }, ...rows].map(({ time, d, v }, k) =>
-      ({ time: time / compression, d, v, ...law(d, k <= steps ? Math.max(v, 0) || 1e-300 : v) }));
+    const yields = loss === "plastic" && e < 1;
+    const tau = yields || e === 1 ? 0 : relaxation_time(e);
+    const law = yields
+      ? plastic(root(0.01, 1, (s) => plastic(s ** 4).restitution - e) ** 4)
+      : viscous(tau);
+    const { compression, rows } = instants(law, steps);
+    const contact = [{ time: 0, d: 0, v: 1, ...law.loading(0, 1) }, ...rows];
+    for (const row of contact) row.time /= compression;
     contact[steps].v = 0;
-    const end = contact.at(-1);
-    Object.assign(end, { v: -e, force: 0, square: 0, lift: 0 });
-    const largest = Math.max(...contact.map(({ force }) => force));
-    const radius = Math.sqrt(Math.max(...contact.map(({ square }) => square)));
-    const flow = contact.map(({ d }, k) => (flowed && k <= steps ? flowed(d) : 0));
-    const motion = { e, loss, tau, springs, steps, compression, contact, largest, radius, flow,
-      largest_share: contact[steps].share };
+    Object.assign(contact.at(-1), { v: -e, force: 0, square: 0, lift: 0 });
+    const motion = {
+      e, loss, tau, springs, steps, compression, contact,
+      largest: Math.max(...contact.map(({ force }) => force)),
+      radius: Math.sqrt(Math.max(...contact.map(({ square }) => square))),
+      largest_share: contact[steps].share,
+      flow: rows.slice(0, steps).map(({ d }) => (yields ? law.flowed(d) : 0)),
+    };
     if (known.size > 40) known.clear();
     known.set(key, motion);
     return motion;
@@ -206,7 +205,7 @@ const continuum = (() => {
       const now = contact[k];
       const time = (now.time - contact[k - 1].time) * compression;
       const du = (w - (beta * T * time) / 2) * time / zeta2;
-      const flows = k <= steps ? flow[k] - flow[k - 1] : 0;
+      const flows = k <= steps ? flow[k - 1] - (flow[k - 2] ?? 0) : 0;
       const decay = Math.exp(-flows);
       const gain = flows > 1e-6 ? (1 - decay) / flows : 1;
       const damping = tau / time;
