@@ -15,7 +15,7 @@ const diagram = (() => {
   const FOOT = 290; // where the plate shows the velocity of the contact point
   const HATCH = 14; // of the surface
   const ROW = 150; // half the length of the row of springs
-  const PAIRS = 15; // springs drawn in the row
+  const PAIRS = 29; // springs drawn in the row
   const LEAN = 0.09; // of a spring in the row at the limit of friction, of its largest length
   const part = (name) => document.getElementById(`diagram-${name}`);
 
@@ -79,8 +79,8 @@ const diagram = (() => {
       const lean = touches ? (ROW * LEAN * 3 * density[k]) / unit : 0;
       const round = 100 * Math.abs(share) ** 2.4; // springs begin on the round body
       const end = touches ? GROUND : Math.min(GROUND - 2, plate + (GROUND - PLATE) - round + 4);
-      bodies += spring(top, plate - round, top - lean, end - 7, 4);
-      const foot = `M${(top - lean - 5).toFixed(1)},${end - 7}h10v7h-10z`;
+      bodies += spring(top, plate - round, top - lean, end - 7, 2.5);
+      const foot = `M${(top - lean - 3.5).toFixed(1)},${end - 7}h7v7h-7z`;
       if (!touches) free += foot;
       else if (slips[k] === 0) sticking += foot;
       else slipping += foot;

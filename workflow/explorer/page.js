@@ -15,7 +15,9 @@ const page = (() => {
   };
   const LIMITS = { radius: [1, 200], gravity: [0, 30] }; // of numbers without a slider
   const SETTLED = 300; // ms without a change, after which the address says the state
-  const TOLD = 6000; // ms that a message stays
+  const GLIDE = 220; // ms from the frame of aiming to that of the throw
+  const TOLD = 5000; // ms that a message stays
+  const INVITATION = "Grab the ball, pull, let go";
   const INTENT = 8; // pixels that a finger moves before its direction counts
   // A comma is read as a decimal point, never as a separator of thousands.
   const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i;
@@ -269,7 +271,7 @@ const page = (() => {
   }
 
   const show_typed = (name) =>
-    (element(`${name}-number`).value = Number(state[name].toFixed(4)));
+    (element(`${name}-number`).value = Number(state[name].toFixed(3)));
 
   function refresh() {
     const throw_ = thrown();
@@ -295,8 +297,8 @@ const page = (() => {
     document.dispatchEvent(new CustomEvent("impact", { detail: impact }));
   }
 
-  const width_of = (name) => element(name).clientWidth /
-    (parseFloat(getComputedStyle(root).fontSize) / 16);
+  const width_of = (name) =>
+    (Math.max(element(name).clientWidth, 160) * 16) / parseFloat(getComputedStyle(root).fontSize);
 
   // The closer look is drawn at once where it can be seen, and else when a change is over.
   const closer = document.querySelector(".closer");
@@ -427,11 +429,11 @@ const page = (() => {
   }
 
   function play(on) {
-    if (on && now >= stage.duration()) now = 0;
+    if (on && now >= stage.duration() - 1e-3) now = 0;
     playing = on;
     last = undefined;
-    element("play").textContent = on ? "\u275A\u275A Pause" : now > 0 && now < stage.duration()
-      ? "\u25B6 Go on" : "\u25B6 Throw";
+    const within = now > 0 && now < stage.duration() - 1e-3;
+    element("play").textContent = on ? "\u275A\u275A Pause" : within ? "\u25B6 Go on" : "\u25B6 Throw";
     if (on) requestAnimationFrame(frame);
   }
 
@@ -442,6 +444,20 @@ const page = (() => {
     else play(true);
   }
 
+  // Before a throw the frame glides from the one in which the ball was aimed.
+  function glide_and_throw(from) {
+    if (still.matches || !from) return throw_ball();
+    const begun = performance.now();
+    const turn = (time) => {
+      const share = Math.min(Math.max((time - begun) / GLIDE, 0), 1);
+      stage.glide(from, share * share * (3 - 2 * share));
+      show_time();
+      if (share < 1) requestAnimationFrame(turn);
+      else throw_ball();
+    };
+    requestAnimationFrame(turn);
+  }
+
   function go_to(time) {
     now = Math.min(Math.max(time, 0), stage.duration());
     play(false);
@@ -449,7 +465,12 @@ const page = (() => {
   }
 
   element("play").addEventListener("click", () => play(!playing));
-  element("do-reset").addEventListener("click", () => go_to(0));
+  element("do-start").addEventListener("click", () => go_to(0));
+  element("do-micro").addEventListener("click", () => {
+    const time = stage.micro_slip();
+    if (time === null) tell("In the first bounce of this throw the contact sticks nowhere.");
+    else go_to(time);
+  });
   element("time").addEventListener("input", (event) => go_to(Number(event.target.value)));
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && root.dataset.mode === "projector") ACTIONS.projector();
@@ -462,30 +483,35 @@ const page = (() => {
   // The ball in the hand: dragged, it aims, and let go, it flies. The knob on its rim gives it spin.
   function on_hand(name, move, release) {
     const handle = stage.part(name);
-    let moved = false;
     // A touch here throws, it does not scroll; browsers ignore touch-action inside SVG.
     handle.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
     handle.addEventListener("pointerdown", (event) => {
       if (!event.isPrimary || event.button !== 0) return;
       go_to(0);
       stage.hold(true);
-      moved = false;
       handle.setPointerCapture(event.pointerId);
     });
     handle.addEventListener("pointermove", (event) => {
       if (!handle.hasPointerCapture(event.pointerId)) return;
-      moved = true;
       take(move(event));
     });
     handle.addEventListener("pointerup", () => {
-      stage.hold(false);
+      const from = stage.hold(false);
       refresh();
-      release(moved);
+      release(from);
     });
     handle.addEventListener("pointercancel", () => stage.hold(false));
   }
-  on_hand("grasp", (event) => stage.aim_at(event), throw_ball);
+  on_hand("grasp", (event) => stage.aim_at(event, "continuum"), glide_and_throw);
+  on_hand("other-grasp", (event) => stage.aim_at(event, "lumped"), glide_and_throw);
   on_hand("knob", (event) => ({ spin: Math.round(stage.spin_at(event) / 5) * 5 }), () => {});
+  const invite = (text) => (stage.part("invitation").textContent = text);
+  stage.part("grasp").addEventListener("focus", ({ target }) => {
+    if (target.matches(":focus-visible")) {
+      invite("\u2190 \u2192 angle, \u2191 \u2193 speed, Page Up/Down spin, Enter throws");
+    }
+  });
+  stage.part("grasp").addEventListener("blur", () => invite(INVITATION));
   stage.part("grasp").addEventListener("keydown", (event) => {
     const turn = (name, by) => ({ [name]: Number((state[name] + by).toFixed(4)) });
     const change = {

@@ -53,12 +53,13 @@ const patch = (() => {
   }
 
   function arrow(x, y, length) {
-    if (Math.abs(length) < 1.2) return "";
-    const head = Math.sign(length) * Math.min(Math.abs(length), 7);
+    if (Math.abs(length) < 1.5) return "";
+    const head = 0.42 * length;
+    const wide = Math.min(Math.abs(head), 5) * 0.55;
     const [tail, tip] = [x - length / 2, x + length / 2];
     const neck = (tip - head).toFixed(1);
-    return `M${tail.toFixed(1)},${y.toFixed(1)}H${neck}M${neck},${(y - 3.6).toFixed(1)}` +
-      `L${tip.toFixed(1)},${y.toFixed(1)}L${neck},${(y + 3.6).toFixed(1)}Z`;
+    return `M${tail.toFixed(1)},${y.toFixed(1)}H${neck}M${neck},${(y - wide).toFixed(1)}` +
+      `L${tip.toFixed(1)},${y.toFixed(1)}L${neck},${(y + wide).toFixed(1)}Z`;
   }
 
   // Stress as a function of the radius, on a fine grid.
@@ -105,7 +106,7 @@ const patch = (() => {
     });
     const marks = PLACES.map(([x, y]) => {
       const share = Math.hypot(x, y);
-      if (share >= radius) return "";
+      if (share >= radius - 0.02) return "";
       // Friction of the surface on the ball is against the direction it came in where positive.
       return arrow(RADIUS * x, RADIUS * y, -sign * LENGTH * force(share));
     });

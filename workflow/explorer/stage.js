@@ -9,6 +9,7 @@ const stage = (() => {
   const FLASH = 0.04; // s between two images of a ball, at least
   const SHOWN = 3; // flights that the frame shows; later ones may leave it
   const STEP = 0.012; // s between two corners of a path
+  const RADIANS_A_SECOND = 80; // of spin that turns the knob by one radian
   const LANES = ["lumped", "continuum"];
   const element = (id) => document.getElementById(id);
   const svg = element("stage-svg");
@@ -17,6 +18,7 @@ const stage = (() => {
   let shown; // what `prepare` was given, and what follows from it
   let frame; // of the picture: see `framed`
   let held; // the frame while the ball is aimed
+  let aimed_frame; // the one that shows its throw
 
   // ---- the show in time ---------------------------------------------------------------------
 
@@ -35,15 +37,15 @@ const stage = (() => {
     return list;
   }
 
-  // The show ends with the last flight, or when both balls have left the frame.
+  // The show ends with the last flight, or when a ball reaches the edge of the frame.
   function ended() {
     const last = shown.segments.at(-1);
     const leaving = Object.entries(shown.traces).map(([lane, { corners }]) =>
       corners.find((corner) => {
         const [x] = place_of(corner, lane);
-        return x < -frame.radius || x > frame.width + frame.radius;
+        return x < frame.radius || x > frame.width - frame.radius;
       })?.now ?? Infinity);
-    return Math.min(last.start + last.length, Math.max(...leaving));
+    return Math.min(last.start + last.length, ...leaving);
   }
 
   const duration = () => shown.end;
@@ -111,7 +113,7 @@ const stage = (() => {
     const aside = Math.max(0.8 * radius, gap ? 0 : Math.min(0.6 * (room - used), used + 3 * radius));
     const origin = 2 * radius - left * scale + Math.max(room - used - aside, 0) / 2;
     // Under a table the paths cross, and images would hide them.
-    const flash = gap ? Infinity : Math.max(FLASH, (1.5 * radius) / scale / Math.max(speed, 1));
+    const flash = gap ? 1e3 : Math.max(FLASH, (1.5 * radius) / scale / Math.max(speed, 1));
     return { width, height, radius, depth, aside, floor, scale, origin, gap, flash };
   }
 
@@ -126,7 +128,7 @@ const stage = (() => {
   // ---- drawing ------------------------------------------------------------------------------
 
   // Corners of the path of a lane and the instants of its images, with the time of the show.
-  function traced(parts, list) {
+  function traced(parts, list, flash) {
     const corners = [];
     const images = [];
     let passed = 0;
@@ -138,7 +140,7 @@ const stage = (() => {
         corners.push({ now: start + (length * k) / steps,
           ...flight.later(one.ball, (one.time * k) / steps) });
       }
-      for (; passed < one.time && frame.flash < Infinity; passed += frame.flash) {
+      for (; passed < one.time && flash < 1e3; passed += flash) {
         images.push({ now: start + SLOW_FLIGHT * passed, ...flight.later(one.ball, passed) });
       }
       passed = Math.max(passed - one.time, 0);
@@ -150,24 +152,40 @@ const stage = (() => {
     const gap = given.table ? given.table - 2 * given.radius : 0;
     const list = segments(flights);
     shown = { given, flights, segments: list, drawn: {} };
-    frame = held ?? framed(flights, gap, given.speed);
+    aimed_frame = framed(flights, gap, given.speed);
     shown.traces = Object.fromEntries(
-      Object.entries(flights).map(([lane, parts]) => [lane, traced(parts, list)]));
-    shown.end = ended();
-    svg.setAttribute("viewBox", `0 0 ${frame.width} ${frame.height}`);
-    part("floor").setAttribute("d", `M0,${frame.floor - frame.depth - 8}H${frame.width}` +
-      `V${frame.height}H0Z`);
-    part("edge").setAttribute("d", `M0,${frame.floor - frame.depth - 8}H${frame.width}`);
-    // A glass table: its lower side, above both lanes.
-    const under = frame.floor - frame.scale * gap - 2 * frame.radius;
-    part("table").setAttribute("d", gap ? `M0,${under - frame.depth}H${frame.width}V${under}H0Z` : "");
-    part("ruler").setAttribute("d",
-      `M${frame.width - 12},${frame.height - 8}h${-frame.scale * 0.5}m0,-4v8m${frame.scale * 0.5},-8v8`);
-    const metre = part("metre");
-    metre.setAttribute("x", frame.width - 12 - frame.scale * 0.25);
-    metre.setAttribute("y", frame.height - 12);
+      Object.entries(flights).map(([lane, parts]) => [lane, traced(parts, list, aimed_frame.flash)]));
+    put_frame(held ?? aimed_frame);
     for (const lane of LANES) part(lane).classList.toggle("absent", !flights[lane]);
+  }
+
+  // Draws what stands still in a frame.
+  function put_frame(new_frame) {
+    frame = new_frame;
+    shown.drawn = {};
+    shown.end = ended();
+    const { width, height, radius, depth, floor, scale, gap } = frame;
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    const edge = floor - depth - 8;
+    part("floor").setAttribute("d", `M0,${edge}H${width}V${height}H0Z`);
+    part("edge").setAttribute("d", `M0,${edge}H${width}`);
+    // A glass table: its lower side, above both lanes.
+    const under = floor - scale * gap - 2 * radius;
+    part("table").setAttribute("d", gap ? `M0,${under - depth}H${width}V${under}H0Z` : "");
+    const [end, line] = [width - 12, height - 8];
+    part("ruler").setAttribute("d", `M${end},${line - 4}v8m0,-4h${-scale * 0.5}m0,-4v8`);
+    part("metre").setAttribute("x", end - scale * 0.25);
+    part("metre").setAttribute("y", line - 4);
+    part("moment").setAttribute("x", width - 10);
+    part("moment").setAttribute("y", width < 600 ? 58 : 20);
     show_hand();
+  }
+
+  // Between the frame in which the ball was aimed and the one that shows its throw.
+  function glide(from, share) {
+    const mixed = { ...aimed_frame };
+    for (const name in mixed) mixed[name] = from[name] + share * (aimed_frame[name] - from[name]);
+    put_frame(share < 1 ? mixed : aimed_frame);
   }
 
   // Numbers beside the name of each lane.
@@ -215,6 +233,10 @@ const stage = (() => {
     const foot = bounce?.wall === "table" ? y - radius : y + radius;
     const arrow = bounce ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
     part(`${lane}-slip`).setAttribute("d", arrow);
+    const label = part(`${lane}-slip-words`);
+    label.style.visibility = arrow ? "visible" : "hidden";
+    label.setAttribute("x", Math.min(Math.max(x, 50), frame.width - 50));
+    label.setAttribute("y", foot + (bounce?.wall === "table" ? -6 : 17));
     part(`${lane}-numbers`).textContent = speed_words(ball);
     patch_of(lane, bounce, row);
   }
@@ -250,27 +272,37 @@ const stage = (() => {
     const { radius } = frame;
     const k = speed_scale();
     part("hand").setAttribute("transform", `translate(${x.toFixed(1)},${y.toFixed(1)})`);
-    part("grasp").setAttribute("r", Math.max(radius + 8, 24));
-    part("aim").setAttribute("d", arrows.straight(0, 0, k * ball.along, -k * ball.up));
-    const turn = Math.max(-5.2, Math.min(5.2, shown.given.spin / 80));
+    const reach = Math.max(radius + 8, 24);
+    part("grasp").setAttribute("r", reach);
+    const [back_x, back_y] = place_of(ball, "lumped");
+    part("other-grasp").setAttribute("cx", back_x - x);
+    part("other-grasp").setAttribute("cy", back_y - y);
+    part("other-grasp").setAttribute("r", reach);
+    const [right, down] = [k * ball.along, -k * ball.up];
+    part("aim").setAttribute("d", arrows.straight(0, 0, right, down));
+    const turn = Math.max(-5.2, Math.min(5.2, shown.given.spin / RADIANS_A_SECOND));
     part("spin").setAttribute("d", arrows.round(0, 0, radius + 8, turn));
     part("knob").setAttribute("cx", ((radius + 8) * Math.sin(turn)).toFixed(1));
     part("knob").setAttribute("cy", (-(radius + 8) * Math.cos(turn)).toFixed(1));
-    part("aim-words").setAttribute("y", -radius - 20);
-    part("invitation").setAttribute("x", x + radius + 60);
-    part("invitation").setAttribute("y", Math.max(y - radius - 24, 64));
-    part("moment").setAttribute("x", frame.width - 10);
-    part("moment").setAttribute("y", frame.width < 600 ? 58 : 20);
+    part("aim-words").setAttribute("x", Math.max(right, radius) + 8);
+    part("aim-words").setAttribute("y", down + 5);
     part("aim-words").textContent = `${shown.given.speed.toFixed(1)} m/s`;
+    const high = y - radius - 26 > 64;
+    part("invitation").setAttribute("x", x + radius + 14);
+    part("invitation").setAttribute("y", high ? y - radius - 12 : y + radius + 34);
   }
 
-  // What a drag asks for. Pulled back, as a slingshot, the ball flies the other way.
-  function aim_at(event) {
-    const point = new DOMPoint(event.clientX, event.clientY)
-      .matrixTransform(svg.getScreenCTM().inverse());
+  const point_of = (event) => new DOMPoint(event.clientX, event.clientY)
+    .matrixTransform(svg.getScreenCTM().inverse());
+
+  // What a drag from one of the balls asks for. Pulled back, as a slingshot, the ball flies the other
+  // way. A band shows the pull.
+  function aim_at(event, lane) {
+    const point = point_of(event);
     const ball = flight.start(shown.given);
-    const [x, y] = place_of(ball, "continuum");
+    const [x, y] = place_of(ball, lane);
     let [right, down] = [point.x - x, point.y - y];
+    part("band").setAttribute("d", `M${x},${y}L${point.x},${point.y}`);
     if (right < 0) [right, down] = [-right, -down];
     const k = speed_scale();
     const aimed = flight.aimed({ along: right / k, up: -Math.max(down, 0) / k, height: ball.height,
@@ -280,13 +312,34 @@ const stage = (() => {
 
   // Spin by the angle at which the knob stands round the ball.
   function spin_at(event) {
-    const point = new DOMPoint(event.clientX, event.clientY)
-      .matrixTransform(svg.getScreenCTM().inverse());
+    const point = point_of(event);
     const [x, y] = place_of(flight.start(shown.given), "continuum");
-    return 80 * Math.atan2(point.x - x, y - point.y);
+    return RADIANS_A_SECOND * Math.atan2(point.x - x, y - point.y);
   }
 
-  const hold = (on) => (held = on ? frame : undefined);
+  // Keeps the frame while the ball is aimed; lets it go, and returns it.
+  function hold(on) {
+    const before = held;
+    held = on ? frame : undefined;
+    if (!on) part("band").setAttribute("d", "");
+    return before;
+  }
 
-  return { prepare, show, duration, first_bounce, aim_at, spin_at, hold, part };
+  // The time at which the first bounce of the continuum has a slipping edge that is easy to see.
+  function micro_slip() {
+    const bounce = shown.flights.continuum?.find(({ kind }) => kind === "bounce");
+    if (!bounce) return null;
+    const ring = ({ slips, radius }) => {
+      const inside = [...slips].slice(0, Math.floor(radius * slips.length));
+      const held_inside = inside.filter((slip) => slip === 0).length;
+      return held_inside && held_inside < inside.length ? held_inside / slips.length : 0;
+    };
+    const best = bounce.contact.rows.reduce((a, b) =>
+      ring(b) * (b.radius - ring(b)) > ring(a) * (a.radius - ring(a)) ? b : a);
+    if (!ring(best)) return null;
+    const { segment } = first_bounce(0);
+    return segment.start + (best.time / segment.end) * segment.length;
+  }
+
+  return { prepare, show, duration, first_bounce, aim_at, spin_at, hold, glide, micro_slip, part };
 })();

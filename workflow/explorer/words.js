@@ -23,7 +23,7 @@ const words = (() => {
     const leaves = e === 0 ? "does not bounce off, and moves on" : "leaves";
     if (share < models.STOPPED) return `The contact point ${leaves} without tangential velocity`;
     const how = `${leaves} ${way(state.velocity)}`;
-    return `The contact point ${how}, with ${percent(share)} of its tangential velocity`;
+    return `The contact point ${how}, with ${percent(share)} of the tangential velocity that it came with`;
   }
 
   // What the contact does in the first bounce, by the model that is looked at closer.
