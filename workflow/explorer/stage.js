@@ -176,8 +176,6 @@ const stage = (() => {
     part("ruler").setAttribute("d", `M${end},${line - 4}v8m0,-4h${-scale * 0.5}m0,-4v8`);
     part("metre").setAttribute("x", end - scale * 0.25);
     part("metre").setAttribute("y", line - 4);
-    part("moment").setAttribute("x", width - 10);
-    part("moment").setAttribute("y", width < 600 ? 58 : 20);
     show_hand();
   }
 
