@@ -109,9 +109,13 @@ class Meanings(NamedTuple):
 SHARED = Meanings(AXES, LEGEND)
 
 
-def of(drawing: ModuleType) -> Meanings:
-    """Shared meanings, and those of one drawing."""
-    return more(getattr(drawing, "AXIS_MEANS", {}), getattr(drawing, "LEGEND_MEANS", {}))
+def of(*drawings: ModuleType) -> Meanings:
+    """Shared meanings, and those of a drawing and of its slide."""
+    meanings = SHARED
+    for drawing in drawings:
+        own = getattr(drawing, "AXIS_MEANS", {}), getattr(drawing, "LEGEND_MEANS", {})
+        meanings = Meanings({**meanings.axes, **own[0]}, {**meanings.legend, **own[1]})
+    return meanings
 
 
 def more(axes: Mapping[str, str], legend: Mapping[str, str]) -> Meanings:
