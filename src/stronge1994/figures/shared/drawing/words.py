@@ -111,11 +111,15 @@ SHARED = Meanings(AXES, LEGEND)
 
 def of(*drawings: ModuleType) -> Meanings:
     """Shared meanings, and those of a drawing and of its slide."""
-    meanings = SHARED
-    for drawing in drawings:
-        own = getattr(drawing, "AXIS_MEANS", {}), getattr(drawing, "LEGEND_MEANS", {})
-        meanings = Meanings({**meanings.axes, **own[0]}, {**meanings.legend, **own[1]})
-    return meanings
+    axes, legend = (
+        {
+            key: meaning
+            for drawing in drawings
+            for key, meaning in getattr(drawing, kind, {}).items()
+        }
+        for kind in ("AXIS_MEANS", "LEGEND_MEANS")
+    )
+    return more(axes, legend)
 
 
 def more(axes: Mapping[str, str], legend: Mapping[str, str]) -> Meanings:
