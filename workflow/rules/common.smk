@@ -84,6 +84,11 @@ def of_figure(part, plans=FIGURES, wildcard="figure"):
     return lambda wildcards: plans[getattr(wildcards, wildcard)][part]
 
 
+def of_drawing(figure):
+    """Settings of the plan of a drawing."""
+    return {key: FIGURES[figure][key] for key in ("settings", "overlays", "sources")}
+
+
 def slides_of(figures):
     """Pictures of the slides that some figures have."""
     own = [figure for figure in SLIDES if figure in figures]

@@ -1,8 +1,3 @@
-def of_drawing(figure):
-    """Settings of the plan of a drawing."""
-    return {key: FIGURES[figure][key] for key in ("settings", "overlays", "sources")}
-
-
 rule draw:
     """Draw one figure from its curves; never solves."""
     input:

@@ -18,6 +18,7 @@ from matplotlib.patheffects import withStroke
 from PIL import Image
 
 from planarimpact.ground.arrays import Array
+from stronge1994.figures.shared.drawing import house_style
 
 # Pixels. A point of matplotlib is a pixel here, so that sizes of letters and lines are pixels too.
 WIDTH, HEIGHT = 1920, 1080
@@ -49,13 +50,13 @@ def new(title: str, data: str, ground: Ground) -> tuple[Figure, Axes]:
     """Empty slide with its title and the source of its `data`, and its axes."""
     size = WIDTH / DOTS_PER_INCH, HEIGHT / DOTS_PER_INCH
     figure = Figure(figsize=size, dpi=DOTS_PER_INCH, facecolor=ground.paper)
-    place = {"color": ground.ink, "fontsize": TITLE, "va": "top", "linespacing": 1.1}
     # A dollar sign in the message of an error is not mathematics.
-    place |= {"parse_math": False}
+    style = {"color": ground.ink, "fontsize": TITLE, "parse_math": False}
+    style |= {"va": "top", "linespacing": house_style.LINES}
     left = MARGIN / WIDTH
     lines = -(-len(title) // 72)
     wrapped = textwrap.fill(title, len(title) // lines + 8)  # into lines of nearly one length
-    figure.text(left, 1 - MARGIN / HEIGHT, wrapped, **place)
+    figure.text(left, 1 - MARGIN / HEIGHT, wrapped, **style)
     source = f"planarimpact; data: {data}"
     figure.text(left, 0.5 * MARGIN / HEIGHT, source, color=ground.quiet, fontsize=SOURCE)
     frame = LEFT / WIDTH, BOTTOM / HEIGHT, (RIGHT - LEFT) / WIDTH, (TOP - BOTTOM) / HEIGHT
@@ -100,6 +101,7 @@ def name_curve(
         va="bottom" if up > 0 else "top" if up < 0 else "center",
         color=colours[0],
         fontsize=LETTERS,
+        linespacing=house_style.LINES,
         path_effects=[withStroke(linewidth=10, foreground=colours[1])],
     )
 
