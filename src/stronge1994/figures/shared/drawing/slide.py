@@ -92,6 +92,7 @@ def name_curve(
     and that of the ground, which keeps lines away from them.
     """
     across, up = offset
+    at = float(np.clip(at, x[0], x[-1]))  # other settings may end the curve earlier
     axes.annotate(
         text,
         (at, float(np.interp(at, x, y))),
