@@ -26,6 +26,7 @@ localrules:
     sphere_tables,
     series,
     draw,
+    slide,
     judge,
     gather,
     ledger_page,
@@ -45,6 +46,7 @@ rule figures:
     input:
         expand("results/curves/{figure}.csv", figure=UNTIMED),
         expand("figures/{figure}.{kind}", figure=UNTIMED, kind=["svg", "png"]),
+        slides_of(UNTIMED),
 
 
 rule measurements:
@@ -55,6 +57,7 @@ rule measurements:
     input:
         expand("results/curves/{figure}.csv", figure=TIMED),
         expand("figures/{figure}.{kind}", figure=TIMED, kind=["svg", "png"]),
+        slides_of(TIMED),
 
 
 rule notebooks:
@@ -99,6 +102,7 @@ MAKERS = [
     rules.curves,
     rules.series,
     rules.draw,
+    rules.slide,
     rules.judge,
     rules.gather,
     rules.ledger,

@@ -55,7 +55,7 @@ REPRODUCTION = {
     " verdict_table jinja2",
 }
 # The figures have one folder each, and in it files that solve and files that draw.
-DRAWING = ("drawing", "draw_")
+DRAWING = ("drawing", "draw_", "slide")
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and
 # of the reproduction has a door of its own.
@@ -121,7 +121,10 @@ def _files(package, room):
     name, _, kind = room.partition("/")
     files = [SRC / package / f"{name}.py", *(SRC / package / name).rglob("*.py")]
     if kind:
-        draws = {path: any(part.startswith(DRAWING) for part in path.parts) for path in files}
+        draws = {
+            path: any(part.startswith(DRAWING) for part in path.relative_to(SRC).parts)
+            for path in files
+        }
         files = [path for path in files if draws[path] == (kind == "drawing")]
     return [path for path in files if path.exists()]
 

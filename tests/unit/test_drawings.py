@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 from matplotlib import font_manager
+from matplotlib.colors import to_rgba
 from matplotlib.transforms import Affine2D
 
 from stronge1994.figures.shared import drawing as drawings
-from stronge1994.figures.shared.drawing import checked, house_style
+from stronge1994.figures.shared.drawing import checked, house_style, slide
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.figures.shared.drawing import words as meanings
 from stronge1994.figures.shared.drawing.checked import NotInTable
@@ -196,6 +197,26 @@ def test_nothing_written_lies_on_something_else_or_is_cut_off(picture):
         inner = box.padded(-1)
         on = [other for other, its in boxes[place + 1 :] if inner.overlaps(its.padded(-1))]
         assert not on, (words, on)
+
+
+WITH_SLIDE = [path.parent.name for path in Path(drawings.__file__).parents[2].glob("*/slide.py")]
+
+
+@pytest.mark.parametrize("figure", WITH_SLIDE)
+def test_a_slide_can_be_read_from_the_back_of_a_room(figure):
+    """On both grounds: nothing outside the canvas, and no index below 24 pixels."""
+    pictures = drawings.slides(figure, *picture_tables.given(figure))
+    failed = {name: slide.failure("no $ here", ground) for name, ground in slide.GROUNDS.items()}
+    for name, picture in [*pictures.items(), *failed.items()]:
+        assert picture.get_facecolor() == to_rgba(slide.GROUNDS[name].paper)
+        picture.draw_without_rendering()
+        assert picture.bbox.size.tolist() == [1920, 1080]
+        written = [text for text in [*picture.texts, *texts(picture)] if text.get_text()]
+        for text in written:
+            index = 0.7 if "$" in text.get_text() and text.get_parse_math() else 1
+            assert index * text.get_fontsize() >= 24, text
+            box = text.get_window_extent()
+            assert box.x0 >= 0 and box.x1 <= 1920 and box.y0 >= 0 and box.y1 <= 1080, text
 
 
 def test_the_letters_are_found_though_a_machine_s_list_of_fonts_lacks_them():

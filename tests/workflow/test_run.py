@@ -39,6 +39,11 @@ def test_a_good_run_passes_and_leaves_everything(first_run):
         ):
             assert (project / path).stat().st_size > 100
         assert (project / f"results/records/draw_{figure}.json").exists()
+    folders = figures.FOLDER.glob("*/slide.py")
+    slides = {
+        f"{path.parent.name}_{ground}.png" for path in folders for ground in ("light", "dark")
+    }
+    assert slides == {path.name for path in (project / "figures/slides").iterdir()}
     for table in ("trade", "which_model", "stability"):
         assert (project / f"results/{table}.csv").stat().st_size > 100
     found = verdicts(project)
@@ -98,6 +103,8 @@ def test_dry_run_is_clean(fresh):
     assert result.returncode == 0
     assert "warning" not in result.stdout.lower()
     assert re.search(rf"^draw +{len(FIGURES)}$", result.stdout, flags=re.M)
+    slides = len(list(figures.FOLDER.glob("*/slide.py")))
+    assert re.search(rf"^slide +{slides}$", result.stdout, flags=re.M)
     assert "peers" not in result.stdout, "they are for those who ask"
 
 

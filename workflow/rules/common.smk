@@ -29,12 +29,15 @@ except (reference_data.SourceError, ConfigError) as error:
 COMPARED = sorted({name for job in JUDGED.values() for name in job["settings"]["sources"]})
 TIMED = figures.with_trait("timed")
 UNTIMED = [figure for figure in FIGURES if figure not in TIMED]
+# Figures with a slide.
+SLIDES = [figure for figure in FIGURES if (figures.FOLDER / figure / "slide.py").is_file()]
 CAPTIONS = {figure: stated["caption"] for figure, stated in figures.stated().items()}
 
 
 # Every value that a wildcard has in a run.
 VALUES = {
     "figure": list(FIGURES),
+    "slide": SLIDES,
     "judged": list(JUDGED),
     "source": COMPARED,
     "scene": list(config["scenes"]),
@@ -45,6 +48,7 @@ VALUES = {
 
 wildcard_constraints:
     figure="|".join(FIGURES),
+    slide="|".join(SLIDES) or "none",
     judged="|".join(JUDGED),
     source="[a-z0-9_]+",
     scene="|".join(config["scenes"]) or "none",
@@ -78,6 +82,17 @@ def planned(job, script, *rooms, settings=lambda value: {}, reads=lambda value: 
 def of_figure(part, plans=FIGURES, wildcard="figure"):
     """Input function: one entry of `plan.plan_of_figure`, or of another plan."""
     return lambda wildcards: plans[getattr(wildcards, wildcard)][part]
+
+
+def of_drawing(figure):
+    """Settings of the plan of a drawing."""
+    return {key: FIGURES[figure][key] for key in ("settings", "overlays", "sources")}
+
+
+def slides_of(figures):
+    """Pictures of the slides that some figures have."""
+    own = [figure for figure in SLIDES if figure in figures]
+    return expand("figures/slides/{slide}_{ground}.png", slide=own, ground=["light", "dark"])
 
 
 def all_cores(wildcards):

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
+from scipy.optimize import linear_sum_assignment
 from scipy.special import chdtri
 
 from planarimpact.ground.arrays import Array
@@ -224,6 +225,9 @@ def _draw_pairs(axes: Axes, series: house_style.Series) -> None:
         axes.annotate(name, (x, y), (0, 6), textcoords="offset points", **place)
     crowd = beside[~alone], beta_0[~alone]
     heights = spread(crowd[1], LABEL_HEIGHT * (high - low), low, high)
+    heights = shortest_leaders(
+        (right - crowd[0]) / (right - left), crowd[1] / (high - low), heights / (high - low)
+    ) * (high - low)
     for x, y, height, name in zip(*crowd, heights, names[~alone], strict=True):
         bend = right + 0.015 * (right - left)
         axes.plot(
@@ -264,6 +268,18 @@ def spread(y: Array, apart: float, low: float, high: float) -> Array:
     heights += max(0.0, low + apart / 2 - heights.min())
     heights -= max(0.0, heights.max() - high + apart / 2)
     return heights
+
+
+def shortest_leaders(across: Array, y: Array, heights: Array) -> Array:
+    """The heights, ordered so that straight leaders are shortest in sum: none crosses another.
+
+    `across` is how far each point at `y` is from the labels.
+
+    >>> shortest_leaders(np.array([9.0, 1.0]), np.array([1.0, 2.0]), np.array([5.0, 6.0])).tolist()
+    [6.0, 5.0]
+    """
+    length = np.hypot(across[:, None], heights - y[:, None])
+    return np.asarray(heights[linear_sum_assignment(length)[1]])
 
 
 def _end(group: list[float], apart: float) -> float:

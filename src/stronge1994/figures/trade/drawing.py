@@ -19,9 +19,6 @@ ERROR, MODEL, RESTITUTION = "rms_velocity [mu v2(0)]", "model", "restitution [1]
 SPREAD, SPREAD_STICK = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
 STEPS, CIRCLES, TOLERANCE = "steps [1]", "circles [1]", "tolerance [mu v2(0)]"
 LOSSES = (".viscous", ".plastic")
-# The axis of error is cut here: rough models are above, those that converge below, each part with
-# its own scale.
-CUT = 0.03
 # Room for labels left of the fastest model, as a share of the axis of time: of the wide panel and
 # of the others.
 MARGINS = 0.12, 0.3
@@ -106,10 +103,10 @@ class Family(NamedTuple):
 # viscosity, vermillion for plastic flow, green for an elastic contact. Grey formulas have none.
 BLACK, ELASTIC = house_style.BLACK, house_style.GREEN
 VISCOUS, PLASTIC = house_style.BLUE, house_style.VERMILLION
-FORMULA = Family("formula", "D", 3.5, house_style.GREY, True, LEFT)
+FORMULA = Family("formula", "D", 3.5, house_style.GREY, True, ("left", 1, 9))
 FAMILIES = {
-    "rigid": FORMULA,
-    "laws.smith": FORMULA,
+    "rigid": FORMULA._replace(place=("right", -5, 1)),
+    "laws.smith": FORMULA._replace(place=("right", -5, -6)),
     "laws.brach": FORMULA,
     "lumped": Family("lumped, as in the paper", "o", 3.5, BLACK, True, None),
     "timestep.linear": Family("linear spring", "s", 5.5, BLACK, False, LOWER_RIGHT),
@@ -184,8 +181,8 @@ def draw(
     ends = settings["restitution"][0], settings["restitution"][-1]
     cases = {_case(row): None for e in ends for row in rows if row[RESTITUTION] == e}
     batch = shown_batch(settings)
-    figure = house_style.new(8.6)
-    grid = figure.add_gridspec(3, 2, height_ratios=[4, 4, 3])
+    figure = house_style.new(9.4)
+    grid = figure.add_gridspec(3, 2, height_ratios=[4, 4, 3.6])
     cells = grid[0, :], grid[1, 0], grid[1, 1]
     for number, (cell, case) in enumerate(zip(cells, cases, strict=False)):
         same = [row for row in rows if _case(row) == case]
@@ -194,13 +191,10 @@ def draw(
             same = [
                 row for row in same if row.get(STEPS) in (None, step_counts[len(step_counts) // 2])
             ]
-        rough, fine = cell.subgridspec(2, 1).subplots(sharex=True)
-        for axes, span in ((rough, (CUT, np.inf)), (fine, (0, CUT))):
-            _draw_errors(axes, same, batch, families, span, MARGINS[min(number, 1)])
-        _cut(rough, fine)
-        rough.set_title(_title("abc"[number], *case))
-        fine.set_xlabel(TIME_LABEL, visible=True)
-        fine.set_ylabel(ERROR_LABEL, y=1.0, visible=number < 2)
+        axes = figure.add_subplot(cell)
+        axes.set(title=_title("abc"[number], *case), xlabel=TIME_LABEL)
+        axes.set_ylabel(ERROR_LABEL, visible=number < 2)
+        _draw_errors(axes, same, batch, families, MARGINS[min(number, 1)])
     below = grid[2, :].subgridspec(1, 2, width_ratios=[2, 3])
     growth = figure.add_subplot(below[0], label=GROWTH_PANEL)
     case = next(iter(cases))
@@ -256,12 +250,9 @@ def _draw_errors(
     rows: Sequence[_Row],
     batch: int,
     families: Mapping[str, Family],
-    span: tuple[float, float],
     margin: float,
 ) -> None:
-    """Draw the points in a span of error, both fronts, and what uncertain inputs hide."""
-    axes.set_xlabel(TIME_LABEL, visible=False)
-    axes.set_ylabel(ERROR_LABEL, visible=False)
+    """Draw the points, both fronts, and what uncertain inputs hide."""
     column = time_column(batch)
     timed = [row for row in rows if column in row]
     if not timed:
@@ -269,16 +260,15 @@ def _draw_errors(
     time, least = ([row[column + end] for row in timed] for end in ("", tables.LESS))
     error = [row[ERROR] for row in timed]
     for row, shortest, *at in zip(timed, least, time, error, strict=True):
-        if span[0] < at[1] <= span[1]:
-            family = families[row[MODEL]]
-            axes.plot(*at, linestyle="none", **family.style())
-            text = label_of(row)
-            label(axes, at, text, OF_OTHER_LOSS if text == OTHER_LOSS else family.place)
-            if shortest < at[0]:
-                axes.errorbar(*at, xerr=[[at[0] - shortest], [0]], **house_style.BUSY)
+        family = families[row[MODEL]]
+        axes.plot(*at, linestyle="none", **family.style())
+        text = label_of(row)
+        label(axes, at, text, OF_OTHER_LOSS if text == OTHER_LOSS else family.place)
+        if shortest < at[0]:
+            axes.errorbar(*at, xerr=[[at[0] - shortest], [0]], **house_style.BUSY)
     axes.axhspan(timed[0][SPREAD_STICK], timed[0][SPREAD], **HIDDEN)
     left = min(least) * (min(least) / max(time)) ** margin
-    edges = (left, max(time) * 3), (min(error) / 20, max(error) * 5)
+    edges = (left, max(time) * 3), (min(error) / 8, max(error) * 5)
     axes.set(xscale="log", yscale="log", xlim=edges[0], ylim=edges[1])
     solved = [i for i, row in enumerate(timed) if not row[MODEL].startswith("response")]
     for chosen, style in ((range(len(timed)), FRONT_WITH_RESPONSES), (solved, FRONT)):
@@ -343,19 +333,6 @@ def _draw_front(
     x = [time[best[0]], *(time[i] for i in best), right]
     y = [top, *(error[i] for i in best), error[best[-1]]]
     axes.step(x, y, where="post", label=house_style.NO_DATA, **style)
-
-
-def _cut(rough: Axes, fine: Axes) -> None:
-    """Make one panel of two: both have the same axis of error, with different scales."""
-    rough.set_ylim(bottom=CUT)
-    fine.set_ylim(top=CUT)
-    rough.tick_params(labelbottom=False, bottom=False, which="both")
-    rough.spines.bottom.set_visible(False)
-    fine.spines.top.set_visible(False)
-    marks = {"marker": [(-1, -0.5), (1, 0.5)], "markersize": 7, "linestyle": "none"}
-    for axes, height in ((rough, 0), (fine, 1)):
-        place = {"transform": axes.transAxes, "clip_on": False, "color": house_style.BLACK}
-        axes.plot([0, 1], [height, height], **marks, **place)
 
 
 def _draw_growth(axes: Axes, rows: Curves, curves: Curves) -> None:

@@ -1,4 +1,4 @@
-"""Draw one figure from its curves, as SVG and PNG. If there are none, the picture says why.
+"""Draw one figure or its slide from its curves. If there are none, the picture says why.
 
 Nothing here solves: pictures are made from tables alone.
 """
@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import checked, house_style, tables, words
+from stronge1994.figures.shared.drawing import checked, house_style, slide, tables, words
 from stronge1994.figures.shared.drawing.house_style import Points, Series, Settings
 
 
@@ -29,23 +29,60 @@ def draw(
     try:
         curves = csv_tables.read(curves_path)
     except csv_tables.Failed as error:
-        failure = house_style.failure(f"{figure}: the solver failed: {error}")
-        checked.save(failure, {}, figure, svg, png)
+        checked.save(house_style.failure(_failed(figure, error)), {}, figure, svg, png)
         return
-    points: Points = {
-        name: _points(name, entry, series_paths[name.split("/")[0]])
-        if "kind" in entry
-        else dict(entry)
-        for name, entry in overlays.items()
-    }
-    module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
+    module = _module(figure, "drawing")
+    points = _series(overlays, series_paths)
     checked.save(*drawn(module, curves, settings, points), figure, svg, png, words.of(module))
+
+
+def draw_slide(
+    figure: str,
+    settings: Settings,
+    overlays: Mapping[str, Mapping[str, Any]],
+    curves_path: str,
+    series_paths: Mapping[str, str],
+    pngs: Mapping[str, str],
+) -> None:
+    """Draw the slide of `figure` on each ground, `{ground: file}`; the rest is as for `draw`."""
+    try:
+        curves = csv_tables.read(curves_path)
+    except csv_tables.Failed as error:
+        pictures = {
+            ground: slide.failure(_failed(figure, error), slide.GROUNDS[ground]) for ground in pngs
+        }
+    else:
+        pictures = slides(figure, curves, settings, _series(overlays, series_paths))
+    for ground, png in pngs.items():
+        slide.save(pictures[ground], png)
 
 
 def drawn(
     module: ModuleType, curves: Curves, settings: Settings, points: Points
 ) -> tuple[Figure, Curves]:
-    """The picture that a module draws, not yet checked, and the tables of its numbers.
+    """The picture that a module draws, not yet checked, and the tables of its numbers."""
+    curves, points = _prepared(module, curves, settings, points)
+    return module.draw(curves, settings, points), tables.tables(curves, points)
+
+
+def slides(figure: str, curves: Curves, settings: Settings, points: Points) -> dict[str, Figure]:
+    """The slide of a figure on each ground, checked."""
+    modules = [_module(figure, name) for name in ("drawing", "slide")]
+    curves, points = _prepared(modules[0], curves, settings, points)
+    known = tables.tables(curves, points)
+    pictures = {
+        name: modules[1].draw(curves, settings, points, ground)
+        for name, ground in slide.GROUNDS.items()
+    }
+    for picture in pictures.values():
+        checked.check(picture, known, f"slide of {figure}", words.of(*modules))
+    return pictures
+
+
+def _prepared(
+    module: ModuleType, curves: Curves, settings: Settings, points: Points
+) -> tuple[Curves, Points]:
+    """Curves and reference series as a module draws them.
 
     A module may have `drawn_curves`, which adds to the curves what it draws beside their columns,
     and `drawn_series`, which converts reference series.
@@ -54,7 +91,24 @@ def drawn(
         points = {name: module.drawn_series(name, series) for name, series in points.items()}
     if hasattr(module, "drawn_curves"):
         curves = module.drawn_curves(curves, settings, points)
-    return module.draw(curves, settings, points), tables.tables(curves, points)
+    return curves, points
+
+
+def _module(figure: str, name: str) -> ModuleType:
+    return importlib.import_module(f"stronge1994.figures.{figure}.{name}")
+
+
+def _failed(figure: str, error: csv_tables.Failed) -> str:
+    return f"{figure}: the solver failed: {error}"
+
+
+def _series(overlays: Mapping[str, Mapping[str, Any]], series_paths: Mapping[str, str]) -> Points:
+    return {
+        name: _points(name, entry, series_paths[name.split("/")[0]])
+        if "kind" in entry
+        else dict(entry)
+        for name, entry in overlays.items()
+    }
 
 
 def _points(name: str, entry: Mapping[str, Any], path: str) -> Series:

@@ -109,9 +109,17 @@ class Meanings(NamedTuple):
 SHARED = Meanings(AXES, LEGEND)
 
 
-def of(drawing: ModuleType) -> Meanings:
-    """Shared meanings, and those of one drawing."""
-    return more(getattr(drawing, "AXIS_MEANS", {}), getattr(drawing, "LEGEND_MEANS", {}))
+def of(*drawings: ModuleType) -> Meanings:
+    """Shared meanings, and those of a drawing and of its slide."""
+    axes, legend = (
+        {
+            key: meaning
+            for drawing in drawings
+            for key, meaning in getattr(drawing, kind, {}).items()
+        }
+        for kind in ("AXIS_MEANS", "LEGEND_MEANS")
+    )
+    return more(axes, legend)
 
 
 def more(axes: Mapping[str, str], legend: Mapping[str, str]) -> Meanings:

@@ -1,0 +1,59 @@
+"""Slide of trade: a table of solved spheres beside the contact solved anew."""
+
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator
+
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.figures.shared.drawing import slide
+from stronge1994.figures.shared.drawing.house_style import Points, Settings
+from stronge1994.figures.trade.drawing import ERROR, MODEL, RESTITUTION, shown_batch, time_column
+
+DURATION = "time of an impact, microseconds"
+DISTANCE = r"error of $v_1(t_f)/\mu v_2(0)$ against the elastic continuum, rms"
+# Meanings of labels, see `shared.drawing.words`.
+AXIS_MEANS = {DURATION: r": time_?\d* \[us\]", DISTANCE: r": rms_velocity \[mu v2\(0\)\]"}
+TABLE, CONTINUUM = "spheres.viscous", "continuum"
+# Models that are drawn: text, colour, marker, offset of the text.
+SHOWN = {
+    "rigid": ("rigid", "quiet", "D", (30, 0)),
+    "lumped": ("lumped model", "ink", "o", (30, -10)),
+    "timestep.mindlin": ("Mindlin's law, in steps", "ink", "^", (30, 10)),
+    "response of continuum": ("continuum, compiled for one pair of bodies", "green", "*", (20, 24)),
+    TABLE: ("table of solved spheres", "vermillion", "X", (24, -10)),
+    CONTINUUM: ("continuum, solved", "blue", "s", (0, -24)),
+}
+
+
+def draw(curves: Curves, settings: Settings, points: Points, ground: slide.Ground) -> Figure:
+    """Draw error against time for some models at the first restitution, the fastest of each."""
+    column = time_column(batch := shown_batch(settings))
+    fastest: dict[str, Columns] = {}
+    for row in curves.values():
+        if column in row and MODEL in row and row[RESTITUTION][0] == settings["restitution"][0]:
+            model = str(row[MODEL][0])
+            if model not in fastest or row[column][0] < fastest[model][column][0]:
+                fastest[model] = row
+    title = "Error and time of models of an impact"
+    if {TABLE, CONTINUUM} <= set(fastest):
+        ratio = float(fastest[CONTINUUM][column][0] / fastest[TABLE][column][0])
+        if fastest[TABLE][ERROR][0] <= fastest[CONTINUUM][ERROR][0] and ratio > 1:
+            title = (
+                f"A table of solved spheres is about {float(f'{ratio:.1g}'):.0f} times faster than "
+                "solving the contact, and no less exact"
+            )
+    busy = any(key.startswith("busy_") for row in curves.values() for key in row)
+    data = f"solved and timed here, {batch} impacts together"
+    figure, axes = slide.new(title, data + "; the machine was busy" * busy, ground)
+    for model, (text, colour_name, marker, offset) in SHOWN.items():
+        if model in fastest:
+            time, error = fastest[model][column], fastest[model][ERROR]
+            colour = getattr(ground, colour_name)
+            axes.plot(time, error, marker, color=colour, markersize=1.4 * slide.MARK)
+            place = float(time[0]), offset, (colour, ground.paper)
+            slide.name_curve(axes, text, time, error, *place)
+    axes.set(xscale="log", yscale="log")
+    axes.margins(0.12, 0.15)
+    axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axes.yaxis.set_major_locator(LogLocator(numticks=6))
+    slide.name_axes(axes, DURATION, DISTANCE, ground)
+    return figure
