@@ -47,10 +47,11 @@ REPORT_SETTINGS = {
 rule interface:
     """What the functions of the solver take and return, as pages made from their docstrings."""
     input:
-        plan=planned("interface", "write_interface", "pages", "printed", "figures/shared/curves",
+        plan=planned("interface", "write_interface", "pages", "plan", "printed", "reference_data", "figures/shared/curves",
             *[f"figures/{figure}/curves.py" for figure in FIGURES]),
         names="src/planarimpact/__init__.pyi",
         parts=INTERFACE_PARTS,
+        shared=EVERY_PAGE,
     output:
         pages=directory("figures/interface"),
         record="results/records/interface.json",
