@@ -44,6 +44,33 @@ REPORT_SETTINGS = {
 }
 
 
+rule start_page:
+    """The page to begin with: for whom teaches, verifies, or chooses a model."""
+    input:
+        plan=planned("start_page", "write_start_page", "pages/__init__.py", "pages/templates.py",
+            "plan", "reference_data"),
+        template="workflow/report/index.html",
+        parts="workflow/report/page.css",
+        shared=EVERY_PAGE,
+        picture="figures/superball.svg",
+    output:
+        page=report(
+            "figures/index.html",
+            caption="../report/index.rst",
+            category="Start",
+            labels={"page": "where to begin"},
+        ),
+        record="results/records/start_page.json",
+    log:
+        "results/logs/start_page.log",
+    message:
+        "Writing the page to begin with"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/write_start_page.py"
+
+
 rule interface:
     """What the functions of the solver take and return, as pages made from their docstrings."""
     input:
