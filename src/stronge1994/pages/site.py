@@ -10,15 +10,17 @@ from stronge1994.pages import run_facts
 def write(
     folder: str, pages: Iterable[str], notebooks: Iterable[str], texts: Iterable[str], readme: str
 ) -> None:
-    """Copy pages (files and folders), notebooks and texts, and write README.txt by its pattern."""
+    """Copy pages (files and folders of figures/), notebooks and texts, and write README.txt."""
     site = Path(folder)
     (site / "notebooks").mkdir(parents=True)
     for path in map(Path, pages):
+        copy = site / path.relative_to("figures")
         if path.is_dir():
             # Snakemake puts a file of its own into a folder that a job has made.
-            shutil.copytree(path, site / path.name, ignore=shutil.ignore_patterns(".*"))
+            shutil.copytree(path, copy, ignore=shutil.ignore_patterns(".*"))
         else:
-            shutil.copy2(path, site)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(path, copy)
     for text in texts:
         shutil.copy2(text, site)
     for notebook in notebooks:
