@@ -35,8 +35,10 @@ localrules:
     trade,
     stability,
     explorer,
+    start_page,
     interface,
     report,
+    site,
 
 
 # What can be asked for; `all` stands below. Each target names the files on the way to it too: after a
@@ -114,10 +116,14 @@ MAKERS = [
     rules.scene,
     rules.notebook,
     rules.explorer,
+    rules.start_page,
     rules.interface,
     rules.report,
     *([rules.measure_peers] if PEERS else []),
 ]
+
+
+include: "workflow/rules/site.smk"
 
 
 rule all:

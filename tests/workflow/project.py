@@ -10,6 +10,7 @@ from stronge1994.run import record
 
 ROOT = Path(__file__).parents[2]
 PARTS = ["Snakefile", "profiles", "workflow", "src", "data", "figures/README.md", ".gitignore"]
+PARTS += ["LICENSE", "CITATION.cff"]
 LEFT = ["results", "figures", ".snakemake"]  # by a run
 TIMEOUT = 3600  # s, of one run: against one that hangs, not against a busy machine
 

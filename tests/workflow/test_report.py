@@ -2,6 +2,7 @@
 
 import base64
 import csv
+import doctest
 import html
 import math
 import re
@@ -419,15 +420,27 @@ def test_strips_show_points_bounds_and_verdicts():
 def test_the_interface_has_a_page_a_module_and_names_types_as_the_sources_do(first_run):
     folder = first_run[0] / "figures/interface"
     page = (folder / "planarimpact/lumped.html").read_text(encoding="utf-8")
-    assert (folder / "../report.html").exists() and 'href="../../report.html"' in page
     words = html.unescape(re.sub("<[^>]+>", "", page))
-    assert "incidence: ArrayLike" in words
-    assert "v1(0)/(mu v2(0))" in words  # the docstring, not only the signature
+    assert "incidence: ArrayLike" in words and ") -> Rebound:" in words
+    assert '<math alttext="v1(0)/(mu v2(0))">' in page.replace("x = ", "")  # in the docstring
     for figure in CONFIG["figures"]:
         assert (folder / f"stronge1994/figures/{figure}/curves.html").is_file()
     for room in planarimpact.__all__:
         if room.islower():
             assert (folder / f"planarimpact/{room}.html").is_file(), room
+
+
+def test_each_example_of_the_interface_runs_as_it_is_shown(first_run):
+    runner, examples = doctest.DocTestRunner(), 0
+    for path in sorted((first_run[0] / "figures/interface/planarimpact").rglob("*.html")):
+        page = path.read_text(encoding="utf-8")
+        for shown in re.findall("<pre>(.*?)</pre>", page, flags=re.S):
+            text = html.unescape(re.sub("<[^>]+>", "", shown))
+            if text.startswith(">>> "):
+                test = doctest.DocTestParser().get_doctest(text, {}, path.stem, str(path), 0)
+                runner.run(test)
+                examples += 1
+    assert runner.failures == 0 and examples > 100
 
 
 def test_commit_of_a_checkout_and_of_none(tmp_path, monkeypatch):

@@ -44,13 +44,41 @@ REPORT_SETTINGS = {
 }
 
 
+rule start_page:
+    """The page to begin with: for whom teaches, verifies, or chooses a model."""
+    input:
+        plan=planned("start_page", "write_start_page", "pages/__init__.py", "pages/templates.py",
+            "plan", "reference_data"),
+        template="workflow/report/index.html",
+        parts="workflow/report/page.css",
+        shared=EVERY_PAGE,
+        picture="figures/superball.svg",
+    output:
+        page=report(
+            "figures/index.html",
+            caption="../report/index.rst",
+            category="Start",
+            labels={"page": "where to begin"},
+        ),
+        record="results/records/start_page.json",
+    log:
+        "results/logs/start_page.log",
+    message:
+        "Writing the page to begin with"
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/write_start_page.py"
+
+
 rule interface:
     """What the functions of the solver take and return, as pages made from their docstrings."""
     input:
-        plan=planned("interface", "write_interface", "pages", "printed", "figures/shared/curves",
+        plan=planned("interface", "write_interface", "pages", "plan", "printed", "reference_data", "figures/shared/curves",
             *[f"figures/{figure}/curves.py" for figure in FIGURES]),
         names="src/planarimpact/__init__.pyi",
         parts=INTERFACE_PARTS,
+        shared=EVERY_PAGE,
     output:
         pages=directory("figures/interface"),
         record="results/records/interface.json",

@@ -1,0 +1,37 @@
+"""All pages of a run in one folder, for a web server or a stick."""
+
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+
+from stronge1994.pages import run_facts
+
+
+def write(
+    folder: str, pages: Iterable[str], notebooks: Iterable[str], texts: Iterable[str], readme: str
+) -> None:
+    """Copy pages (files and folders of figures/), notebooks and texts, and write README.txt."""
+    site = Path(folder)
+    (site / "notebooks").mkdir(parents=True)
+    for path in map(Path, pages):
+        copy = site / path.relative_to("figures")
+        if path.is_dir():
+            # Snakemake puts a file of its own into a folder that a job has made.
+            shutil.copytree(path, copy, ignore=shutil.ignore_patterns(".*"))
+        else:
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(path, copy)
+    for text in texts:
+        shutil.copy2(text, site)
+    for notebook in notebooks:
+        shutil.copy2(notebook, site / "notebooks")
+    pattern = Path(readme).read_text(encoding="utf-8")
+    commit = run_facts.short(run_facts.commit("."))
+    text = pattern.format(version=run_facts.versions()["planarimpact"], commit=commit)
+    (site / "README.txt").write_text(text, encoding="utf-8")
+
+
+def pack(folder: str, archive: str) -> None:
+    """Pack a folder into a zip file, from which it comes out with its name."""
+    site = Path(folder)
+    shutil.make_archive(archive.removesuffix(".zip"), "zip", site.parent, site.name)

@@ -1,0 +1,11 @@
+"""Write the page to begin with."""
+
+from pathlib import Path
+
+from stronge1994.pages import templates
+from stronge1994.run import record
+
+with record.recorded(snakemake):
+    template = Path(snakemake.input.template)
+    page = templates.environment(template.parent).get_template(template.name)
+    Path(snakemake.output.page).write_text(page.render(), encoding="utf-8")
