@@ -238,7 +238,6 @@ const page = (() => {
     const hollow = element("thin-shell").ariaPressed === "true";
     element("stage-svg").classList.toggle("shell", hollow);
     element("caution").hidden = state.restitution === 1;
-    element("whole").href = `explorer.html#${here}`;
   }
 
   // An address as `address` writes it.

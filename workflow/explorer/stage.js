@@ -89,7 +89,7 @@ const stage = (() => {
     const small = width < 600;
     const radius = (small ? 15 : 24) * (gap ? 0.65 : 1);
     const floor = height - (small ? 18 : 28);
-    const ceiling = small ? 46 : 54;
+    const ceiling = 66; // below the names of the models
     const places = [0];
     const heights = [gap || 0.3];
     const count = gap ? Infinity : SHOWN;

@@ -52,7 +52,6 @@ rule start_page:
         template="workflow/report/index.html",
         parts="workflow/report/page.css",
         shared=EVERY_PAGE,
-        picture="figures/superball.svg",
     output:
         page=report(
             "figures/index.html",
