@@ -285,9 +285,8 @@ const stage = (() => {
     part("aim-words").setAttribute("x", Math.max(right, radius) + 8);
     part("aim-words").setAttribute("y", down + 5);
     part("aim-words").textContent = `${shown.given.speed.toFixed(1)} m/s`;
-    const high = y - radius - 26 > 64;
-    part("invitation").setAttribute("x", x + radius + 14);
-    part("invitation").setAttribute("y", high ? y - radius - 12 : y + radius + 34);
+    part("invitation").setAttribute("x", x + Math.max(right, radius) + 8);
+    part("invitation").setAttribute("y", Math.min(y + down + 28, frame.height - 10));
   }
 
   const point_of = (event) => new DOMPoint(event.clientX, event.clientY)
