@@ -7,12 +7,14 @@ const page = (() => {
   const element = (id) => document.getElementById(id);
   const SLIDERS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio", "speed", "spin",
     "table"];
-  const VIEWED = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"];
-  // What the address leaves out where it is so. Radius in mm, gravity in m/s^2.
-  const DEFAULTS = {
-    poisson_ratio: 0.3, mass_ratio: 3.5, speed: 5, spin: 0, table: 0, radius: 25, gravity: 9.81,
-    loss: "viscous", of: "continuum", view: "velocity",
+  const CHOICES = ["view", "loss", "of"];
+  // Radius in mm, gravity in m/s^2.
+  const OPENING = {
+    angle: 50, friction: 0.4, restitution: 1, poisson_ratio: 0.3, mass_ratio: 3.5, speed: 5, spin: 0,
+    table: 0, radius: 25, gravity: 9.81, loss: "viscous", of: "continuum", view: "velocity",
+    models: models.TOGGLES,
   };
+  const ALWAYS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"]; // in the address
   const LIMITS = { radius: [1, 200], gravity: [0, 30] }; // of numbers without a slider
   const SETTLED = 300; // ms without a change, after which the address says the state
   const GLIDE = 220; // ms from the frame of aiming to that of the throw
@@ -26,7 +28,7 @@ const page = (() => {
   // `explorer.html?stage` is the stage alone, for the frames of the lectures.
   const embedded = new URLSearchParams(location.search).has("stage");
 
-  const state = { ...DEFAULTS, models: models.TOGGLES };
+  const state = { ...OPENING };
   let impact; // the first bounce, solved from the state
   let flights; // of both balls
   let list; // the models shown in the curves
@@ -44,8 +46,8 @@ const page = (() => {
     document.querySelector(`label[for=${name}]`)?.textContent.trim() ?? name;
 
   const refuse = (name, text, allowed) =>
-    (element("refused").textContent =
-      `${name_of(name)}: \u201C${text}\u201D is refused. Allowed: ${allowed}.`);
+    element("refused").append(
+      `${name_of(name)}: \u201C${text}\u201D is refused. Allowed: ${allowed}. `);
 
   // What a reader has typed, or NaN.
   function parsed(text) {
@@ -57,33 +59,36 @@ const page = (() => {
 
   const between = (name) => `numbers from ${limits(name).join(" to ")}`;
 
-  // Takes what an address says; what is not allowed stays as it was, and is told.
+  // The state that an address says; what it does not say, or is not allowed, is as the page opens.
   function read(address) {
     const given = new URLSearchParams(address);
+    const values = { ...OPENING };
     for (const name of [...SLIDERS, ...Object.keys(LIMITS)]) {
       if (!given.has(name)) continue;
       const value = parsed(given.get(name));
-      if (is_allowed(name, value)) state[name] = value;
+      if (is_allowed(name, value)) values[name] = value;
       else refuse(name, given.get(name), between(name));
     }
-    for (const name of ["view", "loss", "of"]) {
+    for (const name of CHOICES) {
       if (!given.has(name)) continue;
       const known = [...element(name).options].map((option) => option.value);
-      if (known.includes(given.get(name))) state[name] = given.get(name);
+      if (known.includes(given.get(name))) values[name] = given.get(name);
       else refuse(name, given.get(name), known.join(", "));
     }
     const wanted = given.get("models")?.split(" ");
-    if (wanted) state.models = models.TOGGLES.filter((name) => wanted.includes(name));
+    if (wanted) values.models = models.TOGGLES.filter((name) => wanted.includes(name));
+    return values;
   }
 
-  // The models are named where some are left out.
-  function address() {
-    const written = (name) => typeof state[name] === "number" ? Number(state[name].toFixed(4))
-      : state[name];
-    const said = ["angle", "friction", "restitution", ...Object.keys(DEFAULTS)]
-      .filter((name) => VIEWED.includes(name) || state[name] !== DEFAULTS[name])
-      .map((name) => [name, written(name)]);
-    if (state.models.length < models.TOGGLES.length) said.push(["models", state.models.join(" ")]);
+  // What is as the page opens is left out, but for the first controls. The models are named where
+  // some are left out.
+  function address(values = state) {
+    const written = (value) => typeof value === "number" ? Number(value.toFixed(4)) : value;
+    const said = Object.keys(OPENING)
+      .filter((name) => name !== "models")
+      .filter((name) => ALWAYS.includes(name) || values[name] !== OPENING[name])
+      .map((name) => [name, written(values[name])]);
+    if (values.models.length < models.TOGGLES.length) said.push(["models", values.models.join(" ")]);
     return new URLSearchParams(said).toString();
   }
 
@@ -219,7 +224,7 @@ const page = (() => {
     }
     element("stiffness_ratio").textContent = charts.number(impact.zeta2, 3);
     element("no-ball").hidden = state.mass_ratio >= 2;
-    for (const name of ["view", "loss", "of"]) element(name).value = state[name];
+    for (const name of CHOICES) element(name).value = state[name];
     element("loss").disabled = state.restitution === 1;
     element("time").max = stage.duration();
     for (const name of models.TOGGLES) {
@@ -232,25 +237,12 @@ const page = (() => {
       button.ariaPressed = Number(button.dataset.mass_ratio) === state.mass_ratio;
     }
     const here = address();
-    const option = [...element("preset").options].find(({ value }) => value && normal(value) === here);
+    const option = presets.find(([written]) => written === here)?.[1];
     element("preset").value = option?.value ?? "";
     element("about").innerHTML = option?.dataset.about ?? "";
     const hollow = element("thin-shell").ariaPressed === "true";
     element("stage-svg").classList.toggle("shell", hollow);
     element("caution").hidden = state.restitution === 1;
-  }
-
-  // An address as `address` writes it.
-  const normals = new Map();
-  function normal(text) {
-    if (!normals.has(text)) {
-      const kept = { ...state };
-      Object.assign(state, DEFAULTS, { models: models.TOGGLES });
-      read(text);
-      normals.set(text, address());
-      Object.assign(state, kept);
-    }
-    return normals.get(text);
   }
 
   function show_names() {
@@ -376,7 +368,10 @@ const page = (() => {
       if (is_allowed(name, value)) take({ [name]: value });
     });
     box.addEventListener("change", () => {
-      if (!is_allowed(name, parsed(box.value))) refuse(name, box.value, between(name));
+      if (!is_allowed(name, parsed(box.value))) {
+        element("refused").textContent = "";
+        refuse(name, box.value, between(name));
+      }
       show_typed(name);
     });
     box.addEventListener("blur", () => show_typed(name));
@@ -391,7 +386,6 @@ const page = (() => {
 
   for (const name of SLIDERS) {
     const slider = element(name);
-    state[name] ??= Number(slider.value);
     slider.addEventListener("input", () => take({ [name]: Number(slider.value) }));
     on_typing(name);
   }
@@ -401,7 +395,7 @@ const page = (() => {
       changed();
     });
   }
-  for (const name of ["view", "loss", "of"]) {
+  for (const name of CHOICES) {
     element(name).addEventListener("change", (event) => {
       state[name] = event.target.value;
       changed();
@@ -671,16 +665,16 @@ const page = (() => {
 
   // ---- start --------------------------------------------------------------------------------
 
-  const opening = element("preset").options[1].value;
+  // The balls and figures of the menu, by the address that the page writes for them.
+  const presets = [...element("preset").options].filter(({ value }) => value)
+    .map((option) => [address(read(option.value)), option]);
 
-  // The state of the page's address; what that does not say is as the page opens.
+  // The state of the page's address; without one, that of the first ball.
   function restore() {
     clearTimeout(waiting);
     const place = location.hash.slice(1);
-    for (const option of element("preset").options) if (option.value) normal(option.value);
     element("refused").textContent = "";
-    Object.assign(state, DEFAULTS, { models: models.TOGGLES, angle: 50, friction: 0.4, restitution: 1 });
-    read(place.includes("=") ? place : opening);
+    Object.assign(state, read(place.includes("=") ? place : presets[0][1].value));
     now = 0;
     playing = false;
     refresh();
@@ -703,8 +697,7 @@ const page = (() => {
   // Goes to the state that an address says, as a preset does.
   function go(to) {
     element("refused").textContent = "";
-    Object.assign(state, DEFAULTS);
-    read(to);
+    Object.assign(state, read(to));
     go_to(0);
     changed();
   }
