@@ -80,7 +80,7 @@ def wrong_state(controls, state):
 
 
 def dead_links(folder, names):
-    """Links of pages that lead nowhere: to no file, no anchor, or no state of the explorer."""
+    """Links that lead nowhere, to no state of the explorer, or out of the folder of the pages."""
     page, dead = functools.cache(Page), []
     for name in names:
         start = (folder / name).resolve()
@@ -91,6 +91,8 @@ def dead_links(folder, names):
             target = (start.parent / unquote(path)).resolve() if path else start
             if not target.is_file():
                 dead.append((name, link, "no such file"))
+            elif not target.is_relative_to(folder.resolve()):
+                dead.append((name, link, "outside"))
             elif "=" in anchor and target.name == "explorer.html":
                 wrong = wrong_state(page(target).controls, anchor)
                 dead += [(name, link, wrong)] if wrong else []
@@ -132,10 +134,13 @@ def test_presets_of_the_explorer_are_states_that_it_allows(figures):
 def test_a_dead_link_is_found(tmp_path):
     inputs = '<input id="angle" min="0" max="90"><input id="model-a"><input id="model-b">'
     view = '<select id="view"><option value="energy"></select>'
+    (tmp_path / "outside.csv").touch()
+    tmp_path = tmp_path / "figures"
+    tmp_path.mkdir()
     (tmp_path / "explorer.html").write_text(f'<h1 id="top">{inputs}{view}')
     good = ["#here", "explorer.html", "explorer.html#top", "explorer.html#angle=9.5&view=energy"]
     good += ["explorer.html#models=a+b"]
-    bad = ["#gone", "lost.html", "explorer.html#here", "explorer.html#angle=91"]
+    bad = ["#gone", "lost.html", "../outside.csv", "explorer.html#here", "explorer.html#angle=91"]
     bad += ["explorer.html#view=motion", "explorer.html#angel=9", "explorer.html#models=a+c"]
     links = "".join(f'<a href="{link}">' for link in [*good, "https://doi.org/10.1", *bad])
     (tmp_path / "page.html").write_text(f'<p id="here">{links}')
