@@ -38,7 +38,8 @@ INDEXED = re.compile(
 )
 # Not a letter: the initials in "M. S. Smith", and the article "a".
 LETTER = re.compile(
-    rf"(?P<name>{'|'.join(GREEK)}|[eskx]|E\*|[aw](?=\^)|[MSR](?!\. [A-Z]))(?P<prime>'?)(?!\w|-\w)"
+    rf"(?P<name>{'|'.join(GREEK)}|[eskx]|E\*|a(?=\^)|w(?=[\^/]| = )|[MSR](?!\. [A-Z]))"
+    r"(?P<prime>'?)(?!\w|-\w)"
 )
 # p, t and v without an index are symbols only if this follows, or a d stands before them.
 BARE = re.compile(r"[ptv](?=\(| [=+-] |/)|d[ptv]\b|t\b(?!\.)")
@@ -317,6 +318,7 @@ def _plain_text(text: str) -> str:
     """Text without formulas: degrees, negative numbers, powers of units."""
     html = re.sub(r"(\d) deg\b", r"\1°", str(escape(text)))
     html = re.sub(r"(?<![\w.-])-(?=\d)", "−", html)
+    html = re.sub(r"(?<=kg/m)3\b", "<sup>3</sup>", html)
     return re.sub(r"\^(−?\d+)", r"<sup>\1</sup>", html)
 
 
