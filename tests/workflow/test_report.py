@@ -107,20 +107,6 @@ def test_each_is_one_file_that_needs_nothing_else(report, page, provenance):
     assert "url(" not in styles and "@import" not in styles
 
 
-def test_every_link_leads_somewhere(report, page, provenance):
-    anchors = {"": page.ids, "sources.html": provenance.ids}
-    for found in (page, provenance):
-        twice = [name for name, count in Counter(found.ids).items() if count > 1]
-        assert not twice
-    for link in page.links:
-        file, _, anchor = link.partition("#")
-        assert not file or (report.parent / file).is_file(), link
-        if file == "ledger.html":
-            anchors.setdefault(file, Page((report.parent / file).read_text(encoding="utf-8")).ids)
-        assert file not in anchors or not anchor or anchor in anchors[file], link
-    assert {link[1:] for link in provenance.links if link.startswith("#")} <= set(provenance.ids)
-
-
 def test_the_first_words_say_how_it_went_and_what_was_found(first_run, text, report):
     """Numbers are those of the tables; of what only ran nothing is counted."""
     first = text[: text.index("Verdicts Each comparison")]
