@@ -103,6 +103,7 @@ def test_each_is_one_file_that_needs_nothing_else(report, page, provenance):
     outside = [link for link in provenance.links if ":" in link]
     assert outside and all(link.startswith("https://doi.org/10.") for link in outside)
     assert not provenance.resources and not any(":" in link for link in page.links)
+    assert all(len(set(found.ids)) == len(found.ids) for found in (page, provenance))
     styles = "".join(re.findall(r"<style>.*?</style>", report.read_text(), flags=re.S))
     assert "url(" not in styles and "@import" not in styles
 
