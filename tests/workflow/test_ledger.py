@@ -702,6 +702,8 @@ def shape(node):
     [
         ("-zeta^2 < s, m/s", "{−ζ^2<s}, m/s"),
         ("Omega ts", "{Ωt_s}"),
+        ("beta_0 and e_t of w/zeta^2", "{β_0} and {e_t} of {(w over ζ^2)}"),
+        ("a sphere of R. Cross, a^2 = R delta", "a sphere of R. Cross, {a^2=Rδ}"),
         ("(1 + e) m2/m1", "{(1+e)(m_2 over m_1)}"),
         ("2 zeta^2 F1(t2)/(m1 m2)", "{(2ζ^2F_1(t_2) over m_1m_2)}"),
         ("(mu/m1)(1 + e)", "{(μ over m_1)(1+e)}"),

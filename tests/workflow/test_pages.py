@@ -57,7 +57,6 @@ class Page(HTMLParser):
             self.bar += [found["href"]] * self._in_bar
         elif "src" in found:
             self.links.append(found["src"])
-        self.states += [found["data-state"]] if "data-state" in found else []
         if tag in ("input", "select"):
             self._select = self.controls[name] = {**found, "options": []}
         elif tag == "option":
@@ -83,7 +82,7 @@ def wrong_state(controls, state):
 
 
 def dead_links(folder, names):
-    """Links and pictures of pages that lead to no file, no anchor, or no state of the explorer."""
+    """Links that lead nowhere, to no state of the explorer, or out of the folder of the pages."""
     page, dead = functools.cache(Page), []
     for name in names:
         start = (folder / name).resolve()
@@ -94,6 +93,8 @@ def dead_links(folder, names):
             target = (start.parent / unquote(path)).resolve() if path else start
             if not target.is_file():
                 dead.append((name, link, "no such file"))
+            elif not target.is_relative_to(folder.resolve()):
+                dead.append((name, link, "outside"))
             elif "=" in anchor and target.name == "explorer.html":
                 wrong = wrong_state(page(target).controls, anchor)
                 dead += [(name, link, wrong)] if wrong else []
@@ -131,23 +132,35 @@ def test_the_site_is_whole_wherever_it_is_unpacked(finished):
     site = finished / "stick/unpacked/site"
     pages = [str(path.relative_to(site)) for path in site.rglob("*.html")]
     assert set(pages) > {*BAR, "interface/index.html"}
-    # Tables are not yet among the pages.
-    assert [dead for dead in dead_links(site, pages) if "../results/" not in dead[1]] == []
+    assert dead_links(site, pages) == []
+
+
+@pytest.mark.parametrize("name", ["report.html", "ledger.html", "note.html", "sources.html"])
+def test_symbols_are_not_shown_as_they_are_typed(figures, name):
+    text = (figures / name).read_text(encoding="utf-8")
+    text = re.sub(r"<(math|code|pre|script|style|svg)\b.*?</\1>", " ", text, flags=re.S)
+    text = re.sub("<[^>]*>", " ", text)
+    typed = r"\b(?:alpha|beta|kappa|mu|nu|omega|Omega|theta|zeta)\b|\w\^|\b[A-Za-z]_\w"
+    assert re.findall(typed, text) == []
 
 
 def test_presets_of_the_explorer_are_states_that_it_allows(figures):
     page = Page(figures / "explorer.html")
-    assert page.states
-    assert [wrong for state in page.states if (wrong := wrong_state(page.controls, state))] == []
+    states = [state for state in page.controls["preset"]["options"] if state]
+    assert len(states) > 10
+    assert [wrong for state in states if (wrong := wrong_state(page.controls, state))] == []
 
 
 def test_a_dead_link_is_found(tmp_path):
     inputs = '<input id="angle" min="0" max="90"><input id="model-a"><input id="model-b">'
     view = '<select id="view"><option value="energy"></select>'
+    (tmp_path / "outside.csv").touch()
+    tmp_path = tmp_path / "figures"
+    tmp_path.mkdir()
     (tmp_path / "explorer.html").write_text(f'<h1 id="top">{inputs}{view}')
     good = ["#here", "explorer.html", "explorer.html#top", "explorer.html#angle=9.5&view=energy"]
     good += ["explorer.html#models=a+b"]
-    bad = ["#gone", "lost.html", "explorer.html#here", "explorer.html#angle=91"]
+    bad = ["#gone", "lost.html", "../outside.csv", "explorer.html#here", "explorer.html#angle=91"]
     bad += ["explorer.html#view=motion", "explorer.html#angel=9", "explorer.html#models=a+c"]
     links = "".join(f'<a href="{link}">' for link in [*good, "https://doi.org/10.1", *bad])
     (tmp_path / "page.html").write_text(f'<p id="here">{links}<img src="a.svg"><img src="data:,">')

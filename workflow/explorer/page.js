@@ -15,7 +15,7 @@ const page = (() => {
     models: models.TOGGLES,
   };
   const ALWAYS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"]; // in the address
-  const LIMITS = { radius: [1, 200], gravity: [0, 30] }; // of numbers without a slider
+  const UNSEEN = ["radius", "gravity"]; // numbers without a slider
   const SETTLED = 300; // ms without a change, after which the address says the state
   const GLIDE = 220; // ms from the frame of aiming to that of the throw
   const TOLD = 5000; // ms that a message stays
@@ -39,8 +39,7 @@ const page = (() => {
 
   // ---- state --------------------------------------------------------------------------------
 
-  const limits = (name) =>
-    LIMITS[name] ?? [Number(element(name).min), Number(element(name).max)];
+  const limits = (name) => [Number(element(name).min), Number(element(name).max)];
 
   const name_of = (name) =>
     document.querySelector(`label[for=${name}]`)?.textContent.trim() ?? name;
@@ -63,7 +62,7 @@ const page = (() => {
   function read(address) {
     const given = new URLSearchParams(address);
     const values = { ...OPENING };
-    for (const name of [...SLIDERS, ...Object.keys(LIMITS)]) {
+    for (const name of [...SLIDERS, ...UNSEEN]) {
       if (!given.has(name)) continue;
       const value = parsed(given.get(name));
       if (is_allowed(name, value)) values[name] = value;

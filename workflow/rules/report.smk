@@ -6,6 +6,7 @@ LECTURES = {f"{notebook}.html": notebook.replace("_", " ").capitalize() for note
 REPORT_PARTS = [
     "workflow/report/sources.html",
     "workflow/report/unfold.js",
+    "workflow/report/model.svg",
     *expand("workflow/report/{part}.css", part=["page", "report"]),
     *expand("workflow/report/{part}.rst", part=["trade", "which_model", "stability", "sensitivity"]),
 ]
@@ -105,6 +106,14 @@ rule report:
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
         tables=[rules.trade.output.table, rules.trade.output.answers, rules.stability.output.table, "results/sensitivity.csv", *FINDING_TABLES, *PEERS],
+        linked=[
+            "results/verdicts.csv",
+            "results/sensitivity.csv",
+            "results/stability.csv",
+            "results/trade.csv",
+            "results/which_model.csv",
+            *expand("results/{kind}/{figure}.csv", kind=["curves", "residuals"], figure=FIGURES),
+        ],
     output:
         page="figures/report.html",
         sources=report(
@@ -113,6 +122,7 @@ rule report:
             category="Sources",
             labels={"page": "sources of data, settings, versions"},
         ),
+        tables=directory("figures/tables"),  # copies, so that figures/ can be sent alone
         problems="results/problems.csv",
         record="results/records/report.json",
     log:

@@ -7,6 +7,7 @@ from stronge1994.run import record
 
 with record.recorded(snakemake) as settings:
     files = snakemake.input
+    report.copy_tables(snakemake.output.tables, files.linked)
     report.write(
         snakemake.output.page,
         snakemake.output.problems,

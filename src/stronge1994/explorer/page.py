@@ -27,6 +27,8 @@ LIMITS = {
     "speed": (0.5, 12, 0.1),  # m/s
     "spin": (-400, 400, 5),  # rad/s
     "table": (0, 2, 0.05),  # m
+    "radius": (1, 200, 1),  # mm; this and the next one have no slider
+    "gravity": (0, 30, 0.01),  # m/s^2
 }
 # The controls that a figure of the paper sets; the others are as the page opens.
 OF_FIGURES = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"]

@@ -119,7 +119,9 @@ def cells(claim: Mapping[str, Any], confirms: str, measured: Mapping[str, Values
     return row | {
         "nature_test": measures()[claim["check"]],
         "nature_true_if": confirms,
-        "nature_found": ", ".join(f"{kind} {number:.3g}" for kind, number in values.items()),
+        "nature_found": ", ".join(
+            f"{kind.replace('_', ' ')} {number:.3g}" for kind, number in values.items()
+        ),
     }
 
 

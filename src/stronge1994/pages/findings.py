@@ -133,7 +133,7 @@ def tolerance(answers: Sequence[Row], trade: Sequence[Row]) -> Finding:
     for row in cases[0]["rows"]:
         answer = row["answers"][batch]
         if answer["error"]:
-            steps[answer["model"]] = row["tolerance"]
+            steps[answer["model"]] = row["least"]
     timed = [row for row in trade if row["loss"] == "" and row[f"time_{batch} [s]"]]
     x, y = (
         np.log10([float(row[key]) for row in timed])

@@ -13,6 +13,7 @@ exception is a ratio of one letter, as m2/m1: `e m2/m1` is e times that ratio.
 """
 
 import re
+from contextlib import suppress
 from typing import NamedTuple
 
 from markupsafe import Markup, escape
@@ -20,6 +21,7 @@ from markupsafe import Markup, escape
 GREEK = {
     "alpha": "α", "mu": "μ", "zeta": "ζ", "beta": "β", "Omega": "Ω", "omega": "ω", "kappa": "κ",
     "pi": "π", "phi": "φ", "psi": "ψ", "chi": "χ", "theta": "θ", "tau": "τ", "nu": "ν",
+    "delta": "δ",
 }  # fmt: skip
 FUNCTIONS = ("sin", "cos", "tan", "acos", "max", "sqrt")
 RELATIONS = {"<=": "≤", ">=": "≥", "->": "→", "=": "=", "<": "&lt;", ">": "&gt;"}
@@ -29,13 +31,16 @@ CLOSING = {"(": ")", "[": "]", "|": "|"}
 # Not a number: the 7 of Eq. 7c, or of 7.5.1.
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e(?P<power>-?\d+))?(?![\w]|\.\d)(?P<degrees> deg\b)?")
 NUMBER_NEXT = re.compile(r" \d")
-# v1, F2, t_c, tf, ts, F2max, psi1; with d a differential, as du1 or dt.
+# v1, F2, t_c, tf, ts, F2max, psi1, beta_0, e_t; with d a differential, as du1 or dt.
 INDEXED = re.compile(
-    r"(?P<change>d?)(?P<letter>[vuFDKWmxtgp]|psi)"
-    r"(?:(?P<index>\d|_c|(?<=t)[fbas])(?P<largest>max)?)?(?![A-Za-z0-9])"
+    r"(?P<change>d?)(?P<letter>[vuFDKWmxtgp]|psi|beta(?=_0)|e(?=_t)|(?:a|delta)(?=_max))"
+    r"(?:(?P<index>\d|_[c0t]|_max|(?<=t)[fbas])(?P<largest>max)?)?(?![A-Za-z0-9])"
 )
-# Not a letter: the initials in "M. S. Smith".
-LETTER = re.compile(rf"(?P<name>{'|'.join(GREEK)}|[eskx]|[MS](?!\. [A-Z]))(?P<prime>'?)(?!\w|-\w)")
+# Not a letter: the initials in "M. S. Smith", and the article "a".
+LETTER = re.compile(
+    rf"(?P<name>{'|'.join(GREEK)}|[eskx]|E\*|a(?=\^)|w(?=[\^/]| = )|[MSR](?!\. [A-Z]))"
+    r"(?P<prime>'?)(?!\w|-\w)"
+)
 # p, t and v without an index are symbols only if this follows, or a d stands before them.
 BARE = re.compile(r"[ptv](?=\(| [=+-] |/)|d[ptv]\b|t\b(?!\.)")
 # A formula begins behind one of these, not inside a word or behind the stroke of a unit. The 38 of
@@ -313,7 +318,8 @@ def _plain_text(text: str) -> str:
     """Text without formulas: degrees, negative numbers, powers of units."""
     html = re.sub(r"(\d) deg\b", r"\1°", str(escape(text)))
     html = re.sub(r"(?<![\w.-])-(?=\d)", "−", html)
-    return re.sub(r"\^(\d)", r"<sup>\1</sup>", html)
+    html = re.sub(r"(?<=kg/m)3\b", "<sup>3</sup>", html)
+    return re.sub(r"\^(−?\d+)", r"<sup>\1</sup>", html)
 
 
 def _formula(text: str, at: int) -> tuple[list[_Part], int] | None:
@@ -361,3 +367,16 @@ def mathematical(text: str) -> Markup:
         for place, part in enumerate(parts)
     ]
     return Markup("".join(html))
+
+
+def number(text: str) -> Markup:
+    """A cell of a table with three digits at most; of a cell that is no number the formulas.
+
+    >>> print(number("0.123456"), number("1.56e+03"), number("lumped"))
+    0.123 1560 lumped
+    >>> print(number("1e-05"))
+    <math alttext="1e-05"><msup><mn>10</mn><mn>−5</mn></msup></math>
+    """
+    with suppress(ValueError):
+        text = f"{float(f'{float(text):.3g}'):g}".replace("e+", "e")
+    return mathematical(text)

@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from stronge1994.csv_tables import Row
 from stronge1994.ledger import in_nature, outcome
-from stronge1994.pages import templates
+from stronge1994.pages import names, templates
 from stronge1994.pages.formulas import mathematical
 
 STYLE = {
@@ -84,23 +84,34 @@ def explorer_state(incidence: float, friction: float, restitution: float, view: 
     )
 
 
-def linked_maths(names: Collection[str]) -> Callable[[str], Markup]:
-    """Formulas of a text as HTML, with links to the entries of the ledger that it names.
+def linked_maths(entries: Collection[str], page: str = "") -> Callable[[str], Markup]:
+    """Formulas of a text as HTML, with links to what it names.
 
-    Entries are named as "see NAME and NAME", as "ledger: NAME", and after an equation and a comma.
+    Entries of the ledger, which is another `page` or this one, are named as "see NAME and NAME",
+    as "ledger: NAME", and after an equation and a comma; comparisons of the report as
+    "comparison NAME".
 
     >>> print(linked_maths({"eq-12"})("It slips, see eq-12"))
-    It slips, see <a href="#eq-12">eq-12</a>
+    It slips, see <a href="#eq-12">Eq. 12</a>
+    >>> print(linked_maths(())("comparison inelastic-rebound"))
+    comparison <a href="report.html#inelastic-rebound">Inelastic, rebound</a>
     """
-    alternatives = "|".join(sorted(map(re.escape, names), key=len, reverse=True)) or "(?!)"
-    link = re.compile(rf"(?:(?<=see )|(?<=and )|(?<=ledger: )|(?<=eq-\d\d, ))({alternatives})\b")
+    alternatives = "|".join(sorted(map(re.escape, entries), key=len, reverse=True)) or "(?!)"
+    before = r"(?<=see )|(?<=and )|(?<=ledger: )|(?<=eq-\d\d, )"
+    link = re.compile(rf"(?:{before})(?:{alternatives})\b|(?<=comparison )[a-z_\d]+-[\w.-]*\w")
+
+    def linked(name: str) -> Markup:
+        if name in entries:
+            return Markup('<a href="{}#{}">{}</a>').format(page, name, names.entry(name))
+        words = f"{templates.title(name.partition('-')[0])}, {names.comparison(name)}"
+        return Markup('<a href="report.html#{}">{}</a>').format(name, mathematical(words))
 
     def maths(text: str) -> Markup:
-        parts = link.split(text)
-        return Markup("").join(
-            Markup('<a href="#{0}">{0}</a>').format(part) if part in names else mathematical(part)
-            for part in parts
-        )
+        html, done = [], 0
+        for found in link.finditer(text):
+            html += [mathematical(text[done : found.start()]), linked(found[0])]
+            done = found.end()
+        return Markup("").join([*html, mathematical(text[done:])])
 
     return maths
 
@@ -140,7 +151,10 @@ def by_cause(rows: Sequence[Row]) -> dict[str, list[Row]]:
 def page(rows: Sequence[Row], symbols: str, template: str) -> str:
     """The page of the ledger's rows, by a template beside the style that it includes."""
     environment = templates.environment(Path(template).parent)
-    environment.filters["maths"] = linked_maths({row["entry"] for row in rows})
+    environment.filters |= {
+        "maths": linked_maths({row["entry"] for row in rows}),
+        "entry_name": names.entry,
+    }
     return environment.get_template(Path(template).name).render(
         template_values(rows, symbols),
         kinds=Counter(row["kind"] for row in rows),

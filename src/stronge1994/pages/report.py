@@ -6,6 +6,7 @@ error. What cannot be shown is left out and named on top, with file and line; th
 
 import io
 import re
+import shutil
 import traceback
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
@@ -26,12 +27,14 @@ from stronge1994.pages import (
     impact_times,
     key_numbers,
     ledger_page,
+    names,
     note,
     run_facts,
     sources_page,
     templates,
     which_model,
 )
+from stronge1994.pages.formulas import mathematical, number
 from stronge1994.run import gate
 
 MARKS = {
@@ -46,15 +49,14 @@ MARKS = {
 }
 MEANING = {
     "diverges": "outside its tolerance: the run fails",
-    "unexplained difference": "the difference is as large as before, and we do not know its cause",
-    "untested difference": "sigma unknown: the reference does not state how its values "
-    "scatter, so chi² tests nothing",
-    "explained difference": "the difference is as large as before, and we know its cause",
+    "unexplained difference": "as large as before; we do not know its cause",
+    "untested difference": "the scatter of the measurements is not published: χ² tests nothing",
+    "explained difference": "as large as before; we know its cause",
     "awaited": "we do not have the reference yet",
-    "inconclusive": "it agrees, but would also if all points lay "
-    f"{VISIBLE_SHIFT:g} sigmas beside the curve: it does not count as evidence",
-    "agrees": "with published points (p is large enough), or within the tolerance of its reference",
-    "as before": "it ran, or was fitted to these points: a guard against accidents, no evidence",
+    "inconclusive": "it agrees, but it would also agree if all points lay "
+    f"{VISIBLE_SHIFT:g} sigmas beside the curve: no evidence",
+    "agrees": "p is large enough (published points), or the distance is within its tolerance",
+    "as before": "it was solved without error, or fitted to these points: no evidence",
 }
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure or a table
 # Tables that have a section of the report; captions stand in files of the same names.
@@ -118,21 +120,26 @@ def page(
     does not pass, as `gate.faults_of_tables` does. `salvage` calls what may fail, and its problems
     so far are shown too. `peers` is empty where other codes were not measured.
     """
-    names = {row["entry"] for row in ledger}
+    entries = {row["entry"] for row in ledger}
     nothing: TemplateValues = {"rows": [], "absent": []}
     times = salvage("times", nothing, impact_times.section, tables["trade"]["rows"], peers)
     cases = salvage("which_model", [], which_model.cases, tables["which_model"]["rows"])
     environment = templates.environment(Path(template).parent)
     environment.filters |= {
-        "maths": _maths(names),
-        "number": templates.number,
+        "maths": ledger_page.linked_maths(entries, "ledger.html"),
+        "bounds": _bounds,
+        "comparison_name": names.comparison,
+        "series_name": names.series,
+        "entry_name": names.entry,
+        "number": number,
         "probability": note.probability,
-        "microseconds": lambda seconds: templates.number(f"{1e6 * float(seconds)}"),
+        "microseconds": lambda seconds: number(f"{1e6 * float(seconds)}"),
         "header": headers.header,
         "short": run_facts.short,
         "sentence": sentence,
         "title_of": templates.title,
     }
+    environment.tests["in_paper"] = lambda figure: figure.startswith("fig")
     return environment.get_template(Path(template).name).render(
         ledger_page.template_values(ledger, symbols),
         verdicts=verdicts,
@@ -142,7 +149,7 @@ def page(
         evidence=Counter(row["evidence"] for row in verdicts if row["verdict"] == "agrees"),
         marks=MARKS,
         verdict_meaning=MEANING,
-        entry_of=_entry_of(names),
+        entry_of=_entry_of(entries),
         figures=figures,
         tables=tables,
         cases=cases,
@@ -154,14 +161,13 @@ def page(
     )
 
 
-def _maths(names: Collection[str]) -> Callable[[str], Markup]:
-    """Formulas of a text as HTML, with links to the entries of the ledger, which has its page."""
-    of_ledger = ledger_page.linked_maths(names)
+def _bounds(text: str) -> Markup:
+    """Bounds of a comparison.
 
-    def maths(text: str) -> Markup:
-        return Markup(str(of_ledger(text)).replace('href="#', 'href="ledger.html#'))
-
-    return maths
+    >>> print(_bounds("133 <= chi2 <= 164"))
+    133 ≤ χ² ≤ 164
+    """
+    return mathematical(text.replace("<=", "≤").replace("chi2", "χ²"))
 
 
 def without_details(faults: Iterable[str]) -> str:
@@ -199,12 +205,12 @@ def figure(
 
 
 def sentence(text: str) -> str:
-    """A text with a capital letter at its head.
+    """A text with a capital letter at its head, unless it begins with a formula.
 
-    >>> sentence("it must run")
-    'It must run'
+    >>> sentence("it must run"), sentence("e^2 zeta^2 is small")
+    ('It must run', 'e^2 zeta^2 is small')
     """
-    return text[:1].upper() + text[1:]
+    return text if mathematical(text).startswith("<math") else text[:1].upper() + text[1:]
 
 
 def _entry_of(names: Collection[str]) -> Callable[[Row], str | None]:
@@ -215,6 +221,14 @@ def _entry_of(names: Collection[str]) -> Callable[[Row], str | None]:
         return name if name in names else None
 
     return entry_of
+
+
+def copy_tables(folder: str | Path, paths: Iterable[str]) -> None:
+    """Copy the tables that pages link to, so that their folder can be sent without results/."""
+    for path in paths:
+        copy = Path(folder, Path(path).relative_to("results"))
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(path, copy)
 
 
 def _key_numbers(path: str) -> dict[str, float]:

@@ -6,7 +6,8 @@ from typing import Any
 
 import yaml
 
-from stronge1994.pages import headers, ledger_page, templates
+from stronge1994.pages import headers, ledger_page, names, templates
+from stronge1994.pages.formulas import number
 
 # Settings that all figures share.
 SHARED = ("mass_ratio", "stiffness_ratio", "significance")
@@ -29,8 +30,9 @@ def page(
     environment.filters |= {
         "maths": ledger_page.mathematical,
         "header": headers.header,
-        "number": templates.number,
+        "number": number,
         "title_of": templates.title,
+        "source_name": names.source,
     }
     return environment.get_template(Path(template).name).render(
         sources=sources,

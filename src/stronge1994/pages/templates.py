@@ -42,15 +42,3 @@ def title(name: str) -> str:
     if name.startswith(SCENE):
         return f"Scene: {name.removeprefix(SCENE).replace('_', ' ')}"
     return name.replace("_", " ").capitalize()
-
-
-def number(text: str) -> str:
-    """A cell of a table with three digits at most; a cell that is no number stays.
-
-    >>> number("0.123456"), number("1.56e+03"), number("1e-05"), number("lumped")
-    ('0.123', '1560', '1e-5', 'lumped')
-    """
-    try:
-        return f"{float(f'{float(text):.3g}'):g}".replace("e-0", "e-").replace("e+0", "e")
-    except ValueError:
-        return text

@@ -14,14 +14,16 @@ def cases(rows: Sequence[Row]) -> list[dict[str, Any]]:
 
     There are none where the table is that of a crash. Numbers stay text. `spread` and
     `spread_stick` are those of the answer under uncertain inputs; `batches` are how many impacts
-    are solved together. Each of `rows` has a `tolerance`, and an answer for each batch.
+    are solved together. Each of `rows` has an answer for each batch, and the `largest` and the
+    `least` of the tolerances that follow each other and have these answers.
 
     >>> row = {"restitution [1]": "1.0", "loss": "", "tolerance [mu v2(0)]": "0.3"}
     >>> row |= dict.fromkeys(["other_loss [mu v2(0)]", "input_spread [mu v2(0)]"], "")
     >>> row |= {"input_spread_stick [mu v2(0)]": "", "model_1": "lumped"}
     >>> row |= {"max_velocity_1 [mu v2(0)]": "0.2", "whole_time_1 [s]": "1e-4"}
-    >>> cases([row])[0]["rows"][0]["answers"]
-    {'1': {'model': 'lumped', 'error': '0.2', 'time': '1e-4'}}
+    >>> (answer,) = cases([row, row | {"tolerance [mu v2(0)]": "0.25"}])[0]["rows"]
+    >>> answer["largest"], answer["least"], answer["answers"]["1"]
+    ('0.3', '0.25', {'model': 'lumped', 'error': '0.2', 'time': '1e-4'})
     """
     by_contact: dict[tuple[str, str], dict[str, Any]] = {}
     for row in rows:
@@ -48,5 +50,8 @@ def cases(rows: Sequence[Row]) -> list[dict[str, Any]]:
             }
             for batch in batches
         }
-        case["rows"].append({"tolerance": row["tolerance [mu v2(0)]"], "answers": answers})
+        tolerance = row["tolerance [mu v2(0)]"]
+        if not case["rows"] or case["rows"][-1]["answers"] != answers:
+            case["rows"].append({"largest": tolerance, "answers": answers})
+        case["rows"][-1]["least"] = tolerance
     return list(by_contact.values())
