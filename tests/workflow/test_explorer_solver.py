@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from planarimpact import Regime, bodies, continuum, lumped, rigid
+from planarimpact import Regime, bodies, lumped, rigid
 from stronge1994.explorer import answers as explorer_answers
 from stronge1994.explorer import page as write_explorer
 from tests.workflow import browser
@@ -212,7 +212,9 @@ COLUMNS = "time", "normal", "friction", "velocity"
 
 def test_history_is_that_of_the_package(show):
     rows, tab = contacts(), show()
-    one = f"(row) => solver.history(...row, 21).map((at) => {json.dumps(COLUMNS)}.map((n) => at[n]))"
+    one = (
+        f"(row) => solver.history(...row, 21).map((at) => {json.dumps(COLUMNS)}.map((n) => at[n]))"
+    )
     found = tab.evaluate(f"{json.dumps(rows)}.map({one})")
     for row, ours in zip(rows, found, strict=True):
         course = lumped.history(*row, samples=21)

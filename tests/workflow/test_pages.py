@@ -43,7 +43,7 @@ class Page(HTMLParser):
 
     def __init__(self, path):
         super().__init__()
-        self.ids, self.links, self.bar, self.states, self.controls = {}, [], [], [], {}
+        self.ids, self.links, self.bar, self.controls = {}, [], [], {}
         self._in_bar, self._select = False, None
         self.feed(path.read_text(encoding="utf-8"))
 

@@ -306,9 +306,10 @@ def doctored(*lapsed):
         {"comparison": "fig6-rebound", "quantity": "x [1]", "at": at, "distance [sigma]": far}
         for at, far in (("1", "-9"), ("2", "4"))
     ]
+    config = CONFIG | {"slides": ["fig6"]}
     shown = {
         name: write_report.figure(
-            name, b"<svg/>", "Words.", residuals if name == "fig6" else [], verdicts, CONFIG
+            name, b"<svg/>", "Words.", residuals if name == "fig6" else [], verdicts, config
         )
         for name in figures
     }

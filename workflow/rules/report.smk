@@ -37,7 +37,7 @@ REPORT_SETTINGS = {
     "config": {
         key: config[key]
         for key in ("mass_ratio", "stiffness_ratio", "figures", "significance", "comparisons")
-    },
+    } | {"slides": SLIDES},
     "sources": SOURCES,
     "symbols": SYMBOLS,
     "links": LECTURES,

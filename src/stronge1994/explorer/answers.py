@@ -30,7 +30,13 @@ def answers(limits: Mapping[str, Sequence[float]]) -> list[Answer]:
 def _continuum() -> list[Answer]:
     """Rebounds of the continuum, elastic and with each loss, of bodies within the sliders."""
     x = np.array([0.3, 1.0, 2.0, 4.0, 7.0])
-    losses = [("elastic", 1.0), ("viscous", 0.9), ("viscous", 0.4), ("plastic", 0.9), ("plastic", 0.4)]
+    losses = [
+        ("elastic", 1.0),
+        ("viscous", 0.9),
+        ("viscous", 0.4),
+        ("plastic", 0.9),
+        ("plastic", 0.4),
+    ]
     found: list[Answer] = []
     for beta, zeta2 in ((3.5, 1.21), (2.5, 1.5), (10.0, 1.0)):
         for loss, e in losses:

@@ -33,7 +33,17 @@ LIMITS = {
 # The controls that a figure of the paper sets; the others are as the page opens.
 OF_FIGURES = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"]
 # Scripts of the page, each after those that it uses.
-SCRIPTS = ["solver", "continuum", "models", "flight", "charts", "arrows", "patch", "diagram", "stage"]
+SCRIPTS = [
+    "solver",
+    "continuum",
+    "models",
+    "flight",
+    "charts",
+    "arrows",
+    "patch",
+    "diagram",
+    "stage",
+]
 SCRIPTS += ["words", "files", "page", "challenge"]
 # Largest error of the continuum of the page, in mu v2(0) and in the largest normal force.
 CONTINUUM_ERROR = 0.01

@@ -200,6 +200,7 @@ def figure(
         "alt": re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip("."),
         "rows": rows,
         "has_residuals": bool(residuals),
+        "has_slide": name in config["slides"],
         "strips": templates.embedded(_svg(name, strips)) if strips else None,
     }
 
