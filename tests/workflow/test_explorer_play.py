@@ -165,7 +165,7 @@ def test_the_ball_is_pulled_and_flies(how, show):
     tab = show("angle=30&friction=0.4&restitution=1", width=390 if how == "touch" else 1280)
     x, y = middle(tab, "stage-grasp")
     aim = json.dumps({"clientX": x + 70, "clientY": y + 30})
-    wanted = tab.evaluate(f"stage.aim_at({aim})")
+    wanted = tab.evaluate(f"stage.aim_at({aim}, 'continuum')")
     assert wanted["speed"] > 1 and wanted["angle"] > 45
     scrolled = tab.evaluate("scrollY")
     kinds = ("Pressed", "Moved", "Released") if how == "mouse" else ("Start", "Move", "End")
@@ -185,11 +185,11 @@ def test_the_ball_is_pulled_and_flies(how, show):
     wait_for(tab, f"location.hash.startsWith('#{saying}')", True)
     assert f"speed={wanted['speed']:g}" in tab.evaluate("location.hash")
     # Pulled back, as a slingshot, the ball flies the other way.
-    click(tab, "do-reset")
+    click(tab, "do-start")
     x, y = middle(tab, "stage-grasp")
     back, aim = (json.dumps({"clientX": x + s * 70, "clientY": y + s * 30}) for s in (-1, 1))
-    assert tab.evaluate(f"stage.aim_at({back})") == pytest.approx(
-        tab.evaluate(f"stage.aim_at({aim})"), abs=0.2
+    assert tab.evaluate(f"stage.aim_at({back}, 'continuum')") == pytest.approx(
+        tab.evaluate(f"stage.aim_at({aim}, 'continuum')"), abs=0.2
     )
 
 
@@ -253,7 +253,7 @@ def test_the_show_runs_pauses_and_ends(show):
     click(tab, "play")
     wait_for(tab, PLAY, "Throw")
     assert value(tab, "time") == pytest.approx(tab.evaluate("stage.duration()"))
-    click(tab, "do-reset")
+    click(tab, "do-start")
     assert value(tab, "time") == 0 and ball_places(tab) == start
     assert text(tab, "stage-moment") == ""
 
