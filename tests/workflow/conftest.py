@@ -8,7 +8,7 @@ import time
 import pytest
 
 from stronge1994 import plan
-from stronge1994.explorer import answers as explorer_curves
+from stronge1994.explorer import answers as explorer_answers
 from stronge1994.explorer import page as write_explorer
 from stronge1994.plan import config as configuration
 from tests.workflow import browser
@@ -62,12 +62,17 @@ def finished(first_run, tmp_path):
 
 
 @pytest.fixture(scope="session")
-def explorer(tmp_path_factory):
+def answers():
+    """Rebounds of the package with which the explorer compares itself."""
+    return explorer_answers.answers(write_explorer.LIMITS)
+
+
+@pytest.fixture(scope="session")
+def explorer(tmp_path_factory, answers):
     """The explorer page, written as a run writes it."""
     path = tmp_path_factory.mktemp("explorer") / "explorer.html"
     config = configuration.load(ROOT)
     sources = sorted((ROOT / "workflow/explorer").iterdir())
-    answers = explorer_curves.answers(write_explorer.LIMITS)
     text = write_explorer.page(plan.settings_of_explorer(config), sources, answers)
     path.write_text(text, encoding="utf-8")
     return path
@@ -85,11 +90,13 @@ def show(tab, explorer):
     """Open the explorer anew, paused, with this behind # in its address, and without problems."""
     tab.problems.clear()
 
-    def opened(address="", width=1280, height=900, motion="reduce"):
+    def opened(address="", width=1280, height=900, motion="reduce", query=""):
         tab.prefer(reduced_motion=motion)
         tab.resize(width, height, mobile=width < 500)
         tab.open("about:blank")
-        tab.open(f"{explorer.as_uri()}#{address}")
+        tab.open(f"{explorer.as_uri()}{query}#{address}")
+        if height > 2000:  # the closer look is in view, and drawn a little later
+            tab.page.wait_for_selector("#forces .cursor", state="attached")
         return tab
 
     yield opened

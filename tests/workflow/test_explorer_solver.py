@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from planarimpact import Regime, bodies, lumped, rigid
-from stronge1994.explorer import answers as explorer_answers
 from stronge1994.explorer import page as write_explorer
 from tests.workflow import browser
 
@@ -169,9 +168,8 @@ def nine_tenths(request, tmp_path):
     return paths, [wrong if path.name == wrong.name else path for path in paths]
 
 
-def test_the_job_refuses_a_wrong_solver_where_there_is_node(nine_tenths, monkeypatch):
+def test_the_job_refuses_a_wrong_solver_where_there_is_node(nine_tenths, answers, monkeypatch):
     right, wrong = nine_tenths
-    answers = explorer_answers.answers(write_explorer.LIMITS)
     assert len({given[-1] for _, given in answers if len(given) == 4}) >= 6
     if shutil.which("node"):
         words = write_explorer.refuse_other_answers(right, answers)

@@ -195,9 +195,14 @@ const models = (() => {
     if (after < 0) return rows.at(-1);
     const [start, end] = [rows[after - 1], rows[after]];
     const share = (time - start.time) / (end.time - start.time);
-    const mixed = { ...start };
-    for (const name of ["normal", "friction", "velocity", "approach", "depth", "radius"]) {
-      mixed[name] = start[name] + share * (end[name] - start[name]);
+    const mix = (name, from = start, to = end) => from[name] + share * (to[name] - from[name]);
+    const mixed = { ...start, energy: { ...start.energy } };
+    const names = ["normal", "friction", "velocity", "approach", "depth", "radius", "spring",
+      "time"];
+    for (const name of names) if (name in start) mixed[name] = mix(name);
+    // At the largest compression of the lumped model energy is lost in an instant.
+    if (start.in_restitution === end.in_restitution) {
+      for (const kind in start.energy) mixed.energy[kind] = mix(kind, start.energy, end.energy);
     }
     return mixed;
   }

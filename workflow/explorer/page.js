@@ -129,19 +129,14 @@ const page = (() => {
     };
   }
 
-  // Distance along the surface at the rows, in about v2(0)/Omega; for the drawing, by trapezia.
-  function ways(rows) {
-    let way = 0;
-    return rows.map((row, i) => {
-      const before = rows[Math.max(i - 1, 0)];
-      const mean = (row.velocity + before.velocity) / 2;
-      return (way += ((row.time - before.time) * mean * Math.PI) / 2);
-    });
-  }
-
+  // Distance along the surface at a time, in about v2(0)/Omega; for the drawing, by trapezia.
   function way_at({ contact }, time) {
-    const after = contact.rows.findIndex((row) => row.time > time);
-    return ways(contact.rows.slice(0, after < 0 ? undefined : Math.max(after, 1))).at(-1);
+    const passed = contact.rows.filter((row) => row.time <= time);
+    const rows = [...passed, models.at(contact, time)];
+    return rows.reduce((way, row, i) => {
+      const before = rows[Math.max(i - 1, 0)];
+      return way + ((row.time - before.time) * (row.velocity + before.velocity) * Math.PI) / 4;
+    }, 0);
   }
 
   // ---- drawing ------------------------------------------------------------------------------

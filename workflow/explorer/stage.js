@@ -311,7 +311,10 @@ const stage = (() => {
   function spin_at(event) {
     const point = point_of(event);
     const [x, y] = place_of(flight.start(shown.given), "continuum");
-    return RADIANS_A_SECOND * Math.atan2(point.x - x, y - point.y);
+    const turn = Math.atan2(point.x - x, y - point.y);
+    // More than half a turn goes on where it is.
+    const whole = Math.round((shown.given.spin / RADIANS_A_SECOND - turn) / (2 * Math.PI));
+    return RADIANS_A_SECOND * (turn + 2 * Math.PI * whole);
   }
 
   // Keeps the frame while the ball is aimed; lets it go, and returns it.
