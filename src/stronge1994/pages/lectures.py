@@ -36,7 +36,7 @@ STAGE = re.compile(r'<p><a href="(explorer\.html)\?stage(#[^"]*)">(.*?)</a></p>'
 DRAWING = re.compile(r'<p><img [^>]*src="\.\./report/([a-z_]+\.svg)"[^>]*></p>')
 # Symbols have the colours that they have in the drawing of the model.
 SYMBOLS = {
-    "velocity": re.compile(r"(?<![\w/])<em>[vw]</em>[₁₂]?"),
+    "velocity": re.compile(r"<em>[vw]</em>[₁₂]?"),
     "friction": re.compile(r"<em>F</em>₁"),
 }
 # Colours of the theme, each with its light value, as pictures are drawn with it.
