@@ -168,16 +168,24 @@ def without_answers(cells: Iterable[Any]) -> list[Any]:
 
 
 def answers(cells: Iterable[Any]) -> list[Any]:
-    """The cells of the sheet of answers: the part "Exercises", unfolded."""
-    kept: list[Any] = []
-    inside = False
-    for cell in cells:
+    """The cells of the sheet of answers: the title, and the part "Exercises", unfolded.
+
+    >>> from nbformat.v4 import new_markdown_cell as markdown
+    >>> folded = {"jp-MarkdownHeadingCollapsed": True}
+    >>> cells = [markdown("# Balls"), markdown("They roll."), markdown("## Exercises")]
+    >>> cells += [markdown("### 1"), markdown("#### Answer to 1", metadata=folded)]
+    >>> cells += [markdown("## References")]
+    >>> [(cell["source"], cell["metadata"]) for cell in answers(cells)]
+    [('# Balls', {}), ('### 1', {}), ('#### Answer to 1', {})]
+    """
+    title, *others = cells
+    kept, inside = [title], False
+    for cell in others:
         heading = _heading(cell)
-        if heading and len(heading[1]) <= 2:
+        if heading and len(heading[1]) == 2:
             inside = heading[2] == "Exercises"
-        if heading and kept:
-            cell = {**cell, "metadata": {}}
-        kept += [cell] if not kept or inside else []
+        elif inside:
+            kept.append({**cell, "metadata": {}} if heading else cell)
     return kept
 
 
