@@ -28,7 +28,7 @@ NOT_OURS = {INTERFACE: ["link-name", "heading-order", "duplicate-id"]}
 OPEN = "for (const part of document.querySelectorAll('details')) part.open = true;"
 # Colours may fade from light to dark: what counts is where they end.
 FIND = """Promise.all(document.getAnimations().map((one) => one.finished))
-.then(() => axe.run({resultTypes: ['violations'], ...%s})).then((found) => found.violations.map(
+.then(() => axe.run({resultTypes: ['violations'], iframes: false, ...%s})).then((found) => found.violations.map(
   ({id, nodes}) => `${id}: ${nodes.length}, first ${nodes[0].target}: ${nodes[0].html.slice(0, 90)}`
 ))"""
 # A width in px, a colour scheme, and whether axe judges colours, the rest, or both.
