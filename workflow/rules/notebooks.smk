@@ -8,7 +8,10 @@ rule notebook:
         plan=planned("notebook_{notebook}", "run_notebook", "pages", "printed"),
         notebook="workflow/notebooks/{notebook}.ipynb",
         style="workflow/notebooks/lecture.mplstyle",
-        template="workflow/report/notebook.html",
+        page="workflow/report/notebook.html",
+        slides="workflow/report/slides.html",
+        cells="workflow/report/cells.html",
+        drawing="workflow/report/model.svg",
         shared=EVERY_PAGE,
     output:
         executed="results/notebooks/{notebook}.ipynb",
@@ -18,6 +21,8 @@ rule notebook:
             category="Teaching",
             labels={"lecture": "{notebook}"},
         ),
+        slides="figures/slides_{notebook}.html",
+        answers="figures/answers_{notebook}.html",
         record="results/records/notebook_{notebook}.json",
     log:
         "results/logs/notebook_{notebook}.log",

@@ -1,9 +1,10 @@
-"""Run one notebook and keep it twice: executed, and as a page that needs nothing else."""
+"""Run one notebook and keep it executed, as a page, as slides and as a sheet of answers."""
 
 from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
 from stronge1994.pages import lectures
 from stronge1994.run import record
 
 with record.recorded(snakemake):
-    inputs, made = snakemake.input, snakemake.output
-    lectures.run(inputs.notebook, inputs.template, made.executed, made.page)
+    inputs = snakemake.input
+    templates = {"page": inputs.page, "slides": inputs.slides}
+    lectures.run(inputs.notebook, templates, dict(snakemake.output.items()))

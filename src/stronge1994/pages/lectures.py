@@ -1,14 +1,17 @@
-"""Run one notebook and write it twice: with its outputs, and as a page that needs no other file.
+"""Run one notebook and write it with its outputs, as a page, as slides and as a sheet of answers.
 
 The page folds what JupyterLab hides at first: the source of a cell, and what stands below a heading
-that is collapsed.
+that is collapsed. Answers to exercises are not on the page but on the sheet, for the teacher. What
+stands on a slide is what JupyterLab calls the slide type of a cell.
 """
 
 import os
 import re
 import sys
 import tempfile
-from collections.abc import Iterable
+import zlib
+from collections.abc import Iterable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +30,17 @@ COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 HEADING = re.compile(r"(#+) (.+)")
 # Key in the metadata of a cell by which JupyterLab marks a collapsed heading.
 COLLAPSED = "jp-MarkdownHeadingCollapsed"
+ANSWER = "Answer to "  # how the collapsed heading of an exercise's answer begins
+# A paragraph that is only a link to the stage of the explorer, or only a picture that is a file.
+STAGE = re.compile(r'<p><a href="(explorer\.html)\?stage(#[^"]*)">(.*?)</a></p>', re.S)
+DRAWING = re.compile(r'<p><img [^>]*src="\.\./report/([a-z_]+\.svg)"[^>]*></p>')
+# Symbols have the colours that they have in the drawing of the model.
+SYMBOLS = {
+    "velocity": re.compile(r"<em>[vw]</em>[₁₂]?"),
+    "friction": re.compile(r"<em>F</em>₁"),
+}
+# Colours of the theme, each with its light value, as pictures are drawn with it.
+THEME = re.compile(r"(--[a-z-]+): light-dark\((#\w+),")
 
 
 class NotebookError(Exception):
@@ -46,14 +60,42 @@ class ThisPython(AsyncKernelManager):
         return KernelSpec(argv=[sys.executable, *arguments], language="python")
 
 
-def run(notebook: str, template: str, executed: str, page: str) -> None:
-    """Run `notebook` from its first cell to its last and write both results.
+def run(notebook: str, templates: Mapping[str, str], made: Mapping[str, str]) -> None:
+    """Run `notebook` from its first cell to its last and write all results.
 
-    `executed` becomes the notebook with its outputs, `page` the page made with the Jinja
-    `template`. A `NotebookError` says in one line which cell failed, in which line and why; or that
-    one took too long, or ended the kernel.
+    `made["executed"]` becomes the notebook with its outputs, `made["page"]` and `made["answers"]`
+    pages made with the Jinja template `templates["page"]`, and `made["slides"]` with
+    `templates["slides"]`. A `NotebookError` says in one line which cell failed, in which line and
+    why; or that one took too long, or ended the kernel.
     """
     book = nbformat.read(notebook, as_version=4)
+    _execute(book, notebook)
+    folder = Path(templates["page"]).parent
+    filters = {
+        "parts": parts,
+        "slides": slides,
+        "prose": partial(prose, folder=folder),
+        "picture": partial(picture, colours=colours(folder / "theme.css")),
+    }
+    pages = {
+        "page": (templates["page"], without_answers(book.cells)),
+        "slides": (templates["slides"], book.cells),
+        "answers": (templates["page"], answers(book.cells)),
+    }
+    texts = {made["executed"]: nbformat.writes(book) + "\n"}
+    for kind, (template, cells) in pages.items():
+        exporter = HTMLExporter(
+            template_file=str(template), exclude_anchor_links=True, filters=filters
+        )
+        shown = nbformat.from_dict({**book, "cells": cells})
+        resources = {"metadata": {"name": Path(made["page"]).stem}, "kind": kind}
+        texts[made[kind]] = exporter.from_notebook_node(shown, resources)[0]
+    for path, text in texts.items():
+        Path(path).write_text(text, encoding="utf-8")
+
+
+def _execute(book: Any, notebook: str) -> None:
+    """Run the cells of `book`, which then holds their outputs."""
     with tempfile.TemporaryDirectory() as scratch:
         place = {"transport": "ipc", "connection_file": f"{scratch}/kernel.json"}
         client = NotebookClient(
@@ -75,16 +117,6 @@ def run(notebook: str, template: str, executed: str, page: str) -> None:
             raise NotebookError(f"{Path(notebook).name}, {_failure(book, error)}") from None
         except (CellTimeoutError, DeadKernelError) as error:
             raise NotebookError(f"{Path(notebook).name}: {str(error).splitlines()[0]}") from None
-    exporter = HTMLExporter(
-        template_file=str(template), exclude_anchor_links=True, filters={"parts": parts}
-    )
-    resources = {"metadata": {"name": Path(page).stem}}
-    texts = {
-        executed: nbformat.writes(book) + "\n",
-        page: exporter.from_notebook_node(book, resources)[0],
-    }
-    for path, text in texts.items():
-        Path(path).write_text(text, encoding="utf-8")
 
 
 def parts(cells: Iterable[Any]) -> list[tuple[str, list[Any]]]:
@@ -104,7 +136,7 @@ def parts(cells: Iterable[Any]) -> list[tuple[str, list[Any]]]:
     titled: list[tuple[str, list[Any]]] = [("", [])]
     level = 0  # of the heading whose part is folded
     for cell in cells:
-        heading = cell.cell_type == "markdown" and HEADING.match(cell.source)
+        heading = _heading(cell)
         if heading and len(heading[1]) <= level:
             level = 0
             titled.append(("", []))
@@ -114,6 +146,130 @@ def parts(cells: Iterable[Any]) -> list[tuple[str, list[Any]]]:
         else:
             titled[-1][1].append(cell)
     return [(title, group) for title, group in titled if group]
+
+
+def without_answers(cells: Iterable[Any]) -> list[Any]:
+    """The cells of the page: all but the answers to exercises.
+
+    >>> from nbformat.v4 import new_markdown_cell as markdown
+    >>> folded = {"jp-MarkdownHeadingCollapsed": True}
+    >>> cells = [markdown("### 1"), markdown("#### Answer to exercise 1", metadata=folded)]
+    >>> cells += [markdown("Seven."), markdown("### 2")]
+    >>> [cell.source for cell in without_answers(cells)]
+    ['### 1', '### 2']
+    """
+    kept, level = [], 0
+    for cell in cells:
+        heading = _heading(cell)
+        if heading and (not level or len(heading[1]) <= level):
+            level = len(heading[1]) if heading[2].startswith(ANSWER) else 0
+        kept += [] if level else [cell]
+    return kept
+
+
+def answers(cells: Iterable[Any]) -> list[Any]:
+    """The cells of the sheet of answers: the title, and the part "Exercises", unfolded.
+
+    >>> from nbformat.v4 import new_markdown_cell as markdown
+    >>> folded = {"jp-MarkdownHeadingCollapsed": True}
+    >>> cells = [markdown("# Balls"), markdown("They roll."), markdown("## Exercises")]
+    >>> cells += [markdown("### 1"), markdown("#### Answer to 1", metadata=folded)]
+    >>> cells += [markdown("## References")]
+    >>> [(cell["source"], cell["metadata"]) for cell in answers(cells)]
+    [('# Balls', {}), ('### 1', {}), ('#### Answer to 1', {})]
+    """
+    title, *others = cells
+    kept, inside = [title], False
+    for cell in others:
+        heading = _heading(cell)
+        if heading and len(heading[1]) == 2:
+            inside = heading[2] == "Exercises"
+        elif inside:
+            kept.append({**cell, "metadata": {}} if heading else cell)
+    return kept
+
+
+def slides(cells: Iterable[Any]) -> list[tuple[str, list[Any]]]:
+    """Slides: the heading of the part each belongs to, unless it has it itself, and its cells.
+
+    >>> from nbformat.v4 import new_markdown_cell as markdown
+    >>> types = ["slide", "-", "skip", "subslide"]
+    >>> sources = ["## Motion", "A ball.", "Details.", "It spins."]
+    >>> cells = [
+    ...     markdown(source, metadata={"slideshow": {"slide_type": kind}})
+    ...     for source, kind in zip(sources, types, strict=True)
+    ... ]
+    >>> [(title, [cell.source for cell in group]) for title, group in slides(cells)]
+    [('', ['## Motion', 'A ball.']), ('Motion', ['It spins.'])]
+    """
+    titled: list[tuple[str, list[Any]]] = []
+    part = ""
+    for cell in cells:
+        kind = cell.metadata.get("slideshow", {}).get("slide_type", "-")
+        heading = _heading(cell)
+        if heading and len(heading[1]) == 2:
+            part = heading[2]
+        if kind in ("skip", "notes"):
+            continue
+        if kind in ("slide", "subslide") or not titled:
+            titled.append(("" if heading else part, []))
+        titled[-1][1].append(cell)
+    return titled
+
+
+def prose(html: str, folder: Path) -> str:
+    """Text of a cell on a page: symbols in colour, drawings inside, the stage where it is linked.
+
+    >>> prose('<p><a href="explorer.html?stage#angle=5">Play</a></p>', Path())
+    '<figure class="play"><iframe src="explorer.html?stage#angle=5" title="Play" loading="lazy">\
+</iframe><figcaption>Play. <a href="explorer.html#angle=5">Open in the explorer</a></figcaption>\
+</figure>'
+    >>> prose("<p>The velocity <em>v</em>₁</p>", Path())
+    '<p>The velocity <span class="velocity"><em>v</em>₁</span></p>'
+    """
+    # A notebook lies two folders below the one that holds those of the pages.
+    html = html.replace("../../figures/", "")
+    html = STAGE.sub(_stage, html)
+    html = DRAWING.sub(lambda found: (folder / found[1]).read_text(encoding="utf-8"), html)
+    for name, symbol in SYMBOLS.items():
+        html = symbol.sub(rf'<span class="{name}">\g<0></span>', html)
+    return html
+
+
+def _stage(link: re.Match[str]) -> str:
+    """The stage of the explorer as a figure, with the link to the whole explorer below it."""
+    page, state, words = link.groups()
+    plain = re.sub("<[^>]*>", "", words)
+    frame = f'<iframe src="{page}?stage{state}" title="{plain}" loading="lazy"></iframe>'
+    below = f'{words}. <a href="{page}{state}">Open in the explorer</a>'
+    return f'<figure class="play">{frame}<figcaption>{below}</figcaption></figure>'
+
+
+def colours(theme: Path) -> dict[str, str]:
+    """Variables of the theme by their light values, as matplotlib writes these."""
+    found = THEME.findall(theme.read_text(encoding="utf-8"))
+    doubled = ((name, re.sub(r"\b(\w)(\w)(\w)$", r"\1\1\2\2\3\3", light)) for name, light in found)
+    return {light: f"var({name})" for name, light in doubled}
+
+
+def picture(svg: str, words: str, colours: Mapping[str, str]) -> str:
+    """A picture of matplotlib as part of a page: colours of the theme, names of its own.
+
+    >>> svg = '<?xml?><svg><g id="a" style="fill: #ffffff"/><use href="#a"/></svg>'
+    >>> picture(svg, "A dot", {"#ffffff": "var(--paper)"})
+    '<svg role="img" aria-label="A dot"><g id="p283f2fc9-a" style="fill: var(--paper)"/>\
+<use href="#p283f2fc9-a"/></svg>'
+    """
+    svg = re.sub(r"<metadata>.*?</metadata>", "", svg[svg.index("<svg") :], flags=re.S)
+    own = f"p{zlib.crc32(svg.encode()):x}-"
+    svg = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{own}", svg)
+    svg = re.sub(r"(?<=: )#[0-9a-f]{6}\b", lambda found: colours.get(found[0], found[0]), svg)
+    return svg.replace("<svg", f'<svg role="img" aria-label="{words}"', 1)
+
+
+def _heading(cell: Any) -> re.Match[str] | None:
+    """The heading with which a cell begins: its signs # and its words."""
+    return HEADING.match(cell.source) if cell.cell_type == "markdown" else None
 
 
 def _environment(scratch: str) -> dict[str, str]:
