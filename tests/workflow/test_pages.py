@@ -69,10 +69,6 @@ class Page(HTMLParser):
         self._in_bar &= tag != "nav"
 
 
-# Numbers that an address may have although no control of the explorer shows them.
-HIDDEN = {"gravity": (0, 30)}  # m/s^2
-
-
 def wrong_state(controls, state):
     """What the controls of the explorer do not know, or do not allow, in an address behind #."""
     wrong = []
@@ -80,8 +76,6 @@ def wrong_state(controls, state):
         control = controls.get(name, {})
         if name == "models":  # a checkbox each
             known = all(f"model-{model}" in controls for model in value.split())
-        elif name in HIDDEN:
-            known = HIDDEN[name][0] <= float(value) <= HIDDEN[name][1]
         elif "min" in control:
             known = float(control["min"]) <= float(value) <= float(control["max"])
         else:
