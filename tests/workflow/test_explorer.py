@@ -102,7 +102,7 @@ def test_a_slider_is_moved_by_keys_and_by_typing(slider, show):
 )
 def test_an_address_that_is_not_allowed_is_told(address, words, show):
     tab = show(f"friction=0.7&{address}")
-    assert text(tab, "refused").replace("::", ":") == words.replace("::", ":")
+    assert text(tab, "refused") == words
     # What an address says wrongly is as the page opens; what it says well, counts.
     assert [value(tab, name) for name in ("angle", "friction")] == [50, 0.7]
 
@@ -193,8 +193,8 @@ def test_what_is_left_out_is_as_large_as_it_says():
         ),
         (
             "angle=80&friction=0.1",
-            "The paper’s lumped model: the contact slips forwards throughout. The contact point leaves"
-            " forwards",
+            "The paper’s lumped model: the contact slips forwards throughout. The contact point"
+            " leaves forwards",
         ),
         (
             "angle=51&friction=0.5&restitution=1&of=continuum",
@@ -208,7 +208,7 @@ def test_what_is_left_out_is_as_large_as_it_says():
     ],
 )
 def test_it_says_what_happens(address, words, show):
-    tab = show(f"of=lumped&{address}")
+    tab = show(f"{address}&of=lumped")
     assert text(tab, "sentence").startswith(words)
     # Below e = 1 it says that the evidence is divided.
     cautions = tab.evaluate(f"{element('caution')}.checkVisibility()")
@@ -255,7 +255,8 @@ def test_everything_is_reached_by_tab_in_the_order_in_which_it_is_seen(width, sh
     assert len(wanted) > 20 and wanted <= set(reached)
     ours = [one for one in reached.values() if one[0] in ("", "stage", "controls", "rebound")]
     steps = [(a, b) for a, b in zip(ours, ours[1:], strict=False) if width < 500 or a[0] == b[0]]
-    assert all(below[1] > above[1] - 12 for above, below in steps)
+    # Two controls beside each other need not end at the same height.
+    assert all(below[1] > above[1] - (12 if width < 500 else 40) for above, below in steps)
 
 
 def test_space_plays_and_pauses(show):

@@ -340,9 +340,10 @@ def test_the_middle_sticks_and_the_edge_slips(time, show):
 def test_the_stress_over_the_patch_is_the_friction(e, loss, show):
     """Friction is 2 pi times the integral of r times stress: Abel's transform keeps it."""
     tab = show(f"angle=30&friction=0.4&restitution={e}&loss={loss}{SOLID}")
-    body = re.sub(r"return \{ show,", "return { stress, show,", PATCH.read_text(encoding="utf-8"))
+    body = PATCH.read_text(encoding="utf-8").replace("const patch = ", "return ")
+    body = body.replace("return { show,", "return { stress, show,")
     total = (
-        f"(() => {{ const {{ stress }} = (() => {{ {body.replace('const patch = ', 'return ')} }})();"
+        f"(() => {{ const {{ stress }} = (() => {{ {body} }})();"
         " const { contact, e } = page.impact(), motion = continuum.normal(e, contact.style);"
         " return [0.3, 0.7, 1, 1.2, 1.5].map((time) => { const row = models.at(contact, time);"
         " const edge = Math.sqrt(row.limit.square), n = 4000;"

@@ -42,7 +42,7 @@ const page = (() => {
   const limits = (name) => [Number(element(name).min), Number(element(name).max)];
 
   const name_of = (name) =>
-    document.querySelector(`label[for=${name}]`)?.textContent.trim() ?? name;
+    document.querySelector(`label[for=${name}]`)?.textContent.trim().replace(/:$/, "") ?? name;
 
   const refuse = (name, text, allowed) =>
     element("refused").append(
