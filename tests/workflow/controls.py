@@ -16,7 +16,7 @@ def element(name):
 
 
 def text(tab, name):
-    return tab.evaluate(f"{element(name)}.textContent")
+    return tab.evaluate(f"{element(name)}.textContent.trim()")
 
 
 def texts(tab, query):
