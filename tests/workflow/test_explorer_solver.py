@@ -70,14 +70,6 @@ def test_rebound_is_that_of_the_package(show):
     assert disagreements(show(), rows, expected(rows)) == []
 
 
-@pytest.mark.parametrize("field", range(4))
-def test_a_wrong_vector_is_seen(field, show):
-    rows = impacts()[:10]
-    wanted = [list(column) for column in expected(rows)]
-    wanted[field][3] = "STICK" if field == 3 else wanted[field][3] + 1e-6 * max(1, rows[3][0])
-    assert disagreements(show(), rows, wanted) == [rows[3]]
-
-
 def last_directions(tab, rows):
     """Directions of the last slips, by the solver of the page."""
     last = "solver.history(...row, 2).at(-1).side"
