@@ -10,9 +10,7 @@ from planarimpact import continuum, lumped, rigid
 from tests.workflow.controls import (
     FRAME,
     at_times,
-    number,
     shown_energies,
-    text,
     value,
 )
 
@@ -252,18 +250,6 @@ def test_a_finger_that_scrolls_the_page_changes_nothing(moves, changes, show):
         tab.call("Input.dispatchTouchEvent", type=f"touch{kind}", touchPoints=points)
     tab.evaluate(FRAME)
     assert (value(tab, "angle") != 51) == changes
-
-
-def test_thresholds_and_the_share_of_velocity_left_are_said(show):
-    e = 0.9
-    tab = shown(show, e)
-    limits = ZETA2, lumped.slip_throughout_limit(BETA, ZETA2, e)
-    for name, limit in zip(("stick", "slip"), limits, strict=True):
-        assert abs(number(text(tab, f"number-{name}")) - limit) <= 6e-4
-    found = lumped.rebound(INCIDENCE, BETA, ZETA2, e).velocity
-    assert abs(number(text(tab, "number-velocity")) - found) <= 6e-4
-    share = f"{-100 * found / INCIDENCE:.0f}\u00a0%"
-    assert f"leaves backwards, with {share}" in text(tab, "sentence")
 
 
 def test_the_row_of_springs_sticks_slips_and_hangs_free(show):

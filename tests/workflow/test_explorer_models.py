@@ -156,7 +156,8 @@ def test_the_page_opens_where_the_models_agree_on_the_direction(show):
     # The rigid limit has no spring: it stops, or slides throughout.
     assert [np.sign(one.velocity) for one in found] == [-1, 0, -1, -1]
     assert text(tab, "agreement").startswith("The models shown agree on the direction.")
-    assert text(tab, "doubt") == "" and "leaves backwards" in text(tab, "sentence")
+    share = f"leaves backwards, with {-100 * found[2].velocity / x:.0f}\u00a0%"
+    assert text(tab, "doubt") == "" and share in text(tab, "sentence")
     shown = texts(tab, "#outcomes td")
     errors = [0, 0] + 2 * [write_explorer.CONTINUUM_ERROR]
     mu = math.tan(math.radians(50)) / x
