@@ -75,7 +75,9 @@ const page = (() => {
       else refuse(name, given.get(name), known.join(", "));
     }
     const wanted = given.get("models")?.split(" ");
-    if (wanted) values.models = models.TOGGLES.filter((name) => wanted.includes(name));
+    if (wanted?.every((name) => name === "" || models.TOGGLES.includes(name))) {
+      values.models = models.TOGGLES.filter((name) => wanted.includes(name));
+    } else if (wanted) refuse("models", given.get("models"), models.TOGGLES.join(", "));
     return values;
   }
 
