@@ -160,12 +160,19 @@ def touch(tab, kind, *point):
     tab.call("Input.dispatchTouchEvent", type=f"touch{kind}", touchPoints=points)
 
 
-@pytest.mark.parametrize("how", ["mouse", "touch"])
-def test_the_ball_is_pulled_and_flies(how, show):
+@pytest.mark.parametrize(
+    ("how", "lane", "ball"),
+    [
+        ("mouse", "continuum", "stage-grasp"),
+        ("touch", "continuum", "stage-grasp"),
+        ("mouse", "lumped", "stage-other-grasp"),
+    ],
+)
+def test_the_ball_is_pulled_and_flies(how, lane, ball, show):
     tab = show("angle=30&friction=0.4&restitution=1", width=390 if how == "touch" else 1280)
-    x, y = middle(tab, "stage-grasp")
+    x, y = middle(tab, ball)
     aim = json.dumps({"clientX": x + 70, "clientY": y + 30})
-    wanted = tab.evaluate(f"stage.aim_at({aim}, 'continuum')")
+    wanted = tab.evaluate(f"stage.aim_at({aim}, '{lane}')")
     assert wanted["speed"] > 1 and wanted["angle"] > 45
     scrolled = tab.evaluate("scrollY")
     kinds = ("Pressed", "Moved", "Released") if how == "mouse" else ("Start", "Move", "End")
@@ -186,10 +193,10 @@ def test_the_ball_is_pulled_and_flies(how, show):
     assert f"speed={wanted['speed']:g}" in tab.evaluate("location.hash")
     # Pulled back, as a slingshot, the ball flies the other way.
     click(tab, "do-start")
-    x, y = middle(tab, "stage-grasp")
+    x, y = middle(tab, ball)
     back, aim = (json.dumps({"clientX": x + s * 70, "clientY": y + s * 30}) for s in (-1, 1))
-    assert tab.evaluate(f"stage.aim_at({back}, 'continuum')") == pytest.approx(
-        tab.evaluate(f"stage.aim_at({aim}, 'continuum')"), abs=0.2
+    assert tab.evaluate(f"stage.aim_at({back}, '{lane}')") == pytest.approx(
+        tab.evaluate(f"stage.aim_at({aim}, '{lane}')"), abs=0.2
     )
 
 
@@ -329,6 +336,8 @@ def test_the_middle_sticks_and_the_edge_slips(time, show):
     assert words == "middle sticks, edge slips"
     assert [sticks for _, sticks in zones] == [False, True]
     assert abs(zones[0][0] - radius) < 0.05 and abs(zones[1][0] - stick) < 0.05
+    click(tab, "do-micro")
+    assert text(tab, "patch-continuum-words") == words
     # The lumped model has one point.
     zones, words = patch_at(tab, time, "lumped")
     assert len(zones) == 1 and words == f"all of it {'sticks' if zones[0][1] else 'slips'}"
