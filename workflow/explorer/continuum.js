@@ -14,7 +14,7 @@
 const continuum = (() => {
   const LEAST_RESTITUTION = 0.1;
   // Springs, and steps in each half of the contact: for one impact, and for curves of many.
-  const FINE = { springs: 30, steps: 480 };
+  const FINE = { springs: 24, steps: 480 };
   const COARSE = { springs: 12, steps: 240 };
   const TURNS = 60;
   const LONGEST = 60; // of half a contact; with the smallest restitution it is about 12
