@@ -8,7 +8,7 @@ const flight = (() => {
   const BOUNCES = 5;
   const SLOWEST = 0.3; // m/s towards the surface; slower bounces are left out
   const SLIDES = 0.3; // s, shown of a ball that does not bounce off
-  const LEAVES = 1; // m, shown of a ball that nothing brings back
+  const LONGEST = 0.5; // s, of a flight without gravity that does not end at a wall, or begins there
   const RADIANS = Math.PI / 180;
 
   // Velocities of the ball just before the first bounce.
@@ -25,7 +25,7 @@ const flight = (() => {
   function start({ angle, speed, spin, table, radius, gravity }) {
     const { along, up } = first({ angle, speed, spin });
     const most = table ? Math.min(HAND, (table - 2 * radius) / 2) : HAND;
-    const height = gravity ? Math.min(most, (up * up) / (2 * gravity)) : most;
+    const height = Math.min(most, gravity ? (up * up) / (2 * gravity) : -LONGEST * up);
     const square = Math.max(up * up - 2 * gravity * height, 0);
     return { place: 0, height, along, up: -Math.sqrt(square), spin, turn: 0, gravity };
   }
@@ -48,7 +48,7 @@ const flight = (() => {
       return { wall: "table", time: (2 * rise) / (up + Math.sqrt(up * up - 2 * g * rise)) };
     }
     if (g) return { wall: "floor", time: (up + Math.sqrt(up * up + 2 * g * height)) / g };
-    return up < 0 ? { wall: "floor", time: height / -up } : { wall: null, time: LEAVES / up };
+    return up < 0 ? { wall: "floor", time: height / -up } : { wall: null, time: LONGEST };
   }
 
   // Incidence at a wall: clockwise spin moves the foot of a ball backwards and its top forwards.

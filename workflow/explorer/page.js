@@ -457,7 +457,8 @@ const page = (() => {
   element("do-start").addEventListener("click", () => go_to(0));
   element("do-micro").addEventListener("click", () => {
     const time = stage.micro_slip();
-    if (time === null) tell("In the first bounce of this throw the contact sticks nowhere.");
+    if (!flights.continuum) tell(element("uncovered").textContent);
+    else if (time === null) tell("In the first bounce of this throw the contact sticks nowhere.");
     else go_to(time);
   });
   element("time").addEventListener("input", (event) => go_to(Number(event.target.value)));
@@ -684,11 +685,7 @@ const page = (() => {
     // A place on the page, as #main, says no state.
     if (place === "" || place.includes("=")) restore();
   });
-  let width = innerWidth;
-  addEventListener("resize", () => {
-    if (innerWidth !== width) refresh();
-    width = innerWidth;
-  });
+  addEventListener("resize", changed);
 
   // Goes to the state that an address says, as a preset does.
   function go(to) {
