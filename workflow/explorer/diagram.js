@@ -74,8 +74,11 @@ const diagram = (() => {
     for (let i = 0; i < PAIRS; i++) {
       const share = (2 * i) / (PAIRS - 1) - 1;
       const top = MIDDLE + ROW * share;
-      const k = Math.min(Math.floor(Math.abs(share) * motion.springs), motion.springs - 1);
       const touches = touching && Math.abs(share) < radius;
+      // The outermost foot that touches stands for all springs beyond it.
+      const outermost = touches && Math.abs(share) + 2 / (PAIRS - 1) >= radius;
+      const place = outermost ? radius - 0.5 / motion.springs : Math.abs(share);
+      const k = Math.min(Math.floor(place * motion.springs), motion.springs - 1);
       const lean = touches ? (ROW * LEAN * 3 * density[k]) / unit : 0;
       const round = 100 * Math.abs(share) ** 2.4; // springs begin on the round body
       const end = touches ? GROUND : Math.min(GROUND - 2, plate + (GROUND - PLATE) - round + 4);
@@ -116,11 +119,12 @@ const diagram = (() => {
     label("friction-label", Math.abs(friction) > 0.4, (x + foot) / 2, y + 15);
   }
 
-  function show_velocity({ mu, x }, { velocity, approach }, plate) {
+  function show_velocity({ mu, x, contact }, { velocity, approach }, plate) {
     const unit = SPEED / Math.hypot(1, mu * x);
-    draw_arrow("before", FOOT, plate, FOOT + unit * mu * x, plate + unit);
-    const tip = [FOOT + unit * mu * velocity, plate + unit * approach];
-    draw_arrow("velocity", FOOT, plate, ...tip);
+    const foot = contact.style === "lumped" ? FOOT : MIDDLE;
+    draw_arrow("before", foot, plate, foot + unit * mu * x, plate + unit);
+    const tip = [foot + unit * mu * velocity, plate + unit * approach];
+    draw_arrow("velocity", foot, plate, ...tip);
   }
 
   return { show };

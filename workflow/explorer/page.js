@@ -25,8 +25,10 @@ const page = (() => {
   const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i;
   const still = matchMedia("(prefers-reduced-motion: reduce)");
   const root = document.documentElement;
-  // `explorer.html?stage` is the stage alone, for the frames of the lectures.
-  const embedded = new URLSearchParams(location.search).has("stage");
+  // `explorer.html?stage` is the stage alone, for the frames of the lectures; `?stage=micro` stops the
+  // show where micro-slip is easy to see. Keys that the stage does not use turn slides.
+  const asked = new URLSearchParams(location.search).get("stage");
+  const embedded = asked !== null;
 
   const state = { ...OPENING };
   let impact; // the first bounce, solved from the state
@@ -464,6 +466,9 @@ const page = (() => {
   element("time").addEventListener("input", (event) => go_to(Number(event.target.value)));
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && root.dataset.mode === "projector") ACTIONS.projector();
+    if (embedded && !event.target.matches("input, select, .grasp")) {
+      parent.postMessage({ key: event.key }, "*");
+    }
     const own = "a, button, select, summary, [role=button], input:not([type=range])";
     if (event.key !== " " || event.target.matches(own)) return;
     event.preventDefault();
@@ -629,12 +634,13 @@ const page = (() => {
       store("explorer-mode", mode);
       look({ mode });
       refresh();
-      if (mode === "projector") tell("Escape leaves the projector mode.");
     },
     async copy() {
       const link = `${location.href.split("#")[0]}#${address()}`;
       const copied = await files.copy(link);
-      tell(copied ? "The link is copied." : `Copy this link: ${link}`);
+      const where = location.protocol === "file:"
+        ? " It opens on this machine alone: for others put explorer.html on a web server, or send it." : "";
+      tell(copied ? `The link is copied.${where}` : `Copy this link: ${link}`);
     },
     csv() {
       const text = files.csv(impact, state, models.outcomes(list, impact), scales.incidence);
@@ -675,7 +681,9 @@ const page = (() => {
     now = 0;
     playing = false;
     refresh();
+    if (asked === "micro") now = stage.micro_slip() ?? 0;
     play(false);
+    show_time();
   }
 
   look({ theme: stored("explorer-theme"), mode: stored("explorer-mode") });

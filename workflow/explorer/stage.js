@@ -169,9 +169,10 @@ const stage = (() => {
     const edge = floor - depth - 8;
     part("floor").setAttribute("d", `M0,${edge}H${width}V${height}H0Z`);
     part("edge").setAttribute("d", `M0,${edge}H${width}`);
-    // A glass table: its lower side, above both lanes.
+    // A table above each lane.
     const under = floor - scale * gap - 2 * radius;
-    part("table").setAttribute("d", gap ? `M0,${under - depth}H${width}V${under}H0Z` : "");
+    const board = (low) => `M0,${low - 5}H${width}V${low}H0Z`;
+    part("table").setAttribute("d", gap ? board(under - depth) + board(under) : "");
     const [end, line] = [width - 12, height - 8];
     part("ruler").setAttribute("d", `M${end},${line - 4}v8m0,-4h${-scale * 0.5}m0,-4v8`);
     part("metre").setAttribute("x", end - scale * 0.25);
@@ -232,9 +233,9 @@ const stage = (() => {
     const arrow = bounce ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
     part(`${lane}-slip`).setAttribute("d", arrow);
     const label = part(`${lane}-slip-words`);
-    label.style.visibility = arrow ? "visible" : "hidden";
-    label.setAttribute("x", Math.min(Math.max(x, 50), frame.width - 50));
-    label.setAttribute("y", foot + (bounce?.wall === "table" ? -6 : 17));
+    label.style.visibility = arrow && !frame.gap ? "visible" : "hidden";
+    label.setAttribute("x", Math.min(Math.max(x, 78), frame.width - 78));
+    label.setAttribute("y", foot + 17);
     part(`${lane}-numbers`).textContent = speed_words(ball);
     patch_of(lane, bounce, row);
   }
@@ -284,9 +285,11 @@ const stage = (() => {
     part("knob").setAttribute("cy", (-(radius + 8) * Math.cos(turn)).toFixed(1));
     part("aim-words").setAttribute("x", Math.max(right, radius) + 8);
     part("aim-words").setAttribute("y", down + 5);
-    part("aim-words").textContent = `${shown.given.speed.toFixed(1)} m/s`;
+    part("aim-words").textContent = `${shown.given.speed.toFixed(1)} m/s at the floor`;
+    // Below the speed, or above it where that would leave the stage.
+    const below = y + down + 28;
     part("invitation").setAttribute("x", x + Math.max(right, radius) + 8);
-    part("invitation").setAttribute("y", Math.min(y + down + 28, frame.height - 10));
+    part("invitation").setAttribute("y", below < frame.height - 12 ? below : y + down - 18);
   }
 
   const point_of = (event) => new DOMPoint(event.clientX, event.clientY)
