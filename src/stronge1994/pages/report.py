@@ -53,8 +53,8 @@ MEANING = {
     "untested difference": "the scatter of the measurements is not published: χ² tests nothing",
     "explained difference": "as large as before; we know its cause",
     "awaited": "we do not have the reference yet",
-    "inconclusive": "it agrees, but it would also agree if all points lay "
-    f"{VISIBLE_SHIFT:g} sigmas beside the curve: no evidence",
+    "inconclusive": "the uncertainties are too large to decide: it would also agree if all points "
+    f"lay {VISIBLE_SHIFT:g} sigmas beside the curve",
     "agrees": "p is large enough (published points), or the distance is within its tolerance",
     "as before": "it was solved without error, or fitted to these points: no evidence",
 }
