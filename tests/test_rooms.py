@@ -41,7 +41,7 @@ REPRODUCTION = {
     "goodness": "ground",
     "reference_data": "csv_tables",
     "printed": "ground lumped",
-    "explorer": "planarimpact lumped bodies export pages",
+    "explorer": "planarimpact lumped continuum bodies pages",
     "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
     " response scene pandas printed csv_tables curve_names figures plan",
     "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"
