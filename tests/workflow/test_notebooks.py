@@ -81,7 +81,9 @@ def test_questions_are_seen_and_answers_fold(book):
 @every_notebook
 def test_links_to_the_explorer_say_their_incidence(book):
     text = " ".join(cell.source for cell in book.cells if cell.cell_type == "markdown")
-    links = re.findall(r"\[([^\]]*)\]\(\.\./\.\./figures/explorer\.html(\?stage)?#([^)]*)\)", text)
+    links = re.findall(
+        r"\[([^\]]*)\]\(\.\./\.\./figures/explorer\.html(\?stage(?:=micro)?)?#([^)]*)\)", text
+    )
     assert [stage for _, stage, _ in links if stage]
     for words, _, address in links:
         state = dict(pair.split("=") for pair in address.split("&"))
@@ -118,12 +120,13 @@ def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
         page = (project / f"figures/{kind}{name}.html").read_text()
         assert len(page) < 1.5e6
         assert "$" not in re.sub(r"<(pre|svg|script).*?</\1>", "", page, flags=re.S)
-        assert not re.search(r'src="(?!explorer\.html\?stage#)|url\((?!#)|@import', page)
+        assert not re.search(r'src="(?!explorer\.html\?stage(=micro)?#)|url\((?!#)|@import', page)
         linked = {file.split("#")[0] for file in re.findall(r'href="([^#"][^"]*)"', page)}
         assert all(re.fullmatch(r"(interface/)?[a-z0-9_]+\.html", file) for file in linked)
         if not kind:
             assert {f"slides_{name}.html", f"answers_{name}.html", "explorer.html"} <= linked
             assert "Answer to exercise" not in page and "<script" not in page
+            assert page.count(f"answers_{name}.html") == 1, "only in the line for the teacher"
             pictures = re.findall(r'<svg aria-label="([^"]*)"', page)
             assert len(pictures) >= 4 and all(len(words) > 20 for words in pictures)
     assert page.count("Answer to exercise") >= 3

@@ -32,7 +32,8 @@ HEADING = re.compile(r"(#+) (.+)")
 COLLAPSED = "jp-MarkdownHeadingCollapsed"
 ANSWER = "Answer to "  # how the collapsed heading of an exercise's answer begins
 # A paragraph that is only a link to the stage of the explorer, or only a picture that is a file.
-STAGE = re.compile(r'<p><a href="(explorer\.html)\?stage(#[^"]*)">(.*?)</a></p>', re.S)
+# `?stage=micro` opens the stage at the instant of micro-slip.
+STAGE = re.compile(r'<p><a href="(explorer\.html)(\?stage(?:=micro)?)(#[^"]*)">(.*?)</a></p>', re.S)
 DRAWING = re.compile(r'<p><img [^>]*src="\.\./report/([a-z_]+\.svg)"[^>]*></p>')
 # Symbols have the colours that they have in the drawing of the model.
 SYMBOLS = {
@@ -220,17 +221,20 @@ def slides(cells: Iterable[Any]) -> list[tuple[str, list[Any]]]:
 def prose(html: str, folder: Path) -> str:
     """Text of a cell on a page: symbols in colour, drawings inside, the stage where it is linked.
 
+    No line ends beside a sign of equality.
+
     >>> prose('<p><a href="explorer.html?stage#angle=5">Play</a></p>', Path())
     '<figure class="play"><iframe src="explorer.html?stage#angle=5" title="Play" loading="lazy">\
 </iframe><figcaption>Play. <a href="explorer.html#angle=5">Open in the explorer</a></figcaption>\
 </figure>'
-    >>> prose("<p>The velocity <em>v</em>₁</p>", Path())
-    '<p>The velocity <span class="velocity"><em>v</em>₁</span></p>'
+    >>> prose("<p>The velocity <em>v</em>₁ = 7</p>", Path())
+    '<p>The velocity <span class="velocity"><em>v</em>₁</span>\\xa0=\\xa07</p>'
     """
     # A notebook lies two folders below the one that holds those of the pages.
     html = html.replace("../../figures/", "")
     html = STAGE.sub(_stage, html)
     html = DRAWING.sub(lambda found: (folder / found[1]).read_text(encoding="utf-8"), html)
+    html = html.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
     for name, symbol in SYMBOLS.items():
         html = symbol.sub(rf'<span class="{name}">\g<0></span>', html)
     return html
@@ -238,9 +242,9 @@ def prose(html: str, folder: Path) -> str:
 
 def _stage(link: re.Match[str]) -> str:
     """The stage of the explorer as a figure, with the link to the whole explorer below it."""
-    page, state, words = link.groups()
+    page, stage, state, words = link.groups()
     plain = re.sub("<[^>]*>", "", words)
-    frame = f'<iframe src="{page}?stage{state}" title="{plain}" loading="lazy"></iframe>'
+    frame = f'<iframe src="{page}{stage}{state}" title="{plain}" loading="lazy"></iframe>'
     below = f'{words}. <a href="{page}{state}">Open in the explorer</a>'
     return f'<figure class="play">{frame}<figcaption>{below}</figcaption></figure>'
 
