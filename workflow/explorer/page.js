@@ -686,6 +686,11 @@ const page = (() => {
     show_time();
   }
 
+  // The page round a stage says when it becomes dark or light.
+  addEventListener("message", ({ data }) => {
+    if (embedded && ["dark", "light"].includes(data?.theme)) look({ theme: data.theme });
+  });
+
   look({ theme: stored("explorer-theme"), mode: stored("explorer-mode") });
   restore();
   addEventListener("popstate", () => {

@@ -14,7 +14,8 @@ rule site:
     input:
         plan=planned("site", "write_site", "pages/__init__.py", "pages/run_facts.py", "pages/site.py"),
         pages=sorted(set(PAGES)),
-        notebooks=expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS),
+        notebooks=expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS)
+        + ["workflow/notebooks/lecture.mplstyle"],
         texts=["LICENSE", "CITATION.cff"],
         readme="workflow/report/site_readme.txt",
     output:
