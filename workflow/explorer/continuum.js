@@ -50,15 +50,16 @@ const continuum = (() => {
 
   // ---- normal motion ------------------------------------------------------------------------
   // A law has a function for loading and one for unloading. Of an approach d and its rate v they tell
-  // the force N, the square of the radius of contact a^2, h (with dashpots `lift`: L is
-  // a^2 + lift - r^2), and the elastic energy held; `touching` is a^2 in unloading, below 0 after it.
+  // the square of the radius of contact a^2, h (with dashpots `lift`: L is a^2 + lift - r^2), and the
+  // elastic energy held. The normal force has functions of its own, as it is asked for most often.
+  // `touching` is a^2 in unloading, below 0 after it.
 
   // Hertz's law with dashpots; tau = 0 is elastic.
   function viscous(tau) {
+    const force = (depth, square) => Math.max(2 * Math.sqrt(square) * (depth - square / 3), 0);
     const at = (d, depth, square) => {
       const radius = Math.sqrt(square);
       return {
-        force: Math.max(2 * radius * (depth - square / 3), 0),
         square,
         share: 1,
         lift: depth - square,
@@ -66,8 +67,14 @@ const continuum = (() => {
       };
     };
     return {
-      loading: (d, v) => at(d, d + tau * v, Math.max(d, 0)),
-      unloading: (d, v) => at(d, d + tau * v, Math.max(d + tau * v, 0)),
+      loading: {
+        force: (d, v) => force(d + tau * v, Math.max(d, 0)),
+        at: (d, v) => at(d, d + tau * v, Math.max(d, 0)),
+      },
+      unloading: {
+        force: (d, v) => force(d + tau * v, Math.max(d + tau * v, 0)),
+        at: (d, v) => at(d, d + tau * v, Math.max(d + tau * v, 0)),
+      },
       touching: (d, v) => d + tau * v,
     };
   }
@@ -85,13 +92,18 @@ const continuum = (() => {
     const last = share_at(largest);
     const springs_back = last * largest;
     const touching = (d) => largest * (1 - (largest - d) / springs_back);
-    const at = (square, share) => {
-      const force = (4 / 3) * share * square ** 1.5;
-      return { force, square, share, lift: 0, stored: 0.4 * force * share * square };
-    };
+    const force = (square, share) => (4 / 3) * share * square ** 1.5;
+    const at = (square, share) =>
+      ({ square, share, lift: 0, stored: 0.4 * force(square, share) * share * square });
     return {
-      loading: (d) => at(Math.max(d, 0), share_at(d)),
-      unloading: (d) => at(Math.max(touching(d), 0), last),
+      loading: {
+        force: (d) => force(Math.max(d, 0), share_at(d)),
+        at: (d) => at(Math.max(d, 0), share_at(d)),
+      },
+      unloading: {
+        force: (d) => force(Math.max(touching(d), 0), last),
+        at: (d) => at(Math.max(touching(d), 0), last),
+      },
       touching,
       flowed: (d) => {
         const over = Math.max(d / yields, 1);
@@ -101,32 +113,36 @@ const continuum = (() => {
     };
   }
 
-  // Approach and rate after a time, by one step of Runge and Kutta; `half` is loading or unloading.
-  function step([d, v], time, half) {
-    const slope = (a, b) => [b, -half(a, b).force];
-    const k1 = slope(d, v);
-    const k2 = slope(d + (time / 2) * k1[0], v + (time / 2) * k1[1]);
-    const k3 = slope(d + (time / 2) * k2[0], v + (time / 2) * k2[1]);
-    const k4 = slope(d + time * k3[0], v + time * k3[1]);
-    const mean = (i) => (time / 6) * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
-    return [d + mean(0), v + mean(1)];
+  // Approach and rate after a time, by one step of Runge and Kutta under a force.
+  function step([d, v], time, force) {
+    const half = time / 2;
+    const a1 = -force(d, v);
+    const [v2, a2] = [v + half * a1, -force(d + half * v, v + half * a1)];
+    const [v3, a3] = [v + half * a2, -force(d + half * v2, v + half * a2)];
+    const [v4, a4] = [v + time * a3, -force(d + time * v3, v + time * a3)];
+    return [
+      d + (time / 6) * (v + 2 * (v2 + v3) + v4),
+      v + (time / 6) * (a1 + 2 * (a2 + a3) + a4),
+    ];
   }
 
   // Half a contact in equal steps, from a state to where `over` becomes positive: its duration is
   // sought first, by steps of another length and a part of the last one.
-  function run(start, half, over, steps) {
+  function run(start, { force, at }, over, steps) {
     const length = 4 / steps;
     let [now, duration] = [start, 0];
-    while (over(step(now, length, half)) <= 0 && duration < LONGEST) {
-      now = step(now, length, half);
-      duration += length;
+    let next = step(now, length, force);
+    while (over(next) <= 0 && duration < LONGEST) {
+      [now, duration] = [next, duration + length];
+      next = step(now, length, force);
     }
-    duration += root(0, length, (part) => over(step(now, part, half)));
+    duration += root(0, length, (part) => over(step(now, part, force)));
     const rows = [];
     now = start;
     for (let k = 1; k <= steps; k++) {
-      now = step(now, duration / steps, half);
-      rows.push({ time: (duration * k) / steps, d: now[0], v: now[1], ...half(...now) });
+      now = step(now, duration / steps, force);
+      const [d, v] = now;
+      rows.push({ time: (duration * k) / steps, d, v, force: force(d, v), ...at(d, v) });
     }
     return rows;
   }
@@ -160,7 +176,7 @@ const continuum = (() => {
       ? plastic(root(0.01, 1, (s) => plastic(s ** 4).restitution - e) ** 4)
       : viscous(tau);
     const { compression, rows } = instants(law, steps);
-    const contact = [{ time: 0, d: 0, v: 1, ...law.loading(0, 1) }, ...rows];
+    const contact = [{ time: 0, d: 0, v: 1, force: law.loading.force(0, 1), ...law.loading.at(0, 1) }, ...rows];
     for (const row of contact) row.time /= compression;
     contact[steps].v = 0;
     Object.assign(contact.at(-1), { v: -e, force: 0, square: 0, lift: 0 });
@@ -192,6 +208,7 @@ const continuum = (() => {
     let peak = 0;
     let work = 0;
     let sticks_ever = false;
+    let touching = 0; // number of springs
     const keep_row = () =>
       rows.push({
         friction: T / largest, velocity: w, work, density: density.slice(), slips: slips.slice(),
@@ -211,11 +228,15 @@ const continuum = (() => {
       const damping = tau / time;
       const top = now.square + now.lift;
       let [sum, limits, rubbed] = [0, 0, 0];
-      for (let i = 0; i < springs; i++) {
-        if (squares[i] >= now.square) {
-          q[i] = density[i] = slips[i] = 0;
-          continue;
-        }
+      // The springs are in order, innermost first; those beyond the edge have no deflection.
+      let edge = touching;
+      while (edge < springs && squares[edge] < now.square) edge++;
+      while (edge > 0 && squares[edge - 1] >= now.square) {
+        edge--;
+        q[edge] = density[edge] = slips[edge] = 0;
+      }
+      touching = edge;
+      for (let i = 0; i < edge; i++) {
         const limit = now.share * (top - squares[i]);
         const before = q[i] * decay;
         const free = before + du * gain;
