@@ -128,7 +128,7 @@ def test_the_first_words_say_how_it_went_and_what_was_found(first_run, text, rep
     half = next(r for r in rows_of(results / "in_nature.csv") if r["measure"] == "reversal_half")
     assert all(f"{float(half[kind]):.2f}" in first for kind in ("paper", "viscous", "plastic"))
     most = verdicts["stability-digits"]["max [sigma]"]
-    assert f"the worst answer has {most} digits less" in first
+    assert f"the worst answer has {most} correct digits fewer" in first
     assert head.count('<svg class="sketch"') == head.count('class="finding"') == 5
     assert 'href="explorer.html#angle=' in head and "why_a_superball_comes_back.html" in head
 
