@@ -72,15 +72,15 @@ IN_EXPLORER = {
 
 
 def explorer_state(incidence: float, friction: float, restitution: float, view: str) -> str:
-    """Address, within the explorer's page, of an impact of the paper's sphere.
+    """Address, within the explorer's page, of an impact of the paper's sphere, by its model.
 
     >>> explorer_state(2, 0.5, 1, "energy")
-    'angle=45&friction=0.5&restitution=1&poisson_ratio=0.3&mass_ratio=3.5&view=energy'
+    'angle=45&friction=0.5&restitution=1&poisson_ratio=0.3&mass_ratio=3.5&of=lumped&view=energy'
     """
     angle = math.degrees(math.atan(friction * incidence))
     return (
         f"angle={angle:.4g}&friction={friction:g}&restitution={restitution:g}"
-        f"&poisson_ratio=0.3&mass_ratio=3.5&view={view}"
+        f"&poisson_ratio=0.3&mass_ratio=3.5&of=lumped&view={view}"
     )
 
 
