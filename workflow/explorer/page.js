@@ -19,7 +19,7 @@ const page = (() => {
   const SETTLED = 300; // ms without a change, after which the address says the state
   const GLIDE = 220; // ms from the frame of aiming to that of the throw
   const TOLD = 5000; // ms that a message stays
-  const INVITATION = "Grab the ball, pull, let go";
+  const INVITATION = "Grab the ball, drag, let go";
   const INTENT = 8; // pixels that a finger moves before its direction counts
   // A comma is read as a decimal point, never as a separator of thousands.
   const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i;
@@ -94,6 +94,10 @@ const page = (() => {
     if (values.models.length < models.TOGGLES.length) said.push(["models", values.models.join(" ")]);
     return new URLSearchParams(said).toString();
   }
+
+  // The same of the throw alone, whatever is looked at.
+  const throw_address = (values) =>
+    address({ ...values, of: OPENING.of, view: OPENING.view, models: OPENING.models });
 
   // ---- the throw ----------------------------------------------------------------------------
 
@@ -234,7 +238,7 @@ const page = (() => {
     for (const button of document.querySelectorAll(".body")) {
       button.ariaPressed = Number(button.dataset.mass_ratio) === state.mass_ratio;
     }
-    const here = address();
+    const here = throw_address(state);
     const option = presets.find(([written]) => written === here)?.[1];
     element("preset").value = option?.value ?? "";
     element("about").innerHTML = option?.dataset.about ?? "";
@@ -670,7 +674,7 @@ const page = (() => {
 
   // The balls and figures of the menu, by the address that the page writes for them.
   const presets = [...element("preset").options].filter(({ value }) => value)
-    .map((option) => [address(read(option.value)), option]);
+    .map((option) => [throw_address(read(option.value)), option]);
 
   // The state of the page's address; without one, that of the first ball.
   function restore() {

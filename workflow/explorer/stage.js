@@ -9,6 +9,7 @@ const stage = (() => {
   const FLASH = 0.04; // s between two images of a ball, at least
   const SHOWN = 3; // flights that the frame shows; later ones may leave it
   const STEP = 0.012; // s between two corners of a path
+  const INVITATION = 235; // width of the words at the ball in the hand
   const RADIANS_A_SECOND = 80; // of spin that turns the knob by one radian
   const LANES = ["lumped", "continuum"];
   const element = (id) => document.getElementById(id);
@@ -234,7 +235,7 @@ const stage = (() => {
     part(`${lane}-slip`).setAttribute("d", arrow);
     const label = part(`${lane}-slip-words`);
     label.style.visibility = arrow && !frame.gap ? "visible" : "hidden";
-    label.setAttribute("x", Math.min(Math.max(x, 78), frame.width - 78));
+    label.setAttribute("x", Math.min(Math.max(x, 88), frame.width - 88));
     label.setAttribute("y", foot + 17);
     part(`${lane}-numbers`).textContent = speed_words(ball);
     patch_of(lane, bounce, row);
@@ -288,7 +289,8 @@ const stage = (() => {
     part("aim-words").textContent = `${shown.given.speed.toFixed(1)} m/s at the floor`;
     // Below the speed, or above it where that would leave the stage.
     const below = y + down + 28;
-    part("invitation").setAttribute("x", x + Math.max(right, radius) + 8);
+    const start = Math.min(x + Math.max(right, radius) + 8, frame.width - INVITATION);
+    part("invitation").setAttribute("x", start);
     part("invitation").setAttribute("y", below < frame.height - 12 ? below : y + down - 18);
   }
 
