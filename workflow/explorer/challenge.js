@@ -65,9 +65,8 @@ const challenge = (() => {
     models.outcomes(models.chosen(impact, ["continuum"]), impact)
       .map(({ name, velocity }) => [name, velocity / impact.x]);
 
-  function judge({ missing }, impact) {
+  function judge({ missing }, impact, rounds) {
     if (impact.x === 0) return { words: "The blow is straight." };
-    const rounds = rounds_of(impact);
     const [lacks, ...others] = [impact.result.velocity / impact.x, ...rounds.map(([, kept]) => kept)]
       .map((kept) => missing(impact, kept, rounds[0]?.[1]));
     const words = [lacks || "\u2713 You have met it."];
@@ -87,8 +86,9 @@ const challenge = (() => {
   const verdicts = list.querySelectorAll(".verdict");
 
   function show(impact) {
+    const rounds = rounds_of(impact);
     WISHES.forEach((wish, i) => {
-      const { holds, words } = judge(wish, impact);
+      const { holds, words } = judge(wish, impact, rounds);
       const { classList } = verdicts[i];
       verdicts[i].textContent = words;
       if (holds && !classList.contains("holds")) heard.textContent = `Challenge ${i + 1} is met.`;

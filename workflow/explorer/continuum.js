@@ -194,7 +194,8 @@ const continuum = (() => {
 
   // ---- springs ------------------------------------------------------------------------------
 
-  // One impact. With `keep`, also its history: at each instant friction, velocity and the springs.
+  // One impact. With `keep`, also its history: at each instant friction, velocity,
+  // the number of springs that touch, innermost first, and their state.
   function solve(x, beta, zeta2, motion, keep = false) {
     const { contact, compression, largest, radius, flow, tau, springs, steps, loss } = motion;
     const width = radius / springs;
@@ -211,7 +212,8 @@ const continuum = (() => {
     let touching = 0; // number of springs
     const keep_row = () =>
       rows.push({
-        friction: T / largest, velocity: w, work, density: density.slice(), slips: slips.slice(),
+        friction: T / largest, velocity: w, work, touching,
+        density: density.slice(), slips: slips.slice(),
         sheared: zeta2 * width * q.reduce((sum, one) => sum + one * one, 0),
       });
     if (keep) {

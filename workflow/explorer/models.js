@@ -37,13 +37,17 @@ const models = (() => {
     };
   }
 
-  // A function from incidence to the state at separation, for curves. What it has said for the last
-  // groups it remembers: while an angle is dragged, the curves stay.
-  const said = {};
+  // What is remembered for the last groups: while an angle is dragged, curves and limits stay.
+  const memory = {};
+  function remembered(style, { beta, zeta2, e }) {
+    const key = `${beta} ${zeta2} ${e}`;
+    if (memory[style]?.key !== key) memory[style] = { key, states: new Map() };
+    return memory[style];
+  }
+
+  // A function from incidence to the state at separation, for curves.
   function curve(style, groups) {
-    const key = `${groups.beta} ${groups.zeta2} ${groups.e}`;
-    if (said[style]?.key !== key) said[style] = { key, states: new Map() };
-    const { states } = said[style];
+    const { states } = remembered(style, groups);
     const solve = SOLVE[style](groups, continuum.COARSE);
     return (x) => {
       if (!states.has(x)) states.set(x, solve(x));
@@ -59,13 +63,13 @@ const models = (() => {
       .flatMap((name) => styles[name] ?? [name]);
   }
 
-  // What each of these models says about one impact. The direction is 1 forwards, -1 backwards, and
+  // What each of these models says about one impact, whose `states` keep what has been solved. The direction is 1 forwards, -1 backwards, and
   // 0 where the velocity is nothing, or less than the error of the continuum. The rigid limit has no
   // spring: where it does not slide throughout it stops, whatever the others do. That is called
   // mute, for it contradicts none of them.
   function outcomes(styles, impact) {
     return styles.map((style) => {
-      const state = SOLVE[style](impact)(impact.x);
+      const state = (impact.states[style] ??= SOLVE[style](impact)(impact.x));
       const error = style === "lumped" || style === "rigid" ? 0 : CONTINUUM_ERROR;
       const none = Math.abs(state.velocity) <= Math.max(error, STOPPED * impact.x);
       const direction = none ? 0 : Math.sign(state.velocity);
@@ -75,7 +79,11 @@ const models = (() => {
   }
 
   // Incidence from which the contact slides throughout.
-  function slip_throughout_limit(style, { beta, zeta2, e }) {
+  function slip_throughout_limit(style, groups) {
+    return (remembered(style, groups).limit ??= found_limit(style, groups));
+  }
+
+  function found_limit(style, { beta, zeta2, e }) {
     if (style === "lumped") return solver.slip_throughout_limit(beta, zeta2, e);
     const alike = Math.max(zeta2, beta + e * (beta - zeta2));
     if (style !== "plastic") return alike;
@@ -138,7 +146,7 @@ const models = (() => {
     let before = { sticks: false, side: 1 };
     return rows.map((row, k) => {
       const { time, force, v, d, square, stored } = motion.contact[k];
-      const touching = [...row.slips].slice(0, springs_in(motion, square));
+      const touching = [...row.slips].slice(0, row.touching);
       if (k === 0) before = { sticks: x <= zeta2, side: 1 };
       else if (touching.length) {
         const sticks = touching.some((slip) => slip === 0);
@@ -150,13 +158,11 @@ const models = (() => {
         pressed: 2 * stored, sheared: 2 * row.sheared, deformed: 1 - v * v - 2 * stored,
         worked: style === "viscous" ? 2 * row.work : undefined,
         radius: Math.sqrt(square) / motion.radius, density: row.density, slips: row.slips,
+        touching: row.touching,
         limit: motion.contact[k],
       };
     });
   }
-
-  const springs_in = ({ radius, springs }, square) =>
-    Math.min(Math.max(Math.round((Math.sqrt(square) / radius) * springs), 0), springs);
 
   // Shares of the energy before: of the motion, in the contact, lost. A viscous body also loses
   // energy of the tangential motion in its material.

@@ -130,7 +130,7 @@ const page = (() => {
     const { x, contact, ball, after } = parts.find(({ kind }) => kind === "bounce");
     const groups = { ...throw_.groups, x };
     return {
-      ...groups, contact, before: ball, after,
+      ...groups, contact, before: ball, after, states: { [contact.style]: contact.state },
       result: solver.rebound(x, groups.beta, groups.zeta2, groups.e), // of the lumped model
       limit: models.slip_throughout_limit(contact.style, groups),
       phases: models.phases(contact.rows),

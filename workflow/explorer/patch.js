@@ -22,12 +22,10 @@ const patch = (() => {
 
   // Circles from the edge inwards: where the state of the springs changes. `radius` is over the
   // largest one.
-  function zones({ slips, limit, radius }, largest) {
-    const count = slips.length;
-    const inside = [...slips].filter((_, i) => ((i + 0.5) / count) * largest < Math.sqrt(limit.square));
+  function zones({ slips, touching, radius }) {
     const circles = [];
-    inside.forEach((slip, i) => {
-      const outer = i === inside.length - 1 ? radius : (i + 1) / count;
+    [...slips].slice(0, touching).forEach((slip, i) => {
+      const outer = i === touching - 1 ? radius : (i + 1) / slips.length;
       const last = circles.at(-1);
       if (last && last.slip === slip) last.outer = outer;
       else circles.push({ slip, outer });
@@ -90,7 +88,7 @@ const patch = (() => {
     let force = () => 0;
     if (row && radius > 0.02) {
       if (motion) {
-        list = zones(row, motion.radius);
+        list = zones(row);
         force = stress_at(row, motion);
       } else {
         list = [{ slip: row.sticks ? 0 : row.side, outer: radius }];
@@ -123,5 +121,5 @@ const patch = (() => {
     return sticks ? "all of it sticks" : "all of it slips";
   }
 
-  return { show, words, RADIUS, ZONES };
+  return { show, words, RADIUS };
 })();

@@ -84,7 +84,7 @@ const stage = (() => {
 
   // Size in pixels, and the scale in pixels for a metre that shows the first bounces. Balls are drawn
   // larger than they are.
-  function framed(flights, gap, speed) {
+  function framed(flights, gap) {
     const width = Math.max(svg.clientWidth, 200);
     const height = Math.max(svg.clientHeight, 120);
     const small = width < 600;
@@ -113,9 +113,7 @@ const stage = (() => {
     const used = Math.min((right - left) * scale, room);
     const aside = Math.max(0.8 * radius, gap ? 0 : Math.min(0.6 * (room - used), used + 3 * radius));
     const origin = 2 * radius - left * scale + Math.max(room - used - aside, 0) / 2;
-    // Under a table the paths cross, and images would hide them.
-    const flash = gap ? 1e3 : Math.max(FLASH, (1.5 * radius) / scale / Math.max(speed, 1));
-    return { width, height, radius, depth, aside, floor, scale, origin, gap, flash };
+    return { width, height, radius, depth, aside, floor, scale, origin, gap };
   }
 
   const place_of = ({ place, height }, lane) => {
@@ -141,7 +139,7 @@ const stage = (() => {
         corners.push({ now: start + (length * k) / steps,
           ...flight.later(one.ball, (one.time * k) / steps) });
       }
-      for (; passed < one.time && flash < 1e3; passed += flash) {
+      for (; passed < one.time && flash < Infinity; passed += flash) {
         images.push({ now: start + SLOW_FLIGHT * passed, ...flight.later(one.ball, passed) });
       }
       passed = Math.max(passed - one.time, 0);
@@ -153,9 +151,13 @@ const stage = (() => {
     const gap = given.table ? given.table - 2 * given.radius : 0;
     const list = segments(flights);
     shown = { given, flights, segments: list, drawn: {} };
-    aimed_frame = framed(flights, gap, given.speed);
+    aimed_frame = framed(flights, gap);
+    // Under a table the paths cross, and images would hide them.
+    const { radius, scale } = aimed_frame;
+    const flash = gap ? Infinity
+      : Math.max(FLASH, (1.5 * radius) / scale / Math.max(given.speed, 1));
     shown.traces = Object.fromEntries(
-      Object.entries(flights).map(([lane, parts]) => [lane, traced(parts, list, aimed_frame.flash)]));
+      Object.entries(flights).map(([lane, parts]) => [lane, traced(parts, list, flash)]));
     put_frame(held ?? aimed_frame);
     for (const lane of LANES) part(lane).classList.toggle("absent", !flights[lane]);
   }
@@ -334,8 +336,8 @@ const stage = (() => {
   function micro_slip() {
     const bounce = shown.flights.continuum?.find(({ kind }) => kind === "bounce");
     if (!bounce) return null;
-    const ring = ({ slips, radius }) => {
-      const inside = [...slips].slice(0, Math.floor(radius * slips.length));
+    const ring = ({ slips, touching }) => {
+      const inside = [...slips].slice(0, touching);
       const held_inside = inside.filter((slip) => slip === 0).length;
       return held_inside && held_inside < inside.length ? held_inside / slips.length : 0;
     };

@@ -1,6 +1,7 @@
 """Rebounds of the package within the sliders of the explorer, whose page solves by itself."""
 
 from collections.abc import Mapping, Sequence
+from itertools import product
 from typing import TypeAlias
 
 import numpy as np
@@ -30,13 +31,7 @@ def answers(limits: Mapping[str, Sequence[float]]) -> list[Answer]:
 def _continuum() -> list[Answer]:
     """Rebounds of the continuum, elastic and with each loss, of bodies within the sliders."""
     x = np.array([0.3, 1.0, 2.0, 4.0, 7.0])
-    losses = [
-        ("elastic", 1.0),
-        ("viscous", 0.9),
-        ("viscous", 0.4),
-        ("plastic", 0.9),
-        ("plastic", 0.4),
-    ]
+    losses = [("elastic", 1.0), *product(("viscous", "plastic"), (0.9, 0.4))]
     found: list[Answer] = []
     for beta, zeta2 in ((3.5, 1.21), (2.5, 1.5), (10.0, 1.0)):
         for loss, e in losses:

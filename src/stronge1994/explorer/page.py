@@ -43,8 +43,11 @@ SCRIPTS = [
     "patch",
     "diagram",
     "stage",
+    "words",
+    "files",
+    "page",
+    "challenge",
 ]
-SCRIPTS += ["words", "files", "page", "challenge"]
 # Largest error of the continuum of the page, in mu v2(0) and in the largest normal force.
 CONTINUUM_ERROR = 0.01
 CURVE_ERROR = 0.03  # of its curves over all incidences, which take fewer steps
