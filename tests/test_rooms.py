@@ -27,7 +27,8 @@ SOLVER = {
     "models": "ground normal_impact rigid lumped continuum spheres",
     "response": "ground models",
     "export": "planarimpact ground response spheres",
-    "scene": "ground bodies continuum models spheres pandas",
+    "collision": "ground bodies continuum models spheres",
+    "scene": "ground bodies collision continuum pandas",
     "__init__": "ground",
     "__main__": "planarimpact ground bodies lumped continuum models response export scene",
 }
@@ -71,6 +72,9 @@ SIDE_DOORS = {
     "scene.columns",
     "scene.files",
     "scene.places",
+    "collision.continua",  # the rungs, which scenes count
+    "collision.model_form",
+    "collision.rungs",
     "spheres.table",  # which export writes in other languages
 }
 

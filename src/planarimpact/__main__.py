@@ -300,8 +300,6 @@ def _scene(options: argparse.Namespace) -> None:
             _say(f"row {row}, left out: {problem}", sys.stderr)
     if options.explain:
         _say(solver.explain(), words)
-    elif solver.assumed:
-        _say(f"{tables.ASSUMED}; --loss chooses", sys.stderr)
 
 
 def _say(words: str, file: TextIO | None) -> None:

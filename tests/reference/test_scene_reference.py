@@ -9,8 +9,8 @@ import pandas as pd
 import pytest
 
 from planarimpact import bodies, continuum, lumped, models, scene, spheres
+from planarimpact.collision import rungs
 from planarimpact.ground import sliding
-from planarimpact.scene import rungs
 from tests.package_tables import scene_tables
 
 DATA = Path(__file__).parents[2] / "data" / "scenes"

@@ -7,8 +7,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from planarimpact import bodies, continuum, lumped, rigid, scene
-from planarimpact.scene import continua, motion, rungs
+from planarimpact import bodies, collision, continuum, lumped, rigid, scene
+from planarimpact.collision import continua, impacts, rungs
 from stronge1994 import reference_data
 from stronge1994.figures.study import curves as study
 from stronge1994.plan import figures
@@ -104,7 +104,7 @@ def test_a_factor_or_a_sign_leaves_the_table(name):
 
 FAULTS = {
     "a spin by a wrong lever": (
-        motion,
+        impacts,
         "_after_impulse",
         lambda right: (
             lambda state, body, *rest: right(
@@ -113,13 +113,17 @@ FAULTS = {
         ),
     ),
     "an impulse of the wrong sign": (
-        motion,
+        impacts,
         "_after_impulse",
         lambda right: (
             lambda state, body, m2, impulse, towards: right(state, body, m2, -impulse, towards)
         ),
     ),
-    "the loss of energy": (motion, "energy_lost", lambda right: lambda *args: 1.3 * right(*args)),
+    "the loss of energy": (
+        collision,
+        "energy_lost",
+        lambda right: lambda *args: 1.3 * right(*args),
+    ),
     "the normal force": (bodies, "peak_force", lambda right: lambda *args: 1.3 * right(*args)),
 }
 
@@ -146,7 +150,7 @@ CHEAPER = {
 def test_a_cheaper_model_leaves_the_table(name, model, monkeypatch):
     """The cushion's impacts slide throughout: there every model has one answer."""
 
-    def cheaply(rung, incidence, groups, tolerance):
+    def cheaply(rung, incidence, groups, *settings):
         answer = CHEAPER[model](rung.model, incidence, *groups)
         return continua.Solved(answer, np.arange(incidence.size), {})
 

@@ -11,8 +11,9 @@ import pandas as pd
 import pytest
 
 from planarimpact import ConvergenceError, InputError, bodies, continuum, scene, spheres
+from planarimpact.collision import impacts, rungs
 from planarimpact.ground.results import Regime
-from planarimpact.scene import columns, motion, rungs, solver
+from planarimpact.scene import columns, solver, states
 
 STEEL = {
     "radius [m]": 0.01,
@@ -296,7 +297,7 @@ def test_the_material_gives_restitution_at_the_speed_of_each_impact(header, valu
     speeds = np.array([0.05, 0.5, 5.0])
     rows = of_material(**{header: value}).loc[[0] * 3]
     values, _ = inputs(rows.assign(**{"velocity_normal [m/s]": speeds}))
-    found = motion.impacts(values)
+    found = states.rows(values).impacts
     ball = bodies.solid_sphere(0.01, 7800.0)
     contact = ball.mass, bodies.effective_modulus(bodies.Material(207e9, 0.3)), 0.01
     e = law(speeds, value, *contact)
@@ -307,7 +308,7 @@ def test_the_material_gives_restitution_at_the_speed_of_each_impact(header, valu
     np.testing.assert_allclose(found.peak_normal, force, rtol=1e-9)
     wanted = rows.assign(**{"velocity_normal [m/s]": speeds, "restitution": e, "loss": loss})
     same, _ = inputs(wanted.drop(columns=header))
-    for one, other in zip(motion.impacts(same), found, strict=True):
+    for one, other in zip(states.rows(same).impacts, found, strict=True):
         np.testing.assert_allclose(np.stack(one), np.stack(other), rtol=1e-9, atol=1e-12)
 
 
@@ -323,7 +324,7 @@ def test_each_row_has_the_loss_of_its_word():
     assert not problems and [columns.LOSSES[int(k)] for k in values["loss"]] == [
         word.strip() for word in words
     ]
-    found = motion.impacts(values)
+    found = states.rows(values).impacts
     assert found.plastic.tolist() == [False, True, True]
     hertz = found.peak_normal[2]
     assert (found.peak_normal[:2] / hertz).round(3).tolist() == [0.773, 0.551]
@@ -355,21 +356,22 @@ def test_little_restitution_is_for_contacts_that_slide(loss):
     e = np.array([0.0, 0.021, 0.022, 0.05, 0.1])
     rows = table(STEEL, PLANE, loss=loss).loc[[0] * e.size].assign(restitution=e)
     low = {"viscous": 0.01, "plastic": 1e-9}[loss]
-    sticks, slides = (motion.impacts(inputs(rows.assign(friction=mu))[0]) for mu in (0.3, low))
+    sticks, _, _ = states.rows(inputs(rows.assign(friction=0.3))[0])
+    slides, peak, _ = states.rows(inputs(rows.assign(friction=low))[0])
     assert slides.restitution.tolist() == sticks.restitution.tolist() == e.tolist()
     assert slides.mass_ratio[0] == pytest.approx(3.5)
     # What yields so much that its law says nothing is not known to slide.
     found = [True] * 5 if loss == "viscous" else [False, False, True, True, True]
-    assert motion.slides_throughout(slides).tolist() == found
-    assert not motion.slides_throughout(sticks).any()
-    assert list(motion.problems(slides)) == np.flatnonzero(~np.array(found)).tolist()
+    assert impacts.slides_throughout(slides).tolist() == found
+    assert not impacts.slides_throughout(sticks).any()
+    assert list(impacts.problems(slides)) == np.flatnonzero(~np.array(found)).tolist()
     words = "restitution = 0.05: allowed are numbers from 0.1 where the contact sticks at some time"
-    problems = motion.problems(sticks)
+    problems = impacts.problems(sticks)
     assert list(problems) == [0, 1, 2, 3] and problems[3] == words
-    assert np.isnan(slides.peak_normal).tolist() == [True, True, False, False, False]
+    assert np.isnan(peak).tolist() == [True, True, False, False, False]
     with_loss = {"viscous": [2.676, 1.852, 1.339], "plastic": [0.045, 0.087, 0.152]}[loss]
-    elastic = motion.impacts(inputs(rows.assign(restitution=1.0))[0]).peak_normal[0]
-    assert (slides.peak_normal[2:] / elastic).round(3).tolist() == with_loss
+    elastic = states.rows(inputs(rows.assign(restitution=1.0))[0]).peak_normal[0]
+    assert (peak[2:] / elastic).round(3).tolist() == with_loss
 
 
 EXTREMES = [

@@ -14,8 +14,8 @@ import pytest
 
 from planarimpact import InputError, bodies, continuum, lumped, models, scene, spheres
 from planarimpact.__main__ import main
+from planarimpact.collision import model_form
 from planarimpact.ground import sliding
-from planarimpact.scene import model_form
 
 FORM = "model_form [m/s]"
 AFTER = "velocity_tangential_after [m/s]"

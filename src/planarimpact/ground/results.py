@@ -15,7 +15,8 @@ class Regime(IntEnum):
     The paper's three regimes are STICK_SLIP, SLIP_STICK_SLIP and SLIP_THROUGHOUT. Others are a
     contact that ends in stick (e = 0, or no tangential compliance), and MULTIPLE, where the contact
     sticks twice or more. A normal impact, x = 0, is STICK. UNRESOLVED means that the order is not
-    known: the model is a law of impulses, or the solver gave up.
+    known: the model is a law of impulses, or the solver gave up. NO_IMPACT means that the bodies do
+    not approach each other.
 
     Examples
     --------
@@ -30,6 +31,7 @@ class Regime(IntEnum):
     SLIP_THROUGHOUT = 4
     MULTIPLE = 5
     UNRESOLVED = 6
+    NO_IMPACT = 7
 
     @property
     def words(self) -> str:

@@ -34,9 +34,8 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None)
         is not part of it; `model_form` is a first measure of that.
     loss : str, optional
         What takes the normal energy where restitution is below 1: "viscous" (polymers, rubber) or
-        "plastic" (metals that yield). A table may have a column of this name instead. Where nobody
-        says, it is viscous. A table with the column relaxation_time is viscous, one with
-        yield_pressure plastic.
+        "plastic" (metals that yield). A table may have a column of this name instead, or the
+        column relaxation_time, which is viscous, or yield_pressure, which is plastic.
 
     Returns
     -------
@@ -53,7 +52,7 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None)
     ------
     InputError
         For what is no DataFrame, columns that are missing, unknown or do not go together, or a bad
-        row, by its number.
+        row, by its number, such as one below restitution 1 whose loss nobody says.
     ConvergenceError
         If the continuum does not reach the tolerance, by the row. An impact of a mass ratio above
         100 may take seconds; above some 10 000 most of them end like this.

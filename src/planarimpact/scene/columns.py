@@ -15,6 +15,8 @@ from planarimpact.ground.checks import InputError
 
 # What takes the normal energy below e = 1: the cells of the column `loss`.
 LOSSES = continuum.LOSSES
+# Position of a loss that is not said.
+NO_LOSS = -1
 HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
 
 
@@ -223,11 +225,25 @@ def _checked(series: pd.Series, column: Column) -> tuple[Array, Booleans]:
 
 
 def _losses(series: pd.Series) -> tuple[Array, Booleans]:
-    """Position in `LOSSES` of the loss in each cell, and which cells name no loss."""
+    """Position in `LOSSES` of the loss in each cell, `NO_LOSS` of empty ones; and unknown ones."""
     known = {loss: position for position, loss in enumerate(LOSSES)}
+    known |= dict.fromkeys(("", "None", "nan", "<NA>"), NO_LOSS)
     cells = series.to_numpy(dtype=object)  # pandas' own loop over words takes ten times as long
-    values = np.array([known.get(str(cell).strip(), -1) for cell in cells], dtype=float)
-    return values, values < 0
+    values = np.array([known.get(str(cell).strip(), NO_LOSS - 1) for cell in cells], dtype=float)
+    return values, values < NO_LOSS
+
+
+def refuse_missing_loss(values: dict[str, Array], problems: dict[int, str]) -> None:
+    """Add rows below restitution 1 whose loss nobody says to the problems."""
+    if "loss" in values:
+        missing = (values["restitution"] < 1) & (values["loss"] == NO_LOSS)
+        for position in np.flatnonzero(missing).tolist():
+            problems.setdefault(
+                position,
+                f"restitution = {values['restitution'][position]:g}: below 1 the loss must be "
+                f"said; allowed are {', '.join(LOSSES)}, in a column loss or as the argument loss "
+                "(--loss)",
+            )
 
 
 def _number(cell: Any) -> float:

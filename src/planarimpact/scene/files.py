@@ -12,7 +12,6 @@ from planarimpact.ground import checks
 from planarimpact.ground.checks import InputError
 from planarimpact.scene import places
 from planarimpact.scene.places import Place
-from planarimpact.scene.solver import ASSUMED as ASSUMED
 from planarimpact.scene.solver import Solver
 
 try:

@@ -7,20 +7,18 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from planarimpact import bodies
+from planarimpact import bodies, collision
+from planarimpact.collision import continua, model_form, rungs
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import Regime
-from planarimpact.scene import columns, continua, model_form, motion, rungs
+from planarimpact.scene import columns, states
 
 # Rows that are solved together: this bounds the memory.
 BLOCK = 2**17
-# The loss below e = 1 where neither the table nor its user names one.
-LOSS = "viscous"
 # Columns that determine the loss.
 LOSS_COLUMNS = ("loss", *(name for name, loss in columns.LOSS_OF.items() if loss))
-ASSUMED = f"restitution below 1: the loss is taken to be {LOSS}, as none was given"
 
 
 class Solver:
@@ -34,8 +32,6 @@ class Solver:
 
     Attributes
     ----------
-    assumed : bool
-        Whether there was an impact below e = 1 whose loss was not given: it was taken as viscous.
     bad : list of (int, str)
         Rows left out with `skip_bad`, by number from 1 over all tables, and why.
     rows : int
@@ -46,7 +42,6 @@ class Solver:
         allowed = "numbers from 1e-10 to 1"
         self.tolerance = checks.number("tolerance", tolerance, allowed, 1e-10, 1)
         self._loss = loss if loss is None else checks.loss(loss, columns.LOSSES)
-        self.assumed = False
         self.bad: list[tuple[int, str]] = []
         self.rows = 0
         self._count_by_rung: Counter[int] = Counter()  # by place in `rungs.RUNGS`
@@ -89,7 +84,6 @@ class Solver:
         """
         self.rows = following.rows
         self.bad += following.bad
-        self.assumed |= following.assumed
         self._count_by_rung += following._count_by_rung
         self._differences = self._differences.joined(following._differences)
         self._coupled += following._coupled
@@ -112,8 +106,6 @@ class Solver:
                 f"{self._coupled} impacts may be off by more than 0.1 mu v2(0) (Dundurs' constant "
                 f"over friction up to {self._largest_coupling:.2g}, allowed is {bodies.COUPLING:g})"
             )
-        if self.assumed:
-            lines.append(ASSUMED)
         return "\n".join(lines + self._differences.lines())
 
     def _block(self, table: pd.DataFrame, names: dict[str, str], skip_bad: bool) -> pd.DataFrame:
@@ -121,25 +113,27 @@ class Solver:
         self._refuse_two_losses(names)
         values, problems = columns.numbers(table, names)
         if "restitution" in names and "loss" not in names:
-            code = columns.LOSSES.index(self._loss or LOSS)
+            code = columns.LOSSES.index(self._loss) if self._loss else columns.NO_LOSS
             values["loss"] = np.full(len(table), float(code))
+        columns.refuse_missing_loss(values, problems)
         good = np.ones(len(table), dtype=bool)
         good[list(problems)] = False
-        impacts = _impacts(values, good, problems)
-        bad_impacts = motion.problems(impacts)
+        rows = _rows(values, good, problems)
+        bad_impacts = collision.problems(rows.impacts)
         problems |= _by_position(good, bad_impacts)
         self._refuse(problems, skip_bad, InputError)
         if bad_impacts:
             good[list(problems)] = False
-            impacts = _impacts(values, good, problems)
-        answers = rungs.answers(impacts, self.tolerance)
+            rows = _rows(values, good, problems)
+        answers = collision.answers(rows.impacts, self.tolerance, peaks=True)
         unsolved = _by_position(good, answers.unsolved)
         self._refuse(unsolved, skip_bad, ConvergenceError)
-        self._count(impacts, answers, names)
+        form = collision.model_forms(rows.impacts, answers)
+        self._count(rows, answers, form)
         problems |= unsolved
         self.bad += [(self.rows + row + 1, problems[row]) for row in sorted(problems)]
         self.rows += len(table)
-        result = table[good].assign(**_result(impacts, answers, names))
+        result = table[good].assign(**_result(rows, answers, form, names))
         return result[_solved(answers)] if unsolved else result
 
     def _refuse_two_losses(self, names: dict[str, str]) -> None:
@@ -159,31 +153,26 @@ class Solver:
             more = f"; {len(problems) - 1} more rows are bad" if len(problems) > 1 else ""
             raise kind(f"row {self.rows + first + 1}: {problems[first]}{more}")
 
-    def _count(
-        self, impacts: motion.Impacts, answers: rungs.Answers, names: dict[str, str]
-    ) -> None:
+    def _count(self, rows: states.Rows, answers: rungs.Answers, form: Array) -> None:
         """Count the impacts of each rung, and what `explain` says of the models."""
         place, solved = answers.place, _solved(answers)
         counts = np.bincount(place[solved], minlength=len(rungs.RUNGS)).tolist()
         self._count_by_rung += Counter(dict(enumerate(counts)))
         lossy = [rung.model in continua.MODELS[1:] for rung in rungs.RUNGS]
-        rows = np.flatnonzero(np.array(lossy)[place] & solved)
-        differences = answers.model_form[rows] / impacts.unit[rows]
+        which = np.flatnonzero(np.array(lossy)[place] & solved)
+        differences = form[which] / rows.impacts.unit[which]
         self._differences = self._differences.joined(model_form.summary(differences))
-        coupling = impacts.coupling[place >= rungs.FIRST_OF_CONTINUA]
+        coupling = rows.coupling[place >= rungs.FIRST_OF_CONTINUA]
         large = coupling[coupling > bodies.COUPLING]
         self._coupled += large.size
         self._largest_coupling = max(self._largest_coupling, float(np.max(large, initial=0.0)))
-        # Peak normal forces depend on the loss, whatever model takes the tangential motion.
-        loss_unknown = self._loss is None and not set(LOSS_COLUMNS) & set(names)
-        self.assumed |= loss_unknown and bool((impacts.restitution < 1).any())
 
 
-def _impacts(values: dict[str, Array], good: Booleans, problems: dict[int, str]) -> motion.Impacts:
-    """Impacts of the good rows; those whose physical quantities are out of range become bad."""
+def _rows(values: dict[str, Array], good: Booleans, problems: dict[int, str]) -> states.Rows:
+    """The good rows; those whose physical quantities are out of range become bad."""
     while True:
         try:
-            return motion.impacts({name: column[good] for name, column in values.items()})
+            return states.rows({name: column[good] for name, column in values.items()})
         except bodies.OutOfRange as error:
             for position in np.flatnonzero(good)[error.where].tolist():
                 problems[position], good[position] = str(error), False
@@ -203,16 +192,16 @@ def _solved(answers: rungs.Answers) -> Booleans:
 
 
 def _result(
-    impacts: motion.Impacts, answers: rungs.Answers, names: dict[str, str]
+    rows: states.Rows, answers: rungs.Answers, form: Array, names: dict[str, str]
 ) -> dict[str, Any]:
     """The columns that are added to those of the table."""
-    plane, peak = "spin" in names, answers.peak_friction
-    body, other = motion.after(impacts, answers.velocity)
-    states = motion.columns_of(body, plane)
+    impacts, plane, peak = rows.impacts, "spin" in names, answers.peak_friction
+    body, other, _ = collision.after(impacts, answers.velocity)
+    after = states.columns_of(body, plane)
     if {"other_density", "other_mass"} & set(names):
-        states |= {f"other_{k}": v for k, v in motion.columns_of(other, plane).items()}
+        after |= {f"other_{k}": v for k, v in states.columns_of(other, plane).items()}
     result: dict[str, Any] = {
-        columns.header(name, "_after"): values for name, values in states.items()
+        columns.header(name, "_after"): values for name, values in after.items()
     }
     if "restitution" not in names:
         result |= {"restitution": impacts.restitution}
@@ -224,13 +213,13 @@ def _result(
         "contact_velocity_after [m/s]": answers.velocity,
         "model": pd.Categorical.from_codes(model, rungs.MODELS),
         "error_bound [m/s]": answers.error,
-        "model_form [m/s]": answers.model_form,
+        "model_form [m/s]": form,
         "regime": pd.Categorical.from_codes(answers.regime, list(Regime.__members__)),
         "incidence": impacts.incidence_of(np.arange(model.size)),
-        "peak_normal_force [N]": impacts.peak_normal,
+        "peak_normal_force [N]": rows.peak_normal,
         # Without friction there is none, also where the normal force is not known.
         "peak_friction_force [N]": np.where(
-            peak > 0, impacts.friction * peak * impacts.peak_normal, 0.0
+            peak > 0, impacts.friction * peak * rows.peak_normal, 0.0
         ),
-        "energy_lost [J]": motion.energy_lost(impacts, answers.velocity),
+        "energy_lost [J]": collision.energy_lost(impacts, answers.velocity),
     }

@@ -109,6 +109,7 @@ def rebound(
     restitution: ArrayLike = 1.0,
     *,
     loss: str | ArrayLike = "viscous",
+    forces: bool = True,
 ) -> Rebound:
     """State at separation; all arguments broadcast, the loss too.
 
@@ -119,6 +120,8 @@ def rebound(
     loss : str or array_like of str
         What takes the energy where e < 1, as in `planarimpact.continuum`: "viscous" or "plastic".
         At e = 1 it has no effect beyond `ERROR_BOUND`.
+    forces : bool
+        Whether peak friction and dissipation are wanted. They are NaN without, in half the time.
 
     Returns
     -------
@@ -159,7 +162,7 @@ table of spheres
     for start in range(0, x.size, CHUNK):
         part = slice(start, start + CHUNK)
         velocity[part], peak[part], work[part], regime[part] = _rebound(
-            x[part], beta[part], zeta2[part], e[part], plastic[part]
+            x[part], beta[part], zeta2[part], e[part], plastic[part], forces
         )
     return Rebound.shaped(signed, velocity, peak, work, regime)
 
@@ -189,26 +192,29 @@ def _refuse_uncovered(beta: Array, zeta2: Array, e: Array) -> None:
 
 
 def _rebound(
-    x: Array, beta: Array, zeta2: Array, e: Array, plastic: Booleans
+    x: Array, beta: Array, zeta2: Array, e: Array, plastic: Booleans, forces: bool
 ) -> tuple[Array, Array, Array, Integers]:
     """Velocity, peak friction, work of friction and regime of impacts with x >= 0."""
     with np.errstate(over="ignore"):  # of impacts that slide
         y, b = x / zeta2, beta / zeta2
     velocity = sliding.velocity(x, beta, e)
-    peak = np.ones(x.size)
-    work = np.where(plastic, sliding.work(x, beta, e), sliding.viscous_work(x, beta, zeta2, e))
+    peak, work = np.full((2, x.size), 1.0 if forces else np.nan)
+    if forces:
+        work = np.where(plastic, sliding.work(x, beta, e), sliding.viscous_work(x, beta, zeta2, e))
     regime = np.full(x.size, Regime.SLIP_THROUGHOUT, dtype=np.uint8)
     # Plastic spheres that lose much may stick for a while at larger incidences too.
     rows = np.flatnonzero(plastic | (y < (b + e * (b - 1)) * table.NEARLY))
-    answer = table.evaluate(table.shipped(), y[rows], b[rows], e[rows], plastic[rows])
+    answer = table.evaluate(table.shipped(), y[rows], b[rows], e[rows], plastic[rows], forces)
     sticks = np.flatnonzero(~answer.slides)
     rows = rows[sticks]
     x, beta, zeta2, plastic = x[rows], beta[rows], zeta2[rows], plastic[rows]
     # The exact values have these bounds.
     w = np.clip(zeta2 * answer.velocity[sticks], -x, x)
-    velocity[rows], peak[rows] = w, np.clip(answer.peak[sticks], 0.0, 1.0)
-    balance = (x - w) * (x + w) / (2 * beta)  # of energy, where the springs are empty at the end
-    work[rows] = np.where(plastic, balance, np.maximum(zeta2 * answer.work[sticks], 0.0))
+    velocity[rows] = w
+    if forces:
+        peak[rows] = np.clip(answer.peak[sticks], 0.0, 1.0)
+        balance = (x - w) * (x + w) / (2 * beta)  # of energy, with empty springs at the end
+        work[rows] = np.where(plastic, balance, np.maximum(zeta2 * answer.work[sticks], 0.0))
     regime[rows] = np.where(x > zeta2, Regime.SLIP_STICK_SLIP, Regime.STICK_SLIP)
     regime[rows[x == 0]] = Regime.STICK
     return velocity, peak, work, regime

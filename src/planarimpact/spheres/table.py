@@ -152,8 +152,13 @@ class Answer(NamedTuple):
     slides: Booleans
 
 
-def evaluate(table: Table, y: Array, b: Array, e: Array, plastic: Booleans) -> Answer:
-    """Answers to impacts with y >= 0; those of impacts that slide throughout have no meaning."""
+def evaluate(
+    table: Table, y: Array, b: Array, e: Array, plastic: Booleans, forces: bool = True
+) -> Answer:
+    """Answers to impacts with y >= 0; those of impacts that slide throughout have no meaning.
+
+    Without `forces` peak friction and work are NaN.
+    """
     u = over_b(b)
     limits = limits_at(table, u)
     velocity, peak, work = np.empty((3, y.size))
@@ -163,7 +168,7 @@ def evaluate(table: Table, y: Array, b: Array, e: Array, plastic: Booleans) -> A
     for panel, rows in zip(table.panels.values(), panels, strict=True):
         which = np.flatnonzero(rows)
         if which.size:
-            part = _answer(panel, *(a[..., which] for a in (y, b, e, u, limits)))
+            part = _answer(panel, *(a[..., which] for a in (y, b, e, u, limits)), forces=forces)
             for values, panel_values in zip(answer, part, strict=True):
                 values[which] = panel_values
     return answer
@@ -220,7 +225,9 @@ def edges_of(name: str, grids: Array, t: Array, u: Array, b: Array, e: Array) ->
     return [zero, *inner, last]
 
 
-def _answer(panel: Panel, y: Array, b: Array, e: Array, u: Array, limits: Array) -> Answer:
+def _answer(
+    panel: Panel, y: Array, b: Array, e: Array, u: Array, limits: Array, *, forces: bool
+) -> Answer:
     t = over_e(panel.name, e, limits)
     edges = edges_of(panel.name, panel.edges, t, u, b, e)
     patch = np.zeros(y.size, dtype=np.intp)
@@ -243,8 +250,11 @@ def _answer(panel: Panel, y: Array, b: Array, e: Array, u: Array, limits: Array)
         index, part = _places(value, size - ORDER + 1)
         weights.append(_weights(part))
         base = base * size + index
-    velocity, peak = (spline(c, base, weights) for c in (panel.velocity, panel.peak))
-    work = spline(panel.work, base, weights) if panel.work.size else np.full(y.size, np.nan)
+    velocity = spline(panel.velocity, base, weights)
+    peak, work = np.full((2, y.size), np.nan)
+    if forces:
+        peak = spline(panel.peak, base, weights)
+        work = spline(panel.work, base, weights) if panel.work.size else work
     return Answer(velocity, peak, work, y >= edges[-1] * NEARLY)
 
 

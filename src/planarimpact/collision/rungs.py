@@ -12,10 +12,11 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact import continuum, spheres
+from planarimpact.collision import continua, model_form
+from planarimpact.collision.impacts import Impacts, slides_throughout
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.results import Regime
-from planarimpact.scene import continua, model_form, motion
 
 # Error by rounding, for a unit of the mass ratio.
 ROUNDING = 1e-12
@@ -49,13 +50,13 @@ SLIDING, HEAD_ON, FIRST_OF_CONTINUA = 0, 1, 2
 MODELS = list(dict.fromkeys(rung.model for rung in RUNGS))
 
 
-def of_each(impacts: motion.Impacts, tolerance: float) -> tuple[Integers, Array]:
+def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
     """The place of each impact's rung in `RUNGS`, and the largest error of its answer, mu v2(0).
 
     The rung of an impact is the first of `RUNGS` that fits; no other function decides it. The
     error is one of velocity (mu v2(0)) and of peak friction (mu times the peak normal force).
     """
-    slides = motion.slides_throughout(impacts)
+    slides = slides_throughout(impacts)
     head_on = ~slides & (impacts.v1 == 0)
     place, error = np.where(slides, SLIDING, HEAD_ON), np.zeros(slides.size)
     rows = np.flatnonzero(~slides & ~head_on)
@@ -85,67 +86,70 @@ class Answers(NamedTuple):
 
     place: Integers  # of the rung, in `RUNGS`
     velocity: Array  # of the contact point at separation [m/s]
-    peak_friction: Array  # mu times the peak normal force
+    peak_friction: Array  # mu times the peak normal force; NaN where it is not asked for
     regime: Integers
     error: Array  # of the velocity, at most [m/s]
-    model_form: Array  # how far the velocity would move with the other loss [m/s]
     unsolved: dict[int, str]  # `{index: message}`
 
 
-def answers(impacts: motion.Impacts, tolerance: float) -> Answers:
-    """Each impact answered by its rung."""
+def answers(impacts: Impacts, tolerance: float, peaks: bool = False) -> Answers:
+    """Each impact answered by its rung, with its peak friction or, in less time, without."""
     place, error = of_each(impacts, tolerance)
-    result = _of_formulas(impacts, place, error)
-    for number in np.unique(place[place >= FIRST_OF_CONTINUA]).tolist():
-        _add_continuum(result, impacts, number, tolerance)
-    return result
-
-
-def _of_formulas(impacts: motion.Impacts, place: Integers, error: Array) -> Answers:
-    """Answers to impacts that slide throughout and to head-on ones; the others follow later."""
     slides = place == SLIDING
     with np.errstate(over="ignore"):
         change = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit
     velocity = impacts.v1 - np.where(slides, change, 0.0)
     regime = np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK).astype(np.uint8)
-    form = np.zeros(place.size)
-    lossy = (impacts.restitution < 1) & (impacts.restitution >= continuum.LEAST_RESTITUTION)
-    rows = np.flatnonzero(slides & lossy & ~impacts.plastic)
-    difference = model_form.of_sliding(impacts.incidence_of(rows), impacts.groups_of(rows))
-    form[rows] = np.abs(difference) * impacts.unit[rows]
-    return Answers(place, velocity, slides.astype(float), regime, error * impacts.unit, form, {})
+    result = Answers(place, velocity, slides.astype(float), regime, error * impacts.unit, {})
+    for number in np.unique(place[place >= FIRST_OF_CONTINUA]).tolist():
+        _add_continuum(result, impacts, number, tolerance, peaks)
+    return result
 
 
-def _add_continuum(result: Answers, impacts: motion.Impacts, number: int, tolerance: float) -> None:
+def _add_continuum(
+    result: Answers, impacts: Impacts, number: int, tolerance: float, peaks: bool
+) -> None:
     """Write the answers of one rung into the result."""
     rung, rows = RUNGS[number], np.flatnonzero(result.place == number)
-    x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
-    solved = _of_continuum(rung, x, groups, tolerance)
+    solved = _of_continuum(
+        rung, impacts.incidence_of(rows), impacts.groups_of(rows), tolerance, peaks
+    )
     result.unsolved.update({int(rows[i]): message for i, message in solved.messages.items()})
     rows, rebound = rows[solved.rows], solved.rebound
-    unit = impacts.unit[rows]
-    result.velocity[rows] = rebound.velocity * unit
+    result.velocity[rows] = rebound.velocity * impacts.unit[rows]
     result.peak_friction[rows] = rebound.peak_friction
     result.regime[rows] = rebound.regime
-    loss = _loss(rung)
-    if loss:
-        x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
-        other = model_form.velocity_with_other_loss(loss, x, groups)
-        result.model_form[rows] = np.abs(other - rebound.velocity) * unit
 
 
 def _of_continuum(
-    rung: Rung, incidence: Array, groups: tuple[Array, ...], tolerance: float
+    rung: Rung, incidence: Array, groups: tuple[Array, ...], tolerance: float, peaks: bool
 ) -> continua.Solved:
     """Impacts by the table of spheres, or solved."""
     if rung.way == "solved":
         return continua.rebound(rung.model, incidence, groups, tolerance)
     # At e = 1 the table has the same answer for both losses.
     loss = _loss(rung) or continuum.LOSSES[0]
-    rebound = spheres.rebound(incidence, *groups, loss=loss)
+    rebound = spheres.rebound(incidence, *groups, loss=loss, forces=peaks)
     return continua.Solved(rebound, np.arange(incidence.size), {})
 
 
 def _loss(rung: Rung) -> str:
     """The loss of a rung's model, empty for the elastic continuum."""
     return rung.model.partition(".")[2]
+
+
+def model_forms(impacts: Impacts, result: Answers) -> Array:
+    """How far the velocity would move with the other loss [m/s], NaN where that is not known."""
+    form = np.zeros(impacts.v1.size)
+    lossy = (impacts.restitution < 1) & (impacts.restitution >= continuum.LEAST_RESTITUTION)
+    rows = np.flatnonzero((result.place == SLIDING) & lossy & ~impacts.plastic)
+    difference = model_form.of_sliding(impacts.incidence_of(rows), impacts.groups_of(rows))
+    form[rows] = np.abs(difference) * impacts.unit[rows]
+    unit = impacts.unit
+    for number in np.unique(result.place[result.place >= FIRST_OF_CONTINUA]).tolist():
+        loss, rows = _loss(RUNGS[number]), np.flatnonzero(result.place == number)
+        if loss:
+            x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
+            other = model_form.velocity_with_other_loss(loss, x, groups)
+            form[rows] = np.abs(other * unit[rows] - result.velocity[rows])
+    return form

@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact import continuum, spheres
+from planarimpact.collision import continua
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array
-from planarimpact.scene import continua
 
 # Tolerance of the continuum with the other loss, mu v2(0): two digits of the difference suffice.
 TOLERANCE = 1e-2
@@ -65,7 +65,8 @@ def velocity_with_other_loss(loss: str, incidence: Array, groups: tuple[Array, .
     (other,) = set(continuum.LOSSES) - {loss}
     velocity, covered = np.full(incidence.size, np.nan), spheres.covers(*groups)
     rows = np.flatnonzero(covered)
-    tabled = spheres.rebound(incidence[rows], *(group[rows] for group in groups), loss=other)
+    tabled_groups = (group[rows] for group in groups)
+    tabled = spheres.rebound(incidence[rows], *tabled_groups, loss=other, forces=False)
     velocity[rows] = tabled.velocity
     rows = np.flatnonzero(~covered)
     if rows.size:

@@ -1,0 +1,245 @@
+"""Impacts of bodies in space: velocities and spins before and after, in SI units.
+
+`collide` takes vectors and returns vectors. A `Pair` says what the materials do: friction,
+stiffness, and what takes the energy. `scene` solves tables of impacts by the same functions, which
+also decide which model answers (`rungs`): a formula where it is exact, the table of spheres where
+it covers the impact, or the continuum, solved.
+
+Bodies touch at one point, and the line of their centres of mass is the normal there. A body whose
+radius of gyration is not the same about every axis must turn about an axis across its plane of
+incidence. All vectors have one set of axes. Spin is the right-handed vector of angular velocity.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planarimpact import bodies
+from planarimpact.bodies import Body
+from planarimpact.collision.impacts import Impacts as Impacts
+from planarimpact.collision.impacts import State as State
+from planarimpact.collision.impacts import after as after
+from planarimpact.collision.impacts import energy_lost as energy_lost
+from planarimpact.collision.impacts import impacts as impacts
+from planarimpact.collision.impacts import problems as problems
+from planarimpact.collision.pairs import LAWS as LAWS
+from planarimpact.collision.pairs import Pair as Pair
+from planarimpact.collision.rungs import Answers as Answers
+from planarimpact.collision.rungs import answers as answers
+from planarimpact.collision.rungs import model_forms as model_forms
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.ground.checks import InputError, Unsolved
+from planarimpact.ground.results import Regime
+
+__all__ = ["Collision", "Pair", "collide"]
+# Error that the whole table of spheres meets, mu v2(0): a little above its bounds.
+TOLERANCE = 5e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Collision:
+    """Bodies after their impacts; made by `collide`. Its arrays have the shape of the arguments.
+
+    Attributes
+    ----------
+    velocity, other_velocity : ndarray, shape (..., 3)
+        Of the centres [m/s].
+    spin, other_spin : ndarray, shape (..., 3)
+        [rad/s], right-handed.
+    impulse : ndarray, shape (..., 3)
+        On the body [N s]; the other one has the opposite impulse. 0 where bodies do not approach.
+    incidence : ndarray, shape (...)
+        v1(0)/(mu v2(0)); infinite without friction. NaN, like the next two, without an impact.
+    restitution : ndarray, shape (...)
+        e, at the speed of the impact.
+    error_bound : ndarray, shape (...)
+        Largest error of the tangential velocity of the contact point after the impact, against the
+        continuum [m/s]. It is measured by searches, not proved.
+    regime : ndarray of int, shape (...)
+        Codes of `Regime`: the order of stick and slip, NO_IMPACT where bodies do not approach.
+    plastic : ndarray of bool, shape (...)
+        Whether the loss is plastic, else viscous; without a meaning where e = 1.
+    """
+
+    velocity: Array
+    spin: Array
+    other_velocity: Array
+    other_spin: Array
+    impulse: Array
+    incidence: Array
+    restitution: Array
+    error_bound: Array
+    regime: Integers
+    plastic: Booleans
+    _model_form: Callable[[], Array] = field(repr=False)
+
+    @property
+    def loss(self) -> NDArray[np.str_]:
+        """What took the energy: viscous or plastic, or none where e = 1 or without an impact."""
+        lossy = self.restitution < 1
+        return np.where(lossy, np.where(self.plastic, "plastic", "viscous"), "none")
+
+    @cached_property
+    def model_form(self) -> Array:
+        """How far the velocity of the contact point would move with the other loss [m/s].
+
+        Without a sign; no tolerance makes it smaller. It is 0 where e = 1, NaN without an impact or
+        where nothing is known. It takes as long as `collide` when it is first asked for.
+        """
+        return self._model_form()
+
+
+@checks.default_errors
+def collide(
+    pair: Pair,
+    normal: ArrayLike,
+    body: Body,
+    velocity: ArrayLike,
+    spin: ArrayLike,
+    other: Body = bodies.HALF_SPACE,
+    other_velocity: ArrayLike = (0.0, 0.0, 0.0),
+    other_spin: ArrayLike = (0.0, 0.0, 0.0),
+    *,
+    tolerance: float = TOLERANCE,
+) -> Collision:
+    """Velocities and spins of two bodies after their impact; all arguments broadcast.
+
+    Parameters
+    ----------
+    pair : Pair
+        Materials, friction and restitution: one pair, or an array of pairs.
+    normal : array_like, shape (..., 3)
+        Unit vector from the other body, or the surface, to the body.
+    body, other : Body
+        Mass [kg], radius of gyration [m] and radius [m], numbers or arrays. A wall has infinite
+        mass and gyration, and radius 0 where it is flat: `bodies.HALF_SPACE`, if left out.
+    velocity, other_velocity : array_like, shape (..., 3)
+        Of the centres before the impact [m/s]. A wall may move.
+    spin, other_spin : array_like, shape (..., 3)
+        Before the impact [rad/s], right-handed.
+    tolerance : float
+        Largest error of the velocity of the contact point, in mu v2(0), against the continuum;
+        1e-10 to 1. The default is that of the table of spheres: about a microsecond an impact.
+        Impacts for which the table is too coarse, or which it does not cover (e below 0.3, zeta^2
+        above 1.6), take up to some milliseconds each.
+
+    Returns
+    -------
+    Collision
+        Bodies that do not approach each other (v2 <= 0) are left as they are.
+
+    Raises
+    ------
+    InputError
+        If an argument is not allowed, by its index. Where the contact sticks e must be 0.1 or more.
+    ConvergenceError
+        If the continuum does not reach the tolerance.
+
+    Notes
+    -----
+    The impulse acts on both bodies at one point, so that momentum and angular momentum stay the
+    same to rounding, whatever the answer.
+
+    Examples
+    --------
+    A rubber ball is thrown down with backspin, and comes back:
+
+    >>> rubber = Pair(bodies.Material(5e6, 0.5), friction=0.8, restitution=0.9, loss="viscous")
+    >>> ball = bodies.solid_sphere(radius=0.025, density=1100)
+    >>> result = collide(rubber, [0, 0, 1], ball, [2.0, 0, -4.0], [0, -300.0, 0])
+    >>> result.velocity.round(2).tolist(), result.spin.round(0).tolist()
+    ([-2.12, 0.0, 3.6], [0.0, 112.0, 0.0])
+    >>> Regime(int(result.regime)).name
+    'SLIP_STICK_SLIP'
+    """
+    tolerance = checks.number("tolerance", tolerance, "numbers from 1e-10 to 1", 1e-10, 1)
+    vectors = [
+        _vectors(name, value)
+        for name, value in {
+            "normal": normal,
+            "velocity": velocity,
+            "spin": spin,
+            "other_velocity": other_velocity,
+            "other_spin": other_spin,
+        }.items()
+    ]
+    fields = [np.asarray(value) for value in (*body, *other)]
+    shape = _common_shape(pair, vectors, fields)
+    pair = pair.broadcast(shape)
+    fields = [np.broadcast_to(value, shape).reshape(-1) for value in fields]
+    body, other = Body(*fields[:3]), Body(*fields[3:])
+    vectors = [np.broadcast_to(v, (*shape, 3)).reshape(-1, 3).T.copy() for v in vectors]
+    before, other_before = State(*vectors[1:3]), State(*vectors[3:])
+    try:
+        given = impacts(pair, vectors[0], body, before, other, other_before)
+    except bodies.OutOfRange as error:
+        raise InputError(f"{_place(np.flatnonzero(error.where)[0], shape)}{error}") from None
+    approach = np.flatnonzero(given.v2 > 0)
+    met = given if approach.size == given.v2.size else given.take(approach)
+    for i, problem in problems(met).items():
+        raise InputError(f"{_place(approach[i], shape)}{problem}")
+    answer = answers(met, tolerance)
+    for i, problem in answer.unsolved.items():
+        raise Unsolved(f"{_place(approach[i], shape)}{problem}", approach[[i]])
+    return _collision(given, met, approach, answer, shape)
+
+
+def _vectors(name: str, value: ArrayLike) -> Array:
+    """Checked vectors, shape (..., 3)."""
+    vectors = checks.finite(name, value)
+    if vectors.shape[-1:] != (3,):
+        raise InputError(f"{name}, shape {vectors.shape}: allowed are vectors, shape (..., 3)")
+    return vectors
+
+
+def _common_shape(pair: Pair, vectors: list[Array], fields: list[Array]) -> tuple[int, ...]:
+    """Shape of all impacts."""
+    shapes = [pair.shape, *(v.shape[:-1] for v in vectors), *(f.shape for f in fields)]
+    try:
+        return np.broadcast_shapes(*shapes)
+    except ValueError:
+        listed = ", ".join(map(str, dict.fromkeys(shapes)))
+        raise InputError(
+            f"shapes do not broadcast: {listed}, without the axis of vectors"
+        ) from None
+
+
+def _place(index: int, shape: tuple[int, ...]) -> str:
+    """Which impact a message is about, by its index in arrays of this shape."""
+    where = ", ".join(map(str, np.unravel_index(index, shape)))
+    return f"impact [{where}]: " if shape else ""
+
+
+def _collision(
+    given: Impacts, met: Impacts, approach: Integers, answer: Answers, shape: tuple[int, ...]
+) -> Collision:
+    """The result: states after the impacts, and those that stay as they are."""
+
+    def whole(values: Any, before: Any) -> Any:
+        """Values of impacts, and those before where bodies do not approach, in the given shape."""
+        if approach.size < given.v2.size:
+            everywhere = np.empty((*values.shape[:-1], given.v2.size), values.dtype)
+            everywhere[:] = before
+            everywhere[..., approach] = values
+            values = everywhere
+        return values.T.reshape((*shape, *values.shape[:-1]))[()]
+
+    state, other_state, impulse = after(met, answer.velocity)
+    return Collision(
+        velocity=whole(state.velocity, given.before.velocity),
+        spin=whole(state.spin, given.before.spin),
+        other_velocity=whole(other_state.velocity, given.other_before.velocity),
+        other_spin=whole(other_state.spin, given.other_before.spin),
+        impulse=whole(impulse, 0.0),
+        incidence=whole(met.incidence_of(np.arange(approach.size)), np.nan),
+        restitution=whole(met.restitution, np.nan),
+        error_bound=whole(answer.error, np.nan),
+        regime=whole(answer.regime, Regime.NO_IMPACT),
+        plastic=whole(met.plastic, False),
+        _model_form=lambda: whole(model_forms(met, answer), np.nan),
+    )

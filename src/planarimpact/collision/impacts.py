@@ -1,0 +1,257 @@
+"""From the state of two bodies before an impact to its groups, and on to the state after it.
+
+Vectors are arrays of shape (3, n) in any axes. The unit normal n points from the other body, or the
+surface, to the body; contact points lie at -radius n from the body's centre and at +radius n from
+the other's. Spin is the right-handed vector of angular velocity.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from planarimpact import bodies, continuum
+from planarimpact.bodies import Body
+from planarimpact.collision.pairs import Pair
+from planarimpact.continuum import inelastic
+from planarimpact.ground import sliding
+from planarimpact.ground.arrays import Array, Booleans, Integers
+
+# Restitution at the speed of an impact, by the quantity of a pair that it follows from.
+LAWS = {
+    "relaxation_time": bodies.viscous_restitution,
+    "yield_pressure": bodies.plastic_restitution,
+}
+# Largest error of the length of a normal.
+UNIT = 1e-6
+# Largest mass ratio m2/m1: beyond it no digit of the rebound is certain.
+LARGEST_RATIO = 1e12
+
+
+class State(NamedTuple):
+    """Velocity of a centre [m/s] and spin [rad/s], arrays of shape (3, n) or (3, 1)."""
+
+    velocity: Array
+    spin: Array
+
+
+class Impacts(NamedTuple):
+    """Impacts: bodies, the direction of contact, states, and what follows from them.
+
+    Arrays of shape (n,), except vectors, (3, n); `other` bodies at infinity have infinite mass.
+    """
+
+    body: Body
+    other: Body
+    normal: Array
+    before: State
+    other_before: State
+    tangent: Array  # unit vector of v1(0), 0 where there is none
+    v1: Array  # tangential velocity of contact, at least 0 [m/s]
+    v2: Array  # normal velocity of approach [m/s]; the bodies meet where it is above 0
+    friction: Array
+    restitution: Array
+    plastic: Booleans  # else viscous; no meaning where e = 1
+    m2: Array  # normal effective mass [kg]
+    mass_ratio: Array
+    stiffness_ratio: Array
+
+    @property
+    def unit(self) -> Array:
+        """The scale of tangential velocity, mu v2(0) [m/s]."""
+        return self.friction * self.v2
+
+    def groups_of(self, rows: Integers) -> tuple[Array, Array, Array]:
+        """Mass ratio, stiffness ratio and restitution of some impacts."""
+        return self.mass_ratio[rows], self.stiffness_ratio[rows], self.restitution[rows]
+
+    def incidence_of(self, rows: Integers) -> Array:
+        """v1(0)/(mu v2(0)) of some impacts: NaN or infinite without friction."""
+        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+            return self.v1[rows] / (self.friction[rows] * self.v2[rows])
+
+    def take(self, rows: Integers) -> "Impacts":
+        """Some of the impacts."""
+        return Impacts._make(_taken(field, rows) for field in self)
+
+
+def _taken(field: Any, rows: Integers) -> Any:
+    """Some entries of the last axis of an array, or of all arrays of a tuple."""
+    if isinstance(field, tuple):
+        return type(field)(*(_taken(part, rows) for part in field))
+    return field if field.shape[-1] == 1 else field[..., rows]
+
+
+def impacts(
+    pair: Pair, normal: Array, body: Body, before: State, other: Body, other_before: State
+) -> Impacts:
+    """Impacts of bodies, arrays of shape (n,), whose states and normals have the shape (3, n).
+
+    v2 may be 0 or negative, where nothing approaches, and other numbers may be infinite: `problems`
+    finds that. OutOfRange says where a mass, a mass ratio or a force is beyond the range of
+    numbers, or a relaxation time beyond its law.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):  # `problems` finds what is not finite
+        relative = contact_velocity(before, body, -normal)
+        relative = relative - contact_velocity(other_before, other, normal)
+        along = _dot(relative, normal)
+        sideways = relative - along * normal
+        v1, v2 = np.hypot(np.hypot(*sideways[:2]), sideways[2]), -along
+        _, m2 = bodies.effective_masses(body, other)
+        return Impacts(
+            body,
+            other,
+            normal,
+            before,
+            other_before,
+            sideways / np.where(v1 > 0, v1, 1.0),
+            v1,
+            v2,
+            pair.friction,
+            _restitution(pair, body, other, m2, v2),
+            pair.plastic,
+            m2,
+            bodies.mass_ratio(body, other),
+            pair.stiffness_ratio,
+        )
+
+
+def effective_radius(body: Body, other: Body) -> Array:
+    """Effective radius of two bodies [m]; a radius of 0, as of `bodies.HALF_SPACE`, is flat."""
+    radius, other_radius = (np.where(b.radius > 0, b.radius, np.inf) for b in (body, other))
+    smaller, larger = np.minimum(radius, other_radius), np.maximum(radius, other_radius)
+    with np.errstate(invalid="ignore"):  # two flat bodies, which a law of restitution refuses
+        return smaller / (1 + smaller / larger)
+
+
+def slides_throughout(impacts: Impacts) -> Booleans:
+    """Whether each impact slides from first to last."""
+    with np.errstate(over="ignore"):  # friction may stop any finite velocity
+        unit = impacts.unit
+        groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
+        slides = impacts.v1 >= sliding.limit_alike(*groups) * unit
+        # Spheres that yield may slide from a larger incidence on. The law has a least restitution.
+        yields = np.flatnonzero(slides & impacts.plastic & (impacts.restitution < 1))
+        known = yields[impacts.restitution[yields] >= bodies.LEAST_RESTITUTION]
+        slides[yields] = False
+        beta, zeta2, e = impacts.groups_of(known)
+        limit = inelastic.LOSSES["plastic"](e).slides_from(beta, zeta2)
+        slides[known] = impacts.v1[known] >= limit * unit[known]
+    return slides
+
+
+def problems(impacts: Impacts) -> dict[int, str]:
+    """What is wrong with an impact as a whole: `{index: message}`.
+
+    >>> pair = Pair(stiffness_ratio=[1.2], friction=0.1, restitution=0.05, loss="viscous")
+    >>> body, flat = Body(*np.full((3, 1), 0.01)), Body(*np.full((2, 1), np.inf), np.zeros(1))
+    >>> up, still = np.array([[0.0], [0.0], [1.0]]), State(*np.zeros((2, 3, 1)))
+    >>> falls = State(np.array([[0.01], [0.0], [-1.0]]), np.zeros((3, 1)))
+    >>> problems(impacts(pair, up, body, falls, flat, still))
+    {0: 'restitution = 0.05: allowed are numbers from 0.1 where the contact sticks at some time'}
+    """
+    length = np.sqrt(np.sum(impacts.normal**2, axis=0))
+    numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.v1
+    with np.errstate(over="ignore", invalid="ignore"):
+        energy = impacts.m2 * impacts.v2 * impacts.v2 + impacts.m2 * impacts.v1 * impacts.v1
+        unit = impacts.unit
+        spins = [_largest_turn(impacts, body) for body in (impacts.body, impacts.other)]
+    finite = np.isfinite([*numbers, impacts.v2, energy, *spins]).all(axis=0)
+    least = continuum.LEAST_RESTITUTION
+    low = np.flatnonzero(impacts.restitution < least)
+    low = low[~slides_throughout(impacts.take(low)) & (impacts.v1[low] > 0)]
+    messages = {}  # the last one of several problems counts
+    for i in np.flatnonzero(~finite).tolist():
+        messages[i] = "its numbers are too large or too small to compute with"
+    for i in np.flatnonzero(~(impacts.v2 > 0) & finite).tolist():
+        messages[i] = (
+            f"normal velocity of approach = {impacts.v2[i]:g}: the bodies must approach each other"
+        )
+    for i in np.flatnonzero(finite & np.isinf(unit)).tolist():
+        messages[i] = (
+            f"friction = {impacts.friction[i]:g} times normal velocity of approach = "
+            f"{impacts.v2[i]:g} is too large a number to compute with"
+        )
+    for i in low.tolist():
+        messages[i] = (
+            f"restitution = {impacts.restitution[i]}: allowed are numbers from {least} where the "
+            "contact sticks at some time"
+        )
+    for i in np.flatnonzero(impacts.mass_ratio > LARGEST_RATIO).tolist():
+        messages[i] = (
+            f"mass ratio m2/m1 = {impacts.mass_ratio[i]:g}: allowed are numbers up to "
+            f"{LARGEST_RATIO:g}"
+        )
+    for i in np.flatnonzero(np.abs(length - 1) > UNIT).tolist():
+        messages[i] = f"normal_x, y, z have the length {length[i]:g}: allowed is 1"
+    return messages
+
+
+def after(impacts: Impacts, tangential_velocity: Array) -> tuple[State, State, Array]:
+    """States of the body and the other one after the impact, and the impulse on the body [N s].
+
+    `tangential_velocity` is that of the contact point, in the direction of `impacts.tangent` [m/s].
+    """
+    change = (tangential_velocity - impacts.v1) / impacts.mass_ratio
+    # P1 = m1 (v1(tf) - v1(0)), m1 = m2/beta; P2 = (1 + e) m2 v2(0). Both are divided by m2, so that
+    # they do not overflow in any units.
+    impulse = change * impacts.tangent + (1 + impacts.restitution) * impacts.v2 * impacts.normal
+    m2 = impacts.m2
+    state = _after_impulse(impacts.before, impacts.body, m2, impulse, -impacts.normal)
+    other = _after_impulse(impacts.other_before, impacts.other, m2, -impulse, impacts.normal)
+    with np.errstate(over="ignore"):
+        return state, other, impulse * m2
+
+
+def energy_lost(impacts: Impacts, tangential_velocity: Array) -> Array:
+    """Kinetic energy lost by both bodies [J]: in the normal element, and tangentially."""
+    e, v1, after = impacts.restitution, impacts.v1, tangential_velocity
+    # The masses come first: a square of a velocity may overflow where the energy does not.
+    normal = (1 - e) * (1 + e) * (impacts.m2 / 2 * impacts.v2 * impacts.v2)
+    m1 = impacts.m2 / impacts.mass_ratio
+    return normal + m1 / 2 * (v1 - after) * (v1 + after)
+
+
+def contact_velocity(state: State, body: Body, towards: Array) -> Array:
+    """Velocity of the contact point, at the body's radius in the direction `towards`."""
+    return state.velocity + body.radius * _cross(state.spin, towards)
+
+
+def _after_impulse(state: State, body: Body, m2: Array, impulse: Array, towards: Array) -> State:
+    """State after an impulse at the contact point, which is given over m2."""
+    change = impulse * (m2 / body.mass)
+    turn = _cross(towards, change) * (body.radius / body.gyration) / body.gyration
+    return State(state.velocity + change, state.spin + turn)
+
+
+def _dot(a: Array, b: Array) -> Array:
+    """Products of vectors, shape (3, n)."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """Right-handed products of vectors, shape (3, n); that of NumPy takes three times as long."""
+    return np.stack(
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    )
+
+
+def _largest_turn(impacts: Impacts, body: Body) -> Array:
+    """More than an impact can change the spin of a body [rad/s]."""
+    change = 2 * (impacts.v1 + impacts.v2) * (impacts.m2 / body.mass)
+    return change * (body.radius / body.gyration) / body.gyration
+
+
+def _restitution(pair: Pair, body: Body, other: Body, m2: Array, v2: Array) -> Array:
+    """Restitution: that of the pair, or what its material has at the speed of each impact."""
+    e = pair.restitution
+    for name, law in LAWS.items():
+        value = getattr(pair, name)
+        has = ~np.isnan(value)
+        if has.any():
+            # All impacts are computed, so that a refusal has the index of its row: with a small
+            # number for each quantity where there is no such law, or nothing approaches.
+            meets = has & (v2 > 0) & np.isfinite(v2)
+            quantities = v2, value, m2, pair.effective_modulus, effective_radius(body, other)
+            of_meeting = law(*(np.where(meets, quantity, 1e-3) for quantity in quantities))
+            e = np.where(has, of_meeting, e)
+    return e

@@ -1,0 +1,225 @@
+"""A pair of materials, or a table of pairs: friction, stiffness, and what takes the energy."""
+
+from typing import Any
+
+import numpy as np
+
+from planarimpact import bodies
+from planarimpact.bodies import Material
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, ArrayLike, Booleans
+from planarimpact.ground.checks import InputError
+
+LOSSES = "viscous", "plastic"
+# What says how much energy is lost: restitution, or what gives it at the speed of each impact.
+LAWS = {"restitution": None, "relaxation_time": "viscous", "yield_pressure": "plastic"}
+_FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *LAWS)
+
+
+class Pair:
+    """Two materials that touch, or an array of such pairs: all arguments broadcast.
+
+    Parameters
+    ----------
+    *materials : Material
+        Of both bodies; one alone touches a rigid body. Their fields may be arrays. They give the
+        stiffness ratio and the effective modulus, which are the other way to say the same.
+    friction : array_like
+        Coefficient of friction mu, from 0.
+    restitution : array_like, optional
+        Energetic coefficient e at every speed, 0 to 1; or else one of the next two.
+    relaxation_time : array_like, optional
+        [s], of viscous materials, see `bodies.viscous_restitution`: e follows from the speed.
+    yield_pressure : array_like, optional
+        [Pa], of materials that yield, see `bodies.plastic_restitution`: e follows from the speed.
+    loss : str or array_like of str, optional
+        What takes the energy where `restitution` is below 1: "viscous" (polymers, rubber) or
+        "plastic" (metals that yield).
+    stiffness_ratio : array_like, optional
+        zeta^2, normal over tangential stiffness, where there are no materials.
+    effective_modulus : array_like, optional
+        E* [Pa], where there are no materials; a relaxation time or a yield pressure needs it.
+
+    Attributes
+    ----------
+    friction, stiffness_ratio, effective_modulus, restitution, relaxation_time, yield_pressure
+        As above, arrays of one shape; NaN where the pair does not have it.
+    plastic : ndarray of bool
+        Whether the loss is plastic, else viscous; without a meaning where e = 1.
+    shape : tuple of int
+
+    Raises
+    ------
+    InputError
+        If an argument is not a number in its range, the loss is not said where it is needed, a pair
+        says its restitution in two ways or in none, or shapes do not broadcast.
+
+    Notes
+    -----
+    In a table some pairs may have a restitution, and others a relaxation time or a yield pressure:
+    NaN stands where a pair does not have it. `table[i, j]` is a pair or an array of pairs.
+
+    Examples
+    --------
+    >>> steel, glass = Material(207e9, 0.3), Material(70e9, 0.22)
+    >>> Pair(steel, glass, friction=0.15, restitution=0.9, loss="plastic")
+    <Pair: friction = 0.15, stiffness_ratio = 1.159, restitution = 0.9, plastic>
+    >>> table = Pair(
+    ...     stiffness_ratio=1.2, friction=[[0.1, 0.3], [0.3, 0.4]], restitution=0.8, loss="viscous"
+    ... )
+    >>> table[[0, 1], [1, 1]].friction.tolist()
+    [0.3, 0.4]
+    >>> Pair(steel, friction=0.1, restitution=0.8)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: restitution = 0.8: below 1 the loss must be said; allowed are \
+loss = viscous, plastic
+    """
+
+    friction: Array
+    stiffness_ratio: Array
+    effective_modulus: Array
+    restitution: Array
+    relaxation_time: Array
+    yield_pressure: Array
+    plastic: Booleans
+    __slots__ = (*_FIELDS, "plastic")
+
+    def __init__(
+        self,
+        *materials: Material,
+        friction: ArrayLike,
+        restitution: ArrayLike | None = None,
+        relaxation_time: ArrayLike | None = None,
+        yield_pressure: ArrayLike | None = None,
+        loss: str | ArrayLike | None = None,
+        stiffness_ratio: ArrayLike | None = None,
+        effective_modulus: ArrayLike | None = None,
+    ) -> None:
+        laws = {
+            "restitution": _law("restitution", restitution, "numbers from 0 to 1", 0, 1),
+            "relaxation_time": _law("relaxation_time", relaxation_time, "numbers from 0", 0),
+            "yield_pressure": _law("yield_pressure", yield_pressure, "numbers above 0", 5e-324),
+        }
+        stiffness = _stiffness(materials, stiffness_ratio, effective_modulus)
+        mu = checks.not_negative("friction", friction)
+        named = {"friction": mu, **stiffness, **laws, "loss": _loss_codes(loss)}
+        arrays = dict(zip(named, checks.broadcast(**named), strict=True))
+        codes = arrays.pop("loss")
+        for name, values in arrays.items():
+            object.__setattr__(self, name, values)
+        _refuse_other_laws(arrays)
+        by_law = ~np.isnan(self.relaxation_time) | ~np.isnan(self.yield_pressure)
+        _refuse_loss(self.restitution, by_law, codes)
+        if (by_law & np.isnan(self.effective_modulus)).any():
+            raise InputError(
+                "effective_modulus: missing; a relaxation time or a yield pressure needs it, or "
+                "the materials"
+            )
+        object.__setattr__(self, "plastic", (codes == 1) | ~np.isnan(self.yield_pressure))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"a Pair cannot be changed: make a new one with another {name}")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle and copy it by its fields."""
+        return _made, tuple(getattr(self, name) for name in self.__slots__)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the array of pairs; () of a single one."""
+        return self.plastic.shape
+
+    def __getitem__(self, index: Any) -> "Pair":
+        """Some pairs of a table, by an index as of its arrays."""
+        return _made(*(getattr(self, name)[index] for name in self.__slots__))
+
+    def broadcast(self, shape: tuple[int, ...]) -> "Pair":
+        """Pairs in one row, for impacts of a shape that this table broadcasts to."""
+        fields = (getattr(self, name) for name in self.__slots__)
+        return _made(*(np.broadcast_to(field, shape).reshape(-1) for field in fields))
+
+    def __repr__(self) -> str:
+        if self.shape:
+            return f"<Pair: table of shape {self.shape}>"
+        numbers = {name: float(getattr(self, name)) for name in _FIELDS}
+        del numbers["effective_modulus"]
+        shown = [f"{k} = {v:.4g}" for k, v in numbers.items() if not np.isnan(v)]
+        loss = [] if numbers["restitution"] == 1 else [LOSSES[int(self.plastic)]]
+        return f"<Pair: {', '.join(shown + loss)}>"
+
+
+def _made(*fields: Array) -> Pair:
+    """A pair of fields that are checked already, in the order of its slots."""
+    pair = object.__new__(Pair)
+    for name, values in zip(Pair.__slots__, fields, strict=True):
+        object.__setattr__(pair, name, np.asarray(values))
+    return pair
+
+
+def _law(name: str, value: ArrayLike | None, allowed: str, low: float, high: float = 0) -> Array:
+    """Numbers of one law, NaN where a pair does not have it."""
+    if value is None:
+        return np.array(np.nan)
+    numbers = np.asarray(value)
+    known = numbers.dtype.kind != "f" or ~np.isnan(numbers)
+    filled = np.where(known, value, low) if numbers.dtype.kind == "f" else value
+    high = high or np.finfo(float).max
+    return np.where(known, checks.checked(name, filled, f"finite {allowed}", low, high), np.nan)
+
+
+def _stiffness(
+    materials: tuple[Material, ...], ratio: ArrayLike | None, modulus: ArrayLike | None
+) -> dict[str, Array]:
+    """Stiffness ratio and effective modulus, from the materials or as they are given."""
+    if bool(materials) == (ratio is not None):
+        raise InputError("materials, stiffness_ratio: needed is one of the two")
+    if materials:
+        if modulus is not None:
+            raise InputError("effective_modulus: it does not apply, the materials have it")
+        if len(materials) > 2:
+            raise InputError(f"{len(materials)} materials: allowed are one or two")
+        return {
+            "stiffness_ratio": bodies.stiffness_ratio(*materials),
+            "effective_modulus": bodies.effective_modulus(*materials),
+        }
+    known = np.nan if modulus is None else checks.positive("effective_modulus", modulus)
+    return {
+        "stiffness_ratio": checks.stiffness_ratio(ratio if ratio is not None else np.nan),
+        "effective_modulus": np.asarray(known),
+    }
+
+
+def _loss_codes(loss: str | ArrayLike | None) -> Array:
+    """Place of each loss in `LOSSES`, -1 where none is said."""
+    names = np.asarray("" if loss is None else loss)
+    codes = np.full(names.shape, -1.0)
+    for code, name in enumerate(LOSSES):
+        codes[names == name] = code
+    unknown = names[(codes < 0) & (names != "")] if names.dtype.kind == "U" else names.ravel()
+    if unknown.size:
+        checks.loss(unknown.tolist()[0], LOSSES)
+    return codes
+
+
+def _refuse_other_laws(arrays: dict[str, Array]) -> None:
+    """Refuse pairs that say how much energy is lost in two ways, or in none."""
+    said = np.sum([~np.isnan(arrays[name]) for name in LAWS], axis=0)
+    if (said != 1).any():
+        count = int(np.atleast_1d(said)[np.atleast_1d(said) != 1][0])
+        raise InputError(f"{', '.join(LAWS)}: {count} of them given, needed is exactly one a pair")
+
+
+def _refuse_loss(restitution: Array, by_law: Booleans, codes: Array) -> None:
+    """Refuse a loss that is missing below e = 1, or said where the material says it."""
+    missing = (restitution < 1) & (codes < 0)
+    if missing.any():
+        raise InputError(
+            f"restitution = {restitution[missing].flat[0]:g}: below 1 the loss must be said; "
+            f"allowed are loss = {', '.join(LOSSES)}"
+        )
+    if (by_law & (codes >= 0)).any():
+        raise InputError(
+            f"loss = {LOSSES[int(codes[by_law & (codes >= 0)].flat[0])]!r}: it does not apply, a "
+            "relaxation time is always viscous and a yield pressure plastic"
+        )
