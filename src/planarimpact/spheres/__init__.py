@@ -207,9 +207,10 @@ def _rebound(
     answer = table.evaluate(table.shipped(), y[rows], b[rows], e[rows], plastic[rows], forces)
     sticks = np.flatnonzero(~answer.slides)
     rows = rows[sticks]
-    x, beta, zeta2, plastic = x[rows], beta[rows], zeta2[rows], plastic[rows]
-    # The exact values have these bounds.
-    w = np.clip(zeta2 * answer.velocity[sticks], -x, x)
+    x, beta, zeta2, e, plastic = x[rows], beta[rows], zeta2[rows], e[rows], plastic[rows]
+    # The exact values have these bounds: energy, and Coulomb's limit.
+    least = np.maximum(-x, sliding.velocity(x, beta, e))
+    w = np.clip(zeta2 * answer.velocity[sticks], least, x)
     velocity[rows] = w
     if forces:
         peak[rows] = np.clip(answer.peak[sticks], 0.0, 1.0)
