@@ -675,7 +675,7 @@ def test_without_a_package_it_says_what_to_install(table, package, who):
     code += f"sys.exit(main(['scene', {str(table)!r}, 'out.csv']))"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert result.returncode == 2
-    assert f"{who} needs {package}: pip install {package}" in result.stderr
+    assert f"{who} needs {package}: pip install 'planarimpact[scene]'" in result.stderr
 
 
 def test_a_result_in_json(table):

@@ -1,9 +1,7 @@
 """Scenes: columns, plane and space, energy, blocks, and the choice of a rung."""
 
-import importlib
 import itertools
 import re
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -173,13 +171,6 @@ def test_what_is_no_table_is_refused(given):
         InputError, match="table = .*: allowed is a pandas DataFrame; .* reads files"
     ):
         scene.solve(given)
-
-
-def test_without_pandas_it_says_what_to_install(monkeypatch):
-    monkeypatch.setitem(sys.modules, "pandas", None)
-    monkeypatch.delitem(sys.modules, "planarimpact.scene")
-    with pytest.raises(ImportError, match="planarimpact.scene needs pandas: pip install pandas"):
-        importlib.import_module("planarimpact.scene")
 
 
 def test_index_and_id_are_kept_and_blocks_do_not_show(monkeypatch):

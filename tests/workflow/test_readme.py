@@ -15,7 +15,8 @@ from stronge1994 import csv_tables
 from stronge1994.plan import readmes
 
 ROOT = Path(__file__).parents[2]
-PATHS = [ROOT / "README.md", *sorted(ROOT.glob("[a-z]*/README.md")), ROOT / "data/scenes/README.md"]
+PATHS = [ROOT / "README.md", *sorted(ROOT.glob("[a-z]*/README.md"))]
+PATHS += [ROOT / "data/scenes/README.md", ROOT / "src/planarimpact/README.md"]
 TEXTS = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in PATHS}
 MAIN, SOLVER = TEXTS["README.md"], TEXTS["src/README.md"]
 EXAMPLES = [
@@ -78,7 +79,7 @@ def sections(path):
 
 
 def test_figures_and_sources_are_listed_as_their_folders_say():
-    """If not: `python -m stronge1994.plan.readmes` writes them anew."""
+    """If not: `PYTHONPATH=src python -m stronge1994.plan.readmes` writes them anew."""
     for path, text in readmes.texts().items():
         assert path.read_text(encoding="utf-8") == text
 
