@@ -76,7 +76,7 @@ def velocity(y: float, b: float, e: float, plastic: bool) -> float | None:
         panel, t = panels[2], (e - low) / (high - low)
     else:
         panel, t = panels[3], sqrt(sqrt((1 - e) / (1 - high)))
-    varying = [_between(grid, t, u) for grid in panel.edges]
+    varying = _between(panel.edges, t, u)
     if not plastic:
         edges = [0.0, 1.0, varying[0], min(varying[1], b), b, alike]
     else:
@@ -154,10 +154,17 @@ def _weights(x: float) -> tuple[float, float, float, float]:
     )
 
 
-def _between(grid: list[list[float]], t: float, u: float) -> float:
-    """Linear interpolation of a grid over t and u."""
-    i, over = _place(t, len(grid) - 1)
-    j, across = _place(u, len(grid[0]) - 1)
-    rows = grid[i], grid[i + 1]
-    before, after = ((1 - across) * row[j] + across * row[j + 1] for row in rows)
-    return (1 - over) * before + over * after
+def _between(grids: list[list[list[float]]], t: float, u: float) -> list[float]:
+    """Linear interpolation of grids over t and u."""
+    if not grids:
+        return []
+    i, over = _place(t, len(grids[0]) - 1)
+    j, across = _place(u, len(grids[0][0]) - 1)
+    less = 1 - across
+    values = []
+    for grid in grids:
+        low, high = grid[i], grid[i + 1]
+        before = less * low[j] + across * low[j + 1]
+        after = less * high[j] + across * high[j + 1]
+        values.append((1 - over) * before + over * after)
+    return values
