@@ -1,9 +1,20 @@
 """`collide` on random impacts: conservation, Coulomb's limit, frames, one impact beside many."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
-from planarimpact import InputError, Pair, Regime, bodies, collide, collision, continuum, spheres
+from planarimpact import (
+    InputError,
+    Pair,
+    Regime,
+    bodies,
+    collide,
+    collision,
+    continuum,
+    scene,
+    spheres,
+)
 from planarimpact.collision import single
 
 COUNT = 100_000
@@ -41,7 +52,7 @@ def pairs(rng, count):
     )
 
 
-def scene(count=COUNT, seed=1):
+def random_impacts(count=COUNT, seed=1):
     """Arguments of `collide`; some bodies part or only touch, some are head-on."""
     rng = np.random.default_rng(seed)
     normal, body, other = directions(rng, count), balls(rng, count, 0.0), balls(rng, count)
@@ -59,7 +70,7 @@ def scene(count=COUNT, seed=1):
 
 @pytest.fixture(scope="module")
 def impacts():
-    arguments = scene()
+    arguments = random_impacts()
     return arguments, collide(*arguments)
 
 
@@ -215,6 +226,36 @@ def test_restitution_of_single_impacts_follows_the_speed(impacts):
             scale = np.abs(v).max() + np.abs(w).max() * one.radius
             assert np.abs(found.velocity - after.velocity[i]).max() <= 1e-7 * scale
     assert checked > 100
+
+
+def test_a_scene_has_the_same_answers():
+    """One table with `loss`, one with a yield pressure; vectors are its columns."""
+    rng, count = np.random.default_rng(4), 300
+    normal, other = directions(rng, count), bodies.solid_sphere(0.02, 2500.0)
+    velocity, other_velocity, spin = rng.normal(size=(3, count, 3)) * [[[1]], [[1]], [[50]]]
+    normal *= -np.sign(dot(velocity - other_velocity, normal))[:, None]
+    glass = {"young_modulus [Pa]": 70e9, "poisson_ratio": 0.2}
+    table = {"radius [m]": 0.01, "density [kg/m^3]": 7800.0, "friction": 0.2}
+    table |= {"young_modulus [Pa]": 207e9, "poisson_ratio": 0.3, "other_radius [m]": 0.02}
+    table |= {"other_density [kg/m^3]": 2500.0} | {f"other_{k}": v for k, v in glass.items()}
+    for k, axis in enumerate("xyz"):
+        table |= {f"normal_{axis}": normal[:, k], f"velocity_{axis} [m/s]": velocity[:, k]}
+        table |= {f"other_velocity_{axis} [m/s]": other_velocity[:, k]}
+        table |= {f"spin_{axis} [rad/s]": spin[:, k], f"other_spin_{axis} [rad/s]": 0.0}
+    for header, law in (
+        ({"restitution": 0.8, "loss": "viscous"}, {"restitution": 0.8, "loss": "viscous"}),
+        ({"yield_pressure [Pa]": 2e9}, {"yield_pressure": 2e9}),
+    ):
+        pair = Pair(STEEL, bodies.Material(*glass.values()), friction=0.2, **law)
+        after = collide(
+            *(pair, normal, BALL, velocity, spin, other, other_velocity), tolerance=1e-3
+        )
+        rows = scene.solve(pd.DataFrame(table | header), tolerance=1e-3)
+        for name, vectors in (("velocity", after.velocity), ("other_spin", after.other_spin)):
+            unit = "rad/s" if "spin" in name else "m/s"
+            columns = [f"{name}_{axis}_after [{unit}]" for axis in "xyz"]
+            np.testing.assert_allclose(rows[columns], vectors, rtol=1e-9, atol=1e-9)
+        np.testing.assert_allclose(rows["model_form [m/s]"], after.model_form, atol=1e-12)
 
 
 STEEL = bodies.Material(207e9, 0.3)
