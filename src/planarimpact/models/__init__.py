@@ -188,7 +188,8 @@ def input_spread(
     -------
     ndarray of float64 or float
         In mu v2(0), with mu as it is believed to be; the shape of `incidence`. If mu is r times as
-        large, a velocity w(x) becomes r w(x/r). Both errors are normal and independent.
+        large, a velocity w(x) becomes r w(x/r). Both errors are normal and independent. A model
+        for e = 1 alone has that of friction alone.
 
     Raises
     ------

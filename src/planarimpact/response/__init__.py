@@ -57,7 +57,8 @@ TOLERANCES = {
 MODEL_SHARE = 1 / 4
 # Share of the tolerance that the fit gets, at the first try and at the second.
 FIT_SHARES = 1 / 4, 1 / 32
-# When a file is checked, a model with a tolerance setting is solved with this one first.
+# When a file is checked, a model with a tolerance setting is solved with this one first. It is also
+# the default tolerance of classes of cost that `TOLERANCES` does not have.
 COARSE = 1e-3
 
 
@@ -289,7 +290,8 @@ def compile(
     tolerance : float, optional
         Allowed error of velocity (mu v2(0)) and peak friction (mu F2max), as `error_bound` measures
         it; 1e-11 to 1, and at least 4e-15 of the largest incidence that does not slide throughout
-        by formula. By default that of `TOLERANCES` for the model's class of cost.
+        by formula. By default that of `TOLERANCES` for the model's
+        class of cost, 1e-3 for other classes.
     progress : callable, optional
         Called after every batch of impacts that the model solves, with the number of impacts solved
         so far and the share of incidences that are fitted. The share may fall again, where a kink
@@ -319,7 +321,7 @@ def compile(
     inf
     """
     if tolerance is None:
-        tolerance = TOLERANCES[models.get(model).cost]
+        tolerance = TOLERANCES.get(models.get(model).cost, COARSE)
     chosen, groups, settings, tolerance, slides_from, end, answered_to = _checked_question(
         model, incidence_max, tolerance, parameters
     )
@@ -394,7 +396,7 @@ def _reached(
             model.rebound(x, *groups.values(), **dict(settings) | {"tolerance": share})
         except checks.Unsolved:
             continue
-        default = TOLERANCES[model.cost]
+        default = TOLERANCES.get(model.cost, COARSE)
         return (
             f"does not reach it at incidence = {x[0]:g}; there {tolerance:g} is reached, "
             f"and the default is {default:g}"
