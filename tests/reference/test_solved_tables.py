@@ -138,7 +138,7 @@ def test_a_fault_in_the_code_leaves_the_table(name, fault, monkeypatch):
 
 CHEAPER = {
     "rigid": lambda model, *groups: rigid.rebound(*groups),
-    "lumped": lambda model, *groups: lumped.rebound(*groups),
+    "lumped.hysteretic": lambda model, *groups: lumped.rebound(*groups),
     "lumped with the loss": lambda model, *groups: lumped.rebound(
         *groups, loss={"continuum.viscous": "viscous"}.get(model, "unloading-stiffness")
     ),

@@ -43,7 +43,8 @@ def peers(module, below=False):
             own = {"loss": loss, "restitution [1]": e}
             law = "LAMMPS mindlin, viscoelastic, xt = 0"
             rows[f"{law}, e = {e:g}, {loss}"] = picture_tables.row(law, 1.1 - e, 1e-5, **own)
-            rows[f"lumped, e = {e:g}, {loss}"] = picture_tables.row("lumped", 1 - e, 1e-5, **own)
+            paper = "lumped.hysteretic"
+            rows[f"{paper}, e = {e:g}, {loss}"] = picture_tables.row(paper, 1 - e, 1e-5, **own)
     return module.draw_errors(rows) if below else module.draw(curves, rows, settings)
 
 

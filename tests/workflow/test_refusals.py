@@ -76,11 +76,11 @@ BAD_CONFIG = [
     (figure("inelastic", points="maw1976/slip_throughout_limit"), "limit' is no series"),
     (figure("inelastic", solved="3"), "inelastic.solved: 3 is less than the minimum of 16"),
     (
-        comparison("inelastic-lumped-pairs", metric="distance"),
+        comparison("inelastic-lumped.hysteretic-pairs", metric="distance"),
         "a stated series goes with metric vertices",
     ),
     (
-        comparison("inelastic-lumped-pairs", allowance={"x": "0", "y": "1"}),
+        comparison("inelastic-lumped.hysteretic-pairs", allowance={"x": "0", "y": "1"}),
         "a stated series goes with metric vertices, without `allowance`",
     ),
     (figure("stability", points="maw1976/slip_throughout_limit"), "limit' is no series"),

@@ -3,11 +3,13 @@
 Each model is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)`,
 the four groups by position or name and its own settings by name. It returns a `Rebound`. The
 workflow measures what each model costs and how large its error is (`results/trade.csv`).
+
+A name says what takes the energy below e = 1, such as "lumped.hysteretic", the paper's model.
+"lumped" and "continuum" alone are elastic. A law of impulses takes any loss.
 """
 
-import warnings
 from collections.abc import Callable, Mapping
-from functools import partial
+from functools import partial, wraps
 from itertools import product
 from typing import NamedTuple, TypeAlias
 
@@ -22,8 +24,6 @@ from planarimpact.models import laws, timestep
 
 # How well e and mu of a pair of materials are known in practice: e to 0.02, mu to 10 %.
 RESTITUTION_ERROR, FRICTION_ERROR = 0.02, 0.1
-# Names of an earlier release.
-OLD_NAMES = {"lumped.plastic": "lumped.unloading-stiffness"}
 # Gauss's points of a normal distribution, in standard deviations, and their weights.
 POINTS = ((-(3**0.5), 1 / 6), (0.0, 2 / 3), (3**0.5, 1 / 6))
 
@@ -55,6 +55,9 @@ class Model(NamedTuple):
     kinks : callable
         Incidences, by the same arguments, where its velocity is known to have a kink; there may be
         more.
+    loss : str
+        What takes the energy below e = 1: "any" for laws of impulses, to which it makes no
+        difference; "" where nothing does, or nobody has said it.
     """
 
     name: str
@@ -66,6 +69,7 @@ class Model(NamedTuple):
     source: str
     sliding_limit: Callable[..., float] | None
     kinks: Callable[..., tuple[float, ...]]
+    loss: str = ""
 
 
 def get(name: str) -> Model:
@@ -93,14 +97,10 @@ def get(name: str) -> Model:
     Traceback (most recent call last):
     ...
     planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, lumped, \
-lumped.unloading-stiffness, lumped.viscous, timestep.linear, timestep.mindlin, \
+lumped.hysteretic, lumped.unloading-stiffness, lumped.viscous, timestep.linear, timestep.mindlin, \
 timestep.mindlin_rescaled, continuum, continuum.viscous, continuum.plastic, spheres.viscous, \
 spheres.plastic, annuli
     """
-    if isinstance(name, str) and name in OLD_NAMES:
-        words = f"model {name!r} is called {OLD_NAMES[name]!r} now"
-        warnings.warn(words, DeprecationWarning, stacklevel=3)
-        name = OLD_NAMES[name]
     if not isinstance(name, str) or name not in MODELS:
         raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
     return MODELS[name]
@@ -138,6 +138,12 @@ def rebound(
     --------
     >>> float(rebound("rigid", 8.0).velocity)
     1.0
+    >>> rebound("lumped", 2.0, restitution=0.8)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: restitution = 0.8: allowed are numbers equal to 1, unless the model's \
+name says what takes the energy: lumped.hysteretic (the paper's), lumped.unloading-stiffness, \
+lumped.viscous
     >>> rebound("lumped", 8.0, steps=4)
     Traceback (most recent call last):
     ...
@@ -182,7 +188,8 @@ def input_spread(
     -------
     ndarray of float64 or float
         In mu v2(0), with mu as it is believed to be; the shape of `incidence`. If mu is r times as
-        large, a velocity w(x) becomes r w(x/r). Both errors are normal and independent.
+        large, a velocity w(x) becomes r w(x/r). Both errors are normal and independent. A model
+        for e = 1 alone has that of friction alone.
 
     Raises
     ------
@@ -234,8 +241,9 @@ def admits(model: Model, mass_ratio: float, stiffness_ratio: float, restitution:
 
     Examples
     --------
-    >>> [admits(get(name), 3.5, 5.0, 0.5) for name in ("lumped", "continuum", "spheres.plastic")]
-    [True, False, False]
+    >>> names = "lumped", "lumped.hysteretic", "spheres.plastic"
+    >>> [admits(get(name), 3.5, 5.0, 0.5) for name in names]
+    [False, True, False]
     """
     low, high = model.restitution
     covered = model.cost != "table" or spheres.covers(mass_ratio, stiffness_ratio, restitution)
@@ -264,6 +272,70 @@ def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
         if key not in model.settings:
             known = f"the settings {', '.join(model.settings)}" if model.settings else "no settings"
             raise checks.InputError(f"{key} = {checks.brief(value)}: {model.name} has {known}")
+
+
+def loss_of(model: str, restitution: float) -> str:
+    """What takes the energy of an impact by the model of a name.
+
+    Parameters
+    ----------
+    model : str
+        One of `MODELS`.
+    restitution : float
+        e, 0 to 1.
+
+    Returns
+    -------
+    str
+        "none" for e = 1, else as `Model.loss`.
+
+    Examples
+    --------
+    >>> [loss_of(name, 0.8) for name in ("continuum.plastic", "timestep.linear", "rigid")]
+    ['plastic', 'hysteretic', 'any']
+    >>> loss_of("lumped", 1.0)
+    'none'
+    """
+    return "none" if restitution == 1 else get(model).loss
+
+
+def losses(model: str) -> dict[str, str]:
+    """Names of the models that are a model with a loss, by that loss.
+
+    Parameters
+    ----------
+    model : str
+        Name of a model without loss, such as "lumped".
+
+    Returns
+    -------
+    dict of str
+
+    Examples
+    --------
+    >>> losses("continuum")
+    {'viscous': 'continuum.viscous', 'plastic': 'continuum.plastic'}
+    >>> losses("rigid")
+    {}
+    """
+    return {other.loss: name for name, other in MODELS.items() if name == f"{model}.{other.loss}"}
+
+
+def _elastic(name: str, solve: Callable[..., Rebound]) -> Callable[..., Rebound]:
+    """A solver with the loss left out, for e = 1 alone; a refusal names the models with a loss."""
+
+    @wraps(solve)
+    def rebound(
+        incidence: ArrayLike,
+        mass_ratio: ArrayLike = 3.5,
+        stiffness_ratio: ArrayLike = 1.21,
+        restitution: ArrayLike = 1.0,
+        **settings: float,
+    ) -> Rebound:
+        checks.lossless(restitution, losses(name).values(), "the model's name")
+        return solve(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
+
+    return rebound
 
 
 # What the table below has as `sliding_limit` and `kinks`: functions of mass ratio, stiffness ratio,
@@ -329,6 +401,7 @@ MODELS = {
             "Stronge 1994, Eqs 34, 35, 41",
             _stiff_limit,
             lambda beta, zeta2, e: (beta, _stiff_limit(beta, zeta2, e)),
+            "any",
         ),
         Model(
             "laws.smith",
@@ -340,6 +413,7 @@ MODELS = {
             "C. E. Smith, J. Appl. Mech. 58 (1991) 754-758",
             _stiff_limit,
             _limit_alone(_stiff_limit),
+            "any",
         ),
         Model(
             "laws.brach",
@@ -352,17 +426,30 @@ MODELS = {
             "(1989) 133-138",
             _BRACH_LIMIT,
             _limit_alone(_BRACH_LIMIT),
+            "any",
         ),
         Model(
             "lumped",
-            lumped.rebound,
+            _elastic("lumped", lumped.rebound),
             {},
             "phases",
-            _ANY,
-            "linear springs, contact sticks and slips as a whole; solved to rounding",
+            _ELASTIC,
+            "linear springs, contact sticks and slips as a whole; solved to rounding; e = 1 only",
             "Stronge 1994",
             _HYSTERETIC_LIMIT,
             _compliant_kinks(_HYSTERETIC_LIMIT),
+        ),
+        Model(
+            "lumped.hysteretic",
+            partial(lumped.rebound, loss="hysteretic"),
+            {},
+            "phases",
+            _ANY,
+            "the paper's model: as lumped, the normal spring alone loses energy; to rounding",
+            "Stronge 1994",
+            _HYSTERETIC_LIMIT,
+            _compliant_kinks(_HYSTERETIC_LIMIT),
+            "hysteretic",
         ),
         Model(
             "lumped.unloading-stiffness",
@@ -374,6 +461,7 @@ MODELS = {
             "Stronge 1994, with the elastic stiffness of unloading in the ratio",
             _UNLOADING_LIMIT,
             lambda beta, zeta2, e: (e * e * zeta2, beta, _UNLOADING_LIMIT(beta, zeta2, e)),
+            "unloading-stiffness",
         ),
         Model(
             "lumped.viscous",
@@ -385,6 +473,7 @@ MODELS = {
             "T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469, for the normal element",
             _VISCOUS_LIMIT,
             _compliant_kinks(_VISCOUS_LIMIT),
+            "viscous",
         ),
         Model(
             "timestep.linear",
@@ -396,6 +485,7 @@ MODELS = {
             "P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65",
             None,
             _compliant_kinks(_HYSTERETIC_LIMIT),
+            "hysteretic",
         ),
         Model(
             "timestep.mindlin",
@@ -407,6 +497,7 @@ MODELS = {
             "R. D. Mindlin, J. Appl. Mech. 16 (1949) 259-268; as in LAMMPS, mindlin/force",
             None,
             _compliant_kinks(_HYSTERETIC_LIMIT),
+            "hysteretic",
         ),
         Model(
             "timestep.mindlin_rescaled",
@@ -418,10 +509,13 @@ MODELS = {
             "C. Thornton et al., Powder Technology 233 (2013) 30-46; LAMMPS, mindlin_rescale/force",
             None,
             _compliant_kinks(_HYSTERETIC_LIMIT),
+            "hysteretic",
         ),
         Model(
             "continuum",
-            partial(continuum.rebound, tolerance=continuum.ELASTIC_TOLERANCE),
+            partial(
+                _elastic("continuum", continuum.rebound), tolerance=continuum.ELASTIC_TOLERANCE
+            ),
             {"tolerance": continuum.ELASTIC_TOLERANCE},
             "steps",
             _ELASTIC,
@@ -442,6 +536,7 @@ MODELS = {
             "Kuwabara, K. Kono, Jpn. J. Appl. Phys. 26 (1987) 1230-1233",
             _VISCOUS_LIMIT,
             _compliant_kinks(_VISCOUS_LIMIT),
+            "viscous",
         ),
         Model(
             "continuum.plastic",
@@ -453,6 +548,7 @@ MODELS = {
             "C. Thornton, J. Appl. Mech. 64 (1997) 383-386",
             _yielding_limit,
             _compliant_kinks(_yielding_limit),
+            "plastic",
         ),
         *(
             Model(
@@ -466,6 +562,7 @@ MODELS = {
                 "solved by this package, planarimpact.spheres.making",
                 limit,
                 _compliant_kinks(limit),
+                loss,
             )
             for loss, limit in zip(
                 spheres.LOSSES, (_VISCOUS_LIMIT, _tabled_yielding_limit), strict=True
@@ -486,7 +583,7 @@ MODELS = {
 }
 
 
-def reference(restitution: float, loss: str = "viscous") -> str:
+def reference(restitution: float, loss: str | None = None) -> str:
     """Name of the model that others are measured against.
 
     It is a continuum: elastic, or for e < 1 the one with this loss. If the loss is not known, the
@@ -496,8 +593,8 @@ def reference(restitution: float, loss: str = "viscous") -> str:
     ----------
     restitution : float
         e, 0 to 1.
-    loss : str
-        "viscous" or "plastic".
+    loss : str, optional
+        "viscous" or "plastic"; needed where e < 1.
 
     Returns
     -------
@@ -511,8 +608,11 @@ def reference(restitution: float, loss: str = "viscous") -> str:
 
     Examples
     --------
-    >>> reference(1.0), reference(0.9), reference(0.9, "plastic")
+    >>> reference(1.0), reference(0.9, "viscous"), reference(0.9, "plastic")
     ('continuum', 'continuum.viscous', 'continuum.plastic')
     """
+    if loss is None:
+        checks.lossless(restitution, continuum.LOSSES)
+        return "continuum"
     checks.loss(loss, continuum.LOSSES)
     return "continuum" if checks.restitution(restitution) == 1 else f"continuum.{loss}"

@@ -87,7 +87,7 @@ def curves(
     for model, sphere_rebound in (("lumped", whole), ("continuum", elastic["finite elements"])):
         elements = _sphere(x, sphere_rebound, finite_elements["mass_ratio"])
         named[f"{model}, finite elements"] = elements
-    for model in ("lumped", *continua.MODELS):
+    for model in ("lumped.hysteretic", *continua.MODELS):
         own = {"tolerance": loss_tolerance} if model in continua.MODELS else {}
         for name, shot in shots.items():
             rebound = models.rebound(model, shot.x, *_groups(shot.sphere), **own)
