@@ -499,8 +499,11 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser() -> argparse.ArgumentParser:
     """Parser of the command line, with one parser for each command."""
-    installed = Path(sys.argv[0]).stem == "planarimpact"
-    program = "planarimpact" if installed else "python -m planarimpact"
+    called = Path(sys.argv[0])
+    programs = {"planarimpact": "planarimpact", "__main__": "python -m planarimpact"}
+    program = programs.get(
+        called.stem, f"python {called.name}"
+    )  # a file with a model of a user's own
     parser = _Parser(prog=program, description=ABOUT)
     parser.add_argument("--version", action="version", version=f"planarimpact {__version__}")
     commands = parser.add_subparsers(required=True, metavar="command")

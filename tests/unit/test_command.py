@@ -368,6 +368,7 @@ def test_the_name_of_a_file_says_its_format(command, tmp_path, capsys):
     [
         ("/bin/planarimpact", "planarimpact"),
         ("/x/planarimpact/__main__.py", "python -m planarimpact"),
+        ("/home/me/my_law.py", "python my_law.py"),
     ],
 )
 def test_the_usage_says_how_it_was_called(program, called, monkeypatch, capsys):

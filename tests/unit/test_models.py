@@ -200,3 +200,76 @@ def test_a_model_says_what_takes_its_energy():
         said = {model.loss} - {"any", ""}
         assert model.restitution[0] == 1 or model.loss
         assert name.startswith("timestep") or said <= {name.partition(".")[2]}
+
+
+def two_lines(x, mass_ratio, stiffness_ratio, restitution, *, share=0.5):
+    return np.maximum(x - (1 + restitution) * mass_ratio, -share * x)
+
+
+def rebound_of(**change):
+    """The rebound of the rigid model, with some fields changed by functions of them."""
+
+    def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
+        result = models.rebound("rigid", incidence, mass_ratio, stiffness_ratio, restitution)
+        return result._replace(**{k: f(getattr(result, k)) for k, f in change.items()})
+
+    return rebound
+
+
+@pytest.fixture
+def own(monkeypatch):
+    """A law of one's own, registered for one test."""
+    monkeypatch.setattr(models, "MODELS", dict(models.MODELS))
+    law = models.laws.of_velocity(two_lines)
+    models.register(models.Model("own.two-lines", law, settings={"share": 0.5}))
+    return law
+
+
+def test_a_law_of_ones_own_is_a_model_like_others(own, tmp_path):
+    solved = models.rebound("own.two-lines", X, restitution=0.8, share=0.2)
+    brach = models.rebound("laws.brach", X, restitution=0.8, tangential_restitution=0.2)
+    for name in ("velocity", "dissipation", "regime"):
+        np.testing.assert_allclose(getattr(solved, name), getattr(brach, name), rtol=1e-13)
+    compiled = response.compile("own.two-lines", incidence_max=20, tolerance=1e-9, restitution=0.8)
+    compiled.save(tmp_path / "a.json")
+    loaded = response.load(tmp_path / "a.json")
+    expected = models.rebound("own.two-lines", X, restitution=0.8).velocity
+    np.testing.assert_allclose(loaded.velocity(X), expected, atol=1e-9)
+
+
+def test_an_own_model_may_be_replaced_but_none_of_the_package(own):
+    model = models.Model("own.two-lines", own, settings={"share": 0.5})
+    with pytest.raises(InputError, match="'own.two-lines': .*replace=True replaces"):
+        models.register(model)
+    models.register(model._replace(valid="again"), replace=True)
+    assert models.get("own.two-lines").valid == "again"
+    for name in ("rigid", "continuum.plastic"):
+        with pytest.raises(InputError, match="allowed are names that no model has$"):
+            models.register(model._replace(name=name), replace=True)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"name": "a, b"}, "name = 'a, b': allowed are letters"),
+        ({"restitution": (0.5, 1.5)}, r"restitution\[1\] = 1.5: allowed are two numbers"),
+        ({"restitution": (1.0, 0.5)}, r"restitution = \(1.0, 0.5\): allowed are two numbers"),
+        ({"cost": "table"}, "cost = 'table': allowed are formula, phases, steps"),
+        ({"settings": {"share": 0.4}}, "settings = {'share': 0.4}: allowed are the defaults"),
+        ({"settings": {"part": 0.4}}, "restitution 0: it fails: TypeError: .*'part'"),
+        ({"rebound": two_lines}, "it gives ndarray: allowed is a Rebound, which laws"),
+        (
+            {"rebound": models.laws.of_velocity(lambda x, *groups: x[:1])},
+            r"InputError: velocities, shape \(1,\): allowed is that of the incidences, \(8,\)",
+        ),
+        ({"rebound": rebound_of(regime=np.ravel)}, r"regime, shape \(8,\): allowed .* \(2, 4\)"),
+        ({"rebound": rebound_of(velocity=lambda w: w + 1)}, "-2 is 1, at 2 1: allowed"),
+        ({"rebound": rebound_of(velocity=lambda w: w + np.inf)}, "at incidence -9: .* finite"),
+    ],
+)
+def test_what_is_no_model_is_refused(change, words, monkeypatch):
+    monkeypatch.setattr(models, "MODELS", dict(models.MODELS))
+    model = models.Model("own", models.laws.of_velocity(two_lines))
+    with pytest.raises(InputError, match=words):
+        models.register(model._replace(**change))
+    assert "own" not in models.MODELS

@@ -19,6 +19,8 @@ PATHS = [ROOT / "README.md", *sorted(ROOT.glob("[a-z]*/README.md"))]
 PATHS += [ROOT / "data/scenes/README.md", ROOT / "src/planarimpact/README.md"]
 TEXTS = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in PATHS}
 MAIN, SOLVER = TEXTS["README.md"], TEXTS["src/README.md"]
+# Pages whose examples have a test of their own, or none.
+PAGES = ["CONTRIBUTING.md", "workflow/your_model_your_data.md"]
 EXAMPLES = [
     pytest.param(block, id=f"{name}-{number}")
     for name, text in TEXTS.items()
@@ -27,7 +29,7 @@ EXAMPLES = [
 ]
 # What a run builds, what a reader is told to add, and what is no path.
 NOT_THERE = re.compile(
-    r"(?<!stronge1994/)figures/(?!README|preview)|[.]wpd[.]csv$|fig10|data/sliding_line"
+    r"(?<!stronge1994/)figures/(?!README|preview)|[.]wpd[.]csv$|fig10|data/sliding_line|marble"
 )
 
 
@@ -59,9 +61,9 @@ def test_the_main_readme_is_short():
     assert len(MAIN.encode()) <= 10_000
 
 
-@pytest.mark.parametrize("name", TEXTS)
+@pytest.mark.parametrize("name", [*TEXTS, *PAGES])
 def test_paths_and_links_lead_somewhere(name):
-    text, folder = TEXTS[name], (ROOT / name).parent
+    text, folder = (ROOT / name).read_text(encoding="utf-8"), (ROOT / name).parent
     named = re.findall(r"`((?:data|workflow|src|tests|figures|profiles)/[\w./]+)`", text)
     missing = [path for path in named if not (ROOT / path).exists()]
     for link in re.findall(r"\]\((?!http)([^)]+)\)", text):

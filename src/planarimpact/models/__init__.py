@@ -5,13 +5,15 @@ the four groups by position or name and its own settings by name. It returns a `
 workflow measures what each model costs and how large its error is (`results/trade.csv`).
 
 A name says what takes the energy below e = 1, such as "lumped.hysteretic", the paper's model.
-"lumped" and "continuum" alone are elastic. A law of impulses takes any loss.
+"lumped" and "continuum" alone are elastic. A law of impulses takes any loss. `register` adds a
+model of your own.
 """
 
+import re
 from collections.abc import Callable, Mapping
 from functools import partial, wraps
 from itertools import product
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -24,12 +26,19 @@ from planarimpact.models import laws, timestep
 
 # How well e and mu of a pair of materials are known in practice: e to 0.02, mu to 10 %.
 RESTITUTION_ERROR, FRICTION_ERROR = 0.02, 0.1
+# Classes of cost. A table has an end, see `admits`.
+COSTS = ("formula", "table", "phases", "steps", "steps and springs", "steps and circles")
 # Gauss's points of a normal distribution, in standard deviations, and their weights.
 POINTS = ((-(3**0.5), 1 / 6), (0.0, 2 / 3), (3**0.5, 1 / 6))
 
 
+def _no_kinks(*groups: float, **settings: float) -> tuple[float, ...]:
+    """Kinks of a model of which none is known."""
+    return ()
+
+
 class Model(NamedTuple):
-    """One model.
+    """One model. Name and rebound are enough.
 
     Attributes
     ----------
@@ -62,13 +71,13 @@ class Model(NamedTuple):
 
     name: str
     rebound: Callable[..., Rebound]
-    settings: dict[str, float]
-    cost: str
-    restitution: tuple[float, float]
-    valid: str
-    source: str
-    sliding_limit: Callable[..., float] | None
-    kinks: Callable[..., tuple[float, ...]]
+    settings: dict[str, float] = {}
+    cost: str = "formula"
+    restitution: tuple[float, float] = (0.0, 1.0)
+    valid: str = ""
+    source: str = ""
+    sliding_limit: Callable[..., float] | None = None
+    kinks: Callable[..., tuple[float, ...]] = _no_kinks
     loss: str = ""
 
 
@@ -248,6 +257,112 @@ def admits(model: Model, mass_ratio: float, stiffness_ratio: float, restitution:
     low, high = model.restitution
     covered = model.cost != "table" or spheres.covers(mass_ratio, stiffness_ratio, restitution)
     return low <= restitution <= high and bool(covered)
+
+
+def register(model: Model, *, replace: bool = False) -> None:
+    """Add a model of your own: from then on `MODELS` and all that takes a name know it.
+
+    It lasts as long as the program runs. That `rebound` keeps the convention is tried with a few
+    impacts of a solid sphere (mass ratio 3.5, stiffness ratio 1.21), at both ends of its range of
+    restitution.
+
+    Parameters
+    ----------
+    model : Model
+        Its `name` has letters, digits, dots, hyphens and underscores. Its `rebound` takes the four
+        groups by position or name and the settings by name, and gives a `Rebound`;
+        `laws.of_velocity` makes one of a velocity alone.
+    replace : bool
+        Whether it may replace one of your own that has the same name.
+
+    Raises
+    ------
+    InputError
+        If the name is taken or is no name, the restitution is no range within 0 to 1, the cost is
+        none of `COSTS` or "table", or `rebound` fails, gives no `Rebound`, another shape than that
+        of the incidences, a velocity that is no number or not odd in the incidence, or other
+        velocities without its settings than with the defaults that `settings` states.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> @laws.of_velocity
+    ... def velocity(x, mass_ratio, stiffness_ratio, restitution, *, share=0.5):
+    ...     return np.maximum(x - (1 + restitution) * mass_ratio, -share * x)
+    >>> register(Model("example.half", velocity, settings={"share": 0.5}))
+    >>> rebound("example.half", [2.0, 9.0]).velocity.tolist()
+    [-1.0, 2.0]
+    >>> register(Model("rigid", velocity))
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: name = 'rigid': allowed are names that no model has
+    >>> del MODELS["example.half"]
+    """
+    if not isinstance(model, Model):
+        raise checks.InputError(f"model = {checks.brief(model)}: allowed are models.Model(...)")
+    name = model.name
+    if not isinstance(name, str) or not re.fullmatch(r"[A-Za-z][\w.-]*", name, re.ASCII):
+        allowed = "letters, digits, dots, hyphens and underscores, a letter first"
+        raise checks.InputError(f"name = {checks.brief(name)}: allowed are {allowed}")
+    taken = name in _OF_THE_PACKAGE
+    if taken or (name in MODELS and not replace):
+        own = "" if taken else "; replace=True replaces one of your own"
+        raise checks.InputError(f"name = {name!r}: allowed are names that no model has{own}")
+    allowed = "two numbers from 0 to 1, the smaller first"
+    ends = checks.checked("restitution", model.restitution, allowed, 0, 1)
+    if ends.shape != (2,) or ends[0] > ends[1]:
+        raise checks.InputError(f"restitution = {model.restitution}: allowed are {allowed}")
+    costs = [cost for cost in COSTS if cost != "table"]
+    if model.cost not in costs:
+        known = ", ".join(costs)
+        raise checks.InputError(f"cost = {checks.brief(model.cost)}: allowed are {known}")
+    for e in ends.tolist():
+        _refuse_other_convention(model, e)
+    MODELS[name] = model
+
+
+def _refuse_other_convention(model: Model, restitution: float) -> None:
+    """Refuse a model whose `rebound` is not as that of every other, at one restitution."""
+    x = np.array([[-9.0, -2.0, -0.5, 0.0], [9.0, 2.0, 0.5, 4.0]])
+    where = f"rebound of {model.name} at restitution {restitution:g}"
+    groups: dict[str, Any] = dict(zip(checks.RULES, (x, 3.5, 1.21, restitution), strict=True))
+
+    def answer(shape: tuple[int, ...], *by_position: ArrayLike, **by_name: Any) -> Rebound:
+        try:
+            result = model.rebound(*by_position, **by_name)
+        except Exception as error:
+            problem = f"{type(error).__name__}: {error}"
+            raise checks.InputError(f"{where}: it fails: {problem}") from error
+        if not isinstance(result, Rebound):
+            raise checks.InputError(
+                f"{where}: it gives {type(result).__name__}: allowed is a Rebound, which "
+                "laws.of_velocity makes of velocities"
+            )
+        for field in ("velocity", "peak_friction", "dissipation", "regime"):
+            found = np.shape(getattr(result, field))
+            if found != shape:
+                raise checks.InputError(
+                    f"{where}: {field}, shape {found}: allowed is that of the incidences, {shape}"
+                )
+        return result
+
+    velocity = np.asarray(answer(x.shape, *groups.values()).velocity)
+    answer((), 2.0, *list(groups.values())[1:])
+    if not np.isfinite(velocity).all():
+        first = x[~np.isfinite(velocity)][0]
+        raise checks.InputError(
+            f"{where}: velocity at incidence {first:g}: allowed are finite numbers"
+        )
+    if not np.array_equal(velocity[0, :3], -velocity[1, :3]):
+        raise checks.InputError(
+            f"{where}: velocity at incidence -2 is {velocity[0, 1]:g}, at 2 {velocity[1, 1]:g}: "
+            "allowed are opposite ones"
+        )
+    if not np.array_equal(velocity, answer(x.shape, **groups, **model.settings).velocity):
+        raise checks.InputError(
+            f"settings = {model.settings}: allowed are the defaults of rebound, which gives other "
+            "velocities without them"
+        )
 
 
 def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
@@ -581,6 +696,7 @@ MODELS = {
         ),
     )
 }
+_OF_THE_PACKAGE = frozenset(MODELS)
 
 
 def reference(restitution: float, loss: str | None = None) -> str:
