@@ -28,7 +28,7 @@ from planarimpact.ground import cubics, roots
 from planarimpact.ground.arrays import Array, Integers
 from planarimpact.normal_impact import hertz
 
-__all__ = ["largest_force", "relaxation_time", "restitution"]
+__all__ = ["largest_force", "relaxation_time", "restitution", "series"]
 
 # Steps of either half. They make restitution right to 1e-10.
 STEPS = 512
@@ -58,7 +58,7 @@ def restitution(relaxation_time: Array) -> Array:
     >>> restitution(np.array([0.0, 0.5])).round(6)
     array([1.     , 0.46894])
     """
-    e = np.minimum(_restitutions()(np.sqrt(relaxation_time)), 1.0)
+    e = np.minimum(series()(np.sqrt(relaxation_time)), 1.0)
     return np.where(relaxation_time > 0, e, 1.0)
 
 
@@ -112,8 +112,8 @@ def _loss(restitution: Array) -> Array:
 
 
 @cache
-def _restitutions() -> Chebyshev:
-    """Restitution against the root of the relaxation time."""
+def series() -> Chebyshev:
+    """Restitution against the root of the relaxation time, from 0 to the root of `SLOWEST`."""
 
     def restitution_at(root: Array) -> Array:
         return -_both_halves(root * root)[1].last[1]
@@ -124,7 +124,7 @@ def _restitutions() -> Chebyshev:
 @cache
 def _roots() -> Chebyshev:
     """Root of the relaxation time against `_loss`."""
-    table = _restitutions()
+    table = series()
     slope = table.deriv()
 
     def root_at(loss: Array) -> Array:
