@@ -1,7 +1,8 @@
-"""The table of spheres in C and JavaScript.
+"""Collisions by the table of spheres, in C and JavaScript.
 
-Both evaluate as `planarimpact.spheres` does: the same operations in the same order. Numbers are
-stored as in the shipped file: whole numbers, each times a power of 1/2.
+Both evaluate as `planarimpact.spheres` does: the same operations in the same order. Restitution by
+speed is written with roots alone, as the last digit of other powers differs between languages.
+Numbers are stored as in the shipped file: whole numbers, each times a power of 1/2.
 """
 
 import base64

@@ -514,7 +514,7 @@ static inline struct spheres_impact spheres_before(
     double m2 = 1 / (1 / body.mass + 1 / other.mass);
     double beta = m2 * ((1 + arm * arm) / body.mass + (1 + other_arm * other_arm) / other.mass);
     v1 = sqrt(spheres_dot(sideways, sideways));
-    if (!(fabs(spheres_dot(normal, normal) - 1) <= 1e-6 && fabs(along) <= most && v1 <= most
+    if (!(fabs(spheres_dot(normal, normal) - 1) <= 2e-6 && fabs(along) <= most && v1 <= most
           && body.mass > 0 && body.gyration > 0 && body.radius >= 0
           && other.mass > 0 && other.gyration > 0 && other.radius >= 0 && m2 <= most
           && pair.friction >= 0 && pair.friction <= most))

@@ -550,7 +550,7 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
     const other_arm = other.radius / other.gyration;
     const m2 = 1 / (1 / body.mass + 1 / other.mass);
     const beta = m2 * ((1 + arm * arm) / body.mass + (1 + other_arm * other_arm) / other.mass);
-    if (!(Math.abs(dot(normal, normal) - 1) <= 1e-6 && Math.abs(along) <= most && v1 <= most
+    if (!(Math.abs(dot(normal, normal) - 1) <= 2e-6 && Math.abs(along) <= most && v1 <= most
           && body.mass > 0 && body.gyration > 0 && body.radius >= 0
           && other.mass > 0 && other.gyration > 0 && other.radius >= 0 && m2 <= most
           && pair.friction >= 0 && pair.friction <= most))
