@@ -26,7 +26,7 @@ SOLVER = {
     "spheres": "ground normal_impact continuum",
     "models": "ground normal_impact rigid lumped continuum spheres",
     "response": "ground models",
-    "export": "planarimpact ground response spheres",
+    "export": "planarimpact ground normal_impact collision response spheres",
     "collision": "ground normal_impact bodies continuum models spheres",
     "scene": "ground bodies collision continuum pandas",
     "__init__": "ground collision",
@@ -42,7 +42,7 @@ REPRODUCTION = {
     "goodness": "ground",
     "reference_data": "csv_tables",
     "printed": "ground lumped",
-    "explorer": "planarimpact lumped continuum bodies pages",
+    "explorer": "planarimpact lumped continuum bodies collision pages",
     "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
     " response scene pandas printed csv_tables curve_names figures plan",
     "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"
@@ -74,6 +74,7 @@ SIDE_DOORS = {
     "scene.places",
     "collision.continua",  # the rungs, which scenes count
     "collision.model_form",
+    "collision.presets",
     "collision.rungs",
     "spheres.single",  # one impact in plain floats
     "spheres.table",  # which export writes in other languages

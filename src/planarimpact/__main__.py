@@ -541,7 +541,7 @@ def _parser() -> argparse.ArgumentParser:
         help="make a fast response of one pair of bodies",
         description="Make a response, a table of polynomials that gives the rebound of one pair of "
         "bodies in nanoseconds, and write it to a file. With --model spheres the table of spheres "
-        "is written as code: it takes every impact with its own bodies." + ABOUT,
+        "is written as code: it collides any two spheres, vectors in and vectors out." + ABOUT,
     )
     compiled.add_argument("output", metavar="FILE", help="NAME.json, NAME.h, NAME.mjs or NAME.js")
     compiled.add_argument(

@@ -90,6 +90,80 @@ for (let repeat = 0; repeat < REPEATS; repeat += 1) {
 }
 console.log(...best, ...sum);
 """
+# Collisions: a row has normal, velocity, spin, stiffness ratio, restitution and loss.
+COLLISIONS_C = """\
+#include <stdio.h>
+#include <time.h>
+#include "balls.h"
+static double x[COUNT][12];
+int main(void)
+{
+    FILE *file = fopen("collisions", "rb");
+    if (!file || fread(x, sizeof *x, COUNT, file) != COUNT)
+        return 1;
+    struct balls_body ball = balls_solid_sphere(0.01, 0.01);
+    double best[3] = {1e9, 1e9, 1e9}, sum[3];
+    for (int repeat = 0; repeat < REPEATS; ++repeat) {
+        for (int what = 0; what < 3; ++what) {
+            double total = 0;
+            clock_t start = clock();
+            for (int i = 0; i < COUNT; ++i) {
+                const double *a = x[i];
+                struct balls_pair pair = {0.3, a[9], a[10], 0, 0, 0, (int)a[11]};
+                struct balls_vector n = {a[0], a[1], a[2]}, v = {a[3], a[4], a[5]};
+                struct balls_vector w = {a[6], a[7], a[8]}, zero = {0, 0, 0};
+                if (what == 2) {
+                    total += balls_model_form(pair, n, ball, v, w, ball, zero, zero);
+                } else {
+                    struct balls_collision hit = what
+                        ? balls_collide(pair, n, ball, v, w, ball, zero, zero)
+                        : balls_bounce(pair, n, ball, v, w);
+                    total += hit.velocity.x + hit.spin.y;
+                }
+            }
+            double taken = (double)(clock() - start) / CLOCKS_PER_SEC;
+            best[what] = taken < best[what] ? taken : best[what];
+            sum[what] = total;
+        }
+    }
+    printf("%.17g %.17g %.17g %.17g %.17g %.17g\\n",
+        best[0], best[1], best[2], sum[0], sum[1], sum[2]);
+    return 0;
+}
+"""
+COLLISIONS_JAVASCRIPT = """\
+import { readFileSync } from "node:fs";
+import { bounce, collide, model_form, solid_sphere } from "./balls.mjs";
+const bytes = readFileSync("collisions"), best = [1e9, 1e9, 1e9], sum = [0, 0, 0];
+const x = new Float64Array(bytes.buffer, bytes.byteOffset, COUNT * 12);
+const ball = solid_sphere(0.01, 0.01), zero = [0, 0, 0], impacts = [];
+for (let i = 0; i < x.length; i += 12) {
+    const [stiffness_ratio, restitution, loss] = x.subarray(i + 9, i + 12);
+    impacts.push([
+        { friction: 0.3, stiffness_ratio, restitution, loss },
+        ...[0, 3, 6].map((at) => Array.from(x.subarray(i + at, i + at + 3))),
+    ]);
+}
+const works = [
+    ([pair, n, v, w]) => bounce(pair, n, ball, v, w),
+    ([pair, n, v, w]) => collide(pair, n, ball, v, w, ball, zero, zero),
+    ([pair, n, v, w]) => model_form(pair, n, ball, v, w, ball, zero, zero),
+];
+for (let repeat = 0; repeat < REPEATS; repeat += 1) {
+    works.forEach((work, what) => {
+        let total = 0;
+        const start = process.cpuUsage();
+        for (const impact of impacts) {
+            const hit = work(impact);
+            total += what === 2 ? hit : hit.velocity[0] + hit.spin[1];
+        }
+        const taken = process.cpuUsage(start);
+        best[what] = Math.min(best[what], (taken.user + taken.system) / 1e6);
+        sum[what] = total;
+    });
+}
+console.log(...best, ...sum);
+"""
 # How the impact that row i begins is handed over, for one column or five.
 IMPACTS = {
     ("c", 1): "x[i][0]",
@@ -160,12 +234,42 @@ def report_spheres(folder):
     loss = np.array(spheres.LOSSES)[plastic]
     report(
         "spheres, every impact its own pair",
-        [x, beta, zeta2, e, plastic],
+        [x, beta, zeta2, e, plastic + 1],
         export.write_spheres,
         lambda: spheres.rebound(x, beta, zeta2, e, loss=loss).velocity,
         lambda: spheres.rebound(x, beta, zeta2, e, loss=loss),
         folder,
     )
+
+
+def report_collisions(folder):
+    """Vectors in and out: none of the contacts slides throughout."""
+    random, count, repeats = np.random.default_rng(1), COUNT // 10, REPEATS // 3
+    normal, sideways = random.normal(size=(2, count, 3))
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    sideways = np.cross(sideways, normal)
+    sideways /= np.linalg.norm(sideways, axis=1)[:, None]
+    zeta2, e = random.uniform(1, 1.5, count), random.uniform(0.3, 1, count)
+    x = random.uniform(0, 1, count) * (3.5 + e * (3.5 - zeta2))
+    velocity = 0.3 * x[:, None] * sideways - normal
+    spin = 20 * random.normal(size=(count, 1)) * normal  # does not move the contact point
+    rows = [normal, velocity, spin, zeta2, e, 1 + np.arange(count) % 2]
+    np.column_stack(rows).tofile(folder / "collisions")
+    export.write_spheres(folder / "balls.h", "c")
+    export.write_spheres(folder / "balls.mjs", "js")
+    for file, text in (("collide.c", COLLISIONS_C), ("collide.mjs", COLLISIONS_JAVASCRIPT)):
+        text = text.replace("COUNT", str(count)).replace("REPEATS", str(repeats))
+        (folder / file).write_text(text)
+    print("collisions, every one its own pair: bounce, collide, model_form")
+    found = {}
+    for compiler in COMPILERS:
+        compiled = [compiler, "-std=c99", "-O2", "collide.c", "-o", "collide", "-lm"]
+        found[f"{compiler} -O2"] = measured([compiled, ["./collide"]], folder)
+    if shutil.which("node"):
+        found["node"] = measured([["node", "collide.mjs"]], folder)
+    for language, numbers in found.items():
+        times = ", ".join(f"{1e9 * best / count:.0f}" for best in numbers[:3])
+        print(f"  {language}: {times} ns; sums {numbers[3:]}")
 
 
 def report_pair(name, built, folder):
@@ -189,6 +293,7 @@ def main():
             built = response.compile(model, incidence_max=40, tolerance=tolerance, **groups)
             report_pair(name, built, Path(folder))
         report_spheres(Path(folder))
+        report_collisions(Path(folder))
 
 
 if __name__ == "__main__":

@@ -30,6 +30,8 @@ from planarimpact.collision.mechanics import problems as problems
 from planarimpact.collision.pairs import LAWS as LAWS
 from planarimpact.collision.pairs import LOSSES as LOSSES
 from planarimpact.collision.pairs import Pair as Pair
+from planarimpact.collision.presets import Preset as Preset
+from planarimpact.collision.presets import presets as presets
 from planarimpact.collision.rungs import Answers as Answers
 from planarimpact.collision.rungs import answers as answers
 from planarimpact.collision.rungs import model_forms as model_forms
@@ -38,7 +40,7 @@ from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.ground.checks import InputError, Unsolved
 from planarimpact.ground.results import Regime
 
-__all__ = ["Collision", "Pair", "collide"]
+__all__ = ["Collision", "Pair", "Preset", "collide", "presets"]
 # Error that the whole table of spheres meets, mu v2(0): a little above its bounds.
 TOLERANCE = 5e-3
 

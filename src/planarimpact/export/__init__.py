@@ -1,4 +1,4 @@
-"""Responses and the table of spheres in other languages: a header of C99, or a JavaScript module.
+"""Responses and collisions of spheres in other languages: a header of C99, or a JavaScript module.
 
 The file needs no other file. Its head says what it computes, in which units, to which error.
 """
@@ -106,17 +106,18 @@ def spheres_text(path: str | Path, language: str, tolerance: float = min(TABLES)
 
 
 def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES)) -> None:
-    """Write the table of spheres as code, whole or not at all.
+    """Write collisions of spheres as code, by the table of spheres; whole or not at all.
 
-    The code computes what `planarimpact.spheres.rebound` computes, by the same operations in the
-    same order. Where that refuses an impact, the code returns NaN.
+    The code computes what `planarimpact.collide` computes, and without vectors what
+    `planarimpact.spheres.rebound` computes, by the same operations in the same order. Where the
+    table has no answer, the regime is UNRESOLVED, and numbers that are not known are NaN.
 
     Parameters
     ----------
     path : str or Path
-        "c": NAME.h, with the functions `NAME_velocity` and `NAME_rebound`. "js": NAME.mjs or
-        NAME.js, with `velocity` and `rebound`. Both take x, mass_ratio, stiffness_ratio,
-        restitution and loss. As for `write`.
+        "c": NAME.h, with the functions `NAME_collide`, `NAME_bounce`, `NAME_velocity`,
+        `NAME_rebound` and more. "js": NAME.mjs or NAME.js, with `collide` and so on. The head of
+        the file explains them. As for `write`.
     language : str
         "c", also for C++, or "js".
     tolerance : float
@@ -132,7 +133,7 @@ def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES
     >>> import pathlib, tempfile
     >>> path = pathlib.Path(tempfile.mkdtemp()) / "spheres.mjs"
     >>> write_spheres(path, "js", tolerance=max(TABLES))
-    >>> "export function velocity(x, mass_ratio" in path.read_text()
+    >>> "export function collide(" in path.read_text()
     True
     """
     code = spheres_text(path, language, tolerance)

@@ -23,8 +23,14 @@ COLUMNS = 12
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*", re.ASCII)
 # Lines with the marks of a block, and what is between them.
 BLOCK = re.compile(r"^[^\n]*<(\w+)>[^\n]*\n.*?</\1>[^\n]*\n", re.MULTILINE | re.DOTALL)
-# Paragraphs of a comment, named constants, a table of numbers, rows of integers, or a string.
-Block: TypeAlias = list[str] | Mapping[str, float] | NDArray[Any] | list[list[int]] | str
+
+
+class Code(str):
+    """Code as it stands."""
+
+
+# Paragraphs of a comment, named constants, a table of numbers, rows of integers, a string, or code.
+Block: TypeAlias = list[str] | Mapping[str, float] | NDArray[Any] | list[list[int]] | str | Code
 
 
 class Language(NamedTuple):
@@ -42,6 +48,10 @@ class Language(NamedTuple):
         A constant, for `str.format` with name and value, by the block that it is in.
     row : str
         A row of a table of rows, for `str.format`.
+    field : str
+        A field of a structure, for `str.format`.
+    preset : str
+        A preset, for `str.format`: `comment` on it, `name`, and the fields of `body` and `pair`.
     """
 
     endings: tuple[str, ...]
@@ -49,6 +59,8 @@ class Language(NamedTuple):
     numbers: Mapping[str, str]
     constants: Mapping[str, str]
     row: str
+    field: str
+    preset: str
 
 
 LANGUAGES = {
@@ -58,6 +70,9 @@ LANGUAGES = {
         numbers={"nan": "(double)NAN", "inf": "(double)INFINITY"},
         constants=dict.fromkeys(("public", "private"), "#define {} {}\n"),
         row="{{{}}},\n",
+        field="{value}",
+        preset="/*\n{comment} */\nstatic const struct {prefix}preset {prefix}{name} = {{\n"
+        "    {{{body}}},\n    {{{pair}}}}};\n",
     ),
     "js": Language(
         endings=(".mjs", ".js"),
@@ -65,6 +80,9 @@ LANGUAGES = {
         numbers={"nan": "NaN", "inf": "Infinity"},
         constants={"public": "export const {} = {};\n", "private": "const {} = {};\n"},
         row="[{}],\n",
+        field="{name}: {value}",
+        preset="/*\n{comment} */\n{name}: {{\n"
+        "    body: {{ {body} }},\n    pair: {{ {pair} }},\n}},\n",
     ),
 }
 
@@ -123,6 +141,8 @@ def filled(stem: str, blocks: Mapping[str, Block], file: str, name: str, languag
 
 def _written(block: Block, mark: str, prefix: str, language: Language) -> str:
     """A block as lines of code."""
+    if isinstance(block, Code):
+        return block
     if isinstance(block, str):
         return f'"{block}"\n'
     if isinstance(block, Mapping):
@@ -135,7 +155,7 @@ def _written(block: Block, mark: str, prefix: str, language: Language) -> str:
         rows = [values[i : i + COLUMNS] for i in range(0, len(values), COLUMNS)]
         return "".join(",".join(numbers) + ",\n" for numbers in rows)
     return "".join(
-        _comment(row) if isinstance(row, str) else language.row.format(",".join(map(str, row)))
+        comment(row) if isinstance(row, str) else language.row.format(",".join(map(str, row)))
         for row in block
     )
 
@@ -150,7 +170,7 @@ def _number(value: float, language: Language) -> str:
     return language.numbers.get(text, text)
 
 
-def _comment(paragraph: str) -> str:
+def comment(paragraph: str) -> str:
     """Lines of a comment, all with the indent of the first; a number such as 1e-05 stays in one."""
     indent = " * " + paragraph[: len(paragraph) - len(paragraph.lstrip())]
     lines = textwrap.wrap(

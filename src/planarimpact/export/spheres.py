@@ -1,26 +1,34 @@
-"""The table of spheres in C and JavaScript.
+"""Collisions by the table of spheres, in C and JavaScript.
 
-Both evaluate as `planarimpact.spheres` does: the same operations in the same order. Numbers are
-stored as in the shipped file: whole numbers, each times a power of 1/2.
+Both evaluate as `planarimpact.spheres` does: the same operations in the same order. Restitution by
+speed is written with roots alone, as the last digit of other powers differs between languages.
+Numbers are stored as in the shipped file: whole numbers, each times a power of 1/2.
 """
 
 import base64
+import re
 from collections.abc import Mapping
+from importlib import resources
 from typing import NamedTuple
 
 import numpy as np
 
 from planarimpact import __version__, spheres
-from planarimpact.export import languages
+from planarimpact.export import languages, presets
 from planarimpact.ground import checks
-from planarimpact.ground.arrays import Integers
+from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.results import Regime
+from planarimpact.normal_impact import LEAST_RESTITUTION, kelvin_voigt
 from planarimpact.spheres import table as tables
 from planarimpact.spheres.table import LEFT, ORDER, PACKED, RIGHT, ROOTS, Table
 
 # Largest errors of the shipped tables by loss, and the tables by the larger of them.
 BOUNDS = {"fine": spheres.ERROR_BOUND, "coarse": {"viscous": 3e-3, "plastic": 4e-2}}
 TABLES: dict[float, str] = {max(bounds.values()): name for name, bounds in BOUNDS.items()}
+# Codes of losses. 0 is none of them, so that a loss which nobody states is not taken for one.
+LOSSES = {loss: code for code, loss in enumerate(spheres.LOSSES, 1)}
+# Terms of the series of viscous restitution below this one are left out: it is right to 1e-10.
+SMALL_TERM = 1e-11
 
 
 class _Layout(NamedTuple):
@@ -36,11 +44,14 @@ def text(table: Table, bounds: Mapping[str, float], file: str, name: str, langua
     layout = _laid_out(table)
     blocks: dict[str, languages.Block] = {
         "version": [f"Written by planarimpact {__version__}. Do not edit it: write it anew."],
+        "about": _about(name, language),
         "public": _public(bounds),
         "private": _private(table),
         "limits": table.limits,
         "panels": layout.panels,
         "patches": layout.patches,
+        "series": _series(),
+        "presets": presets.code(name, language),
     }
     if language == "js":
         blocks["shapes"] = [list(part.shape) for part in layout.values]
@@ -72,7 +83,7 @@ def _laid_out(table: Table) -> _Layout:
 def _public(bounds: Mapping[str, float]) -> dict[str, float]:
     """Public constants: losses, range, errors and the codes of regimes."""
     return {
-        **{loss.upper(): code for code, loss in enumerate(spheres.LOSSES)},
+        **{loss.upper(): code for loss, code in LOSSES.items()},
         "INCIDENCE_MAX": checks.LARGEST,
         "RESTITUTION_MIN": spheres.LEAST_RESTITUTION,
         "STIFFNESS_MAX": spheres.LARGEST_STIFFNESS,
@@ -99,7 +110,28 @@ def _private(table: Table) -> dict[str, float]:
         "LEFT": LEFT,
         "RIGHT": RIGHT,
         "INTERVALS": table.limits.shape[1] - 1,
+        "LEAST": LEAST_RESTITUTION,
+        "LONGEST": float(kelvin_voigt.relaxation_time(np.array(LEAST_RESTITUTION))),
+        "SERIES": len(_series()),
+        "SPAN": float(kelvin_voigt.series().domain[1]),
     }
+
+
+def _series() -> Array:
+    """Viscous restitution over the root of the relaxation time, from 0 to SPAN."""
+    terms = np.asarray(kelvin_voigt.series().coef, float)
+    return terms[: np.flatnonzero(np.abs(terms) > SMALL_TERM)[-1] + 1]
+
+
+def _about(name: str, language: str) -> list[str]:
+    """What the head of every file says; @ stands before names."""
+    text = resources.files(__package__).joinpath("templates/spheres.txt").read_text("utf-8")
+    prefix = f"{name}_" if languages.LANGUAGES[language].named else ""
+
+    def named(match: re.Match[str]) -> str:
+        return (prefix.upper() if match[1].isupper() else prefix) + match[1]
+
+    return re.sub(r"@(\w+)", named, text).splitlines()
 
 
 def _packed(values: list[Integers]) -> str:

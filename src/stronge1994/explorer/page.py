@@ -12,10 +12,10 @@ from urllib.parse import urlencode
 import yaml
 from markupsafe import Markup, escape
 
-from planarimpact import bodies, continuum
+from planarimpact import bodies, collision, continuum
 from stronge1994.pages import templates
 
-State: TypeAlias = dict[str, float]  # of the controls, by their names
+State: TypeAlias = dict[str, Any]  # of the controls, by their names
 
 # Each slider has a smallest value, a largest value and a step.
 LIMITS = {
@@ -117,14 +117,28 @@ def balls(text: str) -> list[dict[str, str]]:
     >>> balls("[{name: steel, state: {friction: 0.1}, source: measured, beware: It yields.}]")
     [{'name': 'steel', 'address': 'friction=0.1', 'about': 'It yields. Numbers: measured.'}]
     """
-    return [
-        {
-            "name": ball["name"],
-            "address": urlencode(ball["state"]),
-            "about": str(escape(f"{ball.get('beware', '')} Numbers: {ball['source']}.".strip())),
+    return [_ball(**ball) for ball in yaml.safe_load(text)]
+
+
+def _ball(
+    name: str, state: State, source: str = "", beware: str = "", preset: str = ""
+) -> dict[str, str]:
+    """One ball; the numbers and words of a preset of the package come with it."""
+    if preset:
+        given = collision.presets()[preset]
+        pair, body = given.pair, given.body
+        state = {
+            "friction": float(pair.friction),
+            "restitution": float(pair.restitution),
+            "poisson_ratio": round(float(_poisson_ratio(float(pair.stiffness_ratio))), 4),
+            "mass_ratio": f"{float(bodies.mass_ratio(body)):g}",
+            "radius": f"{1000 * float(body.radius):.3g}",
+            "loss": "plastic" if pair.plastic else "viscous",
+            **state,
         }
-        for ball in yaml.safe_load(text)
-    ]
+        source, beware = given.source, f"{beware} {given.beware}"
+    about = str(escape(f"{beware} Numbers: {source}.".strip()))
+    return {"name": name, "address": urlencode(state), "about": about}
 
 
 def refuse_other_answers(scripts: Sequence[str], answers: Sequence[Any]) -> str:

@@ -13,7 +13,7 @@ EVERY_JOB = (
     "src/stronge1994/run/record.py",
     "src/stronge1994/figures/__init__.py",
 )
-KINDS = (".py", ".pyi", ".npz", ".h", ".mjs")
+KINDS = (".py", ".pyi", ".npz", ".h", ".mjs", ".toml", ".txt")
 
 
 def sources(script: str, *rooms: str) -> list[str]:

@@ -1,54 +1,26 @@
 /*
- * spheres.h: the rebound of rough spheres after an oblique impact, every impact with materials of
- * its own.
+ * spheres.h: impacts of rough spheres, every impact with bodies and materials of its own.
  *
  * <version>
  * A template: the package replaces what stands between two marks, the prefix of all names, and the
  * name of this file. The table here only has the form of one.
  * </version>
  *
- * Model: the contact of Hertz with micro-slip (the continuum), with what takes the energy where
- * restitution is below 1, one for each impact:
- *   SPHERES_VISCOUS: Kelvin-Voigt spheres with one relaxation time
- *   SPHERES_PLASTIC: elastic-plastic spheres, which flow in shear while they yield
- *
- * Functions of the incidence x = v1(0)/(mu v2(0)), of any sign, and of
- *   mass_ratio: m2/m1, effective normal over tangential mass: 3.5 for solid spheres, 2.5 for thin
- *   shells
- *   stiffness_ratio: zeta^2, normal over tangential stiffness: (2 - nu)/(2 (1 - nu)), nu of
- *   Poisson
- *   restitution: e, the energetic coefficient
- *   loss: SPHERES_VISCOUS or SPHERES_PLASTIC
- * are
- *   spheres_covers(x, mass_ratio, stiffness_ratio, restitution, loss), whether there is an answer;
- *   spheres_velocity(x, mass_ratio, stiffness_ratio, restitution, loss), the velocity alone;
- *   spheres_rebound(x, mass_ratio, stiffness_ratio, restitution, loss), which has
- *     velocity: v1(tf)/(mu v2(0)), which has the sign opposite to x where the contact point has
- *       turned round
- *     peak_friction: largest friction, over mu times the largest normal force
- *     dissipation: work of friction, in mu^2 m2 v2(0)^2; with plastic loss also that of the flow
- *     in shear
- *     regime: the order of stick and slip, one of the codes below
- *
- * Units and signs: v1 and v2 are the tangential and the normal velocity of the contact point,
- * before the impact (0) and after it (tf), both in one unit. v2(0) is positive towards the
- * surface. mu is the coefficient of friction, above 0.
- *
- * Range: |x| up to SPHERES_INCIDENCE_MAX, restitution from SPHERES_RESTITUTION_MIN to 1,
- * mass_ratio from 1, stiffness_ratio up to SPHERES_STIFFNESS_MAX, mass_ratio/stiffness_ratio from
- * SPHERES_RATIO_MIN to SPHERES_RATIO_MAX. Beyond it, and for NaN, the numbers are NaN and the
- * regime is SPHERES_UNRESOLVED.
- *
- * Error against the model, of velocity, peak_friction and dissipation: at most
- * SPHERES_ERROR_VISCOUS or SPHERES_ERROR_PLASTIC, by loss. It was measured by a search for the
- * largest error; it is not proved. Slip throughout is a line.
- *
- * Example:
+ * A ball that bounces on a floor at rest (z is up; metres, kilograms, radians, seconds):
  *   #include "spheres.h"
  *
- *   double v1 = 6.0, v2 = 5.0, mu = 0.8, e = 0.9; // a solid sphere of rubber, before the impact
- *   double v1_after = mu * v2 * spheres_velocity(v1 / (mu * v2), 3.5, 1.5, e, SPHERES_VISCOUS);
- *   double v2_after = -e * v2;
+ *   struct spheres_body ball = spheres_solid_sphere(0.03, 0.1); // radius, mass
+ *   struct spheres_pair rubber = {
+ *       .friction = 0.8, .stiffness_ratio = 1.5, .restitution = 0.9, .loss = SPHERES_VISCOUS};
+ *   struct spheres_vector up = {0, 0, 1}, velocity = {3, 0, -4}, spin = {0, -50, 0};
+ *   struct spheres_collision hit = spheres_bounce(rubber, up, ball, velocity, spin);
+ *   velocity = hit.velocity;
+ *   spin = hit.spin;
+ * In C++ before C++20: `spheres_pair rubber = {}; rubber.friction = 0.8;` and so on.
+ *
+ * <about>
+ * What is the same in every language: spheres.txt.
+ * </about>
  */
 
 #ifndef PLANARIMPACT_SPHERES_H
@@ -65,8 +37,8 @@
 #include <math.h>
 
 /* <public> */
-#define SPHERES_VISCOUS 0
-#define SPHERES_PLASTIC 1
+#define SPHERES_VISCOUS 1
+#define SPHERES_PLASTIC 2
 #define SPHERES_INCIDENCE_MAX 8e+307
 #define SPHERES_RESTITUTION_MIN 0.3
 #define SPHERES_STIFFNESS_MAX 1.6
@@ -81,6 +53,7 @@
 #define SPHERES_SLIP_THROUGHOUT 4
 #define SPHERES_MULTIPLE 5
 #define SPHERES_UNRESOLVED 6
+#define SPHERES_NO_IMPACT 7
 /* </public> */
 
 /*
@@ -91,6 +64,9 @@
  *   NEARLY: a little less than 1: an impact so near to slip throughout slides throughout
  *   LEFT, RIGHT: where s has its root
  *   INTERVALS: intervals of limits over u
+ *   LEAST, LONGEST: least restitution of viscous spheres, and the relaxation time, over its unit,
+ *   where they have it
+ *   SERIES, SPAN: numbers of the series of viscous restitution, and where it ends
  */
 /* <private> */
 #define SPHERES_B_LEAST 1.55
@@ -106,6 +82,10 @@
 #define SPHERES_LEFT 1
 #define SPHERES_RIGHT 2
 #define SPHERES_INTERVALS 1
+#define SPHERES_LEAST 0.022
+#define SPHERES_LONGEST 7.9
+#define SPHERES_SERIES 2
+#define SPHERES_SPAN 2.8
 /* </private> */
 
 /*
@@ -149,6 +129,13 @@ static const int spheres_values[] = {
 /* <values> */
 0,0,0,0,0,0,
 /* </values> */
+};
+
+/* Viscous restitution over the root of the relaxation time, a series of Chebyshev's polynomials. */
+static const double spheres_series[] = {
+/* <series> */
+0.5,-0.5,
+/* </series> */
 };
 
 struct spheres_result {
@@ -353,5 +340,323 @@ static inline struct spheres_result spheres_rebound(
     result.velocity = w * copysign(1.0, x);
     return result;
 }
+
+struct spheres_vector {
+    double x, y, z;
+};
+
+struct spheres_body {
+    double mass;
+    double gyration;
+    double radius;
+};
+
+struct spheres_pair {
+    double friction;
+    double stiffness_ratio;
+    double restitution;
+    double relaxation_time;
+    double yield_pressure;
+    double effective_modulus;
+    int loss;
+};
+
+struct spheres_collision {
+    struct spheres_vector velocity;
+    struct spheres_vector spin;
+    struct spheres_vector other_velocity;
+    struct spheres_vector other_spin;
+    struct spheres_vector impulse;
+    double incidence;
+    double restitution;
+    double error_bound;
+    int regime;
+};
+
+/* A flat body that neither moves nor turns by an impact; it may have a velocity. */
+static const struct spheres_body SPHERES_WALL = {(double)INFINITY, (double)INFINITY, 0};
+
+/* A homogeneous sphere, from its radius [m] and its mass [kg]. */
+static inline struct spheres_body spheres_solid_sphere(double radius, double mass)
+{
+    struct spheres_body body = {0, 0, 0};
+    body.mass = mass;
+    body.gyration = radius * sqrt(0.4);
+    body.radius = radius;
+    return body;
+}
+
+/* A thin hollow sphere, from its radius [m] and its mass [kg]. */
+static inline struct spheres_body spheres_thin_shell(double radius, double mass)
+{
+    struct spheres_body body = {0, 0, 0};
+    body.mass = mass;
+    body.gyration = radius * sqrt(2.0 / 3);
+    body.radius = radius;
+    return body;
+}
+
+static inline double spheres_dot(struct spheres_vector a, struct spheres_vector b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline struct spheres_vector spheres_cross(struct spheres_vector a, struct spheres_vector b)
+{
+    struct spheres_vector c = {0, 0, 0};
+    c.x = a.y * b.z - a.z * b.y;
+    c.y = a.z * b.x - a.x * b.z;
+    c.z = a.x * b.y - a.y * b.x;
+    return c;
+}
+
+/* a + factor b */
+static inline struct spheres_vector spheres_sum(
+    struct spheres_vector a, double factor, struct spheres_vector b)
+{
+    a.x += factor * b.x;
+    a.y += factor * b.y;
+    a.z += factor * b.z;
+    return a;
+}
+
+/* The fifth root of a number above 0. That of a library differs from one language to the next. */
+static inline double spheres_fifth_root(double value)
+{
+    double scale = 1, root;
+    int i;
+    if (!(value > 0 && value <= 1e308))
+        return (double)NAN;
+    for (; value > 32; value *= 0.03125)
+        scale *= 2;
+    for (; value < 1; value *= 32)
+        scale *= 0.5;
+    root = 1 + (value - 1) / (14 + value);
+    for (i = 0; i < 4; ++i) { /* Halley's method */
+        double power = root * root * root * root * root;
+        root *= (2 * power + 3 * value) / (3 * power + 2 * value);
+    }
+    return root * scale;
+}
+
+/* Restitution of a pair at a normal speed, of bodies with this effective mass and radius. */
+static inline double spheres_restitution_at(
+    struct spheres_pair pair, double mass, double radius, double speed)
+{
+    double modulus = pair.effective_modulus;
+    int fixed = pair.restitution != 0 || pair.loss != 0;
+    if (fixed + (pair.relaxation_time != 0) + (pair.yield_pressure != 0) != 1)
+        return (double)NAN;
+    if (pair.yield_pressure != 0) {
+        /* Thornton's sphere, with lengths over (m2 v2^2/(E* R^(1/2)))^(2/5): a is the radius of
+           contact where it yields, the approach is then a^2, and at the end `depth`. */
+        double first = modulus / mass * radius / speed * radius / speed * radius;
+        double a = 1.5707963267948966 * (pair.yield_pressure / modulus) * spheres_fifth_root(first);
+        double left = 1 - a * a * a * a * a * (16.0 / 15), part = 2.0 / 3 * (a * a), reach, depth;
+        if (!(a > 0))
+            return (double)NAN;
+        if (!(left > 0))
+            return 1;
+        reach = sqrt(part * part + left / (2 * a));
+        depth = a * a / 3 + reach;
+        return spheres_clipped(2 * a * reach * sqrt(0.6 / sqrt(depth)), 0, 1);
+    }
+    if (pair.relaxation_time != 0) {
+        double stiff = modulus / mass;
+        double tau = pair.relaxation_time * spheres_fifth_root(stiff * radius * stiff * speed);
+        double at = 2 * (sqrt(tau) / SPHERES_SPAN) - 1, sum = 0, last = 0;
+        int i;
+        if (!(tau > 0 && tau <= SPHERES_LONGEST))
+            return (double)NAN;
+        for (i = SPHERES_SERIES - 1; i > 0; --i) { /* Clenshaw's method */
+            double next = spheres_series[i] + 2 * at * sum - last;
+            last = sum;
+            sum = next;
+        }
+        return spheres_clipped(spheres_series[0] + at * sum - last, SPHERES_LEAST, 1);
+    }
+    if (pair.restitution == 1 || pair.loss == SPHERES_VISCOUS || pair.loss == SPHERES_PLASTIC)
+        return pair.restitution;
+    return (double)NAN;
+}
+
+/* 1/r; 0 of a wall, which is flat, whatever its radius. */
+static inline double spheres_curvature(struct spheres_body body)
+{
+    return body.mass > SPHERES_MASS_RATIO_MOST && body.gyration > SPHERES_MASS_RATIO_MOST
+        ? 0 : 1 / body.radius;
+}
+
+/* An impact that is to come. Its regime is UNRESOLVED where it has no answer, or NO_IMPACT. */
+struct spheres_impact {
+    struct spheres_vector tangent; /* where the contact point goes along the surface, length 1 */
+    double v2, m2, beta, zeta2, e, x;
+    int loss, regime;
+};
+
+static inline struct spheres_impact spheres_before(
+    struct spheres_pair pair, struct spheres_vector normal,
+    struct spheres_body body, struct spheres_vector velocity, struct spheres_vector spin,
+    struct spheres_body other, struct spheres_vector other_velocity,
+    struct spheres_vector other_spin)
+{
+    const double most = SPHERES_INCIDENCE_MAX;
+    struct spheres_impact impact = {{0, 0, 0}, 0, 0, 0, 0, 0, 0, 0, SPHERES_UNRESOLVED};
+    /* Velocity of the contact point of the body against that of the other one. */
+    struct spheres_vector zero = {0, 0, 0};
+    struct spheres_vector turn =
+        spheres_sum(spheres_sum(zero, body.radius, spin), other.radius, other_spin);
+    struct spheres_vector between = spheres_sum(velocity, -1, other_velocity);
+    struct spheres_vector point = spheres_sum(between, -1, spheres_cross(turn, normal));
+    double along = spheres_dot(point, normal), v1, arm = body.radius / body.gyration;
+    struct spheres_vector sideways = spheres_sum(point, -along, normal);
+    double other_arm = other.radius / other.gyration;
+    double m2 = 1 / (1 / body.mass + 1 / other.mass);
+    double beta = m2 * ((1 + arm * arm) / body.mass + (1 + other_arm * other_arm) / other.mass);
+    v1 = sqrt(spheres_dot(sideways, sideways));
+    if (!(fabs(spheres_dot(normal, normal) - 1) <= 2e-6 && fabs(along) <= most && v1 <= most
+          && body.mass > 0 && body.gyration > 0 && body.radius >= 0
+          && other.mass > 0 && other.gyration > 0 && other.radius >= 0 && m2 <= most
+          && pair.friction >= 0 && pair.friction <= most))
+        return impact;
+    if (!(along < 0)) {
+        impact.regime = SPHERES_NO_IMPACT;
+        return impact;
+    }
+
+    impact.e = spheres_restitution_at(
+        pair, m2, 1 / (spheres_curvature(body) + spheres_curvature(other)), -along);
+    impact.loss = pair.loss == SPHERES_PLASTIC || pair.yield_pressure > 0
+        ? SPHERES_PLASTIC : SPHERES_VISCOUS;
+    if (impact.e == 1) /* nothing is lost: the table of viscous spheres is nearer */
+        impact.loss = SPHERES_VISCOUS;
+    if (!(impact.e >= 0 && impact.e <= 1
+          && spheres_covers(0, beta, pair.stiffness_ratio, 1, SPHERES_VISCOUS)))
+        return impact;
+    if (v1 > 0)
+        impact.tangent = spheres_sum(zero, 1 / v1, sideways);
+    impact.v2 = -along;
+    impact.m2 = m2;
+    impact.beta = beta;
+    impact.zeta2 = pair.stiffness_ratio;
+    impact.x = v1 > 0 ? v1 / (pair.friction * impact.v2) : 0;
+    impact.regime = SPHERES_STICK;
+    return impact;
+}
+
+/* What an impact of this loss adds to x, the tangential velocity; it finds the regime too. */
+static inline double spheres_change(const struct spheres_impact *impact, int loss, int *regime)
+{
+    double x = impact->x, beta = impact->beta, zeta2 = impact->zeta2, e = impact->e;
+    double slides = 0.0 - (1 + e) * beta, change;
+    int known = e >= SPHERES_RESTITUTION_MIN;
+    struct spheres_spot spot;
+    *regime = SPHERES_STICK;
+    if (!(x > 0))
+        return 0;
+    *regime = SPHERES_SLIP_THROUGHOUT;
+    if (x > SPHERES_INCIDENCE_MAX || (loss == SPHERES_VISCOUS && x >= beta + e * (beta - zeta2)))
+        return slides;
+    spot = spheres_find(x / zeta2, beta / zeta2, known ? e : SPHERES_RESTITUTION_MIN, loss);
+    if (known && spot.slides)
+        return slides;
+    *regime = !known ? SPHERES_UNRESOLVED
+        : x > zeta2 ? SPHERES_SLIP_STICK_SLIP : SPHERES_STICK_SLIP;
+    change = spot.slides ? slides : zeta2 * spheres_spline(&spot, spot.panel->velocity) - x;
+    /* Within what friction can do, and the energy that there is. */
+    return spheres_clipped(change, slides > -2 * x ? slides : -2 * x, 0);
+}
+
+/* The collision of two bodies, or of one with a wall. */
+static inline struct spheres_collision spheres_collide(
+    struct spheres_pair pair, struct spheres_vector normal,
+    struct spheres_body body, struct spheres_vector velocity, struct spheres_vector spin,
+    struct spheres_body other, struct spheres_vector other_velocity,
+    struct spheres_vector other_spin)
+{
+    const double nan = (double)NAN;
+    struct spheres_impact impact = spheres_before(
+        pair, normal, body, velocity, spin, other, other_velocity, other_spin);
+    struct spheres_vector zero = {0, 0, 0}, unknown = {nan, nan, nan}, turn;
+    struct spheres_collision after = {
+        unknown, unknown, unknown, unknown, unknown, nan, nan, nan, impact.regime};
+    double change, unit, towards, along, twist;
+    if (impact.regime == SPHERES_UNRESOLVED)
+        return after;
+    after.velocity = velocity;
+    after.spin = spin;
+    after.other_velocity = other_velocity;
+    after.other_spin = other_spin;
+    after.impulse = zero;
+    if (impact.regime == SPHERES_NO_IMPACT)
+        return after;
+
+    change = spheres_change(&impact, impact.loss, &after.regime);
+    unit = pair.friction * impact.v2;
+    towards = impact.m2 * impact.v2 * (1 + impact.e);
+    along = impact.m2 * unit * (change / impact.beta);
+    after.impulse = spheres_sum(spheres_sum(zero, towards, normal), along, impact.tangent);
+    turn = spheres_cross(normal, impact.tangent);
+    twist = 0.0 - along;
+    after.velocity = spheres_sum(velocity, 1 / body.mass, after.impulse);
+    after.spin = spheres_sum(
+        spin, twist * (body.radius / body.gyration / body.gyration / body.mass), turn);
+    after.other_velocity = spheres_sum(other_velocity, -1 / other.mass, after.impulse);
+    after.other_spin = spheres_sum(
+        other_spin, twist * (other.radius / other.gyration / other.gyration / other.mass), turn);
+    after.incidence = impact.x;
+    after.restitution = impact.e;
+    if (after.regime == SPHERES_STICK || after.regime == SPHERES_SLIP_THROUGHOUT)
+        after.error_bound = 0;
+    else if (after.regime != SPHERES_UNRESOLVED)
+        after.error_bound = unit
+            * (impact.loss == SPHERES_VISCOUS ? SPHERES_ERROR_VISCOUS : SPHERES_ERROR_PLASTIC);
+    return after;
+}
+
+/* The collision of a body with a surface at rest. */
+static inline struct spheres_collision spheres_bounce(
+    struct spheres_pair pair, struct spheres_vector normal,
+    struct spheres_body body, struct spheres_vector velocity, struct spheres_vector spin)
+{
+    struct spheres_vector zero = {0, 0, 0};
+    return spheres_collide(pair, normal, body, velocity, spin, SPHERES_WALL, zero, zero);
+}
+
+/*
+ * How far the velocity of the contact point after the impact would move with the other loss [m/s];
+ * NaN where there is no answer, or no impact.
+ */
+static inline double spheres_model_form(
+    struct spheres_pair pair, struct spheres_vector normal,
+    struct spheres_body body, struct spheres_vector velocity, struct spheres_vector spin,
+    struct spheres_body other, struct spheres_vector other_velocity,
+    struct spheres_vector other_spin)
+{
+    struct spheres_impact impact = spheres_before(
+        pair, normal, body, velocity, spin, other, other_velocity, other_spin);
+    double viscous, plastic;
+    int one, two;
+    if (impact.regime != SPHERES_STICK)
+        return (double)NAN;
+    if (!(impact.e < 1))
+        return 0;
+    viscous = spheres_change(&impact, SPHERES_VISCOUS, &one);
+    plastic = spheres_change(&impact, SPHERES_PLASTIC, &two);
+    if (one == SPHERES_UNRESOLVED || two == SPHERES_UNRESOLVED)
+        return (double)NAN;
+    return pair.friction * impact.v2 * fabs(viscous - plastic);
+}
+
+/* A body and its pair of materials, with the source of the numbers. */
+struct spheres_preset {
+    struct spheres_body body;
+    struct spheres_pair pair;
+};
+/* <presets> */
+/* A sample: no real ball. */
+static const struct spheres_preset spheres_sample = {
+    {0.1, 0.02, 0.03}, {0.8, 1.5, 0.9, 0, 0, 0, SPHERES_VISCOUS}};
+/* </presets> */
 
 #endif

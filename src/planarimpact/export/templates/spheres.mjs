@@ -1,58 +1,30 @@
 /*
- * spheres.mjs: the rebound of rough spheres after an oblique impact, every impact with materials
- * of its own.
+ * spheres.mjs: impacts of rough spheres, every impact with bodies and materials of its own.
  *
  * <version>
  * A template: the package replaces what stands between two marks, and the name of this file. The
  * table here only has the form of one.
  * </version>
  *
- * Model: the contact of Hertz with micro-slip (the continuum), with what takes the energy where
- * restitution is below 1, one for each impact:
- *   VISCOUS: Kelvin-Voigt spheres with one relaxation time
- *   PLASTIC: elastic-plastic spheres, which flow in shear while they yield
- *
- * Functions of the incidence x = v1(0)/(mu v2(0)), of any sign, and of
- *   mass_ratio: m2/m1, effective normal over tangential mass: 3.5 for solid spheres, 2.5 for thin
- *   shells
- *   stiffness_ratio: zeta^2, normal over tangential stiffness: (2 - nu)/(2 (1 - nu)), nu of
- *   Poisson
- *   restitution: e, the energetic coefficient
- *   loss: VISCOUS or PLASTIC
- * are
- *   covers(x, mass_ratio, stiffness_ratio, restitution, loss), whether there is an answer;
- *   velocity(x, mass_ratio, stiffness_ratio, restitution, loss), the velocity alone;
- *   rebound(x, mass_ratio, stiffness_ratio, restitution, loss), which has
- *     velocity: v1(tf)/(mu v2(0)), which has the sign opposite to x where the contact point has
- *       turned round
- *     peak_friction: largest friction, over mu times the largest normal force
- *     dissipation: work of friction, in mu^2 m2 v2(0)^2; with plastic loss also that of the flow
- *     in shear
- *     regime: the order of stick and slip, one of the codes below
- *
- * Units and signs: v1 and v2 are the tangential and the normal velocity of the contact point,
- * before the impact (0) and after it (tf), both in one unit. v2(0) is positive towards the
- * surface. mu is the coefficient of friction, above 0.
- *
- * Range: |x| up to INCIDENCE_MAX, restitution from RESTITUTION_MIN to 1, mass_ratio from 1,
- * stiffness_ratio up to STIFFNESS_MAX, mass_ratio/stiffness_ratio from RATIO_MIN to RATIO_MAX.
- * Beyond it, and for NaN, the numbers are NaN and the regime is UNRESOLVED.
- *
- * Error against the model, of velocity, peak_friction and dissipation: at most ERROR_VISCOUS or
- * ERROR_PLASTIC, by loss. It was measured by a search for the largest error; it is not proved.
- * Slip throughout is a line.
- *
- * Example:
+ * A ball that bounces on a floor at rest (z is up; metres, kilograms, radians, seconds):
  *   import * as spheres from "./spheres.mjs";
  *
- *   const v1 = 6, v2 = 5, mu = 0.8, e = 0.9; // a solid sphere of rubber, before the impact
- *   const v1_after = mu * v2 * spheres.velocity(v1 / (mu * v2), 3.5, 1.5, e, spheres.VISCOUS);
- *   const v2_after = -e * v2;
+ *   const ball = spheres.solid_sphere(0.03, 0.1); // radius, mass
+ *   const rubber = {
+ *       friction: 0.8, stiffness_ratio: 1.5, restitution: 0.9, loss: spheres.VISCOUS };
+ *   let velocity = [3, 0, -4], spin = [0, -50, 0];
+ *   const hit = spheres.bounce(rubber, [0, 0, 1], ball, velocity, spin);
+ *   velocity = hit.velocity;
+ *   spin = hit.spin;
+ *
+ * <about>
+ * What is the same in every language: spheres.txt.
+ * </about>
  */
 
 /* <public> */
-export const VISCOUS = 0;
-export const PLASTIC = 1;
+export const VISCOUS = 1;
+export const PLASTIC = 2;
 export const INCIDENCE_MAX = 8e+307;
 export const RESTITUTION_MIN = 0.3;
 export const STIFFNESS_MAX = 1.6;
@@ -67,6 +39,7 @@ export const SLIP_STICK_SLIP = 3;
 export const SLIP_THROUGHOUT = 4;
 export const MULTIPLE = 5;
 export const UNRESOLVED = 6;
+export const NO_IMPACT = 7;
 /* </public> */
 
 /*
@@ -77,6 +50,9 @@ export const UNRESOLVED = 6;
  *   NEARLY: a little less than 1: an impact so near to slip throughout slides throughout
  *   LEFT, RIGHT: where s has its root
  *   INTERVALS: intervals of limits over u
+ *   LEAST, LONGEST: least restitution of viscous spheres, and the relaxation time, over its unit,
+ *   where they have it
+ *   SERIES, SPAN: numbers of the series of viscous restitution, and where it ends
  */
 /* <private> */
 const B_LEAST = 1.55;
@@ -92,6 +68,10 @@ const NEARLY = 0.9999999999999991;
 const LEFT = 1;
 const RIGHT = 2;
 const INTERVALS = 1;
+const LEAST = 0.022;
+const LONGEST = 7.9;
+const SERIES = 2;
+const SPAN = 2.8;
 /* </private> */
 
 /*
@@ -176,6 +156,13 @@ const values = unfolded(bytes(
 "AAAA"
 /* </packed> */
 ));
+
+// Viscous restitution over the root of the relaxation time, a series of Chebyshev's polynomials.
+const series = new Float64Array([
+/* <series> */
+0.5,-0.5,
+/* </series> */
+]);
 
 /**
  * Which of so many intervals a value from 0 to so many is in.
@@ -386,3 +373,320 @@ export function rebound(x, mass_ratio, stiffness_ratio, restitution, loss) {
     }
     return { velocity: directed(velocity, x), peak_friction, dissipation, regime };
 }
+
+/**
+ * @typedef {number[]} Vector x, y and z
+ *
+ * @typedef {object} Body
+ * @property {number} mass
+ * @property {number} gyration
+ * @property {number} radius
+ *
+ * @typedef {object} Pair
+ * @property {number} friction
+ * @property {number} stiffness_ratio
+ * @property {number} [restitution]
+ * @property {number} [loss]
+ * @property {number} [relaxation_time]
+ * @property {number} [yield_pressure]
+ * @property {number} [effective_modulus]
+ *
+ * @typedef {object} Collision
+ * @property {Vector} velocity
+ * @property {Vector} spin
+ * @property {Vector} other_velocity
+ * @property {Vector} other_spin
+ * @property {Vector} impulse
+ * @property {number} incidence
+ * @property {number} restitution
+ * @property {number} error_bound
+ * @property {number} regime
+ */
+
+/** A flat body that neither moves nor turns by an impact; it may have a velocity. */
+export const WALL = { mass: Infinity, gyration: Infinity, radius: 0 };
+
+/**
+ * A homogeneous sphere.
+ * @param {number} radius [m]
+ * @param {number} mass [kg]
+ * @returns {Body}
+ */
+export function solid_sphere(radius, mass) {
+    return { mass, gyration: radius * Math.sqrt(0.4), radius };
+}
+
+/**
+ * A thin hollow sphere.
+ * @param {number} radius [m]
+ * @param {number} mass [kg]
+ * @returns {Body}
+ */
+export function thin_shell(radius, mass) {
+    return { mass, gyration: radius * Math.sqrt(2 / 3), radius };
+}
+
+/**
+ * @param {Vector} a
+ * @param {Vector} b
+ * @returns {number}
+ */
+function dot(a, b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/**
+ * @param {Vector} a
+ * @param {Vector} b
+ * @returns {Vector}
+ */
+function cross(a, b) {
+    return [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ];
+}
+
+/**
+ * a + factor b
+ * @param {Vector} a
+ * @param {number} factor
+ * @param {Vector} b
+ * @returns {Vector}
+ */
+function sum(a, factor, b) {
+    return [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]];
+}
+
+/**
+ * The fifth root of a number above 0. That of a library differs from one language to the next.
+ * @param {number} value
+ * @returns {number}
+ */
+function fifth_root(value) {
+    let scale = 1;
+    if (!(value > 0 && value <= 1e308)) return NaN;
+    for (; value > 32; value *= 0.03125) scale *= 2;
+    for (; value < 1; value *= 32) scale *= 0.5;
+    let root = 1 + (value - 1) / (14 + value);
+    for (let i = 0; i < 4; i += 1) { // Halley's method
+        const power = root * root * root * root * root;
+        root *= (2 * power + 3 * value) / (3 * power + 2 * value);
+    }
+    return root * scale;
+}
+
+/**
+ * Restitution of a pair at a normal speed.
+ * @param {Pair} pair
+ * @param {number} mass effective mass m2, 1/m2 = 1/M + 1/M' [kg]
+ * @param {number} radius effective radius R, 1/R = 1/r + 1/r' [m]
+ * @param {number} speed [m/s]
+ * @returns {number} NaN if the pair is not complete
+ */
+export function restitution_at(pair, mass, radius, speed) {
+    const { restitution: fixed = 0, loss = 0, relaxation_time = 0, yield_pressure = 0 } = pair;
+    const modulus = pair.effective_modulus;
+    const is_fixed = fixed !== 0 || loss !== 0;
+    if (Number(is_fixed) + Number(relaxation_time !== 0) + Number(yield_pressure !== 0) !== 1)
+        return NaN;
+    if (yield_pressure !== 0) {
+        // Thornton's sphere, with lengths over (m2 v2^2/(E* R^(1/2)))^(2/5): a is the radius of
+        // contact where it yields, the approach is then a^2, and at the end `depth`.
+        const first = modulus / mass * radius / speed * radius / speed * radius;
+        const a = 1.5707963267948966 * (yield_pressure / modulus) * fifth_root(first);
+        const left = 1 - a * a * a * a * a * (16 / 15), part = 2 / 3 * (a * a);
+        if (!(a > 0)) return NaN;
+        if (!(left > 0)) return 1;
+        const reach = Math.sqrt(part * part + left / (2 * a)), depth = a * a / 3 + reach;
+        return clipped(2 * a * reach * Math.sqrt(0.6 / Math.sqrt(depth)), 0, 1);
+    }
+    if (relaxation_time !== 0) {
+        const stiff = modulus / mass;
+        const tau = relaxation_time * fifth_root(stiff * radius * stiff * speed);
+        const at = 2 * (Math.sqrt(tau) / SPAN) - 1;
+        if (!(tau > 0 && tau <= LONGEST)) return NaN;
+        let total = 0, last = 0;
+        for (let i = SERIES - 1; i > 0; i -= 1) // Clenshaw's method
+            [total, last] = [series[i] + 2 * at * total - last, total];
+        return clipped(series[0] + at * total - last, LEAST, 1);
+    }
+    return fixed === 1 || loss === VISCOUS || loss === PLASTIC ? fixed : NaN;
+}
+
+/**
+ * 1/r; 0 of a wall, which is flat, whatever its radius.
+ * @param {Body} body
+ * @returns {number}
+ */
+function curvature({ mass, gyration, radius }) {
+    return mass > MASS_RATIO_MOST && gyration > MASS_RATIO_MOST ? 0 : 1 / radius;
+}
+
+/**
+ * An impact that is to come: what `change` needs, and the unit vector along which the contact point
+ * moves. Its regime is UNRESOLVED where it has no answer, or NO_IMPACT.
+ * @param {Pair} pair
+ * @param {Vector} normal
+ * @param {Body} body
+ * @param {Vector} velocity
+ * @param {Vector} spin
+ * @param {Body} other
+ * @param {Vector} other_velocity
+ * @param {Vector} other_spin
+ */
+function before(pair, normal, body, velocity, spin, other, other_velocity, other_spin) {
+    const zero = [0, 0, 0], most = INCIDENCE_MAX;
+    const impact = {
+        tangent: zero, v2: 0, m2: 0, beta: 0, zeta2: 0, e: 0, x: 0, loss: 0, regime: UNRESOLVED,
+    };
+    // Velocity of the contact point of the body against that of the other one.
+    const turn = sum(sum(zero, body.radius, spin), other.radius, other_spin);
+    const between = sum(velocity, -1, other_velocity);
+    const point = sum(between, -1, cross(turn, normal));
+    const along = dot(point, normal), arm = body.radius / body.gyration;
+    const sideways = sum(point, -along, normal), v1 = Math.sqrt(dot(sideways, sideways));
+    const other_arm = other.radius / other.gyration;
+    const m2 = 1 / (1 / body.mass + 1 / other.mass);
+    const beta = m2 * ((1 + arm * arm) / body.mass + (1 + other_arm * other_arm) / other.mass);
+    if (!(Math.abs(dot(normal, normal) - 1) <= 2e-6 && Math.abs(along) <= most && v1 <= most
+          && body.mass > 0 && body.gyration > 0 && body.radius >= 0
+          && other.mass > 0 && other.gyration > 0 && other.radius >= 0 && m2 <= most
+          && pair.friction >= 0 && pair.friction <= most))
+        return impact;
+    if (!(along < 0)) {
+        impact.regime = NO_IMPACT;
+        return impact;
+    }
+
+    impact.e = restitution_at(pair, m2, 1 / (curvature(body) + curvature(other)), -along);
+    impact.loss = pair.loss === PLASTIC || pair.yield_pressure > 0 ? PLASTIC : VISCOUS;
+    // Nothing is lost: the table of viscous spheres is nearer.
+    if (impact.e === 1) impact.loss = VISCOUS;
+    if (!(impact.e >= 0 && impact.e <= 1 && covers(0, beta, pair.stiffness_ratio, 1, VISCOUS)))
+        return impact;
+    if (v1 > 0) impact.tangent = sum(zero, 1 / v1, sideways);
+    impact.v2 = -along;
+    impact.m2 = m2;
+    impact.beta = beta;
+    impact.zeta2 = pair.stiffness_ratio;
+    impact.x = v1 > 0 ? v1 / (pair.friction * impact.v2) : 0;
+    impact.regime = STICK;
+    return impact;
+}
+
+/**
+ * What an impact of this loss adds to x, the tangential velocity, and its regime.
+ * @param {ReturnType<typeof before>} impact
+ * @param {number} loss
+ */
+function change({ x, beta, zeta2, e }, loss) {
+    const slides = 0 - (1 + e) * beta, known = e >= RESTITUTION_MIN;
+    if (!(x > 0)) return { added: 0, regime: STICK };
+    if (x > INCIDENCE_MAX || (loss === VISCOUS && x >= beta + e * (beta - zeta2)))
+        return { added: slides, regime: SLIP_THROUGHOUT };
+    const spot = find(x / zeta2, beta / zeta2, known ? e : RESTITUTION_MIN, loss);
+    if (known && spot.slides) return { added: slides, regime: SLIP_THROUGHOUT };
+    const regime = !known ? UNRESOLVED : x > zeta2 ? SLIP_STICK_SLIP : STICK_SLIP;
+    const added = spot.slides ? slides : zeta2 * spline(spot, spot.panel.velocity) - x;
+    // Within what friction can do, and the energy that there is.
+    return { added: clipped(added, slides > -2 * x ? slides : -2 * x, 0), regime };
+}
+
+/**
+ * The collision of two bodies, or of one with a wall.
+ * @param {Pair} pair
+ * @param {Vector} normal from the other body to the body, of length 1
+ * @param {Body} body
+ * @param {Vector} velocity [m/s]
+ * @param {Vector} spin [rad/s]
+ * @param {Body} other
+ * @param {Vector} other_velocity [m/s]
+ * @param {Vector} other_spin [rad/s]
+ * @returns {Collision}
+ */
+export function collide(
+    pair, normal, body, velocity, spin, other, other_velocity, other_spin
+) {
+    const impact = before(
+        pair, normal, body, velocity, spin, other, other_velocity, other_spin);
+    if (impact.regime !== STICK) {
+        const nothing = impact.regime === NO_IMPACT, unknown = [NaN, NaN, NaN];
+        return {
+            velocity: [...(nothing ? velocity : unknown)],
+            spin: [...(nothing ? spin : unknown)],
+            other_velocity: [...(nothing ? other_velocity : unknown)],
+            other_spin: [...(nothing ? other_spin : unknown)],
+            impulse: nothing ? [0, 0, 0] : unknown,
+            incidence: NaN,
+            restitution: NaN,
+            error_bound: NaN,
+            regime: impact.regime,
+        };
+    }
+
+    const { added, regime } = change(impact, impact.loss), unit = pair.friction * impact.v2;
+    const towards = impact.m2 * impact.v2 * (1 + impact.e);
+    const along = impact.m2 * unit * (added / impact.beta);
+    const impulse = sum(sum([0, 0, 0], towards, normal), along, impact.tangent);
+    const turn = cross(normal, impact.tangent), twist = 0 - along;
+    const turned = twist * (body.radius / body.gyration / body.gyration / body.mass);
+    const other_turned =
+        twist * (other.radius / other.gyration / other.gyration / other.mass);
+    let error_bound = unit * (impact.loss === VISCOUS ? ERROR_VISCOUS : ERROR_PLASTIC);
+    if (regime === STICK || regime === SLIP_THROUGHOUT) error_bound = 0;
+    else if (regime === UNRESOLVED) error_bound = NaN;
+    return {
+        velocity: sum(velocity, 1 / body.mass, impulse),
+        spin: sum(spin, turned, turn),
+        other_velocity: sum(other_velocity, -1 / other.mass, impulse),
+        other_spin: sum(other_spin, other_turned, turn),
+        impulse,
+        incidence: impact.x,
+        restitution: impact.e,
+        error_bound,
+        regime,
+    };
+}
+
+/**
+ * The collision of a body with a surface at rest.
+ * @param {Pair} pair
+ * @param {Vector} normal out of the surface, of length 1
+ * @param {Body} body
+ * @param {Vector} velocity [m/s]
+ * @param {Vector} spin [rad/s]
+ * @returns {Collision}
+ */
+export function bounce(pair, normal, body, velocity, spin) {
+    return collide(pair, normal, body, velocity, spin, WALL, [0, 0, 0], [0, 0, 0]);
+}
+
+/**
+ * How far the velocity of the contact point after the impact would move with the other loss.
+ * @param {Parameters<typeof collide>} contact the arguments of `collide`
+ * @returns {number} [m/s]; NaN where there is no answer, or no impact
+ */
+export function model_form(...contact) {
+    const impact = before(...contact);
+    if (impact.regime !== STICK) return NaN;
+    if (impact.e === 1) return 0;
+    const viscous = change(impact, VISCOUS), plastic = change(impact, PLASTIC);
+    if (viscous.regime === UNRESOLVED || plastic.regime === UNRESOLVED) return NaN;
+    return contact[0].friction * impact.v2 * Math.abs(viscous.added - plastic.added);
+}
+
+/**
+ * Bodies with their pairs of materials, and the sources of the numbers.
+ * @type {Record<string, { body: Body, pair: Pair }>}
+ */
+export const presets = {
+/* <presets> */
+    // A sample: no real ball.
+    sample: {
+        body: { mass: 0.1, gyration: 0.02, radius: 0.03 },
+        pair: { friction: 0.8, stiffness_ratio: 1.5, restitution: 0.9, loss: VISCOUS },
+    },
+/* </presets> */
+};

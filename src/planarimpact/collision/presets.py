@@ -1,0 +1,60 @@
+"""Presets: bodies with their pairs of materials, and the sources of their numbers."""
+
+import tomllib
+from functools import cache
+from importlib import resources
+from typing import Any, NamedTuple
+
+from planarimpact import bodies
+from planarimpact.bodies import Body, Material
+from planarimpact.collision.pairs import Pair
+
+
+class Preset(NamedTuple):
+    """A body, what it touches, and where the numbers come from.
+
+    Attributes
+    ----------
+    about : str
+        The body and what it touches.
+    body : Body
+    pair : Pair
+    source : str
+        Where the numbers come from; it says which are typical or chosen, not measured.
+    beware : str
+        Where the model does not hold.
+    """
+
+    about: str
+    body: Body
+    pair: Pair
+    source: str
+    beware: str
+
+
+@cache
+def presets() -> dict[str, Preset]:
+    """Presets by name.
+
+    Returns
+    -------
+    dict of str to Preset
+
+    Examples
+    --------
+    >>> ball = presets()["superball"]
+    >>> ball.about, round(float(ball.body.mass), 3), ball.pair.restitution.item()
+    ('rubber ball on granite', 0.046, 0.9)
+    """
+    text = resources.files(__package__).joinpath("presets.toml").read_text(encoding="utf-8")
+    return {name: _preset(**given) for name, given in tomllib.loads(text).items()}
+
+
+def _preset(body: dict[str, Any], pair: dict[str, Any], **words: str) -> Preset:
+    shape, nu = getattr(bodies, body.pop("shape")), pair.pop("poisson_ratio")
+    modulus = pair.pop("young_modulus", None)
+    if modulus is None:
+        pair["stiffness_ratio"] = bodies.stiffness_ratio(Material(1.0, nu))  # of any modulus
+        return Preset(body=shape(**body), pair=Pair(**pair), **words)
+    material = Material(modulus, nu)
+    return Preset(body=shape(**body), pair=Pair(material, material, **pair), **words)

@@ -1,0 +1,56 @@
+"""Presets: their numbers are those of their sources, in C too."""
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from planarimpact import collision, export
+
+DATA = Path(__file__).parents[2] / "data"
+PRESETS = collision.presets()
+FIELDS = "friction stiffness_ratio restitution relaxation_time yield_pressure effective_modulus"
+
+
+@pytest.mark.parametrize(
+    ("name", "pair"), [("glass_beads", "soda-lime glass"), ("steel_beads", "chrome steel")]
+)
+def test_beads_are_those_of_the_chart(name, pair):
+    with open(DATA / "cornell1999/pairs.csv", newline="") as file:
+        row = next(row for row in csv.DictReader(file) if row["pair"] == pair)
+    given = PRESETS[name].pair
+    assert given.friction == float(row["friction [1]"])
+    e = given.restitution if name == "glass_beads" else 1.0
+    assert e == float(row["restitution [1]"])
+
+
+def test_balls_are_those_of_their_sources():
+    cross = yaml.safe_load((DATA / "cross2014/source.yaml").read_text(encoding="utf-8"))
+    superball, tennis = PRESETS["superball"], PRESETS["tennis_ball"]
+    assert superball.pair.friction == cross["parameters"]["friction"]["value"]
+    assert superball.pair.stiffness_ratio == cross["parameters"]["stiffness_ratio"]["value"]
+    assert superball.body.mass == pytest.approx(0.0462, rel=1e-3)
+    assert (135 / 254) ** 0.5 < tennis.pair.restitution < (147 / 254) ** 0.5
+    for name in ("billiard_balls", "billiard_ball_on_cushion"):
+        body = PRESETS[name].body
+        assert body.radius == 2.25 * 0.0254 / 2
+        assert body.mass == pytest.approx(6 * 0.028349523125, rel=1e-3)
+
+
+def test_a_header_has_the_same_numbers():
+    code = export.spheres_text("balls.h", "c", tolerance=max(export.TABLES))
+    losses = {"BALLS_VISCOUS": False, "BALLS_PLASTIC": True}
+    found = re.findall(r"_preset balls_(\w+) = {\n *{(.*)},\n *{(.*), (\w+)}};\n", code)
+    assert [name for name, *_ in found] == list(PRESETS)
+    for name, body, pair, loss in found:
+        preset = PRESETS[name]
+        assert [float(number) for number in body.split(",")] == list(preset.body)
+        wanted = np.nan_to_num([getattr(preset.pair, field) for field in FIELDS.split()])
+        numbers = [float(number) for number in pair.split(",")]
+        by_law = np.isnan(preset.pair.restitution)
+        np.testing.assert_array_equal(numbers[:5], wanted[:5])
+        assert numbers[5] == (wanted[5] if by_law else 0)
+        assert by_law if loss == "0" else losses[loss] == preset.pair.plastic
