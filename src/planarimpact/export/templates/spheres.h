@@ -164,6 +164,12 @@ static inline double spheres_clipped(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
+/* A velocity within the bounds of the exact one: energy, and slip throughout. */
+static inline double spheres_bounded(double velocity, double size, double slips)
+{
+    return spheres_clipped(velocity, slips > 0.0 - size ? slips : 0.0 - size, size);
+}
+
 /* The interval that a value from 0 to 1 is in, and the four B-splines there. */
 static inline int spheres_place(double value, int count, double *weights)
 {
@@ -290,16 +296,16 @@ static inline int spheres_covers(
 static inline double spheres_velocity(
     double x, double mass_ratio, double stiffness_ratio, double restitution, int loss)
 {
-    double size = fabs(x), velocity;
+    double size = fabs(x), slips = size - (1 + restitution) * mass_ratio, velocity;
     struct spheres_spot spot;
     if (!spheres_covers(x, mass_ratio, stiffness_ratio, restitution, loss))
         return (double)NAN;
     spot = spheres_find(size / stiffness_ratio, mass_ratio / stiffness_ratio, restitution, loss);
     if (spot.slides) {
-        velocity = size - (1 + restitution) * mass_ratio;
+        velocity = slips;
     } else {
         velocity = stiffness_ratio * spheres_spline(&spot, spot.panel->velocity);
-        velocity = spheres_clipped(velocity, 0.0 - size, size);
+        velocity = spheres_bounded(velocity, size, slips);
     }
     return velocity * copysign(1.0, x);
 }
@@ -325,7 +331,8 @@ static inline struct spheres_result spheres_rebound(
         result.regime = SPHERES_SLIP_THROUGHOUT;
     } else {
         double peak = spheres_spline(&spot, spot.panel->peak);
-        w = spheres_clipped(zeta2 * spheres_spline(&spot, spot.panel->velocity), 0.0 - size, size);
+        w = zeta2 * spheres_spline(&spot, spot.panel->velocity);
+        w = spheres_bounded(w, size, size - (1 + e) * beta);
         result.peak_friction = spheres_clipped(peak, 0.0, 1.0);
         if (loss == SPHERES_VISCOUS) {
             double work = zeta2 * spheres_spline(&spot, spot.panel->work);

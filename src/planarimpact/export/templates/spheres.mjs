@@ -185,6 +185,17 @@ function clipped(value, low, high) {
 }
 
 /**
+ * A velocity within the bounds of the exact one: energy, and slip throughout.
+ * @param {number} velocity
+ * @param {number} size
+ * @param {number} slips
+ * @returns {number}
+ */
+function bounded(velocity, size, slips) {
+    return clipped(velocity, slips > 0 - size ? slips : 0 - size, size);
+}
+
+/**
  * The interval that a value from 0 to 1 is in, and the four B-splines there.
  * @param {number} value
  * @param {number} count
@@ -326,8 +337,9 @@ export function velocity(x, mass_ratio, stiffness_ratio, restitution, loss) {
     const size = Math.abs(x), beta = mass_ratio, zeta2 = stiffness_ratio, e = restitution;
     if (!covers(x, beta, zeta2, e, loss)) return NaN;
     const spot = find(size / zeta2, beta / zeta2, e, loss);
-    if (spot.slides) return directed(size - (1 + e) * beta, x);
-    return directed(clipped(zeta2 * spline(spot, spot.panel.velocity), 0 - size, size), x);
+    const slips = size - (1 + e) * beta;
+    if (spot.slides) return directed(slips, x);
+    return directed(bounded(zeta2 * spline(spot, spot.panel.velocity), size, slips), x);
 }
 
 /**
@@ -362,7 +374,8 @@ export function rebound(x, mass_ratio, stiffness_ratio, restitution, loss) {
             : (1 + e) * (size - change / 2);
         regime = SLIP_THROUGHOUT;
     } else {
-        velocity = clipped(zeta2 * spline(spot, spot.panel.velocity), 0 - size, size);
+        velocity = zeta2 * spline(spot, spot.panel.velocity);
+        velocity = bounded(velocity, size, size - (1 + e) * beta);
         peak_friction = spline(spot, spot.panel.peak);
         peak_friction = clipped(peak_friction, 0, 1);
         dissipation = loss === VISCOUS
