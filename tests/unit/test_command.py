@@ -27,6 +27,7 @@ ROW = {
     "poisson_ratio": 0.3,
     "friction": 0.05,  # it slides throughout: its result is a formula, the same to the last digit
     "restitution": 0.8,
+    "loss": "viscous",
     "velocity_tangential [m/s]": 1.0,
     "velocity_normal [m/s]": 2.0,
     "spin [rad/s]": 0.0,

@@ -20,6 +20,7 @@ STEEL = {
     "poisson_ratio": 0.3,
     "friction": 0.3,
     "restitution": 0.8,
+    "loss": "viscous",
 }
 PLANE = {"velocity_tangential [m/s]": 1.0, "velocity_normal [m/s]": 2.0, "spin [rad/s]": 30.0}
 SPACE = {
@@ -209,7 +210,7 @@ BAD_COLUMNS = [
     (STEEL | PLANE | {"other_mass [kg]": 1.0}, r"other_radius \[m\]: missing"),
     (STEEL | PLANE | {"other_poisson_ratio": 0.3}, r"other_young_modulus \[Pa\]: missing"),
     (
-        without(STEEL, "restitution") | PLANE,
+        without(STEEL, "restitution", "loss") | PLANE,
         r"columns: needed is exactly one of restitution, relaxation_time \[s\], yield_pressure",
     ),
     (
@@ -217,11 +218,15 @@ BAD_COLUMNS = [
         r"columns restitution, yield_pressure \[Pa\]: needed is exactly one of",
     ),
     (
-        without(STEEL, "restitution") | PLANE | {"yield_pressure [Pa]": 1e9, "loss": "plastic"},
+        without(STEEL, "restitution", "loss")
+        | PLANE
+        | {"yield_pressure [Pa]": 1e9, "loss": "plastic"},
         r"column loss: allowed only beside restitution, as yield_pressure \[Pa\] is always plas",
     ),
     (
-        without(STEEL, "restitution") | PLANE | {"relaxation_time [s]": 0.0, "loss": "viscous"},
+        without(STEEL, "restitution", "loss")
+        | PLANE
+        | {"relaxation_time [s]": 0.0, "loss": "viscous"},
         r"column loss: allowed only .* relaxation_time \[s\] is always viscous",
     ),
     (STEEL | PLANE | {"loss [J]": "plastic"}, "the unit of loss is none"),
@@ -274,7 +279,7 @@ def test_a_bad_row_is_named_or_left_out(name, value, words):
 
 
 def of_material(**material):
-    return table(without(STEEL, "restitution"), PLANE, material)
+    return table(without(STEEL, "restitution", "loss"), PLANE, material)
 
 
 @pytest.mark.parametrize(
@@ -288,7 +293,7 @@ def test_the_material_gives_restitution_at_the_speed_of_each_impact(header, valu
     speeds = np.array([0.05, 0.5, 5.0])
     rows = of_material(**{header: value}).loc[[0] * 3]
     values, _ = inputs(rows.assign(**{"velocity_normal [m/s]": speeds}))
-    found = states.rows(values).impacts
+    found, peak_normal, _ = states.rows(values)
     ball = bodies.solid_sphere(0.01, 7800.0)
     contact = ball.mass, bodies.effective_modulus(bodies.Material(207e9, 0.3)), 0.01
     e = law(speeds, value, *contact)
@@ -296,7 +301,7 @@ def test_the_material_gives_restitution_at_the_speed_of_each_impact(header, valu
     np.testing.assert_allclose(found.restitution, e, rtol=1e-13)
     assert found.plastic.tolist() == [loss == "plastic"] * 3
     force = bodies.peak_force(ball.mass, speeds, *contact[1:], e, loss)
-    np.testing.assert_allclose(found.peak_normal, force, rtol=1e-9)
+    np.testing.assert_allclose(peak_normal, force, rtol=1e-9)
     wanted = rows.assign(**{"velocity_normal [m/s]": speeds, "restitution": e, "loss": loss})
     same, _ = inputs(wanted.drop(columns=header))
     for one, other in zip(states.rows(same).impacts, found, strict=True):
@@ -315,19 +320,29 @@ def test_each_row_has_the_loss_of_its_word():
     assert not problems and [columns.LOSSES[int(k)] for k in values["loss"]] == [
         word.strip() for word in words
     ]
-    found = states.rows(values).impacts
+    found, peak_normal, _ = states.rows(values)
     assert found.plastic.tolist() == [False, True, True]
-    hertz = found.peak_normal[2]
-    assert (found.peak_normal[:2] / hertz).round(3).tolist() == [0.773, 0.551]
+    assert (peak_normal[:2] / peak_normal[2]).round(3).tolist() == [0.773, 0.551]
     as_category = inputs(rows.astype({"loss": "category"}))[0]
     np.testing.assert_array_equal(as_category["loss"], values["loss"])
 
 
-@pytest.mark.parametrize("word", ["magic", "", None, 1, "Viscous", "viscous, plastic"])
+@pytest.mark.parametrize("word", ["magic", 1, "Viscous", "viscous, plastic"])
 def test_a_wrong_loss_is_named_by_its_row(word):
     rows = table(STEEL, PLANE).loc[[0] * 3].assign(loss=["viscous", word, "plastic"])
     with pytest.raises(InputError, match="row 2: loss = .*: allowed are viscous, plastic"):
         scene.solve(rows)
+
+
+def test_below_restitution_1_a_row_says_its_loss():
+    """At 1 it may be empty."""
+    rows = table(STEEL, PLANE).loc[[0] * 3].assign(restitution=[1.0, 1.0, 0.8])
+    after = scene.solve(rows.assign(loss=["", None, "plastic"]))
+    assert after["model"].tolist()[:2] == ["continuum"] * 2
+    words = "row 3: restitution = 0.8: below 1 the loss must be said; allowed are viscous, plastic"
+    for missing in (rows.assign(loss=""), rows.drop(columns="loss")):
+        with pytest.raises(InputError, match=words):
+            scene.solve(missing)
 
 
 def test_a_relaxation_time_beyond_the_law_is_a_bad_row():
@@ -481,7 +496,8 @@ def test_each_impact_gets_the_first_rung_that_fits():
         ("1", "continuum.viscous, solved", TOO_COARSE),
         ("1", "continuum.viscous, solved", NOT_COVERED),
     }
-    assert explained(rows, tolerance=2e-4, loss="plastic") == formulas | {
+    plastic = rows.drop(columns="loss")
+    assert explained(plastic, tolerance=2e-4, loss="plastic") == formulas | {
         ("1", "continuum, table", TABLED),
         ("1", "continuum.plastic, solved", TOO_COARSE),
         ("1", "continuum.plastic, solved", NOT_COVERED),

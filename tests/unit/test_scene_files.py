@@ -36,6 +36,7 @@ def impacts(**more):
         "poisson_ratio": 0.3,
         "friction": [0.05] * 6 + [0.0],
         "restitution": [0.8, 0.8, 0.01, 0.8, 0.8, 0.8, 0.8],  # one without peak forces
+        "loss": "viscous",
         "velocity_tangential [m/s]": rng.uniform(1, 2, COUNT),
         "velocity_normal [m/s]": np.float32(2.5),
         "spin [rad/s]": 0.0,
@@ -156,7 +157,7 @@ def test_spaces_around_numbers_are_no_part_of_them(table, tmp_path):
     text = table.read_text().split("\n", 1)
     table.write_text("\n".join([text[0], text[1].replace(",", " , ").replace("\n", " \n \n")]))
     files.solve(table, spaced, rows=3)
-    assert spaced.read_text() == plain.read_text()
+    assert spaced.read_text().replace(" viscous ", "viscous") == plain.read_text()
 
 
 def test_a_quotation_mark_without_a_second_one_does_not_read_the_whole_table(table, monkeypatch):
@@ -203,7 +204,7 @@ def test_of_many_refusals_workers_find_the_first(table, tmp_path):
     out = tmp_path / "out.csv"
     for words in (
         r"row 3: friction = -1.0",
-        "row 6: 10 cells where 9 belong",
+        "row 6: 11 cells where 10 belong",
         "row 9: its quot",
     ):
         for count in (1, 2):

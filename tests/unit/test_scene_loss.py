@@ -31,7 +31,6 @@ GROUPS = 3.5, bodies.stiffness_ratio(bodies.Material(207e9, 0.3))
 STICKING = 1, 2, 3
 INCIDENCES = np.array([0.0, 0.5, 2.0, 3.0, 10.0])
 UNIT = 0.2  # mu v2(0) [m/s]
-ASSUMED = "restitution below 1: the loss is taken to be viscous, as none was given"
 
 
 def table(incidence=INCIDENCES, **more):
@@ -120,7 +119,7 @@ def test_a_wrong_loss_is_refused(loss):
 
 def test_columns_say_what_the_table_does_not():
     """Restitution and loss are there once: as they were given, or before the model."""
-    plain = scene.solve(table(restitution=[0.6, 0.6, 1.0, 0.6, 0.6]))
+    plain = scene.solve(table(restitution=[0.6, 0.6, 1.0, 0.6, 0.6]), loss="viscous")
     assert plain.columns.get_loc("loss") < plain.columns.get_loc("model")
     assert plain["loss"].tolist()[:2] == ["viscous"] * 2 and plain["loss"].isna()[2]
     own = scene.solve(table(restitution=0.6, loss=" plastic "))
@@ -141,7 +140,7 @@ def test_elastic_rows_do_not_know_the_loss(loss):
     pd.testing.assert_frame_equal(*without)
     mixed = pd.concat([rows, rows.assign(restitution=0.6)], ignore_index=True)
     pd.testing.assert_frame_equal(scene.solve(mixed, loss=loss).iloc[:5], wanted)
-    assert not plain.assumed and (wanted[FORM] == 0).all()
+    assert (wanted[FORM] == 0).all()
     assert "loss" not in plain.explain()
 
 
@@ -190,7 +189,7 @@ def test_model_form_of_a_solved_impact_is_by_the_table_where_it_can_be(loss):
 def test_model_form_by_the_table(e):
     """It is wrong by two errors of the table at most."""
     x, wanted = distances(e)
-    form = scene.solve(table(x, restitution=e))[FORM] / UNIT
+    form = scene.solve(table(x, restitution=e), loss="viscous")[FORM] / UNIT
     assert np.abs(form - wanted).max() <= 2 * (max(spheres.ERROR_BOUND.values()) + 1e-4)
 
 
@@ -205,7 +204,8 @@ def test_where_both_losses_agree_there_is_no_model_form():
     """Sliding throughout, head-on, and without friction."""
     x = np.array([0.0, 10.0])
     for more in ({}, {"friction": 0.0}):
-        assert (scene.solve(table(x, restitution=0.5).assign(**more))[FORM] == 0).all()
+        after = scene.solve(table(x, restitution=0.5).assign(**more), loss="viscous")
+        assert (after[FORM] == 0).all()
 
 
 def test_model_form_without_an_answer_of_the_other_loss():
@@ -227,7 +227,7 @@ def test_model_form_without_an_answer_of_the_other_loss():
 @pytest.mark.parametrize("count", [1, 3])
 def test_all_of_it_may_be_unknown(count, monkeypatch, no_table):
     monkeypatch.setattr(model_form, "TOLERANCE", 1e-12)
-    found = scene.Solver()
+    found = scene.Solver(loss="viscous")
     after = found.solve(table([2.0] * count, restitution=0.5))
     assert after[FORM].isna().all() and after[AFTER].notna().all()
     assert found.explain().endswith(f"{count} impacts, not known for {count}")
@@ -236,12 +236,11 @@ def test_all_of_it_may_be_unknown(count, monkeypatch, no_table):
 # Words.
 
 
-def test_explain_says_what_was_assumed_and_what_it_may_cost():
-    found = scene.Solver()
+def test_explain_says_what_the_loss_may_cost():
+    found = scene.Solver(loss="viscous")
     form = found.solve(table(restitution=0.6))[FORM].to_numpy() / UNIT
-    *rungs, coupled, assumed, cost = found.explain().splitlines()[1:]
+    *rungs, coupled, cost = found.explain().splitlines()[1:]
     assert coupled.startswith("the bodies spread differently under pressure")
-    assert found.assumed and assumed == ASSUMED
     typical = np.sqrt(np.mean(form[[*STICKING]] ** 2))
     assert cost == (
         f"with the other loss the velocity would differ by {typical:.2g} mu v2(0) (root mean "
@@ -250,37 +249,10 @@ def test_explain_says_what_was_assumed_and_what_it_may_cost():
     assert sorted(line.split()[0] for line in rungs) == ["1", "1", "3"]
 
 
-@pytest.mark.parametrize(
-    ("loss", "more"),
-    [
-        ("viscous", {"restitution": 0.6}),
-        (None, {"restitution": 0.6, "loss": "viscous"}),
-        (None, {"relaxation_time [s]": 2e-6}),
-        (None, {"yield_pressure [Pa]": 3e9}),
-    ],
-)
-def test_explain_assumes_nothing_where_the_loss_is_known(loss, more):
-    found = scene.Solver(loss=loss)
-    found.solve(table(**more))
-    assert not found.assumed and ASSUMED not in found.explain()
-    assert "with the other loss the velocity would differ by" in found.explain()
-
-
-@pytest.mark.parametrize("incidence", [0.0, 2.0, 10.0])
-def test_a_loss_is_assumed_wherever_a_result_depends_on_it(incidence):
-    """The largest normal force does, also head-on and in slip throughout."""
-    rows, force = table([incidence], restitution=0.6), "peak_normal_force [N]"
-    found = scene.Solver()
-    viscous, plastic = (
-        after[force].item() for after in (found.solve(rows), scene.solve(rows, loss="plastic"))
-    )
-    assert found.assumed and viscous > 1.2 * plastic
-
-
 # Head-on.
 
 
-@pytest.mark.parametrize("loss", [None, *continuum.LOSSES])
+@pytest.mark.parametrize("loss", continuum.LOSSES)
 def test_head_on_any_restitution_has_an_answer(loss):
     e = np.array([0.0, 1e-12, 0.05, 0.5, 1.0])
     after = scene.solve(table([0.0] * e.size, restitution=e), loss=loss)
@@ -292,7 +264,7 @@ def test_head_on_any_restitution_has_an_answer(loss):
 
 def test_head_on_stands_beside_others():
     """A little tangential velocity sticks, and then e below 0.1 has no answer."""
-    rows = table([0.0, 1e-9], restitution=0.05)
+    rows = table([0.0, 1e-9], restitution=0.05, loss="viscous")
     words = "row 2: restitution = 0.05: allowed are numbers from 0.1 where the contact sticks"
     with pytest.raises(InputError, match=words):
         scene.solve(rows)
@@ -310,15 +282,11 @@ def source(tmp_path):
     return path
 
 
-def test_a_scene_on_the_command_line_assumes_a_loss_in_one_line(source, capsys):
+def test_a_scene_on_the_command_line_refuses_a_missing_loss(source, capsys):
     out = source.with_name("out.csv")
-    assert main(["scene", str(source), str(out)]) == 0
-    assert capsys.readouterr().err == f"{ASSUMED}; --loss chooses\n"
-    wanted = scene.solve(pd.read_csv(source))
-    pd.testing.assert_frame_equal(pd.read_csv(out)[[AFTER, FORM]], wanted[[AFTER, FORM]])
-    assert main(["scene", str(source), str(out), "--explain"]) == 0
-    said = capsys.readouterr()
-    assert ASSUMED in said.out.splitlines() and said.err == ""
+    assert main(["scene", str(source), str(out)]) == 2 and not out.exists()
+    said = capsys.readouterr().err
+    assert "row 1: restitution = 0.6: below 1 the loss must be said" in said and "--loss" in said
 
 
 @pytest.mark.parametrize("loss", continuum.LOSSES)
