@@ -133,8 +133,10 @@ class Response:
         return _new_response, (*question, self.error_bound, self.slides_from, self.pieces)
 
     def __repr__(self) -> str:
-        groups = ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
-        return f"<Response of {self.model}: {groups}; error {max(self.error_bound):.1e}>"
+        own = {key: value for key, value in self.parameters.items() if key != "tolerance"}
+        words = ", ".join(f"{name} = {value:g}" for name, value in own.items())
+        reached = f"error {max(self.error_bound):.1e}, allowed {self.tolerance:g}"
+        return f"<Response of {self.model}: {words}; {reached}>"
 
     @checks.default_errors
     def __call__(self, incidence: ArrayLike) -> Rebound:
