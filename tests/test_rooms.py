@@ -27,9 +27,9 @@ SOLVER = {
     "models": "ground normal_impact rigid lumped continuum spheres",
     "response": "ground models",
     "export": "planarimpact ground normal_impact collision response spheres",
-    "collision": "ground bodies continuum models spheres",
+    "collision": "ground normal_impact bodies continuum models spheres",
     "scene": "ground bodies collision continuum pandas",
-    "__init__": "ground",
+    "__init__": "ground collision",
     "__main__": "planarimpact ground bodies lumped continuum models response export scene",
 }
 # The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
@@ -76,6 +76,7 @@ SIDE_DOORS = {
     "collision.model_form",
     "collision.presets",
     "collision.rungs",
+    "spheres.single",  # one impact in plain floats
     "spheres.table",  # which export writes in other languages
 }
 

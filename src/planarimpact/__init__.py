@@ -7,7 +7,8 @@
 - `spheres`: the continuum from a table, for impacts that are each their own pair.
 - `models`: every model by its name, with those that others use (`models.laws`, `models.timestep`).
 - `response`: compiles any of them. `export`: writes them as C or JavaScript.
-- `scene`: solves tables of impacts.
+- `collide`: velocities and spins of two bodies in space after their impact, by the pair of their
+  materials, a `Pair`. `scene`: solves tables of impacts.
 - `bodies`: from physical bodies to the groups that all models take. `noncollinear`: bodies that
   strike off their centre.
 - `normal_impact.hertz`, `normal_impact.kelvin_voigt`, `normal_impact.yielding`: head-on impact of
@@ -34,7 +35,7 @@ use, as some need SciPy or pandas, which take their time.
 """
 
 import importlib
-from types import ModuleType
+from typing import Any
 
 from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import (
@@ -55,14 +56,18 @@ _ROOMS = [
     "models",
     "response",
     "export",
+    "collision",
     "scene",
     "bodies",
     "noncollinear",
     "normal_impact",
     "ground",
 ]
+# Names of the room `collision` that are here too.
+_OF_COLLISION = ["Collision", "Pair", "collide"]
 __all__ = [
     *_ROOMS,
+    *_OF_COLLISION,
     "ContinuumHistory",
     "ConvergenceError",
     "Event",
@@ -72,10 +77,12 @@ __all__ = [
     "Rebound",
     "Regime",
 ]
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 
-def __getattr__(name: str) -> ModuleType:
+def __getattr__(name: str) -> Any:
+    if name in _OF_COLLISION:
+        return getattr(importlib.import_module("planarimpact.collision"), name)
     if name in _ROOMS:
         return importlib.import_module(f"planarimpact.{name}")
     if name == "study":
@@ -87,4 +94,4 @@ def __getattr__(name: str) -> ModuleType:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_ROOMS})
+    return sorted({*globals(), *_ROOMS, *_OF_COLLISION})

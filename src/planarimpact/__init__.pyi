@@ -1,4 +1,5 @@
 from planarimpact import bodies as bodies
+from planarimpact import collision as collision
 from planarimpact import continuum as continuum
 from planarimpact import export as export
 from planarimpact import lumped as lumped
@@ -9,6 +10,9 @@ from planarimpact import response as response
 from planarimpact import rigid as rigid
 from planarimpact import scene as scene
 from planarimpact import spheres as spheres
+from planarimpact.collision import Collision as Collision
+from planarimpact.collision import Pair as Pair
+from planarimpact.collision import collide as collide
 from planarimpact.ground.checks import ConvergenceError as ConvergenceError
 from planarimpact.ground.checks import InputError as InputError
 from planarimpact.ground.results import ContinuumHistory as ContinuumHistory

@@ -93,6 +93,8 @@ UNITS: dict[type, dict[str, str]] = {
 NUMBER = re.compile(
     r"[+-]?((?P<digits>\d+\.?\d*|\.\d+)(e[+-]?\d+)?|inf|infinity|nan)", re.ASCII | re.IGNORECASE
 )
+# Width of the line of progress.
+COLUMNS_OF_PROGRESS = 60
 # Number of incidences at which `models` measures errors.
 INCIDENCES = 65
 # Name of the table of spheres in `compile`.
@@ -112,8 +114,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     --------
     >>> main(["rebound", "--incidence", "8", "--model", "rigid"])
     incidence [mu v2(0)],velocity [mu v2(0)],peak_friction [mu F2max],\
-dissipation [mu^2 m2 v2(0)^2],regime
-    8.0,1.0,1.0,9.0,SLIP_THROUGHOUT
+dissipation [mu^2 m2 v2(0)^2],regime,model,loss
+    8.0,1.0,1.0,9.0,SLIP_THROUGHOUT,rigid,none
     0
     """
     if sys.stdout is None:  # the next file that is opened might get its descriptor
@@ -181,17 +183,31 @@ def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
     elif options.friction is None:
         raise checks.InputError("--angle: it needs --friction, from which the incidence follows")
     else:
-        x = bodies.incidence_from_angle(options.angle, options.friction)
+        try:
+            x = bodies.incidence_from_angle(options.angle, options.friction)
+        except checks.InputError as error:
+            raise checks.InputError(str(error).replace("theta_deg", "--angle")) from None
     if options.response is not None:
         _refuse_ignored(options, ["model", "loss", "setting", *GROUPS], "a response has its own")
         _refuse_replacing(options)
-        result = response.load(options.response)(x)
+        compiled = response.load(options.response)
+        model, e, result = compiled.model, compiled.parameters["restitution"], compiled(x)
     else:
-        result = models.rebound(
-            _model(options), x, **_chosen(options, GROUPS), **_settings(options)
-        )
+        model, e = _model(options), _restitution(options)
+        result = models.rebound(model, x, **_chosen(options, GROUPS), **_settings(options))
     named = result._replace(regime=Regime.names(result.regime))
-    return _with_units(Rebound, {"incidence": x, **named._asdict()})
+    columns = _with_units(Rebound, {"incidence": x, **named._asdict()})
+    return columns | _said(model, e, len(x))
+
+
+def _said(model: str, restitution: float, rows: int) -> dict[str, ArrayLike]:
+    """Columns of the model and what takes the energy."""
+    return {"model": [model] * rows, "loss": [models.loss_of(model, restitution)] * rows}
+
+
+def _restitution(options: argparse.Namespace) -> float:
+    """The restitution, or its default."""
+    return float(_chosen(options, ["restitution"]).get("restitution", GROUPS["restitution"][0]))
 
 
 def _refuse_replacing(options: argparse.Namespace) -> None:
@@ -209,14 +225,16 @@ def _history(options: argparse.Namespace) -> dict[str, ArrayLike]:
     """Columns of `history`."""
     chosen = _chosen(options, [*GROUPS, "samples", "tolerance"])
     result: History | ContinuumHistory
-    model, _, loss = _model(options).partition(".")
-    if model == "continuum":
+    name = _model(options)
+    family, _, loss = name.partition(".")
+    if family == "continuum":
         _refuse_ignored(options, ["samples"], "the continuum has a tolerance instead")
         result = continuum.history(options.incidence, **chosen, loss=loss or None)
     else:
         _refuse_ignored(options, ["tolerance"], "the lumped model is solved to rounding")
         result = lumped.history(options.incidence, **chosen, loss=loss or "hysteretic")
-    return _with_units(type(result), result._asdict())
+    columns = _with_units(type(result), result._asdict())
+    return columns | _said(name, _restitution(options), len(result.time))
 
 
 def _with_units(result_type: type, fields: Mapping[str, Any]) -> dict[str, ArrayLike]:
@@ -243,16 +261,24 @@ def _compile(options: argparse.Namespace) -> None:
         raise checks.InputError(
             f"{options.output}: allowed are names that end in .json; with --as c or --as js others"
         )
-    arguments: dict[str, Any] = {"incidence_max": 20.0, "tolerance": 1e-6}
-    arguments |= _chosen(options, [*arguments, *GROUPS]) | settings
+    model = _model(options)
+    arguments = _chosen(options, ["incidence_max", "tolerance", *GROUPS]) | settings
+    progress = _show if sys.stderr.isatty() else None
     with files.written(options.output) as partial:  # it refuses a name before any computation
-        compiled = response.compile(_model(options), **arguments)
+        compiled = response.compile(model, **arguments, progress=progress)
         if as_json:
             compiled.save(partial)
         else:
             code = export.text(compiled, options.output, options.language)
             partial.write_text(code, encoding="utf-8")
-    print(f"{options.output}: {compiled}")
+    loss = models.loss_of(model, _restitution(options))
+    print(f"{options.output}: {compiled}; loss {loss}")
+
+
+def _show(impacts: int, share: float) -> None:
+    """Say on the terminal how far a response is, in place; the next line of output replaces it."""
+    line = f"{impacts:,} impacts solved, {100 * share:.0f} % of the incidences fitted"
+    print(f"\r{line:<{COLUMNS_OF_PROGRESS}}\r", end="", file=sys.stderr, flush=True)
 
 
 def _compile_spheres(options: argparse.Namespace) -> None:
@@ -316,6 +342,7 @@ def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:
         "cost": [model.cost for model in rows],
         "settings": [" ".join(f"{k}={v}" for k, v in model.settings.items()) for model in rows],
         "restitution": ["{:g} to {:g}".format(*model.restitution) for model in rows],
+        "loss": [model.loss for model in rows],
         "valid": [model.valid for model in rows],
         "source": [model.source for model in rows],
     }
@@ -328,6 +355,8 @@ def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:
 def _errors(options: argparse.Namespace) -> dict[str, ArrayLike]:
     """Errors of every model against the continuum, and where a measurement can show them."""
     groups = {name: value for name, (value, _) in GROUPS.items()} | _chosen(options, GROUPS)
+    if options.loss is None:
+        checks.lossless(groups["restitution"], continuum.LOSSES, "--loss")
     loss = options.loss or continuum.LOSSES[0]
     reference = models.reference(groups["restitution"], loss)
     limit = continuum.slip_throughout_limit(*groups.values(), loss=loss)
@@ -353,21 +382,17 @@ def _errors(options: argparse.Namespace) -> dict[str, ArrayLike]:
 
 
 def _model(options: argparse.Namespace) -> str:
-    """Name of the model, with the option --loss."""
+    """Name of the model, with the option --loss; below e = 1 one of both must say the loss."""
     name = options.model or "lumped"
-    if options.loss is None or (name, options.loss) == ("lumped", "hysteretic"):
-        return name
-    losses = [other.partition(".")[2] for other in models.MODELS if other.startswith(name + ".")]
-    named = _current(f"{name}.{options.loss}")
-    if name not in ("lumped", "continuum") or named.partition(".")[2] not in losses:
+    losses = models.losses(name)
+    if options.loss is None:
+        if losses:
+            checks.lossless(_restitution(options), losses, "--loss")
+        return str(name)
+    if options.loss not in losses:
         allowed = "are " + ", ".join(losses) if losses else "is none"
         raise checks.InputError(f"--loss {options.loss}: with model {name} allowed {allowed}")
-    return named
-
-
-def _current(name: str) -> str:
-    """A model's name of today: one of an earlier release warns."""
-    return models.get(name).name if name in models.OLD_NAMES else name
+    return losses[options.loss]
 
 
 def _chosen(options: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]:
@@ -474,8 +499,11 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser() -> argparse.ArgumentParser:
     """Parser of the command line, with one parser for each command."""
-    installed = Path(sys.argv[0]).stem == "planarimpact"
-    program = "planarimpact" if installed else "python -m planarimpact"
+    called = Path(sys.argv[0])
+    programs = {"planarimpact": "planarimpact", "__main__": "python -m planarimpact"}
+    program = programs.get(
+        called.stem, f"python {called.name}"
+    )  # a file with a model of a user's own
     parser = _Parser(prog=program, description=ABOUT)
     parser.add_argument("--version", action="version", version=f"planarimpact {__version__}")
     commands = parser.add_subparsers(required=True, metavar="command")
@@ -503,7 +531,8 @@ def _parser() -> argparse.ArgumentParser:
     history.add_argument("--incidence", type=decimal, required=True, metavar="X")
     history.add_argument("--samples", type=number, help="of lumped [400]")
     history.add_argument("--tolerance", type=decimal, help="of continuum [1e-4]")
-    _add_model(history, ["lumped", "continuum"], settings=False)
+    names = [name for name in models.MODELS if name.startswith(("lumped", "continuum"))]
+    _add_model(history, names, settings=False)
     _add_output(history)
     history.set_defaults(command=_table, columns=_history)
 
@@ -525,12 +554,16 @@ def _parser() -> argparse.ArgumentParser:
         "[%(default)s]",
     )
     errors = " or ".join(f"{error:g}" for error in export.TABLES)
+    defaults = ", ".join(f"{kind} {error:g}" for kind, error in response.TOLERANCES.items())
     compiled.add_argument(
         "--tolerance",
         type=decimal,
-        help=f"largest error [1e-06]; with --model {SPHERES} {errors} [{min(export.TABLES):g}]",
+        help=f"largest error [by the model's cost, see `models`: {defaults}]; with --model "
+        f"{SPHERES} {errors} [{min(export.TABLES):g}]",
     )
-    compiled.add_argument("--incidence-max", type=decimal, help="[20.0]")
+    compiled.add_argument(
+        "--incidence-max", type=decimal, help=f"largest |incidence| [{response.INCIDENCE_MAX:g}]"
+    )
     _add_model(compiled, [*models.MODELS, SPHERES])
     compiled.set_defaults(command=_compile)
 
@@ -591,10 +624,10 @@ def _parser() -> argparse.ArgumentParser:
         "at some time; nan where it does not take this restitution. The continuum itself has the "
         "error of its default tolerance. Errors of restitution of 0.02 and of friction of 10 % "
         "move the answer, too: seen is the share of incidences where the error of the model is "
-        "larger than that.",
+        "larger than that; at restitution 1 it has the loss, or else the viscous one.",
     )
     listing.add_argument(
-        "--loss", choices=continuum.LOSSES, help="what takes the energy below e = 1 [viscous]"
+        "--loss", choices=continuum.LOSSES, help="what takes the energy; needed below e = 1"
     )
     _add_groups(listing)
     _add_output(listing)
@@ -604,11 +637,13 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_model(parser: argparse.ArgumentParser, names: list[str], settings: bool = True) -> None:
     """Add the options of a model, its loss, its groups and, if wanted, its settings."""
-    parser.add_argument("--model", choices=names, type=_current, help="[lumped]")
+    parser.add_argument("--model", choices=names, help="[lumped]")
     parser.add_argument(
         "--loss",
         choices=sorted({*lumped.LOSSES, *continuum.LOSSES}),
-        help="what takes the energy below e = 1: of lumped [hysteretic] and continuum",
+        help="what takes the energy; below e = 1 lumped and continuum need it. For lumped "
+        "hysteretic (the paper's), unloading-stiffness or viscous; for continuum viscous or "
+        "plastic",
     )
     _add_groups(parser)
     if settings:

@@ -21,8 +21,8 @@ def name(symbol: str, value: float) -> str:
 def shifted(curve: str, parameter: str, sign: int) -> str:
     """Name of a curve whose parameter is off by its uncertainty.
 
-    >>> shifted("lumped, experiment", "friction", 1)
-    'lumped, experiment; friction + 1 sigma'
+    >>> shifted("lumped.hysteretic, experiment", "friction", 1)
+    'lumped.hysteretic, experiment; friction + 1 sigma'
     """
     return f"{curve}; {parameter} {SIGNS[sign]} 1 sigma"
 

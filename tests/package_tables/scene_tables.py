@@ -1,6 +1,6 @@
 """Makes the example scenes in data/scenes/: invented impacts, of a kind that is met in practice.
 
-    python -m tests.package_tables.scene_tables data/scenes
+    PYTHONPATH=src python -m tests.package_tables.scene_tables data/scenes
 
 The numbers are typical, not measured; see data/scenes/README.md.
 """

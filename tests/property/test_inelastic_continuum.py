@@ -333,7 +333,7 @@ def test_no_impact_of_a_spray_around_the_thresholds_gains_energy_or_fails(loss):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ({"restitution": 0.9}, "restitution = 0.9: .* needs a loss, viscous or plastic"),
+        ({"restitution": 0.9}, "restitution = 0.9: .* unless loss says .*: viscous, plastic"),
         ({"restitution": 0.9, "loss": "magic"}, "loss = 'magic': allowed are viscous, plastic"),
         ({"restitution": 1.0, "loss": ["viscous"]}, "loss = .*: allowed are viscous, plastic"),
         ({"restitution": 0.05, "loss": "viscous"}, "restitution = 0.05: .* from 0.1 to 1"),

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from planarimpact import bodies, collision, continuum, lumped, rigid, scene
-from planarimpact.collision import continua, impacts, rungs
+from planarimpact.collision import continua, mechanics, rungs
 from stronge1994 import reference_data
 from stronge1994.figures.study import curves as study
 from stronge1994.plan import figures
@@ -104,7 +104,7 @@ def test_a_factor_or_a_sign_leaves_the_table(name):
 
 FAULTS = {
     "a spin by a wrong lever": (
-        impacts,
+        mechanics,
         "_after_impulse",
         lambda right: (
             lambda state, body, *rest: right(
@@ -113,7 +113,7 @@ FAULTS = {
         ),
     ),
     "an impulse of the wrong sign": (
-        impacts,
+        mechanics,
         "_after_impulse",
         lambda right: (
             lambda state, body, m2, impulse, towards: right(state, body, m2, -impulse, towards)
@@ -138,7 +138,7 @@ def test_a_fault_in_the_code_leaves_the_table(name, fault, monkeypatch):
 
 CHEAPER = {
     "rigid": lambda model, *groups: rigid.rebound(*groups),
-    "lumped": lambda model, *groups: lumped.rebound(*groups),
+    "lumped.hysteretic": lambda model, *groups: lumped.rebound(*groups),
     "lumped with the loss": lambda model, *groups: lumped.rebound(
         *groups, loss={"continuum.viscous": "viscous"}.get(model, "unloading-stiffness")
     ),

@@ -38,7 +38,8 @@ class Answer(NamedTuple):
 
 def tables():
     """All tables, `{name: Table}`."""
-    models = {"rigid": rigid, "laws.smith": smith, "laws.brach": brach, "lumped": lumped}
+    models = {"rigid": rigid, "laws.smith": smith, "laws.brach": brach}
+    elastic, models = models | {"lumped": lumped}, models | {"lumped.hysteretic": lumped}
     steps = {
         f"timestep.{name}, {steps} steps": functools.partial(leapfrog, law, steps)
         for name, law in LAWS.items()
@@ -57,7 +58,7 @@ def tables():
             {f"continuum.{other}, tolerance 0.001": functools.partial(lossy, other)}, *against
         )
     return {
-        "elastic": _table(_rows(models | steps | response, 1.0, continuum(), "")),
+        "elastic": _table(_rows(elastic | steps | response, 1.0, continuum(), "")),
         "inelastic": _table(below),
         "wrong_loss": _table(wrong),
     }

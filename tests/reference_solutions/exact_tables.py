@@ -210,7 +210,7 @@ def _fig5_experiment():
 def _shot(angle):
     x = mp.tan(mp.radians(angle)) / mp.mpf(SHOT["friction"])
     velocity = solve(x, BETA, SHOT["stiffness_ratio"], SHOT["restitution"]).velocity
-    return ["lumped, experiment", angle, *shot_columns(angle, x, velocity)]
+    return ["lumped.hysteretic, experiment", angle, *shot_columns(angle, x, velocity)]
 
 
 def shot_columns(angle, x, velocity):

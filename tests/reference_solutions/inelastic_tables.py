@@ -34,7 +34,7 @@ MODELS = [
     "continuum.plastic",
     "lumped.viscous",
     "lumped.unloading-stiffness",
-    "lumped",
+    "lumped.hysteretic",
 ]
 E = [0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
 NU = [0.2, 0.5]
@@ -144,7 +144,8 @@ def velocities(model, x, zeta2, e):
     if model == "lumped.unloading-stiffness":
         zeta2 = e * e * zeta2
     # Without loss a Kelvin-Voigt element is a spring, and its relaxation has no steps.
-    if model in ("lumped", "lumped.unloading-stiffness") or (model == "lumped.viscous" and e == 1):
+    springs = model in ("lumped.hysteretic", "lumped.unloading-stiffness")
+    if springs or (model == "lumped.viscous" and e == 1):
         return np.array([float(exact_rebound(float(v), BETA, zeta2, e, 15).velocity) for v in x])
     return inelastic_contact.rebound(model, x, BETA, zeta2, e, STEPS, SPRINGS)
 

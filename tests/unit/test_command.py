@@ -74,10 +74,10 @@ def columns_of(text):
 
 def assert_are(columns, fields, result):
     """The columns, by name and unit, hold the fields of a result, or the values beside them."""
-    assert set(columns) == set(fields)
+    assert set(columns) == {*fields, "model", "loss"}
     for name, field in fields.items():
         expected = getattr(result, field) if isinstance(field, str) else field
-        kind = str if name == "regime" else float
+        kind = str if name in ("regime", "model", "loss") else float
         assert [kind(entry) for entry in columns[name]] == list(expected), name
 
 
@@ -135,20 +135,51 @@ def test_numbers_that_are_none_reach_our_own_words(command, option, capsys, tmp_
     for text in ("-inf", "-nan"):
         assert main([*command, option, text]) == 2
         error = capsys.readouterr().err
-        name = "theta_deg" if option == "--angle" else option[2:].replace("-", "_")
+        name = option if option == "--angle" else option[2:].replace("-", "_")
         assert name in error and f"{float(text)}: allowed are" in error and error.count("\n") == 1
 
 
-@pytest.mark.parametrize(
-    "options", [["--model", "lumped.plastic"], ["--model", "lumped", "--loss", "plastic"]]
-)
-def test_the_old_name_of_a_model_still_works_and_says_so(options, capsys):
-    command = ["rebound", "--incidence", "2", "--restitution", "0.8", "--model"]
-    assert main([*command, "lumped.unloading-stiffness"]) == 0
-    table = capsys.readouterr().out
-    with pytest.warns(DeprecationWarning, match="'lumped.plastic' is called"):
-        assert main([*command[:-1], *options]) == 0
-    assert capsys.readouterr().out == table
+LOSSES = "hysteretic (the paper's), unloading-stiffness, viscous"
+
+
+@pytest.mark.parametrize("command", ["rebound", "history", "compile"])
+def test_below_1_a_loss_is_said_or_refused(command, capsys, tmp_path):
+    place = [str(tmp_path / "a.json")] if command == "compile" else ["--incidence", "2"]
+    lossy = [command, *place, "--restitution", "0.8"]
+    for more, allowed in (
+        ([], LOSSES),
+        (["--model", "lumped"], LOSSES),
+        (["--model", "continuum"], "viscous, plastic"),
+    ):
+        assert main([*lossy, *more]) == 2
+        error = capsys.readouterr().err
+        assert (
+            "restitution = 0.8: " in error
+            and f"--loss says what takes the energy: {allowed}\n" in error
+        )
+    said = []
+    for more in (["--loss", "viscous"], ["--model", "lumped.viscous"]):
+        assert main([*lossy, *more]) == 0
+        said.append(capsys.readouterr().out)
+    assert said[0] == said[1] and "lumped.viscous" in said[0]
+
+
+def test_what_takes_the_energy_of_models_without_the_option(capsys):
+    for model, e, loss in (
+        ("rigid", "0.8", "any"),
+        ("timestep.linear", "0.8", "hysteretic"),
+        ("lumped.viscous", "1", "none"),
+    ):
+        assert main(["rebound", "--incidence", "2", "--model", model, "--restitution", e]) == 0
+        (row,) = rows_of(capsys.readouterr().out)
+        assert (row["model"], row["loss"]) == (model, loss)
+
+
+def test_compile_shows_its_progress_on_a_terminal(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    assert main(["compile", str(tmp_path / "a.json"), "--model", "lumped"]) == 0
+    shown = capsys.readouterr().err.split("\r")
+    assert len(shown) > 2 and "impacts solved, " in shown[1] and "100 % of the" in shown[-2]
 
 
 def test_angles_settings_and_json(capsys):
@@ -164,9 +195,13 @@ def test_angles_settings_and_json(capsys):
 
 def test_compile_and_use(capsys, tmp_path):
     path = str(tmp_path / "ball.json")
-    assert main(["compile", path, "--tolerance", "1e-9", "--restitution", "0.7"]) == 0
+    lossy = ["--restitution", "0.7", "--loss", "hysteretic"]
+    assert main(["compile", path, "--tolerance", "1e-9", *lossy]) == 0
     assert main(["rebound", "--incidence", "2", "--response", path]) == 0
-    row = rows_of(capsys.readouterr().out.split("\n", 1)[1])[0]
+    first, table = capsys.readouterr().out.split("\n", 1)
+    assert "lumped.hysteretic" in first and first.endswith("; loss hysteretic")
+    row = rows_of(table)[0]
+    assert (row["model"], row["loss"]) == ("lumped.hysteretic", "hysteretic")
     assert float(row[VELOCITY]) == pytest.approx(lumped.rebound(2.0, restitution=0.7)[0], abs=1e-9)
 
 
@@ -257,7 +292,10 @@ REFUSED = [
     (["history", "--incidence", "1", "--samples", "1"], "samples = 1"),
     (["history", "--incidence", "1", "--tolerance", "1"], "--tolerance: it does not apply"),
     (["history", "--incidence", "1", "--model", "continuum", "--samples", "9"], "--samples: it"),
-    (["history", "--incidence", "1", "--model", "continuum", "--restitution", "0.5"], "is elastic"),
+    (
+        ["history", "--incidence", "1", "--model", "continuum", "--restitution", "0.5"],
+        "--loss says",
+    ),
     (["compile", "no/ball.json"], "no/ball.json"),
     (["scene", "none.csv", "out.csv"], "none.csv: No such file"),
     (["scene", "none.csv", "."], ".: allowed are names that end in .csv, .csv.gz, .json or"),
@@ -330,6 +368,7 @@ def test_the_name_of_a_file_says_its_format(command, tmp_path, capsys):
     [
         ("/bin/planarimpact", "planarimpact"),
         ("/x/planarimpact/__main__.py", "python -m planarimpact"),
+        ("/home/me/my_law.py", "python my_law.py"),
     ],
 )
 def test_the_usage_says_how_it_was_called(program, called, monkeypatch, capsys):
@@ -675,7 +714,7 @@ def test_without_a_package_it_says_what_to_install(table, package, who):
     code += f"sys.exit(main(['scene', {str(table)!r}, 'out.csv']))"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert result.returncode == 2
-    assert f"{who} needs {package}: pip install {package}" in result.stderr
+    assert f"{who} needs {package}: pip install 'planarimpact[scene]'" in result.stderr
 
 
 def test_a_result_in_json(table):

@@ -33,6 +33,16 @@ def test_distance_is_shortest_in_sigmas_not_vertical():
     assert distances_to_polyline(x, x - 1.1, *LINE, 1.0, 1.0)[0] == pytest.approx(0.1 / np.sqrt(2))
 
 
+def test_each_point_has_a_sigma_of_its_own():
+    points = ([0.5, 1.0], [1.5, 1.0])
+    alone = [
+        curve_residuals(([x], [y]), LINE, sigma).sigmas[0]
+        for x, y, sigma in zip(*points, ((0.1, 0.5), (0.3, 0.2)), strict=True)
+    ]
+    together = curve_residuals(points, LINE, ([0.1, 0.3], [0.5, 0.2])).sigmas
+    np.testing.assert_array_equal(together, alone)
+
+
 def test_sigma_scales_the_axes():
     near = curve_residuals(([1.0], [-0.2]), LINE, (1e6, 0.1)).summary()
     assert near.max == pytest.approx(2.0)

@@ -4,13 +4,15 @@ import importlib
 import types
 from pathlib import Path
 
+import numpy as np
 import pytest
 from matplotlib import font_manager
 from matplotlib.colors import to_rgba
 from matplotlib.transforms import Affine2D
 
 from stronge1994.figures.shared import drawing as drawings
-from stronge1994.figures.shared.drawing import checked, house_style, slide
+from stronge1994.figures.shared.curves import measured as models_beside
+from stronge1994.figures.shared.drawing import checked, house_style, measured, slide
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.figures.shared.drawing import words as meanings
 from stronge1994.figures.shared.drawing.checked import NotInTable
@@ -43,7 +45,8 @@ def peers(module, below=False):
             own = {"loss": loss, "restitution [1]": e}
             law = "LAMMPS mindlin, viscoelastic, xt = 0"
             rows[f"{law}, e = {e:g}, {loss}"] = picture_tables.row(law, 1.1 - e, 1e-5, **own)
-            rows[f"lumped, e = {e:g}, {loss}"] = picture_tables.row("lumped", 1 - e, 1e-5, **own)
+            paper = "lumped.hysteretic"
+            rows[f"{paper}, e = {e:g}, {loss}"] = picture_tables.row(paper, 1 - e, 1e-5, **own)
     return module.draw_errors(rows) if below else module.draw(curves, rows, settings)
 
 
@@ -227,3 +230,29 @@ def test_restitutions_differ_in_their_lines_and_none_is_dotted():
     patterns = [house_style.of_restitution(e) for e in (0, 0.2, 0.5, 0.8, 0.9, 1)]
     assert len(set(patterns)) == len(patterns)
     assert all(dashes == "-" or dashes[1][0] > dashes[1][1] for dashes in patterns)
+
+
+def measured_series(y):
+    """Two points of a quantity against the angle, with a sigma for each."""
+    values = {"x": np.array([20.0, 40.0]), "y": np.array([0.1, 0.3]), "line": False}
+    return values | {"sigma": (0.4, np.array([0.02, 0.05])), "axes": ("angle [deg]", y)}
+
+
+def test_each_measured_series_has_a_panel_with_every_model():
+    sphere = {"mass_ratio": 3.5, "stiffness_ratio": 1.2, "restitution": 0.99, "friction": 0.2}
+    models = [
+        "rigid",
+        "laws.smith",
+        "laws.brach",
+        "lumped.viscous",
+        "spheres.viscous",
+        "spheres.plastic",
+    ]
+    curves = models_beside.curves(sphere, models, 40, 1e-3, {"restitution": 0.02})
+    shares = "tangential_restitution [1]", "centre_restitution [1]"
+    points = {f"ball/{name[0]}": measured_series(name) for name in shares}
+    figure, known = drawings.drawn(measured, curves, {}, points)
+    checked.check(figure, known, "ball")
+    assert [len(axes.lines) - 5 for axes in figure.axes] == [6, 6]  # error bars have five
+    with pytest.raises(ValueError, match=r"no column 'spin \[rad/s\]'; the curves have incidence"):
+        drawings.drawn(measured, curves, {}, {"ball/s": measured_series("spin [rad/s]")})

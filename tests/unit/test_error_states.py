@@ -42,9 +42,11 @@ CALLS |= {
         response.compile("lumped", incidence_max=1e-9, tolerance=1e-3).velocity(TINY),
     ),
     "noncollinear": lambda: [
-        noncollinear.rebound([TINY, 0.0, 0.5, 2.0, 1e50], 1.0, ROD, 0.5, [0.5, TINY, 0, 1, 1]),
-        noncollinear.history(TINY, 1.0, ROD, 0.5, 0.5, samples=9),
-        noncollinear.history(2.0, 1.0, ROD, 1.6, 0.5, samples=9),
+        noncollinear.rebound(
+            [TINY, 0.0, 0.5, 2.0, 1e50], 1.0, ROD, 0.5, [0.5, TINY, 0, 1, 1], loss="hysteretic"
+        ),
+        noncollinear.history(TINY, 1.0, ROD, 0.5, 0.5, samples=9, loss="hysteretic"),
+        noncollinear.history(2.0, 1.0, ROD, 1.6, 0.5, samples=9, loss="hysteretic"),
         noncollinear.kinetic_energy(TINY, TINY, ROD),
         noncollinear.combined(ROD, noncollinear.inverse_mass(1e200, 1e150, 1e-200, 1e-200)),
         noncollinear.contact_velocity(bodies.Motion(TINY, 1.0, TINY), 1e-200, 1e-200),

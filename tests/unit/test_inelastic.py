@@ -38,14 +38,14 @@ def settings(inventory):
 @pytest.fixture
 def lumped_alone(monkeypatch):
     """Only both models of springs, which take no time."""
-    monkeypatch.setattr(inelastic, "MODELS", ("lumped", "lumped.unloading-stiffness"))
+    monkeypatch.setattr(inelastic, "MODELS", ("lumped.hysteretic", "lumped.unloading-stiffness"))
 
 
-def beta_0(settings, model="lumped"):
+def beta_0(settings, model="lumped.hysteretic"):
     return inelastic.curves(**settings)[f"{model}, pairs"][BETA_0]
 
 
-def sigma(settings, model="lumped"):
+def sigma(settings, model="lumped.hysteretic"):
     name = f"{model}, pairs"
     found = inelastic.curves(**settings)
     up = found[curve_names.shifted(name, inelastic.PARAMETERS, 1)][BETA_0]
@@ -132,9 +132,11 @@ def test_spreads_of_impacts(lumped_alone, settings):
         for name, x in spread.items():
             w = lumped.rebound(x, 3.5, pairs.stiffness_ratio[soft], e).velocity
             slope = inelastic.tangential_restitution(x, w, 3.5, e)
-            assert found[f"lumped, pairs, {name}"][BETA_0][soft] == pytest.approx(slope, abs=2e-3)
-    farther = found["lumped, pairs, to 1.5 (1 + e) m2/m1"][BETA_0]
-    np.testing.assert_allclose(farther, found["lumped, pairs"][BETA_0], atol=0.002)
+            assert found[f"lumped.hysteretic, pairs, {name}"][BETA_0][soft] == pytest.approx(
+                slope, abs=2e-3
+            )
+    farther = found["lumped.hysteretic, pairs, to 1.5 (1 + e) m2/m1"][BETA_0]
+    np.testing.assert_allclose(farther, found["lumped.hysteretic, pairs"][BETA_0], atol=0.002)
 
 
 def test_friction_matters_where_impacts_are_spread_over_the_angle(lumped_alone, settings):
@@ -142,7 +144,7 @@ def test_friction_matters_where_impacts_are_spread_over_the_angle(lumped_alone, 
     more = points | {"friction": [2 * mu for mu in points["friction"]]}
     before, after = (inelastic.curves(**settings | {"points": chosen}) for chosen in (points, more))
     for spread, moved in (("", False), (", to (1 + e) m2/m1, by angle", True)):
-        name = f"lumped, pairs{spread}"
+        name = f"lumped.hysteretic, pairs{spread}"
         change = np.abs(after[name][BETA_0] - before[name][BETA_0])
         assert (change.max() > 1e-3) == moved
 
@@ -155,7 +157,7 @@ def test_trials_of_the_pairs(inventory, lumped_alone, settings, monkeypatch):
     assert len(tried) == 15
     assert configuration.load(ROOT)["significance"] == draw_inelastic.SIGNIFICANCE
 
-    def value(words, model="lumped"):
+    def value(words, model="lumped.hysteretic"):
         return draw_inelastic.goodness(found, model, series, tried[words])
 
     whole = value("as judged")
@@ -164,11 +166,11 @@ def test_trials_of_the_pairs(inventory, lumped_alone, settings, monkeypatch):
     soft = series["columns"]["pair"] == "polyurethane"
     gone = whole.value - value("without polyurethane").value
     up, down = (
-        found[curve_names.shifted("lumped, pairs", inelastic.PARAMETERS, sign)][BETA_0]
+        found[curve_names.shifted("lumped.hysteretic, pairs", inelastic.PARAMETERS, sign)][BETA_0]
         for sign in (1, -1)
     )
     sigma = np.hypot(series["sigma"][1], (up - down) / 2)
-    pull = (series["y"] - found["lumped, pairs"][BETA_0]) / sigma
+    pull = (series["y"] - found["lumped.hysteretic, pairs"][BETA_0]) / sigma
     assert gone == pytest.approx(float(pull[soft][0] ** 2))
     assert draw_inelastic.over_limit(whole) > 1 > draw_inelastic.over_limit(value("without both"))
 
@@ -225,13 +227,15 @@ def test_a_repair_of_the_model_as_in_the_paper_is_no_silent_change(
     lumped_alone, judge, monkeypatch
 ):
     """Its difference is known: if it goes away, the entry must go too."""
-    title = "inelastic-lumped-pairs"
+    title = "inelastic-lumped.hysteretic-pairs"
     assert judge(title)[title]["verdict"] == "unexplained difference"
     original = models.rebound
     monkeypatch.setattr(
         models,
         "rebound",
-        lambda model, x, beta, zeta2, e, **_: original("lumped", x, beta, e * e * zeta2, e),
+        lambda model, x, beta, zeta2, e, **_: original(
+            "lumped.hysteretic", x, beta, e * e * zeta2, e
+        ),
     )
     assert judge(title)[title]["verdict"] == "diverges"
 
@@ -252,7 +256,7 @@ def series_of(inventory):
 
 
 def test_the_picture_has_the_numbers_of_the_gate(lumped_alone, judge, settings, inventory):
-    rows = judge("inelastic-lumped-pairs", "inelastic-lumped.unloading-stiffness-pairs")
+    rows = judge("inelastic-lumped.hysteretic-pairs", "inelastic-lumped.unloading-stiffness-pairs")
     found = inelastic.curves(**settings)
     for row in rows.values():
         model = row["comparison"].removeprefix("inelastic-").removesuffix("-pairs")

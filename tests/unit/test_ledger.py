@@ -188,7 +188,8 @@ def test_losses_are_decoupled_in_collinear_impact_only():
     assert ledger.run("dissipation.losses_decoupled").value < 1e-9
     rod = noncollinear.inverse_mass(1.0, 12**-0.5, 0.125**0.5, 0.125**0.5)
     energy = noncollinear.kinetic_energy(1.0, 1.0, rod)
-    lost = noncollinear.rebound(1.0, 1.0, rod, friction=[0.0, 0.5], restitution=0.5).hysteresis
+    own = {"restitution": 0.5, "loss": "hysteretic"}
+    lost = noncollinear.rebound(1.0, 1.0, rod, friction=[0.0, 0.5], **own).hysteresis
     assert np.round(lost / energy, 2).tolist() == [0.15, 0.21]
 
 

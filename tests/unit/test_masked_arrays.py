@@ -14,7 +14,7 @@ ROD = noncollinear.inverse_mass(1.0, 1.0, offset=0.2, depth=0.4)
 TAKES = {
     "incidence": [BALL, BALL.velocity]
     + [lambda x, name=name: models.rebound(name, x) for name in ("lumped", "rigid", "annuli")],
-    "restitution": [lambda e: models.rebound("lumped", 1.0, restitution=e)],
+    "restitution": [lambda e: models.rebound("lumped.hysteretic", 1.0, restitution=e)],
     "tangential_restitution": [lambda b: laws.brach(1.0, tangential_restitution=b)],
     "friction": [lambda mu: bodies.incidence(1.0, 1.0, mu)],
     "tangential": [lambda v: noncollinear.rebound(v, 1.0, ROD, 0.5)],

@@ -5,7 +5,7 @@ import inspect
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Rebound, Regime, lumped, models, normal_impact, response
+from planarimpact import InputError, Rebound, Regime, lumped, models, response
 
 COARSE = {
     "continuum": {"tolerance": 1e-3},
@@ -89,7 +89,7 @@ def test_the_range_of_restitution_is_enforced(model):
 
 @pytest.mark.parametrize("model", ELASTIC, ids=lambda model: model.name)
 def test_an_elastic_model_refuses_hysteresis(model):
-    with pytest.raises(InputError, match="restitution = 0.5: .* elastic"):
+    with pytest.raises(InputError, match="restitution = 0.5: allowed are numbers equal to 1, "):
         solve(model, 2.0, 3.0, 1.3, 0.5)
 
 
@@ -169,36 +169,107 @@ def test_spread_of_uncertain_inputs_is_that_of_random_ones(x):
     ratio = rng.normal(1.0, 0.1, e.size)  # of friction to what it is believed to be
     moved = ratio * lumped.rebound(x / ratio, 3.5, 1.21, e).velocity
     change = moved - lumped.rebound(x, 3.5, 1.21, 0.8).velocity
-    found = models.input_spread("lumped", x, 3.5, 1.21, 0.8)
+    found = models.input_spread("lumped.hysteretic", x, 3.5, 1.21, 0.8)
     assert found == pytest.approx(np.sqrt(np.mean(change**2)), rel=0.05)
 
 
 def test_inputs_that_are_certain_have_no_spread_and_bad_errors_are_refused():
     certain = {"restitution_error": 0.0, "friction_error": 0.0}
-    assert not models.input_spread("lumped", [0.5, 2.0, 8.0], **certain).any()
+    assert not models.input_spread("lumped.hysteretic", [0.5, 2.0, 8.0], **certain).any()
     # Restitution does not exceed 1, and the continuum with a loss ends at 0.1.
-    assert models.input_spread("lumped", 8.0, friction_error=0.0) > 0
+    assert models.input_spread("lumped.hysteretic", 8.0, friction_error=0.0) > 0
     assert models.input_spread("continuum.viscous", 3.0, restitution=0.1, tolerance=1e-2) > 0
     with pytest.raises(InputError, match="friction_error = 0.6: allowed are numbers from 0 to 0.5"):
-        models.input_spread("lumped", 1.0, friction_error=0.6)
+        models.input_spread("lumped.hysteretic", 1.0, friction_error=0.6)
     with pytest.raises(InputError, match="restitution_error = -1"):
-        models.input_spread("lumped", 1.0, restitution_error=-1)
+        models.input_spread("lumped.hysteretic", 1.0, restitution_error=-1)
 
 
-def test_the_old_name_of_a_model_still_works_and_says_so():
-    name = "lumped.unloading-stiffness"
-    with pytest.warns(DeprecationWarning, match=f"'lumped.plastic' is called '{name}' now"):
-        assert models.get("lumped.plastic") is models.get(name)
-    with pytest.warns(DeprecationWarning, match="'lumped.plastic' is called"):
-        old = models.rebound("lumped.plastic", X, restitution=0.6)
-    np.testing.assert_equal(old, models.rebound(name, X, restitution=0.6))
-    with pytest.warns(DeprecationWarning, match="'lumped.plastic' is called"):
-        compiled = response.compile("lumped.plastic", incidence_max=9, tolerance=1e-3)
-    assert compiled.model == name
+def test_below_1_a_name_without_loss_is_refused_and_says_which_have_one():
+    for name, words in (("lumped", r"lumped.hysteretic \(the paper's\)"), ("continuum", r"c.*\.v")):
+        with pytest.raises(InputError, match=f"restitution = 0.8: .* name says what .*: {words}"):
+            models.rebound(name, 2.0, restitution=0.8)
+        with pytest.raises(InputError, match=f"restitution = 0.8: .* name says what .*: {words}"):
+            response.compile(name, restitution=0.8)
+    with pytest.raises(InputError, match="restitution = 0.5: .* unless loss says"):
+        models.reference(0.5)
 
 
-def test_the_old_name_of_the_law_of_yielding_spheres_still_works_and_says_so():
-    with pytest.warns(DeprecationWarning, match="thornton is called yielding now"):
-        assert normal_impact.thornton is normal_impact.yielding
-    with pytest.raises(AttributeError, match="no attribute 'hooke'"):
-        _ = normal_impact.hooke
+def test_a_model_says_what_takes_its_energy():
+    for name, model in models.MODELS.items():
+        said = {model.loss} - {"any", ""}
+        assert model.restitution[0] == 1 or model.loss
+        assert name.startswith("timestep") or said <= {name.partition(".")[2]}
+
+
+def two_lines(x, mass_ratio, stiffness_ratio, restitution, *, share=0.5):
+    return np.maximum(x - (1 + restitution) * mass_ratio, -share * x)
+
+
+def rebound_of(**change):
+    """The rebound of the rigid model, with some fields changed by functions of them."""
+
+    def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
+        result = models.rebound("rigid", incidence, mass_ratio, stiffness_ratio, restitution)
+        return result._replace(**{k: f(getattr(result, k)) for k, f in change.items()})
+
+    return rebound
+
+
+@pytest.fixture
+def own(monkeypatch):
+    """A law of one's own, registered for one test."""
+    monkeypatch.setattr(models, "MODELS", dict(models.MODELS))
+    law = models.laws.of_velocity(two_lines)
+    models.register(models.Model("own.two-lines", law, settings={"share": 0.5}))
+    return law
+
+
+def test_a_law_of_ones_own_is_a_model_like_others(own, tmp_path):
+    solved = models.rebound("own.two-lines", X, restitution=0.8, share=0.2)
+    brach = models.rebound("laws.brach", X, restitution=0.8, tangential_restitution=0.2)
+    for name in ("velocity", "dissipation", "regime"):
+        np.testing.assert_allclose(getattr(solved, name), getattr(brach, name), rtol=1e-13)
+    compiled = response.compile("own.two-lines", incidence_max=20, tolerance=1e-9, restitution=0.8)
+    compiled.save(tmp_path / "a.json")
+    loaded = response.load(tmp_path / "a.json")
+    expected = models.rebound("own.two-lines", X, restitution=0.8).velocity
+    np.testing.assert_allclose(loaded.velocity(X), expected, atol=1e-9)
+
+
+def test_an_own_model_may_be_replaced_but_none_of_the_package(own):
+    model = models.Model("own.two-lines", own, settings={"share": 0.5})
+    with pytest.raises(InputError, match="'own.two-lines': .*replace=True replaces"):
+        models.register(model)
+    models.register(model._replace(valid="again"), replace=True)
+    assert models.get("own.two-lines").valid == "again"
+    for name in ("rigid", "continuum.plastic"):
+        with pytest.raises(InputError, match="allowed are names that no model has$"):
+            models.register(model._replace(name=name), replace=True)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"name": "a, b"}, "name = 'a, b': allowed are letters"),
+        ({"restitution": (0.5, 1.5)}, r"restitution\[1\] = 1.5: allowed are two numbers"),
+        ({"restitution": (1.0, 0.5)}, r"restitution = \(1.0, 0.5\): allowed are two numbers"),
+        ({"cost": "table"}, "cost = 'table': allowed are formula, phases, steps"),
+        ({"settings": {"share": 0.4}}, "settings = {'share': 0.4}: allowed are the defaults"),
+        ({"settings": {"part": 0.4}}, "restitution 0: it fails: TypeError: .*'part'"),
+        ({"rebound": two_lines}, "it gives ndarray: allowed is a Rebound, which laws"),
+        (
+            {"rebound": models.laws.of_velocity(lambda x, *groups: x[:1])},
+            r"InputError: velocities, shape \(1,\): allowed is that of the incidences, \(8,\)",
+        ),
+        ({"rebound": rebound_of(regime=np.ravel)}, r"regime, shape \(8,\): allowed .* \(2, 4\)"),
+        ({"rebound": rebound_of(velocity=lambda w: w + 1)}, "-2 is 1, at 2 1: allowed"),
+        ({"rebound": rebound_of(velocity=lambda w: w + np.inf)}, "at incidence -9: .* finite"),
+    ],
+)
+def test_what_is_no_model_is_refused(change, words, monkeypatch):
+    monkeypatch.setattr(models, "MODELS", dict(models.MODELS))
+    model = models.Model("own", models.laws.of_velocity(two_lines))
+    with pytest.raises(InputError, match=words):
+        models.register(model._replace(**change))
+    assert "own" not in models.MODELS

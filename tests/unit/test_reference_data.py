@@ -237,3 +237,55 @@ def test_uncertainties_are_columns_of_stated_series_alone(source, old, new):
     assert old in text
     with pytest.raises(reference_data.SourceError, match=r"sigma: .* is not of type"):
         reference_data.refuse_invalid(yaml.safe_load(text.replace(old, new, 1)), SCHEMA, source)
+
+
+MEASURED = """
+holds: a marble on a plate
+made: measured by hand
+citation: measured by a test
+doi: null
+rights: free to use
+sign_convention: negative where the contact point has turned round
+parameters: {}
+series:
+  rebound:
+    kind: measured
+    measured_by: a test, today, by eye
+    points: 2
+    figure: marble
+    x: {column: angle, symbol: theta, unit: deg, sigma: 5, range: [0, 90]}
+    y: {column: share, symbol: s, unit: "1", sigma: share_uncertainty, range: [-1, 1]}
+    sigma_origin: spread of three throws
+"""
+
+
+def measured(folder, old="", new=""):
+    """The series of a measured source, after an edit of its source.yaml."""
+    folder = folder / "marble"
+    folder.mkdir()
+    (folder / "source.yaml").write_text(MEASURED.replace(old, new))
+    (folder / "rebound.csv").write_text(
+        "angle [deg],share [1],share_uncertainty [1]\n9,0,1\n20,-0.1,0.2\n"
+    )
+    return reference_data.load(folder, SCHEMA)["series"]["rebound"]
+
+
+def test_a_measured_series_has_sigmas_by_column_or_one_however_large(tmp_path):
+    series = measured(tmp_path)
+    assert series["x"]["sigma"] == 5
+    assert reference_data.read_series("rebound", series)["share_uncertainty [1]"] == [1.0, 0.2]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("    measured_by: a test, today, by eye\n", "", "'measured_by' is a required property"),
+        ("points: 2", "points: 3", "points = 3: .*rebound.csv has 2 points"),
+        ("share_uncertainty", "spread", r"column 'spread \[1\]' is missing; found angle"),
+        ("sigma: 5", "sigma: 0", "x.sigma: 0 is less than or equal to the minimum of 0"),
+        ("    points: 2\n", "    points: 2\n    line: true\n", "line: False was expected"),
+    ],
+)
+def test_a_measured_series_without_what_it_needs_is_refused(old, new, words, tmp_path):
+    with pytest.raises(reference_data.SourceError, match=words):
+        measured(tmp_path, old, new)

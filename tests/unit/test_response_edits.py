@@ -11,7 +11,7 @@ from planarimpact import InputError, models, response
 
 # Tolerance and parameters, and how many edits there are to each one that is tried.
 CASES = {
-    "lumped": (1e-4, {"mass_ratio": 3.0, "restitution": 0.5}, 1),
+    "lumped.hysteretic": (1e-4, {"mass_ratio": 3.0, "restitution": 0.5}, 1),
     "laws.brach": (1e-6, {"tangential_restitution": 0.7}, 1),  # no forces
     "timestep.linear": (1e-2, {"steps": 16}, 5),
     "continuum": (1e-2, {}, 11),  # has a tolerance of its own

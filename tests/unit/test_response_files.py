@@ -12,12 +12,12 @@ X = np.linspace(-9.5, 9.5, 2003)
 CASES = [
     ("rigid", {"restitution": 0.3, "mass_ratio": 2.7}),
     ("laws.brach", {"tangential_restitution": 0.7}),
-    ("lumped", {"mass_ratio": 8.0, "stiffness_ratio": 0.1}),
+    ("lumped.hysteretic", {"mass_ratio": 8.0, "stiffness_ratio": 0.1}),
     ("timestep.linear", {"steps": 16}),
 ]
 
 
-def compiled(model="lumped", tolerance=1e-3, **parameters):
+def compiled(model="lumped.hysteretic", tolerance=1e-3, **parameters):
     return response.compile(model, incidence_max=10, tolerance=tolerance, **parameters)
 
 
@@ -29,7 +29,7 @@ def assert_same(one, other):
 
 @pytest.fixture(scope="module")
 def ball():
-    return compiled("lumped", 1e-10)
+    return compiled("lumped.hysteretic", 1e-10)
 
 
 @pytest.fixture
@@ -51,7 +51,7 @@ def test_a_file_gives_the_same_answers_to_the_bit(tmp_path, model, parameters):
     assert [path.name for path in tmp_path.iterdir()] == ["it"]
 
 
-@pytest.mark.parametrize("model", ["laws.brach", "laws.smith", "rigid", "lumped"])
+@pytest.mark.parametrize("model", ["laws.brach", "laws.smith", "rigid", "lumped.hysteretic"])
 def test_what_is_compiled_can_be_loaded(tmp_path, model):
     """Laws of impulses know friction from the end of the last piece on, by rounding or not."""
     for beta in (1.0, 1.3, 2.0, 2.5, 3.5, 4.7):
@@ -193,7 +193,7 @@ def test_no_folder_no_file(tmp_path, ball):
 def test_a_failed_save_leaves_nothing(tmp_path):
     (tmp_path / "taken").mkdir()
     with pytest.raises(InputError, match="no regular file"):
-        compiled("lumped").save(tmp_path / "taken")
+        compiled("lumped.hysteretic").save(tmp_path / "taken")
     assert [path.name for path in tmp_path.iterdir()] == ["taken"]
 
 

@@ -1,9 +1,7 @@
 """Scenes: columns, plane and space, energy, blocks, and the choice of a rung."""
 
-import importlib
 import itertools
 import re
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +9,7 @@ import pandas as pd
 import pytest
 
 from planarimpact import ConvergenceError, InputError, bodies, continuum, scene, spheres
-from planarimpact.collision import impacts, rungs
+from planarimpact.collision import mechanics, rungs
 from planarimpact.ground.results import Regime
 from planarimpact.scene import columns, solver, states
 
@@ -173,13 +171,6 @@ def test_what_is_no_table_is_refused(given):
         InputError, match="table = .*: allowed is a pandas DataFrame; .* reads files"
     ):
         scene.solve(given)
-
-
-def test_without_pandas_it_says_what_to_install(monkeypatch):
-    monkeypatch.setitem(sys.modules, "pandas", None)
-    monkeypatch.delitem(sys.modules, "planarimpact.scene")
-    with pytest.raises(ImportError, match="planarimpact.scene needs pandas: pip install pandas"):
-        importlib.import_module("planarimpact.scene")
 
 
 def test_index_and_id_are_kept_and_blocks_do_not_show(monkeypatch):
@@ -362,11 +353,11 @@ def test_little_restitution_is_for_contacts_that_slide(loss):
     assert slides.mass_ratio[0] == pytest.approx(3.5)
     # What yields so much that its law says nothing is not known to slide.
     found = [True] * 5 if loss == "viscous" else [False, False, True, True, True]
-    assert impacts.slides_throughout(slides).tolist() == found
-    assert not impacts.slides_throughout(sticks).any()
-    assert list(impacts.problems(slides)) == np.flatnonzero(~np.array(found)).tolist()
+    assert mechanics.slides_throughout(slides).tolist() == found
+    assert not mechanics.slides_throughout(sticks).any()
+    assert list(mechanics.problems(slides)) == np.flatnonzero(~np.array(found)).tolist()
     words = "restitution = 0.05: allowed are numbers from 0.1 where the contact sticks at some time"
-    problems = impacts.problems(sticks)
+    problems = mechanics.problems(sticks)
     assert list(problems) == [0, 1, 2, 3] and problems[3] == words
     assert np.isnan(peak).tolist() == [True, True, False, False, False]
     with_loss = {"viscous": [2.676, 1.852, 1.339], "plastic": [0.045, 0.087, 0.152]}[loss]

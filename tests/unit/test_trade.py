@@ -49,7 +49,7 @@ def named():
         ("timestep.mindlin, 64 steps, e = 1", 0.292),
         ("laws.brach, e = 1", 0.184),
         ("response of lumped, tolerance 1e-10, e = 1", 0.0806),
-        ("lumped, e = 0.8, viscous", 0.40),
+        ("lumped.hysteretic, e = 0.8, viscous", 0.40),
         ("lumped.viscous, e = 0.8, viscous", 0.087),
         ("continuum.plastic, tolerance 0.01, e = 0.8, viscous", 0.141),
         ("continuum.viscous, tolerance 0.01, e = 0.8, plastic", 0.141),
@@ -86,7 +86,7 @@ def test_nothing_is_exact_by_definition(named):
 
 
 def test_a_model_is_timed_once_for_both_losses(named):
-    for of in ("lumped", "response of continuum.plastic, tolerance 0.01"):
+    for of in ("lumped.hysteretic", "response of continuum.plastic, tolerance 0.01"):
         viscous, plastic = (named[f"{of}, e = 0.8, {loss}"] for loss in ("viscous", "plastic"))
         assert viscous["time_1 [s]"] == plastic["time_1 [s]"] and viscous[MAX] != plastic[MAX]
 
@@ -98,7 +98,7 @@ def test_what_uncertain_inputs_hide_is_not_seen(named):
     assert spread == pytest.approx(math.hypot(0.1 * 1.8 * 3.5, 0.02 * 3.5), rel=0.01)
     seen = {name: row["seen [1]"][0] for name, row in named.items()}
     assert seen["continuum.plastic, tolerance 0.001, e = 0.8, plastic"] == 0
-    assert seen["rigid, e = 0.8, plastic"] > seen["lumped, e = 0.8, plastic"] > 0.4
+    assert seen["rigid, e = 0.8, plastic"] > seen["lumped.hysteretic, e = 0.8, plastic"] > 0.4
 
 
 def test_laws_of_impulses_have_no_peak_friction_and_others_do(named):

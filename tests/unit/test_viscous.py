@@ -279,12 +279,6 @@ def test_the_whole_range_is_solved():
     assert ((result.peak_friction >= 0) & (result.peak_friction <= 1)).all()
 
 
-def test_the_old_name_of_a_loss_still_works_and_says_so():
-    with pytest.warns(DeprecationWarning, match="'plastic' .* is called 'unloading-stiffness' now"):
-        old = lumped.rebound(2.0, restitution=0.8, loss="plastic")
-    assert old == lumped.rebound(2.0, restitution=0.8, loss="unloading-stiffness")
-
-
 def test_an_array_is_no_name_of_a_loss():
     with pytest.raises(InputError, match="allowed are hysteretic, unloading-stiffness, viscous"):
         lumped.rebound(2.0, loss=np.array(["plastic", "viscous"]))

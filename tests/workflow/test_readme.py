@@ -15,9 +15,12 @@ from stronge1994 import csv_tables
 from stronge1994.plan import readmes
 
 ROOT = Path(__file__).parents[2]
-PATHS = [ROOT / "README.md", *sorted(ROOT.glob("[a-z]*/README.md")), ROOT / "data/scenes/README.md"]
+PATHS = [ROOT / "README.md", *sorted(ROOT.glob("[a-z]*/README.md"))]
+PATHS += [ROOT / "data/scenes/README.md", ROOT / "src/planarimpact/README.md"]
 TEXTS = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in PATHS}
 MAIN, SOLVER = TEXTS["README.md"], TEXTS["src/README.md"]
+# Pages whose examples have a test of their own, or none.
+PAGES = ["CONTRIBUTING.md", "workflow/your_model_your_data.md"]
 EXAMPLES = [
     pytest.param(block, id=f"{name}-{number}")
     for name, text in TEXTS.items()
@@ -26,7 +29,7 @@ EXAMPLES = [
 ]
 # What a run builds, what a reader is told to add, and what is no path.
 NOT_THERE = re.compile(
-    r"(?<!stronge1994/)figures/(?!README|preview)|[.]wpd[.]csv$|fig10|data/sliding_line"
+    r"(?<!stronge1994/)figures/(?!README|preview)|[.]wpd[.]csv$|fig10|data/sliding_line|marble"
 )
 
 
@@ -58,9 +61,9 @@ def test_the_main_readme_is_short():
     assert len(MAIN.encode()) <= 10_000
 
 
-@pytest.mark.parametrize("name", TEXTS)
+@pytest.mark.parametrize("name", [*TEXTS, *PAGES])
 def test_paths_and_links_lead_somewhere(name):
-    text, folder = TEXTS[name], (ROOT / name).parent
+    text, folder = (ROOT / name).read_text(encoding="utf-8"), (ROOT / name).parent
     named = re.findall(r"`((?:data|workflow|src|tests|figures|profiles)/[\w./]+)`", text)
     missing = [path for path in named if not (ROOT / path).exists()]
     for link in re.findall(r"\]\((?!http)([^)]+)\)", text):
@@ -78,7 +81,7 @@ def sections(path):
 
 
 def test_figures_and_sources_are_listed_as_their_folders_say():
-    """If not: `python -m stronge1994.plan.readmes` writes them anew."""
+    """If not: `PYTHONPATH=src python -m stronge1994.plan.readmes` writes them anew."""
     for path, text in readmes.texts().items():
         assert path.read_text(encoding="utf-8") == text
 

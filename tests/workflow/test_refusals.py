@@ -75,14 +75,6 @@ BAD_CONFIG = [
     (comparison("fig5-continuum-maw", reference="maw1976/no"), "'maw1976/no' is neither"),
     (figure("inelastic", points="maw1976/slip_throughout_limit"), "limit' is no series"),
     (figure("inelastic", solved="3"), "inelastic.solved: 3 is less than the minimum of 16"),
-    (
-        comparison("inelastic-lumped-pairs", metric="distance"),
-        "a stated series goes with metric vertices",
-    ),
-    (
-        comparison("inelastic-lumped-pairs", allowance={"x": "0", "y": "1"}),
-        "a stated series goes with metric vertices, without `allowance`",
-    ),
     (figure("stability", points="maw1976/slip_throughout_limit"), "limit' is no series"),
     (comparison("fig5-continuum-maw", tolerance="3"), "'tolerance' was unexpected"),
     ({"significance": "1e-4"}, "significance: 0.0001 is less than the minimum of 0.001"),

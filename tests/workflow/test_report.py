@@ -124,7 +124,7 @@ def test_the_first_words_say_how_it_went_and_what_was_found(first_run, text, rep
     head = report.read_text(encoding="utf-8").split('<h2 id="verdicts">')[0]
     assert all(f'<a href="ledger.html#{entry}">' in head for entry in grave[1:])
     verdicts = {row["comparison"]: row for row in rows_of(results / "verdicts.csv")}
-    assert f"χ² = {float(verdicts['inelastic-lumped-pairs']['chi^2']):.0f}" in first
+    assert f"χ² = {float(verdicts['inelastic-lumped.hysteretic-pairs']['chi^2']):.0f}" in first
     half = next(r for r in rows_of(results / "in_nature.csv") if r["measure"] == "reversal_half")
     assert all(f"{float(half[kind]):.2f}" in first for kind in ("paper", "viscous", "plastic"))
     most = verdicts["stability-digits"]["max [sigma]"]
@@ -153,7 +153,7 @@ def test_a_finding_is_told_only_where_the_tables_say_it(first_run):
 
     assert untold() == set()
     # A measurement that agrees with the paper's model, or contradicts a continuum, is other news.
-    assert untold(judged("inelastic-lumped-pairs", "agrees")) == {"restitution"}
+    assert untold(judged("inelastic-lumped.hysteretic-pairs", "agrees")) == {"restitution"}
     explained = judged("inelastic-continuum.plastic-pairs", "explained difference")
     assert untold(explained) == {"restitution"}
     assert untold(judged("fig5-lumped-maw-slip-throughout", "explained difference")) == {"elastic"}
@@ -163,8 +163,8 @@ def test_a_finding_is_told_only_where_the_tables_say_it(first_run):
     assert untold(paths={}) == {"restitution", "elastic"}
     assert untold(numbers={}) == {"restitution", "elastic"}
     # A rubber sphere that is nearer to a continuum, or pairs that contradict one, are other news.
-    for name, value in (("rubber.continuum.viscous.distance", 0), ("pairs.lumped.failed", 9)):
-        assert untold(numbers=numbers | {name: value}) == {"restitution"}
+    for other in ({"rubber.continuum.viscous.distance": 0}, {"pairs.lumped.hysteretic.failed": 9}):
+        assert untold(numbers=numbers | other) == {"restitution"}
     crashed = {"rows": [{"error": "oh"}]}
     assert untold(tables=dict.fromkeys(names, crashed)) == {"tolerance", "digits"}
 

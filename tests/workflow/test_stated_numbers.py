@@ -44,21 +44,23 @@ def said(n):
             f"The {n['ledger.wrong']:.0f} have {n['ledger.causes']:.0f} causes.",
             f"impact differs by up to {n['elastic.largest']:.3f} mu v2(0), where",
             f"{COUNTS[n['pairs.number']]} pairs of materials differ from the paper's model (chi^2 "
-            f"= {chi2['lumped']}, of which polyurethane gives "
-            f"{n['pairs.lumped.polyurethane.chi2']:.0f}) and agree with a viscous continuum "
+            f"= {chi2['lumped.hysteretic']}, of which polyurethane gives "
+            f"{n['pairs.lumped.hysteretic.polyurethane.chi2']:.0f}) and agree with a viscous "
+            "continuum "
             f"({chi2['continuum.viscous']}), a plastic one ({chi2['continuum.plastic']}) and two "
             f"Kelvin-Voigt elements ({chi2['lumped.viscous']})",
-            f"over {word['pairs.spreads']} choices chi^2 is {span['lumped']}, "
+            f"over {word['pairs.spreads']} choices chi^2 is {span['lumped.hysteretic']}, "
             f"{span['continuum.viscous']}, {span['continuum.plastic']} and "
             f"{span['lumped.viscous']}.",
-            f"The paper's model fails all {word['pairs.lumped.failed']}, and "
-            f"{word['pairs.lumped.both.failed']} without polyurethane and chrome steel; the "
-            f"viscous continuum fails {word['pairs.continuum.viscous.failed']}, the plastic one "
-            f"{word['pairs.continuum.plastic.failed']}, two Kelvin-Voigt elements "
+            f"The paper's model fails all {word['pairs.lumped.hysteretic.failed']}, and "
+            f"{word['pairs.lumped.hysteretic.both.failed']} without polyurethane and chrome steel; "
+            f"the viscous continuum fails {word['pairs.continuum.viscous.failed']}, the plastic "
+            f"one {word['pairs.continuum.plastic.failed']}, two Kelvin-Voigt elements "
             f"{word['pairs.lumped.viscous.failed']}.",
-            f"tangential restitution is {n['rubber.lumped.distance']:.2f} off, root mean square, "
-            f"that of a viscous continuum {n['rubber.continuum.viscous.distance']:.2f}, without "
-            f"any loss {n['rubber.continuum.distance']:.2f}.",
+            f"tangential restitution is {n['rubber.lumped.hysteretic.distance']:.2f} off, root "
+            "mean square, that of a viscous continuum "
+            f"{n['rubber.continuum.viscous.distance']:.2f}, without any loss "
+            f"{n['rubber.continuum.distance']:.2f}.",
             f"the two continua differ by up to {n['loss.other']:.2f} mu v2(0), the paper's model "
             f"from one of them by {n['loss.paper']:.1f}.",
             f"(continua have {n['nature.limit_half.viscous']:.2f} or "
@@ -72,7 +74,7 @@ def said(n):
             f"{n['yielding.continuum.plastic.max']:.2f} at most",
             "The viscous continuum differs from them by "
             f"{n['yielding.continuum.viscous.rms']:.2f}, the paper's model by "
-            f"{n['yielding.lumped.rms']:.1f}, that with e^2 zeta^2 by "
+            f"{n['yielding.lumped.hysteretic.rms']:.1f}, that with e^2 zeta^2 by "
             f"{n['yielding.lumped.unloading-stiffness.rms']:.2f}. Two Kelvin-Voigt elements differ "
             f"by {n['yielding.lumped.viscous.near.rms']:.2f} for e from 0.62 to 0.92, "
             f"{n['yielding.lumped.viscous.near.max']:.2f} at most",
@@ -104,8 +106,8 @@ def test_sentences_have_the_numbers_of_the_run(numbers):
 def test_another_number_is_noticed(numbers):
     """Each number is off by a tenth: no sentence that has one of them stays as it is."""
     text = flat((ROOT / "README.md").read_text(encoding="utf-8"))
-    names = ("elastic.largest", "pairs.lumped.chi2", "rubber.lumped.distance", "loss.other")
-    for name in names:
+    paper = "pairs.lumped.hysteretic.chi2", "rubber.lumped.hysteretic.distance"
+    for name in ("elastic.largest", *paper, "loss.other"):
         other = said(numbers | {name: 1.1 * numbers[name]})["README.md"]
         assert any(sentence not in text for sentence in other)
 
@@ -166,9 +168,9 @@ def test_what_the_note_says_in_words_is_so(numbers, first_run):
     """The nearest to the rubber sphere, the farthest pair, and how other limits differ."""
     n = numbers
     nearest = min(note.MODELS, key=lambda model: n[f"rubber.{model}.distance"])
-    assert nearest == "lumped"
-    assert n["rubber.lumped.from_velocity"] < n["rubber.continuum.viscous.from_velocity"]
-    assert n["rubber.lumped.from_spin"] > n["rubber.continuum.viscous.from_spin"]
+    assert nearest == "lumped.hysteretic"
+    assert n["rubber.lumped.hysteretic.from_velocity"] < n["rubber.continuum.viscous.from_velocity"]
+    assert n["rubber.lumped.hysteretic.from_spin"] > n["rubber.continuum.viscous.from_spin"]
     limits = [n[f"nature.limit_half.{loss}"] for loss in ("viscous", "plastic")]
     paper = n["nature.limit_half.paper"]
     assert all(abs(limit - 5.25) < abs(limit - paper) for limit in limits)
@@ -177,7 +179,7 @@ def test_what_the_note_says_in_words_is_so(numbers, first_run):
     assert all(
         n[f"pairs.{model}.the stated sigmas are two sigmas.p"] < 0.01 for model in note.MODELS
     )
-    assert n["pairs.lumped.failed"] == n["pairs.spreads"] == 10
+    assert n["pairs.lumped.hysteretic.failed"] == n["pairs.spreads"] == 10
     for loss in ("viscous", "plastic"):
         stiff, paper = (
             n[f"nature.stick_from_{loss}.{m}"] for m in ("unloading_stiffness", "paper")

@@ -12,7 +12,7 @@ incidence. All vectors have one set of axes. Spin is the right-handed vector of 
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -20,13 +20,15 @@ from numpy.typing import NDArray
 
 from planarimpact import bodies
 from planarimpact.bodies import Body
-from planarimpact.collision.impacts import Impacts as Impacts
-from planarimpact.collision.impacts import State as State
-from planarimpact.collision.impacts import after as after
-from planarimpact.collision.impacts import energy_lost as energy_lost
-from planarimpact.collision.impacts import impacts as impacts
-from planarimpact.collision.impacts import problems as problems
+from planarimpact.collision import single
+from planarimpact.collision.mechanics import Impacts as Impacts
+from planarimpact.collision.mechanics import State as State
+from planarimpact.collision.mechanics import after as after
+from planarimpact.collision.mechanics import energy_lost as energy_lost
+from planarimpact.collision.mechanics import impacts as impacts
+from planarimpact.collision.mechanics import problems as problems
 from planarimpact.collision.pairs import LAWS as LAWS
+from planarimpact.collision.pairs import LOSSES as LOSSES
 from planarimpact.collision.pairs import Pair as Pair
 from planarimpact.collision.presets import Preset as Preset
 from planarimpact.collision.presets import presets as presets
@@ -43,7 +45,7 @@ __all__ = ["Collision", "Pair", "Preset", "collide", "presets"]
 TOLERANCE = 5e-3
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Collision:
     """Bodies after their impacts; made by `collide`. Its arrays have the shape of the arguments.
 
@@ -76,7 +78,7 @@ class Collision:
     incidence: Array
     restitution: Array
     error_bound: Array
-    regime: Integers
+    regime: Any
     plastic: Booleans
     _model_form: Callable[[], Array] = field(repr=False)
 
@@ -96,7 +98,6 @@ class Collision:
         return self._model_form()
 
 
-@checks.default_errors
 def collide(
     pair: Pair,
     normal: ArrayLike,
@@ -159,17 +160,30 @@ def collide(
     >>> Regime(int(result.regime)).name
     'SLIP_STICK_SLIP'
     """
-    tolerance = checks.number("tolerance", tolerance, "numbers from 1e-10 to 1", 1e-10, 1)
-    vectors = [
-        _vectors(name, value)
-        for name, value in {
-            "normal": normal,
-            "velocity": velocity,
-            "spin": spin,
-            "other_velocity": other_velocity,
-            "other_spin": other_spin,
-        }.items()
-    ]
+    vectors = normal, velocity, spin, other_velocity, other_spin
+    _refuse_types(pair, body, other)
+    if type(tolerance) is not float or not 1e-10 <= tolerance <= 1:  # the check takes its time
+        tolerance = checks.number("tolerance", tolerance, "numbers from 1e-10 to 1", 1e-10, 1)
+    if pair.single:
+        one = single.collide(pair.single, bool(pair.plastic), body, other, vectors, tolerance)
+        if one:
+            of_arrays = partial(_collide_arrays, pair, body, other, vectors, tolerance)
+            v, w, other_v, other_w, impulse = np.array(one.states).reshape(5, 3)
+            x, e, error = np.array(one.numbers)
+            return Collision(
+                *(v, w, other_v, other_w, impulse, x, e, error, one.regime, pair.plastic),
+                lambda: of_arrays().model_form,
+            )
+    return _collide_arrays(pair, body, other, vectors, tolerance)
+
+
+@checks.default_errors
+def _collide_arrays(
+    pair: Pair, body: Body, other: Body, values: tuple[ArrayLike, ...], tolerance: float
+) -> Collision:
+    """As `collide`, for any number of impacts."""
+    names = "normal", "velocity", "spin", "other_velocity", "other_spin"
+    vectors = [_vectors(name, value) for name, value in zip(names, values, strict=True)]
     fields = [np.asarray(value) for value in (*body, *other)]
     shape = _common_shape(pair, vectors, fields)
     pair = pair.broadcast(shape)
@@ -189,6 +203,16 @@ def collide(
     for i, problem in answer.unsolved.items():
         raise Unsolved(f"{_place(approach[i], shape)}{problem}", approach[[i]])
     return _collision(given, met, approach, answer, shape)
+
+
+def _refuse_types(pair: Pair, body: Body, other: Body) -> None:
+    """Refuse what is no pair or no body."""
+    if not isinstance(pair, Pair):
+        raise InputError(f"pair = {checks.brief(pair)}: allowed is a planarimpact.Pair")
+    for name, value in (("body", body), ("other", other)):
+        if not isinstance(value, Body):
+            allowed = "a bodies.Body, such as bodies.solid_sphere(radius, density)"
+            raise InputError(f"{name} = {checks.brief(value)}: allowed is {allowed}")
 
 
 def _vectors(name: str, value: ArrayLike) -> Array:
@@ -231,7 +255,7 @@ def _collision(
             values = everywhere
         return values.T.reshape((*shape, *values.shape[:-1]))[()]
 
-    state, other_state, impulse = after(met, answer.velocity)
+    state, other_state, impulse = after(met, answer.change)
     return Collision(
         velocity=whole(state.velocity, given.before.velocity),
         spin=whole(state.spin, given.before.spin),

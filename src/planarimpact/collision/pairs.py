@@ -14,6 +14,7 @@ LOSSES = "viscous", "plastic"
 # What says how much energy is lost: restitution, or what gives it at the speed of each impact.
 LAWS = {"restitution": None, "relaxation_time": "viscous", "yield_pressure": "plastic"}
 _FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *LAWS)
+_ARRAYS = (*_FIELDS, "plastic")
 
 
 class Pair:
@@ -83,7 +84,8 @@ loss = viscous, plastic
     relaxation_time: Array
     yield_pressure: Array
     plastic: Booleans
-    __slots__ = (*_FIELDS, "plastic")
+    single: tuple[float, ...] | None  # the fields of a single pair as Python's own floats
+    __slots__ = (*_FIELDS, "plastic", "single")
 
     def __init__(
         self,
@@ -117,13 +119,14 @@ loss = viscous, plastic
                 "the materials"
             )
         object.__setattr__(self, "plastic", (codes == 1) | ~np.isnan(self.yield_pressure))
+        object.__setattr__(self, "single", _single(self))
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"a Pair cannot be changed: make a new one with another {name}")
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle and copy it by its fields."""
-        return _made, tuple(getattr(self, name) for name in self.__slots__)
+        return _made, tuple(getattr(self, name) for name in _ARRAYS)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -132,11 +135,11 @@ loss = viscous, plastic
 
     def __getitem__(self, index: Any) -> "Pair":
         """Some pairs of a table, by an index as of its arrays."""
-        return _made(*(getattr(self, name)[index] for name in self.__slots__))
+        return _made(*(getattr(self, name)[index] for name in _ARRAYS))
 
     def broadcast(self, shape: tuple[int, ...]) -> "Pair":
         """Pairs in one row, for impacts of a shape that this table broadcasts to."""
-        fields = (getattr(self, name) for name in self.__slots__)
+        fields = (getattr(self, name) for name in _ARRAYS)
         return _made(*(np.broadcast_to(field, shape).reshape(-1) for field in fields))
 
     def __repr__(self) -> str:
@@ -150,11 +153,17 @@ loss = viscous, plastic
 
 
 def _made(*fields: Array) -> Pair:
-    """A pair of fields that are checked already, in the order of its slots."""
+    """A pair of fields that are checked already, in the order of `_ARRAYS`."""
     pair = object.__new__(Pair)
-    for name, values in zip(Pair.__slots__, fields, strict=True):
+    for name, values in zip(_ARRAYS, fields, strict=True):
         object.__setattr__(pair, name, np.asarray(values))
+    object.__setattr__(pair, "single", _single(pair))
     return pair
+
+
+def _single(pair: Pair) -> tuple[float, ...] | None:
+    """Fields of a single pair as Python's own floats, else None."""
+    return None if pair.shape else tuple(float(getattr(pair, name)) for name in _FIELDS)
 
 
 def _law(name: str, value: ArrayLike | None, allowed: str, low: float, high: float = 0) -> Array:

@@ -13,7 +13,7 @@ import numpy as np
 
 from planarimpact import continuum, spheres
 from planarimpact.collision import continua, model_form
-from planarimpact.collision.impacts import Impacts, slides_throughout
+from planarimpact.collision.mechanics import Impacts, slides_throughout
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.results import Regime
@@ -85,6 +85,7 @@ class Answers(NamedTuple):
     """Answers to impacts, arrays of shape (n,), and messages for impacts without an answer."""
 
     place: Integers  # of the rung, in `RUNGS`
+    change: Array  # of the velocity of the contact point [m/s]; slip throughout knows it best
     velocity: Array  # of the contact point at separation [m/s]
     peak_friction: Array  # mu times the peak normal force; NaN where it is not asked for
     regime: Integers
@@ -97,10 +98,13 @@ def answers(impacts: Impacts, tolerance: float, peaks: bool = False) -> Answers:
     place, error = of_each(impacts, tolerance)
     slides = place == SLIDING
     with np.errstate(over="ignore"):
-        change = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit
-    velocity = impacts.v1 - np.where(slides, change, 0.0)
+        fall = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit
+    change = np.where(slides, -fall, 0.0)
+    velocity = impacts.v1 + change
     regime = np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK).astype(np.uint8)
-    result = Answers(place, velocity, slides.astype(float), regime, error * impacts.unit, {})
+    result = Answers(
+        place, change, velocity, slides.astype(float), regime, error * impacts.unit, {}
+    )
     for number in np.unique(place[place >= FIRST_OF_CONTINUA]).tolist():
         _add_continuum(result, impacts, number, tolerance, peaks)
     return result
@@ -117,6 +121,7 @@ def _add_continuum(
     result.unsolved.update({int(rows[i]): message for i, message in solved.messages.items()})
     rows, rebound = rows[solved.rows], solved.rebound
     result.velocity[rows] = rebound.velocity * impacts.unit[rows]
+    result.change[rows] = result.velocity[rows] - impacts.v1[rows]
     result.peak_friction[rows] = rebound.peak_friction
     result.regime[rows] = rebound.regime
 

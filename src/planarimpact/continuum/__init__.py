@@ -305,11 +305,7 @@ def _tolerance(tolerance: float | None, default: float) -> float:
 def _refuse_lossy(restitution: ArrayLike, loss: str | None) -> None:
     """Refuse impacts that lose energy and do not say how, or that lose too much."""
     if loss is None:
-        losses = " or ".join(LOSSES)
-        allowed = (
-            f"numbers equal to 1, as this contact is elastic; below 1 it needs a loss, {losses}"
-        )
-        checks.checked("restitution", restitution, allowed, 1, 1)
+        checks.lossless(restitution, LOSSES)
         return
     checks.loss(loss, tuple(inelastic.LOSSES))
     allowed = f"numbers from {LEAST_RESTITUTION} to 1, with a loss"

@@ -2,8 +2,7 @@
 
 import math
 import reprlib
-import warnings
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from functools import partial
 from typing import Any
 
@@ -193,12 +192,26 @@ def loss(value: str, allowed: tuple[str, ...]) -> str:
     """
     if isinstance(value, str) and value in allowed:
         return value
-    # The name in an earlier release.
-    if isinstance(value, str) and value == "plastic" and "unloading-stiffness" in allowed:
-        words = "loss = 'plastic' of lumped elements is called 'unloading-stiffness' now"
-        warnings.warn(words, DeprecationWarning, stacklevel=5)
-        return "unloading-stiffness"
     raise InputError(f"loss = {brief(value)}: allowed are {', '.join(allowed)}")
+
+
+def lossless(value: ArrayLike, choices: Iterable[str], by: str = "loss") -> None:
+    """Refuse a restitution below 1 where nobody said what takes the energy; `by` can say it.
+
+    `choices` are names of losses, or of models with a loss.
+
+    Examples
+    --------
+    >>> lossless([1.0, 0.8], ["hysteretic", "viscous"])
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: restitution[1] = 0.8: allowed are numbers equal to 1, unless loss \
+says what takes the energy: hysteretic (the paper's), viscous
+    """
+    restitution(value)
+    names = [f"{one} (the paper's)" if one.endswith("hysteretic") else one for one in choices]
+    words = f"numbers equal to 1, unless {by} says what takes the energy: {', '.join(names)}"
+    checked("restitution", value, words, 1, 1)
 
 
 # The groups, in the order of every model's arguments, and their checks.

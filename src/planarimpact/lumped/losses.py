@@ -90,5 +90,5 @@ LOSSES: dict[str, Hysteretic] = {
 
 
 def loss_of(name: str) -> Hysteretic:
-    """The loss with this name, which may be the one of an earlier release."""
+    """The loss with this name."""
     return LOSSES[checks.loss(name, tuple(LOSSES))]

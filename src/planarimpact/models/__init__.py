@@ -3,13 +3,17 @@
 Each model is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)`,
 the four groups by position or name and its own settings by name. It returns a `Rebound`. The
 workflow measures what each model costs and how large its error is (`results/trade.csv`).
+
+A name says what takes the energy below e = 1, such as "lumped.hysteretic", the paper's model.
+"lumped" and "continuum" alone are elastic. A law of impulses takes any loss. `register` adds a
+model of your own.
 """
 
-import warnings
+import re
 from collections.abc import Callable, Mapping
-from functools import partial
+from functools import partial, wraps
 from itertools import product
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -22,14 +26,19 @@ from planarimpact.models import laws, timestep
 
 # How well e and mu of a pair of materials are known in practice: e to 0.02, mu to 10 %.
 RESTITUTION_ERROR, FRICTION_ERROR = 0.02, 0.1
-# Names of an earlier release.
-OLD_NAMES = {"lumped.plastic": "lumped.unloading-stiffness"}
+# Classes of cost. A table has an end, see `admits`.
+COSTS = ("formula", "table", "phases", "steps", "steps and springs", "steps and circles")
 # Gauss's points of a normal distribution, in standard deviations, and their weights.
 POINTS = ((-(3**0.5), 1 / 6), (0.0, 2 / 3), (3**0.5, 1 / 6))
 
 
+def _no_kinks(*groups: float, **settings: float) -> tuple[float, ...]:
+    """Kinks of a model of which none is known."""
+    return ()
+
+
 class Model(NamedTuple):
-    """One model.
+    """One model. Name and rebound are enough.
 
     Attributes
     ----------
@@ -55,17 +64,21 @@ class Model(NamedTuple):
     kinks : callable
         Incidences, by the same arguments, where its velocity is known to have a kink; there may be
         more.
+    loss : str
+        What takes the energy below e = 1: "any" for laws of impulses, to which it makes no
+        difference; "" where nothing does, or nobody has said it.
     """
 
     name: str
     rebound: Callable[..., Rebound]
-    settings: dict[str, float]
-    cost: str
-    restitution: tuple[float, float]
-    valid: str
-    source: str
-    sliding_limit: Callable[..., float] | None
-    kinks: Callable[..., tuple[float, ...]]
+    settings: dict[str, float] = {}
+    cost: str = "formula"
+    restitution: tuple[float, float] = (0.0, 1.0)
+    valid: str = ""
+    source: str = ""
+    sliding_limit: Callable[..., float] | None = None
+    kinks: Callable[..., tuple[float, ...]] = _no_kinks
+    loss: str = ""
 
 
 def get(name: str) -> Model:
@@ -93,14 +106,10 @@ def get(name: str) -> Model:
     Traceback (most recent call last):
     ...
     planarimpact.InputError: model = 'magic': allowed are rigid, laws.smith, laws.brach, lumped, \
-lumped.unloading-stiffness, lumped.viscous, timestep.linear, timestep.mindlin, \
+lumped.hysteretic, lumped.unloading-stiffness, lumped.viscous, timestep.linear, timestep.mindlin, \
 timestep.mindlin_rescaled, continuum, continuum.viscous, continuum.plastic, spheres.viscous, \
 spheres.plastic, annuli
     """
-    if isinstance(name, str) and name in OLD_NAMES:
-        words = f"model {name!r} is called {OLD_NAMES[name]!r} now"
-        warnings.warn(words, DeprecationWarning, stacklevel=3)
-        name = OLD_NAMES[name]
     if not isinstance(name, str) or name not in MODELS:
         raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
     return MODELS[name]
@@ -138,6 +147,12 @@ def rebound(
     --------
     >>> float(rebound("rigid", 8.0).velocity)
     1.0
+    >>> rebound("lumped", 2.0, restitution=0.8)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: restitution = 0.8: allowed are numbers equal to 1, unless the model's \
+name says what takes the energy: lumped.hysteretic (the paper's), lumped.unloading-stiffness, \
+lumped.viscous
     >>> rebound("lumped", 8.0, steps=4)
     Traceback (most recent call last):
     ...
@@ -182,7 +197,8 @@ def input_spread(
     -------
     ndarray of float64 or float
         In mu v2(0), with mu as it is believed to be; the shape of `incidence`. If mu is r times as
-        large, a velocity w(x) becomes r w(x/r). Both errors are normal and independent.
+        large, a velocity w(x) becomes r w(x/r). Both errors are normal and independent. A model
+        for e = 1 alone has that of friction alone.
 
     Raises
     ------
@@ -234,12 +250,119 @@ def admits(model: Model, mass_ratio: float, stiffness_ratio: float, restitution:
 
     Examples
     --------
-    >>> [admits(get(name), 3.5, 5.0, 0.5) for name in ("lumped", "continuum", "spheres.plastic")]
-    [True, False, False]
+    >>> names = "lumped", "lumped.hysteretic", "spheres.plastic"
+    >>> [admits(get(name), 3.5, 5.0, 0.5) for name in names]
+    [False, True, False]
     """
     low, high = model.restitution
     covered = model.cost != "table" or spheres.covers(mass_ratio, stiffness_ratio, restitution)
     return low <= restitution <= high and bool(covered)
+
+
+def register(model: Model, *, replace: bool = False) -> None:
+    """Add a model of your own: from then on `MODELS` and all that takes a name know it.
+
+    It lasts as long as the program runs. That `rebound` keeps the convention is tried with a few
+    impacts of a solid sphere (mass ratio 3.5, stiffness ratio 1.21), at both ends of its range of
+    restitution.
+
+    Parameters
+    ----------
+    model : Model
+        Its `name` has letters, digits, dots, hyphens and underscores. Its `rebound` takes the four
+        groups by position or name and the settings by name, and gives a `Rebound`;
+        `laws.of_velocity` makes one of a velocity alone.
+    replace : bool
+        Whether it may replace one of your own that has the same name.
+
+    Raises
+    ------
+    InputError
+        If the name is taken or is no name, the restitution is no range within 0 to 1, the cost is
+        none of `COSTS` or "table", or `rebound` fails, gives no `Rebound`, another shape than that
+        of the incidences, a velocity that is no number or not odd in the incidence, or other
+        velocities without its settings than with the defaults that `settings` states.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> @laws.of_velocity
+    ... def velocity(x, mass_ratio, stiffness_ratio, restitution, *, share=0.5):
+    ...     return np.maximum(x - (1 + restitution) * mass_ratio, -share * x)
+    >>> register(Model("example.half", velocity, settings={"share": 0.5}))
+    >>> rebound("example.half", [2.0, 9.0]).velocity.tolist()
+    [-1.0, 2.0]
+    >>> register(Model("rigid", velocity))
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: name = 'rigid': allowed are names that no model has
+    >>> del MODELS["example.half"]
+    """
+    if not isinstance(model, Model):
+        raise checks.InputError(f"model = {checks.brief(model)}: allowed are models.Model(...)")
+    name = model.name
+    if not isinstance(name, str) or not re.fullmatch(r"[A-Za-z][\w.-]*", name, re.ASCII):
+        allowed = "letters, digits, dots, hyphens and underscores, a letter first"
+        raise checks.InputError(f"name = {checks.brief(name)}: allowed are {allowed}")
+    taken = name in _OF_THE_PACKAGE
+    if taken or (name in MODELS and not replace):
+        own = "" if taken else "; replace=True replaces one of your own"
+        raise checks.InputError(f"name = {name!r}: allowed are names that no model has{own}")
+    allowed = "two numbers from 0 to 1, the smaller first"
+    ends = checks.checked("restitution", model.restitution, allowed, 0, 1)
+    if ends.shape != (2,) or ends[0] > ends[1]:
+        raise checks.InputError(f"restitution = {model.restitution}: allowed are {allowed}")
+    costs = [cost for cost in COSTS if cost != "table"]
+    if model.cost not in costs:
+        known = ", ".join(costs)
+        raise checks.InputError(f"cost = {checks.brief(model.cost)}: allowed are {known}")
+    for e in ends.tolist():
+        _refuse_other_convention(model, e)
+    MODELS[name] = model
+
+
+def _refuse_other_convention(model: Model, restitution: float) -> None:
+    """Refuse a model whose `rebound` is not as that of every other, at one restitution."""
+    x = np.array([[-9.0, -2.0, -0.5, 0.0], [9.0, 2.0, 0.5, 4.0]])
+    where = f"rebound of {model.name} at restitution {restitution:g}"
+    groups: dict[str, Any] = dict(zip(checks.RULES, (x, 3.5, 1.21, restitution), strict=True))
+
+    def answer(shape: tuple[int, ...], *by_position: ArrayLike, **by_name: Any) -> Rebound:
+        try:
+            result = model.rebound(*by_position, **by_name)
+        except Exception as error:
+            problem = f"{type(error).__name__}: {error}"
+            raise checks.InputError(f"{where}: it fails: {problem}") from error
+        if not isinstance(result, Rebound):
+            raise checks.InputError(
+                f"{where}: it gives {type(result).__name__}: allowed is a Rebound, which "
+                "laws.of_velocity makes of velocities"
+            )
+        for field in ("velocity", "peak_friction", "dissipation", "regime"):
+            found = np.shape(getattr(result, field))
+            if found != shape:
+                raise checks.InputError(
+                    f"{where}: {field}, shape {found}: allowed is that of the incidences, {shape}"
+                )
+        return result
+
+    velocity = np.asarray(answer(x.shape, *groups.values()).velocity)
+    answer((), 2.0, *list(groups.values())[1:])
+    if not np.isfinite(velocity).all():
+        first = x[~np.isfinite(velocity)][0]
+        raise checks.InputError(
+            f"{where}: velocity at incidence {first:g}: allowed are finite numbers"
+        )
+    if not np.array_equal(velocity[0, :3], -velocity[1, :3]):
+        raise checks.InputError(
+            f"{where}: velocity at incidence -2 is {velocity[0, 1]:g}, at 2 {velocity[1, 1]:g}: "
+            "allowed are opposite ones"
+        )
+    if not np.array_equal(velocity, answer(x.shape, **groups, **model.settings).velocity):
+        raise checks.InputError(
+            f"settings = {model.settings}: allowed are the defaults of rebound, which gives other "
+            "velocities without them"
+        )
 
 
 def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
@@ -264,6 +387,70 @@ def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
         if key not in model.settings:
             known = f"the settings {', '.join(model.settings)}" if model.settings else "no settings"
             raise checks.InputError(f"{key} = {checks.brief(value)}: {model.name} has {known}")
+
+
+def loss_of(model: str, restitution: float) -> str:
+    """What takes the energy of an impact by the model of a name.
+
+    Parameters
+    ----------
+    model : str
+        One of `MODELS`.
+    restitution : float
+        e, 0 to 1.
+
+    Returns
+    -------
+    str
+        "none" for e = 1, else as `Model.loss`.
+
+    Examples
+    --------
+    >>> [loss_of(name, 0.8) for name in ("continuum.plastic", "timestep.linear", "rigid")]
+    ['plastic', 'hysteretic', 'any']
+    >>> loss_of("lumped", 1.0)
+    'none'
+    """
+    return "none" if restitution == 1 else get(model).loss
+
+
+def losses(model: str) -> dict[str, str]:
+    """Names of the models that are a model with a loss, by that loss.
+
+    Parameters
+    ----------
+    model : str
+        Name of a model without loss, such as "lumped".
+
+    Returns
+    -------
+    dict of str
+
+    Examples
+    --------
+    >>> losses("continuum")
+    {'viscous': 'continuum.viscous', 'plastic': 'continuum.plastic'}
+    >>> losses("rigid")
+    {}
+    """
+    return {other.loss: name for name, other in MODELS.items() if name == f"{model}.{other.loss}"}
+
+
+def _elastic(name: str, solve: Callable[..., Rebound]) -> Callable[..., Rebound]:
+    """A solver with the loss left out, for e = 1 alone; a refusal names the models with a loss."""
+
+    @wraps(solve)
+    def rebound(
+        incidence: ArrayLike,
+        mass_ratio: ArrayLike = 3.5,
+        stiffness_ratio: ArrayLike = 1.21,
+        restitution: ArrayLike = 1.0,
+        **settings: float,
+    ) -> Rebound:
+        checks.lossless(restitution, losses(name).values(), "the model's name")
+        return solve(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
+
+    return rebound
 
 
 # What the table below has as `sliding_limit` and `kinks`: functions of mass ratio, stiffness ratio,
@@ -329,6 +516,7 @@ MODELS = {
             "Stronge 1994, Eqs 34, 35, 41",
             _stiff_limit,
             lambda beta, zeta2, e: (beta, _stiff_limit(beta, zeta2, e)),
+            "any",
         ),
         Model(
             "laws.smith",
@@ -340,6 +528,7 @@ MODELS = {
             "C. E. Smith, J. Appl. Mech. 58 (1991) 754-758",
             _stiff_limit,
             _limit_alone(_stiff_limit),
+            "any",
         ),
         Model(
             "laws.brach",
@@ -352,17 +541,30 @@ MODELS = {
             "(1989) 133-138",
             _BRACH_LIMIT,
             _limit_alone(_BRACH_LIMIT),
+            "any",
         ),
         Model(
             "lumped",
-            lumped.rebound,
+            _elastic("lumped", lumped.rebound),
             {},
             "phases",
-            _ANY,
-            "linear springs, contact sticks and slips as a whole; solved to rounding",
+            _ELASTIC,
+            "linear springs, contact sticks and slips as a whole; solved to rounding; e = 1 only",
             "Stronge 1994",
             _HYSTERETIC_LIMIT,
             _compliant_kinks(_HYSTERETIC_LIMIT),
+        ),
+        Model(
+            "lumped.hysteretic",
+            partial(lumped.rebound, loss="hysteretic"),
+            {},
+            "phases",
+            _ANY,
+            "the paper's model: as lumped, the normal spring alone loses energy; to rounding",
+            "Stronge 1994",
+            _HYSTERETIC_LIMIT,
+            _compliant_kinks(_HYSTERETIC_LIMIT),
+            "hysteretic",
         ),
         Model(
             "lumped.unloading-stiffness",
@@ -374,6 +576,7 @@ MODELS = {
             "Stronge 1994, with the elastic stiffness of unloading in the ratio",
             _UNLOADING_LIMIT,
             lambda beta, zeta2, e: (e * e * zeta2, beta, _UNLOADING_LIMIT(beta, zeta2, e)),
+            "unloading-stiffness",
         ),
         Model(
             "lumped.viscous",
@@ -385,6 +588,7 @@ MODELS = {
             "T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469, for the normal element",
             _VISCOUS_LIMIT,
             _compliant_kinks(_VISCOUS_LIMIT),
+            "viscous",
         ),
         Model(
             "timestep.linear",
@@ -396,6 +600,7 @@ MODELS = {
             "P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65",
             None,
             _compliant_kinks(_HYSTERETIC_LIMIT),
+            "hysteretic",
         ),
         Model(
             "timestep.mindlin",
@@ -407,6 +612,7 @@ MODELS = {
             "R. D. Mindlin, J. Appl. Mech. 16 (1949) 259-268; as in LAMMPS, mindlin/force",
             None,
             _compliant_kinks(_HYSTERETIC_LIMIT),
+            "hysteretic",
         ),
         Model(
             "timestep.mindlin_rescaled",
@@ -418,10 +624,13 @@ MODELS = {
             "C. Thornton et al., Powder Technology 233 (2013) 30-46; LAMMPS, mindlin_rescale/force",
             None,
             _compliant_kinks(_HYSTERETIC_LIMIT),
+            "hysteretic",
         ),
         Model(
             "continuum",
-            partial(continuum.rebound, tolerance=continuum.ELASTIC_TOLERANCE),
+            partial(
+                _elastic("continuum", continuum.rebound), tolerance=continuum.ELASTIC_TOLERANCE
+            ),
             {"tolerance": continuum.ELASTIC_TOLERANCE},
             "steps",
             _ELASTIC,
@@ -442,6 +651,7 @@ MODELS = {
             "Kuwabara, K. Kono, Jpn. J. Appl. Phys. 26 (1987) 1230-1233",
             _VISCOUS_LIMIT,
             _compliant_kinks(_VISCOUS_LIMIT),
+            "viscous",
         ),
         Model(
             "continuum.plastic",
@@ -453,6 +663,7 @@ MODELS = {
             "C. Thornton, J. Appl. Mech. 64 (1997) 383-386",
             _yielding_limit,
             _compliant_kinks(_yielding_limit),
+            "plastic",
         ),
         *(
             Model(
@@ -466,6 +677,7 @@ MODELS = {
                 "solved by this package, planarimpact.spheres.making",
                 limit,
                 _compliant_kinks(limit),
+                loss,
             )
             for loss, limit in zip(
                 spheres.LOSSES, (_VISCOUS_LIMIT, _tabled_yielding_limit), strict=True
@@ -484,9 +696,10 @@ MODELS = {
         ),
     )
 }
+_OF_THE_PACKAGE = frozenset(MODELS)
 
 
-def reference(restitution: float, loss: str = "viscous") -> str:
+def reference(restitution: float, loss: str | None = None) -> str:
     """Name of the model that others are measured against.
 
     It is a continuum: elastic, or for e < 1 the one with this loss. If the loss is not known, the
@@ -496,8 +709,8 @@ def reference(restitution: float, loss: str = "viscous") -> str:
     ----------
     restitution : float
         e, 0 to 1.
-    loss : str
-        "viscous" or "plastic".
+    loss : str, optional
+        "viscous" or "plastic"; needed where e < 1.
 
     Returns
     -------
@@ -511,8 +724,11 @@ def reference(restitution: float, loss: str = "viscous") -> str:
 
     Examples
     --------
-    >>> reference(1.0), reference(0.9), reference(0.9, "plastic")
+    >>> reference(1.0), reference(0.9, "viscous"), reference(0.9, "plastic")
     ('continuum', 'continuum.viscous', 'continuum.plastic')
     """
+    if loss is None:
+        checks.lossless(restitution, continuum.LOSSES)
+        return "continuum"
     checks.loss(loss, continuum.LOSSES)
     return "continuum" if checks.restitution(restitution) == 1 else f"continuum.{loss}"

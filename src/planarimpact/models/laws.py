@@ -6,9 +6,14 @@ stiffness is no argument of these laws, so they miss the shape of the curve belo
 do not describe what happens during contact: there is no peak friction and no order of stick and
 slip, except in slip throughout.
 
+`of_velocity` makes a law of a velocity of your own.
+
 Units as in `planarimpact.lumped`. Symbols: x incidence, w velocity at separation, e restitution,
 b tangential restitution; B = (1 + e) beta, the change of velocity in slip throughout.
 """
+
+import functools
+from collections.abc import Callable
 
 import numpy as np
 
@@ -122,6 +127,64 @@ def smith(
     u = 2 * (1 - s) / (1 + np.sqrt(1 + 4 * s * (1 - s)))
     velocity = np.where(slides, x - change, -u * x)
     return _rebound(signed, velocity, beta, e, slides)
+
+
+def of_velocity(velocity: Callable[..., ArrayLike]) -> Callable[..., Rebound]:
+    """Make a law of impulses of a function that gives only the velocity at separation.
+
+    Parameters
+    ----------
+    velocity : callable
+        A function of incidence, mass ratio, stiffness ratio and restitution, by position, and of
+        settings by name. It gets arrays of one shape, (n,), and only incidences from 0 on. It
+        returns w(tf) = v1(tf)/(mu v2(0)) of each impact, negative where the contact point has
+        turned round.
+
+    Returns
+    -------
+    callable
+        A function `rebound` with the arguments of every model, which gives a `Rebound`. It refuses
+        arguments as `brach` does, and answers negative incidences by symmetry. The dissipation
+        follows from the velocity; peak_friction is NaN. The regime is SLIP_THROUGHOUT where the
+        velocity is x - (1 + e) m2/m1, STICK for x = 0, and UNRESOLVED elsewhere.
+
+    Raises
+    ------
+    InputError
+        When `rebound` is called and the function gives another number of velocities.
+
+    Examples
+    --------
+    It may be used as a decorator.
+
+    >>> @of_velocity
+    ... def never_turns(x, mass_ratio, stiffness_ratio, restitution):
+    ...     return np.maximum(x - (1 + restitution) * mass_ratio, 0.0)
+    >>> never_turns([-2.0, 9.0]).velocity.tolist(), never_turns(9.0).regime.name
+    ([-0.0, 2.0], 'SLIP_THROUGHOUT')
+    """
+
+    @checks.default_errors
+    @functools.wraps(velocity)
+    def rebound(
+        incidence: ArrayLike,
+        mass_ratio: ArrayLike = 3.5,
+        stiffness_ratio: ArrayLike = 1.21,
+        restitution: ArrayLike = 1.0,
+        **settings: float,
+    ) -> Rebound:
+        groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
+        signed, (x, beta, zeta2, e) = groups[0], (np.abs(a).reshape(-1) for a in groups)
+        found = np.asarray(velocity(x, beta, zeta2, e, **settings), float)
+        if found.shape != x.shape:
+            raise checks.InputError(
+                f"velocities, shape {found.shape}: allowed is that of the incidences, {x.shape}"
+            )
+        slides = np.isclose(found, sliding.velocity(x, beta, e), rtol=1e-12, atol=1e-12)
+        result = _rebound(signed, found, beta, e, slides)
+        return result._replace(peak_friction=np.full(signed.shape, np.nan)[()])
+
+    return rebound
 
 
 def _groups(tangential_restitution: ArrayLike, *impact: ArrayLike) -> tuple[Array, ...]:

@@ -110,7 +110,7 @@ def rebound(
     stiffness_ratio: ArrayLike = 1.21,
     stiffness: ArrayLike = 1.0,
     *,
-    loss: str = "hysteretic",
+    loss: str | None = None,
 ) -> NoncollinearRebound:
     """State at separation; all arguments broadcast.
 
@@ -131,7 +131,8 @@ def rebound(
         zeta^2 > 0, normal over tangential stiffness.
     stiffness : array_like
         kappa [N/m] of the normal element; it scales forces and duration, nothing else.
-    loss : str
+    loss : str, optional
+        What takes the energy; needed where e < 1.
         "hysteretic", the paper's: the tangential stiffness is kappa/zeta^2.
         "unloading-stiffness": it is kappa/(e^2 zeta^2), as zeta^2 is a ratio of elastic stiffnesses
         and the elastic one of the normal element is that of unloading, kappa/e^2; e above 0. There
@@ -176,7 +177,7 @@ def rebound(
     A metre of slender rod falls on its tip, tilted by 45 degrees:
 
     >>> rod = inverse_mass(1.0, 12**-0.5, offset=0.125**0.5, depth=0.125**0.5)
-    >>> result = rebound(0.0, 1.0, rod, friction=0.5, restitution=0.5)
+    >>> result = rebound(0.0, 1.0, rod, friction=0.5, restitution=0.5, loss="hysteretic")
     >>> [round(float(v), 3) for v in (result.tangential, result.normal)]
     [0.618, -0.433]
     >>> lost = kinetic_energy(0.0, 1.0, rod) - kinetic_energy(*result[:2], rod)
@@ -239,7 +240,7 @@ def history(
     stiffness: float = 1.0,
     samples: int = 400,
     *,
-    loss: str = "hysteretic",
+    loss: str | None = None,
 ) -> NoncollinearHistory:
     """Forces and velocities over one contact.
 
@@ -265,7 +266,7 @@ def history(
     A tilted rod slides into the surface and jams: slip grows the forces until it stops.
 
     >>> rod = inverse_mass(1.0, 12**-0.5, offset=0.2, depth=0.4)
-    >>> contact = history(2.0, 1.0, rod, friction=1.6, restitution=0.5)
+    >>> contact = history(2.0, 1.0, rod, friction=1.6, restitution=0.5, loss="hysteretic")
     >>> [str(event.kind) for event in contact.events]
     ['contact', 'slip', 'stick', 'maximum compression', 'slip', 'separation']
     """
@@ -337,10 +338,13 @@ def _checked(
     restitution: ArrayLike,
     stiffness_ratio: ArrayLike,
     stiffness: ArrayLike,
-    loss: str,
+    loss: str | None,
 ) -> tuple[Array, ...]:
     """Checked arguments of one shape, with the stiffness ratio of this loss."""
-    loss = checks.loss(loss, LOSSES)
+    if loss is None:
+        checks.lossless(restitution, LOSSES)
+    else:
+        checks.loss(loss, LOSSES)
     v1, v2, mu, e, zeta2, *others = checked_impact(
         tangential,
         normal,

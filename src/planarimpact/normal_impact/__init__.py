@@ -12,9 +12,6 @@ Units, except in `hertz`: E* = 1, R = 1, m2 = 1, |v2(0)| = 1, so that Hertz's fo
 (4/3) d^(3/2) at the approach d. The unit of length is (m2 v2(0)^2/(E* R^(1/2)))^(2/5).
 """
 
-import warnings
-from types import ModuleType
-
 from planarimpact.normal_impact import hertz, kelvin_voigt, yielding
 
 __all__ = ["LAWS", "LEAST_RESTITUTION", "hertz", "kelvin_voigt", "yielding"]
@@ -23,11 +20,3 @@ __all__ = ["LAWS", "LEAST_RESTITUTION", "hertz", "kelvin_voigt", "yielding"]
 LAWS = {"viscous": kelvin_voigt, "plastic": yielding}
 # The inverses and forces of both laws hold from here. The viscous tables end at e = 0.0216.
 LEAST_RESTITUTION = 0.022
-
-
-def __getattr__(name: str) -> ModuleType:
-    if name == "thornton":
-        words = "planarimpact.normal_impact.thornton is called yielding now"
-        warnings.warn(words, DeprecationWarning, stacklevel=2)
-        return yielding
-    raise AttributeError(f"module 'planarimpact.normal_impact' has no attribute {name!r}")

@@ -10,7 +10,7 @@ Symbols: x incidence, beta = m2/m1 mass ratio, e restitution.
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import InitVar, dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -40,11 +40,25 @@ CHUNK = 16384
 ROUNDING = 2.0**-48
 # A kink below this share of the largest incidence that is fitted counts as 0.
 NARROWEST = 1e-30
-# Share of the tolerance that a model with a tolerance setting gets: it costs more than the fit.
-MODEL_SHARE = 1 / 2
+# Default of the largest incidence.
+INCIDENCE_MAX = 20.0
+# Default tolerances by the model's class of cost. The springs of a contact with loss are slow, and
+# the table of spheres jumps by up to 1e-6 between its patches.
+TOLERANCES = {
+    "formula": 1e-6,
+    "phases": 1e-6,
+    "steps": 1e-4,
+    "table": 1e-3,
+    "steps and springs": 3e-3,
+    "steps and circles": 1e-2,
+}
+# Share of the tolerance that a model with a tolerance setting gets. Its answers jump by about as
+# much, where neighbouring impacts take different numbers of steps: the fit must allow for that.
+MODEL_SHARE = 1 / 4
 # Share of the tolerance that the fit gets, at the first try and at the second.
 FIT_SHARES = 1 / 4, 1 / 32
-# When a file is checked, a model with a tolerance setting is solved with this one first.
+# When a file is checked, a model with a tolerance setting is solved with this one first. It is also
+# the default tolerance of classes of cost that `TOLERANCES` does not have.
 COARSE = 1e-3
 
 
@@ -256,20 +270,32 @@ def _new_response(*fields: Any) -> Response:
 
 
 @checks.default_errors
-def compile(model: str, *, incidence_max: float, tolerance: float, **parameters: float) -> Response:
+def compile(
+    model: str,
+    *,
+    incidence_max: float = INCIDENCE_MAX,
+    tolerance: float | None = None,
+    progress: Callable[[int, float], None] | None = None,
+    **parameters: float,
+) -> Response:
     """Compile the response of one pair of bodies by any model of `planarimpact.models`.
 
     Parameters
     ----------
     model : str
-        Name of a model, `planarimpact.models.MODELS`.
+        Name of a model, `planarimpact.models.MODELS`. Below e = 1 it says what takes the energy.
     incidence_max : float
         Largest |x| = |v1(0)|/(mu v2(0)) that it must answer, from 1e-9 on. If the model slides
         throughout from a smaller incidence on, the response answers every larger one.
-    tolerance : float
+    tolerance : float, optional
         Allowed error of velocity (mu v2(0)) and peak friction (mu F2max), as `error_bound` measures
         it; 1e-11 to 1, and at least 4e-15 of the largest incidence that does not slide throughout
-        by formula.
+        by formula. By default that of `TOLERANCES` for the model's
+        class of cost, 1e-3 for other classes.
+    progress : callable, optional
+        Called after every batch of impacts that the model solves, with the number of impacts solved
+        so far and the share of incidences that are fitted. The share may fall again, where a kink
+        is found.
     **parameters
         mass_ratio, stiffness_ratio and restitution (defaults 3.5, 1.21, 1), numbers; and the
         model's settings. A tolerance of the model has no effect: it follows from `tolerance`.
@@ -288,22 +314,42 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
 
     Examples
     --------
-    >>> response = compile("lumped", incidence_max=10, tolerance=1e-10, restitution=0.5)
+    >>> response = compile("lumped.hysteretic", tolerance=1e-10, restitution=0.5)
     >>> max(response.error_bound) <= 1e-10
     True
     >>> response.incidence_max  # slides throughout from 3.5 on
     inf
     """
+    if tolerance is None:
+        tolerance = TOLERANCES.get(models.get(model).cost, COARSE)
     chosen, groups, settings, tolerance, slides_from, end, answered_to = _checked_question(
         model, incidence_max, tolerance, parameters
     )
+    solved = 0
+
+    def rebound(x: Array) -> Rebound:
+        nonlocal solved
+        try:
+            result = chosen.rebound(x, *groups.values(), **settings)
+        except checks.Unsolved as problem:
+            reached = _reached(chosen, x[problem.impacts], groups, settings, tolerance)
+            words = reached or f"is not compiled: {problem}"
+            raise checks.ConvergenceError(f"tolerance = {tolerance:g}: {model} {words}") from None
+        solved += x.size
+        return result
+
+    # A few impacts first: where the model does not reach the tolerance, they often say so soon.
     # A law of impulses has no peak friction.
-    no_peak = np.isnan(chosen.rebound(end / 2, *groups.values(), **settings).peak_friction)
+    no_peak = np.isnan(rebound(end * np.arange(1, 8) / 8).peak_friction[3])
 
     def function(x: Array) -> tuple[Array, Integers]:
-        result = chosen.rebound(x, *groups.values(), **settings)
+        result = rebound(x)
         peak = np.zeros(x.size) if no_peak else result.peak_friction
         return np.stack([result.velocity, peak]), result.regime
+
+    def watch(share: float) -> None:
+        if progress:
+            progress(solved, share)
 
     kinks = [x for x in chosen.kinks(*groups.values(), **settings) if NARROWEST * end < x < end]
     for share in FIT_SHARES:
@@ -314,8 +360,9 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
                 [0.0, *kinks, end],
                 tolerance * share,
                 max(tolerance / 100 / max(end, 1.0), 1e-13),
+                watch,
             )
-        except checks.ConvergenceError as problem:
+        except piecewise.NotFitted as problem:
             raise checks.ConvergenceError(
                 f"tolerance = {tolerance:g}: {model} is not compiled: {problem}"
             ) from None
@@ -333,6 +380,28 @@ def compile(model: str, *, incidence_max: float, tolerance: float, **parameters:
     return _new_response(
         chosen.name, parameters, answered_to, tolerance, bound, slides_from, pieces
     )
+
+
+def _reached(
+    model: models.Model,
+    x: Array,
+    groups: Mapping[str, float],
+    settings: Mapping[str, float],
+    tolerance: float,
+) -> str:
+    """Message: which larger tolerance a model reaches at these incidences; "" if none."""
+    while (tolerance := 10 * tolerance) <= 1:
+        share = tolerance * MODEL_SHARE
+        try:
+            model.rebound(x, *groups.values(), **dict(settings) | {"tolerance": share})
+        except checks.Unsolved:
+            continue
+        default = TOLERANCES.get(model.cost, COARSE)
+        return (
+            f"does not reach it at incidence = {x[0]:g}; there {tolerance:g} is reached, "
+            f"and the default is {default:g}"
+        )
+    return ""
 
 
 @checks.default_errors

@@ -42,6 +42,8 @@ CELLS = 4096, 8192, 16384, 32768
 
 # Values, shape (functions, n), and labels of points x, shape (n,).
 Function: TypeAlias = Callable[[Array], tuple[Array, Integers]]
+# Takes a number that says how far the work is.
+Watch: TypeAlias = Callable[[float], None]
 
 _NODES = np.cos(np.pi * (2 * np.arange(DEGREE + 1) + 1) / (2 * DEGREE + 2))
 _BETWEEN = np.cos(np.pi * np.arange(DEGREE + 2) / (DEGREE + 1))
@@ -59,6 +61,10 @@ _POWERS = np.stack(
         for i, one in enumerate(np.eye(DEGREE + 1))
     ]
 )
+
+
+class NotFitted(ConvergenceError):
+    """A function jumps, or is too rough for the tolerance. The message calls it "it"."""
 
 
 class Pieces(NamedTuple):
@@ -175,7 +181,11 @@ class _Parts(NamedTuple):
 
 
 def fit(
-    function: Function, kinks: Sequence[float], tolerance: float, resolution: float = 1e-13
+    function: Function,
+    kinks: Sequence[float],
+    tolerance: float,
+    resolution: float = 1e-13,
+    watch: Watch = lambda share: None,
 ) -> tuple[Pieces, Array]:
     """Fit functions on a span by polynomials between kinks.
 
@@ -191,6 +201,9 @@ def fit(
     resolution : float
         Precision, relative to the span, to which a change of label is located, or to rounding
         where that is coarser.
+    watch : callable
+        Takes the share of the span that is fitted, after every batch of points. It falls where the
+        sides of a kink are fitted again.
 
     Returns
     -------
@@ -201,8 +214,8 @@ def fit(
 
     Raises
     ------
-    ConvergenceError
-        If the function jumps, or is too rough for the tolerance. The message calls it "it".
+    NotFitted
+        If the function jumps, or is too rough for the tolerance.
 
     Examples
     --------
@@ -218,7 +231,7 @@ def fit(
         spans = [ends for ends in pairwise(kinks) if ends not in settled]
         if not spans:
             break
-        parts = _fitted_parts(function, spans, tolerance)
+        parts = _fitted_parts(function, spans, tolerance, lambda width: watch(1 - width / span))
         located = [*_label_changes(function, parts, resolution * span), *_deep_parts(parts)]
         for left, right in spans:
             inside = [left, *(x for x in located if left < x < right), right]
@@ -243,8 +256,13 @@ def _apart(kinks: Sequence[float], least: float) -> list[float]:
     return [*kept, last]
 
 
-def _fitted_parts(function: Function, spans: list[tuple[float, float]], tolerance: float) -> _Parts:
-    """Parts of the spans, halved until their fits agree with the function between its nodes."""
+def _fitted_parts(
+    function: Function, spans: list[tuple[float, float]], tolerance: float, watch: Watch
+) -> _Parts:
+    """Parts of the spans, halved until their fits agree with the function between its nodes.
+
+    `watch` takes the width of the parts that are not fitted yet.
+    """
     left, right = np.array(spans).T
     shares = np.where(right - left > NARROW * right[-1], FIRST, 1)
     low = np.concatenate([np.arange(share) for share in shares])
@@ -256,9 +274,9 @@ def _fitted_parts(function: Function, spans: list[tuple[float, float]], toleranc
     while pending.low.size:
         tried += pending.low.size
         if tried > MOST_PIECES:
-            raise ConvergenceError(
-                f"it is too rough: after trying {MOST_PIECES} polynomials they are not within "
-                f"{tolerance:.1e}"
+            raise NotFitted(
+                f"it is too rough: {MOST_PIECES} polynomials were tried; allowed are larger "
+                "tolerances"
             )
         x = pending.points(_POINTS)
         values, labels = function(x.reshape(-1))
@@ -273,10 +291,12 @@ def _fitted_parts(function: Function, spans: list[tuple[float, float]], toleranc
         narrow = ~good & (high - low <= NARROWEST * high)
         if narrow.any():
             i = int(narrow.argmax())
-            raise ConvergenceError(
-                f"it jumps by {np.ptp(values[i], axis=1).max():.1e} at x = {high[i]:.12g}, and "
-                f"polynomials are wanted within {tolerance:.1e}"
+            jump = np.ptp(values[i], axis=1).max()
+            raise NotFitted(
+                f"it jumps by {jump:.1e} at x = {high[i]:.12g}; allowed are tolerances "
+                f"{max(SAFETY * jump / tolerance, 1):.0f} times as large"
             )
+        watch(float((high - low)[~good].sum()))
         fitted.append(pending.take(good))
         pending = _halved(pending.take(~good))
     return _Parts._make(map(np.concatenate, zip(*fitted, strict=True)))

@@ -11,7 +11,7 @@ their plane of incidence.
 try:
     import pandas as pd
 except ImportError as error:
-    message = f"planarimpact.scene needs pandas: pip install pandas ({error})"
+    message = f"planarimpact.scene needs pandas: pip install 'planarimpact[scene]' ({error})"
     raise ImportError(message, name=error.name) from None
 
 from planarimpact.scene.solver import Solver

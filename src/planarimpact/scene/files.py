@@ -17,7 +17,7 @@ from planarimpact.scene.solver import Solver
 try:
     from planarimpact.scene import reading, writing
 except ImportError as error:
-    message = f"planarimpact.scene.files needs pyarrow: pip install pyarrow ({error})"
+    message = f"planarimpact.scene.files needs pyarrow: pip install 'planarimpact[scene]' ({error})"
     raise ImportError(message, name=error.name) from None
 
 from planarimpact.scene.workers import Done, Task, solved, solved_by_workers

@@ -196,7 +196,7 @@ def _result(
 ) -> dict[str, Any]:
     """The columns that are added to those of the table."""
     impacts, plane, peak = rows.impacts, "spin" in names, answers.peak_friction
-    body, other, _ = collision.after(impacts, answers.velocity)
+    body, other, _ = collision.after(impacts, answers.change)
     after = states.columns_of(body, plane)
     if {"other_density", "other_mass"} & set(names):
         after |= {f"other_{k}": v for k, v in states.columns_of(other, plane).items()}
@@ -221,5 +221,5 @@ def _result(
         "peak_friction_force [N]": np.where(
             peak > 0, impacts.friction * peak * rows.peak_normal, 0.0
         ),
-        "energy_lost [J]": collision.energy_lost(impacts, answers.velocity),
+        "energy_lost [J]": collision.energy_lost(impacts, answers.change),
     }

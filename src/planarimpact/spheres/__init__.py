@@ -108,7 +108,7 @@ def rebound(
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    loss: str | ArrayLike = "viscous",
+    loss: str | ArrayLike | None = None,
     forces: bool = True,
 ) -> Rebound:
     """State at separation; all arguments broadcast, the loss too.
@@ -117,9 +117,9 @@ def rebound(
     ----------
     incidence, mass_ratio, stiffness_ratio, restitution : array_like
         As in `planarimpact.lumped.rebound`, with groups that `covers` admits.
-    loss : str or array_like of str
+    loss : str or array_like of str, optional
         What takes the energy where e < 1, as in `planarimpact.continuum`: "viscous" or "plastic".
-        At e = 1 it has no effect beyond `ERROR_BOUND`.
+        Where all impacts have e = 1 it may be left out; it has no effect beyond `ERROR_BOUND`.
     forces : bool
         Whether peak friction and dissipation are wanted. They are NaN without, in half the time.
 
@@ -134,21 +134,23 @@ def rebound(
     ------
     InputError
         If an argument is not a finite real number in its range, the table does not cover it, the
-        loss is none of these two, or shapes do not broadcast.
+        loss is none of these two, e < 1 has none, or shapes do not broadcast.
 
     Examples
     --------
     >>> impacts = [0.5, 2.0, 8.0], 3.5, 17 / 14, [1.0, 0.8, 0.6]
     >>> rebound(*impacts, loss=["viscous", "plastic", "plastic"]).velocity.round(3).tolist()
     [0.061, -0.189, 2.4]
-    >>> rebound(2.0, restitution=0.2)
+    >>> rebound(2.0, restitution=0.2, loss="viscous")
     Traceback (most recent call last):
     ...
     planarimpact.InputError: restitution = 0.2: allowed are numbers from 0.3 to 1, for the \
 table of spheres
     """
     groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    is_plastic = _is_plastic(loss)
+    if loss is None:
+        checks.lossless(groups[-1], LOSSES)
+    is_plastic = _is_plastic(LOSSES[0] if loss is None else loss)
     try:
         signed, beta, zeta2, e, _ = np.broadcast_arrays(*groups, is_plastic)
         plastic = np.broadcast_to(is_plastic, signed.shape).reshape(-1)
@@ -207,9 +209,10 @@ def _rebound(
     answer = table.evaluate(table.shipped(), y[rows], b[rows], e[rows], plastic[rows], forces)
     sticks = np.flatnonzero(~answer.slides)
     rows = rows[sticks]
-    x, beta, zeta2, plastic = x[rows], beta[rows], zeta2[rows], plastic[rows]
-    # The exact values have these bounds.
-    w = np.clip(zeta2 * answer.velocity[sticks], -x, x)
+    x, beta, zeta2, e, plastic = x[rows], beta[rows], zeta2[rows], e[rows], plastic[rows]
+    # The exact values have these bounds: energy, and Coulomb's limit.
+    least = np.maximum(-x, sliding.velocity(x, beta, e))
+    w = np.clip(zeta2 * answer.velocity[sticks], least, x)
     velocity[rows] = w
     if forces:
         peak[rows] = np.clip(answer.peak[sticks], 0.0, 1.0)

@@ -3,7 +3,8 @@
 A vertical residual is wrong near a kink or on a steep slope: there even a perfect curve may be
 several per cent off. So both axes are scaled by the uncertainties of the reference. The distance of
 a point is the shortest one to the polyline of the curve, in sigmas. Where the model itself is only
-approximate, an allowance for its form is added to the uncertainties first.
+approximate, an allowance for its form is added to the uncertainties first. An uncertainty is one
+number, or one for each point.
 """
 
 import math
@@ -49,8 +50,8 @@ def distances_to_polyline(
     y: ArrayLike,
     line_x: ArrayLike,
     line_y: ArrayLike,
-    sigma_x: float,
-    sigma_y: float,
+    sigma_x: ArrayLike,
+    sigma_y: ArrayLike,
 ) -> Array:
     """Shortest distance from each point to a polyline, in sigmas.
 
@@ -59,16 +60,19 @@ def distances_to_polyline(
     >>> distances_to_polyline([1.0], [1.0], [0.0, 2.0], [0.0, 0.0], 1.0, 0.5).tolist()
     [2.0]
     """
-    points = np.stack([np.asarray(x, float) / sigma_x, np.asarray(y, float) / sigma_y], axis=1)
-    line = np.stack([np.asarray(line_x, float) / sigma_x, np.asarray(line_y, float) / sigma_y], 1)
+    points, line = (
+        np.stack([np.asarray(a, float), np.asarray(b, float)], 1)
+        for a, b in ((x, y), (line_x, line_y))
+    )
+    scales = np.stack(np.broadcast_arrays(sigma_x, sigma_y, points[:, 0])[:2], 1)
     if len(line) < 2:
         raise ValueError(f"a polyline needs two vertices, here {len(line)}")
     if not (np.isfinite(points).all() and np.isfinite(line).all()):
         raise ValueError("a coordinate is not finite")
-    start, step = line[:-1], np.diff(line, axis=0)
-    squared = np.maximum((step**2).sum(axis=1), np.finfo(float).tiny)
     nearest = np.empty(len(points))
-    for i, point in enumerate(points):
+    for i, (point, scale) in enumerate(zip(points / scales, scales, strict=True)):
+        start, step = line[:-1] / scale, np.diff(line / scale, axis=0)
+        squared = np.maximum((step**2).sum(axis=1), np.finfo(float).tiny)
         share = np.clip(((point - start) * step).sum(axis=1) / squared, 0.0, 1.0)
         nearest[i] = np.hypot(*(point - start - share[:, None] * step).T).min()
     return nearest
@@ -77,7 +81,7 @@ def distances_to_polyline(
 def curve_residuals(
     points: Sequence[ArrayLike],
     curve: Sequence[ArrayLike],
-    sigma: tuple[float, float],
+    sigma: tuple[ArrayLike, ArrayLike],
     both_ways: bool = False,
 ) -> Residuals:
     """Distances of points from a curve; with `both_ways` also of the curve from the points' line.
@@ -110,7 +114,7 @@ def curve_residuals(
 
 
 def _from_polyline(
-    x: Array, y: Array, line_x: Array, line_y: Array, sigma: tuple[float, float]
+    x: Array, y: Array, line_x: Array, line_y: Array, sigma: tuple[ArrayLike, ArrayLike]
 ) -> Residuals:
     nearest = distances_to_polyline(x, y, line_x, line_y, *sigma)
     order = np.argsort(line_x, kind="stable")
@@ -125,8 +129,7 @@ def vertex_residuals(
 ) -> Residuals:
     """Distance of each point from the nearest vertex with the same label.
 
-    `points` and `vertices` have x, y and a label each; a label may be a tuple of words. `sigma` has
-    the uncertainty of the points on each axis: one number, or one for each point.
+    `points` and `vertices` have x, y and a label each; a label may be a tuple of words.
 
     >>> vertices = ([0.0], [3.0], ["slip"])
     >>> vertex_residuals(([0.0], [1.0], ["slip"]), vertices, (1.0, 1.0)).sigmas.tolist()
@@ -161,18 +164,6 @@ def difference_residuals(
     gap = np.asarray(left, float) - np.asarray(right, float)
     _refuse_no_points(gap)
     return Residuals(np.asarray(x, float), gap / sigma, gap)
-
-
-def with_allowance(
-    sigma: tuple[float, float], allowance: tuple[float, float]
-) -> tuple[float, float]:
-    """Uncertainty of a point and of the form of the model together: root of the sum of squares.
-
-    >>> with_allowance((0.0, 0.4), (0.1, 0.3))
-    (0.1, 0.5)
-    """
-    x, y = (math.hypot(*pair) for pair in zip(sigma, allowance, strict=True))
-    return x, y
 
 
 def fact_residuals(value: float, fact: Mapping[str, Any]) -> Residuals:

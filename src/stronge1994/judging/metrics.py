@@ -7,16 +7,16 @@ that must not leave further apart than they arrive (`contraction`).
 """
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.arrays import Array, Booleans
 from stronge1994 import curve_names, reference_data
 from stronge1994.csv_tables import Column, Columns, Curves
 from stronge1994.judging import distances, landmarks
 from stronge1994.judging.distances import Residuals
-from stronge1994.judging.points import Entry, Reference, kind, points, printed_sigma, sigma
+from stronge1994.judging.points import Entry, Reference, points, sigma
 
 # Two ways to compute one energy agree to this; see the reason of the comparison.
 BALANCE_SIGMA = 1e-12
@@ -80,17 +80,16 @@ def _from_curve(
     columns: list[str] = []
     names = [entry["curve"]] if "curve" in entry else dict.fromkeys(series["curve"])
     for name in names:
-        own = slice(None) if "curve" in entry else series["curve"] == name
+        own = np.ones(len(series[x]), bool) if "curve" in entry else series["curve"] == name
         for axis in reference_data.ordinates(reference):
             y = reference_data.column_name(axis)
-            at, value = series[x][own], series[y][own]
-            present = ~np.isnan(value)
-            if present.any():
+            chosen = _rows(series, own & ~np.isnan(series[y]))
+            if len(chosen[y]):
                 polyline = _columns_of(curves, name, x, y)
                 part = distances.curve_residuals(
-                    (at[present], value[present]),
+                    (chosen[x], chosen[y]),
                     polyline,
-                    sigma(entry, reference["x"], axis),
+                    sigma(entry, (reference["x"], axis), chosen),
                     both_ways=reference.get("line", False),
                 )
                 parts.append(part)
@@ -117,19 +116,16 @@ def _from_vertices(
         present = ~np.isnan(series[y])
         if present.any():
             own = [label for label, inside in zip(labels, present, strict=True) if inside]
-            labelled_points = series[x][present], series[y][present], own
-            vertices, scale = _vertices(labelled, x, y), _scale(entry, reference, axis, series)
+            chosen = _rows(series, present)
+            labelled_points, vertices = (chosen[x], chosen[y], own), _vertices(labelled, x, y)
+            scale = sigma(entry, (reference["x"], axis), chosen)
             parts.append(distances.vertex_residuals(labelled_points, vertices, scale))
             columns += [f"{y} of {label}" if label else y for label in own]
     return _joined(parts), columns
 
 
-def _scale(
-    entry: Entry, reference: Reference, axis: Mapping[str, Any], series: Columns
-) -> tuple[ArrayLike, ArrayLike]:
-    if kind(reference) == "stated":
-        return printed_sigma(reference, series)
-    return sigma(entry, reference["x"], axis)
+def _rows(series: Columns, chosen: Booleans) -> Columns:
+    return {column: values[chosen] for column, values in series.items()}
 
 
 def _joined(parts: Iterable[Residuals]) -> Residuals:

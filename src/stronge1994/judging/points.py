@@ -1,14 +1,13 @@
 """Which points of a reference a comparison is about, and how uncertain they are."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array
+from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Columns
-from stronge1994.judging.distances import with_allowance
 
 # A comparison of the config, and what it names: a series or a fact of source.yaml, with the
 # parameters of its source.
@@ -24,8 +23,8 @@ def kind(reference: Reference | None) -> str:
 
 
 def is_published(reference: Reference | None) -> bool:
-    """Whether a reference holds points that somebody has published."""
-    return kind(reference) in ("digitised", "stated", "awaited")
+    """Whether a reference holds points of nature: published ones, or measured by their owner."""
+    return kind(reference) in ("measured", "digitised", "stated", "awaited")
 
 
 def points(entry: Entry, reference: Reference, series_paths: Mapping[str, str]) -> Columns:
@@ -44,20 +43,19 @@ def points(entry: Entry, reference: Reference, series_paths: Mapping[str, str]) 
     return {column: values[chosen] for column, values in series.items()}
 
 
-def printed_sigma(reference: Reference, series: Columns) -> tuple[Array, Array]:
-    """Uncertainties of each point of a stated series on both axes."""
-    x, y = (series[f"{reference_data.sigma_column(reference[axis])}"] for axis in "xy")
-    if not (x.all() and y.all()):
-        raise ValueError("a point that is compared has an uncertainty of 0")
-    return x, y
-
-
-def sigma(entry: Entry, x: Mapping[str, Any], y: Mapping[str, Any]) -> tuple[float, float]:
-    """Uncertainty on both axes, with the allowance for the model if the comparison has one."""
-    both, allowance = (x["sigma"], y["sigma"]), entry.get("allowance")
-    if allowance is None:
-        return both
-    return with_allowance(both, (allowance["x"], allowance["y"]))
+def sigma(
+    entry: Entry, axes: Sequence[Mapping[str, Any]], series: Columns
+) -> tuple[ArrayLike, ArrayLike]:
+    """Uncertainties on both axes, of all points or of each, with an allowance for the model."""
+    both = []
+    for axis, which in zip(axes, "xy", strict=True):
+        column = reference_data.sigma_column(axis)
+        size = axis["sigma"] if column is None else series[column]
+        if not np.all(size):
+            raise ValueError("a point that is compared has an uncertainty of 0")
+        allowance = entry.get("allowance", {}).get(which)
+        both.append(size if allowance is None else np.hypot(size, allowance))
+    return both[0], both[1]
 
 
 def _window(entry: Entry, reference: Reference) -> tuple[float, float]:

@@ -18,6 +18,7 @@ from stronge1994.verdict_table import COLUMNS
 RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
 # Evidence of a row, by the kind of its reference.
 EVIDENCE = {
+    "measured": "measured points",
     "digitised": "published points",
     "stated": "published points",
     "awaited": "published points",
@@ -127,9 +128,16 @@ def _allowed(entry: Entry, reference: Reference | None, significance: float) -> 
     if "allowance" not in entry:
         return criterion
     axes = reference["x"], reference["y"]
-    sizes = zip(axes, sigma(entry, *axes), strict=True)
-    unit = ", ".join(f"{axis['column']} {size:.3g} {axis['unit']}" for axis, size in sizes)
-    return f"{criterion}; 1 is {unit}: allowance for the model and sigma together".replace("_", " ")
+    if any(isinstance(axis["sigma"], str) for axis in axes):
+        sizes = entry["allowance"]["x"], entry["allowance"]["y"]
+        words = "allowance for the model beside the sigma of each point: {}"
+    else:
+        sizes, words = sigma(entry, axes, {}), "1 is {}: allowance for the model and sigma together"
+    unit = ", ".join(
+        f"{axis['column']} {size:.3g} {axis['unit']}"
+        for axis, size in zip(axes, sizes, strict=True)
+    )
+    return f"{criterion}; {words.format(unit)}".replace("_", " ")
 
 
 def _row(figure: str, name: str, verdict: Verdict, **cells: Any) -> VerdictRow:

@@ -73,14 +73,14 @@ def restitution(
     continuum; if the paper's model is not the nearest to the rubber sphere; or if the reversed
     velocity does not grow in the paper's model and fall in the continua.
     """
-    models = "lumped", "continuum.viscous", "continuum.plastic"
+    models = "lumped.hysteretic", "continuum.viscous", "continuum.plastic"
     rows = {model: verdicts[f"inelastic-{model}-pairs"] for model in models}
-    _require(rows["lumped"]["verdict"] == "unexplained difference")
+    _require(rows["lumped.hysteretic"]["verdict"] == "unexplained difference")
     _require(all(rows[model]["verdict"] == "agrees" for model in models[1:]))
     _require(numbers["pairs.continuum.viscous.failed"] == 0)
-    _require(numbers["pairs.lumped.failed"] == numbers["pairs.spreads"])
+    _require(numbers["pairs.lumped.hysteretic.failed"] == numbers["pairs.spreads"])
     distances = {model: numbers[f"rubber.{model}.distance"] for model in note.MODELS}
-    _require(min(distances, key=lambda model: distances[model]) == "lumped")
+    _require(min(distances, key=lambda model: distances[model]) == "lumped.hysteretic")
     grows = {
         model: numbers[f"nature.reversal_half.{model}"]
         - numbers[f"nature.reversal_elastic.{model}"]
@@ -89,7 +89,7 @@ def restitution(
     _require(grows["paper"] > 0 > max(grows[loss] for loss in nature_models.LOSSES))
     lines = [
         (style, curves[name][E], curves[name][BETA_0])
-        for style, model in (("theirs", "lumped"), ("ours", "continuum.viscous"))
+        for style, model in (("theirs", "lumped.hysteretic"), ("ours", "continuum.viscous"))
         for name in curves
         if name.startswith(f"{model}, nu = ")
     ]

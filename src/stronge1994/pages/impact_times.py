@@ -80,7 +80,7 @@ def _restitution(row: Row) -> float:
 def _is_shown(row: Row) -> bool:
     """Whether a row is a code, the model that pooltool solves, or the continuum of its loss."""
     model, loss = row["model"], row["loss"]
-    codes = "pooltool", "lumped", LAMMPS, f"{LAMMPS}, viscoelastic, xt = 0"
+    codes = "pooltool", "lumped", "lumped.hysteretic", LAMMPS, f"{LAMMPS}, viscoelastic, xt = 0"
     direct = f"continuum.{loss}" if loss else "continuum"
     return model in (*codes, direct, *(names[loss] for names in ANSWERS.values()))
 

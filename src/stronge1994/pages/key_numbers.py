@@ -1,7 +1,7 @@
 """Numbers of a run that several pages state: each is computed once, for one table.
 
-A number has a name such as `pairs.lumped.chi2`, made of what it is about, and a text that says what
-it is. Pages round it; they never compute it again.
+A number has a name such as `pairs.lumped.hysteretic.chi2`, made of what it is about, and a text
+that says what it is. Pages round it; they never compute it again.
 """
 
 import traceback
@@ -169,8 +169,9 @@ def _pairs(curves: Curves, measured: Columns) -> _Numbers:
     yield "pairs.spreads", len(spreads), "spreads of impacts that were tried"
     others = [pair for pair in measured["pair"] if pair != SOFT]
     alone = inelastic.Trial(SOFT, without=others)
-    share = inelastic.goodness(curves, "lumped", series, alone).value
-    yield f"pairs.lumped.{SOFT}.chi2", share, f"what {SOFT} adds to chi^2 of the paper's model"
+    share = inelastic.goodness(curves, "lumped.hysteretic", series, alone).value
+    what = f"what {SOFT} adds to chi^2 of the paper's model"
+    yield f"pairs.lumped.hysteretic.{SOFT}.chi2", share, what
     for name, without in (("", []), (".without", [SOFT])):
         slope, sigma = inelastic.slope(series, without)
         what = f"slope of the measured beta_0 against e, without {without or 'none'}"
@@ -229,7 +230,7 @@ def _others(tables: Tables) -> _Numbers:
     yield "rod.newton", max(shares) - 1, "energy gained with Newton's coefficient, over K0"
     errors = {row["name"]: float(row["max_velocity [mu v2(0)]"]) for row in tables.trade}
     lossy = {name: error for name, error in errors.items() if ", e = 0.8" in name}
-    paper = [error for name, error in lossy.items() if name.startswith("lumped, ")]
+    paper = [error for name, error in lossy.items() if name.startswith("lumped.hysteretic, ")]
     yield "loss.paper", max(paper), "paper's model from the farther continuum, e = 0.8, largest"
     other = [error for name, error in lossy.items() if name.startswith("continuum.")]
     yield "loss.other", max(other), "viscous from plastic continuum, e = 0.8, largest"

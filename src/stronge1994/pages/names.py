@@ -6,6 +6,7 @@ import re
 WORDS = {
     "lumped.unloading-stiffness": "the paper's model with e^2 zeta^2",
     "lumped.viscous": "two Kelvin-Voigt elements",
+    "lumped.hysteretic": "the paper's model",
     "lumped": "the paper's model",
     "continuum.plastic-elastic-shear": "plastic continuum, elastic in shear",
     "continuum.plastic": "plastic continuum",

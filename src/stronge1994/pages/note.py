@@ -14,7 +14,7 @@ from stronge1994.pages import key_numbers, pdf, templates
 TITLE = "Planar impact of rough compliant bodies: a replication"
 # Models below e = 1, in the order of the note.
 MODELS = (
-    "lumped",
+    "lumped.hysteretic",
     "lumped.unloading-stiffness",
     "lumped.viscous",
     "continuum.viscous",

@@ -55,7 +55,8 @@ MEANING = {
     "awaited": "we do not have the reference yet",
     "inconclusive": "the uncertainties are too large to decide: it would also agree if all points "
     f"lay {VISIBLE_SHIFT:g} sigmas beside the curve",
-    "agrees": "p is large enough (published points), or the distance is within its tolerance",
+    "agrees": "p is large enough (published or measured points), or the distance is within its "
+    "tolerance",
     "as before": "it was solved without error, or fitted to these points: no evidence",
 }
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure or a table

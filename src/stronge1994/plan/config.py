@@ -175,10 +175,6 @@ def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> No
     kind, known = reference(inventory, comparison["reference"], where)
     if (kind == "facts") != (metric == "landmark"):
         raise ConfigError(f"{where}: metric {metric} does not go with one of the {kind}")
-    if known.get("kind") == "stated" and (metric != "vertices" or "allowance" in comparison):
-        raise ConfigError(
-            f"{where}: a stated series goes with metric vertices, without `allowance`"
-        )
     if metric == "distance" and not ("curve" in comparison or "curve" in known.get("labels", [])):
         raise ConfigError(f"{where}: metric distance needs `curve`")
     for label in comparison.get("points", {}):

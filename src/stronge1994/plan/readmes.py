@@ -1,6 +1,7 @@
 """The tables of figures and of sources in the READMEs, made from their folders.
 
-After a figure or a source was added: `.venv/bin/python -m stronge1994.plan.readmes`.
+After a figure or a source was added:
+`PYTHONPATH=src .venv/bin/python -m stronge1994.plan.readmes`.
 """
 
 import re

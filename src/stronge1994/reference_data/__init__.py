@@ -32,6 +32,7 @@ MOST_LINES = 10_000
 # Sigmas by which a value may lie outside the range of its axis.
 MOST_SIGMAS_OUTSIDE = 3
 # Largest sigma, as a share of the range of its axis. The series here have a tenth to a half of it.
+# A measured series may have a larger one: that is how it was measured.
 LARGEST_SIGMA = 0.01
 _NUMBERS = {
     mark: re.compile(rf"[+-]?([0-9]+([{mark}][0-9]*)?|[{mark}][0-9]+)([eE][+-]?[0-9]+)?")
@@ -68,7 +69,7 @@ def load(folder: Path, schema: Schema) -> Source:
     refuse_invalid(source, schema, path)
     for name, series in source.get("series", {}).items():
         for where, axis in _named_axes(series):
-            _refuse_axis(f"{path}: series.{name}.{where}", axis)
+            _refuse_axis(f"{path}: series.{name}.{where}", axis, series["kind"])
         series["path"] = _file_of(folder, name, series)
         if series["path"]:
             _refuse_other_number(f"{path}: series.{name}", series, read_series(name, series))
@@ -102,12 +103,12 @@ def _refuse_other_number(where: str, series: Series, columns: Mapping[str, list[
         )
 
 
-def _refuse_axis(where: str, axis: Axis) -> None:
+def _refuse_axis(where: str, axis: Axis, kind: str) -> None:
     """Refuse an axis whose numbers contradict each other, which a schema cannot see."""
     low, high = axis["range"]
     if not low < high:
         raise SourceError(f"{where}.range = {axis['range']}: the first number must be the smaller")
-    if isinstance(axis["sigma"], str):
+    if isinstance(axis["sigma"], str) or kind == "measured":
         return
     most = LARGEST_SIGMA * (high - low)
     if axis["sigma"] > most:
@@ -216,7 +217,7 @@ def _named_axes(series: Series) -> Iterator[tuple[str, Axis]]:
 
 
 def sigma_column(axis: Axis) -> str | None:
-    """Column header of the uncertainties of a stated series; None where one number holds for all.
+    """Column header of the uncertainties of a series; None where one number holds for all.
 
     >>> sigma_column({"unit": "1", "sigma": "friction_uncertainty"})
     'friction_uncertainty [1]'
@@ -296,7 +297,7 @@ def _number(cell: str, mark: str, axis: Axis, where: str) -> float:
         raise SourceError(f"{where}: {text!r}{named} is not a decimal number such as -0{mark}05")
     value = float(text.replace(",", "."))
     low, high = axis["range"]
-    # Values with an uncertainty of their own were printed: they lie in the range.
+    # Values with an uncertainty of their own lie in the range: no axis of a picture was read.
     beyond = 0.0 if isinstance(axis["sigma"], str) else MOST_SIGMAS_OUTSIDE * axis["sigma"]
     if not low - beyond <= value <= high + beyond:
         raise SourceError(

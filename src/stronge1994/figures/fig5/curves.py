@@ -1,25 +1,18 @@
 """Fig. 5: tangential velocity at separation against incidence, e = 1."""
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from planarimpact import continuum, lumped, models, rigid
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound, Regime
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import SIGNS, shifted
 from stronge1994.figures.shared.curves import as_printed as printed_curves
-from stronge1994.figures.shared.curves import continua
+from stronge1994.figures.shared.curves import continua, shots
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
-
-# Curves with a parameter off by one sigma serve only for its effect. They have this many times
-# fewer vertices.
-COARSER = 4
 
 
 def curves(
@@ -61,16 +54,13 @@ def curves(
     spring = rubber["stiffness_ratio"]
     groups = mass_ratio, stiffness_ratio
     exact = lumped.rebound(x, *groups, restitution)
-    shots = {"experiment": _shots(samples, nodes.get("angle", ()), experiment)}
-    for parameter, sigma in (uncertainty or {}).items():
-        for sign in SIGNS:
-            changed = experiment | {parameter: experiment[parameter] + sign * sigma}
-            shots[shifted("experiment", parameter, sign)] = _shots(samples // COARSER, (), changed)
+    angles = nodes.get("angle", ())
+    every = shots.shots("experiment", samples, angles, experiment, uncertainty or {})
     elastic = _elastic(
         {
             "sphere": (x, *groups),
             "rubber": (x, mass_ratio, spring),
-            "finite elements": (x, *_groups(finite_elements)[:2]),
+            "finite elements": (x, *shots.groups(finite_elements)[:2]),
         },
         tolerance,
     )
@@ -83,15 +73,15 @@ def curves(
         "lumped, rubber": _velocity(x, lumped.rebound(x, mass_ratio, spring, restitution)),
         "continuum, rubber": _velocity(x, elastic["rubber"]),
     }
-    whole = lumped.rebound(x, *_groups(finite_elements))
+    whole = lumped.rebound(x, *shots.groups(finite_elements))
     for model, sphere_rebound in (("lumped", whole), ("continuum", elastic["finite elements"])):
         elements = _sphere(x, sphere_rebound, finite_elements["mass_ratio"])
         named[f"{model}, finite elements"] = elements
-    for model in ("lumped", *continua.MODELS):
+    for model in ("lumped.hysteretic", *continua.MODELS):
         own = {"tolerance": loss_tolerance} if model in continua.MODELS else {}
-        for name, shot in shots.items():
-            rebound = models.rebound(model, shot.x, *_groups(shot.sphere), **own)
-            named[f"{model}, {name}"] = _measured(shot, rebound)
+        for name, shot in every.items():
+            rebound = models.rebound(model, shot.x, *shots.groups(shot.sphere), **own)
+            named[f"{model}, {name}"] = shots.measured(shot, rebound)
     if as_printed:
         velocity, _, _ = impact.rebound(x, *groups, restitution)
         named |= printed_curves.beside("", named["lumped"], velocity)
@@ -108,35 +98,6 @@ def _sphere(x: Array, rebound: Rebound, mass_ratio: float) -> Columns:
         "regime": Regime.names(rebound.regime),
         "spin [mu v2(0)/R]": -(mass_ratio - 1) / mass_ratio * (x - rebound.velocity),
     }
-
-
-class _Shots(NamedTuple):
-    """A free sphere without spin, shot at a plane under many angles [deg] from the normal."""
-
-    sphere: dict[str, float]
-    angle: Array
-
-    @property
-    def x(self) -> Array:
-        return np.tan(np.radians(self.angle)) / self.sphere["friction"]
-
-
-def _groups(parameters: dict[str, float]) -> tuple[float, float, float]:
-    return (
-        parameters["mass_ratio"],
-        parameters["stiffness_ratio"],
-        parameters["restitution"],
-    )
-
-
-def _shots(samples: int, nodes: ArrayLike, sphere: dict[str, float]) -> _Shots:
-    groups = _groups(sphere)
-    beta, zeta2, e = (np.array(group) for group in groups)
-    alike = sliding.limit_alike(beta, zeta2, e)
-    limits = [zeta2, beta, lumped.slip_throughout_limit(*groups), alike]
-    thresholds = np.degrees(np.arctan(sphere["friction"] * np.array(limits)))
-    # The ratio of velocities has no value at normal incidence.
-    return _Shots(sphere, vertices((0.01, 89.9), samples, thresholds, nodes))
 
 
 def _elastic(asked: dict[str, tuple[Array, float, float]], tolerance: float) -> dict[str, Rebound]:
@@ -158,23 +119,4 @@ def _elastic(asked: dict[str, tuple[Array, float, float]], tolerance: float) -> 
             np.asarray(rebound.regime)[part],
         )
         for name, part in zip(asked, parts, strict=True)
-    }
-
-
-def _measured(shots: _Shots, rebound: Rebound) -> Columns:
-    """What is measured of a sphere against its angle of incidence."""
-    sphere, x = shots.sphere, shots.x
-    beta, friction, restitution = (sphere[key] for key in ("mass_ratio", "friction", "restitution"))
-    change = x - rebound.velocity
-    centre = 1 - change / (beta * x)
-    unit = friction * sphere["speed"] * np.cos(np.radians(shots.angle))
-    return {
-        **_velocity(x, rebound),
-        "angle [deg]": shots.angle,
-        "centre_restitution [1]": centre,
-        "spin [rad/s]": (beta - 1) / beta * change * unit / sphere["radius"],
-        "centre_rebound_angle [deg]": np.degrees(np.arctan(centre * friction * x / restitution)),
-        "contact_rebound_angle [deg]": np.degrees(
-            np.arctan(friction * rebound.velocity / restitution)
-        ),
     }

@@ -94,7 +94,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     axes.set(xlim=(left, right), ylabel=f"(a) {house_style.REBOUND}")
     axes.set_ylim(*_range(curves["lumped"], right, (-3.0, 2.0)))
     shots.set(xlabel=house_style.INCIDENCE, ylabel=f"(b) {house_style.REBOUND}")
-    shots.set_ylim(*_range(curves["lumped, experiment"], right, (-2.0, 1.0)))
+    shots.set_ylim(*_range(curves["lumped.hysteretic, experiment"], right, (-2.0, 1.0)))
     if RUBBER_SPHERE in points:
         house_style.let_in(axes, points[RUBBER_SPHERE])
     _draw_regimes(axes, curves["lumped"], right)
@@ -161,7 +161,7 @@ def _draw_experiment(axes: Axes, curves: Curves, points: Points, settings: Setti
     axes.axhline(0, **house_style.GUIDE)
     e = house_style.restitutions([settings["experiment"]["restitution"]])
     lumped = _draw_curve(
-        axes, curves["lumped, experiment"], f"lumped model, {e}", house_style.LUMPED
+        axes, curves["lumped.hysteretic, experiment"], f"lumped model, {e}", house_style.LUMPED
     )
     models = house_style.lossy(axes, curves, X, Y, e, "experiment")
     series = {MEASURED_ANGLES: ("measured (Kharaz et al.)", GLASS_POINTS)}

@@ -84,7 +84,7 @@ def curves(
     >>> glass = {"material": ["glass"], "young_modulus": [7e10], "poisson_ratio": [0.2]}
     >>> named = curves(3.5, pairs, glass, [0.8, 1.0], [0.2, 0.5], {"restitution": 0.6,
     ...                "poisson_ratio": 0.3}, (0, 8), 11, 24, 1e-3)
-    >>> round(float(named["lumped, pairs"]["tangential_restitution [1]"][0]), 2)
+    >>> round(float(named["lumped.hysteretic, pairs"]["tangential_restitution [1]"][0]), 2)
     0.37
     """
     pairs = _Contacts.of_pairs(points, materials)

@@ -8,7 +8,7 @@ from stronge1994.figures.inelastic.drawing import BETA_0, E
 from stronge1994.figures.shared.drawing import house_style, slide
 from stronge1994.figures.shared.drawing.house_style import Points, Settings
 
-PAPER, OTHER = "lumped", "continuum.viscous"
+PAPER, OTHER = "lumped.hysteretic", "continuum.viscous"
 # Ratio of the paper's model and a measurement from which the title states it.
 CLEARLY = 1.5
 

@@ -45,7 +45,9 @@ def curves(
     named = {}
     for ratio in velocity_ratio:
         before = noncollinear.kinetic_energy(ratio, 1.0, rod)
-        rebound = noncollinear.rebound(ratio, 1.0, rod, friction, restitution, stiffness_ratio)
+        rebound = noncollinear.rebound(
+            ratio, 1.0, rod, friction, restitution, stiffness_ratio, loss="hysteretic"
+        )
         columns = _columns(angle, rebound, rod, before)
         named[name("v1/v2", ratio)] = columns | {
             "energy_lost [K0]": 1 - columns["kinetic_energy [K0]"],
@@ -67,6 +69,7 @@ def curves(
                 restitution,
                 stiffness_ratio,
                 samples=samples,
+                loss="hysteretic",
             )
         )
     return named

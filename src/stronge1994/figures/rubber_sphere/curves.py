@@ -57,7 +57,7 @@ def curves(
     ...           "restitution": [0.9], "tangential_before": [0.45], "velocity_ratio": [0.51],
     ...           "spin_change": [0.44]}
     >>> named = curves(ball, points, 0.9, (0.2, 8), 11, 2.5, 1e-3)
-    >>> round(float(named["lumped, impacts"]["tangential_restitution [1]"][0]), 2)
+    >>> round(float(named["lumped.hysteretic, impacts"]["tangential_restitution [1]"][0]), 2)
     0.43
     """
     x, (at, e) = vertices(incidence, samples), _measured(ball, points)

@@ -53,7 +53,7 @@ def curves(
     >>> inelastic = {"tolerance": 1e-2, "tolerances": [1e-2]}
     >>> named = curves(3.5, 1.21, [0, 8], 9, [0.8], 1, [16], [4], [1], inelastic, [1], 1.0)
     >>> list(named)[2:4]
-    ['laws.brach, e = 0.8, viscous', 'lumped, e = 0.8, viscous']
+    ['laws.brach, e = 0.8, viscous', 'lumped.hysteretic, e = 0.8, viscous']
     >>> wrong = named["continuum.plastic, tolerance 0.01, e = 0.8, viscous"]
     >>> round(float(wrong["max_velocity [mu v2(0)]"][0]), 1)
     0.3
@@ -111,7 +111,7 @@ class _Contender(NamedTuple):
 
 
 def _contenders(
-    groups: dict[str, float], tried: dict[str, Sequence[float]], incidence_max: float
+    groups: dict[str, Any], tried: dict[str, Sequence[float]], incidence_max: float
 ) -> Iterator[_Contender]:
     """Every model that admits the restitution, with each setting that is tried, and responses."""
     elastic = groups["restitution"] == 1

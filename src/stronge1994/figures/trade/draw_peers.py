@@ -35,7 +35,7 @@ STEPS, USUAL_STEPS = draw_trade.STEPS, 64
 PANELS = {"viscous": "(a) viscous loss", "plastic": "(b) plastic loss"}
 # Labels of models of ours. Each continuum is drawn in the panel of the other.
 OUR_LABELS = {
-    "lumped": "lumped: the paper",
+    "lumped.hysteretic": "lumped: the paper",
     "continuum.viscous": "continuum of the other loss",
     "continuum.plastic": "continuum of the other loss",
 }
@@ -185,7 +185,7 @@ def _errors(rows: Sequence[_Row], values: Sequence[float]) -> Curves:
 def _is_drawn(row: _Row) -> bool:
     """Whether a row is drawn: a continuum once, in the panel of the other loss.
 
-    >>> _is_drawn({"model": "lumped", "loss": "viscous"})
+    >>> _is_drawn({"model": "lumped.hysteretic", "loss": "viscous"})
     True
     >>> _is_drawn({"model": "continuum.viscous", "loss": "viscous"})
     False

@@ -108,7 +108,10 @@ FAMILIES = {
     "rigid": FORMULA._replace(place=("right", -5, 1)),
     "laws.smith": FORMULA._replace(place=("right", -5, -6)),
     "laws.brach": FORMULA,
-    "lumped": Family("lumped, as in the paper", "o", 3.5, BLACK, True, None),
+    **dict.fromkeys(
+        ("lumped", "lumped.hysteretic"),
+        Family("lumped, as in the paper", "o", 3.5, BLACK, True, None),
+    ),
     "timestep.linear": Family("linear spring", "s", 5.5, BLACK, False, LOWER_RIGHT),
     # It has no label: its numbers of steps are those of the next model.
     "timestep.mindlin": Family("Mindlin", "^", 5, BLACK, True, None),

@@ -162,7 +162,8 @@ def _pooltool(
     def solve(x: Array) -> Answer:
         return *peers.pooltool_impacts(x, restitution, **groups), 0.0
 
-    ours = _ours("lumped", mass_ratio, stiffness_ratio, restitution)
+    name = "lumped" if restitution == 1 else "lumped.hysteretic"
+    ours = _ours(name, mass_ratio, stiffness_ratio, restitution)
     apart = np.abs(solve(x)[0] - ours.solve(x)[0])
     columns = {"max_from_lumped [mu v2(0)]": np.nanmax(apart)} if np.isfinite(apart).any() else {}
     yield ours, Contender("pooltool", {}, solve, columns)
@@ -194,8 +195,8 @@ def _own_names(restitution: float) -> list[str]:
 def _compiled(
     model: str, mass_ratio: float, stiffness_ratio: float, restitution: float, reach: float
 ) -> Contender:
-    settings = {"tolerance": OWN_TOLERANCE}
-    groups = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio}
+    settings: dict[str, Any] = {"tolerance": OWN_TOLERANCE}
+    groups: dict[str, Any] = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio}
     start = time.perf_counter()
     compiled = response.compile(
         model, incidence_max=reach, restitution=restitution, **groups, **settings

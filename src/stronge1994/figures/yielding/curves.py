@@ -19,7 +19,7 @@ MODELS: dict[str, Callable[..., Rebound]] = {
     "continuum.plastic": partial(continuum.rebound, loss="plastic"),
     "continuum.plastic-elastic-shear": partial(continuum.rebound, loss="plastic-elastic-shear"),
     "continuum.viscous": partial(continuum.rebound, loss="viscous"),
-    "lumped": lumped.rebound,
+    "lumped.hysteretic": partial(lumped.rebound, loss="hysteretic"),
     "lumped.viscous": partial(lumped.rebound, loss="viscous"),
     "lumped.unloading-stiffness": partial(lumped.rebound, loss="unloading-stiffness"),
 }

@@ -54,7 +54,7 @@ MODELS = {
         "continuum, elastic in shear", house_style.ORANGE, house_style.DASHES[3], "v"
     ),
     "continuum.viscous": Model("continuum, viscous", house_style.BLUE, house_style.DASHES[4], "s"),
-    "lumped": Model("lumped, as in the paper", house_style.BLACK, "-", "D", width=0.8),
+    "lumped.hysteretic": Model("lumped, as in the paper", house_style.BLACK, "-", "D", width=0.8),
     "lumped.viscous": Model("lumped, Kelvin–Voigt", house_style.SKY, house_style.DASHES[2], "^"),
     "lumped.unloading-stiffness": Model(
         r"lumped, $e^2\zeta^2$", house_style.PURPLE, house_style.DASHES[1], "P", width=0.9

@@ -14,14 +14,14 @@ MODELS = (
     "continuum.plastic",
     "lumped.viscous",
     "lumped.unloading-stiffness",
-    "lumped",
+    "lumped.hysteretic",
 )
 
 
 def velocity(model: str, tolerance: float, *groups: ArrayLike) -> Array:
     """Velocity at separation; `groups` as for `models.rebound`, `tolerance` of a continuum.
 
-    >>> float(velocity("lumped", 1e-3, 8.0, 3.5, 1.21, 1.0))
+    >>> float(velocity("lumped.hysteretic", 1e-3, 8.0, 3.5, 1.21, 1.0))
     1.0
     """
     settings = {"tolerance": tolerance} if model.startswith("continuum") else {}

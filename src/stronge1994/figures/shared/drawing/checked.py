@@ -34,12 +34,10 @@ from matplotlib.text import Annotation, Text
 from planarimpact.ground.arrays import Array, Booleans
 from stronge1994.csv_tables import Curves
 from stronge1994.figures.shared.drawing import house_style
-from stronge1994.figures.shared.drawing.words import SHARED, Meanings
+from stronge1994.figures.shared.drawing.words import BARS, SHARED, Meanings
 
 File: TypeAlias = str | IO[bytes]
 
-# Endings of the names of columns with the ends of error bars.
-BARS = (" - error", " + error")
 # Relative difference up to which two numbers are equal: Matplotlib rounds ends of bars and edges.
 CLOSE = 1e-9
 # Constants down to which areas are filled, and at which bars begin.

@@ -28,7 +28,7 @@ MODELS = {
     name: Model(label, colour, dashes, marker)
     for (name, label, colour, marker), dashes in house_style.patterned(
         (
-            ("lumped", "lumped, as in the paper", house_style.BLACK, "o"),
+            ("lumped.hysteretic", "lumped, as in the paper", house_style.BLACK, "o"),
             ("lumped.unloading-stiffness", r"lumped, $e^2\zeta^2$", house_style.VERMILLION, "D"),
             ("lumped.viscous", "lumped, Kelvin–Voigt", house_style.BLUE, "s"),
             ("continuum.plastic", "continuum, plastic", house_style.VERMILLION, "^"),

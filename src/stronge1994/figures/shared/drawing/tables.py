@@ -3,8 +3,8 @@
 import numpy as np
 
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.figures.shared.drawing.checked import BARS
 from stronge1994.figures.shared.drawing.house_style import Points
+from stronge1994.figures.shared.drawing.words import BARS
 
 LESS, MORE = BARS
 

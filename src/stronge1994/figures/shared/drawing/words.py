@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 from stronge1994.figures.shared.drawing import house_style
 
+# Endings of the names of columns with the ends of error bars.
+BARS = (" - error", " + error")
 _INCIDENCE = r": incidence \[(mu v2\(0\)|cell)\]"
 
 # Labels of axes, without the letter of the panel, that several figures have. A drawing has more in
@@ -36,7 +38,9 @@ UNITS = {
 LEGEND = {
     r"^\$F_2": ": normal_force ",
     r"^\$F_1/": ": friction_(force|over_mu) ",
-    "lumped model|lumped, as in the paper|^lumped$": r"^(response of )?(lumped|e = |mu = )(?!\.)",
+    "lumped model|lumped, as in the paper|^lumped$": (
+        r"^(response of )?(lumped(\.hysteretic|(?!\.))|e = |mu = )"
+    ),
     r"lumped, \$e\^2": r"^lumped\.unloading-stiffness",
     "lumped, (Kelvin–Voigt|viscous)": r"^lumped\.viscous",
     "elastic continuum": "^continuum[,:]",
@@ -79,7 +83,8 @@ class Meanings(NamedTuple):
         """
         if pattern := self.axes.get(label):
             return bool(re.search(pattern, f"{curve}: {column}"))
-        return label == of_column(column)
+        less, more = BARS
+        return label == of_column(column.removesuffix(less).removesuffix(more))
 
     def names_a_curve(self, text: str) -> bool:
         """Whether a part of a text has a meaning.

@@ -186,15 +186,17 @@ def problems(impacts: Impacts) -> dict[int, str]:
     return messages
 
 
-def after(impacts: Impacts, tangential_velocity: Array) -> tuple[State, State, Array]:
+def after(impacts: Impacts, change: Array) -> tuple[State, State, Array]:
     """States of the body and the other one after the impact, and the impulse on the body [N s].
 
-    `tangential_velocity` is that of the contact point, in the direction of `impacts.tangent` [m/s].
+    `change` is that of the velocity of the contact point along `impacts.tangent` [m/s].
     """
-    change = (tangential_velocity - impacts.v1) / impacts.mass_ratio
     # P1 = m1 (v1(tf) - v1(0)), m1 = m2/beta; P2 = (1 + e) m2 v2(0). Both are divided by m2, so that
     # they do not overflow in any units.
-    impulse = change * impacts.tangent + (1 + impacts.restitution) * impacts.v2 * impacts.normal
+    impulse = (
+        change / impacts.mass_ratio * impacts.tangent
+        + (1 + impacts.restitution) * impacts.v2 * impacts.normal
+    )
     m2 = impacts.m2
     state = _after_impulse(impacts.before, impacts.body, m2, impulse, -impacts.normal)
     other = _after_impulse(impacts.other_before, impacts.other, m2, -impulse, impacts.normal)
@@ -202,13 +204,13 @@ def after(impacts: Impacts, tangential_velocity: Array) -> tuple[State, State, A
         return state, other, impulse * m2
 
 
-def energy_lost(impacts: Impacts, tangential_velocity: Array) -> Array:
+def energy_lost(impacts: Impacts, change: Array) -> Array:
     """Kinetic energy lost by both bodies [J]: in the normal element, and tangentially."""
-    e, v1, after = impacts.restitution, impacts.v1, tangential_velocity
+    e = impacts.restitution
     # The masses come first: a square of a velocity may overflow where the energy does not.
     normal = (1 - e) * (1 + e) * (impacts.m2 / 2 * impacts.v2 * impacts.v2)
     m1 = impacts.m2 / impacts.mass_ratio
-    return normal + m1 / 2 * (v1 - after) * (v1 + after)
+    return normal - m1 / 2 * change * (2 * impacts.v1 + change)
 
 
 def contact_velocity(state: State, body: Body, towards: Array) -> Array:

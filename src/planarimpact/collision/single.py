@@ -1,0 +1,170 @@
+"""One impact in Python's own floats, for event-driven codes: some 20 microseconds.
+
+The physics is that of `mechanics` and `rungs`, in numbers instead of arrays; a test compares them.
+Whatever is not plain (a bad argument, no approach, no friction, an impact that the table of spheres
+does not answer within the tolerance) is left to them: then the answer here is None.
+"""
+
+from collections.abc import Sequence
+from functools import cache
+from math import hypot, isfinite, sqrt
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from planarimpact import spheres
+from planarimpact.bodies import Body
+from planarimpact.collision.mechanics import UNIT
+from planarimpact.collision.rungs import ROUNDING
+from planarimpact.ground.results import Regime
+from planarimpact.normal_impact import hertz, kelvin_voigt
+from planarimpact.spheres import single as table_of_spheres
+
+_PLAIN = {float, int}
+# A plastic impact with this share of its incidence slides throughout: then it surely does itself.
+SURELY = 0.99
+
+
+class Answer(NamedTuple):
+    """Bodies after one impact."""
+
+    # Velocity and spin of the body and of the other one, and the impulse: [m/s], [rad/s], [N s].
+    states: tuple[float, ...]
+    numbers: tuple[float, float, float]  # incidence, restitution, error bound
+    regime: Regime
+
+
+def collide(
+    pair: tuple[float, ...],
+    plastic: bool,
+    body: Body,
+    other: Body,
+    vectors: tuple[Any, ...],
+    tolerance: float,
+) -> Answer | None:
+    """The answer to one impact, or None where the functions of arrays must see it.
+
+    `pair` has the fields of a Pair, in order, and `vectors` are those of `collide`.
+    """
+    numbers = [number for vector in vectors for number in _floats(vector)]
+    quantities = [number for value in (*body, *other) for number in _float(value)]
+    if len(numbers) != 15 or len(quantities) != 6:
+        return None
+    nx, ny, nz, vx, vy, vz, wx, wy, wz, ox, oy, oz, sx, sy, sz = numbers
+    mass, gyration, radius, other_mass, other_gyration, other_radius = quantities
+    # Velocity of the contact point of the body, relative to that of the other.
+    ux, uy, uz = radius * wx + other_radius * sx, radius * wy + other_radius * sy, radius * wz
+    uz += other_radius * sz
+    rx = vx - ox - (uy * nz - uz * ny)
+    ry = vy - oy - (uz * nx - ux * nz)
+    rz = vz - oz - (ux * ny - uy * nx)
+    v2 = -(rx * nx + ry * ny + rz * nz)
+    tx, ty, tz = rx + v2 * nx, ry + v2 * ny, rz + v2 * nz
+    v1 = sqrt(tx * tx + ty * ty + tz * tz)
+    mu, zeta2, modulus, e, relaxation_time, yield_pressure = pair
+    if not (0 < v2 < 1e50 and 1e-50 < v1 < 1e50 and mu * v2 > 1e-50 and mass < 1e50):
+        return None
+    if abs(nx * nx + ny * ny + nz * nz - 1) > UNIT:
+        return None
+    inverse, other_inverse = 1 / mass, 1 / other_mass
+    m2 = 1 / (inverse + other_inverse)
+    arm, other_arm = radius / gyration, other_radius / other_gyration
+    beta = m2 * ((1 + arm * arm) * inverse + (1 + other_arm * other_arm) * other_inverse)
+    if e != e:
+        curvature = (1 / radius if radius else 0.0) + (1 / other_radius if other_radius else 0.0)
+        if not curvature:
+            return None
+        law, quantity = (_plastic, yield_pressure) if plastic else (_viscous, relaxation_time)
+        e = law(quantity, v2, m2, modulus, curvature)
+    b, unit = beta / zeta2, mu * v2
+    x = v1 / unit
+    covered = spheres.LEAST_RATIO <= b <= spheres.LARGEST_RATIO and beta >= 1
+    if not (covered and zeta2 <= spheres.LARGEST_STIFFNESS and spheres.LEAST_RESTITUTION <= e <= 1):
+        return None
+    yields = plastic and e < 1
+    error = _table_error(b, e, yields) + ROUNDING * beta
+    slides = x >= max(zeta2, beta + e * (beta - zeta2))
+    if yields and slides:
+        y = SURELY * x / zeta2
+        slides = y >= 1 and table_of_spheres.velocity(y, b, e, True) is None
+    if slides:
+        change, error, regime = -(1 + e) * beta * unit, 0.0, Regime.SLIP_THROUGHOUT
+    else:
+        share = table_of_spheres.velocity(x / zeta2, b, e, yields)
+        if share is None or error > tolerance:
+            return None
+        w = min(max(share * zeta2, -x, x - (1 + e) * beta), x) * unit
+        change = w - v1
+        regime = Regime.SLIP_STICK_SLIP if x > zeta2 else Regime.STICK_SLIP
+    push, drag = (1 + e) * v2 * m2, change / beta / v1 * m2
+    px, py, pz = push * nx + drag * tx, push * ny + drag * ty, push * nz + drag * tz
+    turn, other_turn = arm / gyration * inverse, other_arm / other_gyration * other_inverse
+    mx, my, mz = ny * pz - nz * py, nz * px - nx * pz, nx * py - ny * px
+    states = (
+        *(vx + px * inverse, vy + py * inverse, vz + pz * inverse),
+        *(wx - turn * mx, wy - turn * my, wz - turn * mz),
+        *(ox - px * other_inverse, oy - py * other_inverse, oz - pz * other_inverse),
+        *(sx - other_turn * mx, sy - other_turn * my, sz - other_turn * mz),
+        *(px, py, pz),
+    )
+    return Answer(states, (x, e, error * unit), regime)
+
+
+def _floats(vector: Any) -> Sequence[float]:
+    """The components of a vector that is plainly three finite numbers; () of anything else."""
+    if type(vector) is np.ndarray and vector.shape == (3,) and vector.dtype == np.float64:
+        vector = vector.tolist()
+    elif type(vector) not in (list, tuple) or len(vector) != 3:
+        return ()
+    a, b, c = vector
+    plain = {type(a), type(b), type(c)} <= _PLAIN
+    return vector if plain and isfinite(a + b + c) else ()
+
+
+def _float(value: Any) -> Sequence[float]:
+    """A number of a body as float; () of an array of several."""
+    return (value,) if type(value) is float else () if np.ndim(value) else (float(value),)
+
+
+def _table_error(b: float, e: float, yields: bool) -> float:
+    """Largest error of the table of spheres, mu v2(0)."""
+    if not yields:
+        return spheres.ERROR_BOUND["viscous"]
+    little = table_of_spheres.loses_little(b, e)
+    return spheres.LITTLE_BOUND if little else spheres.ERROR_BOUND["plastic"]
+
+
+def _viscous(tau: float, v2: float, m2: float, modulus: float, curvature: float) -> float:
+    """As `bodies.viscous_restitution`; 0, which no table covers, where that refuses."""
+    root = sqrt(tau / (m2**0.4 / modulus**0.4 * curvature**0.2 / v2**0.2))
+    terms, longest = _series()
+    if root >= longest:
+        return 0.0
+    # Clenshaw's recurrence for a series of Chebyshev's polynomials.
+    at, one, two = 4 * root / longest - 2, 0.0, 0.0
+    for term in terms:
+        one, two = term + at * one - two, one
+    return min(one - at / 2 * two, 1.0)
+
+
+@cache
+def _series() -> tuple[list[float], float]:
+    """Terms of viscous restitution, the last one first, and the largest argument."""
+    series = kelvin_voigt.series()
+    return series.coef[::-1].tolist(), float(series.domain[1])
+
+
+def _plastic(pressure: float, v2: float, m2: float, modulus: float, curvature: float) -> float:
+    """As `bodies.plastic_restitution`."""
+    radius_share = np.pi / 2 * (pressure / modulus)
+    yield_speed = sqrt(16 / 15 * modulus / m2 / curvature) / curvature * radius_share**2.5
+    if yield_speed >= v2:
+        return 1.0
+    # The law of `normal_impact.yielding`: approach where yield begins, and at the end of loading.
+    ratio = yield_speed / v2
+    yields = (ratio * ratio / (2 * hertz.ENERGY)) ** 0.4
+    square = 2 * sqrt(yields)
+    reach = hypot(2 / 3 * yields, sqrt((1 - ratio) * (1 + ratio) / square))
+    force, approach = square * reach, yields / 3 + reach
+    # Twice the energy that springs back is 0.8 F d F/F_e, with Hertz' force F_e = 4/3 d^(3/2).
+    return min(force * sqrt(0.6 / sqrt(approach)), 1.0)

@@ -1,0 +1,76 @@
+"""`collide`: one impact from Python, and a million at once, on one core.
+
+OMP_NUM_THREADS=1 python tests/benchmarks/collide_speed.py
+
+The million are solid spheres, each with its own pair of materials: half of them viscous and half
+plastic, with restitution from 0.3 to 1, or all with a yield pressure, from which restitution
+follows. Times are those of the processor, and in brackets those of the clock.
+"""
+
+import time
+
+import numpy as np
+
+from planarimpact import Pair, bodies, collide
+
+COUNT = 1_000_000
+STEEL, RUBBER = bodies.Material(207e9, 0.3), bodies.Material(5e6, 0.5)
+UP, VELOCITY, SPIN = np.array([0, 0, 1.0]), np.array([1.0, 0, -3.0]), np.array([0, 20.0, 0])
+SINGLE = {
+    "viscous, e = 0.9": Pair(RUBBER, friction=0.8, restitution=0.9, loss="viscous"),
+    "viscous, relaxation time": Pair(RUBBER, friction=0.8, relaxation_time=2e-4),
+    "plastic, e = 0.8": Pair(STEEL, friction=0.2, restitution=0.8, loss="plastic"),
+    "plastic, yield pressure": Pair(STEEL, friction=0.2, yield_pressure=3e9),
+}
+
+
+def timed(words, count, function, unit):
+    """Print the least time of three."""
+    times = []
+    for _ in range(3):
+        start = time.process_time(), time.perf_counter()
+        function()
+        times.append((time.process_time() - start[0], time.perf_counter() - start[1]))
+    cpu, clock = (min(t) * {"us": 1e6, "s": 1}[unit] / count for t in zip(*times, strict=True))
+    print(f"{words:<40} {cpu:6.2f} ({clock:.2f}) {unit}")
+
+
+def repeated(pair, body):
+    for _ in range(10_000):
+        collide(pair, UP, body, VELOCITY, SPIN)
+
+
+def million(seed=1):
+    """Arguments of `collide` but for the pairs, and restitutions."""
+    rng = np.random.default_rng(seed)
+    normal = rng.normal(size=(COUNT, 3))
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    velocity, other_velocity = rng.normal(0, 2, size=(2, COUNT, 3))
+    normal *= -np.sign(np.sum((velocity - other_velocity) * normal, axis=1))[:, None]
+    spin, other_spin = rng.normal(0, 100, size=(2, COUNT, 3))
+    body, other = (bodies.solid_sphere(rng.uniform(1e-3, 1e-2, COUNT), 7800.0) for _ in range(2))
+    groups = {
+        "friction": rng.uniform(0.05, 0.6, COUNT),
+        "stiffness_ratio": rng.uniform(1.0, 1.5, COUNT),
+    }
+    loss = np.where(rng.random(COUNT) < 0.5, "viscous", "plastic")
+    pairs = {
+        "own e": Pair(**groups, restitution=rng.uniform(0.3, 1, COUNT), loss=loss),
+        "own yield pressure": Pair(
+            **groups, yield_pressure=rng.uniform(2e9, 6e9, COUNT), effective_modulus=115e9
+        ),
+    }
+    return pairs, (normal, body, velocity, spin, other, other_velocity, other_spin)
+
+
+if __name__ == "__main__":
+    ball = bodies.solid_sphere(0.01, 2000.0)
+    for words, pair in SINGLE.items():
+        timed(f"one impact, {words}", 10_000, lambda pair=pair: repeated(pair, ball), "us")
+    pairs, arguments = million()
+    for words, table in pairs.items():
+        timed(f"a million, {words}", 1, lambda table=table: collide(table, *arguments), "s")
+        result = collide(table, *arguments)
+        start = time.process_time()
+        known = np.isfinite(result.model_form).mean()
+        print(f"  its model_form {time.process_time() - start:.2f} s, known for {known:.1%}")

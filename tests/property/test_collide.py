@@ -1,0 +1,346 @@
+"""`collide` on random impacts: conservation, Coulomb's limit, frames, one impact beside many."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from planarimpact import (
+    InputError,
+    Pair,
+    Regime,
+    bodies,
+    collide,
+    collision,
+    continuum,
+    scene,
+    spheres,
+)
+from planarimpact.collision import single
+
+COUNT = 100_000
+# Rounding, as a share of the largest term of a balance.
+ROUNDING = 1e-12
+WALL = bodies.HALF_SPACE
+
+
+def directions(rng, count):
+    vectors = rng.normal(size=(count, 3))
+    return vectors / np.linalg.norm(vectors, axis=1)[:, None]
+
+
+def balls(rng, count, walls=0.2):
+    """Solid spheres, shells and moving walls: masses of 1e-6 to 1 kg."""
+    radius, shell = 10 ** rng.uniform(-3, -1, count), rng.random(count) < 0.3
+    gyration = radius * np.sqrt(np.where(shell, 2 / 3, 0.4))
+    sizes = 10 ** rng.uniform(-6, 0, count), gyration, radius
+    wall = rng.random(count) < walls
+    return bodies.Body(*(np.where(wall, w, v) for w, v in zip(WALL, sizes, strict=True)))
+
+
+def pairs(rng, count):
+    """e from 0.3, constant or by the speed; a tenth without friction, a tenth elastic."""
+    kind = rng.integers(0, 3, count)
+    e = np.where(rng.random(count) < 0.1, 1.0, rng.uniform(0.3, 1.0, count))
+    return Pair(
+        friction=np.where(rng.random(count) < 0.1, 0.0, rng.uniform(0.01, 1.0, count)),
+        stiffness_ratio=rng.uniform(1.0, 1.5, count),
+        effective_modulus=10 ** rng.uniform(7, 11, count),
+        restitution=np.where(kind == 0, e, np.nan),
+        relaxation_time=np.where(kind == 1, 10 ** rng.uniform(-9, -7, count), np.nan),
+        yield_pressure=np.where(kind == 2, 10 ** rng.uniform(9, 10, count), np.nan),
+        loss=np.where(kind > 0, "", np.where(rng.random(count) < 0.5, "viscous", "plastic")),
+    )
+
+
+def random_impacts(count=COUNT, seed=1):
+    """Arguments of `collide`; some bodies part or only touch, some are head-on."""
+    rng = np.random.default_rng(seed)
+    normal, body, other = directions(rng, count), balls(rng, count, 0.0), balls(rng, count)
+    velocity, other_velocity = rng.normal(size=(2, count, 3))
+    spin, other_spin = rng.normal(size=(2, count, 3)) / body.radius[:, None]
+    flat = np.isinf(other.mass)
+    other_spin[flat] = 0.0
+    still = rng.random(count) < 0.02
+    velocity[still], other_velocity[still], spin[still] = -normal[still], 0.0, 0.0
+    other_spin[still] = 0.0
+    touch = rng.random(count) < 0.02
+    velocity[touch] = other_velocity[touch] = 0.0
+    return pairs(rng, count), normal, body, velocity, spin, other, other_velocity, other_spin
+
+
+@pytest.fixture(scope="module")
+def impacts():
+    arguments = random_impacts()
+    return arguments, collide(*arguments)
+
+
+def dot(a, b):
+    return np.sum(a * b, axis=-1)
+
+
+def inertia(body):
+    """Mass and moment of inertia, of walls 0."""
+    mass, gyration = (np.where(np.isinf(value), 0.0, value) for value in body[:2])
+    return mass, mass * gyration**2
+
+
+def energy(body, velocity, spin):
+    """Kinetic energy, of walls 0."""
+    mass, moment = inertia(body)
+    return mass / 2 * dot(velocity, velocity) + moment / 2 * dot(spin, spin)
+
+
+def test_momentum_and_angular_momentum_are_conserved(impacts):
+    (_, normal, body, velocity, spin, other, other_velocity, other_spin), after = impacts
+    bodies_before = (body, velocity, spin), (other, other_velocity, other_spin)
+    bodies_after = (after.velocity, after.spin), (after.other_velocity, after.other_spin)
+    arm = (body.radius + other.radius)[:, None] * np.cross(normal, after.impulse)
+    turned, size = arm, (body.radius + other.radius) * np.abs(after.impulse).max(axis=1)
+    for (who, v, w), (v_after, w_after), sign in zip(
+        bodies_before, bodies_after, (1, -1), strict=True
+    ):
+        mass, moment = inertia(who)
+        error = np.abs((v_after - v) * mass[:, None] - sign * after.impulse).max(axis=1)
+        scale = np.abs(after.impulse).max(axis=1) + mass * np.abs(v).max(axis=1)
+        assert (error <= ROUNDING * scale)[mass > 0].all()
+        turned = turned + moment[:, None] * (w_after - w)
+        size = size + moment * np.abs(w).max(axis=1)
+    # A wall takes any angular momentum.
+    assert (np.abs(turned).max(axis=1) <= ROUNDING * size)[np.isfinite(other.mass)].all()
+
+
+def test_no_energy_is_created_and_friction_keeps_its_limit(impacts):
+    (pair, normal, body, velocity, spin, other, other_velocity, other_spin), after = impacts
+    # In the frame of the other body, so that a wall that moves does no work.
+    before = energy(body, velocity - other_velocity, spin) + energy(other, 0 * velocity, other_spin)
+    then = energy(body, after.velocity - other_velocity, after.spin)
+    then += energy(other, after.other_velocity - other_velocity, after.other_spin)
+    assert (then <= before * (1 + 1e-11)).all()
+    push = dot(after.impulse, normal)
+    drag = np.linalg.norm(after.impulse - push[:, None] * normal, axis=1)
+    assert (push >= 0).all()
+    assert (drag <= pair.friction * push * (1 + 1e-9) + ROUNDING * push).all()
+    kept = (pair.friction == 0) & (after.restitution == 1)
+    assert kept.any() and np.allclose(then[kept], before[kept], rtol=1e-11, atol=0)
+
+
+def test_what_does_not_approach_is_left_alone(impacts):
+    (_, normal, body, velocity, spin, other, other_velocity, other_spin), after = impacts
+    contact = velocity - np.cross(spin, normal) * body.radius[:, None]
+    contact = contact - other_velocity - np.cross(other_spin, normal) * other.radius[:, None]
+    away = dot(contact, normal) >= 1e-12
+    alone = after.regime == Regime.NO_IMPACT
+    assert alone[away].all() and (velocity == other_velocity).all(axis=1)[alone & ~away].any()
+    for then, before in (
+        (after.velocity, velocity),
+        (after.spin, spin),
+        (after.other_velocity, other_velocity),
+        (after.other_spin, other_spin),
+    ):
+        assert (then[alone] == before[alone]).all()
+    assert (after.impulse[alone] == 0).all() and np.isnan(after.incidence[alone]).all()
+    assert np.isnan(after.model_form[alone]).all() and (after.loss[alone] == "none").all()
+    # The normal velocity is reversed by restitution.
+    contact = after.velocity - after.other_velocity
+    change = dot(contact, normal) + after.restitution * dot(velocity - other_velocity, normal)
+    assert np.abs(change[~alone]).max() < 1e-10
+
+
+@pytest.mark.parametrize("frame", ["rotated", "moving", "other body first"])
+def test_the_frame_does_not_matter(impacts, frame):
+    (pair, normal, body, velocity, spin, other, other_velocity, other_spin), after = impacts
+    turn = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0]
+    turn, along = turn * np.sign(np.linalg.det(turn)), np.array([3.0, -1.0, 2.0])
+    if frame == "rotated":
+        rows = [v @ turn.T for v in (velocity, spin, other_velocity, other_spin)]
+        found = collide(pair, normal @ turn.T, body, *rows[:2], other, *rows[2:])
+        then = [v @ turn for v in (found.velocity, found.spin, found.other_velocity)]
+    elif frame == "moving":
+        moved = collide(
+            pair, normal, body, velocity + along, spin, other, other_velocity + along, other_spin
+        )
+        then = [moved.velocity - along, moved.spin, moved.other_velocity - along]
+    else:
+        turned = collide(pair, -normal, other, other_velocity, other_spin, body, velocity, spin)
+        then = [turned.other_velocity, turned.other_spin, turned.velocity]
+    met = after.regime != Regime.NO_IMPACT
+    speed = np.abs(velocity).max() + np.abs(spin * body.radius[:, None]).max(axis=1)
+    for new, old, unit in zip(
+        then, (after.velocity, after.spin, after.other_velocity), (1, body.radius, 1), strict=True
+    ):
+        error = np.abs(new - old).max(axis=1) * unit
+        assert (error[met] <= 1e-8 * speed[met]).all()
+
+
+def sprayed():
+    """Single impacts at random, and around every threshold of incidence, restitution and zeta^2."""
+    rng = np.random.default_rng(3)
+    ball = bodies.solid_sphere(0.01, 2500.0)
+    near = np.array([0.0, 1e-15, -1e-15, 1e-9, -1e-9, 1e-4, -1e-4])
+    for e in (*spheres.LEAST_RESTITUTION * (1 + near), 0.6, 0.7, 0.9, *(1 - np.abs(near))):
+        for zeta2 in (1.0, 1.2, 1.5):
+            for loss in spheres.LOSSES:
+                pair = Pair(friction=0.3, stiffness_ratio=zeta2, restitution=e, loss=loss)
+                limit = continuum.slip_throughout_limit(3.5, zeta2, max(e, 0.3), loss=loss)
+                for x in (zeta2, 3.5, float(limit), *rng.uniform(0, 9, 2)):
+                    incidence = x * (1 + rng.choice(near))
+                    yield pair, ball, (incidence * 0.3, -1.0)
+
+
+def test_one_impact_is_that_of_many():
+    """Both have the same answer, to rounding, and the single one is taken by its own function."""
+    up, still, plain = np.array([0.0, 0.0, 1.0]), np.zeros(3), 0
+    for pair, ball, (tangential, normal) in sprayed():
+        velocity = np.array([tangential, 0.0, normal])
+        one = collide(pair, up, ball, velocity, still)
+        many = collide(pair, up, ball, velocity[None], still[None])
+        vectors = up, velocity, still, still, still
+        plain += (
+            single.collide(pair.single, bool(pair.plastic), ball, WALL, vectors, 5e-3) is not None
+        )
+        # A float64 beside a threshold one may take the formula, and the other one the table.
+        error = max(one.error_bound, many.error_bound[0])
+        same_rung = one.error_bound == many.error_bound[0]
+        np.testing.assert_allclose(
+            one.velocity, many.velocity[0], rtol=1e-12, atol=1e-12 if same_rung else error
+        )
+        assert one.regime == many.regime[0] or not same_rung
+        assert one.incidence == pytest.approx(many.incidence[0], rel=1e-14)
+        assert one.restitution == many.restitution[0] and one.loss == many.loss[0]
+    assert plain > 200
+
+
+def test_restitution_of_single_impacts_follows_the_speed(impacts):
+    (pair, normal, body, velocity, spin, other, other_velocity, other_spin), after = impacts
+    states = velocity, spin, other_velocity, other_spin
+    checked = 0
+    for i in np.flatnonzero(after.regime != Regime.NO_IMPACT)[:400].tolist():
+        v, w, other_v, other_w = (vectors[i] for vectors in states)
+        one, two = (bodies.Body(*(float(field[i]) for field in who)) for who in (body, other))
+        vectors = normal[i], v, w, other_v, other_w
+        answer = single.collide(pair[i].single, bool(pair[i].plastic), one, two, vectors, 5e-3)
+        if answer:
+            found = collide(pair[i], normal[i], one, v, w, two, other_v, other_w)
+            checked += np.isnan(pair.restitution[i])
+            assert found.restitution == pytest.approx(after.restitution[i], abs=1e-7)
+            scale = np.abs(v).max() + np.abs(w).max() * one.radius
+            assert np.abs(found.velocity - after.velocity[i]).max() <= 1e-7 * scale
+    assert checked > 100
+
+
+def test_a_scene_has_the_same_answers():
+    """One table with `loss`, one with a yield pressure; vectors are its columns."""
+    rng, count = np.random.default_rng(4), 300
+    normal, other = directions(rng, count), bodies.solid_sphere(0.02, 2500.0)
+    velocity, other_velocity, spin = rng.normal(size=(3, count, 3)) * [[[1]], [[1]], [[50]]]
+    normal *= -np.sign(dot(velocity - other_velocity, normal))[:, None]
+    glass = {"young_modulus [Pa]": 70e9, "poisson_ratio": 0.2}
+    table = {"radius [m]": 0.01, "density [kg/m^3]": 7800.0, "friction": 0.2}
+    table |= {"young_modulus [Pa]": 207e9, "poisson_ratio": 0.3, "other_radius [m]": 0.02}
+    table |= {"other_density [kg/m^3]": 2500.0} | {f"other_{k}": v for k, v in glass.items()}
+    for k, axis in enumerate("xyz"):
+        table |= {f"normal_{axis}": normal[:, k], f"velocity_{axis} [m/s]": velocity[:, k]}
+        table |= {f"other_velocity_{axis} [m/s]": other_velocity[:, k]}
+        table |= {f"spin_{axis} [rad/s]": spin[:, k], f"other_spin_{axis} [rad/s]": 0.0}
+    for header, law in (
+        ({"restitution": 0.8, "loss": "viscous"}, {"restitution": 0.8, "loss": "viscous"}),
+        ({"yield_pressure [Pa]": 2e9}, {"yield_pressure": 2e9}),
+    ):
+        pair = Pair(STEEL, bodies.Material(*glass.values()), friction=0.2, **law)
+        after = collide(
+            *(pair, normal, BALL, velocity, spin, other, other_velocity), tolerance=1e-3
+        )
+        rows = scene.solve(pd.DataFrame(table | header), tolerance=1e-3)
+        for name, vectors in (("velocity", after.velocity), ("other_spin", after.other_spin)):
+            unit = "rad/s" if "spin" in name else "m/s"
+            columns = [f"{name}_{axis}_after [{unit}]" for axis in "xyz"]
+            np.testing.assert_allclose(rows[columns], vectors, rtol=1e-9, atol=1e-9)
+        np.testing.assert_allclose(rows["model_form [m/s]"], after.model_form, atol=1e-12)
+
+
+STEEL = bodies.Material(207e9, 0.3)
+BALL = bodies.solid_sphere(0.01, 7800.0)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"normal": [0, 0, 2]}, "normal_x, y, z have the length 2: allowed is 1"),
+        ({"velocity": [0, np.nan, -1]}, r"velocity\[1\] = nan: allowed are finite numbers"),
+        ({"velocity": [0, -1]}, r"velocity, shape \(2,\): allowed are vectors"),
+        ({"spin": np.zeros((2, 3)), "velocity": np.zeros((3, 3))}, "shapes do not broadcast"),
+        ({"body": 1.0}, "body = 1.0: allowed is a bodies.Body"),
+        ({"pair": STEEL}, "pair = Material.*: allowed is a planarimpact.Pair"),
+        ({"tolerance": 0.0}, "tolerance = 0.0: allowed are numbers from 1e-10 to 1"),
+        ({"body": WALL}, "body.mass = inf, other.mass = inf: one of the two must be finite"),
+        (
+            {"pair": Pair(STEEL, friction=0.9, restitution=0.05, loss="plastic")},
+            "restitution = 0.05: allowed are numbers from 0.1",
+        ),
+    ],
+)
+def test_bad_arguments_are_refused(change, words):
+    good = {
+        "pair": Pair(STEEL, friction=0.9, restitution=1),
+        "normal": [0, 0, 1],
+        "body": BALL,
+        "velocity": [1.0, 0, -1.0],
+        "spin": [0, 0, 0],
+    }
+    collide(**good)
+    with pytest.raises(InputError, match=words):
+        collide(**good | change)
+
+
+def test_the_impact_of_an_array_is_named():
+    velocity = [[1.0, 0, -1.0], [1.0, 0, 1.0], [1.0, 0, -1.0]]
+    pair = Pair(STEEL, friction=[0.9], restitution=[0.8, 0.8, 0.05], loss="plastic")
+    with pytest.raises(InputError, match=r"impact \[2\]: restitution = 0.05"):
+        collide(pair, [0, 0, 1], BALL, velocity, np.zeros(3))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"restitution": 0.8}, "restitution = 0.8: below 1 the loss must be said; .* viscous, pl"),
+        ({"restitution": 1.2}, "restitution = 1.2: allowed are"),
+        ({"restitution": 0.8, "loss": "magic"}, "loss = 'magic': allowed are viscous, plastic"),
+        ({}, "0 of them given, needed is exactly one"),
+        ({"restitution": 1, "yield_pressure": 1e9}, "2 of them given"),
+        ({"yield_pressure": 1e9, "loss": "viscous"}, "loss = 'viscous': it does not apply"),
+        ({"relaxation_time": -1.0}, "relaxation_time = -1.0: allowed are finite numbers from 0"),
+        ({"restitution": 1, "friction": -0.1}, "friction = -0.1: allowed are"),
+        ({"restitution": 1, "stiffness_ratio": 1.2}, "needed is one of the two"),
+    ],
+)
+def test_a_pair_that_is_not_clear_is_refused(arguments, words):
+    with pytest.raises(InputError, match=words):
+        Pair(STEEL, **{"friction": 0.2} | arguments)
+
+
+def test_a_table_of_pairs_is_indexed_by_kinds():
+    materials = bodies.Material(np.array([207e9, 70e9]), np.array([0.3, 0.22]))
+    rows = bodies.Material(materials.young_modulus[:, None], materials.poisson_ratio[:, None])
+    table = Pair(
+        rows, materials, friction=0.2, restitution=[[0.8, 0.9], [0.9, 1.0]], loss="plastic"
+    )
+    one = Pair(STEEL, bodies.Material(70e9, 0.22), friction=0.2, restitution=0.9, loss="plastic")
+    kinds = np.array([0, 1, 0]), np.array([1, 1, 0])
+    assert table.shape == (2, 2) and table[kinds].restitution.tolist() == [0.9, 1.0, 0.8]
+    assert table[0, 1].stiffness_ratio == one.stiffness_ratio
+    velocity = np.array([1.0, 0.0, -1.0])
+    many = collide(table[kinds], [0, 0, 1], BALL, velocity, np.zeros(3))
+    single_one = collide(one, [0, 0, 1], BALL, velocity, np.zeros(3))
+    np.testing.assert_allclose(many.velocity[0], single_one.velocity, rtol=1e-13)
+
+
+def test_model_form_is_the_distance_to_the_other_loss():
+    velocity, form = [], []
+    for loss in collision.LOSSES:
+        pair = Pair(STEEL, friction=0.3, restitution=0.8, loss=loss)
+        result = collide(pair, [0, 0, 1], BALL, [0.6, 0, -1.0], [0, 0, 0])
+        contact = result.velocity - np.cross(result.spin, [0, 0, 1]) * BALL.radius
+        velocity.append(contact[0])
+        form.append(float(result.model_form))
+    assert abs(velocity[1] - velocity[0]) > 0.02
+    np.testing.assert_allclose(form, abs(velocity[1] - velocity[0]), rtol=1e-9)

@@ -1,0 +1,115 @@
+"""What others install: the wheel, the source archive and the environments."""
+
+import ast
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+import zipfile
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+
+import planarimpact
+
+ROOT = Path(__file__).parents[2]
+# Packages of the index and of conda, by what is imported, where the names differ.
+ON_INDEX = {"PIL": "pillow", "yaml": "pyyaml"}
+ON_CONDA = ON_INDEX | {"matplotlib": "matplotlib-base"}
+BUILD = (
+    "import sys; from setuptools import build_meta; print(getattr(build_meta, sys.argv[1])('.'))"
+)
+
+
+def text(path):
+    return (ROOT / path).read_text(encoding="utf-8")
+
+
+def imported(source):
+    """Names of the packages that a file imports."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.ImportFrom) and not node.level:
+            yield node.module.split(".")[0]
+        elif isinstance(node, ast.Import):
+            yield from (alias.name.split(".")[0] for alias in node.names)
+
+
+def setuptools_version():
+    try:
+        return int(metadata.version("setuptools").split(".")[0])
+    except metadata.PackageNotFoundError:
+        return 0
+
+
+def built(kind, folder):
+    result = subprocess.run(
+        [sys.executable, "-c", BUILD, kind], cwd=folder, capture_output=True, text=True
+    )
+    assert result.returncode == 0, result.stderr
+    return folder / result.stdout.split()[-1]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(setuptools_version() < 77, reason="setuptools 77 or later builds the package")
+def test_wheel_and_source_archive_hold_the_package_alone(tmp_path):
+    """The archive has only tests that find there all that they need; the wheel is made from it."""
+    source = tmp_path / "source"
+    ignore = shutil.ignore_patterns("__pycache__", "*.egg-info")
+    for part in ("src", "tests", "data/lumped_extremes", "data/scenes"):
+        shutil.copytree(ROOT / part, source / part, ignore=ignore)
+    for name in ("pyproject.toml", "MANIFEST.in", "LICENSE", "CITATION.cff", "CHANGELOG.md"):
+        shutil.copy(ROOT / name, source)
+    with tarfile.open(built("build_sdist", source)) as archive:
+        archive.extractall(tmp_path, filter="data")
+    unpacked = tmp_path / f"planarimpact-{planarimpact.__version__}"
+    code = {path.relative_to(unpacked) for path in unpacked.rglob("*.py")}
+    for path in code:
+        source = (unpacked / path).read_text(encoding="utf-8")
+        assert "stronge1994" not in imported(source), f"{path}: exclude it in MANIFEST.in"
+        lines = re.findall(r"^from (tests[.\w]+) import (.*)$", source, flags=re.M)
+        needed = {
+            Path(*of.split("."), f"{name}.py") for of, names in lines for name in names.split(", ")
+        }
+        assert needed <= code, f"{path} needs them: MANIFEST.in"
+    assert len([path for path in code if path.name.startswith("test_")]) > 30
+    with zipfile.ZipFile(built("build_wheel", unpacked)) as wheel:
+        names = {name for name in wheel.namelist() if ".dist-info/" not in name}
+        (script,) = [name for name in wheel.namelist() if name.endswith("/entry_points.txt")]
+        assert "planarimpact = planarimpact.__main__:main" in wheel.read(script).decode()
+    files = [path for path in (ROOT / "src/planarimpact").rglob("*") if path.is_file()]
+    known = {f"{path.relative_to(ROOT / 'src')}" for path in files if path.suffix != ".pyc"}
+    assert names == known - {"planarimpact/README.md"}
+
+
+def test_one_version():
+    assert f"\nversion: {planarimpact.__version__}\n" in text("CITATION.cff")
+    assert f"\n## {planarimpact.__version__}, 20" in text("CHANGELOG.md")
+
+
+def test_the_page_for_the_index_links_to_nothing_beside_it():
+    assert re.findall(r"\]\((?!https://)(.*?)\)", text("src/planarimpact/README.md")) == []
+
+
+def test_environments_have_what_the_run_imports():
+    files = [*ROOT.glob("src/**/*.py"), *ROOT.glob("workflow/scripts/*.py")]
+    names = {name for path in files for name in imported(path.read_text(encoding="utf-8"))}
+    names -= {*sys.stdlib_module_names, "planarimpact", "stronge1994"}
+    pinned = dict(re.findall(r"^([\w-]+)==(.*)$", text("environment.txt").lower(), flags=re.M))
+    conda = text("workflow/envs/planarimpact.yaml")
+    conda = dict(re.findall(r"^  - ([\w-]+)(?: =(.*))?$", conda, flags=re.M))
+    assert len(names) > 15
+    assert {ON_INDEX.get(name, name) for name in names} - set(pinned) == set()
+    assert {ON_CONDA.get(name, name) for name in names} - set(conda) == set()
+    index = {on_conda: name for name, on_conda in ON_CONDA.items()}
+    for name, version in conda.items():
+        if version and name != "python":
+            assert f"{pinned[index.get(name, name)]}.".startswith(f"{version}."), name
+
+
+def test_the_container_runs_the_main_command():
+    command = re.search(r"<!-- main -->\n```sh\n(.*)\n", text("README.md"))[1]
+    steps = re.findall(r"^(?:RUN|CMD) (.*)$", text("Containerfile"), flags=re.M)
+    assert " && ".join([*steps[:-1], " ".join(json.loads(steps[-1]))]) == command
