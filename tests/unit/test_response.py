@@ -7,7 +7,16 @@ import pickle
 import numpy as np
 import pytest
 
-from planarimpact import ConvergenceError, InputError, Rebound, Regime, models, response
+from planarimpact import (
+    ConvergenceError,
+    InputError,
+    Rebound,
+    Regime,
+    continuum,
+    lumped,
+    models,
+    response,
+)
 
 X = np.linspace(-9.5, 9.5, 2003)
 FINE, COARSE = 1e-9, 1e-3
@@ -289,38 +298,51 @@ def test_the_tolerance_is_given_once():
 def test_a_wrong_model_does_not_pass(monkeypatch):
     """Noise of 1e-6 is too much for 1e-10, and little enough for 1e-3."""
     rng = np.random.default_rng(5)
-    lumped = models.MODELS["lumped.hysteretic"]
+    paper = models.MODELS["lumped.hysteretic"]
 
     def noisy(incidence, *groups):
-        result = lumped.rebound(incidence, *groups)
+        result = paper.rebound(incidence, *groups)
         noise = 1e-6 * rng.standard_normal(np.shape(incidence))
         return result._replace(velocity=result.velocity + noise)
 
-    monkeypatch.setitem(models.MODELS, "lumped.hysteretic", lumped._replace(rebound=noisy))
+    monkeypatch.setitem(models.MODELS, "lumped.hysteretic", paper._replace(rebound=noisy))
     with pytest.raises(ConvergenceError, match="too rough"):
         compiled("lumped.hysteretic", 1e-10)
     assert max(compiled("lumped.hysteretic", 1e-3).error_bound) <= 1e-3
 
 
 def test_a_model_that_jumps_does_not_pass(monkeypatch):
-    lumped = models.MODELS["lumped.hysteretic"]
+    paper = models.MODELS["lumped.hysteretic"]
 
     def jumping(incidence, *groups):
-        result = lumped.rebound(incidence, *groups)
+        result = paper.rebound(incidence, *groups)
         return result._replace(velocity=result.velocity + 1e-5 * (np.asarray(incidence) > 2.2))
 
-    monkeypatch.setitem(models.MODELS, "lumped.hysteretic", lumped._replace(rebound=jumping))
+    monkeypatch.setitem(models.MODELS, "lumped.hysteretic", paper._replace(rebound=jumping))
     with pytest.raises(
         ConvergenceError, match=r"hysteretic is not .* jumps by 1.0e-05 at x = 2.2;"
     ):
         compiled("lumped.hysteretic", 1e-8)
 
 
-def test_a_tolerance_out_of_reach_is_named_with_one_that_is_reached():
+def test_a_tolerance_out_of_reach_is_named_with_one_that_is_reached(monkeypatch):
     """The model itself gets a share of it, which nobody asked for."""
-    words = "tolerance = 1e-06: continuum.viscous does not reach it at .* 1e-05 is reached"
+    exact = models.MODELS["continuum.viscous"]
+
+    def coarse(incidence, *groups, tolerance):
+        if np.size(incidence) and tolerance < 1e-4:
+            raise continuum.Unsolved(f"tolerance = {tolerance}: not met", np.array([2]))
+        return lumped.rebound(incidence, *groups, loss="viscous")
+
+    monkeypatch.setitem(models.MODELS, exact.name, exact._replace(rebound=coarse))
+    words = r"tolerance = 1e-06: .*viscous does not .* = 1.9995; there 0.001 is .* default is 0.003"
     with pytest.raises(ConvergenceError, match=words):
-        response.compile("continuum.viscous", tolerance=1e-6, restitution=0.8)
+        response.compile(exact.name, tolerance=1e-6, restitution=0.8)
+    monkeypatch.setattr(response, "MODEL_SHARE", 1e-9)  # then no tolerance is coarse enough
+    with pytest.raises(
+        ConvergenceError, match="tolerance = 1e-06: .*viscous is not compiled: not met"
+    ):
+        response.compile(exact.name, tolerance=1e-6, restitution=0.8)
     words = "tolerance = 1e-08: spheres.viscous is not .* jumps by .* tolerances .* times as large"
     with pytest.raises(ConvergenceError, match=words):
         response.compile("spheres.viscous", tolerance=1e-8)

@@ -10,6 +10,7 @@ Symbols: x incidence, beta = m2/m1 mass ratio, e restitution.
 
 import hashlib
 import json
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import InitVar, dataclass, field
 from pathlib import Path
@@ -55,6 +56,7 @@ TOLERANCES = {
 # Share of the tolerance that a model with a tolerance setting gets. Its answers jump by about as
 # much, where neighbouring impacts take different numbers of steps: the fit must allow for that.
 MODEL_SHARE = 1 / 4
+OWN_TOLERANCE = re.compile("^tolerance = [^:]*: ")
 # Share of the tolerance that the fit gets, at the first try and at the second.
 FIT_SHARES = 1 / 4, 1 / 32
 # When a file is checked, a model with a tolerance setting is solved with this one first. It is also
@@ -333,7 +335,8 @@ def compile(
             result = chosen.rebound(x, *groups.values(), **settings)
         except checks.Unsolved as problem:
             reached = _reached(chosen, x[problem.impacts], groups, settings, tolerance)
-            words = reached or f"is not compiled: {problem}"
+            # Nobody asked for the model's own tolerance.
+            words = reached or f"is not compiled: {OWN_TOLERANCE.sub('', str(problem))}"
             raise checks.ConvergenceError(f"tolerance = {tolerance:g}: {model} {words}") from None
         solved += x.size
         return result
