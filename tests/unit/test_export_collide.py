@@ -314,25 +314,13 @@ def test_python_has_the_same_collisions(given, found):
     states = {name: before[name] for name in before if name.endswith(("velocity", "spin"))}
     body, other = (Body(*(before[w + name] for name in BODY.split())) for w in ("", "other_"))
     wanted = collision.collide(pair, before["normal"], body, other=other, **states)
-    normal = dot(wanted.impulse, before["normal"])
-    sideways = wanted.impulse - normal[:, None] * before["normal"]
-    # The files keep Coulomb's limit to rounding, the table to its error.
-    excess = np.maximum(np.sqrt(dot(sideways, sideways)) - before["friction"] * normal, 0)
-    gap = after["impulse"] - wanted.impulse
-    assert (np.sqrt(dot(gap, gap)) <= 1.001 * excess + 1e-9 * normal + 1e-300).all()
-    assert (excess > 1e-9 * normal).mean() < 0.01
-    kept = excess <= 1e-9 * normal
-    for name in ("velocity", "other_velocity", "spin", "other_spin"):
-        same = after[name][kept], getattr(wanted, name)[kept]
-        np.testing.assert_allclose(*same, rtol=1e-7, atol=1e-7)
-    for name in ("incidence", "restitution"):
-        np.testing.assert_allclose(after[name], getattr(wanted, name), rtol=1e-9)
+    for name in ("velocity", "other_velocity", "spin", "other_spin", "restitution", "incidence"):
+        np.testing.assert_allclose(after[name], getattr(wanted, name), rtol=1e-7, atol=1e-7)
     np.testing.assert_array_equal(after["regime"], wanted.regime)
     assert not (after["error_bound"] < wanted.error_bound * (1 - 1e-6)).any()
-    known = kept & ~np.isnan(after["model_form"])
-    gap = np.abs(after["model_form"] - wanted.model_form)[known]
-    assert gap.max() < 1e-3 and (gap > 1e-9).mean() < 1e-3  # of the other loss, at that limit
-    assert (after["restitution"][kept & ~known & np.isfinite(wanted.model_form)] < 0.3).all()
+    known = ~np.isnan(after["model_form"])
+    np.testing.assert_allclose(after["model_form"][known], wanted.model_form[known], atol=1e-7)
+    assert (after["restitution"][~known & np.isfinite(wanted.model_form)] < 0.3).all()
 
 
 def test_bad_numbers_and_what_the_table_lacks_have_no_answer(found):

@@ -164,12 +164,6 @@ static inline double spheres_clipped(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-/* A velocity within the bounds of the exact one: energy, and slip throughout. */
-static inline double spheres_bounded(double velocity, double size, double slips)
-{
-    return spheres_clipped(velocity, slips > 0.0 - size ? slips : 0.0 - size, size);
-}
-
 /* The interval that a value from 0 to 1 is in, and the four B-splines there. */
 static inline int spheres_place(double value, int count, double *weights)
 {
@@ -201,6 +195,17 @@ static inline double spheres_spline(const struct spheres_spot *spot, int begin)
         outer += middle * spot->over_s[i];
     }
     return outer * SPHERES_UNIT;
+}
+
+/*
+ * Velocity of a contact that sticks for a while, from x, and the velocity if it slid throughout:
+ * within the energy that there is, and what friction can do.
+ */
+static inline double spheres_sticking(
+    const struct spheres_spot *spot, double x, double zeta2, double sliding)
+{
+    double least = sliding > 0.0 - x ? sliding : 0.0 - x;
+    return spheres_clipped(zeta2 * spheres_spline(spot, spot->panel->velocity), least, x);
 }
 
 static inline struct spheres_spot spheres_find(double y, double b, double e, int loss)
@@ -296,17 +301,14 @@ static inline int spheres_covers(
 static inline double spheres_velocity(
     double x, double mass_ratio, double stiffness_ratio, double restitution, int loss)
 {
-    double size = fabs(x), slips = size - (1 + restitution) * mass_ratio, velocity;
+    double size = fabs(x), velocity;
     struct spheres_spot spot;
     if (!spheres_covers(x, mass_ratio, stiffness_ratio, restitution, loss))
         return (double)NAN;
     spot = spheres_find(size / stiffness_ratio, mass_ratio / stiffness_ratio, restitution, loss);
-    if (spot.slides) {
-        velocity = slips;
-    } else {
-        velocity = stiffness_ratio * spheres_spline(&spot, spot.panel->velocity);
-        velocity = spheres_bounded(velocity, size, slips);
-    }
+    velocity = size - (1 + restitution) * mass_ratio;
+    if (!spot.slides)
+        velocity = spheres_sticking(&spot, size, stiffness_ratio, velocity);
     return velocity * copysign(1.0, x);
 }
 
@@ -320,9 +322,9 @@ static inline struct spheres_result spheres_rebound(
     if (!spheres_covers(x, beta, zeta2, e, loss))
         return result;
     spot = spheres_find(size / zeta2, beta / zeta2, e, loss);
+    w = size - (1 + e) * beta;
     if (spot.slides) {
         double change = (1 + e) * beta;
-        w = size - change;
         result.peak_friction = 1.0;
         if (loss == SPHERES_VISCOUS)
             result.dissipation = (1 + e) * (size - zeta2 - (beta - zeta2) * (1 + e) / 2);
@@ -331,8 +333,7 @@ static inline struct spheres_result spheres_rebound(
         result.regime = SPHERES_SLIP_THROUGHOUT;
     } else {
         double peak = spheres_spline(&spot, spot.panel->peak);
-        w = zeta2 * spheres_spline(&spot, spot.panel->velocity);
-        w = spheres_bounded(w, size, size - (1 + e) * beta);
+        w = spheres_sticking(&spot, size, zeta2, w);
         result.peak_friction = spheres_clipped(peak, 0.0, 1.0);
         if (loss == SPHERES_VISCOUS) {
             double work = zeta2 * spheres_spline(&spot, spot.panel->work);
@@ -487,11 +488,10 @@ static inline double spheres_restitution_at(
     return (double)NAN;
 }
 
-/* 1/r; 0 of a wall, which is flat, whatever its radius. */
+/* 1/r; 0 where the radius is 0, as of a wall, which is flat. */
 static inline double spheres_curvature(struct spheres_body body)
 {
-    return body.mass > SPHERES_MASS_RATIO_MOST && body.gyration > SPHERES_MASS_RATIO_MOST
-        ? 0 : 1 / body.radius;
+    return body.radius > 0 ? 1 / body.radius : 0;
 }
 
 /* An impact that is to come. Its regime is UNRESOLVED where it has no answer, or NO_IMPACT. */
@@ -555,7 +555,7 @@ static inline struct spheres_impact spheres_before(
 static inline double spheres_change(const struct spheres_impact *impact, int loss, int *regime)
 {
     double x = impact->x, beta = impact->beta, zeta2 = impact->zeta2, e = impact->e;
-    double slides = 0.0 - (1 + e) * beta, change;
+    double slides = 0.0 - (1 + e) * beta;
     int known = e >= SPHERES_RESTITUTION_MIN;
     struct spheres_spot spot;
     *regime = SPHERES_STICK;
@@ -569,9 +569,7 @@ static inline double spheres_change(const struct spheres_impact *impact, int los
         return slides;
     *regime = !known ? SPHERES_UNRESOLVED
         : x > zeta2 ? SPHERES_SLIP_STICK_SLIP : SPHERES_STICK_SLIP;
-    change = spot.slides ? slides : zeta2 * spheres_spline(&spot, spot.panel->velocity) - x;
-    /* Within what friction can do, and the energy that there is. */
-    return spheres_clipped(change, slides > -2 * x ? slides : -2 * x, 0);
+    return spot.slides ? slides : spheres_sticking(&spot, x, zeta2, x + slides) - x;
 }
 
 /* The collision of two bodies, or of one with a wall. */

@@ -185,17 +185,6 @@ function clipped(value, low, high) {
 }
 
 /**
- * A velocity within the bounds of the exact one: energy, and slip throughout.
- * @param {number} velocity
- * @param {number} size
- * @param {number} slips
- * @returns {number}
- */
-function bounded(velocity, size, slips) {
-    return clipped(velocity, slips > 0 - size ? slips : 0 - size, size);
-}
-
-/**
  * The interval that a value from 0 to 1 is in, and the four B-splines there.
  * @param {number} value
  * @param {number} count
@@ -298,6 +287,19 @@ function spline({ panel, base, weights: [over_s, over_t, over_u] }, begin) {
 }
 
 /**
+ * Velocity of a contact that sticks for a while, within the energy that there is, and what friction
+ * can do.
+ * @param {ReturnType<typeof find>} spot
+ * @param {number} x
+ * @param {number} zeta2
+ * @param {number} sliding velocity if it slid throughout
+ * @returns {number}
+ */
+function sticking(spot, x, zeta2, sliding) {
+    return clipped(zeta2 * spline(spot, spot.panel.velocity), sliding > 0 - x ? sliding : 0 - x, x);
+}
+
+/**
  * Whether the table has an answer.
  * @param {number} x
  * @param {number} mass_ratio
@@ -337,9 +339,8 @@ export function velocity(x, mass_ratio, stiffness_ratio, restitution, loss) {
     const size = Math.abs(x), beta = mass_ratio, zeta2 = stiffness_ratio, e = restitution;
     if (!covers(x, beta, zeta2, e, loss)) return NaN;
     const spot = find(size / zeta2, beta / zeta2, e, loss);
-    const slips = size - (1 + e) * beta;
-    if (spot.slides) return directed(slips, x);
-    return directed(bounded(zeta2 * spline(spot, spot.panel.velocity), size, slips), x);
+    const sliding = size - (1 + e) * beta;
+    return directed(spot.slides ? sliding : sticking(spot, size, zeta2, sliding), x);
 }
 
 /**
@@ -365,17 +366,16 @@ export function rebound(x, mass_ratio, stiffness_ratio, restitution, loss) {
     if (!covers(x, beta, zeta2, e, loss))
         return { velocity, peak_friction, dissipation, regime };
     const spot = find(size / zeta2, beta / zeta2, e, loss);
+    velocity = size - (1 + e) * beta;
     if (spot.slides) {
         const change = (1 + e) * beta;
-        velocity = size - change;
         peak_friction = 1;
         dissipation = loss === VISCOUS
             ? (1 + e) * (size - zeta2 - (beta - zeta2) * (1 + e) / 2)
             : (1 + e) * (size - change / 2);
         regime = SLIP_THROUGHOUT;
     } else {
-        velocity = zeta2 * spline(spot, spot.panel.velocity);
-        velocity = bounded(velocity, size, size - (1 + e) * beta);
+        velocity = sticking(spot, size, zeta2, velocity);
         peak_friction = spline(spot, spot.panel.peak);
         peak_friction = clipped(peak_friction, 0, 1);
         dissipation = loss === VISCOUS
@@ -529,12 +529,12 @@ export function restitution_at(pair, mass, radius, speed) {
 }
 
 /**
- * 1/r; 0 of a wall, which is flat, whatever its radius.
+ * 1/r; 0 where the radius is 0, as of a wall, which is flat.
  * @param {Body} body
  * @returns {number}
  */
-function curvature({ mass, gyration, radius }) {
-    return mass > MASS_RATIO_MOST && gyration > MASS_RATIO_MOST ? 0 : 1 / radius;
+function curvature({ radius }) {
+    return radius > 0 ? 1 / radius : 0;
 }
 
 /**
@@ -602,9 +602,7 @@ function change({ x, beta, zeta2, e }, loss) {
     const spot = find(x / zeta2, beta / zeta2, known ? e : RESTITUTION_MIN, loss);
     if (known && spot.slides) return { added: slides, regime: SLIP_THROUGHOUT };
     const regime = !known ? UNRESOLVED : x > zeta2 ? SLIP_STICK_SLIP : STICK_SLIP;
-    const added = spot.slides ? slides : zeta2 * spline(spot, spot.panel.velocity) - x;
-    // Within what friction can do, and the energy that there is.
-    return { added: clipped(added, slides > -2 * x ? slides : -2 * x, 0), regime };
+    return { added: spot.slides ? slides : sticking(spot, x, zeta2, x + slides) - x, regime };
 }
 
 /**
