@@ -65,9 +65,10 @@ class Impacts(NamedTuple):
         return self.mass_ratio[rows], self.stiffness_ratio[rows], self.restitution[rows]
 
     def incidence_of(self, rows: Integers) -> Array:
-        """v1(0)/(mu v2(0)) of some impacts: NaN or infinite without friction."""
+        """v1(0)/(mu v2(0)) of some impacts, 0 where they are head-on; infinite without friction."""
+        v1 = self.v1[rows]
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-            return self.v1[rows] / (self.friction[rows] * self.v2[rows])
+            return np.where(v1 > 0, v1 / (self.friction[rows] * self.v2[rows]), 0.0)
 
     def take(self, rows: Integers) -> "Impacts":
         """Some of the impacts."""

@@ -73,8 +73,8 @@ class Pair:
     >>> Pair(steel, friction=0.1, restitution=0.8)
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: restitution = 0.8: below 1 the loss must be said; allowed are \
-loss = viscous, plastic
+    planarimpact.InputError: restitution = 0.8: allowed are numbers equal to 1, unless loss says \
+what takes the energy: viscous, plastic
     """
 
     friction: Array
@@ -223,10 +223,7 @@ def _refuse_loss(restitution: Array, by_law: Booleans, codes: Array) -> None:
     """Refuse a loss that is missing below e = 1, or said where the material says it."""
     missing = (restitution < 1) & (codes < 0)
     if missing.any():
-        raise InputError(
-            f"restitution = {restitution[missing].flat[0]:g}: below 1 the loss must be said; "
-            f"allowed are loss = {', '.join(LOSSES)}"
-        )
+        checks.lossless(float(restitution[missing].flat[0]), LOSSES)
     if (by_law & (codes >= 0)).any():
         raise InputError(
             f"loss = {LOSSES[int(codes[by_law & (codes >= 0)].flat[0])]!r}: it does not apply, a "

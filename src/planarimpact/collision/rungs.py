@@ -56,8 +56,8 @@ def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
     The rung of an impact is the first of `RUNGS` that fits; no other function decides it. The
     error is one of velocity (mu v2(0)) and of peak friction (mu times the peak normal force).
     """
-    slides = slides_throughout(impacts)
-    head_on = ~slides & (impacts.v1 == 0)
+    head_on = impacts.v1 == 0
+    slides = slides_throughout(impacts) & ~head_on
     place, error = np.where(slides, SLIDING, HEAD_ON), np.zeros(slides.size)
     rows = np.flatnonzero(~slides & ~head_on)
     groups = impacts.groups_of(rows)
