@@ -27,9 +27,10 @@ SOLVER = {
     "models": "ground normal_impact rigid lumped continuum spheres",
     "response": "ground models",
     "export": "planarimpact ground response spheres",
+    "fit": "ground normal_impact bodies continuum spheres",
     "scene": "ground bodies continuum models spheres pandas",
     "__init__": "ground",
-    "__main__": "planarimpact ground bodies lumped continuum models response export scene",
+    "__main__": "planarimpact ground bodies lumped continuum models response export fit scene",
 }
 # The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
 REPRODUCTION = {
@@ -43,7 +44,7 @@ REPRODUCTION = {
     "printed": "ground lumped",
     "explorer": "planarimpact lumped continuum bodies pages",
     "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
-    " response scene pandas printed csv_tables curve_names figures plan",
+    " response fit scene pandas printed csv_tables curve_names figures plan",
     "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"
     " matplotlib",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"

@@ -7,6 +7,7 @@
 - `spheres`: the continuum from a table, for impacts that are each their own pair.
 - `models`: every model by its name, with those that others use (`models.laws`, `models.timestep`).
 - `response`: compiles any of them. `export`: writes them as C or JavaScript.
+- `fit`: laws of discrete-element codes, fitted to the continuum.
 - `scene`: solves tables of impacts.
 - `bodies`: from physical bodies to the groups that all models take. `noncollinear`: bodies that
   strike off their centre.
@@ -55,6 +56,7 @@ _ROOMS = [
     "models",
     "response",
     "export",
+    "fit",
     "scene",
     "bodies",
     "noncollinear",

@@ -30,7 +30,7 @@ LEAST_RESTITUTION = 0.3
 # Stiffnesses over the elastic one, 1/zeta^2, and dampings at which the search starts.
 STIFFNESSES = np.linspace(0.3, 1.8, 16)
 DAMPINGS = np.linspace(0.0, 1.5, 13)
-# A damping step of the search; the first simplex is as wide as the steps of the grid.
+# Steps in a contact on the grid.
 COARSE_STEPS = 100
 # Tolerance of the continuum where the table of spheres has no answer.
 TOLERANCE = 1e-3
@@ -56,7 +56,7 @@ def fit(
     law : str
         A key of `CODES`: "lammps-hertz-mindlin", "lammps-hooke", "mercurydpm" or "yade".
     mass_ratio, stiffness_ratio, restitution : array_like
-        As in `planarimpact.continuum.rebound`, one number each; restitution from 0.3.
+        As in `planarimpact.continuum.rebound`, one number each: 1 to 8, 0.5 to 4, and 0.3 to 1.
     loss : str, optional
         What takes the energy below restitution 1: "viscous" or "plastic".
     incidence_max : float, optional
@@ -90,10 +90,9 @@ def fit(
         raise checks.InputError(f"law = {checks.brief(law)}: allowed are {', '.join(CODES)}")
     allowed = f"numbers from {LEAST_RESTITUTION} to 1"
     e = checks.number("restitution", restitution, allowed, LEAST_RESTITUTION, 1)
-    beta = checks.single("mass_ratio", checks.mass_ratio(mass_ratio))
-    zeta2 = checks.single("stiffness_ratio", checks.stiffness_ratio(stiffness_ratio))
-    slides = float(continuum.slip_throughout_limit(beta, zeta2, e, loss=loss))
-    end = slides
+    beta = checks.number("mass_ratio", mass_ratio, "numbers from 1 to 8", 1, 8)
+    zeta2 = checks.number("stiffness_ratio", stiffness_ratio, "numbers from 0.5 to 4", 0.5, 4)
+    end = float(continuum.slip_throughout_limit(beta, zeta2, e, loss=loss))
     if incidence_max is not None:
         end = checks.number("incidence_max", incidence_max, "numbers above 0", 0, open_low=True)
     x = np.linspace(0.0, end, SAMPLES)
@@ -115,8 +114,24 @@ def fit(
         e,
     )
     told = laws.told_for(contact, e)
+    far = np.array([2 * end])
+    beyond = laws.rebound(contact, far, beta, stiffness, damping, told)
+    beyond -= _continuum(far, beta, zeta2, e, loss)
     return Fit(
-        law, style, stiffness, damping, told, beta, zeta2, e, loss, x, exact, before, after
+        law,
+        style,
+        stiffness,
+        damping,
+        told,
+        beta,
+        zeta2,
+        e,
+        loss,
+        x,
+        exact,
+        before,
+        after,
+        float(beyond[0]),
     )
 
 
@@ -153,7 +168,7 @@ def _nearest(
     places = np.stack(np.meshgrid(STIFFNESSES, dampings, indexing="ij"), axis=-1).reshape(-1, 2)
     coarse = velocity(places[:, 0] / zeta2, places[:, 1], COARSE_STEPS) - exact
     start = places[np.argmin(np.mean(coarse**2, axis=-1))][: 1 if undamped else 2]
-    simplex = start + np.vstack([np.zeros(start.size), np.diag([0.1, 0.1])[: start.size, : start.size]])
+    simplex = start + 0.1 * np.eye(start.size + 1, start.size, -1)
     found = optimize.minimize(
         mean_square,
         start,

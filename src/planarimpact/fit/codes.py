@@ -106,6 +106,8 @@ class Fit(NamedTuple):
     incidence, continuum, before, after : ndarray of float64, shape (n,)
         Incidence v1(0)/(mu v2(0)); velocity v1(tf)/(mu v2(0)) of the continuum, of the law as it is
         usually used, and of the fitted law.
+    beyond : float
+        Error of the fitted law at twice the largest incidence, where it was not fitted.
     """
 
     law: str
@@ -121,6 +123,7 @@ class Fit(NamedTuple):
     continuum: Array
     before: Array
     after: Array
+    beyond: float
 
     @property
     def error_before(self) -> Error:
@@ -250,21 +253,19 @@ def _contact(
 def _about(found: Fit, contact: _Contact) -> list[str]:
     """What was fitted to what, and which error it has."""
     error, before, end = found.error, found.error_before, float(found.incidence[-1])
-    beyond = found.after[-1] - found.continuum[-1]
     continuum = f"{found.loss} continuum" if found.restitution < 1 else "elastic continuum"
     words = [
         f"{found.law}, fitted to the {continuum} of planarimpact; SI units",
         f"two equal solid spheres: e = {found.restitution:g}, zeta^2 = "
         f"{found.stiffness_ratio:.4g}, m2/m1 = {found.mass_ratio:g}, mu = {contact.friction:g}",
-        f"range of the fit: x = v1(0)/(mu v2(0)) from 0 to {end:.3g}, where the error is "
-        f"{beyond:.3f}",
+        f"range of the fit: x = v1(0)/(mu v2(0)) from 0 to {end:.3g}; "
+        f"{laws.STEPS} steps in an elastic contact at {contact.speed:g} m/s",
         "error of v1(tf)/(mu v2(0)), root mean square and largest:",
         f"  before {before.rms:.3f}, {before.largest:.3f} at x = {before.at:.2f} "
         f"({CODES[found.law].origin})",
-        f"  after  {error.rms:.3f}, {error.largest:.3f} at x = {error.at:.2f}",
-        f"It holds for this e, so at {contact.speed:g} m/s and where e is the same, and for this "
-        "pair.",
-        "The continuum itself is a model.",
+        f"  after  {error.rms:.3f}, {error.largest:.3f} at x = {error.at:.2f}; "
+        f"beyond the range, at x = {2 * end:.3g}, {found.beyond:.3f}",
+        "The fit holds for this restitution and this material; the continuum is a model, too.",
     ]
     return words
 
