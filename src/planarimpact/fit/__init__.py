@@ -60,8 +60,8 @@ def fit(
     loss : str, optional
         What takes the energy below restitution 1: "viscous" or "plastic".
     incidence_max : float, optional
-        The largest incidence v1(0)/(mu v2(0)), above 0. If it is left out, that from which the
-        continuum slides throughout.
+        The largest incidence v1(0)/(mu v2(0)), above 0 up to 100. If it is left out, that from
+        which the continuum slides throughout.
 
     Returns
     -------
@@ -86,15 +86,17 @@ def fit(
     >>> round(found.stiffness, 1), round(found.damping, 1)
     (0.6, 0.2)
     """
-    if law not in CODES:
+    if not isinstance(law, str) or law not in CODES:
         raise checks.InputError(f"law = {checks.brief(law)}: allowed are {', '.join(CODES)}")
     allowed = f"numbers from {LEAST_RESTITUTION} to 1"
     e = checks.number("restitution", restitution, allowed, LEAST_RESTITUTION, 1)
     beta = checks.number("mass_ratio", mass_ratio, "numbers from 1 to 8", 1, 8)
     zeta2 = checks.number("stiffness_ratio", stiffness_ratio, "numbers from 0.5 to 4", 0.5, 4)
-    end = float(continuum.slip_throughout_limit(beta, zeta2, e, loss=loss))
-    if incidence_max is not None:
-        end = checks.number("incidence_max", incidence_max, "numbers above 0", 0, open_low=True)
+    end = incidence_max
+    if end is not None:
+        end = checks.number("incidence_max", end, "numbers above 0 up to 100", 0, 100, True)
+    slides = float(continuum.slip_throughout_limit(beta, zeta2, e, loss=loss))
+    end = slides if end is None else end
     x = np.linspace(0.0, end, SAMPLES)
     exact = _continuum(x, beta, zeta2, e, loss)
     code = CODES[law]

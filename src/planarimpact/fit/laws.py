@@ -56,7 +56,7 @@ def duration(hertzian: bool) -> float:
     >>> round(duration(hertzian=False), 6), round(duration(hertzian=True), 3)
     (3.141593, 3.218)
     """
-    return 2 * hertz.COMPRESSION * 1.25**0.4 if hertzian else math.pi
+    return float(2 * hertz.COMPRESSION * 1.25**0.4) if hertzian else math.pi
 
 
 def normal_damping(hertzian: bool, told: float) -> float:
@@ -172,7 +172,7 @@ def rebound(
     Examples
     --------
     >>> rebound(Law(), np.array([0.5, 2.0, 8.0]), 3.5, 14 / 17, 0.0, told=1.0).round(2)
-    array([ 0.16, -0.9 ,  1.  ])
+    array([ 0.21, -0.58,  1.  ])
     """
     instants, _, step = _normal_motion(law, told, steps)
     velocity = np.array(np.broadcast_arrays(x, stiffness, damping)[0], float)
