@@ -14,11 +14,11 @@ import yaml
 
 from planarimpact import bodies, fit
 from stronge1994 import csv_tables
-from stronge1994.figures.fit import curves
+from stronge1994.figures.fitted_laws import curves
 from stronge1994.figures.trade import peers
 
 HERE = Path(__file__).resolve().parent
-FIGURE = HERE.parents[1] / "src/stronge1994/figures/fit/figure.yaml"
+FIGURE = HERE.parents[1] / "src/stronge1994/figures/fitted_laws/figure.yaml"
 SPHERE = {"radius": 0.002, "density": 2500.0, "friction": 0.2, "speed": 1e-3}
 YOUNG_MODULUS = 70e9
 # Every so many incidences of the fit.

@@ -93,7 +93,7 @@ def tables():
             ["curve", INCIDENCE, VELOCITY, *GRID_OUTPUTS],
             [functools.partial(_on_grid, model, x) for model in CONTINUA for x in GRID],
         ),
-        "fit": Table(
+        "fitted_laws": Table(
             ["curve", INCIDENCE, VELOCITY],
             [functools.partial(_fitted, pair, x) for pair in FITTED for x in FITTED_INCIDENCES],
         ),
