@@ -109,7 +109,7 @@ def test_the_lines_have_the_contact_of_the_fit(law):
 
 
 def test_lammps_answered_as_the_laws_do():
-    """The table that LAMMPS made with the lines; the figure `fitted_laws` judges the same numbers."""
+    """The table that LAMMPS made with the lines, which the figure `fitted_laws` has too."""
     with open(ROOT / "data/lammps/rebound.csv", newline="") as file:
         rows = list(csv.reader(file))[1:]
     assert len(rows) == 252
