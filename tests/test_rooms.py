@@ -27,10 +27,11 @@ SOLVER = {
     "models": "ground normal_impact rigid lumped continuum spheres",
     "response": "ground models",
     "export": "planarimpact ground normal_impact collision response spheres",
+    "fit": "ground normal_impact bodies continuum spheres",
     "collision": "ground normal_impact bodies continuum models spheres",
     "scene": "ground bodies collision continuum pandas",
     "__init__": "ground collision",
-    "__main__": "planarimpact ground bodies lumped continuum models response export scene",
+    "__main__": "planarimpact ground bodies lumped continuum models response export fit scene",
 }
 # The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
 REPRODUCTION = {
@@ -44,7 +45,7 @@ REPRODUCTION = {
     "printed": "ground lumped",
     "explorer": "planarimpact lumped continuum bodies collision pages",
     "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
-    " response scene pandas printed csv_tables curve_names figures plan",
+    " response fit scene pandas printed csv_tables curve_names figures plan",
     "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"
     " matplotlib",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"

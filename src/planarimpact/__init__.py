@@ -7,6 +7,7 @@
 - `spheres`: the continuum from a table, for impacts that are each their own pair.
 - `models`: every model by its name, with those that others use (`models.laws`, `models.timestep`).
 - `response`: compiles any of them. `export`: writes them as C or JavaScript.
+- `fit`: laws of discrete-element codes, fitted to the continuum.
 - `collide`: velocities and spins of two bodies in space after their impact, by the pair of their
   materials, a `Pair`. `scene`: solves tables of impacts.
 - `bodies`: from physical bodies to the groups that all models take. `noncollinear`: bodies that
@@ -57,6 +58,7 @@ _ROOMS = [
     "response",
     "export",
     "collision",
+    "fit",
     "scene",
     "bodies",
     "noncollinear",

@@ -2,6 +2,7 @@ from planarimpact import bodies as bodies
 from planarimpact import collision as collision
 from planarimpact import continuum as continuum
 from planarimpact import export as export
+from planarimpact import fit as fit
 from planarimpact import lumped as lumped
 from planarimpact import models as models
 from planarimpact import noncollinear as noncollinear

@@ -1,4 +1,4 @@
-"""The command line: planarimpact {rebound,history,compile,scene,models}."""
+"""The command line: planarimpact {rebound,history,compile,fit,scene,models}."""
 
 import argparse
 import csv
@@ -14,7 +14,7 @@ from typing import Any, TextIO
 
 import numpy as np
 
-from planarimpact import __version__, bodies, continuum, export, lumped, models, response
+from planarimpact import __version__, bodies, continuum, export, fit, lumped, models, response
 from planarimpact.ground import checks, files
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import ContinuumHistory, History, Rebound, Regime
@@ -97,6 +97,8 @@ NUMBER = re.compile(
 COLUMNS_OF_PROGRESS = 60
 # Number of incidences at which `models` measures errors.
 INCIDENCES = 65
+# Mass ratio m2/m1 of solid spheres.
+SOLID_SPHERE = 3.5
 # Name of the table of spheres in `compile`.
 SPHERES = "spheres"
 WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
@@ -296,6 +298,46 @@ def _compile_spheres(options: argparse.Namespace) -> None:
     tolerance = min(export.TABLES) if options.tolerance is None else options.tolerance
     export.write_spheres(options.output, options.language, tolerance)
     print(f"{options.output}: the table of spheres, within {tolerance:g}")
+
+
+def _fit(options: argparse.Namespace) -> None:
+    """Print the input of a time-stepped code."""
+    material = bodies.Material(options.young_modulus, options.poisson_ratio)
+    sphere = {name: getattr(options, name) for name in ("radius", "density", "friction", "speed")}
+    groups = SOLID_SPHERE, float(bodies.stiffness_ratio(material)), options.restitution
+    chosen = _chosen(options, ["loss", "incidence_max"])
+    sys.stdout.write(fit.lines(fit.fit(options.law, *groups, **chosen), material, **sphere))
+
+
+def _add_fit(commands: Any) -> None:
+    """Add the parser of `fit`."""
+    parser = commands.add_parser(
+        "fit",
+        help="parameters of LAMMPS, MercuryDPM or Yade that come nearest to the continuum",
+        description="Tangential stiffness and damping of a law of a time-stepped code, with which "
+        "contacts of two equal solid spheres come nearest to the continuum, as lines of its input, "
+        "and the errors before and after. They hold for one restitution, one material and a range "
+        "of incidence.",
+    )
+    parser.add_argument("--law", required=True, choices=fit.CODES, help="the code and its law")
+    for name, meaning in {
+        "restitution": f"energetic coefficient e, {fit.LEAST_RESTITUTION:g} to 1",
+        "friction": "mu",
+        "young-modulus": "[Pa]",
+        "poisson-ratio": "up to 0.5",
+        "radius": "[m]",
+        "density": "[kg/m^3]",
+        "speed": "normal speed of approach [m/s], for the length of a step and linear springs",
+    }.items():
+        parser.add_argument(f"--{name}", type=decimal, required=True, help=meaning)
+    losses = {"choices": continuum.LOSSES, "help": "what takes the energy; needed below e = 1"}
+    parser.add_argument("--loss", **losses)
+    parser.add_argument(
+        "--incidence-max",
+        type=decimal,
+        help="end of the range of v1(0)/(mu v2(0)) that is fitted [where all slide throughout]",
+    )
+    parser.set_defaults(command=_fit)
 
 
 def _scene(options: argparse.Namespace) -> None:
@@ -566,6 +608,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     _add_model(compiled, [*models.MODELS, SPHERES])
     compiled.set_defaults(command=_compile)
+
+    _add_fit(commands)
 
     scene = commands.add_parser(
         "scene",

@@ -58,6 +58,13 @@ FIGURES_E = 0.5
 GRID_E = 0.8
 GRID_OUTPUTS = ["peak_friction [mu F2max]", "dissipation [mu^2 m2 v2(0)^2]"]
 GRID = [round(0.1 * k, 1) for k in range(81)]
+# The pairs for which laws of other codes are fitted: model, Poisson's ratio, restitution.
+FITTED = {
+    "steel": ("continuum.plastic", 0.3, 0.8),
+    "glass": ("continuum.viscous", 0.25, 0.97),
+    "polyurethane": ("continuum.viscous", 0.5, 0.6),
+}
+FITTED_INCIDENCES = [round(0.3 * k, 1) for k in range(21)]
 # The ball that is thrown under a table.
 THROW = {"radius": 0.025, "friction": 0.8, "restitution": 0.9, "velocity": (6.0, -5.0), "gap": 0.7}
 BOUNCES = 3
@@ -85,6 +92,10 @@ def tables():
         "rebound_grid": Table(
             ["curve", INCIDENCE, VELOCITY, *GRID_OUTPUTS],
             [functools.partial(_on_grid, model, x) for model in CONTINUA for x in GRID],
+        ),
+        "fitted_laws": Table(
+            ["curve", INCIDENCE, VELOCITY],
+            [functools.partial(_fitted, pair, x) for pair in FITTED for x in FITTED_INCIDENCES],
         ),
         "superball": Table(
             ["curve", *PATH], [functools.partial(_bounce, row) for row in range(BOUNCES + 2)]
@@ -209,6 +220,11 @@ def _on_grid(model, x):
     found = extrapolated(model, ZETA2, GRID_E, x)
     numbers = found.velocity, found.peak_friction, found.work
     return [f"{model}, e = {GRID_E:g}", x, *(digits(number, 6) for number in numbers)]
+
+
+def _fitted(pair, x):
+    model, nu, e = FITTED[pair]
+    return [f"{pair}, continuum", x, digits(extrapolated(model, like(nu), e, x).velocity, 6)]
 
 
 def _bounce(row):

@@ -184,6 +184,82 @@ def lammps_impacts(
     return Impacts(velocity, delivered, run_seconds, time.perf_counter() - start)
 
 
+def lammps_pairs(
+    lines: str,
+    incidence: ArrayLike,
+    *,
+    radius: float,
+    density: float,
+    friction: float,
+    speed: float,
+) -> Impacts:
+    """Pairs of equal solid spheres that meet in LAMMPS, all in one simulation, in SI units.
+
+    `lines` are given to LAMMPS as they are: `timestep`, `pair_style` and `pair_coeff`. The spheres
+    have translation only, and no spin before the impact. While they touch they pass each other by
+    some of the incidence times friction and approach: the slower they are, the less this turns the
+    normal.
+    """
+    incidence = np.atleast_1d(np.asarray(incidence, float))
+    start = time.perf_counter()
+    simulation = _lammps().lammps(cmdargs=["-log", "none", "-screen", "none", "-nocite"])
+    try:
+        count, end = incidence.size, 8 * radius * incidence.size
+        simulation.commands_list(
+            [
+                "units si",
+                "atom_style sphere",
+                "atom_modify map array sort 0 0.0",
+                "boundary f f f",
+                "comm_modify vel yes",
+                f"neighbor {radius} bin",
+                f"region box block {-4 * radius} {end} {-9 * radius} {9 * radius} "
+                f"{-9 * radius} {9 * radius}",
+                "create_box 1 box",
+            ]
+        )
+        place, motion = np.zeros((2, 2, count, 3))
+        place[:, :, 0] = np.arange(count) * 8 * radius
+        place[0, :, 2], place[1, :, 2] = radius, -radius
+        motion[0, :, 0], motion[0, :, 2] = friction * incidence * speed / 2, -speed / 2
+        motion[1] = -motion[0]
+        simulation.create_atoms(
+            2 * count,
+            np.arange(1, 2 * count + 1).tolist(),
+            [1] * (2 * count),
+            place.ravel().tolist(),
+            motion.ravel().tolist(),
+        )
+        simulation.commands_list(
+            [
+                f"set group all diameter {2 * radius:.17g}",
+                f"set group all density {density:.17g}",
+                "fix motion all nve/sphere",
+                "thermo_style custom step",
+                *lines.splitlines(),
+            ]
+        )
+        run = time.perf_counter()
+        for _ in range(100):
+            simulation.command("run 100")
+            order = np.argsort(simulation.numpy.extract_atom("id")[: 2 * count])
+            place, motion, spin = (
+                simulation.numpy.extract_atom(name)[: 2 * count][order].reshape(2, count, 3)
+                for name in ("x", "v", "omega")
+            )
+            if np.all(np.linalg.norm(place[0] - place[1], axis=-1) > 2 * radius):
+                break
+        else:
+            raise RuntimeError("two spheres are still in contact")
+        seconds = time.perf_counter() - run
+        tangential = motion[0] - motion[1]
+        slip = tangential[:, 0] - radius * (spin[0] + spin[1])[:, 1]
+        delivered = float(tangential[0, 2]) / speed
+    finally:
+        simulation.close()
+    return Impacts(slip / (friction * speed), delivered, seconds, time.perf_counter() - start)
+
+
 def pooltool_impacts(
     incidence: ArrayLike,
     restitution: float,

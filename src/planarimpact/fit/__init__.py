@@ -1,0 +1,182 @@
+"""Laws of discrete-element codes, fitted to the continuum.
+
+Codes that step through each contact have laws of their own: springs, dashpots and a slider. `fit`
+finds the tangential spring and dashpot with which such a law comes nearest to the continuum of
+`planarimpact.spheres` or `planarimpact.continuum`, and says which error remains. `lines` writes
+them as the code wants to read them. The normal spring and dashpot follow from restitution.
+
+A fit holds for one restitution, so for one speed where restitution depends on it, for one pair of
+materials, and for its range of incidence. The continuum is a model, too: what it leaves out, no fit
+brings back.
+
+`laws` steps through a contact, `codes` knows the codes.
+"""
+
+import numpy as np
+from scipy import optimize
+
+from planarimpact import continuum, spheres
+from planarimpact.fit import laws
+from planarimpact.fit.codes import CODES, Code, Error, Fit, lines
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, ArrayLike
+
+__all__ = ["CODES", "Code", "Error", "Fit", "fit", "lines"]
+
+# Incidences at which errors are measured.
+SAMPLES = 101
+# Below, some laws cannot lose so much: a dashpot that cannot pull leaves 0.14 at least.
+LEAST_RESTITUTION = 0.3
+# Stiffnesses over the elastic one, 1/zeta^2, and dampings at which the search starts.
+STIFFNESSES = np.linspace(0.3, 1.8, 16)
+DAMPINGS = np.linspace(0.0, 1.5, 13)
+# Steps in a contact on the grid.
+COARSE_STEPS = 100
+# Tolerance of the continuum where the table of spheres has no answer.
+TOLERANCE = 1e-3
+
+
+@checks.default_errors
+def fit(
+    law: str,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+    *,
+    loss: str | None = None,
+    incidence_max: float | None = None,
+) -> Fit:
+    """The law of a code with the tangential spring and dashpot that come nearest to the continuum.
+
+    Nearest is the least root mean square of the difference in v1(tf)/(mu v2(0)), over incidences
+    that are evenly spread from 0 to `incidence_max`.
+
+    Parameters
+    ----------
+    law : str
+        A key of `CODES`: "lammps-hertz-mindlin", "lammps-hooke", "mercurydpm" or "yade".
+    mass_ratio, stiffness_ratio, restitution : array_like
+        As in `planarimpact.continuum.rebound`, one number each: 1 to 8, 0.5 to 4, and 0.3 to 1.
+    loss : str, optional
+        What takes the energy below restitution 1: "viscous" or "plastic".
+    incidence_max : float, optional
+        The largest incidence v1(0)/(mu v2(0)), above 0 up to 100. If it is left out, that from
+        which the continuum slides throughout.
+
+    Returns
+    -------
+    Fit
+
+    Raises
+    ------
+    InputError
+        If the law is unknown, an argument is not one number in its range, or no loss is named where
+        restitution is below 1.
+
+    Notes
+    -----
+    Both the law and its fit have `laws.STEPS` steps in an elastic contact. The search is by Nelder
+    and Mead from the best point of a grid. Of the tangential laws of a code the nearest is taken.
+
+    Examples
+    --------
+    >>> found = fit("lammps-hooke", 3.5, 1.5, 0.6, loss="viscous")
+    >>> round(found.error_before.rms, 2), round(found.error.rms, 2)
+    (0.26, 0.0)
+    >>> round(found.stiffness, 1), round(found.damping, 1)
+    (0.6, 0.2)
+    """
+    if not isinstance(law, str) or law not in CODES:
+        raise checks.InputError(f"law = {checks.brief(law)}: allowed are {', '.join(CODES)}")
+    allowed = f"numbers from {LEAST_RESTITUTION} to 1"
+    e = checks.number("restitution", restitution, allowed, LEAST_RESTITUTION, 1)
+    beta = checks.number("mass_ratio", mass_ratio, "numbers from 1 to 8", 1, 8)
+    zeta2 = checks.number("stiffness_ratio", stiffness_ratio, "numbers from 0.5 to 4", 0.5, 4)
+    end = incidence_max
+    if end is not None:
+        end = checks.number("incidence_max", end, "numbers above 0 up to 100", 0, 100, True)
+    slides = float(continuum.slip_throughout_limit(beta, zeta2, e, loss=loss))
+    end = slides if end is None else end
+    x = np.linspace(0.0, end, SAMPLES)
+    exact = _continuum(x, beta, zeta2, e, loss)
+    code = CODES[law]
+    fitted = [
+        (*_nearest(exact, contact, x, beta, zeta2, e, code.by_normal and e == 1), style)
+        for style, contact in code.styles.items()
+    ]
+    _, stiffness, damping, after, style = min(fitted, key=lambda found: found[0])
+    contact = code.styles[style]
+    usual = contact._replace(limited=code.limited)
+    before = laws.rebound(
+        usual,
+        x,
+        beta,
+        1 / zeta2 if code.usual_stiffness is None else code.usual_stiffness,
+        code.usual_damping * laws.normal_damping(contact.hertzian, e),
+        e,
+    )
+    told = laws.told_for(contact, e)
+    far = np.array([2 * end])
+    beyond = laws.rebound(contact, far, beta, stiffness, damping, told)
+    beyond -= _continuum(far, beta, zeta2, e, loss)
+    return Fit(
+        law,
+        style,
+        stiffness,
+        damping,
+        told,
+        beta,
+        zeta2,
+        e,
+        loss,
+        x,
+        exact,
+        before,
+        after,
+        float(beyond[0]),
+    )
+
+
+def _continuum(x: Array, beta: float, zeta2: float, e: float, loss: str | None) -> Array:
+    """Velocity of the continuum, from the table of spheres where that has it."""
+    if spheres.covers(beta, zeta2, e):
+        return spheres.rebound(x, beta, zeta2, e, loss=loss or "viscous").velocity
+    return continuum.rebound(x, beta, zeta2, e, loss=loss, tolerance=TOLERANCE).velocity
+
+
+def _nearest(
+    exact: Array,
+    law: laws.Law,
+    x: Array,
+    beta: float,
+    zeta2: float,
+    e: float,
+    undamped: bool,
+) -> tuple[float, float, float, Array]:
+    """Mean square of the error of a law, its stiffness and damping, and its velocity."""
+    told = laws.told_for(law, e)
+
+    def velocity(stiffness: Array, damping: Array, steps: int = laws.STEPS) -> Array:
+        return laws.rebound(law, x, beta, stiffness[..., None], damping[..., None], told, steps)
+
+    def mean_square(place: Array) -> float:
+        if place.min() < 0:
+            return np.inf
+        stiffness, damping = np.append(place, 0.0)[:2]
+        off = velocity(np.array(stiffness / zeta2), np.array(damping)) - exact
+        return float(np.mean(off**2))
+
+    dampings = DAMPINGS[:1] if undamped else DAMPINGS
+    places = np.stack(np.meshgrid(STIFFNESSES, dampings, indexing="ij"), axis=-1).reshape(-1, 2)
+    coarse = velocity(places[:, 0] / zeta2, places[:, 1], COARSE_STEPS) - exact
+    start = places[np.argmin(np.mean(coarse**2, axis=-1))][: 1 if undamped else 2]
+    simplex = start + 0.1 * np.eye(start.size + 1, start.size, -1)
+    found = optimize.minimize(
+        mean_square,
+        start,
+        method="Nelder-Mead",
+        options={"initial_simplex": simplex, "xatol": 1e-4, "fatol": 1e-9},
+    )
+    stiffness, damping = np.append(found.x, 0.0)[:2] / [zeta2, 1.0]
+    after = velocity(np.array(stiffness), np.array(damping))
+    return float(found.fun), float(stiffness), float(damping), after

@@ -1,0 +1,347 @@
+"""Codes that step through contacts: their laws, the values they usually have, and their input.
+
+Read in their sources: LAMMPS 22Jul2025, `src/GRANULAR/gran_sub_mod_*.cpp`; MercuryDPM,
+`LinearViscoelasticInteraction.cc`, `SlidingFrictionInteraction.cc`, of 2020; Yade,
+`pkg/dem/ViscoelasticPM.cpp`, of 2021. What LAMMPS answers is in `data/lammps`; the other two were
+not run.
+"""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from planarimpact import bodies
+from planarimpact.fit import laws
+from planarimpact.fit.laws import Law
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.normal_impact import hertz
+
+
+class Code(NamedTuple):
+    """A law of a code: by its tangential styles, and as it is used without a fit.
+
+    `usual_stiffness` is the tangential over the normal stiffness, None where the code takes it from
+    Poisson's ratio; `usual_damping` is the coefficient of the tangential dashpot over the normal
+    one. `limited` is whether a user usually has that limit. Where `by_normal` is true the code
+    takes the tangential damping as a multiple of the normal one, so that there is none at e = 1.
+    """
+
+    styles: Mapping[str, Law]
+    usual_stiffness: float | None
+    usual_damping: float
+    limited: bool
+    by_normal: bool
+    origin: str  # of the usual values
+
+
+CODES = {
+    "lammps-hertz-mindlin": Code(
+        {
+            "mindlin/force": Law(hertzian=True, limited=True),
+            "mindlin_rescale/force": Law(hertzian=True, limited=True, rescales=True),
+        },
+        usual_stiffness=None,
+        usual_damping=1.0,
+        limited=False,
+        by_normal=True,
+        origin="NULL 1.0, as in examples of its manual",
+    ),
+    "lammps-hooke": Code(
+        {"linear_history": Law(limited=True)},
+        usual_stiffness=2 / 7,
+        usual_damping=0.5,
+        limited=False,
+        by_normal=True,
+        origin="2/7 of the stiffness and 1/2 of the damping, as its style gran/hooke/history has",
+    ),
+    "mercurydpm": Code(
+        {"": Law()},
+        usual_stiffness=2 / 7,
+        usual_damping=2 / 7,
+        limited=False,
+        by_normal=False,
+        origin="2/7 of stiffness and dissipation, as in its examples",
+    ),
+    "yade": Code(
+        {"": Law(limited=True, spring_slides=True)},
+        usual_stiffness=2 / 7,
+        usual_damping=2 / 7,
+        limited=True,
+        by_normal=False,
+        origin="2/7 of kn and cn, which tc and et = en give",
+    ),
+}
+
+
+class Error(NamedTuple):
+    """Difference of velocity from the continuum, in mu v2(0)."""
+
+    rms: float
+    largest: float
+    at: float  # incidence of the largest
+
+
+class Fit(NamedTuple):
+    """A law of a code beside the continuum, as `planarimpact.fit.fit` returns it.
+
+    Attributes
+    ----------
+    law : str
+        The code and its law, a key of `CODES`.
+    style : str
+        Name of the tangential law in the code; empty where it has only one.
+    stiffness : float
+        Tangential over normal stiffness; of Hertz' contact at every approach.
+    damping : float
+        Coefficient of the tangential dashpot, over (m2 F/d)^(1/2) with the elastic force F at the
+        approach d: over (m2 kn)^(1/2) where the contact is linear.
+    told : float
+        Restitution that the code is told, with which the contact has that of the fit.
+    mass_ratio, stiffness_ratio, restitution : float
+        The groups of the fit; the stiffness ratio is that of the continuum.
+    loss : str or None
+        The loss of the continuum.
+    incidence, continuum, before, after : ndarray of float64, shape (n,)
+        Incidence v1(0)/(mu v2(0)); velocity v1(tf)/(mu v2(0)) of the continuum, of the law as it is
+        usually used, and of the fitted law.
+    beyond : float
+        Error of the fitted law at twice the largest incidence, where it was not fitted.
+    """
+
+    law: str
+    style: str
+    stiffness: float
+    damping: float
+    told: float
+    mass_ratio: float
+    stiffness_ratio: float
+    restitution: float
+    loss: str | None
+    incidence: Array
+    continuum: Array
+    before: Array
+    after: Array
+    beyond: float
+
+    @property
+    def error_before(self) -> Error:
+        """Error of the law as it is usually used."""
+        return self._error(self.before)
+
+    @property
+    def error(self) -> Error:
+        """Error that remains."""
+        return self._error(self.after)
+
+    def _error(self, velocity: Array) -> Error:
+        off = np.abs(velocity - self.continuum)
+        place = int(off.argmax())
+        return Error(
+            float(np.sqrt(np.mean(off**2))), float(off[place]), float(self.incidence[place])
+        )
+
+
+class _Contact(NamedTuple):
+    """Two equal solid spheres, in SI units."""
+
+    young_modulus: float
+    poisson_ratio: float
+    density: float
+    friction: float
+    speed: float
+    step: float  # of time
+    normal: float  # stiffness and damping of linear springs, normal and tangential
+    tangential: float
+    normal_damping: float
+    tangential_damping: float
+
+
+def lines(
+    found: Fit,
+    material: bodies.Material,
+    radius: ArrayLike,
+    density: ArrayLike,
+    friction: ArrayLike,
+    speed: ArrayLike,
+) -> str:
+    """Lines of the input of a code, for contacts of two equal spheres.
+
+    Parameters
+    ----------
+    found : Fit
+        Of solid spheres: with a mass ratio of 3.5, and the stiffness ratio of this material.
+    material : bodies.Material
+        Of both spheres.
+    radius : array_like
+        One number [m], above 0.
+    density : array_like
+        One number [kg/m^3], above 0.
+    friction : array_like
+        One number, above 0.
+    speed : array_like
+        Normal speed of approach [m/s], above 0; the length of a step and linear springs follow
+        from the duration of an elastic contact at this speed.
+
+    Returns
+    -------
+    str
+        Comments that say what was fitted to what, and which error it has, and then the lines, in SI
+        units.
+
+    Raises
+    ------
+    InputError
+        If an argument is not one number in its range, or the fit is of other bodies.
+
+    Examples
+    --------
+    >>> from planarimpact import bodies, fit
+    >>> glass = bodies.Material(young_modulus=70e9, poisson_ratio=0.25)
+    >>> groups = 3.5, float(bodies.stiffness_ratio(glass)), 0.9
+    >>> found = fit.fit("lammps-hooke", *groups, loss="viscous")
+    >>> lines(found, glass, 0.001, 2500, 0.2, 1.0).splitlines()[-2]
+    'pair_style granular'
+    """
+    contact = _contact(found, material, radius, density, friction, speed)
+    write = {"mercurydpm": _mercurydpm, "yade": _yade}.get(found.law, _lammps)
+    comment = "//" if found.law == "mercurydpm" else "#"
+    about = [f"{comment} {words}\n" for words in _about(found, contact)]
+    return "".join(about) + write(found, contact)
+
+
+def _contact(
+    found: Fit,
+    material: bodies.Material,
+    radius: ArrayLike,
+    density: ArrayLike,
+    friction: ArrayLike,
+    speed: ArrayLike,
+) -> _Contact:
+    given = {"radius": radius, "density": density, "friction": friction, "speed": speed}
+    r, rho, mu, v2 = (checks.single(name, checks.positive(name, x)) for name, x in given.items())
+    sphere = bodies.solid_sphere(r, rho)
+    for name, value, own in (
+        ("mass_ratio", found.mass_ratio, bodies.mass_ratio(sphere, sphere)),
+        ("stiffness_ratio", found.stiffness_ratio, bodies.stiffness_ratio(material, material)),
+    ):
+        if abs(value - checks.single(name, np.asarray(own))) > 1e-6 * value:
+            raise checks.InputError(
+                f"found.{name} = {value:g}: allowed is that of two such spheres, {float(own):g}"
+            )
+    mass = float(sphere.mass) / 2
+    modulus = bodies.effective_modulus(material, material)
+    force = float(bodies.hertz_peak_force(mass, v2, modulus, bodies.effective_radius(r, r)))
+    lasts = 2 * hertz.COMPRESSION * hertz.PEAK_FORCE * mass * v2 / force
+    stiffness = mass * (laws.duration(hertzian=False) / lasts) ** 2
+    damping = (stiffness * mass) ** 0.5
+    return _Contact(
+        float(material.young_modulus),
+        float(material.poisson_ratio),
+        rho,
+        mu,
+        v2,
+        lasts / laws.STEPS,
+        stiffness,
+        stiffness * found.stiffness,
+        damping * laws.normal_damping(hertzian=False, told=found.told),
+        damping * found.damping,
+    )
+
+
+def _about(found: Fit, contact: _Contact) -> list[str]:
+    """What was fitted to what, and which error it has."""
+    error, before, end = found.error, found.error_before, float(found.incidence[-1])
+    continuum = f"{found.loss} continuum" if found.restitution < 1 else "elastic continuum"
+    words = [
+        f"{found.law}, fitted to the {continuum} of planarimpact; SI units",
+        f"two equal solid spheres: e = {found.restitution:g}, zeta^2 = "
+        f"{found.stiffness_ratio:.4g}, m2/m1 = {found.mass_ratio:g}, mu = {contact.friction:g}",
+        f"range of the fit: x = v1(0)/(mu v2(0)) from 0 to {end:.3g}; "
+        f"{laws.STEPS} steps in an elastic contact at {contact.speed:g} m/s",
+        "error of v1(tf)/(mu v2(0)), root mean square and largest:",
+        f"  before {before.rms:.3f}, {before.largest:.3f} at x = {before.at:.2f} "
+        f"({CODES[found.law].origin})",
+        f"  after  {error.rms:.3f}, {error.largest:.3f} at x = {error.at:.2f}; "
+        f"beyond the range, at x = {2 * end:.3g}, {found.beyond:.3f}",
+        "The fit holds for this restitution and this material; the continuum is a model, too.",
+    ]
+    return words
+
+
+def _lammps(found: Fit, contact: _Contact) -> str:
+    code = CODES[found.law]
+    normal = laws.normal_damping(code.styles[found.style].hertzian, found.told)
+    multiple = found.damping / normal if normal else 0.0
+    if found.law == "lammps-hooke":
+        spring, stiffness = f"hooke {_short(contact.normal)} {found.told:.6g}", contact.tangential
+    else:
+        young, nu = contact.young_modulus, contact.poisson_ratio
+        spring = f"hertz/material {_short(young)} {found.told:.6g} {nu:g}"
+        stiffness = found.stiffness * young / (1 - nu**2)  # 2 E* times the share
+    words = (
+        f"{spring} tangential {found.style} {_short(stiffness)} {_short(multiple)} "
+        f"{contact.friction:g} damping coeff_restitution limit_damping"
+    )
+    return (
+        f"# limit_damping keeps contacts from pulling: with it {found.told:.4g} gives e = "
+        f"{found.restitution:g}.\n"
+        "# For a wall of this material give the words behind * * to fix wall/gran granular.\n"
+        f"timestep {_short(contact.step)}\n"
+        "pair_style granular\n"
+        f"pair_coeff * * {words}\n"
+    )
+
+
+def _mercurydpm(found: Fit, contact: _Contact) -> str:
+    del found
+    return (
+        "// Contacts of other masses than that of two such spheres have another restitution.\n"
+        "auto species = speciesHandler.copyAndAddObject("
+        "LinearViscoelasticSlidingFrictionSpecies());\n"
+        f"species->setDensity({_short(contact.density)});\n"
+        f"species->setStiffness({_short(contact.normal)});\n"
+        f"species->setDissipation({_short(contact.normal_damping)});\n"
+        f"species->setSlidingStiffness({_short(contact.tangential)});\n"
+        f"species->setSlidingDissipation({_short(contact.tangential_damping)});\n"
+        f"species->setSlidingFrictionCoefficient({contact.friction:g});\n"
+        f"setTimeStep({_short(contact.step)});\n"
+    )
+
+
+def _yade(found: Fit, contact: _Contact) -> str:
+    del found
+    # Yade puts the springs and dashpots of two bodies in series.
+    kn, cn, ks, cs = (
+        _short(2 * value)
+        for value in (
+            contact.normal,
+            contact.normal_damping,
+            contact.tangential,
+            contact.tangential_damping,
+        )
+    )
+    return (
+        "# Contacts of other masses than that of two such spheres have another restitution.\n"
+        f"# O.interactions[i, j].phys.kn of a contact must be half of kn, {kn}.\n"
+        "from math import atan\n"
+        f"O.materials.append(ViscElMat(density={_short(contact.density)}, "
+        f"frictionAngle=atan({contact.friction:g}), kn={kn}, cn={cn}, ks={ks}, cs={cs}))\n"
+        "O.engines = [\n"
+        "    ForceResetter(),\n"
+        "    InsertionSortCollider([Bo1_Sphere_Aabb()]),\n"
+        "    InteractionLoop(\n"
+        "        [Ig2_Sphere_Sphere_ScGeom()],\n"
+        "        [Ip2_ViscElMat_ViscElMat_ViscElPhys()],\n"
+        "        [Law2_ScGeom_ViscElPhys_Basic()],\n"
+        "    ),\n"
+        "    NewtonIntegrator(damping=0),\n"
+        "]\n"
+        f"O.dt = {_short(contact.step)}\n"
+    )
+
+
+def _short(value: float) -> str:
+    """A number with six digits."""
+    return f"{value:.6g}"
