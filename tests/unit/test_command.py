@@ -455,7 +455,7 @@ def test_a_number_too_large_is_not_infinite_in_a_file(table):
     assert pd.read_csv(out)["other_mass [kg]"].tolist() == [1e99, np.inf]
 
 
-HEADER, CELLS = ",".join(ROW), [f"{value:g}" for value in ROW.values()]
+HEADER, CELLS = ",".join(ROW), [f"{v:g}" if v != "viscous" else v for v in ROW.values()]
 LINE = ",".join(CELLS)
 NO_TABLES = [
     ("", "it is empty: the first line must name the columns"),
@@ -466,15 +466,15 @@ NO_TABLES = [
     (HEADER.replace(",", ";"), "it is separated by semicolons; allowed are commas"),
     (HEADER.replace(",", "\t"), "it is separated by tabs; allowed are commas"),
     (f"\n{LINE}\n{LINE}\n", "line 2: '0.01' stands where the name of a column belongs"),
-    (f"{HEADER}\n{LINE}\n\n{LINE},8\n", "row 2: 10 cells where 9 belong"),
-    (f"{HEADER}\n{LINE}\n{','.join(CELLS[:-1])}\n", "row 2: 8 cells where 9 belong"),
+    (f"{HEADER}\n{LINE}\n\n{LINE},8\n", "row 2: 11 cells where 10 belong"),
+    (f"{HEADER}\n{LINE}\n{','.join(CELLS[:-1])}\n", "row 2: 9 cells where 10 belong"),
     (f"{HEADER}\n{','.join(f'{c},0' for c in CELLS)}\n", "decimals have a point, not a comma"),
-    (f"{HEADER},id\n{LINE[:-1]}0,5,1,\n", "row 1: 12 cells where 10 belong; decimals have"),
-    (f"{HEADER},id\n{LINE},1,\n", "row 1: 11 cells where 10 belong; decimals have a point"),
-    (f'{HEADER},id\n{LINE},"1",\n', "row 1: 11 cells where 10 belong; decimals have a point"),
+    (f"{HEADER},id\n{LINE[:-1]}0,5,1,\n", "row 1: 13 cells where 11 belong; decimals have"),
+    (f"{HEADER},id\n{LINE},1,\n", "row 1: 12 cells where 11 belong; decimals have a point"),
+    (f'{HEADER},id\n{LINE},"1",\n', "row 1: 12 cells where 11 belong; decimals have a point"),
     (f'{HEADER}\n"0,01",{LINE[5:]}\n', "'0,01': allowed are finite numbers above 0; decimals"),
     (f'id,{HEADER}\n"a\nb",{LINE}\n"c,d"{LINE}\n', "row 2: its quotation marks do not match"),
-    (f'id,{HEADER}\n"a\nb",{LINE}\n"c,d",{LINE},8\n', "row 2: 11 cells where 10 belong"),
+    (f'id,{HEADER}\n"a\nb",{LINE}\n"c,d",{LINE},8\n', "row 2: 12 cells where 11 belong"),
     (f'id,{HEADER}\n"a,{LINE}\n{LINE}\n', "row 1: its quotation marks do not match (unexpected"),
     (f"{HEADER}\r{LINE}\r", "line 1: its quotation marks do not match, or its end is wrong"),
     (f"{HEADER}\n{LINE[:-1]}NA\n", "row 1: spin [rad/s] = 'NA'"),
@@ -519,8 +519,8 @@ def test_the_result_has_the_table_and_then_what_follows(table, rows):
     with open(out, encoding="utf-8", newline="") as file:
         found = list(csv.DictReader(file))
     assert [row["id"] for row in found] == IDS
-    assert list(found[0])[:10] == list(given[0]) and len(found[0]) == 23
-    for name in ROW:
+    assert list(found[0])[:11] == list(given[0]) and len(found[0]) == 23
+    for name in ROW.keys() - {"loss"}:
         assert {float(row[name]) for row in found} == {given[0][name]}
 
 

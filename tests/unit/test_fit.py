@@ -161,7 +161,7 @@ def test_the_nearest_is_the_nearest():
     [
         ({"law": "granular"}, "law = 'granular': allowed are lammps-hertz-mindlin, lammps-hooke, "),
         ({"restitution": 0.2}, "restitution = 0.2: allowed are numbers from 0.3 to 1"),
-        ({"loss": None}, "restitution = 0.8: .* it needs a loss, viscous or plastic"),
+        ({"loss": None}, "restitution = 0.8: .* unless loss says .*: viscous, plastic"),
         ({"stiffness_ratio": 0.0}, "stiffness_ratio = 0.0: allowed are numbers from 0.5 to 4"),
         ({"incidence_max": 0.0}, "incidence_max = 0.0: allowed are numbers above 0"),
     ],
