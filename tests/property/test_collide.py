@@ -267,7 +267,7 @@ BALL = bodies.solid_sphere(0.01, 7800.0)
     [
         ({"normal": [0, 0, 2]}, "normal_x, y, z have the length 2: allowed is 1"),
         ({"velocity": [0, np.nan, -1]}, r"velocity\[1\] = nan: allowed are finite numbers"),
-        ({"velocity": [0, -1]}, r"velocity, shape \(2,\): allowed are vectors"),
+        ({"velocity": [0, -1], "spin": [0] * 4}, r"velocity, shape \(2,\): allowed are vectors"),
         ({"spin": np.zeros((2, 3)), "velocity": np.zeros((3, 3))}, "shapes do not broadcast"),
         ({"body": 1.0}, "body = 1.0: allowed is a bodies.Body"),
         ({"pair": STEEL}, "pair = Material.*: allowed is a planarimpact.Pair"),

@@ -6,8 +6,8 @@ does not answer within the tolerance) is left to them: then the answer here is N
 """
 
 from collections.abc import Sequence
-from functools import cache
-from math import hypot, isfinite, sqrt
+from functools import cache, lru_cache
+from math import hypot, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,7 +20,7 @@ from planarimpact.ground.results import Regime
 from planarimpact.normal_impact import hertz, kelvin_voigt
 from planarimpact.spheres import single as table_of_spheres
 
-_PLAIN = {float, int}
+_PLAIN, _FLOAT = frozenset({float, int}), np.dtype(float)
 # A plastic impact with this share of its incidence slides throughout: then it surely does itself.
 SURELY = 0.99
 
@@ -46,12 +46,13 @@ def collide(
 
     `pair` has the fields of a Pair, in order, and `vectors` are those of `collide`.
     """
-    numbers = [number for vector in vectors for number in _floats(vector)]
-    quantities = [number for value in (*body, *other) for number in _float(value)]
-    if len(numbers) != 15 or len(quantities) != 6:
+    try:
+        radius, inverse, mobility, turn = _inertia(body)
+        other_radius, other_inverse, other_mobility, other_turn = _inertia(other)
+        numbers = [number for vector in vectors for number in _floats(vector)]
+        nx, ny, nz, vx, vy, vz, wx, wy, wz, ox, oy, oz, sx, sy, sz = numbers
+    except (TypeError, ValueError):  # not plainly one body, or three numbers
         return None
-    nx, ny, nz, vx, vy, vz, wx, wy, wz, ox, oy, oz, sx, sy, sz = numbers
-    mass, gyration, radius, other_mass, other_gyration, other_radius = quantities
     # Velocity of the contact point of the body, relative to that of the other.
     ux, uy, uz = radius * wx + other_radius * sx, radius * wy + other_radius * sy, radius * wz
     uz += other_radius * sz
@@ -62,14 +63,12 @@ def collide(
     tx, ty, tz = rx + v2 * nx, ry + v2 * ny, rz + v2 * nz
     v1 = sqrt(tx * tx + ty * ty + tz * tz)
     mu, zeta2, modulus, e, relaxation_time, yield_pressure = pair
-    if not (0 < v2 < 1e50 and 1e-50 < v1 < 1e50 and mu * v2 > 1e-50 and mass < 1e50):
+    if not (0 < v2 < 1e50 and 1e-50 < v1 < 1e50 and mu * v2 > 1e-50):  # so all are finite
         return None
-    if abs(nx * nx + ny * ny + nz * nz - 1) > UNIT:
+    if inverse + other_inverse == 0 or abs(nx * nx + ny * ny + nz * nz - 1) > UNIT:
         return None
-    inverse, other_inverse = 1 / mass, 1 / other_mass
     m2 = 1 / (inverse + other_inverse)
-    arm, other_arm = radius / gyration, other_radius / other_gyration
-    beta = m2 * ((1 + arm * arm) * inverse + (1 + other_arm * other_arm) * other_inverse)
+    beta = m2 * (mobility + other_mobility)
     if e != e:
         curvature = (1 / radius if radius else 0.0) + (1 / other_radius if other_radius else 0.0)
         if not curvature:
@@ -98,7 +97,6 @@ def collide(
         regime = Regime.SLIP_STICK_SLIP if x > zeta2 else Regime.STICK_SLIP
     push, drag = (1 + e) * v2 * m2, change / beta / v1 * m2
     px, py, pz = push * nx + drag * tx, push * ny + drag * ty, push * nz + drag * tz
-    turn, other_turn = arm / gyration * inverse, other_arm / other_gyration * other_inverse
     mx, my, mz = ny * pz - nz * py, nz * px - nx * pz, nx * py - ny * px
     states = (
         *(vx + px * inverse, vy + py * inverse, vz + pz * inverse),
@@ -110,20 +108,20 @@ def collide(
     return Answer(states, (x, e, error * unit), regime)
 
 
+@lru_cache(maxsize=4096)
+def _inertia(body: Body) -> tuple[float, ...]:
+    """Radius, 1/M, (1 + (r/k)^2)/M and r/(M k^2) of a body of numbers; an array is a TypeError."""
+    mass, gyration, radius = map(float, body)
+    arm = radius / gyration
+    return radius, 1 / mass, (1 + arm * arm) / mass, arm / gyration / mass
+
+
 def _floats(vector: Any) -> Sequence[float]:
-    """The components of a vector that is plainly three finite numbers; () of anything else."""
-    if type(vector) is np.ndarray and vector.shape == (3,) and vector.dtype == np.float64:
-        vector = vector.tolist()
-    elif type(vector) not in (list, tuple) or len(vector) != 3:
-        return ()
-    a, b, c = vector
-    plain = {type(a), type(b), type(c)} <= _PLAIN
-    return vector if plain and isfinite(a + b + c) else ()
-
-
-def _float(value: Any) -> Sequence[float]:
-    """A number of a body as float; () of an array of several."""
-    return (value,) if type(value) is float else () if np.ndim(value) else (float(value),)
+    """The components of a vector that is plainly three numbers; () of anything else."""
+    if type(vector) is np.ndarray:
+        return vector.tolist() if vector.dtype is _FLOAT and vector.shape == (3,) else ()
+    plain = type(vector) in (list, tuple) and len(vector) == 3
+    return vector if plain and _PLAIN.issuperset(map(type, vector)) else ()
 
 
 def _table_error(b: float, e: float, yields: bool) -> float:
