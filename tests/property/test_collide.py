@@ -265,7 +265,7 @@ BALL = bodies.solid_sphere(0.01, 7800.0)
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"normal": [0, 0, 2]}, "normal_x, y, z have the length 2: allowed is 1"),
+        ({"normal": [0, 0, 2]}, "the normal has the length 2: allowed is 1"),
         ({"velocity": [0, np.nan, -1]}, r"velocity\[1\] = nan: allowed are finite numbers"),
         ({"velocity": [0, -1], "spin": [0] * 4}, r"velocity, shape \(2,\): allowed are vectors"),
         ({"spin": np.zeros((2, 3)), "velocity": np.zeros((3, 3))}, "shapes do not broadcast"),
@@ -335,6 +335,17 @@ def test_a_table_of_pairs_is_indexed_by_kinds():
     many = collide(table[kinds], [0, 0, 1], BALL, velocity, np.zeros(3))
     single_one = collide(one, [0, 0, 1], BALL, velocity, np.zeros(3))
     np.testing.assert_allclose(many.velocity[0], single_one.velocity, rtol=1e-13)
+
+
+def test_a_caller_may_change_its_vectors_afterwards():
+    velocity, pair = (
+        np.array([0.6, 0, -1.0]),
+        Pair(STEEL, friction=0.3, restitution=0.8, loss="plastic"),
+    )
+    wanted = collide(pair, [0, 0, 1], BALL, velocity, [0, 0, 0]).model_form
+    result = collide(pair, [0, 0, 1], BALL, velocity, [0, 0, 0])
+    velocity[:] = result.velocity
+    assert result.model_form == wanted > 0
 
 
 def test_model_form_is_the_distance_to_the_other_loss():

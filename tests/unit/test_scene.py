@@ -425,7 +425,7 @@ def test_rows_are_numbered_over_all_tables(monkeypatch):
 
 
 def test_a_normal_has_the_length_one():
-    with pytest.raises(InputError, match="row 1: normal_x, y, z have the length 1.28"):
+    with pytest.raises(InputError, match="row 1: the normal has the length 1.28"):
         scene.solve(table(STEEL, SPACE, NORMAL, normal_y=0.8))
     with pytest.raises(InputError, match="allowed is 1"):
         scene.solve(table(STEEL, SPACE, NORMAL, normal_z=0.80001))

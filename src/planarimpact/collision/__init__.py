@@ -64,7 +64,7 @@ class Collision:
     error_bound : ndarray, shape (...)
         Largest error of the tangential velocity of the contact point after the impact, against the
         continuum [m/s]. It is measured by searches, not proved.
-    regime : ndarray of int, shape (...)
+    regime : ndarray of int, shape (...), or Regime
         Codes of `Regime`: the order of stick and slip, NO_IMPACT where bodies do not approach.
     plastic : ndarray of bool, shape (...)
         Whether the loss is plastic, else viscous; without a meaning where e = 1.
@@ -157,7 +157,7 @@ def collide(
     >>> result = collide(rubber, [0, 0, 1], ball, [2.0, 0, -4.0], [0, -300.0, 0])
     >>> result.velocity.round(2).tolist(), result.spin.round(0).tolist()
     ([-2.12, 0.0, 3.6], [0.0, 112.0, 0.0])
-    >>> Regime(int(result.regime)).name
+    >>> result.regime.name
     'SLIP_STICK_SLIP'
     """
     vectors = normal, velocity, spin, other_velocity, other_spin
@@ -167,12 +167,12 @@ def collide(
     if pair.single:
         one = single.collide(pair.single, bool(pair.plastic), body, other, vectors, tolerance)
         if one:
-            of_arrays = partial(_collide_arrays, pair, body, other, vectors, tolerance)
+            of_arrays = partial(_collide_arrays, pair, body, other, tolerance=tolerance)
             v, w, other_v, other_w, impulse = np.array(one.states).reshape(5, 3)
             x, e, error = np.array(one.numbers)
             return Collision(
                 *(v, w, other_v, other_w, impulse, x, e, error, one.regime, pair.plastic),
-                lambda: of_arrays().model_form,
+                lambda: of_arrays(tuple(np.reshape(one.given, (5, 3)))).model_form,
             )
     return _collide_arrays(pair, body, other, vectors, tolerance)
 
@@ -256,6 +256,7 @@ def _collision(
         return values.T.reshape((*shape, *values.shape[:-1]))[()]
 
     state, other_state, impulse = after(met, answer.change)
+    regime = whole(answer.regime, Regime.NO_IMPACT)
     return Collision(
         velocity=whole(state.velocity, given.before.velocity),
         spin=whole(state.spin, given.before.spin),
@@ -265,7 +266,7 @@ def _collision(
         incidence=whole(met.incidence_of(np.arange(approach.size)), np.nan),
         restitution=whole(met.restitution, np.nan),
         error_bound=whole(answer.error, np.nan),
-        regime=whole(answer.regime, Regime.NO_IMPACT),
+        regime=regime if shape else Regime(int(regime)),
         plastic=whole(met.plastic, False),
         _model_form=lambda: whole(model_forms(met, answer), np.nan),
     )

@@ -183,7 +183,7 @@ def problems(impacts: Impacts) -> dict[int, str]:
             f"{LARGEST_RATIO:g}"
         )
     for i in np.flatnonzero(np.abs(length - 1) > UNIT).tolist():
-        messages[i] = f"normal_x, y, z have the length {length[i]:g}: allowed is 1"
+        messages[i] = f"the normal has the length {length[i]:g}: allowed is 1"
     return messages
 
 

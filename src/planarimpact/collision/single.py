@@ -32,6 +32,7 @@ class Answer(NamedTuple):
     states: tuple[float, ...]
     numbers: tuple[float, float, float]  # incidence, restitution, error bound
     regime: Regime
+    given: list[float]  # the vectors of the question: the caller may change its own
 
 
 def collide(
@@ -105,7 +106,7 @@ def collide(
         *(sx - other_turn * mx, sy - other_turn * my, sz - other_turn * mz),
         *(px, py, pz),
     )
-    return Answer(states, (x, e, error * unit), regime)
+    return Answer(states, (x, e, error * unit), regime, numbers)
 
 
 @lru_cache(maxsize=4096)
