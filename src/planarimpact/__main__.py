@@ -347,15 +347,17 @@ def _scene(options: argparse.Namespace) -> None:
     except ImportError as error:
         raise checks.InputError(str(error)) from None
     target = places.target(options.output)
-    progress = tables.bar if sys.stderr.isatty() else None
+    on_terminal = sys.stderr.isatty()
+    place = "\r{:<79}" if on_terminal else "{}"  # where the bar stands
     solver = tables.solve(
         options.input,
         options.output,
         options.tolerance,
         options.skip_bad,
-        progress=progress,
+        progress=tables.Bar() if on_terminal else None,
         loss=options.loss,
         workers=options.workers,
+        notice=lambda words: _say(place.format(words), sys.stderr),
     )
     # Nothing else may stand in a table on standard output.
     words = sys.stderr if target == places.target("-") else sys.stdout

@@ -156,12 +156,23 @@ def test_the_result_has_the_table_and_then_what_follows():
     """Columns, their order, types and values, and the index, of rows that are not left out."""
     rows = table(PLANE, STEEL).loc[[0] * 4].set_axis(["a", "b", "b", "c"])
     rows = rows.assign(id=["NA", None, "007", 1e5], friction=["0.3", "0.2", "1e-1", "no"])
+    rows = rows.assign(colour=["red", 1, None, ()])  # which no one knows
     rows = rows.astype({"density [kg/m^3]": int, "radius [m]": "float32"})
     before = rows.copy()
     after = solver.Solver().solve(rows, skip_bad=True)
     assert list(after.columns)[: len(rows.columns)] == list(rows.columns)
     pd.testing.assert_frame_equal(after[list(rows.columns)], rows.iloc[:3])
     pd.testing.assert_frame_equal(rows, before)
+
+
+def test_names_that_the_result_adds_are_known_before():
+    other_plane = {f"other_{name}": 0.0 for name in PLANE}
+    states_ = (PLANE, other_plane), (SPACE, OTHER_SPACE)
+    added = set()
+    for body, other in states_:
+        rows = table(STEEL, body, OTHER, other)
+        added |= {*scene.solve(rows)} - {*rows}
+    assert added == columns.ADDED
 
 
 @pytest.mark.parametrize(
@@ -198,7 +209,11 @@ BAD_COLUMNS = [
     (STEEL | {"radius [mm]": 10} | PLANE, r"'radius \[mm\]': the unit of radius is \[m\]"),
     (STEEL | {"friction [m]": 1} | PLANE, "the unit of friction is none"),
     (without(STEEL, "radius [m]") | {"radius": 1} | PLANE, r"the unit of radius is \[m\]"),
-    (STEEL | {"colour": 1} | PLANE, "column 'colour': unknown"),
+    (
+        without(STEEL, "friction") | {"mu": 1, "id": 2} | PLANE,
+        r"columns friction: missing; unknown is 'mu'; known are radius \[m\], .* in front$",
+    ),
+    (STEEL | {"regime": 1} | PLANE, "column 'regime': the result has a column of this name"),
     (STEEL | {"densty [kg/m^3]": 1} | PLANE, r"did you mean 'density \[kg/m\^3\]'"),
     (STEEL | {"mass [kg]": 1.0} | PLANE, "either density"),
     (without(STEEL, "density [kg/m^3]") | {"mass [kg]": 1.0} | PLANE, r"gyration \[m\]: missing"),
@@ -580,6 +595,35 @@ def test_infinite_is_a_rigid_flat_wall():
     }
     plain, rigid = scene.solve(table(STEEL, PLANE)), scene.solve(table(STEEL, PLANE, wall))
     pd.testing.assert_frame_equal(plain, rigid[plain.columns], rtol=1e-13)
+
+
+def test_a_wall_that_moves_needs_its_velocity_alone():
+    """It is the same impact as seen from the wall, for a state in a plane and in space."""
+    wall = {"other_velocity_tangential [m/s]": 0.4, "other_velocity_normal [m/s]": -0.5}
+    after = scene.solve(table(STEEL, PLANE, wall)).iloc[0]
+    seen = {"velocity_tangential [m/s]": 0.6, "velocity_normal [m/s]": 2.5}
+    relative = scene.solve(table(STEEL, PLANE | seen)).iloc[0]
+    name = "velocity_tangential_after [m/s]"
+    assert after[name] == pytest.approx(relative[name] + 0.4)
+    assert after["velocity_normal_after [m/s]"] == pytest.approx(-0.8 * 2.5 - 0.5)
+    assert after["spin_after [rad/s]"] == pytest.approx(relative["spin_after [rad/s]"])
+    assert not [name for name in after.index if "other" in name and "_after" in name]
+    moves = {f"other_velocity_{axis} [m/s]": v for axis, v in zip("xyz", (0, 0, 0.5), strict=True)}
+    spins = {f"other_spin_{axis} [rad/s]": 0.0 for axis in "xyz"}
+    found, wanted = (scene.solve(table(STEEL, SPACE, moves, more)) for more in ({}, spins))
+    pd.testing.assert_frame_equal(found, wanted[found.columns])
+    with pytest.raises(InputError, match=r"columns other_velocity_normal \[m/s\]: missing"):
+        scene.solve(table(STEEL, PLANE, {"other_velocity_tangential [m/s]": 0.4}))
+
+
+def test_a_wall_without_masses_may_be_round_and_turn():
+    """It is a body of infinite mass."""
+    roll = {"other_radius [m]": 0.05, "other_spin [rad/s]": 20.0}
+    heavy = {"other_mass [kg]": np.inf, "other_gyration [m]": np.inf}
+    rows = of_material(**{"yield_pressure [Pa]": 2e9}).assign(**roll)
+    found, wanted = scene.solve(rows), scene.solve(rows.assign(**heavy))
+    assert found["incidence"][0] == pytest.approx((1.3 + 20 * 0.05) / 0.6)
+    pd.testing.assert_frame_equal(found, wanted[found.columns])
 
 
 def test_a_contact_too_stiff_for_the_continuum_is_named_by_its_row():

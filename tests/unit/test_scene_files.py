@@ -93,13 +93,33 @@ def test_whole_numbers_are_an_id_in_parquet_and_some_may_be_missing(tmp_path):
         assert found[1]["id"] == missing
 
 
+def test_columns_of_the_user_alone_are_carried_over(tmp_path):
+    """As text from CSV, cell by cell; with their types from Parquet, also where some are missing"""
+    rows = impacts(colour=["red", "", "a,b", "NA", "1.50", "é", "1"], batch=[1, 2, 3] + [None] * 4)
+    rows = rows.astype({"batch": "Int64"}).assign(good=[True, False] * 3 + [None], age=0.1)
+    rows.to_csv(tmp_path / "in.csv", index=False)
+    rows.to_parquet(tmp_path / "in.parquet")
+    for source in ("in.csv", "in.parquet"):
+        said = []
+        files.solve(tmp_path / source, tmp_path / "out.json", rows=2, notice=said.append)
+        found = json.loads((tmp_path / "out.json").read_text())
+        is_csv = source == "in.csv"
+        assert [row["colour"] for row in found] == rows["colour"].tolist()
+        assert [row["batch"] for row in found[2:4]] == (["3", ""] if is_csv else [3, None])
+        assert [row["good"] for row in found[5:]] == (["False", ""] if is_csv else [False, None])
+        assert found[0]["age"] == ("0.1" if is_csv else 0.1)
+        words = "not known, and carried over as they are: columns 'colour', 'batch', 'good', 'age'"
+        assert said == [words]
+
+
 NO_PARQUET = [
     ({"friction": -1.0}, "row 1: friction = -1.0: allowed are"),
     ({"friction": [0.1, None] * 3 + [1]}, "row 2: friction = nan: allowed are"),
     ({"friction": "1_0"}, "row 1: friction = '1_0': allowed are"),
     ({"friction": True}, "row 1: friction = True: allowed are"),
     ({"id": [["a"]] * COUNT}, "column 'id' has cells of type list<"),
-    ({"colour": "red"}, "column 'colour': unknown"),
+    ({"Friction": "red"}, "column 'Friction': unknown; did you mean 'friction'?"),
+    (impacts()[:0], "it has a header, but no rows"),
     (b"radius [m]\n1\n", "it is no whole Parquet file: Parquet magic bytes not found"),
     (b"", "it is no whole Parquet file"),
 ]
@@ -111,18 +131,11 @@ def test_parquet_is_refused_as_csv_is(tmp_path, given, words, capsys):
     if isinstance(given, bytes):
         source.write_bytes(given)
     else:
-        impacts(**given).to_parquet(source)
+        (impacts(**given) if isinstance(given, dict) else given).to_parquet(source)
     assert main(["scene", str(source), str(tmp_path / "out.parquet")]) == 2
     said = capsys.readouterr().err
     assert f"in.parquet: {words}" in said and said.count("\n") == 1
     assert os.listdir(tmp_path) == ["in.parquet"]
-
-
-def test_no_rows_in_parquet_give_no_rows(tmp_path):
-    source, target = tmp_path / "in.parquet", tmp_path / "out.parquet"
-    impacts()[:0].to_parquet(source)
-    assert files.solve(source, target).rows == 0
-    assert pd.read_parquet(target).columns[-1] == "energy_lost [J]"
 
 
 def test_half_a_file_of_parquet_is_named(tmp_path):
@@ -194,6 +207,43 @@ def test_workers_do_not_show(table, tmp_path, capsys):
             assert found[1] == found[several]
     assert main(["scene", str(table), str(tmp_path / "1.csv"), "--workers", "2"]) == 2
     assert "row 5: friction = -1.0: allowed are" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_what_takes_long_moves_on_and_is_told(table, tmp_path, monkeypatch, count):
+    """Rows for which the continuum is solved are cut into parts, and the first one tells how long.
+
+    The result is the same. An elastic impact takes a twentieth of a viscous one.
+    """
+    e = np.tile([0.8, 1.0, 0.2, 0.8, 0.2, 0.8], 2)
+    rows = pd.DataFrame([impacts().iloc[0]] * e.size).assign(restitution=e, friction=0.4)
+    rows.loc[:, "velocity_tangential [m/s]"] = 1.0
+    rows.iloc[0, list(rows).index("friction")] = 0.0
+    rows.to_csv(table, index=False)
+    plain, parts = tmp_path / "plain.parquet", tmp_path / "parts.parquet"
+    files.solve(table, plain, 1e-4, rows=8)
+    monkeypatch.setattr(files, "PART", 2)
+    monkeypatch.setattr(files, "LONG", 0.0)
+    done, said = [], []
+    solver = files.solve(
+        *(table, parts, 1e-4),
+        rows=8,
+        progress=lambda *now: done.append(now),
+        workers=count,
+        notice=said.append,
+    )
+    shares = [share for share, _ in done]
+    assert [count for _, count in done] == [4, 6, 8, 10, 12] and shares[-1] == 1
+    np.testing.assert_allclose(np.diff(shares[:3]), np.diff(shares[:2])[0])
+    assert shares == sorted(shares) and solver.rows == 12
+    (words,) = said
+    assert words.startswith(
+        "rows 1 to 8: the continuum is solved for 7 impacts, as the table of spheres is too coarse "
+        "for 5 (with tolerance 0.00016 it is not) and does not cover 2 at any tolerance; about "
+    )
+    assert words.endswith(" s from there to the end, at the speed of the first of them")
+    pd.testing.assert_frame_equal(pd.read_parquet(parts), pd.read_parquet(plain), rtol=1e-9)
+    assert pq.ParquetFile(parts).num_row_groups == 1
 
 
 def test_of_many_refusals_workers_find_the_first(table, tmp_path):

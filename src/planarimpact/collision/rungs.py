@@ -48,6 +48,8 @@ RUNGS = (
 )
 SLIDING, HEAD_ON, FIRST_OF_CONTINUA = 0, 1, 2
 MODELS = list(dict.fromkeys(rung.model for rung in RUNGS))
+# Places of the rungs of impacts that the table of spheres covers, but not within the tolerance.
+TOO_COARSE_RUNGS = [k for k, rung in enumerate(RUNGS) if rung.why == CONTINUUM_WAYS[TOO_COARSE][1]]
 
 
 def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
@@ -81,6 +83,15 @@ def _table_error(groups: tuple[Array, ...], covered: Booleans, plastic: Booleans
     return error + ROUNDING * groups[0]
 
 
+def tolerance_of_table(impacts: Impacts, place: Integers) -> float:
+    """Smallest tolerance at which the table of spheres answers all impacts that it covers."""
+    rows = np.flatnonzero(np.isin(place, TOO_COARSE_RUNGS))
+    covered = np.ones(rows.size, dtype=bool)
+    plastic = impacts.plastic[rows] & (impacts.restitution[rows] < 1)
+    errors = _table_error(impacts.groups_of(rows), covered, plastic)
+    return float(np.max(errors, initial=0.0))
+
+
 class Answers(NamedTuple):
     """Answers to impacts, arrays of shape (n,), and messages for impacts without an answer."""
 
@@ -93,9 +104,17 @@ class Answers(NamedTuple):
     unsolved: dict[int, str]  # `{index: message}`
 
 
-def answers(impacts: Impacts, tolerance: float, peaks: bool = False) -> Answers:
-    """Each impact answered by its rung, with its peak friction or, in less time, without."""
-    place, error = of_each(impacts, tolerance)
+def answers(
+    impacts: Impacts,
+    tolerance: float,
+    peaks: bool = False,
+    of_rungs: tuple[Integers, Array] | None = None,
+) -> Answers:
+    """Each impact answered by its rung, with its peak friction or, in less time, without.
+
+    `of_rungs` is what `of_each` has returned for these impacts, if it is known already.
+    """
+    place, error = of_rungs or of_each(impacts, tolerance)
     slides = place == SLIDING
     with np.errstate(over="ignore"):
         fall = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit

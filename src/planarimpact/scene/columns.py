@@ -9,12 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from planarimpact import continuum
+from planarimpact.collision import LAWS, LOSSES
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.ground.checks import InputError
 
-# What takes the normal energy below e = 1: the cells of the column `loss`.
-LOSSES = continuum.LOSSES
 # Position of a loss that is not said.
 NO_LOSS = -1
 HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
@@ -60,8 +58,6 @@ PAIR = {
     "yield_pressure": _above("Pa"),
     "loss": Column("", ", ".join(LOSSES)),
 }
-# A table has one of these: restitution, or a property of the material that gives it.
-LOSS_OF = {"restitution": None, "relaxation_time": "viscous", "yield_pressure": "plastic"}
 PLANE = {
     "velocity_tangential": Column("m/s", _FINITE),
     "velocity_normal": Column("m/s", _FINITE),
@@ -74,7 +70,10 @@ OTHER_PLANE = {f"other_{name}": column for name, column in PLANE.items()}
 OTHER_SPACE = {f"other_{name}": column for name, column in SPACE.items()}
 
 KNOWN = BODY | OTHER | PAIR | PLANE | SPACE | NORMAL | OTHER_PLANE | OTHER_SPACE
+# The column that is carried over without a word; others that are not known are told.
 LABEL = "id"
+# A name as similar as this to one that is known is a misspelling.
+CLOSE = 0.8
 DECIMALS = "; decimals have a point, not a comma"
 
 
@@ -88,30 +87,83 @@ def header(name: str, ending: str = "") -> str:
     return f"{name}{ending} [{unit}]" if unit else name + ending
 
 
+# What the result has besides the columns of the table, and restitution and loss.
+_STATES = [*PLANE, *SPACE, *OTHER_PLANE, *OTHER_SPACE]
+ADDED = {
+    *(header(name, "_after") for name in _STATES),
+    "contact_velocity_after [m/s]",
+    "model",
+    "error_bound [m/s]",
+    "model_form [m/s]",
+    "regime",
+    "incidence",
+    "peak_normal_force [N]",
+    "peak_friction_force [N]",
+    "energy_lost [J]",
+}
+
+
 def named(headers: Iterable[object]) -> dict[str, str]:
-    """`{name: header}` of the columns of a table; refused if they make up no bodies and no state.
+    """`{name: header}` of the columns that are known.
+
+    Refused are those that do not make up bodies and a state, that are there twice, that misspell a
+    known one, or that the result has. Others are for the user alone.
 
     >>> named(["radius [mm]"])
     Traceback (most recent call last):
     ...
     planarimpact.InputError: column 'radius [mm]': the unit of radius is [m]
     """
-    header_of = {}
+    header_of: dict[str, str] = {}
+    others: list[str] = []
     for text in map(str, headers):
         parts = HEADER.fullmatch(text.strip())
         name, unit = (parts["name"], parts["unit"]) if parts else (text, None)
-        if name != LABEL and name not in KNOWN:
-            close = difflib.get_close_matches(name, KNOWN, n=1)
-            hint = f"; did you mean '{header(close[0])}'?" if close else ""
-            raise InputError(f"column {text!r}: unknown{hint}")
-        if name != LABEL and unit not in ((KNOWN[name].unit,) if KNOWN[name].unit else (None, "1")):
+        if name in KNOWN and unit not in ((KNOWN[name].unit,) if KNOWN[name].unit else (None, "1")):
             allowed = f"is [{KNOWN[name].unit}]" if KNOWN[name].unit else "is none: it is a number"
             raise InputError(f"column {text!r}: the unit of {name} {allowed}")
-        if name in header_of:
+        if name in header_of or text in others:
             raise InputError(f"column {text!r} is there twice")
-        header_of[name] = text
-    _refuse_incomplete(set(header_of))
+        if name in KNOWN:
+            header_of[name] = text
+        else:
+            _refuse_similar(text, name)
+            others.append(text)
+    try:
+        _refuse_incomplete(set(header_of))
+    except InputError as error:
+        unknown = ", ".join(repr(text) for text in others if text != LABEL)
+        raise InputError(
+            f"{error}; unknown is {unknown}; known are {_known()}" if unknown else str(error)
+        ) from None
     return header_of
+
+
+def _refuse_similar(text: str, name: str) -> None:
+    """Refuse an unknown column that may be meant for a known one, or that the result has."""
+    if text.strip() in ADDED:
+        raise InputError(
+            f"column {text!r}: the result has a column of this name; leave it out or rename it"
+        )
+    close = difflib.get_close_matches(name.lower(), KNOWN, n=1, cutoff=CLOSE)
+    if close:
+        raise InputError(
+            f"column {text!r}: unknown; did you mean '{header(close[0])}'? If it is your own, "
+            f"rename it; known are {_known()}"
+        )
+
+
+def _known() -> str:
+    """All names in few words."""
+    own = BODY | PAIR | PLANE | SPACE | NORMAL
+    return f"{_listed(own)}, {LABEL}, and those of the body and its state with other_ in front"
+
+
+def carried(headers: Iterable[object]) -> list[str]:
+    """Headers of the columns that are not known: they are carried over as they are."""
+    texts = list(map(str, headers))
+    known = named(texts).values()
+    return [text for text in texts if text not in known]
 
 
 def _refuse_incomplete(names: set[str]) -> None:
@@ -132,7 +184,8 @@ def _refuse_incomplete(names: set[str]) -> None:
     _need(names, list(SPACE if space else PLANE))
     _all_or_none(names, list(NORMAL))
     states = (OTHER_SPACE, OTHER_PLANE) if space else (OTHER_PLANE, OTHER_SPACE)
-    _all_or_none(names, list(states[0]))
+    for quantity in ("velocity", "spin"):  # what is left out is 0
+        _all_or_none(names, [name for name in states[0] if quantity in name])
     wrong = names & set(states[1]) | (set() if space else names & set(NORMAL))
     if wrong:
         dimensions = "three" if space else "two"
@@ -141,15 +194,15 @@ def _refuse_incomplete(names: set[str]) -> None:
 
 def _refuse_restitution(names: set[str]) -> None:
     """Refuse a table that does not say restitution in one way."""
-    present = names & set(LOSS_OF)
+    present = names & set(LAWS)
     if len(present) != 1:
         listed = f" {_listed(present)}" if present else ""
-        raise InputError(f"columns{listed}: needed is exactly one of {_listed(LOSS_OF)}")
+        raise InputError(f"columns{listed}: needed is exactly one of {_listed(LAWS)}")
     (name,) = present
-    if "loss" in names and LOSS_OF[name]:
+    if "loss" in names and LAWS[name]:
         raise InputError(
             f"column loss: allowed only beside restitution, as {header(name)} is always "
-            f"{LOSS_OF[name]}"
+            f"{LAWS[name]}"
         )
 
 
@@ -184,8 +237,6 @@ def numbers(table: pd.DataFrame, names: dict[str, str]) -> tuple[dict[str, Array
     values: dict[str, Array] = {}
     problems: dict[int, str] = {}
     for name, text in names.items():
-        if name == LABEL:
-            continue
         column = KNOWN[name]
         check = _losses if name == "loss" else partial(_checked, column=column)
         values[name], bad = check(table[text])

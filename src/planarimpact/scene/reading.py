@@ -12,7 +12,7 @@ import io
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from itertools import islice
+from itertools import islice, pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -34,11 +34,12 @@ MOST_LINES = 10_000
 class Piece(NamedTuple):
     """Rows of a table, after `before` others.
 
-    `share` of the source is read when they are: 0 to 1, or None where nobody knows how much there
-    is, as in a pipe. A column of CSV that has a cell that is no finite number is text as it stands:
-    text tells inf from 1e400.
+    `share` of the source is read when they are, `since` before: 0 to 1, or None where nobody knows
+    how much there is, as in a pipe. A column of CSV that has a cell that is no finite number is
+    text as it stands, and so are columns that are carried over: text tells inf from 1e400.
     """
 
+    since: float | None
     share: float | None
     before: int
     rows: pa.Table
@@ -46,23 +47,36 @@ class Piece(NamedTuple):
     def table(self) -> pd.DataFrame:
         """The rows for pandas."""
         table = self.rows.to_pandas(use_threads=False, ignore_metadata=True)
-        label = columns.named(self.rows.column_names).get(columns.LABEL)
-        if label is not None:  # pandas would write 7 as 7.0 where another cell is empty
-            table[label] = pd.Series(pd.arrays.ArrowExtensionArray(_plain(self.rows[label])))
+        for name in columns.carried(self.rows.column_names):
+            # pandas would write 7 as 7.0 where another cell is empty.
+            table[name] = pd.Series(pd.arrays.ArrowExtensionArray(_plain(self.rows[name])))
         return table
+
+    def parts(self, cuts: list[int]) -> list["Piece"]:
+        """The piece in parts; `cuts` are the first rows of all but the first one."""
+        shares = [self.share] * (len(cuts) + 1)
+        if self.since is not None and self.share is not None:
+            steps = range(1, len(shares))
+            shares[:-1] = [self.since + (self.share - self.since) * k / len(shares) for k in steps]
+        rows = [self.rows.slice(a, b - a) for a, b in pairwise([0, *cuts, len(self.rows)])]
+        return [
+            Piece(since, share, self.before + first, part)
+            for since, share, first, part in zip(
+                [self.since, *shares], shares, [0, *cuts], rows, strict=False
+            )
+        ]
 
 
 def pieces(source: Place, rows: int) -> Iterator[Piece]:
-    """Pieces of a table, of `rows` rows at most; a table without rows is one piece."""
-    before = 0
+    """Pieces of a table, of `rows` rows at most; a table without rows is refused."""
+    before, since = 0, None
     read = _parquet if source.kind == places.PARQUET else _csv
     for share, table in read(source, rows):
-        piece = Piece(share, before, table)
-        before += len(table)
         if len(table):
-            yield piece
+            yield Piece(since, share, before, table)
+        before, since = before + len(table), share
     if not before:
-        yield piece
+        raise InputError("it has a header, but no rows")
 
 
 def _parquet(source: Place, rows: int) -> Iterator[tuple[float, pa.Table]]:
@@ -70,9 +84,8 @@ def _parquet(source: Place, rows: int) -> Iterator[tuple[float, pa.Table]]:
     try:
         with open(source.opened, "rb") as raw, pa.parquet.ParquetFile(raw) as file:
             schema = file.schema_arrow
-            label = columns.named(schema.names).get(columns.LABEL)
-            if label is not None:
-                _refuse_label(label, schema.field(label).type)
+            for name in columns.carried(schema.names):
+                _refuse_cells(name, schema.field(name).type)
             yield 0.0, schema.empty_table()
             count = 0
             for batch in file.iter_batches(rows, use_threads=False):
@@ -84,13 +97,14 @@ def _parquet(source: Place, rows: int) -> Iterator[tuple[float, pa.Table]]:
         raise InputError(f"it is no whole Parquet file: {str(error).splitlines()[0]}") from None
 
 
-def _refuse_label(label: str, kind: pa.DataType) -> None:
-    """Refuse an id whose type CSV cannot hold."""
+def _refuse_cells(name: str, kind: pa.DataType) -> None:
+    """Refuse a column that is carried over and whose type CSV or JSON cannot hold."""
     value = kind.value_type if pa.types.is_dictionary(kind) else kind
-    text = pa.types.is_string(value) or pa.types.is_large_string(value)
-    if not (text or pa.types.is_integer(value)):
+    types = pa.types
+    text = types.is_string(value) or types.is_large_string(value)
+    if not (text or types.is_boolean(value) or types.is_integer(value) or types.is_floating(value)):
         raise InputError(
-            f"column {label!r} has cells of type {kind}: allowed are text and integers"
+            f"column {name!r} has cells of type {kind}: allowed are text, numbers, true and false"
         )
 
 
@@ -140,12 +154,13 @@ def _header(lines: Iterator[bytes]) -> list[str]:
     try:
         (header,) = csv.reader([line], strict=True)
     except csv.Error as error:
-        raise InputError(
-            f"line {number}: its quotation marks do not match, or its end is wrong ({error})"
-        ) from None
+        words = f"its quotation marks do not match, or its end is wrong ({error})"
+        raise InputError(f"header, line {number}: {words}") from None
     for cell in header:
         if _is_number(cell):
-            raise InputError(f"line {number}: {cell!r} stands where the name of a column belongs")
+            raise InputError(
+                f"header, line {number}: {cell!r} stands where the name of a column belongs"
+            )
     return header
 
 
@@ -172,7 +187,7 @@ def _read(text: bytes, header: list[str], before: int) -> pa.Table:
     """Rows of CSV: a column is numbers if all of its cells are finite numbers, else text."""
     table = _text_cells(text, header, before)
     names = columns.named(header)
-    for name in names.keys() - {columns.LABEL, "loss"}:
+    for name in names.keys() - {"loss"}:
         position = header.index(names[name])
         table = table.set_column(position, names[name], _numbers(table[position]))
     return table

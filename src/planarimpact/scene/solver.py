@@ -2,7 +2,7 @@
 
 import reprlib
 from collections import Counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -10,15 +10,69 @@ import pandas as pd
 from planarimpact import bodies, collision
 from planarimpact.collision import continua, model_form, rungs
 from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, Booleans
+from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import Regime
 from planarimpact.scene import columns, states
 
 # Rows that are solved together: this bounds the memory.
 BLOCK = 2**17
-# Columns that determine the loss.
-LOSS_COLUMNS = ("loss", *(name for name, loss in columns.LOSS_OF.items() if loss))
+# Time that it takes to solve an impact, by rung, over that below e = 1; others take next to none.
+_COSTS = np.array(
+    [
+        0.0 if rung.way != "solved" else 0.05 if rung.model == continua.MODELS[0] else 1.0
+        for rung in rungs.RUNGS
+    ]
+)
+
+
+class Block(NamedTuple):
+    """Rows of a table that are read and checked, and not answered yet."""
+
+    table: pd.DataFrame
+    names: dict[str, str]
+    good: Booleans
+    problems: dict[int, str]
+    rows: states.Rows  # the good ones
+    of_rungs: tuple[Integers, Array]
+
+    def cuts(self, most: int) -> list[int]:
+        """Where to cut the table into parts that take about as long as `most` impacts, solved.
+
+        Parameters
+        ----------
+        most : int
+
+        Returns
+        -------
+        list of int
+            Positions of the first rows of all parts but the first one.
+        """
+        costs = np.zeros(len(self.table))
+        costs[self.good] = _COSTS[self.of_rungs[0]]
+        sums = np.cumsum(costs)
+        total = float(sums[-1]) if sums.size else 0.0
+        edges = np.linspace(0.0, total, int(np.ceil(total / most)) + 1)[1:-1]
+        return np.unique(np.searchsorted(sums, edges) + 1).tolist()
+
+    def leave_the_table(self) -> str:
+        """Text: how many impacts the table of spheres does not answer, and why.
+
+        Returns
+        -------
+        str
+        """
+        place, _ = self.of_rungs
+        too_coarse = int(np.isin(place, rungs.TOO_COARSE_RUNGS).sum())
+        count = int(np.count_nonzero(_COSTS[place]))
+        reasons = []
+        if too_coarse:
+            least = _rounded_up(rungs.tolerance_of_table(self.rows.impacts, place))
+            reasons.append(f"is too coarse for {too_coarse:,} (with tolerance {least} it is not)")
+        if count > too_coarse:
+            reasons.append(f"does not cover {count - too_coarse:,} at any tolerance")
+        why = " and ".join(reasons)
+        return f"the continuum is solved for {count:,} impacts, as the table of spheres {why}"
 
 
 class Solver:
@@ -33,7 +87,7 @@ class Solver:
     Attributes
     ----------
     bad : list of (int, str)
-        Rows left out with `skip_bad`, by number from 1 over all tables, and why.
+        Rows left out with `skip_bad`, and why. Row 1 is the first one, of the first table.
     rows : int
         Rows read so far.
     """
@@ -68,9 +122,8 @@ class Solver:
                 f"table = {' '.join(reprlib.repr(table).split())}: allowed is a pandas DataFrame; "
                 "`python -m planarimpact scene` reads files"
             )
-        names = columns.named(table.columns)
         blocks = [
-            self._block(table.iloc[start : start + BLOCK], names, skip_bad)
+            self.answer(self.read(table.iloc[start : start + BLOCK], skip_bad), skip_bad)
             for start in range(0, max(len(table), 1), BLOCK)
         ]
         return pd.concat(blocks) if len(blocks) > 1 else blocks[0]
@@ -108,8 +161,21 @@ class Solver:
             )
         return "\n".join(lines + self._differences.lines())
 
-    def _block(self, table: pd.DataFrame, names: dict[str, str], skip_bad: bool) -> pd.DataFrame:
-        """The result for some rows of a table."""
+    @checks.default_errors
+    def read(self, table: pd.DataFrame, skip_bad: bool = False) -> Block:
+        """Rows of a table read and checked, for `answer`.
+
+        Parameters
+        ----------
+        table : DataFrame
+        skip_bad : bool
+            Both as in `solve`.
+
+        Returns
+        -------
+        Block
+        """
+        names = columns.named(table.columns)
         self._refuse_two_losses(names)
         values, problems = columns.numbers(table, names)
         if "restitution" in names and "loss" not in names:
@@ -125,20 +191,38 @@ class Solver:
         if bad_impacts:
             good[list(problems)] = False
             rows = _rows(values, good, problems)
-        answers = collision.answers(rows.impacts, self.tolerance, peaks=True)
+        of_rungs = rungs.of_each(rows.impacts, self.tolerance)
+        return Block(table, names, good, problems, rows, of_rungs)
+
+    @checks.default_errors
+    def answer(self, block: Block, skip_bad: bool = False) -> pd.DataFrame:
+        """The result for rows that `read` has returned; it counts them.
+
+        Parameters
+        ----------
+        block : Block
+        skip_bad : bool
+            As in `solve`.
+
+        Returns
+        -------
+        DataFrame
+        """
+        table, names, good, problems, rows, of_rungs = block
+        answers = collision.answers(rows.impacts, self.tolerance, peaks=True, of_rungs=of_rungs)
         unsolved = _by_position(good, answers.unsolved)
         self._refuse(unsolved, skip_bad, ConvergenceError)
         form = collision.model_forms(rows.impacts, answers)
         self._count(rows, answers, form)
-        problems |= unsolved
+        problems = problems | unsolved
         self.bad += [(self.rows + row + 1, problems[row]) for row in sorted(problems)]
         self.rows += len(table)
         result = table[good].assign(**_result(rows, answers, form, names))
         return result[_solved(answers)] if unsolved else result
 
     def _refuse_two_losses(self, names: dict[str, str]) -> None:
-        for name in LOSS_COLUMNS:
-            if self._loss is not None and name in names:
+        for name in names.keys() & {"loss", *collision.LAWS} - {"restitution"}:
+            if self._loss is not None:
                 raise InputError(
                     f"loss = {self._loss!r}: it does not apply, as the column {names[name]!r} says "
                     "what takes the energy"
@@ -166,6 +250,16 @@ class Solver:
         large = coupling[coupling > bodies.COUPLING]
         self._coupled += large.size
         self._largest_coupling = max(self._largest_coupling, float(np.max(large, initial=0.0)))
+
+
+def _rounded_up(number: float) -> str:
+    """A positive number with two digits.
+
+    >>> _rounded_up(4.0001e-3)
+    '0.0041'
+    """
+    unit = 10.0 ** (np.floor(np.log10(number)) - 1)
+    return f"{np.ceil(number / unit) * unit:.2g}"
 
 
 def _rows(values: dict[str, Array], good: Booleans, problems: dict[int, str]) -> states.Rows:

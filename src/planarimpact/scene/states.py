@@ -11,9 +11,9 @@ import numpy as np
 
 from planarimpact import bodies, collision
 from planarimpact.bodies import Body, Material
-from planarimpact.collision import Impacts, Pair, State
+from planarimpact.collision import LOSSES, Impacts, Pair, State
 from planarimpact.ground.arrays import Array
-from planarimpact.scene.columns import AXES, LOSSES
+from planarimpact.scene.columns import AXES
 
 
 class Rows(NamedTuple):
@@ -77,15 +77,15 @@ def columns_of(state: State, plane: bool) -> dict[str, Array]:
 
 
 def _body(values: dict[str, Array], prefix: str) -> Body:
-    """A body; the other one is a half-space where it has no mass."""
+    """A body; the other one is a wall of infinite mass where it has no mass."""
     count = values["radius"].size
     radius = values.get(f"{prefix}radius", np.zeros(count))
     if f"{prefix}density" in values:
         return bodies.solid_sphere(radius, values[f"{prefix}density"])
-    if f"{prefix}mass" not in values:
-        return Body(np.full(count, np.inf), np.full(count, np.inf), np.zeros(count))
     # The radius of a body that can neither move nor turn may be infinite: it is flat.
     flat = np.where(np.isinf(radius), 0.0, radius)
+    if f"{prefix}mass" not in values:
+        return Body(np.full(count, np.inf), np.full(count, np.inf), flat)
     return Body(values[f"{prefix}mass"], values[f"{prefix}gyration"], flat)
 
 
@@ -106,17 +106,23 @@ def _normal(values: dict[str, Array]) -> Array:
 
 
 def _state(values: dict[str, Array], prefix: str) -> State:
+    """A state; what is left out is 0."""
+    return State(_velocity(values, prefix), _spin(values, prefix))
+
+
+def _velocity(values: dict[str, Array], prefix: str) -> Array:
     if f"{prefix}velocity_x" in values:
-        return State(
-            np.stack([values[f"{prefix}velocity_{axis}"] for axis in AXES]),
-            np.stack([values[f"{prefix}spin_{axis}"] for axis in AXES]),
-        )
+        return np.stack([values[f"{prefix}velocity_{axis}"] for axis in AXES])
     if f"{prefix}velocity_normal" not in values:
-        return State(np.zeros((3, 1)), np.zeros((3, 1)))
+        return np.zeros((3, 1))
+    along, towards = (values[f"{prefix}velocity_{name}"] for name in ("tangential", "normal"))
+    return np.stack([along, np.zeros(along.size), -towards])
+
+
+def _spin(values: dict[str, Array], prefix: str) -> Array:
+    if f"{prefix}spin_x" in values:
+        return np.stack([values[f"{prefix}spin_{axis}"] for axis in AXES])
+    if f"{prefix}spin" not in values:
+        return np.zeros((3, 1))
     still = np.zeros(values[f"{prefix}spin"].size)
-    return State(
-        np.stack(
-            [values[f"{prefix}velocity_tangential"], still, -values[f"{prefix}velocity_normal"]]
-        ),
-        np.stack([still, -values[f"{prefix}spin"], still]),
-    )
+    return np.stack([still, -values[f"{prefix}spin"], still])

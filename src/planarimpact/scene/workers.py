@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from planarimpact.ground import files
 from planarimpact.ground.checks import InputError
-from planarimpact.scene import columns, writing
+from planarimpact.scene import writing
 from planarimpact.scene.reading import Piece
 from planarimpact.scene.solver import Solver
 from planarimpact.scene.writing import Encoded
@@ -24,12 +24,16 @@ AHEAD = 2
 
 
 class Task(NamedTuple):
-    """How pieces are solved, as in `files.solve`, and the kind of the file that is written."""
+    """How pieces are solved, as in `files.solve`, and the kind of the file that is written.
+
+    A piece for which the continuum is solved more than `part` times is cut.
+    """
 
     tolerance: float
     loss: str | None
     skip_bad: bool
     kind: str
+    part: int
 
 
 class Done(NamedTuple):
@@ -40,35 +44,70 @@ class Done(NamedTuple):
     solver: Solver
 
 
-def solved(task: Task, piece: Piece) -> Done:
-    """Solve a piece."""
+class Cut(NamedTuple):
+    """Where a piece is cut because it takes long, the shares that are read before it and by then.
+
+    `words` say why it takes long.
+    """
+
+    cuts: list[int]
+    since: float | None
+    share: float | None
+    words: str
+
+
+def solved(task: Task, piece: Piece, whole: bool = False) -> Done | Cut:
+    """Solve a piece, or say where to cut it, unless it shall be solved as a whole."""
     solver = Solver(task.tolerance, task.loss)
     solver.rows = piece.before
-    table = piece.table()
-    names = columns.named(table.columns)
-    after = solver.solve(table, task.skip_bad)
+    block = solver.read(piece.table(), task.skip_bad)
+    if not whole and (cuts := block.cuts(task.part)):
+        words = f"rows {piece.before + 1:,} to {solver.rows + len(block.table):,}: "
+        return Cut(cuts, piece.since, piece.share, words + block.leave_the_table())
+    after = solver.answer(block, task.skip_bad)
     # A column has one type in all pieces, whatever a piece has in it.
-    kinds = {names[name]: float for name in (names.keys() & columns.KNOWN) - {"loss"}}
+    names = block.names
+    kinds = {names[name]: float for name in names.keys() - {"loss"}}
     content = writing.encoded(after.astype(kinds), task.kind, header=piece.before == 0)
     return Done(piece.share, content, solver)
 
 
-def solved_by_workers(task: Task, pieces: Iterator[Piece], count: int) -> Iterator[Done]:
-    """Solve pieces by several workers.
+def solved_here(task: Task, pieces: Iterator[Piece]) -> Iterator[Done | Cut]:
+    """Solve pieces in this process. The result of a piece that is cut comes before its parts."""
+    for piece in pieces:
+        result = solved(task, piece)
+        yield result
+        if isinstance(result, Cut):
+            yield from (solved(task, part, True) for part in piece.parts(result.cuts))
+
+
+def solved_by_workers(task: Task, pieces: Iterator[Piece], count: int) -> Iterator[Done | Cut]:
+    """As `solved_here`, by several workers.
 
     The results have the order of the pieces. So have the refusals, those of `pieces` among them:
     the first one is raised.
     """
     context = multiprocessing.get_context("spawn")
-    waiting: deque[Future[Done]] = deque()
+    waiting: deque[tuple[Piece | None, Future[Done | Cut]]] = deque()
     with ProcessPoolExecutor(count, context, initializer=_end_with_parent) as pool:
+
+        def results(most: int) -> Iterator[Done | Cut]:
+            """The first results, until no more than `most` wait."""
+            while len(waiting) > most:
+                piece, future = waiting.popleft()
+                result = future.result()
+                yield result
+                if piece and isinstance(result, Cut):
+                    parts = [
+                        (part, _submit(pool, task, part, True)) for part in piece.parts(result.cuts)
+                    ]
+                    waiting.extendleft(reversed(parts))
+
         try:
-            for future in _submitted(pool, task, pieces):
-                waiting.append(future)
-                if len(waiting) > AHEAD * count:
-                    yield waiting.popleft().result()
-            while waiting:
-                yield waiting.popleft().result()
+            for piece_and_future in _submitted(pool, task, pieces):
+                waiting.append(piece_and_future)
+                yield from results(AHEAD * count)
+            yield from results(0)
         except BrokenProcessPool:
             raise InputError(
                 "a worker ended before its work was done: it may lack memory, which fewer workers "
@@ -81,19 +120,24 @@ def solved_by_workers(task: Task, pieces: Iterator[Piece], count: int) -> Iterat
             raise
 
 
+def _submit(
+    pool: ProcessPoolExecutor, task: Task, piece: Piece, whole: bool = False
+) -> Future[Done | Cut]:
+    with _signals_held():  # a worker may start
+        return pool.submit(solved, task, piece, whole)
+
+
 def _submitted(
     pool: ProcessPoolExecutor, task: Task, pieces: Iterator[Piece]
-) -> Iterator[Future[Done]]:
-    """Futures of the results; a piece that cannot be read is a future that failed."""
+) -> Iterator[tuple[Piece | None, Future[Done | Cut]]]:
+    """Pieces and futures of their results; what cannot be read is a future that failed."""
     try:
         for piece in pieces:
-            with _signals_held():  # a worker may start
-                future = pool.submit(solved, task, piece)
-            yield future
+            yield piece, _submit(pool, task, piece)
     except (InputError, OSError) as error:
-        failed: Future[Done] = Future()
+        failed: Future[Done | Cut] = Future()
         failed.set_exception(error)
-        yield failed
+        yield None, failed
 
 
 @contextmanager

@@ -31,6 +31,8 @@ Write: TypeAlias = Callable[[Any], object]
 COMMA = b",\n"
 # Level of gzip, the default of the command. The highest level takes five times as long.
 LEVEL = 6
+# Least rows of a group of Parquet.
+GROUP = 50_000
 
 
 def encoded(table: pd.DataFrame, kind: str, header: bool) -> Encoded:
@@ -120,13 +122,24 @@ def _array(file: io.BufferedIOBase) -> Iterator[Write]:
 
 @contextmanager
 def _parquet(file: io.BufferedIOBase) -> Iterator[Write]:
+    """Groups of rows; small pieces make up one, as each takes space and time to read."""
     with ExitStack() as stack:
         writer: pa.parquet.ParquetWriter | None = None
+        waiting: list[pa.Table] = []
 
-        def write(table: pa.Table) -> None:
+        def write_waiting() -> None:
             nonlocal writer
+            table = pa.concat_tables(waiting)
+            waiting.clear()
             if writer is None:
                 writer = stack.enter_context(pa.parquet.ParquetWriter(file, table.schema))
             writer.write_table(table)
 
+        def write(table: pa.Table) -> None:
+            waiting.append(table)
+            if sum(map(len, waiting)) >= GROUP:
+                write_waiting()
+
         yield write
+        if waiting:
+            write_waiting()
