@@ -310,7 +310,10 @@ def test_the_impact_of_an_array_is_named():
         ({"restitution": 0.8, "loss": "magic"}, "loss = 'magic': allowed are viscous, plastic"),
         ({}, "0 of them given, needed is exactly one"),
         ({"restitution": 1, "yield_pressure": 1e9}, "2 of them given"),
-        ({"yield_pressure": 1e9, "loss": "viscous"}, "loss = 'viscous': it does not apply"),
+        (
+            {"yield_pressure": 1e9, "loss": "viscous"},
+            "loss = 'viscous': allowed beside yield_pressure is plastic",
+        ),
         ({"relaxation_time": -1.0}, "relaxation_time = -1.0: allowed are finite numbers from 0"),
         ({"restitution": 1, "friction": -0.1}, "friction = -0.1: allowed are"),
         ({"restitution": 1, "stiffness_ratio": 1.2}, "needed is one of the two"),
@@ -346,6 +349,17 @@ def test_a_caller_may_change_its_vectors_afterwards():
     result = collide(pair, [0, 0, 1], BALL, velocity, [0, 0, 0])
     velocity[:] = result.velocity
     assert result.model_form == wanted > 0
+
+
+@pytest.mark.parametrize("shape", [(), (1,), (1, 1), (2,)])
+@pytest.mark.parametrize("speed", [0.0, 1.0])
+def test_impacts_of_any_shape_that_do_not_approach_are_left_alone(shape, speed):
+    velocity = np.broadcast_to([0.3, 0.0, speed], (*shape, 3))
+    for law in ({"restitution": 0.9, "loss": "viscous"}, {"yield_pressure": 3e9}):
+        pair = Pair(STEEL, friction=0.3, **law)
+        after = collide(pair, [0, 0, 1], BALL, velocity, np.zeros(3))
+        assert after.velocity.shape == (*shape, 3) and (after.velocity == velocity).all()
+        assert np.all(after.regime == Regime.NO_IMPACT) and np.isnan(after.model_form).all()
 
 
 def test_model_form_is_the_distance_to_the_other_loss():

@@ -21,6 +21,7 @@ Users need only this module: it also exports what `masses`, `materials`, `quanti
 """
 
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -63,10 +64,12 @@ __all__ = [
     "HALF_SPACE",
     "LEAST_RESTITUTION",
     "Body",
+    "Contact",
     "Material",
     "Motion",
     "OutOfRange",
     "angle_of_incidence",
+    "contact",
     "contact_velocity",
     "disc",
     "dundurs",
@@ -101,6 +104,60 @@ _angle = partial(
 _friction = partial(
     positive, "friction", allowed="finite numbers above 0 (without friction v1 stays as it is)"
 )
+
+
+class Contact(NamedTuple):
+    """What the laws of restitution ask of two bodies, in the order of their arguments.
+
+    Attributes
+    ----------
+    mass : ndarray or float
+        Normal effective mass m2 [kg].
+    effective_modulus : ndarray or float
+        E* [Pa].
+    effective_radius : ndarray or float
+        R [m].
+    """
+
+    mass: Array
+    effective_modulus: Array
+    effective_radius: Array
+
+
+def contact(
+    body: Body, material: Material, other: Body = HALF_SPACE, other_material: Material | None = None
+) -> Contact:
+    """Effective mass, modulus and radius of two bodies that strike each other.
+
+    Parameters
+    ----------
+    body, other : Body
+        The other one is a flat wall if left out; a radius of 0 is flat.
+    material, other_material : Material
+        Of both; a rigid other body if left out.
+
+    Returns
+    -------
+    Contact
+
+    Raises
+    ------
+    InputError
+        As in `effective_masses`, `effective_modulus` and `effective_radius`.
+
+    Examples
+    --------
+    The yield pressure of two steel beads whose restitution is 0.8 at 1 m/s:
+
+    >>> steel, bead = Material(207e9, 0.3), solid_sphere(0.001, 7800)
+    >>> pressure = yield_pressure(0.8, 1.0, *contact(bead, steel, bead, steel))
+    >>> round(float(pressure / 1e9), 2)
+    2.59
+    """
+    _, mass = effective_masses(body, other)
+    curved = np.asarray(other.radius) > 0
+    radius = effective_radius(body.radius, np.where(curved, other.radius, np.inf))
+    return Contact(mass, effective_modulus(material, other_material), radius)
 
 
 @quietly

@@ -72,14 +72,14 @@ class Impacts(NamedTuple):
 
     def take(self, rows: Integers) -> "Impacts":
         """Some of the impacts."""
-        return Impacts._make(_taken(field, rows) for field in self)
+        return Impacts._make(_taken(field, rows, self.v2.size) for field in self)
 
 
-def _taken(field: Any, rows: Integers) -> Any:
-    """Some entries of the last axis of an array, or of all arrays of a tuple."""
+def _taken(field: Any, rows: Integers, count: int) -> Any:
+    """Some of `count` entries of an array, or of the arrays of a tuple; one stands for all."""
     if isinstance(field, tuple):
-        return type(field)(*(_taken(part, rows) for part in field))
-    return field if field.shape[-1] == 1 else field[..., rows]
+        return type(field)(*(_taken(part, rows, count) for part in field))
+    return np.broadcast_to(field, (*field.shape[:-1], count))[..., rows]
 
 
 def impacts(

@@ -111,8 +111,8 @@ what takes the energy: viscous, plastic
         for name, values in arrays.items():
             object.__setattr__(self, name, values)
         _refuse_other_laws(arrays)
+        _refuse_loss(arrays, codes)
         by_law = ~np.isnan(self.relaxation_time) | ~np.isnan(self.yield_pressure)
-        _refuse_loss(self.restitution, by_law, codes)
         if (by_law & np.isnan(self.effective_modulus)).any():
             raise InputError(
                 "effective_modulus: missing; a relaxation time or a yield pressure needs it, or "
@@ -219,13 +219,13 @@ def _refuse_other_laws(arrays: dict[str, Array]) -> None:
         raise InputError(f"{', '.join(LAWS)}: {count} of them given, needed is exactly one a pair")
 
 
-def _refuse_loss(restitution: Array, by_law: Booleans, codes: Array) -> None:
-    """Refuse a loss that is missing below e = 1, or said where the material says it."""
+def _refuse_loss(arrays: dict[str, Array], codes: Array) -> None:
+    """Refuse a loss that is missing below e = 1, or another one than that of the law."""
+    restitution = arrays["restitution"]
     missing = (restitution < 1) & (codes < 0)
     if missing.any():
         checks.lossless(float(restitution[missing].flat[0]), LOSSES)
-    if (by_law & (codes >= 0)).any():
-        raise InputError(
-            f"loss = {LOSSES[int(codes[by_law & (codes >= 0)].flat[0])]!r}: it does not apply, a "
-            "relaxation time is always viscous and a yield pressure plastic"
-        )
+    for name, loss in LAWS.items():
+        if loss and (~np.isnan(arrays[name]) & (codes >= 0) & (codes != LOSSES.index(loss))).any():
+            (other,) = set(LOSSES) - {loss}
+            raise InputError(f"loss = {other!r}: allowed beside {name} is {loss}, or none")
