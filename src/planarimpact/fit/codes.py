@@ -287,6 +287,10 @@ def _lammps(found: Fit, contact: _Contact) -> str:
     return (
         f"# limit_damping keeps contacts from pulling: with it {found.told:.4g} gives e = "
         f"{found.restitution:g}.\n"
+        f"# Behind {found.style}: tangential stiffness "
+        f"{'[N/m]' if found.law == 'lammps-hooke' else 'over contact radius [Pa]'}, tangential "
+        "damping as a multiple of the normal one, friction.\n"
+        "# The rest is yours: units si, atom_style sphere, fix nve/sphere.\n"
         "# For a wall of this material give the words behind * * to fix wall/gran granular.\n"
         f"timestep {_short(contact.step)}\n"
         "pair_style granular\n"
