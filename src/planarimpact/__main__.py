@@ -429,13 +429,17 @@ def _model(options: argparse.Namespace) -> str:
     """Name of the model, with the option --loss; below e = 1 one of both must say the loss."""
     name = options.model or "lumped"
     losses = models.losses(name)
+    other = "continuum" if name == "lumped" else "lumped"
+    more = f"; --model {other} has {', '.join(models.losses(other))}" if losses else ""
     if options.loss is None:
-        if losses:
-            checks.lossless(_restitution(options), losses, "--loss")
+        try:
+            checks.lossless(_restitution(options) if losses else 1.0, losses, "--loss")
+        except checks.InputError as error:
+            raise checks.InputError(f"{error}{more}") from None
         return str(name)
     if options.loss not in losses:
         allowed = "are " + ", ".join(losses) if losses else "is none"
-        raise checks.InputError(f"--loss {options.loss}: with model {name} allowed {allowed}")
+        raise checks.InputError(f"--loss {options.loss}: with model {name} allowed {allowed}{more}")
     return losses[options.loss]
 
 
