@@ -156,7 +156,7 @@ def test_below_1_a_loss_is_said_or_refused(command, capsys, tmp_path):
         error = capsys.readouterr().err
         assert (
             "restitution = 0.8: " in error
-            and f"--loss says what takes the energy: {allowed}\n" in error
+            and f"--loss says what takes the energy: {allowed}; --model " in error
         )
     said = []
     for more in (["--loss", "viscous"], ["--model", "lumped.viscous"]):
