@@ -29,7 +29,7 @@ SOLVER = {
     "export": "planarimpact ground normal_impact collision response spheres",
     "fit": "ground normal_impact bodies continuum spheres",
     "collision": "ground normal_impact bodies continuum models spheres",
-    "scene": "ground bodies collision continuum pandas",
+    "scene": "ground bodies collision pandas",
     "__init__": "ground collision",
     "__main__": "planarimpact ground bodies lumped continuum models response export fit scene",
 }

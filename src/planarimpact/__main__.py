@@ -25,7 +25,8 @@ Incidence is v1(0)/(mu v2(0)): tangential over normal speed, over friction. All 
 mu v2(0), negative where the contact point has turned round.
 """
 COLUMNS = """\
-Columns, with units in the header, separated by commas; the order is free, all others are refused:
+Columns, with units in the header, separated by commas; the order is free. Row 1 is the first one
+below the header; blank lines do not count. Needed are:
   radius [m]              distance from centre to contact point, and radius of curvature
   density [kg/m^3]        of a solid sphere; or else mass [kg] and gyration [m]
   young_modulus [Pa], poisson_ratio
@@ -33,8 +34,8 @@ Columns, with units in the header, separated by commas; the order is free, all o
   restitution             of the pair; or else what gives it at the speed of each impact:
     relaxation_time [s] of viscous bodies, or yield_pressure [Pa] of plastic ones, the largest
     pressure that the contact carries; planarimpact.bodies finds both from e at one speed
-  loss                    viscous or plastic: what takes the energy below restitution 1; only beside
-                          restitution, viscous if left out
+  loss                    viscous or plastic: what takes the energy; only beside restitution. A cell
+                          may be empty where restitution is 1; --loss says it for all rows
   the state before, in a plane:
     velocity_tangential [m/s], velocity_normal [m/s], positive towards the surface,
     spin [rad/s], positive where it moves the contact point of this body forward (backspin)
@@ -42,11 +43,16 @@ Columns, with units in the header, separated by commas; the order is free, all o
     velocity_x [m/s], _y, _z, spin_x [rad/s], _y, _z, and the unit normal normal_x, _y, _z
     from the surface to the body; 0, 0, 1 if left out. spin_x, _y, _z is the right-handed vector
     of angular velocity: with x along and z up, a plane state has spin_y = -spin.
-  id                      any words, carried over as they are
-The other body, if it is no rigid half-space at rest, has the same columns with other_ in front;
-its velocities and spin have the directions of the first one's: positive other_spin turns the same
-way round. A material alone makes it an elastic half-space; masses, radii of gyration and Young's
-moduli may be inf.
+The other body has the same columns with other_ in front. What is left out makes it simpler:
+  without a material      it is rigid
+  without a mass          (density, or mass and gyration) it is a wall of infinite mass, and has no
+                          state after; other_radius alone makes a wall round
+  without a velocity      it is at rest; of a velocity all components are needed
+  without a spin          it does not turn; in space all three components are needed
+Its velocities and spin have the directions of the first one's: positive other_spin turns the same
+way round. Its radius, mass, radius of gyration and Young's modulus may be inf.
+Columns of other names, such as id, are your own. They are carried over: from CSV and from words as
+text, cell by cell. A name that is nearly one of those above is refused, and so is one below.
 Restitution is 0.1 or more. Where the contact slides throughout it may be less; there the forces
 are NaN if it is below 0.022.
 The result has all these columns as they are, and then
@@ -621,7 +627,8 @@ def _parser() -> argparse.ArgumentParser:
         "scene",
         help="solve a table of impacts",
         description="Solve a table of impacts, one a row, each by a formula, the table of spheres "
-        "or the continuum.",
+        "or the continuum. Where the continuum takes long, standard error says why, how long, and "
+        "which tolerance would avoid it; a terminal has a bar.",
         epilog=COLUMNS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -646,7 +653,7 @@ def _parser() -> argparse.ArgumentParser:
     scene.add_argument(
         "--loss",
         choices=continuum.LOSSES,
-        help="what takes the energy below e = 1, where the table has no column for it [viscous]",
+        help="what takes the energy below e = 1; needed where the table has no column for it",
     )
     scene.add_argument(
         "--explain", action="store_true", help="say which model solved how many impacts, and why"
@@ -654,8 +661,8 @@ def _parser() -> argparse.ArgumentParser:
     scene.add_argument(
         "--skip-bad",
         action="store_true",
-        help="leave bad rows out, and list them in OUTPUT.bad.csv, or on standard error where the "
-        "output is a pipe",
+        help="leave bad rows out, and list them by number in OUTPUT.bad.csv, or on standard error "
+        "where the output is a pipe",
     )
     scene.add_argument(
         "--workers",

@@ -354,7 +354,7 @@ def test_below_restitution_1_a_row_says_its_loss():
     rows = table(STEEL, PLANE).loc[[0] * 3].assign(restitution=[1.0, 1.0, 0.8])
     after = scene.solve(rows.assign(loss=["", None, "plastic"]))
     assert after["model"].tolist()[:2] == ["continuum"] * 2
-    words = "row 3: restitution = 0.8: below 1 the loss must be said; allowed are viscous, plastic"
+    words = "row 3: restitution = 0.8: allowed are .* says what takes the energy: viscous, plastic"
     for missing in (rows.assign(loss=""), rows.drop(columns="loss")):
         with pytest.raises(InputError, match=words):
             scene.solve(missing)

@@ -3,7 +3,8 @@
 A table is a pandas DataFrame with one impact in each row. `columns` lists the columns that it may
 have, with the unit of each in its header. A body is a solid sphere (radius and density), or
 anything with a mass, a radius of gyration and a centre of mass on the contact normal. The other
-body is the same; if it has no mass, it is a half-space at rest. States have two dimensions. They
+body is the same; if it has no mass, it is a wall of infinite mass, flat unless it has a radius, and
+at rest unless it has a velocity or a spin. States have two dimensions. They
 may have three for bodies whose radius of gyration is the same about every axis: such bodies move in
 their plane of incidence.
 """
@@ -25,7 +26,9 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None)
     Parameters
     ----------
     table : DataFrame
-        One impact a row; `python -m planarimpact scene --help` lists the columns.
+        One impact a row; `python -m planarimpact scene --help` lists the columns. Other columns,
+        whose names are not similar to these, are carried over. A table without rows has an empty
+        result.
     tolerance : float
         Largest error of the velocity of the contact point at separation, in mu v2(0), and of the
         peak friction, in mu times the peak normal force; 1e-10 to 1. The error is measured
@@ -34,8 +37,9 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None)
         is not part of it; `model_form` is a first measure of that.
     loss : str, optional
         What takes the normal energy where restitution is below 1: "viscous" (polymers, rubber) or
-        "plastic" (metals that yield). A table may have a column of this name instead, or the
-        column relaxation_time, which is viscous, or yield_pressure, which is plastic.
+        "plastic" (metals that yield). A table may have a column of this name instead, with empty
+        cells where restitution is 1, or the column relaxation_time, which is viscous, or
+        yield_pressure, which is plastic.
 
     Returns
     -------
@@ -51,11 +55,16 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None)
     Raises
     ------
     InputError
-        For what is no DataFrame, columns that are missing, unknown or do not go together, or a bad
-        row, by its number, such as one below restitution 1 whose loss nobody says.
+        For what is no DataFrame, columns that are missing, misspelt or do not go together, or a bad
+        row, by its number from 1, such as one below restitution 1 whose loss nobody says.
     ConvergenceError
         If the continuum does not reach the tolerance, by the row. An impact of a mass ratio above
         100 may take seconds; above some 10 000 most of them end like this.
+
+    Notes
+    -----
+    Impacts that the table of spheres does not answer take some milliseconds each. `files.solve`
+    tells before how long that will be, and how far it is; this function tells nothing.
 
     Examples
     --------

@@ -291,9 +291,9 @@ def refuse_missing_loss(values: dict[str, Array], problems: dict[int, str]) -> N
         for position in np.flatnonzero(missing).tolist():
             problems.setdefault(
                 position,
-                f"restitution = {values['restitution'][position]:g}: below 1 the loss must be "
-                f"said; allowed are {', '.join(LOSSES)}, in a column loss or as the argument loss "
-                "(--loss)",
+                f"restitution = {values['restitution'][position]:g}: allowed are numbers equal to "
+                "1, unless a column loss or the argument loss (--loss) says what takes the energy: "
+                f"{', '.join(LOSSES)}",
             )
 
 

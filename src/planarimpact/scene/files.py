@@ -30,7 +30,7 @@ ROWS = 100_000
 MOST_WORKERS = 64
 # A piece for which the continuum is solved more often is cut into parts of about so many impacts.
 # They take some seconds each; less would take longer, as NumPy solves many at a time.
-PART = 500
+PART = 1000
 # From this time on it is told why a table takes so long [s].
 LONG = 5.0
 
@@ -65,7 +65,7 @@ def solve(
         How many a process holds at a time.
     progress : callable, optional
         Called with the share that is done, 0 to 1, or None where nobody knows it, and the rows so
-        far: every 500 impacts or so where the continuum is solved, else with each piece.
+        far: every 1000 impacts or so where the continuum is solved, else with each piece.
     loss : str, optional
         As in `solve`.
     workers : int
@@ -76,8 +76,8 @@ def solve(
     notice : callable, optional
         Called with a line of text: which columns are not known and so are carried over, and, if
         solving is expected to take more than some seconds, why, how long, and which tolerance would
-        avoid it. The time is that of the first 500 impacts or so for which the continuum is solved,
-        times how many there would be if the rest were like this piece.
+        avoid it. The time is that of the first 1000 impacts or so for which the continuum is
+        solved, times how many there would be if the rest were like this piece.
 
     Returns
     -------
