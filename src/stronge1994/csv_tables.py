@@ -39,7 +39,7 @@ def refuse_not_finite(named: Mapping[str, Columns]) -> None:
                 first, places = next(iter(curve.items()))
                 raise ValueError(
                     f"curve '{name}', column '{column}' is {values[row]} where '{first}' is "
-                    f"{places[row]}: allowed are finite numbers"
+                    f"{places[row]:g}: allowed are finite numbers"
                 )
 
 

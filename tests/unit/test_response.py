@@ -333,7 +333,7 @@ def test_a_velocity_that_is_no_number_is_named(monkeypatch):
         return result._replace(velocity=np.where(incidence > 2.2, np.nan, result.velocity))
 
     monkeypatch.setitem(models.MODELS, "lumped.hysteretic", paper._replace(rebound=unknown))
-    words = "^lumped.hysteretic is not .* velocity at incidence .* is nan: allowed are finite"
+    words = "^lumped.hysteretic is not .* at incidence .* is no finite number"
     with pytest.raises(ConvergenceError, match=words):
         compiled("lumped.hysteretic")
 

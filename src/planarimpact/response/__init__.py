@@ -351,11 +351,11 @@ def compile(
         result = rebound(x)
         peak = np.zeros(x.size) if no_peak else result.peak_friction
         values = np.stack([result.velocity, peak])
-        if not np.isfinite(values).all():
-            field, i = np.argwhere(~np.isfinite(values))[0]
+        known = np.isfinite(values).all(axis=0)
+        if not known.all():
             raise checks.ConvergenceError(
-                f"{model} is not compiled: its {Bound._fields[field]} at incidence {x[i]:g} is "
-                f"{values[field, i]}: allowed are finite numbers"
+                f"{model} is not compiled: at incidence {x[~known].min():g} its velocity or peak "
+                "friction is no finite number"
             )
         return values, result.regime
 
