@@ -155,7 +155,7 @@ if workflow.is_main_process:
 
 
 onsuccess:
-    print(last_words.text(workflow.config_settings.config_args or ()))
+    print(last_words.text(workflow.config_settings.config_args or (), logs=log))
 
 
 onerror:

@@ -280,7 +280,7 @@ def _compile(options: argparse.Namespace) -> None:
             code = export.text(compiled, options.output, options.language)
             partial.write_text(code, encoding="utf-8")
     loss = models.loss_of(model, _restitution(options))
-    print(f"{options.output}: {compiled}; loss {loss}")
+    print(f"{options.output}: {compiled}{loss and f'; loss {loss}'}")
 
 
 def _show(impacts: int, share: float) -> None:
@@ -428,6 +428,8 @@ def _errors(options: argparse.Namespace) -> dict[str, ArrayLike]:
         numbers = np.sqrt(np.mean(error**2)), np.max(error), seen
         for column, value in zip(columns.values(), numbers, strict=True):
             column.append(float(f"{value:.2g}"))
+    used = ", ".join(f"{name} {value:g}" for name, value in groups.items())
+    print(f"Errors against {reference} for {used}", file=sys.stderr)
     return dict(columns)
 
 

@@ -24,6 +24,25 @@ class Failed(Exception):
     """The table holds the message of a solver that crashed."""
 
 
+def refuse_not_finite(named: Mapping[str, Columns]) -> None:
+    """Refuse curves of which a number is not finite; a `ValueError` names the first one.
+
+    >>> refuse_not_finite({"a": {"x [1]": np.array([0.5, 1.5]), "y [1]": np.array([0, np.nan])}})
+    Traceback (most recent call last):
+    ValueError: curve 'a', column 'y [1]' is nan where 'x [1]' is 1.5: allowed are finite numbers
+    """
+    for name, curve in named.items():
+        for column, values in curve.items():
+            values = np.asarray(values)
+            if values.dtype.kind == "f" and not np.isfinite(values).all():
+                row = int(np.isfinite(values).argmin())
+                first, places = next(iter(curve.items()))
+                raise ValueError(
+                    f"curve '{name}', column '{column}' is {values[row]} where '{first}' is "
+                    f"{places[row]:g}: allowed are finite numbers"
+                )
+
+
 def write(
     path: Path, named: Mapping[str, Mapping[str, Iterable[Any]]], first: str = "curve"
 ) -> None:

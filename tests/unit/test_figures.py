@@ -1,7 +1,13 @@
 """What a folder of a figure may state, and how a faulty one is refused."""
 
+import sys
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
+from stronge1994 import csv_tables
+from stronge1994.figures.shared.curves import solving
 from stronge1994.plan import figures
 from stronge1994.reference_data import SourceError
 
@@ -119,3 +125,12 @@ def test_a_bad_name_is_refused(folder):
     (folder / "fig10").rename(folder / "Fig-10")
     with pytest.raises(SourceError, match="Fig-10: allowed are a to z, 0 to 9 and _"):
         figures.stated()
+
+
+def test_curves_that_are_not_finite_are_none(tmp_path, monkeypatch):
+    columns = {"x [1]": np.array([0.5, 1.5]), "y [1]": np.array([0.0, np.nan])}
+    module = SimpleNamespace(curves=lambda: {"mine": columns})
+    monkeypatch.setitem(sys.modules, "stronge1994.figures.mine.curves", module)
+    solving.solve("mine", {}, {}, str(tmp_path / "mine.csv"))
+    with pytest.raises(csv_tables.Failed, match="'mine', column 'y.*' is nan where .* is 1.5"):
+        csv_tables.read(tmp_path / "mine.csv")

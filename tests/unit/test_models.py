@@ -265,6 +265,7 @@ def test_an_own_model_may_be_replaced_but_none_of_the_package(own):
         ),
         ({"rebound": rebound_of(regime=np.ravel)}, r"regime, shape \(8,\): allowed .* \(2, 4\)"),
         ({"rebound": rebound_of(velocity=lambda w: w + 1)}, "-2 is 1, at 2 1: allowed"),
+        ({"rebound": rebound_of(velocity=lambda w: -w)}, r"at incidence 9: .* m2/m1 = 3.5, the"),
         ({"rebound": rebound_of(velocity=lambda w: w + np.inf)}, "at incidence -9: .* finite"),
     ],
 )

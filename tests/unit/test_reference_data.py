@@ -284,6 +284,7 @@ def test_a_measured_series_has_sigmas_by_column_or_one_however_large(tmp_path):
         ("share_uncertainty", "spread", r"column 'spread \[1\]' is missing; found angle"),
         ("sigma: 5", "sigma: 0", "x.sigma: 0 is less than or equal to the minimum of 0"),
         ("    points: 2\n", "    points: 2\n    line: true\n", "line: False was expected"),
+        ("spread of three throws", "invented", "'invented' is too short; .* of 10 characters or"),
     ],
 )
 def test_a_measured_series_without_what_it_needs_is_refused(old, new, words, tmp_path):

@@ -325,6 +325,19 @@ def test_a_model_that_jumps_does_not_pass(monkeypatch):
         compiled("lumped.hysteretic", 1e-8)
 
 
+def test_a_velocity_that_is_no_number_is_named(monkeypatch):
+    paper = models.MODELS["lumped.hysteretic"]
+
+    def unknown(incidence, *groups):
+        result = paper.rebound(incidence, *groups)
+        return result._replace(velocity=np.where(incidence > 2.2, np.nan, result.velocity))
+
+    monkeypatch.setitem(models.MODELS, "lumped.hysteretic", paper._replace(rebound=unknown))
+    words = "^lumped.hysteretic is not .* at incidence .* is no finite number"
+    with pytest.raises(ConvergenceError, match=words):
+        compiled("lumped.hysteretic")
+
+
 def test_a_tolerance_out_of_reach_is_named_with_one_that_is_reached(monkeypatch):
     """The model itself gets a share of it, which nobody asked for."""
     exact = models.MODELS["continuum.viscous"]

@@ -328,7 +328,9 @@ RMS, LARGEST, SEEN = "rms [mu v2(0)]", "max [mu v2(0)]", "seen [1]"
 def listed(capsys, *options):
     """Rows that `planarimpact models` prints, by model."""
     assert main(["models", *options]) == 0
-    rows = csv.DictReader(io.StringIO(capsys.readouterr().out))
+    said = capsys.readouterr()
+    assert "for mass_ratio 3.5, stiffness_ratio 1.21, restitution " in said.err
+    rows = csv.DictReader(io.StringIO(said.out))
     return {row["model"]: row for row in rows}
 
 

@@ -84,7 +84,15 @@ def test_tables_without_the_gate_are_no_verdict(folder):
     ended(folder, verdict="diverges")
     words = last_words.text()
     assert "No verdict in this run" in words and "diverges" not in words
-    assert "stopped" not in words and "On purpose" not in words
+    assert "stopped" not in words and "On purpose" not in words and "Verdicts:" not in words
+
+
+def test_a_run_of_some_files_names_the_verdicts_that_it_made(folder):
+    jobs = ["Job 3: Comparing fig5 with references", "Job 4: Comparing fig6 with references"]
+    (folder / "snakemake.log").write_text("\n".join(jobs))
+    (folder / "results/verdicts").mkdir()
+    (folder / "results/verdicts/fig6.csv").touch()  # the other job failed
+    assert "\nVerdicts: results/verdicts/fig6.csv\n" in last_words.text(logs=["snakemake.log"])
 
 
 @pytest.mark.parametrize(

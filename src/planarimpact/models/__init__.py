@@ -280,8 +280,9 @@ def register(model: Model, *, replace: bool = False) -> None:
     InputError
         If the name is taken or is no name, the restitution is no range within 0 to 1, the cost is
         none of `COSTS` or "table", or `rebound` fails, gives no `Rebound`, another shape than that
-        of the incidences, a velocity that is no number or not odd in the incidence, or other
-        velocities without its settings than with the defaults that `settings` states.
+        of the incidences, a velocity that is no number, not odd in the incidence or farther from it
+        than friction can bring it, or other velocities without its settings than with the defaults
+        that `settings` states.
 
     Examples
     --------
@@ -357,6 +358,13 @@ def _refuse_other_convention(model: Model, restitution: float) -> None:
         raise checks.InputError(
             f"{where}: velocity at incidence -2 is {velocity[0, 1]:g}, at 2 {velocity[1, 1]:g}: "
             "allowed are opposite ones"
+        )
+    largest = sliding.change(3.5, restitution)
+    too_much = np.abs(x - velocity)[1] > 1.01 * largest  # models in time steps have small errors
+    if too_much.any():
+        raise checks.InputError(
+            f"{where}: velocity at incidence {x[1][too_much][0]:g}: allowed are changes up to "
+            f"(1 + e) m2/m1 = {largest:g}, the most that friction can give"
         )
     if not np.array_equal(velocity, answer(x.shape, **groups, **model.settings).velocity):
         raise checks.InputError(

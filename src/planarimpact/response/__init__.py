@@ -313,8 +313,8 @@ def compile(
     InputError
         If an argument is not admissible, or the model has no such setting.
     ConvergenceError
-        If the model jumps, is too rough for the tolerance (a model in time steps has a kink for
-        each step), or does not reach it itself.
+        If the model jumps, gives numbers that are not finite, is too rough for the tolerance (a
+        model in time steps has a kink for each step), or does not reach it itself.
 
     Examples
     --------
@@ -350,7 +350,14 @@ def compile(
     def function(x: Array) -> tuple[Array, Integers]:
         result = rebound(x)
         peak = np.zeros(x.size) if no_peak else result.peak_friction
-        return np.stack([result.velocity, peak]), result.regime
+        values = np.stack([result.velocity, peak])
+        known = np.isfinite(values).all(axis=0)
+        if not known.all():
+            raise checks.ConvergenceError(
+                f"{model} is not compiled: at incidence {x[~known].min():g} its velocity or peak "
+                "friction is no finite number"
+            )
+        return values, result.regime
 
     def watch(share: float) -> None:
         if progress:

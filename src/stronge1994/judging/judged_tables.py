@@ -18,10 +18,7 @@ def read(path: str) -> Curves:
         curves = {"impacts": _impacts(path)}
     else:
         curves = csv_tables.read(path)
-    for curve, columns in curves.items():
-        for column, values in columns.items():
-            if values.dtype.kind == "f" and not np.isfinite(values).all():
-                raise ValueError(f"curve '{curve}', column '{column}' is not finite")
+    csv_tables.refuse_not_finite(curves)
     return curves
 
 

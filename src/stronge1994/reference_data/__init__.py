@@ -181,6 +181,8 @@ def refuse_invalid(document: Any, schema: Schema, name: str | Path) -> None:
         where = ".".join(map(str, errors[0].path)) or "top level"
         known = errors[0].schema.get("properties", {})
         allowed = f"; allowed are {', '.join(known)}" if "unexpected" in errors[0].message else ""
+        if errors[0].validator == "minLength":
+            allowed = f"; allowed are texts of {errors[0].validator_value} characters or more"
         raise SourceError(f"{name}: {where}: {errors[0].message}{allowed}")
     for where, value in _leaves(document):
         if isinstance(value, float) and not math.isfinite(value):

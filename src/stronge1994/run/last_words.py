@@ -32,6 +32,7 @@ UNLOCK = "Does no other run work here? Then type:  snakemake --unlock  and the s
 # Snakemake's own log says this after Ctrl-C, and after a job has failed.
 ON_REQUEST = "Terminating processes on user request"
 FAILED_JOB = re.compile(r"^Error in rule (\w+):", flags=re.M)
+JUDGED = re.compile(r"Comparing (\w+) with references$", flags=re.M)
 
 
 def add_unlock(record: logging.LogRecord) -> bool:
@@ -45,15 +46,19 @@ def text(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str] 
     """The last lines of a run. The gate's log holds its faults, and exists only if it has judged.
 
     `config` is the user's --config, to be repeated. `stopped` says that a job failed, or that the
-    run was interrupted; Snakemake's `logs` tell which.
+    run was interrupted; Snakemake's `logs` tell which, and what was judged.
     """
+    log_text = "".join(Path(log).read_text(encoding="utf-8", errors="replace") for log in logs)
     passed, path = Path(PASSED).exists(), Path(GATE_LOG)
     gate_log = path.read_text(encoding="utf-8") if path.exists() else ""
     faults = [line for line in gate_log.splitlines() if line]
     # The gate has not run, was stopped, or other jobs came after it.
     if not (faults or (passed and path.exists())):
+        made = [f"results/verdicts/{name}.csv" for name in JUDGED.findall(log_text)]
+        verdicts = ", ".join(path for path in made if Path(path).exists())
         parts = ["No verdict in this run as a whole. Pictures: figures/"]
-        return "\n" + "\n".join(parts + (_stopped(logs) if stopped else [])) + "\n"
+        parts += [f"Verdicts: {verdicts}"] if verdicts else []
+        return "\n" + "\n".join(parts + (_stopped(log_text) if stopped else [])) + "\n"
     parts = [
         verdict_table.text(_rows(TABLES[0], verdict_table.COLUMNS)),
         outcome.summary(_rows(TABLES[1], ("verdict", "holds", "entry", "where", "problem"))),
@@ -62,7 +67,7 @@ def text(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str] 
     if not faults:
         parts += [f"PASSED. {where}; pictures: figures/", *NEXT]
         if stopped:  # a job beside the verdict
-            parts += _stopped(logs)
+            parts += _stopped(log_text)
     else:
         again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
         parts += [
@@ -89,9 +94,8 @@ def _rows(path: str, columns: Iterable[str]) -> list[Row]:
         return []
 
 
-def _stopped(logs: Iterable[str]) -> list[str]:
+def _stopped(log_text: str) -> list[str]:
     """Why a run ended early."""
-    log_text = "".join(Path(log).read_text(encoding="utf-8", errors="replace") for log in logs)
     if ON_REQUEST in log_text:
         return [INTERRUPTED]
     names = ", ".join(dict.fromkeys(FAILED_JOB.findall(log_text)))

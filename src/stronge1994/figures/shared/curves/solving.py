@@ -1,6 +1,7 @@
 """Solve the curves of one figure. A crash becomes a table with the error: a failed verdict."""
 
 import importlib
+import sys
 import traceback
 from collections.abc import Mapping
 from typing import Any, TypeAlias
@@ -15,14 +16,17 @@ def solve(figure: str, settings: dict[str, Any], nodes: Tables, output: str) -> 
     """Write the curves of `figure`.
 
     `nodes` names reference tables. Curves must pass through the points of their x columns; a whole
-    table becomes the setting `points` instead.
+    table becomes the setting `points` instead. Curves that are not finite have failed, too.
     """
     try:
         settings = settings | read_nodes(nodes)
         named = importlib.import_module(f"stronge1994.figures.{figure}.curves").curves(**settings)
+        csv_tables.refuse_not_finite(named)
     except Exception as error:
         traceback.print_exc()
-        csv_tables.write_rows(output, ["error"], [[f"{type(error).__name__}: {error}"]])
+        problem = f"{type(error).__name__}: {error}"
+        print(f"{figure}: no curves: {problem}", file=sys.__stderr__)  # the log has all else
+        csv_tables.write_rows(output, ["error"], [[problem]])
         return
     csv_tables.write(output, named)
 
