@@ -17,6 +17,9 @@
  *   velocity = hit.velocity;
  *   spin = hit.spin;
  * In C++ before C++20: `spheres_pair rubber = {}; rubber.friction = 0.8;` and so on.
+ * Where there is no answer, all numbers are NaN and the regime is SPHERES_UNRESOLVED.
+ * spheres_problem, with the arguments of spheres_collide, then says what is wrong. A field that you
+ * leave out is 0, restitution too.
  *
  * <about>
  * What is the same in every language: spheres.txt.

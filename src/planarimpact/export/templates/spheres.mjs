@@ -16,6 +16,8 @@
  *   const hit = spheres.bounce(rubber, [0, 0, 1], ball, velocity, spin);
  *   velocity = hit.velocity;
  *   spin = hit.spin;
+ * Where there is no answer, collide, bounce and model_form throw a RangeError: it names the field,
+ * its value and what is allowed.
  *
  * <about>
  * What is the same in every language: spheres.txt.
