@@ -1,5 +1,6 @@
 """Collisions in C and JavaScript: laws of mechanics over random impacts, and Python's answers."""
 
+import re
 import shutil
 import subprocess
 
@@ -45,11 +46,13 @@ static struct balls_vector at(const double *x)
 int main(void)
 {
     double x[WIDTH], row[20];
-    FILE *in = fopen("impacts", "rb"), *out = fopen("c", "wb");
-    while (in && out && fread(x, sizeof x, 1, in) == 1) {
+    FILE *in = fopen("impacts", "rb"), *out = fopen("c", "wb"), *said = fopen("c.txt", "w");
+    while (said && in && out && fread(x, sizeof x, 1, in) == 1) {
         struct balls_pair pair = {x[0], x[1], x[2], x[3], x[4], x[5], (int)x[6]};
         struct balls_body body = {x[10], x[11], x[12]}, other = {x[19], x[20], x[21]};
         struct balls_collision r = balls_collide(pair, at(x + 7), body, at(x + 13), at(x + 16),
+            other, at(x + 22), at(x + 25));
+        const char *problem = balls_problem(pair, at(x + 7), body, at(x + 13), at(x + 16),
             other, at(x + 22), at(x + 25));
         const struct balls_vector v[] = {
             r.velocity, r.spin, r.other_velocity, r.other_spin, r.impulse};
@@ -66,14 +69,16 @@ int main(void)
         row[19] = balls_model_form(pair, at(x + 7), body, at(x + 13), at(x + 16), other,
             at(x + 22), at(x + 25));
         fwrite(row, sizeof row, 1, out);
+        if (problem)
+            fprintf(said, "%s\\n", problem);
     }
-    return in && out ? fclose(out) : 1;
+    return in && out && said ? fclose(out) || fclose(said) : 1;
 }
 """
 JAVASCRIPT = """\
 import { readFileSync, writeFileSync } from "node:fs";
-import { collide, model_form } from "./balls.mjs";
-const bytes = readFileSync("impacts"), rows = [];
+import { UNRESOLVED, collide, model_form } from "./balls.mjs";
+const bytes = readFileSync("impacts"), rows = [], said = [];
 const all = new Float64Array(bytes.buffer, bytes.byteOffset, bytes.length / 8);
 const body = ([mass, gyration, radius]) => ({ mass, gyration, radius });
 for (let i = 0; i < all.length; i += WIDTH) {
@@ -84,11 +89,60 @@ for (let i = 0; i < all.length; i += WIDTH) {
         effective_modulus, loss };
     const contact = [pair, part(7), body(part(10)), part(13), part(16), body(part(19)), part(22),
         part(25)];
-    const r = collide(...contact);
-    rows.push(...r.velocity, ...r.spin, ...r.other_velocity, ...r.other_spin, ...r.impulse,
-        r.incidence, r.restitution, r.error_bound, r.regime, model_form(...contact));
+    try {
+        const r = collide(...contact);
+        rows.push(...r.velocity, ...r.spin, ...r.other_velocity, ...r.other_spin, ...r.impulse,
+            r.incidence, r.restitution, r.error_bound, r.regime, model_form(...contact));
+    } catch (error) {
+        if (!(error instanceof RangeError)) throw error;
+        rows.push(...Array(18).fill(NaN), UNRESOLVED, NaN);
+        said.push(error.message);
+    }
 }
+writeFileSync("js.txt", said.join("\\n"));
 writeFileSync("js", new Uint8Array(Float64Array.from(rows).buffer));
+"""
+# What a caller of JavaScript forgets or mistakes, and how the message begins.
+MISTAKES = {
+    "[{ ...pair, loss: undefined }, up, ball, down, zero]": "pair.loss = undefined: ",
+    "[{ ...pair, loss: 'viscous' }, up, ball, down, zero]": 'pair.loss = "viscous": ',
+    "[{ ...pair, restitution: undefined }, up, ball, down, zero]": "pair.restitution = undefined: ",
+    "[{ ...pair, restitution: '0.8' }, up, ball, down, zero]": 'pair.restitution = "0.8": ',
+    "[{ ...pair, restitution: null }, up, ball, down, zero]": "pair.restitution = null: ",
+    "[{ ...pair, friction: null }, up, ball, down, zero]": "pair.friction = null: ",
+    "[{ ...pair, friction: undefined }, up, ball, down, zero]": "pair.friction = undefined: ",
+    "[{ ...pair, stiffness_ratio: null }, up, ball, down, zero]": "pair.stiffness_ratio = null: ",
+    "[{ friction: 1, stiffness_ratio: 1.5 }, up, ball, down, zero]": "pair = { friction: 1, ",
+    "[undefined, up, ball, down, zero]": "pair = undefined: allowed is an object",
+    "[pair, [0, 0, 2], ball, down, zero]": "normal = [0, 0, 2]: allowed is a vector of length 1",
+    "[pair, { x: 0, y: 0, z: 1 }, ball, down, zero]": "normal = { x: 0, y: 0, z: 1 }: allowed is ",
+    "[pair, up, ball, [0, -1], zero]": "velocity = [0, -1]: allowed is an array of three ",
+    "[pair, up, ball, [0, 0, -1, 0], zero]": "velocity = [0, 0, -1, 0]: ",
+    "[pair, up, ball, ['0', 0, -1], zero]": 'velocity = ["0", 0, -1]: ',
+    "[pair, up, ball, down]": "spin = undefined: allowed is an array of three ",
+    "[pair, up, { mass: 1, radius: 1 }, down, zero]": "body.gyration = undefined: ",
+    "[pair, up, { ...ball, radius: null }, down, zero]": "body.radius = null: ",
+    "[pair, up, ball, down, zero, null, zero, zero]": "other = null: allowed is an object",
+}
+CALLS = """\
+import { PLASTIC, WALL, bounce, collide, model_form, solid_sphere } from "./balls.mjs";
+const up = [0, 0, 1], down = [1, 0, -1], zero = [0, 0, 0], ball = solid_sphere(0.1, 1);
+const pair = { friction: 0.3, stiffness_ratio: 1.2, restitution: 0.8, loss: PLASTIC };
+const message = (work) => {
+    try {
+        work();
+        return "none";
+    } catch (error) {
+        return error instanceof RangeError ? error.message : String(error);
+    }
+};
+console.log(message(() => bounce({ ...pair, restitution: 0 }, up, ball, down, zero)));
+for (const one of [MISTAKES]) {
+    const all = one.length > 5 ? one : [...one, ...Array(5 - one.length), WALL, zero, zero];
+    const said = new Set([message(() => collide(...all)), message(() => model_form(...all))]);
+    if (one.length < 6) said.add(message(() => bounce(...one)));
+    console.log(...said);
+}
 """
 
 
@@ -190,11 +244,15 @@ def frame():
 
 
 @pytest.fixture(scope="module")
-def found(given, frame, tmp_path_factory):
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("collide")
+
+
+@pytest.fixture(scope="module")
+def found(given, frame, folder):
     """Answers of C, also in the other frame and to `refused`; JavaScript has the same bits."""
     if not (shutil.which("cc") and shutil.which("node")):
         pytest.skip("cc or node is not installed")
-    folder = tmp_path_factory.mktemp("collide")
     rows = stacked(given[0], moved(given[0], *frame))
     np.concatenate([rows, refused()]).tofile(folder / "impacts")
     export.write_spheres(folder / "balls.h", "c")
@@ -204,6 +262,7 @@ def found(given, frame, tmp_path_factory):
     flags = "-std=c99 -O2 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror run.c -o run -lm"
     for command in (["cc", *flags.split()], ["./run"], ["node", "run.mjs"]):
         subprocess.run(command, cwd=folder, check=True)
+    (folder / "calls.mjs").write_text(CALLS.replace("MISTAKES", ", ".join(MISTAKES)))
     c, js = (np.fromfile(folder / name).reshape(-1, sum(FIELDS.values())) for name in ("c", "js"))
     np.testing.assert_array_equal(c, js)
     return [named(FIELDS, rows) for rows in np.split(c, [COUNT, 2 * COUNT])]
@@ -329,6 +388,27 @@ def test_bad_numbers_and_what_the_table_lacks_have_no_answer(found):
             assert values[0] == Regime.STICK_SLIP and (values[1:] == Regime.UNRESOLVED).all()
         else:
             assert np.isfinite(values[0]).all() and np.isnan(values[1:]).all(), name
+
+
+def test_c_and_javascript_say_what_is_wrong(found, folder):
+    c, js = ((folder / f"{language}.txt").read_text().splitlines() for language in ("c", "js"))
+    assert len(c) == len(REFUSED)
+    assert [re.sub(r" = .*?(?=: allowed)", "", text) for text in js] == [
+        text.replace("BALLS_", "").replace("a vector of three", "an array of three") for text in c
+    ]
+    fields = [re.sub(r"^(pair|body)\.", "", text.split(":")[0]).replace(".", "_") for text in c]
+    changed = [next(iter(change)) for change in REFUSED]
+    assert {(one, field) for one, field in zip(changed, fields, strict=True) if one != field} == {
+        ("yield_pressure", "pair"),
+        ("gyration", "mass_ratio/stiffness_ratio"),
+        ("restitution", "relaxation_time"),
+    }
+    command = ["node", "calls.mjs"]
+    done = subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True)
+    said = done.stdout.splitlines()
+    assert said[0] == "none"  # restitution may be 0
+    for text, (call, begin) in zip(said[1:], MISTAKES.items(), strict=True):
+        assert text.startswith(begin) and text.count("allowed") == 1, (call, text)
 
 
 def test_below_the_table_the_contact_keeps_its_limits_and_says_so(given, found):

@@ -17,6 +17,9 @@
  *   velocity = hit.velocity;
  *   spin = hit.spin;
  * In C++ before C++20: `spheres_pair rubber = {}; rubber.friction = 0.8;` and so on.
+ * Where there is no answer, all numbers are NaN and the regime is SPHERES_UNRESOLVED.
+ * spheres_problem, with the arguments of spheres_collide, then says what is wrong. A field that you
+ * leave out is 0, restitution too.
  *
  * <about>
  * What is the same in every language: spheres.txt.
@@ -35,6 +38,7 @@
 #endif
 
 #include <math.h>
+#include <stddef.h>
 
 /* <public> */
 #define SPHERES_VISCOUS 1
@@ -521,6 +525,8 @@ static inline struct spheres_impact spheres_before(
     double m2 = 1 / (1 / body.mass + 1 / other.mass);
     double beta = m2 * ((1 + arm * arm) / body.mass + (1 + other_arm * other_arm) / other.mass);
     v1 = sqrt(spheres_dot(sideways, sideways));
+    impact.m2 = m2;
+    impact.beta = beta;
     if (!(fabs(spheres_dot(normal, normal) - 1) <= 2e-6 && fabs(along) <= most && v1 <= most
           && body.mass > 0 && body.gyration > 0 && body.radius >= 0
           && other.mass > 0 && other.gyration > 0 && other.radius >= 0 && m2 <= most
@@ -543,13 +549,14 @@ static inline struct spheres_impact spheres_before(
     if (v1 > 0)
         impact.tangent = spheres_sum(zero, 1 / v1, sideways);
     impact.v2 = -along;
-    impact.m2 = m2;
-    impact.beta = beta;
     impact.zeta2 = pair.stiffness_ratio;
     impact.x = v1 > 0 ? v1 / (pair.friction * impact.v2) : 0;
     impact.regime = SPHERES_STICK;
     return impact;
 }
+
+#define SPHERES_TEXT(number) SPHERES_QUOTED(number)
+#define SPHERES_QUOTED(number) #number
 
 /* What an impact of this loss adds to x, the tangential velocity; it finds the regime too. */
 static inline double spheres_change(const struct spheres_impact *impact, int loss, int *regime)
@@ -617,6 +624,94 @@ static inline struct spheres_collision spheres_collide(
         after.error_bound = unit
             * (impact.loss == SPHERES_VISCOUS ? SPHERES_ERROR_VISCOUS : SPHERES_ERROR_PLASTIC);
     return after;
+}
+
+static inline int spheres_is_finite(struct spheres_vector a)
+{
+    const double most = (double)INFINITY;
+    return fabs(a.x) < most && fabs(a.y) < most && fabs(a.z) < most;
+}
+
+/*
+ * What is wrong with the arguments of `spheres_collide`: the field, and what is allowed; NULL where
+ * there is an answer. Call it where the numbers are NaN and the regime is SPHERES_UNRESOLVED.
+ */
+static inline const char *spheres_problem(
+    struct spheres_pair pair, struct spheres_vector normal,
+    struct spheres_body body, struct spheres_vector velocity, struct spheres_vector spin,
+    struct spheres_body other, struct spheres_vector other_velocity,
+    struct spheres_vector other_spin)
+{
+    const double most = (double)INFINITY;
+    int is_fixed = pair.restitution != 0 || pair.loss != 0;
+    struct spheres_impact impact = spheres_before(
+        pair, normal, body, velocity, spin, other, other_velocity, other_spin);
+    if (impact.regime != SPHERES_UNRESOLVED)
+        return NULL;
+    if (!spheres_is_finite(normal))
+        return "normal: allowed is a vector of three finite numbers";
+    if (!spheres_is_finite(velocity))
+        return "velocity: allowed is a vector of three finite numbers";
+    if (!spheres_is_finite(spin))
+        return "spin: allowed is a vector of three finite numbers";
+    if (!spheres_is_finite(other_velocity))
+        return "other_velocity: allowed is a vector of three finite numbers";
+    if (!spheres_is_finite(other_spin))
+        return "other_spin: allowed is a vector of three finite numbers";
+    if (!(fabs(spheres_dot(normal, normal) - 1) <= 2e-6))
+        return "normal: allowed is a vector of length 1";
+
+    if (!(body.mass > 0))
+        return "body.mass: allowed is a number above 0";
+    if (!(body.gyration > 0))
+        return "body.gyration: allowed is a number above 0";
+    if (!(body.radius >= 0 && body.radius < most))
+        return "body.radius: allowed is a finite number from 0";
+    if (!(other.mass > 0))
+        return "other.mass: allowed is a number above 0";
+    if (!(other.gyration > 0))
+        return "other.gyration: allowed is a number above 0";
+    if (!(other.radius >= 0 && other.radius < most))
+        return "other.radius: allowed is a finite number from 0";
+    if (!(impact.m2 <= SPHERES_INCIDENCE_MAX))
+        return "body.mass: allowed is a finite number where other.mass is not one";
+
+    if (!(pair.friction >= 0 && pair.friction < most))
+        return "pair.friction: allowed is a finite number from 0";
+    if (!(pair.stiffness_ratio > 0 && pair.stiffness_ratio <= SPHERES_STIFFNESS_MOST))
+        return "pair.stiffness_ratio: allowed is a number above 0, up to "
+            SPHERES_TEXT(SPHERES_STIFFNESS_MAX);
+    if (!spheres_covers(0, impact.beta, pair.stiffness_ratio, 1, SPHERES_VISCOUS))
+        return "mass_ratio/stiffness_ratio: allowed is a number from "
+            SPHERES_TEXT(SPHERES_RATIO_MIN) " to " SPHERES_TEXT(SPHERES_RATIO_MAX);
+
+    if (is_fixed + (pair.relaxation_time != 0) + (pair.yield_pressure != 0) != 1)
+        return "pair: allowed is either restitution with loss, or one of relaxation_time and "
+            "yield_pressure, with effective_modulus and no loss";
+    if (is_fixed) {
+        if (!(pair.restitution >= 0 && pair.restitution <= 1))
+            return "pair.restitution: allowed is a number from 0 to 1";
+        if (!(impact.e >= 0))
+            return "pair.loss: allowed is SPHERES_VISCOUS or SPHERES_PLASTIC where restitution is "
+                "below 1";
+    } else {
+        if (!(pair.effective_modulus > 0))
+            return "pair.effective_modulus: allowed is a number above 0";
+        if (pair.relaxation_time != 0) {
+            if (!(pair.relaxation_time > 0))
+                return "pair.relaxation_time: allowed is a number above 0";
+            if (!(impact.e >= 0))
+                return "pair.relaxation_time: allowed is a number so small that e is above "
+                    SPHERES_TEXT(SPHERES_LEAST);
+        }
+        if (pair.yield_pressure != 0) {
+            if (!(pair.yield_pressure > 0))
+                return "pair.yield_pressure: allowed is a number above 0";
+            if (!(impact.e >= 0))
+                return "pair.yield_pressure: allowed is a smaller or a larger number";
+        }
+    }
+    return "velocity: allowed is a smaller vector, as the spins are";
 }
 
 /* The collision of a body with a surface at rest. */

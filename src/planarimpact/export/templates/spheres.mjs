@@ -16,6 +16,8 @@
  *   const hit = spheres.bounce(rubber, [0, 0, 1], ball, velocity, spin);
  *   velocity = hit.velocity;
  *   spin = hit.spin;
+ * Where there is no answer, collide, bounce and model_form throw a RangeError: it names the field,
+ * its value and what is allowed.
  *
  * <about>
  * What is the same in every language: spheres.txt.
@@ -499,7 +501,8 @@ function fifth_root(value) {
  * @returns {number} NaN if the pair is not complete
  */
 export function restitution_at(pair, mass, radius, speed) {
-    const { restitution: fixed = 0, loss = 0, relaxation_time = 0, yield_pressure = 0 } = pair;
+    const { loss = 0, relaxation_time = 0, yield_pressure = 0 } = pair;
+    const { restitution: fixed = loss === 0 ? 0 : NaN } = pair;
     const modulus = pair.effective_modulus;
     const is_fixed = fixed !== 0 || loss !== 0;
     if (Number(is_fixed) + Number(relaxation_time !== 0) + Number(yield_pressure !== 0) !== 1)
@@ -525,7 +528,8 @@ export function restitution_at(pair, mass, radius, speed) {
             [total, last] = [series[i] + 2 * at * total - last, total];
         return clipped(series[0] + at * total - last, LEAST, 1);
     }
-    return fixed === 1 || loss === VISCOUS || loss === PLASTIC ? fixed : NaN;
+    const known = fixed === 1 || loss === VISCOUS || loss === PLASTIC;
+    return known && typeof fixed === "number" ? fixed : NaN;
 }
 
 /**
@@ -535,6 +539,16 @@ export function restitution_at(pair, mass, radius, speed) {
  */
 function curvature({ radius }) {
     return radius > 0 ? 1 / radius : 0;
+}
+
+/**
+ * Whether a value is an array of three numbers.
+ * @param {Vector} value
+ * @returns {boolean}
+ */
+function is_vector(value) {
+    return value?.length === 3 && typeof value[0] === "number" && typeof value[1] === "number"
+        && typeof value[2] === "number";
 }
 
 /**
@@ -554,6 +568,9 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
     const impact = {
         tangent: zero, v2: 0, m2: 0, beta: 0, zeta2: 0, e: 0, x: 0, loss: 0, regime: UNRESOLVED,
     };
+    if (!(pair && body && other && is_vector(normal) && is_vector(velocity) && is_vector(spin)
+          && is_vector(other_velocity) && is_vector(other_spin)))
+        return impact;
     // Velocity of the contact point of the body against that of the other one.
     const turn = sum(sum(zero, body.radius, spin), other.radius, other_spin);
     const between = sum(velocity, -1, other_velocity);
@@ -563,10 +580,13 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
     const other_arm = other.radius / other.gyration;
     const m2 = 1 / (1 / body.mass + 1 / other.mass);
     const beta = m2 * ((1 + arm * arm) / body.mass + (1 + other_arm * other_arm) / other.mass);
+    impact.m2 = m2;
+    impact.beta = beta;
     if (!(Math.abs(dot(normal, normal) - 1) <= 2e-6 && Math.abs(along) <= most && v1 <= most
           && body.mass > 0 && body.gyration > 0 && body.radius >= 0
           && other.mass > 0 && other.gyration > 0 && other.radius >= 0 && m2 <= most
-          && pair.friction >= 0 && pair.friction <= most))
+          && pair.friction >= 0 && pair.friction <= most && typeof pair.friction === "number"
+          && typeof body.radius === "number" && typeof other.radius === "number"))
         return impact;
     if (!(along < 0)) {
         impact.regime = NO_IMPACT;
@@ -581,12 +601,88 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
         return impact;
     if (v1 > 0) impact.tangent = sum(zero, 1 / v1, sideways);
     impact.v2 = -along;
-    impact.m2 = m2;
-    impact.beta = beta;
     impact.zeta2 = pair.stiffness_ratio;
     impact.x = v1 > 0 ? v1 / (pair.friction * impact.v2) : 0;
     impact.regime = STICK;
     return impact;
+}
+
+/**
+ * A value in a message.
+ * @param {unknown} value
+ * @returns {string}
+ */
+function shown(value) {
+    const word = (one) => (typeof one === "string" ? `"${one}"` : String(one));
+    if (typeof value !== "object" || !value) return word(value);
+    if (Array.isArray(value)) return `[${value.map(word).join(", ")}]`;
+    return `{ ${Object.entries(value).map(([name, one]) => `${name}: ${word(one)}`).join(", ")} }`;
+}
+
+/**
+ * What is wrong with the arguments of `collide`, for which `before` has no answer.
+ * @param {ReturnType<typeof before>} impact
+ * @param {Parameters<typeof collide>} contact the arguments
+ * @returns {RangeError}
+ */
+function refusal({ m2, beta, e }, ...contact) {
+    const [pair, normal, body, velocity, spin, other, other_velocity, other_spin] = contact;
+    const told = (field, value, allowed) =>
+        new RangeError(`${field} = ${shown(value)}: allowed is ${allowed}`);
+    const vectors = { normal, velocity, spin, other_velocity, other_spin };
+    for (const [field, value] of Object.entries(vectors)) {
+        if (!(is_vector(value) && Array.from(value).every(Number.isFinite)))
+            return told(field, value, "an array of three finite numbers");
+    }
+    if (!(Math.abs(dot(normal, normal) - 1) <= 2e-6))
+        return told("normal", normal, "a vector of length 1");
+    for (const [field, value] of Object.entries({ pair, body, other }))
+        if (!value) return told(field, value, "an object");
+
+    for (const [field, { mass, gyration, radius }] of Object.entries({ body, other })) {
+        if (!(mass > 0)) return told(`${field}.mass`, mass, "a number above 0");
+        if (!(gyration > 0)) return told(`${field}.gyration`, gyration, "a number above 0");
+        if (!(Number.isFinite(radius) && radius >= 0))
+            return told(`${field}.radius`, radius, "a finite number from 0");
+    }
+    if (!(m2 <= INCIDENCE_MAX))
+        return told("body.mass", body.mass, "a finite number where other.mass is not one");
+
+    const { friction, stiffness_ratio, loss = 0, effective_modulus } = pair;
+    const { restitution = loss === 0 ? 0 : NaN, relaxation_time = 0, yield_pressure = 0 } = pair;
+    if (!(Number.isFinite(friction) && friction >= 0))
+        return told("pair.friction", friction, "a finite number from 0");
+    if (!(stiffness_ratio > 0 && stiffness_ratio <= STIFFNESS_MOST)) {
+        const allowed = `a number above 0, up to ${STIFFNESS_MAX}`;
+        return told("pair.stiffness_ratio", stiffness_ratio, allowed);
+    }
+    if (!covers(0, beta, stiffness_ratio, 1, VISCOUS)) {
+        const allowed = `a number from ${RATIO_MIN} to ${RATIO_MAX}`;
+        return told("mass_ratio/stiffness_ratio", beta / stiffness_ratio, allowed);
+    }
+
+    const is_fixed = restitution !== 0 || loss !== 0;
+    if (Number(is_fixed) + Number(relaxation_time !== 0) + Number(yield_pressure !== 0) !== 1) {
+        return told("pair", pair, "either restitution with loss, or one of relaxation_time and "
+            + "yield_pressure, with effective_modulus and no loss");
+    }
+    if (is_fixed) {
+        if (!(typeof restitution === "number" && restitution >= 0 && restitution <= 1))
+            return told("pair.restitution", pair.restitution, "a number from 0 to 1");
+        if (restitution !== 1 && loss !== VISCOUS && loss !== PLASTIC)
+            return told("pair.loss", pair.loss, "VISCOUS or PLASTIC where restitution is below 1");
+    } else {
+        const law = relaxation_time !== 0 ? "relaxation_time" : "yield_pressure";
+        if (!(effective_modulus > 0))
+            return told("pair.effective_modulus", effective_modulus, "a number above 0");
+        if (!(pair[law] > 0)) return told(`pair.${law}`, pair[law], "a number above 0");
+        if (!(e >= 0)) {
+            const allowed = law === "relaxation_time"
+                ? `a number so small that e is above ${LEAST}` : "a smaller or a larger number";
+            return told(`pair.${law}`, pair[law], allowed);
+        }
+    }
+    return told("velocity", velocity, "a smaller vector, as the spins are");
 }
 
 /**
@@ -616,24 +712,28 @@ function change({ x, beta, zeta2, e }, loss) {
  * @param {Vector} other_velocity [m/s]
  * @param {Vector} other_spin [rad/s]
  * @returns {Collision}
+ * @throws {RangeError} for bad arguments, and bodies and materials beyond the table
  */
 export function collide(
     pair, normal, body, velocity, spin, other, other_velocity, other_spin
 ) {
     const impact = before(
         pair, normal, body, velocity, spin, other, other_velocity, other_spin);
-    if (impact.regime !== STICK) {
-        const nothing = impact.regime === NO_IMPACT, unknown = [NaN, NaN, NaN];
+    if (impact.regime === UNRESOLVED) {
+        throw refusal(
+            impact, pair, normal, body, velocity, spin, other, other_velocity, other_spin);
+    }
+    if (impact.regime === NO_IMPACT) {
         return {
-            velocity: [...(nothing ? velocity : unknown)],
-            spin: [...(nothing ? spin : unknown)],
-            other_velocity: [...(nothing ? other_velocity : unknown)],
-            other_spin: [...(nothing ? other_spin : unknown)],
-            impulse: nothing ? [0, 0, 0] : unknown,
+            velocity: [...velocity],
+            spin: [...spin],
+            other_velocity: [...other_velocity],
+            other_spin: [...other_spin],
+            impulse: [0, 0, 0],
             incidence: NaN,
             restitution: NaN,
             error_bound: NaN,
-            regime: impact.regime,
+            regime: NO_IMPACT,
         };
     }
 
@@ -669,6 +769,7 @@ export function collide(
  * @param {Vector} velocity [m/s]
  * @param {Vector} spin [rad/s]
  * @returns {Collision}
+ * @throws {RangeError} as `collide`
  */
 export function bounce(pair, normal, body, velocity, spin) {
     return collide(pair, normal, body, velocity, spin, WALL, [0, 0, 0], [0, 0, 0]);
@@ -677,11 +778,13 @@ export function bounce(pair, normal, body, velocity, spin) {
 /**
  * How far the velocity of the contact point after the impact would move with the other loss.
  * @param {Parameters<typeof collide>} contact the arguments of `collide`
- * @returns {number} [m/s]; NaN where there is no answer, or no impact
+ * @returns {number} [m/s]; NaN where the contact sticks below RESTITUTION_MIN, or without impact
+ * @throws {RangeError} as `collide`
  */
 export function model_form(...contact) {
     const impact = before(...contact);
-    if (impact.regime !== STICK) return NaN;
+    if (impact.regime === UNRESOLVED) throw refusal(impact, ...contact);
+    if (impact.regime === NO_IMPACT) return NaN;
     if (impact.e === 1) return 0;
     const viscous = change(impact, VISCOUS), plastic = change(impact, PLASTIC);
     if (viscous.regime === UNRESOLVED || plastic.regime === UNRESOLVED) return NaN;
