@@ -107,7 +107,7 @@ def test_a_jump_is_refused_where_it_is(place, known):
     try:
         _, bound = piecewise.fit(unlabelled(function), [0.0, *known, END], TOLERANCE)
     except ConvergenceError as refused:
-        words = re.fullmatch(r"it jumps by 1.0e-03 at x = (\S+), and .*", str(refused))
+        words = re.fullmatch(r"it jumps by 1.0e-03 at x = (\S+); allowed .*", str(refused))
         assert abs(float(words[1]) - place) <= 1e-11 * place
     else:
         assert (bound[0] <= TOLERANCE) if place in known else (bound[0] >= 1e-3)
