@@ -110,7 +110,9 @@ def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES
 
     The code computes what `planarimpact.collide` computes, and without vectors what
     `planarimpact.spheres.rebound` computes, by the same operations in the same order. Where the
-    table has no answer, the regime is UNRESOLVED, and numbers that are not known are NaN.
+    table has no answer, the regime is UNRESOLVED, and numbers that are not known are NaN; but
+    `collide`, `bounce` and `model_form` of JavaScript throw a RangeError for bad arguments, and in
+    C `NAME_problem` says what is wrong.
 
     Parameters
     ----------

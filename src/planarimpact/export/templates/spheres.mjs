@@ -215,12 +215,12 @@ function find(y, b, e, loss) {
     const between = (k) => (1 - part) * limits[k] + part * limits[k + 1];
     const low_e = between(interval), high_e = between(interval + INTERVALS + 1);
     const which = loss === VISCOUS ? 0 : e < low_e ? 1 : e < high_e ? 2 : 3, panel = panels[which];
-    const t = [
-        () => (e - E_LEAST) / E_SPAN,
-        () => 1 - Math.sqrt(clipped(E_LEAST / e - E_LEAST / low_e, 0, 1) / (1 - E_LEAST / low_e)),
-        () => (e - low_e) / (high_e - low_e),
-        () => Math.sqrt(Math.sqrt((1 - e) / (1 - high_e))),
-    ][which]();
+    let t = 0;
+    if (which === 0) t = (e - E_LEAST) / E_SPAN;
+    else if (which === 1)
+        t = 1 - Math.sqrt(clipped(E_LEAST / e - E_LEAST / low_e, 0, 1) / (1 - E_LEAST / low_e));
+    else if (which === 2) t = (e - low_e) / (high_e - low_e);
+    else t = Math.sqrt(Math.sqrt((1 - e) / (1 - high_e)));
 
     // Edges, between four nodes.
     const row = index_of(t * panel.rows, panel.rows), over = t * panel.rows - row;
@@ -251,11 +251,11 @@ function find(y, b, e, loss) {
     }
     const width = high - low, row_of_patch = 3 * (panel.patch + patch);
     let s = clipped((y - low) / (width > 0 ? width : 1), 0, 1);
-    const [root, intervals, first] = patches.subarray(row_of_patch, row_of_patch + 3);
+    const root = patches[row_of_patch], first = patches[row_of_patch + 2];
     if (root === RIGHT) s = 1 - Math.sqrt(1 - s);
     else if (root === LEFT) s = Math.sqrt(s);
 
-    const over_s = place(s, intervals);
+    const over_s = place(s, patches[row_of_patch + 1]);
     const over_t = place(t, panel.over_t - 3), over_u = place(u, panel.over_u - 3);
     let base = (first + over_s.index) * panel.over_t + over_t.index;
     base = base * panel.over_u + over_u.index;
