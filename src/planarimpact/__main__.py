@@ -446,8 +446,8 @@ def _model(options: argparse.Namespace) -> str:
             raise checks.InputError(f"{error}{more}") from None
         return str(name)
     if options.loss not in losses:
-        allowed = "are " + ", ".join(losses) if losses else "is none"
-        raise checks.InputError(f"--loss {options.loss}: with model {name} allowed {allowed}{more}")
+        why = f"allowed are {', '.join(losses)}{more}" if losses else "leave it out"
+        raise checks.InputError(f"--loss {options.loss}: with model {name} {why}")
     return losses[options.loss]
 
 

@@ -134,7 +134,7 @@ def contact(
     body, other : Body
         The other one is a flat wall if left out; a radius of 0 is flat.
     material, other_material : Material
-        Of both; a rigid other body if left out.
+        Of both; a wall is rigid if it has none.
 
     Returns
     -------
@@ -143,7 +143,8 @@ def contact(
     Raises
     ------
     InputError
-        As in `effective_masses`, `effective_modulus` and `effective_radius`.
+        If another body that can move has no material, or as in `effective_masses`,
+        `effective_modulus` and `effective_radius`.
 
     Examples
     --------
@@ -153,8 +154,14 @@ def contact(
     >>> pressure = yield_pressure(0.8, 1.0, *contact(bead, steel, bead, steel))
     >>> round(float(pressure / 1e9), 2)
     2.59
+    >>> contact(bead, steel, bead)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: other_material: missing, as the other body has a finite mass
     """
     _, mass = effective_masses(body, other)
+    if other_material is None and np.isfinite(other.mass).any():
+        raise checks.InputError("other_material: missing, as the other body has a finite mass")
     curved = np.asarray(other.radius) > 0
     radius = effective_radius(body.radius, np.where(curved, other.radius, np.inf))
     return Contact(mass, effective_modulus(material, other_material), radius)

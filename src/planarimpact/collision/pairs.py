@@ -228,4 +228,6 @@ def _refuse_loss(arrays: dict[str, Array], codes: Array) -> None:
     for name, loss in LAWS.items():
         if loss and (~np.isnan(arrays[name]) & (codes >= 0) & (codes != LOSSES.index(loss))).any():
             (other,) = set(LOSSES) - {loss}
-            raise InputError(f"loss = {other!r}: allowed beside {name} is {loss}, or none")
+            raise InputError(
+                f"loss = {other!r}: allowed beside {name} is {loss}; it may be left out"
+            )

@@ -692,8 +692,8 @@ static inline const char *spheres_problem(
         if (!(pair.restitution >= 0 && pair.restitution <= 1))
             return "pair.restitution: allowed is a number from 0 to 1";
         if (!(impact.e >= 0))
-            return "pair.loss: allowed is SPHERES_VISCOUS or SPHERES_PLASTIC where restitution is "
-                "below 1";
+            return "pair.loss: allowed is the constant SPHERES_VISCOUS or SPHERES_PLASTIC "
+                "where restitution is below 1";
     } else {
         if (!(pair.effective_modulus > 0))
             return "pair.effective_modulus: allowed is a number above 0";

@@ -670,7 +670,7 @@ function refusal({ m2, beta, e }, ...contact) {
         if (!(typeof restitution === "number" && restitution >= 0 && restitution <= 1))
             return told("pair.restitution", pair.restitution, "a number from 0 to 1");
         if (restitution !== 1 && loss !== VISCOUS && loss !== PLASTIC)
-            return told("pair.loss", pair.loss, "VISCOUS or PLASTIC where restitution is below 1");
+            return told("pair.loss", pair.loss, "the constant VISCOUS or PLASTIC where restitution is below 1");
     } else {
         const law = relaxation_time !== 0 ? "relaxation_time" : "yield_pressure";
         if (!(effective_modulus > 0))
