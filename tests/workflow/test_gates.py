@@ -213,4 +213,4 @@ def test_curves_that_are_not_finite_diverge(config, inventory, series, tmp_path)
         "curve,incidence [mu v2(0)],velocity [mu v2(0)]\ne = 1,0.0,0.0\ne = 1,1.0,nan\n"
     )
     rows = compare("fig6", {}, {}, path, series, 0.01)
-    assert rows[0]["verdict"] == "diverges" and "not finite" in rows[0]["note"]
+    assert rows[0]["verdict"] == "diverges" and "allowed are finite numbers" in rows[0]["note"]

@@ -119,8 +119,7 @@ def _private(table: Table) -> dict[str, float]:
 
 def _series() -> Array:
     """Viscous restitution over the root of the relaxation time, from 0 to SPAN."""
-    terms = np.asarray(kelvin_voigt.series().coef, float)
-    return terms[: np.flatnonzero(np.abs(terms) > SMALL_TERM)[-1] + 1]
+    return np.asarray(kelvin_voigt.series().trim(SMALL_TERM).coef, float)
 
 
 def _about(name: str, language: str) -> list[str]:
