@@ -24,6 +24,7 @@ from planarimpact.collision import single
 from planarimpact.collision.mechanics import Impacts as Impacts
 from planarimpact.collision.mechanics import State as State
 from planarimpact.collision.mechanics import after as after
+from planarimpact.collision.mechanics import effective_radius as effective_radius
 from planarimpact.collision.mechanics import energy_lost as energy_lost
 from planarimpact.collision.mechanics import impacts as impacts
 from planarimpact.collision.mechanics import problems as problems

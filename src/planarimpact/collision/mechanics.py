@@ -17,7 +17,7 @@ from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers
 
 # Restitution at the speed of an impact, by the quantity of a pair that it follows from.
-LAWS = {
+RESTITUTION_BY = {
     "relaxation_time": bodies.viscous_restitution,
     "yield_pressure": bodies.plastic_restitution,
 }
@@ -247,7 +247,7 @@ def _largest_turn(impacts: Impacts, body: Body) -> Array:
 def _restitution(pair: Pair, body: Body, other: Body, m2: Array, v2: Array) -> Array:
     """Restitution: that of the pair, or what its material has at the speed of each impact."""
     e = pair.restitution
-    for name, law in LAWS.items():
+    for name, law in RESTITUTION_BY.items():
         value = getattr(pair, name)
         has = ~np.isnan(value)
         if has.any():

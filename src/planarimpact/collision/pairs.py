@@ -4,17 +4,18 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact import bodies
+from planarimpact import bodies, continuum
 from planarimpact.bodies import Material
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans
 from planarimpact.ground.checks import InputError
 
-LOSSES = "viscous", "plastic"
+LOSSES = continuum.LOSSES
 # What says how much energy is lost: restitution, or what gives it at the speed of each impact.
 LAWS = {"restitution": None, "relaxation_time": "viscous", "yield_pressure": "plastic"}
 _FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *LAWS)
 _ARRAYS = (*_FIELDS, "plastic")
+LARGEST = float(np.finfo(float).max)
 
 
 class Pair:
@@ -118,7 +119,9 @@ what takes the energy: viscous, plastic
                 "effective_modulus: missing; a relaxation time or a yield pressure needs it, or "
                 "the materials"
             )
-        object.__setattr__(self, "plastic", (codes == 1) | ~np.isnan(self.yield_pressure))
+        object.__setattr__(
+            self, "plastic", (codes == LOSSES.index("plastic")) | ~np.isnan(self.yield_pressure)
+        )
         object.__setattr__(self, "single", _single(self))
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -166,14 +169,15 @@ def _single(pair: Pair) -> tuple[float, ...] | None:
     return None if pair.shape else tuple(float(getattr(pair, name)) for name in _FIELDS)
 
 
-def _law(name: str, value: ArrayLike | None, allowed: str, low: float, high: float = 0) -> Array:
+def _law(
+    name: str, value: ArrayLike | None, allowed: str, low: float, high: float = LARGEST
+) -> Array:
     """Numbers of one law, NaN where a pair does not have it."""
     if value is None:
         return np.array(np.nan)
     numbers = np.asarray(value)
     known = numbers.dtype.kind != "f" or ~np.isnan(numbers)
     filled = np.where(known, value, low) if numbers.dtype.kind == "f" else value
-    high = high or np.finfo(float).max
     return np.where(known, checks.checked(name, filled, f"finite {allowed}", low, high), np.nan)
 
 

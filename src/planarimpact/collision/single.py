@@ -149,7 +149,7 @@ def _viscous(tau: float, v2: float, m2: float, modulus: float, curvature: float)
 @cache
 def _series() -> tuple[list[float], float]:
     """Terms of viscous restitution, the last one first, and the largest argument."""
-    series = kelvin_voigt.series().trim(1e-11)  # it is right to 1e-10
+    series = kelvin_voigt.series().trim(kelvin_voigt.SMALL_TERM)
     return series.coef[::-1].tolist(), float(series.domain[1])
 
 

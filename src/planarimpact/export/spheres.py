@@ -27,8 +27,6 @@ BOUNDS = {"fine": spheres.ERROR_BOUND, "coarse": {"viscous": 3e-3, "plastic": 4e
 TABLES: dict[float, str] = {max(bounds.values()): name for name, bounds in BOUNDS.items()}
 # Codes of losses. 0 is none of them, so that a loss which nobody states is not taken for one.
 LOSSES = {loss: code for code, loss in enumerate(spheres.LOSSES, 1)}
-# Terms of the series of viscous restitution below this one are left out: it is right to 1e-10.
-SMALL_TERM = 1e-11
 
 
 class _Layout(NamedTuple):
@@ -119,7 +117,7 @@ def _private(table: Table) -> dict[str, float]:
 
 def _series() -> Array:
     """Viscous restitution over the root of the relaxation time, from 0 to SPAN."""
-    return np.asarray(kelvin_voigt.series().trim(SMALL_TERM).coef, float)
+    return np.asarray(kelvin_voigt.series().trim(kelvin_voigt.SMALL_TERM).coef, float)
 
 
 def _about(name: str, language: str) -> list[str]:

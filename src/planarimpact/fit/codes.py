@@ -204,22 +204,15 @@ def lines(
     >>> lines(found, glass, 0.001, 2500, 0.2, 1.0).splitlines()[-2]
     'pair_style granular'
     """
-    contact = _contact(found, material, radius, density, friction, speed)
+    given = {"radius": radius, "density": density, "friction": friction, "speed": speed}
+    contact = _contact(found, material, given)
     write = {"mercurydpm": _mercurydpm, "yade": _yade}.get(found.law, _lammps)
     comment = "//" if found.law == "mercurydpm" else "#"
     about = [f"{comment} {words}\n" for words in _about(found, contact)]
     return "".join(about) + write(found, contact)
 
 
-def _contact(
-    found: Fit,
-    material: bodies.Material,
-    radius: ArrayLike,
-    density: ArrayLike,
-    friction: ArrayLike,
-    speed: ArrayLike,
-) -> _Contact:
-    given = {"radius": radius, "density": density, "friction": friction, "speed": speed}
+def _contact(found: Fit, material: bodies.Material, given: dict[str, ArrayLike]) -> _Contact:
     r, rho, mu, v2 = (checks.single(name, checks.positive(name, x)) for name, x in given.items())
     sphere = bodies.solid_sphere(r, rho)
     for name, value, own in (
@@ -230,9 +223,8 @@ def _contact(
             raise checks.InputError(
                 f"found.{name} = {value:g}: allowed is that of two such spheres, {float(own):g}"
             )
-    mass = float(sphere.mass) / 2
-    modulus = bodies.effective_modulus(material, material)
-    force = float(bodies.hertz_peak_force(mass, v2, modulus, bodies.effective_radius(r, r)))
+    m2, modulus, radius = bodies.contact(sphere, material, sphere, material)
+    mass, force = float(m2), float(bodies.hertz_peak_force(m2, v2, modulus, radius))
     lasts = 2 * hertz.COMPRESSION * hertz.PEAK_FORCE * mass * v2 / force
     stiffness = mass * (laws.duration(hertzian=False) / lasts) ** 2
     damping = (stiffness * mass) ** 0.5

@@ -38,6 +38,8 @@ SLOWEST = 8.0
 DEGREE = 48
 # Newton's method doubles the digits. It starts with two of them or more.
 NEWTON = 8
+# Last terms of `series` below this one may be left out: it stays right to 1e-10.
+SMALL_TERM = 1e-11
 
 
 def restitution(relaxation_time: Array) -> Array:

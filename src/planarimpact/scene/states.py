@@ -40,7 +40,7 @@ def rows(values: dict[str, Array]) -> Rows:
     impacts = collision.impacts(pair, _normal(values), body, before, other, other_before)
     with np.errstate(divide="ignore", invalid="ignore"):  # without friction nothing resists
         coupling = np.abs(bodies.dundurs(*materials)) / values["friction"]
-    radius = bodies.effective_radius(values["radius"], values.get("other_radius", np.inf))
+    radius = collision.effective_radius(body, other)
     return Rows(impacts, _peak_normal(impacts, pair.effective_modulus, radius), coupling)
 
 

@@ -223,13 +223,7 @@ def lammps_pairs(
         place[0, :, 2], place[1, :, 2] = radius, -radius
         motion[0, :, 0], motion[0, :, 2] = friction * incidence * speed / 2, -speed / 2
         motion[1] = -motion[0]
-        simulation.create_atoms(
-            2 * count,
-            np.arange(1, 2 * count + 1).tolist(),
-            [1] * (2 * count),
-            place.ravel().tolist(),
-            motion.ravel().tolist(),
-        )
+        _create_spheres(simulation, place, motion)
         simulation.commands_list(
             [
                 f"set group all diameter {2 * radius:.17g}",
@@ -336,13 +330,7 @@ def _set_up(
             "pair_style none",
         ]
     )
-    simulation.create_atoms(
-        count,
-        np.arange(1, count + 1).tolist(),
-        [1] * count,
-        position.ravel().tolist(),
-        velocity.ravel().tolist(),
-    )
+    _create_spheres(simulation, position, velocity)
     simulation.commands_list(
         [
             f"set group all diameter {2 * RADIUS}",
@@ -357,6 +345,18 @@ def _set_up(
     )
     # Duration 2.943 d/v of a Hertzian contact.
     return 4 / 5 * math.sqrt(math.pi) * math.gamma(2 / 5) / math.gamma(9 / 10) * OVERLAP
+
+
+def _create_spheres(simulation: Any, position: Array, velocity: Array) -> None:
+    """Atoms 1, 2, ... at positions and with velocities of shape (..., 3)."""
+    count = position.size // 3
+    simulation.create_atoms(
+        count,
+        np.arange(1, count + 1).tolist(),
+        [1] * count,
+        position.ravel().tolist(),
+        velocity.ravel().tolist(),
+    )
 
 
 def _run_until_apart(simulation: Any, steps: int) -> float:
