@@ -1,7 +1,8 @@
 """Planar impact of rough compliant bodies, after W. J. Stronge (1994).
 
-- `lumped`: the paper's model, solved to rounding, and two variants that lose energy in other ways.
-  Measurements contradict the paper's below e = 1. `rigid`: its limit without tangential compliance.
+- `lumped`: the paper's model, solved to rounding, and two variants that lose energy in other ways;
+  below e = 1 the evidence on the paper's is divided. `rigid`: its limit without tangential
+  compliance.
 - `continuum`: spheres with micro-slip, elastic or with a loss of energy, to a tolerance.
   `continuum.annuli` solves the elastic one by a second method that shares no code with the first.
 - `spheres`: the continuum from a table, for impacts that are each their own pair.

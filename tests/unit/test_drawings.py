@@ -103,7 +103,7 @@ FAULTS = [
     ("fig5", PLOT, "axes.plot(curve[X][::16], curve[Y][::16]"),
     ("fig5", "axes.set(xlim", "axes.yaxis.set_major_formatter('{x:g}0'), axes.set(xlim"),
     ("fig5", 'axes, curves["lumped"], lumped', 'axes, curves["continuum"], lumped'),
-    ("fig5", '"elastic continuum (Maw et al.)"', '"no tangential compliance"'),
+    ("fig5", '"elastic continuum, computed here"', '"no tangential compliance"'),
     ("fig5", 'curve[Y][lowest]), (0, -4)', '-curve[Y][lowest]), (0, -4)'),
     ("fig6", PLOT, PLOT.replace("curve[Y]", "-curve[Y]")),
     ("fig6", 'house_style.symbols(name("e", e))))', 'house_style.symbols(name("e", 1 - e))))'),

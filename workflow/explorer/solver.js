@@ -41,7 +41,7 @@ const solver = (() => {
     return excess > 0 ? excess / e : 0;
   }
 
-  // Incidence from which slip never ends (Eq. 21; the heading of Eq. 26 prints (1 + e) beta).
+  // Incidence from which slip never ends (by Eqs 17 to 20; the heading of Eq. 26 prints (1 + e) beta).
   const slip_throughout_limit = (beta, zeta2, e) =>
     Math.max(zeta2, beta + restick_coefficient(beta, zeta2, e));
 

@@ -17,8 +17,9 @@ The keyword `loss` says what takes the normal energy where e < 1. At e = 1 all a
 
 Errors that these functions state are those of the solution. The model itself is further off. For a
 solid sphere of Poisson's ratio 0.3 and e = 1 its velocity differs from the elastic continuum by up
-to 0.21 mu v2(0). Measurements contradict the hysteretic loss: at e = 0.8 it differs by up to 0.73
-from the viscous continuum and by up to 0.90 from the plastic one.
+to 0.21 mu v2(0). On the hysteretic loss the evidence is divided: measured pairs of materials
+differ from it, and to a measured rubber sphere it is the nearest. At e = 0.8 it differs by up to
+0.73 from the viscous continuum and by up to 0.90 from the plastic one.
 """
 
 import numpy as np
@@ -54,8 +55,8 @@ def rebound(
     restitution : array_like
         Energetic coefficient e, 0 to 1 (Eq. 5).
     loss : str
-        "hysteretic" (the paper's, which measurements contradict), "unloading-stiffness" or
-        "viscous": what takes the normal energy.
+        "hysteretic" (the paper's), "unloading-stiffness" or "viscous": what takes the normal
+        energy.
 
     Returns
     -------
@@ -115,8 +116,8 @@ def slip_throughout_limit(
     """Smallest incidence that slides through the whole contact; all arguments broadcast.
 
     x = beta + max(0, e beta - zeta^2/e), or zeta^2 where that is larger; `ground.sliding` derives
-    it. The paper prints (1 + e) beta (heading of Eq. 26), but its own condition for the end of the
-    first slip, Eq. 21, has no root above the value given here.
+    it. The paper prints (1 + e) beta (heading of Eq. 26), but by its own conditions for the end of
+    the first slip, Eqs 17 to 20, that slip does not end above the value given here.
 
     With the loss "unloading-stiffness" e^2 zeta^2 stands for zeta^2, which gives
     max(e^2 zeta^2, beta + e max(0, beta - zeta^2)). With viscous loss it is

@@ -11,7 +11,7 @@ spring (Walton & Braun's with latching): below the largest depth reached, the no
 line, or a Hertz curve, that is steeper by 1/e^2. So restitution takes e times as long as
 compression. The length of the step stays the same: restitution has e/(1 + e) of the steps. If that
 is less than one step, the impulse of friction is wrong by up to 0.75 of what the largest force
-gives in a step. Measurements contradict this spring, see `planarimpact.lumped`. For e = 0 the
+gives in a step. The evidence on this spring is divided, see `planarimpact.lumped`. For e = 0 the
 contact ends with the step nearest to maximum compression. Many codes use a dashpot instead, which
 is another law.
 

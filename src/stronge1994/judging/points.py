@@ -76,10 +76,10 @@ def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: fl
     """Incidences at which a contact no longer sticks at first, and at which it slips throughout.
 
     Every model with Coulomb friction and both compliances has these limits (Stronge 1994, Eq. 11,
-    and the incidence beyond which its Eq. 21 has no root). They are in mu v2(0), and e must be
-    above 0. For zeta^2 > beta both are zeta^2: a contact that slips at first slips throughout. The
-    limits select the points of a comparison. They are computed here, because a judge must not ask
-    the solver that it judges.
+    and the incidence above which slip does not end by its Eqs 17 to 20). They are in mu v2(0), and
+    e must be above 0. For zeta^2 > beta both are zeta^2: a contact that slips at first slips
+    throughout. The limits select the points of a comparison. They are computed here, because a
+    judge must not ask the solver that it judges.
 
     >>> limits_of_regimes(3.5, 1.21, 1.0).round(2).tolist()
     [1.21, 5.79]

@@ -50,8 +50,8 @@ MARKS = {
 MEANING = {
     "diverges": "outside its tolerance: the run fails",
     "unexplained difference": "as large as before; we do not know its cause",
-    "untested difference": "the scatter of the measurements, or the error of the computation, is not "
-    "published: χ² tests nothing",
+    "untested difference": "how much the points scatter, or a computation errs, is not published: "
+    "χ² tests nothing",
     "explained difference": "as large as before; we know its cause",
     "awaited": "we do not have the reference yet",
     "inconclusive": "the uncertainties are too large to decide: it would also agree if all points "

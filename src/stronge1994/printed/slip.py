@@ -239,6 +239,8 @@ def eq_21_incidence(
 ) -> Array:
     """Eq. 21: the incidence v1(0)/(mu v2(0)) whose first slip ends at t2.
 
+    The scan has lost the factors e of restitution. They are read as Eqs 17 to 20 ask for.
+
     >>> round(float(eq_21_incidence(np.pi / 2, 3.5, 1.21, 1.0, 1.0)), 12)
     3.5
     """

@@ -122,7 +122,7 @@ def _draw_paper(axes: Axes, curves: Curves, points: Points, settings: Settings) 
     entries = [
         _draw_curve(axes, curves["lumped"], lumped, house_style.LUMPED),
         _draw_curve(
-            axes, curves["continuum"], "elastic continuum (Maw et al.)", house_style.CONTINUUM
+            axes, curves["continuum"], "elastic continuum, computed here", house_style.CONTINUUM
         ),
         _draw_curve(axes, rough, "no tangential compliance", house_style.RIGID),
     ]
@@ -195,7 +195,7 @@ def _draw_regimes(axes: Axes, curve: Columns, right: float) -> None:
 
 
 def _draw_printed_limit(axes: Axes, limit: float) -> None:
-    """Mark the paper's limit of slip throughout, (1 + e) m2/m1, which its Eq. 21 contradicts."""
+    """Mark the paper's limit of slip throughout, (1 + e) m2/m1, against its Eqs 17 to 20."""
     left, right = axes.get_xlim()
     if left < limit < right:
         place = {"transform": axes.get_xaxis_transform()}
