@@ -218,9 +218,9 @@ def test_an_export_without_provenance_is_refused(judged):
     [
         ("0.5, -0.1\n1.0, many\n", "line 2, column .*: 'many' is not a decimal number"),
         ("0.5, -0.1\n100.0, 0.0\n", "line 2, .*: 100.0 is outside 0 to 20"),
-        ("0.5\n", "line 1: 1 cells where 2 belong"),
+        ("0.5\n", "line 1: '0.5' has one column; put a comma between x and y"),
         ("", "no points"),
-        ("a,,b,\nX,Y,X,Y\n1,1,2,2\n", r"datasets \(a, b\); call one 'rubber_sphere'"),
+        ("a,,b,\nX,Y,X,Y\n1,1,2,2\n", "datasets 'a', 'b'; call one 'rubber_sphere'"),
     ],
 )
 def test_a_bad_export_is_refused(text, words, judged):
