@@ -208,7 +208,7 @@ def source(folder, text):
 
 def test_a_sigma_so_large_that_it_says_nothing_is_refused(tmp_path):
     where = "series.rubber_sphere.{}.sigma = {}: allowed is up to {}, a hundredth of the range"
-    for axis, range_, most in (("x", "[0, 20]", 0.2), ("y", "[-5, 20]", 0.25)):
+    for axis, range_, most in (("x", "[0, 10]", 0.1), ("y", "[-3, 3]", 0.06)):
         stated = f"sigma: 0.03, range: {range_}"
         for sigma in (most, 2 * most):
             change = (stated, f"sigma: {sigma}, range: {range_}")
@@ -218,8 +218,8 @@ def test_a_sigma_so_large_that_it_says_nothing_is_refused(tmp_path):
             with pytest.raises(reference_data.SourceError) as refusal:
                 source(tmp_path, lambda text, change=change: text.replace(*change))
             assert where.format(axis, sigma, most) in str(refusal.value)
-    with pytest.raises(reference_data.SourceError, match=r"x.range = \[20, 0\]: the first number"):
-        source(tmp_path, lambda text: text.replace("range: [0, 20]", "range: [20, 0]"))
+    with pytest.raises(reference_data.SourceError, match=r"x.range = \[10, 0\]: the first number"):
+        source(tmp_path, lambda text: text.replace("range: [0, 10]", "range: [10, 0]"))
 
 
 def test_an_export_of_another_name_is_told_its_own(tmp_path):
