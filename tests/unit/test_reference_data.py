@@ -1,11 +1,15 @@
 """What may stand in data/: YAML, tables and exports are read as they are meant, or refused."""
 
+import collections
+import itertools
+import random
 from pathlib import Path
 
 import pytest
 import yaml
 
 from stronge1994 import reference_data
+from stronge1994.reference_data import digitiser_export
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
@@ -29,10 +33,9 @@ EXPORTS = {
     "one dataset": "0.5, -0.05\n1, 2.5e-1\n",
     "decimal commas": "0,5; -0,05\n1; 2,5e-1\n",
     "semicolons and points": "0.5;-0.05\n1;0.25\n",
-    "quoted decimal commas": '"0,5","-0,05"\n1,"0,25"\n',
     "BOM, CRLF and a blank line": "\ufeff0.5,-.05\r\n\r\n1.,+0.25\r\n",
     "several datasets": "a,,mine,\nX,Y,X,Y\n7,7,0.5,-0.05\n,,1,0.25\n8,8,,\n",
-    "several with semicolons": "mine;;b;\nX;Y;X;Y\n0,5;-0,05;7;7\n1;0,25;;\n",
+    "names with commas": "e = 1, dry,,mine,,b,\nX,Y,X,Y,X,Y\n0,0,0.5,-0.05,9,9\n,,1,.25,,\n",
     "one dataset under headers": "Default Dataset,\nX,Y\n0.5,-0.05\n1,0.25\n",
 }
 
@@ -42,24 +45,36 @@ def test_every_form_of_an_export_gives_its_points(text, tmp_path):
     assert read(tmp_path, text) == [(0.5, -0.05), (1.0, 0.25)]
 
 
+NAMES = "has words; export this dataset alone, and delete its line of names"
+ALONE = "export this dataset alone, without groups"
 BAD_EXPORTS = [
-    ("steel disc,\nX,Y\n1,2\n", "datasets \\(steel disc\\); call one 'mine'"),
-    ("a,,b,\nX,Y,X,Y\n1,1,2,2\n", r"datasets \(a, b\); call one 'mine'"),
-    ("mine,,mine,\nX,Y,X,Y\n1,1,2,2\n", r"datasets \(mine, mine\); call one 'mine'"),
-    ("0.5, -0.05\n0,5, -0,05\n", "line 2: 4 cells where 2 belong; .* decimal commas"),
-    ("mine,,b,\nX,Y,X,Y\n0,5,1,2,0,5,1,2\n", "line 3: 8 cells where 4 belong; .* decimal comm"),
-    ("0.5,1,\n", "line 1: 3 cells where 2 belong; commas separate the cells of this file"),
-    ("0.5 1.5\n", "line 1: 1 cells where 2 belong"),
-    ("0.5,1\n2;1\n", "line 1: 1 cells where 2 belong; semicolons separate the cells"),
+    ("steel disc,\nX,Y\n1,2\n", "datasets 'steel disc'; call one 'mine', or export it alone"),
+    ("a,,b,\nX,Y,X,Y\n1,1,2,2\n", "datasets 'a', 'b'; call one 'mine'"),
+    ("mine,,mine,\nX,Y,X,Y\n1,1,2,2\n", "datasets 'mine', 'mine'; call one 'mine'"),
+    ("a,,,mine,\nX,Y,X,Y\n1,1,2,2\n", "not certain how 'a,,,mine,' names the columns X,Y,X,Y; exp"),
+    ("Fig. 5\nX,Y\n1,2\n", "not certain how 'Fig. 5' names the columns X,Y; export 'mine' alone"),
+    ("mine;;b;\nX;Y;X;Y\n0,5;-0,05;7;7\n", f"line 1: 'mine;;b;' {NAMES}"),  # a spreadsheet's
+    ("0.5, -0.05\n0,5, -0,05\n", f"line 2: '0,5, -0,05' has 4 columns; {ALONE}; .* semicolons"),
+    ("mine,,b,\nX,Y,X,Y\n0,5,1,2,0,5,1,2\n", "line 3: 8 cells below 2 times X,Y; export 'mine'"),
+    ("0.5,1,\n", f"line 1: '0.5,1,' has 3 columns; {ALONE}; if these are decimal commas"),
+    ("0.5, -0.05, 0, Group 1\n", f"has 4 columns; {ALONE}"),
+    ("0,5; -0,05; 0; Group 1\n", f"has 4 columns; {ALONE}$"),
+    ("0.5 1.5\n", "line 1: '0.5 1.5' has one column; put a comma between x and y"),  # plotdigitizer
+    ("x,Curve1\n0.5,1.5\n", f"line 1: 'x,Curve1' {NAMES}"),  # Engauge Digitizer
+    ("# x, Curve1, Curve2\n0.5, 1.5, 1.6\n", f"line 1: '# x, Curve1, Curve2' {NAMES}"),
+    ("X,Y\n1,2\n", f"line 1: 'X,Y' {NAMES}"),
+    ('"0,5","-0,05"\n', "line 1: .* has quotation marks; delete them, or export again"),
+    ('0.5, "1.5"\n', "line 1: .* has quotation marks"),
+    ("0.5,1\n2;1\n", "line 1: '0.5,1' has one column; put a semicolon between x and y"),
     ("0,5;1\n0.6;1\n", r"line 2, column 'incidence \[1\]': '0.6' is not a decimal number such as"),
     ("1.000,5;1\n", r"line 1, column 'incidence \[1\]': '1.000,5' is not a decimal number"),
     ("1,1\n0,5\t1,5\n", "line 2: a tab; cells are separated by commas or semicolons"),
-    ("x,y\n1,2\n", r"line 1, column 'incidence \[1\]': 'x' is not a decimal number"),
     ("1,2\n,3\n", r"line 2, column 'incidence \[1\]': '' is not a decimal number"),
-    ("a,,mine,\nX,Y,X,Y\n1,1\n", "line 3: 2 cells where 4 belong"),
-    ('1,"2\n3,4\n', "unexpected end of data"),
+    ("a,,mine,\nX,Y,X,Y\n1,1\n", "line 3: 2 cells below 2 times X,Y"),
+    ('a,,mine,\nX,Y,X,Y\n"0,5","1,5"\n', "'.1' is not a decimal number"),
+    ('1,"2\n3,4\n', "line 1: .* has quotation marks"),
     ("1_000,1\n", "'1_000' is not a decimal number"),
-    ("nan,1\n", "'nan' is not a decimal number"),
+    ("nan,1\n", "line 1: 'nan,1' has words"),
     ("1,inf\n", "'inf' is not a decimal number"),
     ("1,\u22120.5\n", r"'\u22120.5' \(minus sign\) is not a decimal number"),
     ("1e999,1\n", "1e999 is outside 0 to 20"),
@@ -75,6 +90,76 @@ def test_a_bad_export_is_refused(text, words, tmp_path):
     with pytest.raises(reference_data.SourceError, match=words) as refusal:
         read(tmp_path, text)
     assert f"{tmp_path / 'mine.csv'}" in str(refusal.value) and "\n" not in str(refusal.value)
+
+
+def all_datasets(named):
+    """What WebPlotDigitizer writes of all datasets: `[(name, points), ...]`."""
+    titles = [cell for name, _ in named for cell in (name, "")]
+    rows = itertools.zip_longest(*(points for _, points in named), fillvalue=("", ""))
+    cells = [titles, ["X", "Y"] * len(named), *(itertools.chain(*row) for row in rows)]
+    return "".join(",".join(map(str, row)) + "\n" for row in cells)
+
+
+PARTS_OF_NAMES = [
+    *("mine", "Default Dataset", "X", "Y", "X,Y", "1", "-0.5", "nu = 0.5", "é", "中", "", "="),
+    *(",", ",", ",,", ";", '"', '""', "'", " ", "\xa0", "\t", "\r", "\u2028", "\ufeff", "\n"),
+]  # fmt: skip
+
+
+def test_no_name_of_a_dataset_leads_to_the_points_of_another():
+    """Of thousands of exports the points are right or refused; with harmless names, right."""
+    rng = random.Random(1)
+    outcomes = collections.Counter()
+    for _ in range(20_000):
+        names = ["".join(rng.choices(PARTS_OF_NAMES, k=rng.randint(1, 3))) for _ in range(4)]
+        names = names[: rng.randint(0, 4)]
+        place = rng.randint(0, len(names))
+        names.insert(place, "mine")
+        named = [
+            (name, [(10 * i + j + 0.5, -j) for j in range(rng.randint(1, 3))])
+            for i, name in enumerate(names)
+        ]
+        lines = [f"{line}\n" for line in all_datasets(named).split("\n")]
+        wanted = [[str(x), str(y)] for x, y in named[place][1]]
+        harmless = not any(name == "" or set(name) & set(",\n") for name in names)
+        once = [name.strip() for name in names].count("mine") == 1
+        try:
+            mark, found = digitiser_export.points(lines, "mine")
+        except ValueError as error:
+            assert not (harmless and once), names
+            assert "alone" in str(error) or "\n" in "".join(names), names
+            outcomes["refused"] += 1
+        else:
+            assert (mark, [pair for _, pair in found]) == (".", wanted), names
+            outcomes["with commas" if "," in "".join(names) else "read"] += 1
+    assert min(outcomes.values()) > 2000 and len(outcomes) == 3, outcomes
+
+
+def test_no_separator_leads_to_other_points():
+    """Of one dataset: either decimal mark, any separator that a user may type, and groups."""
+    rng = random.Random(1)
+    numbers = [0.5, -0.05, 3, 0, 12, 1e-7, 2.5e-7, -1e-3, 1.25]
+    outcomes = collections.Counter()
+    for separator in (", ", ",", ";", "; ", " ; ", " ", "  ", ":", "|", ",,", " ,", ";;"):
+        for mark, more in itertools.product(".,", ((), (0,), (0, "Group 1"), ("", ""))):
+            for _ in range(50):
+                rows = [rng.choices(numbers, k=2) for _ in range(rng.randint(1, 3))]
+                lines = [
+                    separator.join(str(n).replace(".", mark, 1) for n in (*row, *more)) + "\n"
+                    for row in rows
+                ]
+                try:
+                    found = digitiser_export.points(lines, "mine")
+                    forms, pairs = digitiser_export.NUMBERS[found[0]], [row for _, row in found[1]]
+                    sure = all(forms.fullmatch(cell) for pair in pairs for cell in pair)
+                except ValueError:
+                    sure = False
+                if sure:
+                    read_ = [[float(cell.replace(",", ".")) for cell in pair] for pair in pairs]
+                    assert read_ == rows, lines
+                outcomes[separator.strip(" "), mark, more, sure] += 1
+    for separator, mark in ((",", "."), (";", "."), (";", ",")):
+        assert not outcomes[separator, mark, (), False]
 
 
 BAD_TABLES = [
@@ -123,7 +208,7 @@ def source(folder, text):
 
 def test_a_sigma_so_large_that_it_says_nothing_is_refused(tmp_path):
     where = "series.rubber_sphere.{}.sigma = {}: allowed is up to {}, a hundredth of the range"
-    for axis, range_, most in (("x", "[0, 20]", 0.2), ("y", "[-5, 20]", 0.25)):
+    for axis, range_, most in (("x", "[0, 10]", 0.1), ("y", "[-3, 3]", 0.06)):
         stated = f"sigma: 0.03, range: {range_}"
         for sigma in (most, 2 * most):
             change = (stated, f"sigma: {sigma}, range: {range_}")
@@ -133,8 +218,8 @@ def test_a_sigma_so_large_that_it_says_nothing_is_refused(tmp_path):
             with pytest.raises(reference_data.SourceError) as refusal:
                 source(tmp_path, lambda text, change=change: text.replace(*change))
             assert where.format(axis, sigma, most) in str(refusal.value)
-    with pytest.raises(reference_data.SourceError, match=r"x.range = \[20, 0\]: the first number"):
-        source(tmp_path, lambda text: text.replace("range: [0, 20]", "range: [20, 0]"))
+    with pytest.raises(reference_data.SourceError, match=r"x.range = \[10, 0\]: the first number"):
+        source(tmp_path, lambda text: text.replace("range: [0, 10]", "range: [10, 0]"))
 
 
 def test_an_export_of_another_name_is_told_its_own(tmp_path):

@@ -10,7 +10,6 @@ import copy
 import csv
 import functools
 import math
-import re
 import unicodedata
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -34,10 +33,6 @@ MOST_SIGMAS_OUTSIDE = 3
 # Largest sigma, as a share of the range of its axis. The series here have a tenth to a half of it.
 # A measured series may have a larger one: that is how it was measured.
 LARGEST_SIGMA = 0.01
-_NUMBERS = {
-    mark: re.compile(rf"[+-]?([0-9]+([{mark}][0-9]*)?|[{mark}][0-9]+)([eE][+-]?[0-9]+)?")
-    for mark in ".,"
-}
 
 
 def _ascends(_: Any, wanted: bool, numbers: Any, schema: Schema) -> Iterator[Exception]:
@@ -293,7 +288,7 @@ def _number(cell: str, mark: str, axis: Axis, where: str) -> float:
     """A decimal number, at most a little outside the range of its axis."""
     text = cell.strip(" ")
     # float() would also take `1_000`, `nan` and digits of other scripts.
-    if not _NUMBERS[mark].fullmatch(text):
+    if not digitiser_export.NUMBERS[mark].fullmatch(text):
         strange = [unicodedata.name(letter, "unnamed") for letter in text if not letter.isascii()]
         named = f" ({strange[0].lower()})" if strange else ""
         raise SourceError(f"{where}: {text!r}{named} is not a decimal number such as -0{mark}05")
