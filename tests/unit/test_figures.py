@@ -6,7 +6,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from stronge1994 import csv_tables
 from stronge1994.figures.shared.curves import solving
 from stronge1994.plan import figures
 from stronge1994.reference_data import SourceError

@@ -28,11 +28,11 @@ def faults(
     messages = record.faults(made)
     if messages:  # rows of a changed table prove nothing
         return messages
-    messages = record.errors(made)
+    # After a failed job the report lacks what the job should have made.
+    messages = record.errors(made) or faults_of_report(REPORT, comparisons)
     (verdicts, comparisons), (ledger, entries) = map(_rows, TABLES, (comparisons, entries))
     messages += faults_of_tables(verdicts, ledger, comparisons, entries)
-    messages += [f"report: {row['problem']}" for row in _rows(PROBLEMS)[0]]
-    return messages + faults_of_report(REPORT, comparisons)
+    return messages + [f"report: {row['problem']}" for row in _rows(PROBLEMS)[0]]
 
 
 def _rows(path: str, expected: Mapping[str, bool] = {}) -> tuple[list[Row], Mapping[str, bool]]:

@@ -32,7 +32,7 @@ WITHOUT = "On purpose? To draw without being judged:  "
 # Help after Snakemake has reported that the folder is locked.
 UNLOCK = "Does no other run work here? Then type:  snakemake --unlock  and the same command again."
 # Snakemake's own log says one of these after Ctrl-C and SIGTERM, and this after a job has failed.
-ON_REQUEST = ("Terminating processes on user request", "Will exit after finishing currently running")
+ON_REQUEST = "Terminating processes on user request", "Will exit after finishing currently"
 FAILED_JOB = re.compile(r"^Error in rule (\w+):", flags=re.M)
 JUDGED = re.compile(r"Comparing (\w+) with references$", flags=re.M)
 
@@ -56,7 +56,7 @@ class Help(logging.Filter):
 
 
 def text(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str] = ()) -> str:
-    """The last lines of a run. The log of a gate holds its faults, and exists only if it has judged.
+    """The last lines of a run. A gate that has judged leaves a log with its faults.
 
     `config` is the user's --config, to be repeated. `stopped` says that a job failed, or that the
     run was interrupted; Snakemake's `logs` tell which, and what was judged.
