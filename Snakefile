@@ -1,5 +1,6 @@
 # Planar impact of rough compliant bodies: solve, draw, compare, judge.
 #   snakemake --cores 2            everything, up to the verdict
+#   snakemake --cores 2 fig6       one figure, drawn and judged: each has its target
 #   snakemake --cores 2 figures    pictures only, without judging
 from snakemake.logging import logger
 from snakemake.utils import min_version
@@ -32,8 +33,8 @@ localrules:
     ledger_page,
     key_numbers,
     note,
-    trade,
-    stability,
+    trade_tables,
+    stability_table,
     explorer,
     start_page,
     interface,
@@ -86,15 +87,15 @@ rule sphere_tables:
 include: "workflow/rules/curves.smk"
 include: "workflow/rules/reference.smk"
 include: "workflow/rules/drawing.smk"
+include: "workflow/rules/scene.smk"
+include: "workflow/rules/judging.smk"
 include: "workflow/rules/ledger.smk"
 include: "workflow/rules/note.smk"
 include: "workflow/rules/trade.smk"
 include: "workflow/rules/stability.smk"
-include: "workflow/rules/scene.smk"
 include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/explorer.smk"
 include: "workflow/rules/report.smk"
-include: "workflow/rules/judging.smk"
 include: "workflow/rules/peers.smk"
 include: "workflow/rules/spheres.smk"
 
@@ -111,8 +112,8 @@ MAKERS = [
     rules.ledger_page,
     rules.key_numbers,
     rules.note,
-    rules.trade,
-    rules.stability,
+    rules.trade_tables,
+    rules.stability_table,
     rules.scene,
     rules.notebook,
     rules.explorer,
@@ -124,6 +125,30 @@ MAKERS = [
 
 
 include: "workflow/rules/site.smk"
+
+
+# One target a figure or scene: it is drawn and judged, its rows are printed, and it fails alone.
+for name in JUDGED:
+
+    rule:
+        name:
+            name
+        input:
+            plan=planned(f"judged_{name}", "gate", "run", "judging", "ledger", "reference_data",
+                settings=lambda _: plan.expected_alone(EXPECTED["comparisons"], config, name)),
+            made=files_of_one(name),
+        params:
+            plans=plans.digest(PLANNED),
+            jobs=list(PLANNED),
+        localrule: True
+        log:
+            plans.ALONE.format(name),
+        message:
+            f"Judging {name} alone"
+        conda:
+            "workflow/envs/planarimpact.yaml"
+        script:
+            "workflow/scripts/gate.py"
 
 
 rule all:
@@ -150,8 +175,9 @@ rule all:
         "workflow/scripts/gate.py"
 
 
+TARGETS = ["all", *JUDGED, "figures", "measurements", "notebooks", "peers", "site", "sphere_tables"]
 if workflow.is_main_process:
-    logger.addFilter(last_words.add_unlock)
+    logger.addFilter(last_words.Help(TARGETS))
 
 
 onsuccess:

@@ -1,7 +1,7 @@
 """Tables as CSV: named curves, and rows of any other kind.
 
 The first column of a table of curves has the name of the curve. Each other column is a quantity,
-its unit in brackets. A solver that crashed leaves a table with the single column `error`.
+its unit in brackets. A job that failed leaves tables with the single column `error`.
 """
 
 import csv
@@ -21,7 +21,7 @@ Path: TypeAlias = str | PathLike[str]
 
 
 class Failed(Exception):
-    """The table holds the message of a solver that crashed."""
+    """The table holds the error of the job that should have made it."""
 
 
 def refuse_not_finite(named: Mapping[str, Columns]) -> None:
@@ -93,9 +93,14 @@ def read(path: Path) -> Curves:
 
 
 def read_rows(path: Path, columns: Iterable[str] = ()) -> list[Row]:
-    """Rows of a table; a `ValueError` names the line of a missing column or of a wrong width."""
+    """Rows of a table; a `ValueError` names the line of a missing column or of a wrong width.
+
+    `Failed` says why a job has made no table.
+    """
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file, strict=True)) or [[]]
+    if header == ["error"]:
+        raise Failed(rows[0][0])
     missing = [column for column in columns if column not in header]
     if missing:
         raise ValueError(f"{path}, line 1: column '{missing[0]}' is missing")

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 from tabulate import tabulate
 
@@ -22,10 +23,22 @@ ORDER = ["diverges", *DIFFERENCES, "awaited", "inconclusive", "agrees", "as befo
 
 
 def gather(paths: Iterable[str]) -> list[Row]:
-    """Rows of several tables, the worst verdict first; an unknown one before all others."""
-    rows = [row for path in paths for row in csv_tables.read_rows(path, COLUMNS)]
+    """Rows of several tables, the worst verdict first; an unknown one before all others.
+
+    In place of a table that was not made stands one row that diverges.
+    """
+    rows = [row for path in paths for row in _rows(path)]
     rank = {verdict: place for place, verdict in enumerate(ORDER)}
     return sorted(rows, key=lambda row: rank.get(row["verdict"], -1))
+
+
+def _rows(path: str) -> list[Row]:
+    try:
+        return csv_tables.read_rows(path, COLUMNS)
+    except csv_tables.Failed as error:
+        name = Path(path).stem
+        cells = {"figure": name, "comparison": f"{name}-solved", "verdict": "diverges"}
+        return [dict.fromkeys(COLUMNS, "") | cells | {"note": f"{error}"}]
 
 
 def failing(rows: Iterable[Row]) -> list[Row]:

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 
+from stronge1994.run import last_words
 from tests.workflow.project import ROOT, Project
 
 HERE = Path(__file__).parent
@@ -167,6 +168,33 @@ def wait_for(path, running):
     while not path.exists():
         assert running.poll() is None, "it has ended before"
         time.sleep(0.01)
+
+
+def test_a_run_that_is_asked_to_end_says_so(toy):
+    """SIGTERM, as a scheduler of a cluster sends it."""
+    (toy / "draw.within").write_text("wait")
+    running = started(toy, "-R", "draw")
+    wait_for(toy / "draw.reached", running)
+    running.terminate()
+    while "Will exit" not in (toy / "words.txt").read_text():
+        time.sleep(0.01)
+    (toy / "draw.within").unlink()
+    assert running.wait() != 0 and last_words.INTERRUPTED in (toy / "words.txt").read_text()
+    toy.passes()
+
+
+def test_a_job_that_raises_is_a_fault_of_the_run_and_all_the_rest_is_done(toy):
+    """What it should have made says why; once mended, the same command passes."""
+    good = (toy / LAW).read_text()
+    (toy / LAW).write_text("def law(x, factor):\n    raise ArithmeticError('oh')\n")
+    why = "curves: ArithmeticError: oh"
+    said = toy.refuses_to_pass()
+    assert f"FAILED. Reasons: 1\n  failed: {why} (log: results/logs/curves.log)" in said
+    for made in ("results/curves.csv", "figures/picture.svg", "figures/report.html"):
+        assert why in (toy / made).read_text()
+    assert "FAILED. Reasons: 1" in toy.refuses_to_pass()
+    (toy / LAW).write_text(good)
+    toy.passes()
 
 
 def test_a_run_that_is_killed_goes_on(toy):

@@ -105,7 +105,7 @@ rule report:
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
-        tables=[rules.trade.output.table, rules.trade.output.answers, rules.stability.output.table, "results/sensitivity.csv", *FINDING_TABLES, *PEERS],
+        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers, rules.stability_table.output.table, "results/sensitivity.csv", *FINDING_TABLES, *PEERS],
         linked=[
             "results/verdicts.csv",
             "results/sensitivity.csv",
@@ -114,6 +114,9 @@ rule report:
             "results/which_model.csv",
             *expand("results/{kind}/{figure}.csv", kind=["curves", "residuals"], figure=FIGURES),
         ],
+        records=[expand(rule.output.record, **VALUES) for rule in (rules.curves, rules.draw, rules.slide,
+            rules.judge, rules.gather, rules.series, rules.scene, rules.ledger, rules.trade_tables,
+            rules.stability_table, rules.key_numbers)],
     output:
         page="figures/report.html",
         sources=report(

@@ -1,4 +1,4 @@
-rule stability:
+rule stability_table:
     """Digits of the lumped model by decades of each parameter; always succeeds."""
     input:
         plan=planned("stability", "write_stability", "pages"),

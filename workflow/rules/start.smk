@@ -1,5 +1,6 @@
 # Refuse here what Snakemake would silently misread in the config.
 import os
+import shlex
 import sys
 from pathlib import Path
 
@@ -9,6 +10,9 @@ from snakemake.exceptions import WorkflowError
 # and for the Python of every job.
 sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 os.environ.update(PYTHONPATH=sys.path[0])
+# Snakemake puts this path into the shell's commands without quotes (its issue 2645): those of a folder
+# with blanks, brackets or apostrophes.
+sys.executable = shlex.quote(sys.executable)
 from stronge1994.run import plans
 
 

@@ -1,4 +1,4 @@
-rule trade:
+rule trade_tables:
     """Error and time of every model as tables; always succeeds."""
     input:
         plan=planned("trade", "write_trade", "figures/trade/answers.py"),

@@ -1,4 +1,4 @@
-"""Draw one figure from its curves. Curves that failed become a picture that says so."""
+"""Draw one figure from its curves."""
 
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.run import record

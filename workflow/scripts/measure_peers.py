@@ -4,6 +4,7 @@ from stronge1994 import csv_tables, one_thread  # noqa: F401  (one thread: befor
 from stronge1994.figures.trade import measurement
 from stronge1994.run import record
 
+notes: list[str] = []
 with record.recorded(snakemake) as settings:
     rows, notes = measurement.measure(**settings)
     csv_tables.write(snakemake.output.table, rows)

@@ -1,4 +1,4 @@
-"""Solve the curves of one figure. A crash becomes a table that says so: a failed verdict."""
+"""Solve the curves of one figure."""
 
 from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
 from stronge1994.figures.shared.curves import solving

@@ -18,6 +18,7 @@ with record.recorded(snakemake) as settings:
         settings["config"],
         (settings["comparisons"], settings["entries"]),
         sources=settings["sources"],
+        records=files.records,
         run=run_facts.everything(),
         symbols=settings["symbols"],
         links=settings["links"],

@@ -54,6 +54,8 @@ def measure(
         return _landmark(entry, reference, curves)
     find = _from_curve if entry["metric"] == "distance" else _from_vertices
     series = points(entry, reference, series_paths)
+    if "curve" in reference.get("labels", []):
+        _refuse_other_curves(series["curve"], curves)
     residuals, columns = find(entry, reference, curves, series)
     # The curve is solved again with each uncertain parameter off by one sigma, up and down.
     shifts = []
@@ -270,6 +272,19 @@ def _selected_curves(entry: Entry, curves: Curves) -> Curves:
     if "curve" not in entry:
         return curves
     return {entry["curve"]: _named(curves, entry["curve"])}
+
+
+def _refuse_other_curves(named: Column, curves: Curves) -> None:
+    """Refuse curves that lack one of the reference, and say which values both have."""
+    missing = [name for name in dict.fromkeys(named.tolist()) if name not in curves]
+    if missing:
+        asked, own = curve_names.values(named.tolist()), curve_names.values(curves)
+        for symbol, values in asked.items():
+            if not set(values) <= set(own.get(symbol, [])):
+                ours = ", ".join(own.get(symbol, ["none"]))
+                words = f"the reference has {symbol} = {', '.join(values)}; the figure has {ours}"
+                raise ValueError(words)
+        raise ValueError(f"no curve '{missing[0]}'; the figure has {', '.join(curves)}")
 
 
 def _named(curves: Curves, name: str) -> Columns:

@@ -4,7 +4,6 @@ A number has a name such as `pairs.lumped.hysteretic.chi2`, made of what it is a
 that says what it is. Pages round it; they never compute it again.
 """
 
-import traceback
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
@@ -13,7 +12,7 @@ import numpy as np
 
 from planarimpact.ground.arrays import Array
 from stronge1994 import csv_tables, verdict_table
-from stronge1994.csv_tables import Columns, Curves, Failed, Row
+from stronge1994.csv_tables import Columns, Curves, Row
 from stronge1994.figures.inelastic import drawing as inelastic
 from stronge1994.figures.shared.drawing.house_style import Series
 from stronge1994.ledger import in_nature, outcome
@@ -82,23 +81,16 @@ def table_rows(tables: Tables) -> list[Row]:
 
 
 def write(output: str, paths: Mapping[str, str]) -> None:
-    """Write the table of key numbers; where it cannot be made, a table with the error."""
-    try:
-        csv_tables.write_table(output, table_rows(read(paths)), COLUMNS)
-    except Exception as error:
-        traceback.print_exc()
-        why = f"{error}" if isinstance(error, Failed) else f"{type(error).__name__}: {error}"
-        csv_tables.write_rows(output, ["error"], [[why]])
+    """Write the table of key numbers."""
+    csv_tables.write_table(output, table_rows(read(paths)), COLUMNS)
 
 
 def by_name(table: Sequence[Row]) -> dict[str, float]:
-    """Numbers by their names; `csv_tables.Failed` says why there are none.
+    """Numbers by their names.
 
     >>> by_name([{"name": "ledger.wrong", "value": "25", "what": "wrong entries"}])
     {'ledger.wrong': 25.0}
     """
-    if table and "error" in table[0]:
-        raise Failed(table[0]["error"])
     return {row["name"]: float(row["value"]) for row in table}
 
 

@@ -6,8 +6,6 @@ Every number that a run computes is read from the table of key numbers.
 from collections.abc import Mapping
 from pathlib import Path
 
-from markupsafe import Markup
-
 from stronge1994 import csv_tables, verdict_table
 from stronge1994.pages import key_numbers, pdf, templates
 
@@ -60,27 +58,12 @@ def page(numbers: Mapping[str, float], pictures: Mapping[str, bytes], template: 
     )
 
 
-def without_numbers(why: Exception) -> Markup:
-    """A page in place of the note where a solver failed, which the gate reports."""
-    return Markup(
-        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
-        '<meta name="viewport" content="width=device-width"><title>Failed</title></head>'
-        "<body><main><article><header><h1>{}</h1></header>\n<p>This note could not be written: {}. "
-        'The <a href="report.html">report</a> says more.</p></article></main></body></html>\n'
-    ).format(TITLE, why)
-
-
 def write(
     output: str, output_pdf: str, table: str, pictures: Mapping[str, str], template: str
 ) -> None:
     """Write both files, from the table of key numbers and pictures (PNG, with SVG beside them)."""
-    try:
-        numbers = key_numbers.by_name(csv_tables.read_rows(table))
-        svgs = {
-            name: Path(path).with_suffix(".svg").read_bytes() for name, path in pictures.items()
-        }
-        text = page(numbers, svgs, template)
-    except (csv_tables.Failed, ArithmeticError, LookupError) as error:
-        text = without_numbers(error)
+    numbers = key_numbers.by_name(csv_tables.read_rows(table))
+    svgs = {name: Path(path).with_suffix(".svg").read_bytes() for name, path in pictures.items()}
+    text = page(numbers, svgs, template)
     Path(output).write_text(text, encoding="utf-8")
     pdf.write(output_pdf, text, pictures, TITLE)

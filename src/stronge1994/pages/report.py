@@ -1,7 +1,8 @@
 """Write the run as one page, findings first, and its sources and settings as another.
 
-Nothing is solved here. A solver that crashed shows as a failing row, a picture and tables with its
-error. What cannot be shown is left out and named on top, with file and line; the gate fails on it.
+Nothing is solved here. The error of a job that failed stands on top, and in place of what it should
+have made. What cannot be shown is left out and named on top, with file and line; the gate fails on
+it.
 """
 
 import io
@@ -17,7 +18,7 @@ from markupsafe import Markup, escape
 
 from stronge1994 import csv_tables, verdict_table
 from stronge1994.csv_tables import Curves, Row
-from stronge1994.figures.shared.drawing import checked
+from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.judging.verdicts import VISIBLE_SHIFT
 from stronge1994.ledger import outcome
@@ -35,7 +36,7 @@ from stronge1994.pages import (
     which_model,
 )
 from stronge1994.pages.formulas import mathematical, number
-from stronge1994.run import gate
+from stronge1994.run import gate, record
 
 MARKS = {
     "diverges": "fails",
@@ -85,6 +86,8 @@ class Salvage:
         """What the function returns, or `otherwise`."""
         try:
             return function(*arguments)
+        except csv_tables.Failed:  # the record of the job that failed has the error
+            return otherwise
         except Exception as error:
             traceback.print_exc()
             self.problems.append(f"{what}: {type(error).__name__}: {error}{_place(error)}")
@@ -203,7 +206,7 @@ def figure(
         "rows": rows,
         "has_residuals": bool(residuals),
         "has_slide": name in config["slides"],
-        "strips": templates.embedded(_svg(name, strips)) if strips else None,
+        "strips": templates.embedded(_svg(strips)) if strips else None,
     }
 
 
@@ -234,17 +237,9 @@ def copy_tables(folder: str | Path, paths: Iterable[str]) -> None:
         shutil.copyfile(path, copy)
 
 
-def _key_numbers(path: str) -> dict[str, float]:
-    """Key numbers of a run; none after a crash."""
-    try:
-        return key_numbers.by_name(csv_tables.read_rows(path))
-    except csv_tables.Failed:
-        return {}
-
-
-def _svg(name: str, strips: Mapping[draw_residuals.Strip, Curves]) -> bytes:
-    file, tables = io.BytesIO(), draw_residuals.tables_of_strips(strips)
-    checked.save(draw_residuals.draw(strips), tables, f"residuals of {name}", file)
+def _svg(strips: Mapping[draw_residuals.Strip, Curves]) -> bytes:
+    file = io.BytesIO()
+    house_style.save(draw_residuals.draw(strips), file)
     return file.getvalue()
 
 
@@ -257,6 +252,7 @@ def write(
     captions: Mapping[str, str],
     config: Mapping[str, Any],
     expected: tuple[Mapping[str, bool], Mapping[str, bool]],
+    records: Iterable[str],
     **parts: Any,
 ) -> None:
     """Read the tables and pictures of a run; write the report, its sources, and its own problems.
@@ -264,22 +260,22 @@ def write(
     `paths` are the files of the tables: `verdicts`, `ledger`, those of `SECTIONS`, those that only
     the findings need, and `peers` where other codes were measured. `captions` are those of the
     figures; those of tables stand in files beside the template. `expected` are the rows that
-    `gate.faults_of_tables` asks for. `parts` are `symbols`, `links` and `template` as for `page`;
-    `sources`, the contents of data/*/source.yaml; and `run`, functions of `run_facts` by name, each
-    with its value after a failure.
+    `gate.faults_of_tables` asks for, `records` those of the jobs that made all this. `parts` are
+    `symbols`, `links` and `template` as for `page`; `sources`, the contents of data/*/source.yaml;
+    and `run`, functions of `run_facts` by name, each with its value after a failure.
     """
     salvage = Salvage()
     read = csv_tables.read_rows
     rows = salvage("verdicts", [], read, paths["verdicts"], verdict_table.COLUMNS)
     ledger = salvage("ledger", [], read, paths["ledger"], outcome.COLUMNS)
-    faults = gate.faults_of_tables(rows, ledger, *expected)
+    faults = record.errors(records) + gate.faults_of_tables(rows, ledger, *expected)
     rows = [row for row in rows if row["verdict"] in MARKS]
     ledger = [row for row in ledger if row["verdict"] in ledger_page.STYLE]
 
     def section(name: str) -> TemplateValues:
-        text = captions[name]
         picture = Path(svgs[name]).read_bytes()
-        return figure(name, picture, text, read(residuals[name]), rows, config)
+        distances = salvage("residuals", [], read, residuals[name])
+        return figure(name, picture, captions[name], distances, rows, config)
 
     def table(name: str) -> TemplateValues:
         text = Path(parts["template"]).with_name(f"{name}.rst").read_text(encoding="utf-8")
@@ -289,7 +285,8 @@ def write(
     figures = {name: section_values for name, section_values in figures.items() if section_values}
     tables = {name: salvage(name, {"rows": [], "caption": ""}, table, name) for name in SECTIONS}
     peers = salvage("peers", [], read, paths["peers"], ("model",)) if "peers" in paths else []
-    numbers = salvage("key numbers", {}, _key_numbers, paths["key_numbers"])
+    key_rows = salvage("key numbers", [], read, paths["key_numbers"])
+    numbers = key_numbers.by_name(key_rows)
     run = parts.pop("run")
     run = {name: salvage(name, missing, function) for name, (missing, function) in run.items()}
     template = Path(parts["template"]).with_name("sources.html")

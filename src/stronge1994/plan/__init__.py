@@ -87,6 +87,17 @@ def expected_rows(config: Config, inventory: Inventory) -> dict[str, bool]:
     return rows
 
 
+def expected_alone(
+    rows: Mapping[str, bool], config: Config, name: str
+) -> dict[str, str | dict[str, bool]]:
+    """Settings of the gate of one figure or scene: its table of verdicts, and the rows of it."""
+    own = {f"{name}-solved", *comparisons(config, name)}
+    return {
+        "table": f"results/verdicts/{name}.csv",
+        "comparisons": {title: waits for title, waits in rows.items() if title in own},
+    }
+
+
 def plan_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
     """Settings of the job that judges one figure or scene, and the files that it reads."""
     sources = sources_of(config, inventory, name)

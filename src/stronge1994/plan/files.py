@@ -11,6 +11,7 @@ EVERY_JOB = (
     "src/planarimpact",
     "src/stronge1994/run/__init__.py",
     "src/stronge1994/run/record.py",
+    "src/stronge1994/run/failures.py",
     "src/stronge1994/figures/__init__.py",
 )
 KINDS = (".py", ".pyi", ".npz", ".h", ".mjs", ".toml", ".txt")

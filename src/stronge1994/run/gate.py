@@ -11,17 +11,36 @@ TABLES = ("results/verdicts.csv", "results/ledger.csv")
 PROBLEMS, REPORT = "results/problems.csv", "figures/report.html"
 
 
+def faults_of_one(made: Iterable[str], table: str, comparisons: Mapping[str, bool]) -> list[str]:
+    """Why one figure or scene must not pass, by the table of its verdicts, and the files `made`."""
+    made = list(made)
+    if messages := record.faults(made):
+        return messages
+    verdicts, comparisons = _rows(table, comparisons)
+    return record.errors(made) + faults_of_tables(verdicts, [], comparisons, {}, table)
+
+
 def faults(
     made: Iterable[str], comparisons: Mapping[str, bool], entries: Mapping[str, bool]
 ) -> list[str]:
     """Why the run must not pass, one line for each fault; `made` is every file of the run."""
+    made = list(made)
     messages = record.faults(made)
     if messages:  # rows of a changed table prove nothing
         return messages
-    verdicts, ledger = map(csv_tables.read_rows, TABLES)
-    messages = faults_of_tables(verdicts, ledger, comparisons, entries)
-    messages += [f"report: {row['problem']}" for row in csv_tables.read_rows(PROBLEMS)]
-    return messages + faults_of_report(REPORT, comparisons)
+    # After a failed job the report lacks what the job should have made.
+    messages = record.errors(made) or faults_of_report(REPORT, comparisons)
+    (verdicts, comparisons), (ledger, entries) = map(_rows, TABLES, (comparisons, entries))
+    messages += faults_of_tables(verdicts, ledger, comparisons, entries)
+    return messages + [f"report: {row['problem']}" for row in _rows(PROBLEMS)[0]]
+
+
+def _rows(path: str, expected: Mapping[str, bool] = {}) -> tuple[list[Row], Mapping[str, bool]]:
+    """Rows of a table and those that it must have; neither if its job failed, which is a fault."""
+    try:
+        return csv_tables.read_rows(path), expected
+    except csv_tables.Failed:
+        return [], {}
 
 
 def faults_of_tables(
@@ -29,8 +48,9 @@ def faults_of_tables(
     ledger: Sequence[Row],
     comparisons: Mapping[str, bool],
     entries: Mapping[str, bool],
+    table: str = TABLES[0],
 ) -> list[str]:
-    """Why a run must not pass, by its tables, one line for each fault.
+    """Why a run must not pass, by its tables, one line for each fault; `table` is the first one.
 
     `comparisons` and `entries` name every row that the tables of verdicts and of the ledger must
     have. They say of a comparison whether its reference is awaited, and of an entry whether a run
@@ -40,14 +60,14 @@ def faults_of_tables(
     >>> faults_of_tables([row], [], {"fig6-rebound": False, "fig6-printed": False}, {})
     ['results/verdicts.csv: 0 rows of fig6-printed where 1 belongs']
     """
-    messages = _miscounted(TABLES[0], "comparison", verdicts, comparisons)
+    messages = _miscounted(table, "comparison", verdicts, comparisons)
     messages += _miscounted(TABLES[1], "entry", ledger, entries)
     for row in verdicts:
         name, verdict = row.get("comparison", ""), row.get("verdict")
         if verdict == "diverges":
             messages.append(f"diverges: {name}: {verdict_table.why(row)}")
         elif verdict not in verdict_table.ORDER or (verdict == "awaited") != comparisons.get(name):
-            messages.append(f"{TABLES[0]}: {name} = {verdict!r} cannot be")
+            messages.append(f"{table}: {name} = {verdict!r} cannot be")
     for row in ledger:
         name, holds = row.get("entry", ""), row.get("holds")
         if holds == "no":

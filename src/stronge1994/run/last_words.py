@@ -3,14 +3,15 @@
 import logging
 import re
 import shlex
-from collections.abc import Iterable, Sequence
+import textwrap
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from stronge1994 import csv_tables, verdict_table
 from stronge1994.csv_tables import Row
 from stronge1994.ledger import outcome
 from stronge1994.run.gate import REPORT, TABLES
-from stronge1994.run.plans import GATE_LOG
+from stronge1994.run.plans import ALONE, GATE_LOG
 from stronge1994.run.record import PASSED
 
 # Number of faults that are named; the log has them all.
@@ -27,55 +28,102 @@ STOPPED = [
 INTERRUPTED = (
     "Interrupted. Nothing needs mending: type the same command again, finished work is kept."
 )
+WITHOUT = "On purpose? To draw without being judged:  "
 # Help after Snakemake has reported that the folder is locked.
 UNLOCK = "Does no other run work here? Then type:  snakemake --unlock  and the same command again."
-# Snakemake's own log says this after Ctrl-C, and after a job has failed.
-ON_REQUEST = "Terminating processes on user request"
+# Snakemake's own log says one of these after Ctrl-C and SIGTERM, and this after a job has failed.
+ON_REQUEST = "Terminating processes on user request", "Will exit after finishing currently"
 FAILED_JOB = re.compile(r"^Error in rule (\w+):", flags=re.M)
 JUDGED = re.compile(r"Comparing (\w+) with references$", flags=re.M)
 
 
-def add_unlock(record: logging.LogRecord) -> bool:
-    """Put what helps behind Snakemake's error of a locked folder, and let every record pass."""
-    if getattr(record, "exception", None) == "LockException":
-        record.msg = f"{record.msg}\n{UNLOCK}"
-    return True
+class Help(logging.Filter):
+    """Put what helps behind some errors of Snakemake, and let every record pass."""
+
+    def __init__(self, targets: Iterable[str]) -> None:
+        super().__init__()
+        names = textwrap.fill(", ".join(targets), 96, initial_indent="  ", subsequent_indent="  ")
+        self.by_error = {
+            "LockException": UNLOCK,
+            "MissingRuleException": f"Targets are\n{names}\nor any file that one of them makes.",
+        }
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Add a line to a record that is one of these errors."""
+        if help := self.by_error.get(getattr(record, "exception", None) or ""):
+            record.msg = f"{record.msg}\n{help}"
+        return True
 
 
 def text(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str] = ()) -> str:
-    """The last lines of a run. The gate's log holds its faults, and exists only if it has judged.
+    """The last lines of a run. A gate that has judged leaves a log with its faults.
 
     `config` is the user's --config, to be repeated. `stopped` says that a job failed, or that the
     run was interrupted; Snakemake's `logs` tell which, and what was judged.
     """
     log_text = "".join(Path(log).read_text(encoding="utf-8", errors="replace") for log in logs)
-    passed, path = Path(PASSED).exists(), Path(GATE_LOG)
-    gate_log = path.read_text(encoding="utf-8") if path.exists() else ""
-    faults = [line for line in gate_log.splitlines() if line]
-    # The gate has not run, was stopped, or other jobs came after it.
-    if not (faults or (passed and path.exists())):
-        made = [f"results/verdicts/{name}.csv" for name in JUDGED.findall(log_text)]
-        verdicts = ", ".join(path for path in made if Path(path).exists())
+    again = shlex.join(["snakemake", "--cores", "2", "figures", *_option(config)])
+    faults = _faults(GATE_LOG)
+    # A gate has not run, was stopped, or other jobs came after it.
+    if faults or (faults is not None and Path(PASSED).exists()):
+        parts = _of_all(faults, again)
+        stopped = stopped and not faults  # by a job beside the verdict
+    elif alone := list(_judged_alone()):
+        parts = [part for name, faults in alone for part in _of_one(name, faults, again)]
+        stopped = stopped and not any(faults for _, faults in alone)
+    else:
         parts = ["No verdict in this run as a whole. Pictures: figures/"]
-        parts += [f"Verdicts: {verdicts}"] if verdicts else []
-        return "\n" + "\n".join(parts + (_stopped(log_text) if stopped else [])) + "\n"
+        parts += [_of_table(name, config) for name in JUDGED.findall(log_text)]
+    return "\n" + "\n".join(parts + (_stopped(log_text) if stopped else [])) + "\n"
+
+
+def _option(config: Sequence[str]) -> list[str]:
+    return ["--config", *config] if config else []
+
+
+def _faults(log: str) -> list[str] | None:
+    """Faults in the log of a gate; None if it has not judged."""
+    path = Path(log)
+    if not path.exists():
+        return None
+    return [line for line in path.read_text(encoding="utf-8").splitlines() if line]
+
+
+def _judged_alone() -> Iterator[tuple[str, list[str]]]:
+    """Figures and scenes that were targets of the run, with their faults."""
+    before, after = Path(ALONE).name.split("{}")
+    for log in sorted(Path(ALONE).parent.glob(f"{before}*{after}")):
+        yield log.name.removeprefix(before).removesuffix(after), _faults(str(log)) or []
+
+
+def _of_all(faults: Sequence[str], again: str) -> list[str]:
+    """The verdict of a whole run."""
     parts = [
         verdict_table.text(_rows(TABLES[0], verdict_table.COLUMNS)),
         outcome.summary(_rows(TABLES[1], ("verdict", "holds", "entry", "where", "problem"))),
     ]
     where = f"All columns: {', '.join(TABLES)}"
     if not faults:
-        parts += [f"PASSED. {where}; pictures: figures/", *NEXT]
-        if stopped:  # a job beside the verdict
-            parts += _stopped(log_text)
-    else:
-        again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
-        parts += [
-            f"{where}. Why, row by row: {REPORT}, open it in a browser",
-            f"On purpose? To draw without being judged:  {shlex.join(again)}",
-            _failed(faults),
-        ]
-    return "\n" + "\n".join(parts) + "\n"
+        return [*parts, f"PASSED. {where}; pictures: figures/", *NEXT]
+    why = f"{where}. Why, row by row: {REPORT}, open it in a browser"
+    return [*parts, why, f"{WITHOUT}{again}", _failed(faults)]
+
+
+def _of_one(name: str, faults: Sequence[str], again: str) -> list[str]:
+    """The verdict of one figure or scene."""
+    table = f"results/verdicts/{name}.csv"
+    parts = [verdict_table.text(_rows(table, verdict_table.COLUMNS)), f"All columns: {table}"]
+    if faults:
+        return [*parts, f"{WITHOUT}{again}", f"{name}: {_failed(faults)}"]
+    return [*parts, f"{name}: no comparison diverges. The verdict of all: snakemake --cores 2"]
+
+
+def _of_table(name: str, config: Sequence[str]) -> str:
+    """A table of verdicts that was made without a gate."""
+    table = f"results/verdicts/{name}.csv"
+    number = len(verdict_table.failing(_rows(table, verdict_table.COLUMNS)))
+    judge = shlex.join(["snakemake", "--cores", "2", name, *_option(config)])
+    return f"{table}: {number} diverge. To judge it:  {judge}"
 
 
 def _failed(faults: Sequence[str]) -> str:
@@ -96,7 +144,7 @@ def _rows(path: str, columns: Iterable[str]) -> list[Row]:
 
 def _stopped(log_text: str) -> list[str]:
     """Why a run ended early."""
-    if ON_REQUEST in log_text:
+    if any(words in log_text for words in ON_REQUEST):
         return [INTERRUPTED]
     names = ", ".join(dict.fromkeys(FAILED_JOB.findall(log_text)))
     return [f"A job stopped: {names or 'see above'}.", *STOPPED]

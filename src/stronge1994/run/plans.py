@@ -16,6 +16,7 @@ from stronge1994.run import record
 
 FOLDER = "results/plans"
 GATE_LOG = "results/logs/all.log"
+ALONE = "results/logs/judged_{}.log"  # of the gate of one figure or scene
 # Options that only ask. One that is missing here would remove a verdict until the next run.
 ONLY_ASKS = {"--dry-run", "--dryrun", "--lint", "--report", "--summary", "--detailed-summary"}
 ONLY_ASKS |= {"--list-rules", "-l", "--list-target-rules", "--rulegraph", "--dag", "--filegraph"}
@@ -65,6 +66,7 @@ def start(arguments: Iterable[str]) -> None:
 
 
 def withdraw() -> None:
-    """Remove the verdict of an earlier run, and the log of its gate."""
+    """Remove the verdict of an earlier run, and the logs of its gates."""
     record.withdraw()
-    Path(GATE_LOG).unlink(missing_ok=True)
+    for log in [Path(GATE_LOG), *Path(".").glob(ALONE.format("*"))]:
+        log.unlink(missing_ok=True)

@@ -60,6 +60,10 @@ def recorded(snakemake: Any) -> Iterator[Any]:
     """Do a job of Snakemake by its plan, log it, and record what it read and wrote.
 
     Yields the settings of the plan. `snakemake.input.plan` and `snakemake.output.record` are files.
+    If the job raises an error, the record holds it, and each file that it has not written says it
+    too: the rest of the run goes on, and the gate fails. An error of the machine, such as a full
+    disk, stops the job: without it the same command may work.
+
     It is an error if an input or a source was edited since the run began, because then the record
     is wrong, or if the job imports a module that its plan does not name.
     """
@@ -71,17 +75,38 @@ def recorded(snakemake: Any) -> Iterator[Any]:
         plan = json.loads(Path(snakemake.input.plan).read_text(encoding="utf-8"))
         _refuse_edited(plan["sources"])
         read = plan["sources"] | {path: fingerprint(path) for path in snakemake.input}
-        yield plan["settings"]
+        outputs = set(snakemake.output) - {snakemake.output.record}
+        outcome: dict[str, str] = {}
+        try:
+            yield plan["settings"]
+        except (OSError, MemoryError):
+            raise
+        except Exception as error:
+            outcome = _failed(error, job, outputs)
         _refuse_edited(read)
         unnamed = sorted(_imported() - set(read))
         if unnamed:
             raise RuntimeError(f"{job} imports {unnamed[0]}, which its rule does not plan for")
-        outputs = set(snakemake.output) - {snakemake.output.record}
         wrote = {path: fingerprint(path) for path in sorted(outputs)}
         seconds = round(time.monotonic() - began, 2)
-        text = json.dumps({"seconds": seconds, "read": read, "wrote": wrote}, indent=1)
+        text = json.dumps({"seconds": seconds, "read": read, "wrote": wrote} | outcome, indent=1)
         Path(snakemake.output.record).write_text(text, encoding="utf-8")
-    print(f"{job}: {seconds:.1f} s", flush=True)
+    said = f", failed: {next(iter(outcome.values()))} (log: {snakemake.log[0]})" if outcome else ""
+    print(f"{job}: {seconds:.1f} s{said}", flush=True)
+
+
+def _failed(error: Exception, job: str, outputs: Iterable[str]) -> dict[str, str]:
+    """Entry of a record: an `error` of the job itself, or one that it `inherited` by a table."""
+    from stronge1994 import csv_tables  # needs numpy
+    from stronge1994.run import failures
+
+    traceback.print_exc()
+    inherited = isinstance(error, csv_tables.Failed)
+    why = f"{error}" if inherited else f"{job}: {type(error).__name__}: {error}"
+    for path in outputs:
+        if not Path(path).exists():
+            failures.write(path, why)
+    return {"inherited" if inherited else "error": why}
 
 
 def _refuse_edited(hashes: Mapping[str, str]) -> None:
@@ -104,6 +129,16 @@ def read(path: str) -> dict[str, Any] | None:
         return content if {"seconds", "read", "wrote"} <= set(content) else None
     except (OSError, ValueError, TypeError):
         return None
+
+
+def errors(made: Iterable[str]) -> list[str]:
+    """Errors of the jobs whose records are among the files `made`, each told once."""
+    records = [(path, read(path)) for path in made if path.startswith(f"{FOLDER}/")]
+    return [
+        f"failed: {record['error']} (log: results/logs/{Path(path).stem}.log)"
+        for path, record in records
+        if record and "error" in record
+    ]
 
 
 def faults(made: Iterable[str]) -> list[str]:

@@ -6,6 +6,7 @@ import sys
 import time
 from pathlib import Path
 
+from stronge1994 import csv_tables
 from stronge1994.run import record
 
 JOB = Path(snakemake.log[0]).stem
@@ -38,10 +39,10 @@ with record.recorded(snakemake) as settings:
         value = law.law(float(Path("data.csv").read_text()), settings)
         Path(made.table).write_text(f"curve\n{value}\n")
     elif JOB == "draw":
-        text = Path(snakemake.input.curves).read_text().split()[1]
+        text = csv_tables.read_rows(snakemake.input.curves)[0]["curve"]
         Path(made.picture).write_text(f"<svg>{text}</svg>\n")
     else:
-        right = float(Path(snakemake.input.curves).read_text().split()[1]) < 10
+        right = float(csv_tables.read_rows(snakemake.input.curves)[0]["curve"]) < 10
         verdict = "agrees" if right else "diverges"
         Path(made.verdicts).write_text(
             f"comparison,verdict,note,found,p,points\nrow,{verdict},,,,\n"

@@ -18,7 +18,7 @@ PATTERNS: dict[str, Dashes] = {"continuum": (0, (6, 2)), "lumped": "-"}
 RIM: Style = {"color": house_style.BLACK, "linewidth": 0.6}
 NORMAL_LINE: Style = {"color": house_style.GREY, "linewidth": 0.8}
 FRICTION_LINE: Style = {"linewidth": 1.4}
-# Radii between which a curve may have its number.
+# Radii between which a curve has its number, if it has any there: one that always slips stays at 0.
 LABELLED = 0.15, 0.9
 # Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {
@@ -88,7 +88,8 @@ def _dense(time: Array, radius: Array) -> Array:
 
 def _apart(line: Array, others: Sequence[Array]) -> Array:
     """The point of a line that is farthest from the other lines."""
-    inside = line[:, (line[1] > LABELLED[0]) & (line[1] < LABELLED[1])]
+    chosen = (line[1] > LABELLED[0]) & (line[1] < LABELLED[1])
+    inside = line[:, chosen] if chosen.any() else line
     gaps = np.hypot(*(inside[:, :, None] - np.concatenate(others, axis=1)[:, None, :]))
     return inside[:, gaps.min(axis=1).argmax()]
 

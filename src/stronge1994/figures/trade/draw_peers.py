@@ -11,8 +11,7 @@ from matplotlib.lines import Line2D
 
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import checked, house_style
-from stronge1994.figures.shared.drawing import words as meanings
+from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Settings
 from stronge1994.figures.trade import drawing as draw_trade
 
@@ -263,12 +262,8 @@ def _draw_loss(
 def write(
     curves: str, peers: str, settings: Settings, pictures: Sequence[str], errors: Sequence[str]
 ) -> None:
-    """Draw both figures as SVG and PNG, or the error of a failed solver."""
-    try:
-        theirs = csv_tables.read(peers)
-        drawn = [draw(csv_tables.read(curves), theirs, settings), draw_errors(theirs)]
-    except csv_tables.Failed as error:
-        drawn = [(house_style.failure(f"trade: the solver failed: {error}"), {})] * 2
-    own = meanings.more(AXIS_MEANS, LEGEND_MEANS)
-    checked.save(*drawn[0], "trade_with_peers", pictures[0], pictures[1], own)
-    checked.save(*drawn[1], "peers", errors[0], errors[1], own)
+    """Draw both figures as SVG and PNG."""
+    theirs = csv_tables.read(peers)
+    drawn = [draw(csv_tables.read(curves), theirs, settings), draw_errors(theirs)]
+    for (picture, _), (svg, png) in zip(drawn, (pictures, errors), strict=True):
+        house_style.save(picture, svg, png)

@@ -1,8 +1,6 @@
-"""Solve the curves of one figure. A crash becomes a table with the error: a failed verdict."""
+"""Solve the curves of one figure."""
 
 import importlib
-import sys
-import traceback
 from collections.abc import Mapping
 from typing import Any, TypeAlias
 
@@ -13,21 +11,14 @@ Tables: TypeAlias = Mapping[str, str | None]
 
 
 def solve(figure: str, settings: dict[str, Any], nodes: Tables, output: str) -> None:
-    """Write the curves of `figure`.
+    """Write the curves of `figure`; it is an error if one is not finite.
 
     `nodes` names reference tables. Curves must pass through the points of their x columns; a whole
-    table becomes the setting `points` instead. Curves that are not finite have failed, too.
+    table becomes the setting `points` instead.
     """
-    try:
-        settings = settings | read_nodes(nodes)
-        named = importlib.import_module(f"stronge1994.figures.{figure}.curves").curves(**settings)
-        csv_tables.refuse_not_finite(named)
-    except Exception as error:
-        traceback.print_exc()
-        problem = f"{type(error).__name__}: {error}"
-        print(f"{figure}: no curves: {problem}", file=sys.__stderr__)  # the log has all else
-        csv_tables.write_rows(output, ["error"], [[problem]])
-        return
+    module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
+    named = module.curves(**settings | read_nodes(nodes))
+    csv_tables.refuse_not_finite(named)
     csv_tables.write(output, named)
 
 

@@ -1,4 +1,4 @@
-"""Draw one figure or its slide from its curves. If there are none, the picture says why.
+"""Draw one figure or its slide from its curves.
 
 Nothing here solves: pictures are made from tables alone.
 """
@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import checked, house_style, slide, tables, words
+from stronge1994.figures.shared.drawing import house_style, slide, tables
 from stronge1994.figures.shared.drawing.house_style import Points, Series, Settings
 
 
@@ -26,14 +26,9 @@ def draw(
     png: str,
 ) -> None:
     """Draw `figure`; `overlays` holds the reference series that are not awaited, and facts."""
-    try:
-        curves = csv_tables.read(curves_path)
-    except csv_tables.Failed as error:
-        checked.save(house_style.failure(_failed(figure, error)), {}, figure, svg, png)
-        return
-    module = _module(figure, "drawing")
-    points = _series(overlays, series_paths)
-    checked.save(*drawn(module, curves, settings, points), figure, svg, png, words.of(module))
+    curves, points = csv_tables.read(curves_path), _series(overlays, series_paths)
+    picture, _ = drawn(_module(figure, "drawing"), curves, settings, points)
+    house_style.save(picture, svg, png)
 
 
 def draw_slide(
@@ -45,14 +40,8 @@ def draw_slide(
     pngs: Mapping[str, str],
 ) -> None:
     """Draw the slide of `figure` on each ground, `{ground: file}`; the rest is as for `draw`."""
-    try:
-        curves = csv_tables.read(curves_path)
-    except csv_tables.Failed as error:
-        pictures = {
-            ground: slide.failure(_failed(figure, error), slide.GROUNDS[ground]) for ground in pngs
-        }
-    else:
-        pictures = slides(figure, curves, settings, _series(overlays, series_paths))
+    curves, points = csv_tables.read(curves_path), _series(overlays, series_paths)
+    pictures = slides(figure, curves, settings, points)
     for ground, png in pngs.items():
         slide.save(pictures[ground], png)
 
@@ -60,23 +49,16 @@ def draw_slide(
 def drawn(
     module: ModuleType, curves: Curves, settings: Settings, points: Points
 ) -> tuple[Figure, Curves]:
-    """The picture that a module draws, not yet checked, and the tables of its numbers."""
+    """The picture that a module draws, and the tables of its numbers."""
     curves, points = _prepared(module, curves, settings, points)
     return module.draw(curves, settings, points), tables.tables(curves, points)
 
 
 def slides(figure: str, curves: Curves, settings: Settings, points: Points) -> dict[str, Figure]:
-    """The slide of a figure on each ground, checked."""
-    modules = [_module(figure, name) for name in ("drawing", "slide")]
-    curves, points = _prepared(modules[0], curves, settings, points)
-    known = tables.tables(curves, points)
-    pictures = {
-        name: modules[1].draw(curves, settings, points, ground)
-        for name, ground in slide.GROUNDS.items()
-    }
-    for picture in pictures.values():
-        checked.check(picture, known, f"slide of {figure}", words.of(*modules))
-    return pictures
+    """The slide of a figure on each ground."""
+    curves, points = _prepared(_module(figure, "drawing"), curves, settings, points)
+    draw = _module(figure, "slide").draw
+    return {name: draw(curves, settings, points, ground) for name, ground in slide.GROUNDS.items()}
 
 
 def _prepared(
@@ -96,10 +78,6 @@ def _prepared(
 
 def _module(figure: str, name: str) -> ModuleType:
     return importlib.import_module(f"stronge1994.figures.{figure}.{name}")
-
-
-def _failed(figure: str, error: csv_tables.Failed) -> str:
-    return f"{figure}: the solver failed: {error}"
 
 
 def _series(overlays: Mapping[str, Mapping[str, Any]], series_paths: Mapping[str, str]) -> Points:

@@ -1,4 +1,4 @@
-"""Check that a picture shows only numbers of its tables, before it is saved.
+"""Check that a picture shows only numbers of its tables. Tests ask for it, no run does.
 
 The points of one line must be rows of one table that follow each other; those of an area or a mesh
 must be rows of one table. Their columns must be those that the labels of the axes name. An entry of
@@ -13,14 +13,12 @@ import itertools
 import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from typing import IO, Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.collections import LineCollection, PathCollection, PolyCollection, QuadMesh
 from matplotlib.colors import to_rgba
 from matplotlib.contour import ContourSet
@@ -35,8 +33,6 @@ from planarimpact.ground.arrays import Array, Booleans
 from stronge1994.csv_tables import Curves
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.words import BARS, SHARED, Meanings
-
-File: TypeAlias = str | IO[bytes]
 
 # Relative difference up to which two numbers are equal: Matplotlib rounds ends of bars and edges.
 CLOSE = 1e-9
@@ -88,29 +84,6 @@ class _Drawn(NamedTuple):
 
     artist: Artist
     columns: Sequence[_Columns]
-
-
-def save(
-    figure: Figure,
-    tables: Curves,
-    name: str,
-    svg: File,
-    png: File | None = None,
-    meanings: Meanings = SHARED,
-) -> None:
-    """Check a figure and write both files. The same figure gives the same bytes."""
-    check(figure, tables, name, meanings)
-    # Matplotlib solves the layout in an order that changes from run to run, which changes the last
-    # bits. So the places are rounded.
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")
-    for axes in figure.axes:
-        axes.set_position(np.round(axes.get_position().bounds, 6))
-    # `Figure.savefig` would draw once more to solve the layout again.
-    FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
-    if png:
-        figure.dpi = 200
-        FigureCanvasAgg(figure).print_png(png)
 
 
 def check(figure: Figure, tables: Curves, name: str, meanings: Meanings = SHARED) -> None:

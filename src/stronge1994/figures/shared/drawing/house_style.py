@@ -25,13 +25,15 @@ import itertools
 import textwrap
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeAlias, TypeVar
+from typing import IO, Any, TypeAlias, TypeVar
 
 import matplotlib
 import numpy as np
 from matplotlib import font_manager
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -39,6 +41,7 @@ from planarimpact.ground.arrays import Array
 from stronge1994 import curve_names
 from stronge1994.csv_tables import Curves
 
+File: TypeAlias = str | IO[bytes]
 Style: TypeAlias = dict[str, Any]  # keywords of matplotlib
 Dashes: TypeAlias = str | tuple[float, tuple[float, ...]]  # a pattern of line
 Settings: TypeAlias = dict[str, Any]
@@ -137,6 +140,21 @@ matplotlib.rcParams.update(STYLE)
 def new(height: float) -> Figure:
     """Empty figure of the house's width and a height in inches."""
     return Figure(figsize=(WIDTH, height), layout="constrained")
+
+
+def save(figure: Figure, svg: File, png: File | None = None) -> None:
+    """Write both files of a figure. The same figure gives the same bytes."""
+    # Matplotlib solves the layout in an order that changes from run to run, which changes the last
+    # bits. So the places are rounded.
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for axes in figure.axes:
+        axes.set_position(np.round(axes.get_position().bounds, 6))
+    # `Figure.savefig` would draw once more to solve the layout again.
+    FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
+    if png:
+        figure.dpi = 200
+        FigureCanvasAgg(figure).print_png(png)
 
 
 def failure(message: str) -> Figure:

@@ -50,8 +50,7 @@ def new(title: str, data: str, ground: Ground) -> tuple[Figure, Axes]:
     """Empty slide with its title and the source of its `data`, and its axes."""
     size = WIDTH / DOTS_PER_INCH, HEIGHT / DOTS_PER_INCH
     figure = Figure(figsize=size, dpi=DOTS_PER_INCH, facecolor=ground.paper)
-    # A dollar sign in the message of an error is not mathematics.
-    style = {"color": ground.ink, "fontsize": TITLE, "parse_math": False}
+    style = {"color": ground.ink, "fontsize": TITLE}
     style |= {"va": "top", "linespacing": house_style.LINES}
     left = MARGIN / WIDTH
     lines = -(-len(title) // 72)
@@ -105,13 +104,6 @@ def name_curve(
         linespacing=house_style.LINES,
         path_effects=[withStroke(linewidth=10, foreground=colours[1])],
     )
-
-
-def failure(message: str, ground: Ground) -> Figure:
-    """Slide of one sentence, drawn instead of curves that are missing."""
-    figure, axes = new(message, "none", ground)
-    axes.set_visible(False)
-    return figure
 
 
 def save(figure: Figure, png: str) -> None:
