@@ -55,7 +55,7 @@ def measure(
     find = _from_curve if entry["metric"] == "distance" else _from_vertices
     series = points(entry, reference, series_paths)
     if "curve" in reference.get("labels", []):
-        _refuse_other_curves(series["curve"], curves)
+        _refuse_other_curves(series["curve"].tolist(), curves, "reference")
     residuals, columns = find(entry, reference, curves, series)
     # The curve is solved again with each uncertain parameter off by one sigma, up and down.
     shifts = []
@@ -274,22 +274,22 @@ def _selected_curves(entry: Entry, curves: Curves) -> Curves:
     return {entry["curve"]: _named(curves, entry["curve"])}
 
 
-def _refuse_other_curves(named: Column, curves: Curves) -> None:
-    """Refuse curves that lack one of the reference, and say which values both have."""
-    missing = [name for name in dict.fromkeys(named.tolist()) if name not in curves]
+def _refuse_other_curves(asked: Iterable[str], curves: Curves, of: str) -> None:
+    """Refuse curves that lack one of those that are `asked` for, and say which values both have."""
+    asked = list(asked)
+    missing = [name for name in asked if name not in curves]
     if missing:
-        asked, own = curve_names.values(named.tolist()), curve_names.values(curves)
-        for symbol, values in asked.items():
-            if not set(values) <= set(own.get(symbol, [])):
-                ours = ", ".join(own.get(symbol, ["none"]))
-                words = f"the reference has {symbol} = {', '.join(values)}; the figure has {ours}"
-                raise ValueError(words)
+        own = curve_names.values(curves)
+        for symbol, values in curve_names.values(asked).items():
+            known = own.get(symbol, [])
+            if known and not set(values) <= set(known):
+                both = f"{symbol} = {', '.join(values)}; the figure has {', '.join(known)}"
+                raise ValueError(f"the {of} has {both}")
         raise ValueError(f"no curve '{missing[0]}'; the figure has {', '.join(curves)}")
 
 
 def _named(curves: Curves, name: str) -> Columns:
-    if name not in curves:
-        raise ValueError(f"no curve '{name}'; the figure has {', '.join(curves)}")
+    _refuse_other_curves([name], curves, "comparison")
     return curves[name]
 
 

@@ -34,9 +34,10 @@ def write(path: str, why: str) -> None:
 
 def _draw(path: str, why: str) -> None:
     import matplotlib  # only a failure needs it
+    from matplotlib.figure import Figure
 
     with matplotlib.rc_context({"svg.fonttype": "none"}):
-        picture = matplotlib.figure.Figure((6.4, 1.6))
+        picture = Figure((6.4, 1.6))
         # A dollar sign in the message of an error is not mathematics.
         style = {"ha": "center", "va": "center", "color": "#b84a00", "parse_math": False}
         picture.text(0.5, 0.5, textwrap.fill(why, 64), **style)

@@ -138,7 +138,7 @@ def _rows(path: str, columns: Iterable[str]) -> list[Row]:
     """Rows of a table; none if it cannot be read, which the gate has said."""
     try:
         return csv_tables.read_rows(path, columns)
-    except (OSError, ValueError):
+    except (OSError, ValueError, csv_tables.Failed):
         return []
 
 

@@ -76,6 +76,11 @@ def curves(
     measured = np.array(points["tangential_restitution"], float), *alone
     named: Curves = {key: {X: at, E_T: e_t} for key, e_t in zip(ALONE, alone, strict=True)}
     limits = np.array([sticking, incidence[1]])
+    if limits.min() < at.min():
+        raise ValueError(
+            f"sticking = {sticking:g}, incidence to {incidence[1]:g}: allowed are limits from "
+            f"{at.min():g}, the smallest incidence of an impact"
+        )
     for model in (*MODELS, ELASTIC):
         own = groups
         if model == ELASTIC:
