@@ -295,6 +295,54 @@ def at_times_places(tab, times):
     return [[numbers_of(one)[:3] for one in both] for both in found]
 
 
+# What is wrong in the picture now: a ball in a floor; words on other words or on the scale, or cut.
+PICTURE = """(() => {
+  const svg = document.getElementById("stage-svg"), [floor, wrong] = [stage.part("floor"), []];
+  for (const ball of svg.querySelectorAll(".lane:not(.absent) .rim")) {
+    const [place, radius] = [ball.getCTM(), ball.r.baseVal.value - 1];
+    const rim = [...Array(24).keys()].map((k) =>
+      new DOMPoint(radius * Math.cos(k), radius * Math.sin(k)).matrixTransform(place));
+    if (rim.some((point) => floor.isPointInFill(point))) wrong.push("a ball in the floor");
+  }
+  const words = [...svg.querySelectorAll("text, .ruler")]
+    .filter((e) => e.checkVisibility({ visibilityProperty: true }) && e.getBBox().width);
+  const boxes = words.map((e) => [e.id || "name", e.getBoundingClientRect()]);
+  const [{ left, right, top, bottom }, slack] = [svg.getBoundingClientRect(), 1];
+  boxes.forEach(([id, box], i) => {
+    if (box.left < left || box.right > right || box.top < top - slack || box.bottom > bottom)
+      wrong.push(`${id} is cut`);
+    for (const [other, { left, right, top, bottom }] of boxes.slice(i + 1))
+      if (Math.min(box.right, right) - Math.max(box.left, left) > slack &&
+        Math.min(box.bottom, bottom) - Math.max(box.top, top) > slack)
+        wrong.push(`${other} on ${id}`);
+  });
+  return wrong;
+})()"""
+
+
+@pytest.mark.parametrize("width", [360, 1280])
+def test_balls_are_above_their_floors_and_no_words_cover_others(width, show):
+    tab, found = show(width=width), {}
+    for angle, speed, e, spin, more in (
+        (50, 6, 0.9, 0, ""),
+        (5, 12, 1, 300, ""),
+        (89, 12, 0.5, -300, ""),
+        (60, 12, 0.1, 0, "&loss=plastic"),
+        (70, 5, 0, -400, ""),
+        (50, 8, 0.9, 0, "&table=0.7&gravity=0"),
+        (30, 2, 0.9, 100, "&table=0.15"),
+    ):
+        state = f"angle={angle}&speed={speed}&restitution={e}&spin={spin}{more}{SOLID}"
+        tab.evaluate(f"page.go('friction=0.8&{state}')")
+        tab.evaluate(FRAME)
+        found[state, "at rest"] = tab.evaluate(PICTURE)
+        for time, wrong in zip((0.1, 1, 1.5), at_times(tab, (0.1, 1, 1.5), PICTURE), strict=True):
+            found[state, time] = wrong
+        type_in(tab, "time", str(tab.evaluate("stage.duration()")))
+        found[state, "end"] = tab.evaluate(PICTURE)
+    assert [(where, wrong) for where, wrong in found.items() if wrong] == []
+
+
 def test_the_stage_alone(show):
     state = f"angle=40&friction=0.4&restitution=1{SOLID}"
     tab = show(state, query="?stage")

@@ -1,5 +1,7 @@
 """The lectures: how they are kept, how they fail, and that their asserts see a wrong solver."""
 
+import ast
+import builtins
 import json
 import math
 import re
@@ -9,7 +11,9 @@ from pathlib import Path
 import matplotlib
 import matplotlib.pyplot as plt
 import nbformat
+import numpy as np
 import pytest
+from matplotlib.transforms import Bbox
 
 from planarimpact.lumped import stick_slip
 from stronge1994.explorer import page as explorer
@@ -94,6 +98,60 @@ def test_links_to_the_explorer_say_their_incidence(book):
         if said:
             x = math.tan(math.radians(float(state["angle"]))) / float(state["friction"])
             assert round(x, len(said[1].partition(".")[2])) == float(said[1]), words
+
+
+@every_notebook
+def test_code_on_a_slide_defines_its_names(book):
+    for _, cells in run_notebook.slides(book.cells):
+        shown = [c.source for c in cells if c.cell_type == "code" and "jupyter" not in c.metadata]
+        nodes = list(ast.walk(ast.parse("\n".join(shown))))
+        names = [node for node in nodes if isinstance(node, ast.Name)]
+        known = {node.id for node in names if isinstance(node.ctx, ast.Store)} | set(dir(builtins))
+        known |= {node.asname or node.name for node in nodes if isinstance(node, ast.alias)}
+        assert {node.id for node in names} <= known, shown
+
+
+def words_on_lines(axes):
+    """Words of a picture that a line of it crosses."""
+    axes.figure.canvas.draw()
+    found = []
+    for words in [text for text in axes.texts if text.get_text()]:
+        for line in axes.lines:
+            box = words.get_window_extent()
+            seen = Bbox.intersection(box, axes.bbox) if line.get_clip_on() else box
+            path = line.get_transform().transform_path(line.get_path())
+            if seen and path.intersects_bbox(seen, filled=False):
+                found.append(words.get_text())
+    return found
+
+
+def curves_of_other_regimes(axes):
+    """Curves against incidence that do not become straight at the last vertical line.
+
+    Where the contact slides throughout, the velocity afterwards is a straight line.
+    """
+    lines = [line.get_xdata() for line in axes.lines]
+    upright = [x[0] for x in lines if len(x) == 2 and x[0] == x[1]]
+    if not (upright and axes.get_xlabel().startswith("incidence")):
+        return []
+    curves = [line.get_xydata() for line in axes.lines if len(line.get_xdata()) > 100]
+    bent = [curve[1:-1, 0][np.abs(np.diff(curve[:, 1], 2)) > 1e-9] for curve in curves]
+    return [x.max() for x in bent if x.size and abs(x.max() - max(upright)) > 0.05]
+
+
+@every_notebook
+def test_pictures_are_not_drawn_over_their_words_and_regimes(book, monkeypatch):
+    monkeypatch.chdir(ROOT / "workflow/notebooks")
+    matplotlib.use("Agg")
+    names, wrong = {}, {}
+    with matplotlib.rc_context():
+        for cell in code_of(book):
+            exec(cell.source, names)
+            for axes in [axes for n in plt.get_fignums() for axes in plt.figure(n).axes]:
+                found = words_on_lines(axes) + curves_of_other_regimes(axes)
+                wrong[cell.id] = wrong.get(cell.id, []) + found
+            plt.close("all")
+    assert len(wrong) >= 5 and {cell: found for cell, found in wrong.items() if found} == {}
 
 
 @every_notebook

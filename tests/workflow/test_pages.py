@@ -33,6 +33,7 @@ FIND = """Promise.all(document.getAnimations().map((one) => one.finished))
 .then((found) => found.violations.map(
   ({id, nodes}) => `${id}: ${nodes.length}, first ${nodes[0].target}: ${nodes[0].html.slice(0, 90)}`
 ))"""
+CUT = "(bar) => bar.scrollWidth > bar.clientWidth"
 # A width in px, a colour scheme, and whether axe judges colours, the rest, or both.
 WINDOWS = {
     "light": (1440, "light", ("colours", "rest")),
@@ -198,6 +199,8 @@ def look(tab):
             found[window] = tab.evaluate(FIND % json.dumps(options(kinds, left)))
             if (real := tab.evaluate("document.documentElement.scrollWidth")) > width:
                 found[window].append(f"too wide: {real} px")
+            if tab.evaluate(f"[...document.querySelectorAll('.site ul')].some({CUT})"):
+                found[window].append("the bar is cut")
         return found
 
     patience, tab.timeout = tab.timeout, 120  # s: axe takes seconds for a long page
@@ -225,6 +228,9 @@ FAULTS = {
     "<details><button></button></details>": {"light": ["button-name"], "phone": ["button-name"]},
     '<p class="faint">Unseen in the dark.': {"dark": ["color-contrast"]},
     '<p style="width: 500px">Long.': {"phone": ["too wide"]},
+    '<div class="site"><ul style="overflow:hidden"><li style="min-width:500px">Long.</ul></div>': {
+        "phone": ["the bar is cut"]
+    },
     '<h4 class="phone">On phones only': {"phone": ["heading-order"]},
 }
 

@@ -253,7 +253,7 @@ const page = (() => {
     for (const lane in lanes) {
       const short = innerWidth < 600 ? lane : lanes[lane];
       element(`stage-${lane}-name`).textContent = `\u25CF ${short}:`;
-      document.querySelector(`.patch.${lane} .patch-name`).textContent = `${lanes[lane]}: `;
+      document.querySelector(`.patch.${lane} .patch-name`).textContent = `${short}: `;
     }
     for (const part of document.querySelectorAll(".of-model")) {
       part.textContent = models.NAMES[impact.contact.style];

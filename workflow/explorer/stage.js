@@ -1,7 +1,8 @@
 "use strict";
 
-// The stage: two balls thrown alike, one by the lumped model and one by the continuum, with what the
-// contact of each looks like below them. The time of the show, in seconds, stretches each contact.
+// The stage: two balls thrown alike, one by the lumped model and one by the continuum, each above its
+// own floor and below the name of its model; and what the contact of each looks like. The time of the
+// show, in seconds, stretches each contact.
 const stage = (() => {
   const SLOW_FLIGHT = 3; // times slower than in nature
   const FIRST_CONTACT = 1.5; // s that one t_c takes in the first bounce, and in the others
@@ -9,8 +10,11 @@ const stage = (() => {
   const FLASH = 0.04; // s between two images of a ball, at least
   const SHOWN = 3; // flights that the frame shows; later ones may leave it
   const STEP = 0.012; // s between two corners of a path
-  const INVITATION = 235; // width of the words at the ball in the hand
   const RADIANS_A_SECOND = 80; // of spin that turns the knob by one radian
+  // Heights: of the name of a lane, of the floor of the upper lane, and of that of the lower one, in
+  // which the scale stands.
+  const [NAME, FLOOR, BASE] = [24, 9, 24];
+  const RULERS = [5, 1, 0.5, 0.1]; // m; the first that takes at most a sixth of the width
   const LANES = ["lumped", "continuum"];
   const element = (id) => document.getElementById(id);
   const svg = element("stage-svg");
@@ -87,10 +91,9 @@ const stage = (() => {
   function framed(flights, gap) {
     const width = Math.max(svg.clientWidth, 200);
     const height = Math.max(svg.clientHeight, 120);
-    const small = width < 600;
-    const radius = (small ? 15 : 24) * (gap ? 0.65 : 1);
-    const floor = height - (small ? 18 : 28);
-    const ceiling = 66; // below the names of the models
+    const floor = height - BASE; // of the lower lane
+    const sky = (floor - 2 * NAME - FLOOR) / 2; // of each lane
+    const radius = Math.min(24, sky / 6) * (gap ? 0.65 : 1);
     const places = [0];
     const heights = [gap || 0.3];
     const count = gap ? Infinity : SHOWN;
@@ -105,24 +108,23 @@ const stage = (() => {
     }
     const [left, right] = [Math.min(...places), Math.max(...places)];
     const room = width - 5 * radius;
-    const tall = floor - ceiling - 4 * radius;
+    const tall = sky - 2 * radius - 16; // below the knob or a table
     const scale = Math.min(room / Math.max(right - left, 0.4), tall / Math.max(...heights));
-    // What the flights leave free above and aside parts the lanes.
-    const free = floor - ceiling - 2 * radius - scale * Math.max(...heights);
-    const depth = Math.min(Math.max(free, 1.6 * radius), 0.36 * height);
     const used = Math.min((right - left) * scale, room);
-    const aside = Math.max(0.8 * radius, gap ? 0 : Math.min(0.6 * (room - used), used + 3 * radius));
-    const origin = 2 * radius - left * scale + Math.max(room - used - aside, 0) / 2;
-    return { width, height, radius, depth, aside, floor, scale, origin, gap };
+    const origin = 2 * radius - left * scale + (room - used) / 2;
+    // Pixels for 1 m/s of the ball in the hand: its arrow ends above the floor.
+    const [{ ball }] = flights.lumped;
+    const free = scale * ball.height + radius;
+    const aim = Math.min(18, width / 36, free / Math.max(-ball.up, 0.1));
+    return { width, height, radius, floor, upper: NAME + sky, scale, origin, gap, aim };
   }
 
-  const place_of = ({ place, height }, lane) => {
-    const back = lane === "continuum" ? 0 : 1; // the lumped model flies behind
-    return [
-      frame.origin + frame.scale * place + back * frame.aside,
-      frame.floor - frame.scale * height - frame.radius - back * frame.depth,
-    ];
-  };
+  const floor_of = (lane) => (lane === "lumped" ? frame.upper : frame.floor);
+
+  const place_of = ({ place, height }, lane) => [
+    frame.origin + frame.scale * place,
+    floor_of(lane) - frame.scale * height - frame.radius,
+  ];
 
   // ---- drawing ------------------------------------------------------------------------------
 
@@ -167,19 +169,22 @@ const stage = (() => {
     frame = new_frame;
     shown.drawn = {};
     shown.end = ended();
-    const { width, height, radius, depth, floor, scale, gap } = frame;
+    const { width, height, radius, floor, upper, scale, gap } = frame;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    const edge = floor - depth - 8;
-    part("floor").setAttribute("d", `M0,${edge}H${width}V${height}H0Z`);
-    part("edge").setAttribute("d", `M0,${edge}H${width}`);
-    // A table above each lane.
-    const under = floor - scale * gap - 2 * radius;
-    const board = (low) => `M0,${low - 5}H${width}V${low}H0Z`;
-    part("table").setAttribute("d", gap ? board(under - depth) + board(under) : "");
-    const [end, line] = [width - 12, height - 8];
-    part("ruler").setAttribute("d", `M${end},${line - 4}v8m0,-4h${-scale * 0.5}m0,-4v8`);
-    part("metre").setAttribute("x", end - scale * 0.25);
-    part("metre").setAttribute("y", line - 4);
+    const board = (top, low) => `M0,${top}H${width}V${low}H0Z`;
+    part("floor").setAttribute("d", board(upper, upper + FLOOR) + board(floor, height));
+    part("edge").setAttribute("d", `M0,${upper}H${width}M0,${floor}H${width}`);
+    const under = scale * gap + 2 * radius; // the table of a lane, above its floor
+    part("table").setAttribute("d", !gap ? "" :
+      [upper, floor].map((low) => board(low - under - 5, low - under)).join(""));
+    element("lane-continuum").setAttribute("y", upper + FLOOR + NAME - 6);
+    const [end, line] = [width - 12, floor + BASE / 2];
+    const metres = RULERS.find((one) => scale * one < width / 6) ?? RULERS.at(-1);
+    part("ruler").setAttribute("d", `M${end},${line - 4}v8m0,-4h${-scale * metres}m0,-4v8`);
+    part("metre").textContent = `${metres} m`;
+    part("metre").setAttribute("x", end - scale * metres - 6);
+    part("metre").setAttribute("y", line + 4);
+    for (const name of ["moment", "invitation"]) part(name).setAttribute("y", line + 5);
     show_hand();
   }
 
@@ -201,20 +206,17 @@ const stage = (() => {
 
   function show_lane(lane, now, at_moment) {
     const parts = shown.flights[lane];
-    if (!parts) return;
+    if (!parts) {
+      part(`${lane}-numbers`).textContent = "no answer for this restitution";
+      return;
+    }
     const { ball, bounce, row, slip } = lane_at(parts, at_moment);
     const [x, y] = place_of(ball, lane);
-    const { radius, scale } = frame;
+    const { radius } = frame;
     const degrees = (ball.turn * 180) / Math.PI;
     const size = radius / 20;
     part(`${lane}-ball`).setAttribute("transform",
       `translate(${x.toFixed(1)},${y.toFixed(1)}) rotate(${degrees.toFixed(1)}) scale(${size})`);
-    const ground = place_of({ place: ball.place, height: 0 }, lane)[1] + radius;
-    const shadow = part(`${lane}-shadow`);
-    shadow.setAttribute("cx", x.toFixed(1));
-    shadow.setAttribute("cy", ground.toFixed(1));
-    shadow.setAttribute("rx", Math.max(radius * (1 - 0.25 * ball.height), 5).toFixed(1));
-    shadow.setAttribute("ry", radius / 5);
     const { corners, images } = shown.traces[lane];
     const until = corners.findIndex((corner) => corner.now > now);
     const behind = (until < 0 ? corners : corners.slice(0, until)).map((one) => place_of(one, lane));
@@ -237,14 +239,17 @@ const stage = (() => {
     part(`${lane}-slip`).setAttribute("d", arrow);
     const label = part(`${lane}-slip-words`);
     label.style.visibility = arrow && !frame.gap ? "visible" : "hidden";
-    label.setAttribute("x", Math.min(Math.max(x, 88), frame.width - 88));
-    label.setAttribute("y", foot + 17);
+    // Above the arrow and beside the ball, where there is more room.
+    const [ahead, long] = [x < frame.width / 2, label.getComputedTextLength()];
+    const start = ahead ? x + radius + 8 : x - radius - 8 - long;
+    label.setAttribute("x", Math.max(8, Math.min(start, frame.width - 8 - long)));
+    label.setAttribute("y", foot - 8);
     part(`${lane}-numbers`).textContent = speed_words(ball);
     patch_of(lane, bounce, row);
   }
 
   // Pixels for 1 m/s, of arrows.
-  const speed_scale = () => (frame.width < 600 ? 12 : 18);
+  const speed_scale = () => Math.min(18, frame.width / 36);
 
   function patch_of(lane, bounce, row) {
     const style = bounce?.contact.style;
@@ -272,7 +277,7 @@ const stage = (() => {
     const ball = flight.start(shown.given);
     const [x, y] = place_of(ball, "continuum");
     const { radius } = frame;
-    const k = speed_scale();
+    const k = frame.aim;
     part("hand").setAttribute("transform", `translate(${x.toFixed(1)},${y.toFixed(1)})`);
     const reach = Math.max(radius + 8, 24);
     part("grasp").setAttribute("r", reach);
@@ -286,14 +291,15 @@ const stage = (() => {
     part("spin").setAttribute("d", arrows.round(0, 0, radius + 8, turn));
     part("knob").setAttribute("cx", ((radius + 8) * Math.sin(turn)).toFixed(1));
     part("knob").setAttribute("cy", (-(radius + 8) * Math.cos(turn)).toFixed(1));
-    part("aim-words").setAttribute("x", Math.max(right, radius) + 8);
-    part("aim-words").setAttribute("y", down + 5);
-    part("aim-words").textContent = `${shown.given.speed.toFixed(1)} m/s at the floor`;
-    // Below the speed, or above it where that would leave the stage.
-    const below = y + down + 28;
-    const start = Math.min(x + Math.max(right, radius) + 8, frame.width - INVITATION);
-    part("invitation").setAttribute("x", start);
-    part("invitation").setAttribute("y", below < frame.height - 12 ? below : y + down - 18);
+    // Beside the arrow; where there is no room, below or above it.
+    const words = part("aim-words");
+    words.textContent = `${shown.given.speed.toFixed(1)} m/s at the floor`;
+    const beside = Math.max(right, radius) + 8;
+    const most = frame.width - x - words.getComputedTextLength() - 8;
+    const low = frame.floor - y - 7;
+    const near = beside < most ? Math.min(down + 5, low) : down > 20 ? low : -reach - 6;
+    words.setAttribute("x", Math.min(beside, most));
+    words.setAttribute("y", near);
   }
 
   const point_of = (event) => new DOMPoint(event.clientX, event.clientY)
@@ -308,7 +314,7 @@ const stage = (() => {
     let [right, down] = [point.x - x, point.y - y];
     part("band").setAttribute("d", `M${x},${y}L${point.x},${point.y}`);
     if (right < 0) [right, down] = [-right, -down];
-    const k = speed_scale();
+    const k = frame.aim;
     const aimed = flight.aimed({ along: right / k, up: -Math.max(down, 0) / k, height: ball.height,
       gravity: shown.given.gravity });
     return { angle: Number(aimed.angle.toFixed(1)), speed: Number(aimed.speed.toFixed(1)) };
