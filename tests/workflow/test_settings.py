@@ -1,0 +1,193 @@
+"""At both ends of what a setting allows, and between, a figure is drawn and judged.
+
+Where the solver does not reach its tolerance, its error is one sentence that says so: then the rows
+of the figure diverge.
+"""
+
+import copy
+import math
+import warnings
+
+import pytest
+
+from planarimpact.ground.checks import ConvergenceError
+from stronge1994 import judging, plan, reference_data
+from stronge1994.figures.shared import drawing as drawings
+from stronge1994.figures.shared.curves import solving
+from stronge1994.plan import config as configuration
+from stronge1994.plan import figures
+from stronge1994.reference_data import conversion
+from tests.workflow.project import ROOT
+
+SCHEMA = configuration.schema()
+# What only makes a picture finer, and its table more exact, while another setting is tried.
+QUICK = {
+    "samples": 12,
+    "solved": 16,
+    "restitutions": 10,
+    "tolerance": 0.01,
+    "loss_tolerance": 0.01,
+    "tolerances": [0.01],
+    "steps": [16, 32],
+    "circles": [4, 8],
+    "batches": [1, 100],
+    "budget": 0.05,
+}
+# Values beyond which a setting only makes a figure take longer.
+LARGE = {"samples": 1000, "solved": 100, "steps": 64, "circles": 16, "most_phases": 100}
+UNLIMITED = 1e6  # instead of an end that is not limited
+# Between the ends of the two groups that figures share; those of the paper's sphere are 3.5, 1.21.
+SHARED = {"mass_ratio": [1.0, 1.2, 20.0], "stiffness_ratio": [0.01, 2.5, 100.0]}
+# Figures whose curves take less than a second.
+DAILY = ["fig2", "fig3", "fig4", "fig7", "fig8", "micro_slip", "study"]
+
+
+def _resolved(node):
+    """A node of the schema, in place of a reference to it."""
+    while "$ref" in node:
+        base = SCHEMA["$defs"][node["$ref"].split("/")[-1]]
+        more = {key: value for key, value in node.items() if key != "$ref"}
+        items = (
+            {"items": base["items"] | more["items"]} if "items" in base and "items" in more else {}
+        )
+        node = base | more | items
+    return node
+
+
+def _numbers(node, key):
+    """Both ends of what a number may be, and one between."""
+    node = _resolved(node)
+    if "enum" in node:
+        return node["enum"]
+    if node["type"] == "boolean":
+        return [True, False]
+    step = node.get("multipleOf", 1) if node["type"] == "integer" else 1e-6
+    low = node.get("minimum", node.get("exclusiveMinimum", -UNLIMITED) + step)
+    high = node.get("maximum", node.get("exclusiveMaximum", UNLIMITED) - step)
+    high = min(high, LARGE.get(key, high))
+    middle = math.sqrt(low * high) if low > 0 else (low + high) / 2
+    if node["type"] == "integer":
+        middle, low = (math.ceil(number / step) * step for number in (middle, low))
+    return [low, middle, high]
+
+
+def _values(node, key):
+    """Values of a setting to be tried; lists of one and of several numbers."""
+    node = _resolved(node)
+    if node.get("type") != "array":
+        return _numbers(node, key)
+    if "prefixItems" in node:
+        return [
+            list(pair)
+            for pair in zip(*(_numbers(n, key) for n in node["prefixItems"]), strict=True)
+        ]
+    numbers = _numbers(node["items"], key)
+    low, high = node.get("minItems", 0), node.get("maxItems", 3)
+    if low == high == 2:
+        return [numbers[:2], numbers[-2:], [numbers[0], numbers[-1]]]
+    return [*([n] for n in numbers if low <= 1), *([[]] if not low else []), numbers[:high]]
+
+
+def _cases(settings, path=()):
+    for key, node in settings.items():
+        kind = node.get("allowed")
+        if kind is None:
+            yield from _cases(node, (*path, key))
+        elif kind not in ("source", "table"):
+            allowed = {"$ref": f"#/$defs/{kind}"} if isinstance(kind, str) else kind
+            for value in _values(allowed, key):
+                yield (*path, key), value
+
+
+def _with(settings, path, value):
+    """Settings of a figure, quick ones but for the one that is tried."""
+    chosen = copy.deepcopy(settings)
+
+    def hasten(group):
+        for key, old in group.items():
+            if isinstance(old, dict):
+                hasten(old)
+            elif key in QUICK:
+                group[key] = (
+                    min(old, QUICK[key]) if key in LARGE and isinstance(old, int) else QUICK[key]
+                )
+
+    hasten(chosen)
+    group = chosen
+    for key in path[:-1]:
+        group = group[key]
+    group[path[-1]] = value
+    return chosen
+
+
+OWN = [
+    pytest.param(name, path, value, id=f"{name}-{'.'.join(path)}-{value}", marks=pytest.mark.long)
+    for name, stated in figures.stated().items()
+    for path, value in _cases(stated["settings"])
+]
+OF_ALL = [
+    pytest.param(
+        name,
+        (key,),
+        value,
+        id=f"{name}-{key}-{value}",
+        marks=() if name in DAILY else pytest.mark.long,
+    )
+    for name, stated in figures.stated().items()
+    for key in stated.get("shared", [])
+    for value in SHARED[key]
+]
+
+
+@pytest.fixture(scope="module")
+def inventory():
+    schema = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
+    return reference_data.load_all(ROOT / "data", schema)
+
+
+@pytest.fixture(scope="module")
+def series(inventory, tmp_path_factory):
+    """Series of a source, converted when it is first asked for."""
+    folder, made = tmp_path_factory.mktemp("series"), {}
+
+    def converted(source):
+        if source not in made:
+            made[source] = str(folder / f"{source}.csv")
+            conversion.convert(inventory[source], made[source])
+        return made[source]
+
+    return converted
+
+
+@pytest.mark.parametrize(("name", "path", "value"), [*OF_ALL, *OWN])
+def test_a_setting_that_is_allowed_is_drawn_and_judged(
+    name, path, value, inventory, series, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(ROOT)
+    whole = reference_data.load_yaml(configuration.FILE)
+    own = _with(figures.values(figures.stated()[name]["settings"]), path, value)
+    change = {path[0]: own.pop(path[0])} if path[0] in SHARED else {}
+    config = configuration.complete(whole | change | {"figures": {name: own}})
+    noted = [entry.get("documented", {}) for entry in config["comparisons"].values()]
+    configuration.check_config(config, inventory, [note.get("entry") for note in noted])
+    planned = plan.plan_of_figure(config, inventory, name)
+    judged = plan.plan_of_judgement(config, inventory, name)["settings"]
+    paths = {source: series(source) for source in judged["sources"]}
+    curves = str(tmp_path / "curves.csv")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            solving.solve(name, planned["settings"], planned["nodes"], curves)
+    except Exception as error:
+        assert isinstance(error, ConvergenceError) or "allowed are" in f"{error}", repr(error)
+        return
+    given = name, planned["settings"], planned["overlays"], curves, paths
+    drawings.draw(*given, str(tmp_path / "a.svg"), str(tmp_path / "a.png"))
+    if (figures.FOLDER / name / "slide.py").is_file():
+        drawings.draw_slide(
+            *given, {"light": tmp_path / "light.png", "dark": tmp_path / "dark.png"}
+        )
+    parts = judged["comparisons"], judged["references"]
+    rows = judging.compare(name, *parts, curves, paths, judged["significance"])
+    assert [row["comparison"] for row in rows] == [f"{name}-solved", *judged["comparisons"]]
+    assert all(row["reason"] for row in rows)
