@@ -55,7 +55,7 @@ way round. Its radius, mass, radius of gyration and Young's modulus may be inf.
 Columns of other names, such as id, are your own. They are carried over: from CSV and from words as
 text, cell by cell. A name that is nearly one of those above is refused, and so is one below.
 Restitution is 0.1 or more. Where the contact slides throughout it may be less; there the forces
-are NaN if it is below 0.022.
+are NaN if it is below 0.022. With restitution 0 a plastic contact never slides throughout.
 The result has all these columns as they are, and then
   the state after, named as before with _after; restitution and loss, where they are not given
   contact_velocity_after [m/s]  of the contact point, in the direction of incidence

@@ -49,8 +49,8 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None)
         contact point after the impact, in the direction of incidence [m/s]; `model`; `error_bound`,
         the largest error of that velocity against the continuum [m/s]; `model_form`, how far it
         would move with the other loss, to about 0.01 mu v2(0) [m/s], NaN where that is not known;
-        `regime`; `incidence` v1(0)/(mu v2(0)), inf or NaN without friction; largest normal force,
-        by the normal law of the loss, and friction [N]; `energy_lost [J]`.
+        `regime`; `incidence` v1(0)/(mu v2(0)), 0 where v1(0) = 0, else inf without friction;
+        largest normal force, by the normal law of the loss, and friction [N]; `energy_lost [J]`.
 
     Raises
     ------
