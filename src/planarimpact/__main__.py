@@ -15,7 +15,17 @@ from typing import Any, TextIO
 
 import numpy as np
 
-from planarimpact import __version__, bodies, continuum, export, fit, lumped, models, response
+from planarimpact import (
+    __version__,
+    bodies,
+    collision,
+    continuum,
+    export,
+    fit,
+    lumped,
+    models,
+    response,
+)
 from planarimpact.ground import checks, files
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import ContinuumHistory, History, Rebound, Regime
@@ -683,10 +693,10 @@ def _parser() -> argparse.ArgumentParser:
     scene.add_argument(
         "--tolerance",
         type=decimal,
-        default=1e-3,
+        default=collision.TOLERANCE,
         help="largest error: of the tangential velocity as a share of friction times normal speed, "
-        "of friction as a share of its limit [%(default)s]; the smallest that is reached is about "
-        "1e-8 at restitution 1 and 1e-5 below",
+        "of friction as a share of its limit [%(default)s, which the whole table of spheres meets]"
+        "; the smallest that is reached is about 1e-8 at restitution 1 and 1e-5 below",
     )
     scene.add_argument(
         "--loss",
