@@ -96,9 +96,9 @@ def impacts(
     numbers, or a relaxation time beyond its law.
     """
     # `problems` finds what is not finite, and other normals.
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):
         length = np.sqrt(_dot(normal, normal))
-        normal = np.where(np.abs(length - 1) <= UNIT, normal / length, normal)
+        normal = normal / np.where(np.abs(length - 1) <= UNIT, length, 1.0)
         relative = contact_velocity(before, body, -normal)
         relative = relative - contact_velocity(other_before, other, normal)
         along = _dot(relative, normal)
