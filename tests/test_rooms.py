@@ -31,7 +31,9 @@ SOLVER = {
     "collision": "ground normal_impact bodies continuum models spheres",
     "scene": "ground bodies collision pandas",
     "__init__": "ground collision",
-    "__main__": "planarimpact ground bodies lumped continuum models response export fit scene",
+    "__main__": (
+        "planarimpact ground bodies lumped continuum models response export fit collision scene"
+    ),
 }
 # The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
 REPRODUCTION = {

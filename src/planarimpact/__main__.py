@@ -8,13 +8,24 @@ import math
 import os
 import re
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, TextIO
 
 import numpy as np
 
-from planarimpact import __version__, bodies, continuum, export, fit, lumped, models, response
+from planarimpact import (
+    __version__,
+    bodies,
+    collision,
+    continuum,
+    export,
+    fit,
+    lumped,
+    models,
+    response,
+)
 from planarimpact.ground import checks, files
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import ContinuumHistory, History, Rebound, Regime
@@ -54,7 +65,7 @@ way round. Its radius, mass, radius of gyration and Young's modulus may be inf.
 Columns of other names, such as id, are your own. They are carried over: from CSV and from words as
 text, cell by cell. A name that is nearly one of those above is refused, and so is one below.
 Restitution is 0.1 or more. Where the contact slides throughout it may be less; there the forces
-are NaN if it is below 0.022.
+are NaN if it is below 0.022. With restitution 0 a plastic contact never slides throughout.
 The result has all these columns as they are, and then
   the state after, named as before with _after; restitution and loss, where they are not given
   contact_velocity_after [m/s]  of the contact point, in the direction of incidence
@@ -112,6 +123,12 @@ GROUPS = {
     "mass_ratio": (3.5, "m2/m1: 3.5 for a solid sphere, 2.5 for a thin shell, 3 for a disc"),
     "stiffness_ratio": (1.21, "zeta^2, normal over tangential stiffness: (2-nu)/(2(1-nu))"),
     "restitution": (1.0, "energetic coefficient e, 0 to 1"),
+}
+# Checks of numbers that a refusal for a missing loss must not hide.
+NUMBERS: dict[str, Callable[[Any], Any]] = checks.RULES | {
+    "tolerance": partial(checks.positive, "tolerance"),
+    "incidence_max": partial(checks.positive, "incidence_max"),
+    "samples": partial(checks.count, "samples", least=2),
 }
 
 
@@ -201,8 +218,9 @@ def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
         compiled = response.load(options.response)
         model, e, result = compiled.model, compiled.parameters["restitution"], compiled(x)
     else:
-        model, e = _model(options), _restitution(options)
-        result = models.rebound(model, x, **_chosen(options, GROUPS), **_settings(options))
+        model, e, settings = _model(options), _restitution(options), _settings(options)
+        _refuse_missing_loss(options, {"incidence": x, **settings})
+        result = models.rebound(model, x, **_chosen(options, GROUPS), **settings)
     named = result._replace(regime=Regime.names(result.regime))
     columns = _with_units(Rebound, {"incidence": x, **named._asdict()})
     return columns | _said(model, e, len(x))
@@ -234,6 +252,7 @@ def _history(options: argparse.Namespace) -> dict[str, ArrayLike]:
     chosen = _chosen(options, [*GROUPS, "samples", "tolerance"])
     result: History | ContinuumHistory
     name = _model(options)
+    _refuse_missing_loss(options)
     family, _, loss = name.partition(".")
     if family == "continuum":
         _refuse_ignored(options, ["samples"], "the continuum has a tolerance instead")
@@ -270,6 +289,7 @@ def _compile(options: argparse.Namespace) -> None:
             f"{options.output}: allowed are names that end in .json; with --as c or --as js others"
         )
     model = _model(options)
+    _refuse_missing_loss(options)
     arguments = _chosen(options, ["incidence_max", "tolerance", *GROUPS]) | settings
     progress = _show if sys.stderr.isatty() else None
     with files.written(options.output) as partial:  # it refuses a name before any computation
@@ -310,6 +330,8 @@ def _fit(options: argparse.Namespace) -> None:
     """Print the input of a time-stepped code."""
     material = bodies.Material(options.young_modulus, options.poisson_ratio)
     sphere = {name: getattr(options, name) for name in ("radius", "density", "friction", "speed")}
+    for name, value in sphere.items():  # before the fit, which takes its time
+        checks.positive(name, value)
     groups = SOLID_SPHERE, float(bodies.stiffness_ratio(material)), options.restitution
     chosen = _chosen(options, ["loss", "incidence_max"])
     sys.stdout.write(fit.lines(fit.fit(options.law, *groups, **chosen), material, **sphere))
@@ -405,6 +427,7 @@ def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:
 def _errors(options: argparse.Namespace) -> dict[str, ArrayLike]:
     """Errors of every model against the continuum, and where a measurement can show them."""
     groups = {name: value for name, (value, _) in GROUPS.items()} | _chosen(options, GROUPS)
+    checks.impact(0.0, *groups.values())
     if options.loss is None:
         checks.lossless(groups["restitution"], continuum.LOSSES, "--loss")
     loss = options.loss or continuum.LOSSES[0]
@@ -434,21 +457,41 @@ def _errors(options: argparse.Namespace) -> dict[str, ArrayLike]:
 
 
 def _model(options: argparse.Namespace) -> str:
-    """Name of the model, with the option --loss; below e = 1 one of both must say the loss."""
+    """Name of the model, with the option --loss."""
     name = options.model or "lumped"
-    losses = models.losses(name)
-    other = "continuum" if name == "lumped" else "lumped"
-    more = f"; --model {other} has {', '.join(models.losses(other))}" if losses else ""
     if options.loss is None:
-        try:
-            checks.lossless(_restitution(options) if losses else 1.0, losses, "--loss")
-        except checks.InputError as error:
-            raise checks.InputError(f"{error}{more}") from None
         return str(name)
+    losses = models.losses(name)
     if options.loss not in losses:
-        why = f"allowed are {', '.join(losses)}{more}" if losses else "leave it out"
+        why = f"allowed are {', '.join(losses)}{_other_losses(name)}" if losses else "leave it out"
         raise checks.InputError(f"--loss {options.loss}: with model {name} {why}")
     return losses[options.loss]
+
+
+def _refuse_missing_loss(
+    options: argparse.Namespace, others: Mapping[str, Any] | None = None
+) -> None:
+    """Below e = 1 the model or --loss must say the loss; `others` are values beside the options.
+
+    A number that no loss would make right is refused before.
+    """
+    name = options.model or "lumped"
+    losses = models.losses(name)
+    if options.loss is not None or not losses:
+        return
+    for number_name, value in (vars(options) | dict(others or {})).items():
+        if number_name in NUMBERS and value is not None:
+            NUMBERS[number_name](value)
+    try:
+        checks.lossless(_restitution(options), losses, "--loss")
+    except checks.InputError as error:
+        raise checks.InputError(f"{error}{_other_losses(name)}") from None
+
+
+def _other_losses(name: str) -> str:
+    """Words: which other model of a name without loss has which losses."""
+    other = "continuum" if name == "lumped" else "lumped"
+    return f"; --model {other} has {', '.join(models.losses(other))}"
 
 
 def _chosen(options: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]:
@@ -570,7 +613,10 @@ def _parser() -> argparse.ArgumentParser:
     impact = rebound.add_mutually_exclusive_group(required=True)
     impact.add_argument("--incidence", type=decimal, nargs="+", metavar="X")
     impact.add_argument(
-        "--angle", type=decimal, nargs="+", help="of incidence, degrees; needs --friction"
+        "--angle",
+        type=decimal,
+        nargs="+",
+        help="of incidence, degrees from the normal; needs --friction",
     )
     rebound.add_argument("--friction", type=decimal, help="mu, above 0, for --angle")
     rebound.add_argument("--response", metavar="FILE", help="use what `compile` has written")
@@ -647,10 +693,10 @@ def _parser() -> argparse.ArgumentParser:
     scene.add_argument(
         "--tolerance",
         type=decimal,
-        default=1e-3,
+        default=collision.TOLERANCE,
         help="largest error: of the tangential velocity as a share of friction times normal speed, "
-        "of friction as a share of its limit [%(default)s]; the smallest that is reached is about "
-        "1e-8 at restitution 1 and 1e-5 below",
+        "of friction as a share of its limit [%(default)s, which the whole table of spheres meets]"
+        "; the smallest that is reached is about 1e-8 at restitution 1 and 1e-5 below",
     )
     scene.add_argument(
         "--loss",

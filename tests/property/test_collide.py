@@ -16,6 +16,7 @@ from planarimpact import (
     spheres,
 )
 from planarimpact.collision import single
+from planarimpact.normal_impact import yielding
 
 COUNT = 100_000
 # Rounding, as a share of the largest term of a balance.
@@ -70,8 +71,15 @@ def random_impacts(count=COUNT, seed=1):
 
 @pytest.fixture(scope="module")
 def impacts():
+    """Arguments, and the answer to them, where normals have any length that is accepted."""
     arguments = random_impacts()
-    return arguments, collide(*arguments)
+    pair, normal, *others = arguments
+    return arguments, collide(pair, nearly_unit(normal), *others)
+
+
+def nearly_unit(normal):
+    """Vectors whose length differs from 1 by up to 1e-6."""
+    return normal * (1 + 0.999e-6 * np.sin(np.arange(len(normal))))[:, None]
 
 
 def dot(a, b):
@@ -210,6 +218,96 @@ def test_one_impact_is_that_of_many():
     assert plain > 0.7 * x.size
 
 
+def answers_of_all_paths(pair, normal, velocity):
+    """The answer to one impact alone, in an array, and for a row of a scene; or its refusal."""
+    table = {"radius [m]": 0.01, "density [kg/m^3]": 7800.0, "young_modulus [Pa]": 207e9}
+    table |= {"poisson_ratio": 0.3, "friction": pair.friction, "restitution": pair.restitution}
+    table |= {"loss": "plastic" if pair.plastic else "viscous"}
+    for axis, n, v in zip("xyz", normal, velocity, strict=True):
+        table |= {f"normal_{axis}": n, f"velocity_{axis} [m/s]": v, f"spin_{axis} [rad/s]": 0.0}
+
+    def alone():
+        found = collide(pair, normal, BALL, velocity, [0, 0, 0])
+        return found.velocity, found.incidence, found.regime.name
+
+    def in_array():
+        found = collide(pair, [normal], BALL, [velocity], [0, 0, 0])
+        return found.velocity[0], found.incidence[0], Regime(found.regime[0]).name
+
+    def in_scene():
+        found = scene.solve(pd.DataFrame([table])).iloc[0]
+        columns = [f"velocity_{axis}_after [m/s]" for axis in "xyz"]
+        return found[columns].astype(float), found["incidence"], found["regime"]
+
+    answers = []
+    for path in (alone, in_array, in_scene):
+        try:
+            answers.append(path())
+        except InputError as error:
+            answers.append(str(error).split(": ", 1)[-1] if path != alone else str(error))
+    return answers
+
+
+def of_steel(friction, restitution, loss="plastic"):
+    return Pair(STEEL, friction=friction, restitution=restitution, loss=loss)
+
+
+@pytest.mark.parametrize("length", [1, 1 + 1e-7, 1 - 1e-7, 1 + 9.9e-7, 1 - 9.9e-7])
+@pytest.mark.parametrize("kind", [np.float64, np.float32])
+def test_the_length_of_a_normal_adds_no_energy_and_no_incidence(length, kind):
+    """Nor does a normal that is rounded to float32; beyond 1e-6 it is refused."""
+    unit = np.array([2.0, 3.0, 6.0]) / 7
+    normal = (unit * length).astype(kind)
+    for e in (1.0, 0.8):
+        for velocity in (-3.0 * unit, -normal.astype(float), unit - [0.0, 0.0, 3.0]):
+            for answer, *_ in answers_of_all_paths(of_steel(0.3, e), normal, velocity):
+                assert np.sum(answer**2) <= np.sum(velocity**2) * (1 + 1e-14)
+        for friction in (0.3, 0.0):
+            for answer, incidence, _ in answers_of_all_paths(
+                of_steel(friction, e), normal, -3.0 * normal.astype(float)
+            ):
+                np.testing.assert_allclose(answer, 3 * e * normal.astype(float), rtol=1e-15)
+                assert incidence < 1e-14 or friction == 0
+    for bad in (length * (1 + 1.1e-6), length * (1 - 3e-6)):
+        if abs(bad - 1) > 1e-6:
+            words = answers_of_all_paths(of_steel(0.3, 0.8), unit * bad, [0, 0, -1])
+            assert all("the normal has the length" in word for word in words)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3, 1e-300])
+@pytest.mark.parametrize("loss", spheres.LOSSES)
+def test_head_on_nothing_slips_whatever_the_friction(friction, loss):
+    for e in (1.0, 0.5, 0.01, 0.0):
+        for velocity, incidence, regime in answers_of_all_paths(
+            of_steel(friction, e, loss), [0, 0, 1], [0, 0, -2.0]
+        ):
+            assert incidence == 0 and regime == "STICK"
+            np.testing.assert_allclose(velocity, [0, 0, 2 * e], atol=4e-16)
+    for _, incidence, regime in answers_of_all_paths(
+        of_steel(0.0, 0.5, loss), [0, 0, 1], [1e-9, 0, -2.0]
+    ):
+        assert incidence == np.inf and regime == "SLIP_THROUGHOUT"
+
+
+@pytest.mark.parametrize("e", [0.3, 0.1, 0.03, 0.0219, 0.01, 1e-3, 1e-7, 1e-15])
+def test_metal_slides_throughout_where_no_spring_can_hold_it(e):
+    """The body outruns every spring: w > zeta^2 v times the pull of the middle one, always."""
+    zeta2 = float(bodies.stiffness_ratio(STEEL))
+    loading = yielding.loading(np.array([e]))
+    depth = np.geomspace(float(loading.yields[0]), float(loading.largest_approach()[0]), 200_001)
+    v, pull = loading.at(depth)[1], loading.pull(depth, yielding.FLOW)[0]
+    limit = np.max(3.5 - v * (3.5 - zeta2 * pull))
+    friction, fast, slow = 0.2, 1.001 * limit, 0.99 * limit
+    for answer in answers_of_all_paths(of_steel(friction, e), [0, 0, 1], [0.2 * fast, 0, -1.0]):
+        velocity, incidence, regime = answer
+        assert regime == "SLIP_THROUGHOUT" and incidence == pytest.approx(fast)
+        wanted = 0.2 * fast - friction * (1 + e), 0.0, e
+        np.testing.assert_allclose(velocity, wanted, rtol=1e-13, atol=4e-16)
+    if e < 0.1:  # else it is solved
+        for words in answers_of_all_paths(of_steel(friction, e), [0, 0, 1], [0.2 * slow, 0, -1.0]):
+            assert words.startswith(f"restitution = {e}: allowed are numbers from 0.1")
+
+
 def test_restitution_of_single_impacts_follows_the_speed(impacts):
     (pair, normal, body, velocity, spin, other, other_velocity, other_spin), after = impacts
     states = velocity, spin, other_velocity, other_spin
@@ -247,15 +345,14 @@ def test_a_scene_has_the_same_answers():
         ({"yield_pressure [Pa]": 2e9}, {"yield_pressure": 2e9}),
     ):
         pair = Pair(STEEL, bodies.Material(*glass.values()), friction=0.2, **law)
-        after = collide(
-            *(pair, normal, BALL, velocity, spin, other, other_velocity), tolerance=1e-3
-        )
-        rows = scene.solve(pd.DataFrame(table | header), tolerance=1e-3)
+        after = collide(pair, normal, BALL, velocity, spin, other, other_velocity)
+        rows = scene.solve(pd.DataFrame(table | header))
         for name, vectors in (("velocity", after.velocity), ("other_spin", after.other_spin)):
             unit = "rad/s" if "spin" in name else "m/s"
             columns = [f"{name}_{axis}_after [{unit}]" for axis in "xyz"]
             np.testing.assert_allclose(rows[columns], vectors, rtol=1e-9, atol=1e-9)
         np.testing.assert_allclose(rows["model_form [m/s]"], after.model_form, atol=1e-12)
+        np.testing.assert_allclose(rows["error_bound [m/s]"], after.error_bound, rtol=1e-9)
 
 
 STEEL = bodies.Material(207e9, 0.3)

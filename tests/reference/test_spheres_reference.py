@@ -2,7 +2,8 @@
 
 It begins at the ends of patches, at nodes of the splines and midway between them, beside all
 these, and at random places. From the worst of them it climbs: it tries places around them, nearer
-and nearer. Errors of velocity and work are in proportion to zeta^2: the largest one is tried.
+and nearer. Errors of velocity and work are in proportion to zeta^2: the largest one is tried. Those
+of plastic dissipation grow with the incidence, so the climb of that one leads to large incidences.
 The suite searches a little, the profile `long` more, from other seeds.
 """
 
@@ -36,16 +37,34 @@ FOUND = {
         (3.871628254046297, 5.5613641738551465, 1.6, 0.3062608368430457),
         (3.80948726962297, 5.6, 1.6, 0.3259995807527177),
         (1.576, 5.6, 1.6, 0.3),
+        # Dissipation of impacts that leave fast:
+        (17.291610535986045, 2.500181166546506, 1.6, 0.3058904527389336),
+        (17.6377, 2.50157, 1.6, 0.303126),
     ],
 }
 
 
+def bound_of(name):
+    """What the package states for a panel, or for a loss as a whole."""
+    loss = name.partition("_")[0]
+    return spheres.LITTLE_BOUND if name == "plastic_high" else spheres.ERROR_BOUND[loss]
+
+
 def errors(name, x, beta, zeta2, e):
-    """Differences of velocity, peak friction and work, shape (3, n)."""
+    """Differences of velocity, peak friction and work, and their bounds: shape (2, 3, n)."""
     loss = name.partition("_")[0]
     found = spheres.rebound(x, beta, zeta2, e, loss=loss)
     exact = continuum.rebound(x, beta, zeta2, e, loss=loss, tolerance=TOLERANCE[loss])
-    return np.stack([np.abs(getattr(found, field) - getattr(exact, field)) for field in FIELDS])
+    return with_bounds(found, exact, beta, bound_of(name), loss)
+
+
+def with_bounds(found, exact, beta, bound, loss):
+    """As `errors`; plastic dissipation follows from the velocity, and so does its bound."""
+    error = np.stack([np.abs(getattr(found, field) - getattr(exact, field)) for field in FIELDS])
+    bounds = np.full_like(error, bound)
+    if loss == "plastic":
+        bounds[2] *= (np.abs(found.velocity) + bound / 2) / beta
+    return np.stack([error, bounds])
 
 
 def places(random, name, count):
@@ -82,7 +101,7 @@ def impacts(name, number, at):
 
 
 def climbed(random, name, budget, errors=errors):
-    """The worst error that is found, what it is of, and its impact."""
+    """The worst error that is found, over its bound, what it is of, and its impact."""
     count, best, around, rounds = budget
     panel = table.shipped().panels[name]
     number, at = places(random, name, count)
@@ -91,18 +110,19 @@ def climbed(random, name, budget, errors=errors):
     step = STEP
     for _ in range(rounds):
         # The worst places of all three functions; those tried so far stay.
-        top = np.unique(np.argsort(error, axis=1)[:, -best:])
-        number, at, error = number[top], at[:, top], error[:, top]
+        top = np.unique(np.argsort(error[0], axis=1)[:, -best:])
+        number, at, error = number[top], at[:, top], error[..., top]
         near = np.repeat(number, around)
         intervals = np.stack([panel.intervals[near], *intervals_over_groups(panel, near.size)])
         moved = np.repeat(at, around, axis=1) + random.normal(0, step, (3, near.size)) / intervals
         moved = np.clip(moved, 0.0, 1.0)
         number, at = np.concatenate([number, near]), np.concatenate([at, moved], axis=1)
-        error = np.concatenate([error, errors(name, *impacts(name, near, moved))], axis=1)
+        error = np.concatenate([error, errors(name, *impacts(name, near, moved))], axis=2)
         step *= NEARER
-    field, worst = np.unravel_index(np.argmax(error), error.shape)
+    share = error[0] / error[1]
+    field, worst = np.unravel_index(np.argmax(share), share.shape)
     impact = [float(group[worst]) for group in impacts(name, number, at)]
-    return error[field, worst], FIELDS[field], impact
+    return share[field, worst], FIELDS[field], impact
 
 
 @pytest.mark.parametrize("name", table.ROOTS)
@@ -111,27 +131,26 @@ def climbed(random, name, budget, errors=errors):
     [(0, SHORT), *(pytest.param(seed, LONG, marks=pytest.mark.long) for seed in (1, 2, 3))],
 )
 def test_no_search_finds_an_error_beyond_the_bound(name, seed, budget):
-    error, *words = climbed(np.random.default_rng([20, seed]), name, budget)
-    bound = spheres.ERROR_BOUND[name.partition("_")[0]]
-    bound = spheres.LITTLE_BOUND if name == "plastic_high" else bound
-    assert error <= bound, (error, *words)
+    share, *words = climbed(np.random.default_rng([20, seed]), name, budget)
+    assert share <= 1, (share, *words)
 
 
 @pytest.mark.parametrize("name", table.ROOTS)
 def test_the_coarse_table_is_as_near_as_it_says(name, monkeypatch):
     """Against the fine one, which is so fast that the search may be long."""
     loss, fine, coarse = name.partition("_")[0], table.shipped(), table.shipped("coarse")
+    bound = export.BOUNDS["coarse"][loss] - spheres.ERROR_BOUND[loss]
 
     def differences(_, *impacts):
         answers = []
         for shipped in (fine, coarse):  # the search is in the patches of the last one
             monkeypatch.setattr(table, "shipped", lambda found=shipped: found)
-            answers.append(spheres.rebound(*impacts, loss=loss)[:3])
-        return np.abs(np.subtract(*answers))
+            answers.append(spheres.rebound(*impacts, loss=loss))
+        return with_bounds(*answers[::-1], impacts[1], bound, loss)
 
     monkeypatch.setattr(table, "shipped", lambda: coarse)
-    error, *words = climbed(np.random.default_rng(50), name, MANY, differences)
-    assert 0 < error <= export.BOUNDS["coarse"][loss] - spheres.ERROR_BOUND[loss], (error, *words)
+    share, *words = climbed(np.random.default_rng(50), name, MANY, differences)
+    assert 0 < share <= 1, (share, *words)
 
 
 @pytest.mark.parametrize("loss", spheres.LOSSES)
@@ -147,8 +166,8 @@ def test_the_regime_is_right_nearly_everywhere(loss):
 
 @pytest.mark.parametrize("loss", FOUND)
 def test_impacts_that_were_wrong(loss):
-    error = errors(loss, *np.transpose(FOUND[loss]))
-    assert error.max() <= spheres.ERROR_BOUND[loss], error
+    error, bounds = errors(loss, *np.transpose(FOUND[loss]))
+    assert (error <= bounds).all(), error / bounds
 
 
 @pytest.mark.parametrize("name", table.ROOTS)
@@ -165,6 +184,26 @@ def test_the_answer_does_not_jump_from_patch_to_patch(name):
         for field in ("velocity", "peak"):
             before, after = (getattr(side, field) for side in sides)
             np.testing.assert_allclose(before, after, rtol=0, atol=rounding)
+
+
+@pytest.mark.parametrize(("loss", "stated"), [("viscous", 4e-6), ("plastic", 1e-3)])
+def test_the_velocity_jumps_no_more_than_is_stated(loss, stated):
+    """Where slip throughout begins, and at the restitutions where plastic panels meet."""
+    random, shipped, count = np.random.default_rng(31), table.shipped(), 20_000
+    # The largest jumps are next to the lower bounds of restitution and mass over stiffness ratio.
+    share, u = random.random(count) ** 2, random.random(count) ** 2
+    b = spheres.LEAST_RATIO + u * (spheres.LARGEST_RATIO - spheres.LEAST_RATIO)
+    e, zeta2 = spheres.LEAST_RESTITUTION + share * 0.7, np.full(count, spheres.LARGEST_STIFFNESS)
+    sides = np.array([[1 - 1e-13], [1 + 1e-13]])
+    limit = (b + e * (b - 1)) if loss == "viscous" else table.slides_from(shipped, b, e)
+    impacts = [(limit * zeta2 * sides, e)]
+    for where in table.limits_at(shipped, table.over_b(b)) if loss == "plastic" else ():
+        impacts.append((random.random(count) * limit * zeta2, where * sides))
+    jumps = [
+        np.diff(spheres.rebound(x, b * zeta2, zeta2, e, loss=loss).velocity, axis=0)
+        for x, e in impacts
+    ]
+    assert stated / 5 < np.max(np.abs(jumps)) <= stated
 
 
 def test_errors_that_scale_with_the_stiffness_ratio_are_refused():

@@ -18,6 +18,7 @@ import pytest
 import planarimpact
 from planarimpact import InputError, continuum, export, lumped, models, response, scene
 from planarimpact.__main__ import main
+from planarimpact.collision import TOLERANCE
 from planarimpact.scene import files
 
 ROW = {
@@ -115,6 +116,9 @@ def test_negative_numbers_are_numbers_however_they_are_written(capsys):
     assert [float(x) for x in found] == [float(x) for x in NUMBERS]
 
 
+FIT = ["fit", "--law", "yade", "--restitution", "0.8", "--poisson-ratio", "0.3"]
+FIT += [word for n in ("young-modulus", "friction", "radius") for word in (f"--{n}", "0.1")]
+FIT += ["--density", "1", "--speed", "1"]
 REFUSED_NUMBERS = [
     (["rebound", "--incidence", "1"], ["--mass-ratio", "--stiffness-ratio", "--restitution"]),
     (["rebound", "--friction", "0.3"], ["--angle"]),
@@ -123,6 +127,9 @@ REFUSED_NUMBERS = [
     (["history"], ["--incidence"]),
     (["history", "--incidence", "1"], ["--mass-ratio", "--samples"]),
     (["history", "--incidence", "1", "--model", "continuum"], ["--tolerance"]),
+    (["models"], ["--restitution"]),
+    (["models", "--restitution", "0.8"], ["--mass-ratio", "--stiffness-ratio"]),
+    (FIT, ["--radius", "--density", "--friction", "--speed"]),
     (["compile", "x.json"], ["--tolerance", "--incidence-max", "--stiffness-ratio"]),
     (["scene", "in.csv", "out.csv"], ["--tolerance"]),
 ]
@@ -133,11 +140,36 @@ REFUSED_NUMBERS = [
 )
 def test_numbers_that_are_none_reach_our_own_words(command, option, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    for text in ("-inf", "-nan"):
-        assert main([*command, option, text]) == 2
-        error = capsys.readouterr().err
-        name = option if option == "--angle" else option[2:].replace("-", "_")
-        assert name in error and f"{float(text)}: allowed are" in error and error.count("\n") == 1
+    at = command.index(option) if option in command else len(command)
+    kept = command[:at] + command[at + 2 :]
+    lossy = "--restitution" not in (option, *kept) and kept[0] != "scene"
+    # The number is told although nobody says what takes the energy.
+    for more in ([], ["--restitution", "0.8"]) if lossy else ([],):
+        for text in ("-inf", "-nan"):
+            assert main([*kept, *more, option, text]) == 2
+            error = capsys.readouterr().err
+            name = option if option == "--angle" else option[2:].replace("-", "_")
+            assert name in error and f"{float(text)}: allowed are" in error
+            assert error.count("\n") == 1 and "energy" not in error
+
+
+def test_a_number_out_of_range_is_told_before_advice_about_losses(capsys, tmp_path):
+    for command in (
+        ["rebound", "--incidence", "2"],
+        ["history", "--incidence", "2"],
+        ["compile", str(tmp_path / "a.json")],
+        ["models"],
+    ):
+        for value in ("1.0000001", "-0.5"):
+            assert main([*command, "--restitution", value]) == 2
+            said = capsys.readouterr().err
+            assert said == f"planarimpact: restitution = {value}: allowed are numbers from 0 to 1\n"
+    continuum = ["rebound", "--incidence", "2", "--model", "continuum", "--restitution", "0.8"]
+    assert main([*continuum, "--set", "tolerance=-1"]) == 2
+    assert "tolerance = -1.0: allowed are" in capsys.readouterr().err
+    for model in ("lumped", "continuum"):
+        with pytest.raises(InputError, match="mass_ratio = 0.5: allowed are"):
+            models.rebound(model, 2.0, mass_ratio=0.5, restitution=0.8)
 
 
 LOSSES = "hysteretic (the paper's), unloading-stiffness, viscous"
@@ -398,7 +430,7 @@ def test_a_scene_from_file_to_file(table, capsys):
     out = table.with_name("out.csv")
     assert main(["scene", str(table), str(out), "--explain"]) == 0
     words = capsys.readouterr().out
-    assert "5 impacts" in words and "slip throughout" in words
+    assert f"5 impacts, tolerance {TOLERANCE:g}\n" in words and "slip throughout" in words
     assert len(pd.read_csv(out)) == 5
     assert sorted(p.name for p in table.parent.iterdir()) == ["in.csv", "out.csv"]
 

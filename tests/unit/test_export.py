@@ -6,6 +6,7 @@ import re
 import shlex
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 from typing import NamedTuple
 
@@ -361,6 +362,78 @@ def test_the_readme_prints_what_it_says(language, file, commands, tmp_path, monk
             done = subprocess.run(command, check=True, capture_output=True, text=True)
         said = re.findall(r"^ *(?:printf|console.log)\(.*; // (.*)$", text, flags=re.M)
         assert said and done.stdout.splitlines() == said
+
+
+# What a test changes in the README's loops for games: the peak after each impact is printed with
+# all its digits; e, the steps a second and the height of the start are others.
+PEAKS = {
+    "py": {
+        "round(float(position[0]), 2)": "float(position[2] + velocity[2] ** 2 / (2 * gravity))",
+        "print(places[:3], len(places), position[2])": "print(*places, position[2])",
+        "preset.pair": "type(preset.pair)(stiffness_ratio=1.5, friction=0.6, restitution=E, "
+        'loss="viscous")',
+        "1 / 60": "1 / STEPS",
+        "range(600)": "range(10 * STEPS)",
+        "[0.0, 0.0, 1.0], [8.0": "[0.0, 0.0, START], [8.0",
+    },
+    "js": {
+        "position[0].toFixed(2)": "position[2] + velocity[2] ** 2 / (2 * gravity)",
+        'places.slice(0, 3).join(" "), places.length, ': "...places, ",
+        "{ body, pair } = spheres.presets.tennis_ball": "{ body } = spheres.presets.tennis_ball, "
+        "pair = { friction: 0.6, stiffness_ratio: 1.5, restitution: E, loss: spheres.VISCOUS }",
+        "1 / 60": "1 / STEPS",
+        "position = [0, 0, 1]": "position = [0, 0, START]",
+    },
+    "c": {
+        'if (++impacts <= 3)\n                printf("%.2f ", position.x)': 'printf("%.17g ", '
+        "position.z + velocity.z * velocity.z / (2 * gravity)), ++impacts",
+        '"%d %.4f\\n", impacts, ': '"%.17g\\n", ',
+        "spheres_tennis_ball.pair;": "spheres_tennis_ball.pair; pair.restitution = E;",
+        "1.0 / 60": "1.0 / STEPS",
+        "position = {0, 0, 1}": "position = {0, 0, START}",
+    },
+}
+RUN = {
+    "py": [sys.executable, "main.py"],
+    "js": ["node", "main.mjs"],
+    "c": ["sh", "-c", "cc -std=c99 main.c -lm && ./a.out"],
+}
+
+
+@pytest.mark.parametrize("language", PEAKS)
+def test_the_loops_for_games_keep_heights_and_come_to_rest(language, tmp_path):
+    command = RUN[language]
+    if not shutil.which("cc" if language == "c" else command[0]):
+        pytest.skip("cc or node is not installed")
+    names = {"py": "python"}.get(language, language)
+    blocks = re.findall(rf"```{names}\n(.*?)```", README.read_text(encoding="utf-8"), flags=re.S)
+    (loop,) = (block for block in blocks if "slow = " in block)
+    for old, new in PEAKS[language].items():
+        assert loop.count(old) == 1, old
+        loop = loop.replace(old, new)
+    if language != "py":
+        ending = {"js": "mjs", "c": "h"}[language]
+        export.write_spheres(tmp_path / f"spheres.{ending}", language, 0.04)
+
+    def peaks(e, steps, start):
+        text = loop.replace("START", repr(start)).replace("STEPS", str(steps))
+        (tmp_path / f"main.{'mjs' if language == 'js' else language}").write_text(
+            re.sub(r"\bE\b", repr(e), text)
+        )
+        done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
+        *found, rests_at = map(float, done.stdout.split())
+        return np.array(found), rests_at
+
+    radius = 0.0335
+    for steps in (60, 240):
+        for e in (1.0, 0.9):
+            found, _ = peaks(e, steps, 1.0)
+            wanted = radius + (1 - radius) * e ** (2 * np.arange(1, 11))
+            np.testing.assert_allclose(found[:10], wanted, rtol=0, atol=1e-9)
+    # A ball that rests on the floor, just above it or in it stays there, or comes back to it.
+    for e, start in ((0.1, 0.1), (1.0, radius), (1.0, radius + 1e-6), (0.9, radius - 1e-3)):
+        found, rests_at = peaks(e, 60, start)
+        assert rests_at == radius and found.tolist() == pytest.approx([radius], abs=2e-6)
 
 
 @pytest.mark.parametrize(

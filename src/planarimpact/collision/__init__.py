@@ -59,7 +59,8 @@ class Collision:
     impulse : ndarray, shape (..., 3)
         On the body [N s]; the other one has the opposite impulse. 0 where bodies do not approach.
     incidence : ndarray, shape (...)
-        v1(0)/(mu v2(0)); infinite without friction. NaN, like the next two, without an impact.
+        v1(0)/(mu v2(0)): 0 where v1(0) = 0, else infinite without friction. NaN, like the next
+        two, without an impact.
     restitution : ndarray, shape (...)
         e, at the speed of the impact.
     error_bound : ndarray, shape (...)
@@ -118,7 +119,8 @@ def collide(
     pair : Pair
         Materials, friction and restitution: one pair, or an array of pairs.
     normal : array_like, shape (..., 3)
-        Unit vector from the other body, or the surface, to the body.
+        Unit vector from the other body, or the surface, to the body. An error of its length up to
+        1e-6, as in float32, is taken away.
     body, other : Body
         Mass [kg], radius of gyration [m] and radius [m], numbers or arrays. A wall has infinite
         mass and gyration, and radius 0 where it is flat: `bodies.HALF_SPACE`, if left out.

@@ -15,13 +15,14 @@ from planarimpact.collision.pairs import Pair
 from planarimpact.continuum import inelastic
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.normal_impact import yielding
 
 # Restitution at the speed of an impact, by the quantity of a pair that it follows from.
 RESTITUTION_BY = {
     "relaxation_time": bodies.viscous_restitution,
     "yield_pressure": bodies.plastic_restitution,
 }
-# Largest error of the length of a normal.
+# Largest error of the length of a normal that is taken for one of rounding, float32 too.
 UNIT = 1e-6
 # Largest mass ratio m2/m1: beyond it no digit of the rebound is certain.
 LARGEST_RATIO = 1e12
@@ -65,7 +66,7 @@ class Impacts(NamedTuple):
         return self.mass_ratio[rows], self.stiffness_ratio[rows], self.restitution[rows]
 
     def incidence_of(self, rows: Integers) -> Array:
-        """v1(0)/(mu v2(0)) of some impacts, 0 where they are head-on; infinite without friction."""
+        """v1(0)/(mu v2(0)) of some impacts: 0 where v1(0) = 0, else infinite without friction."""
         v1 = self.v1[rows]
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             return np.where(v1 > 0, v1 / (self.friction[rows] * self.v2[rows]), 0.0)
@@ -87,11 +88,17 @@ def impacts(
 ) -> Impacts:
     """Impacts of bodies, arrays of shape (n,), whose states and normals have the shape (3, n).
 
+    Normals are divided by their length if it is within `UNIT` of 1: else energy would grow by a
+    share of that error, and a head-on impact would have an incidence.
+
     v2 may be 0 or negative, where nothing approaches, and other numbers may be infinite: `problems`
     finds that. OutOfRange says where a mass, a mass ratio or a force is beyond the range of
     numbers, or a relaxation time beyond its law.
     """
-    with np.errstate(over="ignore", invalid="ignore"):  # `problems` finds what is not finite
+    # `problems` finds what is not finite, and other normals.
+    with np.errstate(over="ignore", invalid="ignore"):
+        length = np.sqrt(_dot(normal, normal))
+        normal = normal / np.where(np.abs(length - 1) <= UNIT, length, 1.0)
         relative = contact_velocity(before, body, -normal)
         relative = relative - contact_velocity(other_before, other, normal)
         along = _dot(relative, normal)
@@ -130,9 +137,9 @@ def slides_throughout(impacts: Impacts) -> Booleans:
         unit = impacts.unit
         groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
         slides = impacts.v1 >= sliding.limit_alike(*groups) * unit
-        # Spheres that yield may slide from a larger incidence on. The law has a least restitution.
+        # Spheres that yield may slide from a larger incidence on, at e = 0 from none.
         yields = np.flatnonzero(slides & impacts.plastic & (impacts.restitution < 1))
-        known = yields[impacts.restitution[yields] >= bodies.LEAST_RESTITUTION]
+        known = yields[impacts.restitution[yields] >= yielding.LEAST_OF_LAW]
         slides[yields] = False
         beta, zeta2, e = impacts.groups_of(known)
         limit = inelastic.LOSSES["plastic"](e).slides_from(beta, zeta2)
@@ -150,11 +157,10 @@ def problems(impacts: Impacts) -> dict[int, str]:
     >>> problems(impacts(pair, up, body, falls, flat, still))
     {0: 'restitution = 0.05: allowed are numbers from 0.1 where the contact sticks at some time'}
     """
-    length = np.sqrt(np.sum(impacts.normal**2, axis=0))
     numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.v1
     with np.errstate(over="ignore", invalid="ignore"):
         energy = impacts.m2 * impacts.v2 * impacts.v2 + impacts.m2 * impacts.v1 * impacts.v1
-        unit = impacts.unit
+        length, unit = np.sqrt(_dot(impacts.normal, impacts.normal)), impacts.unit
         spins = [_largest_turn(impacts, body) for body in (impacts.body, impacts.other)]
     finite = np.isfinite([*numbers, impacts.v2, energy, *spins]).all(axis=0)
     least = continuum.LEAST_RESTITUTION

@@ -54,6 +54,11 @@ def collide(
         nx, ny, nz, vx, vy, vz, wx, wy, wz, ox, oy, oz, sx, sy, sz = numbers
     except (TypeError, ValueError):  # not plainly one body, or three numbers
         return None
+    square = nx * nx + ny * ny + nz * nz
+    if not abs(square - 1) <= UNIT:
+        return None
+    length = sqrt(square)
+    nx, ny, nz = nx / length, ny / length, nz / length
     # Velocity of the contact point of the body, relative to that of the other.
     ux, uy, uz = radius * wx + other_radius * sx, radius * wy + other_radius * sy, radius * wz
     uz += other_radius * sz
@@ -66,7 +71,7 @@ def collide(
     mu, zeta2, modulus, e, relaxation_time, yield_pressure = pair
     if not (0 < v2 < 1e50 and 1e-50 < v1 < 1e50 and mu * v2 > 1e-50):  # so all are finite
         return None
-    if inverse + other_inverse == 0 or abs(nx * nx + ny * ny + nz * nz - 1) > UNIT:
+    if inverse + other_inverse == 0:
         return None
     m2 = 1 / (inverse + other_inverse)
     beta = m2 * (mobility + other_mobility)

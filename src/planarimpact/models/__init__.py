@@ -455,8 +455,10 @@ def _elastic(name: str, solve: Callable[..., Rebound]) -> Callable[..., Rebound]
         restitution: ArrayLike = 1.0,
         **settings: float,
     ) -> Rebound:
+        groups = incidence, mass_ratio, stiffness_ratio, restitution
+        checks.impact(*groups)
         checks.lossless(restitution, losses(name).values(), "the model's name")
-        return solve(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
+        return solve(*groups, **settings)
 
     return rebound
 

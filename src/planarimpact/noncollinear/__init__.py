@@ -341,10 +341,6 @@ def _checked(
     loss: str | None,
 ) -> tuple[Array, ...]:
     """Checked arguments of one shape, with the stiffness ratio of this loss."""
-    if loss is None:
-        checks.lossless(restitution, LOSSES)
-    else:
-        checks.loss(loss, LOSSES)
     v1, v2, mu, e, zeta2, *others = checked_impact(
         tangential,
         normal,
@@ -354,6 +350,10 @@ def _checked(
         stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
         stiffness=positive("stiffness", stiffness),
     )
+    if loss is None:
+        checks.lossless(restitution, LOSSES)
+    else:
+        checks.loss(loss, LOSSES)
     if loss == "unloading-stiffness":
         if not e.all():
             raise InputError(

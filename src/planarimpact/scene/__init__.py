@@ -15,12 +15,15 @@ except ImportError as error:
     message = f"planarimpact.scene needs pandas: pip install 'planarimpact[scene]' ({error})"
     raise ImportError(message, name=error.name) from None
 
+from planarimpact.collision import TOLERANCE
 from planarimpact.scene.solver import Solver
 
 __all__ = ["Solver", "solve"]
 
 
-def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None) -> pd.DataFrame:
+def solve(
+    table: pd.DataFrame, tolerance: float = TOLERANCE, loss: str | None = None
+) -> pd.DataFrame:
     """Solve every impact of a table, by a formula, the table of spheres or the continuum.
 
     Parameters
@@ -31,7 +34,8 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None)
         result.
     tolerance : float
         Largest error of the velocity of the contact point at separation, in mu v2(0), and of the
-        peak friction, in mu times the peak normal force; 1e-10 to 1. The error is measured
+        peak friction, in mu times the peak normal force; 1e-10 to 1. The default is that of
+        `collide`: the whole table of spheres meets it. The error is measured
         against the continuum: the elastic one where restitution = 1, else the viscous or the
         plastic one. Elastic pairs reach some 1e-8, others 1e-5. How far a continuum is from nature
         is not part of it; `model_form` is a first measure of that.
@@ -49,8 +53,8 @@ def solve(table: pd.DataFrame, tolerance: float = 1e-3, loss: str | None = None)
         contact point after the impact, in the direction of incidence [m/s]; `model`; `error_bound`,
         the largest error of that velocity against the continuum [m/s]; `model_form`, how far it
         would move with the other loss, to about 0.01 mu v2(0) [m/s], NaN where that is not known;
-        `regime`; `incidence` v1(0)/(mu v2(0)), inf or NaN without friction; largest normal force,
-        by the normal law of the loss, and friction [N]; `energy_lost [J]`.
+        `regime`; `incidence` v1(0)/(mu v2(0)), 0 where v1(0) = 0, else inf without friction;
+        largest normal force, by the normal law of the loss, and friction [N]; `energy_lost [J]`.
 
     Raises
     ------

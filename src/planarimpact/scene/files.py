@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from planarimpact.collision import TOLERANCE
 from planarimpact.ground import checks
 from planarimpact.ground.checks import InputError
 from planarimpact.scene import columns, places
@@ -38,7 +39,7 @@ LONG = 5.0
 def solve(
     source: str | Path,
     target: str | Path,
-    tolerance: float = 1e-3,
+    tolerance: float = TOLERANCE,
     skip_bad: bool = False,
     rows: int = ROWS,
     progress: Callable[[float | None, int], None] | None = None,

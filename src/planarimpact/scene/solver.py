@@ -92,7 +92,7 @@ class Solver:
         Rows read so far.
     """
 
-    def __init__(self, tolerance: float = 1e-3, loss: str | None = None) -> None:
+    def __init__(self, tolerance: float = collision.TOLERANCE, loss: str | None = None) -> None:
         allowed = "numbers from 1e-10 to 1"
         self.tolerance = checks.number("tolerance", tolerance, allowed, 1e-10, 1)
         self._loss = loss if loss is None else checks.loss(loss, columns.LOSSES)

@@ -15,9 +15,11 @@ from planarimpact.ground.results import Rebound, Regime
 from planarimpact.spheres import table
 
 LOSSES = "viscous", "plastic"
-# Largest difference from the continuum, of velocity (mu v2(0)), peak friction (mu F2max) and
-# dissipation (mu^2 m2 v2(0)^2). It is measured, not proved: a little above the largest error that
-# the search of tests/reference/test_spheres_reference.py has climbed to.
+# Largest difference from the continuum, of velocity (mu v2(0)), peak friction (mu F2max) and, with
+# viscous loss, dissipation (mu^2 m2 v2(0)^2). It is measured, not proved: a little above the
+# largest error that the search of tests/reference/test_spheres_reference.py has climbed to. With
+# plastic loss dissipation is (x^2 - w^2)/(2 beta) by the balance of energy. So an error of w up to
+# E makes one of it up to E (|w| + E/2)/beta, which grows with the incidence.
 ERROR_BOUND = {"viscous": 1.5e-4, "plastic": 4e-3}
 # That of plastic spheres that lose little, see `loses_little`.
 LITTLE_BOUND = 9e-4
@@ -127,8 +129,10 @@ def rebound(
     -------
     Rebound
         The same fields and units as `planarimpact.continuum.rebound`, within `ERROR_BOUND` of it,
-        but no reversals. Impacts that slide as a whole more often than their regime says are not
-        called MULTIPLE.
+        but no reversals. The error of plastic dissipation is up to |velocity|/mass_ratio times
+        that of velocity. The answer jumps by less than `ERROR_BOUND` where slip throughout begins,
+        and where parts of the table meet. Impacts that slide as a whole more often than their
+        regime says are not called MULTIPLE.
 
     Raises
     ------

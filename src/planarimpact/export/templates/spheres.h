@@ -500,6 +500,7 @@ static inline double spheres_curvature(struct spheres_body body)
 
 /* An impact that is to come. Its regime is UNRESOLVED where it has no answer, or NO_IMPACT. */
 struct spheres_impact {
+    struct spheres_vector normal; /* length 1 to rounding */
     struct spheres_vector tangent; /* where the contact point goes along the surface, length 1 */
     double v2, m2, beta, zeta2, e, x;
     int loss, regime;
@@ -512,22 +513,25 @@ static inline struct spheres_impact spheres_before(
     struct spheres_vector other_spin)
 {
     const double most = SPHERES_INCIDENCE_MAX;
-    struct spheres_impact impact = {{0, 0, 0}, 0, 0, 0, 0, 0, 0, 0, SPHERES_UNRESOLVED};
-    /* Velocity of the contact point of the body against that of the other one. */
+    struct spheres_impact impact = {
+        {0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0, 0, 0, 0, SPHERES_UNRESOLVED};
     struct spheres_vector zero = {0, 0, 0};
+    double square = spheres_dot(normal, normal), length = sqrt(square);
+    struct spheres_vector n = {normal.x / length, normal.y / length, normal.z / length};
+    /* Velocity of the contact point of the body against that of the other one. */
     struct spheres_vector turn =
         spheres_sum(spheres_sum(zero, body.radius, spin), other.radius, other_spin);
     struct spheres_vector between = spheres_sum(velocity, -1, other_velocity);
-    struct spheres_vector point = spheres_sum(between, -1, spheres_cross(turn, normal));
-    double along = spheres_dot(point, normal), v1, arm = body.radius / body.gyration;
-    struct spheres_vector sideways = spheres_sum(point, -along, normal);
+    struct spheres_vector point = spheres_sum(between, -1, spheres_cross(turn, n));
+    double along = spheres_dot(point, n), v1, arm = body.radius / body.gyration;
+    struct spheres_vector sideways = spheres_sum(point, -along, n);
     double other_arm = other.radius / other.gyration;
     double m2 = 1 / (1 / body.mass + 1 / other.mass);
     double beta = m2 * ((1 + arm * arm) / body.mass + (1 + other_arm * other_arm) / other.mass);
     v1 = sqrt(spheres_dot(sideways, sideways));
     impact.m2 = m2;
     impact.beta = beta;
-    if (!(fabs(spheres_dot(normal, normal) - 1) <= 2e-6 && fabs(along) <= most && v1 <= most
+    if (!(fabs(square - 1) <= 2e-6 && fabs(along) <= most && v1 <= most
           && body.mass > 0 && body.gyration > 0 && body.radius >= 0
           && other.mass > 0 && other.gyration > 0 && other.radius >= 0 && m2 <= most
           && pair.friction >= 0 && pair.friction <= most))
@@ -546,6 +550,7 @@ static inline struct spheres_impact spheres_before(
     if (!(impact.e >= 0 && impact.e <= 1
           && spheres_covers(0, beta, pair.stiffness_ratio, 1, SPHERES_VISCOUS)))
         return impact;
+    impact.normal = n;
     if (v1 > 0)
         impact.tangent = spheres_sum(zero, 1 / v1, sideways);
     impact.v2 = -along;
@@ -607,8 +612,8 @@ static inline struct spheres_collision spheres_collide(
     unit = pair.friction * impact.v2;
     towards = impact.m2 * impact.v2 * (1 + impact.e);
     along = impact.m2 * unit * (change / impact.beta);
-    after.impulse = spheres_sum(spheres_sum(zero, towards, normal), along, impact.tangent);
-    turn = spheres_cross(normal, impact.tangent);
+    after.impulse = spheres_sum(spheres_sum(zero, towards, impact.normal), along, impact.tangent);
+    turn = spheres_cross(impact.normal, impact.tangent);
     twist = 0.0 - along;
     after.velocity = spheres_sum(velocity, 1 / body.mass, after.impulse);
     after.spin = spheres_sum(

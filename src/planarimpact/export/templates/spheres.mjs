@@ -552,8 +552,8 @@ function is_vector(value) {
 }
 
 /**
- * An impact that is to come: what `change` needs, and the unit vector along which the contact point
- * moves. Its regime is UNRESOLVED where it has no answer, or NO_IMPACT.
+ * An impact that is to come: what `change` needs, the normal with the length 1 to rounding, and the
+ * unit vector along which the contact point moves. Its regime is UNRESOLVED where it has no answer, or NO_IMPACT.
  * @param {Pair} pair
  * @param {Vector} normal
  * @param {Body} body
@@ -566,23 +566,26 @@ function is_vector(value) {
 function before(pair, normal, body, velocity, spin, other, other_velocity, other_spin) {
     const zero = [0, 0, 0], most = INCIDENCE_MAX;
     const impact = {
-        tangent: zero, v2: 0, m2: 0, beta: 0, zeta2: 0, e: 0, x: 0, loss: 0, regime: UNRESOLVED,
+        normal: zero, tangent: zero, v2: 0, m2: 0, beta: 0, zeta2: 0, e: 0, x: 0, loss: 0,
+        regime: UNRESOLVED,
     };
     if (!(pair && body && other && is_vector(normal) && is_vector(velocity) && is_vector(spin)
           && is_vector(other_velocity) && is_vector(other_spin)))
         return impact;
+    const square = dot(normal, normal), length = Math.sqrt(square);
+    const n = [normal[0] / length, normal[1] / length, normal[2] / length];
     // Velocity of the contact point of the body against that of the other one.
     const turn = sum(sum(zero, body.radius, spin), other.radius, other_spin);
     const between = sum(velocity, -1, other_velocity);
-    const point = sum(between, -1, cross(turn, normal));
-    const along = dot(point, normal), arm = body.radius / body.gyration;
-    const sideways = sum(point, -along, normal), v1 = Math.sqrt(dot(sideways, sideways));
+    const point = sum(between, -1, cross(turn, n));
+    const along = dot(point, n), arm = body.radius / body.gyration;
+    const sideways = sum(point, -along, n), v1 = Math.sqrt(dot(sideways, sideways));
     const other_arm = other.radius / other.gyration;
     const m2 = 1 / (1 / body.mass + 1 / other.mass);
     const beta = m2 * ((1 + arm * arm) / body.mass + (1 + other_arm * other_arm) / other.mass);
     impact.m2 = m2;
     impact.beta = beta;
-    if (!(Math.abs(dot(normal, normal) - 1) <= 2e-6 && Math.abs(along) <= most && v1 <= most
+    if (!(Math.abs(square - 1) <= 2e-6 && Math.abs(along) <= most && v1 <= most
           && body.mass > 0 && body.gyration > 0 && body.radius >= 0
           && other.mass > 0 && other.gyration > 0 && other.radius >= 0 && m2 <= most
           && pair.friction >= 0 && pair.friction <= most && typeof pair.friction === "number"
@@ -599,6 +602,7 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
     if (impact.e === 1) impact.loss = VISCOUS;
     if (!(impact.e >= 0 && impact.e <= 1 && covers(0, beta, pair.stiffness_ratio, 1, VISCOUS)))
         return impact;
+    impact.normal = n;
     if (v1 > 0) impact.tangent = sum(zero, 1 / v1, sideways);
     impact.v2 = -along;
     impact.zeta2 = pair.stiffness_ratio;
@@ -740,8 +744,8 @@ export function collide(
     const { added, regime } = change(impact, impact.loss), unit = pair.friction * impact.v2;
     const towards = impact.m2 * impact.v2 * (1 + impact.e);
     const along = impact.m2 * unit * (added / impact.beta);
-    const impulse = sum(sum([0, 0, 0], towards, normal), along, impact.tangent);
-    const turn = cross(normal, impact.tangent), twist = 0 - along;
+    const impulse = sum(sum([0, 0, 0], towards, impact.normal), along, impact.tangent);
+    const turn = cross(impact.normal, impact.tangent), twist = 0 - along;
     const turned = twist * (body.radius / body.gyration / body.gyration / body.mass);
     const other_turned =
         twist * (other.radius / other.gyration / other.gyration / other.mass);
