@@ -15,7 +15,7 @@ import pytest
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
 from stronge1994.run import last_words
-from tests.workflow.project import ROOT
+from tests.workflow.project import ROOT, copy_of
 from tests.workflow.test_awaited_series import JOHNSON, RUBBER, SIGNED, UNSIGNED, export, made_up
 from tests.workflow.test_troubleshooting import explained
 
@@ -171,25 +171,36 @@ def test_a_change_of_the_config_reruns_what_it_concerns(finished):
 
 
 def test_a_crash_and_a_new_series_are_judged_and_all_the_rest_is_there(finished):
-    """One story in the whole workflow: it fails, is killed, and passes once mended."""
+    """One story in the whole workflow: jobs fail, it is killed, and passes once mended."""
     (finished / f"data/{RUBBER}.wpd.csv").write_text(export(*made_up()))
     finished.edit(f"data/{JOHNSON}/source.yaml", UNSIGNED, SIGNED)
     solver = finished / "src/stronge1994/figures/fig7/curves.py"
     good = solver.read_text()
     solver.write_text(good.replace("    named = {", "    raise ArithmeticError('oh')\n    {"))
+    picture = finished / "src/stronge1994/figures/fig6/drawing.py"
+    drawn = picture.read_text()
+    picture.write_text(drawn.replace("    ends = []", "    ends = [][1]", 1))
     said = finished.refuses_to_pass()
     found = verdicts(finished)
     wrong = {name for name, verdict in found.items() if verdict == "diverges"}
     assert {name for name in found if name.startswith("fig7")} == wrong
     assert found["fig5-rubber-sphere"] == "agrees"
     assert all((finished / f"figures/{name}.png").exists() for name in FIGURES)
-    assert 'class="result bad"' in (finished / "figures/report.html").read_text()
+    page = (finished / "figures/report.html").read_text()
+    assert 'class="result bad"' in page
+    failed = ["curves_fig7: ArithmeticError: oh", "draw_fig6: IndexError: list index out of range"]
+    assert failed[0] in page and failed[1] in page
+    for name, why in zip(("fig7", "fig6"), failed, strict=True):
+        assert why in (finished / f"figures/{name}.svg").read_text().replace("\n", " ")
     table = said[said.index("verdict  ") :].splitlines()
-    assert table[2].startswith("diverges") and "no curves: ArithmeticError: oh" in said
-    failed = next(i for i, line in enumerate(table) if line.startswith("FAILED. Reasons: "))
-    assert table[failed + 1].startswith("  diverges: fig7") and len(table) - failed < 16
+    assert table[2].startswith("diverges") and f"no curves: {failed[0]}" in said
+    last = next(i for i, line in enumerate(table) if line.startswith("FAILED. Reasons: "))
+    faults = [line.split(" (log")[0].removeprefix("  failed: ") for line in table[last + 1 :][:2]]
+    assert faults == failed and table[last + 3].startswith("  diverges: fig7")
+    assert len(table) - last < 16
 
     solver.write_text(good)
+    picture.write_text(drawn)
     shutil.rmtree(finished / ".snakemake/log")
     command = [sys.executable, "-m", "snakemake", "--cores", "2"]
     running = subprocess.Popen(
@@ -210,6 +221,49 @@ def test_a_crash_and_a_new_series_are_judged_and_all_the_rest_is_there(finished)
     assert "--unlock" in explained(locked) and locked.stdout.rstrip().endswith(last_words.UNLOCK)
     assert finished.run("--unlock").returncode == 0
     finished.passes()
+
+
+def test_one_figure_can_be_judged_alone(finished):
+    """Its target fails where a row diverges; its table, which does not, says how to ask."""
+    change = "--config", "stiffness_ratio=1.5"
+    said = finished.run("results/verdicts/fig3.csv", *change)
+    assert said.returncode == 0
+    judge = "2 diverge. To judge it:  snakemake --cores 2 fig3 --config stiffness_ratio=1.5"
+    assert f"results/verdicts/fig3.csv: {judge}\n" in said.stdout
+    for _ in range(2):
+        words = finished.refuses_to_pass("fig3", *change)
+        assert "fig3: FAILED. Reasons: 2\n  diverges: fig3-events: " in words
+        assert "diverges   fig3-events" in words and "fig6" not in words
+    said = finished.run("fig3")
+    assert said.returncode == 0 and "fig3: no comparison diverges." in said.stdout
+    assert not (finished / "results/PASSED").exists()
+
+
+def test_a_changed_setting_is_told_beside_that_of_the_reference(finished):
+    words = finished.refuses_to_pass("fig3", "--config", "figures={fig3: {restitution: [1, 0.9]}}")
+    assert "the reference has e = 1, 0.5; the figure has 1, 0.9" in words
+
+
+def test_any_folder_and_home_will_do(tmp_path):
+    """The name of the folder needs quotes in a shell; HOME is a file, and cannot be written."""
+    project = copy_of(ROOT, tmp_path / "OneDrive - user's folder (1)")
+    (tmp_path / "home").touch()
+    python = project / ".venv/bin/python"
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", project / ".venv"], check=True)
+    own = {"HOME": str(tmp_path / "home"), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    result = subprocess.run(
+        [python, "-m", "snakemake", "--cores", "2", "fig3"],
+        cwd=project.folder,
+        env=os.environ | own,
+        capture_output=True,
+        text=True,
+    )
+    assert result.returncode == 0, result.stderr
+    assert "fig3: no comparison diverges." in result.stdout
+
+
+def test_an_unknown_target_lists_those_that_there_are(fresh):
+    fresh.refuses("No rule to produce fgi6(.|\n)*Targets are\n  all, fig2, fig3, .*fig9,", "fgi6")
 
 
 def test_figures_are_drawn_without_judgement(finished):
