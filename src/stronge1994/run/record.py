@@ -14,6 +14,7 @@ from typing import Any
 FOLDER = "results/records"
 PASSED = "results/PASSED"
 SRC = Path(__file__).parents[2]
+MACHINE = (OSError, MemoryError)  # errors without which the same command may work
 
 
 def withdraw() -> None:
@@ -62,7 +63,7 @@ def recorded(snakemake: Any) -> Iterator[Any]:
     Yields the settings of the plan. `snakemake.input.plan` and `snakemake.output.record` are files.
     If the job raises an error, the record holds it, and each file that it has not written says it
     too: the rest of the run goes on, and the gate fails. An error of the machine, such as a full
-    disk, stops the job: without it the same command may work.
+    disk, stops the job.
 
     It is an error if an input or a source was edited since the run began, because then the record
     is wrong, or if the job imports a module that its plan does not name.
@@ -79,9 +80,9 @@ def recorded(snakemake: Any) -> Iterator[Any]:
         outcome: dict[str, str] = {}
         try:
             yield plan["settings"]
-        except (OSError, MemoryError):
-            raise
         except Exception as error:
+            if isinstance(error, MACHINE) and not isinstance(error, FileNotFoundError):
+                raise
             outcome = _failed(error, job, outputs)
         _refuse_edited(read)
         unnamed = sorted(_imported() - set(read))
