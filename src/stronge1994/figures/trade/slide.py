@@ -12,7 +12,7 @@ DURATION = "time of an impact, microseconds"
 DISTANCE = r"error of $v_1(t_f)/\mu v_2(0)$ against the elastic continuum, rms"
 # Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {DURATION: r": time_?\d* \[us\]", DISTANCE: r": rms_velocity \[mu v2\(0\)\]"}
-TABLE, CONTINUUM = "spheres.viscous", "continuum"
+TABLE, CONTINUUM = "spheres", "continuum"
 # Models that are drawn: text, colour, marker, offset of the text.
 SHOWN = {
     "rigid": ("rigid", "quiet", "D", (30, 0)),
@@ -41,9 +41,8 @@ def draw(curves: Curves, settings: Settings, points: Points, ground: slide.Groun
                 f"A table of solved spheres is about {float(f'{ratio:.1g}'):.0f} times faster than "
                 "solving the contact, and no less exact"
             )
-    busy = any(key.startswith("busy_") for row in curves.values() for key in row)
     data = f"solved and timed here, {batch} impacts together"
-    figure, axes = slide.new(title, data + "; the machine was busy" * busy, ground)
+    figure, axes = slide.new(title, data, ground)
     for model, (text, colour_name, marker, offset) in SHOWN.items():
         if model in fastest:
             time, error = fastest[model][column], fastest[model][ERROR]
