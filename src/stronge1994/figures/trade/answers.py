@@ -22,8 +22,8 @@ SIMPLEST_FIRST = (
     "annuli",
     "response of ",
 )
-# A time of one run differs from that of another by such a share, though the rounds of each agree to
-# a few hundredths: the memory lies elsewhere.
+# Nine of ten times of two runs differ by less than this share, where the rounds of one run often
+# agree to a few hundredths: the memory of another run lies elsewhere.
 BETWEEN_RUNS = 0.1
 
 # In mu v2(0): from a very rough answer to one finer than any measurement.

@@ -233,8 +233,8 @@ def times(
     it: other programs slow the processor down for a while, as they use its caches. So that this
     shows, a round is over all solvers before the next begins.
 
-    >>> times([lambda x: 0.001 * x.size], (0, 8), [1, 10, 10000], budget=0.1)
-    [{'time_1 [s]': 0.001, 'scatter_1 [1]': 0.0, 'time_10 [s]': 0.001, 'scatter_10 [1]': 0.0}]
+    >>> times([lambda x: 0.5 * x.size], (0, 8), [1, 2, 10000], budget=10.0)
+    [{'time_1 [s]': 0.5, 'scatter_1 [1]': 0.0, 'time_2 [s]': 0.5, 'scatter_2 [1]': 0.0}]
     """
     columns: list[dict[str, float]] = [{} for _ in watches]
     before, alone = 1, np.zeros(len(watches))

@@ -201,7 +201,8 @@ def draw(
     )
     growth.set(title=f"(d) $e = {ends[0]:g}$", xlabel="impacts together", ylabel=TIME_LABEL)
     note = f"numbers at points: steps, circles or tolerance; errors: {batch} impacts together"
-    figure.suptitle(f"{note}; {scatter(rows)}\n{HIDDEN_NOTE}", fontsize=house_style.NOTE)
+    notes = "\n".join([note, scatter(rows), HIDDEN_NOTE])
+    figure.suptitle(notes, fontsize=house_style.NOTE)
     _add_legend(figure, below[1])
     return figure
 
@@ -213,9 +214,8 @@ def scatter(rows: Sequence[_Row]) -> str:
     'times scatter by 4 % (median), 30 % at most'
     """
     found = [cell for row in rows for key, cell in row.items() if key.startswith("scatter_")]
-    return f"times scatter by {np.median(found):.0%} (median), {max(found):.0%} at most".replace(
-        "%", " %"
-    )
+    median, largest = 100 * np.median(found), 100 * max(found)
+    return f"times scatter by {median:.0f} % (median), {largest:.0f} % at most"
 
 
 def time_column(batch: int) -> str:
