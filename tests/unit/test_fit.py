@@ -192,6 +192,7 @@ def test_the_lines_say_what_a_wall_would_have_without_values_of_its_own(law, wan
         assert float(said[1]) == pytest.approx(e, abs=2e-3)
         assert float(said[2]) == one.restitution
     assert float(said[1]) == wanted
+    assert "would have e = 0.616 and 0.601" in (ROOT / "src/README.md").read_text(encoding="utf-8")
 
 
 def test_lammps_answered_as_the_laws_do():

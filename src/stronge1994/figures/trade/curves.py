@@ -239,7 +239,7 @@ def times(
     columns: list[dict[str, float]] = [{} for _ in watches]
     before, alone = 1, np.zeros(len(watches))
     for batch in sorted(batches):
-        within = np.flatnonzero(alone * batch / max(before, LARGE_BATCH) <= budget)
+        within = np.flatnonzero(alone * batch / max(before, LARGE_BATCH) <= budget).tolist()
         alone[:] = np.inf
         rounds = [[_seconds(watches[i], incidence, batch) for i in within] for _ in range(ROUNDS)]
         for i, taken in zip(within, np.transpose(rounds), strict=True):
@@ -257,7 +257,7 @@ def _seconds(watch: Callable[[Array], float], incidence: Sequence[float], batch:
     random = np.random.default_rng(SEED)
     taken: list[float] = []
     while sum(taken) < ROUND_SECONDS or len(taken) * batch < ROUND_IMPACTS:
-        taken.append(watch(random.uniform(*incidence, batch)))
+        taken.append(watch(random.uniform(incidence[0], incidence[1], batch)))
     return float(np.mean(taken))
 
 
