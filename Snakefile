@@ -53,10 +53,7 @@ rule figures:
 
 
 rule measurements:
-    """Pictures of error against time, measured on this machine, without judging.
-
-    With `--cores 1` nothing runs beside them.
-    """
+    """Pictures of error against processor time, measured on this machine, without judging."""
     input:
         expand("results/curves/{figure}.csv", figure=TIMED),
         expand("figures/{figure}.{kind}", figure=TIMED, kind=["svg", "png"]),

@@ -61,7 +61,7 @@ def _superball(settings):
 
 
 def _convergence(settings):
-    """Methods that converge by a power; one time is taken on a busy machine."""
+    """Methods that converge by a power."""
     numbers = 2.0 ** np.arange(4, 8)
     return settings, {
         method: {
@@ -69,7 +69,6 @@ def _convergence(settings):
             "error [mu v2(0)]": (i + 1) / numbers**2,
             "observed_order [1]": np.full(4, 2.0),
             "time [s]": 1e-4 * (i + 2) * numbers,
-            "busy_time [1]": np.array([1.0, 1.5, 1.0, 1.0]),
         }
         for i, (method, (number, _, _)) in enumerate(convergence.CURVES.items())
     }
@@ -79,18 +78,18 @@ def row(model, error, time, **more):
     first = {"model": np.array([model]), "loss": np.array([more.pop("loss", "")])}
     numbers = {"restitution [1]": 1.0, trade.ERROR: error, "time_1 [s]": time}
     numbers |= {"time_100 [s]": time / 5, "time_1000 [s]": time / 9} | more
-    numbers |= {trade.SPREAD: 0.2, trade.SPREAD_STICK: 0.03}
+    numbers |= {trade.SPREAD: 0.2, trade.SPREAD_STICK: 0.03, "scatter_100 [1]": 0.05}
     row = first | {key: np.array([value]) for key, value in numbers.items()}
     return {key: cells for key, cells in row.items() if cells[0] != ""}
 
 
 def _trade(settings):
-    """Models at e = 1, one of which was measured on a busy machine."""
+    """Models at e = 1."""
     rows = {
         "rigid, e = 1": row("rigid", 0.9, 1e-6),
         "lumped, e = 1": row("lumped", 0.08, 5e-6),
         "continuum, tolerance 1e-5, e = 1": row(
-            "continuum", 1e-6, 4e-3, **{"tolerance [mu v2(0)]": 1e-5, "busy_100 [1]": 1.5}
+            "continuum", 1e-6, 4e-3, **{"tolerance [mu v2(0)]": 1e-5}
         ),
         "response of lumped, e = 1": row("response of lumped", 1e-14, 2e-7),
     }

@@ -119,7 +119,6 @@ FAULTS = [
     ("micro_slip", "curve[TIME], curve[STICK]", "curve[TIME], 1 - curve[STICK]"),
     ("micro_slip", 'key("stick"', 'key("contact"'),
     ("convergence", "curve[number], curve[ERROR]", "2 * curve[number], curve[ERROR]"),
-    ("convergence", "bars = np.stack([too_long", "bars = np.stack([2 * too_long"),
     ("inelastic", "curve[X], curve[W]", "curve[X], -curve[W]"),
     ("inelastic", "order], high[BETA_0][order]", "order], 2 * high[BETA_0][order]"),
     ("inelastic", "[OVER_LIMIT], [height]", "[OVER_LIMIT] / 2, [height]"),

@@ -68,22 +68,71 @@ def test_every_law_has_the_restitution_that_is_asked_for(law, e):
         assert slides == pytest.approx(1e3 - 3.5 * (1 + laws.restitution(law, told)), abs=1e-9)
 
 
-def in_si(lines, x, mass, friction, speed, yade):
-    """One contact as MercuryDPM or Yade steps through it, from the numbers of its input."""
-    names = "kn cn ks cs" if yade else "Stiffness Dissipation SlidingStiffness SlidingDissipation"
-    kn, cn, ks, cs = (
-        float(re.search(rf"\b(?:set)?{name}[=(]([^,)]*)", lines)[1]) / (2 if yade else 1)
-        for name in names.split()
+def linear(lines, yade, wall):
+    """Stiffness and damping, normal and tangential, in the input of MercuryDPM or Yade."""
+    if not yade:
+        found = dict(re.findall(r"^species->set(\w+)\((.*)\);", lines, re.M))
+        found |= dict(re.findall(r"^atWall->set(\w+)\((.*)\);", lines, re.M)) if wall else {}
+        names = "Stiffness Dissipation SlidingStiffness SlidingDissipation"
+        return [float(found[name]) for name in names.split()]
+    bodies_of = "sphere", "wall" if wall else "sphere"
+    (one, other) = (
+        {
+            name: float(value)
+            for name, value in re.findall(
+                r"\b(\w\w)=([-+.e\d]+)", re.search(rf"^{body} = .*$", lines, re.M)[0]
+            )
+        }
+        for body in bodies_of
     )
-    step = float(re.search(r"(?:O\.dt = |setTimeStep\()([^)\n]*)", lines)[1])
+    # Bodies are in series.
+    return [1 / (1 / one[n] + 1 / other[n]) if one[n] else 0.0 for n in ("kn", "cn", "ks", "cs")]
+
+
+def lammps(lines, mass, radius):
+    """The same in the input of LAMMPS, as functions of the depth, and what it multiplies."""
+    words = lines.splitlines()[-1].split()[3:]
+    modulus, told = map(float, words[1:3])
+    logarithm = -math.log(told)
+    damping = logarithm / math.hypot(math.pi, logarithm)
+    kt, xt = map(float, words[words.index("tangential") + 2 :][:2])
+    if words[0] == "hooke":
+        damping *= 2 * math.sqrt(mass * modulus)
+        return lambda depth: (modulus, damping, kt, xt * damping)
+
+    def at(depth):
+        """E* of two bodies, or of a body and its wall; the radius of contact."""
+        nu, contact_radius = float(words[3]), math.sqrt(radius * depth)
+        kn = 4 / 3 * modulus / (2 * (1 - nu**2)) * contact_radius
+        cn = math.sqrt(5 * mass * kn) * damping
+        return kn, cn, kt * contact_radius, xt * cn
+
+    return at
+
+
+def in_si(law, lines, x, mass, radius, wall=False, finer=1):
+    """One contact as a code steps through it, from the numbers of its input.
+
+    Mass and radius are the effective ones of the contact. A step is that of the lines, or so many
+    times finer. Returns the velocity, and restitution.
+    """
+    yade, limited = law == "yade", law != "mercurydpm"
+    friction, speed = SPHERE["friction"], SPHERE["speed"]
+    step = float(re.search(r"(?:O\.dt = |setTimeStep\(|timestep )([^)\n]*)", lines)[1]) / finer
+    values = linear(lines, yade, wall) if "lammps" not in law else None
+    at = lammps(lines, mass, radius) if values is None else lambda depth: values
+    rescales = "mindlin_rescale" in lines.splitlines()[-1]
     depth, v, w, spring = 0.0, speed, friction * x * speed, 0.0
     while True:
-        depth += step * v
+        before, depth = depth, depth + step * v
         if depth <= 0:
-            return w / (friction * speed)
+            return w / (friction * speed), -v / speed
+        kn, cn, ks, cs = at(depth)
         normal = kn * depth + cn * v
-        if yade:
+        if limited:
             normal = max(normal, 0.0)
+        if rescales and depth < before:
+            spring *= math.sqrt(depth / before)
         limit = friction * abs(normal)
         spring += ks * step * w
         if yade and abs(spring) > limit:
@@ -97,15 +146,53 @@ def in_si(lines, x, mass, friction, speed, yade):
         w -= step * 3.5 * force / mass
 
 
-@pytest.mark.parametrize("law", ["mercurydpm", "yade"])
-def test_the_lines_have_the_contact_of_the_fit(law):
+@functools.cache
+def of_half(law):
+    """A fit at e = 0.5."""
+    zeta2 = float(bodies.stiffness_ratio(GLASS))
+    return fit.fit(law, 3.5, zeta2, 0.5, loss="plastic", incidence_max=6.0)
+
+
+# Mass and radius of a contact over those of one sphere, and which contacts a code serves so.
+CONTACTS = {"pair": (1 / 2, 1 / 2), "wall": (1.0, 1.0), "radii 1:3": (27 / 28, 3 / 4)}
+SERVED = [
+    (law, name)
+    for law in fit.CODES
+    for name in (CONTACTS if law.startswith("lammps") else ("pair", "wall"))
+]
+
+
+@pytest.mark.parametrize(("law", "name"), SERVED)
+@pytest.mark.parametrize("fitted", [lambda law: found(law, "glass"), of_half])
+def test_the_lines_have_the_contact_of_the_fit(law, name, fitted):
     """By the loop of each code, a number at a time, in SI units, from the printed numbers."""
-    one = found(law, "glass")
+    one = fitted(law)
     lines = fit.lines(one, GLASS, **SPHERE)
-    mass = float(bodies.solid_sphere(0.002, 2500.0).mass) / 2
-    places = [7, 30, 60, 90]
-    stepped = [in_si(lines, one.incidence[i], mass, 0.2, 1.0, law == "yade") for i in places]
-    np.testing.assert_allclose(stepped, one.after[places], atol=1e-3)
+    mass, radius = CONTACTS[name]
+    contact = float(bodies.solid_sphere(0.002, 2500.0).mass) * mass, 0.002 * radius
+    places, wall = [7, 30, 60, 90], name == "wall"
+    steps = one.after[places]
+    if name != "pair":  # it lasts another number of steps, so both are stepped more finely
+        contact_law = LAWS[law, one.style]
+        groups = 3.5, one.stiffness, one.damping, one.told
+        steps = laws.rebound(contact_law, one.incidence[places], *groups, 10 * laws.STEPS)
+    finer = 1 if name == "pair" else 10
+    stepped = [in_si(law, lines, one.incidence[i], *contact, wall, finer) for i in places]
+    np.testing.assert_allclose([w for w, _ in stepped], steps, atol=1e-3)
+    assert stepped[0][1] == pytest.approx(one.restitution, abs=2e-3)
+
+
+@pytest.mark.parametrize(("law", "wanted"), [("mercurydpm", 0.616), ("yade", 0.601)])
+def test_the_lines_say_what_a_wall_would_have_without_values_of_its_own(law, wanted):
+    mass = float(bodies.solid_sphere(0.002, 2500.0).mass)
+    for one in (found(law, "glass"), of_half(law)):
+        lines = fit.lines(one, GLASS, **SPHERE)
+        said = re.search(r"A wall of this material would have e = (.*), for (.*),", lines)
+        _, e = in_si(law, lines, 1.0, mass, 0.002, finer=10)
+        assert float(said[1]) == pytest.approx(e, abs=2e-3)
+        assert float(said[2]) == one.restitution
+    assert float(said[1]) == wanted
+    assert "would have e = 0.616 and 0.601" in (ROOT / "src/README.md").read_text(encoding="utf-8")
 
 
 def test_lammps_answered_as_the_laws_do():

@@ -1,23 +1,19 @@
 """Error against time: known distances between models, the Pareto front, the choice of a model."""
 
 import math
-import re
-from pathlib import Path
-from types import SimpleNamespace
+import time
 
 import numpy as np
 import pytest
 
-from planarimpact import InputError, continuum, models, response
+from planarimpact import InputError, models
 from stronge1994 import csv_tables
 from stronge1994.figures.convergence import curves as convergence
 from stronge1994.figures.shared import drawing as drawings
-from stronge1994.figures.shared.curves import watch
 from stronge1994.figures.trade import answers as trade_table
 from stronge1994.figures.trade import curves as trade
 from stronge1994.figures.trade import drawing as draw_trade
 
-REPORT = Path(__file__).parents[2] / "workflow/report"
 RMS, MAX = "rms_velocity [mu v2(0)]", "max_velocity [mu v2(0)]"
 SETTINGS = {
     "mass_ratio": 3.5,
@@ -38,7 +34,7 @@ SETTINGS = {
 @pytest.fixture(scope="module")
 def named():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(trade, "SECONDS_OF_CALLS", 0.01)  # s; no number of these times is looked at
+        patch.setattr(trade, "ROUND_SECONDS", 1e-3)  # no number of these times is looked at
         return trade.curves(**SETTINGS)
 
 
@@ -75,8 +71,9 @@ def test_every_model_is_there_at_every_restitution_that_it_admits(named):
         case = [r for r in named.values() if (r["restitution [1]"][0], r["loss"][0]) == (e, loss)]
         found = {row["model"][0] for row in case}
         admitted = {n for n, m in models.MODELS.items() if m.restitution[0] <= e}
-        if e == 1:  # with a loss they are the same
-            admitted = {n for n in admitted if not n.startswith(("lumped.", "continuum."))}
+        if e == 1:  # with a loss they are the same, and have its name no more
+            lossy = ("lumped.", "continuum.", "spheres.")
+            admitted = {n for n in admitted if not n.startswith(lossy)} | {"spheres"}
         assert {n for n in found if not n.startswith("response")} == admitted
     assert "annuli, 4 circles, 512 steps, e = 1" in named
 
@@ -135,148 +132,83 @@ def test_front_leaves_out_what_is_beaten():
 
 
 class Clock:
-    """Stands for `time`: wall time passes as told, and the process gets a share of it."""
+    """Stands for `time`: the seconds that the processor worked, which it shows in steps."""
 
     def __init__(self, tick=1e-9):
-        self.wall = self.cpu = 0.0
-        self.tick = tick
-
-    def pass_by(self, seconds, share):
-        self.wall += seconds
-        self.cpu += share * seconds
-
-    def perf_counter(self):
-        return self.wall
+        self.worked, self.tick = 0.0, tick
 
     def process_time(self):
-        return math.floor(self.cpu / self.tick) * self.tick
+        return math.floor(self.worked / self.tick) * self.tick
 
 
-@pytest.fixture
-def clock(monkeypatch):
-    """Of a step to choose."""
+def test_a_time_is_the_median_of_interleaved_rounds_beside_their_scatter():
+    """All solvers are slowed down in the second round, by a program that uses the caches."""
+    order = []
 
-    def set_up(tick=1e-9):
-        found = Clock(tick)
-        for module in (trade, watch):
-            monkeypatch.setattr(module, "time", found)
-        monkeypatch.setattr(watch, "_tick", lambda: tick)
-        return found
+    def watch(name):
+        seconds = iter([1.0, 1.5, 1.1])
+        return lambda x: order.append(name) or next(seconds)
 
-    return set_up
-
-
-@pytest.mark.parametrize(
-    ("call", "share", "tick", "busy"),
-    [
-        (0.01, 1.0, 1e-9, None),
-        (0.01, 0.9, 1e-9, None),
-        (0.01, 0.8, 1e-9, 1.25),
-        (0.01, 0.25, 1e-9, 4.0),
-        (1e-5, 0.25, 1e-9, 4.0),
-        (1e-4, 1.0, 0.01, None),  # far below the step of the CPU clock
-        (0.015, 1.0, 0.01, None),  # shown as 0.01 or 0.02
-        (3.0, 1.0, 0.01, None),
-        (3.0, 0.5, 0.01, 2.0),
-    ],
-)
-def test_a_time_taken_on_a_busy_machine_says_so(call, share, tick, busy, clock):
-    fake = clock(tick)
-
-    def solve(x):
-        fake.pass_by(call, share)
-        return call
-
-    found = trade.times(solve, (0, 8), [1000], 10.0)
-    assert found["time_1000 [s]"] == pytest.approx(call / 1000)
-    assert found.get("busy_1000 [1]") == (busy and pytest.approx(busy, rel=0.01))
+    found = trade.times([watch("a"), watch("b")], (0, 8), [1000], 10.0)
+    assert "".join(order) == "ababab"
+    assert found == [{"time_1000 [s]": 1.1e-3, "scatter_1000 [1]": pytest.approx(0.5 / 1.1)}] * 2
 
 
-def test_short_calls_of_which_few_are_interrupted_are_timed_well_beside_any_load(clock):
-    fake, calls = clock(), []
+def test_calls_far_below_the_step_of_the_clock_are_timed(monkeypatch):
+    clock = Clock(tick=1 / 64)
+    monkeypatch.setattr(trade, "time", clock)
 
-    def solve(x):
-        calls.append(x.size)
-        start = fake.wall
-        fake.pass_by(1e-5, 1.0)
-        if len(calls) % 5 == 0:
-            fake.pass_by(0.004, 0.0)  # another program has its turn
-        return fake.wall - start
+    def rebound(x):
+        clock.worked += 1e-4
 
-    found = trade.times(solve, (0, 8), [1000], 10.0)
-    assert found == {"time_1000 [s]": pytest.approx(1e-8)}
+    (found,) = trade.times([trade._stopwatch(rebound)], (0, 8), [1000], 10.0)
+    assert found["time_1000 [s]"] == pytest.approx(1e-7, rel=max(found["scatter_1000 [1]"], 0.05))
 
 
-def test_a_busy_machine_leaves_no_batch_out(clock):
-    """The second takes 30 s as the clock on the wall goes, and 3 s of the processor."""
-    fake = clock()
-
-    def solve(x):
-        fake.pass_by(x.size / 100, 0.1)
-        return x.size / 100
-
-    assert set(trade.times(solve, (0, 8), [1000, 3000], 4.0)) == {
-        *("time_1000 [s]", "busy_1000 [1]"),
-        *("time_3000 [s]", "busy_3000 [1]"),
-    }
+def test_waiting_is_not_measured(monkeypatch):
+    monkeypatch.setattr(trade, "ROUND_SECONDS", 1e-5)
+    (found,) = trade.times([trade._stopwatch(lambda x: time.sleep(0.05))], (0, 8), [1], 1.0)
+    assert found["time_1 [s]"] < 0.01
 
 
-def test_one_impact_is_solved_more_often_than_a_batch_which_holds_many_incidences(clock):
-    fake, calls = clock(), []
+def test_one_impact_is_solved_at_several_incidences_the_same_in_each_round():
+    calls = []
 
-    def solve(x):
-        calls.append(x.size)
-        fake.pass_by(0.01, 1.0)
-        return 0.01
+    def seconds(x):
+        calls.append(x)
+        return 1.0
 
-    trade.times(solve, (0, 8), [1, 1000], 10.0)
-    assert 5 <= calls.count(1000) < calls.count(1) <= trade.MOST_CALLS
+    trade.times([seconds], (0, 8), [1], 10.0)
+    assert len(calls) == trade.ROUNDS * trade.ROUND_IMPACTS
+    assert len({float(x[0]) for x in calls}) == trade.ROUND_IMPACTS
 
 
-@pytest.mark.parametrize(("share", "busy"), [(1.0, None), (0.5, [2.0, 2.0])])
-def test_convergence_says_that_the_machine_was_busy(share, busy, clock, monkeypatch):
-    fake, fixed_steps = clock(), continuum.fixed_steps
+def test_a_batch_that_would_take_too_long_is_left_out_for_its_model_alone():
+    slow, fast = trade.times(
+        [lambda x: 1e-2 * x.size, lambda x: 1e-6 * x.size], (0, 8), [1, 300, 1000], 4.0
+    )
+    assert set(slow) == {f"{key}_{b} {unit}" for key, unit in KEYS for b in (1, 300)}
+    assert set(fast) == {f"{key}_{b} {unit}" for key, unit in KEYS for b in (1, 300, 1000)}
+
+
+KEYS = ("time", "[s]"), ("scatter", "[1]")
+
+
+def test_convergence_measures_the_processor(monkeypatch):
+    clock, fixed_steps = Clock(), convergence.continuum.fixed_steps
 
     def slow(*args, **kwargs):
-        fake.pass_by(0.24, share)
+        clock.worked += 0.24
         return fixed_steps(*args, **kwargs)
 
-    monkeypatch.setattr(continuum, "fixed_steps", slow)
+    monkeypatch.setattr(convergence, "time", clock)
+    monkeypatch.setattr(convergence.continuum, "fixed_steps", slow)
     few = {"samples": 3, "tolerance": 1e-3, "steps": [16, 32], "circles": [4, 8]}
     named = convergence.curves(3.5, [1.21], **few, fixed={"steps": 16, "circles": 4})
-    springs, annuli = named["row of springs"], named["annuli, circles"]
-    assert springs["time [s]"] == pytest.approx([0.08, 0.08])
-    assert springs.get("busy_time [1]") == (busy and pytest.approx(busy))
-    assert "busy_time [1]" not in annuli
+    assert named["row of springs"]["time [s]"] == pytest.approx([0.08, 0.08])
 
 
-def test_a_slow_compilation_on_a_busy_machine_says_so(clock, monkeypatch):
-    fake, compiled = clock(), response.compile
-
-    def compile_(*args, **kwargs):
-        fake.pass_by(3.0, 0.5)
-        return compiled(*args, **kwargs)
-
-    monkeypatch.setattr(trade.response, "compile", compile_)
-    monkeypatch.setattr(trade, "input_spread", lambda x, *_: np.ones_like(x))
-    settings = {"restitution": [1.0], "samples": 5, "steps": [16], "batches": [1]}
-    rows = trade.curves(**SETTINGS | settings)
-    slow = [
-        name for name, columns in rows.items() if any(key.startswith("busy") for key in columns)
-    ]
-    assert [name.split(",")[0] for name in slow] == ["response of lumped", "response of continuum"]
-    assert all(rows[name]["busy_build [1]"] == [pytest.approx(2.0)] for name in slow)
-
-
-def test_the_step_of_the_cpu_clock_is_measured(monkeypatch):
-    """It may state a finer one than it has."""
-    reads = iter(range(1000))
-    coarse = SimpleNamespace(process_time=lambda: 0.01 * (next(reads) // 100))
-    monkeypatch.setattr(watch, "time", coarse)
-    assert watch._tick.__wrapped__() == pytest.approx(0.01)
-
-
-def row(name, error, case=("1.0", ""), reference="1e-7", build="", times=("", "")):
+def row(name, error, case=("1.0", ""), build="", times=("", ""), scatter="0.02"):
     return {
         "curve": name,
         "model": name.split(",")[0],
@@ -285,10 +217,12 @@ def row(name, error, case=("1.0", ""), reference="1e-7", build="", times=("", ""
         "input_spread [mu v2(0)]": "0.41",
         "input_spread_stick [mu v2(0)]": "0.02",
         MAX: error,
-        "reference_error [mu v2(0)]": reference,
+        "reference_error [mu v2(0)]": "1e-7",
         "build_time [s]": build,
         "time_10 [s]": times[0],
         "time_1000 [s]": times[1],
+        "scatter_10 [1]": scatter,
+        "scatter_1000 [1]": scatter,
     }
 
 
@@ -322,54 +256,63 @@ def test_error_of_the_reference_counts():
     assert trade_table.which_model(ROWS, [1.1e-6])[0]["model_10"] == "slow"
 
 
+def test_no_lossy_name_and_no_second_table_stands_at_e_1(named):
+    """`spheres.viscous` and `spheres.plastic` are one there."""
+    elastic = [row["model"][0] for row in named.values() if row["restitution [1]"][0] == 1]
+    assert not [name for name in elastic if name.endswith((".viscous", ".plastic", ".hysteretic"))]
+    assert elastic.count("spheres") == 1
+
+
 @pytest.mark.parametrize(
-    ("busy", "small", "large"),
+    ("rivals", "chosen"),
     [
-        # Nearly all of its time is compilation, and that is right.
-        ({"compiled": {"busy_1000 [1]": "2"}}, "fine, 8 steps", "compiled"),
-        # Too long, and still shorter than all others.
-        ({"compiled": {"busy_build [1]": "2"}}, "fine, 8 steps", "compiled"),
-        ({"fine": {"busy_10 [1]": "3"}}, "fine, 8 steps", "compiled"),
-        ({"compiled": {"busy_build [1]": "50"}}, trade_table.BUSY, "compiled"),
-        # On a quiet machine it would still be slower than the other.
-        ({"fine": {"busy_1000 [1]": "1.9"}}, "fine, 8 steps", "compiled"),
-        ({"fine": {"busy_1000 [1]": "10"}}, "fine, 8 steps", trade_table.BUSY),
+        # As fast as times of two runs agree: the nearer one.
+        ({"timestep.linear, 16 steps": (0.232, 0.70), "lumped": (0.215, 0.76)}, "lumped"),
+        ({"lumped": (0.215, 0.70), "timestep.linear, 16 steps": (0.232, 0.76)}, "lumped"),
+        ({"spheres": (1e-5, 0.76), "lumped": (0.215, 0.70)}, "spheres"),
+        # As near to two digits: the simpler one, in whatever order they come.
+        ({"response of lumped": (0.21504, 0.70), "lumped": (0.21505, 0.72)}, "lumped"),
+        ({"lumped": (0.21504, 0.72), "timestep.linear, 256 steps": (0.21501, 0.70)}, "lumped"),
+        ({"own": (0.21504, 0.70), "annuli, 4 circles": (0.2151, 0.72)}, "annuli, 4 circles"),
+        # Faster by more than times scatter, and more: the faster one.
+        ({"timestep.linear, 16 steps": (0.232, 0.70), "lumped": (0.215, 0.79)}, "timestep"),
+        ({"laws.brach": (0.29, 0.1), "continuum": (1e-6, 100.0)}, "laws.brach"),
+        # The scatter of either counts.
+        ({"timestep.linear": (0.232, 0.70, 0.4), "lumped": (0.215, 0.9)}, "lumped"),
+        ({"timestep.linear": (0.232, 0.70), "lumped": (0.215, 0.9, 0.4)}, "lumped"),
+        # Of those that meet the tolerance only.
+        ({"rigid": (1.8, 0.05), "lumped": (0.215, 0.9)}, "lumped"),
     ],
 )
-def test_a_time_taken_on_a_busy_machine_is_not_chosen(busy, small, large):
+def test_of_models_that_are_as_fast_the_nearer_and_simpler_is_named(rivals, chosen):
+    for batch, build in ((1000, ""), (10, "7e-12")):
+        rows = []
+        for name, (error, time_of, *scatter) in rivals.items():
+            times = ("1e6", time_of * 1e-6) if batch == 1000 else (time_of * 1e-6, "1e6")
+            more = {"scatter": f"{scatter[0]}"} if scatter else {}
+            rows.append(row(f"{name}, e = 1", f"{error}", build=build, times=times, **more))
+        (found,) = trade_table.which_model(rows, [0.3])
+        assert found[f"model_{batch}"].startswith(chosen)
+        times_of = {name: f"{values[1] * 1e-6:.2g}" for name, values in rivals.items()}
+        assert found[f"whole_time_{batch} [s]"] == times_of[found[f"model_{batch}"]]
+
+
+def test_a_compilation_may_be_off_as_a_time_of_another_run_is():
     rows = [
-        dict.fromkeys(("busy_10 [1]", "busy_1000 [1]", "busy_build [1]"), "")
-        | row
-        | busy.get(row["curve"].split(",")[0], {})
-        for row in ROWS
+        row("response of lumped, e = 1", "0.215", build="1e-3", times=("1e-9", "1e-9")),
+        row("spheres, e = 1", "1e-5", times=("1.05e-4", "1.2e-6")),
     ]
-    (found,) = trade_table.which_model(rows, [0.01])[:1]
-    assert (found["model_10"], found["model_1000"]) == (small, large)
-    for batch in (10, 1000):
-        name = found[f"model_{batch}"]
-        own = [row for row in rows if row["curve"].startswith(name)]
-        times = {f"{trade_table.whole_time(row, batch):.2g}" for row in own}
-        times |= {f"{trade_table._least_time(row, batch):.2g}" for row in own}
-        assert bool(found[f"whole_time_{batch} [s]"]) is (len(times) == 1)
-        assert bool(found[f"max_velocity_{batch} [mu v2(0)]"]) is (name != trade_table.BUSY)
+    (found,) = trade_table.which_model(rows, [0.3])
+    assert (found["model_10"], found["model_1000"]) == ("spheres", "response of lumped")
 
 
-def test_table_figure_and_captions_say_that_the_machine_was_busy(named, tmp_path):
-    quiet = {
-        name: {key: value for key, value in columns.items() if not key.startswith("busy")}
-        for name, columns in named.items()
-    }
-    busy = {name: columns | {"busy_100 [1]": [2.5]} for name, columns in quiet.items()}
-    for curves, said in ((quiet, False), (quiet | dict(list(busy.items())[:2]), True)):
-        path, *tables = (tmp_path / f"{name}.csv" for name in ("curves", "table", "answers"))
-        csv_tables.write(path, curves)
-        figure, _ = drawings.drawn(draw_trade, csv_tables.read(path), SETTINGS, {})
-        words = r"\nthe machine was busy: 2 of \d+ times are up to 2.5 times too long$"
-        assert bool(re.search(words, figure.get_suptitle())) is said
-        trade_table.write(path, *tables)
-        assert ("busy_100 [1]" in csv_tables.read_rows(tables[0])[0]) is said
-    assert f"more than {trade.BUSY}" in (REPORT / "trade.rst").read_text()
-    assert trade_table.BUSY in (REPORT / "which_model.rst").read_text()
+def test_the_picture_says_how_far_times_scatter(named):
+    curves = {name: dict(columns) for name, columns in named.items()}
+    for columns in curves.values():
+        columns["scatter_1 [1]"] = columns["scatter_100 [1]"] = np.array([0.06])
+    curves["rigid, e = 1"]["scatter_1 [1]"] = np.array([0.42])
+    figure, _ = drawings.drawn(draw_trade, curves, SETTINGS, {})
+    assert "times scatter by 6 % (median), 42 % at most" in figure.get_suptitle()
 
 
 def test_tables_are_written_and_keep_their_words(named, tmp_path):

@@ -27,7 +27,7 @@ INVENTORY = reference_data.load_all(
 )
 # What nothing independent can hold, as patterns of "judged: curve: column", and why.
 NOT_HELD = {
-    r".*: (time\w*|busy_\w+|build_time) \[(s|1)\]": "measured on this machine",
+    r".*: (time\w*|scatter_\w+|build_time) \[(s|1)\]": "measured on this machine",
     r"(trade|convergence): .*: (steps|circles|tolerance|reference_error) .*": "what was asked for",
     r"trade: (response of|continuum|annuli|spheres).*: (rms|max|rest)\w* .*": "an error, bounded",
     r"convergence: (.*, extrapolated|annuli, steps): observed_order .*": "not predicted",

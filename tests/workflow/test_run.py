@@ -121,6 +121,31 @@ def test_every_rule_has_what_every_rule_needs():
                 assert part in rule, (file.name, rule.split(":")[0], part)
 
 
+ONE_AT_A_TIME = """
+rule all:
+    input: expand("{job}.txt", job=["a", "b", "c"])
+rule job:
+    output: "{job}.txt"
+    TIMED
+    shell: "mkdir beside && sleep 0.5 && rmdir beside && touch {output}"
+"""
+
+
+def test_one_job_at_a_time_measures_time(tmp_path):
+    """The profile says so, so that a plain `snakemake --cores 3` does it too."""
+    (timed,) = re.findall(
+        r"resources:\n *timed=.*", (ROOT / "workflow/rules/curves.smk").read_text()
+    )
+    assert timed.endswith("timed=lambda wildcards: int(wildcards.figure in TIMED),")
+    shutil.copytree(ROOT / "profiles", tmp_path / "profiles")
+    for resources, succeeds in (("resources: timed=1", True), ("resources: timed=0", False)):
+        text = ONE_AT_A_TIME.replace("TIMED", resources)
+        (tmp_path / "Snakefile").write_text(text)
+        command = [sys.executable, "-m", "snakemake", "--cores", "3", "--forceall"]
+        result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+        assert (result.returncode == 0) is succeeds, result.stderr
+
+
 EDITED = {
     "src/stronge1994/figures/fig6/curves.py": "# edited\n",
     "src/stronge1994/figures/rod/drawing.py": "# edited\n",

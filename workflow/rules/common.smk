@@ -95,9 +95,5 @@ def slides_of(figures):
     return expand("figures/slides/{slide}_{ground}.png", slide=own, ground=["light", "dark"])
 
 
-def all_cores(wildcards):
-    return workflow.cores
-
-
 # Files that every page includes, beside its own template.
 EVERY_PAGE = ["workflow/report/theme.css", "workflow/report/site.html"]

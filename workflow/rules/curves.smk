@@ -10,6 +10,8 @@ rule curves:
         record="results/records/curves_{figure}.json",
     log:
         "results/logs/curves_{figure}.log",
+    resources:
+        timed=lambda wildcards: int(wildcards.figure in TIMED),
     message:
         "Solving {wildcards.figure}"
     conda:

@@ -15,7 +15,8 @@ rule measure_peers:
         record="results/records/measure_peers.json",
     log:
         "results/logs/measure_peers.log",
-    threads: all_cores
+    resources:
+        timed=1,
     message:
         "Measuring LAMMPS and pooltool"
     conda:

@@ -6,6 +6,7 @@ Read in their sources: LAMMPS 22Jul2025, `src/GRANULAR/gran_sub_mod_*.cpp`; Merc
 not run.
 """
 
+import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -166,7 +167,7 @@ def lines(
     friction: ArrayLike,
     speed: ArrayLike,
 ) -> str:
-    """Lines of the input of a code, for contacts of two equal spheres.
+    """Lines of the input of a code, for two equal spheres and for one that meets a wall like it.
 
     Parameters
     ----------
@@ -290,10 +291,27 @@ def _lammps(found: Fit, contact: _Contact) -> str:
     )
 
 
+# At a wall the mass of a contact is that of one sphere, twice that of two; a dashpot has a
+# coefficient times the root of it.
+WALL = 2**0.5
+
+
+def _walls(found: Fit, species: str) -> list[str]:
+    """What dashpots that know no mass do at a wall, and that it needs its own."""
+    damping = laws.normal_damping(hertzian=False, told=found.told) / WALL
+    told = math.exp(-math.pi * damping / math.sqrt(4 - damping**2))
+    steps = round(WALL * laws.STEPS)
+    e = laws.restitution(CODES[found.law].styles[found.style], told, steps)
+    return [
+        "Springs and dashpots of this code know no mass: spheres of other masses have another e.",
+        f"A wall of this material would have e = {e:.3f}, for {found.restitution:g}, with the "
+        "dashpots of two spheres.",
+        f"So it has {species} of its own: there dashpots are sqrt(2) times as strong.",
+    ]
+
+
 def _mercurydpm(found: Fit, contact: _Contact) -> str:
-    del found
     return (
-        "// Contacts of other masses than that of two such spheres have another restitution.\n"
         "auto species = speciesHandler.copyAndAddObject("
         "LinearViscoelasticSlidingFrictionSpecies());\n"
         f"species->setDensity({_short(contact.density)});\n"
@@ -302,33 +320,42 @@ def _mercurydpm(found: Fit, contact: _Contact) -> str:
         f"species->setSlidingStiffness({_short(contact.tangential)});\n"
         f"species->setSlidingDissipation({_short(contact.tangential_damping)});\n"
         f"species->setSlidingFrictionCoefficient({contact.friction:g});\n"
+        + "".join(f"// {words}\n" for words in _walls(found, "a species"))
+        + "auto wall = speciesHandler.copyAndAddObject(species);\n"
+        "auto atWall = speciesHandler.getMixedObject(species, wall);\n"
+        f"atWall->setDissipation({_short(WALL * contact.normal_damping)});\n"
+        f"atWall->setSlidingDissipation({_short(WALL * contact.tangential_damping)});\n"
         f"setTimeStep({_short(contact.step)});\n"
     )
 
 
 def _yade(found: Fit, contact: _Contact) -> str:
-    del found
-    # Yade puts the springs and dashpots of two bodies in series.
-    kn, cn, ks, cs = (
-        _short(2 * value)
+    # Yade puts the springs, and the dashpots, of two bodies in series.
+    kn, ks, cn, cs = (
+        2 * value
         for value in (
             contact.normal,
-            contact.normal_damping,
             contact.tangential,
+            contact.normal_damping,
             contact.tangential_damping,
         )
     )
-    return (
-        "# Contacts of other masses than that of two such spheres have another restitution.\n"
-        f"# O.interactions[i, j].phys.kn of a contact must be half of kn, {kn}.\n"
-        "from math import atan\n"
+    common = (
         f"O.materials.append(ViscElMat(density={_short(contact.density)}, "
-        f"frictionAngle=atan({contact.friction:g}), kn={kn}, cn={cn}, ks={ks}, cs={cs}))\n"
+        f"frictionAngle=atan({contact.friction:g}), kn={_short(kn)}, ks={_short(ks)}, "
+    )
+    strong = 1 / (2 / WALL - 1)  # in series with that of a sphere
+    return (
+        f"# O.interactions[i, j].phys.kn of a contact must be half of kn, {_short(kn)}.\n"
+        "from math import atan\n"
+        f"sphere = {common}cn={_short(cn)}, cs={_short(cs)}))\n"
+        + "".join(f"# {words}\n" for words in _walls(found, "a material"))
+        + f"wall = {common}cn={_short(strong * cn)}, cs={_short(strong * cs)}))\n"
         "O.engines = [\n"
         "    ForceResetter(),\n"
-        "    InsertionSortCollider([Bo1_Sphere_Aabb()]),\n"
+        "    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),\n"
         "    InteractionLoop(\n"
-        "        [Ig2_Sphere_Sphere_ScGeom()],\n"
+        "        [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],\n"
         "        [Ip2_ViscElMat_ViscElMat_ViscElPhys()],\n"
         "        [Law2_ScGeom_ViscElPhys_Basic()],\n"
         "    ),\n"
@@ -340,4 +367,4 @@ def _yade(found: Fit, contact: _Contact) -> str:
 
 def _short(value: float) -> str:
     """A number with six digits."""
-    return f"{value:.6g}"
+    return f"{value + 0.0:.6g}"  # no -0

@@ -9,7 +9,6 @@ HEADERS = {
     "rms_dissipation": "root mean square error of the work of friction",
     "max_dissipation": "largest error of the work of friction",
     "time": "time of an impact in the batch",
-    "busy": "how many times too long, as the machine was busy",
     "batch": "impacts in the batch",
     "time_alone": "time of an impact alone",
     "times_compiled": "over the time of the compiled continuum",

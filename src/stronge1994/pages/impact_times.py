@@ -16,8 +16,7 @@ ANSWERS = {
         "viscous": "response of continuum.viscous",
         "plastic": "response of continuum.plastic",
     },
-    # All losses are the same at e = 1.
-    "spheres": {"": "spheres.viscous", "viscous": "spheres.viscous", "plastic": "spheres.plastic"},
+    "spheres": {"": "spheres", "viscous": "spheres.viscous", "plastic": "spheres.plastic"},
 }
 LAMMPS = "LAMMPS mindlin/force"
 
@@ -50,8 +49,6 @@ def ratios(rows: Sequence[Row]) -> list[Row]:
     slowest first. Of a model with several settings the coarsest is taken. The time is that in the
     largest batch that all of them have solved; alone it is the median of random incidences. The
     ratios are over the time of the compiled response, and of the table of spheres if `rows` has it.
-    A ratio is empty where one of its times was taken on a busy machine, and so is a time alone.
-    Then the column `busy [1]` says how many times too long the time in the batch is.
 
     >>> row = {"restitution [1]": "1.0", "loss": "", "max_velocity [mu v2(0)]": "0.2"}
     >>> row |= {"time_1 [s]": "1e-4"}
@@ -67,10 +64,9 @@ def ratios(rows: Sequence[Row]) -> list[Row]:
         if _restitution(row) in (1, below) and _is_shown(row):
             cases.setdefault((_restitution(row), row["loss"]), []).append(row)
     groups = [_coarsest(cases[case]) for case in sorted(cases, key=lambda case: -case[0])]
-    busy = any(_busy(row, _batch(group)) for group in groups for row in group)
     known = {row["model"] for group in groups for row in group}
     answers = {word: names for word, names in ANSWERS.items() if known & set(names.values())}
-    return [row for group in groups for row in _compared(group, answers, busy)]
+    return [row for group in groups for row in _compared(group, answers)]
 
 
 def _restitution(row: Row) -> float:
@@ -116,20 +112,14 @@ def _batch(rows: Sequence[Row]) -> int:
     return max(set.intersection(*solved))
 
 
-def _busy(row: Row, batch: int) -> str:
-    """How many times too long the time in the batch is, "" where the machine was quiet."""
-    return row.get(f"busy_{batch} [1]") or ""
-
-
-def _compared(rows: Sequence[Row], answers: dict[str, dict[str, str]], busy: bool) -> list[Row]:
+def _compared(rows: Sequence[Row], answers: dict[str, dict[str, str]]) -> list[Row]:
     """Lines of the table for one restitution and loss; `answers` as in `ANSWERS`."""
     batch = _batch(rows)
     times = {row["model"]: float(row[f"time_{batch} [s]"]) for row in rows}
-    quiet = {row["model"] for row in rows if not _busy(row, batch)}
     table = []
     for row in sorted(rows, key=lambda row: -times[row["model"]]):
         model, time = row["model"], times[row["model"]]
-        alone = "" if _busy(row, 1) else row.get("time_1 [s]", "")
+        alone = row.get("time_1 [s]", "")
         error = row.get("max_velocity [mu v2(0)]", "")
         entry = {
             "model": model,
@@ -142,8 +132,7 @@ def _compared(rows: Sequence[Row], answers: dict[str, dict[str, str]], busy: boo
             "time_alone [us]": f"{MICROSECONDS * float(alone):.3g}" if alone else "",
         }
         for word, names in answers.items():
-            base = names[row["loss"]]
-            known = {model, base} <= quiet
-            entry[f"times_{word} [1]"] = f"{time / times[base]:.2g}" if known else ""
-        table.append(entry | ({"busy [1]": _busy(row, batch)} if busy else {}))
+            base = times.get(names[row["loss"]])
+            entry[f"times_{word} [1]"] = f"{time / base:.2g}" if base else ""
+        table.append(entry)
     return table

@@ -1,5 +1,6 @@
 """Beyond the paper: two methods for one continuum, their errors and what they cost."""
 
+import time
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -9,7 +10,6 @@ from planarimpact.continuum import annuli
 from planarimpact.ground.arrays import Array
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
-from stronge1994.figures.shared.curves.watch import BUSY, Watch
 
 
 def curves(
@@ -25,9 +25,8 @@ def curves(
     """Both methods against the finest answer, and the continuum where it is tabulated.
 
     Errors are for the first stiffness ratio: root mean squares over incidences that stick at some
-    time. The observed order is that of the whole curve. `time` is that of an impact on this
-    machine, solved together with the others. Where the machine was busy, `busy_time` stands beside
-    it: wall time over CPU time, which is about how many times too long it is.
+    time. The observed order is that of the whole curve. `time` is how long the processor of this
+    machine works for an impact that is solved together with the others.
 
     >>> named = curves(3.5, [1.21], 5, 1e-4, [32, 64], [4, 8], {"steps": 64, "circles": 4})
     >>> list(named)[:2]
@@ -72,19 +71,16 @@ def _errors(
     method: Callable[[int], Array], column: str, numbers: Sequence[int], exact: Array
 ) -> Columns:
     """Error and time of a method at each number, and the order from the first to the last."""
-    errors, times, over_cpu = [], [], []
+    errors, times = [], []
     for number in numbers:
-        watch = Watch()
-        with watch:
-            velocity = method(number)
-        times.append(watch.wall[0] / exact.size)
-        over_cpu.append(watch.over_cpu())
+        start = time.process_time()
+        velocity = method(number)
+        times.append((time.process_time() - start) / exact.size)
         errors.append(np.sqrt(np.mean((velocity - exact) ** 2)))
     slope = -np.polyfit(np.log(numbers), np.log(errors), 1)[0]
-    columns = {
+    return {
         column: np.array(numbers),
         "error [mu v2(0)]": np.array(errors),
         "observed_order [1]": np.full(len(errors), slope),
         "time [s]": np.array(times),
     }
-    return columns | ({"busy_time [1]": np.array(over_cpu)} if max(over_cpu) > BUSY else {})

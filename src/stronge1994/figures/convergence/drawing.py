@@ -1,14 +1,12 @@
 """Beyond the paper: error of two methods for the continuum against resolution and time."""
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import house_style, tables
+from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Points, Settings
 
 ERROR, ORDER, TIME = "error [mu v2(0)]", "observed_order [1]", "time [ms]"
-BUSY = "busy_time [1]"
 # A colour for each method.
 SPRINGS, ANNULI = house_style.BLACK, house_style.GREEN
 CURVES = {
@@ -28,9 +26,7 @@ AXIS_MEANS = {
 def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
     """Times in milliseconds."""
     return {
-        name: curve | tables.times(curve, "time [s]", "busy_time [1]", TIME, 1e3)
-        if "time [s]" in curve
-        else curve
+        name: curve | ({TIME: 1e3 * curve["time [s]"]} if "time [s]" in curve else {})
         for name, curve in curves.items()
     }
 
@@ -46,18 +42,11 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         label = f"{name}: order {curve[ORDER][0]:.1f}"
         entries += by_number.loglog(curve[number], curve[ERROR], label=label, **style)
         by_time.loglog(curve[TIME], curve[ERROR], **style)
-        if BUSY in curve:
-            too_long = curve[TIME] - curve[TIME + tables.LESS]
-            bars = np.stack([too_long, 0 * too_long])
-            by_time.errorbar(curve[TIME], curve[ERROR], xerr=bars, **house_style.BUSY)
     by_number.set(xlabel="(a) steps or circles", ylabel=r"error of $v_1(t_f)/\mu v_2(0)$")
     by_time.set_xlabel("(b) time of an impact (ms)")
     fixed = settings["fixed"]
     kept = f"{fixed['circles']} circles where steps vary, {fixed['steps']} steps where circles do"
-    busy = max([1.0, *(max(curve[BUSY]) for curve in curves.values() if BUSY in curve)])
-    warning = f"\nthe machine was busy: times are up to {busy:.2g} times too long (grey bars)"
-    note = f"annuli: {kept}{warning if busy > 1 else ''}"
-    figure.suptitle(note, fontsize=house_style.NOTE)
+    figure.suptitle(f"annuli: {kept}", fontsize=house_style.NOTE)
     groups = entries[:2], entries[2:]
     titles = "method of dimensionality reduction", "concentric annuli"
     house_style.legend_below(figure, *groups, titles=titles)

@@ -11,7 +11,6 @@ from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound
 from planarimpact.models import Model
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.curves.watch import BUSY, Watch
 
 FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
 SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
@@ -20,9 +19,9 @@ LUMPED_RESPONSE_TOLERANCE = 1e-10
 SPREAD_TOLERANCE = 1e-3
 
 SEED = 1994
-# A median is over at most this many calls, begun within this many seconds. The time of an impact
-# depends on its incidence; a large batch holds many incidences, so fewer of its calls are enough.
-MOST_CALLS, SECONDS_OF_CALLS, SECONDS_OF_LARGE_BATCHES = 25, 0.1, 0.05
+# A time is the median of some rounds. Each goes on for at least so many seconds, and impacts, as
+# their time depends on incidence.
+ROUNDS, ROUND_SECONDS, ROUND_IMPACTS = 3, 0.01, 3
 # Up to about this many impacts together take as long as one, because of the overhead of arrays.
 LARGE_BATCH = 300
 
@@ -48,7 +47,7 @@ def curves(
     continuum is what the wrong loss costs. `seen` is the share of incidences where the error of the
     model is larger than the spread of the reference under uncertain inputs, see `input_spread`;
     `input_spread_stick` is over those incidences that stick at first. "response of ..." is compiled
-    once, in `build_time`, and then evaluated. Times and `busy_...` are as in `times`.
+    once, in `build_time`, and then evaluated. Times are as in `times`.
 
     >>> inelastic = {"tolerance": 1e-2, "tolerances": [1e-2]}
     >>> named = curves(3.5, 1.21, [0, 8], 9, [0.8], 1, [16], [4], [1], inelastic, [1], 1.0)
@@ -66,10 +65,9 @@ def curves(
         own = elastic if e == 1 else inelastic
         accuracy, wanted = float(own["tolerance"]), list(own["tolerances"])
         tried = {"steps": steps, "circles": circles, "tolerance": wanted}
-        timed = []
-        for contender in _contenders(groups, tried, incidence[1]):
-            seconds = times(_stopwatch(contender.rebound), incidence, batches, budget)
-            timed.append((contender, contender.rebound(x), contender.build_time | seconds))
+        solved = [(model, model.rebound(x)) for model in _contenders(groups, tried, incidence[1])]
+        watches = [_stopwatch(contender.rebound) for contender, _ in solved]
+        seconds_of = times(watches, incidence, batches, budget)
         for loss in continuum.LOSSES if e < 1 else ("",):
             exact = reference(x, groups, accuracy, loss)
             spread = input_spread(x, groups, loss)
@@ -79,7 +77,7 @@ def curves(
                 "input_spread [mu v2(0)]": root_mean_square(spread),
                 "input_spread_stick [mu v2(0)]": root_mean_square(spread[sticks]),
             }
-            for contender, rebound, seconds in timed:
+            for (contender, rebound), seconds in zip(solved, seconds_of, strict=True):
                 # What the wrong loss costs does not depend on the tolerance.
                 coarsest = contender.settings.get("tolerance", np.inf) >= max(wanted)
                 if _loss(contender.model) not in ("", loss) and not coarsest:
@@ -92,6 +90,7 @@ def curves(
                     **errors(rebound, exact),
                     "seen [1]": float(np.mean(np.abs(rebound.velocity - exact.velocity) > spread)),
                     **against,
+                    **contender.build_time,
                     **seconds,
                 }
                 named[_name(contender, e, loss)] = {k: np.array([v]) for k, v in row.items()}
@@ -116,24 +115,24 @@ def _contenders(
     """Every model that admits the restitution, with each setting that is tried, and responses."""
     elastic = groups["restitution"] == 1
     compiled = [("lumped", LUMPED_RESPONSE_TOLERANCE)] if elastic else []
+    names = set()
     for model in models.MODELS.values():
         if not models.admits(model, **groups):
             continue
         # For e = 1 a model with a loss is the same as the model without.
-        without_loss, _, loss = model.name.partition(".")
-        if elastic and loss and without_loss in models.MODELS:
+        stem = model.name.partition(".")[0]
+        name = stem if elastic and (stem in models.MODELS or _loss(model.name)) else model.name
+        if name in names:
             continue
+        names.add(name)
         for settings in _variants(model, tried):
-            yield _Contender(model.name, settings, _solver(model, groups, settings))
-            if model.name.startswith("continuum"):
-                compiled.append((model.name, settings["tolerance"]))
+            yield _Contender(name, settings, _solver(model, groups, settings))
+            if name.startswith("continuum"):
+                compiled.append((name, settings["tolerance"]))
     for name, tolerance in compiled:
-        watch = Watch()
-        with watch:
-            made = response.compile(
-                name, incidence_max=incidence_max, tolerance=tolerance, **groups
-            )
-        build_time = {"build_time [s]": watch.wall[0]} | _busy("build", watch.over_cpu())
+        start = time.process_time()
+        made = response.compile(name, incidence_max=incidence_max, tolerance=tolerance, **groups)
+        build_time = {"build_time [s]": time.process_time() - start}
         yield _Contender(f"response of {name}", {"tolerance": tolerance}, made, build_time)
 
 
@@ -219,52 +218,53 @@ def errors(rebound: Rebound, exact: Rebound) -> dict[str, float]:
 
 
 def times(
-    seconds: Callable[[Array], float],
+    watches: Sequence[Callable[[Array], float]],
     incidence: Sequence[float],
     batches: Sequence[int],
     budget: float,
-) -> dict[str, float]:
-    """Time of an impact in each batch, as far as the budget goes.
+) -> list[dict[str, float]]:
+    """Time of an impact in each batch, for each of some solvers, as far as the budget goes.
 
-    `seconds` solves incidences and returns how long that took; it has solved some before, since the
-    first call of all pays for what is kept. The incidences are random, the same ones in every run.
-    A batch is left out, and all larger ones, if it would take more seconds than the budget, as the
-    smaller one before it predicts. A column has the median time of the calls, over the batch. Where
-    the machine was busy, `busy_<batch>` follows: wall time over CPU time, which is about how many
-    times too long the time is.
+    Each of `watches` solves incidences and returns the seconds that the processor worked; it has
+    solved some before, since the first call of all pays for what is kept. The incidences are
+    random, the same ones in every round and run. A batch is left out, and all larger ones, if it
+    would take more seconds than the budget, as the smaller one before it predicts. `time_...` is
+    the median of the rounds. `scatter_...` is the difference of the largest and the smallest over
+    it: other programs slow the processor down for a while, as they use its caches. So that this
+    shows, a round is over all solvers before the next begins.
 
-    >>> times(lambda x: 0.001 * x.size, (0, 8), [1, 10, 10000], budget=0.1)
-    {'time_1 [s]': 0.001, 'time_10 [s]': 0.001}
+    >>> times([lambda x: 0.5 * x.size], (0, 8), [1, 2, 10000], budget=10.0)
+    [{'time_1 [s]': 0.5, 'scatter_1 [1]': 0.0, 'time_2 [s]': 0.5, 'scatter_2 [1]': 0.0}]
     """
-    random = np.random.default_rng(SEED)
-    low, high = incidence
-    columns: dict[str, float] = {}
-    before, alone = 1, 0.0
+    columns: list[dict[str, float]] = [{} for _ in watches]
+    before, alone = 1, np.zeros(len(watches))
     for batch in sorted(batches):
-        if alone * batch / max(before, LARGE_BATCH) > budget:
-            break
-        enough = SECONDS_OF_CALLS if batch < LARGE_BATCH else SECONDS_OF_LARGE_BATCHES
-        taken: list[float] = []
-        watch = Watch()
-        while len(taken) < MOST_CALLS and sum(taken) < enough:
-            x = random.uniform(low, high, batch)
-            with watch:
-                taken.append(seconds(x))
-        median, over = float(np.median(taken)), watch.over_cpu()
-        columns |= {f"time_{batch} [s]": median / batch} | _busy(f"{batch}", over)
-        before, alone = batch, median / max(over, 1.0)  # a busy machine leaves no batch out
+        within = np.flatnonzero(alone * batch / max(before, LARGE_BATCH) <= budget).tolist()
+        alone[:] = np.inf
+        rounds = [[_seconds(watches[i], incidence, batch) for i in within] for _ in range(ROUNDS)]
+        for i, taken in zip(within, np.transpose(rounds), strict=True):
+            alone[i] = median = np.median(taken)
+            columns[i] |= {
+                f"time_{batch} [s]": float(median / batch),
+                f"scatter_{batch} [1]": float(np.ptp(taken) / median),
+            }
+        before = batch
     return columns
 
 
-def _busy(name: str, over_cpu: float) -> dict[str, float]:
-    """A column that says how busy the machine was, if it was."""
-    return {f"busy_{name} [1]": over_cpu} if over_cpu > BUSY else {}
+def _seconds(watch: Callable[[Array], float], incidence: Sequence[float], batch: int) -> float:
+    """Seconds of a batch, the mean of one round."""
+    random = np.random.default_rng(SEED)
+    taken: list[float] = []
+    while sum(taken) < ROUND_SECONDS or len(taken) * batch < ROUND_IMPACTS:
+        taken.append(watch(random.uniform(incidence[0], incidence[1], batch)))
+    return float(np.mean(taken))
 
 
 def _stopwatch(rebound: _Solver) -> Callable[[Array], float]:
     def seconds(x: Array) -> float:
-        start = time.perf_counter()
+        start = time.process_time()
         rebound(x)
-        return time.perf_counter() - start
+        return time.process_time() - start
 
     return seconds

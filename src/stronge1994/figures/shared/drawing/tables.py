@@ -1,8 +1,6 @@
 """Tables whose numbers a picture may show, made of those of the run before anything is drawn."""
 
-import numpy as np
-
-from stronge1994.csv_tables import Columns, Curves
+from stronge1994.csv_tables import Curves
 from stronge1994.figures.shared.drawing.house_style import Points
 from stronge1994.figures.shared.drawing.words import BARS
 
@@ -20,9 +18,3 @@ def tables(curves: Curves, points: Points) -> Curves:
                 named[name] |= {column: values, column + LESS: values - sigma}
                 named[name][column + MORE] = values + sigma
     return named
-
-
-def times(columns: Columns, old: str, busy: str, new: str, factor: float) -> Columns:
-    """A time in another unit, and the time that the processor worked."""
-    time = factor * columns[old]
-    return {new: time, new + LESS: time / np.maximum(columns.get(busy, 1.0), 1)}
