@@ -324,10 +324,3 @@ def test_tables_are_written_and_keep_their_words(named, tmp_path):
     assert written[0]["restitution [1]"] == "1.0" and "rigid" in written[0]["name"]
     header = list(csv_tables.read_rows(answers)[0])
     assert all("[" in column for column in header if not column.startswith(("model", "loss")))
-
-
-def test_a_crash_of_the_solver_leaves_tables_that_say_so(tmp_path):
-    curves, table, answers = (tmp_path / f"{name}.csv" for name in ("curves", "table", "answers"))
-    csv_tables.write_rows(curves, ["error"], [["ArithmeticError: oh"]])
-    trade_table.write(curves, table, answers)
-    assert table.read_text() == answers.read_text() == "error\nArithmeticError: oh\n"

@@ -2,7 +2,6 @@
 
 import html
 import re
-import shutil
 
 import pytest
 
@@ -90,23 +89,6 @@ def test_the_pdf_has_the_same_words_on_four_pages(made, pictures, tmp_path, monk
     plain = [re.sub("<[^>]*>", "", part) for part in (article, " ".join(said))]
     letters = [re.sub(r"\s", "", html.unescape(part)) for part in plain]
     assert letters[0] == letters[1]
-
-
-def test_a_run_without_its_numbers_says_so_on_both(first_run, pictures, tmp_path):
-    crashed = tmp_path / "key_numbers.csv"
-    files = {
-        path.stem: str(path)
-        for folder in ("results", "results/curves", "results/series")
-        for path in (first_run[0] / folder).glob("*.csv")
-    }
-    broken = tmp_path / "fig5.csv"
-    csv_tables.write_rows(broken, ["error"], [["ArithmeticError: <oh>"]])
-    key_numbers.write(str(crashed), files | {"fig5": str(broken)})
-    output = tmp_path / "note.html"
-    shutil.copy(crashed, tmp_path / "copy.csv")
-    note.write(str(output), str(tmp_path / "note.pdf"), str(crashed), pictures, TEMPLATE)
-    assert "could not be written: ArithmeticError: &lt;oh&gt;" in output.read_text()
-    assert (tmp_path / "note.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_it_fits_a_phone(made):

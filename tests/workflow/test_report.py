@@ -166,8 +166,7 @@ def test_a_finding_is_told_only_where_the_tables_say_it(first_run):
     # A rubber sphere that is nearer to a continuum, or pairs that contradict one, are other news.
     for other in ({"rubber.continuum.viscous.distance": 0}, {"pairs.lumped.hysteretic.failed": 9}):
         assert untold(numbers=numbers | other) == {"restitution"}
-    crashed = {"rows": [{"error": "oh"}]}
-    assert untold(tables=dict.fromkeys(names, crashed)) == {"tolerance", "digits"}
+    assert untold(tables=dict.fromkeys(names, {"rows": []})) == {"tolerance", "digits"}
 
 
 def test_every_verdict_figure_and_source_is_there(first_run, page, text, provenance):
@@ -314,8 +313,7 @@ def doctored(*lapsed):
         )
         for name in figures
     }
-    crashed = {"rows": [{"error": "ArithmeticError: <oh>"}], "caption": "Words."}
-    tables = dict.fromkeys(write_report.SECTIONS, crashed)
+    tables = dict.fromkeys(write_report.SECTIONS, {"rows": [], "caption": "Words."})
     ledger = [dict.fromkeys(outcome.COLUMNS, "") | entry for entry in lapsed]
     return write_report.page(
         verdicts,
@@ -350,7 +348,6 @@ def test_a_diverging_run_looks_like_one():
     assert 'id="fig6-rebound" class="diverges"' in first and 'class="mark fails">diverges<' in first
     assert "rms 7, largest 9" in first
     assert "No curves: ArithmeticError: &lt;oh&gt;" in page
-    assert page.count("<td>ArithmeticError: &lt;oh&gt;</td>") == 1
 
 
 def test_a_run_with_a_lapsed_entry_looks_like_one():

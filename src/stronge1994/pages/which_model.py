@@ -12,10 +12,10 @@ MODEL = re.compile(r"model_(\d+)")
 def cases(rows: Sequence[Row]) -> list[dict[str, Any]]:
     """Rows of results/which_model.csv by restitution and loss.
 
-    There are none where the table is that of a crash. Numbers stay text. `spread` and
-    `spread_stick` are those of the answer under uncertain inputs; `batches` are how many impacts
-    are solved together. Each of `rows` has an answer for each batch, and the `largest` and the
-    `least` of the tolerances that follow each other and have these answers.
+    Numbers stay text. `spread` and `spread_stick` are those of the answer under uncertain inputs;
+    `batches` are how many impacts are solved together. Each of `rows` has an answer for each batch,
+    and the `largest` and the `least` of the tolerances that follow each other and have these
+    answers.
 
     >>> row = {"restitution [1]": "1.0", "loss": "", "tolerance [mu v2(0)]": "0.3"}
     >>> row |= dict.fromkeys(["other_loss [mu v2(0)]", "input_spread [mu v2(0)]"], "")
@@ -27,8 +27,6 @@ def cases(rows: Sequence[Row]) -> list[dict[str, Any]]:
     """
     by_contact: dict[tuple[str, str], dict[str, Any]] = {}
     for row in rows:
-        if "error" in row:
-            return []
         batches = [match[1] for match in map(MODEL.fullmatch, row) if match]
         case = by_contact.setdefault(
             (row["restitution [1]"], row["loss"]),

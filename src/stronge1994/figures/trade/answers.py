@@ -120,12 +120,8 @@ def _simplicity(row: Row) -> int:
 
 
 def write(curves: str, table: str, cheapest: str) -> None:
-    """Read the `curves` of the figure and write both tables; after a crash both hold its error."""
+    """Read the `curves` of the figure and write both tables."""
     rows = csv_tables.read_rows(curves)
-    if "error" in rows[0]:
-        for path in (table, cheapest):
-            csv_tables.write_rows(path, ["error"], [[rows[0]["error"]]])
-        return
     every = [{"name": row.pop("curve"), **row} for row in ordered([dict(row) for row in rows])]
     for path, rows_of_table in ((table, every), (cheapest, which_model(rows))):
         csv_tables.write_rows(
