@@ -179,6 +179,8 @@ if workflow.is_main_process:
 
 onsuccess:
     print(last_words.text(workflow.config_settings.config_args or (), logs=log))
+    if record.all_errors():  # no gate was asked for
+        raise WorkflowError("a job has failed")
 
 
 onerror:

@@ -53,7 +53,7 @@ REPRODUCTION = {
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
     "judging": "ground figures csv_tables curve_names goodness reference_data verdict_table",
-    "run": "csv_tables verdict_table ledger",
+    "run": "csv_tables verdict_table ledger matplotlib",
     "plan": "reference_data",
     "pages": "ground bodies export csv_tables figures goodness judging ledger plan run"
     " verdict_table jinja2",

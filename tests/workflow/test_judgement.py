@@ -102,7 +102,7 @@ def test_the_report_must_show_every_row_and_have_no_problems(tmp_path, monkeypat
     csv_tables.write_rows(gate.PROBLEMS, ["problem"], [["fig5: oh"]])
     Path(gate.REPORT).write_text("<html></html>")
     found = gate.faults([], {"a-b": False}, {})
-    assert found == ["report: fig5: oh", "figures/report.html: it does not show a-b"]
+    assert found == ["figures/report.html: it does not show a-b", "report: fig5: oh"]
 
 
 def good_rows(expected):
@@ -185,6 +185,7 @@ def report(first_run, expected, tmp_path, monkeypatch):
             dict.fromkeys(names, "A caption."),
             config,
             expected,
+            [],
             sources={},
             run={
                 "versions": ({}, dict),

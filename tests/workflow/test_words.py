@@ -31,7 +31,7 @@ def test_the_last_words_on_a_locked_folder_are_what_helps(monkeypatch):
     handler = logging.Handler()
     handler.emit = lambda record: said.append(record.getMessage())
     monkeypatch.setattr(logger, "handlers", [handler])
-    monkeypatch.setattr(logger, "filters", [last_words.add_unlock])
+    monkeypatch.setattr(logger, "filters", [last_words.Help(["all", "fig2"])])
     for error in (LockException(), WorkflowError("oh")):
         print_exception(error)
     assert "cannot be locked" in said[0] and said[0].splitlines()[-1] == last_words.UNLOCK
@@ -91,15 +91,17 @@ def test_a_run_of_some_files_names_the_verdicts_that_it_made(folder):
     jobs = ["Job 3: Comparing fig5 with references", "Job 4: Comparing fig6 with references"]
     (folder / "snakemake.log").write_text("\n".join(jobs))
     (folder / "results/verdicts").mkdir()
-    (folder / "results/verdicts/fig6.csv").touch()  # the other job failed
-    assert "\nVerdicts: results/verdicts/fig6.csv\n" in last_words.text(logs=["snakemake.log"])
+    (folder / "results/verdicts/fig6.csv").touch()  # the other job was stopped
+    said = last_words.text(logs=["snakemake.log"])
+    judge = "snakemake --cores 2 fig6"
+    assert f"\nresults/verdicts/fig6.csv: 0 diverge. To judge it:  {judge}\n" in said
 
 
 @pytest.mark.parametrize(
     ("said", "words"),
     [
         ("Error in rule draw:\n  x\nError in rule draw:\nError in rule scene:", "draw, scene."),
-        (f"{last_words.ON_REQUEST}, this might\nError in rule draw:", "Nothing needs mending"),
+        (f"{last_words.ON_REQUEST[0]}, this might\nError in rule draw:", "Nothing needs mending"),
     ],
 )
 def test_a_stopped_run_says_why_and_no_older_table(folder, said, words):

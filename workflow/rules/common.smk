@@ -95,5 +95,15 @@ def slides_of(figures):
     return expand("figures/slides/{slide}_{ground}.png", slide=own, ground=["light", "dark"])
 
 
+def files_of_one(name):
+    """Files of the jobs that make, draw and judge one figure or scene."""
+    makers = [rules.judge, *([rules.curves, rules.draw] if name in FIGURES else [rules.scene])]
+    made = [path for maker in makers for path in maker.output]
+    made += rules.slide.output if name in SLIDES else []
+    chosen = dict.fromkeys(["figure", "slide", "judged"], name) | {"scene": name.removeprefix(configuration.SCENE)}
+    sources = JUDGED[name]["settings"]["sources"]
+    return expand(made, **chosen) + expand(rules.series.output, source=sources)
+
+
 # Files that every page includes, beside its own template.
 EVERY_PAGE = ["workflow/report/theme.css", "workflow/report/site.html"]

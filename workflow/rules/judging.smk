@@ -1,13 +1,3 @@
-def files_of_one(name):
-    """Files of the jobs that make, draw and judge one figure or scene."""
-    makers = [rules.judge, *([rules.curves, rules.draw] if name in FIGURES else [rules.scene])]
-    made = [path for maker in makers for path in maker.output]
-    made += rules.slide.output if name in SLIDES else []
-    chosen = dict.fromkeys(["figure", "slide", "judged"], name) | {"scene": name.removeprefix(configuration.SCENE)}
-    sources = JUDGED[name]["settings"]["sources"]
-    return expand(made, **chosen) + expand(rules.series.output, source=sources)
-
-
 rule judge:
     """Compare a figure's curves or a scene with reference data; always succeeds.
 

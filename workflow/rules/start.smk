@@ -31,7 +31,7 @@ from stronge1994 import plan, reference_data
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures, files
 from stronge1994.plan.config import ConfigError
-from stronge1994.run import last_words
+from stronge1994.run import last_words, record
 
 
 try:

@@ -10,6 +10,7 @@ from pathlib import Path
 from stronge1994 import csv_tables, verdict_table
 from stronge1994.csv_tables import Row
 from stronge1994.ledger import outcome
+from stronge1994.run import record
 from stronge1994.run.gate import REPORT, TABLES
 from stronge1994.run.plans import ALONE, GATE_LOG
 from stronge1994.run.record import PASSED
@@ -73,7 +74,8 @@ def text(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str] 
         stopped = stopped and not any(faults for _, faults in alone)
     else:
         parts = ["No verdict in this run as a whole. Pictures: figures/"]
-        parts += [_of_table(name, config) for name in JUDGED.findall(log_text)]
+        parts += [part for name in JUDGED.findall(log_text) for part in _of_table(name, config)]
+        parts += record.all_errors()
     return "\n" + "\n".join(parts + (_stopped(log_text) if stopped else [])) + "\n"
 
 
@@ -118,12 +120,13 @@ def _of_one(name: str, faults: Sequence[str], again: str) -> list[str]:
     return [*parts, f"{name}: no comparison diverges. The verdict of all: snakemake --cores 2"]
 
 
-def _of_table(name: str, config: Sequence[str]) -> str:
+def _of_table(name: str, config: Sequence[str]) -> Iterator[str]:
     """A table of verdicts that was made without a gate."""
     table = f"results/verdicts/{name}.csv"
-    number = len(verdict_table.failing(_rows(table, verdict_table.COLUMNS)))
-    judge = shlex.join(["snakemake", "--cores", "2", name, *_option(config)])
-    return f"{table}: {number} diverge. To judge it:  {judge}"
+    if Path(table).exists():  # else its job was stopped
+        number = len(verdict_table.failing(_rows(table, verdict_table.COLUMNS)))
+        judge = shlex.join(["snakemake", "--cores", "2", name, *_option(config)])
+        yield f"{table}: {number} diverge. To judge it:  {judge}"
 
 
 def _failed(faults: Sequence[str]) -> str:

@@ -57,12 +57,13 @@ def _remove_bytecode() -> None:
 
 
 def start(arguments: Iterable[str]) -> None:
-    """Begin a run: withdraw an earlier verdict, unless the command line only asks."""
+    """Begin a run: withdraw an earlier verdict, and what failed, unless the command only asks."""
     options = [option.partition("=")[0] for option in arguments]
     asks = any(option in ONLY_ASKS or DRY.fullmatch(option) for option in options)
     # The one option that begins like a question and lets jobs run.
     if not asks or any(option.startswith("--report-") for option in options):
         withdraw()
+        record.remove_failed()
 
 
 def withdraw() -> None:

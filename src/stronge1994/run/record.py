@@ -3,6 +3,7 @@
 import contextlib
 import hashlib
 import json
+import shutil
 import sys
 import time
 import traceback
@@ -103,7 +104,8 @@ def _failed(error: Exception, job: str, outputs: Iterable[str]) -> dict[str, str
 
     traceback.print_exc()
     inherited = isinstance(error, csv_tables.Failed)
-    why = f"{error}" if inherited else f"{job}: {type(error).__name__}: {error}"
+    words = " ".join(f"{error}".split())  # a fault is one line
+    why = words if inherited else f"{job}: {type(error).__name__}: {words}"
     for path in outputs:
         if not Path(path).exists():
             failures.write(path, why)
@@ -134,12 +136,38 @@ def read(path: str) -> dict[str, Any] | None:
 
 def errors(made: Iterable[str]) -> list[str]:
     """Errors of the jobs whose records are among the files `made`, each told once."""
-    records = [(path, read(path)) for path in made if path.startswith(f"{FOLDER}/")]
     return [
         f"failed: {record['error']} (log: results/logs/{Path(path).stem}.log)"
-        for path, record in records
-        if record and "error" in record
+        for path, record in _failed_jobs(made)
+        if "error" in record
     ]
+
+
+def all_errors() -> list[str]:
+    """Errors of all jobs of this run."""
+    return errors(_every())
+
+
+def remove_failed() -> None:
+    """Remove what jobs that failed have left, so that this run does them again."""
+    for path, record in _failed_jobs(_every()):
+        for made in [*record["wrote"], path]:
+            if Path(made).is_dir():
+                shutil.rmtree(made)
+            else:
+                Path(made).unlink(missing_ok=True)
+
+
+def _every() -> list[str]:
+    return sorted(str(path) for path in Path(FOLDER).glob("*.json"))
+
+
+def _failed_jobs(made: Iterable[str]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Records of jobs that failed, themselves or by a table that they read."""
+    for path in made:
+        record = read(path) if path.startswith(f"{FOLDER}/") else None
+        if record and {"error", "inherited"} & set(record):
+            yield path, record
 
 
 def faults(made: Iterable[str]) -> list[str]:
