@@ -1,10 +1,11 @@
 """Run every entry of the ledger against the paper's model; always succeeds."""
 
-from stronge1994 import csv_tables
-from stronge1994.ledger import checking, entries, in_nature, outcome
 from stronge1994.run import record
 
 with record.recorded(snakemake) as schema:
+    from stronge1994 import csv_tables
+    from stronge1994.ledger import checking, entries, in_nature, outcome
+
     every = entries.load(snakemake.input.entries, schema)
     measured = checking.measure(every)
     rows = checking.check(every, measured)

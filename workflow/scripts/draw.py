@@ -1,9 +1,10 @@
 """Draw one figure from its curves."""
 
-from stronge1994.figures.shared import drawing as drawings
 from stronge1994.run import record
 
 with record.recorded(snakemake) as plan:
+    from stronge1994.figures.shared import drawing as drawings
+
     drawings.draw(
         snakemake.wildcards.figure,
         plan["settings"],

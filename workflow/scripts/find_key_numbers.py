@@ -2,9 +2,10 @@
 
 from pathlib import Path
 
-from stronge1994.pages import key_numbers
 from stronge1994.run import record
 
 with record.recorded(snakemake):
+    from stronge1994.pages import key_numbers
+
     files = {Path(path).stem: path for path in snakemake.input.tables}
     key_numbers.write(snakemake.output.table, files)

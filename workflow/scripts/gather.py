@@ -2,11 +2,12 @@
 
 import contextlib
 
-from stronge1994 import csv_tables, verdict_table
 from stronge1994.run import record
-from stronge1994.verdict_table import SENSITIVITY
 
 with record.recorded(snakemake):
+    from stronge1994 import csv_tables, verdict_table
+    from stronge1994.verdict_table import SENSITIVITY
+
     rows = verdict_table.gather(snakemake.input.verdicts)
     csv_tables.write_table(snakemake.output.verdicts, rows, verdict_table.COLUMNS)
     caught = []

@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-from stronge1994.pages import interface
 from stronge1994.run import record
 
 with record.recorded(snakemake):
+    from stronge1994.pages import interface
+
     interface.write(snakemake.output.pages, Path(snakemake.input.parts[0]).parent)

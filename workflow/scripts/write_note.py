@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-from stronge1994.pages import note
 from stronge1994.run import record
 
 with record.recorded(snakemake):
+    from stronge1994.pages import note
+
     files = snakemake.input
     note.write(
         snakemake.output.page,

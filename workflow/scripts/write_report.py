@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-from stronge1994.pages import report, run_facts
 from stronge1994.run import record
 
 with record.recorded(snakemake) as settings:
+    from stronge1994.pages import report, run_facts
+
     files = snakemake.input
     report.copy_tables(snakemake.output.tables, files.linked)
     report.write(

@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-from stronge1994.pages import templates
 from stronge1994.run import record
 
 with record.recorded(snakemake):
+    from stronge1994.pages import templates
+
     template = Path(snakemake.input.template)
     page = templates.environment(template.parent).get_template(template.name)
     Path(snakemake.output.page).write_text(page.render(), encoding="utf-8")

@@ -108,7 +108,7 @@ def _of_all(faults: Sequence[str], again: str) -> list[str]:
     if not faults:
         return [*parts, f"PASSED. {where}; pictures: figures/", *NEXT]
     why = f"{where}. Why, row by row: {REPORT}, open it in a browser"
-    return [*parts, why, f"{WITHOUT}{again}", _failed(faults)]
+    return [*parts, why, f"{WITHOUT}{again}", _failed(faults, GATE_LOG)]
 
 
 def _of_one(name: str, faults: Sequence[str], again: str) -> list[str]:
@@ -116,7 +116,8 @@ def _of_one(name: str, faults: Sequence[str], again: str) -> list[str]:
     table = f"results/verdicts/{name}.csv"
     parts = [verdict_table.text(_rows(table, verdict_table.COLUMNS)), f"All columns: {table}"]
     if faults:
-        return [*parts, f"{WITHOUT}{again}", f"{name}: {_failed(faults)}"]
+        why = _failed(faults, ALONE.format(name))
+        return [*parts, f"{WITHOUT}{again}", f"{name}: {why}"]
     return [*parts, f"{name}: no comparison diverges. The verdict of all: snakemake --cores 2"]
 
 
@@ -129,11 +130,11 @@ def _of_table(name: str, config: Sequence[str]) -> Iterator[str]:
         yield f"{table}: {number} diverge. To judge it:  {judge}"
 
 
-def _failed(faults: Sequence[str]) -> str:
-    """Heading of a failed run, and its first faults."""
+def _failed(faults: Sequence[str], log: str) -> str:
+    """Heading of a failed run, and its first faults; `log` has all of them."""
     lines = [f"  {fault}" for fault in faults[:MOST_FAULTS]]
     if len(faults) > MOST_FAULTS:
-        lines.append(f"  and {len(faults) - MOST_FAULTS} more: {GATE_LOG}")
+        lines.append(f"  and {len(faults) - MOST_FAULTS} more: {log}")
     return "\n".join([f"FAILED. Reasons: {len(faults)}", *lines])
 
 

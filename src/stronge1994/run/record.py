@@ -62,9 +62,9 @@ def recorded(snakemake: Any) -> Iterator[Any]:
     """Do a job of Snakemake by its plan, log it, and record what it read and wrote.
 
     Yields the settings of the plan. `snakemake.input.plan` and `snakemake.output.record` are files.
-    If the job raises an error, the record holds it, and each file that it has not written says it
-    too: the rest of the run goes on, and the gate fails. An error of the machine, such as a full
-    disk, stops the job.
+    If the job raises an error, within its imports too, the record holds it, and each file that it
+    has not written says it: the rest of the run goes on, and the gate fails. An error of the
+    machine, such as a full disk, stops the job.
 
     It is an error if an input or a source was edited since the run began, because then the record
     is wrong, or if the job imports a module that its plan does not name.
