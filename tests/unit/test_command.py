@@ -5,6 +5,7 @@ import gzip
 import io
 import json
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -695,7 +696,7 @@ def test_gzip_in_and_out(table, capsys):
 
 
 def test_a_reader_of_the_table_that_has_had_enough_is_no_error(table):
-    command = f"{sys.executable} -m planarimpact scene {table} - | :"
+    command = f"{shlex.quote(sys.executable)} -m planarimpact scene {table} - | :"
     result = subprocess.run(
         ["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True
     )
@@ -777,7 +778,8 @@ def test_a_result_in_json(table):
 
 
 def test_a_reader_that_has_had_enough_is_no_error():
-    command = f"{sys.executable} -m planarimpact history --incidence 1 --samples 20000 | head -1"
+    python = shlex.quote(sys.executable)
+    command = f"{python} -m planarimpact history --incidence 1 --samples 20000 | head -1"
     result = subprocess.run(
         ["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True
     )

@@ -245,9 +245,10 @@ def test_the_kernel_is_this_python_whatever_is_registered(tmp_path, monkeypatch)
     (startup / "mine.py").write_text("profile = True")
     monkeypatch.setenv("IPYTHONDIR", str(tmp_path / "ipython"))
     source = (
-        "import sys, planarimpact\nprint(sys.executable, planarimpact.__file__, 'profile' in dir())"
+        "import sys, planarimpact\n"
+        "print(sys.executable, planarimpact.__file__, 'profile' in dir(), sep='\\n')"
     )
     results = {kind: tmp_path / kind for kind in KINDS}
     run_notebook.run(written(tmp_path / "where.ipynb", source), TEMPLATES, results)
-    said = nbformat.read(results["executed"], as_version=4).cells[0].outputs[0].text.split()
+    said = nbformat.read(results["executed"], as_version=4).cells[0].outputs[0].text.splitlines()
     assert said == [sys.executable, str(ROOT / "src/planarimpact/__init__.py"), "False"]

@@ -2,6 +2,7 @@
 
 import os
 import re
+import shlex
 import subprocess
 import sys
 
@@ -32,7 +33,9 @@ def typed(fresh, tmp_path_factory):
     for name, command in (("bin/python", "python"), (".venv/bin/snakemake", "python -m snakemake")):
         program = (fresh / name) if name.startswith(".") else home / name
         program.parent.mkdir(parents=True)
-        program.write_text(f'#!/bin/sh\nexec {command.replace("python", sys.executable)} "$@"\n')
+        program.write_text(
+            f'#!/bin/sh\nexec {command.replace("python", shlex.quote(sys.executable))} "$@"\n'
+        )
         program.chmod(0o755)
     folder, printed, pairs = home / "marble", "", []
     environment = os.environ | {"HOME": str(home), "PATH": f"{home}/bin:{os.environ['PATH']}"}
