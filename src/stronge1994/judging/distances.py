@@ -145,8 +145,7 @@ def vertex_residuals(
     sigma_x, sigma_y = (np.broadcast_to(np.asarray(axis, float), x.shape) for axis in sigma)
     for i, label in enumerate(points[2]):
         if label not in of_label:
-            known = ", ".join(f"'{own}'" for own in of_label)
-            raise ValueError(f"the reference has a vertex '{label}', the curves have {known}")
+            raise ValueError(f"the reference has a vertex '{label}', the curves do not")
         dx, dy = x[i] - vertex_x[of_label[label]], y[i] - vertex_y[of_label[label]]
         distance = np.hypot(dx / sigma_x[i], dy / sigma_y[i])
         above[i] = dy[distance.argmin()]

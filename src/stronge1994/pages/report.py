@@ -285,8 +285,8 @@ def write(
     figures = {name: section_values for name, section_values in figures.items() if section_values}
     tables = {name: salvage(name, {"rows": [], "caption": ""}, table, name) for name in SECTIONS}
     peers = salvage("peers", [], read, paths["peers"], ("model",)) if "peers" in paths else []
-    key_rows = salvage("key numbers", [], read, paths["key_numbers"])
-    numbers = key_numbers.by_name(key_rows)
+    path = paths["key_numbers"]
+    numbers = salvage("key numbers", {}, lambda: key_numbers.by_name(read(path)))
     run = parts.pop("run")
     run = {name: salvage(name, missing, function) for name, (missing, function) in run.items()}
     template = Path(parts["template"]).with_name("sources.html")

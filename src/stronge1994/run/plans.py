@@ -63,7 +63,9 @@ def start(arguments: Iterable[str]) -> None:
     # The one option that begins like a question and lets jobs run.
     if not asks or any(option.startswith("--report-") for option in options):
         withdraw()
-        record.remove_failed()
+        # Else another run is at work in this folder, and Snakemake will refuse this one.
+        if not any(Path(".snakemake/locks").glob("*")):
+            record.remove_failed()
 
 
 def withdraw() -> None:
