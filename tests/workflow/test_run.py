@@ -264,6 +264,14 @@ def test_one_figure_can_be_judged_alone(finished):
     assert not (finished / "results/PASSED").exists()
 
 
+def test_a_page_that_the_report_leaves_out_fails_each_run_that_makes_it(finished):
+    with open(finished / "src/stronge1994/pages/sources_page.py", "a") as file:
+        file.write("\n\ndef page(*given):\n    raise ArithmeticError('oh')\n")
+    for _ in range(2):
+        words = finished.refuses_to_pass("figures/report.html")
+        assert "failed: report: RuntimeError: sources of data: ArithmeticError: oh" in words
+
+
 def test_a_changed_setting_is_told_beside_that_of_the_reference(finished):
     words = finished.refuses_to_pass("fig3", "--config", "figures={fig3: {restitution: [1, 0.9]}}")
     assert "the reference has e = 1, 0.5; the figure has 1, 0.9" in words

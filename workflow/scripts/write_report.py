@@ -1,10 +1,11 @@
-"""Write the run as one page; always succeeds."""
+"""Write the run as one page. What could not be shown is an error of the job, behind all else."""
 
 from pathlib import Path
 
 from stronge1994.run import record
 
 with record.recorded(snakemake) as settings:
+    from stronge1994 import csv_tables
     from stronge1994.pages import report, run_facts
 
     files = snakemake.input
@@ -25,3 +26,5 @@ with record.recorded(snakemake) as settings:
         links=settings["links"],
         template=files.template,
     )
+    if problems := [row["problem"] for row in csv_tables.read_rows(snakemake.output.problems)]:
+        raise RuntimeError("; ".join(problems))
