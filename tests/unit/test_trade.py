@@ -34,7 +34,9 @@ SETTINGS = {
 @pytest.fixture(scope="module")
 def named():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(trade, "ROUND_SECONDS", 1e-3)  # no number of these times is looked at
+        # No number of these times is looked at.
+        patch.setattr(trade, "ROUND_SECONDS", 1e-3)
+        patch.setattr(trade, "ROUNDS", 1)
         return trade.curves(**SETTINGS)
 
 

@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from stronge1994 import plan
+from stronge1994 import plan, reference_data
 from stronge1994.explorer import answers as explorer_answers
 from stronge1994.explorer import page as write_explorer
 from stronge1994.plan import config as configuration
@@ -59,6 +59,13 @@ def first_run(tmp_path_factory):
 def finished(first_run, tmp_path):
     """A copy of the project after a full run, free to change."""
     return copy_of(first_run[0].folder, tmp_path, PARTS + LEFT)
+
+
+@pytest.fixture(scope="session")
+def inventory():
+    """All sources of data/. Do not change them."""
+    schema = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
+    return reference_data.load_all(ROOT / "data", schema)
 
 
 @pytest.fixture(scope="session")

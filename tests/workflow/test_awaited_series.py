@@ -50,11 +50,6 @@ def export(x, y, name=None):
 
 
 @pytest.fixture(scope="module")
-def inventory():
-    return reference_data.load_all(ROOT / "data", SCHEMA)
-
-
-@pytest.fixture(scope="module")
 def curves(inventory, tmp_path_factory):
     """Tables of Figs 5 and 8 as the config has them, the continuum left coarse."""
     folder, coarse = (

@@ -8,14 +8,13 @@ import numpy as np
 import pytest
 
 from planarimpact import lumped, noncollinear
-from stronge1994 import csv_tables, plan, reference_data
+from stronge1994 import csv_tables, plan
 from stronge1994.figures.shared.curves import solving
 from stronge1994.judging import compare, sensitivity
 from stronge1994.plan import config as configuration
 from stronge1994.reference_data import conversion
 
 ROOT = Path(__file__).parents[2]
-SCHEMAS = ROOT / "workflow/schemas"
 
 # Tables of 40 digits that must see the smallest fault.
 SEE_THE_SMALL = ("fig3-events", "fig6-rebound", "fig9-dissipation")
@@ -55,12 +54,6 @@ SHORT_TABLE = 100  # rows; so few are all solved
 @pytest.fixture(scope="module")
 def config():
     return configuration.load(ROOT)
-
-
-@pytest.fixture(scope="module")
-def inventory():
-    schema = reference_data.load_yaml(SCHEMAS / "source.schema.yaml")
-    return reference_data.load_all(ROOT / "data", schema)
 
 
 @pytest.fixture(scope="module")

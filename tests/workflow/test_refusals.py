@@ -26,11 +26,6 @@ def ledger():
     return entries.load(ROOT / "data/stronge1994/ledger.yaml", schema)
 
 
-@pytest.fixture(scope="module")
-def inventory():
-    return reference_data.load_all(ROOT / "data", SOURCE_SCHEMA)
-
-
 @pytest.fixture
 def check(inventory, ledger, monkeypatch):
     """Check a config as a start of Snakemake does, with other data if need be."""

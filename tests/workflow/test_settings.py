@@ -140,12 +140,6 @@ OF_ALL = [
 
 
 @pytest.fixture(scope="module")
-def inventory():
-    schema = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
-    return reference_data.load_all(ROOT / "data", schema)
-
-
-@pytest.fixture(scope="module")
 def series(inventory, tmp_path_factory):
     """Series of a source, converted when it is first asked for."""
     folder, made = tmp_path_factory.mktemp("series"), {}

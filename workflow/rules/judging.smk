@@ -1,5 +1,5 @@
 rule judge:
-    """Compare a figure's curves or a scene with reference data; always succeeds.
+    """Compare a figure's curves or a scene with reference data.
 
     Also the smallest change of the physics that each comparison of a figure catches.
     """

@@ -1,5 +1,5 @@
 rule ledger:
-    """Run every entry of the paper's ledger against the paper's model, solved to rounding; always succeeds."""
+    """Run every entry of the paper's ledger against the paper's model, solved to rounding."""
     input:
         plan=planned("ledger", "check_ledger", "ledger", "printed", "reference_data", "judging",
             settings=lambda _: LEDGER_SCHEMA),

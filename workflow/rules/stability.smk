@@ -1,5 +1,5 @@
 rule stability_table:
-    """Digits of the lumped model by decades of each parameter; always succeeds."""
+    """Digits of the lumped model by decades of each parameter."""
     input:
         plan=planned("stability", "write_stability", "pages"),
         curves="results/curves/stability.csv",

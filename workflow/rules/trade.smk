@@ -1,5 +1,5 @@
 rule trade_tables:
-    """Error and time of every model as tables; always succeeds."""
+    """Error and time of every model as tables."""
     input:
         plan=planned("trade", "write_trade", "figures/trade/answers.py"),
         curves="results/curves/trade.csv",

@@ -1,4 +1,4 @@
-"""Run every entry of the ledger against the paper's model; always succeeds."""
+"""Run every entry of the ledger against the paper's model."""
 
 from stronge1994.run import record
 

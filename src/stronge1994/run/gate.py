@@ -28,15 +28,18 @@ def faults(
     messages = record.faults(made)
     if messages:  # rows of a changed table prove nothing
         return messages
-    # After a failed job the report lacks what the job should have made.
-    messages = record.errors(made) or faults_of_report(REPORT, comparisons)
+    # After a failed job the report lacks what the job should have made. Its own problems are errors
+    # of its job.
+    messages = record.errors(made) or [
+        *faults_of_report(REPORT, comparisons),
+        *(f"report: {row['problem']}" for row in _rows(PROBLEMS)[0]),
+    ]
     (verdicts, comparisons), (ledger, entries) = map(_rows, TABLES, (comparisons, entries))
-    messages += faults_of_tables(verdicts, ledger, comparisons, entries)
-    return messages + [f"report: {row['problem']}" for row in _rows(PROBLEMS)[0]]
+    return messages + faults_of_tables(verdicts, ledger, comparisons, entries)
 
 
 def _rows(path: str, expected: Mapping[str, bool] = {}) -> tuple[list[Row], Mapping[str, bool]]:
-    """Rows of a table and those that it must have; neither if its job failed, which is a fault."""
+    """Rows of a table and those that it must have; none if its job failed: `record.errors`."""
     try:
         return csv_tables.read_rows(path), expected
     except csv_tables.Failed:
