@@ -28,11 +28,13 @@ from planarimpact.collision.mechanics import effective_radius as effective_radiu
 from planarimpact.collision.mechanics import energy_lost as energy_lost
 from planarimpact.collision.mechanics import impacts as impacts
 from planarimpact.collision.mechanics import problems as problems
+from planarimpact.collision.mechanics import problems_of_normals as problems_of_normals
 from planarimpact.collision.pairs import LAWS as LAWS
 from planarimpact.collision.pairs import LOSSES as LOSSES
 from planarimpact.collision.pairs import Pair as Pair
 from planarimpact.collision.presets import Preset as Preset
 from planarimpact.collision.presets import presets as presets
+from planarimpact.collision.rungs import TOLERANCE as TOLERANCE
 from planarimpact.collision.rungs import Answers as Answers
 from planarimpact.collision.rungs import answers as answers
 from planarimpact.collision.rungs import model_forms as model_forms
@@ -42,8 +44,6 @@ from planarimpact.ground.checks import InputError, Unsolved
 from planarimpact.ground.results import Regime
 
 __all__ = ["Collision", "Pair", "Preset", "collide", "presets"]
-# Error that the whole table of spheres meets, mu v2(0): a little above its bounds.
-TOLERANCE = 5e-3
 
 
 @dataclass(eq=False)
@@ -59,13 +59,13 @@ class Collision:
     impulse : ndarray, shape (..., 3)
         On the body [N s]; the other one has the opposite impulse. 0 where bodies do not approach.
     incidence : ndarray, shape (...)
-        v1(0)/(mu v2(0)): 0 where v1(0) = 0, else infinite without friction. NaN, like the next
-        two, without an impact.
+        v1(0)/(mu v2(0)): 0 where v1(0) = 0, else infinite without friction, and at least 1e-100.
+        NaN, like the next two, without an impact.
     restitution : ndarray, shape (...)
         e, at the speed of the impact.
     error_bound : ndarray, shape (...)
         Largest error of the tangential velocity of the contact point after the impact, against the
-        continuum [m/s]. It is measured by searches, not proved.
+        continuum [m/s]; less than v1(0). It is measured by searches, not proved.
     regime : ndarray of int, shape (...), or Regime
         Codes of `Regime`: the order of stick and slip, NO_IMPACT where bodies do not approach.
     plastic : ndarray of bool, shape (...)
@@ -130,7 +130,8 @@ def collide(
         Before the impact [rad/s], right-handed.
     tolerance : float
         Largest error of the velocity of the contact point, in mu v2(0), against the continuum;
-        1e-10 to 1. The default is that of the table of spheres: about a microsecond an impact.
+        1e-10 to 1. In v1(0) it is at most the default. The default is that of the table of spheres:
+        about a microsecond an impact.
         Impacts for which the table is too coarse, or which it does not cover (e below 0.3, zeta^2
         above 1.6), take up to some milliseconds each.
 
@@ -198,7 +199,10 @@ def _collide_arrays(
         given = impacts(pair, vectors[0], body, before, other, other_before)
     except bodies.OutOfRange as error:
         raise InputError(f"{_place(np.flatnonzero(error.where)[0], shape)}{error}") from None
-    approach = np.flatnonzero(given.v2 > 0)
+    # Also where nothing approaches: a normal of two centres at one place is no number, or zero.
+    for i, problem in problems_of_normals(given.normal).items():
+        raise InputError(f"{_place(i, shape)}{problem}")
+    approach = np.flatnonzero(~(given.v2 <= 0))  # or it is too large to tell
     met = given if approach.size == given.v2.size else given.take(approach)
     for i, problem in problems(met).items():
         raise InputError(f"{_place(approach[i], shape)}{problem}")

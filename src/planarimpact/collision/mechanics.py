@@ -13,7 +13,7 @@ from planarimpact import bodies, continuum
 from planarimpact.bodies import Body
 from planarimpact.collision.pairs import Pair
 from planarimpact.continuum import inelastic
-from planarimpact.ground import sliding
+from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.normal_impact import yielding
 
@@ -22,8 +22,9 @@ RESTITUTION_BY = {
     "relaxation_time": bodies.viscous_restitution,
     "yield_pressure": bodies.plastic_restitution,
 }
-# Largest error of the length of a normal that is taken for one of rounding, float32 too.
-UNIT = 1e-6
+# Largest error of the length of a normal that is taken for one of rounding, float32 too: 1e-6, with
+# room for the rounding of the length itself.
+UNIT = 1.000001e-6
 # Largest mass ratio m2/m1: beyond it no digit of the rebound is certain.
 LARGEST_RATIO = 1e12
 
@@ -58,18 +59,19 @@ class Impacts(NamedTuple):
 
     @property
     def unit(self) -> Array:
-        """The scale of tangential velocity, mu v2(0) [m/s]."""
-        return self.friction * self.v2
+        """The scale of tangential velocity: mu v2(0), but at most v1(0)/LEAST_INCIDENCE [m/s]."""
+        with np.errstate(over="ignore"):
+            return np.minimum(self.friction * self.v2, self.v1 / checks.LEAST_INCIDENCE)
 
     def groups_of(self, rows: Integers) -> tuple[Array, Array, Array]:
         """Mass ratio, stiffness ratio and restitution of some impacts."""
         return self.mass_ratio[rows], self.stiffness_ratio[rows], self.restitution[rows]
 
     def incidence_of(self, rows: Integers) -> Array:
-        """v1(0)/(mu v2(0)) of some impacts: 0 where v1(0) = 0, else infinite without friction."""
+        """v1(0)/unit of some impacts: 0 where v1(0) = 0, else infinite without friction."""
         v1 = self.v1[rows]
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-            return np.where(v1 > 0, v1 / (self.friction[rows] * self.v2[rows]), 0.0)
+            return np.where(v1 > 0, v1 / self.unit[rows], 0.0)
 
     def take(self, rows: Integers) -> "Impacts":
         """Some of the impacts."""
@@ -160,7 +162,7 @@ def problems(impacts: Impacts) -> dict[int, str]:
     numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.v1
     with np.errstate(over="ignore", invalid="ignore"):
         energy = impacts.m2 * impacts.v2 * impacts.v2 + impacts.m2 * impacts.v1 * impacts.v1
-        length, unit = np.sqrt(_dot(impacts.normal, impacts.normal)), impacts.unit
+        unit = impacts.unit
         spins = [_largest_turn(impacts, body) for body in (impacts.body, impacts.other)]
     finite = np.isfinite([*numbers, impacts.v2, energy, *spins]).all(axis=0)
     least = continuum.LEAST_RESTITUTION
@@ -188,9 +190,20 @@ def problems(impacts: Impacts) -> dict[int, str]:
             f"mass ratio m2/m1 = {impacts.mass_ratio[i]:g}: allowed are numbers up to "
             f"{LARGEST_RATIO:g}"
         )
-    for i in np.flatnonzero(np.abs(length - 1) > UNIT).tolist():
-        messages[i] = f"the normal has the length {length[i]:g}: allowed is 1"
-    return messages
+    return messages | problems_of_normals(impacts.normal)
+
+
+def problems_of_normals(normal: Array) -> dict[int, str]:
+    """Which normals, shape (3, n), are no unit vectors: `{index: message}`.
+
+    >>> problems_of_normals(np.array([[0.0, 0.6], [0.0, 0.0], [1.0, 0.9]]))
+    {1: 'the normal has the length 1.08166538: allowed is 1, within 1e-6'}
+    """
+    with np.errstate(over="ignore"):
+        length = np.sqrt(_dot(normal, normal))
+    wrong = np.flatnonzero(~(np.abs(length - 1) <= UNIT)).tolist()
+    said = "the normal has the length {:.9g}: allowed is 1, within 1e-6"
+    return {i: said.format(length[i]) for i in wrong}
 
 
 def after(impacts: Impacts, change: Array) -> tuple[State, State, Array]:

@@ -14,7 +14,8 @@ from planarimpact.collision import continua
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array
 
-# Tolerance of the continuum with the other loss, mu v2(0): two digits of the difference suffice.
+# Tolerance of the continuum with the other loss, mu v2(0) and v1(0): two digits of the difference
+# suffice.
 TOLERANCE = 1e-2
 
 
@@ -71,7 +72,8 @@ def velocity_with_other_loss(loss: str, incidence: Array, groups: tuple[Array, .
     rows = np.flatnonzero(~covered)
     if rows.size:
         groups = tuple(group[rows] for group in groups)
-        solved = continua.rebound(f"continuum.{other}", incidence[rows], groups, TOLERANCE)
+        tolerance = TOLERANCE * np.minimum(incidence[rows], 1.0)
+        solved = continua.rebound(f"continuum.{other}", incidence[rows], groups, tolerance)
         velocity[rows[solved.rows]] = solved.rebound.velocity
     return velocity
 

@@ -16,6 +16,9 @@ LAWS = {"restitution": None, "relaxation_time": "viscous", "yield_pressure": "pl
 _FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *LAWS)
 _ARRAYS = (*_FIELDS, "plastic")
 LARGEST = float(np.finfo(float).max)
+# Sizes of numbers that `single` computes with: no product of them that it needs leaves the range of
+# numbers.
+PLAIN_LEAST, PLAIN_MOST = 1e-25, 1e25
 
 
 class Pair:
@@ -85,7 +88,7 @@ what takes the energy: viscous, plastic
     relaxation_time: Array
     yield_pressure: Array
     plastic: Booleans
-    single: tuple[float, ...] | None  # the fields of a single pair as Python's own floats
+    single: tuple[float, ...] | None  # the fields of a single pair as floats, if all are plain
     __slots__ = (*_FIELDS, "plastic", "single")
 
     def __init__(
@@ -109,20 +112,18 @@ what takes the energy: viscous, plastic
         named = {"friction": mu, **stiffness, **laws, "loss": _loss_codes(loss)}
         arrays = dict(zip(named, checks.broadcast(**named), strict=True))
         codes = arrays.pop("loss")
-        for name, values in arrays.items():
-            object.__setattr__(self, name, values)
         _refuse_other_laws(arrays)
         _refuse_loss(arrays, codes)
-        by_law = ~np.isnan(self.relaxation_time) | ~np.isnan(self.yield_pressure)
-        if (by_law & np.isnan(self.effective_modulus)).any():
+        yields = ~np.isnan(arrays["yield_pressure"])
+        by_law = ~np.isnan(arrays["relaxation_time"]) | yields
+        if (by_law & np.isnan(arrays["effective_modulus"])).any():
             raise InputError(
                 "effective_modulus: missing; a relaxation time or a yield pressure needs it, or "
                 "the materials"
             )
-        object.__setattr__(
-            self, "plastic", (codes == LOSSES.index("plastic")) | ~np.isnan(self.yield_pressure)
-        )
-        object.__setattr__(self, "single", _single(self))
+        plastic = (codes == LOSSES.index("plastic")) | yields
+        # Copies: what the caller does with its arrays later does not change the pair.
+        _fill(self, *(np.array(arrays[name]) for name in _FIELDS), plastic)
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"a Pair cannot be changed: make a new one with another {name}")
@@ -158,15 +159,18 @@ what takes the energy: viscous, plastic
 def _made(*fields: Array) -> Pair:
     """A pair of fields that are checked already, in the order of `_ARRAYS`."""
     pair = object.__new__(Pair)
-    for name, values in zip(_ARRAYS, fields, strict=True):
-        object.__setattr__(pair, name, np.asarray(values))
-    object.__setattr__(pair, "single", _single(pair))
+    _fill(pair, *fields)
     return pair
 
 
-def _single(pair: Pair) -> tuple[float, ...] | None:
-    """Fields of a single pair as Python's own floats, else None."""
-    return None if pair.shape else tuple(float(getattr(pair, name)) for name in _FIELDS)
+def _fill(pair: Pair, *fields: Array) -> None:
+    """Give a new pair its fields, in the order of `_ARRAYS`; from then on nobody can write them."""
+    for name, values in zip(_ARRAYS, map(np.asarray, fields), strict=True):
+        values.setflags(write=False)
+        object.__setattr__(pair, name, values)
+    numbers = () if pair.shape else tuple(float(getattr(pair, name)) for name in _FIELDS)
+    plain = all(not n or n != n or PLAIN_LEAST <= n <= PLAIN_MOST for n in numbers)
+    object.__setattr__(pair, "single", numbers if numbers and plain else None)
 
 
 def _law(

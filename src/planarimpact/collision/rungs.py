@@ -18,6 +18,9 @@ from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.results import Regime
 
+# Default tolerance, mu v2(0): a little above the bounds of the whole table of spheres. An impact
+# that is solved has no larger error in v1(0) either, so that friction of any size has an effect.
+TOLERANCE = 5e-3
 # Error by rounding, for a unit of the mass ratio.
 ROUNDING = 1e-12
 
@@ -53,10 +56,11 @@ TOO_COARSE_RUNGS = [k for k, rung in enumerate(RUNGS) if rung.why == CONTINUUM_W
 
 
 def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
-    """The place of each impact's rung in `RUNGS`, and the largest error of its answer, mu v2(0).
+    """The place of each impact's rung in `RUNGS`, and the largest error of its answer [m/s].
 
     The rung of an impact is the first of `RUNGS` that fits; no other function decides it. The
-    error is one of velocity (mu v2(0)) and of peak friction (mu times the peak normal force).
+    error is one of velocity; over mu v2(0) that of peak friction, in mu times the peak normal
+    force, is not larger.
     """
     head_on = impacts.v1 == 0
     slides = slides_throughout(impacts) & ~head_on
@@ -66,21 +70,29 @@ def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
     elastic = groups[2] == 1
     kind = np.where(elastic, 0, np.where(impacts.plastic[rows], 2, 1))  # in `continua.MODELS`
     covered = spheres.covers(*groups)
-    table_error = _table_error(groups, covered, kind == 2)
+    x = impacts.incidence_of(rows)
+    table_error = _table_error(x, groups, covered, kind == 2)
     way = np.where(table_error <= tolerance, TABLED, TOO_COARSE)
     way = np.where(covered, way, NOT_COVERED)
     place[rows] = FIRST_OF_CONTINUA + len(continua.MODELS) * way + kind
-    error[rows] = np.where(way == TABLED, table_error, tolerance)
-    return place, error
+    error[rows] = np.where(way == TABLED, table_error, _tolerance(x, tolerance))
+    return place, error * impacts.unit
 
 
-def _table_error(groups: tuple[Array, ...], covered: Booleans, plastic: Booleans) -> Array:
+def _tolerance(x: Array, tolerance: float) -> Array:
+    """Largest error of impacts that are solved, mu v2(0)."""
+    return np.minimum(tolerance, TOLERANCE * x)
+
+
+def _table_error(
+    x: Array, groups: tuple[Array, ...], covered: Booleans, plastic: Booleans
+) -> Array:
     """Largest error of the table of spheres where it covers impacts, as measured, mu v2(0)."""
     error = np.where(plastic, spheres.ERROR_BOUND["plastic"], spheres.ERROR_BOUND["viscous"])
     rows = np.flatnonzero(covered & plastic)
     loses_little = spheres.loses_little(*(group[rows] for group in groups))
     error[rows[loses_little]] = spheres.LITTLE_BOUND
-    return error + ROUNDING * groups[0]
+    return (error + ROUNDING * groups[0]) * np.minimum(x, 1.0)
 
 
 def tolerance_of_table(impacts: Impacts, place: Integers) -> float:
@@ -88,7 +100,8 @@ def tolerance_of_table(impacts: Impacts, place: Integers) -> float:
     rows = np.flatnonzero(np.isin(place, TOO_COARSE_RUNGS))
     covered = np.ones(rows.size, dtype=bool)
     plastic = impacts.plastic[rows] & (impacts.restitution[rows] < 1)
-    errors = _table_error(impacts.groups_of(rows), covered, plastic)
+    x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
+    errors = _table_error(x, groups, covered, plastic)
     return float(np.max(errors, initial=0.0))
 
 
@@ -122,7 +135,7 @@ def answers(
     velocity = impacts.v1 + change
     regime = np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK).astype(np.uint8)
     result = Answers(
-        place, change, velocity, slides.astype(float), regime, error * impacts.unit, {}
+        place, change, velocity, slides.astype(float), regime, error, {}
     )
     for number in np.unique(place[place >= FIRST_OF_CONTINUA]).tolist():
         _add_continuum(result, impacts, number, tolerance, peaks)
@@ -150,7 +163,7 @@ def _of_continuum(
 ) -> continua.Solved:
     """Impacts by the table of spheres, or solved."""
     if rung.way == "solved":
-        return continua.rebound(rung.model, incidence, groups, tolerance)
+        return continua.rebound(rung.model, incidence, groups, _tolerance(incidence, tolerance))
     # At e = 1 the table has the same answer for both losses.
     loss = _loss(rung) or continuum.LOSSES[0]
     rebound = spheres.rebound(incidence, *groups, loss=loss, forces=peaks)
@@ -165,8 +178,9 @@ def _loss(rung: Rung) -> str:
 def model_forms(impacts: Impacts, result: Answers) -> Array:
     """How far the velocity would move with the other loss [m/s], NaN where that is not known."""
     form = np.zeros(impacts.v1.size)
-    lossy = (impacts.restitution < 1) & (impacts.restitution >= continuum.LEAST_RESTITUTION)
-    rows = np.flatnonzero((result.place == SLIDING) & lossy & ~impacts.plastic)
+    viscous = (result.place == SLIDING) & (impacts.restitution < 1) & ~impacts.plastic
+    form[viscous] = np.nan
+    rows = np.flatnonzero(viscous & (impacts.restitution >= continuum.LEAST_RESTITUTION))
     difference = model_form.of_sliding(impacts.incidence_of(rows), impacts.groups_of(rows))
     form[rows] = np.abs(difference) * impacts.unit[rows]
     unit = impacts.unit

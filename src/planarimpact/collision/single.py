@@ -1,13 +1,14 @@
 """One impact in Python's own floats, for event-driven codes: some 20 microseconds.
 
 The physics is that of `mechanics` and `rungs`, in numbers instead of arrays; a test compares them.
-Whatever is not plain (a bad argument, no approach, no friction, an impact that the table of spheres
-does not answer within the tolerance) is left to them: then the answer here is None.
+Whatever is not plain (a bad argument, no approach, no friction, numbers beyond `PLAIN_MOST`, an
+impact that the table of spheres does not answer within the tolerance) is left to them: then the
+answer here is None.
 """
 
 from collections.abc import Sequence
 from functools import cache, lru_cache
-from math import hypot, sqrt
+from math import hypot, inf, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ import numpy as np
 from planarimpact import spheres
 from planarimpact.bodies import Body
 from planarimpact.collision.mechanics import UNIT
+from planarimpact.collision.pairs import PLAIN_LEAST, PLAIN_MOST
 from planarimpact.collision.rungs import ROUNDING
 from planarimpact.ground.results import Regime
 from planarimpact.normal_impact import hertz, kelvin_voigt
@@ -52,12 +54,13 @@ def collide(
         other_radius, other_inverse, other_mobility, other_turn = _inertia(other)
         numbers = [number for vector in vectors for number in _floats(vector)]
         nx, ny, nz, vx, vy, vz, wx, wy, wz, ox, oy, oz, sx, sy, sz = numbers
-    except (TypeError, ValueError):  # not plainly one body, or three numbers
+    except (TypeError, ValueError, OverflowError):  # not plainly one body, or three numbers
         return None
-    square = nx * nx + ny * ny + nz * nz
-    if not abs(square - 1) <= UNIT:
+    if not (-PLAIN_MOST <= min(numbers) and max(numbers) <= PLAIN_MOST):
         return None
-    length = sqrt(square)
+    length = sqrt(nx * nx + ny * ny + nz * nz)
+    if not abs(length - 1) <= UNIT:
+        return None
     nx, ny, nz = nx / length, ny / length, nz / length
     # Velocity of the contact point of the body, relative to that of the other.
     ux, uy, uz = radius * wx + other_radius * sx, radius * wy + other_radius * sy, radius * wz
@@ -69,7 +72,7 @@ def collide(
     tx, ty, tz = rx + v2 * nx, ry + v2 * ny, rz + v2 * nz
     v1 = sqrt(tx * tx + ty * ty + tz * tz)
     mu, zeta2, modulus, e, relaxation_time, yield_pressure = pair
-    if not (0 < v2 < 1e50 and 1e-50 < v1 < 1e50 and mu * v2 > 1e-50):  # so all are finite
+    if not (PLAIN_LEAST <= v2 <= PLAIN_MOST and PLAIN_LEAST <= v1 <= PLAIN_MOST and mu):
         return None
     if inverse + other_inverse == 0:
         return None
@@ -87,7 +90,7 @@ def collide(
     if not (covered and zeta2 <= spheres.LARGEST_STIFFNESS and spheres.LEAST_RESTITUTION <= e <= 1):
         return None
     yields = plastic and e < 1
-    error = _table_error(b, e, yields) + ROUNDING * beta
+    error = (_table_error(b, e, yields) + ROUNDING * beta) * min(x, 1.0)
     slides = x >= max(zeta2, beta + e * (beta - zeta2))
     if yields and slides:
         y = SURELY * x / zeta2
@@ -116,8 +119,11 @@ def collide(
 
 @lru_cache(maxsize=4096)
 def _inertia(body: Body) -> tuple[float, ...]:
-    """Radius, 1/M, (1 + (r/k)^2)/M and r/(M k^2) of a body of numbers; an array is a TypeError."""
-    mass, gyration, radius = map(float, body)
+    """Radius, 1/M, (1 + (r/k)^2)/M and r/(M k^2) of a body of plain numbers, else an error."""
+    mass, gyration, radius = map(float, body)  # an array is a TypeError
+    for number in (mass, gyration, radius or inf):
+        if not (PLAIN_LEAST <= number <= PLAIN_MOST or number == inf):
+            raise ValueError
     arm = radius / gyration
     return radius, 1 / mass, (1 + arm * arm) / mass, arm / gyration / mass
 
@@ -166,7 +172,7 @@ def _plastic(pressure: float, v2: float, m2: float, modulus: float, curvature: f
         return 1.0
     # The law of `normal_impact.yielding`: approach where yield begins, and at the end of loading.
     ratio = yield_speed / v2
-    yields = (ratio * ratio / (2 * hertz.ENERGY)) ** 0.4
+    yields = (ratio / sqrt(2 * hertz.ENERGY)) ** 0.8
     square = 2 * sqrt(yields)
     reach = hypot(2 / 3 * yields, sqrt((1 - ratio) * (1 + ratio) / square))
     force, approach = square * reach, yields / 3 + reach

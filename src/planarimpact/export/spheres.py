@@ -100,6 +100,7 @@ def _private(table: Table) -> dict[str, float]:
         "E_LEAST": tables.E_LEAST,
         "E_SPAN": 1 - tables.E_LEAST,
         "UNIT": 2.0**-table.exponent,
+        "INCIDENCE_LEAST": checks.LEAST_INCIDENCE,
         "MASS_RATIO_MOST": checks.LARGEST,
         "STIFFNESS_MOST": spheres.LARGEST_STIFFNESS * (1 + spheres.ROUNDING),
         "RATIO_LEAST": spheres.LEAST_RATIO * (1 - spheres.ROUNDING),

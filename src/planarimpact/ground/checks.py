@@ -13,6 +13,9 @@ from planarimpact.ground.arrays import Array, ArrayLike, Integers, Numbers
 
 # Largest incidence and mass ratio: twice as much is still below the largest float64.
 LARGEST = 8e307
+# Least incidence of `collide` other than 0. The answer is in proportion to v1(0) long before, so
+# that a larger friction coefficient changes nothing; and from here on numbers keep their digits.
+LEAST_INCIDENCE = 1e-100
 # Largest count of samples, circles or points: their tables still fit into memory.
 MOST = 10_000_000
 

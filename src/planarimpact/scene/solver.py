@@ -313,7 +313,7 @@ def _result(
         "peak_normal_force [N]": rows.peak_normal,
         # Without friction there is none, also where the normal force is not known.
         "peak_friction_force [N]": np.where(
-            peak > 0, impacts.friction * peak * rows.peak_normal, 0.0
+            peak > 0, impacts.unit / impacts.v2 * peak * rows.peak_normal, 0.0
         ),
         "energy_lost [J]": collision.energy_lost(impacts, answers.change),
     }

@@ -15,10 +15,12 @@ from planarimpact.ground.arrays import Array
 from planarimpact.spheres import table, thresholds
 from planarimpact.spheres.table import EVEN, LEFT, RIGHT, ROOTS, Panel, Table
 
-# Steps of the continuum, and impacts solved together.
-STEPS, TOGETHER = 128, 256
+# Steps of the continuum, those in the first patch, where slip is thin, and impacts solved together.
+STEPS, MORE_STEPS, TOGETHER = 128, 256, 256
 # Friction of an impact with no incidence has no shape: this one is solved instead.
 LEAST_INCIDENCE = 1e-6
+# Error of elastic impacts, over y where that is below 1.
+TOLERANCE = 1e-6
 # An impact nearer to e = 1 than this is elastic.
 ELASTIC = 1 - 1e-9
 # The largest restitution for which viscous spheres have edges of their own.
@@ -134,12 +136,16 @@ def edges_over(name: str, plan: Plan, limits: Array) -> Array:
 
 
 def nodes_of(name: str, plan: Plan, edges: Array, limits: Array, number: int) -> Array:
-    """Velocity, peak and work of friction at the nodes of a panel's patch, shape (3, s, t, u)."""
+    """What the splines of a panel's patch run through, shape (3, s, t, u)."""
     over_s, over_t, over_u = plan.nodes[name]
     shape = over_s[number], over_t, over_u
     s, t, u = np.meshgrid(*(np.linspace(0.0, 1.0, count) for count in shape), indexing="ij")
     y, b, e = impacts(name, edges, limits, number, s.ravel(), t.ravel(), u.ravel())
-    return solved(name.partition("_")[0], y, b, e).reshape(FUNCTIONS, *shape)
+    y = np.maximum(y, LEAST_INCIDENCE)
+    values = solved(name.partition("_")[0], y, b, e, STEPS if number else MORE_STEPS)
+    if number == 0:
+        values /= np.stack([y, y, y * y])
+    return values.reshape(FUNCTIONS, *shape)
 
 
 def impacts(
@@ -155,12 +161,13 @@ def impacts(
     return low + (high - low) * share, b, e
 
 
-def solved(loss: str, y: Array, b: Array, e: Array) -> Array:
+def solved(loss: str, y: Array, b: Array, e: Array, steps: int) -> Array:
     """Velocity, peak friction and work of friction over zeta^2 = 1, shape (3, n)."""
     functions = np.empty((FUNCTIONS, y.size))
-    y = np.maximum(y, LEAST_INCIDENCE)
     elastic = e >= ELASTIC
-    result = continuum.rebound(y[elastic], b[elastic], 1.0, tolerance=1e-6)
+    y_elastic = y[elastic]
+    tolerance = TOLERANCE * np.minimum(y_elastic, 1.0)
+    result = continuum.rebound(y_elastic, b[elastic], 1.0, tolerance=tolerance)
     functions[:, elastic] = result.velocity, result.peak_friction, result.dissipation
     lossy = np.flatnonzero(~elastic)
     lossy = lossy[np.lexsort((b[lossy], e[lossy]))]  # impacts of the same e together: one motion
@@ -168,12 +175,14 @@ def solved(loss: str, y: Array, b: Array, e: Array) -> Array:
         rows = lossy[start : start + TOGETHER]
         solutions = (
             inelastic.path(
-                y[rows], b[rows], np.ones(rows.size), e[rows], inelastic.LOSSES[loss], steps
+                y[rows], b[rows], np.ones(rows.size), e[rows], inelastic.LOSSES[loss], count
             )
-            for steps in (STEPS, 2 * STEPS)
+            for count in (steps, 2 * steps)
         )
         coarse, fine = (np.stack([path.velocity[-1], path.peak, path.work]) for path in solutions)
-        functions[:, rows] = fine + (fine - coarse) / 3
+        # The error falls with the square of the steps, but where slip is thinner than the distance
+        # of two springs with the steps alone.
+        functions[:, rows] = fine + (fine - coarse) / np.where(y[rows] > LEAST_INCIDENCE, 3, 1)
     return functions
 
 

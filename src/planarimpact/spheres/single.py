@@ -112,7 +112,7 @@ def velocity(y: float, b: float, e: float, plastic: bool) -> float | None:
             c += panel.over_u
         total += middle * weight_s
         base += panel.over_t * panel.over_u
-    return total
+    return total if patch else total * y
 
 
 def loses_little(b: float, e: float) -> bool:

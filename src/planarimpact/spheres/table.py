@@ -3,8 +3,9 @@
 In y = x/zeta^2, b = beta/zeta^2 and e the answer is smooth between edges, see `thresholds`. A panel
 is a loss, or a part of it, with the same edges throughout. Its impacts are mapped to t and u, from
 0 to 1 over e and b, and s, from 0 to 1 between two edges. That is a patch. In a patch velocity,
-peak friction and work are cubic splines in s, t and u: sums of products of uniform B-splines. All
-patches of a panel have the same B-splines over t and u, so that neighbours agree at their common
+peak friction and work are cubic splines in s, t and u: sums of products of uniform B-splines. In
+the first patch, where y < 1, velocity and peak friction are over y, and work over y^2: they vanish
+there with y, and errors with them. All patches of a panel have the same B-splines over t and u, so that neighbours agree at their common
 edge. Edges are interpolated linearly in t and u, when the table is made as when it is used: so with
 a small error of an edge the answer bends at a slightly wrong y, but it does not jump.
 """
@@ -50,9 +51,11 @@ class Panel(NamedTuple):
     edges : ndarray, shape (edges, nt + 1, nu + 1)
         y of the edges that vary with t and u, ascending.
     velocity, peak : ndarray, shape (s, t, u)
-        Coefficients of velocity over zeta^2, and of peak friction.
+        Coefficients of velocity over zeta^2, and of peak friction; of both over y in the first
+        patch.
     work : ndarray, shape (s or 0, t, u)
-        Coefficients of the work of friction over zeta^2; with viscous loss alone.
+        Coefficients of the work of friction over zeta^2, over y^2 in the first patch; with viscous
+        loss alone.
     """
 
     name: str
@@ -250,11 +253,12 @@ def _answer(
         index, part = _places(value, size - ORDER + 1)
         weights.append(_weights(part))
         base = base * size + index
-    velocity = spline(panel.velocity, base, weights)
+    scale = np.where(patch == 0, y, 1.0)
+    velocity = spline(panel.velocity, base, weights) * scale
     peak, work = np.full((2, y.size), np.nan)
     if forces:
-        peak = spline(panel.peak, base, weights)
-        work = spline(panel.work, base, weights) if panel.work.size else work
+        peak = spline(panel.peak, base, weights) * scale
+        work = spline(panel.work, base, weights) * scale * scale if panel.work.size else work
     return Answer(velocity, peak, work, y >= edges[-1] * NEARLY)
 
 

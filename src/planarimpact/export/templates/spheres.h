@@ -64,6 +64,7 @@
  * Numbers of the functions below.
  *   B_LEAST, B_SPAN, E_LEAST, E_SPAN: ranges of b and restitution that u and t stand for
  *   UNIT: of the values
+ *   INCIDENCE_LEAST: friction that would make the incidence less than this acts as if it did not
  *   MASS_RATIO_MOST, STIFFNESS_MOST, RATIO_LEAST, RATIO_MOST: bounds, which leave room for rounding
  *   NEARLY: a little less than 1: an impact so near to slip throughout slides throughout
  *   LEFT, RIGHT: where s has its root
@@ -78,6 +79,7 @@
 #define SPHERES_E_LEAST 0.295
 #define SPHERES_E_SPAN 0.705
 #define SPHERES_UNIT 0.000244140625
+#define SPHERES_INCIDENCE_LEAST 1e-100
 #define SPHERES_MASS_RATIO_MOST 8e+307
 #define SPHERES_STIFFNESS_MOST 1.6000000016
 #define SPHERES_RATIO_LEAST 1.5625
@@ -95,7 +97,8 @@
 /*
  * The table. A loss, or a part of it, is a panel; a panel has patches. In a patch velocity, peak
  * friction and work are cubic splines in s, t and u: places over y = x/stiffness_ratio,
- * restitution and b = mass_ratio/stiffness_ratio.
+ * restitution and b = mass_ratio/stiffness_ratio. In the first patch, y < 1, they are over y, and
+ * work over y^2.
  *   limits: restitutions between the three plastic panels, over u
  *   panels: its first patch, and how many; edges that vary, their intervals over t and u;
  *   coefficients over t and u; where its edges and splines begin in values, or -1
@@ -153,6 +156,7 @@ struct spheres_result {
 struct spheres_spot {
     const struct spheres_panel *panel;
     int base, slides;
+    double scale; /* y in the first patch, else 1 */
     double over_s[4], over_t[4], over_u[4];
 };
 
@@ -209,7 +213,8 @@ static inline double spheres_sticking(
     const struct spheres_spot *spot, double x, double zeta2, double sliding)
 {
     double least = sliding > 0.0 - x ? sliding : 0.0 - x;
-    return spheres_clipped(zeta2 * spheres_spline(spot, spot->panel->velocity), least, x);
+    double share = spheres_spline(spot, spot->panel->velocity) * spot->scale;
+    return spheres_clipped(zeta2 * share, least, x);
 }
 
 static inline struct spheres_spot spheres_find(double y, double b, double e, int loss)
@@ -281,6 +286,7 @@ static inline struct spheres_spot spheres_find(double y, double b, double e, int
         s = sqrt(s);
 
     spot.panel = panel;
+    spot.scale = which == panel->patch ? y : 1;
     spot.slides = y >= edge[panel->patches] * SPHERES_NEARLY;
     spot.base = patch[2] + spheres_place(s, patch[1], spot.over_s);
     spot.base = spot.base * panel->over_t + spheres_place(t, panel->over_t - 3, spot.over_t);
@@ -336,12 +342,12 @@ static inline struct spheres_result spheres_rebound(
             result.dissipation = (1 + e) * (size - change / 2);
         result.regime = SPHERES_SLIP_THROUGHOUT;
     } else {
-        double peak = spheres_spline(&spot, spot.panel->peak);
+        double peak = spheres_spline(&spot, spot.panel->peak) * spot.scale;
         w = spheres_sticking(&spot, size, zeta2, w);
         result.peak_friction = spheres_clipped(peak, 0.0, 1.0);
         if (loss == SPHERES_VISCOUS) {
-            double work = zeta2 * spheres_spline(&spot, spot.panel->work);
-            result.dissipation = work > 0 ? work : 0.0;
+            double work = spheres_spline(&spot, spot.panel->work) * spot.scale * spot.scale;
+            result.dissipation = work > 0 ? zeta2 * work : 0.0;
         } else {
             result.dissipation = (size - w) * (size + w) / (2 * beta);
         }
@@ -502,7 +508,7 @@ static inline double spheres_curvature(struct spheres_body body)
 struct spheres_impact {
     struct spheres_vector normal; /* length 1 to rounding */
     struct spheres_vector tangent; /* where the contact point goes along the surface, length 1 */
-    double v2, m2, beta, zeta2, e, x;
+    double v1, v2, unit, m2, beta, zeta2, e, x; /* v1 = unit x, unit = mu v2 */
     int loss, regime;
 };
 
@@ -514,7 +520,7 @@ static inline struct spheres_impact spheres_before(
 {
     const double most = SPHERES_INCIDENCE_MAX;
     struct spheres_impact impact = {
-        {0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0, 0, 0, 0, SPHERES_UNRESOLVED};
+        {0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0, 0, 0, 0, 0, 0, SPHERES_UNRESOLVED};
     struct spheres_vector zero = {0, 0, 0};
     double square = spheres_dot(normal, normal), length = sqrt(square);
     struct spheres_vector n = {normal.x / length, normal.y / length, normal.z / length};
@@ -555,7 +561,11 @@ static inline struct spheres_impact spheres_before(
         impact.tangent = spheres_sum(zero, 1 / v1, sideways);
     impact.v2 = -along;
     impact.zeta2 = pair.stiffness_ratio;
-    impact.x = v1 > 0 ? v1 / (pair.friction * impact.v2) : 0;
+    impact.v1 = v1;
+    impact.unit = pair.friction * impact.v2;
+    if (v1 / SPHERES_INCIDENCE_LEAST < impact.unit)
+        impact.unit = v1 / SPHERES_INCIDENCE_LEAST;
+    impact.x = v1 > 0 ? v1 / impact.unit : 0;
     impact.regime = SPHERES_STICK;
     return impact;
 }
@@ -597,7 +607,7 @@ static inline struct spheres_collision spheres_collide(
     struct spheres_vector zero = {0, 0, 0}, unknown = {nan, nan, nan}, turn;
     struct spheres_collision after = {
         unknown, unknown, unknown, unknown, unknown, nan, nan, nan, impact.regime};
-    double change, unit, towards, along, twist;
+    double change, towards, along, twist;
     if (impact.regime == SPHERES_UNRESOLVED)
         return after;
     after.velocity = velocity;
@@ -609,9 +619,8 @@ static inline struct spheres_collision spheres_collide(
         return after;
 
     change = spheres_change(&impact, impact.loss, &after.regime);
-    unit = pair.friction * impact.v2;
     towards = impact.m2 * impact.v2 * (1 + impact.e);
-    along = impact.m2 * unit * (change / impact.beta);
+    along = impact.m2 * (impact.unit * (change / impact.beta));
     after.impulse = spheres_sum(spheres_sum(zero, towards, impact.normal), along, impact.tangent);
     turn = spheres_cross(impact.normal, impact.tangent);
     twist = 0.0 - along;
@@ -626,7 +635,7 @@ static inline struct spheres_collision spheres_collide(
     if (after.regime == SPHERES_STICK || after.regime == SPHERES_SLIP_THROUGHOUT)
         after.error_bound = 0;
     else if (after.regime != SPHERES_UNRESOLVED)
-        after.error_bound = unit
+        after.error_bound = (impact.unit < impact.v1 ? impact.unit : impact.v1)
             * (impact.loss == SPHERES_VISCOUS ? SPHERES_ERROR_VISCOUS : SPHERES_ERROR_PLASTIC);
     return after;
 }
@@ -750,7 +759,7 @@ static inline double spheres_model_form(
     plastic = spheres_change(&impact, SPHERES_PLASTIC, &two);
     if (one == SPHERES_UNRESOLVED || two == SPHERES_UNRESOLVED)
         return (double)NAN;
-    return pair.friction * impact.v2 * fabs(viscous - plastic);
+    return impact.unit * fabs(viscous - plastic);
 }
 
 /* A body and its pair of materials, with the source of the numbers. */

@@ -48,6 +48,7 @@ export const NO_IMPACT = 7;
  * Numbers of the functions below.
  *   B_LEAST, B_SPAN, E_LEAST, E_SPAN: ranges of b and restitution that u and t stand for
  *   UNIT: of the values
+ *   INCIDENCE_LEAST: friction that would make the incidence less than this acts as if it did not
  *   MASS_RATIO_MOST, STIFFNESS_MOST, RATIO_LEAST, RATIO_MOST: bounds, which leave room for rounding
  *   NEARLY: a little less than 1: an impact so near to slip throughout slides throughout
  *   LEFT, RIGHT: where s has its root
@@ -62,6 +63,7 @@ const B_SPAN = 2.0;
 const E_LEAST = 0.295;
 const E_SPAN = 0.705;
 const UNIT = 0.000244140625;
+const INCIDENCE_LEAST = 1e-100;
 const MASS_RATIO_MOST = 8e+307;
 const STIFFNESS_MOST = 1.6000000016;
 const RATIO_LEAST = 1.5625;
@@ -79,7 +81,8 @@ const SPAN = 2.8;
 /*
  * The table. A loss, or a part of it, is a panel; a panel has patches. In a patch velocity, peak
  * friction and work are cubic splines in s, t and u: places over y = x/stiffness_ratio,
- * restitution and b = mass_ratio/stiffness_ratio.
+ * restitution and b = mass_ratio/stiffness_ratio. In the first patch, y < 1, they are over y, and
+ * work over y^2.
  *   limits: restitutions between the three plastic panels, over u
  *   panels: its first patch, and how many; edges that vary, their intervals over t and u;
  *   coefficients over t and u; where its edges and splines begin in values, or -1
@@ -263,6 +266,7 @@ function find(y, b, e, loss) {
         panel,
         base,
         slides: y >= edge[panel.patches] * NEARLY,
+        scale: patch === 0 ? y : 1,
         weights: [over_s.weights, over_t.weights, over_u.weights],
     };
 }
@@ -298,7 +302,8 @@ function spline({ panel, base, weights: [over_s, over_t, over_u] }, begin) {
  * @returns {number}
  */
 function sticking(spot, x, zeta2, sliding) {
-    return clipped(zeta2 * spline(spot, spot.panel.velocity), sliding > 0 - x ? sliding : 0 - x, x);
+    const share = spline(spot, spot.panel.velocity) * spot.scale;
+    return clipped(zeta2 * share, sliding > 0 - x ? sliding : 0 - x, x);
 }
 
 /**
@@ -378,10 +383,9 @@ export function rebound(x, mass_ratio, stiffness_ratio, restitution, loss) {
         regime = SLIP_THROUGHOUT;
     } else {
         velocity = sticking(spot, size, zeta2, velocity);
-        peak_friction = spline(spot, spot.panel.peak);
-        peak_friction = clipped(peak_friction, 0, 1);
+        peak_friction = clipped(spline(spot, spot.panel.peak) * spot.scale, 0, 1);
         dissipation = loss === VISCOUS
-            ? Math.max(zeta2 * spline(spot, spot.panel.work), 0)
+            ? zeta2 * Math.max(spline(spot, spot.panel.work) * spot.scale * spot.scale, 0)
             : (size - velocity) * (size + velocity) / (2 * beta);
         regime = size > zeta2 ? SLIP_STICK_SLIP : STICK_SLIP;
         if (size === 0) regime = STICK;
@@ -566,8 +570,8 @@ function is_vector(value) {
 function before(pair, normal, body, velocity, spin, other, other_velocity, other_spin) {
     const zero = [0, 0, 0], most = INCIDENCE_MAX;
     const impact = {
-        normal: zero, tangent: zero, v2: 0, m2: 0, beta: 0, zeta2: 0, e: 0, x: 0, loss: 0,
-        regime: UNRESOLVED,
+        normal: zero, tangent: zero, v1: 0, v2: 0, unit: 0, m2: 0, beta: 0, zeta2: 0, e: 0, x: 0,
+        loss: 0, regime: UNRESOLVED,
     };
     if (!(pair && body && other && is_vector(normal) && is_vector(velocity) && is_vector(spin)
           && is_vector(other_velocity) && is_vector(other_spin)))
@@ -606,7 +610,9 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
     if (v1 > 0) impact.tangent = sum(zero, 1 / v1, sideways);
     impact.v2 = -along;
     impact.zeta2 = pair.stiffness_ratio;
-    impact.x = v1 > 0 ? v1 / (pair.friction * impact.v2) : 0;
+    impact.v1 = v1;
+    impact.unit = Math.min(pair.friction * impact.v2, v1 / INCIDENCE_LEAST);
+    impact.x = v1 > 0 ? v1 / impact.unit : 0;
     impact.regime = STICK;
     return impact;
 }
@@ -741,15 +747,16 @@ export function collide(
         };
     }
 
-    const { added, regime } = change(impact, impact.loss), unit = pair.friction * impact.v2;
+    const { added, regime } = change(impact, impact.loss);
     const towards = impact.m2 * impact.v2 * (1 + impact.e);
-    const along = impact.m2 * unit * (added / impact.beta);
+    const along = impact.m2 * (impact.unit * (added / impact.beta));
     const impulse = sum(sum([0, 0, 0], towards, impact.normal), along, impact.tangent);
     const turn = cross(impact.normal, impact.tangent), twist = 0 - along;
     const turned = twist * (body.radius / body.gyration / body.gyration / body.mass);
     const other_turned =
         twist * (other.radius / other.gyration / other.gyration / other.mass);
-    let error_bound = unit * (impact.loss === VISCOUS ? ERROR_VISCOUS : ERROR_PLASTIC);
+    let error_bound = Math.min(impact.unit, impact.v1)
+        * (impact.loss === VISCOUS ? ERROR_VISCOUS : ERROR_PLASTIC);
     if (regime === STICK || regime === SLIP_THROUGHOUT) error_bound = 0;
     else if (regime === UNRESOLVED) error_bound = NaN;
     return {
@@ -792,7 +799,7 @@ export function model_form(...contact) {
     if (impact.e === 1) return 0;
     const viscous = change(impact, VISCOUS), plastic = change(impact, PLASTIC);
     if (viscous.regime === UNRESOLVED || plastic.regime === UNRESOLVED) return NaN;
-    return contact[0].friction * impact.v2 * Math.abs(viscous.added - plastic.added);
+    return impact.unit * Math.abs(viscous.added - plastic.added);
 }
 
 /**
