@@ -1,10 +1,13 @@
 """`collide` on random impacts: conservation, Coulomb's limit, frames, one impact beside many."""
 
+import pickle
+
 import numpy as np
 import pandas as pd
 import pytest
 
 from planarimpact import (
+    ConvergenceError,
     InputError,
     Pair,
     Regime,
@@ -17,6 +20,7 @@ from planarimpact import (
 )
 from planarimpact.collision import single
 from planarimpact.normal_impact import yielding
+from tests.reference_solutions import inelastic_contact as second_code
 
 COUNT = 100_000
 # Rounding, as a share of the largest term of a balance.
@@ -248,6 +252,78 @@ def answers_of_all_paths(pair, normal, velocity):
     return answers
 
 
+def contact_velocity(found, normal, body):
+    """Of the contact point at a wall at rest."""
+    return found.velocity - np.cross(found.spin, normal) * body.radius
+
+
+@pytest.mark.parametrize("loss", spheres.LOSSES)
+@pytest.mark.parametrize(("zeta2", "e"), [(1.2, 0.8), (1.5, 0.35), (2.2, 0.6), (1.0, 0.2), (1.2, 1)])
+def test_friction_of_any_size_is_that_of_springs_which_stick(zeta2, e, loss):
+    """Where x vanishes the rebound is in proportion to v1(0), and so is its error."""
+    up, unit_ball = [0, 0, 1], bodies.Body(1, 0.4**0.5, 1)
+    if e < 1:
+        wanted = second_code.small_incidences(loss, 1e-9, 3.5, zeta2, e)
+    else:
+        wanted = continuum.rebound(1e-4, 3.5, zeta2, tolerance=1e-9).velocity / 1e-4
+    for friction in 10.0 ** np.array([*range(3, 25, 3), 30, 60, 99, 100, 101, 150, 200, 300, 308]):
+        pair = Pair(stiffness_ratio=zeta2, friction=friction, restitution=e, loss=loss)
+        for shape in ((), (1,)):
+            velocity = np.full((*shape, 3), [0.5, 0, -2])
+            found = collide(pair, up, unit_ball, velocity, [0, 0, 0])
+            w = contact_velocity(found, up, unit_ball)[..., 0]
+            assert np.all(found.error_bound <= collision.TOLERANCE * 0.5)
+            slack = found.error_bound + 0.5 * (second_code.SMALL + 2.5e-1 / friction)
+            assert np.all(np.abs(w - 0.5 * wanted) <= slack), (friction, w, wanted)
+            assert found.model_form < 0.5
+
+
+def test_one_path_for_numbers_of_every_size():
+    """One impact alone and in an array: the same answer, or the same refusal, never NaN or inf.
+
+    One or two inputs at a time are multiplied by up to 1e600, also beside the ends of the range in
+    which single impacts have a function of their own.
+    """
+    rng, answered, refused = np.random.default_rng(8), 0, 0
+    edges = np.log10([single.PLAIN_LEAST, single.PLAIN_MOST])
+    for _ in range(3000):
+        size = dict.fromkeys("friction zeta2 modulus law mass radius v1 v2 spin".split(), 1.0)
+        for name in rng.choice(list(size), rng.integers(1, 3)):
+            decade = rng.uniform(-320, 299) if rng.random() < 0.7 else rng.choice(edges)
+            size[name] = float(10.0**decade * rng.choice([1, 1 - 1e-12, 1 + 1e-12]))
+        law = rng.choice(["viscous", "plastic", "relaxation_time", "yield_pressure", "elastic"])
+        said = {"restitution": 0.8, "loss": law}
+        if law == "elastic":
+            said = {"restitution": 1.0}
+        elif law not in spheres.LOSSES:
+            said = {law: size["law"] * {"relaxation_time": 1e-6, "yield_pressure": 1e7}[law]}
+        ball = bodies.Body(0.03 * size["mass"], 0.006 * size["radius"], 0.01 * size["radius"])
+        velocity = [0.4 * size["v1"], 0, -2.0 * size["v2"]]
+
+        def ask(add, said=said, size=size, ball=ball, velocity=velocity):
+            given = {"friction": 0.3 * size["friction"], "stiffness_ratio": 1.2 * size["zeta2"]}
+            pair = Pair(**given, effective_modulus=1e8 * size["modulus"], **said)
+            spin = [0, 5.0 * size["spin"], 0]
+            return collide(pair, [0, 0, 1], ball, np.reshape(velocity, (*add, 3)), spin)
+
+        try:
+            many = ask((1,))
+        except (InputError, ConvergenceError) as error:
+            with pytest.raises(type(error)) as words:
+                ask(())
+            assert str(words.value) == str(error).replace("impact [0]: ", "")
+            refused += 1
+            continue
+        one = ask(())
+        answered += 1
+        for name in ("velocity", "spin", "impulse", "error_bound", "restitution"):
+            values, wanted = getattr(one, name), getattr(many, name)[0]
+            assert np.isfinite(wanted).all() or one.regime == Regime.NO_IMPACT
+            scale = np.abs(wanted).max() if values.ndim else np.abs(wanted)
+            np.testing.assert_allclose(values, wanted, rtol=1e-9, atol=1e-9 * scale)
+    assert min(answered, refused) > 500
+
+
 def of_steel(friction, restitution, loss="plastic"):
     return Pair(STEEL, friction=friction, restitution=restitution, loss=loss)
 
@@ -268,10 +344,17 @@ def test_the_length_of_a_normal_adds_no_energy_and_no_incidence(length, kind):
             ):
                 np.testing.assert_allclose(answer, 3 * e * normal.astype(float), rtol=1e-15)
                 assert incidence < 1e-14 or friction == 0
-    for bad in (length * (1 + 1.1e-6), length * (1 - 3e-6)):
-        if abs(bad - 1) > 1e-6:
-            words = answers_of_all_paths(of_steel(0.3, 0.8), unit * bad, [0, 0, -1])
-            assert all("the normal has the length" in word for word in words)
+
+
+@pytest.mark.parametrize("velocity", [[0.3, 0, -1.0], [0.3, 0, 1.0], [0, 0, 0]])
+@pytest.mark.parametrize("length", [0, 0.9, 1 - 1.1e-6, 1 - 1e-6, 1 + 1e-6, 1 + 1.1e-6, 2, 1e200])
+def test_the_length_of_a_normal_is_looked_at_first(length, velocity):
+    """On all paths alike, and also where nothing approaches, as of two centres at one place."""
+    for unit in ([0, 0, 1], [0, 0, -1], [0, 1, 0]):
+        normal = np.multiply(unit, float(length))
+        answers = answers_of_all_paths(of_steel(0.3, 0.8), normal, velocity)
+        told = ["the normal has the length" in str(answer) for answer in answers]
+        assert told == 3 * [abs(length - 1) > 1.05e-6]
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3, 1e-300])
@@ -363,6 +446,8 @@ BALL = bodies.solid_sphere(0.01, 7800.0)
     ("change", "words"),
     [
         ({"normal": [0, 0, 2]}, "the normal has the length 2: allowed is 1"),
+        ({"velocity": [0, 0, -(10**400)]}, "velocity: an integer is beyond the range of numbers"),
+        ({"velocity": [1e308, 0, 0], "other_velocity": [-1e308, 0, 0]}, "too large or too small"),
         ({"velocity": [0, np.nan, -1]}, r"velocity\[1\] = nan: allowed are finite numbers"),
         ({"velocity": [0, -1], "spin": [0] * 4}, r"velocity, shape \(2,\): allowed are vectors"),
         ({"spin": np.zeros((2, 3)), "velocity": np.zeros((3, 3))}, "shapes do not broadcast"),
@@ -437,6 +522,18 @@ def test_a_table_of_pairs_is_indexed_by_kinds():
     np.testing.assert_allclose(many.velocity[0], single_one.velocity, rtol=1e-13)
 
 
+def test_nobody_changes_a_pair():
+    given = np.array([0.2, 0.3])
+    table = Pair(STEEL, friction=given, restitution=0.8, loss="plastic")
+    given[:] = 0.9
+    assert table.friction.tolist() == [0.2, 0.3]
+    copied = pickle.loads(pickle.dumps(table))
+    for pair in (table, table[0], table[[0, 1]], table.broadcast((3, 2)), copied):
+        for name in ("friction", "restitution", "stiffness_ratio", "plastic"):
+            with pytest.raises(ValueError, match="read-only"):
+                getattr(pair, name)[...] = 0.9
+
+
 def test_a_caller_may_change_its_vectors_afterwards():
     velocity, pair = (
         np.array([0.6, 0, -1.0]),
@@ -469,3 +566,13 @@ def test_model_form_is_the_distance_to_the_other_loss():
         form.append(float(result.model_form))
     assert abs(velocity[1] - velocity[0]) > 0.02
     np.testing.assert_allclose(form, abs(velocity[1] - velocity[0]), rtol=1e-9)
+
+
+def test_model_form_is_not_known_where_the_other_loss_has_no_answer():
+    """Metal that loses so much may stick, and the continuum does not go there."""
+    velocity, shapes = [5.0, 0, -1.0], ((), (1,))
+    for e, known in ((0.05, False), (0.0, False), (0.5, True)):
+        pair = Pair(STEEL, friction=0.1, restitution=e, loss="viscous")
+        for shape in shapes:
+            result = collide(pair, [0, 0, 1], BALL, np.full((*shape, 3), velocity), [0, 0, 0])
+            assert np.all(np.isfinite(result.model_form) == known)

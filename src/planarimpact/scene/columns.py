@@ -65,7 +65,7 @@ PLANE = {
 }
 SPACE = {f"velocity_{axis}": Column("m/s", _FINITE) for axis in AXES}
 SPACE |= {f"spin_{axis}": Column("rad/s", _FINITE) for axis in AXES}
-NORMAL = {f"normal_{axis}": Column("", "numbers from -1 to 1", low=-1, high=1) for axis in AXES}
+NORMAL = {f"normal_{axis}": Column("", _FINITE) for axis in AXES}  # of length 1
 OTHER_PLANE = {f"other_{name}": column for name, column in PLANE.items()}
 OTHER_SPACE = {f"other_{name}": column for name, column in SPACE.items()}
 

@@ -16,10 +16,11 @@ from planarimpact.spheres import table
 
 LOSSES = "viscous", "plastic"
 # Largest difference from the continuum, of velocity (mu v2(0)), peak friction (mu F2max) and, with
-# viscous loss, dissipation (mu^2 m2 v2(0)^2). It is measured, not proved: a little above the
-# largest error that the search of tests/reference/test_spheres_reference.py has climbed to. With
-# plastic loss dissipation is (x^2 - w^2)/(2 beta) by the balance of energy. So an error of w up to
-# E makes one of it up to E (|w| + E/2)/beta, which grows with the incidence.
+# viscous loss, dissipation (mu^2 m2 v2(0)^2); times x where that is below 1. It is measured, not
+# proved: a little above the largest error that the searches of
+# tests/reference/test_spheres_reference.py have climbed to. With plastic loss dissipation is
+# (x^2 - w^2)/(2 beta) by the balance of energy. So an error of w up to E makes one of it up to
+# E (|w| + E/2)/beta, which grows with the incidence.
 ERROR_BOUND = {"viscous": 1.5e-4, "plastic": 4e-3}
 # That of plastic spheres that lose little, see `loses_little`.
 LITTLE_BOUND = 9e-4
@@ -52,7 +53,8 @@ def covers(mass_ratio: ArrayLike, stiffness_ratio: ArrayLike, restitution: Array
     [True, True, False]
     """
     beta, zeta2, e = map(np.asarray, (mass_ratio, stiffness_ratio, restitution))
-    ratio = beta / zeta2
+    with np.errstate(over="ignore"):  # of a stiffness ratio near 0
+        ratio = beta / zeta2
     low, high = LEAST_RATIO * (1 - ROUNDING), LARGEST_RATIO * (1 + ROUNDING)
     small = (beta >= 1) & (zeta2 <= LARGEST_STIFFNESS * (1 + ROUNDING))
     return small & (ratio >= low) & (ratio <= high) & (e >= LEAST_RESTITUTION) & (e <= 1)
@@ -129,7 +131,7 @@ def rebound(
     -------
     Rebound
         The same fields and units as `planarimpact.continuum.rebound`, within `ERROR_BOUND` of it,
-        but no reversals. The error of plastic dissipation is up to |velocity|/mass_ratio times
+        below x = 1 within x times that, but no reversals. The error of plastic dissipation is up to |velocity|/mass_ratio times
         that of velocity. The answer jumps by less than `ERROR_BOUND` where slip throughout begins,
         and where parts of the table meet. Impacts that slide as a whole more often than their
         regime says are not called MULTIPLE.

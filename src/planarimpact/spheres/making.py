@@ -15,8 +15,10 @@ from planarimpact.ground.arrays import Array
 from planarimpact.spheres import table, thresholds
 from planarimpact.spheres.table import EVEN, LEFT, RIGHT, ROOTS, Panel, Table
 
-# Steps of the continuum, those in the first patch, where slip is thin, and impacts solved together.
-STEPS, MORE_STEPS, TOGETHER = 128, 256, 256
+# Steps of the continuum, and impacts solved together.
+STEPS, TOGETHER = 128, 256
+# Below this y slip is not much thicker than a spring, and twice the steps are needed.
+THIN = 0.1
 # Friction of an impact with no incidence has no shape: this one is solved instead.
 LEAST_INCIDENCE = 1e-6
 # Error of elastic impacts, over y where that is below 1.
@@ -142,7 +144,7 @@ def nodes_of(name: str, plan: Plan, edges: Array, limits: Array, number: int) ->
     s, t, u = np.meshgrid(*(np.linspace(0.0, 1.0, count) for count in shape), indexing="ij")
     y, b, e = impacts(name, edges, limits, number, s.ravel(), t.ravel(), u.ravel())
     y = np.maximum(y, LEAST_INCIDENCE)
-    values = solved(name.partition("_")[0], y, b, e, STEPS if number else MORE_STEPS)
+    values = solved(name.partition("_")[0], y, b, e)
     if number == 0:
         values /= np.stack([y, y, y * y])
     return values.reshape(FUNCTIONS, *shape)
@@ -161,18 +163,21 @@ def impacts(
     return low + (high - low) * share, b, e
 
 
-def solved(loss: str, y: Array, b: Array, e: Array, steps: int) -> Array:
+def solved(loss: str, y: Array, b: Array, e: Array) -> Array:
     """Velocity, peak friction and work of friction over zeta^2 = 1, shape (3, n)."""
-    functions = np.empty((FUNCTIONS, y.size))
+    functions, parts = np.empty((FUNCTIONS, y.size)), []
     elastic = e >= ELASTIC
     y_elastic = y[elastic]
     tolerance = TOLERANCE * np.minimum(y_elastic, 1.0)
     result = continuum.rebound(y_elastic, b[elastic], 1.0, tolerance=tolerance)
     functions[:, elastic] = result.velocity, result.peak_friction, result.dissipation
-    lossy = np.flatnonzero(~elastic)
-    lossy = lossy[np.lexsort((b[lossy], e[lossy]))]  # impacts of the same e together: one motion
-    for start in range(0, lossy.size, TOGETHER):
-        rows = lossy[start : start + TOGETHER]
+    thin = y < THIN
+    # Impacts of the same e together: one motion.
+    order = np.lexsort((b, e))
+    for steps, solve in ((STEPS, ~elastic & ~thin), (2 * STEPS, ~elastic & thin)):
+        lossy = order[solve[order]]
+        parts += [(steps, lossy[i : i + TOGETHER]) for i in range(0, lossy.size, TOGETHER)]
+    for steps, rows in parts:
         solutions = (
             inelastic.path(
                 y[rows], b[rows], np.ones(rows.size), e[rows], inelastic.LOSSES[loss], count
