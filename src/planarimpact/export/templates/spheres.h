@@ -424,6 +424,14 @@ static inline struct spheres_vector spheres_cross(struct spheres_vector a, struc
     return c;
 }
 
+static inline struct spheres_vector spheres_scaled(double factor, struct spheres_vector a)
+{
+    a.x *= factor;
+    a.y *= factor;
+    a.z *= factor;
+    return a;
+}
+
 /* a + factor b */
 static inline struct spheres_vector spheres_sum(
     struct spheres_vector a, double factor, struct spheres_vector b)
@@ -543,7 +551,7 @@ static inline const char *spheres_before(
         {0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0, 0, 0, 0, 0, 0, SPHERES_UNRESOLVED};
     const double most = (double)INFINITY;
     const int is_fixed = pair.restitution != 0 || pair.loss != 0;
-    struct spheres_vector zero = {0, 0, 0}, n, turn, point, sideways;
+    struct spheres_vector n, turn, point, sideways;
     double length = sqrt(spheres_dot(normal, normal)), lighter, inverse, other_inverse, arm;
     double other_arm, along, v1, v2, m2, speed;
     *impact = unknown;
@@ -615,7 +623,7 @@ static inline const char *spheres_before(
     n.x = normal.x / length;
     n.y = normal.y / length;
     n.z = normal.z / length;
-    turn = spheres_sum(spheres_sum(zero, body.radius, spin), other.radius, other_spin);
+    turn = spheres_sum(spheres_scaled(body.radius, spin), other.radius, other_spin);
     point = spheres_sum(spheres_sum(velocity, -1, other_velocity), -1, spheres_cross(turn, n));
     along = spheres_dot(point, n);
     if (along >= 0 && along < most) {
@@ -651,8 +659,7 @@ static inline const char *spheres_before(
     if (impact->e == 1) /* nothing is lost: the table of viscous spheres is nearer */
         impact->loss = SPHERES_VISCOUS;
     impact->normal = n;
-    if (v1 > 0)
-        impact->tangent = spheres_sum(zero, 1 / v1, sideways);
+    impact->tangent = spheres_scaled(v1 > 0 ? 1 / v1 : 0, sideways);
     impact->v2 = v2;
     impact->m2 = m2;
     impact->zeta2 = pair.stiffness_ratio;
@@ -711,9 +718,9 @@ static inline struct spheres_collision spheres_collide(
     unit = pair.friction * impact.v2;
     /* The impulse is over m2, as velocities are in the range of numbers. */
     along = unit * (change / impact.beta);
-    impulse = spheres_sum(zero, impact.v2 * (1 + impact.e), impact.normal);
+    impulse = spheres_scaled(impact.v2 * (1 + impact.e), impact.normal);
     impulse = spheres_sum(impulse, along, impact.tangent);
-    after.impulse = spheres_sum(zero, impact.m2, impulse);
+    after.impulse = spheres_scaled(impact.m2, impulse);
     turn = spheres_cross(impact.normal, impact.tangent);
     after.velocity = spheres_sum(velocity, impact.share, impulse);
     after.other_velocity = spheres_sum(other_velocity, 0.0 - impact.other_share, impulse);

@@ -466,6 +466,15 @@ function cross(a, b) {
 }
 
 /**
+ * @param {number} factor
+ * @param {Vector} a
+ * @returns {Vector}
+ */
+function scaled(factor, a) {
+    return [factor * a[0], factor * a[1], factor * a[2]];
+}
+
+/**
  * a + factor b
  * @param {Vector} a
  * @param {number} factor
@@ -495,21 +504,13 @@ function fifth_root(value) {
 }
 
 /**
- * A pair with 0 for what it leaves out; without a restitution, a loss needs one.
- * @param {Pair} pair
+ * Whether the loss that goes with a restitution is one, or is left out where nothing is lost.
+ * @param {unknown} loss
+ * @param {unknown} restitution
+ * @returns {boolean}
  */
-function completed({
-    friction, stiffness_ratio, effective_modulus, loss = 0, restitution = loss === 0 ? 0 : NaN,
-    relaxation_time = 0, yield_pressure = 0,
-}) {
-    const is_fixed = restitution !== 0 || loss !== 0;
-    const laws =
-        Number(is_fixed) + Number(relaxation_time !== 0) + Number(yield_pressure !== 0);
-    const knows_loss = loss === VISCOUS || loss === PLASTIC || (loss === 0 && restitution === 1);
-    return {
-        friction, stiffness_ratio, effective_modulus, loss, restitution, relaxation_time,
-        yield_pressure, is_fixed, is_complete: laws === 1, knows_loss,
-    };
+function knows_loss(loss, restitution) {
+    return loss === VISCOUS || loss === PLASTIC || (loss === 0 && restitution === 1);
 }
 
 /**
@@ -521,19 +522,12 @@ function completed({
  * @returns {number} NaN if the pair is not complete
  */
 export function restitution_at(pair, mass, radius, speed) {
-    return restitution_of(completed(pair), mass, radius, speed);
-}
-
-/**
- * @param {ReturnType<typeof completed>} pair
- * @param {number} mass
- * @param {number} radius
- * @param {number} speed
- * @returns {number}
- */
-function restitution_of(pair, mass, radius, speed) {
-    const { restitution, relaxation_time, yield_pressure, effective_modulus: modulus } = pair;
-    if (!pair.is_complete) return NaN;
+    const { loss = 0, relaxation_time = 0, yield_pressure = 0 } = pair;
+    const { restitution: fixed = loss === 0 ? 0 : NaN } = pair;
+    const modulus = pair.effective_modulus;
+    const is_fixed = fixed !== 0 || loss !== 0;
+    if (Number(is_fixed) + Number(relaxation_time !== 0) + Number(yield_pressure !== 0) !== 1)
+        return NaN;
     if (yield_pressure !== 0) {
         // Thornton's sphere, with lengths over (m2 v2^2/(E* R^(1/2)))^(2/5): a is the radius of
         // contact where it yields, the approach is then a^2, and at the end `depth`.
@@ -555,7 +549,7 @@ function restitution_of(pair, mass, radius, speed) {
             [total, last] = [series[i] + 2 * at * total - last, total];
         return clipped(series[0] + at * total - last, LEAST, 1);
     }
-    return pair.knows_loss && typeof restitution === "number" ? restitution : NaN;
+    return knows_loss(loss, fixed) && typeof fixed === "number" ? fixed : NaN;
 }
 
 /**
@@ -590,13 +584,18 @@ function refusal(field, value, allowed) {
 }
 
 /**
+ * The sum of the sizes of a vector's components, after a check of the vector.
  * @param {string} field
  * @param {Vector} value
+ * @returns {number}
  */
-function check_vector(field, value) {
-    if (!(value?.length === 3 && Number.isFinite(value[0]) && Number.isFinite(value[1])
-          && Number.isFinite(value[2])))
-        throw refusal(field, value, "an array of three finite numbers");
+function checked_size(field, value) {
+    if (value?.length === 3) {
+        const x = value[0], y = value[1], z = value[2];
+        if (Number.isFinite(x) && Number.isFinite(y) && Number.isFinite(z))
+            return Math.abs(x) + Math.abs(y) + Math.abs(z);
+    }
+    throw refusal(field, value, "an array of three finite numbers");
 }
 
 /**
@@ -613,19 +612,20 @@ function check_body(field, { mass, gyration, radius }) {
 }
 
 /**
- * @param {ReturnType<typeof completed>} made
- * @param {Pair} pair as it is given
+ * @param {Pair} pair
  */
-function check_laws(made, pair) {
-    const { loss, restitution, relaxation_time, yield_pressure, effective_modulus } = made;
-    if (!made.is_complete) {
+function check_laws(pair) {
+    const { loss = 0, relaxation_time = 0, yield_pressure = 0, effective_modulus } = pair;
+    const { restitution = loss === 0 ? 0 : NaN } = pair;
+    const is_fixed = restitution !== 0 || loss !== 0;
+    if (Number(is_fixed) + Number(relaxation_time !== 0) + Number(yield_pressure !== 0) !== 1) {
         throw refusal("pair", pair, "either restitution with loss, or one of relaxation_time and "
             + "yield_pressure, with effective_modulus and no loss");
     }
-    if (made.is_fixed) {
+    if (is_fixed) {
         if (!(typeof restitution === "number" && restitution >= 0 && restitution <= 1))
             throw refusal("pair.restitution", pair.restitution, "a number from 0 to 1");
-        if (!made.knows_loss) {
+        if (!knows_loss(loss, restitution)) {
             throw refusal("pair.loss", pair.loss, "the constant VISCOUS or PLASTIC; it may be left "
                 + "out where restitution is 1");
         }
@@ -637,16 +637,6 @@ function check_laws(made, pair) {
         if (!(Number.isFinite(value) && value >= least))
             throw refusal(`pair.${field}`, value, "a finite number above 0");
     }
-}
-
-/**
- * Whether a vector stays finite where its components change by up to so much.
- * @param {Vector} vector
- * @param {number} change
- * @returns {boolean}
- */
-function may_change(vector, change) {
-    return Math.abs(vector[0]) + Math.abs(vector[1]) + Math.abs(vector[2]) + change < Infinity;
 }
 
 /**
@@ -664,12 +654,10 @@ function may_change(vector, change) {
  * @throws {RangeError} as `collide`
  */
 function before(pair, normal, body, velocity, spin, other, other_velocity, other_spin) {
-    const zero = [0, 0, 0];
-    check_vector("normal", normal);
-    check_vector("velocity", velocity);
-    check_vector("spin", spin);
-    check_vector("other_velocity", other_velocity);
-    check_vector("other_spin", other_spin);
+    checked_size("normal", normal);
+    const fast = checked_size("velocity", velocity), turns = checked_size("spin", spin);
+    const other_fast = checked_size("other_velocity", other_velocity);
+    const other_turns = checked_size("other_spin", other_spin);
     const length = Math.sqrt(dot(normal, normal));
     if (!(Math.abs(length - 1) <= LENGTH_ERROR))
         throw refusal("normal", normal, "a vector whose length is within 1e-6 of 1");
@@ -683,7 +671,7 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
     if (!(lighter < Infinity))
         throw refusal("body.mass", body.mass, "a finite number where other.mass is not one");
 
-    const made = completed(pair), { friction, stiffness_ratio: zeta2 } = made;
+    const { friction, stiffness_ratio: zeta2 } = pair;
     if (!(Number.isFinite(friction) && friction >= 0))
         throw refusal("pair.friction", friction, "a finite number from 0");
     if (!(typeof zeta2 === "number" && zeta2 > 0 && zeta2 <= STIFFNESS_MOST)) {
@@ -699,11 +687,11 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
         const allowed = `a number from ${RATIO_MIN} to ${RATIO_MAX}`;
         throw refusal("mass_ratio/stiffness_ratio", beta / zeta2, allowed);
     }
-    check_laws(made, pair);
+    check_laws(pair);
 
     // Velocity of the contact point of the body against that of the other one.
     const n = [normal[0] / length, normal[1] / length, normal[2] / length];
-    const turn = sum(sum(zero, body.radius, spin), other.radius, other_spin);
+    const turn = sum(scaled(body.radius, spin), other.radius, other_spin);
     const point = sum(sum(velocity, -1, other_velocity), -1, cross(turn, n));
     const along = dot(point, n);
     if (along >= 0 && along < Infinity) return null;
@@ -711,9 +699,9 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
     const sideways = sum(point, -along, n), v1 = Math.sqrt(dot(sideways, sideways)), v2 = -along;
     const m2 = lighter / (inverse + other_inverse), speed = 2 * (v1 + v2);
     if (!(m2 * v2 * v2 + m2 * v1 * v1 < Infinity && m2 * speed < Infinity && m2 / beta > 0
-          && may_change(velocity, speed) && may_change(other_velocity, speed)
-          && may_change(spin, speed * share * arm / body.gyration)
-          && may_change(other_spin, speed * other_share * other_arm / other.gyration))) {
+          && fast + speed < Infinity && other_fast + speed < Infinity
+          && turns + speed * share * arm / body.gyration < Infinity
+          && other_turns + speed * other_share * other_arm / other.gyration < Infinity)) {
         throw refusal("velocity", velocity, "a vector whose numbers are neither too large nor too "
             + "small to compute with, as those of the spins and bodies are");
     }
@@ -722,19 +710,18 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
             "a number that stays finite times the normal velocity");
     }
 
-    const { relaxation_time, yield_pressure } = made;
-    const e = restitution_of(made, m2, 1 / (curvature(body) + curvature(other)), v2);
+    const yields = pair.yield_pressure > 0;
+    const e = restitution_at(pair, m2, 1 / (curvature(body) + curvature(other)), v2);
     if (!(e >= 0)) {
-        if (yield_pressure > 0)
-            throw refusal("pair.yield_pressure", yield_pressure, "a smaller or a larger number");
-        const allowed = `a number so small that e is above ${LEAST}`;
-        throw refusal("pair.relaxation_time", relaxation_time, allowed);
+        const field = yields ? "yield_pressure" : "relaxation_time";
+        throw refusal(`pair.${field}`, pair[field], yields ? "a smaller or a larger number"
+            : `a number so small that e is above ${LEAST}`);
     }
     // Where nothing is lost, the table of viscous spheres is nearer.
-    const plastic = e !== 1 && (made.loss === PLASTIC || yield_pressure > 0);
+    const plastic = e !== 1 && (pair.loss === PLASTIC || yields);
     return {
         normal: n,
-        tangent: v1 > 0 ? sum(zero, 1 / v1, sideways) : zero,
+        tangent: scaled(v1 > 0 ? 1 / v1 : 0, sideways),
         share,
         other_share,
         v2,
@@ -798,8 +785,8 @@ export function collide(
     const { added, regime } = change(impact, impact.loss), unit = pair.friction * impact.v2;
     // The impulse is over m2, as velocities are in the range of numbers.
     const along = unit * (added / impact.beta), twist = 0 - along;
-    const impulse = sum(
-        sum([0, 0, 0], impact.v2 * (1 + impact.e), impact.normal), along, impact.tangent);
+    const impulse =
+        sum(scaled(impact.v2 * (1 + impact.e), impact.normal), along, impact.tangent);
     const turn = cross(impact.normal, impact.tangent);
     const turned = twist * impact.share * (body.radius / body.gyration) / body.gyration;
     const other_turned =
@@ -812,7 +799,7 @@ export function collide(
         spin: sum(spin, turned, turn),
         other_velocity: sum(other_velocity, 0 - impact.other_share, impulse),
         other_spin: sum(other_spin, other_turned, turn),
-        impulse: sum([0, 0, 0], impact.m2, impulse),
+        impulse: scaled(impact.m2, impulse),
         incidence: impact.x,
         restitution: impact.e,
         error_bound,
