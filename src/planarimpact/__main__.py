@@ -8,8 +8,7 @@ import math
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import partial
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TextIO
 
@@ -124,12 +123,6 @@ GROUPS = {
     "stiffness_ratio": (1.21, "zeta^2, normal over tangential stiffness: (2-nu)/(2(1-nu))"),
     "restitution": (1.0, "energetic coefficient e, 0 to 1"),
 }
-# Checks of numbers that a refusal for a missing loss must not hide.
-NUMBERS: dict[str, Callable[[Any], Any]] = checks.RULES | {
-    "tolerance": partial(checks.positive, "tolerance"),
-    "incidence_max": partial(checks.positive, "incidence_max"),
-    "samples": partial(checks.count, "samples", least=2),
-}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -152,7 +145,8 @@ dissipation [mu^2 m2 v2(0)^2],regime,model,loss
         options.command(options)
         sys.stdout.flush()
     except (checks.InputError, checks.ConvergenceError) as error:
-        print(f"planarimpact: {error}", file=sys.stderr)
+        how = "; the option is --loss" if isinstance(error, checks.MissingLoss) else ""
+        print(f"planarimpact: {error}{how}", file=sys.stderr)
         return 2
     except BrokenPipeError:  # the reader of the output has closed the pipe
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -219,7 +213,6 @@ def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
         model, e, result = compiled.model, compiled.parameters["restitution"], compiled(x)
     else:
         model, e, settings = _model(options), _restitution(options), _settings(options)
-        _refuse_missing_loss(options, {"incidence": x, **settings})
         result = models.rebound(model, x, **_chosen(options, GROUPS), **settings)
     named = result._replace(regime=Regime.names(result.regime))
     columns = _with_units(Rebound, {"incidence": x, **named._asdict()})
@@ -233,7 +226,14 @@ def _said(model: str, restitution: float, rows: int) -> dict[str, ArrayLike]:
 
 def _restitution(options: argparse.Namespace) -> float:
     """The restitution, or its default."""
-    return float(_chosen(options, ["restitution"]).get("restitution", GROUPS["restitution"][0]))
+    return float(_groups(options)["restitution"])
+
+
+def _groups(options: argparse.Namespace) -> dict[str, float]:
+    """The groups, or their defaults, after a check."""
+    groups = {name: value for name, (value, _) in GROUPS.items()} | _chosen(options, GROUPS)
+    checks.impact(0.0, *groups.values())
+    return groups
 
 
 def _refuse_replacing(options: argparse.Namespace) -> None:
@@ -252,7 +252,6 @@ def _history(options: argparse.Namespace) -> dict[str, ArrayLike]:
     chosen = _chosen(options, [*GROUPS, "samples", "tolerance"])
     result: History | ContinuumHistory
     name = _model(options)
-    _refuse_missing_loss(options)
     family, _, loss = name.partition(".")
     if family == "continuum":
         _refuse_ignored(options, ["samples"], "the continuum has a tolerance instead")
@@ -260,6 +259,8 @@ def _history(options: argparse.Namespace) -> dict[str, ArrayLike]:
     else:
         _refuse_ignored(options, ["tolerance"], "the lumped model is solved to rounding")
         result = lumped.history(options.incidence, **chosen, loss=loss or "hysteretic")
+        if not loss:  # other numbers are told before
+            checks.lossless(_restitution(options), lumped.LOSSES)
     columns = _with_units(type(result), result._asdict())
     return columns | _said(name, _restitution(options), len(result.time))
 
@@ -289,7 +290,6 @@ def _compile(options: argparse.Namespace) -> None:
             f"{options.output}: allowed are names that end in .json; with --as c or --as js others"
         )
     model = _model(options)
-    _refuse_missing_loss(options)
     arguments = _chosen(options, ["incidence_max", "tolerance", *GROUPS]) | settings
     progress = _show if sys.stderr.isatty() else None
     with files.written(options.output) as partial:  # it refuses a name before any computation
@@ -426,12 +426,9 @@ def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:
 
 def _errors(options: argparse.Namespace) -> dict[str, ArrayLike]:
     """Errors of every model against the continuum, and where a measurement can show them."""
-    groups = {name: value for name, (value, _) in GROUPS.items()} | _chosen(options, GROUPS)
-    checks.impact(0.0, *groups.values())
-    if options.loss is None:
-        checks.lossless(groups["restitution"], continuum.LOSSES, "--loss")
+    groups = _groups(options)
+    reference = models.reference(groups["restitution"], options.loss)
     loss = options.loss or continuum.LOSSES[0]
-    reference = models.reference(groups["restitution"], loss)
     limit = continuum.slip_throughout_limit(*groups.values(), loss=loss)
     x = np.linspace(0.0, float(limit), INCIDENCES)
     # A tenth of the default tolerance, so that the continuum itself has an error, too.
@@ -459,39 +456,16 @@ def _errors(options: argparse.Namespace) -> dict[str, ArrayLike]:
 def _model(options: argparse.Namespace) -> str:
     """Name of the model, with the option --loss."""
     name = options.model or "lumped"
+    _groups(options)
     if options.loss is None:
         return str(name)
     losses = models.losses(name)
     if options.loss not in losses:
-        why = f"allowed are {', '.join(losses)}{_other_losses(name)}" if losses else "leave it out"
+        other = "continuum" if name == "lumped" else "lumped"
+        has = f"{', '.join(losses)}; --model {other} has {', '.join(models.losses(other))}"
+        why = f"allowed are {has}" if losses else "leave it out"
         raise checks.InputError(f"--loss {options.loss}: with model {name} {why}")
     return losses[options.loss]
-
-
-def _refuse_missing_loss(
-    options: argparse.Namespace, others: Mapping[str, Any] | None = None
-) -> None:
-    """Below e = 1 the model or --loss must say the loss; `others` are values beside the options.
-
-    A number that no loss would make right is refused before.
-    """
-    name = options.model or "lumped"
-    losses = models.losses(name)
-    if options.loss is not None or not losses:
-        return
-    for number_name, value in (vars(options) | dict(others or {})).items():
-        if number_name in NUMBERS and value is not None:
-            NUMBERS[number_name](value)
-    try:
-        checks.lossless(_restitution(options), losses, "--loss")
-    except checks.InputError as error:
-        raise checks.InputError(f"{error}{_other_losses(name)}") from None
-
-
-def _other_losses(name: str) -> str:
-    """Words: which other model of a name without loss has which losses."""
-    other = "continuum" if name == "lumped" else "lumped"
-    return f"; --model {other} has {', '.join(models.losses(other))}"
 
 
 def _chosen(options: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]:

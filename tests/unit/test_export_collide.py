@@ -13,6 +13,7 @@ from planarimpact.bodies import Body
 COUNT = 100_000
 FIELDS = {"velocity": 3, "spin": 3, "other_velocity": 3, "other_spin": 3, "impulse": 3}
 FIELDS |= {"incidence": 1, "restitution": 1, "error_bound": 1, "regime": 1, "model_form": 1}
+FIELDS["told"] = 1  # whether a problem is
 PAIR = "friction stiffness_ratio restitution relaxation_time yield_pressure effective_modulus loss"
 BODY = "mass gyration radius"
 LAWS = "relaxation_time", "yield_pressure"
@@ -21,12 +22,17 @@ for who in ("", "other_"):
     COLUMNS |= {who + name: 1 for name in BODY.split()}
     COLUMNS |= {who + name: 3 for name in ("velocity", "spin")}
 WIDTH = sum(COLUMNS.values())
+STATES = [*range(13, 19), *range(22, 28)]  # the columns of velocities and spins
 # What makes a good impact a bad one.
 GOOD = {
     "friction": 0.3, "stiffness_ratio": 1.2, "restitution": 0.8, "loss": 2.0, "mass": 1.0,
     "gyration": 0.4**0.5, "radius": 1.0, "other_mass": np.inf, "other_gyration": np.inf,
     "normal": (0.0, 0.0, 1.0), "velocity": (0.1, 0.0, -1.0),
 }  # fmt: skip
+ACCEPTED = [{}, {"restitution": 1.0, "loss": 0.0}]
+ACCEPTED += [{"normal": (0.0, 0.0, length)} for length in (0.999999, 1.000001)]
+ACCEPTED += [{"friction": 1e308, "velocity": (0.1, 0.0, -2.0)}]
+AWAY = {"velocity": (0.0, 0.0, 1.0)}
 REFUSED = [
     *({name: np.nan} for name in (*GOOD, "spin", "other_velocity", "other_radius")),
     *({name: -1.0} for name in ("friction", "radius", "mass", "gyration", "restitution")),
@@ -34,6 +40,12 @@ REFUSED = [
     *({"restitution": 1.1}, {"loss": 0.0}, {"loss": 3.0}, {"yield_pressure": 1e9}),
     *({"stiffness_ratio": 3.0}, {"gyration": 0.1}),  # beyond the table
     {"restitution": 0.0, "loss": 0.0, "relaxation_time": 1.0, "effective_modulus": 1e9},
+    *({"loss": code, "restitution": 1.0} for code in (3.0, -1.0)),
+    # The same where nothing approaches.
+    *({"normal": (0.0, 0.0, length)} | AWAY for length in (0.0, -2.0, 0.9999985, 1.0000015)),
+    *({"loss": 3.0} | AWAY, {"friction": -1.0} | AWAY, {"restitution": 1.1} | AWAY),
+    # Too large, or too small, to compute with.
+    *({"velocity": (0.1, 0.0, -2.0), "mass": mass} for mass in (5e307, 5e-324)),
 ]
 C = """\
 #include <stdio.h>
@@ -45,7 +57,7 @@ static struct balls_vector at(const double *x)
 }
 int main(void)
 {
-    double x[WIDTH], row[20];
+    double x[WIDTH], row[21];
     FILE *in = fopen("impacts", "rb"), *out = fopen("c", "wb"), *said = fopen("c.txt", "w");
     while (said && in && out && fread(x, sizeof x, 1, in) == 1) {
         struct balls_pair pair = {x[0], x[1], x[2], x[3], x[4], x[5], (int)x[6]};
@@ -68,6 +80,7 @@ int main(void)
         row[18] = r.regime;
         row[19] = balls_model_form(pair, at(x + 7), body, at(x + 13), at(x + 16), other,
             at(x + 22), at(x + 25));
+        row[20] = problem != NULL;
         fwrite(row, sizeof row, 1, out);
         if (problem)
             fprintf(said, "%s\\n", problem);
@@ -92,10 +105,10 @@ for (let i = 0; i < all.length; i += WIDTH) {
     try {
         const r = collide(...contact);
         rows.push(...r.velocity, ...r.spin, ...r.other_velocity, ...r.other_spin, ...r.impulse,
-            r.incidence, r.restitution, r.error_bound, r.regime, model_form(...contact));
+            r.incidence, r.restitution, r.error_bound, r.regime, model_form(...contact), 0);
     } catch (error) {
         if (!(error instanceof RangeError)) throw error;
-        rows.push(...Array(18).fill(NaN), UNRESOLVED, NaN);
+        rows.push(...Array(18).fill(NaN), UNRESOLVED, NaN, 1);
         said.push(error.message);
     }
 }
@@ -106,6 +119,12 @@ writeFileSync("js", new Uint8Array(Float64Array.from(rows).buffer));
 MISTAKES = {
     "[{ ...pair, loss: undefined }, up, ball, down, zero]": "pair.loss = undefined: ",
     "[{ ...pair, loss: 'viscous' }, up, ball, down, zero]": 'pair.loss = "viscous": ',
+    "[{ ...pair, restitution: 1, loss: 'foo' }, up, ball, down, zero]": 'pair.loss = "foo": ',
+    "[{ ...pair, restitution: 1, loss: null }, up, ball, zero, zero]": "pair.loss = null: ",
+    "[{ ...pair, stiffness_ratio: '1.2' }, up, ball, down, zero]": "pair.stiffness_ratio = ",
+    "[{ ...law, yield_pressure: '1e9' }, up, ball, down, zero]": "pair.yield_pressure = ",
+    "[{ ...law, relaxation_time: true }, up, ball, down, zero]": "pair.relaxation_time = true: ",
+    "[pair, up, { ...ball, mass: '1' }, down, zero]": 'body.mass = "1": ',
     "[{ ...pair, restitution: undefined }, up, ball, down, zero]": "pair.restitution = undefined: ",
     "[{ ...pair, restitution: '0.8' }, up, ball, down, zero]": 'pair.restitution = "0.8": ',
     "[{ ...pair, restitution: null }, up, ball, down, zero]": "pair.restitution = null: ",
@@ -114,7 +133,7 @@ MISTAKES = {
     "[{ ...pair, stiffness_ratio: null }, up, ball, down, zero]": "pair.stiffness_ratio = null: ",
     "[{ friction: 1, stiffness_ratio: 1.5 }, up, ball, down, zero]": "pair = { friction: 1, ",
     "[undefined, up, ball, down, zero]": "pair = undefined: allowed is an object",
-    "[pair, [0, 0, 2], ball, down, zero]": "normal = [0, 0, 2]: allowed is a vector of length 1",
+    "[pair, [0, 0, 2], ball, down, zero]": "normal = [0, 0, 2]: allowed is a vector whose length ",
     "[pair, { x: 0, y: 0, z: 1 }, ball, down, zero]": "normal = { x: 0, y: 0, z: 1 }: allowed is ",
     "[pair, up, ball, [0, -1], zero]": "velocity = [0, -1]: allowed is an array of three ",
     "[pair, up, ball, [0, 0, -1, 0], zero]": "velocity = [0, 0, -1, 0]: ",
@@ -128,6 +147,7 @@ CALLS = """\
 import { PLASTIC, WALL, bounce, collide, model_form, solid_sphere } from "./balls.mjs";
 const up = [0, 0, 1], down = [1, 0, -1], zero = [0, 0, 0], ball = solid_sphere(0.1, 1);
 const pair = { friction: 0.3, stiffness_ratio: 1.2, restitution: 0.8, loss: PLASTIC };
+const law = { friction: 0.3, stiffness_ratio: 1.2, effective_modulus: 1e9 };
 const message = (work) => {
     try {
         work();
@@ -184,6 +204,7 @@ def random_impacts(random):
     given["loss"][kind == 3] = 0.0
     given["friction"][np.isin(kind, (4, 5))] = 0.0
     given["friction"][kind == 9] *= random.random(n)[kind == 9] < 0.5  # those are head-on
+    given["friction"][kind == 11] = 10 ** random.uniform(1, 308, n)[kind == 11]
     given["restitution"][kind == 5] = 1.0
     given["restitution"][kind == 6] = random.uniform(0, 0.3, n)[kind == 6]
     viscous, plastic = kind == 7, kind == 8
@@ -230,9 +251,9 @@ def stacked(*groups):
 
 
 def refused():
-    """`GOOD`, and a row for each of `REFUSED`."""
+    """`GOOD` with each change of `ACCEPTED` and `REFUSED`."""
     rows = []
-    for change in ({}, *REFUSED):
+    for change in (*ACCEPTED, *REFUSED):
         values = dict.fromkeys(COLUMNS, 0.0) | GOOD | change
         rows.append(np.concatenate([np.broadcast_to(values[k], n) for k, n in COLUMNS.items()]))
     return rows
@@ -390,11 +411,67 @@ def test_python_has_the_same_collisions(given, found):
 
 
 def test_bad_numbers_and_what_the_table_lacks_have_no_answer(found):
+    at = len(ACCEPTED)
     for name, values in found[2].items():
         if name == "regime":
-            assert values[0] == Regime.STICK_SLIP and (values[1:] == Regime.UNRESOLVED).all()
+            assert (values[:at] == Regime.STICK_SLIP).all()
+            assert (values[at:] == Regime.UNRESOLVED).all()
+        elif name == "told":
+            assert not values[:at].any() and values[at:].all()
         else:
-            assert np.isfinite(values[0]).all() and np.isnan(values[1:]).all(), name
+            assert np.isfinite(values[:at]).all() and np.isnan(values[at:]).all(), name
+
+
+def shifted(rows, decades):
+    """Rows with each number so many decades larger, or smaller, within the range of numbers."""
+    root, most = 10 ** (decades / 2), np.finfo(float).max
+    with np.errstate(over="ignore"):
+        return np.where(np.isinf(rows), rows, np.clip(rows * root * root, -most, most))
+
+
+def told(rows, folder):
+    """Whether C tells a problem, and whether a number of its answer is missing without one."""
+    rows.tofile(folder / "impacts")
+    subprocess.run([folder.parent / "run"], cwd=folder, check=True)
+    c = np.fromfile(folder / "c").reshape(len(rows), -1)
+    after = named(FIELDS, c)
+    finite = np.isfinite(c[:, :15]).all(axis=1) & ~np.isnan(after["incidence"])
+    low = after["restitution"] < spheres.LEAST_RESTITUTION
+    for name in ("restitution", "error_bound", "model_form"):
+        finite &= np.isfinite(after[name]) | (low & (name != "restitution"))
+    quiet = after["told"] == 0
+    still = after["regime"] == Regime.NO_IMPACT
+    np.testing.assert_array_equal(c[quiet & still, :12], rows[quiet & still][:, STATES])
+    return ~quiet, quiet & ~still & ~finite
+
+
+def test_a_problem_is_told_wherever_a_number_would_not_be_finite(given, found, folder):
+    """Numbers of all kinds up to 310 decades away, and as near to a problem as they can be."""
+    folder, random = folder / "extremes", np.random.default_rng(49)
+    folder.mkdir()
+    rows = stacked({name: values[: COUNT // 5] for name, values in given[0].items()})
+    decades = []
+    for name, width in COLUMNS.items():
+        scale = random.uniform(-310, 310, (len(rows), width + 1))
+        scale *= random.random(scale.shape) < ([0.05] * width + [0.3])
+        fixed = name in ("normal", "stiffness_ratio", "restitution", "loss")
+        decades.append(np.clip(scale[:, :-1] + scale[:, -1:], -310, 310) * (not fixed))
+    of = dict(zip(COLUMNS, decades, strict=True))
+    for who in ("", "other_"):  # else most mass ratios are beyond the table
+        of[who + "gyration"][:] = of[who + "radius"]
+    decades = np.concatenate(decades, axis=1)
+    refused_from, missing = told(shifted(rows, decades), folder)
+    assert not missing.any() and COUNT // 50 < refused_from.sum() < COUNT // 6
+    subprocess.run(["node", "../run.mjs"], cwd=folder, check=True)
+    np.testing.assert_array_equal(*(np.fromfile(folder / name) for name in ("c", "js")))
+    rows, decades = rows[refused_from], decades[refused_from]
+    good, bad = np.zeros((2, len(rows), 1))
+    bad[:] = 1
+    for _ in range(50):
+        middle = (good + bad) / 2
+        is_told, missing = told(shifted(rows, middle * decades), folder)
+        assert not missing.any()
+        good[~is_told], bad[is_told] = middle[~is_told], middle[is_told]
 
 
 def test_c_and_javascript_say_what_is_wrong(found, folder):

@@ -22,9 +22,6 @@ RESTITUTION_BY = {
     "relaxation_time": bodies.viscous_restitution,
     "yield_pressure": bodies.plastic_restitution,
 }
-# Largest error of the length of a normal that is taken for one of rounding, float32 too: 1e-6, with
-# room for the rounding of the length itself.
-UNIT = 1.000001e-6
 # Largest mass ratio m2/m1: beyond it no digit of the rebound is certain.
 LARGEST_RATIO = 1e12
 
@@ -90,7 +87,7 @@ def impacts(
 ) -> Impacts:
     """Impacts of bodies, arrays of shape (n,), whose states and normals have the shape (3, n).
 
-    Normals are divided by their length if it is within `UNIT` of 1: else energy would grow by a
+    Normals are divided by their length if it is within 1e-6 of 1: else energy would grow by a
     share of that error, and a head-on impact would have an incidence.
 
     v2 may be 0 or negative, where nothing approaches, and other numbers may be infinite: `problems`
@@ -100,7 +97,7 @@ def impacts(
     # `problems` finds what is not finite, and other normals.
     with np.errstate(over="ignore", invalid="ignore"):
         length = np.sqrt(_dot(normal, normal))
-        normal = normal / np.where(np.abs(length - 1) <= UNIT, length, 1.0)
+        normal = normal / np.where(np.abs(length - 1) <= checks.LENGTH_ERROR, length, 1.0)
         relative = contact_velocity(before, body, -normal)
         relative = relative - contact_velocity(other_before, other, normal)
         along = _dot(relative, normal)
@@ -195,7 +192,7 @@ def problems_of_normals(normal: Array) -> dict[int, str]:
     """
     with np.errstate(over="ignore"):
         length = np.sqrt(_dot(normal, normal))
-    wrong = np.flatnonzero(~(np.abs(length - 1) <= UNIT)).tolist()
+    wrong = np.flatnonzero(~(np.abs(length - 1) <= checks.LENGTH_ERROR)).tolist()
     said = "the normal has the length {:.9g}: allowed is 1, within 1e-6"
     return {i: said.format(length[i]) for i in wrong}
 

@@ -15,9 +15,9 @@ import numpy as np
 
 from planarimpact import spheres
 from planarimpact.bodies import Body
-from planarimpact.collision.mechanics import UNIT
 from planarimpact.collision.pairs import PLAIN_LEAST, PLAIN_MOST
 from planarimpact.collision.rungs import ROUNDING
+from planarimpact.ground import checks
 from planarimpact.ground.results import Regime
 from planarimpact.normal_impact import hertz, kelvin_voigt
 from planarimpact.spheres import single as table_of_spheres
@@ -59,7 +59,7 @@ def collide(
     if not (-PLAIN_MOST <= min(numbers) and max(numbers) <= PLAIN_MOST):
         return None
     length = sqrt(nx * nx + ny * ny + nz * nz)
-    if not abs(length - 1) <= UNIT:
+    if not abs(length - 1) <= checks.LENGTH_ERROR:
         return None
     nx, ny, nz = nx / length, ny / length, nz / length
     # Velocity of the contact point of the body, relative to that of the other.

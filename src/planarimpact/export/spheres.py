@@ -113,6 +113,7 @@ def _private(table: Table) -> dict[str, float]:
         "LONGEST": float(kelvin_voigt.relaxation_time(np.array(LEAST_RESTITUTION))),
         "SERIES": len(_series()),
         "SPAN": float(kelvin_voigt.series().domain[1]),
+        "LENGTH_ERROR": checks.LENGTH_ERROR,
     }
 
 

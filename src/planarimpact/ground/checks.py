@@ -16,6 +16,9 @@ LARGEST = 8e307
 # Least incidence of `collide` other than 0. The answer is in proportion to v1(0) long before, so
 # that a larger friction coefficient changes nothing; and from here on numbers keep their digits.
 LEAST_INCIDENCE = 1e-100
+# Largest error of the length of a normal that is taken for one of rounding, float32 too: 1e-6, with
+# room for the rounding of the length itself.
+LENGTH_ERROR = 1.000001e-6
 # Largest count of samples, circles or points: their tables still fit into memory.
 MOST = 10_000_000
 
@@ -34,6 +37,10 @@ class InputError(ValueError):
     """An argument is not allowed. The message names it, its value and what is allowed."""
 
     __module__ = "planarimpact"  # where users find it, and what a traceback shows
+
+
+class MissingLoss(InputError):
+    """Restitution is below 1, and nobody says what takes the energy."""
 
 
 class ConvergenceError(ArithmeticError):
@@ -214,7 +221,10 @@ says what takes the energy: hysteretic (the paper's), viscous
     restitution(value)
     names = [f"{one} (the paper's)" if one.endswith("hysteretic") else one for one in choices]
     words = f"numbers equal to 1, unless {by} says what takes the energy: {', '.join(names)}"
-    checked("restitution", value, words, 1, 1)
+    try:
+        checked("restitution", value, words, 1, 1)
+    except InputError as error:
+        raise MissingLoss(str(error)) from None
 
 
 # The groups, in the order of every model's arguments, and their checks.

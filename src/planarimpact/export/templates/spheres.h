@@ -72,6 +72,7 @@
  *   LEAST, LONGEST: least restitution of viscous spheres, and the relaxation time, over its unit,
  *   where they have it
  *   SERIES, SPAN: numbers of the series of viscous restitution, and where it ends
+ *   LENGTH_ERROR: of a normal, at most
  */
 /* <private> */
 #define SPHERES_B_LEAST 1.55
@@ -92,6 +93,7 @@
 #define SPHERES_LONGEST 7.9
 #define SPHERES_SERIES 2
 #define SPHERES_SPAN 2.8
+#define SPHERES_LENGTH_ERROR 1.000001e-06
 /* </private> */
 
 /*
@@ -214,7 +216,7 @@ static inline double spheres_sticking(
 {
     double least = sliding > 0.0 - x ? sliding : 0.0 - x;
     double share = spheres_spline(spot, spot->panel->velocity) * spot->scale;
-    return spheres_clipped(zeta2 * share, least, x);
+    return spheres_clipped(zeta2 * share + 0.0, least, x); /* no -0 */
 }
 
 static inline struct spheres_spot spheres_find(double y, double b, double e, int loss)
@@ -428,6 +430,14 @@ static inline struct spheres_vector spheres_cross(struct spheres_vector a, struc
     return c;
 }
 
+static inline struct spheres_vector spheres_scaled(double factor, struct spheres_vector a)
+{
+    a.x *= factor;
+    a.y *= factor;
+    a.z *= factor;
+    return a;
+}
+
 /* a + factor b */
 static inline struct spheres_vector spheres_sum(
     struct spheres_vector a, double factor, struct spheres_vector b)
@@ -457,6 +467,13 @@ static inline double spheres_fifth_root(double value)
     return root * scale;
 }
 
+/* Whether the loss that goes with a restitution is one, or is left out where nothing is lost. */
+static inline int spheres_knows_loss(struct spheres_pair pair)
+{
+    return pair.loss == SPHERES_VISCOUS || pair.loss == SPHERES_PLASTIC
+        || (pair.loss == 0 && pair.restitution == 1);
+}
+
 /* Restitution of a pair at a normal speed, of bodies with this effective mass and radius. */
 static inline double spheres_restitution_at(
     struct spheres_pair pair, double mass, double radius, double speed)
@@ -484,7 +501,7 @@ static inline double spheres_restitution_at(
         double tau = pair.relaxation_time * spheres_fifth_root(stiff * radius * stiff * speed);
         double at = 2 * (sqrt(tau) / SPHERES_SPAN) - 1, sum = 0, last = 0;
         int i;
-        if (!(tau > 0 && tau <= SPHERES_LONGEST))
+        if (!(tau >= 0 && tau <= SPHERES_LONGEST))
             return (double)NAN;
         for (i = SPHERES_SERIES - 1; i > 0; --i) { /* Clenshaw's method */
             double next = spheres_series[i] + 2 * at * sum - last;
@@ -493,9 +510,7 @@ static inline double spheres_restitution_at(
         }
         return spheres_clipped(spheres_series[0] + at * sum - last, SPHERES_LEAST, 1);
     }
-    if (pair.restitution == 1 || pair.loss == SPHERES_VISCOUS || pair.loss == SPHERES_PLASTIC)
-        return pair.restitution;
-    return (double)NAN;
+    return spheres_knows_loss(pair) ? pair.restitution : (double)NAN;
 }
 
 /* 1/r; 0 where the radius is 0, as of a wall, which is flat. */
@@ -504,74 +519,165 @@ static inline double spheres_curvature(struct spheres_body body)
     return body.radius > 0 ? 1 / body.radius : 0;
 }
 
-/* An impact that is to come. Its regime is UNRESOLVED where it has no answer, or NO_IMPACT. */
+#define SPHERES_TEXT(number) SPHERES_QUOTED(number)
+#define SPHERES_QUOTED(number) #number
+
+static inline int spheres_is_finite(struct spheres_vector a)
+{
+    const double most = (double)INFINITY;
+    return fabs(a.x) < most && fabs(a.y) < most && fabs(a.z) < most;
+}
+
+/* Whether a vector stays finite where its components change by up to so much. */
+static inline int spheres_may_change(struct spheres_vector a, double change)
+{
+    return fabs(a.x) + fabs(a.y) + fabs(a.z) + change < (double)INFINITY;
+}
+
+/* An impact that is to come. */
 struct spheres_impact {
     struct spheres_vector normal; /* length 1 to rounding */
     struct spheres_vector tangent; /* where the contact point goes along the surface, length 1 */
+    double share, other_share; /* m2 over the mass of each body */
     double v1, v2, unit, m2, beta, zeta2, e, x; /* v1 = unit x, unit = mu v2 */
-    int loss, regime;
+    int loss, regime; /* UNRESOLVED without an answer, NO_IMPACT if nothing approaches, or STICK */
 };
 
-static inline struct spheres_impact spheres_before(
-    struct spheres_pair pair, struct spheres_vector normal,
+/*
+ * Prepares an impact, and says what is wrong with the arguments: the field, and what is allowed;
+ * NULL where there is an answer.
+ */
+static inline const char *spheres_before(
+    struct spheres_impact *impact, struct spheres_pair pair, struct spheres_vector normal,
     struct spheres_body body, struct spheres_vector velocity, struct spheres_vector spin,
     struct spheres_body other, struct spheres_vector other_velocity,
     struct spheres_vector other_spin)
 {
-    const double most = SPHERES_INCIDENCE_MAX;
-    struct spheres_impact impact = {
-        {0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0, 0, 0, 0, 0, 0, SPHERES_UNRESOLVED};
-    struct spheres_vector zero = {0, 0, 0};
-    double square = spheres_dot(normal, normal), length = sqrt(square);
-    struct spheres_vector n = {normal.x / length, normal.y / length, normal.z / length};
-    /* Velocity of the contact point of the body against that of the other one. */
-    struct spheres_vector turn =
-        spheres_sum(spheres_sum(zero, body.radius, spin), other.radius, other_spin);
-    struct spheres_vector between = spheres_sum(velocity, -1, other_velocity);
-    struct spheres_vector point = spheres_sum(between, -1, spheres_cross(turn, n));
-    double along = spheres_dot(point, n), v1, arm = body.radius / body.gyration;
-    struct spheres_vector sideways = spheres_sum(point, -along, n);
-    double other_arm = other.radius / other.gyration;
-    double m2 = 1 / (1 / body.mass + 1 / other.mass);
-    double beta = m2 * ((1 + arm * arm) / body.mass + (1 + other_arm * other_arm) / other.mass);
-    v1 = sqrt(spheres_dot(sideways, sideways));
-    impact.m2 = m2;
-    impact.beta = beta;
-    if (!(fabs(square - 1) <= 2e-6 && fabs(along) <= most && v1 <= most
-          && body.mass > 0 && body.gyration > 0 && body.radius >= 0
-          && other.mass > 0 && other.gyration > 0 && other.radius >= 0 && m2 <= most
-          && pair.friction >= 0 && pair.friction <= most))
-        return impact;
-    if (!(along < 0)) {
-        impact.regime = SPHERES_NO_IMPACT;
-        return impact;
+    const struct spheres_impact unknown = {
+        {0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, SPHERES_UNRESOLVED};
+    const double most = (double)INFINITY;
+    const int is_fixed = pair.restitution != 0 || pair.loss != 0;
+    struct spheres_vector n, turn, point, sideways;
+    double length = sqrt(spheres_dot(normal, normal)), lighter, inverse, other_inverse, arm;
+    double other_arm, along, v1, v2, m2, speed, unit;
+    *impact = unknown;
+    if (!spheres_is_finite(normal))
+        return "normal: allowed is a vector of three finite numbers";
+    if (!spheres_is_finite(velocity))
+        return "velocity: allowed is a vector of three finite numbers";
+    if (!spheres_is_finite(spin))
+        return "spin: allowed is a vector of three finite numbers";
+    if (!spheres_is_finite(other_velocity))
+        return "other_velocity: allowed is a vector of three finite numbers";
+    if (!spheres_is_finite(other_spin))
+        return "other_spin: allowed is a vector of three finite numbers";
+    if (!(fabs(length - 1) <= SPHERES_LENGTH_ERROR))
+        return "normal: allowed is a vector whose length is within 1e-6 of 1";
+
+    if (!(body.mass > 0))
+        return "body.mass: allowed is a number above 0";
+    if (!(body.gyration > 0))
+        return "body.gyration: allowed is a number above 0";
+    if (!(body.radius >= 0 && body.radius < most))
+        return "body.radius: allowed is a finite number from 0";
+    if (!(other.mass > 0))
+        return "other.mass: allowed is a number above 0";
+    if (!(other.gyration > 0))
+        return "other.gyration: allowed is a number above 0";
+    if (!(other.radius >= 0 && other.radius < most))
+        return "other.radius: allowed is a finite number from 0";
+    lighter = body.mass < other.mass ? body.mass : other.mass;
+    if (!(lighter < most))
+        return "body.mass: allowed is a finite number where other.mass is not one";
+
+    if (!(pair.friction >= 0 && pair.friction < most))
+        return "pair.friction: allowed is a finite number from 0";
+    if (!(pair.stiffness_ratio > 0 && pair.stiffness_ratio <= SPHERES_STIFFNESS_MOST))
+        return "pair.stiffness_ratio: allowed is a number above 0, up to "
+            SPHERES_TEXT(SPHERES_STIFFNESS_MAX);
+    inverse = lighter / body.mass;
+    other_inverse = lighter / other.mass;
+    impact->share = inverse / (inverse + other_inverse);
+    impact->other_share = other_inverse / (inverse + other_inverse);
+    arm = body.radius / body.gyration;
+    other_arm = other.radius / other.gyration;
+    impact->beta = (1 + arm * arm) * impact->share
+        + (1 + other_arm * other_arm) * impact->other_share;
+    if (!spheres_covers(0, impact->beta, pair.stiffness_ratio, 1, SPHERES_VISCOUS))
+        return "mass_ratio/stiffness_ratio: allowed is a number from "
+            SPHERES_TEXT(SPHERES_RATIO_MIN) " to " SPHERES_TEXT(SPHERES_RATIO_MAX);
+
+    if (is_fixed + (pair.relaxation_time != 0) + (pair.yield_pressure != 0) != 1)
+        return "pair: allowed is either restitution with loss, or one of relaxation_time and "
+            "yield_pressure, with effective_modulus and no loss";
+    if (is_fixed) {
+        if (!(pair.restitution >= 0 && pair.restitution <= 1))
+            return "pair.restitution: allowed is a number from 0 to 1";
+        if (!spheres_knows_loss(pair))
+            return "pair.loss: allowed is the constant SPHERES_VISCOUS or SPHERES_PLASTIC; it may "
+                "be left out where restitution is 1";
+    } else {
+        if (!(pair.effective_modulus > 0 && pair.effective_modulus < most))
+            return "pair.effective_modulus: allowed is a finite number above 0";
+        if (!(pair.relaxation_time >= 0 && pair.relaxation_time < most))
+            return "pair.relaxation_time: allowed is a finite number above 0";
+        if (!(pair.yield_pressure >= 0 && pair.yield_pressure < most))
+            return "pair.yield_pressure: allowed is a finite number above 0";
     }
 
-    impact.e = spheres_restitution_at(
-        pair, m2, 1 / (spheres_curvature(body) + spheres_curvature(other)), -along);
-    impact.loss = pair.loss == SPHERES_PLASTIC || pair.yield_pressure > 0
-        ? SPHERES_PLASTIC : SPHERES_VISCOUS;
-    if (impact.e == 1) /* nothing is lost: the table of viscous spheres is nearer */
-        impact.loss = SPHERES_VISCOUS;
-    if (!(impact.e >= 0 && impact.e <= 1
-          && spheres_covers(0, beta, pair.stiffness_ratio, 1, SPHERES_VISCOUS)))
-        return impact;
-    impact.normal = n;
-    if (v1 > 0)
-        impact.tangent = spheres_sum(zero, 1 / v1, sideways);
-    impact.v2 = -along;
-    impact.zeta2 = pair.stiffness_ratio;
-    impact.v1 = v1;
-    impact.unit = pair.friction * impact.v2;
-    if (v1 / SPHERES_INCIDENCE_LEAST < impact.unit)
-        impact.unit = v1 / SPHERES_INCIDENCE_LEAST;
-    impact.x = v1 > 0 ? v1 / impact.unit : 0;
-    impact.regime = SPHERES_STICK;
-    return impact;
-}
+    /* Velocity of the contact point of the body against that of the other one. */
+    n.x = normal.x / length;
+    n.y = normal.y / length;
+    n.z = normal.z / length;
+    turn = spheres_sum(spheres_scaled(body.radius, spin), other.radius, other_spin);
+    point = spheres_sum(spheres_sum(velocity, -1, other_velocity), -1, spheres_cross(turn, n));
+    along = spheres_dot(point, n);
+    if (along >= 0 && along < most) {
+        impact->regime = SPHERES_NO_IMPACT;
+        return NULL;
+    }
+    /* What can change is bounded, so that no number of the result overflows. */
+    sideways = spheres_sum(point, -along, n);
+    v1 = sqrt(spheres_dot(sideways, sideways));
+    v2 = -along;
+    m2 = lighter / (inverse + other_inverse);
+    speed = 2 * (v1 + v2);
+    if (!(m2 * v2 * v2 + m2 * v1 * v1 < most && m2 * speed < most && m2 / impact->beta > 0
+          && spheres_may_change(velocity, speed) && spheres_may_change(other_velocity, speed)
+          && spheres_may_change(spin, speed * impact->share * arm / body.gyration)
+          && spheres_may_change(
+              other_spin, speed * impact->other_share * other_arm / other.gyration)))
+        return "velocity: allowed is a vector whose numbers are neither too large nor too small to "
+            "compute with, as those of the spins and bodies are";
+    unit = pair.friction * v2;
+    if (unit > v1 / SPHERES_INCIDENCE_LEAST)
+        unit = v1 / SPHERES_INCIDENCE_LEAST;
+    if (!(unit < most))
+        return "pair.friction: allowed is a number that stays finite times the normal velocity";
 
-#define SPHERES_TEXT(number) SPHERES_QUOTED(number)
-#define SPHERES_QUOTED(number) #number
+    impact->e = spheres_restitution_at(
+        pair, m2, 1 / (spheres_curvature(body) + spheres_curvature(other)), v2);
+    if (!(impact->e >= 0)) {
+        if (pair.yield_pressure > 0)
+            return "pair.yield_pressure: allowed is a smaller or a larger number";
+        return "pair.relaxation_time: allowed is a number so small that e is above "
+            SPHERES_TEXT(SPHERES_LEAST);
+    }
+    impact->loss = pair.loss == SPHERES_PLASTIC || pair.yield_pressure > 0
+        ? SPHERES_PLASTIC : SPHERES_VISCOUS;
+    if (impact->e == 1) /* nothing is lost: the table of viscous spheres is nearer */
+        impact->loss = SPHERES_VISCOUS;
+    impact->normal = n;
+    impact->tangent = spheres_scaled(v1 > 0 ? 1 / v1 : 0, sideways);
+    impact->v2 = v2;
+    impact->m2 = m2;
+    impact->zeta2 = pair.stiffness_ratio;
+    impact->v1 = v1;
+    impact->unit = unit;
+    impact->x = v1 > 0 ? v1 / unit : 0;
+    impact->regime = SPHERES_STICK;
+    return NULL;
+}
 
 /* What an impact of this loss adds to x, the tangential velocity; it finds the regime too. */
 static inline double spheres_change(const struct spheres_impact *impact, int loss, int *regime)
@@ -602,14 +708,15 @@ static inline struct spheres_collision spheres_collide(
     struct spheres_vector other_spin)
 {
     const double nan = (double)NAN;
-    struct spheres_impact impact = spheres_before(
-        pair, normal, body, velocity, spin, other, other_velocity, other_spin);
-    struct spheres_vector zero = {0, 0, 0}, unknown = {nan, nan, nan}, turn;
+    struct spheres_impact impact;
+    struct spheres_vector zero = {0, 0, 0}, unknown = {nan, nan, nan}, impulse, turn;
     struct spheres_collision after = {
-        unknown, unknown, unknown, unknown, unknown, nan, nan, nan, impact.regime};
-    double change, towards, along, twist;
-    if (impact.regime == SPHERES_UNRESOLVED)
+        unknown, unknown, unknown, unknown, unknown, nan, nan, nan, SPHERES_UNRESOLVED};
+    double change, along, twist;
+    if (spheres_before(
+            &impact, pair, normal, body, velocity, spin, other, other_velocity, other_spin))
         return after;
+    after.regime = impact.regime;
     after.velocity = velocity;
     after.spin = spin;
     after.other_velocity = other_velocity;
@@ -619,17 +726,20 @@ static inline struct spheres_collision spheres_collide(
         return after;
 
     change = spheres_change(&impact, impact.loss, &after.regime);
-    towards = impact.m2 * impact.v2 * (1 + impact.e);
-    along = impact.m2 * (impact.unit * (change / impact.beta));
-    after.impulse = spheres_sum(spheres_sum(zero, towards, impact.normal), along, impact.tangent);
+    /* The impulse is over m2, as velocities are in the range of numbers. */
+    along = impact.unit * (change / impact.beta);
+    impulse = spheres_scaled(impact.v2 * (1 + impact.e), impact.normal);
+    impulse = spheres_sum(impulse, along, impact.tangent);
+    after.impulse = spheres_scaled(impact.m2, impulse);
     turn = spheres_cross(impact.normal, impact.tangent);
+    after.velocity = spheres_sum(velocity, impact.share, impulse);
+    after.other_velocity = spheres_sum(other_velocity, 0.0 - impact.other_share, impulse);
     twist = 0.0 - along;
-    after.velocity = spheres_sum(velocity, 1 / body.mass, after.impulse);
     after.spin = spheres_sum(
-        spin, twist * (body.radius / body.gyration / body.gyration / body.mass), turn);
-    after.other_velocity = spheres_sum(other_velocity, -1 / other.mass, after.impulse);
+        spin, twist * impact.share * (body.radius / body.gyration) / body.gyration, turn);
     after.other_spin = spheres_sum(
-        other_spin, twist * (other.radius / other.gyration / other.gyration / other.mass), turn);
+        other_spin,
+        twist * impact.other_share * (other.radius / other.gyration) / other.gyration, turn);
     after.incidence = impact.x;
     after.restitution = impact.e;
     if (after.regime == SPHERES_STICK || after.regime == SPHERES_SLIP_THROUGHOUT)
@@ -638,12 +748,6 @@ static inline struct spheres_collision spheres_collide(
         after.error_bound = (impact.unit < impact.v1 ? impact.unit : impact.v1)
             * (impact.loss == SPHERES_VISCOUS ? SPHERES_ERROR_VISCOUS : SPHERES_ERROR_PLASTIC);
     return after;
-}
-
-static inline int spheres_is_finite(struct spheres_vector a)
-{
-    const double most = (double)INFINITY;
-    return fabs(a.x) < most && fabs(a.y) < most && fabs(a.z) < most;
 }
 
 /*
@@ -656,76 +760,9 @@ static inline const char *spheres_problem(
     struct spheres_body other, struct spheres_vector other_velocity,
     struct spheres_vector other_spin)
 {
-    const double most = (double)INFINITY;
-    int is_fixed = pair.restitution != 0 || pair.loss != 0;
-    struct spheres_impact impact = spheres_before(
-        pair, normal, body, velocity, spin, other, other_velocity, other_spin);
-    if (impact.regime != SPHERES_UNRESOLVED)
-        return NULL;
-    if (!spheres_is_finite(normal))
-        return "normal: allowed is a vector of three finite numbers";
-    if (!spheres_is_finite(velocity))
-        return "velocity: allowed is a vector of three finite numbers";
-    if (!spheres_is_finite(spin))
-        return "spin: allowed is a vector of three finite numbers";
-    if (!spheres_is_finite(other_velocity))
-        return "other_velocity: allowed is a vector of three finite numbers";
-    if (!spheres_is_finite(other_spin))
-        return "other_spin: allowed is a vector of three finite numbers";
-    if (!(fabs(spheres_dot(normal, normal) - 1) <= 2e-6))
-        return "normal: allowed is a vector of length 1";
-
-    if (!(body.mass > 0))
-        return "body.mass: allowed is a number above 0";
-    if (!(body.gyration > 0))
-        return "body.gyration: allowed is a number above 0";
-    if (!(body.radius >= 0 && body.radius < most))
-        return "body.radius: allowed is a finite number from 0";
-    if (!(other.mass > 0))
-        return "other.mass: allowed is a number above 0";
-    if (!(other.gyration > 0))
-        return "other.gyration: allowed is a number above 0";
-    if (!(other.radius >= 0 && other.radius < most))
-        return "other.radius: allowed is a finite number from 0";
-    if (!(impact.m2 <= SPHERES_INCIDENCE_MAX))
-        return "body.mass: allowed is a finite number where other.mass is not one";
-
-    if (!(pair.friction >= 0 && pair.friction < most))
-        return "pair.friction: allowed is a finite number from 0";
-    if (!(pair.stiffness_ratio > 0 && pair.stiffness_ratio <= SPHERES_STIFFNESS_MOST))
-        return "pair.stiffness_ratio: allowed is a number above 0, up to "
-            SPHERES_TEXT(SPHERES_STIFFNESS_MAX);
-    if (!spheres_covers(0, impact.beta, pair.stiffness_ratio, 1, SPHERES_VISCOUS))
-        return "mass_ratio/stiffness_ratio: allowed is a number from "
-            SPHERES_TEXT(SPHERES_RATIO_MIN) " to " SPHERES_TEXT(SPHERES_RATIO_MAX);
-
-    if (is_fixed + (pair.relaxation_time != 0) + (pair.yield_pressure != 0) != 1)
-        return "pair: allowed is either restitution with loss, or one of relaxation_time and "
-            "yield_pressure, with effective_modulus and no loss";
-    if (is_fixed) {
-        if (!(pair.restitution >= 0 && pair.restitution <= 1))
-            return "pair.restitution: allowed is a number from 0 to 1";
-        if (!(impact.e >= 0))
-            return "pair.loss: allowed is the constant SPHERES_VISCOUS or SPHERES_PLASTIC "
-                "where restitution is below 1";
-    } else {
-        if (!(pair.effective_modulus > 0))
-            return "pair.effective_modulus: allowed is a number above 0";
-        if (pair.relaxation_time != 0) {
-            if (!(pair.relaxation_time > 0))
-                return "pair.relaxation_time: allowed is a number above 0";
-            if (!(impact.e >= 0))
-                return "pair.relaxation_time: allowed is a number so small that e is above "
-                    SPHERES_TEXT(SPHERES_LEAST);
-        }
-        if (pair.yield_pressure != 0) {
-            if (!(pair.yield_pressure > 0))
-                return "pair.yield_pressure: allowed is a number above 0";
-            if (!(impact.e >= 0))
-                return "pair.yield_pressure: allowed is a smaller or a larger number";
-        }
-    }
-    return "velocity: allowed is a smaller vector, as the spins are";
+    struct spheres_impact impact;
+    return spheres_before(
+        &impact, pair, normal, body, velocity, spin, other, other_velocity, other_spin);
 }
 
 /* The collision of a body with a surface at rest. */
@@ -747,11 +784,12 @@ static inline double spheres_model_form(
     struct spheres_body other, struct spheres_vector other_velocity,
     struct spheres_vector other_spin)
 {
-    struct spheres_impact impact = spheres_before(
-        pair, normal, body, velocity, spin, other, other_velocity, other_spin);
+    struct spheres_impact impact;
     double viscous, plastic;
     int one, two;
-    if (impact.regime != SPHERES_STICK)
+    if (spheres_before(
+            &impact, pair, normal, body, velocity, spin, other, other_velocity, other_spin)
+        || impact.regime == SPHERES_NO_IMPACT)
         return (double)NAN;
     if (!(impact.e < 1))
         return 0;

@@ -56,6 +56,7 @@ export const NO_IMPACT = 7;
  *   LEAST, LONGEST: least restitution of viscous spheres, and the relaxation time, over its unit,
  *   where they have it
  *   SERIES, SPAN: numbers of the series of viscous restitution, and where it ends
+ *   LENGTH_ERROR: of a normal, at most
  */
 /* <private> */
 const B_LEAST = 1.55;
@@ -76,6 +77,7 @@ const LEAST = 0.022;
 const LONGEST = 7.9;
 const SERIES = 2;
 const SPAN = 2.8;
+const LENGTH_ERROR = 1.000001e-06;
 /* </private> */
 
 /*
@@ -303,7 +305,7 @@ function spline({ panel, base, weights: [over_s, over_t, over_u] }, begin) {
  */
 function sticking(spot, x, zeta2, sliding) {
     const share = spline(spot, spot.panel.velocity) * spot.scale;
-    return clipped(zeta2 * share, sliding > 0 - x ? sliding : 0 - x, x);
+    return clipped(zeta2 * share + 0, sliding > 0 - x ? sliding : 0 - x, x);
 }
 
 /**
@@ -468,6 +470,15 @@ function cross(a, b) {
 }
 
 /**
+ * @param {number} factor
+ * @param {Vector} a
+ * @returns {Vector}
+ */
+function scaled(factor, a) {
+    return [factor * a[0], factor * a[1], factor * a[2]];
+}
+
+/**
  * a + factor b
  * @param {Vector} a
  * @param {number} factor
@@ -494,6 +505,16 @@ function fifth_root(value) {
         root *= (2 * power + 3 * value) / (3 * power + 2 * value);
     }
     return root * scale;
+}
+
+/**
+ * Whether the loss that goes with a restitution is one, or is left out where nothing is lost.
+ * @param {unknown} loss
+ * @param {unknown} restitution
+ * @returns {boolean}
+ */
+function knows_loss(loss, restitution) {
+    return loss === VISCOUS || loss === PLASTIC || (loss === 0 && restitution === 1);
 }
 
 /**
@@ -526,14 +547,13 @@ export function restitution_at(pair, mass, radius, speed) {
         const stiff = modulus / mass;
         const tau = relaxation_time * fifth_root(stiff * radius * stiff * speed);
         const at = 2 * (Math.sqrt(tau) / SPAN) - 1;
-        if (!(tau > 0 && tau <= LONGEST)) return NaN;
+        if (!(tau >= 0 && tau <= LONGEST)) return NaN;
         let total = 0, last = 0;
         for (let i = SERIES - 1; i > 0; i -= 1) // Clenshaw's method
             [total, last] = [series[i] + 2 * at * total - last, total];
         return clipped(series[0] + at * total - last, LEAST, 1);
     }
-    const known = fixed === 1 || loss === VISCOUS || loss === PLASTIC;
-    return known && typeof fixed === "number" ? fixed : NaN;
+    return knows_loss(loss, fixed) && typeof fixed === "number" ? fixed : NaN;
 }
 
 /**
@@ -543,78 +563,6 @@ export function restitution_at(pair, mass, radius, speed) {
  */
 function curvature({ radius }) {
     return radius > 0 ? 1 / radius : 0;
-}
-
-/**
- * Whether a value is an array of three numbers.
- * @param {Vector} value
- * @returns {boolean}
- */
-function is_vector(value) {
-    return value?.length === 3 && typeof value[0] === "number" && typeof value[1] === "number"
-        && typeof value[2] === "number";
-}
-
-/**
- * An impact that is to come: what `change` needs, the normal with the length 1 to rounding, and the
- * unit vector along which the contact point moves. Its regime is UNRESOLVED where it has no answer, or NO_IMPACT.
- * @param {Pair} pair
- * @param {Vector} normal
- * @param {Body} body
- * @param {Vector} velocity
- * @param {Vector} spin
- * @param {Body} other
- * @param {Vector} other_velocity
- * @param {Vector} other_spin
- */
-function before(pair, normal, body, velocity, spin, other, other_velocity, other_spin) {
-    const zero = [0, 0, 0], most = INCIDENCE_MAX;
-    const impact = {
-        normal: zero, tangent: zero, v1: 0, v2: 0, unit: 0, m2: 0, beta: 0, zeta2: 0, e: 0, x: 0,
-        loss: 0, regime: UNRESOLVED,
-    };
-    if (!(pair && body && other && is_vector(normal) && is_vector(velocity) && is_vector(spin)
-          && is_vector(other_velocity) && is_vector(other_spin)))
-        return impact;
-    const square = dot(normal, normal), length = Math.sqrt(square);
-    const n = [normal[0] / length, normal[1] / length, normal[2] / length];
-    // Velocity of the contact point of the body against that of the other one.
-    const turn = sum(sum(zero, body.radius, spin), other.radius, other_spin);
-    const between = sum(velocity, -1, other_velocity);
-    const point = sum(between, -1, cross(turn, n));
-    const along = dot(point, n), arm = body.radius / body.gyration;
-    const sideways = sum(point, -along, n), v1 = Math.sqrt(dot(sideways, sideways));
-    const other_arm = other.radius / other.gyration;
-    const m2 = 1 / (1 / body.mass + 1 / other.mass);
-    const beta = m2 * ((1 + arm * arm) / body.mass + (1 + other_arm * other_arm) / other.mass);
-    impact.m2 = m2;
-    impact.beta = beta;
-    if (!(Math.abs(square - 1) <= 2e-6 && Math.abs(along) <= most && v1 <= most
-          && body.mass > 0 && body.gyration > 0 && body.radius >= 0
-          && other.mass > 0 && other.gyration > 0 && other.radius >= 0 && m2 <= most
-          && pair.friction >= 0 && pair.friction <= most && typeof pair.friction === "number"
-          && typeof body.radius === "number" && typeof other.radius === "number"))
-        return impact;
-    if (!(along < 0)) {
-        impact.regime = NO_IMPACT;
-        return impact;
-    }
-
-    impact.e = restitution_at(pair, m2, 1 / (curvature(body) + curvature(other)), -along);
-    impact.loss = pair.loss === PLASTIC || pair.yield_pressure > 0 ? PLASTIC : VISCOUS;
-    // Nothing is lost: the table of viscous spheres is nearer.
-    if (impact.e === 1) impact.loss = VISCOUS;
-    if (!(impact.e >= 0 && impact.e <= 1 && covers(0, beta, pair.stiffness_ratio, 1, VISCOUS)))
-        return impact;
-    impact.normal = n;
-    if (v1 > 0) impact.tangent = sum(zero, 1 / v1, sideways);
-    impact.v2 = -along;
-    impact.zeta2 = pair.stiffness_ratio;
-    impact.v1 = v1;
-    impact.unit = Math.min(pair.friction * impact.v2, v1 / INCIDENCE_LEAST);
-    impact.x = v1 > 0 ? v1 / impact.unit : 0;
-    impact.regime = STICK;
-    return impact;
 }
 
 /**
@@ -630,69 +578,167 @@ function shown(value) {
 }
 
 /**
- * What is wrong with the arguments of `collide`, for which `before` has no answer.
- * @param {ReturnType<typeof before>} impact
- * @param {Parameters<typeof collide>} contact the arguments
+ * @param {string} field
+ * @param {unknown} value
+ * @param {string} allowed
  * @returns {RangeError}
  */
-function refusal({ m2, beta, e }, ...contact) {
-    const [pair, normal, body, velocity, spin, other, other_velocity, other_spin] = contact;
-    const told = (field, value, allowed) =>
-        new RangeError(`${field} = ${shown(value)}: allowed is ${allowed}`);
-    const vectors = { normal, velocity, spin, other_velocity, other_spin };
-    for (const [field, value] of Object.entries(vectors)) {
-        if (!(is_vector(value) && Array.from(value).every(Number.isFinite)))
-            return told(field, value, "an array of three finite numbers");
-    }
-    if (!(Math.abs(dot(normal, normal) - 1) <= 2e-6))
-        return told("normal", normal, "a vector of length 1");
-    for (const [field, value] of Object.entries({ pair, body, other }))
-        if (!value) return told(field, value, "an object");
+function refusal(field, value, allowed) {
+    return new RangeError(`${field} = ${shown(value)}: allowed is ${allowed}`);
+}
 
-    for (const [field, { mass, gyration, radius }] of Object.entries({ body, other })) {
-        if (!(mass > 0)) return told(`${field}.mass`, mass, "a number above 0");
-        if (!(gyration > 0)) return told(`${field}.gyration`, gyration, "a number above 0");
-        if (!(Number.isFinite(radius) && radius >= 0))
-            return told(`${field}.radius`, radius, "a finite number from 0");
+/**
+ * The sum of the sizes of a vector's components, after a check of the vector.
+ * @param {string} field
+ * @param {Vector} value
+ * @returns {number}
+ */
+function checked_size(field, value) {
+    if (value?.length === 3) {
+        const x = value[0], y = value[1], z = value[2];
+        if (Number.isFinite(x) && Number.isFinite(y) && Number.isFinite(z))
+            return Math.abs(x) + Math.abs(y) + Math.abs(z);
     }
-    if (!(m2 <= INCIDENCE_MAX))
-        return told("body.mass", body.mass, "a finite number where other.mass is not one");
+    throw refusal(field, value, "an array of three finite numbers");
+}
 
-    const { friction, stiffness_ratio, loss = 0, effective_modulus } = pair;
-    const { restitution = loss === 0 ? 0 : NaN, relaxation_time = 0, yield_pressure = 0 } = pair;
-    if (!(Number.isFinite(friction) && friction >= 0))
-        return told("pair.friction", friction, "a finite number from 0");
-    if (!(stiffness_ratio > 0 && stiffness_ratio <= STIFFNESS_MOST)) {
-        const allowed = `a number above 0, up to ${STIFFNESS_MAX}`;
-        return told("pair.stiffness_ratio", stiffness_ratio, allowed);
-    }
-    if (!covers(0, beta, stiffness_ratio, 1, VISCOUS)) {
-        const allowed = `a number from ${RATIO_MIN} to ${RATIO_MAX}`;
-        return told("mass_ratio/stiffness_ratio", beta / stiffness_ratio, allowed);
-    }
+/**
+ * @param {string} field
+ * @param {Body} body
+ */
+function check_body(field, { mass, gyration, radius }) {
+    if (!(typeof mass === "number" && mass > 0))
+        throw refusal(`${field}.mass`, mass, "a number above 0");
+    if (!(typeof gyration === "number" && gyration > 0))
+        throw refusal(`${field}.gyration`, gyration, "a number above 0");
+    if (!(Number.isFinite(radius) && radius >= 0))
+        throw refusal(`${field}.radius`, radius, "a finite number from 0");
+}
 
+/**
+ * @param {Pair} pair
+ */
+function check_laws(pair) {
+    const { loss = 0, relaxation_time = 0, yield_pressure = 0, effective_modulus } = pair;
+    const { restitution = loss === 0 ? 0 : NaN } = pair;
     const is_fixed = restitution !== 0 || loss !== 0;
     if (Number(is_fixed) + Number(relaxation_time !== 0) + Number(yield_pressure !== 0) !== 1) {
-        return told("pair", pair, "either restitution with loss, or one of relaxation_time and "
+        throw refusal("pair", pair, "either restitution with loss, or one of relaxation_time and "
             + "yield_pressure, with effective_modulus and no loss");
     }
     if (is_fixed) {
         if (!(typeof restitution === "number" && restitution >= 0 && restitution <= 1))
-            return told("pair.restitution", pair.restitution, "a number from 0 to 1");
-        if (restitution !== 1 && loss !== VISCOUS && loss !== PLASTIC)
-            return told("pair.loss", pair.loss, "the constant VISCOUS or PLASTIC where restitution is below 1");
-    } else {
-        const law = relaxation_time !== 0 ? "relaxation_time" : "yield_pressure";
-        if (!(effective_modulus > 0))
-            return told("pair.effective_modulus", effective_modulus, "a number above 0");
-        if (!(pair[law] > 0)) return told(`pair.${law}`, pair[law], "a number above 0");
-        if (!(e >= 0)) {
-            const allowed = law === "relaxation_time"
-                ? `a number so small that e is above ${LEAST}` : "a smaller or a larger number";
-            return told(`pair.${law}`, pair[law], allowed);
+            throw refusal("pair.restitution", pair.restitution, "a number from 0 to 1");
+        if (!knows_loss(loss, restitution)) {
+            throw refusal("pair.loss", pair.loss, "the constant VISCOUS or PLASTIC; it may be left "
+                + "out where restitution is 1");
         }
+        return;
     }
-    return told("velocity", velocity, "a smaller vector, as the spins are");
+    const numbers = { effective_modulus, relaxation_time, yield_pressure };
+    for (const field in numbers) {
+        const value = numbers[field], least = field === "effective_modulus" ? 5e-324 : 0;
+        if (!(Number.isFinite(value) && value >= least))
+            throw refusal(`pair.${field}`, value, "a finite number above 0");
+    }
+}
+
+/**
+ * An impact that is to come: what `change` and `collide` need, the normal with the length 1 to
+ * rounding, the unit vector along which the contact point moves, and m2 over the mass of each body.
+ * Null if nothing approaches.
+ * @param {Pair} pair
+ * @param {Vector} normal
+ * @param {Body} body
+ * @param {Vector} velocity
+ * @param {Vector} spin
+ * @param {Body} other
+ * @param {Vector} other_velocity
+ * @param {Vector} other_spin
+ * @throws {RangeError} as `collide`
+ */
+function before(pair, normal, body, velocity, spin, other, other_velocity, other_spin) {
+    checked_size("normal", normal);
+    const fast = checked_size("velocity", velocity), turns = checked_size("spin", spin);
+    const other_fast = checked_size("other_velocity", other_velocity);
+    const other_turns = checked_size("other_spin", other_spin);
+    const length = Math.sqrt(dot(normal, normal));
+    if (!(Math.abs(length - 1) <= LENGTH_ERROR))
+        throw refusal("normal", normal, "a vector whose length is within 1e-6 of 1");
+    if (!pair) throw refusal("pair", pair, "an object");
+    if (!body) throw refusal("body", body, "an object");
+    if (!other) throw refusal("other", other, "an object");
+
+    check_body("body", body);
+    check_body("other", other);
+    const lighter = Math.min(body.mass, other.mass);
+    if (!(lighter < Infinity))
+        throw refusal("body.mass", body.mass, "a finite number where other.mass is not one");
+
+    const { friction, stiffness_ratio: zeta2 } = pair;
+    if (!(Number.isFinite(friction) && friction >= 0))
+        throw refusal("pair.friction", friction, "a finite number from 0");
+    if (!(typeof zeta2 === "number" && zeta2 > 0 && zeta2 <= STIFFNESS_MOST)) {
+        const allowed = `a number above 0, up to ${STIFFNESS_MAX}`;
+        throw refusal("pair.stiffness_ratio", zeta2, allowed);
+    }
+    const inverse = lighter / body.mass, other_inverse = lighter / other.mass;
+    const share = inverse / (inverse + other_inverse);
+    const other_share = other_inverse / (inverse + other_inverse);
+    const arm = body.radius / body.gyration, other_arm = other.radius / other.gyration;
+    const beta = (1 + arm * arm) * share + (1 + other_arm * other_arm) * other_share;
+    if (!covers(0, beta, zeta2, 1, VISCOUS)) {
+        const allowed = `a number from ${RATIO_MIN} to ${RATIO_MAX}`;
+        throw refusal("mass_ratio/stiffness_ratio", beta / zeta2, allowed);
+    }
+    check_laws(pair);
+
+    // Velocity of the contact point of the body against that of the other one.
+    const n = [normal[0] / length, normal[1] / length, normal[2] / length];
+    const turn = sum(scaled(body.radius, spin), other.radius, other_spin);
+    const point = sum(sum(velocity, -1, other_velocity), -1, cross(turn, n));
+    const along = dot(point, n);
+    if (along >= 0 && along < Infinity) return null;
+    // What can change is bounded, so that no number of the result overflows.
+    const sideways = sum(point, -along, n), v1 = Math.sqrt(dot(sideways, sideways)), v2 = -along;
+    const m2 = lighter / (inverse + other_inverse), speed = 2 * (v1 + v2);
+    if (!(m2 * v2 * v2 + m2 * v1 * v1 < Infinity && m2 * speed < Infinity && m2 / beta > 0
+          && fast + speed < Infinity && other_fast + speed < Infinity
+          && turns + speed * share * arm / body.gyration < Infinity
+          && other_turns + speed * other_share * other_arm / other.gyration < Infinity)) {
+        throw refusal("velocity", velocity, "a vector whose numbers are neither too large nor too "
+            + "small to compute with, as those of the spins and bodies are");
+    }
+    const unit = Math.min(friction * v2, v1 / INCIDENCE_LEAST);
+    if (!(unit < Infinity)) {
+        throw refusal("pair.friction", friction,
+            "a number that stays finite times the normal velocity");
+    }
+
+    const yields = pair.yield_pressure > 0;
+    const e = restitution_at(pair, m2, 1 / (curvature(body) + curvature(other)), v2);
+    if (!(e >= 0)) {
+        const field = yields ? "yield_pressure" : "relaxation_time";
+        throw refusal(`pair.${field}`, pair[field], yields ? "a smaller or a larger number"
+            : `a number so small that e is above ${LEAST}`);
+    }
+    // Where nothing is lost, the table of viscous spheres is nearer.
+    const plastic = e !== 1 && (pair.loss === PLASTIC || yields);
+    return {
+        normal: n,
+        tangent: scaled(v1 > 0 ? 1 / v1 : 0, sideways),
+        share,
+        other_share,
+        v1,
+        v2,
+        unit, // mu v2
+        m2,
+        beta,
+        zeta2,
+        e,
+        x: v1 > 0 ? v1 / unit : 0,
+        loss: plastic ? PLASTIC : VISCOUS,
+    };
 }
 
 /**
@@ -729,11 +775,7 @@ export function collide(
 ) {
     const impact = before(
         pair, normal, body, velocity, spin, other, other_velocity, other_spin);
-    if (impact.regime === UNRESOLVED) {
-        throw refusal(
-            impact, pair, normal, body, velocity, spin, other, other_velocity, other_spin);
-    }
-    if (impact.regime === NO_IMPACT) {
+    if (!impact) {
         return {
             velocity: [...velocity],
             spin: [...spin],
@@ -748,23 +790,24 @@ export function collide(
     }
 
     const { added, regime } = change(impact, impact.loss);
-    const towards = impact.m2 * impact.v2 * (1 + impact.e);
-    const along = impact.m2 * (impact.unit * (added / impact.beta));
-    const impulse = sum(sum([0, 0, 0], towards, impact.normal), along, impact.tangent);
-    const turn = cross(impact.normal, impact.tangent), twist = 0 - along;
-    const turned = twist * (body.radius / body.gyration / body.gyration / body.mass);
+    // The impulse is over m2, as velocities are in the range of numbers.
+    const along = impact.unit * (added / impact.beta), twist = 0 - along;
+    const impulse =
+        sum(scaled(impact.v2 * (1 + impact.e), impact.normal), along, impact.tangent);
+    const turn = cross(impact.normal, impact.tangent);
+    const turned = twist * impact.share * (body.radius / body.gyration) / body.gyration;
     const other_turned =
-        twist * (other.radius / other.gyration / other.gyration / other.mass);
+        twist * impact.other_share * (other.radius / other.gyration) / other.gyration;
     let error_bound = Math.min(impact.unit, impact.v1)
         * (impact.loss === VISCOUS ? ERROR_VISCOUS : ERROR_PLASTIC);
     if (regime === STICK || regime === SLIP_THROUGHOUT) error_bound = 0;
     else if (regime === UNRESOLVED) error_bound = NaN;
     return {
-        velocity: sum(velocity, 1 / body.mass, impulse),
+        velocity: sum(velocity, impact.share, impulse),
         spin: sum(spin, turned, turn),
-        other_velocity: sum(other_velocity, -1 / other.mass, impulse),
+        other_velocity: sum(other_velocity, 0 - impact.other_share, impulse),
         other_spin: sum(other_spin, other_turned, turn),
-        impulse,
+        impulse: scaled(impact.m2, impulse),
         incidence: impact.x,
         restitution: impact.e,
         error_bound,
@@ -794,8 +837,7 @@ export function bounce(pair, normal, body, velocity, spin) {
  */
 export function model_form(...contact) {
     const impact = before(...contact);
-    if (impact.regime === UNRESOLVED) throw refusal(impact, ...contact);
-    if (impact.regime === NO_IMPACT) return NaN;
+    if (!impact) return NaN;
     if (impact.e === 1) return 0;
     const viscous = change(impact, VISCOUS), plastic = change(impact, PLASTIC);
     if (viscous.regime === UNRESOLVED || plastic.regime === UNRESOLVED) return NaN;
