@@ -364,13 +364,14 @@ def test_the_readme_prints_what_it_says(language, file, commands, tmp_path, monk
         assert said and done.stdout.splitlines() == said
 
 
-# What a test changes in the README's loops for games: the peak after each impact is printed with
-# all its digits; e, the steps a second and the height of the start are others.
+# What a test changes in the README's loops for games: the peak after each impact and the place at
+# the end are printed with all their digits; there is no friction; e, the steps a second and the
+# height of the start are others.
 PEAKS = {
     "py": {
         "round(float(position[0]), 2)": "float(position[2] + velocity[2] ** 2 / (2 * gravity))",
-        "print(places[:3], len(places), position[2])": "print(*places, position[2])",
-        "preset.pair": "type(preset.pair)(stiffness_ratio=1.5, friction=0.6, restitution=E, "
+        "print(places[:3], len(places), position[2])": "print(*places, position[0], position[2])",
+        "preset.pair": "type(preset.pair)(stiffness_ratio=1.5, friction=0, restitution=E, "
         'loss="viscous")',
         "1 / 60": "1 / STEPS",
         "range(600)": "range(10 * STEPS)",
@@ -378,18 +379,21 @@ PEAKS = {
     },
     "js": {
         "position[0].toFixed(2)": "position[2] + velocity[2] ** 2 / (2 * gravity)",
-        'places.slice(0, 3).join(" "), places.length, ': "...places, ",
+        'places.slice(0, 3).join(" "), places.length, ': "...places, position[0], ",
         "{ body, pair } = spheres.presets.tennis_ball": "{ body } = spheres.presets.tennis_ball, "
-        "pair = { friction: 0.6, stiffness_ratio: 1.5, restitution: E, loss: spheres.VISCOUS }",
+        "pair = { friction: 0, stiffness_ratio: 1.5, restitution: E, loss: spheres.VISCOUS }",
         "1 / 60": "1 / STEPS",
+        "k < 600": "k < 10 * STEPS",
         "position = [0, 0, 1]": "position = [0, 0, START]",
     },
     "c": {
         'if (++impacts <= 3)\n                printf("%.2f ", position.x)': 'printf("%.17g ", '
         "position.z + velocity.z * velocity.z / (2 * gravity)), ++impacts",
-        '"%d %.4f\\n", impacts, ': '"%.17g\\n", ',
-        "spheres_tennis_ball.pair;": "spheres_tennis_ball.pair; pair.restitution = E;",
+        '"%d %.4f\\n", impacts, ': '"%.17g %.17g\\n", position.x, ',
+        "spheres_tennis_ball.pair;": "spheres_tennis_ball.pair; pair.restitution = E; "
+        "pair.friction = 0;",
         "1.0 / 60": "1.0 / STEPS",
+        "k < 600": "k < 10 * STEPS",
         "position = {0, 0, 1}": "position = {0, 0, START}",
     },
 }
@@ -421,11 +425,12 @@ def test_the_loops_for_games_keep_heights_and_come_to_rest(language, tmp_path):
             re.sub(r"\bE\b", repr(e), text)
         )
         done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
-        *found, rests_at = map(float, done.stdout.split())
+        *found, place, rests_at = map(float, done.stdout.split())
+        assert place == pytest.approx(80, abs=1e-9)  # 8 m/s for 10 s, by no step more
         return np.array(found), rests_at
 
     radius = 0.0335
-    for steps in (60, 240):
+    for steps in (30, 60, 240):
         for e in (1.0, 0.9):
             found, _ = peaks(e, steps, 1.0)
             wanted = radius + (1 - radius) * e ** (2 * np.arange(1, 11))
