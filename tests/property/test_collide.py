@@ -258,7 +258,9 @@ def contact_velocity(found, normal, body):
 
 
 @pytest.mark.parametrize("loss", spheres.LOSSES)
-@pytest.mark.parametrize(("zeta2", "e"), [(1.2, 0.8), (1.5, 0.35), (2.2, 0.6), (1.0, 0.2), (1.2, 1)])
+@pytest.mark.parametrize(
+    ("zeta2", "e"), [(1.2, 0.8), (1.5, 0.35), (2.2, 0.6), (1.0, 0.2), (1.2, 1)]
+)
 def test_friction_of_any_size_is_that_of_springs_which_stick(zeta2, e, loss):
     """Where x vanishes the rebound is in proportion to v1(0), and so is its error."""
     up, unit_ball = [0, 0, 1], bodies.Body(1, 0.4**0.5, 1)
@@ -287,7 +289,9 @@ def test_one_path_for_numbers_of_every_size():
     rng, answered, refused = np.random.default_rng(8), 0, 0
     edges = np.log10([single.PLAIN_LEAST, single.PLAIN_MOST])
     for _ in range(3000):
-        size = dict.fromkeys("friction zeta2 modulus law mass radius v1 v2 spin".split(), 1.0)
+        size = dict.fromkeys(
+            ["friction", "zeta2", "modulus", "law", "mass", "radius", "v1", "v2", "spin"], 1.0
+        )
         for name in rng.choice(list(size), rng.integers(1, 3)):
             decade = rng.uniform(-320, 299) if rng.random() < 0.7 else rng.choice(edges)
             size[name] = float(10.0**decade * rng.choice([1, 1 - 1e-12, 1 + 1e-12]))

@@ -1,11 +1,12 @@
 """The table of spheres against the continuum that it stands for: a search for its largest error.
 
-It begins at the ends of patches, at nodes of the splines and midway between them, beside all
-these, and at random places. From the worst of them it climbs: it tries places around them, nearer
-and nearer. Errors of velocity and work are in proportion to zeta^2: the largest one is tried. Those
-of plastic dissipation grow with the incidence, so the climb of that one leads to large incidences.
+It begins at the ends of patches, at nodes of the splines and midway between them, beside all these,
+and at random places. From the worst of them it climbs: it tries places around them, nearer and
+nearer. Errors of velocity and work are in proportion to zeta^2: the largest one is tried. Those of
+plastic dissipation grow with the incidence, so the climb of that one leads to large incidences.
 Below x = 1 errors are in proportion to x: there a search of its own asks the second code, as the
-continuum would take very many steps. The suite searches a little, the profile `long` more, from other seeds.
+continuum would take very many steps. The suite searches a little, the profile `long` more, from
+other seeds.
 """
 
 import numpy as np
@@ -156,7 +157,8 @@ def test_the_coarse_table_is_as_near_as_it_says(name, monkeypatch):
 
 @pytest.mark.parametrize("name", table.ROOTS)
 @pytest.mark.parametrize(
-    ("seed", "tried"), [(0, 4), *(pytest.param(seed, 30, marks=pytest.mark.long) for seed in (1, 2))]
+    ("seed", "tried"),
+    [(0, 4), *(pytest.param(seed, 30, marks=pytest.mark.long) for seed in (1, 2))],
 )
 def test_below_x_of_1_the_error_is_over_x(name, seed, tried):
     """A climb over b and e from the worst of some; each tries incidences down to 1e-9."""

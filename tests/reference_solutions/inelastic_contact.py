@@ -185,9 +185,7 @@ def small_incidences(loss, x, beta, zeta2, restitution):
     """
     x = np.atleast_1d(x)
     groups = beta, zeta2, restitution
-    coarse, fine = (
-        rebound(f"continuum.{loss}", x, *groups, n, n // 4) / x for n in (800, 1600)
-    )
+    coarse, fine = (rebound(f"continuum.{loss}", x, *groups, n, n // 4) / x for n in (800, 1600))
     return np.squeeze(2 * fine - coarse)
 
 

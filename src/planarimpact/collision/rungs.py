@@ -134,9 +134,7 @@ def answers(
     change = np.where(slides, -fall, 0.0)
     velocity = impacts.v1 + change
     regime = np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK).astype(np.uint8)
-    result = Answers(
-        place, change, velocity, slides.astype(float), regime, error, {}
-    )
+    result = Answers(place, change, velocity, slides.astype(float), regime, error, {})
     for number in np.unique(place[place >= FIRST_OF_CONTINUA]).tolist():
         _add_continuum(result, impacts, number, tolerance, peaks)
     return result

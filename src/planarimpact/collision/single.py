@@ -56,7 +56,7 @@ def collide(
         nx, ny, nz, vx, vy, vz, wx, wy, wz, ox, oy, oz, sx, sy, sz = numbers
     except (TypeError, ValueError, OverflowError):  # not plainly one body, or three numbers
         return None
-    if not (-PLAIN_MOST <= min(numbers) and max(numbers) <= PLAIN_MOST):
+    if not (min(numbers) >= -PLAIN_MOST and max(numbers) <= PLAIN_MOST):
         return None
     length = sqrt(nx * nx + ny * ny + nz * nz)
     if not abs(length - 1) <= checks.LENGTH_ERROR:

@@ -131,10 +131,10 @@ def rebound(
     -------
     Rebound
         The same fields and units as `planarimpact.continuum.rebound`, within `ERROR_BOUND` of it,
-        below x = 1 within x times that, but no reversals. The error of plastic dissipation is up to |velocity|/mass_ratio times
-        that of velocity. The answer jumps by less than `ERROR_BOUND` where slip throughout begins,
-        and where parts of the table meet. Impacts that slide as a whole more often than their
-        regime says are not called MULTIPLE.
+        below x = 1 within x times that, but no reversals. The error of plastic dissipation is up to
+        |velocity|/mass_ratio times that of velocity. The answer jumps by less than `ERROR_BOUND`
+        where slip throughout begins, and where parts of the table meet. Impacts that slide as a
+        whole more often than their regime says are not called MULTIPLE.
 
     Raises
     ------

@@ -5,9 +5,10 @@ is a loss, or a part of it, with the same edges throughout. Its impacts are mapp
 0 to 1 over e and b, and s, from 0 to 1 between two edges. That is a patch. In a patch velocity,
 peak friction and work are cubic splines in s, t and u: sums of products of uniform B-splines. In
 the first patch, where y < 1, velocity and peak friction are over y, and work over y^2: they vanish
-there with y, and errors with them. All patches of a panel have the same B-splines over t and u, so that neighbours agree at their common
-edge. Edges are interpolated linearly in t and u, when the table is made as when it is used: so with
-a small error of an edge the answer bends at a slightly wrong y, but it does not jump.
+there with y, and errors with them. All patches of a panel have the same B-splines over t and u, so
+that neighbours agree at their common edge. Edges are interpolated linearly in t and u, when the
+table is made as when it is used: so with a small error of an edge the answer bends at a slightly
+wrong y, but it does not jump.
 """
 
 from collections.abc import Sequence
