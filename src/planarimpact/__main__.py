@@ -145,8 +145,7 @@ dissipation [mu^2 m2 v2(0)^2],regime,model,loss
         options.command(options)
         sys.stdout.flush()
     except (checks.InputError, checks.ConvergenceError) as error:
-        how = "; the option is --loss" if isinstance(error, checks.MissingLoss) else ""
-        print(f"planarimpact: {error}{how}", file=sys.stderr)
+        print(f"planarimpact: {error}", file=sys.stderr)
         return 2
     except BrokenPipeError:  # the reader of the output has closed the pipe
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

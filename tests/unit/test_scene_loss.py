@@ -367,7 +367,7 @@ def test_models_at_e_1_have_the_elastic_continuum(capsys, fewer):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--restitution", "0.8"], "what takes the energy: viscous, plastic; the option is --loss"),
+        (["--restitution", "0.8"], "unless loss says what takes the energy: viscous, plastic"),
         (["--restitution", "1.5"], "restitution = 1.5: allowed are numbers from 0 to 1"),
         (["--loss", "plastic"], "--loss: it does not apply, without --restitution"),
         (["--mass-ratio", "3"], "--mass-ratio: it does not apply, without --restitution"),

@@ -39,10 +39,6 @@ class InputError(ValueError):
     __module__ = "planarimpact"  # where users find it, and what a traceback shows
 
 
-class MissingLoss(InputError):
-    """Restitution is below 1, and nobody says what takes the energy."""
-
-
 class ConvergenceError(ArithmeticError):
     """A numerical method did not reach the tolerance. The message says which error it reached."""
 
@@ -221,10 +217,7 @@ says what takes the energy: hysteretic (the paper's), viscous
     restitution(value)
     names = [f"{one} (the paper's)" if one.endswith("hysteretic") else one for one in choices]
     words = f"numbers equal to 1, unless {by} says what takes the energy: {', '.join(names)}"
-    try:
-        checked("restitution", value, words, 1, 1)
-    except InputError as error:
-        raise MissingLoss(str(error)) from None
+    checked("restitution", value, words, 1, 1)
 
 
 # The groups, in the order of every model's arguments, and their checks.
