@@ -452,6 +452,7 @@ BALL = bodies.solid_sphere(0.01, 7800.0)
         ({"normal": [0, 0, 2]}, "the normal has the length 2: allowed is 1"),
         ({"velocity": [0, 0, -(10**400)]}, "velocity: an integer is beyond the range of numbers"),
         ({"velocity": [1e308, 0, 0], "other_velocity": [-1e308, 0, 0]}, "too large or too small"),
+        ({"body": bodies.Body(1.7e308, 4e-3, 0.01)}, "too large or too small"),
         ({"velocity": [0, np.nan, -1]}, r"velocity\[1\] = nan: allowed are finite numbers"),
         ({"velocity": [0, -1], "spin": [0] * 4}, r"velocity, shape \(2,\): allowed are vectors"),
         ({"spin": np.zeros((2, 3)), "velocity": np.zeros((3, 3))}, "shapes do not broadcast"),

@@ -156,11 +156,16 @@ def problems(impacts: Impacts) -> dict[int, str]:
     >>> problems(impacts(pair, up, body, falls, flat, still))
     {0: 'restitution = 0.05: allowed are numbers from 0.1 where the contact sticks at some time'}
     """
-    numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.v1
+    m2, v1, v2 = impacts.m2, impacts.v1, impacts.v2
     with np.errstate(over="ignore", invalid="ignore"):
-        energy = impacts.m2 * impacts.v2 * impacts.v2 + impacts.m2 * impacts.v1 * impacts.v1
-        spins = [_largest_turn(impacts, body) for body in (impacts.body, impacts.other)]
-    finite = np.isfinite([*numbers, impacts.v2, impacts.unit, energy, *spins]).all(axis=0)
+        most = (
+            m2 * v2 * v2 + m2 * v1 * v1,
+            2 * (v1 + v2) * m2,
+            _most_after(impacts, impacts.body, impacts.before),
+            _most_after(impacts, impacts.other, impacts.other_before),
+        )
+    numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.unit, *most
+    finite = np.isfinite(numbers).all(axis=0)
     least = continuum.LEAST_RESTITUTION
     low = np.flatnonzero(impacts.restitution < least)
     low = low[~slides_throughout(impacts.take(low)) & (impacts.v1[low] > 0)]
@@ -248,10 +253,11 @@ def _cross(a: Array, b: Array) -> Array:
     )
 
 
-def _largest_turn(impacts: Impacts, body: Body) -> Array:
-    """More than an impact can change the spin of a body [rad/s]."""
+def _most_after(impacts: Impacts, body: Body, before: State) -> Array:
+    """A number above every velocity and spin of a body after the impact."""
     change = 2 * (impacts.v1 + impacts.v2) * (impacts.m2 / body.mass)
-    return change * (body.radius / body.gyration) / body.gyration
+    turn = change * (body.radius / body.gyration) / body.gyration
+    return np.abs(before.velocity).max(axis=0) + np.abs(before.spin).max(axis=0) + change + turn
 
 
 def _restitution(pair: Pair, body: Body, other: Body, m2: Array, v2: Array) -> Array:
