@@ -15,7 +15,7 @@ import numpy as np
 import yaml
 
 from planarimpact import bodies, fit
-from planarimpact.fit import overlap
+from planarimpact.fit import overlaps
 from stronge1994 import csv_tables
 from stronge1994.figures.fitted_laws import curves
 from stronge1994.figures.trade import peers
@@ -69,10 +69,10 @@ def overlap_rows(pairs: dict[str, Any], incidence_max: float) -> list[list[objec
     measured = []
     for pair, laws in curves.fitted(pairs, incidence_max).items():
         material = bodies.Material(YOUNG_MODULUS, float(pairs[pair]["poisson_ratio"]))
-        slow = overlap.of(material, *(SPHERE[key] for key in ("radius", "density", "speed")))
+        slow = fit.overlap(material, *(SPHERE[key] for key in ("radius", "density", "speed")))
         for law, found in laws.items():
             own = slice(None, None, EVERY)
-            for friction, size in itertools.product(overlap.FRICTIONS, overlap.OVERLAPS):
+            for friction, size in itertools.product(overlaps.FRICTIONS, overlaps.OVERLAPS):
                 speed = SPHERE["speed"] * (size / slow) ** 1.25
                 sphere = SPHERE | {"friction": friction, "speed": speed}
                 lines = fit.lines(found, material, **sphere)

@@ -26,7 +26,6 @@ from planarimpact import (
     models,
     response,
 )
-from planarimpact.fit import overlap
 from planarimpact.ground import checks, files
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import ContinuumHistory, History, Rebound, Regime
@@ -331,9 +330,9 @@ def _fit(options: argparse.Namespace) -> None:
     """Print the input of a time-stepped code."""
     material = bodies.Material(options.young_modulus, options.poisson_ratio)
     sphere = {name: getattr(options, name) for name in ("radius", "density", "friction", "speed")}
-    for name, value in sphere.items():  # before the fit, which takes its time
-        checks.positive(name, value)
-    overlap.of(material, options.radius, options.density, options.speed)
+    # Before the fit, which takes its time.
+    checks.positive("friction", options.friction)
+    fit.overlap(material, options.radius, options.density, options.speed)
     groups = SOLID_SPHERE, float(bodies.stiffness_ratio(material)), options.restitution
     chosen = _chosen(options, ["loss", "incidence_max"])
     sys.stdout.write(fit.lines(fit.fit(options.law, *groups, **chosen), material, **sphere))

@@ -12,7 +12,7 @@ import pytest
 
 from planarimpact import InputError, bodies, fit
 from planarimpact.__main__ import main
-from planarimpact.fit import laws, overlap
+from planarimpact.fit import laws, overlaps
 from planarimpact.models import timestep
 from stronge1994.figures.trade import peers
 
@@ -198,7 +198,7 @@ def test_the_lines_say_what_a_wall_would_have_without_values_of_its_own(law, wan
 
 
 @functools.cache
-def overlaps():
+def stored_overlaps():
     """Curve and numbers of each impact of `overlap.csv`."""
     with open(ROOT / "data/lammps/overlap.csv", newline="") as file:
         return [(curve, *map(float, numbers)) for curve, *numbers in list(csv.reader(file))[1:]]
@@ -207,7 +207,7 @@ def overlaps():
 def test_lammps_keeps_what_the_lines_promise():
     """At every overlap: the errors they state, and what they say that the overlap adds."""
     settings = measure().settings()
-    for curve, size, *measured in overlaps():
+    for curve, size, *measured in stored_overlaps():
         pair, law, friction = curve.split(", ")
         material = bodies.Material(70e9, settings["pairs"][pair]["poisson_ratio"])
         # Hertz' energy, (8/15) E* R^(1/2) d^(5/2), is that of the impact, m2 v^2/2.
@@ -226,18 +226,25 @@ def test_lammps_keeps_what_the_lines_promise():
         assert np.all(measured <= np.array(promised)), curve
 
 
+@pytest.mark.parametrize("friction", [1.0, 1.001, 1e200])
+def test_the_lines_say_where_friction_is_larger_than_measured(friction):
+    lines = fit.lines(found("lammps-hooke", "glass"), GLASS, **SPHERE | {"friction": friction})
+    assert "in LAMMPS at mu = 1 this adds up to" in lines
+    assert ("larger mu it is more, and was not measured" in lines) == (friction > 1)
+
+
 def test_an_overlap_costs_no_less_than_is_said():
     """Where overlaps are small it is within a quarter; other materials come nearer."""
-    rows = np.array([[float(curve.split()[-1]), *numbers] for curve, *numbers in overlaps()])
-    assert sorted(set(rows[:, 0])) == list(overlap.FRICTIONS)
-    assert sorted(set(rows[:, 1])) == list(overlap.OVERLAPS)
-    for friction in overlap.FRICTIONS[1:]:
-        for size in overlap.OVERLAPS[1:5]:
+    rows = np.array([[float(curve.split()[-1]), *numbers] for curve, *numbers in stored_overlaps()])
+    assert sorted(set(rows[:, 0])) == list(overlaps.FRICTIONS)
+    assert sorted(set(rows[:, 1])) == list(overlaps.OVERLAPS)
+    for friction in overlaps.FRICTIONS[1:]:
+        for size in overlaps.OVERLAPS[1:5]:
             worst = rows[(rows[:, 0] == friction) & (rows[:, 1] == size), 4:].max(axis=0)
-            assert np.all(worst > 0.75 * np.array(overlap.cost(size, friction)))
+            assert np.all(worst > 0.75 * np.array(overlaps.cost(size, friction)))
     text = (ROOT / "src/README.md").read_text(encoding="utf-8")
     said = re.findall(r"\(([\d.]+) \+ (\d+) mu²\)", text)
-    assert [(float(a), float(b)) for a, b in said] == [*zip(*overlap.COST, strict=True)]
+    assert [(float(a), float(b)) for a, b in said] == [*zip(*overlaps.COST, strict=True)]
 
 
 @pytest.mark.parametrize("young_modulus", [1e3, 50e6, 207e9])
@@ -315,7 +322,7 @@ def test_lammps_answers_so_again():
     for stored, now in zip(rows, measure().rows(**measure().settings()), strict=True):
         assert stored[:2] == now[:2] and float(stored[2]) == pytest.approx(float(now[2]), abs=5e-4)
     measured = measure().overlap_rows(**measure().settings())
-    for stored, (curve, *now) in zip(overlaps(), measured, strict=True):
+    for stored, (curve, *now) in zip(stored_overlaps(), measured, strict=True):
         assert stored[0] == curve and stored[1:] == pytest.approx([*map(float, now)], abs=1e-3)
 
 
@@ -329,8 +336,8 @@ def test_an_overlap_costs_no_more_with_other_materials():
     ):
         material = bodies.Material(1e9, nu)
         groups = 3.5, float(bodies.stiffness_ratio(material)), e
-        one = fit.fit(law, *groups, loss=loss, incidence_max=overlap.INCIDENCE)
-        slow = overlap.of(material, 0.002, 2500, 1e-3)
+        one = fit.fit(law, *groups, loss=loss, incidence_max=overlaps.INCIDENCE)
+        slow = fit.overlap(material, 0.002, 2500, 1e-3)
         for size in (1e-3, 1e-2, 1e-1):
             for friction in (0.01, 0.98, random.uniform(0.01, 1)):
                 speed = 1e-3 * (size / slow) ** 1.25
@@ -339,7 +346,7 @@ def test_an_overlap_costs_no_more_with_other_materials():
                 velocity, e_of = peers.lammps_pairs(lines, one.incidence[::5], **sphere)
                 off = np.abs(velocity - one.after[::5])
                 measured = np.sqrt(np.mean(off**2)), off.max(), np.max(e_of[0] - e_of)
-                assert np.all(measured <= np.array(overlap.cost(size, friction))), (law, size)
+                assert np.all(measured <= np.array(overlaps.cost(size, friction))), (law, size)
 
 
 def test_readme_has_the_errors_before_and_after():

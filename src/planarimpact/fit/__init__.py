@@ -9,7 +9,7 @@ A fit holds for one restitution, so for one speed where restitution depends on i
 materials, for its range of incidence, and for small overlaps: `lines` says what the overlap of an
 impact costs. The continuum is a model, too: what it leaves out, no fit brings back.
 
-`laws` steps through a contact, `codes` knows the codes, `overlap` what LAMMPS did at larger ones.
+`laws` steps through a contact, `codes` knows the codes, `overlaps` what larger ones cost.
 """
 
 import numpy as np
@@ -18,10 +18,11 @@ from scipy import optimize
 from planarimpact import continuum, spheres
 from planarimpact.fit import laws
 from planarimpact.fit.codes import CODES, Code, Error, Fit, lines
+from planarimpact.fit.overlaps import overlap
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
 
-__all__ = ["CODES", "Code", "Error", "Fit", "fit", "lines"]
+__all__ = ["CODES", "Code", "Error", "Fit", "fit", "lines", "overlap"]
 
 # Incidences at which errors are measured.
 SAMPLES = 101

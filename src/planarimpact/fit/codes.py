@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact import bodies
-from planarimpact.fit import laws, overlap
+from planarimpact.fit import laws, overlaps
 from planarimpact.fit.laws import Law
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
@@ -205,7 +205,7 @@ def lines(
 
 def _contact(found: Fit, material: bodies.Material, given: dict[str, ArrayLike]) -> _Contact:
     r, rho, mu, v2 = (checks.single(name, checks.positive(name, x)) for name, x in given.items())
-    size = overlap.of(material, r, rho, v2)
+    size = overlaps.overlap(material, r, rho, v2)
     sphere = bodies.solid_sphere(r, rho)
     for name, value, own in (
         ("mass_ratio", found.mass_ratio, bodies.mass_ratio(sphere, sphere)),
@@ -238,7 +238,8 @@ def _contact(found: Fit, material: bodies.Material, given: dict[str, ArrayLike])
 def _about(found: Fit, contact: _Contact) -> list[str]:
     """What was fitted to what, and which error it has."""
     error, before, end = found.error, found.error_before, float(found.incidence[-1])
-    cost = overlap.cost(contact.overlap, contact.friction)
+    measured = min(contact.friction, overlaps.FRICTIONS[-1])
+    cost = overlaps.cost(contact.overlap, measured)
     continuum = f"{found.loss} continuum" if found.restitution < 1 else "elastic continuum"
     words = [
         f"{found.law}, fitted to the {continuum} of planarimpact; SI units",
@@ -254,9 +255,10 @@ def _about(found: Fit, contact: _Contact) -> list[str]:
         "overlap of the spheres in an elastic impact at this speed, over their radius: "
         f"{contact.overlap:.2g}",
         "  while they touch, their normal turns; the continuum keeps it",
-        f"  in LAMMPS this adds up to {cost.rms:.2g} and {cost.largest:.2g} to the errors and "
-        f"takes up to {cost.restitution:.2g} from e (x to {overlap.INCIDENCE:g}, mu to "
-        f"{overlap.FRICTIONS[-1]:g}, no spin before)",
+        f"  in LAMMPS at mu = {measured:g} this adds up to {cost.rms:.2g} and {cost.largest:.2g} "
+        f"to the errors and takes up to {cost.restitution:.2g} from e (x to "
+        f"{overlaps.INCIDENCE:g}, no spin before)",
+        *["  at a larger mu it is more, and was not measured"] * (contact.friction > measured),
         "The fit holds for this restitution and this material; the continuum is a model, too.",
     ]
     return words

@@ -1,8 +1,8 @@
 """How far spheres overlap in an impact, and what that costs.
 
 While two spheres touch they pass each other, and their common normal turns. The continuum keeps it,
-as every planar theory does, and so do `laws`. A second cause is ten times smaller: LAMMPS takes
-half of the overlap from the lever arm of friction.
+as every planar theory does, and so do `laws`. A second cause is far smaller: LAMMPS takes half of
+the overlap from the lever arm of friction.
 """
 
 from typing import NamedTuple
@@ -48,23 +48,32 @@ def cost(overlap: float, friction: float) -> Cost:
     return Cost(*(overlap * (a + b * friction**2) for a, b in zip(*COST, strict=True)))
 
 
-def of(material: bodies.Material, radius: ArrayLike, density: ArrayLike, speed: ArrayLike) -> float:
+@checks.default_errors
+def overlap(
+    material: bodies.Material, radius: ArrayLike, density: ArrayLike, speed: ArrayLike
+) -> float:
     """Largest approach of two equal solid spheres over their radius, in an elastic impact.
+
+    Parameters
+    ----------
+    material, radius, density, speed
+        As in `fit.lines`.
+
+    Returns
+    -------
+    float
 
     Raises
     ------
     InputError
-        If the speed is one at which they overlap by more than was measured, or as in `fit.lines`.
+        If an argument is not one number above 0, or at this speed they overlap by more than a tenth
+        of their radius.
 
     Examples
     --------
     >>> rubber = bodies.Material(young_modulus=50e6, poisson_ratio=0.45)
-    >>> round(of(rubber, 0.005, 1100, 2.0), 3)
+    >>> round(overlap(rubber, 0.005, 1100, 2.0), 3)
     0.043
-    >>> of(rubber, 0.005, 1100, 1e5)
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: speed = 100000.0: ...
     """
     r, rho, v = (
         checks.single(name, checks.positive(name, value))
