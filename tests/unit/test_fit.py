@@ -193,6 +193,13 @@ def test_the_lines_say_what_a_wall_would_have_without_values_of_its_own(law, wan
         _, e = in_si(law, lines, 1.0, mass, 0.002, finer=10)
         assert float(said[1]) == pytest.approx(e, abs=2e-3)
         assert float(said[2]) == one.restitution
+        if law == "mercurydpm":
+            assert "setSpecies(wall)" in lines
+        else:  # in series with those of a sphere
+            times = float(re.search(r"its own are (.*) times those of the sphere", lines)[1])
+            sphere, own = (float(found) for found in re.findall(r"\bcn=([-+.e\d]+)", lines))
+            assert times == pytest.approx(own / sphere, abs=1e-3)
+            assert 2 * times / (1 + times) == pytest.approx(math.sqrt(2), abs=1e-3)
     assert float(said[1]) == wanted
     assert "would have e = 0.616 and 0.601" in (ROOT / "src/README.md").read_text(encoding="utf-8")
 
