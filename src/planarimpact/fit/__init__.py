@@ -6,10 +6,10 @@ finds the tangential spring and dashpot with which such a law comes nearest to t
 them as the code wants to read them. The normal spring and dashpot follow from restitution.
 
 A fit holds for one restitution, so for one speed where restitution depends on it, for one pair of
-materials, and for its range of incidence. The continuum is a model, too: what it leaves out, no fit
-brings back.
+materials, for its range of incidence, and for small overlaps: `lines` says what the overlap of an
+impact costs. The continuum is a model, too: what it leaves out, no fit brings back.
 
-`laws` steps through a contact, `codes` knows the codes.
+`laws` steps through a contact, `codes` knows the codes, `overlaps` what larger ones cost.
 """
 
 import numpy as np
@@ -18,10 +18,11 @@ from scipy import optimize
 from planarimpact import continuum, spheres
 from planarimpact.fit import laws
 from planarimpact.fit.codes import CODES, Code, Error, Fit, lines
+from planarimpact.fit.overlaps import overlap
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
 
-__all__ = ["CODES", "Code", "Error", "Fit", "fit", "lines"]
+__all__ = ["CODES", "Code", "Error", "Fit", "fit", "lines", "overlap"]
 
 # Incidences at which errors are measured.
 SAMPLES = 101
@@ -30,6 +31,9 @@ LEAST_RESTITUTION = 0.3
 # Stiffnesses over the elastic one, 1/zeta^2, and dampings at which the search starts.
 STIFFNESSES = np.linspace(0.3, 1.8, 16)
 DAMPINGS = np.linspace(0.0, 1.5, 13)
+# Parts of the first step that may be over when a contact begins. Velocities jump where the last one
+# tends to 1.
+BEGINS = (*(part / 32 for part in range(32)), 1 - 1e-9)
 # Steps in a contact on the grid.
 COARSE_STEPS = 100
 # Tolerance of the continuum where the table of spheres has no answer.
@@ -75,14 +79,16 @@ def fit(
 
     Notes
     -----
-    Both the law and its fit have `laws.STEPS` steps in an elastic contact. The search is by Nelder
-    and Mead from the best point of a grid. Of the tangential laws of a code the nearest is taken.
+    Both the law and its fit have `laws.STEPS` steps in an elastic contact, which begins with a
+    step. The errors are those of contacts that begin within a step, where this is worst. The search
+    is by Nelder and Mead from the best point of a grid. Of the tangential laws of a code the
+    nearest is taken. The overlap is taken to vanish.
 
     Examples
     --------
     >>> found = fit("lammps-hooke", 3.5, 1.5, 0.6, loss="viscous")
     >>> round(found.error_before.rms, 2), round(found.error.rms, 2)
-    (0.26, 0.0)
+    (0.26, 0.01)
     >>> round(found.stiffness, 1), round(found.damping, 1)
     (0.6, 0.2)
     """
@@ -104,21 +110,22 @@ def fit(
         (*_nearest(exact, contact, x, beta, zeta2, e, code.by_normal and e == 1), style)
         for style, contact in code.styles.items()
     ]
-    _, stiffness, damping, after, style = min(fitted, key=lambda found: found[0])
+    _, stiffness, damping, style = min(fitted, key=lambda found: found[0])
     contact = code.styles[style]
-    usual = contact._replace(limited=code.limited)
-    before = laws.rebound(
-        usual,
-        x,
-        beta,
-        1 / zeta2 if code.usual_stiffness is None else code.usual_stiffness,
-        code.usual_damping * laws.normal_damping(contact.hertzian, e),
-        e,
-    )
     told = laws.told_for(contact, e)
-    far = np.array([2 * end])
-    beyond = laws.rebound(contact, far, beta, stiffness, damping, told)
-    beyond -= _continuum(far, beta, zeta2, e, loss)
+    usual = 1 / zeta2 if code.usual_stiffness is None else code.usual_stiffness
+    usual_damping = code.usual_damping * laws.normal_damping(contact.hertzian, e)
+    # One place more, beyond the range.
+    far = np.append(x, 2 * end)
+    exact = np.append(exact, _continuum(far[-1:], beta, zeta2, e, loss))
+
+    def stepped(own: laws.Law, spring: float, dashpot: float, told: float) -> Array:
+        each = [laws.rebound(own, far, beta, spring, dashpot, told, begins=b) for b in BEGINS]
+        return np.stack(each)
+
+    before = stepped(contact._replace(limited=code.limited), usual, usual_damping, e)
+    after = stepped(contact, stiffness, damping, told)
+    off = after - exact
     return Fit(
         law,
         style,
@@ -130,11 +137,20 @@ def fit(
         e,
         loss,
         x,
-        exact,
-        before,
-        after,
-        float(beyond[0]),
+        exact[:-1],
+        before[0, :-1],
+        after[0, :-1],
+        _error(before[:, :-1] - exact[:-1], x),
+        _error(off[:, :-1], x),
+        float(max(off[:, -1], key=abs)),
     )
+
+
+def _error(off: Array, x: Array) -> Error:
+    """Error of a contact that begins where it is worst; a row of `off` for each of `BEGINS`."""
+    row, place = np.unravel_index(np.abs(off).argmax(), off.shape)
+    rms = np.sqrt(np.mean(off**2, axis=-1)).max()
+    return Error(float(rms), float(np.abs(off[row, place])), float(x[place]))
 
 
 def _continuum(x: Array, beta: float, zeta2: float, e: float, loss: str | None) -> Array:
@@ -152,8 +168,8 @@ def _nearest(
     zeta2: float,
     e: float,
     undamped: bool,
-) -> tuple[float, float, float, Array]:
-    """Mean square of the error of a law, its stiffness and damping, and its velocity."""
+) -> tuple[float, float, float]:
+    """Mean square of the error of a law, its stiffness and damping."""
     told = laws.told_for(law, e)
 
     def velocity(stiffness: Array, damping: Array, steps: int = laws.STEPS) -> Array:
@@ -178,5 +194,4 @@ def _nearest(
         options={"initial_simplex": simplex, "xatol": 1e-4, "fatol": 1e-9},
     )
     stiffness, damping = np.append(found.x, 0.0)[:2] / [zeta2, 1.0]
-    after = velocity(np.array(stiffness), np.array(damping))
-    return float(found.fun), float(stiffness), float(damping), after
+    return float(found.fun), float(stiffness), float(damping)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact import bodies
-from planarimpact.fit import laws
+from planarimpact.fit import laws, overlaps
 from planarimpact.fit.laws import Law
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
@@ -77,7 +77,7 @@ CODES = {
 
 
 class Error(NamedTuple):
-    """Difference of velocity from the continuum, in mu v2(0)."""
+    """Difference of velocity from the continuum, in mu v2(0), where the overlap vanishes."""
 
     rms: float
     largest: float
@@ -106,9 +106,12 @@ class Fit(NamedTuple):
         The loss of the continuum.
     incidence, continuum, before, after : ndarray of float64, shape (n,)
         Incidence v1(0)/(mu v2(0)); velocity v1(tf)/(mu v2(0)) of the continuum, of the law as it is
-        usually used, and of the fitted law.
+        usually used, and of the fitted law. Contact begins with a step.
+    error_before, error : Error
+        Error of the law as it is usually used, and error that remains. Contact begins within a
+        step, where that is worst.
     beyond : float
-        Error of the fitted law at twice the largest incidence, where it was not fitted.
+        Error that remains at twice the largest incidence, where nothing was fitted.
     """
 
     law: str
@@ -124,24 +127,9 @@ class Fit(NamedTuple):
     continuum: Array
     before: Array
     after: Array
+    error_before: Error
+    error: Error
     beyond: float
-
-    @property
-    def error_before(self) -> Error:
-        """Error of the law as it is usually used."""
-        return self._error(self.before)
-
-    @property
-    def error(self) -> Error:
-        """Error that remains."""
-        return self._error(self.after)
-
-    def _error(self, velocity: Array) -> Error:
-        off = np.abs(velocity - self.continuum)
-        place = int(off.argmax())
-        return Error(
-            float(np.sqrt(np.mean(off**2))), float(off[place]), float(self.incidence[place])
-        )
 
 
 class _Contact(NamedTuple):
@@ -152,6 +140,7 @@ class _Contact(NamedTuple):
     density: float
     friction: float
     speed: float
+    overlap: float  # in radii
     step: float  # of time
     normal: float  # stiffness and damping of linear springs, normal and tangential
     tangential: float
@@ -182,14 +171,15 @@ def lines(
     friction : array_like
         One number, above 0.
     speed : array_like
-        Normal speed of approach [m/s], above 0; the length of a step and linear springs follow
-        from the duration of an elastic contact at this speed.
+        Normal speed of approach [m/s], above 0, up to that at which the spheres overlap by a tenth
+        of their radius. The length of a step and linear springs follow from the duration of an
+        elastic contact at this speed.
 
     Returns
     -------
     str
-        Comments that say what was fitted to what, and which error it has, and then the lines, in SI
-        units.
+        Comments that say what was fitted to what, which error it has, and what the overlap adds to
+        that, and then the lines, in SI units.
 
     Raises
     ------
@@ -215,6 +205,7 @@ def lines(
 
 def _contact(found: Fit, material: bodies.Material, given: dict[str, ArrayLike]) -> _Contact:
     r, rho, mu, v2 = (checks.single(name, checks.positive(name, x)) for name, x in given.items())
+    size = overlaps.overlap(material, r, rho, v2)
     sphere = bodies.solid_sphere(r, rho)
     for name, value, own in (
         ("mass_ratio", found.mass_ratio, bodies.mass_ratio(sphere, sphere)),
@@ -235,6 +226,7 @@ def _contact(found: Fit, material: bodies.Material, given: dict[str, ArrayLike])
         rho,
         mu,
         v2,
+        size,
         lasts / laws.STEPS,
         stiffness,
         stiffness * found.stiffness,
@@ -246,6 +238,8 @@ def _contact(found: Fit, material: bodies.Material, given: dict[str, ArrayLike])
 def _about(found: Fit, contact: _Contact) -> list[str]:
     """What was fitted to what, and which error it has."""
     error, before, end = found.error, found.error_before, float(found.incidence[-1])
+    measured = min(contact.friction, overlaps.FRICTIONS[-1])
+    cost = overlaps.cost(contact.overlap, measured)
     continuum = f"{found.loss} continuum" if found.restitution < 1 else "elastic continuum"
     words = [
         f"{found.law}, fitted to the {continuum} of planarimpact; SI units",
@@ -253,11 +247,18 @@ def _about(found: Fit, contact: _Contact) -> list[str]:
         f"{found.stiffness_ratio:.4g}, m2/m1 = {found.mass_ratio:g}, mu = {contact.friction:g}",
         f"range of the fit: x = v1(0)/(mu v2(0)) from 0 to {end:.3g}; "
         f"{laws.STEPS} steps in an elastic contact at {contact.speed:g} m/s",
-        "error of v1(tf)/(mu v2(0)), root mean square and largest:",
+        "error of v1(tf)/(mu v2(0)), root mean square and largest, where overlaps are small:",
         f"  before {before.rms:.3f}, {before.largest:.3f} at x = {before.at:.2f} "
         f"({CODES[found.law].origin})",
         f"  after  {error.rms:.3f}, {error.largest:.3f} at x = {error.at:.2f}; "
         f"beyond the range, at x = {2 * end:.3g}, {found.beyond:.3f}",
+        "overlap of the spheres in an elastic impact at this speed, over their radius: "
+        f"{contact.overlap:.2g}",
+        "  while they touch, their normal turns; the continuum keeps it",
+        f"  in LAMMPS at mu = {measured:g} this adds up to {cost.rms:.2g} and {cost.largest:.2g} "
+        f"to the errors and takes up to {cost.restitution:.2g} from e (x to "
+        f"{overlaps.INCIDENCE:g}, no spin before)",
+        *["  at a larger mu it is more, and was not measured"] * (contact.friction > measured),
         "The fit holds for this restitution and this material; the continuum is a model, too.",
     ]
     return words
@@ -306,7 +307,8 @@ def _walls(found: Fit, species: str) -> list[str]:
         "Springs and dashpots of this code know no mass: spheres of other masses have another e.",
         f"A wall of this material would have e = {e:.3f}, for {found.restitution:g}, with the "
         "dashpots of two spheres.",
-        f"So it has {species} of its own: there dashpots are sqrt(2) times as strong.",
+        f"So it has {species} of its own, `wall`: dashpots of its contacts are sqrt(2) times as "
+        "strong.",
     ]
 
 
@@ -321,7 +323,8 @@ def _mercurydpm(found: Fit, contact: _Contact) -> str:
         f"species->setSlidingDissipation({_short(contact.tangential_damping)});\n"
         f"species->setSlidingFrictionCoefficient({contact.friction:g});\n"
         + "".join(f"// {words}\n" for words in _walls(found, "a species"))
-        + "auto wall = speciesHandler.copyAndAddObject(species);\n"
+        + "// Give `wall` to the objects that are walls, by setSpecies(wall).\n"
+        "auto wall = speciesHandler.copyAndAddObject(species);\n"
         "auto atWall = speciesHandler.getMixedObject(species, wall);\n"
         f"atWall->setDissipation({_short(WALL * contact.normal_damping)});\n"
         f"atWall->setSlidingDissipation({_short(WALL * contact.tangential_damping)});\n"
@@ -350,6 +353,8 @@ def _yade(found: Fit, contact: _Contact) -> str:
         "from math import atan\n"
         f"sphere = {common}cn={_short(cn)}, cs={_short(cs)}))\n"
         + "".join(f"# {words}\n" for words in _walls(found, "a material"))
+        + f"# Dashpots of two bodies act in series: for this, its own are {strong:.3f} times those "
+        "of the sphere.\n"
         + f"wall = {common}cn={_short(strong * cn)}, cs={_short(strong * cs)}))\n"
         "O.engines = [\n"
         "    ForceResetter(),\n"

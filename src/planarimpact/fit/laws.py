@@ -3,8 +3,9 @@
 Each step moves the bodies by their velocities half a step before, and then finds the forces from
 the new places and these velocities: what velocity Verlet and leapfrog do in LAMMPS, MercuryDPM and
 Yade. The normal force is a spring, linear or of Hertz, beside a dashpot. Friction is a spring that
-remembers, beside a dashpot, up to mu times the normal force. No law has mass, stiffness or speed
-of its own: with the units below they are all 1.
+remembers, beside a dashpot, up to mu times the normal force. The overlap is taken to vanish beside
+the radius, so the normal does not turn. Then no law has mass, stiffness or speed of its own: with
+the units below they are all 1.
 
 Units: m2 and v2(0), times mu in tangential direction. The normal spring has the force d where it is
 linear, and d^(3/2) where it is Hertz'. A dashpot has its coefficient times (m2 F/d)^(1/2), where F
@@ -120,12 +121,14 @@ def _limited_restitution(hertzian: bool, told: float) -> float:
     return float(-found.y[1, -1])
 
 
-@functools.lru_cache(maxsize=64)
-def _normal_motion(law: Law, told: float, steps: int) -> tuple[tuple[_Instant, ...], float, float]:
+@functools.lru_cache(maxsize=128)
+def _normal_motion(
+    law: Law, told: float, steps: int, begins: float
+) -> tuple[tuple[_Instant, ...], float, float]:
     """Every step with an overlap, the speed after them, and the length of a step."""
     step = duration(law.hertzian) / steps
     damping = normal_damping(law.hertzian, told)
-    depth, speed, radius = 0.0, 1.0, 0.0
+    depth, speed, radius = -begins * step, 1.0, 0.0
     instants = []
     for _ in range(LONGEST * steps):
         depth += step * speed
@@ -152,7 +155,7 @@ def restitution(law: Law, told: float, steps: int = STEPS) -> float:
     >>> round(restitution(Law(), 0.8, 2000), 3)
     0.8
     """
-    return _normal_motion(law, told, steps)[1]
+    return _normal_motion(law, told, steps, 0.0)[1]
 
 
 def rebound(
@@ -163,18 +166,20 @@ def rebound(
     damping: Array | float,
     told: float,
     steps: int = STEPS,
+    begins: float = 0.0,
 ) -> Array:
     """Velocity v1(tf)/(mu v2(0)) of the contact point; x, stiffness and damping broadcast.
 
     The tangential stiffness comes as a share of the normal one, in a Hertz contact at every
-    approach; the tangential damping as the coefficient of its dashpot.
+    approach; the tangential damping as the coefficient of its dashpot. `begins` is the part of the
+    first step that is over when the bodies touch, from 0 to below 1.
 
     Examples
     --------
     >>> rebound(Law(), np.array([0.5, 2.0, 8.0]), 3.5, 14 / 17, 0.0, told=1.0).round(2)
     array([ 0.21, -0.58,  1.  ])
     """
-    instants, _, step = _normal_motion(law, told, steps)
+    instants, _, step = _normal_motion(law, told, steps, begins)
     velocity = np.array(np.broadcast_arrays(x, stiffness, damping)[0], float)
     spring, dashpot, force = (np.zeros_like(velocity) for _ in range(3))
     for now in instants:

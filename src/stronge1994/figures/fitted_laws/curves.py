@@ -42,7 +42,7 @@ def fitted(
     >>> polymer = {"poisson_ratio": 0.5, "restitution": 0.6, "loss": "viscous"}
     >>> found = fitted({"polymer": polymer}, 6)
     >>> [round(one.error.rms, 2) for one in found["polymer"].values()]
-    [0.01, 0.0]
+    [0.01, 0.01]
     """
     return {
         pair: {

@@ -192,16 +192,14 @@ def lammps_pairs(
     density: float,
     friction: float,
     speed: float,
-) -> Impacts:
+) -> tuple[Array, Array]:
     """Pairs of equal solid spheres that meet in LAMMPS, all in one simulation, in SI units.
 
     `lines` are given to LAMMPS as they are: `timestep`, `pair_style` and `pair_coeff`. The spheres
-    have translation only, and no spin before the impact. While they touch they pass each other by
-    some of the incidence times friction and approach: the slower they are, the less this turns the
-    normal.
+    have no spin before the impact. Returns w of each impact, and the normal speed after it over
+    that before it, both for the normal of first touch.
     """
     incidence = np.atleast_1d(np.asarray(incidence, float))
-    start = time.process_time()
     simulation = _lammps().lammps(cmdargs=["-log", "none", "-screen", "none", "-nocite"])
     try:
         count, end = incidence.size, 8 * radius * incidence.size
@@ -233,7 +231,6 @@ def lammps_pairs(
                 *lines.splitlines(),
             ]
         )
-        run = time.process_time()
         for _ in range(100):
             simulation.command("run 100")
             order = np.argsort(simulation.numpy.extract_atom("id")[: 2 * count])
@@ -245,13 +242,11 @@ def lammps_pairs(
                 break
         else:
             raise RuntimeError("two spheres are still in contact")
-        seconds = time.process_time() - run
-        tangential = motion[0] - motion[1]
-        slip = tangential[:, 0] - radius * (spin[0] + spin[1])[:, 1]
-        delivered = float(tangential[0, 2]) / speed
+        after = motion[0] - motion[1]
+        slip = after[:, 0] - radius * (spin[0] + spin[1])[:, 1]
     finally:
         simulation.close()
-    return Impacts(slip / (friction * speed), delivered, seconds, time.process_time() - start)
+    return slip / (friction * speed), after[:, 2] / speed
 
 
 def pooltool_impacts(
