@@ -103,7 +103,7 @@ def rebound(
     with refinement.counted_among(sticks):
         values, counts = refinement.refine(
             groups,
-            refinement.steps_needed(beta[sticks], zeta2[sticks], motion.least_share()[sticks]),
+            motion.steps_needed(beta, zeta2)[sticks],
             tolerance,
             integrate,
             FIRST_STEPS,
@@ -181,7 +181,9 @@ def path(
         with np.errstate(divide="ignore", invalid="ignore"):  # impacts that are not used
             later = motion.peak_after_slip(np.stack([a[after, column] for a in knots], axis=1))
         peak = np.maximum(peak, np.where(has_search, later, 0.0))
-    peak = peaks.largest(motion.time, friction, onset, peak, searched)
+    size, instants = np.abs(friction), (motion.time, motion.velocity, motion.force)
+    gross = size >= GROSS * motion.force
+    peak = peaks.largest(instants, size, gross, onset, peak, searched)
     largest = motion.largest_force
     radius = np.concatenate([motion.radius, motion.radius[-2::-1]]) / motion.radius[-1]
     return Path(
@@ -204,7 +206,7 @@ def contact(
         lambda steps: path(x, beta, zeta2, e, law, steps),
         (Path._fields.index("friction"), Path._fields.index("velocity")),
         (x, beta, zeta2),
-        refinement.steps_needed(beta, zeta2, law(e).least_share()),
+        law(e).steps_needed(beta, zeta2),
         tolerance,
         MOST_STEPS,
     )
