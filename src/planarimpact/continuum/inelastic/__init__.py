@@ -38,7 +38,7 @@ LOSSES: dict[str, type[NormalMotion]] = {
 # Friction within this share of its limit is gross slip. Near separation less stick than that cannot
 # be told from rounding.
 GROSS = 1 - 1e-6
-FIRST_STEPS, MOST_STEPS = 32, 2**12
+FIRST_STEPS, MOST_STEPS = 32, 2**13
 # Factor of the estimated error. With it 320 impacts beside thresholds had errors of at most 0.2 of
 # the tolerance, and 325 whose slip ends beside maximum compression at most 0.3.
 SAFETY = 2
@@ -72,7 +72,7 @@ class Path(NamedTuple):
 
 
 def rebound(
-    x: Array, beta: Array, zeta2: Array, e: Array, tolerance: float, law: type[NormalMotion]
+    x: Array, beta: Array, zeta2: Array, e: Array, tolerance: Array, law: type[NormalMotion]
 ) -> tuple[Array, Array, Array, Integers, Integers]:
     """Velocity, peak friction, work of friction, regime and reversals, each of shape (n,).
 
@@ -81,7 +81,7 @@ def rebound(
     Examples
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> rebound(*groups, 1e-5, LOSSES["viscous"])[0].round(4)
+    >>> rebound(*groups, np.array([1e-5]), LOSSES["viscous"])[0].round(4)
     array([-0.4805])
     """
     motion = law(e)
@@ -104,7 +104,7 @@ def rebound(
         values, counts = refinement.refine(
             groups,
             motion.steps_needed(beta, zeta2)[sticks],
-            tolerance,
+            tolerance[sticks],
             integrate,
             FIRST_STEPS,
             MOST_STEPS,
@@ -199,7 +199,7 @@ def path(
 
 
 def contact(
-    x: Array, beta: Array, zeta2: Array, e: Array, law: type[NormalMotion], tolerance: float
+    x: Array, beta: Array, zeta2: Array, e: Array, law: type[NormalMotion], tolerance: Array
 ) -> list[Array]:
     """One contact, its arguments of shape (1,): columns of `Path` up to the radius of stick."""
     fine = refinement.settled_path(
