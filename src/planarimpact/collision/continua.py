@@ -4,13 +4,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact import continuum, models
+from planarimpact import continuum
 from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.checks import ConvergenceError, Unsolved
 from planarimpact.ground.results import Rebound
 
 # Of elastic impacts, and of those with each loss.
 MODELS = ("continuum", *(f"continuum.{loss}" for loss in continuum.LOSSES))
+# Below this incidence the answer is in proportion to it, to 1e-9: slip is too narrow to matter.
+LINEAR = 1e-8
 
 
 class Solved(NamedTuple):
@@ -22,15 +24,28 @@ class Solved(NamedTuple):
 
 
 def rebound(model: str, incidence: Array, groups: tuple[Array, ...], tolerance: float) -> Solved:
-    """Impacts solved by one of `MODELS`; the tolerance of each is in mu v2(0)."""
+    """Impacts x > 0 solved by one of `MODELS`, to a tolerance in mu v2(0), below x = 1 in v1(0)."""
     rows, messages = np.arange(incidence.size), dict[int, str]()
+    loss = model.partition(".")[2] or None
+    solved_at = np.maximum(incidence, LINEAR)
+    allowed = tolerance * np.minimum(solved_at, 1.0)
     while True:
         try:
-            arguments = incidence[rows], *(group[rows] for group in groups)
-            answer = models.rebound(model, *arguments, tolerance=tolerance)
-            return Solved(answer, rows, messages)
+            arguments = solved_at[rows], *(group[rows] for group in groups)
+            answer = continuum.rebound(*arguments, loss=loss, tolerance=allowed[rows])
+            share = incidence[rows] / solved_at[rows]
+            return Solved(_in_proportion(answer, share), rows, messages)
         except ConvergenceError as error:
             # An error that names no impacts concerns all of them.
             unsolved = error.impacts if isinstance(error, Unsolved) else slice(None)
             messages |= dict.fromkeys(rows[unsolved].tolist(), str(error))
             rows = np.delete(rows, unsolved)
+
+
+def _in_proportion(rebound: Rebound, share: Array) -> Rebound:
+    """The answer at shares of the incidence, where it is linear."""
+    return rebound._replace(
+        velocity=rebound.velocity * share,
+        peak_friction=rebound.peak_friction * share,
+        dissipation=rebound.dissipation * share * share,
+    )

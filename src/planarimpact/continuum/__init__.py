@@ -34,7 +34,7 @@ def rebound(
     restitution: ArrayLike = 1.0,
     *,
     loss: str | None = None,
-    tolerance: float | None = None,
+    tolerance: ArrayLike | None = None,
 ) -> Rebound:
     """State at separation; the groups broadcast.
 
@@ -120,9 +120,19 @@ def rebound(
     [-0.065, -0.363, 2.4]
     """
     signed, beta, zeta2, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    allowed = _tolerance(tolerance, ELASTIC_TOLERANCE if loss is None else LOSSY_TOLERANCE)
+    if tolerance is None:
+        tolerance = ELASTIC_TOLERANCE if loss is None else LOSSY_TOLERANCE
+    signed, beta, zeta2, e, allowed = checks.broadcast(
+        incidence=signed,
+        mass_ratio=beta,
+        stiffness_ratio=zeta2,
+        restitution=e,
+        tolerance=checks.positive("tolerance", tolerance),
+    )
     _refuse_lossy(restitution, loss)
-    x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
+    x, beta, zeta2, e, allowed = (
+        a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, allowed)
+    )
     velocity, peak, work = (np.empty(x.size) for _ in range(3))
     regime, reversals = (np.empty(x.size, np.int64) for _ in range(2))
     for is_elastic in (True, False):
@@ -132,10 +142,10 @@ def rebound(
         groups = x[rows], beta[rows], zeta2[rows]
         with refinement.counted_among(rows):
             if is_elastic:
-                solved = elastic.rebound(*groups, allowed)
+                solved = elastic.rebound(*groups, allowed[rows])
             else:
                 law = inelastic.LOSSES[loss or ""]
-                solved = inelastic.rebound(*groups, e[rows], allowed, law)
+                solved = inelastic.rebound(*groups, e[rows], allowed[rows], law)
         velocity[rows], peak[rows], work[rows], regime[rows], reversals[rows] = solved
     return Rebound.shaped(signed, velocity, peak, work, regime.astype(np.uint8), reversals)
 
@@ -277,7 +287,7 @@ def history(
     1.689
     """
     signed, beta, zeta2, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    tolerance = _tolerance(tolerance, 0.0)
+    allowed = np.full(1, checks.single("tolerance", checks.positive("tolerance", tolerance)))
     _refuse_lossy(restitution, loss)
     if signed.ndim:
         raise checks.InputError(f"shape = {signed.shape}: one contact takes scalars")
@@ -285,21 +295,16 @@ def history(
     mirror = float(np.copysign(1.0, signed))
     if e[0] < 1:
         time, normal, friction, velocity, radius, stick_radius = inelastic.contact(
-            x, beta, zeta2, e, inelastic.LOSSES[loss or ""], tolerance
+            x, beta, zeta2, e, inelastic.LOSSES[loss or ""], allowed
         )
     else:
-        phase, friction, velocity, stick_radius = elastic.contact(x, beta, zeta2, tolerance)
+        phase, friction, velocity, stick_radius = elastic.contact(x, beta, zeta2, allowed)
         radius = np.sin(phase)
         time, normal = hertz.time(phase), radius**3
     radius[-1] = friction[-1] = normal[-1] = stick_radius[-1] = 0.0
     return ContinuumHistory(
         time, normal, mirror * friction, mirror * velocity, radius, stick_radius
     )
-
-
-def _tolerance(tolerance: float | None, default: float) -> float:
-    value = default if tolerance is None else tolerance
-    return checks.number("tolerance", value, "numbers above 0", 0, open_low=True)
 
 
 def _refuse_lossy(restitution: ArrayLike, loss: str | None) -> None:

@@ -21,7 +21,7 @@ _UNSOLVED = 255
 
 
 def rebound(
-    x: Array, beta: Array, zeta2: Array, tolerance: float
+    x: Array, beta: Array, zeta2: Array, tolerance: Array
 ) -> tuple[Array, Array, Array, Integers, Integers]:
     """Velocity, peak friction, work of friction, regime and reversals, each (n,), for x >= 0."""
     velocity, impulse, peak, regime, reversals = _at_limits(x, beta, zeta2)
@@ -30,7 +30,7 @@ def rebound(
     with refinement.counted_among(stepped):
         needed = refinement.steps_needed(*groups[1:])
         values, counts = refinement.refine(
-            groups, needed, tolerance, _integrate, FIRST_STEPS, MOST_STEPS, SAFETY
+            groups, needed, tolerance[stepped], _integrate, FIRST_STEPS, MOST_STEPS, SAFETY
         )
     # The exact values have these bounds. Extrapolation and rounding may exceed them.
     velocity[stepped] = np.clip(values[0], -groups[0], groups[0])
@@ -60,7 +60,7 @@ def velocity(x: Array, beta: Array, zeta2: Array, steps: int, extrapolate: bool)
     return at_separation
 
 
-def contact(x: Array, beta: Array, zeta2: Array, tolerance: float) -> list[Array]:
+def contact(x: Array, beta: Array, zeta2: Array, tolerance: Array) -> list[Array]:
     """Phase, friction, velocity and radius of stick over one contact, each of shape (m,)."""
     slid = tangential_motion.gross_slip(x, beta, zeta2)
     if x[0] < sliding.limit(beta[0], zeta2[0], 1.0):

@@ -35,9 +35,9 @@ def steps_needed(beta: Array, zeta2: Array, share_of_hertz: Array | float = 1.0)
 
 
 def refuse_hopeless(
-    x: Array, beta: Array, zeta2: Array, needed: Array, tolerance: float, most: int
+    x: Array, beta: Array, zeta2: Array, needed: Array, tolerance: Array, most: int
 ) -> None:
-    """Refuse impacts that cannot reach the tolerance however many steps are taken."""
+    """Refuse impacts that cannot reach their tolerance however many steps are taken."""
     unresolved = np.flatnonzero(needed > most)
     if unresolved.size:
         first = unresolved[0]
@@ -48,10 +48,10 @@ def refuse_hopeless(
         )
     blurred = np.flatnonzero(ROUNDING * x > tolerance)
     if blurred.size:
-        error = ROUNDING * x[blurred[0]]
+        first = blurred[0]
         raise Unsolved(
-            f"tolerance = {tolerance:g}: at incidence = {x[blurred[0]]:g} rounding alone may be "
-            f"more, {error:.1e}",
+            f"tolerance = {tolerance[first]:g}: at incidence = {x[first]:g} rounding alone may be "
+            f"more, {ROUNDING * x[first]:.1e}",
             blurred,
         )
 
@@ -59,16 +59,16 @@ def refuse_hopeless(
 def refine(
     groups: tuple[Array, ...],
     needed: Array,
-    tolerance: float,
+    tolerance: Array,
     integrate: Callable[[tuple[Array, ...], int], Solved],
     first: int,
     most: int,
     safety: float,
 ) -> tuple[Array, Integers]:
-    """Values (k, n) and counts (2, n) of impacts, with steps doubled until they meet the tolerance.
+    """Values (k, n) and counts (2, n) of impacts, with steps doubled until each meets its tolerance.
 
     `groups` are incidence, mass ratio, stiffness ratio, and what else `integrate` takes, each (n,);
-    `needed` are their `steps_needed`. With groups of m impacts and a number of steps `integrate`
+    `needed` are the steps below which an estimate does not count. With groups of m impacts and a number of steps `integrate`
     returns `Solved`: values (k, m), of which velocity and peak friction come first and must meet
     the tolerance; counts (2, m); and how near one gross slip more or less is (m,).
     """
@@ -101,16 +101,17 @@ def refine(
         counts[:, todo], nearest[todo] = number, near
         resolved = steps >= needed[todo]
         worst = estimate[:2].max(axis=0)  # NaN while there is no estimate yet
-        settled = resolved & (worst <= tolerance)
+        allowed = tolerance[todo]
+        settled = resolved & (worst <= allowed)
         # More steps do not help an answer that is not finite. An estimate says what more steps can
         # do once the steps resolve the oscillation at all three levels that it compares.
         sure = (steps >= 4 * needed[todo]) | (2 * steps > most)
         beyond = ~np.isfinite(fine).all(axis=0) | (
-            sure & ~settled & ~in_reach(worst, tolerance, steps, most)
+            sure & ~settled & ~in_reach(worst, allowed, steps, most)
         )
         if beyond.any() and not message:
             i, error = todo[beyond][0], worst[beyond][0]
-            message = not_met(x[i], beta[i], zeta2[i], tolerance, steps, error, most)
+            message = not_met(x[i], beta[i], zeta2[i], tolerance[i], steps, error, most)
         unsolved += todo[beyond].tolist()
         todo, steps = todo[~settled & ~beyond], 2 * steps
     if message:
@@ -118,7 +119,7 @@ def refine(
     return values, counts
 
 
-def in_reach(error: Array, tolerance: float, steps: int, most: int) -> Booleans:
+def in_reach(error: Array, tolerance: Array, steps: int, most: int) -> Booleans:
     """Whether `most` steps may reduce an error to the tolerance; true for unknown errors."""
     if 2 * steps > most:
         return error <= tolerance
@@ -141,10 +142,10 @@ def settled_path(
     judged: tuple[int, int],
     groups: tuple[Array, Array, Array],
     needed: Array,
-    tolerance: float,
+    tolerance: Array,
     most: int,
 ) -> Sequence[Array]:
-    """Columns over one contact, of which those numbered `judged` meet the tolerance.
+    """Columns over one contact, of which those numbered `judged` meet the tolerance, shape (1,).
 
     `solve` returns columns of shape (steps + 1, 1) for a number of steps. The instants of a coarse
     path are among those of one with twice the steps.
@@ -159,10 +160,10 @@ def settled_path(
         # An error that falls with the square of the steps is a third of the change.
         change = max(np.max(np.abs(fine[i][::2] - coarse[i])) / 3 for i in judged)
         resolved = steps >= needed[0]
-        if resolved and change <= tolerance:
+        if resolved and change <= tolerance[0]:
             return fine
-        if resolved and not in_reach(np.asarray(change), tolerance, steps, most):
-            message = not_met(x[0], beta[0], zeta2[0], tolerance, steps, change, most)
+        if resolved and not in_reach(np.asarray(change), tolerance[0], steps, most):
+            message = not_met(x[0], beta[0], zeta2[0], tolerance[0], steps, change, most)
         coarse = fine
     raise ConvergenceError(message)
 

@@ -38,7 +38,7 @@ LOSSES: dict[str, type[NormalMotion]] = {
 # Friction within this share of its limit is gross slip. Near separation less stick than that cannot
 # be told from rounding.
 GROSS = 1 - 1e-6
-FIRST_STEPS, MOST_STEPS = 32, 2**12
+FIRST_STEPS, MOST_STEPS = 32, 2**13
 # Factor of the estimated error. With it 320 impacts beside thresholds had errors of at most 0.2 of
 # the tolerance, and 325 whose slip ends beside maximum compression at most 0.3.
 SAFETY = 2
@@ -72,7 +72,7 @@ class Path(NamedTuple):
 
 
 def rebound(
-    x: Array, beta: Array, zeta2: Array, e: Array, tolerance: float, law: type[NormalMotion]
+    x: Array, beta: Array, zeta2: Array, e: Array, tolerance: Array, law: type[NormalMotion]
 ) -> tuple[Array, Array, Array, Integers, Integers]:
     """Velocity, peak friction, work of friction, regime and reversals, each of shape (n,).
 
@@ -81,7 +81,7 @@ def rebound(
     Examples
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> rebound(*groups, 1e-5, LOSSES["viscous"])[0].round(4)
+    >>> rebound(*groups, np.array([1e-5]), LOSSES["viscous"])[0].round(4)
     array([-0.4805])
     """
     motion = law(e)
@@ -103,8 +103,8 @@ def rebound(
     with refinement.counted_among(sticks):
         values, counts = refinement.refine(
             groups,
-            refinement.steps_needed(beta[sticks], zeta2[sticks], motion.least_share()[sticks]),
-            tolerance,
+            motion.steps_needed(beta, zeta2)[sticks],
+            tolerance[sticks],
             integrate,
             FIRST_STEPS,
             MOST_STEPS,
@@ -181,7 +181,9 @@ def path(
         with np.errstate(divide="ignore", invalid="ignore"):  # impacts that are not used
             later = motion.peak_after_slip(np.stack([a[after, column] for a in knots], axis=1))
         peak = np.maximum(peak, np.where(has_search, later, 0.0))
-    peak = peaks.largest(motion.time, friction, onset, peak, searched)
+    size, instants = np.abs(friction), (motion.time, motion.velocity, motion.force)
+    gross = size >= GROSS * motion.force
+    peak = peaks.largest(instants, size, gross, onset, peak, searched)
     largest = motion.largest_force
     radius = np.concatenate([motion.radius, motion.radius[-2::-1]]) / motion.radius[-1]
     return Path(
@@ -197,14 +199,14 @@ def path(
 
 
 def contact(
-    x: Array, beta: Array, zeta2: Array, e: Array, law: type[NormalMotion], tolerance: float
+    x: Array, beta: Array, zeta2: Array, e: Array, law: type[NormalMotion], tolerance: Array
 ) -> list[Array]:
     """One contact, its arguments of shape (1,): columns of `Path` up to the radius of stick."""
     fine = refinement.settled_path(
         lambda steps: path(x, beta, zeta2, e, law, steps),
         (Path._fields.index("friction"), Path._fields.index("velocity")),
         (x, beta, zeta2),
-        refinement.steps_needed(beta, zeta2, law(e).least_share()),
+        law(e).steps_needed(beta, zeta2),
         tolerance,
         MOST_STEPS,
     )

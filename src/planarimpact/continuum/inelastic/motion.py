@@ -7,6 +7,7 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
+from planarimpact.continuum import refinement
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers
 
@@ -148,9 +149,9 @@ class NormalMotion(ABC):
     def density(self, instant: int) -> Array:
         """Normal force density of the springs that touch, innermost first, shape (edge + 1, m)."""
 
-    def least_share(self) -> Array:
-        """Least force over that of Hertz's law at the same radius of contact, shape (m,)."""
-        return np.ones_like(self.restitution)
+    def steps_needed(self, beta: Array, zeta2: Array) -> Array:
+        """Steps that resolve all that happens to the springs in a contact, shape (m,)."""
+        return refinement.steps_needed(beta, zeta2)
 
     def end_of_first_slip(self, x: Array, beta: Array, zeta2: Array) -> Array:
         """Normal velocity where slip from contact ends, which it has for x > zeta^2, shape (m,).

@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from planarimpact.continuum import refinement
 from planarimpact.continuum.inelastic import peaks
 from planarimpact.continuum.inelastic.motion import NormalMotion, Springs
 from planarimpact.ground import cubics, roots, sliding
@@ -29,7 +30,7 @@ from planarimpact.normal_impact import yielding as law
 PLACES = 33
 # Flow in a step below which two terms of a series are exact enough.
 SMALL = 1e-5
-# Flow in a step up to which a parabola tells where slip stops within it.
+# Flow in a step up to which a parabola tells where slip stops within it, and the error is known.
 MOST_FLOW = 0.5
 # Instants at which friction is worked out soon after the first slip, and for how long: two instants
 # and this share of the steps.
@@ -64,9 +65,15 @@ class PlasticMotion(NormalMotion):
         """As in `NormalMotion`."""
         return PlasticSprings(self)
 
-    def least_share(self) -> Array:
-        """As in `NormalMotion`: at the end of compression."""
-        return self._last_share
+    def steps_needed(self, beta: Array, zeta2: Array) -> Array:
+        """As in `NormalMotion`: the oscillation, and the last flow of compression.
+
+        In a step of the angle a, at the end of compression, the approach grows by its share a^2.
+        Where all of that flows at once, springs do not load, and the body may slide only after it.
+        """
+        oscillation = refinement.steps_needed(beta, zeta2, self._last_share)
+        most_flow = self.flows * self._largest / self._loading.yields
+        return np.maximum(oscillation, np.pi * np.sqrt(most_flow / MOST_FLOW))
 
     def place(self, velocity: Array) -> Array:
         """As in `NormalMotion`: the angle whose sine is the radius, over a right angle."""

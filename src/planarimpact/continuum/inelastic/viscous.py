@@ -69,6 +69,16 @@ class ViscousMotion(NormalMotion):
         """As in `NormalMotion`."""
         return ViscousSprings(self)
 
+    def steps_needed(self, beta: Array, zeta2: Array) -> Array:
+        """As in `NormalMotion`: the oscillation, and how fast the dashpots damp it at most.
+
+        Over two steps in that time Heun's method is unstable. Here it is one.
+        """
+        duration = self._compression.last[2] + self._after.last[2]
+        with np.errstate(over="ignore"):
+            damping = 2 * self.tau * self._compression.last[0] * (beta / zeta2)
+            return np.maximum(super().steps_needed(beta, zeta2), damping * duration)
+
     def density(self, instant: int) -> Array:
         """As in `NormalMotion`: D - r^2."""
         return self._depth[instant] - self.radius[: self.edge(instant) + 1] ** 2
