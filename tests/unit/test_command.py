@@ -120,7 +120,7 @@ def test_negative_numbers_are_numbers_however_they_are_written(capsys):
 
 FIT = ["fit", "--law", "yade", "--restitution", "0.8", "--poisson-ratio", "0.3"]
 FIT += [word for n in ("young-modulus", "friction", "radius") for word in (f"--{n}", "0.1")]
-FIT += ["--density", "1", "--speed", "1"]
+FIT += ["--density", "1", "--speed", "0.001"]
 REFUSED_NUMBERS = [
     (["rebound", "--incidence", "1"], ["--mass-ratio", "--stiffness-ratio", "--restitution"]),
     (["rebound", "--friction", "0.3"], ["--angle"]),

@@ -471,6 +471,7 @@ def test_the_table_of_spheres_takes_what_it_covers():
         bound = np.where(e < 1, spheres.ERROR_BOUND[loss], spheres.ERROR_BOUND["viscous"])
         little = spheres.loses_little(np.full(count, 3.5), groups[2], e) & (loss == "plastic")
         bound[little & (e < 1)] = spheres.LITTLE_BOUND
+        bound *= np.minimum(np.abs(after["incidence"]), 1.0)
         np.testing.assert_allclose(after["error_bound [m/s]"] / unit, bound, 1e-6)
         far = np.where(e < 1, spheres.rebound(*groups, loss=other).velocity - found.velocity, 0.0)
         np.testing.assert_allclose(after["model_form [m/s]"] / unit, np.abs(far), atol=1e-11)

@@ -179,7 +179,8 @@ def test_model_form_of_a_solved_impact_is_by_the_table_where_it_can_be(loss):
     x, wanted = distances(0.4)
     found = scene.Solver(1e-4, loss)
     form = found.solve(table(x[::4], restitution=0.4))[FORM] / UNIT
-    assert f"continuum.{loss}, solved" in found.explain() and ", table" not in found.explain()
+    # Below x = 1 the table is nearer, and answers some of them.
+    assert f"continuum.{loss}, solved" in found.explain()
     errors = max(spheres.ERROR_BOUND.values()) + 2e-4
     sticks = form != 0
     assert np.abs(form - wanted[::4])[sticks].max() <= errors

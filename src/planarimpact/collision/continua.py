@@ -23,18 +23,18 @@ class Solved(NamedTuple):
     messages: dict[int, str]
 
 
-def rebound(model: str, incidence: Array, groups: tuple[Array, ...], tolerance: float) -> Solved:
-    """Impacts x > 0 solved by one of `MODELS`, to a tolerance in mu v2(0), below x = 1 in v1(0)."""
+def rebound(model: str, incidence: Array, groups: tuple[Array, ...], tolerance: Array) -> Solved:
+    """Impacts x > 0 solved by one of `MODELS`, to the tolerance of each, in mu v2(0)."""
     rows, messages = np.arange(incidence.size), dict[int, str]()
     loss = model.partition(".")[2] or None
     solved_at = np.maximum(incidence, LINEAR)
-    allowed = tolerance * np.minimum(solved_at, 1.0)
+    share = incidence / solved_at
+    allowed = tolerance / share
     while True:
         try:
             arguments = solved_at[rows], *(group[rows] for group in groups)
             answer = continuum.rebound(*arguments, loss=loss, tolerance=allowed[rows])
-            share = incidence[rows] / solved_at[rows]
-            return Solved(_in_proportion(answer, share), rows, messages)
+            return Solved(_in_proportion(answer, share[rows]), rows, messages)
         except ConvergenceError as error:
             # An error that names no impacts concerns all of them.
             unsolved = error.impacts if isinstance(error, Unsolved) else slice(None)
