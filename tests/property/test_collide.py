@@ -268,7 +268,7 @@ def test_friction_of_any_size_is_that_of_springs_which_stick(zeta2, e, loss):
         wanted = second_code.small_incidences(loss, 1e-9, 3.5, zeta2, e)
     else:
         wanted = continuum.rebound(1e-4, 3.5, zeta2, tolerance=1e-9).velocity / 1e-4
-    for friction in 10.0 ** np.array([*range(3, 25, 3), 30, 60, 99, 100, 101, 150, 200, 300, 308]):
+    for friction in 10.0 ** np.array([3, 4, 6, 9, 15, 24, 60, 100, 101, 200, 308]):
         pair = Pair(stiffness_ratio=zeta2, friction=friction, restitution=e, loss=loss)
         for shape in ((), (1,)):
             velocity = np.full((*shape, 3), [0.5, 0, -2])
@@ -280,7 +280,8 @@ def test_friction_of_any_size_is_that_of_springs_which_stick(zeta2, e, loss):
             assert found.model_form < 0.5
 
 
-def test_one_path_for_numbers_of_every_size():
+@pytest.mark.parametrize("count", [300, pytest.param(10_000, marks=pytest.mark.long)])
+def test_one_path_for_numbers_of_every_size(count):
     """One impact alone and in an array: the same answer, or the same refusal, never NaN or inf.
 
     One or two inputs at a time are multiplied by up to 1e600, also beside the ends of the range in
@@ -288,7 +289,7 @@ def test_one_path_for_numbers_of_every_size():
     """
     rng, answered, refused = np.random.default_rng(8), 0, 0
     edges = np.log10([single.PLAIN_LEAST, single.PLAIN_MOST])
-    for _ in range(3000):
+    for _ in range(count):
         size = dict.fromkeys(
             ["friction", "zeta2", "modulus", "law", "mass", "radius", "v1", "v2", "spin"], 1.0
         )
@@ -325,7 +326,7 @@ def test_one_path_for_numbers_of_every_size():
             assert np.isfinite(wanted).all() or one.regime == Regime.NO_IMPACT
             scale = np.abs(wanted).max() if values.ndim else np.abs(wanted)
             np.testing.assert_allclose(values, wanted, rtol=1e-9, atol=1e-9 * scale)
-    assert min(answered, refused) > 500
+    assert min(answered, refused) > count / 6
 
 
 def of_steel(friction, restitution, loss="plastic"):
