@@ -130,9 +130,7 @@ def rebound(
         tolerance=checks.positive("tolerance", tolerance),
     )
     _refuse_lossy(restitution, loss)
-    x, beta, zeta2, e, allowed = (
-        a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, allowed)
-    )
+    x, beta, zeta2, e, allowed = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, allowed))
     velocity, peak, work = (np.empty(x.size) for _ in range(3))
     regime, reversals = (np.empty(x.size, np.int64) for _ in range(2))
     for is_elastic in (True, False):

@@ -36,7 +36,8 @@ def largest(
     last = top + 2
     for _ in range(3):
         last = last - gross[last, column]
-    sets_in = np.flatnonzero((last < top + 2) & ~gross[last, column] & (last > first + 1))
+    inside = (last > first + 1) & (last < np.minimum(top + 2, len(size) - 2))
+    sets_in = np.flatnonzero(inside & ~gross[last, column])
     if sets_in.size:
         beside = (a[:, sets_in] for a in (*instants, size))
         highest_late[sets_in] = _highest_at_onset(*beside, last[sets_in])
