@@ -647,7 +647,7 @@ def test_a_contact_without_an_answer_may_be_left_out(count):
     after = found.solve(rows, skip_bad=True)
     assert after.index.tolist() == [*range(1, 2 * count, 2), 2 * count, 2 * count + 1]
     assert [number for number, _ in found.bad] == list(range(1, 2 * count, 2))
-    assert all("the tangential motion needs" in words for _, words in found.bad)
+    assert all("the tangential oscillation needs" in words for _, words in found.bad)
     alone = scene.solve(pd.concat([good, faster], ignore_index=True))
     last = after.iloc[-2:].reset_index(drop=True)
     pd.testing.assert_frame_equal(last, alone, check_categorical=False)

@@ -42,8 +42,8 @@ def refuse_hopeless(
     if unresolved.size:
         first = unresolved[0]
         raise Unsolved(
-            f"stiffness_ratio = {zeta2[first]:g} at mass_ratio = {beta[first]:g}: the "
-            f"tangential motion needs {needed[first]:.3g} steps, allowed are {most}",
+            f"stiffness_ratio = {zeta2[first]:g} at mass_ratio = {beta[first]:g}: the tangential "
+            f"oscillation needs {needed[first]:.3g} steps, allowed are {most}",
             unresolved,
         )
     blurred = np.flatnonzero(ROUNDING * x > tolerance)
