@@ -65,12 +65,13 @@ def refine(
     most: int,
     safety: float,
 ) -> tuple[Array, Integers]:
-    """Values (k, n) and counts (2, n) of impacts, with steps doubled until each meets its tolerance.
+    """Values (k, n) and counts (2, n), with steps doubled until each impact meets its tolerance.
 
     `groups` are incidence, mass ratio, stiffness ratio, and what else `integrate` takes, each (n,);
-    `needed` are the steps below which an estimate does not count. With groups of m impacts and a number of steps `integrate`
-    returns `Solved`: values (k, m), of which velocity and peak friction come first and must meet
-    the tolerance; counts (2, m); and how near one gross slip more or less is (m,).
+    `tolerance` (n,) is that of each; with fewer steps than `needed` (n,) an estimate does not
+    count. With groups of m impacts and a number of steps `integrate` returns `Solved`: values
+    (k, m), of which velocity and peak friction come first and must meet the tolerance; counts
+    (2, m); and how near one gross slip more or less is (m,).
     """
     x, beta, zeta2 = groups[:3]
     refuse_hopeless(x, beta, zeta2, needed, tolerance, most)
@@ -104,8 +105,8 @@ def refine(
         allowed = tolerance[todo]
         settled = resolved & (worst <= allowed)
         # More steps do not help an answer that is not finite. An estimate says what more steps can
-        # do once the steps resolve the oscillation at all three levels that it compares.
-        sure = (steps >= 4 * needed[todo]) | (2 * steps > most)
+        # do once the steps resolve the contact at all four levels that it compares.
+        sure = (steps >= 8 * needed[todo]) | (2 * steps > most)
         beyond = ~np.isfinite(fine).all(axis=0) | (
             sure & ~settled & ~in_reach(worst, allowed, steps, most)
         )

@@ -11,6 +11,7 @@ from planarimpact.continuum import refinement
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers
 
+MOST_STEPS = 2**13
 # The instants of compression are divided into this many parts, and slip ends between two of them.
 # So the number of instants on both sides of the end of slip doubles with the steps.
 PARTS = 16

@@ -9,7 +9,7 @@ SAMPLES = 49
 
 
 def largest(
-    instants: tuple[Array, Array, Array],
+    instants: tuple[Array, ...],
     size: Array,
     gross: Booleans,
     onset: Integers,
@@ -36,10 +36,11 @@ def largest(
     last = top + 2
     for _ in range(3):
         last = last - gross[last, column]
-    sets_in = np.flatnonzero((last < top + 2) & ~gross[last, column] & (last > first + 1))
+    inside = (last > first + 1) & (last < np.minimum(top + 2, len(size) - 2))
+    sets_in = np.flatnonzero(inside & ~gross[last, column])
     if sets_in.size:
-        beside = (a[:, sets_in] for a in (*instants, size))
-        highest_late[sets_in] = _highest_at_onset(*beside, last[sets_in])
+        beside = tuple(a[:, sets_in] for a in instants)
+        highest_late[sets_in] = _highest_at_onset(beside, size[:, sets_in], last[sets_in])
     largest_friction = np.maximum(peak, np.maximum(highest_late, size[top, column]))
     if searched:
         return largest_friction
@@ -54,22 +55,21 @@ def highest(times: Array, forces: Array) -> Array:
     return _highest([(times[k, column], forces[k, column]) for k in (top - 1, top, top + 1)])
 
 
-def _highest_at_onset(
-    time: Array, velocity: Array, normal: Array, size: Array, last: Integers
-) -> Array:
+def _highest_at_onset(instants: tuple[Array, ...], size: Array, last: Integers) -> Array:
     """Largest friction as gross slip sets in after the instant `last`, shape (m,).
 
     What friction lacks at its limit vanishes there with the power 3/2 of the time that is left. So
     its power 2/3 is a parabola, through three instants before gross slip. Between two instants the
     normal force, minus the rate of the normal velocity, is another.
     """
+    time, velocity, normal = instants
     column = np.arange(last.size)
     t, lacks = (a[last + np.arange(-2, 1)[:, None], column] for a in (time, normal - size))
     roots = np.maximum(lacks, 0.0) ** (2 / 3)
     slopes = np.diff(roots, axis=0) / np.diff(t, axis=0)
     bend = (slopes[1] - slopes[0]) / (t[2] - t[0])
     share = np.linspace(0.0, 1.0, SAMPLES // 3)[:, None]
-    times, forces = [], []
+    forces = []
     for k in last + np.arange(-2, 2)[:, None]:
         start, pace, force = (a[k, column] for a in (time, velocity, normal))
         step, slowing = time[k + 1, column] - start, pace - velocity[k + 1, column]
@@ -78,7 +78,6 @@ def _highest_at_onset(
         at = start + share * step
         root = roots[2] + (at - t[2]) * (slopes[1] + (at - t[1]) * bend)
         limit = force + share * (growth + (1 - share) * bulge)
-        times.append(at)
         forces.append(limit - np.maximum(root, 0.0) ** 1.5)
     return np.concatenate(forces).max(axis=0)
 

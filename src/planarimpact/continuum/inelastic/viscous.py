@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact.continuum.inelastic.motion import NormalMotion, Springs
+from planarimpact.continuum.inelastic.motion import MOST_STEPS, NormalMotion, Springs
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.normal_impact import kelvin_voigt as law
 
@@ -72,12 +72,13 @@ class ViscousMotion(NormalMotion):
     def steps_needed(self, beta: Array, zeta2: Array) -> Array:
         """As in `NormalMotion`: the oscillation, and how fast the dashpots damp it at most.
 
-        Over two steps in that time Heun's method is unstable. Here it is one.
+        Heun's method is unstable if a step is twice the time of damping; here it is at most that
+        time. It may be longer where slip frees the springs, so that damping refuses no impact.
         """
         duration = self._compression.last[2] + self._after.last[2]
         with np.errstate(over="ignore"):
-            damping = 2 * self.tau * self._compression.last[0] * (beta / zeta2)
-            return np.maximum(super().steps_needed(beta, zeta2), damping * duration)
+            damping = 2 * self.tau * self._compression.last[0] * duration * (beta / zeta2)
+        return np.maximum(super().steps_needed(beta, zeta2), np.minimum(damping, MOST_STEPS))
 
     def density(self, instant: int) -> Array:
         """As in `NormalMotion`: D - r^2."""
