@@ -133,7 +133,8 @@ def collide(
         1e-10 to 1. In v1(0) it is at most the default. The default is that of the table of spheres:
         about a microsecond an impact.
         Impacts for which the table is too coarse, or which it does not cover (e below 0.3, zeta^2
-        above 1.6), take up to some milliseconds each.
+        above 1.6), take up to some milliseconds each, and at mass ratios above 110 up to seconds;
+        `continuum.rebound` says what it can meet.
 
     Returns
     -------

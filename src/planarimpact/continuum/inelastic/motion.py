@@ -56,7 +56,8 @@ class Springs(ABC):
     def __init__(self, motion: "NormalMotion") -> None:
         self._motion = motion
         # Limit L and tangential density of the springs that touch.
-        self._limit, self._density = np.zeros((2, 1, motion.largest_force.size))
+        self._limit = motion.density(0)
+        self._density = np.zeros_like(self._limit)
         self._tried = self._limit, self._density
 
     @abstractmethod

@@ -175,4 +175,8 @@ def _relaxed(
         begins = np.where(after > 0, after / (1 + (1 / gain - 1) * after / change), after)
     beyond = np.where(before > 0, slides, begins)
     density = side * (limit_after + np.minimum(beyond, 0.0))
-    return side * (limit_after + beyond) - pull_after, density
+    # A spring that sticks has forgotten nothing: taking the limit away and adding it again would
+    # leave no digit of a small density.
+    sticks = (before <= 0) & (after <= 0)
+    new_memory = np.where(sticks, memory, side * (limit_after + beyond) - pull_after)
+    return new_memory, np.where(sticks, unlimited, density)
