@@ -396,24 +396,6 @@ def test_metal_slides_throughout_where_no_spring_can_hold_it(e):
             assert words.startswith(f"restitution = {e}: allowed are numbers from 0.1")
 
 
-def test_restitution_of_single_impacts_follows_the_speed(impacts):
-    (pair, normal, body, velocity, spin, other, other_velocity, other_spin), after = impacts
-    states = velocity, spin, other_velocity, other_spin
-    checked = 0
-    for i in np.flatnonzero(after.regime != Regime.NO_IMPACT)[:400].tolist():
-        v, w, other_v, other_w = (vectors[i] for vectors in states)
-        one, two = (bodies.Body(*(float(field[i]) for field in who)) for who in (body, other))
-        vectors = normal[i], v, w, other_v, other_w
-        answer = single.collide(pair[i].single, bool(pair[i].plastic), one, two, vectors, 5e-3)
-        if answer:
-            found = collide(pair[i], normal[i], one, v, w, two, other_v, other_w)
-            checked += np.isnan(pair.restitution[i])
-            assert found.restitution == pytest.approx(after.restitution[i], abs=1e-7)
-            scale = np.abs(v).max() + np.abs(w).max() * one.radius
-            assert np.abs(found.velocity - after.velocity[i]).max() <= 1e-7 * scale
-    assert checked > 100
-
-
 def test_a_scene_has_the_same_answers():
     """One table with `loss`, one with a yield pressure; vectors are its columns."""
     rng, count = np.random.default_rng(4), 300
