@@ -74,7 +74,7 @@ PLANS = {
 
 
 def make(name: str = "fine", say: Callable[[str], None] = print) -> Table:
-    """Make a table, one of `PLANS`; the fine one takes some twenty minutes."""
+    """Make a table, one of `PLANS`; the fine one takes some six minutes."""
     plan = PLANS[name]
     limits = thresholds.limits(b_at(np.linspace(0.0, 1.0, plan.edges[1] + 1)))
     panels = {}
