@@ -20,7 +20,7 @@ from planarimpact import (
 )
 from planarimpact.collision import single
 from planarimpact.normal_impact import yielding
-from tests.reference_solutions import inelastic_contact as second_code
+from tests.reference_solutions import inelastic_contact
 
 COUNT = 100_000
 # Rounding, as a share of the largest term of a balance.
@@ -265,7 +265,7 @@ def test_friction_of_any_size_is_that_of_springs_which_stick(zeta2, e, loss):
     """Where x vanishes the rebound is in proportion to v1(0), and so is its error."""
     up, unit_ball = [0, 0, 1], bodies.Body(1, 0.4**0.5, 1)
     if e < 1:
-        wanted = second_code.small_incidences(loss, 1e-9, 3.5, zeta2, e)
+        wanted = inelastic_contact.small_incidences(loss, 1e-9, 3.5, zeta2, e)
     else:
         wanted = continuum.rebound(1e-4, 3.5, zeta2, tolerance=1e-9).velocity / 1e-4
     for friction in 10.0 ** np.array([3, 4, 6, 9, 15, 24, 60, 100, 101, 200, 308]):
@@ -275,7 +275,7 @@ def test_friction_of_any_size_is_that_of_springs_which_stick(zeta2, e, loss):
             found = collide(pair, up, unit_ball, velocity, [0, 0, 0])
             w = contact_velocity(found, up, unit_ball)[..., 0]
             assert np.all(found.error_bound <= collision.TOLERANCE * 0.5 * (1 + 1e-12))
-            slack = found.error_bound + 0.5 * (second_code.SMALL + 2.5e-1 / friction)
+            slack = found.error_bound + 0.5 * (inelastic_contact.SMALL + 2.5e-1 / friction)
             assert np.all(np.abs(w - 0.5 * wanted) <= slack), (friction, w, wanted)
             assert found.model_form < 0.5
 

@@ -15,7 +15,7 @@ import pytest
 from planarimpact import InputError, Regime, continuum, spheres
 from planarimpact.export import spheres as export
 from planarimpact.spheres import making, table
-from tests.reference_solutions import inelastic_contact as second_code
+from tests.reference_solutions import inelastic_contact
 
 # Of the continuum, whose errors are below half of it. Next to e = 0.3 a plastic one meets no less.
 TOLERANCE = {"viscous": 4e-5, "plastic": 2e-4}
@@ -170,9 +170,9 @@ def test_below_x_of_1_the_error_is_over_x(name, seed, tried):
         b = np.clip(making.b_at(u), spheres.LEAST_RATIO, spheres.LARGEST_RATIO)
         limits = table.limits_at(table.shipped(), np.array([u]))[:, 0]
         e = np.clip(making.e_at(name, t, limits), spheres.LEAST_RESTITUTION, 0.9999)
-        wanted = second_code.small_incidences(loss, x, b * zeta2, zeta2, e)
+        wanted = inelastic_contact.small_incidences(loss, x, b * zeta2, zeta2, e)
         found = spheres.rebound(x, b * zeta2, zeta2, e, loss=loss).velocity / x
-        return np.max(np.abs(found - wanted)) / (bound_of(name) + second_code.SMALL)
+        return np.max(np.abs(found - wanted)) / (bound_of(name) + inelastic_contact.SMALL)
 
     place = max(random.random((tried, 2)), key=share)
     for step in 0.3 * 0.7 ** np.arange(tried):

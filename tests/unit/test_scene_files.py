@@ -71,7 +71,8 @@ def test_the_same_table_in_parquet_has_the_same_answers(tmp_path):
     plain = (tmp_path / "in.csv.csv").read_bytes()
     assert (tmp_path / "in.parquet.csv").read_bytes() == plain
     wanted = pd.read_csv(io.BytesIO(plain), keep_default_na=False, dtype={"id": str})
-    for name in ("incidence", "peak_normal_force [N]", "peak_friction_force [N]"):
+    unknown = "model_form [m/s]", "peak_normal_force [N]", "peak_friction_force [N]"
+    for name in ("incidence", *unknown):
         wanted[name] = pd.to_numeric(wanted[name], errors="coerce")
     found = pd.read_parquet(tmp_path / "in.csv.parquet")
     assert found["peak_normal_force [N]"].isna().tolist() == [i == 2 for i in range(COUNT)]
