@@ -252,6 +252,43 @@ def answers_of_all_paths(pair, normal, velocity):
     return answers
 
 
+@pytest.mark.parametrize("count", [40, pytest.param(2000, marks=pytest.mark.long)])
+def test_one_impact_is_that_of_many_where_metal_begins_to_slide(count):
+    """The table has this incidence with an error, the continuum without one."""
+    rng, body = np.random.default_rng(9), bodies.Body(1.0, 1.0, 1.0)
+    for _ in range(count):
+        b, zeta2, e = rng.uniform(1.5625, 3.5), rng.uniform(1.0, 1.6), rng.uniform(0.3, 0.7)
+        groups = b * zeta2, zeta2, e
+        pair = Pair(stiffness_ratio=zeta2, friction=1.0, restitution=e, loss="plastic")
+        body = bodies.Body(1.0, 1 / np.sqrt(b * zeta2 - 1), 1.0)
+        exact = float(continuum.slip_throughout_limit(*groups, loss="plastic"))
+        tabled = float(spheres.plastic_limit(*np.reshape(groups, (3, 1)))[0])
+        beside = np.array([1 - 2e-2, 1 - 1e-3, 1 - 1e-6, 1 + 1e-6, 1 + 1e-3, 1 + 2e-2])
+        for x in [*exact * beside, *tabled * beside, (exact + tabled) / 2]:
+            velocity = np.array([x, 0, -1.0])
+            one = collide(pair, [0, 0, 1], body, velocity, [0, 0, 0])
+            many = collide(pair, [[0, 0, 1]], body, [velocity], [0, 0, 0])
+            assert (one.regime, one.error_bound) == (many.regime[0], many.error_bound[0])
+            np.testing.assert_allclose(one.velocity, many.velocity[0], rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize("kind", [np.float16, np.float32, np.longdouble, np.uint8, object])
+@pytest.mark.parametrize("shape", [(), (1,)])
+def test_bodies_of_any_kind_of_number_are_computed_in_double_precision(kind, shape):
+    numbers = {np.uint8: (200, 2, 3), object: (3 * 10**20, 2**64, 3 * 2**63)}
+    sizes = [np.full(shape, n, kind) for n in numbers.get(kind, (0.1, 0.0063, 0.01))]
+    wanted = bodies.Body(*(np.array(value, float) for value in sizes))
+    pair, velocity = of_steel(0.3, 0.8), np.full((*shape, 3), [0.5, 0, -2.0])
+    one, two = (
+        collide(pair, [0, 0, 1], body, velocity, [0, 0, 0])
+        for body in (bodies.Body(*(value[()] for value in sizes)), wanted)
+    )
+    for name in ("velocity", "spin", "impulse"):
+        values = getattr(one, name)
+        assert values.dtype == float
+        np.testing.assert_allclose(values, getattr(two, name), rtol=1e-13)
+
+
 def contact_velocity(found, normal, body):
     """Of the contact point at a wall at rest."""
     return found.velocity - np.cross(found.spin, normal) * body.radius
@@ -515,6 +552,8 @@ def test_nobody_changes_a_pair():
     table = Pair(STEEL, friction=given, restitution=0.8, loss="plastic")
     given[:] = 0.9
     assert table.friction.tolist() == [0.2, 0.3]
+    with pytest.raises(ValueError, match="WRITEABLE"):
+        table.friction.setflags(write=True)
     copied = pickle.loads(pickle.dumps(table))
     for pair in (table, table[0], table[[0, 1]], table.broadcast((3, 2)), copied):
         for name in ("friction", "restitution", "stiffness_ratio", "plastic"):

@@ -133,8 +133,8 @@ def collide(
         1e-10 to 1. In v1(0) it is at most the default. The default is that of the table of spheres:
         about a microsecond an impact.
         Impacts for which the table is too coarse, or which it does not cover (e below 0.3, zeta^2
-        above 1.6), take up to some milliseconds each, and at mass ratios above 110 up to seconds;
-        `continuum.rebound` says what it can meet.
+        above 1.6), take milliseconds each in a batch of hundreds, alone a tenth of a second, and at
+        mass ratios of a hundred seconds; `continuum.rebound` says what it can meet.
 
     Returns
     -------
@@ -189,7 +189,7 @@ def _collide_arrays(
     """As `collide`, for any number of impacts."""
     names = "normal", "velocity", "spin", "other_velocity", "other_spin"
     vectors = [_vectors(name, value) for name, value in zip(names, values, strict=True)]
-    fields = [np.asarray(value) for value in (*body, *other)]
+    fields = [np.asarray(value, dtype=float) for value in (*body, *other)]
     shape = _common_shape(pair, vectors, fields)
     pair = pair.broadcast(shape)
     fields = [np.broadcast_to(value, shape).reshape(-1) for value in fields]

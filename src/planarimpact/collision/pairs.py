@@ -167,7 +167,7 @@ def _fill(pair: Pair, *fields: Array) -> None:
     """Give a new pair its fields, in the order of `_ARRAYS`; from then on nobody can write them."""
     for name, values in zip(_ARRAYS, map(np.asarray, fields), strict=True):
         values.setflags(write=False)
-        object.__setattr__(pair, name, values)
+        object.__setattr__(pair, name, values.view())  # NumPy lets an array be written again
     numbers = () if pair.shape else tuple(float(getattr(pair, name)) for name in _FIELDS)
     plain = all(not n or n != n or PLAIN_LEAST <= n <= PLAIN_MOST for n in numbers)
     object.__setattr__(pair, "single", numbers if numbers and plain else None)

@@ -42,8 +42,10 @@ def _panels() -> tuple[list[list[float]], list[Panel]]:
     return shipped.limits.tolist(), panels
 
 
-def velocity(y: float, b: float, e: float, plastic: bool) -> float | None:
-    """Velocity over zeta^2 of an impact that the table covers; None if it slides throughout.
+def velocity(y: float, b: float, e: float, plastic: bool) -> tuple[float, float]:
+    """Velocity over zeta^2 of an impact that the table covers, and from which y on it slides.
+
+    From there on the velocity has no meaning.
 
     Parameters
     ----------
@@ -54,14 +56,13 @@ def velocity(y: float, b: float, e: float, plastic: bool) -> float | None:
 
     Returns
     -------
-    float or None
+    float, float
 
     Examples
     --------
-    >>> round(1.2 * velocity(2.0 / 1.2, 3.5 / 1.2, 0.8, True), 4)
-    -0.1733
-    >>> velocity(9.0, 3.0, 0.8, False) is None
-    True
+    >>> share, slides_from = velocity(2.0 / 1.2, 3.5 / 1.2, 0.8, True)
+    >>> round(1.2 * share, 4), round(1.2 * slides_from, 4)
+    (-0.1733, 5.34)
     """
     _, panels = _panels()
     u = (b - B_LEAST) / (B_MOST - B_LEAST)
@@ -83,9 +84,9 @@ def velocity(y: float, b: float, e: float, plastic: bool) -> float | None:
         third = b if panel.name == "plastic_high" else varying[0]
         last = varying[1] if panel.name == "plastic_low" else alike
         edges = [0.0, 1.0, (1 + third) / 2, third, last]
-    if y >= edges[-1] * NEARLY:
-        return None
-    patch = 0
+    slides_from, patch = edges[-1] * NEARLY, 0
+    if y >= slides_from:
+        return 0.0, slides_from
     for k in range(1, len(edges) - 1):
         if y >= edges[k]:
             patch = k
@@ -112,7 +113,7 @@ def velocity(y: float, b: float, e: float, plastic: bool) -> float | None:
             c += panel.over_u
         total += middle * weight_s
         base += panel.over_t * panel.over_u
-    return total if patch else total * y
+    return total if patch else total * y, slides_from
 
 
 def loses_little(b: float, e: float) -> bool:

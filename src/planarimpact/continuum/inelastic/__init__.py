@@ -162,7 +162,7 @@ def path(
         # Springs without a dashpot hardly feel the velocity: once is enough (Verlet's method).
         ahead = w - beta * step * force
         for _ in range(1 + motion.dashpots):
-            moved = u + step * (w + ahead) / (2 * zeta2)
+            moved = u + step * (w + ahead) / 2 / zeta2
             new = springs.move(k, step, (u, w / zeta2), (moved, ahead / zeta2))
             ahead = w - beta * step * (force + new) / 2
         u, w, force = moved, np.where(began, ahead, w), np.where(began, new, force)
