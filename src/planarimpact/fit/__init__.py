@@ -7,7 +7,7 @@ them as the code wants to read them. The normal spring and dashpot follow from r
 
 A fit holds for one restitution, so for one speed where restitution depends on it, for one pair of
 materials, for its range of incidence, and for small overlaps: `lines` says what the overlap of an
-impact costs. The continuum is a model, too: what it leaves out, no fit brings back.
+impact costs.
 
 `laws` steps through a contact, `codes` knows the codes, `overlaps` what larger ones cost.
 """
@@ -79,10 +79,9 @@ def fit(
 
     Notes
     -----
-    Both the law and its fit have `laws.STEPS` steps in an elastic contact, which begins with a
-    step. The errors are those of contacts that begin within a step, where this is worst. The search
-    is by Nelder and Mead from the best point of a grid. Of the tangential laws of a code the
-    nearest is taken. The overlap is taken to vanish.
+    An elastic contact lasts `laws.STEPS` steps. For the search, by Nelder and Mead from the best
+    point of a grid, it begins with a step; the errors are the worst of all its begins in a step. Of
+    the tangential laws of a code the nearest is taken. The overlap is taken to vanish.
 
     Examples
     --------
