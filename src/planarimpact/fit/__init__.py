@@ -125,24 +125,10 @@ def fit(
     before = stepped(contact._replace(limited=code.limited), usual, usual_damping, e)
     after = stepped(contact, stiffness, damping, told)
     off = after - exact
-    return Fit(
-        law,
-        style,
-        stiffness,
-        damping,
-        told,
-        beta,
-        zeta2,
-        e,
-        loss,
-        x,
-        exact[:-1],
-        before[0, :-1],
-        after[0, :-1],
-        _error(before[:, :-1] - exact[:-1], x),
-        _error(off[:, :-1], x),
-        float(max(off[:, -1], key=abs)),
-    )
+    numbers = law, style, stiffness, damping, told, beta, zeta2, e, loss
+    curves = x, exact[:-1], before[0, :-1], after[0, :-1]
+    errors = _error(before[:, :-1] - exact[:-1], x), _error(off[:, :-1], x)
+    return Fit(*numbers, *curves, *errors, float(max(off[:, -1], key=abs)))
 
 
 def _error(off: Array, x: Array) -> Error:
@@ -160,13 +146,7 @@ def _continuum(x: Array, beta: float, zeta2: float, e: float, loss: str | None) 
 
 
 def _nearest(
-    exact: Array,
-    law: laws.Law,
-    x: Array,
-    beta: float,
-    zeta2: float,
-    e: float,
-    undamped: bool,
+    exact: Array, law: laws.Law, x: Array, beta: float, zeta2: float, e: float, undamped: bool
 ) -> tuple[float, float, float]:
     """Mean square of the error of a law, its stiffness and damping."""
     told = laws.told_for(law, e)

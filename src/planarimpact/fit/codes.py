@@ -341,15 +341,7 @@ def _mercurydpm(found: Fit, contact: _Contact) -> str:
 
 def _yade(found: Fit, contact: _Contact) -> str:
     # Yade puts the springs, and the dashpots, of two bodies in series.
-    kn, ks, cn, cs = (
-        2 * value
-        for value in (
-            contact.normal,
-            contact.tangential,
-            contact.normal_damping,
-            contact.tangential_damping,
-        )
-    )
+    kn, ks, cn, cs = (2 * value for value in contact[-4:])
     common = (
         f"O.materials.append(ViscElMat(density={_short(contact.density)}, "
         f"frictionAngle=atan({contact.friction:g}), kn={_short(kn)}, ks={_short(ks)}, "
