@@ -369,9 +369,8 @@ def test_an_overlap_costs_no_more_with_other_materials():
                 sphere = SPHERE | {"friction": friction, "speed": speed}
                 lines = fit.lines(one, material, **sphere)
                 off = np.abs(peers.lammps_pairs(lines, one.incidence, **sphere) - one.after)
-                ends = zip(overlaps.INCIDENCES, overlaps.costs(size, friction), strict=True)
-                for end, cost in ends:
-                    assert off[one.incidence <= end].max() <= cost, (law, size, friction)
+                up_to = [off[one.incidence <= end].max() for end in overlaps.INCIDENCES]
+                assert np.all(up_to <= np.array(overlaps.costs(size, friction))), (law, size)
 
 
 def test_readme_has_the_errors_before_and_after():
@@ -420,8 +419,6 @@ def test_bad_input_is_refused(change, words):
 def test_lines_of_other_bodies_are_refused():
     with pytest.raises(InputError, match="stiffness_ratio = 1.5: allowed is .* 1.16667"):
         fit.lines(found("yade", "polyurethane"), GLASS, **SPHERE)
-    with pytest.raises(InputError, match="speed = -1.0: allowed are numbers from 1e-30 to 1e30"):
-        fit.lines(found("yade", "glass"), GLASS, **SPHERE | {"speed": -1.0})
     with pytest.raises(InputError, match="found = None: allowed is what fit.fit returns"):
         fit.lines(None, GLASS, **SPHERE)
 
