@@ -355,7 +355,8 @@ def _add_fit(commands: Any) -> None:
         "poisson-ratio": "up to 0.5",
         "radius": "[m]",
         "density": "[kg/m^3]",
-        "speed": "normal speed of approach [m/s], for the length of a step and linear springs",
+        "speed": "normal speed of approach [m/s], for the length of a step and linear springs; up "
+        "to that at which spheres overlap by a tenth of their radius",
     }.items():
         parser.add_argument(f"--{name}", type=decimal, required=True, help=meaning)
     losses = {"choices": continuum.LOSSES, "help": "what takes the energy; needed below e = 1"}

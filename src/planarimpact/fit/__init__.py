@@ -7,7 +7,7 @@ them as the code wants to read them. The normal spring and dashpot follow from r
 
 A fit holds for one restitution, so for one speed where restitution depends on it, for one pair of
 materials, for its range of incidence, and for small overlaps: `lines` says what the overlap of an
-impact costs. The continuum is a model, too: what it leaves out, no fit brings back.
+impact costs.
 
 `laws` steps through a contact, `codes` knows the codes, `overlaps` what larger ones cost.
 """
@@ -79,10 +79,9 @@ def fit(
 
     Notes
     -----
-    Both the law and its fit have `laws.STEPS` steps in an elastic contact, which begins with a
-    step. The errors are those of contacts that begin within a step, where this is worst. The search
-    is by Nelder and Mead from the best point of a grid. Of the tangential laws of a code the
-    nearest is taken. The overlap is taken to vanish.
+    An elastic contact lasts `laws.STEPS` steps. For the search, by Nelder and Mead from the best
+    point of a grid, it begins with a step; the errors are the worst of all its begins in a step. Of
+    the tangential laws of a code the nearest is taken. The overlap is taken to vanish.
 
     Examples
     --------
@@ -126,24 +125,10 @@ def fit(
     before = stepped(contact._replace(limited=code.limited), usual, usual_damping, e)
     after = stepped(contact, stiffness, damping, told)
     off = after - exact
-    return Fit(
-        law,
-        style,
-        stiffness,
-        damping,
-        told,
-        beta,
-        zeta2,
-        e,
-        loss,
-        x,
-        exact[:-1],
-        before[0, :-1],
-        after[0, :-1],
-        _error(before[:, :-1] - exact[:-1], x),
-        _error(off[:, :-1], x),
-        float(max(off[:, -1], key=abs)),
-    )
+    numbers = law, style, stiffness, damping, told, beta, zeta2, e, loss
+    curves = x, exact[:-1], before[0, :-1], after[0, :-1]
+    errors = _error(before[:, :-1] - exact[:-1], x), _error(off[:, :-1], x)
+    return Fit(*numbers, *curves, *errors, float(max(off[:, -1], key=abs)))
 
 
 def _error(off: Array, x: Array) -> Error:
@@ -161,13 +146,7 @@ def _continuum(x: Array, beta: float, zeta2: float, e: float, loss: str | None) 
 
 
 def _nearest(
-    exact: Array,
-    law: laws.Law,
-    x: Array,
-    beta: float,
-    zeta2: float,
-    e: float,
-    undamped: bool,
+    exact: Array, law: laws.Law, x: Array, beta: float, zeta2: float, e: float, undamped: bool
 ) -> tuple[float, float, float]:
     """Mean square of the error of a law, its stiffness and damping."""
     told = laws.told_for(law, e)

@@ -111,7 +111,7 @@ class Fit(NamedTuple):
         Error of the law as it is usually used, and error that remains. Contact begins within a
         step, where that is worst.
     beyond : float
-        Error that remains at twice the largest incidence, where nothing was fitted.
+        Error that remains at twice the largest incidence, where nothing was fitted; it has a sign.
     """
 
     law: str
@@ -165,15 +165,15 @@ def lines(
     material : bodies.Material
         Of both spheres.
     radius : array_like
-        One number [m], above 0.
+        One number [m]; as density and speed from 1e-30 to 1e30.
     density : array_like
-        One number [kg/m^3], above 0.
+        One number [kg/m^3].
     friction : array_like
         One number, above 0.
     speed : array_like
-        Normal speed of approach [m/s], above 0, up to that at which the spheres overlap by a tenth
-        of their radius. The length of a step and linear springs follow from the duration of an
-        elastic contact at this speed.
+        Normal speed of approach [m/s], up to that at which the spheres overlap by a tenth of their
+        radius. The length of a step and linear springs follow from the duration of an elastic
+        contact at this speed.
 
     Returns
     -------
@@ -195,17 +195,20 @@ def lines(
     >>> lines(found, glass, 0.001, 2500, 0.2, 1.0).splitlines()[-2]
     'pair_style granular'
     """
-    given = {"radius": radius, "density": density, "friction": friction, "speed": speed}
-    contact = _contact(found, material, given)
+    if not isinstance(found, Fit):
+        raise checks.InputError(f"found = {checks.brief(found)}: allowed is what fit.fit returns")
+    contact = _contact(found, material, radius, density, friction, speed)
     write = {"mercurydpm": _mercurydpm, "yade": _yade}.get(found.law, _lammps)
     comment = "//" if found.law == "mercurydpm" else "#"
     about = [f"{comment} {words}\n" for words in _about(found, contact)]
     return "".join(about) + write(found, contact)
 
 
-def _contact(found: Fit, material: bodies.Material, given: dict[str, ArrayLike]) -> _Contact:
-    r, rho, mu, v2 = (checks.single(name, checks.positive(name, x)) for name, x in given.items())
-    size = overlaps.overlap(material, r, rho, v2)
+def _contact(found: Fit, material: bodies.Material, *given: ArrayLike) -> _Contact:
+    radius, density, friction, speed = given
+    size = overlaps.overlap(material, radius, density, speed)
+    mu = checks.single("friction", checks.positive("friction", friction))
+    r, rho, v2 = (float(np.asarray(value)) for value in (radius, density, speed))
     sphere = bodies.solid_sphere(r, rho)
     for name, value, own in (
         ("mass_ratio", found.mass_ratio, bodies.mass_ratio(sphere, sphere)),
@@ -215,8 +218,8 @@ def _contact(found: Fit, material: bodies.Material, given: dict[str, ArrayLike])
             raise checks.InputError(
                 f"found.{name} = {value:g}: allowed is that of two such spheres, {float(own):g}"
             )
-    m2, modulus, radius = bodies.contact(sphere, material, sphere, material)
-    mass, force = float(m2), float(bodies.hertz_peak_force(m2, v2, modulus, radius))
+    m2, modulus, effective = bodies.contact(sphere, material, sphere, material)
+    mass, force = float(m2), float(bodies.hertz_peak_force(m2, v2, modulus, effective))
     lasts = 2 * hertz.COMPRESSION * hertz.PEAK_FORCE * mass * v2 / force
     stiffness = mass * (laws.duration(hertzian=False) / lasts) ** 2
     damping = (stiffness * mass) ** 0.5
@@ -239,9 +242,11 @@ def _about(found: Fit, contact: _Contact) -> list[str]:
     """What was fitted to what, and which error it has."""
     error, before, end = found.error, found.error_before, float(found.incidence[-1])
     measured = min(contact.friction, overlaps.FRICTIONS[-1])
-    cost = overlaps.cost(contact.overlap, measured)
+    sticking, sliding = overlaps.costs(contact.overlap, measured)
+    alike = "" if found.law.startswith("lammps") else f" ({found.law}: expected alike, not run)"
     continuum = f"{found.loss} continuum" if found.restitution < 1 else "elastic continuum"
-    words = [
+    low, high = overlaps.INCIDENCES
+    return [
         f"{found.law}, fitted to the {continuum} of planarimpact; SI units",
         f"two equal solid spheres: e = {found.restitution:g}, zeta^2 = "
         f"{found.stiffness_ratio:.4g}, m2/m1 = {found.mass_ratio:g}, mu = {contact.friction:g}",
@@ -251,17 +256,18 @@ def _about(found: Fit, contact: _Contact) -> list[str]:
         f"  before {before.rms:.3f}, {before.largest:.3f} at x = {before.at:.2f} "
         f"({CODES[found.law].origin})",
         f"  after  {error.rms:.3f}, {error.largest:.3f} at x = {error.at:.2f}; "
-        f"beyond the range, at x = {2 * end:.3g}, {found.beyond:.3f}",
-        "overlap of the spheres in an elastic impact at this speed, over their radius: "
-        f"{contact.overlap:.2g}",
-        "  while they touch, their normal turns; the continuum keeps it",
-        f"  in LAMMPS at mu = {measured:g} this adds up to {cost.rms:.2g} and {cost.largest:.2g} "
-        f"to the errors and takes up to {cost.restitution:.2g} from e (x to "
-        f"{overlaps.INCIDENCE:g}, no spin before)",
+        f"beyond the range, at x = {2 * end:.3g}, {abs(found.beyond):.3f}",
+        f"overlap of the spheres at this speed, over their radius: at most {contact.overlap:.2g}",
+        "  while two spheres touch they pass each other: their normal turns, which no fit includes",
+        f"  at mu = {measured:g} and without spin before, this adds to the largest error, as "
+        f"measured in LAMMPS{alike}:",
+        f"    at most {sticking:.2g} for x up to {low:g}, where contacts mostly stick",
+        f"    at most {sliding:.2g} for x up to {high:g}, where they slide; beyond, more",
         *["  at a larger mu it is more, and was not measured"] * (contact.friction > measured),
-        "The fit holds for this restitution and this material; the continuum is a model, too.",
+        "  a spin against the motion can more than double it",
+        "  at a flat wall no normal turns: there the overlap adds nothing",
+        "The fit holds for this restitution and this material.",
     ]
-    return words
 
 
 def _lammps(found: Fit, contact: _Contact) -> str:
@@ -286,6 +292,8 @@ def _lammps(found: Fit, contact: _Contact) -> str:
         "damping as a multiple of the normal one, friction.\n"
         "# The rest is yours: units si, atom_style sphere, fix nve/sphere.\n"
         "# For a wall of this material give the words behind * * to fix wall/gran granular.\n"
+        "# Other radii have the same pair_coeff, but the time step is for spheres of this radius: "
+        "print it for the smallest.\n"
         f"timestep {_short(contact.step)}\n"
         "pair_style granular\n"
         f"pair_coeff * * {words}\n"
@@ -297,7 +305,7 @@ def _lammps(found: Fit, contact: _Contact) -> str:
 WALL = 2**0.5
 
 
-def _walls(found: Fit, species: str) -> list[str]:
+def _walls(found: Fit, own: str) -> list[str]:
     """What dashpots that know no mass do at a wall, and that it needs its own."""
     damping = laws.normal_damping(hertzian=False, told=found.told) / WALL
     told = math.exp(-math.pi * damping / math.sqrt(4 - damping**2))
@@ -305,10 +313,9 @@ def _walls(found: Fit, species: str) -> list[str]:
     e = laws.restitution(CODES[found.law].styles[found.style], told, steps)
     return [
         "Springs and dashpots of this code know no mass: spheres of other masses have another e.",
-        f"A wall of this material would have e = {e:.3f}, for {found.restitution:g}, with the "
-        "dashpots of two spheres.",
-        f"So it has {species} of its own, `wall`: dashpots of its contacts are sqrt(2) times as "
-        "strong.",
+        f"A wall of this material would have e = {e:.3f}, instead of {found.restitution:g}, "
+        "with the dashpots of two spheres.",
+        f"So it has {own}: dashpots of its contacts are sqrt(2) times as strong.",
     ]
 
 
@@ -322,7 +329,7 @@ def _mercurydpm(found: Fit, contact: _Contact) -> str:
         f"species->setSlidingStiffness({_short(contact.tangential)});\n"
         f"species->setSlidingDissipation({_short(contact.tangential_damping)});\n"
         f"species->setSlidingFrictionCoefficient({contact.friction:g});\n"
-        + "".join(f"// {words}\n" for words in _walls(found, "a species"))
+        + "".join(f"// {words}\n" for words in _walls(found, "a species of its own, `wall`"))
         + "// Give `wall` to the objects that are walls, by setSpecies(wall).\n"
         "auto wall = speciesHandler.copyAndAddObject(species);\n"
         "auto atWall = speciesHandler.getMixedObject(species, wall);\n"
@@ -334,28 +341,22 @@ def _mercurydpm(found: Fit, contact: _Contact) -> str:
 
 def _yade(found: Fit, contact: _Contact) -> str:
     # Yade puts the springs, and the dashpots, of two bodies in series.
-    kn, ks, cn, cs = (
-        2 * value
-        for value in (
-            contact.normal,
-            contact.tangential,
-            contact.normal_damping,
-            contact.tangential_damping,
-        )
-    )
+    kn, ks, cn, cs = (2 * value for value in contact[-4:])
     common = (
         f"O.materials.append(ViscElMat(density={_short(contact.density)}, "
         f"frictionAngle=atan({contact.friction:g}), kn={_short(kn)}, ks={_short(ks)}, "
     )
     strong = 1 / (2 / WALL - 1)  # in series with that of a sphere
     return (
-        f"# O.interactions[i, j].phys.kn of a contact must be half of kn, {_short(kn)}.\n"
+        f"# O.interactions[i, j].phys.kn of a contact must be {_short(contact.normal)}.\n"
+        "# Give spheres material=of_spheres and walls material=of_walls: else Yade takes the last "
+        "one.\n"
         "from math import atan\n"
-        f"sphere = {common}cn={_short(cn)}, cs={_short(cs)}))\n"
-        + "".join(f"# {words}\n" for words in _walls(found, "a material"))
+        f"of_spheres = {common}cn={_short(cn)}, cs={_short(cs)}))\n"
+        + "".join(f"# {words}\n" for words in _walls(found, "a material of its own"))
         + f"# Dashpots of two bodies act in series: for this, its own are {strong:.3f} times those "
         "of the sphere.\n"
-        + f"wall = {common}cn={_short(strong * cn)}, cs={_short(strong * cs)}))\n"
+        + f"of_walls = {common}cn={_short(strong * cn)}, cs={_short(strong * cs)}))\n"
         "O.engines = [\n"
         "    ForceResetter(),\n"
         "    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),\n"

@@ -192,12 +192,11 @@ def lammps_pairs(
     density: float,
     friction: float,
     speed: float,
-) -> tuple[Array, Array]:
+) -> Array:
     """Pairs of equal solid spheres that meet in LAMMPS, all in one simulation, in SI units.
 
     `lines` are given to LAMMPS as they are: `timestep`, `pair_style` and `pair_coeff`. The spheres
-    have no spin before the impact. Returns w of each impact, and the normal speed after it over
-    that before it, both for the normal of first touch.
+    have no spin before the impact. Returns w of each impact, for the normal of first touch.
     """
     incidence = np.atleast_1d(np.asarray(incidence, float))
     simulation = _lammps().lammps(cmdargs=["-log", "none", "-screen", "none", "-nocite"])
@@ -246,7 +245,7 @@ def lammps_pairs(
         slip = after[:, 0] - radius * (spin[0] + spin[1])[:, 1]
     finally:
         simulation.close()
-    return slip / (friction * speed), after[:, 2] / speed
+    return np.asarray(slip / (friction * speed))
 
 
 def pooltool_impacts(
