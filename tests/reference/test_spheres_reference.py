@@ -169,7 +169,8 @@ def test_below_x_of_1_the_error_is_over_x(name, seed, tried):
         t, u = place
         b = np.clip(making.b_at(u), spheres.LEAST_RATIO, spheres.LARGEST_RATIO)
         limits = table.limits_at(table.shipped(), np.array([u]))[:, 0]
-        e = np.clip(making.e_at(name, t, limits), spheres.LEAST_RESTITUTION, 0.9999)
+        e = making.e_at(name, t, limits)
+        e = np.clip(e, spheres.LEAST_RESTITUTION, inelastic_contact.LARGEST_RESTITUTION)
         wanted = inelastic_contact.small_incidences(loss, x, b * zeta2, zeta2, e)
         found = spheres.rebound(x, b * zeta2, zeta2, e, loss=loss).velocity / x
         return np.max(np.abs(found - wanted)) / (bound_of(name) + inelastic_contact.SMALL)
