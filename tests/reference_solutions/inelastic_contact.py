@@ -174,8 +174,8 @@ def rebound(model, x, beta, zeta2, restitution, steps=600, springs=200):
     return impact(model, x, beta, zeta2, restitution, steps, springs).velocity
 
 
-# Error of `small_incidences`: twice the steps change it by up to 4e-4, up to this restitution. Viscous
-# spheres that lose less relax within a step.
+# Error of `small_incidences`: twice the steps change it by up to 4e-4, up to this restitution.
+# Viscous spheres that lose less relax within a step.
 SMALL, LARGEST_RESTITUTION = 5e-4, 0.97
 
 
