@@ -94,7 +94,7 @@ def impacts(
     finds that. OutOfRange says where a mass, a mass ratio or a force is beyond the range of
     numbers, or a relaxation time beyond its law.
     """
-    # `problems` finds what is not finite, and other normals.
+    # `problems` finds what is not finite, `problems_of_normals` other normals.
     with np.errstate(over="ignore", invalid="ignore"):
         length = np.sqrt(_dot(normal, normal))
         normal = normal / np.where(np.abs(length - 1) <= checks.LENGTH_ERROR, length, 1.0)
@@ -147,7 +147,7 @@ def slides_throughout(impacts: Impacts) -> Booleans:
 
 
 def problems(impacts: Impacts) -> dict[int, str]:
-    """What is wrong with an impact as a whole: `{index: message}`.
+    """What is wrong with an impact as a whole, but for its normal: `{index: message}`.
 
     >>> pair = Pair(stiffness_ratio=[1.2], friction=0.1, restitution=0.05, loss="viscous")
     >>> body, flat = Body(*np.full((3, 1), 0.01)), Body(*np.full((2, 1), np.inf), np.zeros(1))
@@ -186,7 +186,7 @@ def problems(impacts: Impacts) -> dict[int, str]:
             f"mass ratio m2/m1 = {impacts.mass_ratio[i]:g}: allowed are numbers up to "
             f"{LARGEST_RATIO:g}"
         )
-    return messages | problems_of_normals(impacts.normal)
+    return messages
 
 
 def problems_of_normals(normal: Array) -> dict[int, str]:

@@ -87,17 +87,18 @@ def collide(
         e = law(quantity, v2, m2, modulus, curvature)
     b, unit = beta / zeta2, mu * v2
     x = v1 / unit
+    y = x / zeta2
     covered = spheres.LEAST_RATIO <= b <= spheres.LARGEST_RATIO and beta >= 1
     if not (covered and zeta2 <= spheres.LARGEST_STIFFNESS and spheres.LEAST_RESTITUTION <= e <= 1):
         return None
     yields = plastic and e < 1
-    error = (_table_error(b, e, yields) + ROUNDING * beta) * min(x, 1.0)
-    share, slides_from = table_of_spheres.velocity(x / zeta2, b, e, yields)
-    if yields and abs(x / zeta2 / slides_from - 1) < UNSURE:
+    share, slides_from = table_of_spheres.velocity(y, b, e, yields)
+    if yields and abs(y / slides_from - 1) < UNSURE:
         return None
-    if x / zeta2 >= slides_from:
+    if y >= slides_from:
         change, error, regime = -(1 + e) * beta * unit, 0.0, Regime.SLIP_THROUGHOUT
     else:
+        error = (_table_error(b, e, yields) + ROUNDING * beta) * min(x, 1.0)
         if error > tolerance:
             return None
         w = min(max(share * zeta2, -x, x - (1 + e) * beta), x) * unit

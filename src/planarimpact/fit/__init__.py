@@ -103,10 +103,11 @@ def fit(
     slides = float(continuum.slip_throughout_limit(beta, zeta2, e, loss=loss))
     end = slides if end is None else end
     x = np.linspace(0.0, end, SAMPLES)
-    exact = _continuum(x, beta, zeta2, e, loss)
+    far = np.append(x, 2 * end)  # one place more, beyond the range
+    exact = _continuum(far, beta, zeta2, e, loss)
     code = CODES[law]
     fitted = [
-        (*_nearest(exact, contact, x, beta, zeta2, e, code.by_normal and e == 1), style)
+        (*_nearest(exact[:-1], contact, x, beta, zeta2, e, code.by_normal and e == 1), style)
         for style, contact in code.styles.items()
     ]
     _, stiffness, damping, style = min(fitted, key=lambda found: found[0])
@@ -114,9 +115,6 @@ def fit(
     told = laws.told_for(contact, e)
     usual = 1 / zeta2 if code.usual_stiffness is None else code.usual_stiffness
     usual_damping = code.usual_damping * laws.normal_damping(contact.hertzian, e)
-    # One place more, beyond the range.
-    far = np.append(x, 2 * end)
-    exact = np.append(exact, _continuum(far[-1:], beta, zeta2, e, loss))
 
     def stepped(own: laws.Law, spring: float, dashpot: float, told: float) -> Array:
         each = [laws.rebound(own, far, beta, spring, dashpot, told, begins=b) for b in BEGINS]

@@ -186,6 +186,7 @@ class Solver:
         good[list(problems)] = False
         rows = _rows(values, good, problems)
         bad_impacts = collision.problems(rows.impacts)
+        bad_impacts |= collision.problems_of_normals(rows.impacts.normal)
         problems |= _by_position(good, bad_impacts)
         self._refuse(problems, skip_bad, InputError)
         if bad_impacts:
