@@ -52,7 +52,7 @@ REPRODUCTION = {
     " matplotlib",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
-    "judging": "ground figures csv_tables curve_names goodness reference_data verdict_table",
+    "judging": "ground csv_tables curve_names goodness reference_data verdict_table",
     "run": "csv_tables verdict_table ledger matplotlib",
     "plan": "reference_data",
     "pages": "ground bodies export csv_tables figures goodness judging ledger plan run"

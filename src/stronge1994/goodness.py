@@ -3,7 +3,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import chdtrc, fdtrc
 
 from planarimpact.ground.arrays import ArrayLike
 
@@ -42,6 +41,8 @@ def chi_squared(
     >>> round(chi_squared([1.0, 2.0], of_sigma=4).p, 3)  # the sigma itself may be too small
     0.198
     """
+    from scipy.special import chdtrc, fdtrc  # slow to load, and only published points need it
+
     distance = np.asarray(sigmas, float)
     if not len(distance):
         raise ValueError("no points")

@@ -14,10 +14,6 @@ COLUMNS = [
     "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
     "rms [axis units]", "found", "stated", "allowed", "regression", "note", "reason",
 ]  # fmt: skip
-# Groups of the physics. The table of sensitivity has the smallest change of each group that a
-# comparison catches, and the smallest shift of all its published points that it catches.
-GROUPS = ["zeta^2", "beta", "e", "mu"]
-SENSITIVITY = ["comparison", "all_points [sigma]", *GROUPS]
 DIFFERENCES = ["unexplained difference", "untested difference", "explained difference"]
 ORDER = ["diverges", *DIFFERENCES, "awaited", "inconclusive", "agrees", "as before"]
 

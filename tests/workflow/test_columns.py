@@ -1,10 +1,6 @@
-"""Every column that a run judges is held by something independent: none can be scaled or flipped.
-
-Also what the table of sensitivity says of the smallest changes.
-"""
+"""Every column that a run judges is held by something independent of it: it cannot be scaled."""
 
 import functools
-import importlib
 import re
 from collections import Counter
 from pathlib import Path
@@ -16,7 +12,7 @@ from planarimpact import lumped, models
 from stronge1994 import csv_tables, plan, reference_data
 from stronge1994.figures.inelastic import curves as inelastic
 from stronge1994.figures.shared.curves import solving
-from stronge1994.judging import compare, judged_tables, points, sensitivity
+from stronge1994.judging import compare, judged_tables, points
 from stronge1994.plan import config as configuration
 
 ROOT = Path(__file__).parents[2]
@@ -146,56 +142,9 @@ def test_a_wrong_repair_of_the_lumped_model_is_seen(power, tables, monkeypatch):
         assert _diverges("inelastic", path, series, only=f"inelastic-{name}"), name
 
 
-MORE = ["fig6", "fig7", "micro_slip", "superball"]
-SLIDING = "chung_ooi2011/rebound"
-# In the `long` profile more figures.
-TRIED = ["fig2", "fig3", *(pytest.param(name, marks=pytest.mark.long) for name in MORE)]
-
-
-@pytest.mark.parametrize("name", TRIED)
-def test_the_table_of_sensitivity_tells_what_is_caught(name, tables, tmp_path):
-    """A change twice as large is caught in truth; one of a third is not, one way at least."""
+def test_a_range_is_not_wide(tables):
+    """One whose end is a hundred times the largest value would test nothing."""
     folder, series = tables
-    rows = csv_tables.read_rows(folder / "results/sensitivity.csv")
-    sizes = {row["comparison"]: row for row in rows if row["comparison"].startswith(f"{name}-")}
-    assert set(sizes) == set(plan.comparisons(CONFIG, name))
-    module = importlib.import_module(f"stronge1994.figures.{name}.curves")
-    nodes = plan.nodes_of(CONFIG, INVENTORY, name)
-    settings = plan.settings(CONFIG, INVENTORY, name) | solving.read_nodes(nodes)
-    settings.pop("as_printed", None)
-    if name in ("fig6", "fig7"):  # judged at the points of reference, whatever lies between
-        settings["samples"] //= 10
-    path, curves = (
-        tmp_path / "curves.csv",
-        judged_tables.read(folder / configuration.table_of(name)),
-    )
-    own = [curve for curve in curves if "printed" not in curve]
-
-    def caught(title, group, size):
-        wrong = sensitivity.changed(settings, group, size)
-        found = dict(zip(own, module.curves(**wrong).values(), strict=True))
-        csv_tables.write(path, curves | found)
-        return _diverges(name, path, series, only=title)
-
-    for title, row in sizes.items():
-        for group in sensitivity.GROUPS:
-            if row[group] not in ("", "none"):
-                size = float(row[group])
-                assert caught(title, group, 2 * size), (title, group, size)
-                if group != "e":  # 1 is its end
-                    ways = size / 3, -size / 3
-                    assert not all(caught(title, group, way) for way in ways), (title, group, size)
-
-
-def test_what_agrees_is_evidence(tables):
-    """Published points that agree would not, two sigmas beside the curve; a range has a limit."""
-    folder, series = tables
-    rows = csv_tables.read_rows(folder / "results/sensitivity.csv")
-    caught = {row["comparison"]: row["all_points [sigma]"] for row in rows}
-    for row in csv_tables.read_rows(folder / "results/verdicts.csv"):
-        if row["verdict"] in ("agrees", "inconclusive") and row["p"]:
-            assert (int(caught[row["comparison"]]) <= 2) == (row["verdict"] == "agrees"), row
-    assert Counter(caught.values())["3"] >= 3
     for title, entry in CONFIG["comparisons"].items():
         if entry["metric"] == "range":
             path = folder / configuration.table_of(entry["figure"])
@@ -204,6 +153,9 @@ def test_what_agrees_is_evidence(tables):
             assert row["verdict"] == "diverges" and "a wider range tests nothing" in row["note"], (
                 row
             )
+
+
+SLIDING = "chung_ooi2011/rebound"
 
 
 def test_sigmas_do_not_come_from_the_points_they_judge():

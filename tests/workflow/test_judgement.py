@@ -176,7 +176,6 @@ def report(first_run, expected, tmp_path, monkeypatch):
                     "trade",
                     "which_model",
                     "stability",
-                    "sensitivity",
                     "key_numbers",
                 )
             },

@@ -1,19 +1,13 @@
 rule judge:
-    """Compare a figure's curves or a scene with reference data.
-
-    Also the smallest change of the physics that each comparison of a figure catches.
-    """
+    """Compare a figure's curves or a scene with reference data."""
     input:
-        plan=planned("judge_{judged}", "judge", "judging", "reference_data", "figures/shared/curves",
-            "figures/{figure}/curves.py", "printed",
+        plan=planned("judge_{judged}", "judge", "judging", "reference_data",
             settings=lambda name: JUDGED[name]["settings"]),
         table=of_figure("table", JUDGED, "judged"),
         series=of_figure("series", JUDGED, "judged"),
-        nodes=lambda wildcards: FIGURES.get(wildcards.judged, {"tables": []})["tables"],
     output:
         verdicts="results/verdicts/{judged}.csv",
         residuals="results/residuals/{judged}.csv",
-        sensitivity="results/sensitivity/{judged}.csv",
         record="results/records/judge_{judged}.json",
     log:
         "results/logs/judge_{judged}.log",
@@ -26,14 +20,12 @@ rule judge:
 
 
 rule gather:
-    """One table of all verdicts, worst first, and one of what the comparisons catch."""
+    """One table of all verdicts, worst first."""
     input:
-        plan=planned("gather", "gather", "judging", "reference_data"),
+        plan=planned("gather", "gather"),
         verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
-        sensitivity=expand("results/sensitivity/{judged}.csv", judged=JUDGED),
     output:
         verdicts="results/verdicts.csv",
-        sensitivity="results/sensitivity.csv",
         record="results/records/gather.json",
     log:
         "results/logs/gather.log",

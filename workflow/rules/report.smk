@@ -8,7 +8,7 @@ REPORT_PARTS = [
     "workflow/report/unfold.js",
     "workflow/report/model.svg",
     *expand("workflow/report/{part}.css", part=["page", "report"]),
-    *expand("workflow/report/{part}.rst", part=["trade", "which_model", "stability", "sensitivity"]),
+    *expand("workflow/report/{part}.rst", part=["trade", "which_model", "stability"]),
 ]
 
 
@@ -105,10 +105,9 @@ rule report:
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
-        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers, rules.stability_table.output.table, "results/sensitivity.csv", *FINDING_TABLES, *PEERS],
+        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers, rules.stability_table.output.table, *FINDING_TABLES, *PEERS],
         linked=[
             "results/verdicts.csv",
-            "results/sensitivity.csv",
             "results/stability.csv",
             "results/trade.csv",
             "results/which_model.csv",

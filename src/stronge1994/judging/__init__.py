@@ -2,7 +2,6 @@
 
 `compare` gives the rows of one table. It has three parts: `measure` finds distances, `judge` turns
 them into a verdict, and `rows` writes both into tables. `verdict_table` gathers the rows of a run.
-`sensitivity` finds the smallest change of the physics that each comparison catches.
 """
 
 from stronge1994.judging.metrics import Measured, measure

@@ -63,7 +63,7 @@ MEANING = {
 }
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure or a table
 # Tables that have a section of the report; captions stand in files of the same names.
-SECTIONS = ("which_model", "trade", "stability", "sensitivity")
+SECTIONS = ("which_model", "trade", "stability")
 ROOT = Path(__file__).parents[3]
 
 

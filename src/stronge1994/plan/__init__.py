@@ -101,19 +101,12 @@ def expected_alone(
 def plan_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
     """Settings of the job that judges one figure or scene, and the files that it reads."""
     sources = sources_of(config, inventory, name)
-    job_settings: dict[str, Any] = {
+    job_settings = {
         "comparisons": comparisons(config, name),
         "references": references(config, inventory, name),
         "sources": sources,
         "significance": config["significance"],
     }
-    if name in config["figures"]:
-        stated = figures.stated()[name]
-        job_settings["curves"] = (
-            settings(config, inventory, name),
-            nodes_of(config, inventory, name),
-        )
-        job_settings["sensitivity"] = None if stated.get("timed") else stated.get("sensitivity", {})
     series = [f"results/series/{source}.csv" for source in sources]
     return {"settings": job_settings, "table": table_of(name), "series": series}
 

@@ -15,8 +15,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import jsonschema
-
 from stronge1994.reference_data import digitiser_export, strict_yaml
 from stronge1994.reference_data.digitiser_export import NumberedRow
 
@@ -37,20 +35,24 @@ LARGEST_SIGMA = 0.01
 
 def _ascends(_: Any, wanted: bool, numbers: Any, schema: Schema) -> Iterator[Exception]:
     """The keyword `ascending` of our schemas."""
+    import jsonschema
+
     items = numbers if isinstance(numbers, list) else []
     are_numbers = all(isinstance(number, int | float) for number in items)
     if wanted and are_numbers and sorted(set(items)) != items:
         yield jsonschema.ValidationError(f"{numbers}: each number must be larger than that before")
 
 
-# JSON Schema takes 2.0 for an integer, but range() refuses it. So 2.0 is refused here too.
-_Validator = jsonschema.validators.extend(
-    jsonschema.Draft202012Validator,
-    {"ascending": _ascends},
-    type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine(
+@functools.cache
+def _validator() -> Any:
+    """Class of validators. JSON Schema takes 2.0 for an integer, range() refuses it; so do we."""
+    import jsonschema  # slow to load, and jobs that only name columns do without it
+
+    draft = jsonschema.Draft202012Validator
+    types = draft.TYPE_CHECKER.redefine(
         "integer", lambda _, value: isinstance(value, int) and not isinstance(value, bool)
-    ),
-)
+    )
+    return jsonschema.validators.extend(draft, {"ascending": _ascends}, type_checker=types)
 
 
 class SourceError(Exception):
@@ -170,7 +172,7 @@ def load_all(data: str | Path, schema: Schema) -> dict[str, Source]:
 def refuse_invalid(document: Any, schema: Schema, name: str | Path) -> None:
     """Refuse a document that its schema does not admit, saying where and what."""
     errors = sorted(
-        _Validator(schema).iter_errors(document), key=lambda e: [str(p) for p in e.path]
+        _validator()(schema).iter_errors(document), key=lambda e: [str(p) for p in e.path]
     )
     if errors:
         where = ".".join(map(str, errors[0].path)) or "top level"
