@@ -25,9 +25,8 @@ localrules:
     notebooks,
     peers,
     sphere_tables,
-    series,
     draw,
-    slide,
+    draw_with_slide,
     judge,
     gather,
     ledger_page,
@@ -82,7 +81,6 @@ rule sphere_tables:
 
 
 include: "workflow/rules/curves.smk"
-include: "workflow/rules/reference.smk"
 include: "workflow/rules/drawing.smk"
 include: "workflow/rules/scene.smk"
 include: "workflow/rules/judging.smk"
@@ -100,9 +98,7 @@ include: "workflow/rules/spheres.smk"
 # Every rule whose files a run makes: the gate asks for all of them, wanted by others or not.
 MAKERS = [
     rules.curves,
-    rules.series,
     rules.draw,
-    rules.slide,
     rules.judge,
     rules.gather,
     rules.ledger,
@@ -115,7 +111,6 @@ MAKERS = [
     rules.notebook,
     rules.explorer,
     rules.start_page,
-    rules.interface,
     rules.report,
     *([rules.measure_peers] if PEERS else []),
 ]
@@ -158,7 +153,8 @@ rule all:
     input:
         plan=planned("all", "gate", "run", "judging", "ledger", "reference_data",
             settings=lambda _: EXPECTED),
-        made=expand([f"{path}" for maker in MAKERS for path in maker.output], **VALUES),
+        made=expand([f"{path}" for maker in MAKERS for path in maker.output], **VALUES)
+        + slides_of(FIGURES),
     params:
         plans=plans.digest(PLANNED),
         jobs=PLANNED,
@@ -175,6 +171,10 @@ rule all:
 TARGETS = ["all", *JUDGED, "figures", "measurements", "notebooks", "peers", "site", "sphere_tables"]
 if workflow.is_main_process:
     logger.addFilter(last_words.Help(TARGETS))
+
+
+onstart:
+    record.begin(sum(1 for job in workflow.dag.needrun_jobs() if job.output))
 
 
 onsuccess:

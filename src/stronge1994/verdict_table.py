@@ -1,4 +1,4 @@
-"""The verdicts of a run as one table, the worst first, for files and for the terminal."""
+"""The verdicts of a run as one table with a row for each comparison."""
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -10,22 +10,25 @@ from stronge1994 import csv_tables
 from stronge1994.csv_tables import Row
 
 COLUMNS = [
-    "figure", "comparison", "verdict", "evidence", "reference", "points", "chi^2",
+    "figure", "comparison", "question", "verdict", "curve", "reference", "points", "chi^2",
     "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
-    "rms [axis units]", "found", "stated", "allowed", "regression", "note", "reason",
+    "rms [axis units]", "max [axis units]", "unit", "found", "stated", "allowed", "regression",
+    "note", "reason",
 ]  # fmt: skip
+# The questions that a comparison answers: is the curve that of our model, do the model and the
+# paper say the same, and what do measurements and others say?
+QUESTIONS = ("solved right", "as printed", "beside others")
+FAILS = ("wrong", "diverges")  # verdicts that fail a run
 DIFFERENCES = ["unexplained difference", "untested difference", "explained difference"]
-ORDER = ["diverges", *DIFFERENCES, "awaited", "inconclusive", "agrees", "as before"]
+ORDER = [*FAILS, *DIFFERENCES, "awaited", "inconclusive", "agrees", "right", "as before"]
 
 
 def gather(paths: Iterable[str]) -> list[Row]:
-    """Rows of several tables, the worst verdict first; an unknown one before all others.
+    """Rows of several tables.
 
-    In place of a table that was not made stands one row that diverges.
+    In place of a table that was not made stands one row that fails.
     """
-    rows = [row for path in paths for row in _rows(path)]
-    rank = {verdict: place for place, verdict in enumerate(ORDER)}
-    return sorted(rows, key=lambda row: rank.get(row["verdict"], -1))
+    return [row for path in paths for row in _rows(path)]
 
 
 def _rows(path: str) -> list[Row]:
@@ -33,19 +36,20 @@ def _rows(path: str) -> list[Row]:
         return csv_tables.read_rows(path, COLUMNS)
     except csv_tables.Failed as error:
         name = Path(path).stem
-        cells = {"figure": name, "comparison": f"{name}-solved", "verdict": "diverges"}
+        cells = {"figure": name, "comparison": f"{name}-solved", "verdict": FAILS[0]}
+        cells["question"] = QUESTIONS[0]
         return [dict.fromkeys(COLUMNS, "") | cells | {"note": f"{error}"}]
 
 
 def failing(rows: Iterable[Row]) -> list[Row]:
     """Rows that fail a run."""
-    return [row for row in rows if row["verdict"] == "diverges"]
+    return [row for row in rows if row["verdict"] in FAILS]
 
 
 def why(row: Row) -> str:
     """Why a row fails."""
-    measured = _measured(row)
-    limits = f"{measured}; allowed is {_allowed(row)}" if measured else ""
+    found = measured(row)
+    limits = f"{found}; allowed is {_allowed(row)}" if found else ""
     return ": ".join(part for part in (row["note"], limits) if part)
 
 
@@ -57,21 +61,32 @@ def _allowed(row: Row) -> str:
 
 
 def text(rows: Sequence[Row]) -> str:
-    """The table for a terminal, and how many rows have each verdict."""
-    cells = [
-        [row["verdict"], row["comparison"], _measured(row), _allowed(row), row["note"]]
-        for row in rows
-    ]
-    counts = Counter(row["verdict"] for row in rows)
-    headers = ["verdict", "comparison", "measured", "allowed", "note"]
-    table = tabulate(cells, headers, disable_numparse=True)
-    table = "\n".join(line.rstrip() for line in table.splitlines())
-    return f"{table}\n\n" + ", ".join(f"{counts[v]} {v}" for v in ORDER if counts[v])
+    """The rows of one figure for a terminal."""
+    cells = [[row["comparison"], measured(row), row["verdict"]] for row in rows]
+    table = tabulate(cells, ["comparison", "measured", "verdict"], disable_numparse=True)
+    return "\n".join(line.rstrip() for line in table.splitlines())
 
 
-def _measured(row: Row) -> str:
+def counts(rows: Sequence[Row]) -> str:
+    """How many rows have each verdict, in one line for each question.
+
+    >>> print(counts([{"question": "as printed", "verdict": "agrees"}]))
+    as printed: 1 agrees
+    """
+    numbers = Counter((row["question"], row["verdict"]) for row in rows)
+    lines = []
+    for question in QUESTIONS:
+        parts = [f"{numbers[question, v]} {v}" for v in ORDER if numbers[question, v]]
+        lines += [f"{question}: {', '.join(parts)}"] if parts else []
+    return "\n".join(lines)
+
+
+def measured(row: Row) -> str:
+    """How large the distance of a row is."""
     if row["found"]:
         return f"{row['found']} (stated {row['stated']})"
     if row["p"]:
         return f"chi^2 {row['chi^2']} of {row['degrees of freedom']}, p = {row['p']}"
-    return f"rms {row['rms [sigma]']}, max {row['max [sigma]']}" if row["points"] else ""
+    if row["points"] and row["question"] == QUESTIONS[1]:  # sigma is that of a printed formula
+        return f"rms {row['rms [axis units]']}, max {row['max [axis units]']} {row['unit']}"
+    return f"rms {row['rms [sigma]']}, max {row['max [sigma]']} sigma" if row["points"] else ""

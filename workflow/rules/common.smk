@@ -25,8 +25,6 @@ try:
 except (reference_data.SourceError, ConfigError) as error:
     raise WorkflowError(str(error))
 
-# Sources whose series are compared with something.
-COMPARED = sorted({name for job in JUDGED.values() for name in job["settings"]["sources"]})
 TIMED = figures.with_trait("timed")
 UNTIMED = [figure for figure in FIGURES if figure not in TIMED]
 # Figures with a slide.
@@ -34,12 +32,16 @@ SLIDES = [figure for figure in FIGURES if (figures.FOLDER / figure / "slide.py")
 CAPTIONS = {figure: stated["caption"] for figure, stated in figures.stated().items()}
 
 
+def priority(wildcards):
+    """The paper's figures go before all others, Fig. 3 first, then the one that takes longest."""
+    name = wildcards.get("figure") or wildcards.get("judged")
+    return {"fig3": 3, "fig5": 2}.get(name, int(name.startswith("fig")))
+
+
 # Every value that a wildcard has in a run.
 VALUES = {
     "figure": list(FIGURES),
-    "slide": SLIDES,
     "judged": list(JUDGED),
-    "source": COMPARED,
     "scene": list(config["scenes"]),
     "notebook": NOTEBOOKS,
     "table": ["fine", "coarse"],
@@ -48,9 +50,7 @@ VALUES = {
 
 wildcard_constraints:
     figure="|".join(FIGURES),
-    slide="|".join(SLIDES) or "none",
     judged="|".join(JUDGED),
-    source="[a-z0-9_]+",
     scene="|".join(config["scenes"]) or "none",
     notebook="|".join(NOTEBOOKS) or "none",
 
@@ -86,23 +86,21 @@ def of_figure(part, plans=FIGURES, wildcard="figure"):
 
 def of_drawing(figure):
     """Settings of the plan of a drawing."""
-    return {key: FIGURES[figure][key] for key in ("settings", "overlays", "sources")}
+    return {key: FIGURES[figure][key] for key in ("settings", "overlays")}
 
 
 def slides_of(figures):
     """Pictures of the slides that some figures have."""
     own = [figure for figure in SLIDES if figure in figures]
-    return expand("figures/slides/{slide}_{ground}.png", slide=own, ground=["light", "dark"])
+    return expand("figures/slides/{figure}_{ground}.png", figure=own, ground=["light", "dark"])
 
 
 def files_of_one(name):
     """Files of the jobs that make, draw and judge one figure or scene."""
     makers = [rules.judge, *([rules.curves, rules.draw] if name in FIGURES else [rules.scene])]
     made = [path for maker in makers for path in maker.output]
-    made += rules.slide.output if name in SLIDES else []
-    chosen = dict.fromkeys(["figure", "slide", "judged"], name) | {"scene": name.removeprefix(configuration.SCENE)}
-    sources = JUDGED[name]["settings"]["sources"]
-    return expand(made, **chosen) + expand(rules.series.output, source=sources)
+    chosen = dict.fromkeys(["figure", "judged"], name) | {"scene": name.removeprefix(configuration.SCENE)}
+    return expand(made, **chosen) + slides_of([name])
 
 
 # Files that every page includes, beside its own template.

@@ -10,6 +10,7 @@ rule curves:
         record="results/records/curves_{figure}.json",
     log:
         "results/logs/curves_{figure}.log",
+    priority: priority
     resources:
         timed=lambda wildcards: int(wildcards.figure in TIMED),
     message:

@@ -1,7 +1,7 @@
 rule draw:
     """Draw one figure from its curves; never solves."""
     input:
-        plan=planned("draw_{figure}", "draw", "figures/shared/drawing", "figures/{figure}/drawing.py",
+        plan=planned("draw_{figure}", "draw", "figures/shared/drawing", "figures/{figure}",
             "reference_data",
             settings=of_drawing),
         curves="results/curves/{figure}.csv",
@@ -15,10 +15,13 @@ rule draw:
         ),
         png="figures/{figure}.png",
         record="results/records/draw_{figure}.json",
+    wildcard_constraints:
+        figure="|".join(figure for figure in FIGURES if figure not in SLIDES) or "none",
     params:
         caption=lambda wildcards: CAPTIONS[wildcards.figure],
     log:
         "results/logs/draw_{figure}.log",
+    priority: priority
     message:
         "Drawing {wildcards.figure}"
     conda:
@@ -27,23 +30,18 @@ rule draw:
         "../scripts/draw.py"
 
 
-rule slide:
-    """Draw one point of a figure for a projector, on a light and on a dark ground; never solves."""
-    input:
-        plan=planned("slide_{slide}", "draw_slide", "figures/shared/drawing", "figures/{figure}/drawing.py",
-            "figures/{figure}/slide.py", "reference_data",
-            settings=of_drawing),
-        curves="results/curves/{slide}.csv",
-        series=of_figure("series", wildcard="slide"),
+use rule draw as draw_with_slide with:
+    # Also one point of the figure for a projector, on a light and on a dark ground.
     output:
-        light="figures/slides/{slide}_light.png",
-        dark="figures/slides/{slide}_dark.png",
-        record="results/records/slide_{slide}.json",
-    log:
-        "results/logs/slide_{slide}.log",
-    message:
-        "Drawing the slide of {wildcards.slide}"
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/draw_slide.py"
+        svg=report(
+            "figures/{figure}.svg",
+            caption="../report/figures.rst",
+            category="Figures",
+            labels={"figure": "{figure}"},
+        ),
+        png="figures/{figure}.png",
+        light="figures/slides/{figure}_light.png",
+        dark="figures/slides/{figure}_dark.png",
+        record="results/records/draw_{figure}.json",
+    wildcard_constraints:
+        figure="|".join(SLIDES) or "none",

@@ -11,6 +11,7 @@ rule judge:
         record="results/records/judge_{judged}.json",
     log:
         "results/logs/judge_{judged}.log",
+    priority: priority
     message:
         "Comparing {wildcards.judged} with references"
     conda:

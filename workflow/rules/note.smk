@@ -2,19 +2,26 @@
 SHOWN = ["fig5", "inelastic", "rubber_sphere", "yielding"]
 
 
+# Series of which pages state numbers.
+MEASURED = {
+    "pairs": SOURCES["cornell1999"]["series"]["pairs"],
+    "runs": SOURCES["finite_elements"]["series"]["spheres"],
+}
+
+
 rule key_numbers:
     """The numbers that several pages state, each computed once."""
     input:
         plan=planned("key_numbers", "find_key_numbers", "pages", "figures/inelastic/drawing.py",
             "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
-            "judging"),
+            "judging", settings=lambda _: MEASURED),
         tables=[
             "results/verdicts.csv",
             "results/ledger.csv",
             "results/in_nature.csv",
             "results/trade.csv",
             *expand("results/curves/{figure}.csv", figure=["fig5", "fig8", "inelastic", "yielding", "rubber_sphere", "rod"]),
-            *expand("results/series/{source}.csv", source=["cornell1999", "finite_elements"]),
+            *[series["path"] for series in MEASURED.values()],
         ],
     output:
         table="results/key_numbers.csv",
@@ -36,9 +43,10 @@ rule note:
             "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
             "judging"),
         template="workflow/report/note.html",
-        parts=["workflow/report/page.css", "workflow/report/note.css"],
+        parts=expand("workflow/report/{part}", part=["page.css", "note.css", "figure_table.html"]),
         shared=EVERY_PAGE,
         numbers=rules.key_numbers.output.table,
+        verdicts="results/verdicts.csv",
         pictures=expand("figures/{figure}.png", figure=SHOWN),
         svgs=expand("figures/{figure}.svg", figure=SHOWN),
     output:

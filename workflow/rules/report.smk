@@ -5,6 +5,7 @@ LECTURES = {f"{notebook}.html": notebook.replace("_", " ").capitalize() for note
 # Templates of both pages, what they include, and captions.
 REPORT_PARTS = [
     "workflow/report/sources.html",
+    "workflow/report/figure_table.html",
     "workflow/report/unfold.js",
     "workflow/report/model.svg",
     *expand("workflow/report/{part}.css", part=["page", "report"]),
@@ -17,7 +18,6 @@ FINDING_TABLES = [
     "results/key_numbers.csv",
     "results/curves/fig5.csv",
     "results/curves/inelastic.csv",
-    f"results/series/{config['figures']['inelastic']['points'].split('/')[0]}.csv",
 ]
 
 
@@ -74,8 +74,7 @@ rule start_page:
 rule interface:
     """What the functions of the solver take and return, as pages made from their docstrings."""
     input:
-        plan=planned("interface", "write_interface", "pages", "plan", "printed", "reference_data", "figures/shared/curves",
-            *[f"figures/{figure}/curves.py" for figure in FIGURES]),
+        plan=planned("interface", "write_interface", "pages", "plan", "printed", "reference_data"),
         names="src/planarimpact/__init__.pyi",
         parts=INTERFACE_PARTS,
         shared=EVERY_PAGE,
@@ -113,8 +112,8 @@ rule report:
             "results/which_model.csv",
             *expand("results/{kind}/{figure}.csv", kind=["curves", "residuals"], figure=FIGURES),
         ],
-        records=[expand(rule.output.record, **VALUES) for rule in (rules.curves, rules.draw, rules.slide,
-            rules.judge, rules.gather, rules.series, rules.scene, rules.ledger, rules.trade_tables,
+        records=[expand(rule.output.record, **VALUES) for rule in (rules.curves, rules.draw,
+            rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables,
             rules.stability_table, rules.key_numbers)],
     output:
         page="figures/report.html",

@@ -6,18 +6,21 @@ PAGES = [
     for maker in MAKERS
     for path in expand([f"{output}" for output in maker.output], **VALUES)
     if path.startswith("figures/")
-]
+] + slides_of(FIGURES) + rules.interface.output[:1]
 
 
 rule site:
     """All pages in one folder and as a zip file, for a web server or a stick."""
     input:
-        plan=planned("site", "write_site", "pages/__init__.py", "pages/run_facts.py", "pages/site.py"),
+        plan=planned("site", "write_site", "pages/__init__.py", "pages/run_facts.py", "pages/site.py",
+            "pages/templates.py", "plan", "reference_data"),
         pages=sorted(set(PAGES)),
         notebooks=expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS)
         + ["workflow/notebooks/lecture.mplstyle"],
         texts=["LICENSE", "CITATION.cff"],
         readme="workflow/report/site_readme.txt",
+        start="workflow/report/index.html",
+        parts=["workflow/report/page.css", *EVERY_PAGE],
     output:
         folder=directory("results/site"),
         archive="results/site.zip",

@@ -1,16 +1,17 @@
-"""Draw one figure from its curves."""
+"""Draw one figure from its curves, and its slide if it has one."""
 
 from stronge1994.run import record
 
 with record.recorded(snakemake) as plan:
     from stronge1994.figures.shared import drawing as drawings
 
+    made = snakemake.output
+    slide = {ground: made[ground] for ground in ("light", "dark") if made.get(ground)}
     drawings.draw(
         snakemake.wildcards.figure,
         plan["settings"],
         plan["overlays"],
         snakemake.input.curves,
-        dict(zip(plan["sources"], snakemake.input.series, strict=True)),
-        snakemake.output.svg,
-        snakemake.output.png,
+        (made.svg, made.png),
+        slide,
     )

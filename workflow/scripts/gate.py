@@ -19,6 +19,6 @@ with record.log_to(snakemake.log[0]):
         messages = [f"{plans.FOLDER}: another command has changed the plans of this run: run again"]
     print("\n".join(messages))
     if not messages and not alone:
-        text = "no comparison diverges, every entry of the ledger holds\n"
+        text = "no comparison fails, every entry of the ledger holds\n"
         Path(record.PASSED).write_text(text, encoding="utf-8")
 sys.exit(bool(messages))

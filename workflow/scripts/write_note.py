@@ -12,6 +12,7 @@ with record.recorded(snakemake):
         snakemake.output.page,
         snakemake.output.pdf,
         files.numbers,
+        files.verdicts,
         {Path(path).stem: path for path in files.pictures},
         files.template,
     )

@@ -6,5 +6,12 @@ with record.recorded(snakemake):
     from stronge1994.pages import site
 
     given = snakemake.input
-    site.write(snakemake.output.folder, given.pages, given.notebooks, given.texts, given.readme)
+    site.write(
+        snakemake.output.folder,
+        given.pages,
+        given.notebooks,
+        given.texts,
+        given.readme,
+        given.start,
+    )
     site.pack(snakemake.output.folder, snakemake.output.archive)

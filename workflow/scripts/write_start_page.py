@@ -9,4 +9,4 @@ with record.recorded(snakemake):
 
     template = Path(snakemake.input.template)
     page = templates.environment(template.parent).get_template(template.name)
-    Path(snakemake.output.page).write_text(page.render(), encoding="utf-8")
+    Path(snakemake.output.page).write_text(page.render(interface=""), encoding="utf-8")

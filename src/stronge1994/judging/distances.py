@@ -17,11 +17,12 @@ from planarimpact.ground.arrays import Array, ArrayLike
 
 
 class Distance(NamedTuple):
-    """Distances of a number of points in sigmas; `plain_rms` is in units of the y axis."""
+    """Distances of some points in sigmas; those called `plain` are in units of the y axis."""
 
     rms: float
     max: float
     plain_rms: float
+    plain_max: float
     points: int
 
 
@@ -42,7 +43,8 @@ class Residuals(NamedTuple):
     def summary(self) -> Distance:
         """Root mean squares, the largest distance, and the number of points."""
         rms, plain_rms = (float(np.sqrt(np.mean(a**2))) for a in (self.sigmas, self.plain))
-        return Distance(rms, float(np.abs(self.sigmas).max()), plain_rms, len(self.sigmas))
+        largest, plain_max = (float(np.abs(a).max()) for a in (self.sigmas, self.plain))
+        return Distance(rms, largest, plain_rms, plain_max, len(self.sigmas))
 
 
 def distances_to_polyline(

@@ -6,7 +6,7 @@ a `landmark` of a curve. Against a law, without a reference: two columns that mu
 that must not leave further apart than they arrive (`contraction`).
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -42,9 +42,7 @@ class Measured(NamedTuple):
     texts: dict[str, str] = {}
 
 
-def measure(
-    entry: Entry, reference: Reference | None, curves: Curves, series_paths: Mapping[str, str]
-) -> Measured:
+def measure(entry: Entry, reference: Reference | None, curves: Curves) -> Measured:
     """Distances of one comparison; a `ValueError` says what is missing."""
     if entry["metric"] in _LAWS:
         return _LAWS[entry["metric"]](entry, curves)
@@ -53,7 +51,7 @@ def measure(
     if entry["metric"] == "landmark":
         return _landmark(entry, reference, curves)
     find = _from_curve if entry["metric"] == "distance" else _from_vertices
-    series = points(entry, reference, series_paths)
+    series = points(entry, reference)
     if "curve" in reference.get("labels", []):
         _refuse_other_curves(series["curve"].tolist(), curves, "reference")
     residuals, columns = find(entry, reference, curves, series)

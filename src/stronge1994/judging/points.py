@@ -6,13 +6,16 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from planarimpact.ground.arrays import Array, ArrayLike
-from stronge1994 import csv_tables, reference_data
+from stronge1994 import reference_data
 from stronge1994.csv_tables import Columns
+from stronge1994.curve_names import AS_PRINTED
+from stronge1994.verdict_table import QUESTIONS
 
 # A comparison of the config, and what it names: a series or a fact of source.yaml, with the
 # parameters of its source.
 Entry: TypeAlias = Mapping[str, Any]
 Reference: TypeAlias = Mapping[str, Any]
+PAPER = "stronge1994"  # the source that holds what the paper states
 # The limits of the regimes divide the axis of incidence into these parts.
 PARTS = ("initial stick", "slip and stick", "slip throughout")
 
@@ -27,10 +30,33 @@ def is_published(reference: Reference | None) -> bool:
     return kind(reference) in ("measured", "digitised", "stated", "awaited")
 
 
-def points(entry: Entry, reference: Reference, series_paths: Mapping[str, str]) -> Columns:
+def question(entry: Entry, reference: Reference | None) -> str:
+    """Which of three questions a comparison answers, of `verdict_table.QUESTIONS`.
+
+    Beside others stand published and measured points, what other codes compute, and what others
+    state. As printed is what the paper states, and a difference that is an entry of the ledger. All
+    else asks only whether our curve is solved right: our second codes and laws.
+
+    >>> question({"reference": "lumped_40_digits/fig6_rebound"}, {"kind": "computed"})
+    'solved right'
+    >>> question({"reference": "stronge1994/peak_angle_mu_1"}, {"statement": "at 60 deg"})
+    'as printed'
+    >>> question({"reference": "maw1976/slip_throughout_limit"}, {"statement": "at 4 chi - 1"})
+    'beside others'
+    """
+    solved, printed, others = QUESTIONS
+    theirs = kind(reference) == "fact" and not entry["reference"].startswith(f"{PAPER}/")
+    if theirs or is_published(reference) or (reference or {}).get("others"):
+        return others
+    stated = kind(reference) == "fact" or "entry" in entry.get("documented", {})
+    return printed if stated else solved
+
+
+def points(entry: Entry, reference: Reference) -> Columns:
     """Columns of the reference in the regime and with the labels of the comparison."""
-    source, name = entry["reference"].split("/")
-    series = csv_tables.read(series_paths[source])[name]
+    series = reference_data.arrays(entry["reference"].split("/")[1], reference)
+    if entry.get("as_printed"):
+        series["curve"] = np.char.replace(series["curve"], f"{AS_PRINTED}, ", "")
     x = series[reference_data.column_name(reference["x"])]
     low, high = _window(entry, reference)
     chosen = (x >= low) & (x < high)

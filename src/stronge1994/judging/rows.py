@@ -8,27 +8,14 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from stronge1994 import csv_tables
+from stronge1994 import csv_tables, reference_data
 from stronge1994.judging import judged_tables
 from stronge1994.judging.metrics import Measured, measure
-from stronge1994.judging.points import Entry, Reference, is_published, kind, sigma
-from stronge1994.judging.verdicts import Verdict, chi_squared_of, judge
-from stronge1994.verdict_table import COLUMNS
+from stronge1994.judging.points import Entry, Reference, is_published, kind, question, sigma
+from stronge1994.judging.verdicts import Verdict, chi_squared_of, failed, judge
+from stronge1994.verdict_table import COLUMNS, FAILS, QUESTIONS
 
 RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
-# Evidence of a row, by the kind of its reference.
-EVIDENCE = {
-    "measured": "measured points",
-    "digitised": "published points",
-    "stated": "published points",
-    "awaited": "published points",
-    "computed": "independent computation",
-    "fact": "stated value",
-    "law": "law or limit",
-    "itself": "none: regression",
-    "as before": "none: the curve was fitted to these points",
-    "inconclusive": "none: it would agree with a wrong curve too",
-}
 # The cells of a row by `COLUMNS`. `residuals` holds rows of the table of residuals.
 VerdictRow: TypeAlias = dict[str, Any]
 
@@ -38,7 +25,6 @@ def compare(
     comparisons: Mapping[str, Entry],
     references: Mapping[str, Reference],
     path: str,
-    series_paths: Mapping[str, str],
     significance: float,
 ) -> list[VerdictRow]:
     """Rows of the verdict table, the first on the table itself.
@@ -53,22 +39,21 @@ def compare(
         curves = judged_tables.read(path)
     except Exception as error:
         problem = f"no curves: {error}"
-    solved = Verdict.DIVERGES if problem else Verdict.UNCHANGED
-    cells: VerdictRow = {"evidence": EVIDENCE["itself"], "reason": "it must run"}
+    solved = Verdict.WRONG if problem else Verdict.UNCHANGED
+    cells: VerdictRow = {"question": QUESTIONS[0], "reason": "it must run"}
     rows = [_row(name, f"{name}-solved", solved, note=problem, **cells)]
     for title, entry in comparisons.items():
         reference = references.get(entry.get("reference", ""))
-        cells = {"reference": entry.get("reference", ""), "reason": entry["reason"]}
-        cells["evidence"] = EVIDENCE[kind(reference)]
+        cells = {key: entry.get(key, "") for key in ("reference", "curve", "reason")}
+        cells["question"] = question(entry, reference)
         if reference is not None and kind(reference) == "awaited" and not reference["path"]:
             rows.append(_row(name, title, Verdict.AWAITED, note=reference["figure"], **cells))
             continue
         try:
             if problem:
                 raise ValueError(problem)
-            measured = measure(entry, reference, curves, series_paths)
+            measured = measure(entry, reference, curves)
             verdict = judge(entry, reference, measured, significance)
-            cells["evidence"] = EVIDENCE.get(verdict, cells["evidence"])
             cells |= _numbers(entry, reference, measured, significance) | measured.texts
             points = zip(
                 measured.residuals.x.tolist(), measured.residuals.sigmas.tolist(), strict=True
@@ -76,7 +61,7 @@ def compare(
             cells["residuals"] = [[title, measured.quantity, *point] for point in points]
             note = _note(entry, measured, verdict)
         except Exception as error:
-            verdict, note = Verdict.DIVERGES, f"{error}"
+            verdict, note = failed(cells["question"]), f"{error}"
         rows.append(_row(name, title, verdict, note=note, **cells))
     return rows
 
@@ -88,7 +73,7 @@ def _note(entry: Entry, measured: Measured, verdict: Verdict) -> str:
         f"ledger: {documented['entry']}" if "entry" in documented else documented.get("note", "")
     )
     sigmas = np.abs(measured.residuals.sigmas)
-    if verdict != Verdict.DIVERGES or len(sigmas) == 1:
+    if verdict not in FAILS or len(sigmas) == 1:
         return recorded
     worst = int(sigmas.argmax())
     at = f"{measured.quantity} = {measured.residuals.x[worst]:g}"
@@ -105,6 +90,8 @@ def _numbers(
         "rms [sigma]": f"{distance.rms:.3g}",
         "max [sigma]": f"{distance.max:.3g}",
         "rms [axis units]": f"{distance.plain_rms:.3g}",
+        "max [axis units]": f"{distance.plain_max:.3g}",
+        "unit": _unit(reference),
         "allowed": _allowed(entry, reference, significance),
         "regression": ", ".join(
             f"{low:g} <= {key} <= {high:g}"
@@ -117,6 +104,16 @@ def _numbers(
         cells["degrees of sigma"] = chi2.of_sigma or ""
         cells["p"] = f"{chi2.p:.2g}"
     return cells
+
+
+def _unit(reference: Reference | None) -> str:
+    """Unit of the distances in axis units; empty for a law, and for several axes of other units."""
+    if reference is None:
+        return ""
+    if kind(reference) == "fact":
+        return f"{reference['unit']}"
+    units = {axis["unit"] for axis in reference_data.ordinates(reference)}
+    return units.pop() if len(units) == 1 else ""
 
 
 def _allowed(entry: Entry, reference: Reference | None, significance: float) -> str:

@@ -10,7 +10,8 @@ from typing import Any
 
 from stronge1994.goodness import ChiSquared, chi_squared
 from stronge1994.judging.metrics import Measured
-from stronge1994.judging.points import Entry, Reference, is_published
+from stronge1994.judging.points import Entry, Reference, is_published, question
+from stronge1994.verdict_table import QUESTIONS
 
 # If all points lie this many sigmas on one side of a curve, a reader of the picture sees that the
 # curve is wrong. A comparison that does not notice it says less than the picture.
@@ -18,14 +19,15 @@ VISIBLE_SHIFT = 2.0
 
 
 class Verdict(StrEnum):
-    """The outcome of one comparison; only DIVERGES fails a run.
+    """The outcome of one comparison; only DIVERGES and WRONG fail a run.
 
-    UNCHANGED is the verdict of a check against an earlier result of this repository, or against
-    points that the curve was fitted to. It guards against accidents and is evidence of nothing.
-    INCONCLUSIVE does not count as evidence either: published points agree with the curve, but would
-    also agree if they lay `VISIBLE_SHIFT` sigmas beside it. A known difference is EXPLAINED; or its
-    cause is not known; or it is UNTESTED, because the reference does not state how much its values
-    scatter.
+    RIGHT and WRONG answer the question whether our curve is solved right, which our own second
+    codes and laws decide; AGREES and DIVERGES are kept for the paper and for others. UNCHANGED is
+    the verdict of a check against an earlier result of this repository, or against points that the
+    curve was fitted to. It guards against accidents and is evidence of nothing. INCONCLUSIVE does
+    not count as evidence either: published points agree with the curve, but would also agree if
+    they lay `VISIBLE_SHIFT` sigmas beside it. A known difference is EXPLAINED; or its cause is not
+    known; or it is UNTESTED, because the reference does not state how much its values scatter.
 
     >>> print(Verdict.EXPLAINED)
     explained difference
@@ -37,6 +39,8 @@ class Verdict(StrEnum):
     UNTESTED = "untested difference"
     UNEXPLAINED = "unexplained difference"
     DIVERGES = "diverges"
+    RIGHT = "right"
+    WRONG = "wrong"
     AWAITED = "awaited"
     UNCHANGED = "as before"
 
@@ -53,10 +57,23 @@ def judge(
     outcome = _outcome(entry, reference, measured, significance)
     if outcome == Verdict.AGREES and entry.get("fitted"):
         return Verdict.UNCHANGED
+    if outcome == Verdict.DIVERGES:
+        return failed(question(entry, reference))
+    if outcome == Verdict.AGREES and question(entry, reference) == QUESTIONS[0]:
+        return Verdict.RIGHT
     if outcome == Verdict.AGREES and is_published(reference):
         noticed = notices(entry, reference, measured, significance, VISIBLE_SHIFT)
         return outcome if noticed else Verdict.INCONCLUSIVE
     return outcome
+
+
+def failed(asked: str) -> Verdict:
+    """The verdict that fails a run, by the question that a comparison answers.
+
+    >>> print(failed("solved right"), failed("as printed"), sep="; ")
+    wrong; diverges
+    """
+    return Verdict.WRONG if asked == QUESTIONS[0] else Verdict.DIVERGES
 
 
 def notices(

@@ -14,7 +14,7 @@ import numpy as np
 from markupsafe import Markup
 
 from planarimpact.ground.arrays import Array
-from stronge1994 import csv_tables
+from stronge1994 import csv_tables, reference_data, verdict_table
 from stronge1994.csv_tables import Columns, Curves, Row
 from stronge1994.ledger import nature_models, outcome
 from stronge1994.pages import ledger_page, note, which_model
@@ -35,7 +35,7 @@ MARK = ledger_page.STYLE | ledger_page.GRADE_STYLE
 CONFIRMED = "confirmed", "confirmed within rounding"
 OPEN = "not testable"
 
-# A finding is left out where a comparison of its figure diverges.
+# A finding is left out where a comparison of its figure fails.
 FIGURE = {
     "restitution": "inelastic",
     "elastic": "fig5",
@@ -104,9 +104,9 @@ def elastic(verdicts: Mapping[str, Row], numbers: Mapping[str, float], curves: C
     difference is not where initial stick ends.
     """
     rows = [verdicts[f"fig5-lumped-maw-{part}"] for part in PARTS]
-    expected = "explained difference", "explained difference", "agrees"
+    expected = "explained difference", "explained difference", "right"
     _require(tuple(row["verdict"] for row in rows) == expected)
-    _require(verdicts["fig5-continuum-maw"]["verdict"] == "agrees")
+    _require(verdicts["fig5-continuum-maw"]["verdict"] == "right")
     lumped, continuum = curves["lumped"], curves["continuum"]
     at = numbers["elastic.at"]
     sticks_first = np.isin(lumped["regime"], ["STICK", "STICK_SLIP"])
@@ -150,9 +150,8 @@ def tolerance(answers: Sequence[Row], trade: Sequence[Row]) -> Finding:
 def digits(verdicts: Mapping[str, Row], stability: Sequence[Row]) -> Finding:
     """How exactly and how stably the paper's model is solved."""
     row = verdicts["stability-digits"]
-    _require(row["verdict"] == "agrees")
-    of_second_codes = [r for r in verdicts.values() if r["evidence"] == "independent computation"]
-    _require(all(row["verdict"] != "diverges" for row in of_second_codes))
+    _require(row["verdict"] == "right")
+    _require(all(row["verdict"] != "wrong" for row in verdicts.values()))
     low = "from [unit of quantity]"
     part = [row for row in stability if row["quantity"] == "stiffness_ratio [1]"]
     part = [row for row in part if float(row[low]) > 0]
@@ -173,20 +172,19 @@ def all_of(
     ledger: Sequence[Row],
     tables: Mapping[str, Mapping[str, Any]],
     paths: Mapping[str, str],
-    config: Mapping[str, Any],
+    pairs: Mapping[str, Any],
     numbers: Mapping[str, float],
 ) -> dict[str, Finding | None]:
     """All findings; None for one that the run does not support.
 
     `tables` are those of `which_model`, `trade` and `stability` as the report shows them. `paths`
-    are the files of other tables: curves by figure, series by source. `numbers` are the key
-    numbers.
+    are the files of other tables: curves by figure. `pairs` is the series of the measured pairs of
+    materials in its source.yaml, `numbers` are the key numbers.
     """
     rows = {row["comparison"]: row for row in verdicts}
 
     def measured() -> Columns:
-        source, series = config["figures"]["inelastic"]["points"].split("/")
-        return csv_tables.read(paths[source])[series]
+        return reference_data.arrays("pairs", pairs)
 
     def curves(figure: str) -> Callable[[], Curves]:
         return lambda: csv_tables.read(paths[figure])
@@ -207,7 +205,7 @@ def all_of(
         "tolerance": if_supported(tolerance, table("which_model"), table("trade")),
         "digits": if_supported(digits, judged, table("stability")),
     }
-    broken = {row["figure"] for row in rows.values() if row["verdict"] == "diverges"}
+    broken = {row["figure"] for row in rows.values() if row["verdict"] in verdict_table.FAILS}
     return {
         name: None if FIGURE.get(name) in broken else finding for name, finding in findings.items()
     }

@@ -16,10 +16,8 @@ from planarimpact.ground import arrays
 from stronge1994 import csv_tables
 from stronge1994.pages import formulas, templates
 
-SRC = Path(__file__).parents[2]
-# Packages for users: the solver and the paper's formulas; beside them the curves that use both.
+# Packages for users: the solver and the paper's formulas.
 PACKAGES = ("planarimpact", "stronge1994.printed")
-CURVES = "stronge1994/figures/*/curves.py"
 # Types with a name of their own in the sources. A type comes before those that it contains.
 NAMED_TYPES = {
     "Curves": csv_tables.Curves,
@@ -61,14 +59,12 @@ def write(folder: str, replaced_templates: str | Path) -> None:
     }  # fmt: skip
     dark = HtmlFormatter(style="github-dark").get_style_defs(".pdoc-code")
     pdoc.render.env.globals["dark_code"] = dark
-    files = [path.relative_to(SRC).with_suffix("") for path in sorted(SRC.glob(CURVES))]
-    curves = [".".join(file.parts) for file in files]
     # pdoc has no option for the names of types.
     with (
         mock.patch("inspect.formatannotation", named),
         mock.patch("pdoc.doc.formatannotation", named),
     ):
-        pdoc.pdoc(*PACKAGES, *curves, output_directory=Path(folder))
+        pdoc.pdoc(*PACKAGES, output_directory=Path(folder))
 
 
 def with_names_of_types(annotation: str) -> str:

@@ -6,12 +6,12 @@ that says what it is. Pages round it; they never compute it again.
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from planarimpact.ground.arrays import Array
-from stronge1994 import csv_tables, verdict_table
+from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Columns, Curves, Row
 from stronge1994.figures.inelastic import drawing as inelastic
 from stronge1994.figures.shared.drawing.house_style import Series
@@ -45,8 +45,8 @@ class Tables(NamedTuple):
     runs: Columns
 
 
-def read(paths: Mapping[str, str]) -> Tables:
-    """Read the tables of a run, by the names of their files."""
+def read(paths: Mapping[str, str], series: Mapping[str, Mapping[str, Any]]) -> Tables:
+    """Read the tables of a run, by the names of their files, and `series` of source.yaml."""
     rows, curves = csv_tables.read_rows, csv_tables.read
     return Tables(
         verdicts=rows(paths["verdicts"]),
@@ -59,8 +59,8 @@ def read(paths: Mapping[str, str]) -> Tables:
         rubber=curves(paths["rubber_sphere"]),
         rod=curves(paths["rod"]),
         trade=rows(paths["trade"]),
-        pairs=curves(paths["cornell1999"])["pairs"],
-        runs=curves(paths["finite_elements"])["spheres"],
+        pairs=reference_data.arrays("pairs", series["pairs"]),
+        runs=reference_data.arrays("spheres", series["runs"]),
     )
 
 
@@ -80,9 +80,9 @@ def table_rows(tables: Tables) -> list[Row]:
     return [{"name": name, "value": f"{value:.12g}", "what": what} for name, value, what in numbers]
 
 
-def write(output: str, paths: Mapping[str, str]) -> None:
+def write(output: str, paths: Mapping[str, str], series: Mapping[str, Mapping[str, Any]]) -> None:
     """Write the table of key numbers."""
-    csv_tables.write_table(output, table_rows(read(paths)), COLUMNS)
+    csv_tables.write_table(output, table_rows(read(paths, series)), COLUMNS)
 
 
 def by_name(table: Sequence[Row]) -> dict[str, float]:
@@ -101,11 +101,6 @@ def _counts(tables: Tables) -> _Numbers:
     verdicts = Counter(row["verdict"] for row in tables.verdicts)
     for verdict in sorted(verdicts):
         yield f"rows.{verdict}", verdicts[verdict], f"comparisons with the verdict: {verdict}"
-    for figure in sorted({row["figure"] for row in tables.verdicts}):
-        own = Counter(row["verdict"] for row in tables.verdicts if row["figure"] == figure)
-        for verdict in verdict_table.ORDER:
-            what = f"comparisons of {figure} with the verdict: {verdict}"
-            yield f"rows.{figure}.{verdict}", own[verdict], what
     published = Counter(row["verdict"] for row in tables.verdicts if row["p"])
     what = "comparisons with published points that agree"
     yield "rows.published.agrees", published["agrees"], what

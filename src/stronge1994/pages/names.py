@@ -2,6 +2,8 @@
 
 import re
 
+from stronge1994.pages.formulas import mathematical
+
 # Models and references in the names of comparisons; longer ones come before those that begin them.
 WORDS = {
     "lumped.unloading-stiffness": "the paper's model with e^2 zeta^2",
@@ -80,3 +82,12 @@ def entry(name: str) -> str:
     ('Eq. 32 late', 'slip throughout limit')
     """
     return re.sub(r"^eq-0?", "Eq. ", name).replace("-", " ")
+
+
+def sentence(text: str) -> str:
+    """A text with a capital letter at its head, unless it begins with a formula.
+
+    >>> sentence("it must run"), sentence("e^2 zeta^2 is small")
+    ('It must run', 'e^2 zeta^2 is small')
+    """
+    return text if mathematical(text).startswith("<math") else text[:1].upper() + text[1:]

@@ -3,11 +3,13 @@
 Every number that a run computes is read from the table of key numbers.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from stronge1994 import csv_tables, verdict_table
-from stronge1994.pages import key_numbers, pdf, templates
+from stronge1994 import csv_tables, figure_table, verdict_table
+from stronge1994.csv_tables import Row
+from stronge1994.pages import key_numbers, names, pdf, templates
+from stronge1994.pages.formulas import mathematical, number
 
 TITLE = "Planar impact of rough compliant bodies: a replication"
 # Models below e = 1, in the order of the note.
@@ -41,12 +43,23 @@ def count(number: float) -> str:
     return COUNTS[round(number)]
 
 
-def page(numbers: Mapping[str, float], pictures: Mapping[str, bytes], template: str) -> str:
-    """The note as a page. `numbers` are the key numbers, `pictures` are SVG by their figures."""
+def page(
+    numbers: Mapping[str, float],
+    verdicts: Sequence[Row],
+    pictures: Mapping[str, bytes],
+    template: str,
+) -> str:
+    """The note as a page, from key numbers, rows of verdicts, and SVG by their figures."""
     environment = templates.environment(Path(template).parent)
     environment.filters |= {
         "probability": probability,
         "count": count,
+        "entry_name": names.entry,
+        "maths": mathematical,
+        "number": number,
+        "sentence": names.sentence,
+        "source_name": names.source,
+        "title_of": templates.title,
     }
     judged = [verdict for verdict in verdict_table.ORDER if verdict != "as before"]
     return environment.get_template(Path(template).name).render(
@@ -54,16 +67,25 @@ def page(numbers: Mapping[str, float], pictures: Mapping[str, bytes], template: 
         n=numbers,
         judged=sum(numbers.get(f"rows.{verdict}", 0) for verdict in judged),
         models=MODELS,
+        figures=[
+            row for row in figure_table.of_run(verdicts) if figure_table.is_of_paper(row.figure)
+        ],
         pictures={name: templates.embedded(svg) for name, svg in pictures.items()},
     )
 
 
 def write(
-    output: str, output_pdf: str, table: str, pictures: Mapping[str, str], template: str
+    output: str,
+    output_pdf: str,
+    table: str,
+    verdicts: str,
+    pictures: Mapping[str, str],
+    template: str,
 ) -> None:
-    """Write both files, from the table of key numbers and pictures (PNG, with SVG beside them)."""
+    """Write both files, from key numbers, verdicts and pictures (PNG, with SVG beside them)."""
     numbers = key_numbers.by_name(csv_tables.read_rows(table))
     svgs = {name: Path(path).with_suffix(".svg").read_bytes() for name, path in pictures.items()}
-    text = page(numbers, svgs, template)
+    rows = csv_tables.read_rows(verdicts, verdict_table.COLUMNS)
+    text = page(numbers, rows, svgs, template)
     Path(output).write_text(text, encoding="utf-8")
     pdf.write(output_pdf, text, pictures, TITLE)

@@ -16,7 +16,7 @@ from typing import Any, TypeAlias
 
 from markupsafe import Markup, escape
 
-from stronge1994 import csv_tables, verdict_table
+from stronge1994 import csv_tables, figure_table, verdict_table
 from stronge1994.csv_tables import Curves, Row
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
@@ -39,6 +39,7 @@ from stronge1994.pages.formulas import mathematical, number
 from stronge1994.run import gate, record
 
 MARKS = {
+    "wrong": "fails",
     "diverges": "fails",
     "unexplained difference": "judgement",
     "untested difference": "misprint",
@@ -46,10 +47,12 @@ MARKS = {
     "awaited": "not",
     "inconclusive": "not",
     "agrees": "confirmed",
+    "right": "confirmed",
     "as before": "not",
 }
 MEANING = {
-    "diverges": "outside its tolerance: the run fails",
+    "wrong": "our curve is not that of its model, by a second code or a law: the run fails",
+    "diverges": "outside its tolerance, or a known difference has changed: the run fails",
     "unexplained difference": "as large as before; we do not know its cause",
     "untested difference": "how much the points scatter, or a computation errs, is not published: "
     "χ² tests nothing",
@@ -57,8 +60,9 @@ MEANING = {
     "awaited": "we do not have the reference yet",
     "inconclusive": "the uncertainties are too large to decide: it would also agree if all points "
     f"lay {VISIBLE_SHIFT:g} sigmas beside the curve",
-    "agrees": "p is large enough (published or measured points), or the distance is within its "
-    "tolerance",
+    "agrees": "with the paper or with others: p is large enough (published or measured points), or "
+    "the distance is within its tolerance",
+    "right": "our curve is that of its model: within the tolerance of our second code or of a law",
     "as before": "it was solved without error, or fitted to these points: no evidence",
 }
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure or a table
@@ -135,13 +139,14 @@ def page(
         "bounds": _bounds,
         "comparison_name": names.comparison,
         "series_name": names.series,
+        "source_name": names.source,
         "entry_name": names.entry,
         "number": number,
         "probability": note.probability,
         "microseconds": lambda seconds: number(f"{1e6 * float(seconds)}"),
         "header": headers.header,
         "short": run_facts.short,
-        "sentence": sentence,
+        "sentence": names.sentence,
         "title_of": templates.title,
     }
     environment.tests["in_paper"] = lambda figure: figure.startswith("fig")
@@ -151,7 +156,10 @@ def page(
         significance=significance,
         faults=faults + salvage.problems,
         verdict_counts=Counter(row["verdict"] for row in verdicts),
-        evidence=Counter(row["evidence"] for row in verdicts if row["verdict"] == "agrees"),
+        known=[row for row in verdicts if row["verdict"] in verdict_table.DIFFERENCES],
+        differences=verdict_table.DIFFERENCES,
+        fails=list(verdict_table.FAILS),
+        figure_table_rows=figure_table.of_run(verdicts),
         marks=MARKS,
         verdict_meaning=MEANING,
         entry_of=_entry_of(entries),
@@ -208,15 +216,6 @@ def figure(
         "has_slide": name in config["slides"],
         "strips": templates.embedded(_svg(strips)) if strips else None,
     }
-
-
-def sentence(text: str) -> str:
-    """A text with a capital letter at its head, unless it begins with a formula.
-
-    >>> sentence("it must run"), sentence("e^2 zeta^2 is small")
-    ('It must run', 'e^2 zeta^2 is small')
-    """
-    return text if mathematical(text).startswith("<math") else text[:1].upper() + text[1:]
 
 
 def _entry_of(names: Collection[str]) -> Callable[[Row], str | None]:
@@ -290,9 +289,10 @@ def write(
     run = parts.pop("run")
     run = {name: salvage(name, missing, function) for name, (missing, function) in run.items()}
     template = Path(parts["template"]).with_name("sources.html")
-    provenance = salvage(
-        "sources of data", None, sources_page.page, parts.pop("sources"), config, run, template
-    )
+    sources = parts.pop("sources")
+    provenance = salvage("sources of data", None, sources_page.page, sources, config, run, template)
+    source, series = config["figures"]["inelastic"]["points"].split("/")
+    pairs = sources[source]["series"][series]
     text = salvage(
         "report",
         None,
@@ -305,7 +305,7 @@ def write(
             run=run,
             faults=faults,
             salvage=salvage,
-            run_findings=findings.all_of(rows, ledger, tables, paths, config, numbers),
+            run_findings=findings.all_of(rows, ledger, tables, paths, pairs, numbers),
             numbers=numbers,
             peers=peers,
             **parts,

@@ -4,13 +4,22 @@ import shutil
 from collections.abc import Iterable
 from pathlib import Path
 
-from stronge1994.pages import run_facts
+from stronge1994.pages import run_facts, templates
 
 
 def write(
-    folder: str, pages: Iterable[str], notebooks: Iterable[str], texts: Iterable[str], readme: str
+    folder: str,
+    pages: Iterable[str],
+    notebooks: Iterable[str],
+    texts: Iterable[str],
+    readme: str,
+    start: str,
 ) -> None:
-    """Copy pages (files and folders of figures/), notebooks and texts, and write README.txt."""
+    """Copy pages (files and folders of figures/), notebooks and texts, and write README.txt.
+
+    `start` is the template of the start page, which links to the interface here: only the site has
+    it.
+    """
     site = Path(folder)
     (site / "notebooks").mkdir(parents=True)
     for path in map(Path, pages):
@@ -21,6 +30,9 @@ def write(
         else:
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(path, copy)
+    page = templates.environment(Path(start).parent).get_template(Path(start).name)
+    text = page.render(interface="interface/planarimpact.html")
+    (site / "index.html").write_text(text, encoding="utf-8")
     for text in texts:
         shutil.copy2(text, site)
     for notebook in notebooks:

@@ -100,21 +100,13 @@ def expected_alone(
 
 def plan_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
     """Settings of the job that judges one figure or scene, and the files that it reads."""
-    sources = sources_of(config, inventory, name)
     job_settings = {
         "comparisons": comparisons(config, name),
         "references": references(config, inventory, name),
-        "sources": sources,
         "significance": config["significance"],
     }
-    series = [f"results/series/{source}.csv" for source in sources]
+    series = files_of_series(config, inventory, name)
     return {"settings": job_settings, "table": table_of(name), "series": series}
-
-
-def files_of_source(inventory: Inventory, source: str) -> list[str]:
-    """Files of one folder of data/: what it states, and the series at hand."""
-    series = inventory[source]["series"].values()
-    return [f"data/{source}/source.yaml", *(entry["path"] for entry in series if entry["path"])]
 
 
 def plan_of_figure(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
@@ -123,14 +115,13 @@ def plan_of_figure(config: Config, inventory: Inventory, figure: str) -> dict[st
     It is called for each figure before Snakemake looks at a rule: where an input function raises,
     Snakemake drops the rule and silently takes its old output for a source file.
     """
-    sources, tables = sources_of(config, inventory, figure), nodes_of(config, inventory, figure)
+    tables = nodes_of(config, inventory, figure)
     return {
         "settings": settings(config, inventory, figure),
         "nodes": tables,
         "tables": list(tables),
         "overlays": overlays(config, inventory, figure),
-        "sources": sources,
-        "series": [f"results/series/{source}.csv" for source in sources],
+        "series": files_of_series(config, inventory, figure),
     }
 
 
@@ -154,9 +145,9 @@ def series_of(config: Config, inventory: Inventory, figure: str) -> dict[str, En
     return {name: entry for name, entry in chosen.items() if entry.get("path")}
 
 
-def sources_of(config: Config, inventory: Inventory, figure: str) -> list[str]:
-    """Sources with series at hand for one figure, in order."""
-    return sorted({name.split("/")[0] for name in series_of(config, inventory, figure)})
+def files_of_series(config: Config, inventory: Inventory, figure: str) -> list[str]:
+    """Files of the series at hand for one figure, in order."""
+    return sorted({entry["path"] for entry in series_of(config, inventory, figure).values()})
 
 
 def overlays(config: Config, inventory: Inventory, figure: str) -> dict[str, Entry]:

@@ -15,6 +15,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
+import numpy as np
+
+from stronge1994.csv_tables import Columns
 from stronge1994.reference_data import digitiser_export, strict_yaml
 from stronge1994.reference_data.digitiser_export import NumberedRow
 
@@ -263,6 +266,11 @@ def read_series(name: str, series: Series) -> dict[str, list[Any]]:
             else:
                 columns[column].append(cell)
     return columns
+
+
+def arrays(name: str, series: Series) -> Columns:
+    """The columns of `read_series` as arrays: numbers as float64, labels as text."""
+    return {column: np.array(cells) for column, cells in read_series(name, series).items()}
 
 
 def _table(path: str | Path, name: str, series: Series) -> tuple[list[str], str, list[NumberedRow]]:

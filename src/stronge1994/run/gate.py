@@ -67,8 +67,8 @@ def faults_of_tables(
     messages += _miscounted(TABLES[1], "entry", ledger, entries)
     for row in verdicts:
         name, verdict = row.get("comparison", ""), row.get("verdict")
-        if verdict == "diverges":
-            messages.append(f"diverges: {name}: {verdict_table.why(row)}")
+        if verdict in verdict_table.FAILS:
+            messages.append(f"{verdict}: {name}: {verdict_table.why(row)}")
         elif verdict not in verdict_table.ORDER or (verdict == "awaited") != comparisons.get(name):
             messages.append(f"{table}: {name} = {verdict!r} cannot be")
     for row in ledger:

@@ -1,13 +1,12 @@
 """What a run prints last: its verdicts, whether it passed, and what to do next."""
 
 import logging
-import re
 import shlex
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from stronge1994 import csv_tables, verdict_table
+from stronge1994 import csv_tables, figure_table, verdict_table
 from stronge1994.csv_tables import Row
 from stronge1994.ledger import outcome
 from stronge1994.run import record
@@ -18,7 +17,7 @@ from stronge1994.run.record import PASSED
 # Number of faults that are named; the log has them all.
 MOST_FAULTS = 8
 NEXT = [
-    f"Look:     {REPORT}, open it in a browser; everything above, with its reasons",
+    f"Look:     {REPORT}, open it in a browser: the table above, with reasons",
     "Play:     figures/explorer.html",
     "Change:   workflow/config.yaml, and run again: only what depends on it is redone",
 ]
@@ -26,16 +25,18 @@ STOPPED = [
     "What it said is above, and in results/logs/. Mend it and type the same command again:",
     "finished work is kept. workflow/README.md, Troubleshooting, has the usual causes.",
 ]
+KNOWN = (
+    "Solved right is our own check only. A run also fails if one of the {} known differences\n"
+    f"changes; {REPORT}#known lists them."
+)
 INTERRUPTED = (
     "Interrupted. Nothing needs mending: type the same command again, finished work is kept."
 )
 WITHOUT = "On purpose? To draw without being judged:  "
 # Help after Snakemake has reported that the folder is locked.
 UNLOCK = "Does no other run work here? Then type:  snakemake --unlock  and the same command again."
-# Snakemake's own log says one of these after Ctrl-C and SIGTERM, and this after a job has failed.
+# Snakemake's own log says one of these after Ctrl-C and SIGTERM.
 ON_REQUEST = "Terminating processes on user request", "Will exit after finishing currently"
-FAILED_JOB = re.compile(r"^Error in rule (\w+):", flags=re.M)
-JUDGED = re.compile(r"Comparing (\w+) with references$", flags=re.M)
 
 
 class Help(logging.Filter):
@@ -74,7 +75,8 @@ def text(config: Sequence[str] = (), stopped: bool = False, logs: Iterable[str] 
         stopped = stopped and not any(faults for _, faults in alone)
     else:
         parts = ["No verdict in this run as a whole. Pictures: figures/"]
-        parts += [part for name in JUDGED.findall(log_text) for part in _of_table(name, config)]
+        judged = [job for job in record.ended() if job.startswith("judge_")]
+        parts += [part for job in judged for part in _of_table(job.removeprefix("judge_"), config)]
         parts += record.all_errors()
     return "\n" + "\n".join(parts + (_stopped(log_text) if stopped else [])) + "\n"
 
@@ -100,11 +102,15 @@ def _judged_alone() -> Iterator[tuple[str, list[str]]]:
 
 def _of_all(faults: Sequence[str], again: str) -> list[str]:
     """The verdict of a whole run."""
+    rows = _rows(TABLES[0], verdict_table.COLUMNS)
+    known = sum(row["verdict"] in verdict_table.DIFFERENCES for row in rows)
     parts = [
-        verdict_table.text(_rows(TABLES[0], verdict_table.COLUMNS)),
+        figure_table.text(figure_table.of_run(rows)),
+        f"\n{verdict_table.counts(rows)}",
+        KNOWN.format(known),
         outcome.summary(_rows(TABLES[1], ("verdict", "holds", "entry", "where", "problem"))),
     ]
-    where = f"All columns: {', '.join(TABLES)}"
+    where = f"Each comparison: {', '.join(TABLES)}"
     if not faults:
         return [*parts, f"PASSED. {where}; pictures: figures/", *NEXT]
     why = f"{where}. Why, row by row: {REPORT}, open it in a browser"
@@ -118,7 +124,7 @@ def _of_one(name: str, faults: Sequence[str], again: str) -> list[str]:
     if faults:
         why = _failed(faults, ALONE.format(name))
         return [*parts, f"{WITHOUT}{again}", f"{name}: {why}"]
-    return [*parts, f"{name}: no comparison diverges. The verdict of all: snakemake --cores 2"]
+    return [*parts, f"{name}: no comparison fails. The verdict of all: snakemake --cores 2"]
 
 
 def _of_table(name: str, config: Sequence[str]) -> Iterator[str]:
@@ -127,7 +133,7 @@ def _of_table(name: str, config: Sequence[str]) -> Iterator[str]:
     if Path(table).exists():  # else its job was stopped
         number = len(verdict_table.failing(_rows(table, verdict_table.COLUMNS)))
         judge = shlex.join(["snakemake", "--cores", "2", name, *_option(config)])
-        yield f"{table}: {number} diverge. To judge it:  {judge}"
+        yield f"{table}: {number} fail. To judge it:  {judge}"
 
 
 def _failed(faults: Sequence[str], log: str) -> str:
@@ -150,5 +156,6 @@ def _stopped(log_text: str) -> list[str]:
     """Why a run ended early."""
     if any(words in log_text for words in ON_REQUEST):
         return [INTERRUPTED]
-    names = ", ".join(dict.fromkeys(FAILED_JOB.findall(log_text)))
+    jobs = [job for job in record.ended() if job.startswith(record.STOPPED)]
+    names = ", ".join(job.removeprefix(record.STOPPED) for job in jobs)
     return [f"A job stopped: {names or 'see above'}.", *STOPPED]

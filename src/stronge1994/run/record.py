@@ -14,6 +14,9 @@ from typing import Any
 
 FOLDER = "results/records"
 PASSED = "results/PASSED"
+# The jobs of this run: their number, and the name of each that has ended, or `stopped` and it.
+JOBS = "results/logs/jobs.txt"
+STOPPED = "stopped "
 SRC = Path(__file__).parents[2]
 MACHINE = (OSError, MemoryError)  # errors without which the same command may work
 
@@ -43,6 +46,29 @@ def digest(paths: Iterable[str]) -> str:
     return hashlib.sha256(lines.encode()).hexdigest()
 
 
+def begin(number: int) -> None:
+    """Begin the list of the jobs of this run, of which there are a `number`."""
+    Path(JOBS).parent.mkdir(parents=True, exist_ok=True)
+    Path(JOBS).write_text(f"{number}\n", encoding="utf-8")
+
+
+def ended() -> list[str]:
+    """Names of the jobs of this run that have ended; before those that stopped, `stopped`."""
+    return Path(JOBS).read_text(encoding="utf-8").splitlines()[1:] if Path(JOBS).exists() else []
+
+
+def _place(entry: str) -> str:
+    """Add to the list of jobs, and give the place: `7 of 60`; empty if no run has begun the list."""
+    if not Path(JOBS).exists():
+        return ""
+    with open(JOBS, "a+", encoding="utf-8") as file:
+        file.write(f"{entry}\n")
+        file.flush()
+        file.seek(0)
+        number, *entries = file.read().splitlines()
+    return f"{len(entries):>{len(number)}} of {number}"
+
+
 @contextlib.contextmanager
 def log_to(log: str) -> Iterator[None]:
     """Send output and errors of a block to a log file. An error ends the process with one line."""
@@ -53,6 +79,7 @@ def log_to(log: str) -> Iterator[None]:
                 yield
         except Exception as error:
             traceback.print_exc(file=file)
+            _place(f"{STOPPED}{Path(log).stem}")
             print(f"{type(error).__name__}: {error} (log: {log})", file=terminal)
             sys.exit(1)
 
@@ -94,7 +121,7 @@ def recorded(snakemake: Any) -> Iterator[Any]:
         text = json.dumps({"seconds": seconds, "read": read, "wrote": wrote} | outcome, indent=1)
         Path(snakemake.output.record).write_text(text, encoding="utf-8")
     said = f", failed: {next(iter(outcome.values()))} (log: {snakemake.log[0]})" if outcome else ""
-    print(f"{job}: {seconds:.1f} s{said}", flush=True)
+    print(f"{_place(job)}  {job}  {seconds:.1f} s{said}", flush=True)
 
 
 def _failed(error: Exception, job: str, outputs: Iterable[str]) -> dict[str, str]:

@@ -21,29 +21,20 @@ def draw(
     settings: Settings,
     overlays: Mapping[str, Mapping[str, Any]],
     curves_path: str,
-    series_paths: Mapping[str, str],
-    svg: str,
-    png: str,
+    pictures: tuple[str, str],
+    slide_pictures: Mapping[str, str],
 ) -> None:
-    """Draw `figure`; `overlays` holds the reference series that are not awaited, and facts."""
-    curves, points = csv_tables.read(curves_path), _series(overlays, series_paths)
+    """Draw `figure` as SVG and PNG, and its slide on each ground, `{ground: file}`, if it has one.
+
+    `overlays` holds the reference series that are not awaited, and facts.
+    """
+    curves, points = csv_tables.read(curves_path), _series(overlays)
     picture, _ = drawn(_module(figure, "drawing"), curves, settings, points)
-    house_style.save(picture, svg, png)
-
-
-def draw_slide(
-    figure: str,
-    settings: Settings,
-    overlays: Mapping[str, Mapping[str, Any]],
-    curves_path: str,
-    series_paths: Mapping[str, str],
-    pngs: Mapping[str, str],
-) -> None:
-    """Draw the slide of `figure` on each ground, `{ground: file}`; the rest is as for `draw`."""
-    curves, points = csv_tables.read(curves_path), _series(overlays, series_paths)
-    pictures = slides(figure, curves, settings, points)
-    for ground, png in pngs.items():
-        slide.save(pictures[ground], png)
+    house_style.save(picture, *pictures)
+    if slide_pictures:
+        grounds = slides(figure, curves, settings, points)
+        for ground, png in slide_pictures.items():
+            slide.save(grounds[ground], png)
 
 
 def drawn(
@@ -80,17 +71,15 @@ def _module(figure: str, name: str) -> ModuleType:
     return importlib.import_module(f"stronge1994.figures.{figure}.{name}")
 
 
-def _series(overlays: Mapping[str, Mapping[str, Any]], series_paths: Mapping[str, str]) -> Points:
+def _series(overlays: Mapping[str, Mapping[str, Any]]) -> Points:
     return {
-        name: _points(name, entry, series_paths[name.split("/")[0]])
-        if "kind" in entry
-        else dict(entry)
+        name: _points(name, entry) if "kind" in entry else dict(entry)
         for name, entry in overlays.items()
     }
 
 
-def _points(name: str, entry: Mapping[str, Any], path: str) -> Series:
-    columns = csv_tables.read(path)[name.split("/")[1]]
+def _points(name: str, entry: Mapping[str, Any]) -> Series:
+    columns = reference_data.arrays(name.split("/")[1], entry)
     printed = [reference_data.sigma_column(entry[axis]) for axis in "xy"]
     return {
         "x": columns[reference_data.column_name(entry["x"])],

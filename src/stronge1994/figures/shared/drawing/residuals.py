@@ -24,9 +24,11 @@ def _hollow(marker: str, colour: str) -> dict[str, Any]:
 # to the points, distances in sigmas have no meaning.
 MARKS = {
     "agrees": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
+    "right": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
     "inconclusive": _hollow("o", house_style.BLACK),
     "explained difference": _hollow("s", house_style.BLUE),
     "unexplained difference": _hollow("D", house_style.PURPLE),
+    "wrong": {"color": house_style.VERMILLION, "marker": "x", "markersize": 4},
     "diverges": {"color": house_style.VERMILLION, "marker": "x", "markersize": 4},
 }
 ALL_AREA = {"color": house_style.PALE, "linewidth": 0, "zorder": 0.5}
@@ -87,8 +89,12 @@ def _is_drawn(rows: Sequence[Row], entry: Entry, verdict: str) -> bool:
     """Whether points of a comparison, drawn, show more than its row in the table of verdicts."""
     if verdict not in MARKS or entry["metric"] not in ("distance", "vertices"):
         return False
+    if entry.get("as_printed"):  # the figure draws both curves
+        return False
     largest = max(abs(float(row[DISTANCE])) for row in rows)
-    return len(rows) <= MOST_POINTS and (verdict != "agrees" or largest >= ON_THE_LINE)
+    return len(rows) <= MOST_POINTS and (
+        verdict not in ("agrees", "right") or largest >= ON_THE_LINE
+    )
 
 
 def _strip(

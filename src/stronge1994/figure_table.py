@@ -1,0 +1,221 @@
+"""The verdicts of a run in one table: a row for each figure, a cell for each question.
+
+Solved right: our second codes and laws, which say nothing about nature. As printed: what the paper
+states. Beside others: measurements, other codes and other authors. There only the paper's model is
+told; the table of all comparisons has the other models.
+"""
+
+import math
+import textwrap
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+from stronge1994.csv_tables import Row
+from stronge1994.verdict_table import DIFFERENCES, FAILS, ORDER, QUESTIONS
+
+SCENES = "scenes"  # one row for all tables of impacts
+# Curves of models that are not the paper's begin so.
+OTHER_MODELS = ("continuum", "lumped.viscous", "lumped.unloading-stiffness")
+LEDGER = "ledger: "  # a note that begins so names an entry of the ledger
+# Widths of the columns in a terminal of 80. Names of the paper's figures are shorter than others.
+PAPER_WIDTHS, OTHER_WIDTHS = (6, 13, 21, 37), (13, 13, 14, 37)
+
+
+class Item(NamedTuple):
+    """A part of a cell: what it says, and the comparisons that say it.
+
+    `name` is a source or an entry of the ledger; `size` says how large a difference is.
+    """
+
+    rows: list[str]
+    verdict: str
+    name: str = ""
+    points: str = ""
+    size: str = ""
+    unit: str = ""
+    sigmas: str = ""
+
+
+class FigureRow(NamedTuple):
+    """The verdicts on one figure, by question; `others` of the paper's model only."""
+
+    figure: str
+    solved: list[Item]
+    printed: list[Item]
+    others: list[Item]
+    awaited: list[Item]
+
+
+def of_run(rows: Sequence[Row]) -> list[FigureRow]:
+    """A row for each figure of the verdict table `rows`: those of the paper, others, scenes.
+
+    >>> row = {"figure": "fig6", "comparison": "fig6-rebound", "question": "solved right"}
+    >>> row |= {"verdict": "right", "reference": "lumped_40_digits/fig6", "unit": "m"}
+    >>> row |= {"max [sigma]": "0.4", "max [axis units]": "4e-13"}
+    >>> of_run([row])[0].solved[0].size
+    '4e-13'
+    """
+    names = sorted({_name(row) for row in rows}, key=_place)
+    return [_figure_row(name, [row for row in rows if _name(row) == name]) for name in names]
+
+
+def is_of_paper(figure: str) -> bool:
+    """Whether a figure is one of the paper's."""
+    return figure.startswith("fig") and figure[3:].isdigit()
+
+
+def _name(row: Row) -> str:
+    return SCENES if row["figure"].startswith("scene_") else row["figure"]
+
+
+def _place(name: str) -> tuple[bool, bool, int, str]:
+    paper = is_of_paper(name)
+    return name == SCENES, not paper, int(name[3:]) if paper else 0, name
+
+
+def _figure_row(name: str, rows: Sequence[Row]) -> FigureRow:
+    solved, printed, others = (
+        [row for row in rows if row["question"] == question] for question in QUESTIONS
+    )
+    shown = [
+        row
+        for row in others
+        if row["verdict"] in FAILS or not row["curve"].startswith(OTHER_MODELS)
+    ]
+    by_source = _grouped(shown, lambda row: row["reference"].partition("/")[0])
+    items = [_source(source, group) for source, group in by_source]
+    return FigureRow(
+        name,
+        list(_solved(solved)),
+        list(_printed(printed)),
+        [item for item in items if item.verdict != "awaited"],
+        [item for item in items if item.verdict == "awaited"],
+    )
+
+
+def _grouped(rows: Iterable[Row], key: Callable[[Row], str]) -> list[tuple[str, list[Row]]]:
+    groups: dict[str, list[Row]] = {}
+    for row in rows:
+        groups.setdefault(key(row), []).append(row)
+    return list(groups.items())
+
+
+def _names(rows: Iterable[Row]) -> list[str]:
+    return [row["comparison"] for row in rows]
+
+
+def _worst(rows: Iterable[Row]) -> str:
+    return min((row["verdict"] for row in rows), key=ORDER.index)
+
+
+def _solved(rows: Sequence[Row]) -> Iterator[Item]:
+    """What is wrong, else what is right with its largest differences; and what is known to differ.
+
+    The difference in sigmas is that from second codes: 1 is all that is allowed.
+    """
+    wrong = [row for row in rows if row["verdict"] in FAILS]
+    right = [row for row in rows if row["verdict"] == "right"]
+    known = [row for row in rows if row["verdict"] in DIFFERENCES]
+    if wrong:
+        yield Item(_names(wrong), FAILS[0], points=f"{len(wrong)}")
+    elif right:
+        # A table with axes of several units has no difference in the unit of the axis.
+        sizes = [float(row["max [axis units]"]) for row in right if row["unit"]]
+        sigmas = [float(row["max [sigma]"]) for row in right if row["reference"]]
+        size, share = (f"{max(of):.1g}" if of else "" for of in (sizes, sigmas))
+        yield Item(_names(right), "right", points=f"{len(right)}", size=size, sigmas=share)
+    if known:
+        yield Item(_names(known), "known difference", points=f"{len(known)}")
+
+
+def _printed(rows: Sequence[Row]) -> Iterator[Item]:
+    """How many statements agree; then each difference, by entry of the ledger."""
+    agree = [row for row in rows if row["verdict"] == "agrees"]
+    if agree:
+        yield Item(_names(agree), "agrees", points=f"{len(agree)}")
+    differ = [row for row in rows if row not in agree]
+    for entry, group in _grouped(differ, lambda row: row["note"].partition(";")[0]):
+        first = group[0]
+        stated = f"{first['found']}, not {first['stated']}" if first["found"] else ""
+        size = stated or f"rms {_rms(group, 'axis units')}"
+        unit = "" if stated else first["unit"]
+        name = entry.removeprefix(LEDGER)
+        yield Item(_names(group), _worst(group), name, size=size, unit=unit)
+
+
+def _source(source: str, rows: Sequence[Row]) -> Item:
+    """All comparisons with one source; the size is that of its first series."""
+    measured = [row for row in rows if row["points"]]
+    first = [row for row in measured if row["reference"] == measured[0]["reference"]]
+    # An inequality that holds has no distance.
+    told = first if any(float(row["rms [sigma]"]) for row in measured) else []
+    return Item(
+        _names(rows),
+        _worst(rows),
+        source,
+        f"{sum(int(row['points']) for row in measured)}" if measured else "",
+        _rms(told, "axis units") if told else "",
+        told[0]["unit"] if told else "",
+        _rms(measured, "sigma") if told else "",
+    )
+
+
+def _rms(rows: Sequence[Row], unit: str) -> str:
+    """Root mean square distance of all points of several rows."""
+    points = [int(row["points"]) for row in rows]
+    squares = [float(row[f"rms [{unit}]"]) ** 2 for row in rows]
+    mean = sum(n * s for n, s in zip(points, squares, strict=True)) / sum(points)
+    return f"{math.sqrt(mean):.2g}"
+
+
+def text(table: Sequence[FigureRow]) -> str:
+    """The table for a terminal of 80 columns."""
+    lines = [
+        _line(
+            PAPER_WIDTHS,
+            ("figure", "solved right", "as printed", "beside others: number of points,"),
+        ),
+        _line(PAPER_WIDTHS, ("", "[axis] [sig.]", "", "rms [axis], rms [sigma], verdict")),
+    ]
+    for row in table:
+        widths = PAPER_WIDTHS if is_of_paper(row.figure) else OTHER_WIDTHS
+        cells = [
+            [row.figure],
+            [_solved_words(item) for item in row.solved],
+            [_printed_words(item) for item in row.printed],
+            [*map(_source_words, row.others), *(f"awaited: {i.name}" for i in row.awaited)],
+        ]
+        wrapped = [
+            [line for part in cell for line in textwrap.wrap(part, width)] or ["-"]
+            for cell, width in zip(cells, widths, strict=True)
+        ]
+        height = max(map(len, wrapped))
+        lines += [
+            _line(widths, [cell[i] if i < len(cell) else "" for cell in wrapped])
+            for i in range(height)
+        ]
+    return "\n".join(lines)
+
+
+def _line(widths: Sequence[int], cells: Sequence[str]) -> str:
+    parts = [cell.ljust(width) for cell, width in zip(cells, widths, strict=True)]
+    return " ".join(parts).rstrip()
+
+
+def _solved_words(item: Item) -> str:
+    if item.verdict == "right":
+        return f"{item.size or '':5} {item.sigmas}".rstrip() or "right"
+    return f"{item.points} known" if item.verdict not in FAILS else f"{item.points} WRONG"
+
+
+def _printed_words(item: Item) -> str:
+    if item.verdict == "agrees":
+        return f"{item.points} agree" + ("s" if item.points == "1" else "")
+    mark = "DIVERGES " if item.verdict in FAILS else ""
+    return f"{mark}{item.name}: {item.size}"
+
+
+def _source_words(item: Item) -> str:
+    verdict = item.verdict.upper() if item.verdict in FAILS else item.verdict
+    numbers = [item.points, item.size, item.sigmas, verdict.removesuffix(" difference")]
+    return " ".join([item.name, *(part for part in numbers if part)])
