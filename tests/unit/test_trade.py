@@ -8,7 +8,6 @@ import pytest
 
 from planarimpact import InputError, models
 from stronge1994 import csv_tables
-from stronge1994.figures.convergence import curves as convergence
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.trade import answers as trade_table
 from stronge1994.figures.trade import curves as trade
@@ -194,20 +193,6 @@ def test_a_batch_that_would_take_too_long_is_left_out_for_its_model_alone():
 
 
 KEYS = ("time", "[s]"), ("scatter", "[1]")
-
-
-def test_convergence_measures_the_processor(monkeypatch):
-    clock, fixed_steps = Clock(), convergence.continuum.fixed_steps
-
-    def slow(*args, **kwargs):
-        clock.worked += 0.24
-        return fixed_steps(*args, **kwargs)
-
-    monkeypatch.setattr(convergence, "time", clock)
-    monkeypatch.setattr(convergence.continuum, "fixed_steps", slow)
-    few = {"samples": 3, "tolerance": 1e-3, "steps": [16, 32], "circles": [4, 8]}
-    named = convergence.curves(3.5, [1.21], **few, fixed={"steps": 16, "circles": 4})
-    assert named["row of springs"]["time [s]"] == pytest.approx([0.08, 0.08])
 
 
 def row(name, error, case=("1.0", ""), build="", times=("", ""), scatter="0.02"):

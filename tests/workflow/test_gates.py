@@ -25,13 +25,10 @@ BALANCES = {
     "rod-energy-balance": (noncollinear, "friction_work"),
     "stability-energy-balance": (lumped, "dissipation"),
 }
-# The table of sensitivity has changes by half at most, and none of some figures. These comparisons
-# see a larger change, or the solver of `convergence`, which takes too long for the table.
+# The table of sensitivity has changes by half at most. These comparisons see a larger change.
 BY_TRIAL = {
     "fig8-friction-below-limit": {"friction": lambda mu: mu / 100},
     "fig8-friction-reverses": {"friction": lambda mu: mu / 100},
-    "convergence-nu-0.3": {"mass_ratio": 2.5},
-    "convergence-nu-0.5": {"mass_ratio": 2.5},
 }
 # The columns that these hold are scaled in test_columns.py; the impacts are what was asked for.
 ELSEWHERE = ["fig6-printed", "fig7-printed", "fig9-printed", "stability-inputs"]
@@ -39,15 +36,6 @@ ELSEWHERE = ["fig6-printed", "fig7-printed", "fig9-printed", "stability-inputs"]
 ELSEWHERE += [
     f"yielding-pushed-{part}" for part in ("e-0.81", "e-0.66", "e-0.55", "e-0.45", "range")
 ]
-SHORT = {  # studies of error, which no fault of the physics is meant for
-    "convergence": {
-        "steps": [16, 32],
-        "circles": [4, 8],
-        "fixed": {"steps": 16, "circles": 4},
-        "tolerance": 1e-3,
-        "samples": 2,
-    }
-}
 SHORT_TABLE = 100  # rows; so few are all solved
 
 
@@ -119,7 +107,7 @@ def test_every_comparison_catches_wrong_physics(smallest, config, inventory):
 @pytest.mark.parametrize("name", BY_TRIAL)
 def test_a_wrong_solver_trips_the_gate(name, config, inventory, series, tmp_path):
     figure, path = name.split("-")[0], tmp_path / "curves.csv"
-    settings = plan.settings(config, inventory, figure) | SHORT.get(figure, {})
+    settings = plan.settings(config, inventory, figure)
     curves = importlib.import_module(f"stronge1994.figures.{figure}.curves").curves
     with pytest.MonkeyPatch.context() as patch:
         module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
