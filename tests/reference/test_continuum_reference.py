@@ -130,10 +130,12 @@ def test_annuli_converge_with_the_square_of_the_circles():
     rows = read("maw1976/rebound_nu_0.3.csv")
     x = np.array([2.0, 3.0, 4.0])  # where the steps matter least
     exact = rows[np.isin(rows[:, 0], x), 1]
-    found = [annuli.rebound(x, 3.5, STEEL, circles=n, steps=1024).velocity for n in (8, 16, 32)]
+    circles = 4, 8, 16, 32
+    found = [annuli.rebound(x, 3.5, STEEL, circles=n, steps=1024).velocity for n in circles]
     error = np.max(np.abs(found - exact), axis=1)
     assert all(3.0 < a / b < 5.5 for a, b in zip(error, error[1:], strict=False)), error
-    assert np.max(np.abs(found[2] + (found[2] - found[1]) / 3 - exact)) < 5e-5
+    assert 1.8 < -np.polyfit(np.log(circles), np.log(error), 1)[0] < 2.2, error
+    assert np.max(np.abs(found[3] + (found[3] - found[2]) / 3 - exact)) < 5e-5
 
 
 def test_annuli_converge_with_the_steps():

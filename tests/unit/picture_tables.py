@@ -8,7 +8,6 @@ import numpy as np
 
 from stronge1994 import plan, reference_data
 from stronge1994.curve_names import name, shifted
-from stronge1994.figures.convergence import drawing as convergence
 from stronge1994.figures.fig5.drawing import LOSSY_RUBBER, MEASURED_ANGLES
 from stronge1994.figures.inelastic import drawing as inelastic
 from stronge1994.figures.rubber_sphere import drawing as rubber
@@ -58,20 +57,6 @@ def _superball(settings):
         "regime": np.array(["before", "STICK_SLIP", "STICK_SLIP", "after"]),
     }
     return settings, {"path": path}
-
-
-def _convergence(settings):
-    """Methods that converge by a power."""
-    numbers = 2.0 ** np.arange(4, 8)
-    return settings, {
-        method: {
-            number: numbers,
-            "error [mu v2(0)]": (i + 1) / numbers**2,
-            "observed_order [1]": np.full(4, 2.0),
-            "time [s]": 1e-4 * (i + 2) * numbers,
-        }
-        for i, (method, (number, _, _)) in enumerate(convergence.CURVES.items())
-    }
 
 
 def row(model, error, time, **more):
@@ -152,7 +137,6 @@ def _stability(settings):
 
 MADE_UP = {
     "superball": _superball,
-    "convergence": _convergence,
     "trade": _trade,
     "inelastic": _inelastic,
     "rubber_sphere": _rubber_sphere,

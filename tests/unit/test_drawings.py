@@ -118,7 +118,6 @@ FAULTS = [
     ("fig9", 'symbols(name("mu", mu)), **style', 'symbols(name("mu", 2 * mu)), **style'),
     ("micro_slip", "curve[TIME], curve[STICK]", "curve[TIME], 1 - curve[STICK]"),
     ("micro_slip", 'key("stick"', 'key("contact"'),
-    ("convergence", "curve[number], curve[ERROR]", "2 * curve[number], curve[ERROR]"),
     ("inelastic", "curve[X], curve[W]", "curve[X], -curve[W]"),
     ("inelastic", "order], high[BETA_0][order]", "order], 2 * high[BETA_0][order]"),
     ("inelastic", "[OVER_LIMIT], [height]", "[OVER_LIMIT] / 2, [height]"),

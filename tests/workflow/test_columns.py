@@ -24,17 +24,14 @@ INVENTORY = reference_data.load_all(
 # What nothing independent can hold, as patterns of "judged: curve: column", and why.
 NOT_HELD = {
     r".*: (time\w*|scatter_\w+|build_time) \[(s|1)\]": "measured on this machine",
-    r"(trade|convergence): .*: (steps|circles|tolerance|reference_error) .*": "what was asked for",
+    r"trade: .*: (steps|circles|tolerance|reference_error) .*": "what was asked for",
     r"trade: (response of|continuum|annuli|spheres).*: (rms|max|rest)\w* .*": "an error, bounded",
-    r"convergence: (.*, extrapolated|annuli, steps): observed_order .*": "not predicted",
     r"stability: contacts: (incidence|mass_ratio|stiffness_ratio|restitution) .*": "as in impacts",
     r"stability: .*: (omega|phases|digits_allowed_\w+) .*": "tells where, and what could be had",
     r"stability: .*: (digits_lost|friction_excess|energy_residual) .*": "an error, bounded",
     r"scene_\w+: impacts: error_bound .*": "a bound of the error",
     r"trade: .*: (input_spread\w*|seen) .*": "held by tests/unit/test_models.py, by random inputs",
 }
-# An error has no value of its own, but it is never negative.
-NOT_SCALED = [r"convergence: .*: error .*"]
 
 READ = functools.cache(csv_tables.read)  # tables of reference, which each comparison reads again
 CAUGHT = Counter()  # how many faults each comparison has seen: the most successful is asked first
@@ -67,16 +64,15 @@ def tables(first_run):
     return folder, {name: folder / f"results/series/{name}.csv" for name in INVENTORY}
 
 
-def _columns(name, curves, factor):
+def _columns(name, curves):
     """What can be wrong: curves and columns of numbers that are not all 0."""
-    unheld = [*NOT_HELD, *(NOT_SCALED if factor > 0 else ())]
     for curve, columns in curves.items():
         for column, values in columns.items():
             where = f"{name}: {curve}: {column}"
             # Curves off by a sigma only say how uncertain another one is.
             held = "1 sigma" not in curve and column not in _inputs(name)
             held &= values.dtype.kind == "f" and values.any()
-            if held and not any(re.fullmatch(pattern, where) for pattern in unheld):
+            if held and not any(re.fullmatch(pattern, where) for pattern in NOT_HELD):
                 yield curve, column
 
 
@@ -95,7 +91,7 @@ def test_no_column_can_be_scaled_or_flipped(name, factor, tables, monkeypatch):
     path = folder / configuration.table_of(name)
     curves, missed = judged_tables.read(path), []
     monkeypatch.setattr(csv_tables, "read", READ)
-    for curve, column in _columns(name, curves, factor):
+    for curve, column in _columns(name, curves):
         wrong = curves | {curve: curves[curve] | {column: factor * curves[curve][column]}}
         monkeypatch.setattr(judged_tables, "read", lambda _, wrong=wrong: wrong)
         if not _diverges(name, path, series, curve=curve):

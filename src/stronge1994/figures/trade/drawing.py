@@ -122,18 +122,9 @@ FAMILIES = {
     "annuli": Family("annuli", "h", 5.5, ELASTIC, True, RIGHT),
     "response of lumped": Family("lumped", "*", 7, BLACK, False, LEFT),
     "response of continuum": Family("continuum", "*", 7, ELASTIC, True, LEFT),
-    "response of continuum.viscous": Family("continuum, viscous", "*", 7, VISCOUS, True, LEFT),
-    "response of continuum.plastic": Family("continuum, plastic", "*", 7, PLASTIC, False, LEFT),
 }
 # Two columns of equal length.
 LEGEND = {
-    "closed form": ("rigid", "lumped", "lumped.viscous", "lumped.unloading-stiffness"),
-    "compiled responses": (
-        "response of lumped",
-        "response of continuum",
-        "response of continuum.viscous",
-        "response of continuum.plastic",
-    ),
     "in steps": (
         "timestep.linear",
         "timestep.mindlin",
@@ -143,6 +134,8 @@ LEGEND = {
         "continuum.viscous",
         "continuum.plastic",
     ),
+    "compiled responses": ("response of lumped", "response of continuum"),
+    "closed form": ("rigid", "lumped", "lumped.viscous", "lumped.unloading-stiffness"),
     "from a table": ("spheres", "spheres.viscous", "spheres.plastic"),
 }
 NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
