@@ -1,6 +1,7 @@
 """Each comparison passes with the right solver, and a wrong solver trips it."""
 
 import csv
+import functools
 import importlib
 from pathlib import Path
 
@@ -8,9 +9,9 @@ import numpy as np
 import pytest
 
 from planarimpact import lumped, noncollinear
-from stronge1994 import plan
+from stronge1994 import csv_tables, curve_names, plan
 from stronge1994.figures.shared.curves import solving
-from stronge1994.judging import compare
+from stronge1994.judging import compare, judged_tables
 from stronge1994.plan import config as configuration
 from stronge1994.reference_data import conversion
 
@@ -23,12 +24,37 @@ BALANCES = {
     "rod-energy-balance": (noncollinear, "friction_work"),
     "stability-energy-balance": (lumped, "dissipation"),
 }
-# These comparisons see only a large change, or the solver of `convergence`.
-BY_TRIAL = {
-    "fig8-friction-below-limit": {"friction": lambda mu: mu / 100},
-    "fig8-friction-reverses": {"friction": lambda mu: mu / 100},
-    "convergence-nu-0.3": {"mass_ratio": 2.5},
-    "convergence-nu-0.5": {"mass_ratio": 2.5},
+# Parameters of the figures of the paper. Each is wrong by a share of it; restitution is lower by a
+# difference, or higher if it is 0.
+PARAMETERS = ("stiffness_ratio", "mass_ratio", "restitution", "friction")
+# For each of these figures, the comparison with 40 digits that notices if any parameter is wrong
+# by `SMALL`. Every other comparison notices if one of them is wrong by `LARGE`.
+SMALL, LARGE = 1e-10, 0.1
+EXACT = {
+    "fig2": "fig2-elements",
+    "fig3": "fig3-events",
+    "fig4": "fig4-events",
+    "fig5": "fig5-lumped-experiment-exact",
+    "fig6": "fig6-rebound",
+    "fig7": "fig7-peak-force",
+    "fig8": "fig8-peak-force",
+    "fig9": "fig9-dissipation",
+}
+# These notice only what is larger still, each in one parameter: stated angles have wide tolerances.
+COARSE = {
+    "fig5-continuum-fem-initial-stick": ("mass_ratio", 0.2, -0.2),
+    "fig7-peak-angle-mu-0.1": ("friction", 0.6, -0.2),
+    "fig7-peak-angle-mu-1": ("friction", 0.6, -0.2),
+    "fig8-friction-below-limit": ("friction", -0.99),
+    "fig8-friction-reverses": ("friction", -0.99),
+}
+# Formulas as printed stay as they are: their columns are scaled in test_columns.py.
+PRINTED = {"fig6-printed", "fig7-printed", "fig9-printed"}
+# Fewer samples of figures that take long. The points of reference are added to them.
+SAMPLES = {"fig5": 10, "fig6": 10, "fig8": 90, "fig9": 10}
+BY_TRIAL = {  # a parameter of `convergence`, and the error of it
+    "convergence-nu-0.3": ("mass_ratio", -2 / 7),
+    "convergence-nu-0.5": ("mass_ratio", -2 / 7),
 }
 SHORT = {  # studies of error, which no fault of the physics is meant for
     "convergence": {
@@ -73,14 +99,80 @@ def _nodes(config, inventory, figure, folder):
     return {str(short): None}
 
 
-def _changed(settings, change):
-    wrong = dict(settings)
-    for key, new in change.items():
-        if key in settings:
-            old = settings[key]
-            values = [new(v) if callable(new) else new for v in np.ravel(old).tolist()]
-            wrong[key] = values if isinstance(old, list) else values[0]
-    return wrong
+def _wrong(settings, parameter, size):
+    """Settings in which one of `PARAMETERS` is wrong by `size`, wherever it stands."""
+
+    def number(right):
+        if parameter == "restitution":
+            return right - size if right >= size else right + size
+        return right * (1 + size)
+
+    def wrong(key, value):
+        if isinstance(value, dict):
+            return _wrong(value, parameter, size)
+        if key != parameter:
+            return value
+        return [number(right) for right in value] if isinstance(value, list) else number(value)
+
+    return {key: wrong(key, value) for key, value in settings.items()}
+
+
+def _settings(figure, config, inventory):
+    """Settings of a figure, without formulas as printed and curves off by one sigma."""
+    settings = plan.settings(config, inventory, figure)
+    settings |= solving.read_nodes(plan.nodes_of(config, inventory, figure))
+    less = {"as_printed": False, "samples": SAMPLES.get(figure)}
+    settings |= {key: new for key, new in less.items() if key in settings and new is not None}
+    settings.pop("uncertainty", None)
+    return settings
+
+
+READ = functools.cache(csv_tables.read)
+
+
+@pytest.fixture
+def diverging(first_run, config, inventory, series, monkeypatch):
+    """Function: the comparisons that diverge if a parameter of a figure's curves is wrong.
+
+    Curves as printed, and those off by one sigma, stay as the run made them.
+    """
+    monkeypatch.setattr(csv_tables, "read", READ)
+
+    def comparisons(asked, figure, parameter, size):
+        wrong = _wrong(_settings(figure, config, inventory), parameter, size)
+        module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
+        curves = READ(first_run[0] / f"results/curves/{figure}.csv")
+        own = [n for n in curves if not (curve_names.is_shifted(n) or curve_names.is_printed(n))]
+        solved = curves | dict(zip(own, module.curves(**wrong).values(), strict=True))
+        monkeypatch.setattr(judged_tables, "read", lambda _: solved)
+        entries = {name: config["comparisons"][name] for name in asked}
+        references = plan.references(config, inventory, figure)
+        rows = compare(figure, entries, references, "", series, config["significance"])
+        return {row["comparison"] for row in rows if row["verdict"] == "diverges"}
+
+    return comparisons
+
+
+@pytest.mark.parametrize("figure", EXACT)
+def test_every_comparison_notices_a_wrong_parameter(figure, diverging, config, inventory):
+    """That none diverges if all are right is what the whole run says."""
+    entries, settings = plan.comparisons(config, figure), _settings(figure, config, inventory)
+    laws = {name for name, entry in entries.items() if entry["metric"] in ("range", "contraction")}
+    # What is awaited is tried with a made-up series in test_awaited_series.py.
+    awaited = {name for name, waits in plan.expected_rows(config, inventory).items() if waits}
+    left = set(entries) - laws - awaited - PRINTED - set(BALANCES) - set(COARSE)
+    for parameter in PARAMETERS:
+        if _wrong(settings, parameter, LARGE) == settings:
+            continue
+        assert diverging([EXACT[figure]], figure, parameter, SMALL), parameter
+        ways = (1,) if parameter == "restitution" else (1, -1)
+        if left:
+            seen = [diverging(left, figure, parameter, way * LARGE) for way in ways]
+            left -= set.intersection(*seen)
+    assert left == set()
+    for name in set(entries) & set(COARSE):
+        parameter, *sizes = COARSE[name]
+        assert all(diverging([name], figure, parameter, size) for size in sizes), name
 
 
 @pytest.mark.parametrize("name", BY_TRIAL)
@@ -90,7 +182,7 @@ def test_a_wrong_solver_trips_the_gate(name, config, inventory, series, tmp_path
     curves = importlib.import_module(f"stronge1994.figures.{figure}.curves").curves
     with pytest.MonkeyPatch.context() as patch:
         module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
-        wrong = _changed(settings, BY_TRIAL[name])
+        wrong = _wrong(settings, *BY_TRIAL[name])
         patch.setattr(module, "curves", lambda **_: curves(**wrong))
         solving.solve(figure, settings, plan.nodes_of(config, inventory, figure), path)
     references = plan.references(config, inventory, figure)
