@@ -3,7 +3,8 @@
 `collide` takes vectors and returns vectors. A `Pair` says what the materials do: friction,
 stiffness, and what takes the energy. `scene` solves tables of impacts by the same functions, which
 also decide which model answers (`rungs`): a formula where it is exact, the table of spheres where
-it covers the impact, or the continuum, solved.
+it covers the impact, or the continuum, solved (`continua`). `mechanics` has the vectors, `pairs`
+what materials do, `single` one impact, `model_form` what the other loss would change.
 
 Bodies touch at one point, and the line of their centres of mass is the normal there. A body whose
 radius of gyration is not the same about every axis must turn about an axis across its plane of

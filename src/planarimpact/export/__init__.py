@@ -1,6 +1,8 @@
 """Responses and collisions of spheres in other languages: a header of C99, or a JavaScript module.
 
 The file needs no other file. Its head says what it computes, in which units, to which error.
+`pair` writes one pair of bodies, `spheres` the table and collisions; `templates` has what is the
+same in every file, and `languages` fills it.
 """
 
 from pathlib import Path
