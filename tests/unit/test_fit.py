@@ -210,7 +210,6 @@ def test_the_lines_say_what_a_wall_would_have_without_values_of_its_own(law, wan
             assert times == pytest.approx(own / sphere, abs=1e-3)
             assert 2 * times / (1 + times) == pytest.approx(math.sqrt(2), abs=1e-3)
     assert float(said[1]) == wanted
-    assert "would have e = 0.616 and 0.601" in (ROOT / "src/README.md").read_text(encoding="utf-8")
 
 
 @functools.cache
@@ -301,7 +300,7 @@ def test_the_command_refuses_a_speed_before_it_fits(capsys, monkeypatch):
     assert said.count("\n") == 1
 
 
-# Most that velocities move where contact begins within a step, as the README has it.
+# Most that velocities move where contact begins within a step, as `fit.fit` says.
 MOVES = {"lammps-hertz-mindlin": 0.003, "lammps-hooke": 0.03, "mercurydpm": 0.03, "yade": 0.05}
 
 

@@ -1,4 +1,4 @@
-"""The figure `rod`: its numbers as README and caption state them, and closed forms it must meet."""
+"""The figure `rod`: numbers of its curves, and closed forms they must meet."""
 
 import numpy as np
 import pytest

@@ -60,7 +60,7 @@ def test_hertzian_laws_converge_with_the_steps(law, e):
 
 
 def test_hertz_contact_without_micro_slip():
-    """Its limits, and the two effects that README and ledger quote: 0.39 and 0.52."""
+    """Its limits, and the two effects that the ledger quotes: 0.39 and 0.52."""
     x = np.linspace(0, 8, 161)
     velocity, peak = timestep.mindlin_rescaled(x, 3.5, 1.21, steps=4096)[:2]
     exact = continuum.rebound(x, 3.5, 1.21, tolerance=1e-5)

@@ -140,7 +140,9 @@ def dundurs(material: Material, other: Material | None = None) -> Array:
 
     Where it is not 0, two surfaces under pressure spread differently. Friction resists that, so
     less friction is left to change the motion of the bodies. All models of this package leave it
-    out. The error depends on its size over the coefficient of friction, see `COUPLING`.
+    out. The error depends on its size over the coefficient of friction. By finite elements at e = 1
+    the velocity moves by 0.01 mu v2(0) where that is 0.23, by 0.03 at 0.42, by less than 0.1 below
+    0.8 (`COUPLING`), and by 0.36 at 2.9.
 
     Parameters
     ----------

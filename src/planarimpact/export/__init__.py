@@ -1,6 +1,8 @@
 """Responses and collisions of spheres in other languages: a header of C99, or a JavaScript module.
 
 The file needs no other file. Its head says what it computes, in which units, to which error.
+`pair` writes one pair of bodies, `spheres` the table and collisions; `templates` has what is the
+same in every file, and `languages` fills it.
 """
 
 from pathlib import Path
@@ -44,7 +46,7 @@ def write(response: Response, path: str | Path, language: str) -> None:
 
     The code computes what the response computes, by the same operations in the same order. Where
     the response refuses an incidence, because it is beyond `incidence_max` or no number, the code
-    returns NaN.
+    returns NaN. A header has 6 kB and 0.45 kB for each polynomial, `len(response.pieces.start)`.
 
     Parameters
     ----------
@@ -112,7 +114,9 @@ def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES
     `planarimpact.spheres.rebound` computes, by the same operations in the same order. Where the
     table has no answer, the regime is UNRESOLVED, and numbers that are not known are NaN; but
     `collide`, `bounce` and `model_form` of JavaScript throw a RangeError for bad arguments, and in
-    C `NAME_problem` says what is wrong.
+    C `NAME_problem` says what is wrong. Both languages give the same bits. With the default
+    tolerance `collide` gives the same velocities to rounding; only within 0.02 % of the incidence
+    from which metal slides throughout they differ, by up to 0.001 mu v2(0).
 
     Parameters
     ----------

@@ -316,6 +316,11 @@ def compile(
         If the model jumps, gives numbers that are not finite, is too rough for the tolerance (a
         model in time steps has a kink for each step), or does not reach it itself.
 
+    Notes
+    -----
+    With the default tolerance a continuum with loss takes 0.7 to 9 s of processor time for a solid
+    sphere with zeta^2 = 1.21 and e from 0.4 to 0.9, and up to 27 s with m2/m1 = 8 and zeta^2 = 0.5.
+
     Examples
     --------
     >>> response = compile("lumped.hysteretic", tolerance=1e-10, restitution=0.5)

@@ -7,6 +7,9 @@ body is the same; if it has no mass, it is a wall of infinite mass, flat unless 
 at rest unless it has a velocity or a spin. States have two dimensions. They
 may have three for bodies whose radius of gyration is the same about every axis: such bodies move in
 their plane of incidence.
+
+`states` makes impacts of columns and back, `solver` solves them, `files` goes from file to file, in
+pieces that `workers` share.
 """
 
 try:
