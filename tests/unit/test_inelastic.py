@@ -16,7 +16,6 @@ from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.curves import solving
 from stronge1994.judging import compare
 from stronge1994.plan import config as configuration
-from stronge1994.reference_data import conversion
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
@@ -200,16 +199,12 @@ def judge(inventory, settings, tmp_path):
     """Verdicts on the pairs, of some models."""
     config = configuration.load(ROOT)
     references = plan.references(config, inventory, "inelastic")
-    paths = {}
-    for source in ("cornell1999", "inelastic_models"):
-        paths[source] = str(tmp_path / f"{source}.csv")
-        conversion.convert(inventory[source], paths[source])
 
     def judged(*titles):
         path = str(tmp_path / "inelastic.csv")
         csv_tables.write(path, inelastic.curves(**settings))
         entries = {title: config["comparisons"][title] for title in titles}
-        rows = compare("inelastic", entries, references, path, paths, config["significance"])
+        rows = compare("inelastic", entries, references, path, config["significance"])
         return {row["comparison"]: row for row in rows[1:]}
 
     return judged

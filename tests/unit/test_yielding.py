@@ -16,7 +16,6 @@ from stronge1994.figures.shared.curves import solving
 from stronge1994.figures.yielding import curves as yielding
 from stronge1994.judging import compare
 from stronge1994.plan import config as configuration
-from stronge1994.reference_data import conversion
 
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "data/finite_elements"
@@ -48,16 +47,14 @@ def verdicts(tmp_path, monkeypatch):
         for title, entry in plan.comparisons(config, "yielding").items()
         if title.startswith((LAW, "yielding-pushed-e"))
     }
-    series, table = (str(tmp_path / name) for name in ("series.csv", "curves.csv"))
-    conversion.convert(inventory["finite_elements"], series)
+    table = str(tmp_path / "curves.csv")
     only = {"continuum.plastic": yielding.MODELS["continuum.plastic"]}
     monkeypatch.setattr(yielding, "MODELS", only)
 
     def judged(factor):
         monkeypatch.setattr(PlasticMotion, "flows", factor * law.FLOW)
         csv_tables.write(table, yielding.curves(**settings | {"samples": 11}))
-        paths = {"finite_elements": series}
-        rows = compare("yielding", entries, references, table, paths, config["significance"])
+        rows = compare("yielding", entries, references, table, config["significance"])
         return {row["comparison"]: row["verdict"] for row in rows[1:]}
 
     return judged

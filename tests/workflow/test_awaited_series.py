@@ -17,7 +17,6 @@ from stronge1994.figures.fig8 import curves as fig8
 from stronge1994.figures.fig8 import drawing as draw_fig8
 from stronge1994.judging import compare
 from stronge1994.plan import config as configuration
-from stronge1994.reference_data import conversion
 
 ROOT = Path(__file__).parents[2]
 CONFIG = configuration.load(ROOT)
@@ -83,13 +82,11 @@ def judged(inventory, curves, tmp_path):
             words = words.replace(old, new)
         (folder / "source.yaml").write_text(words)
         found = inventory | {source: reference_data.load(folder, SCHEMA)}
-        conversion.convert(found[source], tmp_path / "series.csv")
         entry = CONFIG["comparisons"][AWAITED[name]] | change
         references = plan.references(CONFIG, found, figure)
-        tables = {source: tmp_path / "series.csv"}
         path, significance = curves / f"{figure}.csv", CONFIG["significance"]
         rows = {AWAITED[name]: entry}
-        return compare(figure, rows, references, path, tables, significance)[1]
+        return compare(figure, rows, references, path, significance)[1]
 
     return row
 

@@ -16,7 +16,6 @@ from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.curves import solving
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
-from stronge1994.reference_data import conversion
 from tests.workflow.project import ROOT
 
 SCHEMA = configuration.schema()
@@ -139,23 +138,9 @@ OF_ALL = [
 ]
 
 
-@pytest.fixture(scope="module")
-def series(inventory, tmp_path_factory):
-    """Series of a source, converted when it is first asked for."""
-    folder, made = tmp_path_factory.mktemp("series"), {}
-
-    def converted(source):
-        if source not in made:
-            made[source] = str(folder / f"{source}.csv")
-            conversion.convert(inventory[source], made[source])
-        return made[source]
-
-    return converted
-
-
 @pytest.mark.parametrize(("name", "path", "value"), [*OF_ALL, *OWN])
 def test_a_setting_that_is_allowed_is_drawn_and_judged(
-    name, path, value, inventory, series, tmp_path, monkeypatch
+    name, path, value, inventory, tmp_path, monkeypatch
 ):
     monkeypatch.chdir(ROOT)
     whole = reference_data.load_yaml(configuration.FILE)
@@ -166,7 +151,6 @@ def test_a_setting_that_is_allowed_is_drawn_and_judged(
     configuration.check_config(config, inventory, [note.get("entry") for note in noted])
     planned = plan.plan_of_figure(config, inventory, name)
     judged = plan.plan_of_judgement(config, inventory, name)["settings"]
-    paths = {source: series(source) for source in judged["sources"]}
     curves = str(tmp_path / "curves.csv")
     try:
         with warnings.catch_warnings():
@@ -175,13 +159,12 @@ def test_a_setting_that_is_allowed_is_drawn_and_judged(
     except Exception as error:
         assert isinstance(error, ConvergenceError) or "allowed are" in f"{error}", repr(error)
         return
-    given = name, planned["settings"], planned["overlays"], curves, paths
-    drawings.draw(*given, str(tmp_path / "a.svg"), str(tmp_path / "a.png"))
+    slides = {}
     if (figures.FOLDER / name / "slide.py").is_file():
-        drawings.draw_slide(
-            *given, {"light": tmp_path / "light.png", "dark": tmp_path / "dark.png"}
-        )
+        slides = {"light": str(tmp_path / "light.png"), "dark": str(tmp_path / "dark.png")}
+    pictures = str(tmp_path / "a.svg"), str(tmp_path / "a.png")
+    drawings.draw(name, planned["settings"], planned["overlays"], curves, pictures, slides)
     parts = judged["comparisons"], judged["references"]
-    rows = judging.compare(name, *parts, curves, paths, judged["significance"])
+    rows = judging.compare(name, *parts, curves, judged["significance"])
     assert [row["comparison"] for row in rows] == [f"{name}-solved", *judged["comparisons"]]
     assert all(row["reason"] for row in rows)
