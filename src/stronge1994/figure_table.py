@@ -17,8 +17,9 @@ SCENES = "scenes"  # one row for all tables of impacts
 # Curves of models that are not the paper's begin so.
 OTHER_MODELS = ("continuum", "lumped.viscous", "lumped.unloading-stiffness")
 LEDGER = "ledger: "  # a note that begins so names an entry of the ledger
+LEAST_SHARE = 1e-3  # of a sigma: less is shown as 0
 # Widths of the columns in a terminal of 80. Names of the paper's figures are shorter than others.
-PAPER_WIDTHS, OTHER_WIDTHS = (6, 13, 21, 37), (13, 13, 14, 37)
+PAPER_WIDTHS, OTHER_WIDTHS = (6, 11, 23, 37), (13, 11, 16, 37)
 
 
 class Item(NamedTuple):
@@ -122,8 +123,14 @@ def _solved(rows: Sequence[Row]) -> Iterator[Item]:
         # A table with axes of several units has no difference in the unit of the axis.
         sizes = [float(row["max [axis units]"]) for row in right if row["unit"]]
         sigmas = [float(row["max [sigma]"]) for row in right if row["reference"]]
-        size, share = (f"{max(of):.1g}" if of else "" for of in (sizes, sigmas))
-        yield Item(_names(right), "right", points=f"{len(right)}", size=size, sigmas=share)
+        size, share = max(sizes, default=None), max(sigmas, default=None)
+        yield Item(
+            _names(right),
+            "right",
+            points=f"{len(right)}",
+            size="" if size is None else f"{size:.0e}" if size else "0",
+            sigmas="" if share is None else f"{share:.1g}" if share > LEAST_SHARE else "0",
+        )
     if known:
         yield Item(_names(known), "known difference", points=f"{len(known)}")
 
@@ -137,10 +144,9 @@ def _printed(rows: Sequence[Row]) -> Iterator[Item]:
     for entry, group in _grouped(differ, lambda row: row["note"].partition(";")[0]):
         first = group[0]
         stated = f"{first['found']}, not {first['stated']}" if first["found"] else ""
-        size = stated or f"rms {_rms(group, 'axis units')}"
-        unit = "" if stated else first["unit"]
+        size = stated.removesuffix(f" {first['unit']}") or f"rms {_rms(group, 'axis units')}"
         name = entry.removeprefix(LEDGER)
-        yield Item(_names(group), _worst(group), name, size=size, unit=unit)
+        yield Item(_names(group), _worst(group), name, size=size, unit=first["unit"])
 
 
 def _source(source: str, rows: Sequence[Row]) -> Item:
@@ -175,7 +181,7 @@ def text(table: Sequence[FigureRow]) -> str:
             PAPER_WIDTHS,
             ("figure", "solved right", "as printed", "beside others: number of points,"),
         ),
-        _line(PAPER_WIDTHS, ("", "[axis] [sig.]", "", "rms [axis], rms [sigma], verdict")),
+        _line(PAPER_WIDTHS, ("", "axis  sigma", "", "rms [axis], rms [sigma], verdict")),
     ]
     for row in table:
         widths = PAPER_WIDTHS if is_of_paper(row.figure) else OTHER_WIDTHS

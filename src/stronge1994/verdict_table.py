@@ -76,7 +76,11 @@ def counts(rows: Sequence[Row]) -> str:
     numbers = Counter((row["question"], row["verdict"]) for row in rows)
     lines = []
     for question in QUESTIONS:
-        parts = [f"{numbers[question, v]} {v}" for v in ORDER if numbers[question, v]]
+        parts = [
+            f"{numbers[question, verdict]} {verdict.removesuffix(' difference')}"
+            for verdict in ORDER
+            if numbers[question, verdict]
+        ]
         lines += [f"{question}: {', '.join(parts)}"] if parts else []
     return "\n".join(lines)
 

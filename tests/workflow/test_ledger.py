@@ -723,7 +723,7 @@ def test_documented_differences_point_to_the_ledger(first_run):
 
 
 def test_every_run_prints_the_ledger(first_run):
-    assert re.search(r"ledger of the paper: .*; 0 no longer hold", first_run[1].stdout)
+    assert re.search(r"ledger of the paper: .*;\n  0 no longer hold", first_run[1].stdout)
 
 
 def test_ledger_run_is_importable_by_name():

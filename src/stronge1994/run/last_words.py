@@ -26,8 +26,9 @@ STOPPED = [
     "finished work is kept. workflow/README.md, Troubleshooting, has the usual causes.",
 ]
 KNOWN = (
-    "Solved right is our own check only. A run also fails if one of the {} known differences\n"
-    f"changes; {REPORT}#known lists them."
+    "Solved right: our own check only; largest difference in the axis' unit, and in sigmas,\n"
+    "of which 1 is allowed. Beside others: the paper's model. A run also fails if one of the\n"
+    f"{{}} known differences changes: {REPORT}#known has cause, size and bound of each."
 )
 INTERRUPTED = (
     "Interrupted. Nothing needs mending: type the same command again, finished work is kept."
