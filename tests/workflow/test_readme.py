@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from planarimpact import continuum, lumped
-from stronge1994 import csv_tables
+from stronge1994 import csv_tables, figure_table
 from stronge1994.plan import readmes
 
 ROOT = Path(__file__).parents[2]
@@ -57,8 +57,16 @@ def test_commands_run_as_printed(somewhere):
         assert result.returncode == 0 and result.stdout, (line, result.stderr)
 
 
+def test_the_main_readme_has_the_table_of_the_run(first_run):
+    rows = csv_tables.read_rows(first_run[0] / "results/verdicts.csv")
+    table = [row for row in figure_table.of_run(rows) if figure_table.is_of_paper(row.figure)]
+    assert f"```text\n{figure_table.text(table)}\n```" in MAIN
+
+
 def test_the_main_readme_is_short():
-    assert len(MAIN.encode()) <= 10_000
+    """The command stands within its first 120 words."""
+    assert len(MAIN.split("```sh")[0].split()) < 120
+    assert len(MAIN.encode()) <= 7_000
 
 
 @pytest.mark.parametrize("name", [*TEXTS, *PAGES])
