@@ -41,7 +41,6 @@ VALUES = {
     "judged": list(JUDGED),
     "source": COMPARED,
     "scene": list(config["scenes"]),
-    "notebook": NOTEBOOKS,
     "table": ["fine", "coarse"],
 }
 
@@ -52,7 +51,6 @@ wildcard_constraints:
     judged="|".join(JUDGED),
     source="[a-z0-9_]+",
     scene="|".join(config["scenes"]) or "none",
-    notebook="|".join(NOTEBOOKS) or "none",
 
 
 PLANNED = []  # names of jobs
