@@ -62,6 +62,7 @@ def test_sources_are_valid_and_without_outputs(book):
         assert cell.outputs == [] and cell.execution_count is None
         assert cell.source.startswith("# "), "the page takes its first line as a title"
     assert "/home" not in str(book) and "http" not in str(book)
+    assert "stronge1994" not in str([cell.source for cell in code_of(book)]), "not installed"
 
 
 @every_notebook
@@ -233,7 +234,8 @@ def test_a_table_without_rows_fails_the_lecture_that_reads_it_alone(tmp_path):
     with pytest.raises(csv_tables.Failed, match=r"^curves_trade: ValueError: no$"):
         run_notebook.run_all(books[:2], TEMPLATES, made[:2], tables)
     assert made[1]["page"].exists() and not made[0]["page"].exists()
-    with pytest.raises(run_notebook.NotebookError, match=r"^curves_trade: .*; broken\.ipynb, cell 1"):
+    words = r"^curves_trade: .*; broken\.ipynb, cell 1"
+    with pytest.raises(run_notebook.NotebookError, match=words):
         run_notebook.run_all(books, TEMPLATES, made, tables)
 
 
