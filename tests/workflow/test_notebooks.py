@@ -5,6 +5,7 @@ import builtins
 import json
 import math
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -16,6 +17,7 @@ import pytest
 from matplotlib.transforms import Bbox
 
 from planarimpact.lumped import stick_slip
+from stronge1994 import csv_tables
 from stronge1994.explorer import page as explorer
 from stronge1994.pages import lectures as run_notebook
 
@@ -51,8 +53,6 @@ def written(path, *sources):
 def test_the_three_lectures_are_there():
     lectures = {"why_a_superball_comes_back", "where_friction_turns_round", "choosing_a_model"}
     assert lectures <= set(NAMES)
-    captions = (ROOT / "workflow/report/notebooks.rst").read_text()
-    assert all(f'"{name}"' in captions for name in NAMES)
 
 
 @every_notebook
@@ -62,6 +62,7 @@ def test_sources_are_valid_and_without_outputs(book):
         assert cell.outputs == [] and cell.execution_count is None
         assert cell.source.startswith("# "), "the page takes its first line as a title"
     assert "/home" not in str(book) and "http" not in str(book)
+    assert "stronge1994" not in str([cell.source for cell in code_of(book)]), "not installed"
 
 
 @every_notebook
@@ -140,8 +141,8 @@ def curves_of_other_regimes(axes):
 
 
 @every_notebook
-def test_pictures_are_not_drawn_over_their_words_and_regimes(book, monkeypatch):
-    monkeypatch.chdir(ROOT / "workflow/notebooks")
+def test_pictures_are_not_drawn_over_their_words_and_regimes(book, first_run, monkeypatch):
+    monkeypatch.chdir(first_run[0] / "workflow/notebooks")
     matplotlib.use("Agg")
     names, wrong = {}, {}
     with matplotlib.rc_context():
@@ -185,12 +186,12 @@ def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
             assert {f"slides_{name}.html", f"answers_{name}.html", "explorer.html"} <= linked
             assert "Answer to exercise" not in page and "<script" not in page
             assert page.count(f"answers_{name}.html") == 1, "only in the line for the teacher"
-            pictures = re.findall(r'<svg aria-label="([^"]*)"', page)
+            pictures = re.findall(r'<svg role="img" aria-label="([^"]*)"', page)
             assert len(pictures) >= 4 and all(len(words) > 20 for words in pictures)
     assert page.count("Answer to exercise") >= 3
     executed = nbformat.read(project / f"results/notebooks/{name}.ipynb", as_version=4)
     assert all(cell.execution_count for cell in code_of(executed))
-    log = (project / f"results/logs/notebook_{name}.log").read_text()
+    log = (project / "results/logs/lectures.log").read_text()
     assert not re.search("warning|error|traceback", log, flags=re.I), log
 
 
@@ -205,17 +206,51 @@ def test_pictures_have_only_colours_of_the_theme():
 
 
 @pytest.mark.slow
-def test_a_failing_cell_fails_the_job_in_one_line(fresh):
+def test_a_failing_cell_fails_the_job_in_one_line_and_other_lectures_are_written(fresh):
+    for name in NAMES:
+        (fresh / f"workflow/notebooks/{name}.ipynb").unlink()
     failing = "# Twice two\nx = 2\nassert x * x == 5, 'no\\nfive'"
     written(fresh / "workflow/notebooks/broken.ipynb", "x = 1", failing)
+    written(fresh / "workflow/notebooks/sound.ipynb", "# Sound\nprint('as it should')")
     result = fresh.run("figures/broken.html", "results/notebooks/broken.ipynb")
     assert result.returncode != 0
     words = r"NotebookError: broken.ipynb, cell 2: assert x \* x == 5, .*: no five"
-    said = rf"^failed: notebook_broken: {words} \(log: .*\)$"
+    said = rf"^failed: lectures: {words} \(log: .*\)$"
     assert len(re.findall(said, result.stdout, flags=re.M)) == 1, result.stdout
-    assert "Twice two" in (fresh / "results/logs/notebook_broken.log").read_text()
+    assert "Twice two" in (fresh / "results/logs/lectures.log").read_text()
+    assert "as it should" in (fresh / "figures/sound.html").read_text()
     for made in ("figures/broken.html", "results/notebooks/broken.ipynb"):
         assert re.search(words, (fresh / made).read_text())
+
+
+def test_a_table_without_rows_fails_the_lecture_that_reads_it_alone(tmp_path):
+    """Its job has told the fault already. A lecture that fails by itself is told beside it."""
+    table, books = tmp_path / "trade.csv", []
+    csv_tables.write_rows(table, ["error"], [["curves_trade: ValueError: no"]])
+    for name, source in (("reads", "1"), ("sound", "1"), ("broken", "1 / 0")):
+        books.append(written(tmp_path / f"{name}.ipynb", source))
+    made = [{kind: tmp_path / f"{book.stem}.{kind}" for kind in KINDS} for book in books]
+    tables = {"reads": [table]}
+    with pytest.raises(csv_tables.Failed, match=r"^curves_trade: ValueError: no$"):
+        run_notebook.run_all(books[:2], TEMPLATES, made[:2], tables)
+    assert made[1]["page"].exists() and not made[0]["page"].exists()
+    words = r"^curves_trade: .*; broken\.ipynb, cell 1"
+    with pytest.raises(run_notebook.NotebookError, match=words):
+        run_notebook.run_all(books, TEMPLATES, made, tables)
+
+
+def test_a_notebook_of_the_site_finds_its_table(first_run, tmp_path, monkeypatch):
+    """Also where the folder of the site is all there is; without a table it says what makes it."""
+    (tmp_path / "site/notebooks").mkdir(parents=True)
+    for file in (ROOT / "workflow/notebooks").iterdir():
+        shutil.copy(file, tmp_path / "site/notebooks")
+    book = tmp_path / "site/notebooks/choosing_a_model.ipynb"
+    results = {kind: tmp_path / kind for kind in KINDS}
+    with pytest.raises(run_notebook.NotebookError, match=r"trade\.csv is missing: snakemake"):
+        run_notebook.run(book, TEMPLATES, results)
+    shutil.copytree(first_run[0] / "figures/tables", tmp_path / "site/tables")
+    run_notebook.run(book, TEMPLATES, results)
+    assert "looked up: " in results["page"].read_text()
 
 
 @pytest.mark.parametrize(

@@ -43,7 +43,6 @@ VALUES = {
     "figure": list(FIGURES),
     "judged": list(JUDGED),
     "scene": list(config["scenes"]),
-    "notebook": NOTEBOOKS,
     "table": ["fine", "coarse"],
 }
 
@@ -52,7 +51,6 @@ wildcard_constraints:
     figure="|".join(FIGURES),
     judged="|".join(JUDGED),
     scene="|".join(config["scenes"]) or "none",
-    notebook="|".join(NOTEBOOKS) or "none",
 
 
 PLANNED = []  # names of jobs

@@ -1,12 +1,17 @@
 # Three lectures. A notebook that is put into workflow/notebooks/ is run and checked like them.
 
+# Tables of the run that a lecture reads. On the site they are copies in tables/.
+TABLES_OF_LECTURES = {"choosing_a_model": ["results/trade.csv"]}
 
-rule notebook:
-    """Run one notebook: a lecture that checks the numbers that it states."""
+
+rule lectures:
+    """Run every notebook: a lecture that checks the numbers that it states."""
     input:
-        # Rooms that cells may import: the check of imports does not see their process.
-        plan=planned("notebook_{notebook}", "run_notebook", "pages", "printed"),
-        notebook="workflow/notebooks/{notebook}.ipynb",
+        # Cells import the solver alone, so that a notebook runs where only that is installed.
+        plan=planned("lectures", "run_lectures", "pages",
+            settings=lambda _: TABLES_OF_LECTURES),
+        notebooks=expand("workflow/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS),
+        tables=[table for notebook in NOTEBOOKS for table in TABLES_OF_LECTURES.get(notebook, [])],
         style="workflow/notebooks/lecture.mplstyle",
         page="workflow/report/notebook.html",
         slides="workflow/report/slides.html",
@@ -14,21 +19,24 @@ rule notebook:
         drawing="workflow/report/model.svg",
         shared=EVERY_PAGE,
     output:
-        executed="results/notebooks/{notebook}.ipynb",
-        page=report(
-            "figures/{notebook}.html",
-            caption="../report/notebooks.rst",
-            category="Teaching",
-            labels={"lecture": "{notebook}"},
-        ),
-        slides="figures/slides_{notebook}.html",
-        answers="figures/answers_{notebook}.html",
-        record="results/records/notebook_{notebook}.json",
+        executed=expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS),
+        page=[
+            report(
+                f"figures/{notebook}.html",
+                caption="../report/notebooks.rst",
+                category="Teaching",
+                labels={"lecture": notebook},
+            )
+            for notebook in NOTEBOOKS
+        ],
+        slides=expand("figures/slides_{notebook}.html", notebook=NOTEBOOKS),
+        answers=expand("figures/answers_{notebook}.html", notebook=NOTEBOOKS),
+        record="results/records/lectures.json",
     log:
-        "results/logs/notebook_{notebook}.log",
+        "results/logs/lectures.log",
     message:
-        "Running the notebook {wildcards.notebook}"
+        "Running the lectures"
     conda:
         "../envs/planarimpact.yaml"
     script:
-        "../scripts/run_notebook.py"
+        "../scripts/run_lectures.py"

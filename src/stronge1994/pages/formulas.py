@@ -14,6 +14,7 @@ exception is a ratio of one letter, as m2/m1: `e m2/m1` is e times that ratio.
 
 import re
 from contextlib import suppress
+from functools import cache
 from typing import NamedTuple
 
 from markupsafe import Markup, escape
@@ -336,6 +337,7 @@ def _formula(text: str, at: int) -> tuple[list[_Part], int] | None:
     return parts, reader.at
 
 
+@cache
 def _mathematical(text: str) -> str:
     html, done, at = [], 0, 0
     while at < len(text):

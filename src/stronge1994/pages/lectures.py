@@ -1,4 +1,4 @@
-"""Run one notebook and write it with its outputs, as a page, as slides and as a sheet of answers.
+"""Run notebooks and write each with its outputs, as a page, as slides and as a sheet of answers.
 
 The page folds what JupyterLab hides at first: the source of a cell, and what stands below a heading
 that is collapsed. Answers to exercises are not on the page but on the sheet, for the teacher. What
@@ -11,7 +11,7 @@ import sys
 import tempfile
 import zlib
 from collections.abc import Iterable, Mapping
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +20,14 @@ from jupyter_client.kernelspec import KernelSpec
 from jupyter_client.manager import AsyncKernelManager
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
-from nbconvert import HTMLExporter
+from nbconvert import HTMLExporter, TemplateExporter
+from nbconvert.filters import Highlight2HTML
 from traitlets.config import Config
 
+from stronge1994 import csv_tables
+
+# How pictures are written: without a date, and as wide as they are drawn.
+PICTURE = {"metadata": {"Date": None}, "bbox_inches": None}
 # Longest time of a cell, in seconds.
 CELL_TIMEOUT = 120
 SRC = Path(__file__).parents[2]
@@ -55,10 +60,49 @@ class ThisPython(AsyncKernelManager):
     def kernel_spec(self) -> Any:
         """How this Python is started."""
         arguments = ["-m", "ipykernel_launcher", "-f", "{connection_file}"]
-        # SVG pictures are sharp at any size; they are written without a date.
+        # SVG pictures are sharp at any size.
         arguments.append("--InlineBackend.figure_formats={'svg'}")
-        arguments.append("--InlineBackend.print_figure_kwargs={'metadata': {'Date': None}}")
+        arguments.append(f"--InlineBackend.print_figure_kwargs={PICTURE}")
+        # Pictures make many small objects; looking for cycles among them is a sixth of the time.
+        arguments.append("--IPKernelApp.exec_lines=import gc; gc.set_threshold(100_000)")
         return KernelSpec(argv=[sys.executable, *arguments], language="python")
+
+
+class Pages(HTMLExporter):
+    """A page is what its template says.
+
+    `HTMLExporter` reads each page again, to add what JupyterLab's own templates need. That takes
+    longer than all else, and no template here needs it.
+    """
+
+    def from_notebook_node(self, nb: Any, resources: Any = None, **kw: Any) -> tuple[str, Any]:
+        """The page and its resources."""
+        return TemplateExporter.from_notebook_node(self, nb, resources, **kw)
+
+
+def run_all(
+    notebooks: Iterable[str],
+    templates: Mapping[str, str],
+    made: Iterable[Mapping[str, str]],
+    tables: Mapping[str, Iterable[str]],
+) -> None:
+    """Run each notebook as `run` does; the others are written too if one fails.
+
+    `tables` are those that a notebook reads, by its name. At the end a `NotebookError` says which
+    notebooks have failed; or a `csv_tables.Failed` if only jobs before this one have.
+    """
+    failed: list[Exception] = []
+    for notebook, files in zip(notebooks, made, strict=True):
+        try:
+            for table in tables.get(Path(notebook).stem, ()):
+                csv_tables.read_rows(table)
+            run(notebook, templates, files)
+        except (NotebookError, csv_tables.Failed) as error:
+            failed.append(error)
+    if any(isinstance(error, NotebookError) for error in failed):
+        raise NotebookError("; ".join(map(str, failed)))
+    if failed:
+        raise failed[0]
 
 
 def run(notebook: str, templates: Mapping[str, str], made: Mapping[str, str]) -> None:
@@ -71,13 +115,6 @@ def run(notebook: str, templates: Mapping[str, str], made: Mapping[str, str]) ->
     """
     book = nbformat.read(notebook, as_version=4)
     _execute(book, notebook)
-    folder = Path(templates["page"]).parent
-    filters = {
-        "parts": parts,
-        "slides": slides,
-        "prose": partial(prose, folder=folder),
-        "picture": partial(picture, colours=colours(folder / "theme.css")),
-    }
     pages = {
         "page": (templates["page"], without_answers(book.cells)),
         "slides": (templates["slides"], book.cells),
@@ -85,14 +122,25 @@ def run(notebook: str, templates: Mapping[str, str], made: Mapping[str, str]) ->
     }
     texts = {made["executed"]: nbformat.writes(book) + "\n"}
     for kind, (template, cells) in pages.items():
-        exporter = HTMLExporter(
-            template_file=str(template), exclude_anchor_links=True, filters=filters
-        )
         shown = nbformat.from_dict({**book, "cells": cells})
         resources = {"metadata": {"name": Path(made["page"]).stem}, "kind": kind}
-        texts[made[kind]] = exporter.from_notebook_node(shown, resources)[0]
+        texts[made[kind]] = _exporter(Path(template)).from_notebook_node(shown, resources)[0]
     for path, text in texts.items():
         Path(path).write_text(text, encoding="utf-8")
+
+
+@cache
+def _exporter(template: Path) -> Pages:
+    """What makes a page by this template, which is compiled once."""
+    folder = template.parent
+    filters = {
+        "highlight_code": Highlight2HTML(pygments_lexer="python"),
+        "parts": parts,
+        "slides": slides,
+        "prose": partial(prose, folder=folder),
+        "picture": partial(picture, colours=colours(folder / "theme.css")),
+    }
+    return Pages(template_file=str(template), exclude_anchor_links=True, filters=filters)
 
 
 def _execute(book: Any, notebook: str) -> None:

@@ -144,9 +144,12 @@ def save(figure: Figure, svg: File, png: File | None = None) -> None:
     """Write both files of a figure. The same figure gives the same bytes."""
     # Matplotlib solves the layout in an order that changes from run to run, which changes the last
     # bits. So the places are rounded.
-    figure.draw_without_rendering()
+    if layout := figure.get_layout_engine():
+        layout.execute(figure)
     figure.set_layout_engine("none")
     for axes in figure.axes:
+        locator = axes.get_axes_locator()  # of a bar of colours
+        axes.apply_aspect(locator(axes, None) if locator else None)
         axes.set_position(np.round(axes.get_position().bounds, 6))
     # `Figure.savefig` would draw once more to solve the layout again.
     FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
