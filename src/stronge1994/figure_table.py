@@ -83,14 +83,14 @@ def _figure_row(name: str, rows: Sequence[Row]) -> FigureRow:
         for row in others
         if row["verdict"] in FAILS or not row["curve"].startswith(OTHER_MODELS)
     ]
-    by_source = _grouped(shown, lambda row: row["reference"].partition("/")[0])
-    items = [_source(source, group) for source, group in by_source]
+    awaited = [row for row in shown if row["verdict"] == "awaited"]
+    present = [row for row in shown if row not in awaited]
     return FigureRow(
         name,
         list(_solved(solved)),
         list(_printed(printed)),
-        [item for item in items if item.verdict != "awaited"],
-        [item for item in items if item.verdict == "awaited"],
+        [_source(source, group) for source, group in _grouped(present, _source_of)],
+        [_source(source, group) for source, group in _grouped(awaited, _source_of)],
     )
 
 
@@ -99,6 +99,10 @@ def _grouped(rows: Iterable[Row], key: Callable[[Row], str]) -> list[tuple[str, 
     for row in rows:
         groups.setdefault(key(row), []).append(row)
     return list(groups.items())
+
+
+def _source_of(row: Row) -> str:
+    return row["reference"].partition("/")[0]
 
 
 def _names(rows: Iterable[Row]) -> list[str]:

@@ -1,4 +1,5 @@
 # Check config and data before any work, and plan every job.
+from stronge1994.figure_table import is_of_paper
 from stronge1994.ledger import entries
 
 LEDGER = "data/stronge1994/ledger.yaml"
@@ -33,9 +34,12 @@ CAPTIONS = {figure: stated["caption"] for figure, stated in figures.stated().ite
 
 
 def priority(wildcards):
-    """The paper's figures go before all others, Fig. 3 first, then the one that takes longest."""
+    """The paper's figures go before all others, Fig. 3 first, then the one that takes longest.
+
+    A lecture waits for `trade`, so it is next.
+    """
     name = wildcards.get("figure") or wildcards.get("judged")
-    return {"fig3": 3, "fig5": 2}.get(name, int(name.startswith("fig")))
+    return {"fig3": 4, "fig5": 3, "trade": 1}.get(name, 2 * is_of_paper(name))
 
 
 # Every value that a wildcard has in a run.
