@@ -44,7 +44,7 @@ def summary(rows: Sequence[Row]) -> str:
     bad, graded = failing(rows), sentence_of_grades(rows)
     counted = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
     lines = [f"ledger of the paper: {counted};", f"  {len(bad)} no longer hold"]
-    lines[1] += f"; of the wrong {graded}" if graded else ""
+    lines += [f"  of the wrong {graded}"] if graded else []
     for row in bad:
         lines.append(f"  no longer holds: {row['entry']} ({row['where']}): {row['problem']}")
     return "\n".join(lines)
