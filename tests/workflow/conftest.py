@@ -10,6 +10,7 @@ import pytest
 from stronge1994 import plan, reference_data
 from stronge1994.explorer import answers as explorer_answers
 from stronge1994.explorer import page as write_explorer
+from stronge1994.pages import interface as write_interface
 from stronge1994.plan import config as configuration
 from tests.workflow import browser
 from tests.workflow.project import LEFT, PARTS, ROOT, TIMEOUT, Project, copy_of
@@ -59,6 +60,14 @@ def first_run(tmp_path_factory):
 def finished(first_run, tmp_path):
     """A copy of the project after a full run, free to change."""
     return copy_of(first_run[0].folder, tmp_path, PARTS + LEFT)
+
+
+@pytest.fixture(scope="session")
+def interface(tmp_path_factory):
+    """Pages of the interface, as the target `site` makes them."""
+    folder = tmp_path_factory.mktemp("site") / "interface"
+    write_interface.write(str(folder), ROOT / "workflow/report/interface")
+    return folder
 
 
 @pytest.fixture(scope="session")

@@ -58,7 +58,7 @@ def ended() -> list[str]:
 
 
 def _place(entry: str) -> str:
-    """Add to the list of jobs, and give the place: `7 of 60`; empty if no run has begun the list."""
+    """Add to the list of jobs, and give the place, `7 of 60`; empty if no run began the list."""
     if not Path(JOBS).exists():
         return ""
     with open(JOBS, "a+", encoding="utf-8") as file:
