@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import sys
 import time
 
 import pytest
@@ -10,7 +11,6 @@ import pytest
 from stronge1994 import plan, reference_data
 from stronge1994.explorer import answers as explorer_answers
 from stronge1994.explorer import page as write_explorer
-from stronge1994.pages import interface as write_interface
 from stronge1994.plan import config as configuration
 from tests.workflow import browser
 from tests.workflow.project import LEFT, PARTS, ROOT, TIMEOUT, Project, copy_of
@@ -66,7 +66,10 @@ def finished(first_run, tmp_path):
 def interface(tmp_path_factory):
     """Pages of the interface, as the target `site` makes them."""
     folder = tmp_path_factory.mktemp("site") / "interface"
-    write_interface.write(str(folder), ROOT / "workflow/report/interface")
+    # In a process of its own: pdoc looks at what of the packages has been imported.
+    write = "import sys; from stronge1994.pages import interface; interface.write(*sys.argv[1:])"
+    command = [sys.executable, "-c", write, str(folder), str(ROOT / "workflow/report/interface")]
+    subprocess.run(command, check=True, env=os.environ | {"PYTHONPATH": str(ROOT / "src")})
     return folder
 
 
