@@ -41,6 +41,7 @@ REPRODUCTION = {
     "one_thread": "",
     "csv_tables": "",
     "verdict_table": "csv_tables",
+    "figure_table": "csv_tables verdict_table",
     "curve_names": "",
     "goodness": "ground",
     "reference_data": "csv_tables",
@@ -53,10 +54,10 @@ REPRODUCTION = {
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
     "judging": "ground csv_tables curve_names goodness reference_data verdict_table",
-    "run": "csv_tables verdict_table ledger matplotlib",
+    "run": "csv_tables verdict_table figure_table ledger matplotlib",
     "plan": "reference_data",
-    "pages": "ground bodies export csv_tables figures goodness judging ledger plan run"
-    " verdict_table jinja2",
+    "pages": "ground bodies export csv_tables reference_data figures goodness judging ledger plan"
+    " run verdict_table figure_table jinja2",
 }
 # The figures have one folder each, and in it files that solve and files that draw.
 DRAWING = ("drawing", "draw_", "slide")

@@ -110,7 +110,9 @@ def _names(rows: Iterable[Row]) -> list[str]:
 
 
 def _worst(rows: Iterable[Row]) -> str:
-    return min((row["verdict"] for row in rows), key=ORDER.index)
+    """The worst verdict; one that cannot be is worse than all."""
+    rank = {verdict: place for place, verdict in enumerate(ORDER)}
+    return min((row["verdict"] for row in rows), key=lambda verdict: rank.get(verdict, -1))
 
 
 def _solved(rows: Sequence[Row]) -> Iterator[Item]:
@@ -145,12 +147,22 @@ def _printed(rows: Sequence[Row]) -> Iterator[Item]:
     if agree:
         yield Item(_names(agree), "agrees", points=f"{len(agree)}")
     differ = [row for row in rows if row not in agree]
-    for entry, group in _grouped(differ, lambda row: row["note"].partition(";")[0]):
+    for name, group in _grouped(differ, _cause):
         first = group[0]
-        stated = f"{first['found']}, not {first['stated']}" if first["found"] else ""
-        size = stated.removesuffix(f" {first['unit']}") or f"rms {_rms(group, 'axis units')}"
-        name = entry.removeprefix(LEDGER)
+        size = ""  # of a figure that could not be solved
+        if first["found"]:
+            size = f"{first['found']}, not {first['stated']}".removesuffix(f" {first['unit']}")
+        elif all(row["points"] for row in group):
+            size = f"rms {_rms(group, 'axis units')}"
         yield Item(_names(group), _worst(group), name, size=size, unit=first["unit"])
+
+
+def _cause(row: Row) -> str:
+    """Entry of the ledger or note of a known difference; of a row that fails without, its name."""
+    note = row["note"].partition(";")[0]
+    if row["verdict"] in FAILS and not note.startswith(LEDGER):
+        return row["comparison"].removeprefix(f"{row['figure']}-")
+    return note.removeprefix(LEDGER)
 
 
 def _source(source: str, rows: Sequence[Row]) -> Item:
@@ -222,7 +234,7 @@ def _printed_words(item: Item) -> str:
     if item.verdict == "agrees":
         return f"{item.points} agree" + ("s" if item.points == "1" else "")
     mark = "DIVERGES " if item.verdict in FAILS else ""
-    return f"{mark}{item.name}: {item.size}"
+    return f"{mark}{item.name}" + (f": {item.size}" if item.size else "")
 
 
 def _source_words(item: Item) -> str:

@@ -146,7 +146,7 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, sigma_values
         assert verdict_at(sigmas) == (noticed if sigmas < high else Verdict.DIVERGES)
     fact = {"kind": "computed"}
     residuals = Residuals(np.zeros(number), np.zeros(number), np.zeros(number))
-    assert judge({}, fact, Measured("x", residuals, ["y"] * number), 0.01) == Verdict.AGREES
+    assert judge({}, fact, Measured("x", residuals, ["y"] * number), 0.01) == Verdict.RIGHT
 
 
 @pytest.mark.parametrize("values", [[3e-16, 0.0], [0.024, 1e-9], [1.95, 2.0], [-0.5, 16.0]])
@@ -157,7 +157,7 @@ def test_a_range_that_is_too_wide_is_refused(values):
 
     def measured(high, low=least):
         entry = {"metric": "range", "columns": ["y [1]"], "range": [low, high]}
-        return measure(entry, None, curves, {})
+        return measure(entry, None, curves)
 
     assert measured(largest).residuals.summary().max <= 1.0
     assert measured(99 * largest).residuals.summary().max <= 1.0

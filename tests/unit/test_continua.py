@@ -79,7 +79,7 @@ def test_a_contraction_is_of_the_curves_that_it_names():
     }
     entry = {"metric": "contraction", "columns": ["x", "w"]}
     for beginning, worst in (("e = ", 0.0), ("continuum", 0.5), ("", 0.5)):
-        found = measure(entry | {"beginning": beginning}, None, curves, {})
+        found = measure(entry | {"beginning": beginning}, None, curves)
         assert np.max(found.residuals.sigmas) == worst
     with pytest.raises(ValueError, match="no curve has the columns"):
-        measure(entry | {"beginning": "lumped"}, None, curves, {})
+        measure(entry | {"beginning": "lumped"}, None, curves)

@@ -41,6 +41,7 @@ def told(tmp_path, monkeypatch):
 
 
 def test_a_job_leaves_what_it_read_and_wrote(told, tmp_path, capsys):
+    record.begin(12)
     with record.recorded(told) as settings:
         assert settings == {"factor": 2} and not (tmp_path / "results/PASSED").exists()
         print("to the log")
@@ -49,15 +50,17 @@ def test_a_job_leaves_what_it_read_and_wrote(told, tmp_path, capsys):
     assert set(kept["wrote"]) == {"made.csv"}
     assert record.faults(["made.csv", JOB]) == []
     assert (tmp_path / "results/logs/job.log").read_text() == "to the log\n"
-    assert re.match(r"job: \d+\.\d s", capsys.readouterr().out)
+    assert re.match(r" 1 of 12  job  \d+\.\d s\n$", capsys.readouterr().out)
+    assert record.ended() == ["job"]
 
 
 @pytest.mark.parametrize("path", ["src/law.py", "input.csv", "results/plans/job.json"])
 def test_an_edit_while_the_job_runs_fails_it(told, tmp_path, path, capsys):
+    record.begin(1)
     with pytest.raises(SystemExit), record.recorded(told):
         (tmp_path / path).write_text("{} ")
     assert f"{path} was edited after the run began" in capsys.readouterr().err
-    assert not (tmp_path / JOB).exists()
+    assert not (tmp_path / JOB).exists() and record.ended() == ["stopped job"]
 
 
 def test_an_edit_before_the_job_runs_fails_it(told, tmp_path, capsys):

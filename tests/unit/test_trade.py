@@ -109,7 +109,7 @@ def test_laws_of_impulses_have_no_peak_friction_and_others_do(named):
 def test_a_velocity_that_is_no_number_shows():
     exact = models.rebound("lumped", [1.0, 2.0])
     found = trade.errors(exact._replace(velocity=exact.velocity * float("nan")), exact)
-    assert found[MAX] != found[MAX]  # NaN: the verdict `trade-solved` then diverges
+    assert found[MAX] != found[MAX]  # NaN: the verdict `trade-solved` is then wrong
 
 
 def test_times_are_there_within_the_budget(named, monkeypatch):

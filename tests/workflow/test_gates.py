@@ -112,7 +112,6 @@ def diverging(first_run, config, inventory, monkeypatch):
 
     Curves as printed, and those off by one sigma, stay as the run made them.
     """
-    monkeypatch.setattr(csv_tables, "read", READ)
 
     def comparisons(asked, figure, parameter, size):
         wrong = _wrong(_settings(figure, config, inventory), parameter, size)

@@ -26,6 +26,11 @@ def numbers(first_run):
     return key_numbers.by_name(csv_tables.read_rows(table))
 
 
+@pytest.fixture(scope="module")
+def verdicts(first_run):
+    return csv_tables.read_rows(first_run[0] / "results/verdicts.csv")
+
+
 @pytest.fixture
 def pictures(first_run):
     return {name: str(first_run[0] / f"figures/{name}.png") for name in SHOWN}
@@ -41,20 +46,17 @@ def test_it_needs_no_other_file_and_its_links_lead_somewhere(made):
         assert other.is_file() and (not anchor or f'id="{anchor}"' in other.read_text())
 
 
-def test_its_chi_squared_is_that_of_the_verdicts(first_run, numbers):
-    rows = {
-        row["comparison"]: row
-        for row in csv_tables.read_rows(first_run[0] / "results/verdicts.csv")
-    }
+def test_its_chi_squared_is_that_of_the_verdicts(verdicts, numbers):
+    rows = {row["comparison"]: row for row in verdicts}
     for model in note.MODELS:
         row = rows[f"inelastic-{model}-pairs"]
         assert f"{numbers[f'pairs.{model}.chi2']:.3g}" == row["chi^2"]
         assert f"{numbers[f'pairs.{model}.p']:.2g}" == f"{float(row['p']):.2g}"
 
 
-def test_other_numbers_become_other_words(numbers):
+def test_other_numbers_become_other_words(numbers, verdicts):
     def words(numbers):
-        page = note.page(numbers, dict.fromkeys(SHOWN, b"<svg/>"), TEMPLATE)
+        page = note.page(numbers, verdicts, dict.fromkeys(SHOWN, b"<svg/>"), TEMPLATE)
         return set(re.findall(r"\d+\.\d+", page.partition("<article>")[2]))
 
     spelt = ("failed", "spreads", "published.agrees")

@@ -181,7 +181,7 @@ def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
         assert "$" not in re.sub(r"<(pre|svg|script).*?</\1>", "", page, flags=re.S)
         assert not re.search(r'src="(?!explorer\.html\?stage(=micro)?#)|url\((?!#)|@import', page)
         linked = {file.split("#")[0] for file in re.findall(r'href="([^#"][^"]*)"', page)}
-        assert all(re.fullmatch(r"(interface/)?[a-z0-9_]+\.html", file) for file in linked)
+        assert all(re.fullmatch(r"[a-z0-9_]+\.html", file) for file in linked)
         if not kind:
             assert {f"slides_{name}.html", f"answers_{name}.html", "explorer.html"} <= linked
             assert "Answer to exercise" not in page and "<script" not in page

@@ -7,12 +7,13 @@ from snakemake.exceptions import LockException, WorkflowError, print_exception
 from snakemake.logging import logger
 
 from stronge1994 import csv_tables, verdict_table
-from stronge1994.run import gate, last_words, plans
+from stronge1994.run import gate, last_words, plans, record
 
 VERDICT = {
     **dict.fromkeys(verdict_table.COLUMNS, ""),
-    "figure": "fig6", "comparison": "fig6-rebound", "verdict": "agrees", "reference": "a/b",
-    "points": 5, "rms [sigma]": 0.1, "max [sigma]": 0.2, "allowed": "max <= 1",
+    "figure": "fig6", "comparison": "fig6-rebound", "question": "beside others",
+    "verdict": "agrees", "reference": "a/b", "points": 5, "rms [sigma]": 0.1, "max [sigma]": 0.2,
+    "rms [axis units]": 0.01, "max [axis units]": 0.02, "unit": "1", "allowed": "max <= 1",
 }  # fmt: skip
 ENTRY = {
     "verdict": "wrong", "holds": "yes", "entry": "eq-25", "where": "Eq. 25", "problem": "0.1 > 0",
@@ -55,7 +56,8 @@ def ended(folder, log=None, passed=False, verdict="agrees", holds="yes"):
 def test_a_passed_run_says_where_to_look_and_what_next(folder):
     ended(folder, "\n", passed=True)
     words = last_words.text()
-    assert "1 agrees" in words and "PASSED." in words
+    assert "beside others: 1 agrees" in words and "a 5 0.01 0.1 agrees" in words
+    assert "PASSED." in words
     for path in ("figures/report.html", "figures/explorer.html", "workflow/config.yaml"):
         assert path in words
 
@@ -70,6 +72,14 @@ def test_a_failed_run_names_its_rows_last_and_repeats_the_config(folder):
     assert last[0] == f"FAILED. Reasons: {len(faults)}"
     assert last[1:-1] == [f"  {fault}" for fault in faults[: last_words.MOST_FAULTS]]
     assert last[-1] == f"  and 2 more: {plans.GATE_LOG}"
+
+
+def test_an_edited_table_of_verdicts_hides_no_fault(folder):
+    fault = f"{gate.TABLES[0]}: not as its job left it"
+    ended(folder, fault)
+    row = VERDICT | {"rms [sigma]": "many"}
+    csv_tables.write_rows(folder / gate.TABLES[0], list(row), [list(row.values())])
+    assert last_words.text(stopped=True).endswith(f"FAILED. Reasons: 1\n  {fault}\n")
 
 
 @pytest.mark.parametrize("log", [None, "", "\n"])
@@ -88,24 +98,27 @@ def test_tables_without_the_gate_are_no_verdict(folder):
 
 
 def test_a_run_of_some_files_names_the_verdicts_that_it_made(folder):
-    jobs = ["Job 3: Comparing fig5 with references", "Job 4: Comparing fig6 with references"]
-    (folder / "snakemake.log").write_text("\n".join(jobs))
+    (folder / record.JOBS).write_text("3\ndraw_fig6\njudge_fig6\nstopped judge_fig5\n")
     (folder / "results/verdicts").mkdir()
-    (folder / "results/verdicts/fig6.csv").touch()  # the other job was stopped
-    said = last_words.text(logs=["snakemake.log"])
+    for figure in ("fig5", "fig6"):
+        (folder / f"results/verdicts/{figure}.csv").touch()
+    said = last_words.text()
     judge = "snakemake --cores 2 fig6"
-    assert f"\nresults/verdicts/fig6.csv: 0 diverge. To judge it:  {judge}\n" in said
+    assert f"\nresults/verdicts/fig6.csv: 0 fail. To judge it:  {judge}\n" in said
+    assert "fig5" not in said
 
 
 @pytest.mark.parametrize(
     ("said", "words"),
     [
-        ("Error in rule draw:\n  x\nError in rule draw:\nError in rule scene:", "draw, scene."),
-        (f"{last_words.ON_REQUEST[0]}, this might\nError in rule draw:", "Nothing needs mending"),
+        ("Error in rule draw:", "A job stopped: draw_fig2, scene_golf."),
+        (f"{last_words.ON_REQUEST[0]}, this might", "Nothing needs mending"),
     ],
 )
 def test_a_stopped_run_says_why_and_no_older_table(folder, said, words):
     (folder / "snakemake.log").write_text(said)
+    jobs = "4\nstopped draw_fig2\ndraw_fig3\nstopped scene_golf\n"
+    (folder / record.JOBS).write_text(jobs)
     found = last_words.text(stopped=True, logs=["snakemake.log"])
     assert words in found and "No verdict in this run" in found and "finished work" in found
     assert "agrees" not in found and "PASSED" not in found

@@ -1,0 +1,91 @@
+"""The table with a row for each figure: what stands in its cells."""
+
+import pytest
+
+from stronge1994 import figure_table, verdict_table
+from stronge1994.verdict_table import QUESTIONS
+
+SOLVED, PRINTED, OTHERS = QUESTIONS
+SIZES = {
+    "points": "4", "rms [sigma]": "2", "max [sigma]": "3", "rms [axis units]": "0.02",
+    "max [axis units]": "0.03", "unit": "mu v2(0)",
+}  # fmt: skip
+# What a run says of a figure whose curves could not be made.
+CRASHED = dict.fromkeys(SIZES, "") | {"note": "no curves: ArithmeticError: oh"}
+
+
+def row(question, verdict, figure="fig6", **cells):
+    cells = {"figure": figure, "question": question, "verdict": verdict} | SIZES | cells
+    cells = {"comparison": f"{figure}-rebound", "reference": "maw1976/rebound"} | cells
+    return dict.fromkeys(verdict_table.COLUMNS, "") | cells
+
+
+def cells(*rows):
+    """The cells of the only figure: solved right, as printed, beside others, awaited."""
+    ((_, *found),) = figure_table.of_run(rows)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("question", "verdict"), [(SOLVED, "wrong"), (PRINTED, "diverges"), (OTHERS, "diverges")]
+)
+@pytest.mark.parametrize("how", [{}, CRASHED], ids=["solved", "crashed"])
+def test_a_failing_row_shows_in_its_cell(question, verdict, how):
+    good = "right" if question == SOLVED else "agrees"
+    bad = row(question, verdict, comparison="fig6-bad", **how)
+    found = dict(zip(QUESTIONS, cells(row(question, good), bad), strict=False))
+    item = found.pop(question)[-1]
+    assert item.verdict == verdict and "fig6-bad" in item.rows
+    assert not any(found.values())
+    words = figure_table.text(figure_table.of_run([row(question, good), bad]))
+    assert verdict.upper() in words
+
+
+def test_other_models_do_not_stand_beside_others_unless_they_fail():
+    paper = row(OTHERS, "explained difference", curve="lumped, e = 0.5", comparison="fig6-paper")
+    curves = [f"{model}, e = 0.5" for model in figure_table.OTHER_MODELS]
+    other = [
+        row(OTHERS, "agrees", curve=curve, comparison=f"fig6-{place}")
+        for place, curve in enumerate(curves)
+    ]
+    (item,) = cells(paper, *other)[2]
+    assert item.rows == ["fig6-paper"] and item.verdict == "explained difference"
+    assert cells(*other)[2] == []
+    fails = other[0] | {"verdict": "diverges"}
+    (item,) = cells(paper, fails, *other[1:])[2]
+    assert item.rows == ["fig6-paper", "fig6-0"] and item.verdict == "diverges"
+
+
+def test_a_cell_says_the_largest_difference_and_the_distance_of_all_points():
+    two = row(SOLVED, "right") | {"max [axis units]": "0.5", "max [sigma]": "0.1"}
+    (item,) = cells(row(SOLVED, "right"), two)[0]
+    assert (item.points, item.size, item.sigmas) == ("2", "5e-01", "3")
+    far = row(OTHERS, "untested difference") | {"points": "12", "rms [axis units]": "0.04"}
+    (item,) = cells(row(OTHERS, "agrees"), far)[2]
+    rms = ((4 * 0.02**2 + 12 * 0.04**2) / 16) ** 0.5
+    assert (item.points, item.size, item.unit) == ("16", f"{rms:.2g}", "mu v2(0)")
+    assert (item.sigmas, item.verdict) == ("2", "untested difference")
+
+
+def test_figures_of_the_paper_come_first_and_scenes_are_one_row():
+    names = ["scene_a", "yielding", "fig10", "fig9", "scene_b", "fig2"]
+    table = figure_table.of_run([row(SOLVED, "right", figure=name) for name in names])
+    assert [found.figure for found in table] == ["fig2", "fig9", "fig10", "yielding", "scenes"]
+    assert table[-1].solved[0].rows == ["scene_a-rebound", "scene_b-rebound"]
+
+
+def test_the_text_is_at_most_80_columns_wide():
+    long = "a_source_with_a_name_that_is_longer_than_its_column/rebound"
+    note = "ledger: an-entry-with-a-name-that-is-longer-than-its-column"
+    rows = [
+        row(question, verdict, figure=figure, reference=long, note=note)
+        for figure in ("fig6", "rubber_sphere")
+        for question, verdict in (
+            (SOLVED, "explained difference"),
+            (PRINTED, "unexplained difference"),
+            (OTHERS, "diverges"),
+            (OTHERS, "awaited"),
+        )
+    ]
+    lines = figure_table.text(figure_table.of_run(rows)).splitlines()
+    assert max(map(len, lines)) <= 80 and len(lines) > 4
