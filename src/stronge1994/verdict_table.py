@@ -12,8 +12,8 @@ from stronge1994.csv_tables import Row
 COLUMNS = [
     "figure", "comparison", "question", "verdict", "reference", "points", "chi^2",
     "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
-    "rms [axis units]", "max [axis units]", "unit", "curve", "found", "stated", "allowed", "regression",
-    "note", "reason",
+    "rms [axis units]", "max [axis units]", "unit", "curve", "found", "stated", "allowed",
+    "regression", "note", "reason",
 ]  # fmt: skip
 # The questions that a comparison answers: is the curve that of our model, do the model and the
 # paper say the same, and what do measurements and others say?
