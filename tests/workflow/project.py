@@ -49,7 +49,7 @@ class Project:
 
     def planned(self, *arguments):
         """Jobs that a run would do: `{message: reason}`, and how often each rule runs."""
-        result = self.run("--dry-run", *arguments)
+        result = self.run("--dry-run", "--quiet", "host", *arguments)
         assert result.returncode == 0, result.stdout
         words = result.stdout
         jobs = dict(re.findall(r"^Job \d+: (.*)\nReason: (.*)$", words, flags=re.M))

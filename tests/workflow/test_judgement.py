@@ -146,7 +146,7 @@ TABLES = ("verdicts", "ledger", "trade", "which_model", "stability")
 
 
 @pytest.fixture
-def report(first_run, expected, tmp_path, monkeypatch):
+def report(first_run, expected, inventory, tmp_path, monkeypatch):
     """Write the report of a finished run from a copy of its tables; page and problems."""
     for folder in ("results", "figures"):
         shutil.copytree(first_run[0] / folder, tmp_path / folder)
@@ -184,7 +184,7 @@ def report(first_run, expected, tmp_path, monkeypatch):
             config,
             expected,
             [],
-            sources={},
+            sources={"cornell1999": inventory["cornell1999"]},
             run={
                 "versions": ({}, dict),
                 "system": ("", str),

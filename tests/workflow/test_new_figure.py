@@ -20,7 +20,7 @@ def test_a_figure_of_the_readme_is_drawn_judged_and_reported(finished):
     result = finished.run()
     assert result.returncode == 0 and (finished / "results/PASSED").exists(), result.stdout
     verdicts = csv_tables.read_rows(finished / "results/verdicts.csv")
-    assert {r["verdict"] for r in verdicts if r["comparison"] == "fig10-line"} == {"agrees"}
+    assert {r["verdict"] for r in verdicts if r["comparison"] == "fig10-line"} == {"right"}
     assert (finished / "figures/fig10.svg").stat().st_size > 1000
     report = (finished / "figures/report.html").read_text(encoding="utf-8")
     assert "Friction takes the same from every impact" in report and 'id="fig10"' in report

@@ -3,7 +3,7 @@ rule draw:
     input:
         plan=planned("draw_{figure}", "draw", "figures/shared/drawing", "figures/{figure}",
             "reference_data",
-            settings=of_drawing),
+            settings=of_drawing, reads=lambda figure: FIGURES[figure]["series"]),
         curves="results/curves/{figure}.csv",
         series=of_figure("series"),
     output:

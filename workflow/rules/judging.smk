@@ -2,7 +2,8 @@ rule judge:
     """Compare a figure's curves or a scene with reference data."""
     input:
         plan=planned("judge_{judged}", "judge", "judging", "reference_data",
-            settings=lambda name: JUDGED[name]["settings"]),
+            settings=lambda name: JUDGED[name]["settings"],
+            reads=lambda name: JUDGED[name]["series"]),
         table=of_figure("table", JUDGED, "judged"),
         series=of_figure("series", JUDGED, "judged"),
     output:

@@ -7,6 +7,7 @@ MEASURED = {
     "pairs": SOURCES["cornell1999"]["series"]["pairs"],
     "runs": SOURCES["finite_elements"]["series"]["spheres"],
 }
+MEASURED_FILES = [series["path"] for series in MEASURED.values()]
 
 
 rule key_numbers:
@@ -14,14 +15,14 @@ rule key_numbers:
     input:
         plan=planned("key_numbers", "find_key_numbers", "pages", "figures/inelastic/drawing.py",
             "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
-            "judging", settings=lambda _: MEASURED),
+            "judging", settings=lambda _: MEASURED, reads=lambda _: MEASURED_FILES),
         tables=[
             "results/verdicts.csv",
             "results/ledger.csv",
             "results/in_nature.csv",
             "results/trade.csv",
             *expand("results/curves/{figure}.csv", figure=["fig5", "fig8", "inelastic", "yielding", "rubber_sphere", "rod"]),
-            *[series["path"] for series in MEASURED.values()],
+            *MEASURED_FILES,
         ],
     output:
         table="results/key_numbers.csv",

@@ -96,7 +96,8 @@ rule report:
     input:
         plan=planned("report", "write_report", "pages", "figures/inelastic/drawing.py",
             "figures/shared/drawing", "judging", "ledger", "printed", "plan",
-            "reference_data", "run", settings=lambda _: REPORT_SETTINGS),
+            "reference_data", "run", settings=lambda _: REPORT_SETTINGS,
+            reads=lambda _: [MEASURED["pairs"]["path"]]),
         template="workflow/report/report.html",
         parts=REPORT_PARTS,
         shared=EVERY_PAGE,

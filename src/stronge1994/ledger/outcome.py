@@ -1,5 +1,6 @@
 """The table of the ledger's results: its columns and its summary."""
 
+import textwrap
 from collections import Counter
 from collections.abc import Sequence
 
@@ -43,8 +44,9 @@ def summary(rows: Sequence[Row]) -> str:
     counts = Counter(row["verdict"] for row in rows)
     bad, graded = failing(rows), sentence_of_grades(rows)
     counted = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
-    lines = [f"ledger of the paper: {counted};", f"  {len(bad)} no longer hold"]
-    lines += [f"  of the wrong {graded}"] if graded else []
+    said = f"{len(bad)} no longer hold" + (f"; of the wrong {graded}" if graded else "")
+    lines = [f"ledger of the paper: {counted};"]
+    lines += textwrap.wrap(said, 80, initial_indent="  ", subsequent_indent="  ")
     for row in bad:
         lines.append(f"  no longer holds: {row['entry']} ({row['where']}): {row['problem']}")
     return "\n".join(lines)
