@@ -63,7 +63,7 @@ def typed(fresh, tmp_path_factory):
 
 
 @pytest.mark.slow
-def test_a_stranger_adds_a_model_and_a_series_and_sees_them_judged(typed, monkeypatch):
+def test_a_stranger_adds_a_model_and_a_series_and_sees_them_judged(typed):
     project, pairs = typed
     assert len(pairs) == 2
     for said, printed in pairs:
@@ -76,9 +76,9 @@ def test_a_stranger_adds_a_model_and_a_series_and_sees_them_judged(typed, monkey
     assert "    each: {model: *models}\n" in text
     (folder / "figure.yaml").write_text(text.replace("    each: {model: *models}\n", known))
     ((name, entry),) = reference_data.load_yaml(folder / "figure.yaml")["comparisons"].items()
-    source = reference_data.load_yaml(project / "data/marble/source.yaml")
+    schema = reference_data.load_yaml(project / "workflow/schemas/source.schema.yaml")
+    source = reference_data.load(project / "data/marble", schema)
     references = {"marble/rebound": source["series"]["rebound"]}
     table = project / "results/curves/marble.csv"
-    monkeypatch.chdir(project.folder)
     rows = judging.compare("marble", dict(expanded(name, entry)), references, table, 0.01)
     assert [row["verdict"] for row in rows[1:]] == ["agrees", "explained difference"]

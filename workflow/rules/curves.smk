@@ -3,7 +3,8 @@ rule curves:
     input:
         plan=planned("curves_{figure}", "solve", "figures/shared/curves", "figures/{figure}/curves.py",
             "printed",
-            settings=lambda figure: {key: FIGURES[figure][key] for key in ("settings", "nodes")}),
+            settings=lambda figure: {key: FIGURES[figure][key] for key in ("settings", "nodes")},
+            reads=lambda figure: FIGURES[figure]["tables"]),
         tables=of_figure("tables"),
     output:
         table="results/curves/{figure}.csv",
