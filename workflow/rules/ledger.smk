@@ -11,6 +11,7 @@ rule ledger:
         record="results/records/ledger.json",
     log:
         "results/logs/ledger.log",
+    priority: 1  # as it is long
     message:
         "Checking the paper"
     conda:

@@ -34,6 +34,7 @@ rule lectures:
         record="results/records/lectures.json",
     log:
         "results/logs/lectures.log",
+    priority: 1  # as it is long
     message:
         "Running the lectures"
     conda:

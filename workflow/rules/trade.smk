@@ -19,6 +19,7 @@ rule trade_tables:
         record="results/records/trade.json",
     log:
         "results/logs/trade.log",
+    priority: 1  # the lectures wait for it
     message:
         "Tabulating error against time"
     conda:
