@@ -197,7 +197,10 @@ def text(table: Sequence[FigureRow]) -> str:
             PAPER_WIDTHS,
             ("figure", "solved right", "as printed", "beside others: number of points,"),
         ),
-        _line(PAPER_WIDTHS, ("", "axis  sigma", "", "rms [axis], rms [sigma], verdict")),
+        _line(
+            PAPER_WIDTHS,
+            ("", "axis  sigma", "what differs: how much", "rms [axis], rms [sigma], verdict"),
+        ),
     ]
     for row in table:
         widths = PAPER_WIDTHS if is_of_paper(row.figure) else OTHER_WIDTHS
