@@ -11,12 +11,11 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from stronge1994.csv_tables import Row
-from stronge1994.verdict_table import DIFFERENCES, FAILS, ORDER, QUESTIONS
+from stronge1994.verdict_table import DIFFERENCES, FAILS, LEDGER, ORDER, QUESTIONS
 
 SCENES = "scenes"  # one row for all tables of impacts
 # Curves of models that are not the paper's begin so.
 OTHER_MODELS = ("continuum", "lumped.viscous", "lumped.unloading-stiffness")
-LEDGER = "ledger: "  # a note that begins so names an entry of the ledger
 LEAST_SHARE = 1e-3  # of a sigma: less is shown as 0
 # Widths of the columns in a terminal of 80. Names of the paper's figures are shorter than others.
 PAPER_WIDTHS, OTHER_WIDTHS = (6, 11, 23, 37), (13, 11, 16, 37)
@@ -25,7 +24,8 @@ PAPER_WIDTHS, OTHER_WIDTHS = (6, 11, 23, 37), (13, 11, 16, 37)
 class Item(NamedTuple):
     """A part of a cell: what it says, and the comparisons that say it.
 
-    `name` is a source or an entry of the ledger; `size` says how large a difference is.
+    `name` is a source or an entry of the ledger; `size` says how large a difference is, in `unit`
+    or as two numbers. `points` are those of a source; of other items it counts the comparisons.
     """
 
     rows: list[str]

@@ -4,8 +4,6 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from tabulate import tabulate
-
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Row
 
@@ -19,6 +17,7 @@ COLUMNS = [
 # paper say the same, and what do measurements and others say?
 QUESTIONS = ("solved right", "as printed", "beside others")
 FAILS = ("wrong", "diverges")  # verdicts that fail a run
+LEDGER = "ledger: "  # a note that begins so names an entry of the ledger
 DIFFERENCES = ["unexplained difference", "untested difference", "explained difference"]
 ORDER = [*FAILS, *DIFFERENCES, "awaited", "inconclusive", "agrees", "right", "as before"]
 
@@ -62,6 +61,8 @@ def _allowed(row: Row) -> str:
 
 def text(rows: Sequence[Row]) -> str:
     """The rows of one figure for a terminal."""
+    from tabulate import tabulate  # no job needs it
+
     cells = [[row["comparison"], measured(row), row["verdict"]] for row in rows]
     table = tabulate(cells, ["comparison", "measured", "verdict"], disable_numparse=True)
     return "\n".join(line.rstrip() for line in table.splitlines())

@@ -97,7 +97,7 @@ rule report:
         plan=planned("report", "write_report", "pages", "figures/inelastic/drawing.py",
             "figures/shared/drawing", "judging", "ledger", "printed", "plan",
             "reference_data", "run", settings=lambda _: REPORT_SETTINGS,
-            reads=lambda _: [MEASURED["pairs"]["path"]]),
+            reads=lambda _: FIGURES["inelastic"]["tables"]),
         template="workflow/report/report.html",
         parts=REPORT_PARTS,
         shared=EVERY_PAGE,

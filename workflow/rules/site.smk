@@ -6,7 +6,7 @@ PAGES = [
     for maker in MAKERS
     for path in expand([f"{output}" for output in maker.output], **VALUES)
     if path.startswith("figures/")
-] + slides_of(FIGURES) + rules.interface.output[:1]
+] + slides_of(FIGURES) + [rules.interface.output.pages]
 
 
 rule site:

@@ -13,7 +13,7 @@ from stronge1994.judging import judged_tables
 from stronge1994.judging.metrics import Measured, measure
 from stronge1994.judging.points import Entry, Reference, is_published, kind, question, sigma
 from stronge1994.judging.verdicts import Verdict, chi_squared_of, failed, judge
-from stronge1994.verdict_table import COLUMNS, FAILS, QUESTIONS
+from stronge1994.verdict_table import COLUMNS, FAILS, LEDGER, QUESTIONS
 
 RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
 # The cells of a row by `COLUMNS`. `residuals` holds rows of the table of residuals.
@@ -70,7 +70,7 @@ def _note(entry: Entry, measured: Measured, verdict: Verdict) -> str:
     """The documented cause of a difference; of a new difference, where it is largest."""
     documented = entry.get("documented", {})
     recorded: str = (
-        f"ledger: {documented['entry']}" if "entry" in documented else documented.get("note", "")
+        f"{LEDGER}{documented['entry']}" if "entry" in documented else documented.get("note", "")
     )
     sigmas = np.abs(measured.residuals.sigmas)
     if verdict not in FAILS or len(sigmas) == 1:

@@ -149,7 +149,7 @@ def page(
         "sentence": names.sentence,
         "title_of": templates.title,
     }
-    environment.tests["in_paper"] = lambda figure: figure.startswith("fig")
+    environment.tests["in_paper"] = figure_table.is_of_paper
     return environment.get_template(Path(template).name).render(
         ledger_page.template_values(ledger, symbols),
         verdicts=verdicts,
@@ -222,7 +222,7 @@ def _entry_of(names: Collection[str]) -> Callable[[Row], str | None]:
     """Entry of the ledger that a row of the verdict table names, or None."""
 
     def entry_of(row: Row) -> str | None:
-        name = row["note"].removeprefix("ledger: ")
+        name = row["note"].removeprefix(verdict_table.LEDGER)
         return name if name in names else None
 
     return entry_of

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import jinja2
 
+from stronge1994.figure_table import is_of_paper
 from stronge1994.plan.config import SCENE
 
 # Folder of the theme and the bar of pages, which all pages share.
@@ -37,7 +38,7 @@ def title(name: str) -> str:
     >>> title("fig5"), title("micro_slip")
     ('Fig. 5', 'Micro slip')
     """
-    if name.startswith("fig"):
+    if is_of_paper(name):
         return f"Fig. {name.removeprefix('fig')}"
     if name.startswith(SCENE):
         return f"Scene: {name.removeprefix(SCENE).replace('_', ' ')}"

@@ -23,13 +23,15 @@ def _hollow(marker: str, colour: str) -> dict[str, Any]:
 # Marks of verdicts. Other verdicts are not drawn: where sigma is not known, or the curve was fitted
 # to the points, distances in sigmas have no meaning.
 MARKS = {
-    "agrees": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
-    "right": {"color": house_style.BLACK, "marker": "o", "markersize": 2},
+    **dict.fromkeys(
+        ("agrees", "right"), {"color": house_style.BLACK, "marker": "o", "markersize": 2}
+    ),
     "inconclusive": _hollow("o", house_style.BLACK),
     "explained difference": _hollow("s", house_style.BLUE),
     "unexplained difference": _hollow("D", house_style.PURPLE),
-    "wrong": {"color": house_style.VERMILLION, "marker": "x", "markersize": 4},
-    "diverges": {"color": house_style.VERMILLION, "marker": "x", "markersize": 4},
+    **dict.fromkeys(
+        ("wrong", "diverges"), {"color": house_style.VERMILLION, "marker": "x", "markersize": 4}
+    ),
 }
 ALL_AREA = {"color": house_style.PALE, "linewidth": 0, "zorder": 0.5}
 RMS_AREA = {"color": house_style.GREEN, "alpha": 0.35, "linewidth": 0, "zorder": 0.6}
