@@ -26,14 +26,12 @@ SOLVER = {
     "spheres": "ground normal_impact continuum",
     "models": "ground normal_impact rigid lumped continuum spheres",
     "response": "ground models",
-    "export": "planarimpact ground normal_impact collision response spheres",
+    "export": "planarimpact ground normal_impact collision spheres",
     "fit": "ground normal_impact bodies continuum spheres",
     "collision": "ground normal_impact bodies continuum models spheres",
     "scene": "ground bodies collision pandas",
     "__init__": "ground collision",
-    "__main__": (
-        "planarimpact ground bodies lumped continuum models response export fit collision scene"
-    ),
+    "__main__": ("planarimpact ground bodies lumped continuum models export fit collision scene"),
 }
 # The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
 REPRODUCTION = {
