@@ -26,6 +26,7 @@ C = """\
 #include <stdlib.h>
 #include <time.h>
 #include "balls.h"
+#define IMPACT x[i][0], x[i][1], x[i][2], x[i][3], (int)x[i][4]
 static double x[COUNT][5];
 int main(void)
 {
@@ -39,11 +40,11 @@ int main(void)
             clock_t start = clock();
             for (int i = 0; i < COUNT; ++i) {
                 if (all) {
-                    struct balls_result found = balls_rebound(x[i][0], x[i][1], x[i][2], x[i][3], (int)x[i][4]);
+                    struct balls_result found = balls_rebound(IMPACT);
                     total += found.velocity + found.peak_friction + found.dissipation
                         + found.regime;
                 } else {
-                    total += balls_velocity(x[i][0], x[i][1], x[i][2], x[i][3], (int)x[i][4]);
+                    total += balls_velocity(IMPACT);
                 }
             }
             double taken = (double)(clock() - start) / CLOCKS_PER_SEC;
@@ -63,7 +64,8 @@ const x = new Float64Array(bytes.buffer, bytes.byteOffset, COUNT * 5);
 const loops = [
     () => {
         let total = 0;
-        for (let i = 0; i < x.length; i += 5) total += velocity(x[i], x[i + 1], x[i + 2], x[i + 3], x[i + 4]);
+        for (let i = 0; i < x.length; i += 5)
+            total += velocity(x[i], x[i + 1], x[i + 2], x[i + 3], x[i + 4]);
         return total;
     },
     () => {
