@@ -7,7 +7,7 @@
   `continuum.annuli` solves the elastic one by a second method that shares no code with the first.
 - `spheres`: the continuum from a table, for impacts that are each their own pair.
 - `models`: every model by its name, with those that others use (`models.laws`, `models.timestep`).
-- `response`: compiles any of them. `export`: writes them as C or JavaScript.
+- `export`: writes collisions of spheres as C or JavaScript.
 - `fit`: laws of discrete-element codes, fitted to the continuum.
 - `collide`: velocities and spins of two bodies in space after their impact, by the pair of their
   materials, a `Pair`. `scene`: solves tables of impacts.
@@ -56,7 +56,6 @@ _ROOMS = [
     "continuum",
     "spheres",
     "models",
-    "response",
     "export",
     "collision",
     "fit",

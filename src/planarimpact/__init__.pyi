@@ -7,7 +7,6 @@ from planarimpact import lumped as lumped
 from planarimpact import models as models
 from planarimpact import noncollinear as noncollinear
 from planarimpact import normal_impact as normal_impact
-from planarimpact import response as response
 from planarimpact import rigid as rigid
 from planarimpact import scene as scene
 from planarimpact import spheres as spheres

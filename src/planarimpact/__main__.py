@@ -23,7 +23,6 @@ from planarimpact import (
     fit,
     lumped,
     models,
-    response,
 )
 from planarimpact.ground import checks, files
 from planarimpact.ground.arrays import ArrayLike
@@ -109,14 +108,10 @@ UNITS: dict[type, dict[str, str]] = {
 NUMBER = re.compile(
     r"[+-]?((?P<digits>\d+\.?\d*|\.\d+)(e[+-]?\d+)?|inf|infinity|nan)", re.ASCII | re.IGNORECASE
 )
-# Width of the line of progress.
-COLUMNS_OF_PROGRESS = 60
 # Number of incidences at which `models` measures errors.
 INCIDENCES = 65
 # Mass ratio m2/m1 of solid spheres.
 SOLID_SPHERE = 3.5
-# Name of the table of spheres in `compile`.
-SPHERES = "spheres"
 WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
 GROUPS = {
     "mass_ratio": (3.5, "m2/m1: 3.5 for a solid sphere, 2.5 for a thin shell, 3 for a disc"),
@@ -205,14 +200,8 @@ def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
             x = bodies.incidence_from_angle(options.angle, options.friction)
         except checks.InputError as error:
             raise checks.InputError(str(error).replace("theta_deg", "--angle")) from None
-    if options.response is not None:
-        _refuse_ignored(options, ["model", "loss", "setting", *GROUPS], "a response has its own")
-        _refuse_replacing(options)
-        compiled = response.load(options.response)
-        model, e, result = compiled.model, compiled.parameters["restitution"], compiled(x)
-    else:
-        model, e, settings = _model(options), _restitution(options), _settings(options)
-        result = models.rebound(model, x, **_chosen(options, GROUPS), **settings)
+    model, e, settings = _model(options), _restitution(options), _settings(options)
+    result = models.rebound(model, x, **_chosen(options, GROUPS), **settings)
     named = result._replace(regime=Regime.names(result.regime))
     columns = _with_units(Rebound, {"incidence": x, **named._asdict()})
     return columns | _said(model, e, len(x))
@@ -233,17 +222,6 @@ def _groups(options: argparse.Namespace) -> dict[str, float]:
     groups = {name: value for name, (value, _) in GROUPS.items()} | _chosen(options, GROUPS)
     checks.impact(0.0, *groups.values())
     return groups
-
-
-def _refuse_replacing(options: argparse.Namespace) -> None:
-    """Refuse a response without a name, and a table that would overwrite it."""
-    if not options.response:
-        raise checks.InputError("--response '': allowed are names of files that `compile` writes")
-    source, target = Path(options.response), Path(options.output or os.devnull)
-    if source.exists() and target.exists() and source.samefile(target):
-        raise checks.InputError(
-            f"--output {target}: this is the file of --response; the table needs another name"
-        )
 
 
 def _history(options: argparse.Namespace) -> dict[str, ArrayLike]:
@@ -274,55 +252,9 @@ def _with_units(result_type: type, fields: Mapping[str, Any]) -> dict[str, Array
 
 
 def _compile(options: argparse.Namespace) -> None:
-    """Write a response, or the table of spheres."""
-    if options.model == SPHERES:
-        _compile_spheres(options)
-        return
-    settings = _settings(options)
-    if "tolerance" in settings:
-        raise checks.InputError("--set tolerance: a response has one tolerance, --tolerance")
-    as_json = options.language == "json"
-    if not as_json:
-        export.checked_name(options.output, options.language)
-    elif Path(options.output).suffix.lower() != ".json":
-        raise checks.InputError(
-            f"{options.output}: allowed are names that end in .json; with --as c or --as js others"
-        )
-    model = _model(options)
-    arguments = _chosen(options, ["incidence_max", "tolerance", *GROUPS]) | settings
-    progress = _show if sys.stderr.isatty() else None
-    with files.written(options.output) as partial:  # it refuses a name before any computation
-        compiled = response.compile(model, **arguments, progress=progress)
-        if as_json:
-            compiled.save(partial)
-        else:
-            code = export.text(compiled, options.output, options.language)
-            partial.write_text(code, encoding="utf-8")
-    loss = models.loss_of(model, _restitution(options))
-    print(f"{options.output}: {compiled}{loss and f'; loss {loss}'}")
-
-
-def _show(impacts: int, share: float) -> None:
-    """Say on the terminal how far a response is, in place; the next line of output replaces it."""
-    line = f"{impacts:,} impacts solved, {100 * share:.0f} % of the incidences fitted"
-    print(f"\r{line:<{COLUMNS_OF_PROGRESS}}\r", end="", file=sys.stderr, flush=True)
-
-
-def _compile_spheres(options: argparse.Namespace) -> None:
     """Write the table of spheres as code."""
-    _refuse_ignored(
-        options,
-        ["incidence_max", "loss", "setting", *GROUPS],
-        "the table of spheres takes every impact with its own",
-    )
-    if options.language == "json":
-        raise checks.InputError(
-            f"--as json: allowed with model {SPHERES} are {', '.join(export.LANGUAGES)}; "
-            "Python has planarimpact.spheres"
-        )
-    tolerance = min(export.TABLES) if options.tolerance is None else options.tolerance
-    export.write_spheres(options.output, options.language, tolerance)
-    print(f"{options.output}: the table of spheres, within {tolerance:g}")
+    export.write_spheres(options.output, options.language, options.tolerance)
+    print(f"{options.output}: the table of spheres, within {options.tolerance:g}")
 
 
 def _fit(options: argparse.Namespace) -> None:
@@ -594,7 +526,6 @@ def _parser() -> argparse.ArgumentParser:
         help="of incidence, degrees from the normal; needs --friction",
     )
     rebound.add_argument("--friction", type=decimal, help="mu, above 0, for --angle")
-    rebound.add_argument("--response", metavar="FILE", help="use what `compile` has written")
     _add_model(rebound, list(models.MODELS))
     _add_output(rebound)
     rebound.set_defaults(command=_table, columns=_rebound)
@@ -615,33 +546,25 @@ def _parser() -> argparse.ArgumentParser:
 
     compiled = commands.add_parser(
         "compile",
-        help="make a fast response of one pair of bodies",
-        description="Make a response, a table of polynomials that gives the rebound of one pair of "
-        "bodies in nanoseconds, and write it to a file. With --model spheres the table of spheres "
-        "is written as code: it collides any two spheres, vectors in and vectors out." + ABOUT,
+        help="write collisions of spheres as C or JavaScript",
+        description="Write the table of spheres as code: it collides any two spheres, vectors in "
+        "and vectors out." + ABOUT,
     )
-    compiled.add_argument("output", metavar="FILE", help="NAME.json, NAME.h, NAME.mjs or NAME.js")
+    compiled.add_argument("output", metavar="FILE", help="NAME.h, NAME.mjs or NAME.js")
     compiled.add_argument(
         "--as",
-        choices=["json", *export.LANGUAGES],
-        default="json",
+        choices=list(export.LANGUAGES),
+        required=True,
         dest="language",
-        help="json, which `rebound` reads; c, a header of C99 with NAME_velocity(x) and "
-        "NAME_rebound(x); or js, a module of JavaScript with velocity(x) and rebound(x) "
-        "[%(default)s]",
+        help="c, a header of C99; or js, a module of JavaScript",
     )
     errors = " or ".join(f"{error:g}" for error in export.TABLES)
-    defaults = ", ".join(f"{kind} {error:g}" for kind, error in response.TOLERANCES.items())
     compiled.add_argument(
         "--tolerance",
         type=decimal,
-        help=f"largest error [by the model's cost, see `models`: {defaults}]; with --model "
-        f"{SPHERES} {errors} [{min(export.TABLES):g}]",
+        default=min(export.TABLES),
+        help=f"largest error, {errors} [%(default)g]",
     )
-    compiled.add_argument(
-        "--incidence-max", type=decimal, help=f"largest |incidence| [{response.INCIDENCE_MAX:g}]"
-    )
-    _add_model(compiled, [*models.MODELS, SPHERES])
     compiled.set_defaults(command=_compile)
 
     _add_fit(commands)

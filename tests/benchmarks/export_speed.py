@@ -1,4 +1,4 @@
-"""Responses and the table of spheres in C and JavaScript: time of an impact, on one core.
+"""The table of spheres in C and JavaScript: time of an impact, on one core.
 
     OMP_NUM_THREADS=1 python tests/benchmarks/export_speed.py
 
@@ -18,14 +18,9 @@ from pathlib import Path
 
 import numpy as np
 
-from planarimpact import export, response, spheres
+from planarimpact import export, spheres
 
 COUNT, REPEATS = 1_000_000, 21
-PAIRS = {
-    "continuum, plastic, e = 0.8, 1e-3": ("continuum.plastic", 1e-3, {"restitution": 0.8}),
-    "lumped, e = 1, 1e-10": ("lumped", 1e-10, {}),
-    "lumped, many phases, 1e-10": ("lumped", 1e-10, {"mass_ratio": 8.0, "stiffness_ratio": 0.03}),
-}
 C = """\
 #include <stdio.h>
 #include <stdlib.h>
@@ -166,9 +161,7 @@ console.log(...best, ...sum);
 """
 # How the impact that row i begins is handed over, for one column or five.
 IMPACTS = {
-    ("c", 1): "x[i][0]",
     ("c", 5): "x[i][0], x[i][1], x[i][2], x[i][3], (int)x[i][4]",
-    ("js", 1): "x[i]",
     ("js", 5): "x[i], x[i + 1], x[i + 2], x[i + 3], x[i + 4]",
 }
 COMPILERS = [name for name in ("cc", "gcc", "clang") if shutil.which(name)][:1]
@@ -272,26 +265,8 @@ def report_collisions(folder):
         print(f"  {language}: {times} ns; sums {numbers[3:]}")
 
 
-def report_pair(name, built, folder):
-    """A response of one pair."""
-    span = built.pieces.end
-    x = np.random.default_rng(1).uniform(-span, span, COUNT)
-    report(
-        f"{name}: {len(built.pieces.start)} pieces",
-        [x],
-        lambda path, language: export.write(built, path, language),
-        lambda: built.velocity(x),
-        lambda: built(x),
-        folder,
-    )
-
-
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        for name, (model, tolerance, groups) in PAIRS.items():
-            groups = {"mass_ratio": 3.5, "stiffness_ratio": 17 / 14} | groups
-            built = response.compile(model, incidence_max=40, tolerance=tolerance, **groups)
-            report_pair(name, built, Path(folder))
         report_spheres(Path(folder))
         report_collisions(Path(folder))
 

@@ -18,7 +18,7 @@ import pandas as pd
 import pytest
 
 import planarimpact
-from planarimpact import InputError, continuum, export, lumped, models, response, scene
+from planarimpact import InputError, continuum, export, lumped, models, scene
 from planarimpact.__main__ import main
 from planarimpact.collision import TOLERANCE
 from planarimpact.scene import files
@@ -132,7 +132,6 @@ REFUSED_NUMBERS = [
     (["models"], ["--restitution"]),
     (["models", "--restitution", "0.8"], ["--mass-ratio", "--stiffness-ratio"]),
     (FIT, ["--radius", "--density", "--friction", "--speed"]),
-    (["compile", "x.json"], ["--tolerance", "--incidence-max", "--stiffness-ratio"]),
     (["scene", "in.csv", "out.csv"], ["--tolerance"]),
 ]
 
@@ -155,11 +154,10 @@ def test_numbers_that_are_none_reach_our_own_words(command, option, capsys, tmp_
             assert error.count("\n") == 1 and "energy" not in error
 
 
-def test_a_number_out_of_range_is_told_before_advice_about_losses(capsys, tmp_path):
+def test_a_number_out_of_range_is_told_before_advice_about_losses(capsys):
     for command in (
         ["rebound", "--incidence", "2"],
         ["history", "--incidence", "2"],
-        ["compile", str(tmp_path / "a.json")],
         ["models"],
     ):
         for value, more in product(("1.8", "-0.5"), ([], ["--loss", "plastic"])):
@@ -173,10 +171,9 @@ def test_a_number_out_of_range_is_told_before_advice_about_losses(capsys, tmp_pa
             models.rebound(model, 2.0, mass_ratio=0.5, restitution=0.8)
 
 
-@pytest.mark.parametrize("command", ["rebound", "history", "compile"])
-def test_below_1_a_loss_is_said_or_refused(command, capsys, tmp_path):
-    place = [str(tmp_path / "a.json")] if command == "compile" else ["--incidence", "2"]
-    lossy = [command, *place, "--restitution", "0.8"]
+@pytest.mark.parametrize("command", ["rebound", "history"])
+def test_below_1_a_loss_is_said_or_refused(command, capsys):
+    lossy = [command, "--incidence", "2", "--restitution", "0.8"]
     for more, allowed in (
         ([], ["hysteretic (the paper's)", "unloading-stiffness", "viscous"]),
         (["--model", "lumped"], ["hysteretic (the paper's)", "unloading-stiffness", "viscous"]),
@@ -187,7 +184,6 @@ def test_below_1_a_loss_is_said_or_refused(command, capsys, tmp_path):
         assert "restitution = 0.8: " in error
         said = error.split("says what takes the energy: ")[1].split(", ")
         assert [loss.split(".")[-1] for loss in said] == allowed
-    assert not list(tmp_path.iterdir())
     said = []
     for more in (["--loss", "viscous"], ["--model", "lumped.viscous"]):
         assert main([*lossy, *more]) == 0
@@ -206,13 +202,6 @@ def test_what_takes_the_energy_of_models_without_the_option(capsys):
         assert (row["model"], row["loss"]) == (model, loss)
 
 
-def test_compile_shows_its_progress_on_a_terminal(capsys, tmp_path, monkeypatch):
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    assert main(["compile", str(tmp_path / "a.json"), "--model", "lumped"]) == 0
-    shown = capsys.readouterr().err.split("\r")
-    assert len(shown) > 2 and "impacts solved, " in shown[1] and "100 % of the" in shown[-2]
-
-
 def test_angles_settings_and_json(capsys):
     command = ["rebound", "--angle", "45", "--friction", "0.5", "--format", "json"]
     assert main([*command, "--model", "timestep.linear", "--set", "steps=256"]) == 0
@@ -224,45 +213,15 @@ def test_angles_settings_and_json(capsys):
     assert json.loads(capsys.readouterr().out)["peak_friction [mu F2max]"] == [None]
 
 
-def test_compile_and_use(capsys, tmp_path):
-    path = str(tmp_path / "ball.json")
-    lossy = ["--restitution", "0.7", "--loss", "hysteretic"]
-    assert main(["compile", path, "--tolerance", "1e-9", *lossy]) == 0
-    assert main(["rebound", "--incidence", "2", "--response", path]) == 0
-    first, table = capsys.readouterr().out.split("\n", 1)
-    assert "lumped.hysteretic" in first and first.endswith("; loss hysteretic")
-    row = rows_of(table)[0]
-    assert (row["model"], row["loss"]) == ("lumped.hysteretic", "hysteretic")
-    assert float(row[VELOCITY]) == pytest.approx(lumped.rebound(2.0, restitution=0.7)[0], abs=1e-9)
-
-
 def test_compile_for_other_languages(capsys, tmp_path):
-    ball = response.compile("rigid", incidence_max=20, tolerance=1e-6, restitution=0.7)
     for name, language in (("ball.h", "c"), ("ball.mjs", "js")):
-        path = tmp_path / name
-        command = ["compile", str(path), "--as", language, "--model", "rigid"]
-        assert main([*command, "--restitution", "0.7"]) == 0
-        assert path.read_text() == export.text(ball, path, language)
-        tolerance = max(export.TABLES)
-        command = ["compile", str(path), "--as", language, "--model", "spheres"]
-        assert main([*command, "--tolerance", str(tolerance)]) == 0
+        path, tolerance = tmp_path / name, max(export.TABLES)
+        command = ["compile", str(path), "--as", language, "--tolerance", str(tolerance)]
+        assert main(command) == 0
         assert path.read_text() == export.spheres_text(path, language, tolerance)
     with pytest.raises(SystemExit, match="2"):
         main(["compile", "ball.rs", "--as", "rust"])
     assert "argument --as: invalid choice: 'rust'" in capsys.readouterr().err
-
-
-def test_a_response_is_not_replaced_by_what_it_answers(capsys, tmp_path):
-    path, linked, hard = (tmp_path / name for name in ("ball.json", "linked.json", "hard.json"))
-    assert main(["compile", str(path), "--model", "rigid"]) == 0
-    before = path.read_bytes()
-    linked.symlink_to(path)
-    hard.hardlink_to(path)
-    for output in (path, linked, hard):
-        command = ["rebound", "--incidence", "2", "--response", str(path), "--output", str(output)]
-        assert main(command) == 2
-        assert "this is the file of --response" in capsys.readouterr().err
-        assert output.read_bytes() == before
 
 
 ONCE = [
@@ -315,11 +274,7 @@ REFUSED = [
     (["rebound", "--incidence", "1", "--set", "steps"], "--set steps: allowed is NAME=NUMBER"),
     (["rebound", "--incidence", "1", "--set", "steps=4"], "lumped has no settings"),
     (["rebound", "--incidence", "1", "--model", "annuli", "--restitution", "0.5"], "is elastic"),
-    (["rebound", "--incidence", "1", "--response", "none.json"], "none.json: No such file"),
-    (["rebound", "--incidence", "1", "--response", "x", "--mass-ratio", "2"], "has its own"),
-    (["rebound", "--incidence", "1", "--response", "x", "--model", "rigid"], "has its own"),
     (["rebound", "--incidence", "1", "--set", "model=3"], "model = 3: lumped has no settings"),
-    (["compile", "x", "--model", "continuum", "--set", "tolerance=1"], "has one tolerance"),
     (["history", "--incidence", "1", "--samples", "1"], "samples = 1"),
     (["history", "--incidence", "1", "--tolerance", "1"], "--tolerance: it does not apply"),
     (["history", "--incidence", "1", "--model", "continuum", "--samples", "9"], "--samples: it"),
@@ -327,7 +282,7 @@ REFUSED = [
         ["history", "--incidence", "1", "--model", "continuum", "--restitution", "0.5"],
         "unless loss says what takes the energy: viscous, plastic",
     ),
-    (["compile", "no/ball.json"], "no/ball.json"),
+    (["compile", "no/ball.h", "--as", "c"], "no/ball.h"),
     (["scene", "none.csv", "out.csv"], "none.csv: No such file"),
     (["scene", "none.csv", "."], ".: allowed are names that end in .csv, .csv.gz, .json or"),
     (["scene", "none.xlsx", "out.csv"], "none.xlsx: allowed are names that end in .csv, .csv.gz"),
@@ -348,26 +303,10 @@ REFUSED = [
     (["models", "--output", "csv"], "--output csv: allowed are"),
     (["history", "--incidence", "1", "--output", "a.csv", "--format", "json"], "ends in .csv"),
     (["rebound", "--incidence", "1", "--output", "a.json", "--format", "csv"], "ends in .json"),
-    (["compile", "ball.csv"], "ball.csv: allowed are names that end in .json; with --as c or"),
     (["compile", "ball.json", "--as", "c"], "ball.json: allowed are names that end in .h"),
     (["compile", "ball.h", "--as", "js"], "ball.h: allowed are names that end in .mjs or .js"),
     (["compile", "2.h", "--as", "c"], "2.h: allowed are names of letters from A to Z, digits and"),
-    *(
-        (["compile", "a.h", "--as", "c", "--model", "spheres", option, value], words)
-        for option, value, words in (
-            ("--loss", "viscous", "--loss: it does not apply, the table of spheres takes"),
-            ("--incidence-max", "9", "--incidence-max: it does not apply"),
-            ("--restitution", "0.9", "--restitution: it does not apply"),
-            ("--set", "steps=4", "--set: it does not apply"),
-            ("--tolerance", "1e-9", "tolerance = 1e-09: allowed is "),
-        )
-    ),
-    (
-        ["compile", "a.json", "--model", "spheres"],
-        "--as json: allowed with model spheres are c, js",
-    ),
-    (["compile", "2.h", "--as", "c", "--model", "spheres"], "2.h: allowed are names of letters"),
-    (["rebound", "--incidence", "1", "--response", ""], "--response '': allowed are names of"),
+    (["compile", "a.h", "--as", "c", "--tolerance", "1e-9"], "tolerance = 1e-09: allowed is "),
     (["rebound", "--incidence", "1", "--set", "n=1", "--set", "n=2"], "--set n=2: n is set twice"),
     (["rebound", "--incidence", "1", "--set", "steps=1_0"], "--set steps: '1_0': allowed are"),
     (["history", "--incidence", "1", "--samples", f"{10**15}"], f"samples = {10**15}: allowed are"),
@@ -376,13 +315,11 @@ REFUSED = [
 
 def test_a_bad_name_is_refused_before_any_work(capsys, tmp_path, monkeypatch):
     monkeypatch.setattr(models, "rebound", lambda *_, **__: pytest.fail("it solves"))
-    monkeypatch.setattr(response, "compile", lambda *_, **__: pytest.fail("it compiles"))
     for name in (tmp_path / "no" / "a.json", tmp_path / "a.txt", tmp_path):
         assert main(["rebound", "--incidence", "1", "--output", str(name)]) == 2
-        assert main(["compile", str(name)]) == 2
         assert main(["compile", str(name), "--as", "c"]) == 2
         assert main(["compile", str(name.with_name("2.h")), "--as", "c"]) == 2
-        assert capsys.readouterr().err.count("\n") == 4
+        assert capsys.readouterr().err.count("\n") == 3
 
 
 @pytest.mark.parametrize("command", [["models"], ["rebound", "--incidence", "1"]])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planarimpact import bodies, continuum, lumped, models, noncollinear, response
+from planarimpact import bodies, continuum, lumped, models, noncollinear
 from planarimpact.continuum import annuli, cattaneo_mindlin, micro_slip
 from planarimpact.models import laws
 from planarimpact.noncollinear import rigid
@@ -37,10 +37,6 @@ CALLS |= {
         cattaneo_mindlin.stick_radius(TINY),
     ),
     "hertz": lambda: [f(TINY) for f in (hertz.velocity, hertz.state, hertz.phase_at, hertz.time)],
-    "response": lambda: (
-        response.compile("lumped", incidence_max=9, tolerance=1e-3)(SMALL_AND_LARGE),
-        response.compile("lumped", incidence_max=1e-9, tolerance=1e-3).velocity(TINY),
-    ),
     "noncollinear": lambda: [
         noncollinear.rebound(
             [TINY, 0.0, 0.5, 2.0, 1e50], 1.0, ROD, 0.5, [0.5, TINY, 0, 1, 1], loss="hysteretic"

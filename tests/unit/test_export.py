@@ -1,4 +1,4 @@
-"""Responses and the table of spheres compute in C and JavaScript what they do in Python."""
+"""The table of spheres computes in C and JavaScript what it does in Python."""
 
 import base64
 import json
@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Regime, export, response, spheres
+from planarimpact import InputError, Regime, export, spheres
 from planarimpact.__main__ import main
 from planarimpact.export import spheres as table_of_spheres
 from planarimpact.spheres import making, table
@@ -23,16 +23,8 @@ README = Path(__file__).parents[2] / "src/README.md"
 COUNT = 100_000
 ACCURACY = 1e-14  # of the largest value
 LARGEST = 8e307  # incidence
-PAIRS = {
-    "plain": ("lumped.viscous", 1e-6, {"restitution": 0.8}),
-    "silent": ("laws.smith", 1e-6, {"restitution": 0.5}),  # without peak friction
-    "gaining": ("timestep.mindlin", 1e-2, {"mass_ratio": 1.0}),  # energy; up to INCIDENCE_MAX only
-    "many": ("lumped", 1e-10, {"mass_ratio": 8.0, "stiffness_ratio": 0.03}),  # more than 256 pieces
-}
-CONSTANTS = "MASS_RATIO", "STIFFNESS_RATIO", "RESTITUTION"
 # Files that are a little wrong: which file is right, what it has, and what stands there instead.
 WRONG = {
-    "wrong_plain": ("plain", "value * root", "value * root * 1.0000000001"),
     "wrong_coarse": ("coarse", "* 3 + 4) / 6", "* 3 + 4) / 6.0000000001"),
 }
 # Of the table of spheres: values for x, mass ratio, stiffness ratio, restitution and loss.
@@ -51,7 +43,6 @@ FLAGS = [
 # For each file: the constants, then velocity and the fields of rebound for each impact.
 C = """\
 #include <stdio.h>
-#define PAIR x[0]
 #define SPHERES x[0], x[1], x[2], x[3], (int)x[4]
 #define RUN(p, count, arguments, ...) \\
     do { \\
@@ -116,23 +107,6 @@ def answers(good, velocity, rebound):
     found[4] = Regime.UNRESOLVED
     found[:, good] = np.stack([velocity, *rebound[:4]])
     return found
-
-
-def case_of_a_pair(built):
-    """Every edge, one float beside it, what is refused, and random incidences."""
-    cells = np.arange(4097) / 4096 * built.pieces.end
-    edges = [built.slides_from, built.incidence_max, 1.0, LARGEST, np.inf, np.nan, 0.0, 5e-324]
-    edges = beside(np.concatenate([built.pieces.start, cells, edges]))
-    random = np.random.default_rng(1994).uniform(0, 1.2 * built.pieces.end, COUNT // 2 - edges.size)
-    sizes = np.concatenate([edges, random])
-    x = np.concatenate([sizes, -sizes])
-    most = min(built.incidence_max, LARGEST)
-    good = np.abs(x) <= most
-    constants = dict(zip(CONSTANTS, built.parameters.values(), strict=False))
-    constants |= {"INCIDENCE_MAX": most}
-    constants |= {f"ERROR_{name.upper()}": v for name, v in built.error_bound._asdict().items()}
-    wanted = answers(good, built.velocity(x[good]), built(x[good]))
-    return Case(constants, x[:, None], wanted, np.abs(x) <= built.pieces.end)
 
 
 def sphere_edges(shipped, random):
@@ -200,37 +174,18 @@ def agrees(found, case):
 
 
 @pytest.fixture(scope="module")
-def pairs():
-    """Responses by name."""
-    groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21}
-    found = {
-        name: response.compile(model, incidence_max=20, tolerance=tolerance, **groups | given)
-        for name, (model, tolerance, given) in PAIRS.items()
-    }
-    assert found["gaining"].gains and len(found["many"].pieces.start) > 256
-    assert np.isinf(found["plain"].incidence_max) and not found["plain"].gains
-    return found
+def cases():
+    return {name: case_of_spheres(name) for name in export.TABLES.values()}
 
 
 @pytest.fixture(scope="module")
-def cases(pairs):
-    found = {name: case_of_a_pair(built) for name, built in pairs.items()}
-    for name in export.TABLES.values():
-        found[name] = case_of_spheres(name)
-    return found
-
-
-@pytest.fixture(scope="module")
-def folder(pairs, cases, tmp_path_factory):
+def folder(cases, tmp_path_factory):
     """Headers, modules and impacts, and those of `WRONG`."""
     folder = tmp_path_factory.mktemp("export")
     tolerances = {name: tolerance for tolerance, name in export.TABLES.items()}
     for name, (right, good, bad) in ({name: (name, "", "") for name in cases} | WRONG).items():
         for file, language in ((f"{name}.h", "c"), (f"{name}.mjs", "js")):
-            if right in pairs:
-                code = export.text(pairs[right], file, language)
-            else:
-                code = export.spheres_text(file, language, tolerances[right])
+            code = export.spheres_text(file, language, tolerances[right])
             assert good in code
             (folder / file).write_text(code.replace(good, bad))
         cases[right].impacts.tofile(folder / f"{name}.x")
@@ -244,9 +199,8 @@ def compiled(folder, cases, compilers, *options):
         pytest.skip(f"no compiler: none of {', '.join(compilers)} is installed")
     runs = ""
     for name, case in cases.items():
-        count = case.impacts.shape[1]
         constants = ", ".join(f"{name.upper()}_{one}" for one in case.constants)
-        runs += f"    RUN({name}, {count}, {'PAIR' if count == 1 else 'SPHERES'}, {constants});\n"
+        runs += f"    RUN({name}, 5, SPHERES, {constants});\n"
     headers = "".join(f'#include "{name}.h"\n' for name in cases)
     (folder / "run.c").write_text(f"{headers}{C}int main(void)\n{{\n{runs}    return 0;\n}}\n")
     command = [program, *options, *FLAGS]
@@ -312,19 +266,20 @@ def test_a_template_is_code_as_it_stands(command):
         options += ["-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-Wno-unused-function"]
         options += ["-Wno-unused-const-variable"]
     templates = list(TEMPLATES.glob("*.mjs" if program == "node" else "*.h"))
-    assert len(templates) == 2
+    assert len(templates) == 1
     for template in templates:
         subprocess.run([program, *options, template], check=True)
 
 
 @pytest.mark.parametrize("compiler", [["cc", "-std=c99"], ["c++", "-xc++"]], ids=["C", "C++"])
-def test_a_header_never_meets_a_compiler_without_nan(compiler, pairs, tmp_path):
+def test_a_header_never_meets_a_compiler_without_nan(compiler, tmp_path):
     """That one may drop the test of the range, and a table is read beyond its ends."""
     if not shutil.which(compiler[0]):
         pytest.skip(f"{compiler[0]} is not installed")
-    export.write(pairs["plain"], tmp_path / "ball.h", "c")
-    code = '#include "ball.h"\nint main(int n, char **v) { return ball_velocity(n / 0.0 - n / 0.0)'
-    (tmp_path / "main.c").write_text(f"{code} > 1 && v; }}\n")
+    export.write_spheres(tmp_path / "ball.h", "c", max(export.TABLES))
+    call = "ball_velocity(n / 0.0 - n / 0.0, 3.5, 1.2, 1, 1) > 1 && v"
+    code = f'#include "ball.h"\nint main(int n, char **v) {{ return {call}; }}\n'
+    (tmp_path / "main.c").write_text(code)
     for options, works in {
         "-O3": True,
         "-O3 -ffast-math": False,
@@ -354,7 +309,7 @@ def test_the_readme_prints_what_it_says(language, file, commands, tmp_path, monk
     written = re.findall(rf"^\S+/planarimpact (.* --as {language} .*)$", section, flags=re.M)
     assert [main(shlex.split(command)) for command in written] == [0] * len(written)
     blocks = re.findall(rf"```{language}\n(.*?)```", section, flags=re.S)
-    assert len(blocks) == {"c": 2, "js": 1}[language]
+    assert len(blocks) == 1
     for text in blocks:
         (tmp_path / file).write_text(text)
         for command in commands:
@@ -421,8 +376,8 @@ def test_the_loop_for_games_keeps_heights_and_comes_to_rest(tmp_path):
         ("no/ball.h", "c", "no/ball.h: there is no folder"),
     ],
 )
-def test_refusals_leave_no_file(path, language, words, pairs, tmp_path, monkeypatch):
+def test_refusals_leave_no_file(path, language, words, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(InputError) as refused:
-        export.write(pairs["plain"], path, language)
+        export.write_spheres(path, language)
     assert str(refused.value).startswith(words) and not list(tmp_path.iterdir())

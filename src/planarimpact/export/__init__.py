@@ -1,82 +1,20 @@
-"""Responses and collisions of spheres in other languages: a header of C99, or a JavaScript module.
+"""Collisions of spheres in other languages: a header of C99, or a JavaScript module.
 
 The file needs no other file. Its head says what it computes, in which units, to which error.
-`pair` writes one pair of bodies, `spheres` the table and collisions; `templates` has what is the
-same in every file, and `languages` fills it.
+`spheres` writes the table and collisions; `templates` has what is the same in every file, and
+`languages` fills it.
 """
 
 from pathlib import Path
 
-from planarimpact.export import pair
 from planarimpact.export import spheres as table_of_spheres
 from planarimpact.export.languages import LANGUAGES, checked_name
 from planarimpact.ground import checks, files
-from planarimpact.response import Response
 from planarimpact.spheres import table
 
-__all__ = ["LANGUAGES", "TABLES", "checked_name", "spheres_text", "text", "write", "write_spheres"]
+__all__ = ["LANGUAGES", "TABLES", "checked_name", "spheres_text", "write_spheres"]
 # The shipped tables of spheres by their largest errors.
 TABLES = table_of_spheres.TABLES
-
-
-def text(response: Response, path: str | Path, language: str) -> str:
-    """The code that `write` writes.
-
-    Parameters
-    ----------
-    response, path, language
-        As for `write`.
-
-    Returns
-    -------
-    str
-
-    Examples
-    --------
-    >>> from planarimpact import response
-    >>> wall = response.compile("rigid", incidence_max=20, tolerance=1e-6)
-    >>> print(text(wall, "wall.h", "c").splitlines()[1])
-     * wall.h: the rebound of one pair of rough bodies after an oblique impact.
-    """
-    return pair.text(response, Path(path).name, checked_name(path, language), language)
-
-
-def write(response: Response, path: str | Path, language: str) -> None:
-    """Write a response as code, whole or not at all.
-
-    The code computes what the response computes, by the same operations in the same order. Where
-    the response refuses an incidence, because it is beyond `incidence_max` or no number, the code
-    returns NaN. A header has 6 kB and 0.45 kB for each polynomial, `len(response.pieces.start)`.
-
-    Parameters
-    ----------
-    response : Response
-        Of `planarimpact.response`, compiled or loaded.
-    path : str or Path
-        "c": NAME.h, with the functions `NAME_velocity(x)` and `NAME_rebound(x)`; NAME has letters
-        from A to Z, digits and underscores, and begins with a letter. "js": NAME.mjs or NAME.js,
-        with `velocity(x)` and `rebound(x)`. A file that is there is replaced.
-    language : str
-        "c", also for C++, or "js".
-
-    Raises
-    ------
-    InputError
-        If there is no such language, the name is not allowed, or there can be no such file.
-
-    Examples
-    --------
-    >>> import pathlib, tempfile
-    >>> from planarimpact import response
-    >>> wall = response.compile("rigid", incidence_max=20, tolerance=1e-6)
-    >>> path = pathlib.Path(tempfile.mkdtemp()) / "wall.h"
-    >>> write(wall, path, "c")
-    >>> "double wall_velocity(double x)" in path.read_text()
-    True
-    """
-    code = text(response, path, language)
-    with files.written(path) as partial:
-        partial.write_text(code, encoding="utf-8")
 
 
 def spheres_text(path: str | Path, language: str, tolerance: float = min(TABLES)) -> str:
@@ -122,8 +60,9 @@ def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES
     ----------
     path : str or Path
         "c": NAME.h, with the functions `NAME_collide`, `NAME_bounce`, `NAME_velocity`,
-        `NAME_rebound` and more. "js": NAME.mjs or NAME.js, with `collide` and so on. The head of
-        the file explains them. As for `write`.
+        `NAME_rebound` and more; NAME has letters from A to Z, digits and underscores, and begins
+        with a letter. "js": NAME.mjs or NAME.js, with `collide` and so on. The head of the file
+        explains them. A file that is there is replaced.
     language : str
         "c", also for C++, or "js".
     tolerance : float
@@ -132,7 +71,8 @@ def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES
     Raises
     ------
     InputError
-        As `write`, and if there is no table of this tolerance.
+        If there is no such language, the name is not allowed, there can be no such file, or there
+        is no table of this tolerance.
 
     Examples
     --------

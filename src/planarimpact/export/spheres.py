@@ -38,7 +38,7 @@ class _Layout(NamedTuple):
 
 
 def text(table: Table, bounds: Mapping[str, float], file: str, name: str, language: str) -> str:
-    """The file of a table with its largest errors by loss; for names see `pair.text`."""
+    """The file of a table with its largest errors by loss."""
     layout = _laid_out(table)
     blocks: dict[str, languages.Block] = {
         "version": [f"Written by planarimpact {__version__}. Do not edit it: write it anew."],

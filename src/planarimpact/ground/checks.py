@@ -2,9 +2,8 @@
 
 import math
 import reprlib
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -300,56 +299,6 @@ def count(name: str, value: int, least: int, most: int = MOST) -> int:
     if not integer or not least <= value <= most:
         raise InputError(f"{name} = {brief(value)}: allowed are integers from {least} to {most}")
     return int(value)
-
-
-def record(name: str, value: Any, keys: Collection[str]) -> dict[str, Any]:
-    """Check that a value that was read from a file is a dict of these keys and no others.
-
-    Examples
-    --------
-    >>> record("error_bound", {"velocity": 0.1}, ["velocity", "peak_friction"])
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: error_bound has ['velocity']: allowed are velocity, \
-peak_friction
-    """
-    if not isinstance(value, dict) or set(value) != set(keys):
-        content = brief(list(value) if isinstance(value, dict) else value)
-        raise InputError(f"{name} has {content}: allowed are {', '.join(keys)}")
-    return value
-
-
-def listed(name: str, value: Any, shape: tuple[int, ...]) -> Array:
-    """Return nested lists of numbers that were read from a file as an array of this shape.
-
-    Infinite numbers and NaN pass.
-
-    Examples
-    --------
-    >>> listed("start", [0, 0.5], (2,)).tolist()
-    [0.0, 0.5]
-    >>> listed("start", [0, "0.5"], (2,))
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: start[1] = '0.5': allowed are numbers
-    """
-    _refuse_other_lists(name, value, shape)
-    try:
-        return np.array(value, dtype=np.float64)
-    except OverflowError:
-        raise InputError(f"{name}: an integer is beyond the range of numbers") from None
-
-
-def _refuse_other_lists(name: str, value: Any, shape: tuple[int, ...]) -> None:
-    """Refuse what is no nested lists of numbers of this shape."""
-    if not shape:
-        if type(value) not in (int, float):
-            raise InputError(f"{name} = {brief(value)}: allowed are numbers")
-        return
-    if not isinstance(value, list) or len(value) != shape[0]:
-        raise InputError(f"{name} = {brief(value)}: allowed are lists of {shape[0]}")
-    for i, entry in enumerate(value):
-        _refuse_other_lists(f"{name}[{i}]", entry, shape[1:])
 
 
 def explicit_steps(steps: int, needed: Numbers, least: int, most: int) -> int:
