@@ -52,9 +52,9 @@ from planarimpact import (
     spheres,
 )
 from planarimpact.collision import Collision, Pair, collide
+from planarimpact.continuum import ContinuumHistory
 from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import (
-    ContinuumHistory,
     Event,
     EventKind,
     History,

@@ -82,7 +82,9 @@ def rebound(
     >>> round(float(rebound(2.0).velocity), 3)
     -0.666
     """
-    signed, beta, zeta2 = checks.elastic_impact(incidence, mass_ratio, stiffness_ratio, restitution)
+    allowed = "numbers equal to 1, as this contact is elastic"
+    e = checks.checked("restitution", restitution, allowed, 1, 1)
+    signed, beta, zeta2, _ = checks.impact(incidence, mass_ratio, stiffness_ratio, e)
     circles = _checked_circles(circles)
     with np.errstate(over="ignore"):
         needed = STEPS_A_RADIAN * np.pi * (np.sqrt(beta) / np.sqrt(zeta2))

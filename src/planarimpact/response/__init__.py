@@ -252,10 +252,10 @@ class Response:
         values = (
             self.model,
             dict(self.parameters),
-            files.or_null(self.incidence_max),
+            _or_null(self.incidence_max),
             self.tolerance,
             self.error_bound._asdict(),
-            files.or_null(self.slides_from),
+            _or_null(self.slides_from),
             {key: np.asarray(value).tolist() for key, value in self.pieces._asdict().items()},
         )
         content = dict(zip(CONTENT, values, strict=True))
@@ -340,7 +340,7 @@ def compile(
         nonlocal solved
         try:
             result = chosen.rebound(x, *groups.values(), **settings)
-        except checks.Unsolved as problem:
+        except models.continuum.Unsolved as problem:
             reached = _reached(chosen, x[problem.impacts], groups, settings, tolerance)
             # Nobody asked for the model's own tolerance.
             words = reached or f"is not compiled: {OWN_TOLERANCE.sub('', str(problem))}"
@@ -411,7 +411,7 @@ def _reached(
         share = tolerance * MODEL_SHARE
         try:
             model.rebound(x, *groups.values(), **dict(settings) | {"tolerance": share})
-        except checks.Unsolved:
+        except models.continuum.Unsolved:
             continue
         default = TOLERANCES.get(model.cost, COARSE)
         return (
@@ -511,8 +511,8 @@ def _restored(content: Any) -> Response:
     largest = pieces.end if incidence_max is None else incidence_max
     question = _checked_question(model, largest, content["tolerance"], parameters)
     fields = {
-        "incidence_max": (incidence_max, files.or_null(question.answered_to)),
-        "slides_from": (content["slides_from"], files.or_null(question.slides_from)),
+        "incidence_max": (incidence_max, _or_null(question.answered_to)),
+        "slides_from": (content["slides_from"], _or_null(question.slides_from)),
         "pieces.end": (pieces.end, question.end),
     }
     fields |= {f"parameters.{key}": (parameters[key], v) for key, v in question.settings.items()}
@@ -640,8 +640,16 @@ def _parameters(
     settings = {key: value for key, value in parameters.items() if key not in groups}
     models.refuse_unknown(model, settings)
     groups |= {key: value for key, value in parameters.items() if key in groups}
-    groups = {key: checks.single(key, checks.RULES[key](value)) for key, value in groups.items()}
+    groups = {
+        key: checks.number(key, checks.RULES[key](value), "numbers")
+        for key, value in groups.items()
+    }
     for key, value in settings.items():
         checks.number(key, value, "finite numbers")
         settings[key] = np.asarray(value).item()  # whole numbers stay whole
     return groups, dict(model.settings) | settings
+
+
+def _or_null(value: float) -> float | None:
+    """A number for JSON, which knows neither NaN nor infinity: None for these."""
+    return value if np.isfinite(value) else None
