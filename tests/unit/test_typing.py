@@ -104,15 +104,19 @@ def routines(module):
 def test_what_is_recommended_is_documented_in_full(room):
     """Ruff asks for a docstring and types. Here: for the sections that a caller needs.
 
-    A method may have its example in that of its class.
+    A method may have its example in that of its class. What several functions share may stand in
+    the docstring of the room, to which theirs points.
     """
     module = importlib.import_module(f"{PACKAGE}.{room}")
     for name, function in routines(module).items():
-        signature = inspect.signature(function)
+        signature, text = inspect.signature(function), inspect.getdoc(function)
         wanted = set() if signature.return_annotation is None else {"Returns"}
         if set(signature.parameters) - {"self", "cls"}:
             wanted |= {"Parameters"} if "." in name else {"Parameters", "Examples"}
-        found = re.findall(r"^(\w+)\n-+$", inspect.getdoc(function), flags=re.M)
+        if f"rguments and errors: `{module.__name__}`" in " ".join(text.split()):
+            wanted -= {"Parameters", "Returns"}
+            assert all(f"`{each}`" in text + module.__doc__ for each in signature.parameters), name
+        found = re.findall(r"^(\w+)\n-+$", text, flags=re.M)
         assert wanted <= set(found), name
 
 
