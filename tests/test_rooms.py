@@ -29,7 +29,10 @@ SOLVER = {
     "fit": "ground normal_impact bodies continuum spheres",
     "collision": "ground normal_impact bodies continuum models spheres",
     "scene": "ground bodies collision pandas",
-    "__init__": "ground collision",
+    "__init__": (
+        "planarimpact ground normal_impact rigid lumped continuum bodies noncollinear spheres"
+        " models export fit collision scene"
+    ),
     "__main__": ("planarimpact ground bodies lumped continuum models export fit collision scene"),
 }
 # The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.

@@ -24,9 +24,10 @@ from planarimpact import (
     lumped,
     models,
 )
+from planarimpact.continuum import ContinuumHistory
 from planarimpact.ground import checks, files
 from planarimpact.ground.arrays import ArrayLike
-from planarimpact.ground.results import ContinuumHistory, History, Rebound, Regime
+from planarimpact.ground.results import History, Rebound, Regime
 
 ABOUT = """
 What happens when a rough, elastic body strikes a surface at an angle?
@@ -469,13 +470,18 @@ def _text(columns: Mapping[str, ArrayLike], as_json: bool) -> str:
     """Columns of equal length as JSON or CSV."""
     plain = {name: np.asarray(values).tolist() for name, values in columns.items()}
     if as_json:
-        named = {name: [files.or_null(x) for x in xs] for name, xs in plain.items()}
+        named = {name: [_or_null(x) for x in xs] for name, xs in plain.items()}
         return json.dumps(named, indent=1) + "\n"
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(plain)
     writer.writerows(zip(*plain.values(), strict=True))
     return buffer.getvalue()
+
+
+def _or_null(value: object) -> object:
+    """A value for JSON, which knows neither NaN nor infinity: None for these."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 class _Once(argparse.Action):

@@ -54,8 +54,6 @@ CALLS |= {
         bodies.effective_radius(1e-200, 1e200),
         bodies.contact_velocity(0.0, 1.0, 1e-200, 1e-200),
         bodies.incidence(1e-300, 1.0, 1e100),
-        bodies.angle_of_incidence(1e-300, 1e-100),
-        bodies.angle_of_incidence(1e300, 1e100),
         bodies.incidence_from_angle(1e-300, 1e100),
         bodies.rebound_motion(
             bodies.Body(1.0, 1.0, 1.0), bodies.Motion(TINY, TINY, TINY), 1e-10, 0.5, 0.5
