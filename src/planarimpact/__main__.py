@@ -20,9 +20,10 @@ from planarimpact import (
     lumped,
     models,
 )
+from planarimpact.continuum import ContinuumHistory
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import ArrayLike
-from planarimpact.ground.results import ContinuumHistory, History, Rebound, Regime
+from planarimpact.ground.results import History, Rebound, Regime
 
 ABOUT = """
 What happens when a rough, elastic body strikes a surface at an angle?
