@@ -80,7 +80,6 @@ SIDE_DOORS = {
     "collision.model_form",
     "collision.presets",
     "collision.rungs",
-    "spheres.single",  # one impact in plain floats
     "spheres.table",  # which export writes in other languages
 }
 

@@ -105,8 +105,8 @@ def sphere_edges(shipped, random):
             free = random.random((2, EDGES))
             t, u = np.where(random.random((2, EDGES)) < 0.5, free, [t, u])
             y, b, e = making.impacts(name, panel.edges, shipped.limits, number, s, t, u)
-            ends = table.edges_of(name, panel.edges, t, u, b, e)
-            for x in (y, *ends[1:]):
+            varying = table.varying_edges(panel.edges, t, u)
+            for x in np.broadcast_arrays(y, *table.edges_of(name, varying, b, e)[1:]):
                 for axis in range(3):
                     row = [
                         beside(v) if i == axis else np.tile(v, 3) for i, v in enumerate((x, b, e))

@@ -176,8 +176,8 @@ def rebound(
             if is_elastic:
                 solved = elastic.rebound(*groups, allowed[rows])
             else:
-                law = inelastic.LOSSES[loss or ""]
-                solved = inelastic.rebound(*groups, e[rows], allowed[rows], law)
+                motion_of = inelastic.LOSSES[loss or ""]
+                solved = inelastic.rebound(*groups, e[rows], allowed[rows], motion_of)
         velocity[rows], peak[rows], work[rows], regime[rows], reversals[rows] = solved
     return Rebound.shaped(signed, velocity, peak, work, regime.astype(np.uint8), reversals)
 

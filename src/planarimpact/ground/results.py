@@ -123,13 +123,7 @@ class Rebound(NamedTuple):
 
 
 class EventKind(StrEnum):
-    """What happens at an event of a contact's history.
-
-    Examples
-    --------
-    >>> print(EventKind.STICK)
-    stick
-    """
+    """What happens at an event of a contact's history. Each is a string too, such as "stick"."""
 
     CONTACT = "contact"
     STICK = "stick"
