@@ -105,13 +105,11 @@ NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNOREC
 WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
 # Number of incidences at which `models` measures errors.
 INCIDENCES = 65
-# Defaults and meanings of the groups; the default mass ratio is that of solid spheres.
+# Mass ratio m2/m1 of solid spheres.
 SOLID_SPHERE = 3.5
+# Defaults and meanings of the groups.
 GROUPS = {
-    "mass_ratio": (
-        SOLID_SPHERE,
-        "m2/m1: 3.5 for a solid sphere, 2.5 for a thin shell, 3 for a disc",
-    ),
+    "mass_ratio": (3.5, "m2/m1: 3.5 for a solid sphere, 2.5 for a thin shell, 3 for a disc"),
     "stiffness_ratio": (1.21, "zeta^2, normal over tangential stiffness: (2-nu)/(2(1-nu))"),
     "restitution": (1.0, "energetic coefficient e, 0 to 1"),
 }
@@ -205,7 +203,7 @@ def _with_units(result: Rebound | History | ContinuumHistory) -> dict[str, Array
 
 def _model_and_loss(options: argparse.Namespace, rows: int) -> dict[str, ArrayLike]:
     """Columns of the model and of what takes the energy."""
-    loss = models.loss_of(options.model, options.restitution)
+    loss = "none" if options.restitution == 1 else models.get(options.model).loss
     return {"model": [options.model] * rows, "loss": [loss] * rows}
 
 
@@ -307,14 +305,8 @@ def _errors(groups: dict[str, float], loss: str | None) -> dict[str, ArrayLike]:
     return dict(zip(names, np.transpose(rounded), strict=True))
 
 
-def decimal(text: str) -> float:
-    """Number of a text in decimal notation; argparse adds the option's name to a refusal.
-
-    Examples
-    --------
-    >>> decimal("64"), decimal("-1e3")
-    (64.0, -1000.0)
-    """
+def _decimal(text: str) -> float:
+    """Number of a text in decimal notation; argparse adds the option's name to a refusal."""
     if not NUMBER.fullmatch(text):
         raise argparse.ArgumentTypeError(
             f"{text!r}: allowed are decimal numbers, such as 0.5 or -1e-3"
@@ -322,29 +314,17 @@ def decimal(text: str) -> float:
     return float(text)
 
 
-def number(text: str) -> float:
-    """Number of a text as `decimal` reads it, an integer where it is written as one.
-
-    Examples
-    --------
-    >>> number("64"), number("-1e3")
-    (64, -1000.0)
-    """
-    return int(text) if WHOLE.fullmatch(text) else decimal(text)
+def _number(text: str) -> float:
+    """Number of a text as `_decimal` reads it, an integer where it is written as one."""
+    return int(text) if WHOLE.fullmatch(text) else _decimal(text)
 
 
-def setting(text: str) -> tuple[str, float]:
-    """Name and number of a setting.
-
-    Examples
-    --------
-    >>> setting("steps=256")
-    ('steps', 256)
-    """
+def _setting(text: str) -> tuple[str, float]:
+    """Name and number of a setting, from NAME=NUMBER."""
     name, equals, value = text.partition("=")
     if not equals:
         raise argparse.ArgumentTypeError(f"{text}: allowed is NAME=NUMBER, such as steps=256")
-    return name, number(value)
+    return name, _number(value)
 
 
 class _Once(argparse.Action):
@@ -380,18 +360,18 @@ def _parser() -> argparse.ArgumentParser:
 
     rebound = command("rebound", _rebound, "state at separation", ABOUT)
     impact = rebound.add_mutually_exclusive_group(required=True)
-    impact.add_argument("--incidence", type=decimal, nargs="+", metavar="X")
+    impact.add_argument("--incidence", type=_decimal, nargs="+", metavar="X")
     impact.add_argument(
         "--angle",
-        type=decimal,
+        type=_decimal,
         nargs="+",
         help="of incidence, degrees from the normal; needs --friction",
     )
-    rebound.add_argument("--friction", type=decimal, help="mu, above 0, for --angle")
+    rebound.add_argument("--friction", type=_decimal, help="mu, above 0, for --angle")
     _add_model(rebound, "")
     rebound.add_argument(
         "--set",
-        type=setting,
+        type=_setting,
         action="append",
         default=[],
         dest="setting",
@@ -400,10 +380,10 @@ def _parser() -> argparse.ArgumentParser:
     )
 
     history = command("history", _history, "forces and velocity over one contact", ABOUT)
-    history.add_argument("--incidence", type=decimal, required=True, metavar="X")
-    history.add_argument("--samples", type=number, default=400, help="of lumped [%(default)s]")
+    history.add_argument("--incidence", type=_decimal, required=True, metavar="X")
+    history.add_argument("--samples", type=_number, default=400, help="of lumped [%(default)s]")
     history.add_argument(
-        "--tolerance", type=decimal, default=1e-4, help="of continuum [%(default)s]"
+        "--tolerance", type=_decimal, default=1e-4, help="of continuum [%(default)s]"
     )
     _add_model(history, ("lumped", "continuum"))
 
@@ -429,7 +409,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     scene.add_argument(
         "--tolerance",
-        type=decimal,
+        type=_decimal,
         default=collision.TOLERANCE,
         help="largest error: of the tangential velocity as a share of friction times normal speed, "
         "of friction as a share of its limit [%(default)s, which the whole table of spheres meets]"
@@ -470,13 +450,13 @@ def _parser() -> argparse.ArgumentParser:
         "speed": "normal speed of approach [m/s], for the length of a step and linear springs; up "
         "to that at which spheres overlap by a tenth of their radius",
     }.items():
-        fitted.add_argument(f"--{name}", type=decimal, required=True, help=meaning)
+        fitted.add_argument(f"--{name}", type=_decimal, required=True, help=meaning)
     fitted.add_argument(
         "--loss", choices=continuum.LOSSES, help="what takes the energy; needed below e = 1"
     )
     fitted.add_argument(
         "--incidence-max",
-        type=decimal,
+        type=_decimal,
         help="end of the range of v1(0)/(mu v2(0)) that is fitted [where all slide throughout]",
     )
 
@@ -498,7 +478,7 @@ def _parser() -> argparse.ArgumentParser:
     errors = " or ".join(f"{error:g}" for error in export.TABLES)
     exported.add_argument(
         "--tolerance",
-        type=decimal,
+        type=_decimal,
         default=min(export.TABLES),
         help=f"largest error, {errors} [%(default)s]",
     )
@@ -537,7 +517,7 @@ def _add_groups(parser: argparse.ArgumentParser) -> None:
     """Add the options of the groups."""
     for name, (default, meaning) in GROUPS.items():
         option = "--" + name.replace("_", "-")
-        parser.add_argument(option, type=decimal, default=default, help=f"{meaning} [%(default)s]")
+        parser.add_argument(option, type=_decimal, default=default, help=f"{meaning} [%(default)s]")
 
 
 if __name__ == "__main__":
