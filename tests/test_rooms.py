@@ -27,7 +27,7 @@ SOLVER = {
     "models": "ground normal_impact rigid lumped continuum spheres",
     "response": "ground models",
     "export": "planarimpact ground normal_impact collision response spheres",
-    "fit": "ground normal_impact bodies continuum spheres",
+    "fit": "ground normal_impact bodies continuum spheres models",
     "collision": "ground normal_impact bodies continuum models spheres",
     "scene": "ground bodies collision pandas",
     "__init__": "ground collision",
