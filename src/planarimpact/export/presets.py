@@ -4,12 +4,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from planarimpact.collision import RESTITUTION_FROM
 from planarimpact.collision.presets import Preset, presets
 from planarimpact.export import languages
 from planarimpact.export.languages import LANGUAGES, Code
 
 BODY = "mass", "gyration", "radius"
-LAWS = "restitution", "relaxation_time", "yield_pressure", "effective_modulus"
 
 
 def code(name: str, language: str) -> Code:
@@ -21,7 +21,9 @@ def _written(key: str, preset: Preset, name: str, language: str) -> str:
     chosen, pair = LANGUAGES[language], preset.pair
     prefix = f"{name}_" if chosen.named else ""
     numbers = {field: float(getattr(pair, field)) for field in ("friction", "stiffness_ratio")}
-    laws = {field: float(getattr(pair, field)) for field in LAWS}
+    laws = {
+        field: float(getattr(pair, field)) for field in (*RESTITUTION_FROM, "effective_modulus")
+    }
     if np.isnan(laws["restitution"]):
         loss = None
     else:

@@ -18,15 +18,13 @@ from planarimpact.export import languages, presets
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.results import Regime
-from planarimpact.normal_impact import LEAST_RESTITUTION, kelvin_voigt
+from planarimpact.normal_impact import LEAST_RESTITUTION, LOSSES, kelvin_voigt
 from planarimpact.spheres import table as tables
 from planarimpact.spheres.table import LEFT, ORDER, PACKED, RIGHT, ROOTS, Table
 
 # Largest errors of the shipped tables by loss, and the tables by the larger of them.
 BOUNDS = {"fine": spheres.ERROR_BOUND, "coarse": {"viscous": 3e-3, "plastic": 4e-2}}
 TABLES: dict[float, str] = {max(bounds.values()): name for name, bounds in BOUNDS.items()}
-# Codes of losses. 0 is none of them, so that a loss which nobody states is not taken for one.
-LOSSES = {loss: code for code, loss in enumerate(spheres.LOSSES, 1)}
 
 
 class _Layout(NamedTuple):
@@ -81,7 +79,8 @@ def _laid_out(table: Table) -> _Layout:
 def _public(bounds: Mapping[str, float]) -> dict[str, float]:
     """Public constants: losses, range, errors and the codes of regimes."""
     return {
-        **{loss.upper(): code for loss, code in LOSSES.items()},
+        # 0 is none of them, so that a loss which nobody states is not taken for one.
+        **{loss.upper(): code for code, loss in enumerate(LOSSES, 1)},
         "INCIDENCE_MAX": checks.LARGEST,
         "RESTITUTION_MIN": spheres.LEAST_RESTITUTION,
         "STIFFNESS_MAX": spheres.LARGEST_STIFFNESS,
