@@ -141,7 +141,7 @@ def slides_throughout(impacts: Impacts) -> Booleans:
         known = yields[impacts.restitution[yields] >= yielding.LEAST_OF_LAW]
         slides[yields] = False
         beta, zeta2, e = impacts.groups_of(known)
-        limit = inelastic.LOSSES["plastic"](e).slides_from(beta, zeta2)
+        limit = inelastic.MOTIONS["plastic"](e).slides_from(beta, zeta2)
         slides[known] = impacts.v1[known] >= limit * unit[known]
     return slides
 
