@@ -61,7 +61,7 @@ def test_exact_models_are_as_near_as_they_promise(named):
         ("continuum.viscous, tolerance 0.001, e = 0.8, viscous", 1e-3),
         ("continuum.plastic, tolerance 0.001, e = 0.8, plastic", 1e-3),
         ("continuum, tolerance 0.01, e = 1", 1e-2),
-        ("spline of continuum, 1000 knots, e = 1", 2e-4),
+        ("spline of continuum, 2000 knots, e = 1", 1e-4 + 1e-5),
     ):
         assert 0 < named[name][RMS][0] <= named[name][MAX][0] < tolerance
 
@@ -98,11 +98,12 @@ def test_what_uncertain_inputs_hide_is_not_seen(named):
     assert seen["rigid, e = 0.8, plastic"] > seen["lumped.hysteretic, e = 0.8, plastic"] > 0.4
 
 
-def test_laws_of_impulses_have_no_peak_friction_and_others_do(named):
+def test_laws_of_impulses_have_no_peak_friction_and_a_spline_the_velocity_alone(named):
     for row in named.values():
-        silent = row["model"][0].startswith("laws.")
+        silent = row["model"][0].startswith(("laws.", "spline"))
         assert any("peak_friction" in column for column in row) is not silent
-        assert any("dissipation" in column for column in row)
+        has_work = not row["model"][0].startswith("spline")
+        assert any("dissipation" in column for column in row) is has_work
 
 
 def test_a_velocity_that_is_no_number_shows():

@@ -17,7 +17,7 @@ FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "m
 SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
 SETTINGS |= {"knots": "knots [1]"}
 # The spline of the continuum: evenly spaced incidences, and the tolerance of the continuum there.
-SPLINE_KNOTS, SPLINE_TOLERANCE = 1000, 1e-5
+SPLINE_KNOTS, SPLINE_TOLERANCE = 2000, 1e-5
 # Tolerance of the spread where the continuum is solved for it.
 SPREAD_TOLERANCE = 1e-3
 
