@@ -12,8 +12,7 @@ other seeds.
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Regime, continuum, spheres
-from planarimpact.export import spheres as export
+from planarimpact import InputError, Regime, continuum, export, spheres
 from planarimpact.spheres import making, table
 from tests.reference_solutions import inelastic_contact
 

@@ -5,7 +5,7 @@ import inspect
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Rebound, Regime, lumped, models, response
+from planarimpact import InputError, Rebound, Regime, lumped, models
 
 COARSE = {
     "continuum": {"tolerance": 1e-3},
@@ -190,8 +190,6 @@ def test_below_1_a_name_without_loss_is_refused_and_says_which_have_one():
     for name, words in (("lumped", r"lumped.hysteretic \(the paper's\)"), ("continuum", r"c.*\.v")):
         with pytest.raises(InputError, match=f"restitution = 0.8: .* name says what .*: {words}"):
             models.rebound(name, 2.0, restitution=0.8)
-        with pytest.raises(InputError, match=f"restitution = 0.8: .* name says what .*: {words}"):
-            response.compile(name, restitution=0.8)
     with pytest.raises(InputError, match="restitution = 0.5: .* unless loss says"):
         models.reference(0.5)
 
@@ -226,16 +224,11 @@ def own(monkeypatch):
     return law
 
 
-def test_a_law_of_ones_own_is_a_model_like_others(own, tmp_path):
+def test_a_law_of_ones_own_is_a_model_like_others(own):
     solved = models.rebound("own.two-lines", X, restitution=0.8, share=0.2)
     brach = models.rebound("laws.brach", X, restitution=0.8, tangential_restitution=0.2)
     for name in ("velocity", "dissipation", "regime"):
         np.testing.assert_allclose(getattr(solved, name), getattr(brach, name), rtol=1e-13)
-    compiled = response.compile("own.two-lines", incidence_max=20, tolerance=1e-9, restitution=0.8)
-    compiled.save(tmp_path / "a.json")
-    loaded = response.load(tmp_path / "a.json")
-    expected = models.rebound("own.two-lines", X, restitution=0.8).velocity
-    np.testing.assert_allclose(loaded.velocity(X), expected, atol=1e-9)
 
 
 def test_an_own_model_may_be_replaced_but_none_of_the_package(own):

@@ -39,9 +39,10 @@ from planarimpact.collision.rungs import TOLERANCE as TOLERANCE
 from planarimpact.collision.rungs import Answers as Answers
 from planarimpact.collision.rungs import answers as answers
 from planarimpact.collision.rungs import model_forms as model_forms
+from planarimpact.continuum import Unsolved
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.ground.checks import InputError, Unsolved
+from planarimpact.ground.checks import InputError
 from planarimpact.ground.results import Regime
 
 __all__ = ["Collision", "Pair", "Preset", "collide", "presets"]

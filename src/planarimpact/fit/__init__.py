@@ -13,7 +13,6 @@ impact costs.
 """
 
 import numpy as np
-from scipy import optimize
 
 from planarimpact import continuum, spheres
 from planarimpact.fit import laws
@@ -153,6 +152,8 @@ def _nearest(
     exact: Array, law: laws.Law, x: Array, beta: float, zeta2: float, e: float, undamped: bool
 ) -> tuple[float, float, float]:
     """Mean square of the error of a law, its stiffness and damping."""
+    from scipy import optimize  # here, as it takes longer to import than this package
+
     told = laws.told_for(law, e)
 
     def velocity(stiffness: Array, damping: Array, steps: int = laws.STEPS) -> Array:

@@ -17,7 +17,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy import integrate, optimize
 
 from planarimpact.ground.arrays import Array
 from planarimpact.normal_impact import hertz
@@ -89,6 +88,7 @@ def told_for(law: Law, restitution: float) -> float:
     """
     if not law.limited or restitution == 1:
         return restitution
+    from scipy import optimize  # here, as it takes longer to import than this package
 
     def excess(told: float) -> float:
         return _limited_restitution(law.hertzian, told) - restitution
@@ -98,6 +98,8 @@ def told_for(law: Law, restitution: float) -> float:
 
 def _limited_restitution(hertzian: bool, told: float) -> float:
     """Speed after a contact that ends where its force would become negative."""
+    from scipy import integrate  # here, as it takes longer to import than this package
+
     damping = normal_damping(hertzian, told)
 
     def force(state: Array) -> float:
