@@ -64,8 +64,8 @@ def error_bound(
 ) -> Array:
     """Largest error of velocity for these groups, mu v2(0); infinite where `covers` is False.
 
-    With plastic loss it is small above a restitution from 0.63 (mass over stiffness ratio 3.5) to
-    0.84 (1.56), 0.67 for solid spheres of steel.
+    Below x = 1 the error is x times that. With plastic loss it is smaller above a restitution from
+    0.63 (mass over stiffness ratio 3.5) to 0.84 (1.56), 0.67 for solid spheres of steel.
 
     Parameters
     ----------

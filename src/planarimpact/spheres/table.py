@@ -251,7 +251,7 @@ def of_one(table: Table, y: float, b: float, e: float, plastic: bool) -> tuple[s
         return panel.name, slides_from, 0.0
     patch = max(k for k, edge in enumerate(edges[:-1]) if y >= edge)
     start, end = edges[patch : patch + 2]
-    s = min((y - start) / (end - start), 1.0)
+    s = (y - start) / (end - start)
     root = ROOTS[panel.name][patch]
     s = sqrt(s) if root == LEFT else 1 - sqrt(1 - s) if root == RIGHT else s
     _, count_t, count_u = panel.velocity.shape
