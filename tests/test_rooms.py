@@ -14,7 +14,8 @@ SRC = Path(__file__).parents[1] / "src"
 # Codes that are compared with the solver, and so share nothing with it.
 APART = "tests.reference_solutions"
 
-# The solver. Models of contact do not know each other; nothing here knows the reproduction.
+# The solver. Models of contact do not know each other, but noncollinear asks lumped which losses
+# there are; nothing here knows the reproduction.
 SOLVER = {
     "ground": "",
     "normal_impact": "ground",
@@ -22,11 +23,11 @@ SOLVER = {
     "lumped": "ground",
     "continuum": "ground normal_impact",
     "bodies": "ground normal_impact",
-    "noncollinear": "ground bodies",
+    "noncollinear": "ground bodies lumped",
     "spheres": "ground normal_impact continuum",
     "models": "ground normal_impact rigid lumped continuum spheres",
     "export": "planarimpact ground normal_impact collision spheres",
-    "fit": "ground normal_impact bodies continuum spheres",
+    "fit": "ground normal_impact bodies continuum spheres models",
     "collision": "ground normal_impact bodies continuum models spheres",
     "scene": "ground bodies collision pandas",
     "__init__": (

@@ -63,7 +63,8 @@ def _fine(loss, e):
     groups = np.broadcast_arrays(x, *(np.float64(group) for group in (*GROUPS[1:], e)))
     limit = sliding.limit_alike(groups[1], groups[2], e)
     coarse, fine = (
-        inelastic.path(*groups, inelastic.LOSSES[loss], steps).velocity[-1] for steps in (512, 1024)
+        inelastic.path(*groups, inelastic.MOTIONS[loss], steps).velocity[-1]
+        for steps in (512, 1024)
     )
     return np.where(x < limit, fine + (fine - coarse) / 3, sliding.velocity(x, groups[1], e))
 

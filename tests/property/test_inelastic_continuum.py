@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from planarimpact import InputError, Regime, continuum
+from planarimpact import InputError, Regime, continuum, models
 from planarimpact.collision import continua
 from planarimpact.continuum import inelastic
 from planarimpact.continuum.inelastic import plastic as plastic_springs
@@ -74,7 +74,7 @@ def test_restitution_of_viscous_spheres_by_integration_in_time(tau):
 @pytest.mark.parametrize("loss", LOSSES)
 def test_the_normal_motion_obeys_newton_and_the_springs_carry_its_force(loss):
     e = np.array([0.999999, 0.9, 0.6, 0.3, 0.1])
-    motion = inelastic.LOSSES[loss](e)
+    motion = inelastic.MOTIONS[loss](e)
     motion.put_springs(np.linspace(0, 1, 2049)[:, None])
     np.testing.assert_allclose(motion.velocity[-1], -e, atol=1e-11)
     np.testing.assert_allclose(np.trapezoid(motion.force, motion.time, axis=0), 1 + e, atol=1e-6)
@@ -134,7 +134,7 @@ def test_without_loss_it_is_the_elastic_continuum(loss, elastic):
     x, elastic = elastic
     groups = np.full((3, x.size), [[BETA], [ZETA2], [1 - 1e-9]])
     coarse, fine = (
-        inelastic.path(x, *groups, inelastic.LOSSES[loss], steps).velocity[-1]
+        inelastic.path(x, *groups, inelastic.MOTIONS[loss], steps).velocity[-1]
         for steps in (512, 1024)
     )
     np.testing.assert_allclose(fine + (fine - coarse) / 3, elastic.velocity, atol=1e-6)
@@ -215,7 +215,7 @@ def no_slip_ratio(beta, zeta2, motion):
 @pytest.mark.parametrize("loss", LOSSES)
 @pytest.mark.parametrize(("beta", "zeta2", "e"), [(3.5, 1.21, 0.7), (6.0, 0.9, 0.4)])
 def test_with_endless_friction_the_response_is_linear(loss, beta, zeta2, e):
-    motion = inelastic.LOSSES[loss](np.array([e]))
+    motion = inelastic.MOTIONS[loss](np.array([e]))
     motion.put_springs(np.linspace(0, 1, 4001)[:, None])
     x = 1e-5
     found = solved(x, beta, zeta2, e, loss, 1e-8 * 100).velocity / x
@@ -256,7 +256,7 @@ def test_friction_and_flow_in_shear_take_what_the_body_loses(e, loss, monkeypatc
     for steps in (512, 1024, 2048):
         friction.clear()
         flow.clear()
-        found = inelastic.path(x, *groups, inelastic.LOSSES[loss], steps)
+        found = inelastic.path(x, *groups, inelastic.MOTIONS[loss], steps)
         assert np.min(friction) > -1e-6 and np.min(flow) >= 0
         assert (np.sum(flow) > 0) == (loss == "plastic")
         off.append(ZETA2 * (np.sum(friction, axis=0) + np.sum(flow, axis=0)) - found.work)
@@ -303,7 +303,7 @@ def test_viscous_springs_share_the_energy_with_friction(e, monkeypatch):
     off = []
     for steps in (512, 1024, 2048):
         losses.clear()
-        found = inelastic.path(x, *groups, inelastic.LOSSES["viscous"], steps)
+        found = inelastic.path(x, *groups, inelastic.MOTIONS["viscous"], steps)
         lost = (x**2 - found.velocity[-1] ** 2) / (2 * BETA)
         off.append(found.work + ZETA2 * losses[-1] - lost)
     # The bookkeeping at the edge has an error of first order, the steps one of second order.
@@ -371,7 +371,7 @@ def test_the_error_falls_smoothly_with_the_square_of_the_steps(loss):
     x = np.linspace(0.2, 4.2, 41)
     groups = np.full((3, x.size), [[BETA], [ZETA2], [0.6]])
     w = [
-        inelastic.path(x, *groups, inelastic.LOSSES[loss], steps).velocity[-1]
+        inelastic.path(x, *groups, inelastic.MOTIONS[loss], steps).velocity[-1]
         for steps in (128, 256, 512)
     ]
     better = [b + (b - a) / 3 for a, b in zip(w, w[1:], strict=False)]
@@ -414,7 +414,7 @@ def fine(x, beta, zeta2, e, loss):
     """Velocity and peak friction with many steps, extrapolated, and how far that moved last."""
     values = []
     for steps in (256, 512, 1024):
-        found = inelastic.path(x, beta, zeta2, e, inelastic.LOSSES[loss], steps)
+        found = inelastic.path(x, beta, zeta2, e, inelastic.MOTIONS[loss], steps)
         values.append(np.stack([found.velocity[-1], found.peak]))
     before, better = (b + (b - a) / 3 for a, b in zip(values, values[1:], strict=False))
     return better, np.abs(better - before)
@@ -481,13 +481,13 @@ def test_impacts_that_take_many_steps_are_solved(loss, tolerance, impact):
     """Many oscillations, a flow that few steps do not resolve, and dashpots that are stiff."""
     last = []
     for steps in (2048, 4096):
-        found = inelastic.path(*np.array(impact)[:, None], inelastic.LOSSES[loss], steps)
+        found = inelastic.path(*np.array(impact)[:, None], inelastic.MOTIONS[loss], steps)
         last.append(found.velocity[-1, 0])
     right, unsure = last[1] + (last[1] - last[0]) / 3, abs(last[1] - last[0]) / 2
     assert solved(*impact, loss, tolerance).velocity == pytest.approx(right, abs=tolerance + unsure)
 
 
-@pytest.mark.parametrize("model", continua.MODELS)
+@pytest.mark.parametrize("model", ["continuum", *models.losses("continuum").values()])
 def test_a_tolerance_may_be_a_share_of_any_incidence(model):
     """As friction becomes large, x vanishes, and the velocity vanishes in proportion to it."""
     rng, n, tolerance = np.random.default_rng(50), 24, 5e-3
@@ -500,7 +500,7 @@ def test_a_tolerance_may_be_a_share_of_any_incidence(model):
     assert not found.messages
     near = np.maximum(x, 1e-7)  # it is linear below
     if "." in model:
-        law = inelastic.LOSSES[model.partition(".")[2]]
+        law = inelastic.MOTIONS[model.partition(".")[2]]
         coarse, fine = (
             inelastic.path(near, beta, zeta2, e, law, steps).velocity[-1] for steps in (1024, 2048)
         )

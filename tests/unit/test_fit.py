@@ -13,7 +13,7 @@ import pytest
 
 from planarimpact import InputError, bodies, fit
 from planarimpact.__main__ import main
-from planarimpact.fit import laws, overlaps
+from planarimpact.fit import overlaps
 from planarimpact.models import timestep
 from stronge1994.figures.trade import peers
 
@@ -47,27 +47,27 @@ def found(law, pair):
 @pytest.mark.parametrize(
     ("law", "other"),
     [
-        (laws.Law(), timestep.linear),
-        (laws.Law(hertzian=True), timestep.mindlin),
-        (laws.Law(hertzian=True, rescales=True, limited=True), timestep.mindlin_rescaled),
+        (timestep.Law(), timestep.linear),
+        (timestep.Law(hertzian=True), timestep.mindlin),
+        (timestep.Law(hertzian=True, rescales=True, limited=True), timestep.mindlin_rescaled),
     ],
 )
 def test_without_loss_a_law_is_that_of_models(law, other):
     x = np.linspace(0, 8, 41)
-    velocity = laws.rebound(law, x, 3.5, 14 / 17, 0.0, told=1.0, steps=64)
+    velocity = timestep.with_dashpots(law, x, 3.5, 14 / 17, 0.0, told=1.0, steps=64)
     np.testing.assert_allclose(velocity, other(x, 3.5, 17 / 14, steps=64).velocity, atol=1e-12)
 
 
 @pytest.mark.parametrize("law", LAWS.values(), ids=map(str, LAWS))
 @pytest.mark.parametrize("e", [1.0, 0.8, 0.3])
 def test_every_law_has_the_restitution_that_is_asked_for(law, e):
-    told = laws.told_for(law, e)
-    assert laws.restitution(law, told, 4000) == pytest.approx(e, abs=3e-4)
-    assert laws.restitution(law, told) == pytest.approx(e, abs=2e-3)
+    told = timestep.told_for(law, e)
+    assert timestep.restitution(law, told, 4000) == pytest.approx(e, abs=3e-4)
+    assert timestep.restitution(law, told) == pytest.approx(e, abs=2e-3)
     # A contact that cannot pull slides throughout with mu times its normal impulse.
     if law.limited:
-        slides = laws.rebound(law, np.array([1e3]), 3.5, 1.0, 0.0, told)
-        assert slides == pytest.approx(1e3 - 3.5 * (1 + laws.restitution(law, told)), abs=1e-9)
+        slides = timestep.with_dashpots(law, np.array([1e3]), 3.5, 1.0, 0.0, told)
+        assert slides == pytest.approx(1e3 - 3.5 * (1 + timestep.restitution(law, told)), abs=1e-9)
 
 
 def linear(lines, yade, wall):
@@ -182,7 +182,9 @@ def test_the_lines_have_the_contact_of_the_fit(law, name, fitted):
     if name != "pair":  # it lasts another number of steps, so both are stepped more finely
         contact_law = LAWS[law, one.style]
         groups = 3.5, one.stiffness, one.damping, one.told
-        steps = laws.rebound(contact_law, one.incidence[places], *groups, 10 * laws.STEPS)
+        steps = timestep.with_dashpots(
+            contact_law, one.incidence[places], *groups, 10 * timestep.DASHPOT_STEPS
+        )
     finer = 1 if name == "pair" else 10
     stepped = [in_si(law, lines, one.incidence[i], *contact, wall, finer) for i in places]
     np.testing.assert_allclose([w for w, _ in stepped], steps, atol=1e-3)
@@ -311,7 +313,10 @@ def test_the_stated_error_holds_wherever_in_a_step_contact_begins(law, pair):
     groups = 3.5, one.stiffness, one.damping, one.told
     random = np.random.default_rng(3).uniform(size=30)
     off = np.array(
-        [laws.rebound(LAWS[law, one.style], one.incidence, *groups, begins=b) for b in random]
+        [
+            timestep.with_dashpots(LAWS[law, one.style], one.incidence, *groups, begins=b)
+            for b in random
+        ]
     )
     assert np.abs(off - one.after).max() < MOVES[law]
     off -= one.continuum
@@ -390,7 +395,7 @@ def test_the_nearest_is_the_nearest():
     law = LAWS["lammps-hooke", "linear_history"]
 
     def rms(stiffness, damping):
-        velocity = laws.rebound(law, one.incidence, 3.5, stiffness, damping, one.told)
+        velocity = timestep.with_dashpots(law, one.incidence, 3.5, stiffness, damping, one.told)
         return float(np.sqrt(np.mean((velocity - one.continuum) ** 2)))
 
     best = rms(one.stiffness, one.damping)

@@ -16,9 +16,8 @@ from planarimpact.bodies.quantities import OutOfRange, all_positive, in_range, q
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.checks import checked, not_negative, positive
-from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, kelvin_voigt, yielding
+from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, LOSSES, kelvin_voigt, yielding
 
-LOSSES = tuple(LAWS)
 # Relative rounding error of a relaxation time that `relaxation_time` returns.
 ROUNDING = 1e-12
 

@@ -30,8 +30,7 @@ from planarimpact.collision.mechanics import energy_lost as energy_lost
 from planarimpact.collision.mechanics import impacts as impacts
 from planarimpact.collision.mechanics import problems as problems
 from planarimpact.collision.mechanics import problems_of_normals as problems_of_normals
-from planarimpact.collision.pairs import LAWS as LAWS
-from planarimpact.collision.pairs import LOSSES as LOSSES
+from planarimpact.collision.pairs import RESTITUTION_FROM as RESTITUTION_FROM
 from planarimpact.collision.pairs import Pair as Pair
 from planarimpact.collision.presets import Preset as Preset
 from planarimpact.collision.presets import presets as presets
@@ -44,6 +43,7 @@ from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.ground.checks import InputError
 from planarimpact.ground.results import Regime
+from planarimpact.normal_impact import LOSSES as LOSSES
 
 __all__ = ["Collision", "Pair", "Preset", "collide", "presets"]
 

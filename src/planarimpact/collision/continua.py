@@ -9,9 +9,6 @@ from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.checks import ConvergenceError
 from planarimpact.ground.results import Rebound
 
-# Of elastic impacts, and of those with each loss.
-MODELS = ("continuum", *(f"continuum.{loss}" for loss in continuum.LOSSES))
-
 
 class Solved(NamedTuple):
     """Answers, the indices of the impacts that have one, and `{index: message}` of the others."""
@@ -22,7 +19,7 @@ class Solved(NamedTuple):
 
 
 def rebound(model: str, incidence: Array, groups: tuple[Array, ...], tolerance: Array) -> Solved:
-    """Impacts solved by one of `MODELS`, to the tolerance of each, in mu v2(0)."""
+    """Impacts solved by a continuum, to the tolerance of each, in mu v2(0)."""
     rows, messages = np.arange(incidence.size), dict[int, str]()
     loss = model.partition(".")[2] or None
     while True:

@@ -142,7 +142,7 @@ def slides_throughout(impacts: Impacts) -> Booleans:
         slides[yields] = False
         if known.size:
             beta, zeta2, e = impacts.groups_of(known)
-            limit = inelastic.LOSSES["plastic"](e).slides_from(beta, zeta2)
+            limit = inelastic.MOTIONS["plastic"](e).slides_from(beta, zeta2)
             slides[known] = impacts.v1[known] >= limit * unit[known]
     return slides
 

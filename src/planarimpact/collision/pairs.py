@@ -4,16 +4,18 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact import bodies, continuum
+from planarimpact import bodies, normal_impact
 from planarimpact.bodies import Material
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans
 from planarimpact.ground.checks import InputError
+from planarimpact.normal_impact import LOSSES
 
-LOSSES = continuum.LOSSES
-# What says how much energy is lost: restitution, or what gives it at the speed of each impact.
-LAWS = {"restitution": None, "relaxation_time": "viscous", "yield_pressure": "plastic"}
-_FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *LAWS)
+# What says how much energy is lost, and the loss if that says it too: restitution itself, or a
+# property of the materials that gives it at the speed of each impact.
+RESTITUTION_FROM: dict[str, str | None] = {"restitution": None}
+RESTITUTION_FROM |= {law.property: loss for loss, law in normal_impact.LAWS.items()}
+_FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *RESTITUTION_FROM)
 _ARRAYS = (*_FIELDS, "plastic")
 LARGEST = float(np.finfo(float).max)
 # Sizes of numbers that `one_impact` computes with. No product that it needs leaves the range of
@@ -221,10 +223,11 @@ def _loss_codes(loss: str | ArrayLike | None) -> Array:
 
 def _refuse_other_laws(arrays: dict[str, Array]) -> None:
     """Refuse pairs that say how much energy is lost in two ways, or in none."""
-    said = np.sum([~np.isnan(arrays[name]) for name in LAWS], axis=0)
+    said = np.sum([~np.isnan(arrays[name]) for name in RESTITUTION_FROM], axis=0)
     if (said != 1).any():
         count = int(np.atleast_1d(said)[np.atleast_1d(said) != 1][0])
-        raise InputError(f"{', '.join(LAWS)}: {count} of them given, needed is exactly one a pair")
+        names = ", ".join(RESTITUTION_FROM)
+        raise InputError(f"{names}: {count} of them given, needed is exactly one a pair")
 
 
 def _refuse_loss(arrays: dict[str, Array], codes: Array) -> None:
@@ -233,7 +236,7 @@ def _refuse_loss(arrays: dict[str, Array], codes: Array) -> None:
     missing = (restitution < 1) & (codes < 0)
     if missing.any():
         checks.lossless(float(restitution[missing].flat[0]), LOSSES)
-    for name, loss in LAWS.items():
+    for name, loss in RESTITUTION_FROM.items():
         if loss and (~np.isnan(arrays[name]) & (codes >= 0) & (codes != LOSSES.index(loss))).any():
             (other,) = set(LOSSES) - {loss}
             raise InputError(

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact import continuum, spheres
+from planarimpact import continuum, models, spheres
 from planarimpact.collision import continua, model_form
 from planarimpact.collision.mechanics import Impacts, slides_throughout
 from planarimpact.ground import sliding
@@ -43,14 +43,14 @@ CONTINUUM_WAYS = (
     ("solved", "the table of spheres covers them, but its error is above the tolerance"),
     ("solved", "the table of spheres does not cover them"),
 )
+CONTINUA = ("continuum", *models.losses("continuum").values())
 TABLED, TOO_COARSE, NOT_COVERED = range(len(CONTINUUM_WAYS))
 RUNGS = (
     Rung("slip throughout", "formula", "they slide from first to last, by Coulomb's law"),
     Rung("head-on", "formula", "they have no tangential motion"),
-    *(Rung(model, way, why) for (way, why), model in product(CONTINUUM_WAYS, continua.MODELS)),
+    *(Rung(model, way, why) for (way, why), model in product(CONTINUUM_WAYS, CONTINUA)),
 )
 SLIDING, HEAD_ON, FIRST_OF_CONTINUA = 0, 1, 2
-MODELS = list(dict.fromkeys(rung.model for rung in RUNGS))
 # Places of the rungs of impacts that the table of spheres covers, but not within the tolerance.
 TOO_COARSE_RUNGS = [k for k, rung in enumerate(RUNGS) if rung.why == CONTINUUM_WAYS[TOO_COARSE][1]]
 
@@ -68,12 +68,12 @@ def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
     rows = np.flatnonzero(~slides & ~head_on)
     groups = impacts.groups_of(rows)
     elastic = groups[2] == 1
-    kind = np.where(elastic, 0, np.where(impacts.plastic[rows], 2, 1))  # in `continua.MODELS`
+    kind = np.where(elastic, 0, np.where(impacts.plastic[rows], 2, 1))  # in `CONTINUA`
     x = impacts.incidence_of(rows)
     of_table = _table_error(x, groups, kind == 2)
     way = np.where(of_table <= tolerance, TABLED, TOO_COARSE)
     way = np.where(np.isfinite(of_table), way, NOT_COVERED)
-    place[rows] = FIRST_OF_CONTINUA + len(continua.MODELS) * way + kind
+    place[rows] = FIRST_OF_CONTINUA + len(CONTINUA) * way + kind
     error[rows] = np.where(way == TABLED, of_table, _tolerance(x, tolerance))
     return place, error * impacts.unit
 

@@ -15,13 +15,14 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.continuum import elastic, inelastic, refinement
+from planarimpact.continuum.inelastic.motion import NormalMotion
 from planarimpact.continuum.refinement import Unsolved as Unsolved
 from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.results import Rebound
+from planarimpact.normal_impact import LOSSES as LOSSES
 from planarimpact.normal_impact import hertz
 
-LOSSES = "viscous", "plastic"
 # Below this restitution most contacts need more steps than are allowed.
 LEAST_RESTITUTION = 0.1
 # Default tolerances.
@@ -163,7 +164,7 @@ def rebound(
         restitution=e,
         tolerance=checks.positive("tolerance", tolerance),
     )
-    _refuse_lossy(restitution, loss)
+    kind = _kind_of_motion(restitution, loss)
     x, beta, zeta2, e, allowed = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, allowed))
     velocity, peak, work = (np.empty(x.size) for _ in range(3))
     regime, reversals = (np.empty(x.size, np.int64) for _ in range(2))
@@ -173,11 +174,10 @@ def rebound(
             continue
         groups = x[rows], beta[rows], zeta2[rows]
         with refinement.counted_among(rows):
-            if is_elastic:
+            if is_elastic or kind is None:
                 solved = elastic.rebound(*groups, allowed[rows])
             else:
-                motion_of = inelastic.LOSSES[loss or ""]
-                solved = inelastic.rebound(*groups, e[rows], allowed[rows], motion_of)
+                solved = inelastic.rebound(*groups, e[rows], allowed[rows], kind)
         velocity[rows], peak[rows], work[rows], regime[rows], reversals[rows] = solved
     return Rebound.shaped(signed, velocity, peak, work, regime.astype(np.uint8), reversals)
 
@@ -221,12 +221,11 @@ def slip_throughout_limit(
     [5.332, 7.856]
     """
     _, beta, zeta2, e = checks.impact(0.0, mass_ratio, stiffness_ratio, restitution)
-    _refuse_lossy(restitution, loss)
+    kind = _kind_of_motion(restitution, loss)
     incidence = np.array(sliding.limit_alike(beta, zeta2, e))
     lossy = e < 1
-    if loss is not None and lossy.any():
-        motion = inelastic.LOSSES[loss](e[lossy])
-        incidence[lossy] = motion.slides_from(beta[lossy], zeta2[lossy])
+    if kind is not None and lossy.any():
+        incidence[lossy] = kind(e[lossy]).slides_from(beta[lossy], zeta2[lossy])
     return incidence[()]
 
 
@@ -321,14 +320,14 @@ def history(
     signed, beta, zeta2, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     rule = "finite numbers above 0"
     allowed = np.full(1, checks.number("tolerance", tolerance, rule, 0, open_low=True))
-    _refuse_lossy(restitution, loss)
+    kind = _kind_of_motion(restitution, loss)
     if signed.ndim:
         raise checks.InputError(f"shape = {signed.shape}: one contact takes scalars")
     x, beta, zeta2, e = (a.reshape(1) for a in (np.abs(signed), beta, zeta2, e))
     mirror = float(np.copysign(1.0, signed))
-    if e[0] < 1:
+    if kind is not None and e[0] < 1:
         time, normal, friction, velocity, radius, stick_radius = inelastic.contact(
-            x, beta, zeta2, e, inelastic.LOSSES[loss or ""], allowed
+            x, beta, zeta2, e, kind, allowed
         )
     else:
         phase, friction, velocity, stick_radius = elastic.contact(x, beta, zeta2, allowed)
@@ -340,11 +339,12 @@ def history(
     )
 
 
-def _refuse_lossy(restitution: ArrayLike, loss: str | None) -> None:
-    """Refuse impacts that lose energy and do not say how, or that lose too much."""
+def _kind_of_motion(restitution: ArrayLike, loss: str | None) -> type[NormalMotion] | None:
+    """How spheres with this loss move; refuse impacts that lose too much, or do not say how."""
     if loss is None:
         checks.lossless(restitution, LOSSES)
-        return
-    checks.loss(loss, tuple(inelastic.LOSSES))
+        return None
+    found = inelastic.MOTIONS[checks.loss(loss, tuple(inelastic.MOTIONS))]
     allowed = f"numbers from {LEAST_RESTITUTION} to 1, with a loss"
     checks.checked("restitution", restitution, allowed, LEAST_RESTITUTION, 1)
+    return found

@@ -27,7 +27,7 @@ from planarimpact.ground import checks, files
 from planarimpact.ground.arrays import Array, ArrayLike, Integers
 from planarimpact.ground.checks import InputError
 from planarimpact.ground.results import Regime
-from planarimpact.normal_impact import LEAST_RESTITUTION, kelvin_voigt
+from planarimpact.normal_impact import LEAST_RESTITUTION, LOSSES, kelvin_voigt
 from planarimpact.spheres import table as tables
 from planarimpact.spheres.table import LEFT, ORDER, PACKED, RIGHT, ROOTS, Table
 
@@ -36,8 +36,6 @@ LANGUAGES = {"c": (".h",), "js": (".mjs", ".js")}
 # Largest errors of the shipped tables by loss, and the tables by the larger of them.
 BOUNDS = {"fine": spheres.ERROR_BOUND, "coarse": {"viscous": 3e-3, "plastic": 4e-2}}
 TABLES: dict[float, str] = {max(bounds.values()): name for name, bounds in BOUNDS.items()}
-# Codes of losses. 0 is none of them, so that a loss which nobody states is not taken for one.
-LOSSES = {loss: code for code, loss in enumerate(spheres.LOSSES, 1)}
 # A name in C, and not one of those that begin with an underscore: C reserves many of them.
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*", re.ASCII)
 # Lines with the marks of a block, and what is between them.
@@ -171,7 +169,8 @@ def _constants(values: Mapping[str, float]) -> Block:
 def _public(bounds: Mapping[str, float]) -> dict[str, float]:
     """Public constants: losses, range, errors and the codes of regimes."""
     return {
-        **{loss.upper(): code for loss, code in LOSSES.items()},
+        # 0 is none of them, so that a loss which nobody states is not taken for one.
+        **{loss.upper(): code for code, loss in enumerate(LOSSES, 1)},
         "INCIDENCE_MAX": checks.LARGEST,
         "RESTITUTION_MIN": spheres.LEAST_RESTITUTION,
         "STIFFNESS_MAX": spheres.LARGEST_STIFFNESS,

@@ -9,17 +9,18 @@ A fit holds for one restitution, so for one speed where restitution depends on i
 materials, for its range of incidence, and for small overlaps: `lines` says what the overlap of an
 impact costs.
 
-`laws` steps through a contact, `codes` knows the codes, `overlaps` what larger ones cost.
+`models.timestep` steps through a contact, `codes` knows the codes, `overlaps` what larger overlaps
+cost.
 """
 
 import numpy as np
 
 from planarimpact import continuum, spheres
-from planarimpact.fit import laws
 from planarimpact.fit.codes import CODES, Code, Error, Fit, lines
 from planarimpact.fit.overlaps import overlap
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.models import timestep
 
 __all__ = ["CODES", "Code", "Error", "Fit", "fit", "lines", "overlap"]
 
@@ -78,9 +79,9 @@ def fit(
 
     Notes
     -----
-    An elastic contact lasts `laws.STEPS` steps. For the search, by Nelder and Mead from the best
-    point of a grid, it begins with a step; the errors are the worst of all its begins in a step. Of
-    the tangential laws of a code the nearest is taken. The overlap is taken to vanish.
+    An elastic contact lasts `timestep.DASHPOT_STEPS` steps. For the search, by Nelder and Mead from
+    the best point of a grid, it begins with a step; the errors are the worst of all its begins in a
+    step. Of the tangential laws of a code the nearest is taken. The overlap is taken to vanish.
 
     For beads of steel (e = 0.8), glass (0.97) and polyurethane (0.6) a begin within a step moves
     velocities by up to 0.003 mu v2(0) with "lammps-hertz-mindlin", 0.03 with "lammps-hooke" and
@@ -117,12 +118,14 @@ def fit(
     ]
     _, stiffness, damping, style = min(fitted, key=lambda found: found[0])
     contact = code.styles[style]
-    told = laws.told_for(contact, e)
+    told = timestep.told_for(contact, e)
     usual = 1 / zeta2 if code.usual_stiffness is None else code.usual_stiffness
-    usual_damping = code.usual_damping * laws.normal_damping(contact.hertzian, e)
+    usual_damping = code.usual_damping * timestep.normal_damping(contact.hertzian, e)
 
-    def stepped(own: laws.Law, spring: float, dashpot: float, told: float) -> Array:
-        each = [laws.rebound(own, far, beta, spring, dashpot, told, begins=b) for b in BEGINS]
+    def stepped(own: timestep.Law, spring: float, dashpot: float, told: float) -> Array:
+        each = [
+            timestep.with_dashpots(own, far, beta, spring, dashpot, told, begins=b) for b in BEGINS
+        ]
         return np.stack(each)
 
     before = stepped(contact._replace(limited=code.limited), usual, usual_damping, e)
@@ -149,15 +152,17 @@ def _continuum(x: Array, beta: float, zeta2: float, e: float, loss: str | None) 
 
 
 def _nearest(
-    exact: Array, law: laws.Law, x: Array, beta: float, zeta2: float, e: float, undamped: bool
+    exact: Array, law: timestep.Law, x: Array, beta: float, zeta2: float, e: float, undamped: bool
 ) -> tuple[float, float, float]:
     """Mean square of the error of a law, its stiffness and damping."""
     from scipy import optimize  # here, as it takes longer to import than this package
 
-    told = laws.told_for(law, e)
+    told = timestep.told_for(law, e)
 
-    def velocity(stiffness: Array, damping: Array, steps: int = laws.STEPS) -> Array:
-        return laws.rebound(law, x, beta, stiffness[..., None], damping[..., None], told, steps)
+    def velocity(stiffness: Array, damping: Array, steps: int = timestep.DASHPOT_STEPS) -> Array:
+        return timestep.with_dashpots(
+            law, x, beta, stiffness[..., None], damping[..., None], told, steps
+        )
 
     def mean_square(place: Array) -> float:
         if place.min() < 0:

@@ -13,10 +13,11 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact import bodies
-from planarimpact.fit import laws, overlaps
-from planarimpact.fit.laws import Law
+from planarimpact.fit import overlaps
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.models import timestep
+from planarimpact.models.timestep import Law
 from planarimpact.normal_impact import hertz
 
 
@@ -221,7 +222,7 @@ def _contact(found: Fit, material: bodies.Material, *given: ArrayLike) -> _Conta
     m2, modulus, effective = bodies.contact(sphere, material, sphere, material)
     mass, force = float(m2), float(bodies.hertz_peak_force(m2, v2, modulus, effective))
     lasts = 2 * hertz.COMPRESSION * hertz.PEAK_FORCE * mass * v2 / force
-    stiffness = mass * (laws.duration(hertzian=False) / lasts) ** 2
+    stiffness = mass * (math.pi / lasts) ** 2
     damping = (stiffness * mass) ** 0.5
     return _Contact(
         float(material.young_modulus),
@@ -230,10 +231,10 @@ def _contact(found: Fit, material: bodies.Material, *given: ArrayLike) -> _Conta
         mu,
         v2,
         size,
-        lasts / laws.STEPS,
+        lasts / timestep.DASHPOT_STEPS,
         stiffness,
         stiffness * found.stiffness,
-        damping * laws.normal_damping(hertzian=False, told=found.told),
+        damping * timestep.normal_damping(hertzian=False, told=found.told),
         damping * found.damping,
     )
 
@@ -251,7 +252,7 @@ def _about(found: Fit, contact: _Contact) -> list[str]:
         f"two equal solid spheres: e = {found.restitution:g}, zeta^2 = "
         f"{found.stiffness_ratio:.4g}, m2/m1 = {found.mass_ratio:g}, mu = {contact.friction:g}",
         f"range of the fit: x = v1(0)/(mu v2(0)) from 0 to {end:.3g}; "
-        f"{laws.STEPS} steps in an elastic contact at {contact.speed:g} m/s",
+        f"{timestep.DASHPOT_STEPS} steps in an elastic contact at {contact.speed:g} m/s",
         "error of v1(tf)/(mu v2(0)), root mean square and largest, where overlaps are small:",
         f"  before {before.rms:.3f}, {before.largest:.3f} at x = {before.at:.2f} "
         f"({CODES[found.law].origin})",
@@ -272,7 +273,7 @@ def _about(found: Fit, contact: _Contact) -> list[str]:
 
 def _lammps(found: Fit, contact: _Contact) -> str:
     code = CODES[found.law]
-    normal = laws.normal_damping(code.styles[found.style].hertzian, found.told)
+    normal = timestep.normal_damping(code.styles[found.style].hertzian, found.told)
     multiple = found.damping / normal if normal else 0.0
     if found.law == "lammps-hooke":
         spring, stiffness = f"hooke {_short(contact.normal)} {found.told:.6g}", contact.tangential
@@ -307,10 +308,10 @@ WALL = 2**0.5
 
 def _walls(found: Fit, own: str) -> list[str]:
     """What dashpots that know no mass do at a wall, and that it needs its own."""
-    damping = laws.normal_damping(hertzian=False, told=found.told) / WALL
+    damping = timestep.normal_damping(hertzian=False, told=found.told) / WALL
     told = math.exp(-math.pi * damping / math.sqrt(4 - damping**2))
-    steps = round(WALL * laws.STEPS)
-    e = laws.restitution(CODES[found.law].styles[found.style], told, steps)
+    steps = round(WALL * timestep.DASHPOT_STEPS)
+    e = timestep.restitution(CODES[found.law].styles[found.style], told, steps)
     return [
         "Springs and dashpots of this code know no mass: spheres of other masses have another e.",
         f"A wall of this material would have e = {e:.3f}, instead of {found.restitution:g}, "

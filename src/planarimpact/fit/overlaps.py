@@ -1,8 +1,8 @@
 """How far spheres overlap in an impact, and what that costs.
 
 While two spheres touch they pass each other, and their common normal turns. The continuum and
-`laws` leave that out. A second cause is far smaller: LAMMPS takes half of the overlap from the
-lever arm of friction.
+`models.timestep` leave that out. A second cause is far smaller: LAMMPS takes half of the overlap
+from the lever arm of friction.
 """
 
 from planarimpact import bodies

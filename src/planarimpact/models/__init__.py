@@ -690,7 +690,7 @@ MODELS = {
                 loss,
             )
             for loss, limit in zip(
-                spheres.LOSSES, (_VISCOUS_LIMIT, _tabled_yielding_limit), strict=True
+                continuum.LOSSES, (_VISCOUS_LIMIT, _tabled_yielding_limit), strict=True
             )
         ),
         Model(

@@ -1,35 +1,35 @@
-"""Contact laws of discrete-element codes, integrated as these codes do: in few equal time steps.
+"""Contacts in equal time steps, as discrete-element codes step through them.
 
-The method is velocity Verlet (leapfrog): half a kick of the velocities, a drift, forces from
-positions at the new time and velocities half a step old, half a kick. The tangential force is
-carried from step to step. It grows by stiffness times displacement, and is cut back to mu times the
-normal force. Normal and tangential motion both have the error of the steps. Events are not located
-within a step.
+Each step moves the bodies by their velocities half a step before, and then finds the forces from
+the new places and these velocities: velocity Verlet, or leapfrog, as LAMMPS, MercuryDPM and Yade
+have it. Friction is a spring that is carried from step to step, beside a dashpot or none, and is
+cut back to mu times the normal force. Normal and tangential motion both have the error of the
+steps: events are not located within a step. A `Law` says how a code finds these forces.
 
-The contact starts at a step. For e < 1 all three laws lose normal energy in the paper's hysteretic
-spring (Walton & Braun's with latching): below the largest depth reached, the normal force follows a
-line, or a Hertz curve, that is steeper by 1/e^2. So restitution takes e times as long as
-compression. The length of the step stays the same: restitution has e/(1 + e) of the steps. If that
-is less than one step, the impulse of friction is wrong by up to 0.75 of what the largest force
-gives in a step. The evidence on this spring is divided, see `planarimpact.lumped`. For e = 0 the
-contact ends with the step nearest to maximum compression. Many codes use a dashpot instead, which
-is another law.
+There are two normal motions. `linear`, `mindlin` and `mindlin_rescaled` lose energy for e < 1 in
+the paper's hysteretic spring (Walton & Braun's with latching): below the largest depth reached, the
+normal force follows a line, or a Hertz curve, that is steeper by 1/e^2. So restitution takes e
+times as long as compression, and has e/(1 + e) of the steps. If that is less than one step, the
+impulse of friction is wrong by up to 0.75 of what the largest force gives in a step. For e = 0 the
+contact ends with the step nearest to maximum compression. The evidence on this spring is divided,
+see `planarimpact.lumped`. `with_dashpots` has a dashpot beside the normal spring instead, as many
+codes do; `planarimpact.fit` fits its tangential spring and dashpot to the continuum.
 
-`Regime` is read from the steps. A slip or a stick that is shorter than a step is missed: if the
-last slip is so short, the regime ends in stick. But a contact whose slip changes its direction
-counts as having stuck once, even if no step was in stick. Hertz contact starts in slip
-from x = 2 zeta^2/3, not zeta^2, however many steps there are, because the first step already has
-the stiffness of its end.
+The overlap is taken to vanish beside the radius, so the normal does not turn.
 
-Units: m2 and |v2(0)|, times mu in tangential direction; time 1/Omega where the contact is linear,
-d_max/|v2(0)| where it is Hertzian.
+Units: m2 and |v2(0)|, times mu in tangential direction; the largest approach of a contact that
+loses nothing. So the normal spring has the force d where it is linear, and 1.25 d^(3/2) where it is
+Hertz's. A dashpot has its coefficient times (m2 F/d)^(1/2), where F is the force of the normal
+spring and d the approach.
 """
 
+import functools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
+from scipy import integrate, optimize
 
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers, Numbers
@@ -39,16 +39,28 @@ from planarimpact.normal_impact import hertz
 STEPS = 64
 # So many steps take a few minutes.
 MOST_STEPS = 10**7
-
 # Impacts solved together, as in `planarimpact.lumped`.
 CHUNK = 16384
-
 # Explicit steps are stable while the phase of an oscillation grows by no more than this [rad].
 STABLE_ANGLE = 2.0
-
 # Velocity over zeta^2 is clipped to these bounds. Below, the contact sticks to its last step and
 # the answer is proportional to x. Above, it slides throughout.
 LEAST, LARGEST = 1e-100, 1e300
+# Steps of `with_dashpots` in a contact that loses nothing. One that loses energy lasts longer, but
+# not so many times as long.
+DASHPOT_STEPS, LONGEST = 200, 20
+
+
+class Law(NamedTuple):
+    """How a code finds the forces of a contact."""
+
+    hertzian: bool = False
+    # Whether friction shrinks in proportion to the radius of contact, where this shrinks.
+    rescales: bool = False
+    # Whether the normal force is kept from pulling. Where it pulls, friction acts as if it pressed.
+    limited: bool = False
+    # Whether the limit of friction holds for the spring alone; the dashpot is there in stick only.
+    spring_slides: bool = False
 
 
 @checks.default_errors
@@ -75,8 +87,10 @@ def linear(
     Returns
     -------
     Rebound
-        The same fields and units as `planarimpact.lumped.rebound`; peak_friction, at most
-        1, and regime are what the steps show.
+        The same fields and units as `planarimpact.lumped.rebound`; peak_friction, at most 1, and
+        regime are what the steps show. A slip or a stick that is shorter than a step is missed: if
+        the last slip is so short, the regime ends in stick. But a contact whose slip changes its
+        direction counts as having stuck once, even if no step was in stick.
 
     Raises
     ------
@@ -104,7 +118,7 @@ def linear(
     >>> bool(abs(linear(2.0).velocity - limit) < 1e-3)
     True
     """
-    return _rebound(LINEAR, incidence, mass_ratio, stiffness_ratio, restitution, steps)
+    return _latching(Law(), incidence, mass_ratio, stiffness_ratio, restitution, steps)
 
 
 @checks.default_errors
@@ -118,30 +132,23 @@ def mindlin(
 ) -> Rebound:
     """Hertz contact; friction grows with the full tangential stiffness.
 
+    Arguments, answer and refusals are those of `linear`, but for these:
+
     Parameters
     ----------
-    incidence, mass_ratio, restitution : array_like
-        As in `linear`.
     stiffness_ratio : array_like
         zeta^2 > 0, normal stiffness dF2/d(depth) of an elastic contact over Mindlin's tangential
         stiffness 8 a G*; (2 - nu)/(2 (1 - nu)) for equal materials.
     steps : int
-        Over the duration of contact; 3 to 10^7, and at least 1.0076 (1 + e) times the root
-        of beta/zeta^2: with fewer the tangential oscillation turns by more than 2 in a step and
-        grows. Close to that number it may still create energy: a search reached |velocity| = 11 |x|
-        with the least number, many steps and e near 0; 1.8 |x| with twice as many.
+        3 to 10^7, and at least 1.0076 (1 + e) times the root of beta/zeta^2. Close to that number
+        it may still create energy: a search reached |velocity| = 11 |x| with the least number, many
+        steps and e near 0; 1.8 |x| with twice as many.
 
     Returns
     -------
     Rebound
-        The same fields and units as `planarimpact.continuum.rebound`, but no reversals;
-        peak_friction, at most 1, and regime are what the steps show.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a finite real number in its range, if shapes do not broadcast, or if
-        there are too few steps for one of the impacts.
+        The contact starts in slip from x = 2 zeta^2/3, not zeta^2, however many steps there are,
+        because the first step already has the stiffness of its end.
 
     Notes
     -----
@@ -163,7 +170,8 @@ def mindlin(
     >>> [round(float(w), 2) for w in mindlin([1.0, 2.0, 8.0], 3.5, 17 / 14).velocity]
     [0.54, -0.18, 1.0]
     """
-    return _rebound(MINDLIN, incidence, mass_ratio, stiffness_ratio, restitution, steps)
+    law = Law(hertzian=True)
+    return _latching(law, incidence, mass_ratio, stiffness_ratio, restitution, steps)
 
 
 @checks.default_errors
@@ -176,23 +184,6 @@ def mindlin_rescaled(
     steps: int = STEPS,
 ) -> Rebound:
     """Hertz contact as `mindlin`, but friction shrinks in proportion to the radius of contact.
-
-    Parameters
-    ----------
-    incidence, mass_ratio, stiffness_ratio, restitution : array_like
-        As in `mindlin`.
-    steps : int
-        As in `mindlin`.
-
-    Returns
-    -------
-    Rebound
-        As `mindlin`.
-
-    Raises
-    ------
-    InputError
-        As `mindlin`.
 
     Notes
     -----
@@ -215,68 +206,214 @@ def mindlin_rescaled(
     >>> [round(float(w), 2) for w in mindlin_rescaled([1.0, 2.0, 8.0], 3.5, 17 / 14).velocity]
     [0.45, -0.19, 1.0]
     """
-    return _rebound(MINDLIN_RESCALED, incidence, mass_ratio, stiffness_ratio, restitution, steps)
+    law = Law(hertzian=True, rescales=True)
+    return _latching(law, incidence, mass_ratio, stiffness_ratio, restitution, steps)
 
 
-class _Law(NamedTuple):
-    """A law of contact; depth means the elastic depth, in units of d_max."""
+def with_dashpots(
+    law: Law,
+    x: Array,
+    mass_ratio: float,
+    stiffness: Array | float,
+    damping: Array | float,
+    told: float,
+    steps: int = DASHPOT_STEPS,
+    begins: float = 0.0,
+) -> Array:
+    """Velocity v1(tf)/(mu v2(0)) of the contact point; x, stiffness and damping broadcast.
 
-    to_maximum: float  # time to maximum compression
-    peak_force: float  # largest normal force, at depth 1
-    stiffness: float  # largest normal stiffness, at depth 1
-    hertzian: bool
-    rescales: bool
+    The tangential stiffness comes as a share of the normal one, in a Hertz contact at every
+    approach; the tangential damping as the coefficient of its dashpot. `told` is the restitution
+    that a code is told, see `told_for`. `steps` is their number in a contact that loses nothing,
+    `begins` the part of the first step that is over when the bodies touch, from 0 to below 1.
+    Arguments are not checked.
+
+    Examples
+    --------
+    >>> with_dashpots(Law(), np.array([0.5, 2.0, 8.0]), 3.5, 14 / 17, 0.0, told=1.0).round(2)
+    array([ 0.21, -0.58,  1.  ])
+    """
+    velocity = np.array(np.broadcast_arrays(x, stiffness, damping)[0], float)
+    instants = _dashpot_motion(law, told, steps, begins)[0]
+    for _ in _friction(law, instants, velocity, mass_ratio, stiffness, damping):
+        pass
+    return velocity
 
 
-LINEAR = _Law(math.pi / 2, 1.0, 1.0, hertzian=False, rescales=False)
-MINDLIN = _Law(
-    # The integral of dd/sqrt(1 - d^(5/2)) from 0 to 1.
-    math.sqrt(math.pi) * math.gamma(1.4) / math.gamma(0.9),
-    hertz.PEAK_FORCE,
-    1.5 * hertz.PEAK_FORCE,
-    hertzian=True,
-    rescales=False,
-)
-MINDLIN_RESCALED = MINDLIN._replace(rescales=True)
+def duration(hertzian: bool) -> float:
+    """Duration of a contact that loses nothing.
+
+    Examples
+    --------
+    >>> round(duration(hertzian=False), 6), round(duration(hertzian=True), 3)
+    (3.141593, 2.943)
+    """
+    if not hertzian:
+        return math.pi
+    # Twice the integral of dd/sqrt(1 - d^(5/2)) from 0 to 1.
+    return 2 * math.sqrt(math.pi) * math.gamma(1.4) / math.gamma(0.9)
 
 
-def _rebound(
-    law: _Law,
-    incidence: ArrayLike,
-    mass_ratio: ArrayLike,
-    stiffness_ratio: ArrayLike,
-    restitution: ArrayLike,
-    steps: int,
-) -> Rebound:
-    signed, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    beta, zeta2, e = (a.reshape(-1) for a in groups)
-    with np.errstate(over="ignore"):
-        frequency = math.sqrt(law.stiffness) * (np.sqrt(beta) / np.sqrt(zeta2))
-        angle = (1 + e) * law.to_maximum * frequency
-    steps = checks.explicit_steps(steps, angle / STABLE_ANGLE, 3, MOST_STEPS)
-    x = np.abs(signed).reshape(-1)
-    velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
-    regime = np.empty(x.size, np.uint8)
-    for start in range(0, x.size, CHUNK):
-        part = slice(start, start + CHUNK)
-        outcome = _impacts(law, x[part], beta[part], zeta2[part], e[part], steps)
-        velocity[part], impulse[part], peak[part], regime[part] = outcome
-    return Rebound.of(signed, velocity, impulse, peak, regime)
+def normal_damping(hertzian: bool, told: float) -> float:
+    """Coefficient of the normal dashpot for a restitution, where the contact may pull at its end.
+
+    Notes
+    -----
+    LAMMPS, `damping coeff_restitution`. D. Antypov, J. A. Elliott, EPL 94 (2011) 50004.
+
+    Examples
+    --------
+    >>> round(normal_damping(hertzian=False, told=math.exp(-math.pi)), 6)
+    1.414214
+    """
+    logarithm = -math.log(told)
+    return (math.sqrt(5) if hertzian else 2.0) * logarithm / math.hypot(math.pi, logarithm)
+
+
+def restitution(law: Law, told: float, steps: int = DASHPOT_STEPS) -> float:
+    """Normal speed after a contact over that before it, with dashpots.
+
+    Examples
+    --------
+    >>> round(restitution(Law(), 0.8, 2000), 3)
+    0.8
+    """
+    return _dashpot_motion(law, told, steps, 0.0)[1]
+
+
+@functools.lru_cache(maxsize=64)
+def told_for(law: Law, restitution: float) -> float:
+    """Restitution that a code must be told, so that the contact has this one.
+
+    A contact that cannot pull keeps more of its energy than the coefficient says.
+
+    Examples
+    --------
+    >>> told_for(Law(), 0.8), round(told_for(Law(limited=True), 0.8), 3)
+    (0.8, 0.791)
+    """
+    if not law.limited or restitution == 1:
+        return restitution
+
+    def excess(told: float) -> float:
+        return _limited_restitution(law.hertzian, told) - restitution
+
+    return float(optimize.brentq(excess, restitution / 4, restitution, xtol=1e-9))
+
+
+def _limited_restitution(hertzian: bool, told: float) -> float:
+    """Speed after a contact that ends where its force would become negative; in any unit of it."""
+    damping = normal_damping(hertzian, told)
+
+    def force(state: Array) -> float:
+        depth = max(float(state[0]), 0.0)
+        if hertzian:
+            return float(depth**1.5 + damping * depth**0.25 * state[1])
+        return float(state[0] + damping * state[1])
+
+    def separates(time: float, state: Array) -> float:
+        return force(state) if time > 0.5 else 1.0
+
+    separates.terminal = True  # type: ignore[attr-defined]
+    found = integrate.solve_ivp(
+        lambda _, state: (state[1], -force(state)),
+        (0, LONGEST * duration(hertzian)),
+        (0.0, 1.0),
+        events=separates,
+        rtol=1e-9,
+        atol=1e-12,
+    )
+    return float(-found.y[1, -1])
 
 
 class _Instant(NamedTuple):
-    """Normal motion at one step, arrays of one entry or of one for each impact."""
+    """Normal motion at one step; of several impacts arrays of one entry, or of one for each."""
 
-    force: Array
-    touches: Booleans  # whether there is any force
-    rate: Array  # growth of tangential force, for a unit of tangential velocity/zeta^2
-    kept: Array | None  # share of the tangential force that is carried over; None for all
-    kick: Array  # time over which the force at this step acts
+    force: Numbers
+    rate: Numbers  # growth of friction, for a tangential stiffness and velocity of 1
+    kept: Numbers | None  # share of the tangential spring's force that is carried over; None: all
+    kick: Numbers  # time over which the forces of this step act
+    dashpot: Numbers = 0.0  # friction of a dashpot of coefficient 1, at a velocity of 1
 
 
-def _normal_motion(law: _Law, e: Array, steps: int) -> Iterator[_Instant]:
-    """Yield the `_Instant` of every step with a force: all but the first and the last step."""
-    step = (1 + e) * (law.to_maximum / steps)
+def _spring(law: Law, depth: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+    """Force and stiffness of the elastic normal spring, and the radius of contact."""
+    if not law.hertzian:
+        return depth, 1.0, 1.0
+    radius = np.sqrt(depth)
+    return hertz.PEAK_FORCE * depth * radius, 1.5 * hertz.PEAK_FORCE * radius, radius
+
+
+def _share_kept(law: Law, before: Numbers, after: Numbers) -> Array | None:
+    """Radius of contact over that of the step before where it shrinks, else 1."""
+    if not law.rescales:
+        return None
+    return np.divide(after, before, out=np.ones_like(after), where=after < before)
+
+
+def _friction(
+    law: Law,
+    instants: Iterable[_Instant],
+    velocity: Array,
+    slowing: Array | float,
+    stiffness: Array | float = 1.0,
+    damping: Array | float = 0.0,
+) -> Iterator[tuple[_Instant, Array, Array]]:
+    """Step through contacts: change `velocity` in place by friction times `slowing`.
+
+    Yields each instant, the force of the spring (with that of the dashpot where the limit holds for
+    both) before it is cut back to the limit, and the friction that acts.
+    """
+    spring, dashpot, uncut, friction = (np.zeros_like(velocity) for _ in range(4))
+    for now in instants:
+        np.multiply(velocity, stiffness * now.rate, out=uncut)
+        if now.kept is not None:
+            spring *= now.kept
+        uncut += spring
+        np.multiply(velocity, damping * now.dashpot, out=dashpot)
+        if law.spring_slides:
+            dashpot[np.abs(uncut) > now.force] = 0
+            np.clip(uncut, -now.force, now.force, out=spring)
+            np.add(spring, dashpot, out=friction)
+        else:
+            uncut += dashpot
+            np.clip(uncut, -now.force, now.force, out=friction)
+            np.subtract(friction, dashpot, out=spring)
+        yield now, uncut, friction
+        friction *= slowing * now.kick
+        velocity -= friction
+
+
+@functools.lru_cache(maxsize=128)
+def _dashpot_motion(
+    law: Law, told: float, steps: int, begins: float
+) -> tuple[tuple[_Instant, ...], float]:
+    """Every step with an overlap, and the speed after them."""
+    step = duration(law.hertzian) / steps
+    damping = normal_damping(law.hertzian, told)
+    depth: Numbers = -begins * step
+    speed: Numbers = 1.0
+    radius: Numbers = 0.0
+    instants = []
+    for _ in range(LONGEST * steps):
+        depth = depth + step * speed
+        if depth <= 0:
+            break
+        before = radius
+        spring, stiffness, radius = _spring(law, depth)
+        dashpot = np.sqrt(spring / depth)
+        force = spring + damping * dashpot * speed
+        if law.limited:
+            force = np.maximum(force, 0.0)
+        kept = _share_kept(law, before, radius)
+        instants.append(_Instant(abs(force), step * stiffness, kept, step, dashpot))
+        speed = speed - step * force
+    return tuple(instants), -float(speed)
+
+
+def _latching_motion(law: Law, e: Array, steps: int) -> Iterator[_Instant]:
+    """Every step with a force, of the hysteretic spring: all but the first and the last step."""
+    step = (1 + e) * (duration(law.hertzian) / 2 / steps)
     # With e = 0 there is no force below the largest depth: any tiny number has this effect.
     compliance = np.maximum(e * e, 1e-300)
     depth, deepest = np.zeros((2, e.size))
@@ -291,23 +428,44 @@ def _normal_motion(law: _Law, e: Array, steps: int) -> Iterator[_Instant]:
         touches = elastic > 0
         if not touches.any():
             return
-        radius_before, radius = radius, np.sqrt(elastic) if law.hertzian else 1.0
-        force = law.peak_force * elastic * radius
+        before = radius
+        force, stiffness, radius = _spring(law, elastic)
         velocity = velocity - step * force
         # Velocity never increases. Once it is negative, every contact comes to its end.
         ended = ended | ((e == 0) & (velocity <= 0))
-        kept = _share_kept(radius_before, radius) if law.rescales else None
-        rate = step * law.stiffness * radius * touches
-        yield _Instant(force, touches, rate, kept, np.where(ended, step / 2, step))
+        kept = _share_kept(law, before, radius)
+        kick = np.where(ended, step / 2, step)
+        yield _Instant(force, step * stiffness * touches, kept, kick)
 
 
-def _share_kept(before: Numbers, after: Numbers) -> Array:
-    """Radius of contact over that of the step before where it shrinks, else 1."""
-    return np.divide(after, before, out=np.ones_like(after), where=after < before)
+def _latching(
+    law: Law,
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike,
+    stiffness_ratio: ArrayLike,
+    restitution: ArrayLike,
+    steps: int,
+) -> Rebound:
+    """Check arguments, and step through all contacts, `CHUNK` at a time."""
+    signed, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
+    beta, zeta2, e = (a.reshape(-1) for a in groups)
+    _, stiffest, _ = _spring(law, 1.0)
+    with np.errstate(over="ignore"):
+        frequency = math.sqrt(stiffest) * (np.sqrt(beta) / np.sqrt(zeta2))
+        angle = (1 + e) * (duration(law.hertzian) / 2) * frequency
+    steps = checks.explicit_steps(steps, angle / STABLE_ANGLE, 3, MOST_STEPS)
+    x = np.abs(signed).reshape(-1)
+    velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
+    regime = np.empty(x.size, np.uint8)
+    for start in range(0, x.size, CHUNK):
+        part = slice(start, start + CHUNK)
+        outcome = _impacts(law, x[part], beta[part], zeta2[part], e[part], steps)
+        velocity[part], impulse[part], peak[part], regime[part] = outcome
+    return Rebound.of(signed, velocity, impulse, peak, regime)
 
 
 def _impacts(
-    law: _Law, x: Array, beta: Array, zeta2: Array, e: Array, steps: int
+    law: Law, x: Array, beta: Array, zeta2: Array, e: Array, steps: int
 ) -> tuple[Array, Array, Array, Integers]:
     """Velocity, impulse, peak friction and regime of impacts solved together, x >= 0."""
     # Normal motion depends on e alone: it is integrated once where all impacts have the same e.
@@ -318,31 +476,23 @@ def _impacts(
         start = np.clip(x / zeta2, LEAST, LARGEST)
         start_share = np.minimum(x / zeta2 / LEAST, 1.0)  # x over the incidence that is solved
     velocity = start.copy()
-    slowing = beta / zeta2
-    friction, work, peak, lowest = np.zeros((4, x.size))
+    highest, lowest = np.zeros((2, x.size))
     slips, starts_in_slip = np.zeros((2, x.size), bool)
     slipped = np.ones(x.size, bool)  # slip before contact, so that an initial stick is counted
     sticks = np.zeros(x.size, np.int64)  # number of phases of stick
-    started, normal_impulse = False, np.zeros(e.size)
-    for normal in _normal_motion(law, e, steps):
-        np.multiply(velocity, normal.rate, out=work)
-        if normal.kept is not None:
-            friction *= normal.kept
-        work += friction
-        np.abs(work, out=friction)
-        np.greater(friction, normal.force, out=slips, where=normal.touches)
-        if not started:
-            started, starts_in_slip[:] = True, slips
+    normal_impulse = np.zeros(e.size)
+    instants = _latching_motion(law, e, steps)
+    for number, (now, uncut, friction) in enumerate(
+        _friction(law, instants, velocity, beta / zeta2)
+    ):
+        np.greater(np.abs(uncut), now.force, out=slips, where=now.force > 0)
+        if number == 0:
+            starts_in_slip[:] = slips
         sticks += slipped > slips
         slipped[:] = slips
-        np.minimum(friction, normal.force, out=friction)
-        np.maximum(peak, friction, out=peak)
-        np.copysign(friction, work, out=friction)
+        np.maximum(highest, friction, out=highest)
         np.minimum(lowest, friction, out=lowest)
-        np.multiply(friction, slowing, out=work)
-        work *= normal.kick
-        velocity -= work
-        normal_impulse = normal_impulse + normal.kick * normal.force
+        normal_impulse = normal_impulse + now.kick * now.force
     # Where the direction of slip has changed the contact has stuck, for less than a step.
     sticks += (sticks == 0) & (lowest < 0)
     # In slip throughout the difference of velocities would have few digits at large x.
@@ -351,9 +501,9 @@ def _impacts(
     final = x - beta * impulse
     final[~slides] = (x * (velocity / start))[~slides]
     impulse = np.where(slides, impulse, x / beta - final / beta)
-    regime = _regime(sticks, starts_in_slip, slips)
-    peak *= start_share
-    return final, impulse, np.minimum(peak / law.peak_force, 1.0), regime
+    largest_force, _, _ = _spring(law, 1.0)
+    peak = np.maximum(highest, -lowest) * start_share / largest_force
+    return final, impulse, np.minimum(peak, 1.0), _regime(sticks, starts_in_slip, slips)
 
 
 def _regime(sticks: Integers, starts_in_slip: Booleans, ends_in_slip: Booleans) -> Integers:

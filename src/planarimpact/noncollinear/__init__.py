@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from planarimpact import lumped
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.ground.checks import ConvergenceError, InputError, checked, finite, positive
@@ -54,7 +55,6 @@ __all__ = [
     "rigid",
 ]
 
-LOSSES = "hysteretic", "unloading-stiffness"
 # Impacts solved together: few enough for memory, enough that Python's overhead is small.
 CHUNK = 65536
 # Largest group: its products with others are within float64, and no real body has a larger one.
@@ -350,10 +350,11 @@ def _checked(
         stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
         stiffness=positive("stiffness", stiffness),
     )
+    losses = tuple(name for name in lumped.LOSSES if name != "viscous")  # see `rebound`
     if loss is None:
-        checks.lossless(restitution, LOSSES)
+        checks.lossless(restitution, losses)
     else:
-        checks.loss(loss, LOSSES)
+        checks.loss(loss, losses)
     if loss == "unloading-stiffness":
         if not e.all():
             raise InputError(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from planarimpact.collision import LAWS, LOSSES
+from planarimpact.collision import LOSSES, RESTITUTION_FROM
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.ground.checks import InputError
 
@@ -196,15 +196,15 @@ def _refuse_incomplete(names: set[str]) -> None:
 
 def _refuse_restitution(names: set[str]) -> None:
     """Refuse a table that does not say restitution in one way."""
-    present = names & set(LAWS)
+    present = names & set(RESTITUTION_FROM)
     if len(present) != 1:
         listed = f" {_listed(present)}" if present else ""
-        raise InputError(f"columns{listed}: needed is exactly one of {_listed(LAWS)}")
+        raise InputError(f"columns{listed}: needed is exactly one of {_listed(RESTITUTION_FROM)}")
     (name,) = present
-    if "loss" in names and LAWS[name]:
+    if "loss" in names and RESTITUTION_FROM[name]:
         raise InputError(
             f"column loss: allowed only beside restitution, as {header(name)} is always "
-            f"{LAWS[name]}"
+            f"{RESTITUTION_FROM[name]}"
         )
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from planarimpact import bodies, collision
-from planarimpact.collision import continua, model_form, rungs
+from planarimpact.collision import model_form, rungs
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.checks import ConvergenceError, InputError
@@ -22,7 +22,7 @@ BLOCK = 2**17
 # Time that it takes to solve an impact, by rung, over that below e = 1; others take next to none.
 _COSTS = np.array(
     [
-        0.0 if rung.way != "solved" else 0.05 if rung.model == continua.MODELS[0] else 1.0
+        0.0 if rung.way != "solved" else 0.05 if rung.model == "continuum" else 1.0
         for rung in rungs.RUNGS
     ]
 )
@@ -226,7 +226,7 @@ class Solver:
         return result[_solved(answers)] if unsolved else result
 
     def _refuse_two_losses(self, names: dict[str, str]) -> None:
-        for name in names.keys() & {"loss", *collision.LAWS} - {"restitution"}:
+        for name in names.keys() & {"loss", *collision.RESTITUTION_FROM} - {"restitution"}:
             if self._loss is not None:
                 raise InputError(
                     f"loss = {self._loss!r}: it does not apply, as the column {names[name]!r} says "
@@ -247,7 +247,7 @@ class Solver:
         place, solved = answers.place, _solved(answers)
         counts = np.bincount(place[solved], minlength=len(rungs.RUNGS)).tolist()
         self._count_by_rung += Counter(dict(enumerate(counts)))
-        lossy = [rung.model in continua.MODELS[1:] for rung in rungs.RUNGS]
+        lossy = [rung.model.startswith("continuum.") for rung in rungs.RUNGS]
         which = np.flatnonzero(np.array(lossy)[place] & solved)
         differences = form[which] / rows.impacts.unit[which]
         self._differences = self._differences.joined(model_form.summary(differences))
@@ -309,10 +309,11 @@ def _result(
     if "loss" not in names:
         code = np.where(impacts.restitution < 1, impacts.plastic, -1)
         result |= {"loss": pd.Categorical.from_codes(code, columns.LOSSES)}
-    model = np.array([rungs.MODELS.index(rung.model) for rung in rungs.RUNGS])[answers.place]
+    models = list(dict.fromkeys(rung.model for rung in rungs.RUNGS))
+    model = np.array([models.index(rung.model) for rung in rungs.RUNGS])[answers.place]
     return result | {
         "contact_velocity_after [m/s]": answers.velocity,
-        "model": pd.Categorical.from_codes(model, rungs.MODELS),
+        "model": pd.Categorical.from_codes(model, models),
         "error_bound [m/s]": answers.error,
         "model_form [m/s]": form,
         "regime": pd.Categorical.from_codes(answers.regime, list(Regime.__members__)),

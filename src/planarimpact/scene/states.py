@@ -32,7 +32,7 @@ def rows(values: dict[str, Array]) -> Rows:
     body, other = _body(values, ""), _body(values, "other_")
     before, other_before = _state(values, ""), _state(values, "other_")
     material, other_material = materials = _materials(values)
-    law = {name: values[name] for name in collision.LAWS if name in values}
+    law = {name: values[name] for name in collision.RESTITUTION_FROM if name in values}
     if "loss" in values:
         law |= {"loss": np.array([*LOSSES, ""])[values["loss"].astype(int)]}
     both = (material,) if other_material is None else (material, other_material)

@@ -12,9 +12,9 @@ import numpy as np
 from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.ground.results import Rebound, Regime
+from planarimpact.normal_impact import LOSSES as LOSSES
 from planarimpact.spheres import table
 
-LOSSES = "viscous", "plastic"
 # By panel of the table, and by loss: the largest difference from the continuum, of velocity
 # (mu v2(0)), peak friction (mu F2max) and, with viscous loss, dissipation (mu^2 m2 v2(0)^2); times
 # x where that is below 1. It is measured, not proved: a little above the largest error that the

@@ -180,7 +180,7 @@ def solved(loss: str, y: Array, b: Array, e: Array) -> Array:
     for steps, rows in parts:
         solutions = (
             inelastic.path(
-                y[rows], b[rows], np.ones(rows.size), e[rows], inelastic.LOSSES[loss], count
+                y[rows], b[rows], np.ones(rows.size), e[rows], inelastic.MOTIONS[loss], count
             )
             for count in (steps, 2 * steps)
         )

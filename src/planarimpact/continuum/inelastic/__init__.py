@@ -29,8 +29,8 @@ from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.results import Regime
 
-# How a law moves its springs, by the name of the loss.
-LOSSES: dict[str, type[NormalMotion]] = {
+# The normal motion and the springs, by what takes the energy; the last one for comparison alone.
+MOTIONS: dict[str, type[NormalMotion]] = {
     "viscous": ViscousMotion,
     "plastic": PlasticMotion,
     "plastic-elastic-shear": ElasticInShear,
@@ -72,19 +72,19 @@ class Path(NamedTuple):
 
 
 def rebound(
-    x: Array, beta: Array, zeta2: Array, e: Array, tolerance: Array, motion_of: type[NormalMotion]
+    x: Array, beta: Array, zeta2: Array, e: Array, tolerance: Array, kind: type[NormalMotion]
 ) -> tuple[Array, Array, Array, Integers, Integers]:
     """Velocity, peak friction, work of friction, regime and reversals, each of shape (n,).
 
-    For x >= 0 and e below 1; `motion_of` is one of `LOSSES`. Raises what `refinement.refine` does.
+    For x >= 0 and e below 1; `kind` is one of `MOTIONS`. Raises `Unsolved` as `refinement.refine`.
 
     Examples
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> rebound(*groups, np.array([1e-5]), LOSSES["viscous"])[0].round(4)
+    >>> rebound(*groups, np.array([1e-5]), MOTIONS["viscous"])[0].round(4)
     array([-0.4805])
     """
-    motion = motion_of(e)
+    motion = kind(e)
     slides = x >= motion.slides_from(beta, zeta2)
     velocity = np.where(slides, sliding.velocity(x, beta, e), 0.0)
     peak, regime = slides.astype(float), np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK)
@@ -96,7 +96,7 @@ def rebound(
     def integrate(groups: tuple[Array, ...], steps: int) -> Solved:
         def solve(part: slice) -> Solved:
             x, beta, zeta2, e = (group[part] for group in groups)
-            return _summary(path(x, beta, zeta2, e, motion_of, steps))
+            return _summary(path(x, beta, zeta2, e, kind, steps))
 
         return refinement.in_parts(groups[0].size, max(32, CELLS // steps), solve)
 
@@ -119,19 +119,19 @@ def rebound(
 
 
 def path(
-    x: Array, beta: Array, zeta2: Array, e: Array, motion_of: type[NormalMotion], steps: int
+    x: Array, beta: Array, zeta2: Array, e: Array, kind: type[NormalMotion], steps: int
 ) -> Path:
     """Integrate from contact to separation, in an even number of steps: half are compression.
 
-    For x > 0 and e below 1, shape (n,); `motion_of` is one of `LOSSES`.
+    For x > 0 and e below 1, shape (n,); `kind` is one of `MOTIONS`.
 
     Examples
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> [path(*groups, motion, 128).velocity[-1].round(3) for motion in LOSSES.values()]
+    >>> [path(*groups, kind, 128).velocity[-1].round(3) for kind in MOTIONS.values()]
     [array([-0.482]), array([-0.185]), array([-0.414])]
     """
-    motion, column = motion_of(e), np.arange(x.size)
+    motion, column = kind(e), np.arange(x.size)
     # Gross slip from the start ends at this normal velocity, at once for x <= zeta^2.
     slips = x > zeta2
     last = np.maximum(motion.end_of_first_slip(x, beta, zeta2), -e)
@@ -199,14 +199,14 @@ def path(
 
 
 def contact(
-    x: Array, beta: Array, zeta2: Array, e: Array, motion_of: type[NormalMotion], tolerance: Array
+    x: Array, beta: Array, zeta2: Array, e: Array, kind: type[NormalMotion], tolerance: Array
 ) -> list[Array]:
     """One contact, its arguments of shape (1,): columns of `Path` up to the radius of stick."""
     fine = refinement.settled_path(
-        lambda steps: path(x, beta, zeta2, e, motion_of, steps),
+        lambda steps: path(x, beta, zeta2, e, kind, steps),
         (Path._fields.index("friction"), Path._fields.index("velocity")),
         (x, beta, zeta2),
-        motion_of(e).steps_needed(beta, zeta2),
+        kind(e).steps_needed(beta, zeta2),
         tolerance,
         MOST_STEPS,
     )
