@@ -140,9 +140,10 @@ def slides_throughout(impacts: Impacts) -> Booleans:
         yields = np.flatnonzero(slides & impacts.plastic & (impacts.restitution < 1))
         known = yields[impacts.restitution[yields] >= yielding.LEAST_OF_LAW]
         slides[yields] = False
-        beta, zeta2, e = impacts.groups_of(known)
-        limit = inelastic.MOTIONS["plastic"](e).slides_from(beta, zeta2)
-        slides[known] = impacts.v1[known] >= limit * unit[known]
+        if known.size:
+            beta, zeta2, e = impacts.groups_of(known)
+            limit = inelastic.MOTIONS["plastic"](e).slides_from(beta, zeta2)
+            slides[known] = impacts.v1[known] >= limit * unit[known]
     return slides
 
 
@@ -167,8 +168,9 @@ def problems(impacts: Impacts) -> dict[int, str]:
     numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.unit, *most
     finite = np.isfinite(numbers).all(axis=0)
     least = continuum.LEAST_RESTITUTION
-    low = np.flatnonzero(impacts.restitution < least)
-    low = low[~slides_throughout(impacts.take(low)) & (impacts.v1[low] > 0)]
+    low = np.flatnonzero((impacts.restitution < least) & (impacts.v1 > 0))
+    if low.size:
+        low = low[~slides_throughout(impacts.take(low))]
     messages = {}  # the last one of several problems counts
     for i in np.flatnonzero(~finite).tolist():
         messages[i] = "its numbers are too large or too small to compute with"

@@ -15,12 +15,12 @@ from planarimpact.ground.results import Rebound, Regime
 from planarimpact.normal_impact import LOSSES as LOSSES
 from planarimpact.spheres import table
 
-# Largest difference from the continuum, of velocity (mu v2(0)), peak friction (mu F2max) and, with
-# viscous loss, dissipation (mu^2 m2 v2(0)^2); times x where that is below 1. It is measured, not
-# proved: a little above the largest error that the searches of
-# tests/reference/test_spheres_reference.py have climbed to. With plastic loss dissipation is
-# (x^2 - w^2)/(2 beta) by the balance of energy. So an error of w up to E makes one of it up to
-# E (|w| + E/2)/beta, which grows with the incidence.
+# By panel of the table, and by loss: the largest difference from the continuum, of velocity
+# (mu v2(0)), peak friction (mu F2max) and, with viscous loss, dissipation (mu^2 m2 v2(0)^2); times
+# x where that is below 1. It is measured, not proved: a little above the largest error that the
+# searches of tests/reference/test_spheres_reference.py have climbed to. With plastic loss
+# dissipation is (x^2 - w^2)/(2 beta) by the balance of energy. So an error of w up to E makes one
+# of it up to E (|w| + E/2)/beta, which grows with the incidence.
 PANEL_BOUND = {"viscous": 1.5e-4, "plastic_low": 4e-3, "plastic_middle": 4e-3, "plastic_high": 9e-4}
 ERROR_BOUND = {"viscous": PANEL_BOUND["viscous"], "plastic": PANEL_BOUND["plastic_low"]}
 LEAST_RESTITUTION = 0.3
@@ -64,8 +64,8 @@ def error_bound(
 ) -> Array:
     """Largest error of velocity for these groups, mu v2(0); infinite where `covers` is False.
 
-    With plastic loss it is small above a restitution from 0.63 (mass over stiffness ratio 3.5) to
-    0.84 (1.56), 0.67 for solid spheres of steel.
+    Below x = 1 the error is x times that. With plastic loss it is smaller above a restitution from
+    0.63 (mass over stiffness ratio 3.5) to 0.84 (1.56), 0.67 for solid spheres of steel.
 
     Parameters
     ----------
