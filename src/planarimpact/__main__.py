@@ -220,7 +220,12 @@ def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
 
 def _said(model: str, restitution: float, rows: int) -> dict[str, ArrayLike]:
     """Columns of the model and what takes the energy."""
-    return {"model": [model] * rows, "loss": [models.loss_of(model, restitution)] * rows}
+    return {"model": [model] * rows, "loss": [_loss_of(model, restitution)] * rows}
+
+
+def _loss_of(model: str, restitution: float) -> str:
+    """What takes the energy of an impact."""
+    return "none" if restitution == 1 else models.get(model).loss
 
 
 def _restitution(options: argparse.Namespace) -> float:
@@ -298,7 +303,7 @@ def _compile(options: argparse.Namespace) -> None:
         else:
             code = export.text(compiled, options.output, options.language)
             partial.write_text(code, encoding="utf-8")
-    loss = models.loss_of(model, _restitution(options))
+    loss = _loss_of(model, _restitution(options))
     print(f"{options.output}: {compiled}{loss and f'; loss {loss}'}")
 
 

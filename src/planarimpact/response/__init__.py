@@ -368,13 +368,12 @@ def compile(
         if progress:
             progress(solved, share)
 
-    kinks = [x for x in chosen.kinks(*groups.values(), **settings) if NARROWEST * end < x < end]
     for share in FIT_SHARES:
         # A change of regime is a kink: it is located to a hundredth of the tolerance.
         try:
             pieces, error = piecewise.fit(
                 function,
-                [0.0, *kinks, end],
+                [0.0, end],
                 tolerance * share,
                 max(tolerance / 100 / max(end, 1.0), 1e-13),
                 watch,
@@ -620,8 +619,6 @@ def _checked_question(
     # Without an impact the model only checks its arguments.
     chosen.rebound(np.zeros(0), *groups.values(), **settings)
     slides_from = np.inf
-    if chosen.sliding_limit is not None:
-        slides_from = float(chosen.sliding_limit(*groups.values(), **settings))
     end = min(largest, slides_from)
     if tolerance < ROUNDING * end:
         raise checks.InputError(
