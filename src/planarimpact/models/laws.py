@@ -68,9 +68,12 @@ def brach(
     >>> [float(w) for w in brach([1.0, 8.0], tangential_restitution=0.5).velocity]
     [-0.5, 1.0]
     """
-    signed, beta, _, e, b = _groups(
-        tangential_restitution, incidence, mass_ratio, stiffness_ratio, restitution
+    given = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
+    share = checks.checked(
+        "tangential_restitution", tangential_restitution, "numbers from 0 to 1", 0, 1
     )
+    groups = dict(zip(checks.RULES, given, strict=True)) | {"tangential_restitution": share}
+    signed, beta, _, e, b = checks.broadcast(**groups)
     x, beta, e, b = (a.reshape(-1) for a in (np.abs(signed), beta, e, b))
     change = sliding.change(beta, e)
     slides = x >= change / (1 + b)
@@ -95,13 +98,12 @@ def smith(
     Returns
     -------
     Rebound
-        velocity is x - B from x = B on, where peak_friction is 1 and regime SLIP_THROUGHOUT.
-        Below, it is negative; peak_friction is NaN and regime UNRESOLVED; STICK for x = 0.
+        As of `brach`, but velocity is x - B from x = B on, and negative below.
 
     Raises
     ------
     InputError
-        If an argument is not a finite real number in its range, or shapes do not broadcast.
+        As `brach`.
 
     Notes
     -----
@@ -185,15 +187,6 @@ def of_velocity(velocity: Callable[..., ArrayLike]) -> Callable[..., Rebound]:
         return result._replace(peak_friction=np.full(signed.shape, np.nan)[()])
 
     return rebound
-
-
-def _groups(tangential_restitution: ArrayLike, *impact: ArrayLike) -> tuple[Array, ...]:
-    """Checked groups and tangential restitution, of one shape."""
-    tangential_restitution = checks.checked(
-        "tangential_restitution", tangential_restitution, "numbers from 0 to 1", 0, 1
-    )
-    groups = dict(zip(checks.RULES, checks.impact(*impact), strict=True))
-    return checks.broadcast(**groups, tangential_restitution=tangential_restitution)
 
 
 def _rebound(signed: Array, velocity: Array, beta: Array, e: Array, slides: Booleans) -> Rebound:

@@ -95,8 +95,8 @@ def linear(
     Raises
     ------
     InputError
-        If an argument is not a finite real number in its range, if shapes do not broadcast, or if
-        there are too few steps for one of the impacts.
+        If an argument is not a finite real number in its range, shapes do not broadcast, or there
+        are too few steps for one of the impacts.
 
     Notes
     -----
@@ -113,10 +113,8 @@ def linear(
 
     Examples
     --------
-    >>> from planarimpact import lumped
-    >>> limit = lumped.rebound(2.0).velocity
-    >>> bool(abs(linear(2.0).velocity - limit) < 1e-3)
-    True
+    >>> round(float(linear(2.0).velocity), 2)
+    -0.58
     """
     return _latching(Law(), incidence, mass_ratio, stiffness_ratio, restitution, steps)
 
