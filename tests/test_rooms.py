@@ -26,15 +26,15 @@ SOLVER = {
     "noncollinear": "ground bodies lumped",
     "spheres": "ground normal_impact continuum",
     "models": "ground normal_impact rigid lumped continuum spheres",
-    "response": "ground models",
-    "export": "planarimpact ground normal_impact collision response spheres",
+    "export": "planarimpact ground normal_impact collision spheres",
     "fit": "ground normal_impact bodies continuum spheres models",
     "collision": "ground normal_impact bodies continuum models spheres",
     "scene": "ground bodies collision pandas",
-    "__init__": "ground collision",
-    "__main__": (
-        "planarimpact ground bodies lumped continuum models response export fit collision scene"
+    "__init__": (
+        "planarimpact ground normal_impact rigid lumped continuum bodies noncollinear spheres"
+        " models export fit collision scene"
     ),
+    "__main__": ("planarimpact ground bodies lumped continuum models export fit collision scene"),
 }
 # The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
 REPRODUCTION = {
@@ -49,7 +49,7 @@ REPRODUCTION = {
     "printed": "ground lumped",
     "explorer": "planarimpact lumped continuum bodies collision pages",
     "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
-    " response fit scene pandas printed csv_tables curve_names figures plan",
+    " fit scene pandas printed csv_tables curve_names figures plan",
     "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"
     " matplotlib",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
@@ -81,8 +81,7 @@ SIDE_DOORS = {
     "collision.model_form",
     "collision.presets",
     "collision.rungs",
-    "spheres.single",  # one impact in plain floats
-    "spheres.table",  # which export writes in other languages
+    "spheres.table",  # which export writes in other languages, and which has one impact in floats
 }
 
 
@@ -167,7 +166,7 @@ def test_rooms_enter_only_where_they_may(package, room):
         ("planarimpact", "continuum", "from planarimpact import lumped"),
         ("planarimpact", "lumped", "def late():\n    import planarimpact.rigid"),
         ("planarimpact", "models", "from planarimpact.continuum import tangential_motion"),
-        ("planarimpact", "response", "import pandas as pd"),
+        ("planarimpact", "models", "import pandas as pd"),
         ("planarimpact", "rigid", "from stronge1994 import run"),
         ("stronge1994", "figures/drawing", "from planarimpact.lumped import rebound"),
         ("stronge1994", "figures/drawing", "from stronge1994.figures.fig5 import curves"),

@@ -7,7 +7,7 @@
   `continuum.annuli` solves the elastic one by a second method that shares no code with the first.
 - `spheres`: the continuum from a table, for impacts that are each their own pair.
 - `models`: every model by its name, with those that others use (`models.laws`, `models.timestep`).
-- `response`: compiles any of them. `export`: writes them as C or JavaScript.
+- `export`: writes collisions of spheres as C or JavaScript.
 - `fit`: laws of discrete-element codes, fitted to the continuum.
 - `collide`: velocities and spins of two bodies in space after their impact, by the pair of their
   materials, a `Pair`. `scene`: solves tables of impacts.
@@ -31,17 +31,29 @@ Symbols and their names. Every model takes the first four. Index 1 is tangential
 | mu, nu | friction and Poisson's ratio of bodies | `friction`, `poisson_ratio` |
 | tau | relaxation time of viscous bodies (Kelvin-Voigt) [s] | `relaxation_time` |
 | p_y | yield pressure of plastic bodies [Pa] | `yield_pressure` |
-
-`import planarimpact` is enough: `planarimpact.lumped` and the others are imported at their first
-use, as some need SciPy or pandas, which take their time.
 """
 
-import importlib
-from typing import Any
+__version__ = "0.2.0"  # before the rooms, as `export` writes it into its files
 
+from planarimpact import (
+    bodies,
+    collision,
+    continuum,
+    export,
+    fit,
+    ground,
+    lumped,
+    models,
+    noncollinear,
+    normal_impact,
+    rigid,
+    scene,
+    spheres,
+)
+from planarimpact.collision import Collision, Pair, collide
+from planarimpact.continuum import ContinuumHistory
 from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import (
-    ContinuumHistory,
     Event,
     EventKind,
     History,
@@ -49,14 +61,13 @@ from planarimpact.ground.results import (
     Regime,
 )
 
-# Rooms first, in the order of the words above. Type checkers find them in __init__.pyi.
-_ROOMS = [
+# Rooms first, in the order of the words above.
+__all__ = [
     "lumped",
     "rigid",
     "continuum",
     "spheres",
     "models",
-    "response",
     "export",
     "collision",
     "fit",
@@ -65,12 +76,9 @@ _ROOMS = [
     "noncollinear",
     "normal_impact",
     "ground",
-]
-# Names of the room `collision` that are here too.
-_OF_COLLISION = ["Collision", "Pair", "collide"]
-__all__ = [
-    *_ROOMS,
-    *_OF_COLLISION,
+    "Collision",
+    "Pair",
+    "collide",
     "ContinuumHistory",
     "ConvergenceError",
     "Event",
@@ -80,21 +88,3 @@ __all__ = [
     "Rebound",
     "Regime",
 ]
-__version__ = "0.2.0"
-
-
-def __getattr__(name: str) -> Any:
-    if name in _OF_COLLISION:
-        return getattr(importlib.import_module("planarimpact.collision"), name)
-    if name in _ROOMS:
-        return importlib.import_module(f"planarimpact.{name}")
-    if name == "study":
-        raise AttributeError(
-            "module 'planarimpact' has no attribute 'study' any more: arguments broadcast, so a "
-            "grid is lumped.rebound(incidence[:, None], restitution=restitution)"
-        )
-    raise AttributeError(f"module 'planarimpact' has no attribute {name!r}")
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *_ROOMS, *_OF_COLLISION})

@@ -1,16 +1,12 @@
-"""The command line: planarimpact {rebound,history,compile,fit,scene,models}."""
+"""The command line: planarimpact {rebound,history,scene,fit,export,models}."""
 
 import argparse
 import csv
-import io
-import json
-import math
 import os
 import re
 import sys
-from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
-from typing import Any, TextIO
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -23,11 +19,11 @@ from planarimpact import (
     fit,
     lumped,
     models,
-    response,
 )
-from planarimpact.ground import checks, files
+from planarimpact.continuum import ContinuumHistory
+from planarimpact.ground import checks
 from planarimpact.ground.arrays import ArrayLike
-from planarimpact.ground.results import ContinuumHistory, History, Rebound, Regime
+from planarimpact.ground.results import History, Rebound, Regime
 
 ABOUT = """
 What happens when a rough, elastic body strikes a surface at an angle?
@@ -82,7 +78,6 @@ velocity_tangential [m/s],velocity_normal [m/s],spin [rad/s]
 # Columns that are written and their units, by type of result; columns of text have no unit.
 UNITS: dict[type, dict[str, str]] = {
     Rebound: {
-        "incidence": "mu v2(0)",
         "velocity": "mu v2(0)",
         "peak_friction": "mu F2max",
         "dissipation": "mu^2 m2 v2(0)^2",
@@ -106,18 +101,13 @@ UNITS: dict[type, dict[str, str]] = {
     },
 }
 # Numbers that the command line accepts; Python's float() accepts others too, such as 1_000.
-NUMBER = re.compile(
-    r"[+-]?((?P<digits>\d+\.?\d*|\.\d+)(e[+-]?\d+)?|inf|infinity|nan)", re.ASCII | re.IGNORECASE
-)
-# Width of the line of progress.
-COLUMNS_OF_PROGRESS = 60
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
+WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
 # Number of incidences at which `models` measures errors.
 INCIDENCES = 65
 # Mass ratio m2/m1 of solid spheres.
 SOLID_SPHERE = 3.5
-# Name of the table of spheres in `compile`.
-SPHERES = "spheres"
-WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
+# Defaults and meanings of the groups.
 GROUPS = {
     "mass_ratio": (3.5, "m2/m1: 3.5 for a solid sphere, 2.5 for a thin shell, 3 for a disc"),
     "stiffness_ratio": (1.21, "zeta^2, normal over tangential stiffness: (2-nu)/(2(1-nu))"),
@@ -136,11 +126,7 @@ dissipation [mu^2 m2 v2(0)^2],regime,model,loss
     8.0,1.0,1.0,9.0,SLIP_THROUGHOUT,rigid,none
     0
     """
-    if sys.stdout is None:  # the next file that is opened might get its descriptor
-        print("planarimpact: standard output is closed", file=sys.stderr)
-        return 2
-    arguments = sys.argv[1:] if arguments is None else arguments
-    options = _parser().parse_args([_spaced(argument) for argument in arguments])
+    options = _parser().parse_args(arguments)
     try:
         options.command(options)
         sys.stdout.flush()
@@ -158,176 +144,79 @@ dissipation [mu^2 m2 v2(0)^2],regime,model,loss
     return 0
 
 
-def _spaced(argument: str) -> str:
-    """A negative number with a space in front: else argparse takes -1e-3 or -inf for an option."""
-    try:
-        float(argument)
-    except ValueError:
-        return argument
-    return f" {argument}" if argument.startswith("-") else argument
+def _print(columns: Mapping[str, ArrayLike]) -> None:
+    """Print columns of equal length as CSV."""
+    writer = csv.writer(sys.stdout, lineterminator="\n")
+    writer.writerow(columns)
+    plain = [np.asarray(values).tolist() for values in columns.values()]
+    writer.writerows(zip(*plain, strict=True))
 
 
-def _table(options: argparse.Namespace) -> None:
-    """Write the columns of a command: to the terminal, or to a file whole or not at all."""
-    as_json = _is_json(options)
-    if options.output is None:
-        sys.stdout.write(_text(options.columns(options), as_json))
-        return
-    with files.written(options.output) as partial:
-        partial.write_text(_text(options.columns(options), as_json), encoding="utf-8")
-
-
-def _is_json(options: argparse.Namespace) -> bool:
-    """Whether a table is wanted in JSON, by the name of its file or by --format; else in CSV."""
-    if options.output is None:
-        return bool(options.format == "json")
-    ending = Path(options.output).suffix.lower()
-    if ending not in (".csv", ".json"):
-        raise checks.InputError(
-            f"--output {options.output}: allowed are names that end in .csv or .json"
-        )
-    if options.format and ending != f".{options.format}":
-        raise checks.InputError(
-            f"--format {options.format}: --output {options.output} ends in {ending}"
-        )
-    return ending == ".json"
-
-
-def _rebound(options: argparse.Namespace) -> dict[str, ArrayLike]:
-    """Columns of `rebound`."""
+def _rebound(options: argparse.Namespace) -> None:
     x = options.incidence
-    if options.angle is None:
-        _refuse_ignored(options, ["friction"], "an incidence includes it")
-    elif options.friction is None:
-        raise checks.InputError("--angle: it needs --friction, from which the incidence follows")
+    if (options.angle is None) != (options.friction is None):
+        raise checks.InputError(
+            "--angle, --friction: allowed are both, from which the incidence follows, or neither"
+        )
+    if options.angle is not None:
+        x = bodies.incidence_from_angle(options.angle, options.friction)
+    settings = dict(options.setting)
+    if len(settings) < len(options.setting):
+        raise checks.InputError("--set: a setting is given twice, allowed is once")
+    models.refuse_unknown(models.get(options.model), settings)
+    result = models.rebound(options.model, x, **_groups(options), **settings)
+    columns = _with_units(result._replace(regime=Regime.names(result.regime)))
+    _print({"incidence [mu v2(0)]": x} | columns | _model_and_loss(options, len(x)))
+
+
+def _history(options: argparse.Namespace) -> None:
+    x, groups, (family, _, loss) = options.incidence, _groups(options), options.model.partition(".")
+    checks.impact(x, *groups.values())
+    if not loss:
+        names = models.losses(family).values()
+        checks.lossless(options.restitution, names, "the model's name")
+    result: History | ContinuumHistory
+    if family == "continuum":
+        _refuse_ignored(options, ["samples"], "the continuum has a tolerance instead")
+        result = continuum.history(x, **groups, tolerance=options.tolerance, loss=loss or None)
     else:
-        try:
-            x = bodies.incidence_from_angle(options.angle, options.friction)
-        except checks.InputError as error:
-            raise checks.InputError(str(error).replace("theta_deg", "--angle")) from None
-    if options.response is not None:
-        _refuse_ignored(options, ["model", "loss", "setting", *GROUPS], "a response has its own")
-        _refuse_replacing(options)
-        compiled = response.load(options.response)
-        model, e, result = compiled.model, compiled.parameters["restitution"], compiled(x)
-    else:
-        model, e, settings = _model(options), _restitution(options), _settings(options)
-        result = models.rebound(model, x, **_chosen(options, GROUPS), **settings)
-    named = result._replace(regime=Regime.names(result.regime))
-    columns = _with_units(Rebound, {"incidence": x, **named._asdict()})
-    return columns | _said(model, e, len(x))
-
-
-def _said(model: str, restitution: float, rows: int) -> dict[str, ArrayLike]:
-    """Columns of the model and what takes the energy."""
-    return {"model": [model] * rows, "loss": [_loss_of(model, restitution)] * rows}
-
-
-def _loss_of(model: str, restitution: float) -> str:
-    """What takes the energy of an impact."""
-    return "none" if restitution == 1 else models.get(model).loss
-
-
-def _restitution(options: argparse.Namespace) -> float:
-    """The restitution, or its default."""
-    return float(_groups(options)["restitution"])
+        _refuse_ignored(options, ["tolerance"], "the lumped model is solved to rounding")
+        loss = loss or "hysteretic"  # at e = 1 all are the same
+        result = lumped.history(x, **groups, samples=options.samples, loss=loss)
+    _print(_with_units(result) | _model_and_loss(options, len(result.time)))
 
 
 def _groups(options: argparse.Namespace) -> dict[str, float]:
-    """The groups, or their defaults, after a check."""
-    groups = {name: value for name, (value, _) in GROUPS.items()} | _chosen(options, GROUPS)
-    checks.impact(0.0, *groups.values())
-    return groups
+    """The groups by name."""
+    return {name: getattr(options, name) for name in GROUPS}
 
 
-def _refuse_replacing(options: argparse.Namespace) -> None:
-    """Refuse a response without a name, and a table that would overwrite it."""
-    if not options.response:
-        raise checks.InputError("--response '': allowed are names of files that `compile` writes")
-    source, target = Path(options.response), Path(options.output or os.devnull)
-    if source.exists() and target.exists() and source.samefile(target):
-        raise checks.InputError(
-            f"--output {target}: this is the file of --response; the table needs another name"
-        )
-
-
-def _history(options: argparse.Namespace) -> dict[str, ArrayLike]:
-    """Columns of `history`."""
-    chosen = _chosen(options, [*GROUPS, "samples", "tolerance"])
-    result: History | ContinuumHistory
-    name = _model(options)
-    family, _, loss = name.partition(".")
-    if family == "continuum":
-        _refuse_ignored(options, ["samples"], "the continuum has a tolerance instead")
-        result = continuum.history(options.incidence, **chosen, loss=loss or None)
-    else:
-        _refuse_ignored(options, ["tolerance"], "the lumped model is solved to rounding")
-        result = lumped.history(options.incidence, **chosen, loss=loss or "hysteretic")
-        if not loss:  # other numbers are told before
-            checks.lossless(_restitution(options), lumped.LOSSES)
-    columns = _with_units(type(result), result._asdict())
-    return columns | _said(name, _restitution(options), len(result.time))
-
-
-def _with_units(result_type: type, fields: Mapping[str, Any]) -> dict[str, ArrayLike]:
+def _with_units(result: Rebound | History | ContinuumHistory) -> dict[str, ArrayLike]:
     """Columns by name and unit, from the fields of a result that have a value."""
+    fields = result._asdict()
     return {
         f"{name} [{unit}]" if unit else name: fields[name]
-        for name, unit in UNITS[result_type].items()
+        for name, unit in UNITS[type(result)].items()
         if fields[name] is not None
     }
 
 
-def _compile(options: argparse.Namespace) -> None:
-    """Write a response, or the table of spheres."""
-    if options.model == SPHERES:
-        _compile_spheres(options)
-        return
-    settings = _settings(options)
-    if "tolerance" in settings:
-        raise checks.InputError("--set tolerance: a response has one tolerance, --tolerance")
-    as_json = options.language == "json"
-    if not as_json:
-        export.checked_name(options.output, options.language)
-    elif Path(options.output).suffix.lower() != ".json":
-        raise checks.InputError(
-            f"{options.output}: allowed are names that end in .json; with --as c or --as js others"
-        )
-    model = _model(options)
-    arguments = _chosen(options, ["incidence_max", "tolerance", *GROUPS]) | settings
-    progress = _show if sys.stderr.isatty() else None
-    with files.written(options.output) as partial:  # it refuses a name before any computation
-        compiled = response.compile(model, **arguments, progress=progress)
-        if as_json:
-            compiled.save(partial)
-        else:
-            code = export.text(compiled, options.output, options.language)
-            partial.write_text(code, encoding="utf-8")
-    loss = _loss_of(model, _restitution(options))
-    print(f"{options.output}: {compiled}{loss and f'; loss {loss}'}")
+def _model_and_loss(options: argparse.Namespace, rows: int) -> dict[str, ArrayLike]:
+    """Columns of the model and of what takes the energy."""
+    loss = "none" if options.restitution == 1 else models.get(options.model).loss
+    return {"model": [options.model] * rows, "loss": [loss] * rows}
 
 
-def _show(impacts: int, share: float) -> None:
-    """Say on the terminal how far a response is, in place; the next line of output replaces it."""
-    line = f"{impacts:,} impacts solved, {100 * share:.0f} % of the incidences fitted"
-    print(f"\r{line:<{COLUMNS_OF_PROGRESS}}\r", end="", file=sys.stderr, flush=True)
+def _refuse_ignored(options: argparse.Namespace, names: list[str], why: str) -> None:
+    """Refuse options that were given but would have no effect."""
+    for name in names:
+        if getattr(options, name) != options.parser.get_default(name):
+            raise checks.InputError(f"--{name.replace('_', '-')}: it does not apply, {why}")
 
 
-def _compile_spheres(options: argparse.Namespace) -> None:
-    """Write the table of spheres as code."""
-    _refuse_ignored(
-        options,
-        ["incidence_max", "loss", "setting", *GROUPS],
-        "the table of spheres takes every impact with its own",
-    )
-    if options.language == "json":
-        raise checks.InputError(
-            f"--as json: allowed with model {SPHERES} are {', '.join(export.LANGUAGES)}; "
-            "Python has planarimpact.spheres"
-        )
-    tolerance = min(export.TABLES) if options.tolerance is None else options.tolerance
-    export.write_spheres(options.output, options.language, tolerance)
-    print(f"{options.output}: the table of spheres, within {tolerance:g}")
+def _export(options: argparse.Namespace) -> None:
+    export.write_spheres(options.output, options.language, options.tolerance)
+    print(f"{options.output}: the table of spheres, within {options.tolerance:g}")
 
 
 def _fit(options: argparse.Namespace) -> None:
@@ -338,40 +227,8 @@ def _fit(options: argparse.Namespace) -> None:
     checks.positive("friction", options.friction)
     fit.overlap(material, options.radius, options.density, options.speed)
     groups = SOLID_SPHERE, float(bodies.stiffness_ratio(material)), options.restitution
-    chosen = _chosen(options, ["loss", "incidence_max"])
-    sys.stdout.write(fit.lines(fit.fit(options.law, *groups, **chosen), material, **sphere))
-
-
-def _add_fit(commands: Any) -> None:
-    """Add the parser of `fit`."""
-    parser = commands.add_parser(
-        "fit",
-        help="parameters of LAMMPS, MercuryDPM or Yade that come nearest to the continuum",
-        description="Tangential stiffness and damping of a law of a time-stepped code, with which "
-        "contacts of two equal solid spheres come nearest to the continuum, as lines of its input, "
-        "the errors before and after, and what the overlap at this speed adds to them. They hold "
-        "for one restitution, one material and a range of incidence.",
-    )
-    parser.add_argument("--law", required=True, choices=fit.CODES, help="the code and its law")
-    for name, meaning in {
-        "restitution": f"energetic coefficient e, {fit.LEAST_RESTITUTION:g} to 1",
-        "friction": "mu",
-        "young-modulus": "[Pa]",
-        "poisson-ratio": "up to 0.5",
-        "radius": "[m]",
-        "density": "[kg/m^3]",
-        "speed": "normal speed of approach [m/s], for the length of a step and linear springs; up "
-        "to that at which spheres overlap by a tenth of their radius",
-    }.items():
-        parser.add_argument(f"--{name}", type=decimal, required=True, help=meaning)
-    losses = {"choices": continuum.LOSSES, "help": "what takes the energy; needed below e = 1"}
-    parser.add_argument("--loss", **losses)
-    parser.add_argument(
-        "--incidence-max",
-        type=decimal,
-        help="end of the range of v1(0)/(mu v2(0)) that is fitted [where all slide throughout]",
-    )
-    parser.set_defaults(command=_fit)
+    found = fit.fit(options.law, *groups, loss=options.loss, incidence_max=options.incidence_max)
+    sys.stdout.write(fit.lines(found, material, **sphere))
 
 
 def _scene(options: argparse.Namespace) -> None:
@@ -390,30 +247,22 @@ def _scene(options: argparse.Namespace) -> None:
         options.skip_bad,
         progress=tables.Bar() if on_terminal else None,
         loss=options.loss,
-        workers=options.workers,
-        notice=lambda words: _say(place.format(words), sys.stderr),
+        notice=lambda words: print(place.format(words), file=sys.stderr),
     )
     # Nothing else may stand in a table on standard output.
     words = sys.stderr if target == places.target("-") else sys.stdout
-    _say(f"{target.name}: {solver.rows - len(solver.bad)} impacts", words)
+    print(f"{target.name}: {solver.rows - len(solver.bad)} impacts", file=words)
     bad = places.beside(target)
     if solver.bad and bad:
-        _say(f"{bad.name}: {len(solver.bad)} bad rows left out", words)
+        print(f"{bad.name}: {len(solver.bad)} bad rows left out", file=words)
     elif solver.bad:
         for row, problem in solver.bad:
-            _say(f"row {row}, left out: {problem}", sys.stderr)
+            print(f"row {row}, left out: {problem}", file=sys.stderr)
     if options.explain:
-        _say(solver.explain(), words)
+        print(solver.explain(), file=words)
 
 
-def _say(words: str, file: TextIO | None) -> None:
-    """Print words, with escapes for letters that the file, if there is one, has none for."""
-    encoding = getattr(file, "encoding", None) or "utf-8"
-    print(words.encode(encoding, "backslashreplace").decode(encoding), file=file)
-
-
-def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:
-    """Columns of `models`."""
+def _models(options: argparse.Namespace) -> None:
     rows = models.MODELS.values()
     columns: dict[str, ArrayLike] = {
         "model": list(models.MODELS),
@@ -424,131 +273,58 @@ def _models(options: argparse.Namespace) -> dict[str, ArrayLike]:
         "valid": [model.valid for model in rows],
         "source": [model.source for model in rows],
     }
-    if options.restitution is not None:
-        return columns | _errors(options)
-    _refuse_ignored(options, ["loss", "mass_ratio", "stiffness_ratio"], "without --restitution")
-    return columns
+    if options.restitution is None:
+        _refuse_ignored(options, ["loss", "mass_ratio", "stiffness_ratio"], "without --restitution")
+        _print(columns)
+    else:
+        _print(columns | _errors(_groups(options), options.loss))
 
 
-def _errors(options: argparse.Namespace) -> dict[str, ArrayLike]:
+def _errors(groups: dict[str, float], loss: str | None) -> dict[str, ArrayLike]:
     """Errors of every model against the continuum, and where a measurement can show them."""
-    groups = _groups(options)
-    reference = models.reference(groups["restitution"], options.loss)
-    loss = options.loss or continuum.LOSSES[0]
-    limit = continuum.slip_throughout_limit(*groups.values(), loss=loss)
+    checks.impact(0.0, *groups.values())
+    reference = models.reference(groups["restitution"], loss)
+    loss = loss or continuum.LOSSES[0]
+    limit = continuum.slip_throughout_limit(**groups, loss=loss)
     x = np.linspace(0.0, float(limit), INCIDENCES)
     # A tenth of the default tolerance, so that the continuum itself has an error, too.
     tolerance = models.get(reference).settings["tolerance"] / 10
     exact = models.rebound(reference, x, **groups, tolerance=tolerance).velocity
     spread = models.input_spread(f"continuum.{loss}", x, **groups, tolerance=1e-3)
-    columns: dict[str, list[float]] = {
-        "rms [mu v2(0)]": [],
-        "max [mu v2(0)]": [],
-        "seen [1]": [],
-    }
+    rows: list[list[Any]] = []
     for model in models.MODELS.values():
         error = np.full(x.size, np.nan)
         if models.admits(model, **groups):
             error = np.abs(model.rebound(x, **groups).velocity - exact)
         seen = np.mean(error > spread) if np.isfinite(error).all() else np.nan
-        numbers = np.sqrt(np.mean(error**2)), np.max(error), seen
-        for column, value in zip(columns.values(), numbers, strict=True):
-            column.append(float(f"{value:.2g}"))
+        rows.append([np.sqrt(np.mean(error**2)), np.max(error), seen])
     used = ", ".join(f"{name} {value:g}" for name, value in groups.items())
     print(f"Errors against {reference} for {used}", file=sys.stderr)
-    return dict(columns)
+    names = "rms [mu v2(0)]", "max [mu v2(0)]", "seen [1]"
+    rounded = [[float(f"{value:.2g}") for value in row] for row in rows]
+    return dict(zip(names, np.transpose(rounded), strict=True))
 
 
-def _model(options: argparse.Namespace) -> str:
-    """Name of the model, with the option --loss."""
-    name = options.model or "lumped"
-    _groups(options)
-    if options.loss is None:
-        return str(name)
-    losses = models.losses(name)
-    if options.loss not in losses:
-        other = "continuum" if name == "lumped" else "lumped"
-        has = f"{', '.join(losses)}; --model {other} has {', '.join(models.losses(other))}"
-        why = f"allowed are {has}" if losses else "leave it out"
-        raise checks.InputError(f"--loss {options.loss}: with model {name} {why}")
-    return losses[options.loss]
-
-
-def _chosen(options: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]:
-    """Options of these names that have a value; for the others the called function has defaults."""
-    values = {name: getattr(options, name) for name in names}
-    return {name: value for name, value in values.items() if value not in (None, [])}
-
-
-def _refuse_ignored(options: argparse.Namespace, names: list[str], why: str) -> None:
-    """Refuse options that have a value but would have no effect."""
-    for name in _chosen(options, names):
-        option = "--set" if name == "setting" else "--" + name.replace("_", "-")
-        raise checks.InputError(f"{option}: it does not apply, {why}")
-
-
-def _settings(options: argparse.Namespace) -> dict[str, float]:
-    """Settings of the model, from the options --set NAME=NUMBER."""
-    settings = {}
-    for text in options.setting:
-        name, equals, value = text.partition("=")
-        if not equals:
-            raise checks.InputError(f"--set {text}: allowed is NAME=NUMBER, such as steps=256")
-        if name in settings:
-            raise checks.InputError(f"--set {text}: {name} is set twice, allowed is once")
-        try:
-            settings[name] = number(value)
-        except argparse.ArgumentTypeError as error:
-            raise checks.InputError(f"--set {name}: {error}") from None
-    models.refuse_unknown(models.get(_model(options)), settings)
-    return settings
-
-
-def decimal(text: str) -> float:
-    """Number of a text in decimal notation; argparse adds the option's name to a refusal.
-
-    Examples
-    --------
-    >>> decimal("64"), decimal("-1e3")
-    (64.0, -1000.0)
-    """
-    text = text.strip(" ")
-    match = NUMBER.fullmatch(text)
-    if not match:
+def _decimal(text: str) -> float:
+    """Number of a text in decimal notation; argparse adds the option's name to a refusal."""
+    if not NUMBER.fullmatch(text):
         raise argparse.ArgumentTypeError(
             f"{text!r}: allowed are decimal numbers, such as 0.5 or -1e-3"
         )
-    value = float(text)
-    if value == 0 and re.search("[1-9]", match["digits"]):
-        raise argparse.ArgumentTypeError(
-            f"{text!r}: it is too small for a number; allowed are 0 and numbers from 5e-324"
-        )
-    return value
+    return float(text)
 
 
-def number(text: str) -> float:
-    """Number of a text as `decimal` reads it, an integer where it is written as one.
-
-    Examples
-    --------
-    >>> number("64"), number("-1e3")
-    (64, -1000.0)
-    """
-    value = decimal(text)
-    return int(text) if WHOLE.fullmatch(text.strip(" ")) and math.isfinite(value) else value
+def _number(text: str) -> float:
+    """Number of a text as `_decimal` reads it, an integer where it is written as one."""
+    return int(text) if WHOLE.fullmatch(text) else _decimal(text)
 
 
-def _text(columns: Mapping[str, ArrayLike], as_json: bool) -> str:
-    """Columns of equal length as JSON or CSV."""
-    plain = {name: np.asarray(values).tolist() for name, values in columns.items()}
-    if as_json:
-        named = {name: [files.or_null(x) for x in xs] for name, xs in plain.items()}
-        return json.dumps(named, indent=1) + "\n"
-    buffer = io.StringIO()
-    writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow(plain)
-    writer.writerows(zip(*plain.values(), strict=True))
-    return buffer.getvalue()
+def _setting(text: str) -> tuple[str, float]:
+    """Name and number of a setting, from NAME=NUMBER."""
+    name, equals, value = text.partition("=")
+    if not equals:
+        raise argparse.ArgumentTypeError(f"{text}: allowed is NAME=NUMBER, such as steps=256")
+    return name, _number(value)
 
 
 class _Once(argparse.Action):
@@ -561,102 +337,63 @@ class _Once(argparse.Action):
         values: Any,
         option_string: str | None = None,
     ) -> None:
-        stored = vars(namespace).setdefault("stored", set())
-        if self.dest in stored:
+        if getattr(namespace, self.dest) is not self.default:
             raise argparse.ArgumentError(self, f"{values!r} is a second value, allowed is one")
-        stored.add(self.dest)
         setattr(namespace, self.dest, values)
-
-
-class _Parser(argparse.ArgumentParser):
-    """A parser that accepts each option once; the parsers of its commands do so too."""
-
-    def __init__(self, **settings: Any) -> None:
-        super().__init__(**settings)
-        self.register("action", None, _Once)
 
 
 def _parser() -> argparse.ArgumentParser:
     """Parser of the command line, with one parser for each command."""
-    called = Path(sys.argv[0])
-    programs = {"planarimpact": "planarimpact", "__main__": "python -m planarimpact"}
-    program = programs.get(
-        called.stem, f"python {called.name}"
-    )  # a file with a model of a user's own
-    parser = _Parser(prog=program, description=ABOUT)
+    parser = argparse.ArgumentParser(prog="planarimpact", description=ABOUT)
     parser.add_argument("--version", action="version", version=f"planarimpact {__version__}")
     commands = parser.add_subparsers(required=True, metavar="command")
 
-    rebound = commands.add_parser(
-        "rebound", help="state at separation", description="State at separation." + ABOUT
-    )
+    def command(
+        name: str, run: Callable[[argparse.Namespace], None], what: str, about: str, **settings: Any
+    ) -> argparse.ArgumentParser:
+        """The parser of a command, which accepts each option once."""
+        description = f"{what[0].upper()}{what[1:]}. {about}"
+        added = commands.add_parser(name, help=what, description=description, **settings)
+        added.register("action", None, _Once)
+        added.set_defaults(command=run, parser=added)
+        return added
+
+    rebound = command("rebound", _rebound, "state at separation", ABOUT)
     impact = rebound.add_mutually_exclusive_group(required=True)
-    impact.add_argument("--incidence", type=decimal, nargs="+", metavar="X")
+    impact.add_argument("--incidence", type=_decimal, nargs="+", metavar="X")
     impact.add_argument(
         "--angle",
-        type=decimal,
+        type=_decimal,
         nargs="+",
         help="of incidence, degrees from the normal; needs --friction",
     )
-    rebound.add_argument("--friction", type=decimal, help="mu, above 0, for --angle")
-    rebound.add_argument("--response", metavar="FILE", help="use what `compile` has written")
-    _add_model(rebound, list(models.MODELS))
-    _add_output(rebound)
-    rebound.set_defaults(command=_table, columns=_rebound)
+    rebound.add_argument("--friction", type=_decimal, help="mu, above 0, for --angle")
+    _add_model(rebound, "")
+    rebound.add_argument(
+        "--set",
+        type=_setting,
+        action="append",
+        default=[],
+        dest="setting",
+        metavar="NAME=NUMBER",
+        help="a setting of the model, see `models`",
+    )
 
-    history = commands.add_parser(
-        "history",
-        help="forces and velocity over one contact",
-        description="Forces and velocity over one contact, against time in that of compression."
-        + ABOUT,
+    history = command("history", _history, "forces and velocity over one contact", ABOUT)
+    history.add_argument("--incidence", type=_decimal, required=True, metavar="X")
+    history.add_argument("--samples", type=_number, default=400, help="of lumped [%(default)s]")
+    history.add_argument(
+        "--tolerance", type=_decimal, default=1e-4, help="of continuum [%(default)s]"
     )
-    history.add_argument("--incidence", type=decimal, required=True, metavar="X")
-    history.add_argument("--samples", type=number, help="of lumped [400]")
-    history.add_argument("--tolerance", type=decimal, help="of continuum [1e-4]")
-    names = [name for name in models.MODELS if name.startswith(("lumped", "continuum"))]
-    _add_model(history, names, settings=False)
-    _add_output(history)
-    history.set_defaults(command=_table, columns=_history)
+    _add_model(history, ("lumped", "continuum"))
 
-    compiled = commands.add_parser(
-        "compile",
-        help="make a fast response of one pair of bodies",
-        description="Make a response, a table of polynomials that gives the rebound of one pair of "
-        "bodies in nanoseconds, and write it to a file. With --model spheres the table of spheres "
-        "is written as code: it collides any two spheres, vectors in and vectors out." + ABOUT,
-    )
-    compiled.add_argument("output", metavar="FILE", help="NAME.json, NAME.h, NAME.mjs or NAME.js")
-    compiled.add_argument(
-        "--as",
-        choices=["json", *export.LANGUAGES],
-        default="json",
-        dest="language",
-        help="json, which `rebound` reads; c, a header of C99 with NAME_velocity(x) and "
-        "NAME_rebound(x); or js, a module of JavaScript with velocity(x) and rebound(x) "
-        "[%(default)s]",
-    )
-    errors = " or ".join(f"{error:g}" for error in export.TABLES)
-    defaults = ", ".join(f"{kind} {error:g}" for kind, error in response.TOLERANCES.items())
-    compiled.add_argument(
-        "--tolerance",
-        type=decimal,
-        help=f"largest error [by the model's cost, see `models`: {defaults}]; with --model "
-        f"{SPHERES} {errors} [{min(export.TABLES):g}]",
-    )
-    compiled.add_argument(
-        "--incidence-max", type=decimal, help=f"largest |incidence| [{response.INCIDENCE_MAX:g}]"
-    )
-    _add_model(compiled, [*models.MODELS, SPHERES])
-    compiled.set_defaults(command=_compile)
-
-    _add_fit(commands)
-
-    scene = commands.add_parser(
+    scene = command(
         "scene",
-        help="solve a table of impacts",
-        description="Solve a table of impacts, one a row, each by a formula, the table of spheres "
-        "or the continuum. Where the continuum takes long, standard error says why, how long, and "
-        "which tolerance would avoid it; a terminal has a bar.",
+        _scene,
+        "solve a table of impacts",
+        "One impact a row, each by a formula, the table of spheres or the continuum. Where the "
+        "continuum takes long, standard error says why, how long, and which tolerance would avoid "
+        "it; a terminal has a bar.",
         epilog=COLUMNS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -672,7 +409,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     scene.add_argument(
         "--tolerance",
-        type=decimal,
+        type=_decimal,
         default=collision.TOLERANCE,
         help="largest error: of the tangential velocity as a share of friction times normal speed, "
         "of friction as a share of its limit [%(default)s, which the whole table of spheres meets]"
@@ -681,7 +418,7 @@ def _parser() -> argparse.ArgumentParser:
     scene.add_argument(
         "--loss",
         choices=continuum.LOSSES,
-        help="what takes the energy below e = 1; needed where the table has no column for it",
+        help="what takes the energy; needed where the table has no column for it",
     )
     scene.add_argument(
         "--explain", action="store_true", help="say which model solved how many impacts, and why"
@@ -692,19 +429,65 @@ def _parser() -> argparse.ArgumentParser:
         help="leave bad rows out, and list them by number in OUTPUT.bad.csv, or on standard error "
         "where the output is a pipe",
     )
-    scene.add_argument(
-        "--workers",
-        type=number,
-        default=1,
-        metavar="N",
-        help="how many processes share the work [%(default)s]",
-    )
-    scene.set_defaults(command=_scene)
 
-    listing = commands.add_parser(
+    fitted = command(
+        "fit",
+        _fit,
+        "parameters of time-stepped codes that come nearest to the continuum",
+        "For LAMMPS, MercuryDPM and Yade: tangential stiffness and damping of a law, with which "
+        "contacts of two equal solid spheres come nearest to the continuum, as lines of its input, "
+        "the errors before and after, and what the overlap at this speed adds to them. They hold "
+        "for one restitution, one material and a range of incidence.",
+    )
+    fitted.add_argument("--law", required=True, choices=fit.CODES, help="the code and its law")
+    for name, meaning in {
+        "restitution": f"energetic coefficient e, {fit.LEAST_RESTITUTION:g} to 1",
+        "friction": "mu",
+        "young-modulus": "[Pa]",
+        "poisson-ratio": "up to 0.5",
+        "radius": "[m]",
+        "density": "[kg/m^3]",
+        "speed": "normal speed of approach [m/s], for the length of a step and linear springs; up "
+        "to that at which spheres overlap by a tenth of their radius",
+    }.items():
+        fitted.add_argument(f"--{name}", type=_decimal, required=True, help=meaning)
+    fitted.add_argument(
+        "--loss", choices=continuum.LOSSES, help="what takes the energy; needed below e = 1"
+    )
+    fitted.add_argument(
+        "--incidence-max",
+        type=_decimal,
+        help="end of the range of v1(0)/(mu v2(0)) that is fitted [where all slide throughout]",
+    )
+
+    exported = command(
+        "export",
+        _export,
+        "write collisions of spheres as code in C or JavaScript",
+        "The code needs nothing else. It collides any two spheres, vectors in and vectors out; the "
+        "head of the file explains it.",
+    )
+    exported.add_argument("output", metavar="FILE", help="NAME.h, NAME.mjs or NAME.js")
+    exported.add_argument(
+        "--as",
+        choices=export.LANGUAGES,
+        required=True,
+        dest="language",
+        help="c, a header of C99 with NAME_collide, or js, a module of JavaScript with collide",
+    )
+    errors = " or ".join(f"{error:g}" for error in export.TABLES)
+    exported.add_argument(
+        "--tolerance",
+        type=_decimal,
+        default=min(export.TABLES),
+        help=f"largest error, {errors} [%(default)s]",
+    )
+
+    listing = command(
         "models",
-        help="list the models",
-        description="The models. With --restitution each has its error in velocity, root mean "
+        _models,
+        "list the models",
+        "With --restitution each has its error in velocity, root mean "
         "square and largest, against the continuum with the loss, over all incidences that stick "
         "at some time; nan where it does not take this restitution. The continuum itself has the "
         "error of its default tolerance. Errors of restitution of 0.02 and of friction of 10 % "
@@ -715,46 +498,26 @@ def _parser() -> argparse.ArgumentParser:
         "--loss", choices=continuum.LOSSES, help="what takes the energy; needed below e = 1"
     )
     _add_groups(listing)
-    _add_output(listing)
-    listing.set_defaults(command=_table, columns=_models)
+    listing.set_defaults(restitution=None)
     return parser
 
 
-def _add_model(parser: argparse.ArgumentParser, names: list[str], settings: bool = True) -> None:
-    """Add the options of a model, its loss, its groups and, if wanted, its settings."""
-    parser.add_argument("--model", choices=names, help="[lumped]")
+def _add_model(parser: argparse.ArgumentParser, begin: str | tuple[str, ...]) -> None:
+    """Add the options of a model, of those whose names begin so, and its groups."""
     parser.add_argument(
-        "--loss",
-        choices=sorted({*lumped.LOSSES, *continuum.LOSSES}),
-        help="what takes the energy; below e = 1 lumped and continuum need it. For lumped "
-        "hysteretic (the paper's), unloading-stiffness or viscous; for continuum viscous or "
-        "plastic",
+        "--model",
+        choices=[name for name in models.MODELS if name.startswith(begin)],
+        default="lumped",
+        help="below e = 1 one whose name says what takes the energy [%(default)s]",
     )
     _add_groups(parser)
-    if settings:
-        parser.add_argument(
-            "--set",
-            action="append",
-            default=[],
-            dest="setting",
-            metavar="NAME=NUMBER",
-            help="a setting of the model, see `models`",
-        )
 
 
 def _add_groups(parser: argparse.ArgumentParser) -> None:
     """Add the options of the groups."""
     for name, (default, meaning) in GROUPS.items():
         option = "--" + name.replace("_", "-")
-        parser.add_argument(option, type=decimal, help=f"{meaning} [{default}]")
-
-
-def _add_output(parser: argparse.ArgumentParser) -> None:
-    """Add the options of a table that is written."""
-    parser.add_argument("--format", choices=["csv", "json"], help="on the terminal [csv]")
-    parser.add_argument(
-        "--output", metavar="FILE", help="instead of the terminal: NAME.csv or NAME.json"
-    )
+        parser.add_argument(option, type=_decimal, default=default, help=f"{meaning} [%(default)s]")
 
 
 if __name__ == "__main__":

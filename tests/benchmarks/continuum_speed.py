@@ -4,21 +4,20 @@
 
 Prints the time at each tolerance, its largest true error, and its ratio to the lumped model
 on the same 400 incidences in the same run; the same for annuli. Below e = 1 it does so for each
-loss, and compiles a response at tolerance 1e-4.
+loss.
 """
 
 import time
 
 import numpy as np
 
-from planarimpact import continuum, lumped, response
+from planarimpact import continuum, lumped
 from planarimpact.continuum import annuli, inelastic
-from planarimpact.ground import checks, sliding
+from planarimpact.ground import sliding
 
 INCIDENCE = np.linspace(0.0, 10.0, 400)
 GROUPS = INCIDENCE, 3.5, 17 / 14
 LOSSY = 0.95, 0.8, 0.6, 0.3
-COMPILED = np.random.default_rng(1).uniform(0, 10, 10**6)
 REPEATS = 3
 
 
@@ -56,22 +55,6 @@ def _lossy(loss, e, unit):
             lambda t=tolerance: continuum.rebound(*GROUPS, e, loss=loss, tolerance=t).velocity
         )
         _print(f"{loss}, e = {e:g}, tolerance {tolerance:g}", taken, unit, found - exact)
-    start = time.perf_counter()
-    try:
-        made = response.compile(
-            f"continuum.{loss}",
-            incidence_max=20,
-            tolerance=1e-4,
-            mass_ratio=GROUPS[1],
-            stiffness_ratio=GROUPS[2],
-            restitution=e,
-        )
-    except checks.ConvergenceError as error:
-        print(f"{time.perf_counter() - start:8.2f} s, not compiled: {error}")
-        return
-    built = time.perf_counter() - start
-    taken, _ = seconds(lambda: made.velocity(COMPILED))
-    print(f"{built:8.2f} s to compile, then {taken / COMPILED.size * 1e9:.0f} ns an impact")
 
 
 def _fine(loss, e):

@@ -1,10 +1,10 @@
-"""Responses and the table of spheres in C and JavaScript: time of an impact, on one core.
+"""The table of spheres in C and JavaScript: time of an impact, on one core.
 
     OMP_NUM_THREADS=1 python tests/benchmarks/export_speed.py
 
 A loop over a million random impacts, best of several, beside Python's batch in the same run. None
-of them slides throughout: that would be quicker. Those of the table of spheres all have their own
-restitution, ratio of stiffnesses, mass ratio and loss. The time is that of the processor. The sums
+of them slides throughout: that would be quicker. They all have their own restitution, ratio of
+stiffnesses, mass ratio and loss. The time is that of the processor. The sums
 of all answers must be Python's; they also keep the compiler from leaving the loop out. C is left
 out where no compiler is, JavaScript where node is missing.
 """
@@ -18,20 +18,16 @@ from pathlib import Path
 
 import numpy as np
 
-from planarimpact import export, response, spheres
+from planarimpact import export, spheres
 
 COUNT, REPEATS = 1_000_000, 21
-PAIRS = {
-    "continuum, plastic, e = 0.8, 1e-3": ("continuum.plastic", 1e-3, {"restitution": 0.8}),
-    "lumped, e = 1, 1e-10": ("lumped", 1e-10, {}),
-    "lumped, many phases, 1e-10": ("lumped", 1e-10, {"mass_ratio": 8.0, "stiffness_ratio": 0.03}),
-}
 C = """\
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
-#include "pair.h"
-static double x[COUNT][COLUMNS];
+#include "balls.h"
+#define IMPACT x[i][0], x[i][1], x[i][2], x[i][3], (int)x[i][4]
+static double x[COUNT][5];
 int main(void)
 {
     FILE *file = fopen("x", "rb");
@@ -44,11 +40,11 @@ int main(void)
             clock_t start = clock();
             for (int i = 0; i < COUNT; ++i) {
                 if (all) {
-                    struct pair_result found = pair_rebound(IMPACT);
+                    struct balls_result found = balls_rebound(IMPACT);
                     total += found.velocity + found.peak_friction + found.dissipation
                         + found.regime;
                 } else {
-                    total += pair_velocity(IMPACT);
+                    total += balls_velocity(IMPACT);
                 }
             }
             double taken = (double)(clock() - start) / CLOCKS_PER_SEC;
@@ -62,19 +58,20 @@ int main(void)
 """
 JAVASCRIPT = """\
 import { readFileSync } from "node:fs";
-import { rebound, velocity } from "./pair.mjs";
+import { rebound, velocity } from "./balls.mjs";
 const bytes = readFileSync("x"), best = [1e9, 1e9], sum = [0, 0];
-const x = new Float64Array(bytes.buffer, bytes.byteOffset, COUNT * COLUMNS);
+const x = new Float64Array(bytes.buffer, bytes.byteOffset, COUNT * 5);
 const loops = [
     () => {
         let total = 0;
-        for (let i = 0; i < x.length; i += COLUMNS) total += velocity(IMPACT);
+        for (let i = 0; i < x.length; i += 5)
+            total += velocity(x[i], x[i + 1], x[i + 2], x[i + 3], x[i + 4]);
         return total;
     },
     () => {
         let total = 0;
-        for (let i = 0; i < x.length; i += COLUMNS) {
-            const found = rebound(IMPACT);
+        for (let i = 0; i < x.length; i += 5) {
+            const found = rebound(x[i], x[i + 1], x[i + 2], x[i + 3], x[i + 4]);
             total += found.velocity + found.peak_friction + found.dissipation + found.regime;
         }
         return total;
@@ -164,13 +161,6 @@ for (let repeat = 0; repeat < REPEATS; repeat += 1) {
 }
 console.log(...best, ...sum);
 """
-# How the impact that row i begins is handed over, for one column or five.
-IMPACTS = {
-    ("c", 1): "x[i][0]",
-    ("c", 5): "x[i][0], x[i][1], x[i][2], x[i][3], (int)x[i][4]",
-    ("js", 1): "x[i]",
-    ("js", 5): "x[i], x[i + 1], x[i + 2], x[i + 3], x[i + 4]",
-}
 COMPILERS = [name for name in ("cc", "gcc", "clang") if shutil.which(name)][:1]
 
 
@@ -191,25 +181,21 @@ def measured(commands, folder):
     return [float(word) for word in done.stdout.split()]
 
 
-def report(name, impacts, write, velocity, rebound, folder):
-    """Print one line for each language.
-
-    `impacts` are the columns, `write` writes a file in a language, `velocity` and `rebound` solve
-    all impacts in Python.
-    """
-    np.column_stack(impacts).tofile(folder / "x")
-    for file, language, text in (("pair.h", "c", C), ("pair.mjs", "js", JAVASCRIPT)):
-        write(folder / file, language)
-        text = text.replace("IMPACT", IMPACTS[language, len(impacts)])
-        for word, value in (("COUNT", COUNT), ("REPEATS", REPEATS), ("COLUMNS", len(impacts))):
-            text = text.replace(word, str(value))
-        (folder / file.replace("pair", "speed").replace(".h", ".c")).write_text(text)
-    sizes = [(folder / file).stat().st_size / 1024 for file in ("pair.h", "pair.mjs")]
-    print("{}: header of {:.0f} KB, module of {:.0f} KB".format(name, *sizes))
-    (fast, first), (whole, second) = (
-        seconds(lambda: [velocity()]),
-        seconds(lambda: rebound()[:4]),
-    )
+def report_spheres(folder):
+    """The table of spheres, with each impact on its own; one line for each language."""
+    random = np.random.default_rng(1)
+    beta, e = random.choice([2.5, 3.5], COUNT), random.uniform(0.3, 1, COUNT)
+    zeta2, plastic = random.uniform(1, 1.6, COUNT), np.arange(COUNT) % 2
+    x = random.uniform(-1, 1, COUNT) * (beta + e * (beta - zeta2))
+    loss = np.array(spheres.LOSSES)[plastic]
+    np.column_stack([x, beta, zeta2, e, plastic + 1]).tofile(folder / "x")
+    for file, text in (("speed.c", C), ("speed.mjs", JAVASCRIPT)):
+        text = text.replace("COUNT", str(COUNT)).replace("REPEATS", str(REPEATS))
+        (folder / file).write_text(text)
+    sizes = [(folder / file).stat().st_size / 1024 for file in ("balls.h", "balls.mjs")]
+    print("spheres: header of {:.0f} KB, module of {:.0f} KB".format(*sizes))
+    fast, first = seconds(lambda: [spheres.rebound(x, beta, zeta2, e, loss=loss).velocity])
+    whole, second = seconds(lambda: spheres.rebound(x, beta, zeta2, e, loss=loss)[:4])
     found = {"Python, in a batch": [fast, whole, first, second]}
     for compiler in COMPILERS:
         compiled = [compiler, "-std=c99", "-O2", "speed.c", "-o", "speed", "-lm"]
@@ -225,23 +211,6 @@ def report(name, impacts, write, velocity, rebound, folder):
         )
 
 
-def report_spheres(folder):
-    """The table of spheres, with each impact on its own."""
-    random = np.random.default_rng(1)
-    beta, e = random.choice([2.5, 3.5], COUNT), random.uniform(0.3, 1, COUNT)
-    zeta2, plastic = random.uniform(1, 1.6, COUNT), np.arange(COUNT) % 2
-    x = random.uniform(-1, 1, COUNT) * (beta + e * (beta - zeta2))
-    loss = np.array(spheres.LOSSES)[plastic]
-    report(
-        "spheres, every impact its own pair",
-        [x, beta, zeta2, e, plastic + 1],
-        export.write_spheres,
-        lambda: spheres.rebound(x, beta, zeta2, e, loss=loss).velocity,
-        lambda: spheres.rebound(x, beta, zeta2, e, loss=loss),
-        folder,
-    )
-
-
 def report_collisions(folder):
     """Vectors in and out: none of the contacts slides throughout."""
     random, count, repeats = np.random.default_rng(1), COUNT // 10, REPEATS // 3
@@ -255,8 +224,6 @@ def report_collisions(folder):
     spin = 20 * random.normal(size=(count, 1)) * normal  # does not move the contact point
     rows = [normal, velocity, spin, zeta2, e, 1 + np.arange(count) % 2]
     np.column_stack(rows).tofile(folder / "collisions")
-    export.write_spheres(folder / "balls.h", "c")
-    export.write_spheres(folder / "balls.mjs", "js")
     for file, text in (("collide.c", COLLISIONS_C), ("collide.mjs", COLLISIONS_JAVASCRIPT)):
         text = text.replace("COUNT", str(count)).replace("REPEATS", str(repeats))
         (folder / file).write_text(text)
@@ -272,26 +239,10 @@ def report_collisions(folder):
         print(f"  {language}: {times} ns; sums {numbers[3:]}")
 
 
-def report_pair(name, built, folder):
-    """A response of one pair."""
-    span = built.pieces.end
-    x = np.random.default_rng(1).uniform(-span, span, COUNT)
-    report(
-        f"{name}: {len(built.pieces.start)} pieces",
-        [x],
-        lambda path, language: export.write(built, path, language),
-        lambda: built.velocity(x),
-        lambda: built(x),
-        folder,
-    )
-
-
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        for name, (model, tolerance, groups) in PAIRS.items():
-            groups = {"mass_ratio": 3.5, "stiffness_ratio": 17 / 14} | groups
-            built = response.compile(model, incidence_max=40, tolerance=tolerance, **groups)
-            report_pair(name, built, Path(folder))
+        export.write_spheres(Path(folder) / "balls.h", "c")
+        export.write_spheres(Path(folder) / "balls.mjs", "js")
         report_spheres(Path(folder))
         report_collisions(Path(folder))
 

@@ -18,7 +18,7 @@ from planarimpact import (
     scene,
     spheres,
 )
-from planarimpact.collision import single
+from planarimpact.collision import one_impact
 from planarimpact.normal_impact import yielding
 from tests.reference_solutions import inelastic_contact
 
@@ -206,8 +206,8 @@ def test_one_impact_is_that_of_many():
     velocity = x[:, None] * [0.3, 0, 0] - up
     many, plain = collide(pairs, up, ball, velocity, still), 0
     for i, row in enumerate(velocity):
-        vectors, pair = (up, row, still, still, still), pairs[i]
-        if not single.collide(pair.single, bool(pair.plastic), ball, WALL, vectors, 5e-3):
+        vectors, pair = [v.tolist() for v in (up, row, still, still, still)], pairs[i]
+        if not one_impact.collide(pair, ball, WALL, vectors, 5e-3):
             continue
         one, plain = collide(pair, up, ball, row, still), plain + 1
         # A float64 beside a threshold one may take the formula, and the other one the table.
@@ -262,7 +262,8 @@ def test_one_impact_is_that_of_many_where_metal_begins_to_slide(count):
         pair = Pair(stiffness_ratio=zeta2, friction=1.0, restitution=e, loss="plastic")
         body = bodies.Body(1.0, 1 / np.sqrt(b * zeta2 - 1), 1.0)
         exact = float(continuum.slip_throughout_limit(*groups, loss="plastic"))
-        tabled = float(spheres.plastic_limit(*np.reshape(groups, (3, 1)))[0])
+        _, slides_from, _ = spheres.table.of_one(spheres.table.shipped(), 0.0, b, e, True)
+        tabled = slides_from * zeta2
         beside = np.array([1 - 2e-2, 1 - 1e-3, 1 - 1e-6, 1 + 1e-6, 1 + 1e-3, 1 + 2e-2])
         for x in [*exact * beside, *tabled * beside, (exact + tabled) / 2]:
             velocity = np.array([x, 0, -1.0])
@@ -325,7 +326,7 @@ def test_one_path_for_numbers_of_every_size(count):
     which single impacts have a function of their own.
     """
     rng, answered, refused = np.random.default_rng(8), 0, 0
-    edges = np.log10([single.PLAIN_LEAST, single.PLAIN_MOST])
+    edges = np.log10([one_impact.PLAIN_LEAST, one_impact.PLAIN_MOST])
     for _ in range(count):
         size = dict.fromkeys(
             ["friction", "zeta2", "modulus", "law", "mass", "radius", "v1", "v2", "spin"], 1.0
@@ -543,8 +544,8 @@ def test_a_table_of_pairs_is_indexed_by_kinds():
     assert table[0, 1].stiffness_ratio == one.stiffness_ratio
     velocity = np.array([1.0, 0.0, -1.0])
     many = collide(table[kinds], [0, 0, 1], BALL, velocity, np.zeros(3))
-    single_one = collide(one, [0, 0, 1], BALL, velocity, np.zeros(3))
-    np.testing.assert_allclose(many.velocity[0], single_one.velocity, rtol=1e-13)
+    one = collide(one, [0, 0, 1], BALL, velocity, np.zeros(3))
+    np.testing.assert_allclose(many.velocity[0], one.velocity, rtol=1e-13)
 
 
 def test_nobody_changes_a_pair():

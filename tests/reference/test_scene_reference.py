@@ -145,8 +145,8 @@ def test_a_scene_keeps_its_tolerance(name, tolerance):
 def test_a_wrong_table_breaks_the_tolerance(monkeypatch):
     """The test above can fail: a table that promises too much is taken where it is too coarse."""
     known = solved("sharp")
-    monkeypatch.setattr(spheres, "ERROR_BOUND", dict.fromkeys(continuum.LOSSES, 1e-9))
-    monkeypatch.setattr(spheres, "LITTLE_BOUND", 1e-9)
+    for bounds in ("ERROR_BOUND", "PANEL_BOUND"):
+        monkeypatch.setattr(spheres, bounds, dict.fromkeys(getattr(spheres, bounds), 1e-9))
     velocity, _, promised = errors(known, scene.solve(known.rows, 1e-3))
     assert (velocity > promised + known.slack).any()
 

@@ -12,8 +12,7 @@ other seeds.
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Regime, continuum, spheres
-from planarimpact.export import spheres as export
+from planarimpact import InputError, Regime, continuum, export, spheres
 from planarimpact.spheres import making, table
 from tests.reference_solutions import inelastic_contact
 
@@ -49,8 +48,7 @@ FOUND = {
 
 def bound_of(name):
     """What the package states for a panel, or for a loss as a whole."""
-    loss = name.partition("_")[0]
-    return spheres.LITTLE_BOUND if name == "plastic_high" else spheres.ERROR_BOUND[loss]
+    return (spheres.ERROR_BOUND | spheres.PANEL_BOUND)[name]
 
 
 def errors(name, x, beta, zeta2, e):

@@ -76,7 +76,7 @@ def _trade(settings):
         "continuum, tolerance 1e-5, e = 1": row(
             "continuum", 1e-6, 4e-3, **{"tolerance [mu v2(0)]": 1e-5}
         ),
-        "response of lumped, e = 1": row("response of lumped", 1e-14, 2e-7),
+        "spline of continuum, e = 1": row("spline of continuum", 1e-6, 2e-7),
     }
     for steps in (16.0, 64.0):
         model = "timestep.mindlin"

@@ -53,7 +53,6 @@ def test_stiffness_ratio_of_one_material(nu):
 
 def test_dissimilar_materials():
     assert bodies.effective_modulus(CERAMIC, GLASS) == pytest.approx(63e9, rel=2e-3)
-    assert bodies.effective_shear_modulus(CERAMIC, GLASS) == pytest.approx(13.5e9, rel=2e-3)
     assert bodies.stiffness_ratio(CERAMIC, GLASS) == pytest.approx(1.164, abs=5e-4)
     assert bodies.stiffness_ratio(GLASS, CERAMIC) == bodies.stiffness_ratio(CERAMIC, GLASS)
     nearly_rigid = Material(1e30, 0.3)
@@ -81,9 +80,8 @@ def test_the_groups_do_not_depend_on_the_scale_of_speed(speed):
 
 @pytest.mark.parametrize("x", [-4.0, 0.0, 1e-12, 1.0, 80.0])
 @pytest.mark.parametrize("friction", [0.05, 1.0])
-def test_angle_round_trip(x, friction):
-    theta = bodies.angle_of_incidence(x, friction)
-    assert np.tan(np.radians(theta)) == pytest.approx(friction * x, rel=1e-12)
+def test_incidence_from_the_angle(x, friction):
+    theta = np.degrees(np.arctan(friction * x))
     assert bodies.incidence_from_angle(theta, friction) == pytest.approx(x, rel=1e-12)
 
 
@@ -255,7 +253,7 @@ def test_what_is_made_keeps_its_fields_as_given():
         (lambda: bodies.incidence(1.0, 1.0, 0.0), "friction", "0.0"),
         (lambda: bodies.incidence(1.0, [1.0, -2.0], 0.1), "v2[1]", "-2.0"),
         (lambda: bodies.incidence(1e200, 1e-200, 0.1), "incidence", "inf"),
-        (lambda: bodies.angle_of_incidence(1.0, 0.0), "friction", "0.0"),
+        (lambda: bodies.incidence_from_angle(1.0, 0.0), "friction", "0.0"),
         (lambda: bodies.incidence_from_angle(90, 0.1), "theta_deg", "90.0"),
         (lambda: bodies.incidence_from_angle(-120, 0.1), "theta_deg", "-120.0"),
         (lambda: Body(0.0, 1.0, 1.0), "mass", "0.0"),

@@ -49,9 +49,9 @@ def test_without_models_none_is_solved_or_named(figure):
 
 
 def test_a_continuum_of_the_config_is_drawn_in_a_style_of_its_own():
-    assert set(continua.MODELS) == set(house_style.LOSSY)
-    colours = {style["color"] for _, style in house_style.LOSSY.values()}
-    dashes = {style["linestyle"] for _, style in house_style.LOSSY.values()}
+    assert set(continua.MODELS) == set(house_style.LOSSY_CONTINUA)
+    colours = {style["color"] for _, style in house_style.LOSSY_CONTINUA.values()}
+    dashes = {style["linestyle"] for _, style in house_style.LOSSY_CONTINUA.values()}
     assert len(colours) == len(dashes) == 2
 
 

@@ -1,6 +1,5 @@
-"""Responses and the table of spheres compute in C and JavaScript what they do in Python."""
+"""The table of spheres computes in C and JavaScript what it does in Python."""
 
-import base64
 import json
 import re
 import shlex
@@ -12,27 +11,16 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Regime, export, response, spheres
+from planarimpact import InputError, Regime, export, spheres
 from planarimpact.__main__ import main
-from planarimpact.export import spheres as table_of_spheres
 from planarimpact.spheres import making, table
-from tests.workflow import browser
 
-TEMPLATES = Path(export.__file__).parent / "templates"
 README = Path(__file__).parents[2] / "src/README.md"
 COUNT = 100_000
 ACCURACY = 1e-14  # of the largest value
 LARGEST = 8e307  # incidence
-PAIRS = {
-    "plain": ("lumped.viscous", 1e-6, {"restitution": 0.8}),
-    "silent": ("laws.smith", 1e-6, {"restitution": 0.5}),  # without peak friction
-    "gaining": ("timestep.mindlin", 1e-2, {"mass_ratio": 1.0}),  # energy; up to INCIDENCE_MAX only
-    "many": ("lumped", 1e-10, {"mass_ratio": 8.0, "stiffness_ratio": 0.03}),  # more than 256 pieces
-}
-CONSTANTS = "MASS_RATIO", "STIFFNESS_RATIO", "RESTITUTION"
 # Files that are a little wrong: which file is right, what it has, and what stands there instead.
 WRONG = {
-    "wrong_plain": ("plain", "value * root", "value * root * 1.0000000001"),
     "wrong_coarse": ("coarse", "* 3 + 4) / 6", "* 3 + 4) / 6.0000000001"),
 }
 # Of the table of spheres: values for x, mass ratio, stiffness ratio, restitution and loss.
@@ -51,19 +39,18 @@ FLAGS = [
 # For each file: the constants, then velocity and the fields of rebound for each impact.
 C = """\
 #include <stdio.h>
-#define PAIR x[0]
 #define SPHERES x[0], x[1], x[2], x[3], (int)x[4]
-#define RUN(p, count, arguments, ...) \\
+#define RUN(p, ...) \\
     do { \\
         const double constants[] = {__VA_ARGS__}; \\
-        double x[count]; \\
+        double x[5]; \\
         FILE *in = fopen(#p ".x", "rb"), *out = fopen(#p ".out", "wb"); \\
         if (!in || !out) \\
             return 1; \\
         fwrite(constants, sizeof constants, 1, out); \\
         while (fread(x, sizeof x, 1, in) == 1) { \\
-            const struct p##_result r = p##_rebound(arguments); \\
-            const double row[] = {p##_velocity(arguments), r.FIELDS}; \\
+            const struct p##_result r = p##_rebound(SPHERES); \\
+            const double row[] = {p##_velocity(SPHERES), r.FIELDS}; \\
             fwrite(row, sizeof row, 1, out); \\
         } \\
         fclose(in); \\
@@ -72,32 +59,22 @@ C = """\
 """
 C = C.replace("r.FIELDS", ", ".join(f"(double)r.{name}" for name in FIELDS))
 JAVASCRIPT = """\
-(async () => {
-    const found = {};
-    const bytes = (text) => {
-        const letters = atob(text), all = new Uint8Array(letters.length);
-        for (let i = 0; i < all.length; i += 1) all[i] = letters.charCodeAt(i);
-        return all;
-    };
-    for (const [name, [address, input, constants, count]] of Object.entries(CASES)) {
-        const module = await import(address), x = new Float64Array(bytes(input).buffer);
-        const rows = constants.map((name) => module[name]);
-        for (let i = 0; i < x.length; i += count) {
-            const one = x.subarray(i, i + count), state = module.rebound(...one);
-            rows.push(module.velocity(...one), ...FIELDS.map((field) => state[field]));
-        }
-        const parts = [], all = new Uint8Array(Float64Array.from(rows).buffer);
-        for (let i = 0; i < all.length; i += 8192)
-            parts.push(String.fromCharCode(...all.subarray(i, i + 8192)));
-        found[name] = btoa(parts.join(""));
+import { readFileSync, writeFileSync } from "node:fs";
+for (const [name, constants] of Object.entries(CASES)) {
+    const module = await import(`./${name}.mjs`), bytes = readFileSync(`${name}.x`);
+    const x = new Float64Array(bytes.buffer, bytes.byteOffset, bytes.length / 8);
+    const rows = constants.map((name) => module[name]);
+    for (let i = 0; i < x.length; i += 5) {
+        const one = x.subarray(i, i + 5), state = module.rebound(...one);
+        rows.push(module.velocity(...one), ...FIELDS.map((field) => state[field]));
     }
-    return JSON.stringify(found);
-})()
+    writeFileSync(`${name}.out`, new Uint8Array(Float64Array.from(rows).buffer));
+}
 """
 
 
 class Case(NamedTuple):
-    """A file: constants that it must have, impacts, shape (n, arguments), and five answers each."""
+    """A file: constants that it must have, impacts, shape (n, 5), and five answers each."""
 
     constants: dict[str, float]
     impacts: np.ndarray
@@ -118,23 +95,6 @@ def answers(good, velocity, rebound):
     return found
 
 
-def case_of_a_pair(built):
-    """Every edge, one float beside it, what is refused, and random incidences."""
-    cells = np.arange(4097) / 4096 * built.pieces.end
-    edges = [built.slides_from, built.incidence_max, 1.0, LARGEST, np.inf, np.nan, 0.0, 5e-324]
-    edges = beside(np.concatenate([built.pieces.start, cells, edges]))
-    random = np.random.default_rng(1994).uniform(0, 1.2 * built.pieces.end, COUNT // 2 - edges.size)
-    sizes = np.concatenate([edges, random])
-    x = np.concatenate([sizes, -sizes])
-    most = min(built.incidence_max, LARGEST)
-    good = np.abs(x) <= most
-    constants = dict(zip(CONSTANTS, built.parameters.values(), strict=False))
-    constants |= {"INCIDENCE_MAX": most}
-    constants |= {f"ERROR_{name.upper()}": v for name, v in built.error_bound._asdict().items()}
-    wanted = answers(good, built.velocity(x[good]), built(x[good]))
-    return Case(constants, x[:, None], wanted, np.abs(x) <= built.pieces.end)
-
-
 def sphere_edges(shipped, random):
     """Ends of patches and faces of splines, in x, ratio and restitution, and one float beside."""
     for name, panel in shipped.panels.items():
@@ -145,8 +105,8 @@ def sphere_edges(shipped, random):
             free = random.random((2, EDGES))
             t, u = np.where(random.random((2, EDGES)) < 0.5, free, [t, u])
             y, b, e = making.impacts(name, panel.edges, shipped.limits, number, s, t, u)
-            ends = table.edges_of(name, panel.edges, t, u, b, e)
-            for x in (y, *ends[1:]):
+            varying = table.varying_edges(panel.edges, t, u)
+            for x in np.broadcast_arrays(y, *table.edges_of(name, varying, b, e)[1:]):
                 for axis in range(3):
                     row = [
                         beside(v) if i == axis else np.tile(v, 3) for i, v in enumerate((x, b, e))
@@ -155,7 +115,7 @@ def sphere_edges(shipped, random):
                     yield np.stack([row[0], row[1], np.ones_like(loss), row[2], loss])
 
 
-def case_of_spheres(name):
+def case_of(name):
     """Every edge, one float beside it, bounds, what is refused, and random impacts."""
     random, shipped = np.random.default_rng(20), table.shipped(name)
     e, ratio = random.uniform(0.3, 1, COUNT), random.uniform(1.5625, 3.5, COUNT)
@@ -182,7 +142,7 @@ def case_of_spheres(name):
         patch.setattr(table, "shipped", lambda: shipped)
         found = spheres.rebound(x[good], beta[good], zeta2[good], e[good], loss=words)
     constants = {"INCIDENCE_MAX": LARGEST, "RESTITUTION_MIN": 0.3, "RATIO_MIN": 1.5625}
-    errors = {f"ERROR_{k.upper()}": v for k, v in table_of_spheres.BOUNDS[name].items()}
+    errors = {f"ERROR_{k.upper()}": v for k, v in export.BOUNDS[name].items()}
     constants |= {"STIFFNESS_MAX": 1.6, "RATIO_MAX": 3.5, "VISCOUS": 1, "PLASTIC": 2} | errors
     coded = np.array([x, beta, zeta2, e, loss + 1])
     return Case(constants, coded.T, answers(good, found.velocity, found), tabled)
@@ -200,37 +160,19 @@ def agrees(found, case):
 
 
 @pytest.fixture(scope="module")
-def pairs():
-    """Responses by name."""
-    groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21}
-    found = {
-        name: response.compile(model, incidence_max=20, tolerance=tolerance, **groups | given)
-        for name, (model, tolerance, given) in PAIRS.items()
-    }
-    assert found["gaining"].gains and len(found["many"].pieces.start) > 256
-    assert np.isinf(found["plain"].incidence_max) and not found["plain"].gains
-    return found
+def cases():
+    return {name: case_of(name) for name in export.TABLES.values()}
 
 
 @pytest.fixture(scope="module")
-def cases(pairs):
-    found = {name: case_of_a_pair(built) for name, built in pairs.items()}
-    for name in export.TABLES.values():
-        found[name] = case_of_spheres(name)
-    return found
-
-
-@pytest.fixture(scope="module")
-def folder(pairs, cases, tmp_path_factory):
+def folder(cases, tmp_path_factory):
     """Headers, modules and impacts, and those of `WRONG`."""
     folder = tmp_path_factory.mktemp("export")
     tolerances = {name: tolerance for tolerance, name in export.TABLES.items()}
     for name, (right, good, bad) in ({name: (name, "", "") for name in cases} | WRONG).items():
         for file, language in ((f"{name}.h", "c"), (f"{name}.mjs", "js")):
-            if right in pairs:
-                code = export.text(pairs[right], file, language)
-            else:
-                code = export.spheres_text(file, language, tolerances[right])
+            export.write_spheres(folder / file, language, tolerances[right])
+            code = (folder / file).read_text()
             assert good in code
             (folder / file).write_text(code.replace(good, bad))
         cases[right].impacts.tofile(folder / f"{name}.x")
@@ -238,62 +180,45 @@ def folder(pairs, cases, tmp_path_factory):
 
 
 def compiled(folder, cases, compilers, *options):
-    """Constants and answers of the headers, all in one program."""
+    """Write constants and answers of the headers, all by one program."""
     program = next(filter(None, map(shutil.which, compilers)), None)
     if program is None:
         pytest.skip(f"no compiler: none of {', '.join(compilers)} is installed")
     runs = ""
     for name, case in cases.items():
-        count = case.impacts.shape[1]
         constants = ", ".join(f"{name.upper()}_{one}" for one in case.constants)
-        runs += f"    RUN({name}, {count}, {'PAIR' if count == 1 else 'SPHERES'}, {constants});\n"
+        runs += f"    RUN({name}, {constants});\n"
     headers = "".join(f'#include "{name}.h"\n' for name in cases)
     (folder / "run.c").write_text(f"{headers}{C}int main(void)\n{{\n{runs}    return 0;\n}}\n")
     command = [program, *options, *FLAGS]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     subprocess.run(["./run"], cwd=folder, check=True)
-    return {name: np.fromfile(folder / f"{name}.out") for name in cases}
 
 
 def c(folder, cases):
-    return compiled(folder, cases, ("cc", "gcc", "clang"), "-std=c99")
+    compiled(folder, cases, ("cc", "gcc", "clang"), "-std=c99")
 
 
 def cpp(folder, cases):
-    return compiled(folder, cases, ("c++", "g++", "clang++"), "-xc++")
+    compiled(folder, cases, ("c++", "g++", "clang++"), "-xc++")
 
 
 def javascript(folder, cases):
-    """Constants and answers of the modules, by node or else by a browser."""
-
-    def code(path):
-        return base64.b64encode(path.read_bytes()).decode()
-
-    given = {}
-    for name, case in cases.items():
-        address = f"data:text/javascript;base64,{code(folder / (name + '.mjs'))}"
-        values = code(folder / f"{name}.x")
-        given[name] = address, values, list(case.constants), case.impacts.shape[1]
-    job = JAVASCRIPT
-    for word, value in {"CASES": given, "FIELDS": FIELDS}.items():
-        job = job.replace(word, json.dumps(value))
-    if shutil.which("node"):
-        (folder / "run.mjs").write_text(f"console.log(await {job})")
-        command = ["node", "run.mjs"]
-        done = subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True)
-        found = json.loads(done.stdout)
-    else:
-        with browser.page() as tab:
-            found = json.loads(tab.evaluate(job))
-    return {name: np.frombuffer(base64.b64decode(text)) for name, text in found.items()}
+    if not shutil.which("node"):
+        pytest.skip("node is not installed")
+    job = JAVASCRIPT.replace("FIELDS", json.dumps(FIELDS))
+    constants = {name: list(case.constants) for name, case in cases.items()}
+    (folder / "run.mjs").write_text(job.replace("CASES", json.dumps(constants)))
+    subprocess.run(["node", "run.mjs"], cwd=folder, check=True)
 
 
 @pytest.mark.parametrize("run", [c, pytest.param(cpp, marks=pytest.mark.long), javascript])
 def test_other_languages_answer_as_python_does(run, cases, folder):
     every = cases | {name: cases[right] for name, (right, *_) in WRONG.items()}
-    for name, found in run(folder, every).items():
-        case = every[name]
+    run(folder, every)
+    for name, case in every.items():
+        found = np.fromfile(folder / f"{name}.out")
         constants, rows = np.split(found, [len(case.constants)])
         same = agrees(rows.reshape(-1, 5).T, case)
         if name in WRONG:
@@ -303,27 +228,14 @@ def test_other_languages_answer_as_python_does(run, cases, folder):
             assert constants.tolist() == list(case.constants.values())
 
 
-@pytest.mark.parametrize("command", ["cc -std=c99 -xc", "c++ -xc++", "node --check"])
-def test_a_template_is_code_as_it_stands(command):
-    program, *options = command.split()
-    if not shutil.which(program):
-        pytest.skip(f"{program} is not installed")
-    if program != "node":  # Clang calls functions of a header unused where the header is all
-        options += ["-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-Wno-unused-function"]
-        options += ["-Wno-unused-const-variable"]
-    templates = list(TEMPLATES.glob("*.mjs" if program == "node" else "*.h"))
-    assert len(templates) == 2
-    for template in templates:
-        subprocess.run([program, *options, template], check=True)
-
-
 @pytest.mark.parametrize("compiler", [["cc", "-std=c99"], ["c++", "-xc++"]], ids=["C", "C++"])
-def test_a_header_never_meets_a_compiler_without_nan(compiler, pairs, tmp_path):
+def test_a_header_never_meets_a_compiler_without_nan(compiler, tmp_path):
     """That one may drop the test of the range, and a table is read beyond its ends."""
     if not shutil.which(compiler[0]):
         pytest.skip(f"{compiler[0]} is not installed")
-    export.write(pairs["plain"], tmp_path / "ball.h", "c")
-    code = '#include "ball.h"\nint main(int n, char **v) { return ball_velocity(n / 0.0 - n / 0.0)'
+    export.write_spheres(tmp_path / "balls.h", "c", 0.04)
+    code = '#include "balls.h"\nint main(int n, char **v) { '
+    code += "return balls_velocity(n / 0.0 - n / 0.0, 3.5, 1.2, 0.8, BALLS_PLASTIC)"
     (tmp_path / "main.c").write_text(f"{code} > 1 && v; }}\n")
     for options, works in {
         "-O3": True,
@@ -354,7 +266,7 @@ def test_the_readme_prints_what_it_says(language, file, commands, tmp_path, monk
     written = re.findall(rf"^\S+/planarimpact (.* --as {language} .*)$", section, flags=re.M)
     assert [main(shlex.split(command)) for command in written] == [0] * len(written)
     blocks = re.findall(rf"```{language}\n(.*?)```", section, flags=re.S)
-    assert len(blocks) == {"c": 2, "js": 1}[language]
+    assert len(written) == len(blocks) == 1
     for text in blocks:
         (tmp_path / file).write_text(text)
         for command in commands:
@@ -421,8 +333,8 @@ def test_the_loop_for_games_keeps_heights_and_comes_to_rest(tmp_path):
         ("no/ball.h", "c", "no/ball.h: there is no folder"),
     ],
 )
-def test_refusals_leave_no_file(path, language, words, pairs, tmp_path, monkeypatch):
+def test_refusals_leave_no_file(path, language, words, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(InputError) as refused:
-        export.write(pairs["plain"], path, language)
+        export.write_spheres(path, language, 0.04)
     assert str(refused.value).startswith(words) and not list(tmp_path.iterdir())

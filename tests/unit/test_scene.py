@@ -468,9 +468,8 @@ def test_the_table_of_spheres_takes_what_it_covers():
         force = 0.3 * found.peak_friction * after["peak_normal_force [N]"]
         np.testing.assert_allclose(after["peak_friction_force [N]"], force, rtol=1e-11)
         assert (after["regime"] == Regime.names(found.regime)).all()
-        bound = np.where(e < 1, spheres.ERROR_BOUND[loss], spheres.ERROR_BOUND["viscous"])
-        little = spheres.loses_little(np.full(count, 3.5), groups[2], e) & (loss == "plastic")
-        bound[little & (e < 1)] = spheres.LITTLE_BOUND
+        lossy = np.array(loss == "plastic") & (e < 1)
+        bound = spheres.error_bound(np.full(count, 3.5), groups[2], e, lossy)
         bound *= np.minimum(np.abs(after["incidence"]), 1.0)
         np.testing.assert_allclose(after["error_bound [m/s]"] / unit, bound, 1e-6)
         far = np.where(e < 1, spheres.rebound(*groups, loss=other).velocity - found.velocity, 0.0)

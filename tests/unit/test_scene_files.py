@@ -295,7 +295,7 @@ files.solve(sys.argv[1], sys.argv[2], rows=1, workers=2)
 
 
 @pytest.mark.parametrize(
-    "number", [signal.SIGINT, signal.SIGTERM, pytest.param(signal.SIGKILL, marks=pytest.mark.long)]
+    "number", [signal.SIGINT, pytest.param(signal.SIGKILL, marks=pytest.mark.long)]
 )
 def test_workers_end_with_their_master(table, tmp_path, number):
     waiting, out = tmp_path / "waiting", tmp_path / "out.csv"

@@ -24,8 +24,8 @@ INVENTORY = reference_data.load_all(
 # What nothing independent can hold, as patterns of "judged: curve: column", and why.
 NOT_HELD = {
     r".*: (time\w*|scatter_\w+|build_time) \[(s|1)\]": "measured on this machine",
-    r"trade: .*: (steps|circles|tolerance|reference_error) .*": "what was asked for",
-    r"trade: (response of|continuum|annuli|spheres).*: (rms|max|rest)\w* .*": "an error, bounded",
+    r"trade: .*: (steps|circles|knots|tolerance|reference_error) .*": "what was asked for",
+    r"trade: (spline|continuum|annuli|spheres).*: (rms|max|rest)\w* .*": "an error, bounded",
     r"stability: contacts: (incidence|mass_ratio|stiffness_ratio|restitution) .*": "as in impacts",
     r"stability: .*: (omega|phases|digits_allowed_\w+) .*": "tells where, and what could be had",
     r"stability: .*: (digits_lost|friction_excess|energy_residual) .*": "an error, bounded",

@@ -1,6 +1,5 @@
 """LAMMPS and pooltool: an optional target that says what is missing, and rows like the trade's."""
 
-import functools
 import importlib.metadata
 import re
 from pathlib import Path
@@ -37,8 +36,7 @@ needs_pooltool = pytest.mark.skipif(bool(peers.missing("pooltool")), reason="nee
 def pretend(patch):
     """Both codes, as if installed: our own models under their names; pooltool refuses x = 0.
 
-    The tsuji damping delivers another restitution than it is told, as LAMMPS' does. Nothing is
-    compiled, as that takes seconds: "response of ..." calls the lumped model.
+    The tsuji damping delivers another restitution than it is told, as LAMMPS' does.
     """
 
     def thrown(x, law, steps, poisson_ratio=0.3, damping=peers.UNDAMPED):
@@ -52,10 +50,6 @@ def pretend(patch):
         found = lumped.rebound(x, mass_ratio, stiffness_ratio, restitution).velocity
         return np.where(np.asarray(x) > 0, found, np.nan), 1e-3
 
-    def compile_(model, *, incidence_max, tolerance, **groups):
-        return functools.partial(models.rebound, "lumped.hysteretic", **groups)
-
-    patch.setattr(measurement, "response", SimpleNamespace(compile=compile_))
     patch.setattr(peers, "missing", lambda code: [])
     patch.setattr(peers, "lammps_impacts", thrown)
     patch.setattr(peers, "pooltool_impacts", resolved)
@@ -94,7 +88,7 @@ def test_without_them_the_target_succeeds_and_says_so(finished):
     assert finished.planned()[1] == {"report": 1, "all": 1}
     finished.run("figures/report.html")
     assert "LAMMPS is not installed. pooltool is not installed." in report.read_text()
-    assert "<td>response of continuum</td>" in report.read_text()
+    assert "<td>spheres</td>" in report.read_text()
 
 
 def test_rows_have_errors_times_and_what_was_refused(measured):
@@ -123,9 +117,9 @@ def test_below_1_every_velocity_is_measured_against_both_losses(measured):
     by_loss = {loss: [row for row in cells if row["loss"] == loss] for loss in measurement.LOSSES}
     for loss, other in (("viscous", "plastic"), ("plastic", "viscous")):
         names = {row["model"] for row in by_loss[loss]}
-        own = {f"{word}continuum.{end}" for word in ("", "response of ") for end in (loss, other)}
         assert {
-            *own,
+            f"continuum.{loss}",
+            f"continuum.{other}",
             "lumped.hysteretic",
             "lumped.viscous",
             "lumped.unloading-stiffness",
@@ -204,7 +198,7 @@ def rows_of(named, folder):
     return csv_tables.read_rows(folder / "peers.csv")
 
 
-def test_the_report_has_all_times_over_that_of_the_compiled_continuum(measured, tmp_path):
+def test_the_report_has_all_times_over_that_of_the_table(measured, tmp_path):
     rows = rows_of(measured[0], tmp_path)
     found = impact_times.section([], rows)
     assert found["absent"] == []
@@ -212,16 +206,15 @@ def test_the_report_has_all_times_over_that_of_the_compiled_continuum(measured, 
         end = f".{loss}" if loss else ""
         group = {row["model"]: row for row in found["rows"] if row["loss"] == loss}
         law = "LAMMPS mindlin/force" + (", viscoelastic, xt = 0" if loss else "")
-        ours = {f"{word}continuum{end}" for word in ("", "response of ")}
         paper = "lumped.hysteretic" if loss else "lumped"
-        assert set(group) == {law, "pooltool", paper, f"spheres{'.' * bool(loss)}{loss}", *ours}
+        assert set(group) == {law, "pooltool", paper, f"spheres{end}", f"continuum{end}"}
         times = [float(row["time [us]"]) for row in group.values()]
         assert times == sorted(times, reverse=True)
         assert float(group["pooltool"]["time [us]"]) == 1 and float(group[law]["time [us]"]) == 2
         assert {row["batch [1]"] for row in group.values()} == {"1000"}
-        compiled = float(group[f"response of continuum{end}"]["time [us]"])
-        ratio = float(group[law]["times_compiled [1]"])
-        assert ratio == pytest.approx(2 / compiled, rel=0.06)  # two digits of each
+        table = float(group[f"spheres{end}"]["time [us]"])
+        ratio = float(group[law]["times_spheres [1]"])
+        assert ratio == pytest.approx(2 / table, rel=0.06)  # two digits of each
 
 
 def test_the_report_says_what_is_missing(measured, tmp_path):
@@ -346,7 +339,6 @@ def test_caption_has_the_numbers_of_the_versions_it_names(monkeypatch):
         if f"{name} {importlib.metadata.version(package)}" not in caption:
             pytest.skip(f"another version of {name}")
     monkeypatch.setattr(trade, "times", lambda *_: [{"time_1 [s]": 1.0}])
-    monkeypatch.setattr(measurement, "COMPILED", ())  # it takes long and has no line
     values = [0.9, 0.7, 0.5]
     found, _ = measurement.measure(3.5, 1.21, [0, 8], 81, values, 1e-3, 1e-4)
     rows = {name: {key: cell for key, (cell,) in row.items()} for name, row in found.items()}

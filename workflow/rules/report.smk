@@ -75,7 +75,6 @@ rule interface:
     """What the functions of the solver take and return, as pages made from their docstrings."""
     input:
         plan=planned("interface", "write_interface", "pages", "plan", "printed", "reference_data"),
-        names="src/planarimpact/__init__.pyi",
         parts=INTERFACE_PARTS,
         shared=EVERY_PAGE,
     output:

@@ -1,20 +1,42 @@
 """Physical bodies and materials, in SI units, to and from the groups that the models take.
 
-Collinear configurations only: each centre of mass lies on the contact normal. Arguments are
-numbers or arrays that broadcast. Every refusal is an `InputError` with the field and its value.
-Other consistent units give the same numbers. A result below 1e-308 or above 1e308 is refused.
+Collinear configurations only: each centre of mass lies on the contact normal. Other consistent
+units give the same numbers.
+
+Arguments of all functions have these names. Each is a number or an array; they broadcast, and a
+result is a number or an array of the broadcast shape. Index 1 is tangential, 2 normal.
+
+| argument | meaning | unit | allowed |
+|---|---|---|---|
+| `body`, `other` | a `Body` and what it strikes, a half-space at rest by default | | one can move |
+| `material`, `other`, `other_material` | the `Material` of each; None is rigid | | |
+| `radius` | r, from the centre to the contact point; or of curvature | m | above 0 |
+| `mass` of a shape | M | kg | above 0 |
+| `density` | of a homogeneous sphere | kg/m^3 | above 0 |
+| `motion`: `tangential`, `normal` | velocity of the centre of mass | m/s | finite |
+| `motion`: `spin` | angular velocity | rad/s | finite |
+| `v1`, `v2` | velocity of the contact point before impact | m/s | v2 above 0 |
+| `friction` | coefficient mu | | above 0 |
+| `speed` | normal speed of approach, v2(0) | m/s | above 0 |
+| `mass` beside a speed or modulus | normal effective mass m2 | kg | above 0 |
+| `effective_modulus` | E* | Pa | above 0 |
+| `effective_radius` | R | m | above 0 |
+| `restitution` | energetic coefficient e | | 0.022 to 1; in `rebound_motion` 0 to 1 |
+| `relaxation_time` | tau of viscous bodies | s | from 0 |
+| `yield_pressure` | p_y of plastic bodies | Pa | above 0 |
+
+Other symbols: m1 tangential effective mass; beta = m2/m1; k radius of gyration; x incidence, w
+velocity of the contact point at separation over mu v2; E, G, nu Young's modulus, shear modulus and
+Poisson's ratio; G* effective shear modulus; zeta^2 normal over tangential stiffness.
+
+Errors. Every function raises `InputError` with the field and its value if an argument is not a
+number that is allowed, if shapes do not broadcast, or if a result is below 1e-308 or above 1e308.
 
 Signs. The normal velocity is positive while the body approaches, so it is positive before the
 impact and negative after it. The tangential velocity is positive in one direction along the
 surface, the same one for all quantities; usually it is the incident direction. Spin is positive
 where it moves the contact point in that direction: v1 = tangential + radius spin, so rolling
 without slip, v1 = 0, is spin = -tangential/radius, and positive spin is backspin.
-
-Symbols in all files of this room: v1, v2 tangential and normal velocity of the contact point before
-impact; m1, m2 tangential and normal effective mass; beta = m2/m1; M mass, k radius of gyration and
-r radius of a body; mu coefficient of friction; e restitution; x incidence, w velocity at
-separation over mu v2; E, G, nu Young's modulus, shear modulus and Poisson's ratio; E*, G*, R
-effective moduli and effective radius; zeta^2 normal over tangential stiffness.
 
 Users need only this module: it also exports what `masses`, `materials`, `quantities` and
 `restitution` define.
@@ -31,7 +53,6 @@ from planarimpact.bodies.materials import (
     dundurs,
     effective_modulus,
     effective_radius,
-    effective_shear_modulus,
     hertz_peak_force,
     normal_frequency,
     stiffness_ratio,
@@ -68,7 +89,6 @@ __all__ = [
     "Material",
     "Motion",
     "OutOfRange",
-    "angle_of_incidence",
     "contact",
     "contact_velocity",
     "disc",
@@ -76,7 +96,6 @@ __all__ = [
     "effective_masses",
     "effective_modulus",
     "effective_radius",
-    "effective_shear_modulus",
     "hertz_peak_force",
     "incidence",
     "incidence_from_angle",
@@ -107,17 +126,7 @@ _friction = partial(
 
 
 class Contact(NamedTuple):
-    """What the laws of restitution ask of two bodies, in the order of their arguments.
-
-    Attributes
-    ----------
-    mass : ndarray or float
-        Normal effective mass m2 [kg].
-    effective_modulus : ndarray or float
-        E* [Pa].
-    effective_radius : ndarray or float
-        R [m].
-    """
+    """What the laws of restitution ask of two bodies, in the order of their arguments."""
 
     mass: Array
     effective_modulus: Array
@@ -129,22 +138,8 @@ def contact(
 ) -> Contact:
     """Effective mass, modulus and radius of two bodies that strike each other.
 
-    Parameters
-    ----------
-    body, other : Body
-        The other one is a flat wall if left out; a radius of 0 is flat.
-    material, other_material : Material
-        Of both; a wall is rigid if it has none.
-
-    Returns
-    -------
-    Contact
-
-    Raises
-    ------
-    InputError
-        If another body that can move has no material, or as in `effective_masses`,
-        `effective_modulus` and `effective_radius`.
+    A radius of 0 is flat. Another body that can move needs a material. Arguments and errors:
+    `planarimpact.bodies`.
 
     Examples
     --------
@@ -171,32 +166,11 @@ def contact(
 def contact_velocity(
     tangential: ArrayLike, normal: ArrayLike, spin: ArrayLike, radius: ArrayLike
 ) -> tuple[Array, Array]:
-    """Velocity of the contact point of a body.
+    """Velocity of the contact point of a body: v1 = tangential + radius spin, v2 = normal [m/s].
 
-    Parameters
-    ----------
-    tangential, normal : array_like
-        Velocity of the centre [m/s].
-    spin : array_like
-        [rad/s].
-    radius : array_like
-        Distance from the centre to the contact point [m], from 0.
-
-    Returns
-    -------
-    v1, v2 : ndarray of float64 or float
-        [m/s]: v1 = tangential + radius spin, v2 = normal.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
-
-    Notes
-    -----
     For two bodies take relative velocities of the centres, and add the other's radius times its
-    spin, in the same sense of turning, to v1.
+    spin, in the same sense of turning, to v1. The radius may be 0. Arguments and errors:
+    `planarimpact.bodies`.
 
     Examples
     --------
@@ -214,26 +188,9 @@ def contact_velocity(
 
 @checks.default_errors
 def incidence(v1: ArrayLike, v2: ArrayLike, friction: ArrayLike) -> Array:
-    """Incidence of an impact from the velocity of the contact point.
+    """Incidence of an impact from the velocity of the contact point: x = v1/(mu v2).
 
-    Parameters
-    ----------
-    v1 : array_like
-        Tangential velocity before impact [m/s].
-    v2 : array_like
-        Normal velocity before impact [m/s], above 0.
-    friction : array_like
-        mu, above 0.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        x = v1/(mu v2).
-
-    Raises
-    ------
-    InputError
-        As in `contact_velocity`.
+    Arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------
@@ -247,57 +204,11 @@ def incidence(v1: ArrayLike, v2: ArrayLike, friction: ArrayLike) -> Array:
 
 
 @checks.default_errors
-def angle_of_incidence(incidence: ArrayLike, friction: ArrayLike) -> Array:
-    """Angle of incidence, from the normal.
-
-    Parameters
-    ----------
-    incidence : array_like
-        x = v1/(mu v2).
-    friction : array_like
-        mu, above 0.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        theta in degrees, tan(theta) = v1/v2 = mu x.
-
-    Raises
-    ------
-    InputError
-        As in `contact_velocity`.
-
-    Examples
-    --------
-    >>> round(float(angle_of_incidence(2.0, 0.5)), 12)
-    45.0
-    """
-    x = checks.incidence(incidence)
-    x, mu = checks.broadcast(incidence=x, friction=_friction(friction))
-    with np.errstate(over="ignore"):  # the arctangent of inf is right
-        return np.degrees(np.arctan(mu * x))
-
-
-@checks.default_errors
 def incidence_from_angle(theta_deg: ArrayLike, friction: ArrayLike) -> Array:
-    """Incidence of an impact at an angle; the inverse of `angle_of_incidence`.
+    """Incidence of an impact at an angle: x = tan(theta)/mu.
 
-    Parameters
-    ----------
-    theta_deg : array_like
-        Angle from the normal in degrees, between -90 and 90.
-    friction : array_like
-        mu, above 0.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        x = tan(theta)/mu.
-
-    Raises
-    ------
-    InputError
-        As in `contact_velocity`.
+    `theta_deg` is the angle from the normal in degrees, between -90 and 90. Other arguments and
+    errors: `planarimpact.bodies`.
 
     Examples
     --------
@@ -322,25 +233,8 @@ def rebound_motion(
 
     The tangential impulse P1 = m1 (mu v2 w(tf) - v1) adds P1/M to the centre's velocity and
     radius P1/(M k^2) to the spin; the normal velocity becomes -e times what it was.
-
-    Parameters
-    ----------
-    body : Body
-        The body [kg, m, m], of finite mass.
-    motion : Motion
-        Before impact [m/s, m/s, rad/s], with normal > 0.
-    friction, rebound_velocity, restitution : array_like
-        mu > 0, w(tf) = v1(tf)/(mu v2(0)) (the `velocity` of a `Rebound`), and e in [0, 1].
-
-    Returns
-    -------
-    Motion
-        After impact [m/s, m/s, rad/s], of ndarrays of float64 or floats.
-
-    Raises
-    ------
-    InputError
-        As in `contact_velocity`.
+    `rebound_velocity` is w(tf) = v1(tf)/(mu v2(0)), the `velocity` of a `Rebound`. The normal
+    velocity of `motion` is above 0. Other arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------

@@ -12,22 +12,7 @@ from planarimpact.ground.checks import InputError
 def solid_sphere(radius: ArrayLike, density: ArrayLike) -> Body:
     """Body of a homogeneous sphere that strikes with its surface: k^2 = 2 r^2/5.
 
-    Parameters
-    ----------
-    radius : array_like
-        r [m], above 0.
-    density : array_like
-        [kg/m^3], above 0.
-
-    Returns
-    -------
-    Body
-
-    Raises
-    ------
-    InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+    Arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------
@@ -42,21 +27,7 @@ def solid_sphere(radius: ArrayLike, density: ArrayLike) -> Body:
 def thin_shell(radius: ArrayLike, mass: ArrayLike) -> Body:
     """Body of a thin spherical shell, such as a table-tennis ball: k^2 = 2 r^2/3.
 
-    Parameters
-    ----------
-    radius : array_like
-        r [m], above 0.
-    mass : array_like
-        [kg], above 0.
-
-    Returns
-    -------
-    Body
-
-    Raises
-    ------
-    InputError
-        As in `solid_sphere`.
+    Arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------
@@ -70,21 +41,7 @@ def thin_shell(radius: ArrayLike, mass: ArrayLike) -> Body:
 def disc(radius: ArrayLike, mass: ArrayLike) -> Body:
     """Body of a homogeneous disc or cylinder that strikes with its rim: k^2 = r^2/2.
 
-    Parameters
-    ----------
-    radius : array_like
-        r [m], above 0.
-    mass : array_like
-        [kg], above 0.
-
-    Returns
-    -------
-    Body
-
-    Raises
-    ------
-    InputError
-        As in `solid_sphere`.
+    Arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------
@@ -112,24 +69,10 @@ def _scaled_inverse_masses(body: Body, other: Body) -> tuple[Array, Array, Array
 
 @quietly
 def effective_masses(body: Body, other: Body = HALF_SPACE) -> tuple[Array, Array]:
-    """Tangential and normal effective mass of two bodies (Eq. 2).
+    """Tangential and normal effective mass of two bodies, m1 and m2 [kg] (Eq. 2).
 
-    Parameters
-    ----------
-    body : Body
-        The body that strikes.
-    other : Body
-        What it strikes; a half-space at rest if left out. One of the two has a finite mass.
-
-    Returns
-    -------
-    m1, m2 : ndarray of float64 or float
-        [kg]: 1/m1 = sum (1 + (r/k)^2)/M and 1/m2 = sum 1/M over both bodies.
-
-    Raises
-    ------
-    InputError
-        As in `solid_sphere`.
+    1/m1 = sum (1 + (r/k)^2)/M and 1/m2 = sum 1/M over both bodies. Arguments and errors:
+    `planarimpact.bodies`.
 
     Examples
     --------
@@ -142,24 +85,9 @@ def effective_masses(body: Body, other: Body = HALF_SPACE) -> tuple[Array, Array
 
 @quietly
 def mass_ratio(body: Body, other: Body = HALF_SPACE) -> Array:
-    """Mass ratio beta = m2/m1 of two bodies (Eq. 2).
+    """Mass ratio beta = m2/m1 of two bodies, at least 1 (Eq. 2).
 
-    Parameters
-    ----------
-    body : Body
-        The body that strikes.
-    other : Body
-        What it strikes; a half-space at rest if left out. One of the two has a finite mass.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        At least 1.
-
-    Raises
-    ------
-    InputError
-        As in `solid_sphere`.
+    Arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------

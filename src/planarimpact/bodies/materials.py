@@ -39,25 +39,9 @@ def _compliances(pairs: list[tuple[Array, Array]]) -> tuple[Array, Array]:
 
 @quietly
 def effective_modulus(material: Material, other: Material | None = None) -> Array:
-    """Effective modulus of two elastic bodies in contact.
+    """Effective modulus E* [Pa] of two elastic bodies: 1/E* = sum (1 - nu^2)/E over both.
 
-    Parameters
-    ----------
-    material : Material
-        Of one body.
-    other : Material or None
-        Of the other; None is a rigid counterbody.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        E* [Pa]: 1/E* = sum (1 - nu^2)/E over both bodies.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+    Arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------
@@ -68,55 +52,12 @@ def effective_modulus(material: Material, other: Material | None = None) -> Arra
 
 
 @quietly
-def effective_shear_modulus(material: Material, other: Material | None = None) -> Array:
-    """Effective shear modulus of two elastic bodies in contact.
-
-    Parameters
-    ----------
-    material : Material
-        Of one body.
-    other : Material or None
-        Of the other; None is a rigid counterbody.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        G* [Pa]: 1/G* = sum (2 - nu)/G over both bodies, G = E/(2 (1 + nu)).
-
-    Raises
-    ------
-    InputError
-        As in `effective_modulus`.
-
-    Examples
-    --------
-    >>> round(float(effective_shear_modulus(Material(380e9, 0.23), Material(70e9, 0.25)) / 1e9), 1)
-    13.5
-    """
-    return in_range("G*", 1 / _compliances(_elastic_constants(material, other))[1])
-
-
-@quietly
 def stiffness_ratio(material: Material, other: Material | None = None) -> Array:
     """Stiffness ratio of two elastic bodies in contact, normal over tangential.
 
-    Parameters
-    ----------
-    material : Material
-        Of one body.
-    other : Material or None
-        Of the other; None is a rigid counterbody.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        zeta^2 = E*/(4 G*); (2 - nu)/(2 (1 - nu)) for a material against itself or a rigid
-        counterbody.
-
-    Raises
-    ------
-    InputError
-        As in `effective_modulus`.
+    zeta^2 = E*/(4 G*) with 1/G* = sum (2 - nu)/G over both bodies, G = E/(2 (1 + nu)). It is
+    (2 - nu)/(2 (1 - nu)) for a material against itself or a rigid counterbody. Arguments and
+    errors: `planarimpact.bodies`.
 
     Examples
     --------
@@ -144,23 +85,9 @@ def dundurs(material: Material, other: Material | None = None) -> Array:
     the velocity moves by 0.01 mu v2(0) where that is 0.23, by 0.03 at 0.42, by less than 0.1 below
     0.8 (`COUPLING`), and by 0.36 at 2.9.
 
-    Parameters
-    ----------
-    material : Material
-        Of one body.
-    other : Material or None
-        Of the other; None is a rigid counterbody.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        (E*/2) times (1 - 2 nu)/(2 G) of `material` less that of `other`: from -1/2 to 1/2 for
-        Poisson's ratios from 0, positive where `material` spreads more.
-
-    Raises
-    ------
-    InputError
-        As in `effective_modulus`.
+    It is (E*/2) times (1 - 2 nu)/(2 G) of `material` less that of `other`: from -1/2 to 1/2 for
+    Poisson's ratios from 0, positive where `material` spreads more. Arguments and errors:
+    `planarimpact.bodies`.
 
     References
     ----------
@@ -182,24 +109,10 @@ def dundurs(material: Material, other: Material | None = None) -> Array:
 
 @checks.default_errors
 def effective_radius(radius: ArrayLike, other: ArrayLike = np.inf) -> Array:
-    """Effective radius of two convex surfaces in contact.
+    """Effective radius R [m] of two convex surfaces in contact: 1/R = sum 1/radius over both.
 
-    Parameters
-    ----------
-    radius : array_like
-        Radius of curvature of one [m], above 0.
-    other : array_like
-        Of the other [m], above 0; infinite where it is flat.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        R [m]: 1/R = sum 1/radius.
-
-    Raises
-    ------
-    InputError
-        As in `effective_modulus`.
+    `other` is the other's radius, infinite where it is flat. Arguments and errors:
+    `planarimpact.bodies`.
 
     Examples
     --------
@@ -217,29 +130,10 @@ def effective_radius(radius: ArrayLike, other: ArrayLike = np.inf) -> Array:
 def hertz_peak_force(
     mass: ArrayLike, speed: ArrayLike, effective_modulus: ArrayLike, effective_radius: ArrayLike
 ) -> Array:
-    """Peak normal force of an elastic Hertz contact.
+    """Peak normal force [N] of an elastic Hertz contact.
 
-    Parameters
-    ----------
-    mass : array_like
-        Normal effective mass m2 [kg], above 0.
-    speed : array_like
-        Normal speed of approach v2(0) [m/s], above 0.
-    effective_modulus : array_like
-        E* [Pa], above 0.
-    effective_radius : array_like
-        R [m], above 0.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        [N]: K d^(3/2) with K = (4/3) E* R^(1/2), at the depth d where the work (2/5) K d^(5/2)
-        is m2 v2^2/2.
-
-    Raises
-    ------
-    InputError
-        As in `effective_modulus`.
+    It is K d^(3/2) with K = (4/3) E* R^(1/2), at the depth d where the work (2/5) K d^(5/2) is
+    m2 v2^2/2. Arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------
@@ -259,31 +153,11 @@ def hertz_peak_force(
 
 @quietly
 def normal_frequency(peak_force: ArrayLike, mass: ArrayLike, speed: ArrayLike) -> Array:
-    """Frequency of the linear normal spring that has a given peak force.
+    """Frequency Omega [rad/s] of the linear normal spring with this peak force [N] at this speed.
 
-    Parameters
-    ----------
-    peak_force : array_like
-        [N], above 0.
-    mass : array_like
-        Normal effective mass m2 [kg], above 0.
-    speed : array_like
-        Normal speed of approach v2(0) [m/s] at which it has this force, above 0.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        Omega [rad/s], m2 Omega v2 = peak force.
-
-    Raises
-    ------
-    InputError
-        As in `effective_modulus`.
-
-    Notes
-    -----
-    Omega is the same at any other speed. To get newtons, multiply a normal force of `History` by
-    m2 Omega v2, and a friction (as `Rebound.peak_friction`) by mu m2 Omega v2.
+    m2 Omega v2 = `peak_force`; Omega is the same at any other speed. To get newtons, multiply a
+    normal force of `History` by m2 Omega v2, and a friction (as `Rebound.peak_friction`) by
+    mu m2 Omega v2. Other arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------

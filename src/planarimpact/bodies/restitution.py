@@ -3,10 +3,10 @@
 Two laws of normal impact, those of `planarimpact.normal_impact`. A viscous body has a relaxation
 time, and e falls slowly with speed. A plastic body has a yield pressure: it is elastic up to the
 yield speed, and then e falls with speed. Each function describes a contact of two spheres by its
-effective mass, modulus and radius.
+effective mass, modulus and radius, as `contact` returns them.
 
-Symbols beside those of `planarimpact.bodies`: tau relaxation time; p_y yield pressure, v_y yield
-speed, and a_y the radius of contact where yield begins.
+Symbols beside those of `planarimpact.bodies`: v_y yield speed, and a_y the radius of contact where
+yield begins.
 """
 
 import numpy as np
@@ -32,29 +32,9 @@ def viscous_restitution(
 ) -> Array:
     """Coefficient of restitution of viscous spheres with a relaxation time.
 
-    Parameters
-    ----------
-    speed : array_like
-        Normal speed of approach v2(0) [m/s], above 0.
-    relaxation_time : array_like
-        tau [s], from 0: stress = modulus (strain + tau strain rate), alike in shear and
-        compression. It is the A of Brilliantov et al.
-    mass : array_like
-        Normal effective mass m2 [kg], above 0.
-    effective_modulus : array_like
-        E* [Pa], above 0.
-    effective_radius : array_like
-        R [m], above 0.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        e, 0.022 to 1, solved to 1e-10; 1 without relaxation.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a number in its range, shapes do not broadcast, or e is below 0.022.
+    It is solved to 1e-10, and 1 without relaxation. Where it would be below 0.022 the relaxation
+    time is refused. Stress = modulus (strain + tau strain rate), alike in shear and compression;
+    tau is the A of Brilliantov et al. Arguments and errors: `planarimpact.bodies`.
 
     Notes
     -----
@@ -103,25 +83,9 @@ def relaxation_time(
     effective_modulus: ArrayLike,
     effective_radius: ArrayLike,
 ) -> Array:
-    """Relaxation time from restitution at one speed, the inverse of `viscous_restitution`.
+    """Relaxation time [s] from restitution at one speed, the inverse of `viscous_restitution`.
 
-    Parameters
-    ----------
-    restitution : array_like
-        e at this speed, 0.022 to 1.
-    speed, mass, effective_modulus, effective_radius : array_like
-        As in `viscous_restitution`.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        tau [s], 0 where e = 1.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a number in its range, shapes do not broadcast, or a result is
-        beyond the range of numbers.
+    It is 0 where e = 1. Arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------
@@ -144,26 +108,11 @@ def yield_speed(
     effective_modulus: ArrayLike,
     effective_radius: ArrayLike,
 ) -> Array:
-    """Normal speed of impact from which elastic-plastic spheres yield.
+    """Normal speed of impact v_y [m/s] from which elastic-plastic spheres yield.
 
-    Parameters
-    ----------
-    yield_pressure : array_like
-        p_y [Pa], above 0: the largest pressure that the contact carries. It lies between 1.6 times
-        the yield stress, where yield begins below the surface, and about 3 times, where the whole
-        contact yields (Johnson, Contact Mechanics, 1985).
-    mass, effective_modulus, effective_radius : array_like
-        As in `viscous_restitution`.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        v_y [m/s].
-
-    Raises
-    ------
-    InputError
-        As in `relaxation_time`.
+    The yield pressure is the largest pressure that the contact carries. It lies between 1.6 times
+    the yield stress, where yield begins below the surface, and about 3 times, where the whole
+    contact yields (Johnson, Contact Mechanics, 1985). Arguments and errors: `planarimpact.bodies`.
 
     Notes
     -----
@@ -198,24 +147,8 @@ def plastic_restitution(
 ) -> Array:
     """Coefficient of restitution of elastic-plastic spheres with a yield pressure.
 
-    Parameters
-    ----------
-    speed : array_like
-        Normal speed of approach v2(0) [m/s], above 0.
-    yield_pressure : array_like
-        p_y [Pa] as in `yield_speed`, above 0.
-    mass, effective_modulus, effective_radius : array_like
-        As in `viscous_restitution`.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        e: 1 up to the yield speed. Far above it e falls like v2^(-1/4).
-
-    Raises
-    ------
-    InputError
-        As in `relaxation_time`.
+    It is 1 up to the yield speed. Far above it e falls like v2^(-1/4). Arguments and errors:
+    `planarimpact.bodies`.
 
     References
     ----------
@@ -248,24 +181,10 @@ def yield_pressure(
     effective_modulus: ArrayLike,
     effective_radius: ArrayLike,
 ) -> Array:
-    """Yield pressure from restitution at one speed, the inverse of `plastic_restitution`.
+    """Yield pressure [Pa] from restitution at one speed, the inverse of `plastic_restitution`.
 
-    Parameters
-    ----------
-    restitution : array_like
-        e at this speed, 0.022 to 1.
-    speed, mass, effective_modulus, effective_radius : array_like
-        As in `viscous_restitution`.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        p_y [Pa]; where e = 1 the least one, at which yield begins with this speed.
-
-    Raises
-    ------
-    InputError
-        As in `relaxation_time`.
+    Where e = 1 it is the least one, at which yield begins with this speed. Arguments and errors:
+    `planarimpact.bodies`.
 
     Examples
     --------
@@ -292,31 +211,12 @@ def peak_force(
     restitution: ArrayLike,
     loss: str,
 ) -> Array:
-    """Peak normal force of spheres that lose normal energy.
+    """Peak normal force [N] of spheres that lose normal energy.
 
-    Parameters
-    ----------
-    mass, speed, effective_modulus, effective_radius : array_like
-        As in `hertz_peak_force`.
-    restitution : array_like
-        e, 0.022 to 1.
-    loss : str
-        "viscous" or "plastic".
-
-    Returns
-    -------
-    ndarray of float64 or float
-        [N]. That of Hertz where e = 1. Below, a plastic contact has a smaller one. A viscous one
-        has a smaller one down to e = 0.19, and a larger one for more loss.
-
-    Raises
-    ------
-    InputError
-        As in `relaxation_time`.
-
-    Notes
-    -----
-    The laws are those of `viscous_restitution` and `plastic_restitution`.
+    `loss` is "viscous" or "plastic", as in `viscous_restitution` and `plastic_restitution`. The
+    force is that of Hertz where e = 1. Below, a plastic contact has a smaller one. A viscous one
+    has a smaller one down to e = 0.19, and a larger one for more loss. Other arguments and errors:
+    `planarimpact.bodies`.
 
     Examples
     --------

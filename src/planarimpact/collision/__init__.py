@@ -4,14 +4,14 @@
 stiffness, and what takes the energy. `scene` solves tables of impacts by the same functions, which
 also decide which model answers (`rungs`): a formula where it is exact, the table of spheres where
 it covers the impact, or the continuum, solved (`continua`). `mechanics` has the vectors, `pairs`
-what materials do, `single` one impact, `model_form` what the other loss would change.
+what materials do, `one_impact` one impact, `model_form` what the other loss would change.
 
 Bodies touch at one point, and the line of their centres of mass is the normal there. A body whose
 radius of gyration is not the same about every axis must turn about an axis across its plane of
 incidence. All vectors have one set of axes. Spin is the right-handed vector of angular velocity.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import Any
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from planarimpact import bodies
 from planarimpact.bodies import Body
-from planarimpact.collision import single
+from planarimpact.collision import one_impact
 from planarimpact.collision.mechanics import Impacts as Impacts
 from planarimpact.collision.mechanics import State as State
 from planarimpact.collision.mechanics import after as after
@@ -38,9 +38,10 @@ from planarimpact.collision.rungs import TOLERANCE as TOLERANCE
 from planarimpact.collision.rungs import Answers as Answers
 from planarimpact.collision.rungs import answers as answers
 from planarimpact.collision.rungs import model_forms as model_forms
+from planarimpact.continuum import Unsolved
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.ground.checks import InputError, Unsolved
+from planarimpact.ground.checks import InputError
 from planarimpact.ground.results import Regime
 from planarimpact.normal_impact import LOSSES as LOSSES
 
@@ -132,8 +133,8 @@ def collide(
     tolerance : float
         Largest error of the velocity of the contact point, in mu v2(0), against the continuum;
         1e-10 to 1. In v1(0) it is at most the default. The default is that of the table of spheres:
-        about a microsecond an impact in an array, some 20 for one alone, and 50 ms for the first
-        one, as the table is read.
+        about a microsecond an impact in an array, some 30 for one alone, or 50 by a law of
+        restitution, and 50 ms for the first one, as the table is read.
         Impacts for which the table is too coarse, or which it does not cover (e below 0.3, zeta^2
         above 1.6), take milliseconds each in a batch of hundreds, alone a tenth of a second, and at
         mass ratios of a hundred seconds; `continuum.rebound` says what it can meet.
@@ -171,22 +172,17 @@ def collide(
     _refuse_types(pair, body, other)
     if type(tolerance) is not float or not 1e-10 <= tolerance <= 1:  # the check takes its time
         tolerance = checks.number("tolerance", tolerance, "numbers from 1e-10 to 1", 1e-10, 1)
-    if pair.single:
-        one = single.collide(pair.single, bool(pair.plastic), body, other, vectors, tolerance)
-        if one:
-            of_arrays = partial(_collide_arrays, pair, body, other, tolerance=tolerance)
-            v, w, other_v, other_w, impulse = np.array(one.states).reshape(5, 3)
-            x, e, error = np.array(one.numbers)
-            return Collision(
-                *(v, w, other_v, other_w, impulse, x, e, error, one.regime, pair.plastic),
-                lambda: of_arrays(tuple(np.reshape(one.given, (5, 3)))).model_form,
-            )
-    return _collide_arrays(pair, body, other, vectors, tolerance)
+    copies = [one_impact.floats(vector) for vector in vectors]  # the caller may change its own
+    fields = one_impact.collide(pair, body, other, copies, tolerance)
+    if not fields:
+        return _collide_arrays(pair, body, other, vectors, tolerance)
+    in_arrays = partial(_collide_arrays, pair, body, other, copies, tolerance)
+    return Collision(*[*fields, lambda: in_arrays().model_form])
 
 
 @checks.default_errors
 def _collide_arrays(
-    pair: Pair, body: Body, other: Body, values: tuple[ArrayLike, ...], tolerance: float
+    pair: Pair, body: Body, other: Body, values: Sequence[ArrayLike], tolerance: float
 ) -> Collision:
     """As `collide`, for any number of impacts."""
     names = "normal", "velocity", "spin", "other_velocity", "other_spin"

@@ -6,7 +6,7 @@ import numpy as np
 
 from planarimpact import continuum
 from planarimpact.ground.arrays import Array, Integers
-from planarimpact.ground.checks import ConvergenceError, Unsolved
+from planarimpact.ground.checks import ConvergenceError
 from planarimpact.ground.results import Rebound
 
 
@@ -29,6 +29,6 @@ def rebound(model: str, incidence: Array, groups: tuple[Array, ...], tolerance: 
             return Solved(answer, rows, messages)
         except ConvergenceError as error:
             # An error that names no impacts concerns all of them.
-            unsolved = error.impacts if isinstance(error, Unsolved) else slice(None)
+            unsolved = error.impacts if isinstance(error, continuum.Unsolved) else slice(None)
             messages |= dict.fromkeys(rows[unsolved].tolist(), str(error))
             rows = np.delete(rows, unsolved)

@@ -96,11 +96,11 @@ def impacts(
     """
     # `problems` finds what is not finite, `problems_of_normals` other normals.
     with np.errstate(over="ignore", invalid="ignore"):
-        length = np.sqrt(_dot(normal, normal))
+        length = np.sqrt(dot(normal, normal))
         normal = normal / np.where(np.abs(length - 1) <= checks.LENGTH_ERROR, length, 1.0)
         relative = contact_velocity(before, body, -normal)
         relative = relative - contact_velocity(other_before, other, normal)
-        along = _dot(relative, normal)
+        along = dot(relative, normal)
         sideways = relative - along * normal
         v1, v2 = np.hypot(np.hypot(*sideways[:2]), sideways[2]), -along
         _, m2 = bodies.effective_masses(body, other)
@@ -140,9 +140,10 @@ def slides_throughout(impacts: Impacts) -> Booleans:
         yields = np.flatnonzero(slides & impacts.plastic & (impacts.restitution < 1))
         known = yields[impacts.restitution[yields] >= yielding.LEAST_OF_LAW]
         slides[yields] = False
-        beta, zeta2, e = impacts.groups_of(known)
-        limit = inelastic.MOTIONS["plastic"](e).slides_from(beta, zeta2)
-        slides[known] = impacts.v1[known] >= limit * unit[known]
+        if known.size:
+            beta, zeta2, e = impacts.groups_of(known)
+            limit = inelastic.MOTIONS["plastic"](e).slides_from(beta, zeta2)
+            slides[known] = impacts.v1[known] >= limit * unit[known]
     return slides
 
 
@@ -167,8 +168,9 @@ def problems(impacts: Impacts) -> dict[int, str]:
     numbers = impacts.mass_ratio, impacts.stiffness_ratio, impacts.unit, *most
     finite = np.isfinite(numbers).all(axis=0)
     least = continuum.LEAST_RESTITUTION
-    low = np.flatnonzero(impacts.restitution < least)
-    low = low[~slides_throughout(impacts.take(low)) & (impacts.v1[low] > 0)]
+    low = np.flatnonzero((impacts.restitution < least) & (impacts.v1 > 0))
+    if low.size:
+        low = low[~slides_throughout(impacts.take(low))]
     messages = {}  # the last one of several problems counts
     for i in np.flatnonzero(~finite).tolist():
         messages[i] = "its numbers are too large or too small to compute with"
@@ -196,7 +198,7 @@ def problems_of_normals(normal: Array) -> dict[int, str]:
     {1: 'the normal has the length 1.08166538: allowed is 1, within 1e-6'}
     """
     with np.errstate(over="ignore"):
-        length = np.sqrt(_dot(normal, normal))
+        length = np.sqrt(dot(normal, normal))
     wrong = np.flatnonzero(~(np.abs(length - 1) <= checks.LENGTH_ERROR)).tolist()
     said = "the normal has the length {:.9g}: allowed is 1, within 1e-6"
     return {i: said.format(length[i]) for i in wrong}
@@ -231,26 +233,24 @@ def energy_lost(impacts: Impacts, change: Array) -> Array:
 
 def contact_velocity(state: State, body: Body, towards: Array) -> Array:
     """Velocity of the contact point, at the body's radius in the direction `towards`."""
-    return state.velocity + body.radius * _cross(state.spin, towards)
+    return state.velocity + body.radius * np.stack(cross(state.spin, towards))
 
 
 def _after_impulse(state: State, body: Body, m2: Array, impulse: Array, towards: Array) -> State:
     """State after an impulse at the contact point, which is given over m2."""
     change = impulse * (m2 / body.mass)
-    turn = _cross(towards, change) * (body.radius / body.gyration) / body.gyration
+    turn = np.stack(cross(towards, change)) * (body.radius / body.gyration) / body.gyration
     return State(state.velocity + change, state.spin + turn)
 
 
-def _dot(a: Array, b: Array) -> Array:
-    """Products of vectors, shape (3, n)."""
+def dot(a: Any, b: Any) -> Any:
+    """Products of vectors, shape (3, n), or of two of three floats."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def _cross(a: Array, b: Array) -> Array:
-    """Right-handed products of vectors, shape (3, n); that of NumPy takes three times as long."""
-    return np.stack(
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    )
+def cross(a: Any, b: Any) -> list[Any]:
+    """Components of right-handed products; NumPy's own function takes three times as long."""
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def _most_after(impacts: Impacts, body: Body, before: State) -> Array:

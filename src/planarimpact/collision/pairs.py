@@ -18,7 +18,7 @@ RESTITUTION_FROM |= {law.property: loss for loss, law in normal_impact.LAWS.item
 _FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *RESTITUTION_FROM)
 _ARRAYS = (*_FIELDS, "plastic")
 LARGEST = float(np.finfo(float).max)
-# Sizes of numbers that `single` computes with: no product of them that it needs leaves the range of
+# Sizes of numbers that `one_impact` computes with. No product that it needs leaves the range of
 # numbers.
 PLAIN_LEAST, PLAIN_MOST = 1e-25, 1e25
 
@@ -90,8 +90,8 @@ what takes the energy: viscous, plastic
     relaxation_time: Array
     yield_pressure: Array
     plastic: Booleans
-    single: tuple[float, ...] | None  # the fields of a single pair as floats, if all are plain
-    __slots__ = (*_FIELDS, "plastic", "single")
+    floats: tuple[float, ...]  # the fields but `plastic`, if they are plain numbers of one pair
+    __slots__ = (*_ARRAYS, "floats")
 
     def __init__(
         self,
@@ -172,7 +172,7 @@ def _fill(pair: Pair, *fields: Array) -> None:
         object.__setattr__(pair, name, values.view())  # NumPy lets an array be written again
     numbers = () if pair.shape else tuple(float(getattr(pair, name)) for name in _FIELDS)
     plain = all(not n or n != n or PLAIN_LEAST <= n <= PLAIN_MOST for n in numbers)
-    object.__setattr__(pair, "single", numbers if numbers and plain else None)
+    object.__setattr__(pair, "floats", numbers if plain else ())
 
 
 def _law(

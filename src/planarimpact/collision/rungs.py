@@ -7,7 +7,7 @@ of the impact. That takes up to some milliseconds an impact.
 """
 
 from itertools import product
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -69,13 +69,12 @@ def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
     groups = impacts.groups_of(rows)
     elastic = groups[2] == 1
     kind = np.where(elastic, 0, np.where(impacts.plastic[rows], 2, 1))  # in `CONTINUA`
-    covered = spheres.covers(*groups)
     x = impacts.incidence_of(rows)
-    table_error = _table_error(x, groups, covered, kind == 2)
-    way = np.where(table_error <= tolerance, TABLED, TOO_COARSE)
-    way = np.where(covered, way, NOT_COVERED)
+    of_table = _table_error(x, groups, kind == 2)
+    way = np.where(of_table <= tolerance, TABLED, TOO_COARSE)
+    way = np.where(np.isfinite(of_table), way, NOT_COVERED)
     place[rows] = FIRST_OF_CONTINUA + len(CONTINUA) * way + kind
-    error[rows] = np.where(way == TABLED, table_error, _tolerance(x, tolerance))
+    error[rows] = np.where(way == TABLED, of_table, _tolerance(x, tolerance))
     return place, error * impacts.unit
 
 
@@ -84,24 +83,22 @@ def _tolerance(x: Array, tolerance: float) -> Array:
     return np.minimum(tolerance, TOLERANCE * x)
 
 
-def _table_error(
-    x: Array, groups: tuple[Array, ...], covered: Booleans, plastic: Booleans
-) -> Array:
-    """Largest error of the table of spheres where it covers impacts, as measured, mu v2(0)."""
-    error = np.where(plastic, spheres.ERROR_BOUND["plastic"], spheres.ERROR_BOUND["viscous"])
-    rows = np.flatnonzero(covered & plastic)
-    loses_little = spheres.loses_little(*(group[rows] for group in groups))
-    error[rows[loses_little]] = spheres.LITTLE_BOUND
-    return (error + ROUNDING * groups[0]) * np.minimum(x, 1.0)
+def _table_error(x: Array, groups: tuple[Array, Array, Array], plastic: Booleans) -> Array:
+    """Largest error of the table of spheres, mu v2(0); infinite where it does not cover impacts."""
+    return table_error(spheres.error_bound(*groups, plastic), groups[0], x)
+
+
+def table_error(bound: Any, mass_ratio: Any, x: Any) -> Any:
+    """Largest error from the bound of the table, arrays or floats, mu v2(0)."""
+    return (bound + ROUNDING * mass_ratio) * np.minimum(x, 1.0)
 
 
 def tolerance_of_table(impacts: Impacts, place: Integers) -> float:
     """Smallest tolerance at which the table of spheres answers all impacts that it covers."""
     rows = np.flatnonzero(np.isin(place, TOO_COARSE_RUNGS))
-    covered = np.ones(rows.size, dtype=bool)
     plastic = impacts.plastic[rows] & (impacts.restitution[rows] < 1)
     x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
-    errors = _table_error(x, groups, covered, plastic)
+    errors = _table_error(x, groups, plastic)
     return float(np.max(errors, initial=0.0))
 
 

@@ -10,14 +10,16 @@ Gross slip from the start of contact needs no steps: its closed form is exact. S
 slide throughout.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from planarimpact.continuum import elastic, inelastic, refinement
 from planarimpact.continuum.inelastic.motion import NormalMotion
+from planarimpact.continuum.refinement import Unsolved as Unsolved
 from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.checks import Unsolved as Unsolved
-from planarimpact.ground.results import ContinuumHistory, Rebound
+from planarimpact.ground.results import Rebound
 from planarimpact.normal_impact import LOSSES as LOSSES
 from planarimpact.normal_impact import hertz
 
@@ -25,6 +27,35 @@ from planarimpact.normal_impact import hertz
 LEAST_RESTITUTION = 0.1
 # Default tolerances.
 ELASTIC_TOLERANCE, LOSSY_TOLERANCE = 1e-6, 1e-4
+
+
+class ContinuumHistory(NamedTuple):
+    """Forces, velocity and the edge of stick over one contact of a continuum.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        t/t_c, from 0 to separation, 2 where e = 1; t_c is the time of compression.
+    normal : ndarray, shape (n,)
+        Normal force F2 over its largest value.
+    friction : ndarray, shape (n,)
+        Tangential force F1 over mu times the largest normal force; positive opposes a positive
+        incidence.
+    velocity : ndarray, shape (n,)
+        w = v1/(mu v2(0)).
+    contact_radius : ndarray, shape (n,)
+        Radius of contact over its largest value.
+    stick_radius : ndarray, shape (n,)
+        Radius inside which the contact sticks, in the same unit: the radius of contact while
+        nothing slips, 0 in gross slip.
+    """
+
+    time: Array
+    normal: Array
+    friction: Array
+    velocity: Array
+    contact_radius: Array
+    stick_radius: Array
 
 
 @checks.default_errors
@@ -233,7 +264,7 @@ def fixed_steps(
     >>> [round(float(fixed_steps(2.0, steps=64, extrapolate=e)), 5) for e in (False, True)]
     [-0.66502, -0.66594]
     """
-    signed, beta, zeta2 = checks.elastic_impact(incidence, mass_ratio, stiffness_ratio, 1.0)
+    signed, beta, zeta2, _ = checks.impact(incidence, mass_ratio, stiffness_ratio, 1.0)
     size, beta, zeta2 = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2))
     velocity = elastic.velocity(size, beta, zeta2, steps, extrapolate)
     return (np.copysign(1.0, signed) * velocity.reshape(signed.shape))[()]
@@ -287,7 +318,8 @@ def history(
     1.689
     """
     signed, beta, zeta2, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    allowed = np.full(1, checks.single("tolerance", checks.positive("tolerance", tolerance)))
+    rule = "finite numbers above 0"
+    allowed = np.full(1, checks.number("tolerance", tolerance, rule, 0, open_low=True))
     kind = _kind_of_motion(restitution, loss)
     if signed.ndim:
         raise checks.InputError(f"shape = {signed.shape}: one contact takes scalars")

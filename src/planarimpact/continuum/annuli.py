@@ -14,8 +14,6 @@ traction and friction), tangential displacement zeta^2 mu d_max.
 """
 
 import numpy as np
-from scipy.special import beta as beta_function
-from scipy.special import betaincinv
 
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Integers
@@ -84,7 +82,9 @@ def rebound(
     >>> round(float(rebound(2.0).velocity), 3)
     -0.666
     """
-    signed, beta, zeta2 = checks.elastic_impact(incidence, mass_ratio, stiffness_ratio, restitution)
+    allowed = "numbers equal to 1, as this contact is elastic"
+    e = checks.checked("restitution", restitution, allowed, 1, 1)
+    signed, beta, zeta2, _ = checks.impact(incidence, mass_ratio, stiffness_ratio, e)
     circles = _checked_circles(circles)
     with np.errstate(over="ignore"):
         needed = STEPS_A_RADIAN * np.pi * (np.sqrt(beta) / np.sqrt(zeta2))
@@ -187,9 +187,11 @@ def _contact_radius(steps: int) -> tuple[Array, float]:
 
     With d^(5/2) = y, time is an incomplete beta function of y: t = (2/5) B(2/5, 1/2; y).
     """
-    to_maximum = 0.4 * beta_function(0.4, 0.5)
+    from scipy import special  # here, as it takes longer to import than this package
+
+    to_maximum = 0.4 * special.beta(0.4, 0.5)
     share = np.arange(1, steps) * (2 / steps)
-    y = betaincinv(0.4, 0.5, np.minimum(share, 2 - share))
+    y = special.betaincinv(0.4, 0.5, np.minimum(share, 2 - share))
     return y**0.2, 2 * to_maximum / steps
 
 

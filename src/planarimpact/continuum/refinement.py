@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 
 from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.ground.checks import ConvergenceError, Unsolved
+from planarimpact.ground.checks import ConvergenceError
 from planarimpact.ground.results import Regime
 
 # Values, counts of gross slips and of reversals, and how near one slip more or less is.
@@ -21,6 +21,26 @@ ROUNDING = 2.0**-48
 BEST_ORDER = 4
 # A gross slip may still come or go if it is nearer than this many times the last change.
 UNSURE = 2
+
+
+class Unsolved(ConvergenceError):
+    """Impacts of an array have no answer within the tolerance.
+
+    Attributes
+    ----------
+    impacts : ndarray of int
+        Their indices in the flattened arguments.
+    """
+
+    __module__ = "planarimpact.continuum"
+
+    def __init__(self, message: str, impacts: Integers) -> None:
+        super().__init__(message)
+        self.impacts = impacts
+
+    def __reduce__(self) -> tuple[type["Unsolved"], tuple[str, Integers]]:
+        """Pickle it by its arguments, so that another process can raise it again."""
+        return type(self), (str(self), self.impacts)
 
 
 def steps_needed(beta: Array, zeta2: Array, share_of_hertz: Array | float = 1.0) -> Array:

@@ -14,7 +14,6 @@ cost.
 """
 
 import numpy as np
-from scipy import optimize
 
 from planarimpact import continuum, spheres
 from planarimpact.fit.codes import CODES, Code, Error, Fit, lines
@@ -156,6 +155,8 @@ def _nearest(
     exact: Array, law: timestep.Law, x: Array, beta: float, zeta2: float, e: float, undamped: bool
 ) -> tuple[float, float, float]:
     """Mean square of the error of a law, its stiffness and damping."""
+    from scipy import optimize  # here, as it takes longer to import than this package
+
     told = timestep.told_for(law, e)
 
     def velocity(stiffness: Array, damping: Array, steps: int = timestep.DASHPOT_STEPS) -> Array:

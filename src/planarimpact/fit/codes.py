@@ -208,14 +208,14 @@ def lines(
 def _contact(found: Fit, material: bodies.Material, *given: ArrayLike) -> _Contact:
     radius, density, friction, speed = given
     size = overlaps.overlap(material, radius, density, speed)
-    mu = checks.single("friction", checks.positive("friction", friction))
+    mu = checks.number("friction", friction, "finite numbers above 0", 0, open_low=True)
     r, rho, v2 = (float(np.asarray(value)) for value in (radius, density, speed))
     sphere = bodies.solid_sphere(r, rho)
     for name, value, own in (
         ("mass_ratio", found.mass_ratio, bodies.mass_ratio(sphere, sphere)),
         ("stiffness_ratio", found.stiffness_ratio, bodies.stiffness_ratio(material, material)),
     ):
-        if abs(value - checks.single(name, np.asarray(own))) > 1e-6 * value:
+        if abs(value - checks.number(name, own, "numbers")) > 1e-6 * value:
             raise checks.InputError(
                 f"found.{name} = {value:g}: allowed is that of two such spheres, {float(own):g}"
             )

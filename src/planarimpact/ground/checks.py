@@ -2,14 +2,13 @@
 
 import math
 import reprlib
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact.ground.arrays import Array, ArrayLike, Integers, Numbers
+from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 
 # Largest incidence and mass ratio: twice as much is still below the largest float64.
 LARGEST = 8e307
@@ -43,26 +42,6 @@ class ConvergenceError(ArithmeticError):
     """A numerical method did not reach the tolerance. The message says which error it reached."""
 
     __module__ = "planarimpact"
-
-
-class Unsolved(ConvergenceError):
-    """Impacts of an array have no answer within the tolerance.
-
-    Attributes
-    ----------
-    impacts : ndarray of int
-        Their indices in the flattened arguments.
-    """
-
-    __module__ = "planarimpact.continuum"
-
-    def __init__(self, message: str, impacts: Integers) -> None:
-        super().__init__(message)
-        self.impacts = impacts
-
-    def __reduce__(self) -> tuple[type["Unsolved"], tuple[str, Integers]]:
-        """Pickle it by its arguments, so that another process can raise it again."""
-        return type(self), (str(self), self.impacts)
 
 
 def brief(value: object) -> str:
@@ -181,11 +160,6 @@ def restitution(value: ArrayLike) -> Array:
     return checked("restitution", value, "numbers from 0 to 1", 0, 1)
 
 
-def elastic(value: ArrayLike) -> Array:
-    """Check the restitution of an elastic contact: e = 1."""
-    return checked("restitution", value, "numbers equal to 1, as this contact is elastic", 1, 1)
-
-
 def loss(value: str, allowed: tuple[str, ...]) -> str:
     """Check the name of a loss: the law by which a contact loses normal energy where e < 1.
 
@@ -241,33 +215,6 @@ def impact(*values: ArrayLike) -> tuple[Array, ...]:
     return broadcast(**{name: RULES[name](value) for name, value in named})
 
 
-def elastic_impact(*values: ArrayLike) -> tuple[Array, ...]:
-    """Check the groups of an elastic contact as `impact` does; e must be 1 and is left out.
-
-    Examples
-    --------
-    >>> [group.tolist() for group in elastic_impact(2.0, 3.5, 1.21, [1, 1])]
-    [[2.0, 2.0], [3.5, 3.5], [1.21, 1.21]]
-    """
-    elastic(values[-1])
-    return impact(*values)[:-1]
-
-
-def single(name: str, value: Array) -> float:
-    """Return a checked array without dimensions as float, or refuse it.
-
-    Examples
-    --------
-    >>> single("tolerance", checked("tolerance", [1e-3], "numbers"))
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: tolerance, shape (1,): allowed is one number
-    """
-    if value.ndim:
-        raise InputError(f"{name}, shape {value.shape}: allowed is one number")
-    return float(value)
-
-
 def number(
     name: str,
     value: ArrayLike,
@@ -282,8 +229,15 @@ def number(
     --------
     >>> number("tolerance", 1, "numbers above 0", 0, open_low=True)
     1.0
+    >>> number("tolerance", [1e-3], "numbers above 0", 0, open_low=True)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: tolerance, shape (1,): allowed is one number
     """
-    return single(name, checked(name, value, allowed, low, high, open_low))
+    array = checked(name, value, allowed, low, high, open_low)
+    if array.ndim:
+        raise InputError(f"{name}, shape {array.shape}: allowed is one number")
+    return float(array)
 
 
 def count(name: str, value: int, least: int, most: int = MOST) -> int:
@@ -300,56 +254,6 @@ def count(name: str, value: int, least: int, most: int = MOST) -> int:
     if not integer or not least <= value <= most:
         raise InputError(f"{name} = {brief(value)}: allowed are integers from {least} to {most}")
     return int(value)
-
-
-def record(name: str, value: Any, keys: Collection[str]) -> dict[str, Any]:
-    """Check that a value that was read from a file is a dict of these keys and no others.
-
-    Examples
-    --------
-    >>> record("error_bound", {"velocity": 0.1}, ["velocity", "peak_friction"])
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: error_bound has ['velocity']: allowed are velocity, \
-peak_friction
-    """
-    if not isinstance(value, dict) or set(value) != set(keys):
-        content = brief(list(value) if isinstance(value, dict) else value)
-        raise InputError(f"{name} has {content}: allowed are {', '.join(keys)}")
-    return value
-
-
-def listed(name: str, value: Any, shape: tuple[int, ...]) -> Array:
-    """Return nested lists of numbers that were read from a file as an array of this shape.
-
-    Infinite numbers and NaN pass.
-
-    Examples
-    --------
-    >>> listed("start", [0, 0.5], (2,)).tolist()
-    [0.0, 0.5]
-    >>> listed("start", [0, "0.5"], (2,))
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: start[1] = '0.5': allowed are numbers
-    """
-    _refuse_other_lists(name, value, shape)
-    try:
-        return np.array(value, dtype=np.float64)
-    except OverflowError:
-        raise InputError(f"{name}: an integer is beyond the range of numbers") from None
-
-
-def _refuse_other_lists(name: str, value: Any, shape: tuple[int, ...]) -> None:
-    """Refuse what is no nested lists of numbers of this shape."""
-    if not shape:
-        if type(value) not in (int, float):
-            raise InputError(f"{name} = {brief(value)}: allowed are numbers")
-        return
-    if not isinstance(value, list) or len(value) != shape[0]:
-        raise InputError(f"{name} = {brief(value)}: allowed are lists of {shape[0]}")
-    for i, entry in enumerate(value):
-        _refuse_other_lists(f"{name}[{i}]", entry, shape[1:])
 
 
 def explicit_steps(steps: int, needed: Numbers, least: int, most: int) -> int:

@@ -123,13 +123,7 @@ class Rebound(NamedTuple):
 
 
 class EventKind(StrEnum):
-    """What happens at an event of a contact's history.
-
-    Examples
-    --------
-    >>> print(EventKind.STICK)
-    stick
-    """
+    """What happens at an event of a contact's history. Each is a string too, such as "stick"."""
 
     CONTACT = "contact"
     STICK = "stick"
@@ -176,32 +170,3 @@ class History(NamedTuple):
     velocity: Array
     spring: Array
     events: tuple[Event, ...]
-
-
-class ContinuumHistory(NamedTuple):
-    """Forces, velocity and the edge of stick over one contact of a continuum.
-
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        t/t_c, from 0 to separation, 2 where e = 1; t_c is the time of compression.
-    normal : ndarray, shape (n,)
-        Normal force F2 over its largest value.
-    friction : ndarray, shape (n,)
-        Tangential force F1 over mu times the largest normal force; positive opposes a positive
-        incidence.
-    velocity : ndarray, shape (n,)
-        w = v1/(mu v2(0)).
-    contact_radius : ndarray, shape (n,)
-        Radius of contact over its largest value.
-    stick_radius : ndarray, shape (n,)
-        Radius inside which the contact sticks, in the same unit: the radius of contact while
-        nothing slips, 0 in gross slip.
-    """
-
-    time: Array
-    normal: Array
-    friction: Array
-    velocity: Array
-    contact_radius: Array
-    stick_radius: Array

@@ -4,7 +4,7 @@ Units are those of every model: tangential velocity mu |v2(0)|, impulse of frict
 normal velocity |v2(0)|, normal impulse m2 |v2(0)|.
 
 **The limit.** A contact sticks while friction is below mu times the normal force, and slides at
-that limit (`stick_limit`).
+that limit. In the units here friction is in units of mu, so that its limit is the normal force.
 
 **The line.** While a contact slides, friction is mu times the normal force. Over the whole contact
 the normal impulse is 1 + e, so the impulse of friction is 1 + e too, and the velocity falls by beta
@@ -38,21 +38,6 @@ import numpy as np
 from planarimpact.ground.arrays import SMALLEST, Array, Numbers
 
 _Number = TypeVar("_Number", float, Array)
-
-
-def stick_limit(normal_force: _Number) -> _Number:
-    """Largest friction without slip at a normal force: Coulomb's limit, friction in units of mu.
-
-    It is proportional to the normal force, so that it takes its derivatives by the time as well.
-    Every search for the onset of slip asks for it. Slip itself has friction N: where the limit is
-    larger, friction and its spring jump at the onset, which nothing else here allows for.
-
-    Examples
-    --------
-    >>> stick_limit(0.5)
-    0.5
-    """
-    return normal_force
 
 
 def change(beta: _Number, e: float | _Number) -> _Number:

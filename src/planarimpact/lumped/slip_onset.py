@@ -1,6 +1,6 @@
 """Where slip starts: the first instant of stick at which friction |T| reaches its limit.
 
-The limit is `sliding.stick_limit`, Coulomb's: the normal force N, as friction is in units of mu.
+The limit is Coulomb's: the normal force N, as friction is in units of mu.
 T = A sin(theta) and N = sin(eta), with the angle `eta` of `normal`. A prime is the derivative with
 respect to the time, counted as `eta`: eta' = 1 in compression and -1 in restitution, where `eta`
 falls to 0; theta' = rate. A half-wave of T lies between two zeros of T.
@@ -22,7 +22,6 @@ import numpy as np
 from planarimpact.ground import roots
 from planarimpact.ground.angles import HALF_PI, sin_cos
 from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.ground.sliding import stick_limit
 
 # Rounding may put an onset at the very end of its bracket beyond it, by less than this share.
 BEYOND = 1 + 1e-6
@@ -58,7 +57,7 @@ def in_restitution(
         end = theta[slow] + rate[slow] * eta[slow]
         highest = amplitude.copy()  # a T that still rises at separation stays below A
         highest[slow] *= np.sin(np.minimum(end, HALF_PI))
-    reached = np.minimum(eta, np.arcsin(np.minimum(highest / stick_limit(1.0), 1.0)))
+    reached = np.minimum(eta, np.arcsin(np.minimum(highest, 1.0)))
     theta_reached = theta + rate * (eta - reached)
     if theta_reached.max() > LARGEST_PHASE:  # the place within the period is not known
         unresolved = theta_reached > LARGEST_PHASE
@@ -118,9 +117,9 @@ def _onset(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array)
     def margin(which: Integers | slice, advance: Array) -> tuple[Array, Array, Array]:
         force, fall = sin_cos(eta[which] - advance)
         friction, swing = sin_cos(rho[which] + rate[which] * advance)
-        limit, friction = stick_limit(force), friction * amplitude[which]
-        slope = -(stick_limit(fall) + swing * swings[which])
-        return limit - friction, slope, square[which] * friction - limit
+        friction = friction * amplitude[which]
+        slope = -(fall + swing * swings[which])
+        return force - friction, slope, square[which] * friction - force
 
     start, low = np.where(rate > HIGH_RATE, widest, 0.0), np.zeros_like(widest)
     return roots.crossing(margin, low, widest * BEYOND, start=start, unguarded=FREE_STEPS)
@@ -169,14 +168,14 @@ def _meets_behind_crest(
     # The ratio is level at its largest value: half of the digits of the place are enough.
     top = roots.crossing(rise, rho, np.full_like(rho, np.pi), start=rho, resolution=1e-8)
     force, _, friction, _ = forces(slice(None), top)
-    met[undecided] = amplitude * friction >= stick_limit(force)
+    met[undecided] = amplitude * friction >= force
     latest[undecided] = (top - rho) / rate
     return met, latest
 
 
 def breaks_in_compression(amplitude: Array, theta: Array) -> Booleans:
     """Whether stick with T = amplitude sin(theta) at the end has broken before, for rate < 1."""
-    return amplitude * np.sin(theta) > stick_limit(1.0)
+    return amplitude * np.sin(theta) > 1
 
 
 def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
@@ -193,10 +192,9 @@ def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
         eta, rates = np.sqrt(u), rate[which]
         (friction, swing), (force, fall) = sin_cos(rates * eta), sin_cos(eta)
         friction, swing = amplitude[which] * friction, amplitude[which] * swing * rates
-        limit, fall = stick_limit(force), stick_limit(fall)
         safe = np.where(eta > 0, eta, 1.0)
-        slope = (eta * (fall - swing) - (limit - friction)) / (2 * safe**3)
-        return (limit - friction) / safe, slope
+        slope = (eta * (fall - swing) - (force - friction)) / (2 * safe**3)
+        return (force - friction) / safe, slope
 
     end = np.full_like(first, HALF_PI**2)
     return np.sqrt(roots.crossing(margin, first, end, start=first))

@@ -7,17 +7,17 @@ approach d_max, velocity |v2(0)|, force its largest value, time d_max/|v2(0)| ex
 named.
 """
 
+import math
+
 import numpy as np
-from scipy.special import beta as beta_function
-from scipy.special import betainc
 
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
 
 # Largest normal force in m2 v2(0)^2/d_max, as the strain energy (2/5) F2max d_max is all energy.
 PEAK_FORCE = 1.25
-# Time of compression, in d_max/v.
-COMPRESSION = 0.4 * beta_function(0.4, 0.5)
+# Time of compression, in d_max/v: (2/5) B(2/5, 1/2), an integral of Euler's.
+COMPRESSION = 0.4 * math.gamma(0.4) * math.gamma(0.5) / math.gamma(0.9)
 # The following are in the units of `normal_impact`. Strain energy, in d^(5/2).
 ENERGY = 8 / 15
 # Largest approach, to the power 5/2.
@@ -123,6 +123,8 @@ def time(phase: ArrayLike) -> Array:
     >>> [round(float(t), 9) for t in time([0.0, np.pi / 2, np.pi])]
     [0.0, 1.0, 2.0]
     """
+    from scipy.special import betainc  # here, as it takes longer to import than this package
+
     phase = np.asarray(phase, dtype=float)
     share, v = np.sin(phase) ** 5, velocity(phase)
     # These are two forms of one function. Each is used where it loses no digits.

@@ -12,21 +12,20 @@ their plane of incidence.
 pieces that `workers` share.
 """
 
-try:
-    import pandas as pd
-except ImportError as error:
-    message = f"planarimpact.scene needs pandas: pip install 'planarimpact[scene]' ({error})"
-    raise ImportError(message, name=error.name) from None
+from typing import TYPE_CHECKING
 
 from planarimpact.collision import TOLERANCE
 from planarimpact.scene.solver import Solver
+
+if TYPE_CHECKING:  # only who solves tables needs pandas
+    import pandas as pd
 
 __all__ = ["Solver", "solve"]
 
 
 def solve(
-    table: pd.DataFrame, tolerance: float = TOLERANCE, loss: str | None = None
-) -> pd.DataFrame:
+    table: "pd.DataFrame", tolerance: float = TOLERANCE, loss: str | None = None
+) -> "pd.DataFrame":
     """Solve every impact of a table, by a formula, the table of spheres or the continuum.
 
     Parameters

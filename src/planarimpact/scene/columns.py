@@ -4,14 +4,16 @@ import difflib
 import re
 from collections.abc import Iterable
 from functools import partial
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import pandas as pd
 
 from planarimpact.collision import LOSSES, RESTITUTION_FROM
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.ground.checks import InputError
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 # Position of a loss that is not said.
 NO_LOSS = -1
@@ -228,7 +230,9 @@ def _listed(names: Iterable[str]) -> str:
     return ", ".join(header(name) for name in KNOWN if name in names)
 
 
-def numbers(table: pd.DataFrame, names: dict[str, str]) -> tuple[dict[str, Array], dict[int, str]]:
+def numbers(
+    table: "pd.DataFrame", names: dict[str, str]
+) -> tuple[dict[str, Array], dict[int, str]]:
     """Columns of a table as float64 by name, and `{position: message}` of its bad rows.
 
     `names` is what `named` returns. The loss is its position in `LOSSES`. Of several
@@ -260,9 +264,10 @@ def _moves(values: dict[str, Array]) -> Booleans:
     return np.any(np.isfinite(inertia), axis=0) if inertia else np.zeros((), dtype=bool)
 
 
-def _checked(series: pd.Series, column: Column) -> tuple[Array, Booleans]:
+def _checked(series: "pd.Series", column: Column) -> tuple[Array, Booleans]:
     """Numbers of one column, and which are not admissible."""
-    types = pd.api.types
+    from pandas.api import types
+
     is_number = types.is_integer_dtype(series) or types.is_float_dtype(series)
     if is_number and series.dtype.itemsize <= 8:
         values = series.to_numpy(dtype=float, na_value=np.nan)
@@ -275,7 +280,7 @@ def _checked(series: pd.Series, column: Column) -> tuple[Array, Booleans]:
     return values, ~good
 
 
-def _losses(series: pd.Series) -> tuple[Array, Booleans]:
+def _losses(series: "pd.Series") -> tuple[Array, Booleans]:
     """Position in `LOSSES` of the loss in each cell, `NO_LOSS` of empty ones; and unknown ones."""
     known = {loss: position for position, loss in enumerate(LOSSES)}
     known |= dict.fromkeys(("", "None", "nan", "<NA>"), NO_LOSS)

@@ -7,8 +7,6 @@ from collections.abc import Callable, Generator, Iterator
 from contextlib import ExitStack, closing
 from pathlib import Path
 
-import pandas as pd
-
 from planarimpact.collision import TOLERANCE
 from planarimpact.ground import checks
 from planarimpact.ground.checks import InputError
@@ -17,10 +15,12 @@ from planarimpact.scene.places import Place
 from planarimpact.scene.solver import Solver
 
 try:
+    import pandas as pd
+
     from planarimpact.scene import reading, writing
 except ImportError as error:
-    message = f"planarimpact.scene.files needs pyarrow: pip install 'planarimpact[scene]' ({error})"
-    raise ImportError(message, name=error.name) from None
+    message = "planarimpact.scene.files needs pandas and pyarrow: pip install 'planarimpact[scene]'"
+    raise ImportError(f"{message} ({error})", name=error.name) from None
 
 from planarimpact.scene.reading import Piece
 from planarimpact.scene.workers import Cut, Done, Task, solved_by_workers, solved_here

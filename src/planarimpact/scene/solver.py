@@ -2,10 +2,9 @@
 
 import reprlib
 from collections import Counter
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import pandas as pd
 
 from planarimpact import bodies, collision
 from planarimpact.collision import model_form, rungs
@@ -14,6 +13,9 @@ from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import Regime
 from planarimpact.scene import columns, states
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 # Rows that are solved together: this bounds the memory.
 BLOCK = 2**17
@@ -29,7 +31,7 @@ _COSTS = np.array(
 class Block(NamedTuple):
     """Rows of a table that are read and checked, and not answered yet."""
 
-    table: pd.DataFrame
+    table: "pd.DataFrame"
     names: dict[str, str]
     good: Booleans
     problems: dict[int, str]
@@ -104,7 +106,7 @@ class Solver:
         self._coupled, self._largest_coupling = 0, 0.0
 
     @checks.default_errors
-    def solve(self, table: pd.DataFrame, skip_bad: bool = False) -> pd.DataFrame:
+    def solve(self, table: "pd.DataFrame", skip_bad: bool = False) -> "pd.DataFrame":
         """State after each impact of a table, as the function `solve`.
 
         Parameters
@@ -117,6 +119,8 @@ class Solver:
         -------
         DataFrame
         """
+        import pandas as pd  # here, as only who solves tables needs it
+
         if not isinstance(table, pd.DataFrame):
             raise InputError(
                 f"table = {' '.join(reprlib.repr(table).split())}: allowed is a pandas DataFrame; "
@@ -162,7 +166,7 @@ class Solver:
         return "\n".join(lines + self._differences.lines())
 
     @checks.default_errors
-    def read(self, table: pd.DataFrame, skip_bad: bool = False) -> Block:
+    def read(self, table: "pd.DataFrame", skip_bad: bool = False) -> Block:
         """Rows of a table read and checked, for `answer`.
 
         Parameters
@@ -196,7 +200,7 @@ class Solver:
         return Block(table, names, good, problems, rows, of_rungs)
 
     @checks.default_errors
-    def answer(self, block: Block, skip_bad: bool = False) -> pd.DataFrame:
+    def answer(self, block: Block, skip_bad: bool = False) -> "pd.DataFrame":
         """The result for rows that `read` has returned; it counts them.
 
         Parameters
@@ -290,6 +294,8 @@ def _result(
     rows: states.Rows, answers: rungs.Answers, form: Array, names: dict[str, str]
 ) -> dict[str, Any]:
     """The columns that are added to those of the table."""
+    import pandas as pd
+
     impacts, plane, peak = rows.impacts, "spin" in names, answers.peak_friction
     body, other, _ = collision.after(impacts, answers.change)
     after = states.columns_of(body, plane)

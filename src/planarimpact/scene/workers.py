@@ -12,7 +12,6 @@ from contextlib import contextmanager
 from multiprocessing import resource_tracker
 from typing import NamedTuple
 
-from planarimpact.ground import files
 from planarimpact.ground.checks import InputError
 from planarimpact.scene import writing
 from planarimpact.scene.reading import Piece
@@ -154,7 +153,7 @@ def _signals_held() -> Iterator[None]:
     arrived: list[int] = []
     handlers = {
         number: signal.signal(number, lambda number, frame: arrived.append(number))
-        for number in files.SIGNALS
+        for number in (int(signal.SIGINT), int(signal.SIGTERM))
         if callable(signal.getsignal(number))
     }
     resource_tracker.ensure_running()  # it belongs to the pool, and would end the mask

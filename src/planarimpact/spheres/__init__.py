@@ -15,15 +15,14 @@ from planarimpact.ground.results import Rebound, Regime
 from planarimpact.normal_impact import LOSSES as LOSSES
 from planarimpact.spheres import table
 
-# Largest difference from the continuum, of velocity (mu v2(0)), peak friction (mu F2max) and, with
-# viscous loss, dissipation (mu^2 m2 v2(0)^2); times x where that is below 1. It is measured, not
-# proved: a little above the largest error that the searches of
-# tests/reference/test_spheres_reference.py have climbed to. With plastic loss dissipation is
-# (x^2 - w^2)/(2 beta) by the balance of energy. So an error of w up to E makes one of it up to
-# E (|w| + E/2)/beta, which grows with the incidence.
-ERROR_BOUND = {"viscous": 1.5e-4, "plastic": 4e-3}
-# That of plastic spheres that lose little, see `loses_little`.
-LITTLE_BOUND = 9e-4
+# By panel of the table, and by loss: the largest difference from the continuum, of velocity
+# (mu v2(0)), peak friction (mu F2max) and, with viscous loss, dissipation (mu^2 m2 v2(0)^2); times
+# x where that is below 1. It is measured, not proved: a little above the largest error that the
+# searches of tests/reference/test_spheres_reference.py have climbed to. With plastic loss
+# dissipation is (x^2 - w^2)/(2 beta) by the balance of energy. So an error of w up to E makes one
+# of it up to E (|w| + E/2)/beta, which grows with the incidence.
+PANEL_BOUND = {"viscous": 1.5e-4, "plastic_low": 4e-3, "plastic_middle": 4e-3, "plastic_high": 9e-4}
+ERROR_BOUND = {"viscous": PANEL_BOUND["viscous"], "plastic": PANEL_BOUND["plastic_low"]}
 LEAST_RESTITUTION = 0.3
 # Bounds of mass ratio over stiffness ratio.
 LEAST_RATIO, LARGEST_RATIO = 1.5625, 3.5
@@ -60,27 +59,35 @@ def covers(mass_ratio: ArrayLike, stiffness_ratio: ArrayLike, restitution: Array
     return small & (ratio >= low) & (ratio <= high) & (e >= LEAST_RESTITUTION) & (e <= 1)
 
 
-def loses_little(mass_ratio: Array, stiffness_ratio: Array, restitution: Array) -> Booleans:
-    """Whether `LITTLE_BOUND` holds for plastic spheres that the table covers.
+def error_bound(
+    mass_ratio: Array, stiffness_ratio: Array, restitution: Array, plastic: Booleans
+) -> Array:
+    """Largest error of velocity for these groups, mu v2(0); infinite where `covers` is False.
 
-    It does above a restitution from 0.63 (mass over stiffness ratio 3.5) to 0.84 (1.56), 0.67 for
-    solid spheres of steel.
+    Below x = 1 the error is x times that. With plastic loss it is smaller above a restitution from
+    0.63 (mass over stiffness ratio 3.5) to 0.84 (1.56), 0.67 for solid spheres of steel.
 
     Parameters
     ----------
-    mass_ratio, stiffness_ratio, restitution : ndarray, shape (n,)
+    mass_ratio, stiffness_ratio, restitution, plastic : ndarray, shape (n,)
 
     Returns
     -------
-    ndarray of bool, shape (n,)
+    ndarray, shape (n,)
 
     Examples
     --------
-    >>> loses_little(np.array([3.5, 3.5]), np.array([1.21, 1.21]), np.array([0.7, 0.6])).tolist()
-    [True, False]
+    >>> error_bound(*np.array([[3.5, 3.5], [1.21, 1.21], [0.7, 0.6]]), np.array([True, True]))
+    array([0.0009, 0.004 ])
     """
-    u = table.over_b(mass_ratio / stiffness_ratio)
-    return restitution >= table.limits_at(table.shipped(), u)[1]
+    bound = np.where(plastic, ERROR_BOUND["plastic"], ERROR_BOUND["viscous"])
+    covered = covers(mass_ratio, stiffness_ratio, restitution)
+    bound[~covered] = np.inf
+    rows = np.flatnonzero(covered & plastic)
+    u = table.over_b(mass_ratio[rows] / stiffness_ratio[rows])
+    high = restitution[rows] >= table.limits_at(table.shipped(), u)[1]
+    bound[rows[high]] = PANEL_BOUND["plastic_high"]
+    return bound
 
 
 def plastic_limit(mass_ratio: Array, stiffness_ratio: Array, restitution: Array) -> Array:

@@ -157,7 +157,7 @@ def impacts(
     b = b_at(u)
     even = np.linspace(0.0, 1.0, limits.shape[1])
     e = e_at(name, t, np.stack([np.interp(u, even, limit) for limit in limits]))
-    ends = table.edges_of(name, edges, t, u, b, e)
+    ends = table.edges_of(name, table.varying_edges(edges, t, u), b, e)
     low, high = ends[number : number + 2]
     share = {EVEN: s, LEFT: s**2, RIGHT: 1 - (1 - s) ** 2}[ROOTS[name][number]]
     return low + (high - low) * share, b, e

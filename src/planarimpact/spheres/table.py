@@ -15,7 +15,8 @@ from collections.abc import Sequence
 from functools import cache
 from importlib import resources
 from itertools import pairwise
-from typing import IO, Any, NamedTuple
+from math import sqrt
+from typing import IO, Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -36,6 +37,8 @@ ROOTS = {
 NEARLY = 1 - 2.0**-50
 # B-splines that are not zero within an interval.
 ORDER = 4
+
+_Number = TypeVar("_Number", float, Array)
 
 
 class Panel(NamedTuple):
@@ -185,7 +188,7 @@ def slides_from(table: Table, b: Array, e: Array) -> Array:
     low = np.flatnonzero(e < limits[0])
     panel = table.panels["plastic_low"]
     t = over_e(panel.name, e[low], limits[:, low])
-    y[low] = edges_of(panel.name, panel.edges, t, u[low], b[low], e[low])[-1]
+    y[low] = varying_edges(panel.edges, t, u[low])[-1]
     return y
 
 
@@ -194,12 +197,12 @@ def limits_at(table: Table, u: Array) -> Array:
     return np.stack([_between(limit, u) for limit in table.limits])
 
 
-def over_b(b: Array) -> Array:
+def over_b(b: _Number) -> _Number:
     """u, from 0 to 1 over b."""
     return (b - B_LEAST) / (B_MOST - B_LEAST)
 
 
-def over_e(name: str, e: Array, limits: Array) -> Array:
+def over_e(name: str, e: Any, limits: Any) -> Any:
     """t, from 0 to 1 over e.
 
     Plastic spheres that lose much oscillate faster: even in 1/e they do so alike. Next to the lower
@@ -216,24 +219,63 @@ def over_e(name: str, e: Array, limits: Array) -> Array:
     return np.sqrt(np.sqrt((1 - e) / (1 - high)))
 
 
-def edges_of(name: str, grids: Array, t: Array, u: Array, b: Array, e: Array) -> list[Array]:
-    """Edges of a panel's patches, from 0 to slip throughout."""
-    varying = _over_both(grids, t, u)
-    zero, one = np.zeros_like(b), np.ones_like(b)
+def edges_of(name: str, varying: Sequence[Any], b: Any, e: Any) -> list[Any]:
+    """Edges of a panel's patches, from 0 to slip throughout; arrays, or floats of one impact."""
     if name == "viscous":
-        inner = [one, varying[0], np.minimum(varying[1], b), b]
+        inner = [varying[0], np.minimum(varying[1], b), b]
     else:
         slides = b if name == "plastic_high" else varying[0]
-        inner = [one, (one + slides) / 2, slides]
+        inner = [(1 + slides) / 2, slides]
     last = varying[1] if name == "plastic_low" else b + e * (b - 1)
-    return [zero, *inner, last]
+    return [0.0, 1.0, *inner, last]
+
+
+def of_one(table: Table, y: float, b: float, e: float, plastic: bool) -> tuple[str, float, float]:
+    """One impact: its panel, y from which it slides throughout, and else velocity over zeta^2.
+
+    As `evaluate` and `slides_from`, in Python's floats: an operation of NumPy takes a microsecond,
+    however few the numbers. A block of coefficients is multiplied by its weights, axis by axis.
+    """
+    u = over_b(b)
+    column, part = _place(u, table.limits.shape[1] - 1)
+    over_u = 1 - part, part
+    low, high = (table.limits[:, column : column + 2] @ over_u).tolist()
+    part_of_plastic = "low" if e < low else "middle" if e < high else "high"
+    panel = table.panels[f"plastic_{part_of_plastic}" if plastic else "viscous"]
+    t = float(over_e(panel.name, e, (low, high)))
+    row, part = _place(t, panel.edges.shape[1] - 1)
+    corners = panel.edges[:, row : row + 2, column : column + 2]
+    edges = edges_of(panel.name, ((1 - part, part) @ corners @ over_u).tolist(), b, e)
+    slides_from = float(edges[-1]) * NEARLY
+    if y >= slides_from:
+        return panel.name, slides_from, 0.0
+    patch = max(k for k, edge in enumerate(edges[:-1]) if y >= edge)
+    start, end = edges[patch : patch + 2]
+    s = (y - start) / (end - start)
+    root = ROOTS[panel.name][patch]
+    s = sqrt(s) if root == LEFT else 1 - sqrt(1 - s) if root == RIGHT else s
+    _, count_t, count_u = panel.velocity.shape
+    i, part_s = _place(s, int(panel.intervals[patch]))
+    i += int(panel.intervals[:patch].sum()) + patch * (ORDER - 1)
+    j, part_t = _place(t, count_t - ORDER + 1)
+    k, part_u = _place(u, count_u - ORDER + 1)
+    block = panel.velocity[i : i + ORDER, j : j + ORDER, k : k + ORDER]
+    share = _weights(part_s) @ (block @ _weights(part_u) @ _weights(part_t))
+    return panel.name, slides_from, float(share) * (1.0 if patch else y)
+
+
+def _place(value: float, count: int) -> tuple[int, float]:
+    """As `_places`, of a float."""
+    at = value * count
+    index = min(int(at), count - 1)
+    return index, at - index
 
 
 def _answer(
     panel: Panel, y: Array, b: Array, e: Array, u: Array, limits: Array, *, forces: bool
 ) -> Answer:
     t = over_e(panel.name, e, limits)
-    edges = edges_of(panel.name, panel.edges, t, u, b, e)
+    edges = edges_of(panel.name, varying_edges(panel.edges, t, u), b, e)
     patch = np.zeros(y.size, dtype=np.intp)
     low, high = edges[:2]
     for edge, following in pairwise(edges[1:]):
@@ -293,7 +335,7 @@ def spline(coefficients: Array, base: Integers, weights: Sequence[Sequence[Array
     return outer
 
 
-def _weights(x: Array) -> list[Array]:
+def _weights(x: _Number) -> list[_Number]:
     """The four B-splines of an interval at x, from 0 to 1 in it."""
     left = 1 - x
     return [
@@ -310,8 +352,8 @@ def _between(values: Array, u: Array) -> Array:
     return (1 - part) * values.take(index) + part * values.take(index + 1)
 
 
-def _over_both(grids: Array, t: Array, u: Array) -> list[Array]:
-    """Linear interpolation of grids over t and u."""
+def varying_edges(grids: Array, t: Array, u: Array) -> list[Array]:
+    """Edges of a panel that vary, interpolated linearly over t and u."""
     _, rows, columns = grids.shape
     i, over = _places(t, rows - 1)
     j, across = _places(u, columns - 1)

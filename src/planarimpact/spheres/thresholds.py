@@ -13,8 +13,8 @@ that rate is negative, and 1 where slip lasts to the largest force.
 **Plastic spheres.** The answer bends where friction is at its limit everywhere at the end of
 compression: it is largest from there on. A sphere that loses little slides until then; one that
 loses much slides again at the end, when shear has flowed so far that the body still moves on. And
-it bends where slip throughout begins (`PlasticMotion.slides_from`). Spheres that lose much bend the
-answer at one more incidence, which the table does not know: its error is larger there.
+it bends where slip throughout begins (`PlasticMotion.slides_from`). Where spheres lose much, it
+bends at one incidence more. The table has no edge there, so that its error is larger.
 """
 
 from typing import Any

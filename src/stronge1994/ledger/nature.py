@@ -9,8 +9,9 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.integrate import cumulative_simpson
 
+from planarimpact.continuum import ContinuumHistory
 from planarimpact.ground.arrays import Array
-from planarimpact.ground.results import ContinuumHistory, History, Regime
+from planarimpact.ground.results import History, Regime
 from stronge1994.ledger import contact
 from stronge1994.ledger.nature_models import LOSSES, Model
 from stronge1994.ledger.nature_models import model as _model

@@ -4,8 +4,9 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from planarimpact import continuum, lumped
+from planarimpact.continuum import ContinuumHistory
 from planarimpact.ground.arrays import ArrayLike
-from planarimpact.ground.results import ContinuumHistory, History, Rebound
+from planarimpact.ground.results import History, Rebound
 from stronge1994.ledger import contact
 
 PAPER, UNLOADING_STIFFNESS = "paper", "unloading_stiffness"

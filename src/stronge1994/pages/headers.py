@@ -11,7 +11,6 @@ HEADERS = {
     "time": "time of an impact in the batch",
     "batch": "impacts in the batch",
     "time_alone": "time of an impact alone",
-    "times_compiled": "over the time of the compiled continuum",
     "times_spheres": "over the time of the table of spheres",
     "restitution": "restitution e",
     "incidence": "incidence v1(0)/(mu v2(0))",

@@ -1,4 +1,4 @@
-"""Time of an impact in other codes and in ours, over the time of our fastest answers."""
+"""Time of an impact in other codes and in ours, over the time of the table of spheres."""
 
 import re
 from collections.abc import Sequence
@@ -9,15 +9,8 @@ from stronge1994.csv_tables import Row
 CODES = {"lammps": "LAMMPS", "pooltool": "pooltool"}
 TIME = re.compile(r"time_(\d+) \[s\]")
 MICROSECONDS = 1e6
-# Our fastest models, to which all times are compared: part of a column's name, models by loss.
-ANSWERS = {
-    "compiled": {
-        "": "response of continuum",
-        "viscous": "response of continuum.viscous",
-        "plastic": "response of continuum.plastic",
-    },
-    "spheres": {"": "spheres", "viscous": "spheres.viscous", "plastic": "spheres.plastic"},
-}
+# Our fastest model, to which all times are compared, by loss.
+TABLE = {"": "spheres", "viscous": "spheres.viscous", "plastic": "spheres.plastic"}
 LAMMPS = "LAMMPS mindlin/force"
 
 
@@ -43,18 +36,18 @@ def section(trade: Sequence[Row], peers: Sequence[Row]) -> dict[str, Any]:
 
 
 def ratios(rows: Sequence[Row]) -> list[Row]:
-    """Time of an impact by code and model, and how many times that of our fastest answers.
+    """Time of an impact by code and model, and how many times that of the table of spheres.
 
     Times hardly follow e, so there are rows for e = 1 and for the largest e below it, by loss, the
     slowest first. Of a model with several settings the coarsest is taken. The time is that in the
     largest batch that all of them have solved; alone it is the median of random incidences. The
-    ratios are over the time of the compiled response, and of the table of spheres if `rows` has it.
+    ratios are left out where `rows` has no time of the table.
 
     >>> row = {"restitution [1]": "1.0", "loss": "", "max_velocity [mu v2(0)]": "0.2"}
     >>> row |= {"time_1 [s]": "1e-4"}
     >>> slow = row | {"model": "continuum", "time_1000 [s]": "6e-4"}
-    >>> fast = row | {"model": "response of continuum", "time_1000 [s]": "2e-7"}
-    >>> [ratio["times_compiled [1]"] for ratio in ratios([fast, slow])]
+    >>> fast = row | {"model": "spheres", "time_1000 [s]": "2e-7"}
+    >>> [ratio["times_spheres [1]"] for ratio in ratios([fast, slow])]
     ['3e+03', '1']
     """
     timed = [row for row in rows if any(row.get(key) for key in filter(TIME.fullmatch, row))]
@@ -65,8 +58,8 @@ def ratios(rows: Sequence[Row]) -> list[Row]:
             cases.setdefault((_restitution(row), row["loss"]), []).append(row)
     groups = [_coarsest(cases[case]) for case in sorted(cases, key=lambda case: -case[0])]
     known = {row["model"] for group in groups for row in group}
-    answers = {word: names for word, names in ANSWERS.items() if known & set(names.values())}
-    return [row for group in groups for row in _compared(group, answers)]
+    with_ratios = bool(known & set(TABLE.values()))
+    return [row for group in groups for row in _compared(group, with_ratios)]
 
 
 def _restitution(row: Row) -> float:
@@ -78,7 +71,7 @@ def _is_shown(row: Row) -> bool:
     model, loss = row["model"], row["loss"]
     codes = "pooltool", "lumped", "lumped.hysteretic", LAMMPS, f"{LAMMPS}, viscoelastic, xt = 0"
     direct = f"continuum.{loss}" if loss else "continuum"
-    return model in (*codes, direct, *(names[loss] for names in ANSWERS.values()))
+    return model in (*codes, direct, TABLE[loss])
 
 
 def _coarsest(rows: Sequence[Row]) -> list[Row]:
@@ -112,8 +105,8 @@ def _batch(rows: Sequence[Row]) -> int:
     return max(set.intersection(*solved))
 
 
-def _compared(rows: Sequence[Row], answers: dict[str, dict[str, str]]) -> list[Row]:
-    """Lines of the table for one restitution and loss; `answers` as in `ANSWERS`."""
+def _compared(rows: Sequence[Row], with_ratios: bool) -> list[Row]:
+    """Lines of the table for one restitution and loss."""
     batch = _batch(rows)
     times = {row["model"]: float(row[f"time_{batch} [s]"]) for row in rows}
     table = []
@@ -131,8 +124,8 @@ def _compared(rows: Sequence[Row], answers: dict[str, dict[str, str]]) -> list[R
             "time [us]": f"{MICROSECONDS * time:.3g}",
             "time_alone [us]": f"{MICROSECONDS * float(alone):.3g}" if alone else "",
         }
-        for word, names in answers.items():
-            base = times.get(names[row["loss"]])
-            entry[f"times_{word} [1]"] = f"{time / base:.2g}" if base else ""
+        if with_ratios:
+            base = times.get(TABLE[row["loss"]])
+            entry["times_spheres [1]"] = f"{time / base:.2g}" if base else ""
         table.append(entry)
     return table

@@ -14,7 +14,7 @@ EVERY_JOB = (
     "src/stronge1994/run/failures.py",
     "src/stronge1994/figures/__init__.py",
 )
-KINDS = (".py", ".pyi", ".npz", ".h", ".mjs", ".toml", ".txt")
+KINDS = (".py", ".npz", ".h", ".mjs", ".toml", ".txt")
 
 
 def sources(script: str, *rooms: str) -> list[str]:

@@ -246,10 +246,12 @@ class PlasticSprings(Springs):
     ) -> Array:
         """As in `Springs`.
 
-        Slip in direction g stops when g q minus the limit, computed without slip, is largest. That
-        value decays afterwards as q does. Every slipped spring remembers it. In the step it is a
-        parabola, through its values at both ends and in the middle. A step over its top leaves an
-        error that varies irregularly, which extrapolation cannot remove.
+        Without slip the density of a spring follows q' = u' - q times the rate of flow. In the
+        direction g the spring slips while g times that density exceeds the limit more and more.
+        Slip takes away the largest excess of the step, which decays to the end of the step as q
+        does: `_density`, the density at the end of the step, is less by it. In the step the excess
+        is a parabola, through its values at both ends and in the middle. A step over its top leaves
+        an error that varies irregularly, which extrapolation cannot remove.
         """
         motion, limit = self._motion, self._motion.density(k)
         count = min(len(limit), len(self._density))

@@ -1,11 +1,6 @@
 /*
  * spheres.h: impacts of rough spheres, every impact with bodies and materials of its own.
  *
- * <version>
- * A template: the package replaces what stands between two marks, the prefix of all names, and the
- * name of this file. The table here only has the form of one.
- * </version>
- *
  * A ball that bounces on a floor at rest (z is up; metres, kilograms, radians, seconds):
  *   #include "spheres.h"
  *
@@ -21,8 +16,12 @@
  * spheres_problem, with the arguments of spheres_collide, then says what is wrong. A field that you
  * leave out is 0, restitution too.
  *
+ * <version>
+ * Written by planarimpact $value. Do not edit it: write it anew.
+ * </version>
+ *
  * <about>
- * What is the same in every language: spheres.txt.
+$text
  * </about>
  */
 
@@ -41,77 +40,27 @@
 #include <stddef.h>
 
 /* <public> */
-#define SPHERES_VISCOUS 1
-#define SPHERES_PLASTIC 2
-#define SPHERES_INCIDENCE_MAX 8e+307
-#define SPHERES_RESTITUTION_MIN 0.3
-#define SPHERES_STIFFNESS_MAX 1.6
-#define SPHERES_RATIO_MIN 1.5625
-#define SPHERES_RATIO_MAX 3.5
-#define SPHERES_ERROR_VISCOUS 0.003
-#define SPHERES_ERROR_PLASTIC 0.04
-#define SPHERES_STICK 0
-#define SPHERES_SLIP_STICK 1
-#define SPHERES_STICK_SLIP 2
-#define SPHERES_SLIP_STICK_SLIP 3
-#define SPHERES_SLIP_THROUGHOUT 4
-#define SPHERES_MULTIPLE 5
-#define SPHERES_UNRESOLVED 6
-#define SPHERES_NO_IMPACT 7
+#define SPHERES_$name $value
 /* </public> */
 
 /*
- * Numbers of the functions below.
- *   B_LEAST, B_SPAN, E_LEAST, E_SPAN: ranges of b and restitution that u and t stand for
- *   UNIT: of the values
- *   INCIDENCE_LEAST: friction that would make the incidence less than this acts as if it did not
- *   MASS_RATIO_MOST, STIFFNESS_MOST, RATIO_LEAST, RATIO_MOST: bounds, which leave room for rounding
- *   NEARLY: a little less than 1: an impact so near to slip throughout slides throughout
- *   LEFT, RIGHT: where s has its root
- *   INTERVALS: intervals of limits over u
- *   LEAST, LONGEST: least restitution of viscous spheres, and the relaxation time, over its unit,
- *   where they have it
- *   SERIES, SPAN: numbers of the series of viscous restitution, and where it ends
- *   LENGTH_ERROR: of a normal, at most
+ * <constants>
+$text
+ * </constants>
  */
 /* <private> */
-#define SPHERES_B_LEAST 1.55
-#define SPHERES_B_SPAN 2.0
-#define SPHERES_E_LEAST 0.295
-#define SPHERES_E_SPAN 0.705
-#define SPHERES_UNIT 0.000244140625
-#define SPHERES_INCIDENCE_LEAST 1e-100
-#define SPHERES_MASS_RATIO_MOST 8e+307
-#define SPHERES_STIFFNESS_MOST 1.6000000016
-#define SPHERES_RATIO_LEAST 1.5625
-#define SPHERES_RATIO_MOST 3.5
-#define SPHERES_NEARLY 0.9999999999999991
-#define SPHERES_LEFT 1
-#define SPHERES_RIGHT 2
-#define SPHERES_INTERVALS 1
-#define SPHERES_LEAST 0.022
-#define SPHERES_LONGEST 7.9
-#define SPHERES_SERIES 2
-#define SPHERES_SPAN 2.8
-#define SPHERES_LENGTH_ERROR 1.000001e-06
+#define SPHERES_$name $value
 /* </private> */
 
 /*
- * The table. A loss, or a part of it, is a panel; a panel has patches. In a patch velocity, peak
- * friction and work are cubic splines in s, t and u: places over y = x/stiffness_ratio,
- * restitution and b = mass_ratio/stiffness_ratio. In the first patch, y < 1, they are over y, and
- * work over y^2.
- *   limits: restitutions between the three plastic panels, over u
- *   panels: its first patch, and how many; edges that vary, their intervals over t and u;
- *   coefficients over t and u; where its edges and splines begin in values, or -1
- *   patches: where s has its root (0 nowhere, SPHERES_LEFT left, SPHERES_RIGHT right), intervals
- *   over s, and the first coefficient over s
- *   values: edges in y, and coefficients of splines, in units of SPHERES_UNIT
+ * <table>
+$text
+ * </table>
  */
 
 static const double spheres_limits[] = {
 /* <limits> */
-0.7,0.5,0.8,0.6,
+$numbers,
 /* </limits> */
 };
 
@@ -120,30 +69,26 @@ struct spheres_panel {
 };
 static const struct spheres_panel spheres_panels[] = {
 /* <panels> */
-{0,4,0,1,1,4,4,-1,0,0,0},
-{0,4,0,1,1,4,4,-1,0,0,0},
-{0,4,0,1,1,4,4,-1,0,0,0},
-{0,4,0,1,1,4,4,-1,0,0,0},
+{$row},
 /* </panels> */
 };
 
 static const int spheres_patches[] = {
 /* <patches> */
-0,1,0,1,1,4,
-0,1,8,2,1,12,
+$numbers,
 /* </patches> */
 };
 
 static const int spheres_values[] = {
 /* <values> */
-0,0,0,0,0,0,
+$numbers,
 /* </values> */
 };
 
 /* Viscous restitution over the root of the relaxation time, a series of Chebyshev's polynomials. */
 static const double spheres_series[] = {
 /* <series> */
-0.5,-0.5,
+$numbers,
 /* </series> */
 };
 
@@ -806,9 +751,13 @@ struct spheres_preset {
     struct spheres_pair pair;
 };
 /* <presets> */
-/* A sample: no real ball. */
-static const struct spheres_preset spheres_sample = {
-    {0.1, 0.02, 0.03}, {0.8, 1.5, 0.9, 0, 0, 0, SPHERES_VISCOUS}};
+/*
+$text
+ */
+static const struct spheres_preset spheres_$name = {
+    {$mass, $gyration, $radius},
+    {$friction, $stiffness_ratio, $restitution,
+     $relaxation_time, $yield_pressure, $effective_modulus, $loss}};
 /* </presets> */
 
 #endif

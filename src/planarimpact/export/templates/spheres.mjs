@@ -1,11 +1,6 @@
 /*
  * spheres.mjs: impacts of rough spheres, every impact with bodies and materials of its own.
  *
- * <version>
- * A template: the package replaces what stands between two marks, and the name of this file. The
- * table here only has the form of one.
- * </version>
- *
  * A ball that bounces on a floor at rest (z is up; metres, kilograms, radians, seconds):
  *   import * as spheres from "./spheres.mjs";
  *
@@ -19,92 +14,43 @@
  * Where there is no answer, collide, bounce and model_form throw a RangeError: it names the field,
  * its value and what is allowed.
  *
+ * <version>
+ * Written by planarimpact $value. Do not edit it: write it anew.
+ * </version>
+ *
  * <about>
- * What is the same in every language: spheres.txt.
+$text
  * </about>
  */
 
 /* <public> */
-export const VISCOUS = 1;
-export const PLASTIC = 2;
-export const INCIDENCE_MAX = 8e+307;
-export const RESTITUTION_MIN = 0.3;
-export const STIFFNESS_MAX = 1.6;
-export const RATIO_MIN = 1.5625;
-export const RATIO_MAX = 3.5;
-export const ERROR_VISCOUS = 0.003;
-export const ERROR_PLASTIC = 0.04;
-export const STICK = 0;
-export const SLIP_STICK = 1;
-export const STICK_SLIP = 2;
-export const SLIP_STICK_SLIP = 3;
-export const SLIP_THROUGHOUT = 4;
-export const MULTIPLE = 5;
-export const UNRESOLVED = 6;
-export const NO_IMPACT = 7;
+export const $name = $value;
 /* </public> */
 
 /*
- * Numbers of the functions below.
- *   B_LEAST, B_SPAN, E_LEAST, E_SPAN: ranges of b and restitution that u and t stand for
- *   UNIT: of the values
- *   INCIDENCE_LEAST: friction that would make the incidence less than this acts as if it did not
- *   MASS_RATIO_MOST, STIFFNESS_MOST, RATIO_LEAST, RATIO_MOST: bounds, which leave room for rounding
- *   NEARLY: a little less than 1: an impact so near to slip throughout slides throughout
- *   LEFT, RIGHT: where s has its root
- *   INTERVALS: intervals of limits over u
- *   LEAST, LONGEST: least restitution of viscous spheres, and the relaxation time, over its unit,
- *   where they have it
- *   SERIES, SPAN: numbers of the series of viscous restitution, and where it ends
- *   LENGTH_ERROR: of a normal, at most
+ * <constants>
+$text
+ * </constants>
  */
 /* <private> */
-const B_LEAST = 1.55;
-const B_SPAN = 2.0;
-const E_LEAST = 0.295;
-const E_SPAN = 0.705;
-const UNIT = 0.000244140625;
-const INCIDENCE_LEAST = 1e-100;
-const MASS_RATIO_MOST = 8e+307;
-const STIFFNESS_MOST = 1.6000000016;
-const RATIO_LEAST = 1.5625;
-const RATIO_MOST = 3.5;
-const NEARLY = 0.9999999999999991;
-const LEFT = 1;
-const RIGHT = 2;
-const INTERVALS = 1;
-const LEAST = 0.022;
-const LONGEST = 7.9;
-const SERIES = 2;
-const SPAN = 2.8;
-const LENGTH_ERROR = 1.000001e-06;
+const $name = $value;
 /* </private> */
 
 /*
- * The table. A loss, or a part of it, is a panel; a panel has patches. In a patch velocity, peak
- * friction and work are cubic splines in s, t and u: places over y = x/stiffness_ratio,
- * restitution and b = mass_ratio/stiffness_ratio. In the first patch, y < 1, they are over y, and
- * work over y^2.
- *   limits: restitutions between the three plastic panels, over u
- *   panels: its first patch, and how many; edges that vary, their intervals over t and u;
- *   coefficients over t and u; where its edges and splines begin in values, or -1
- *   patches: where s has its root (0 nowhere, LEFT left, RIGHT right), intervals over s, and the
- *   first coefficient over s
- *   values: edges in y, and coefficients of splines, in units of UNIT
+ * <table>
+$text
+ * </table>
  */
 
 const limits = new Float64Array([
 /* <limits> */
-0.7,0.5,0.8,0.6,
+$numbers,
 /* </limits> */
 ]);
 
 const panels = [
 /* <panels> */
-[0,4,0,1,1,4,4,-1,0,0,0],
-[0,4,0,1,1,4,4,-1,0,0,0],
-[0,4,0,1,1,4,4,-1,0,0,0],
-[0,4,0,1,1,4,4,-1,0,0,0],
+[$row],
 /* </panels> */
 ].map(([patch, patches, varying, rows, columns, over_t, over_u, edges, velocity, peak, work]) => (
     { patch, patches, varying, rows, columns, over_t, over_u, edges, velocity, peak, work }
@@ -112,32 +58,23 @@ const panels = [
 
 const patches = new Int32Array([
 /* <patches> */
-0,1,0,1,1,4,
-0,1,8,2,1,12,
+$numbers,
 /* </patches> */
 ]);
 
 const shapes = [
 /* <shapes> */
-[1,1,3],
+[$row],
 /* </shapes> */
 ];
 
-/**
- * The bytes of a table.
- * @param {string} text base64
- * @returns {ArrayBuffer}
- */
+// The bytes of a table.
 function bytes(text) {
     return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
 }
 
-/**
- * The values: of each number is stored what its neighbours along each axis do not tell, in 7 bits a
- * byte, the lowest first. Neighbours are rows * columns, columns and 1 apart.
- * @param {ArrayBuffer} packed
- * @returns {Int32Array}
- */
+// The values: of each number is stored what its neighbours along each axis do not tell, in 7 bits a
+// byte, the lowest first. Neighbours are rows * columns, columns and 1 apart.
 function unfolded(packed) {
     const count = shapes.reduce((sum, [layers, rows, columns]) => sum + layers * rows * columns, 0);
     const all = new Uint8Array(packed), numbers = new Int32Array(count);
@@ -160,42 +97,27 @@ function unfolded(packed) {
 
 const values = unfolded(bytes(
 /* <packed> */
-"AAAA"
+"$text"
 /* </packed> */
 ));
 
 // Viscous restitution over the root of the relaxation time, a series of Chebyshev's polynomials.
 const series = new Float64Array([
 /* <series> */
-0.5,-0.5,
+$numbers,
 /* </series> */
 ]);
 
-/**
- * Which of so many intervals a value from 0 to so many is in.
- * @param {number} at
- * @param {number} count
- * @returns {number}
- */
+// Which of so many intervals a value from 0 to so many is in.
 function index_of(at, count) {
     return Math.min(Math.trunc(at), count - 1);
 }
 
-/**
- * @param {number} value
- * @param {number} low
- * @param {number} high
- * @returns {number}
- */
 function clipped(value, low, high) {
     return value < low ? low : value > high ? high : value;
 }
 
-/**
- * The interval that a value from 0 to 1 is in, and the four B-splines there.
- * @param {number} value
- * @param {number} count
- */
+// The interval that a value from 0 to 1 is in, and the four B-splines there.
 function place(value, count) {
     const at = value * count, index = index_of(at, count), x = at - index, left = 1 - x;
     const weights = [
@@ -207,13 +129,7 @@ function place(value, count) {
     return { index, weights };
 }
 
-/**
- * Where an impact is: what the splines need, and what follows from its edges.
- * @param {number} y
- * @param {number} b
- * @param {number} e
- * @param {number} loss
- */
+// Where an impact is: what the splines need, and what follows from its edges.
 function find(y, b, e, loss) {
     const u = (b - B_LEAST) / B_SPAN, interval = index_of(u * INTERVALS, INTERVALS);
     const part = u * INTERVALS - interval, alike = b + e * (b - 1);
@@ -273,12 +189,7 @@ function find(y, b, e, loss) {
     };
 }
 
-/**
- * A spline at a place of `find`, whose coefficients begin at a number of the values.
- * @param {ReturnType<typeof find>} spot
- * @param {number} begin
- * @returns {number}
- */
+// A spline at a place of `find`, whose coefficients begin at a number of the values.
 function spline({ panel, base, weights: [over_s, over_t, over_u] }, begin) {
     let outer = 0;
     for (let i = 0; i < 4; i += 1) {
@@ -294,15 +205,8 @@ function spline({ panel, base, weights: [over_s, over_t, over_u] }, begin) {
     return outer * UNIT;
 }
 
-/**
- * Velocity of a contact that sticks for a while, within the energy that there is, and what friction
- * can do.
- * @param {ReturnType<typeof find>} spot
- * @param {number} x
- * @param {number} zeta2
- * @param {number} sliding velocity if it slid throughout
- * @returns {number}
- */
+// Velocity of a contact that sticks for a while, from x, and the velocity if it slid throughout:
+// within the energy that there is, and what friction can do.
 function sticking(spot, x, zeta2, sliding) {
     const share = spline(spot, spot.panel.velocity) * spot.scale;
     return clipped(zeta2 * share + 0, sliding > 0 - x ? sliding : 0 - x, x);
@@ -325,12 +229,7 @@ export function covers(x, mass_ratio, stiffness_ratio, restitution, loss) {
         && (loss === VISCOUS || loss === PLASTIC);
 }
 
-/**
- * Velocity in the direction of x.
- * @param {number} velocity
- * @param {number} x
- * @returns {number}
- */
+// Velocity in the direction of x.
 function directed(velocity, x) {
     return x < 0 || Object.is(x, -0) ? -velocity : velocity;
 }
@@ -447,20 +346,10 @@ export function thin_shell(radius, mass) {
     return { mass, gyration: radius * Math.sqrt(2 / 3), radius };
 }
 
-/**
- * @param {Vector} a
- * @param {Vector} b
- * @returns {number}
- */
 function dot(a, b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/**
- * @param {Vector} a
- * @param {Vector} b
- * @returns {Vector}
- */
 function cross(a, b) {
     return [
         a[1] * b[2] - a[2] * b[1],
@@ -469,31 +358,16 @@ function cross(a, b) {
     ];
 }
 
-/**
- * @param {number} factor
- * @param {Vector} a
- * @returns {Vector}
- */
 function scaled(factor, a) {
     return [factor * a[0], factor * a[1], factor * a[2]];
 }
 
-/**
- * a + factor b
- * @param {Vector} a
- * @param {number} factor
- * @param {Vector} b
- * @returns {Vector}
- */
+// a + factor b
 function sum(a, factor, b) {
     return [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]];
 }
 
-/**
- * The fifth root of a number above 0. That of a library differs from one language to the next.
- * @param {number} value
- * @returns {number}
- */
+// The fifth root of a number above 0. That of a library differs from one language to the next.
 function fifth_root(value) {
     let scale = 1;
     if (!(value > 0 && value <= 1e308)) return NaN;
@@ -507,12 +381,7 @@ function fifth_root(value) {
     return root * scale;
 }
 
-/**
- * Whether the loss that goes with a restitution is one, or is left out where nothing is lost.
- * @param {unknown} loss
- * @param {unknown} restitution
- * @returns {boolean}
- */
+// Whether the loss that goes with a restitution is one, or is left out where nothing is lost.
 function knows_loss(loss, restitution) {
     return loss === VISCOUS || loss === PLASTIC || (loss === 0 && restitution === 1);
 }
@@ -556,20 +425,12 @@ export function restitution_at(pair, mass, radius, speed) {
     return knows_loss(loss, fixed) && typeof fixed === "number" ? fixed : NaN;
 }
 
-/**
- * 1/r; 0 where the radius is 0, as of a wall, which is flat.
- * @param {Body} body
- * @returns {number}
- */
+// 1/r; 0 where the radius is 0, as of a wall, which is flat.
 function curvature({ radius }) {
     return radius > 0 ? 1 / radius : 0;
 }
 
-/**
- * A value in a message.
- * @param {unknown} value
- * @returns {string}
- */
+// A value in a message.
 function shown(value) {
     const word = (one) => (typeof one === "string" ? `"${one}"` : String(one));
     if (typeof value !== "object" || !value) return word(value);
@@ -577,22 +438,11 @@ function shown(value) {
     return `{ ${Object.entries(value).map(([name, one]) => `${name}: ${word(one)}`).join(", ")} }`;
 }
 
-/**
- * @param {string} field
- * @param {unknown} value
- * @param {string} allowed
- * @returns {RangeError}
- */
 function refusal(field, value, allowed) {
     return new RangeError(`${field} = ${shown(value)}: allowed is ${allowed}`);
 }
 
-/**
- * The sum of the sizes of a vector's components, after a check of the vector.
- * @param {string} field
- * @param {Vector} value
- * @returns {number}
- */
+// The sum of the sizes of a vector's components, after a check of the vector.
 function checked_size(field, value) {
     if (value?.length === 3) {
         const x = value[0], y = value[1], z = value[2];
@@ -602,10 +452,6 @@ function checked_size(field, value) {
     throw refusal(field, value, "an array of three finite numbers");
 }
 
-/**
- * @param {string} field
- * @param {Body} body
- */
 function check_body(field, { mass, gyration, radius }) {
     if (!(typeof mass === "number" && mass > 0))
         throw refusal(`${field}.mass`, mass, "a number above 0");
@@ -615,9 +461,6 @@ function check_body(field, { mass, gyration, radius }) {
         throw refusal(`${field}.radius`, radius, "a finite number from 0");
 }
 
-/**
- * @param {Pair} pair
- */
 function check_laws(pair) {
     const { loss = 0, relaxation_time = 0, yield_pressure = 0, effective_modulus } = pair;
     const { restitution = loss === 0 ? 0 : NaN } = pair;
@@ -643,20 +486,9 @@ function check_laws(pair) {
     }
 }
 
-/**
- * An impact that is to come: what `change` and `collide` need, the normal with the length 1 to
- * rounding, the unit vector along which the contact point moves, and m2 over the mass of each body.
- * Null if nothing approaches.
- * @param {Pair} pair
- * @param {Vector} normal
- * @param {Body} body
- * @param {Vector} velocity
- * @param {Vector} spin
- * @param {Body} other
- * @param {Vector} other_velocity
- * @param {Vector} other_spin
- * @throws {RangeError} as `collide`
- */
+// An impact that is to come: what `change` and `collide` need, the normal with the length 1 to
+// rounding, the unit vector along which the contact point moves, and m2 over the mass of each body.
+// Null if nothing approaches.
 function before(pair, normal, body, velocity, spin, other, other_velocity, other_spin) {
     checked_size("normal", normal);
     const fast = checked_size("velocity", velocity), turns = checked_size("spin", spin);
@@ -741,11 +573,7 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
     };
 }
 
-/**
- * What an impact of this loss adds to x, the tangential velocity, and its regime.
- * @param {ReturnType<typeof before>} impact
- * @param {number} loss
- */
+// What an impact of this loss adds to x, the tangential velocity, and its regime.
 function change({ x, beta, zeta2, e }, loss) {
     const slides = 0 - (1 + e) * beta, known = e >= RESTITUTION_MIN;
     if (!(x > 0)) return { added: 0, regime: STICK };
@@ -850,10 +678,16 @@ export function model_form(...contact) {
  */
 export const presets = {
 /* <presets> */
-    // A sample: no real ball.
-    sample: {
-        body: { mass: 0.1, gyration: 0.02, radius: 0.03 },
-        pair: { friction: 0.8, stiffness_ratio: 1.5, restitution: 0.9, loss: VISCOUS },
+/*
+$text
+ */
+    $name: {
+        body: { mass: $mass, gyration: $gyration, radius: $radius },
+        pair: {
+            friction: $friction, stiffness_ratio: $stiffness_ratio, restitution: $restitution,
+            relaxation_time: $relaxation_time, yield_pressure: $yield_pressure,
+            effective_modulus: $effective_modulus, loss: $loss,
+        },
     },
 /* </presets> */
 };

@@ -41,7 +41,6 @@ import numpy as np
 from planarimpact.ground import roots
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.roots import Function
-from planarimpact.ground.sliding import stick_limit
 from planarimpact.lumped.viscous.elements import Elements
 
 # A slip velocity that falls below 0 by less than this share of its terms counts as 0: where b is
@@ -115,9 +114,8 @@ class Stick:
             force, v = elements.motion(-time)
             tau = 2 * elements.xi
             fall = v - tau * force
-            limit, falls, bends = (stick_limit(a) for a in (force, fall, -tau * fall - force))
-            bend = 2 * elements.gamma * swing + elements.b * friction + bends
-            return limit - friction, falls - swing, bend
+            bend = 2 * elements.gamma * swing + elements.b * friction - tau * fall - force
+            return force - friction, fall - swing, bend
 
         return function
 
@@ -200,7 +198,7 @@ def _before_highest(
     above = np.where(stiff, np.minimum(above, turn), above)
     friction, swing, force, v = stick.forces(sign, above)
     least = force
-    met, high = stick_limit(force) <= friction, above.copy()
+    met, high = force <= friction, above.copy()
     fall = v - 2 * elements.xi * force
     # W >= 0 at t_M: the ratio rises on to separation.
     rises = stiff & (turn < end) & (swing * force - friction * fall >= 0) & ~met
@@ -219,17 +217,17 @@ def _before_highest(
         largest, _ = part.elements.stick(part.friction, part.velocity, crest)
         at_start, _ = part.elements.motion(part.ahead - start[undecided])
         # N is nowhere smaller, up to `above`, than at the ends.
-        may_meet = np.abs(largest) >= stick_limit(np.minimum(at_start, least[undecided]))
+        may_meet = np.abs(largest) >= np.minimum(at_start, least[undecided])
         inside = may_meet & (crest > start[undecided]) & (crest < above[undecided])
         force, _ = part.elements.motion(part.ahead - np.where(inside, crest, 0.0))
-        at_crest = inside & (np.abs(largest) >= stick_limit(force))
+        at_crest = inside & (np.abs(largest) >= force)
         met[undecided[at_crest]], high[undecided[at_crest]] = True, crest[at_crest]
         undecided = undecided[may_meet & ~at_crest]
     if undecided.size:
         part, side = stick.take(undecided), sign[undecided]
         top = roots.crossing(part.rise(side), below[undecided], above[undecided])
         friction, _, force, _ = part.forces(side, top)
-        reached = friction >= stick_limit(force)
+        reached = friction >= force
         met[undecided[reached]], high[undecided[reached]] = True, top[reached]
     return met, above, high
 

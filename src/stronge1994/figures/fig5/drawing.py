@@ -163,7 +163,7 @@ def _draw_experiment(axes: Axes, curves: Curves, points: Points, settings: Setti
     lumped = _draw_curve(
         axes, curves["lumped.hysteretic, experiment"], f"lumped model, {e}", house_style.LUMPED
     )
-    models = house_style.lossy(axes, curves, X, Y, e, "experiment")
+    models = house_style.draw_lossy_continua(axes, curves, X, Y, e, "experiment")
     series = {MEASURED_ANGLES: ("measured (Kharaz et al.)", GLASS_POINTS)}
     return [*house_style.references(axes, points, series), lumped, *models]
 

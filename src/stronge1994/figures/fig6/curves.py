@@ -7,7 +7,7 @@ from planarimpact import Regime, lumped
 from stronge1994.csv_tables import Curves
 from stronge1994.curve_names import name
 from stronge1994.figures.shared.curves import as_printed as printed_curves
-from stronge1994.figures.shared.curves import continua as lossy
+from stronge1994.figures.shared.curves.continua import rebounds_of_continua
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
@@ -50,6 +50,6 @@ def curves(
             velocity, _, _ = impact.rebound(x, mass_ratio, stiffness_ratio, e)
             named |= printed_curves.beside(name("e", e), named[name("e", e)], velocity)
     x = vertices(incidence, samples, stiffness_ratio, mass_ratio, extra)
-    for title, lossy_rebound in lossy.beside(continua, x, mass_ratio, stiffness_ratio):
-        named[title] = {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": lossy_rebound.velocity}
+    for title, of_continuum in rebounds_of_continua(continua, x, mass_ratio, stiffness_ratio):
+        named[title] = {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": of_continuum.velocity}
     return named

@@ -29,7 +29,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     _label_ends(axes, ends)
     added = house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")
     values = house_style.restitutions(settings["continua"]["restitution"])
-    added += house_style.lossy(axes, curves, X, Y, values)
+    added += house_style.draw_lossy_continua(axes, curves, X, Y, values)
     paper = [house_style.key("lumped model, $e$ at the line", **house_style.LUMPED)]
     titles = ("in the paper", "added here")
     house_style.legend_below(figure, *([paper, added] if added else [paper]), titles=titles)

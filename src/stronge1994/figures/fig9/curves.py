@@ -10,7 +10,7 @@ from planarimpact.ground.arrays import Array
 from stronge1994.csv_tables import Curves
 from stronge1994.curve_names import name
 from stronge1994.figures.shared.curves import as_printed as printed_curves
-from stronge1994.figures.shared.curves import continua as lossy
+from stronge1994.figures.shared.curves.continua import rebounds_of_continua
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
@@ -64,11 +64,11 @@ def curves(
                 named |= printed_curves.beside(pair, named[pair], share * printed)
         theta = vertices(angle, samples, extra)
         x, share = _incidence_and_share(theta, mu)
-        for title, lossy_rebound in lossy.beside(continua, x, mass_ratio, stiffness_ratio):
+        for title, of_continuum in rebounds_of_continua(continua, x, mass_ratio, stiffness_ratio):
             model, e_name = title.split(", ")
             named[f"{model}, {name('mu', mu)}, {e_name}"] = {
                 "angle [deg]": theta,
-                "friction_dissipation [m2 S^2/2]": share * lossy_rebound.dissipation,
+                "friction_dissipation [m2 S^2/2]": share * of_continuum.dissipation,
             }
     return named
 

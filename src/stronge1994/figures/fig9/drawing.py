@@ -30,7 +30,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         axes.plot(curves[pair][X], curves[pair][Y], **style)
     _draw_rigid(axes, curves, settings)
     values = house_style.restitutions(settings["continua"]["restitution"])
-    added = house_style.lossy(axes, curves, X, Y, values)
+    added = house_style.draw_lossy_continua(axes, curves, X, Y, values)
     house_style.angle_axes(axes, settings["angle"])
     axes.set(ylim=(0, None), ylabel=LABEL)
     for part in more:

@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 
 from planarimpact import continuum, lumped
-from planarimpact.ground.results import ContinuumHistory, History
+from planarimpact.continuum import ContinuumHistory
+from planarimpact.ground.results import History
 from stronge1994.csv_tables import Columns, Curves
 
 

@@ -20,7 +20,7 @@ SIMPLEST_FIRST = (
     "spheres",
     "continuum",
     "annuli",
-    "response of ",
+    "spline of ",
 )
 # Nine of ten times of two runs differ by less than this share, where the rounds of one run often
 # agree to a few hundredths: the memory of another run lies elsewhere.
@@ -39,8 +39,8 @@ def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -
     """The fastest model that meets each tolerance, for each restitution, loss and size of batch.
 
     A model meets a tolerance if its largest error of velocity does, with the error of the reference
-    added; if no model does, it is "none". Any time of compilation is spread over the batch. Models
-    whose times differ from the shortest by less than times scatter, `scatter_...` or
+    added; if no model does, it is "none". `build_time` is spread over the batch. Models whose
+    times differ from the shortest by less than times scatter, `scatter_...` or
     `BETWEEN_RUNS`, are as fast: of them the nearest is taken, and of those that are as near to two
     digits the simplest, by `SIMPLEST_FIRST`.
 
@@ -77,7 +77,7 @@ def _other_loss(rows: Sequence[Row]) -> str:
 
 
 def whole_time(row: Mapping[str, Any], batch: int) -> float | None:
-    """Seconds for one of a batch of impacts, with its share of compilation; None if not measured.
+    """Seconds for one of a batch of impacts, with its share of `build_time`; None if not measured.
 
     >>> whole_time({"time_10 [s]": "0.5", "build_time [s]": "20"}, 10)
     2.5

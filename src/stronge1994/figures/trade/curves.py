@@ -5,8 +5,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
-from planarimpact import continuum, models, response
+from planarimpact import continuum, models
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound
 from planarimpact.models import Model
@@ -14,7 +15,9 @@ from stronge1994.csv_tables import Curves
 
 FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
 SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
-LUMPED_RESPONSE_TOLERANCE = 1e-10
+SETTINGS |= {"knots": "knots [1]"}
+# The spline of the continuum: evenly spaced incidences, and the tolerance of the continuum there.
+SPLINE_KNOTS, SPLINE_TOLERANCE = 2000, 1e-5
 # Tolerance of the spread where the continuum is solved for it.
 SPREAD_TOLERANCE = 1e-3
 
@@ -46,9 +49,9 @@ def curves(
     twice, against the viscous and against the plastic continuum. So the error of the other
     continuum is what the wrong loss costs. `seen` is the share of incidences where the error of the
     model is larger than the spread of the reference under uncertain inputs, see `input_spread`;
-    `input_spread_stick` is over those incidences that stick at first. "response of ..." is compiled
-    once, in `build_time`, and then evaluated; for e = 1 alone, as below it the table of spheres
-    solves millions of impacts while a response is compiled. Times are as in `times`.
+    `input_spread_stick` is over those incidences that stick at first. "spline of continuum" is
+    made once, in `build_time`, and then evaluated; it is for one pair of bodies, and measured for
+    e = 1 alone. Times are as in `times`.
 
     >>> inelastic = {"tolerance": 1e-2, "tolerances": [1e-2]}
     >>> named = curves(3.5, 1.21, [0, 8], 9, [0.8], 1, [16], [4], [1], inelastic, [1], 1.0)
@@ -113,9 +116,8 @@ class _Contender(NamedTuple):
 def _contenders(
     groups: dict[str, Any], tried: dict[str, Sequence[float]], incidence_max: float
 ) -> Iterator[_Contender]:
-    """Every model that admits the restitution, with each setting tried; for e = 1 responses too."""
+    """Every model that admits the restitution, with each setting tried; for e = 1 the spline."""
     elastic = groups["restitution"] == 1
-    compiled = [("lumped", LUMPED_RESPONSE_TOLERANCE)] if elastic else []
     names = set()
     for model in models.MODELS.values():
         if not models.admits(model, **groups):
@@ -128,13 +130,28 @@ def _contenders(
         names.add(name)
         for settings in _variants(model, tried):
             yield _Contender(name, settings, _solver(model, groups, settings))
-            if elastic and name == "continuum":
-                compiled.append((name, settings["tolerance"]))
-    for name, tolerance in compiled:
+    if elastic:
         start = time.process_time()
-        made = response.compile(name, incidence_max=incidence_max, tolerance=tolerance, **groups)
+        spline = _spline_of_continuum(groups, incidence_max)
         build_time = {"build_time [s]": time.process_time() - start}
-        yield _Contender(f"response of {name}", {"tolerance": tolerance}, made, build_time)
+        yield _Contender("spline of continuum", {"knots": SPLINE_KNOTS}, spline, build_time)
+
+
+def _spline_of_continuum(groups: Mapping[str, Any], incidence_max: float) -> _Solver:
+    """The velocity of the elastic continuum for one pair of bodies, from incidence 0 on.
+
+    The cubic polynomials between the knots do not leave the range of the two values at their ends,
+    also where the velocity has a kink.
+    """
+    knots = np.linspace(0.0, incidence_max, SPLINE_KNOTS)
+    solved = continuum.rebound(knots, **groups, tolerance=SPLINE_TOLERANCE)
+    spline = PchipInterpolator(knots, solved.velocity)
+
+    def rebound(x: Array) -> Rebound:
+        unknown = np.full_like(x, np.nan)
+        return Rebound(spline(x), unknown, unknown, unknown)
+
+    return rebound
 
 
 def _loss(model: str) -> str:
@@ -159,6 +176,7 @@ def _solver(model: Model, groups: dict[str, float], settings: dict[str, float]) 
 
 def _name(contender: _Contender, e: float, loss: str) -> str:
     formats = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
+    formats |= {"knots": "{:d} knots"}
     settings = [formats[key].format(value) for key, value in contender.settings.items()]
     return ", ".join([contender.model, *settings, f"e = {e:g}", *filter(None, [loss])])
 

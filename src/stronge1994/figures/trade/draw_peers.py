@@ -190,8 +190,7 @@ def _is_drawn(row: _Row) -> bool:
     False
     """
     model: str = row[draw_trade.MODEL]
-    answers_again = model.startswith(("response of ", "spheres."))
-    return not answers_again and model != f"continuum.{row[LOSS]}"
+    return not model.startswith("spheres.") and model != f"continuum.{row[LOSS]}"
 
 
 def _lines(rows: Sequence[_Row]) -> list[_Line]:

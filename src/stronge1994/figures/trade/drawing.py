@@ -18,6 +18,7 @@ Place: TypeAlias = tuple[str, float, float]
 ERROR, MODEL, RESTITUTION = "rms_velocity [mu v2(0)]", "model", "restitution [1]"
 SPREAD, SPREAD_STICK = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
 STEPS, CIRCLES, TOLERANCE = "steps [1]", "circles [1]", "tolerance [mu v2(0)]"
+KNOTS, SPLINE = "knots [1]", "spline of continuum"
 LOSSES = (".viscous", ".plastic")
 # Room for labels left of the fastest model, as a share of the axis of time: of the wide panel and
 # of the others.
@@ -51,6 +52,7 @@ LEGEND_MEANS = {
     "Mindlin, rescaled": "mindlin_rescaled",
     "^annuli$": "^annuli",
     "^formula$": "^(rigid|laws)",
+    "^spline": "^spline",
 }
 
 
@@ -120,8 +122,7 @@ FAMILIES = {
     "spheres.viscous": Family("table, viscous", "X", 5.5, VISCOUS, True, None),
     "spheres.plastic": Family("table, plastic", "X", 5.5, PLASTIC, False, None),
     "annuli": Family("annuli", "h", 5.5, ELASTIC, True, RIGHT),
-    "response of lumped": Family("lumped", "*", 7, BLACK, False, LEFT),
-    "response of continuum": Family("continuum", "*", 7, ELASTIC, True, LEFT),
+    SPLINE: Family("spline of the continuum", "*", 7, ELASTIC, True, RIGHT),
 }
 # Two columns of equal length.
 LEGEND = {
@@ -134,7 +135,7 @@ LEGEND = {
         "continuum.viscous",
         "continuum.plastic",
     ),
-    "compiled responses": ("response of lumped", "response of continuum"),
+    "for one pair of bodies": (SPLINE,),
     "closed form": ("rigid", "lumped", "lumped.viscous", "lumped.unloading-stiffness"),
     "from a table": ("spheres", "spheres.viscous", "spheres.plastic"),
 }
@@ -148,12 +149,11 @@ GROWTH = {
     "timestep.mindlin": house_style.DASHES[1],
     "continuum": house_style.DASHES[2],
     "annuli": house_style.DASHES[3],
-    "response of continuum": house_style.DASHES[4],
+    SPLINE: house_style.DASHES[4],
 }
 # Range of errors that uncertain inputs hide.
 HIDDEN = {"color": "0.9", "linewidth": 0, "zorder": 0.5}
 FRONT = {"color": house_style.BLACK, "linewidth": 0.6, "zorder": 0.9}
-FRONT_WITH_RESPONSES = FRONT | {"linestyle": (0, (4, 2))}
 
 
 def draw(
@@ -193,7 +193,8 @@ def draw(
         growth, {n: c for n, c in curves.items() if MODEL in c and _case(c) == case}, curves
     )
     growth.set(title=f"(d) $e = {ends[0]:g}$", xlabel="impacts together", ylabel=TIME_LABEL)
-    note = f"numbers at points: steps, circles or tolerance; errors: {batch} impacts together"
+    numbers = "numbers at points: steps, circles, knots or tolerance"
+    note = f"{numbers}; errors: {batch} impacts together"
     notes = "\n".join([note, scatter(rows), HIDDEN_NOTE])
     figure.suptitle(notes, fontsize=house_style.NOTE)
     _add_legend(figure, below[1])
@@ -237,7 +238,7 @@ def _draw_errors(
     families: Mapping[str, Family],
     margin: float,
 ) -> None:
-    """Draw the points, both fronts, and what uncertain inputs hide."""
+    """Draw the points, the front of all but the spline, and what uncertain inputs hide."""
     column = time_column(batch)
     timed = [row for row in rows if column in row]
     if not timed:
@@ -252,9 +253,8 @@ def _draw_errors(
     left = min(time) * (min(time) / max(time)) ** margin
     edges = (left, max(time) * 3), (min(error) / 8, max(error) * 5)
     axes.set(xscale="log", yscale="log", xlim=edges[0], ylim=edges[1])
-    solved = [i for i, row in enumerate(timed) if not row[MODEL].startswith("response")]
-    for chosen, style in ((range(len(timed)), FRONT_WITH_RESPONSES), (solved, FRONT)):
-        _draw_front(axes, [time[i] for i in chosen], [error[i] for i in chosen], edges, style)
+    any_pair = [i for i, row in enumerate(timed) if row[MODEL] != SPLINE]
+    _draw_front(axes, [time[i] for i in any_pair], [error[i] for i in any_pair], edges)
 
 
 def label(axes: Axes, at: Sequence[float], text: str, place: Place | None) -> None:
@@ -282,8 +282,9 @@ def label_of(row: _Row) -> str:
             return ""
     if STEPS in row and CIRCLES not in row:
         return f"{row[STEPS]:g}"
-    if CIRCLES in row:
-        return f"{row[CIRCLES]:g}"
+    for key in (CIRCLES, KNOTS):
+        if key in row:
+            return f"{row[key]:g}"
     if TOLERANCE in row:
         return f"$10^{{{np.log10(row[TOLERANCE]):.3g}}}$"
     return NAMES.get(row[MODEL], "")
@@ -307,14 +308,13 @@ def _draw_front(
     time: Sequence[float],
     error: Sequence[float],
     edges: tuple[tuple[float, float], tuple[float, float]],
-    style: Style,
 ) -> None:
     """Draw a Pareto front: a point above and to the right of it is worse in both."""
     (_, right), (_, top) = edges
     best = front(time, error)
     x = [time[best[0]], *(time[i] for i in best), right]
     y = [top, *(error[i] for i in best), error[best[-1]]]
-    axes.step(x, y, where="post", label=house_style.NO_DATA, **style)
+    axes.step(x, y, where="post", label=house_style.NO_DATA, **FRONT)
 
 
 def _draw_growth(axes: Axes, rows: Curves, curves: Curves) -> None:
@@ -330,10 +330,6 @@ def _draw_growth(axes: Axes, rows: Curves, curves: Curves) -> None:
 def _add_legend(figure: Figure, cell: SubplotSpec) -> None:
     axes = figure.add_subplot(cell)
     axes.axis("off")
-    lines = [
-        house_style.key("Pareto front", **FRONT),
-        house_style.key("with responses", **FRONT_WITH_RESPONSES),
-    ]
     entries = []
     for title, models in LEGEND.items():
         entries.append(house_style.key(title, linestyle="none"))
@@ -341,7 +337,7 @@ def _add_legend(figure: Figure, cell: SubplotSpec) -> None:
             family = FAMILIES[model]
             entries.append(house_style.key(family.label, linestyle="none", **family.style()))
     legend = axes.legend(
-        handles=[*entries, *lines],
+        handles=[*entries, house_style.key("Pareto front", **FRONT)],
         loc="center",
         ncols=2,
         fontsize=house_style.NOTE,

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from planarimpact import models, response
+from planarimpact import models
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound
 from stronge1994.figures.trade import curves as trade
@@ -28,10 +28,10 @@ STEPS = (64, 256)
 BATCHES = (1, 1000)
 # Longest time of a batch, in seconds.
 BUDGET = 10.0
-# Tolerance of our own continua, solved and compiled: far below the errors of both codes.
+# Tolerance of our own continua: far below the errors of both codes.
 OWN_TOLERANCE = 1e-3
-# The rooms of ours whose models are measured beside the codes, and those that are compiled too.
-ROOMS, COMPILED = ("lumped", "continuum", "spheres"), "continuum"
+# The rooms of ours whose models are measured beside the codes.
+ROOMS = ("lumped", "continuum", "spheres")
 # Mass ratio of the solid spheres that LAMMPS throws.
 SOLID_SPHERE = 3.5
 
@@ -80,8 +80,8 @@ def measure(
     """Rows of both codes and of models of ours, all in this process and on the same incidences.
 
     Each velocity is compared with the elastic continuum for e = 1, and for e < 1 with both continua
-    that lose energy, a row for each `loss`. `build_time` is the set-up of LAMMPS, once a batch, or
-    the compilation of a response, once. `refused` counts impacts that raised an error and are left
+    that lose energy, a row for each `loss`. `build_time` is the set-up of LAMMPS, once a batch.
+    `refused` counts impacts that raised an error and are left
     out of the errors. `time_over_ours`, in the largest batch, is over the time-stepped contact
     (LAMMPS) or the lumped model (pooltool). `restitution_delivered` is the normal speed after over
     that before the impact; `max_from_lumped` is pooltool's largest distance from the model it
@@ -177,8 +177,6 @@ def _alone(
         settings = {"tolerance": OWN_TOLERANCE} if "tolerance" in models.get(name).settings else {}
         ours = _ours(name, mass_ratio, stiffness_ratio, restitution, settings)
         yield (ours._replace(model=name.partition(".")[0]) if restitution == 1 else ours,)
-        if name.startswith(COMPILED):
-            yield (_compiled(name, mass_ratio, stiffness_ratio, restitution, x[-1]),)
 
 
 def _own_names(restitution: float) -> list[str]:
@@ -191,25 +189,6 @@ def _own_names(restitution: float) -> list[str]:
         if name.startswith(ROOMS) and low <= restitution <= high and not double:
             names.append(name)
     return names
-
-
-def _compiled(
-    model: str, mass_ratio: float, stiffness_ratio: float, restitution: float, reach: float
-) -> Contender:
-    settings: dict[str, Any] = {"tolerance": OWN_TOLERANCE}
-    groups: dict[str, Any] = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio}
-    start = time.process_time()
-    compiled = response.compile(
-        model, incidence_max=reach, restitution=restitution, **groups, **settings
-    )
-    set_up = time.process_time() - start
-
-    def solve(x: Array) -> Answer:
-        start = time.process_time()
-        velocity = compiled(x).velocity
-        return velocity, time.process_time() - start, set_up
-
-    return Contender(f"response of {model}", settings, solve)
 
 
 def _thrown(x: Array, **settings: Any) -> Answer:

@@ -18,7 +18,7 @@ SHOWN = {
     "rigid": ("rigid", "quiet", "D", (30, 0)),
     "lumped": ("lumped model", "ink", "o", (30, -10)),
     "timestep.mindlin": ("Mindlin's law, in steps", "ink", "^", (30, 10)),
-    "response of continuum": ("continuum, compiled for one pair of bodies", "green", "*", (20, 24)),
+    "spline of continuum": ("spline of the continuum, one pair of bodies", "green", "*", (20, 24)),
     TABLE: ("table of solved spheres", "vermillion", "X", (24, -10)),
     CONTINUUM: ("continuum, solved", "blue", "s", (0, -24)),
 }

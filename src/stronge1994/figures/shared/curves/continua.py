@@ -12,14 +12,15 @@ from stronge1994.curve_names import name
 MODELS = ("continuum.viscous", "continuum.plastic")
 
 
-def beside(
+def rebounds_of_continua(
     continua: Mapping[str, Any] | None, x: ArrayLike, mass_ratio: float, stiffness_ratio: float
 ) -> Iterator[tuple[str, Rebound]]:
     """Names of curves and rebounds of each continuum at each restitution, if `continua` is set.
 
     >>> settings = {"models": ["continuum.viscous"], "restitution": [0.5], "tolerance": 1e-3}
-    >>> [(name, rebound.velocity.tolist()) for name, rebound in beside(settings, [6.0], 3.5, 1.21)]
-    [('continuum.viscous, e = 0.5', [0.75])]
+    >>> ((name, rebound),) = rebounds_of_continua(settings, [6.0], 3.5, 1.21)
+    >>> name, rebound.velocity.tolist()
+    ('continuum.viscous, e = 0.5', [0.75])
     """
     if continua:
         for e in continua["restitution"]:

@@ -85,7 +85,7 @@ SURFACE |= {"label": NO_DATA}
 PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
 AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
 # Light and thin: continua that lose energy, beside the curves of a figure of the paper.
-LOSSY: dict[str, tuple[str, Style]] = {
+LOSSY_CONTINUA: dict[str, tuple[str, Style]] = {
     "continuum.viscous": (
         "continuum, viscous",
         {"color": SKY, "linestyle": DASHES[4], "linewidth": 1.0, "zorder": 1.9},
@@ -257,14 +257,16 @@ def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> En
     return list(entries.values())
 
 
-def lossy(axes: Axes, curves: Curves, x: str, y: str, condition: str, end: str = "") -> Entries:
+def draw_lossy_continua(
+    axes: Axes, curves: Curves, x: str, y: str, condition: str, end: str = ""
+) -> Entries:
     """Draw the continua that lose energy, and return entries of the legend.
 
     They are known by the beginnings of their names; only those are drawn whose names end with
     `end`. The legend adds `condition` to the name of each model.
     """
     entries = []
-    for model, (label, style) in LOSSY.items():
+    for model, (label, style) in LOSSY_CONTINUA.items():
         own = [
             curve
             for name, curve in curves.items()

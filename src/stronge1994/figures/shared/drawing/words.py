@@ -38,13 +38,11 @@ UNITS = {
 LEGEND = {
     r"^\$F_2": ": normal_force ",
     r"^\$F_1/": ": friction_(force|over_mu) ",
-    "lumped model|lumped, as in the paper|^lumped$": (
-        r"^(response of )?(lumped(\.hysteretic|(?!\.))|e = |mu = )"
-    ),
+    "lumped model|lumped, as in the paper|^lumped$": r"^(lumped(\.hysteretic|(?!\.))|e = |mu = )",
     r"lumped, \$e\^2": r"^lumped\.unloading-stiffness",
     "lumped, (Kelvin–Voigt|viscous)": r"^lumped\.viscous",
     "elastic continuum": "^continuum[,:]",
-    "continuum, rubber|^continuum$": "^(response of )?continuum[,:]",
+    "continuum, rubber|^continuum$": "^continuum[,:]",
     "continuum, viscous": r"continuum\.viscous",
     "continuum, plastic": r"continuum\.plastic",
     "no tangential compliance": "^no tangential compliance",

@@ -1,0 +1,135 @@
+"""One impact in Python's own floats, for event-driven codes: some 30 microseconds.
+
+The physics is that of `mechanics` and `rungs`, in numbers instead of arrays; a test compares them.
+They answer what is left to them here: a bad argument, no approach, no friction, numbers beyond
+`PLAIN_MOST`, and an impact that the table of spheres does not answer within the tolerance.
+"""
+
+from collections.abc import Sequence
+from functools import lru_cache
+from math import inf, pi, sqrt
+from typing import Any
+
+import numpy as np
+
+from planarimpact import spheres
+from planarimpact.bodies import Body
+from planarimpact.collision.mechanics import cross, dot
+from planarimpact.collision.pairs import PLAIN_LEAST, PLAIN_MOST, Pair
+from planarimpact.collision.rungs import table_error
+from planarimpact.ground import checks
+from planarimpact.ground.arrays import Array
+from planarimpact.ground.results import Regime
+from planarimpact.normal_impact import kelvin_voigt, yielding
+from planarimpact.spheres import table
+
+# The table has the incidence from which plastic impacts slide throughout with an error below 1 %.
+# Within it the functions of arrays know better.
+UNSURE = 0.01
+
+
+def collide(
+    pair: Pair, body: Body, other: Body, vectors: list[list[float]], tolerance: float
+) -> list[Any]:
+    """Fields of the Collision of one impact, or [] where the functions of arrays must see it.
+
+    `vectors` are those of `planarimpact.collide` by `floats`, and so are the other arguments.
+    """
+    if not (pair.floats and all(vectors)):
+        return []
+    try:
+        radius, inverse, mobility, turn = _inertia(body)
+        other_radius, other_inverse, other_mobility, other_turn = _inertia(other)
+    except (TypeError, ValueError, OverflowError):  # not plainly one body
+        return []
+    normal, velocity, spin, other_velocity, other_spin = vectors
+    length = sqrt(dot(normal, normal))
+    if not abs(length - 1) <= checks.LENGTH_ERROR or inverse + other_inverse == 0:
+        return []
+    normal = [component / length for component in normal]
+    # Velocity of the contact point of the body, relative to that of the other.
+    turning = _sum([radius * component for component in spin], other_radius, other_spin)
+    relative = _sum(_sum(velocity, -1.0, other_velocity), -1.0, cross(turning, normal))
+    v2 = -dot(relative, normal)
+    tangential = _sum(relative, v2, normal)
+    v1 = sqrt(dot(tangential, tangential))
+    mu, zeta2, modulus, e, relaxation_time, yield_pressure = pair.floats
+    if not (PLAIN_LEAST <= v2 <= PLAIN_MOST and PLAIN_LEAST <= v1 <= PLAIN_MOST and mu):
+        return []
+    m2 = 1 / (inverse + other_inverse)
+    beta = m2 * (mobility + other_mobility)
+    plastic = bool(pair.plastic)
+    if e != e:
+        curvature = (1 / radius if radius else 0.0) + (1 / other_radius if other_radius else 0.0)
+        if not curvature:
+            return []
+        law, quantity = (_plastic, yield_pressure) if plastic else (_viscous, relaxation_time)
+        e = min(float(law(quantity, v2, m2, modulus, curvature)), 1.0)
+    b, unit = beta / zeta2, mu * v2
+    x = v1 / unit
+    y = x / zeta2
+    covered = spheres.LEAST_RATIO <= b <= spheres.LARGEST_RATIO and beta >= 1
+    if not (covered and zeta2 <= spheres.LARGEST_STIFFNESS and spheres.LEAST_RESTITUTION <= e <= 1):
+        return []
+    yields = plastic and e < 1
+    panel, slides_from, share = table.of_one(table.shipped(), y, b, e, yields)
+    if yields and abs(y / slides_from - 1) < UNSURE:
+        return []
+    if y >= slides_from:
+        change, error, regime = -(1 + e) * beta * unit, 0.0, Regime.SLIP_THROUGHOUT
+    else:
+        error = float(table_error(spheres.PANEL_BOUND[panel], beta, x))
+        if error > tolerance:
+            return []
+        w = min(max(share * zeta2, -x, x - (1 + e) * beta), x) * unit
+        change = w - v1
+        regime = Regime.SLIP_STICK_SLIP if x > zeta2 else Regime.STICK_SLIP
+    push = [(1 + e) * v2 * m2 * component for component in normal]
+    impulse = _sum(push, change / beta / v1 * m2, tangential)
+    moment = cross(normal, impulse)
+    after = (
+        _sum(velocity, inverse, impulse),
+        _sum(spin, -turn, moment),
+        _sum(other_velocity, -other_inverse, impulse),
+        _sum(other_spin, -other_turn, moment),
+        impulse,
+    )
+    return [*np.array(after), *np.array((x, e, error * unit)), regime, pair.plastic]
+
+
+@lru_cache(maxsize=4096)
+def _inertia(body: Body) -> tuple[float, ...]:
+    """Radius, 1/M, (1 + (r/k)^2)/M and r/(M k^2) of a body of plain numbers, else an error."""
+    mass, gyration, radius = map(float, body)  # an array is a TypeError
+    for number in (mass, gyration, radius or inf):
+        if not (PLAIN_LEAST <= number <= PLAIN_MOST or number == inf):
+            raise ValueError
+    arm = radius / gyration
+    return radius, 1 / mass, (1 + arm * arm) / mass, arm / gyration / mass
+
+
+def floats(vector: Any) -> list[float]:
+    """The components of a vector that is plainly three numbers; [] of anything else."""
+    if type(vector) is np.ndarray:
+        return vector.tolist() if vector.dtype == float and vector.shape == (3,) else []
+    plain = type(vector) in (list, tuple) and len(vector) == 3
+    plain = plain and {float, int}.issuperset(map(type, vector))
+    return [*vector] if plain and max(map(abs, vector)) <= PLAIN_MOST else []
+
+
+def _sum(a: Sequence[float], factor: float, b: Sequence[float]) -> list[float]:
+    """a + factor b of two vectors."""
+    return [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]]
+
+
+def _viscous(tau: float, v2: float, m2: float, modulus: float, curvature: float) -> Array:
+    """As `bodies.viscous_restitution`; below the table's restitutions where that refuses."""
+    time_unit = m2**0.4 / modulus**0.4 * curvature**0.2 / v2**0.2
+    return kelvin_voigt.restitution(np.array(min(tau / time_unit, kelvin_voigt.SLOWEST)))
+
+
+def _plastic(pressure: float, v2: float, m2: float, modulus: float, curvature: float) -> Array:
+    """As `bodies.plastic_restitution`."""
+    radius_share = pi / 2 * (pressure / modulus)
+    yield_speed = sqrt(16 / 15 * modulus / m2 / curvature) / curvature * radius_share**2.5
+    return yielding.restitution(np.array(min(yield_speed / v2, 1.0)))
