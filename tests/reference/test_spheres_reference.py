@@ -221,7 +221,9 @@ def test_the_velocity_jumps_no_more_than_is_stated(loss, stated):
     b = spheres.LEAST_RATIO + u * (spheres.LARGEST_RATIO - spheres.LEAST_RATIO)
     e, zeta2 = spheres.LEAST_RESTITUTION + share * 0.7, np.full(count, spheres.LARGEST_STIFFNESS)
     sides = np.array([[1 - 1e-13], [1 + 1e-13]])
-    limit = (b + e * (b - 1)) if loss == "viscous" else table.slides_from(shipped, b, e)
+    limit = b + e * (b - 1)
+    if loss == "plastic":
+        limit = np.array([table.of_one(shipped, 0.0, *p, True)[1] for p in zip(b, e, strict=True)])
     impacts = [(limit * zeta2 * sides, e)]
     for where in table.limits_at(shipped, table.over_b(b)) if loss == "plastic" else ():
         impacts.append((random.random(count) * limit * zeta2, where * sides))

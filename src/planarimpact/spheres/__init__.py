@@ -90,28 +90,6 @@ def error_bound(
     return bound
 
 
-def plastic_limit(mass_ratio: Array, stiffness_ratio: Array, restitution: Array) -> Array:
-    """Incidence from which plastic spheres that the table covers slide throughout, shape (n,).
-
-    That of `continuum.slip_throughout_limit`, interpolated.
-
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, restitution : ndarray, shape (n,)
-
-    Returns
-    -------
-    ndarray, shape (n,)
-
-    Examples
-    --------
-    >>> plastic_limit(*np.array([[3.5, 3.5], [1.21, 1.21], [0.8, 0.4]])).round(2)
-    array([5.33, 7.86])
-    """
-    y = table.slides_from(table.shipped(), mass_ratio / stiffness_ratio, restitution)
-    return y * stiffness_ratio
-
-
 @checks.default_errors
 def rebound(
     incidence: ArrayLike,

@@ -181,17 +181,6 @@ def evaluate(
     return answer
 
 
-def slides_from(table: Table, b: Array, e: Array) -> Array:
-    """y from which plastic spheres slide throughout, as `evaluate` has it, shape (n,)."""
-    y, u = b + e * (b - 1), over_b(b)
-    limits = limits_at(table, u)
-    low = np.flatnonzero(e < limits[0])
-    panel = table.panels["plastic_low"]
-    t = over_e(panel.name, e[low], limits[:, low])
-    y[low] = varying_edges(panel.edges, t, u[low])[-1]
-    return y
-
-
 def limits_at(table: Table, u: Array) -> Array:
     """Restitutions between the plastic panels at u, shape (2, n)."""
     return np.stack([_between(limit, u) for limit in table.limits])
@@ -233,8 +222,8 @@ def edges_of(name: str, varying: Sequence[Any], b: Any, e: Any) -> list[Any]:
 def of_one(table: Table, y: float, b: float, e: float, plastic: bool) -> tuple[str, float, float]:
     """One impact: its panel, y from which it slides throughout, and else velocity over zeta^2.
 
-    As `evaluate` and `slides_from`, in Python's floats: an operation of NumPy takes a microsecond,
-    however few the numbers. A block of coefficients is multiplied by its weights, axis by axis.
+    As `evaluate`, in Python's floats: an operation of NumPy takes a microsecond, however few the
+    numbers. A block of coefficients is multiplied by its weights, axis by axis.
     """
     u = over_b(b)
     column, part = _place(u, table.limits.shape[1] - 1)
