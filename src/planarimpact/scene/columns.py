@@ -35,7 +35,7 @@ _from_0 = partial(Column, allowed="finite numbers from 0", low=0)
 AXES = "xyz"
 
 BODY = {
-    "radius": _above("m", "from centre to contact point, and of curvature"),
+    "radius": _above("m", "distance from centre to contact point"),
     "density": _above("kg/m^3", "of a solid sphere; or else mass and gyration"),
     "mass": _above("kg"),
     "gyration": _above("m", "radius of gyration"),
@@ -261,6 +261,11 @@ def numbers(table: pd.DataFrame, names: dict[str, str]) -> tuple[dict[str, Array
             shown = repr(cell) if isinstance(cell, str) else str(cell)
             hint = DECIMALS if "," in shown else ""
             problems.setdefault(position, f"{text} = {shown}: allowed are {column.allowed}{hint}")
+    inertia = ("other_density", "other_mass", "other_gyration")
+    moves = np.any([np.isfinite(values[name]) for name in inertia if name in values], axis=0)
+    for position in np.flatnonzero(np.isinf(values.get("other_radius", 0.0)) & moves).tolist():
+        allowed = "allowed are finite numbers where the other body can move or turn"
+        problems.setdefault(position, f"{names['other_radius']} = inf: {allowed}")
     return values, problems
 
 

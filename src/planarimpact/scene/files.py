@@ -3,7 +3,6 @@
 import csv
 import gzip
 import io
-import sys
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -114,16 +113,17 @@ def _solved(
             after = solver.solve(table, skip_bad)
             # A column has one type in all parts, whatever a part has in it.
             names = columns.named(table)
-            if notice and (own := set(table) - {*names.values(), columns.LABEL}):
-                notice(f"not known, and carried over: columns {', '.join(map(repr, sorted(own)))}")
-            notice = None
+            own = [repr(name) for name in table if name not in {*names.values(), columns.LABEL}]
+            if notice and own and solver.rows == len(table):  # once
+                notice(f"not known, and carried over as they are: columns {', '.join(own)}")
             yield after.astype({names[name]: float for name in names.keys() - {"loss"}})
         if not solver.rows:
             raise InputError("it has a header, but no rows")
     except (ValueError, EOFError, OSError, csv.Error, zlib.error) as error:
         if isinstance(error, OSError) and error.errno:
             raise
-        raise InputError(f"{source}: {error}") from None
+        name = "standard input" if source == STREAM else source
+        raise InputError(f"{name}: {error}") from None
 
 
 def _parts(source: str) -> Iterator[pa.Table]:
@@ -191,9 +191,7 @@ def _numbers(cells: pa.Array) -> pa.Array:
 def _writer(target: str) -> Iterator[Write]:
     """A function that writes part after part of a table."""
     with ExitStack() as stack:
-        opened: Any = sys.stdout.fileno()
-        if target != STREAM:
-            opened = stack.enter_context(files.written(target))
+        opened: Any = 1 if target == STREAM else stack.enter_context(files.written(target))
         file: Any = stack.enter_context(open(opened, "wb", closefd=target != STREAM))
         if target.lower().endswith(GZIP):
             # Without a name and a time: the same table is the same file.

@@ -85,8 +85,7 @@ def _body(values: dict[str, Array], prefix: str) -> Body:
     wall = np.full(count, np.inf)
     mass, gyration = (values.get(f"{prefix}{name}", wall) for name in ("mass", "gyration"))
     # The radius of a body that can neither move nor turn may be infinite: it is flat.
-    flat = np.isinf(radius) & np.isinf(mass) & np.isinf(gyration)
-    return Body(mass, gyration, np.where(flat, 0.0, radius))
+    return Body(mass, gyration, np.where(np.isinf(radius), 0.0, radius))
 
 
 def _materials(values: dict[str, Array]) -> tuple[Material, Material | None]:
