@@ -323,7 +323,7 @@ def test_what_takes_long_is_told_before(table, capsys, monkeypatch):
     assert main(["scene", str(table), out, "--tolerance", "1e-4"]) == 0
     assert capsys.readouterr().err.splitlines() == [
         f"from row {row} on, the continuum is solved for {count} of {size} impacts, some "
-        f"milliseconds each; the table of spheres takes {tabled} of these from tolerance 0.005"
+        f"milliseconds each; with tolerance 0.005 the table of spheres would take {tabled} of these"
         for row, count, size, tabled in ((1, 7, 8, 5), (9, 4, 4, 2))
     ]
 

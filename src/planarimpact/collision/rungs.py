@@ -95,16 +95,6 @@ def _table_error(
     return (error + ROUNDING * groups[0]) * np.minimum(x, 1.0)
 
 
-def tolerance_of_table(impacts: Impacts, place: Integers) -> float:
-    """Smallest tolerance at which the table of spheres answers all impacts that it covers."""
-    rows = np.flatnonzero(np.isin(place, TOO_COARSE_RUNGS))
-    covered = np.ones(rows.size, dtype=bool)
-    plastic = impacts.plastic[rows] & (impacts.restitution[rows] < 1)
-    x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
-    errors = _table_error(x, groups, covered, plastic)
-    return float(np.max(errors, initial=0.0))
-
-
 class Answers(NamedTuple):
     """Answers to impacts, arrays of shape (n,), and messages for impacts without an answer."""
 

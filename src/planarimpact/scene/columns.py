@@ -96,8 +96,8 @@ def header(name: str, ending: str = "") -> str:
     return f"{name}{ending} [{unit}]" if unit else name + ending
 
 
-_STATES = [*PLANE, *SPACE, *OTHER_PLANE, *OTHER_SPACE]
-ADDED = {*(header(name, "_after") for name in _STATES), *map(header, RESULT)}
+_STATES = PLANE | SPACE | OTHER_PLANE | OTHER_SPACE
+ADDED = {header(name, "_after") for name in _STATES} | set(map(header, RESULT))
 
 
 def _lines(columns: dict[str, Column]) -> str:

@@ -7,7 +7,7 @@ import zlib
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 import pandas as pd
 
@@ -31,8 +31,6 @@ KINDS = CSV, GZIP, PARQUET = ".csv", ".csv.gz", ".parquet"
 STREAM = "-"
 # What is read at a time: bytes of CSV, rows of Parquet.
 BYTES, ROWS = 2**24, 100_000
-
-Write: TypeAlias = Callable[[pd.DataFrame], None]
 
 
 def solve(
@@ -58,8 +56,8 @@ def solve(
         Leave bad rows out instead of refusing the table. They are in `bad` of the result, and in a
         file beside the target, `<its name>.bad.csv`, which is written also if no row is bad.
     notice : callable, optional
-        Called with a line of text: which columns are not known, and what takes long, as in
-        `Solver`.
+        Called with a line of text: which columns are not known, and, as in `Solver`, what takes
+        long.
 
     Returns
     -------
@@ -110,12 +108,12 @@ def _solved(
     try:
         for part in _parts(source):
             table = part.to_pandas(types_mapper=pd.ArrowDtype, ignore_metadata=True)
-            after = solver.solve(table, skip_bad)
-            # A column has one type in all parts, whatever a part has in it.
             names = columns.named(table)
             own = [repr(name) for name in table if name not in {*names.values(), columns.LABEL}]
-            if notice and own and solver.rows == len(table):  # once
+            if notice and own and not solver.rows:
                 notice(f"not known, and carried over as they are: columns {', '.join(own)}")
+            after = solver.solve(table, skip_bad)
+            # A column has one type in all parts, whatever a part has in it.
             yield after.astype({names[name]: float for name in names.keys() - {"loss"}})
         if not solver.rows:
             raise InputError("it has a header, but no rows")
@@ -123,7 +121,8 @@ def _solved(
         if isinstance(error, OSError) and error.errno:
             raise
         name = "standard input" if source == STREAM else source
-        raise InputError(f"{name}: {error}") from None
+        words, *_ = str(error).splitlines() or [type(error).__name__]
+        raise InputError(f"{name}: {words}") from None
 
 
 def _parts(source: str) -> Iterator[pa.Table]:
@@ -146,7 +145,7 @@ def _of_csv(file: Any) -> Iterator[pa.Table]:
     known = columns.named(header)
     wrong: list[str] = []
 
-    def blank(row: pa.csv.InvalidRow) -> str:
+    def refused(row: pa.csv.InvalidRow) -> str:
         """Skip a blank line; note a row with too many or too few cells."""
         if row.text.isspace():
             return "skip"
@@ -160,7 +159,7 @@ def _of_csv(file: Any) -> Iterator[pa.Table]:
         batches = pa.csv.open_csv(
             file,
             pa.csv.ReadOptions(use_threads=False, block_size=BYTES, column_names=header),
-            pa.csv.ParseOptions(newlines_in_values=True, invalid_row_handler=blank),
+            pa.csv.ParseOptions(newlines_in_values=True, invalid_row_handler=refused),
             pa.csv.ConvertOptions(
                 column_types=dict.fromkeys(header, pa.string()),
                 null_values=[],
@@ -188,7 +187,7 @@ def _numbers(cells: pa.Array) -> pa.Array:
 
 
 @contextmanager
-def _writer(target: str) -> Iterator[Write]:
+def _writer(target: str) -> Iterator[Callable[[pd.DataFrame], None]]:
     """A function that writes part after part of a table."""
     with ExitStack() as stack:
         opened: Any = 1 if target == STREAM else stack.enter_context(files.written(target))

@@ -131,8 +131,8 @@ class Solver:
             tabled = int(np.isin(place, rungs.TOO_COARSE_RUNGS).sum())
             self._notice(
                 f"from row {self.rows + 1:,} on, the continuum is solved for {count:,} of "
-                f"{place.size:,} impacts, some milliseconds each; the table of spheres takes "
-                f"{tabled:,} of these from tolerance {collision.TOLERANCE:g}"
+                f"{place.size:,} impacts, some milliseconds each; with tolerance "
+                f"{collision.TOLERANCE:g} the table of spheres would take {tabled:,} of these"
             )
 
     def _refuse_two_losses(self, names: dict[str, str]) -> None:
