@@ -15,7 +15,7 @@ from planarimpact.collision import TOLERANCE
 from planarimpact.ground import files
 from planarimpact.ground.checks import InputError
 from planarimpact.scene import columns
-from planarimpact.scene.solver import Solver
+from planarimpact.scene.solver import BLOCK, Solver
 
 try:
     import pyarrow as pa
@@ -30,7 +30,7 @@ KINDS = CSV, GZIP, PARQUET = ".csv", ".csv.gz", ".parquet"
 # Standard input or output.
 STREAM = "-"
 # What is read at a time: bytes of CSV, rows of Parquet.
-BYTES, ROWS = 2**24, 100_000
+BYTES, ROWS = 2**22, BLOCK
 
 
 def solve(

@@ -16,8 +16,8 @@ from planarimpact.ground.checks import ConvergenceError, InputError
 from planarimpact.ground.results import Regime
 from planarimpact.scene import columns, states
 
-# Rows that are solved together: this bounds the memory.
-BLOCK = 2**17
+# Rows that are solved together. More take more memory, and no less time for each.
+BLOCK = 2**15
 # It is told where the continuum is solved for more impacts of a block: they take a second or more.
 MANY = 1000
 
