@@ -619,7 +619,7 @@ def _parser() -> argparse.ArgumentParser:
         "scene",
         help="solve a table of impacts",
         description="Solve a table of impacts, one a row, each by a formula, the table of spheres "
-        "or the continuum. Where the continuum takes long, standard error says for how many.",
+        "or the continuum.\nWhere the continuum takes long, standard error says for how many.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
         add_help=False,
     )

@@ -236,6 +236,14 @@ def test_parquet_is_refused_as_csv_is(tmp_path, given, words, capsys):
     assert os.listdir(tmp_path) == ["in.parquet"]
 
 
+def test_cells_that_csv_has_no_text_for_are_refused(tmp_path):
+    source = tmp_path / "in.parquet"
+    impacts(own=[["a"]] * COUNT).to_parquet(source)
+    with pytest.raises(InputError, match="out.csv: Unsupported Type:list"):
+        files.solve(source, tmp_path / "out.csv")
+    assert os.listdir(tmp_path) == ["in.parquet"]
+
+
 @pytest.mark.parametrize("kind", [".parquet", ".csv.gz"])
 def test_half_a_file_is_named(table, kind):
     source, out = table.with_name(f"half{kind}"), table.with_name("out.csv")

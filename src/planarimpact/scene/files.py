@@ -26,6 +26,8 @@ except ImportError as error:
     message = f"planarimpact.scene.files needs pyarrow: pip install 'planarimpact[scene]' ({error})"
     raise ImportError(message, name=error.name) from None
 
+# What readers raise where a file is no table, beside an OSError without a number.
+NO_TABLE = InputError, UnicodeError, csv.Error, EOFError, zlib.error, pa.ArrowException
 KINDS = CSV, GZIP, PARQUET = ".csv", ".csv.gz", ".parquet"
 # Standard input or output.
 STREAM = "-"
@@ -117,7 +119,7 @@ def _solved(
             yield after.astype({names[name]: float for name in names.keys() - {"loss"}})
         if not solver.rows:
             raise InputError("it has a header, but no rows")
-    except (ValueError, EOFError, OSError, csv.Error, zlib.error) as error:
+    except (*NO_TABLE, OSError) as error:
         if isinstance(error, OSError) and error.errno:
             raise
         name = "standard input" if source == STREAM else source
@@ -200,9 +202,11 @@ def _writer(target: str) -> Iterator[Callable[[pd.DataFrame], None]]:
         def write(part: pd.DataFrame) -> None:
             nonlocal writer
             rows = pa.Table.from_pandas(part, preserve_index=False).replace_schema_metadata()
-            if not writer:
-                writer = stack.enter_context(_begun(file, target, rows.schema))
-            writer.write_table(rows)
+            try:
+                writer = writer or stack.enter_context(_begun(file, target, rows.schema))
+                writer.write_table(rows)
+            except pa.ArrowException as error:  # a column of the user that CSV has no text for
+                raise InputError(f"{target}: {error}") from None
 
         yield write
 
