@@ -76,7 +76,6 @@ SIDE_DOORS = {
     "noncollinear.rigid",
     "scene.columns",
     "scene.files",
-    "scene.places",
     "collision.continua",  # the rungs, which scenes count
     "collision.model_form",
     "collision.presets",

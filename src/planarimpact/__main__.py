@@ -24,56 +24,12 @@ from planarimpact.continuum import ContinuumHistory
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import ArrayLike
 from planarimpact.ground.results import History, Rebound, Regime
+from planarimpact.scene import columns as scene_columns
 
 ABOUT = """
 What happens when a rough, elastic body strikes a surface at an angle?
 Incidence is v1(0)/(mu v2(0)): tangential over normal speed, over friction. All velocities come in
 mu v2(0), negative where the contact point has turned round.
-"""
-COLUMNS = """\
-Columns, with units in the header, separated by commas; the order is free. Row 1 is the first one
-below the header; blank lines do not count. Needed are:
-  radius [m]              distance from centre to contact point, and radius of curvature
-  density [kg/m^3]        of a solid sphere; or else mass [kg] and gyration [m]
-  young_modulus [Pa], poisson_ratio
-  friction                of the pair
-  restitution             of the pair; or else what gives it at the speed of each impact:
-    relaxation_time [s] of viscous bodies, or yield_pressure [Pa] of plastic ones, the largest
-    pressure that the contact carries; planarimpact.bodies finds both from e at one speed
-  loss                    viscous or plastic: what takes the energy; only beside restitution. A cell
-                          may be empty where restitution is 1; --loss says it for all rows
-  the state before, in a plane:
-    velocity_tangential [m/s], velocity_normal [m/s], positive towards the surface,
-    spin [rad/s], positive where it moves the contact point of this body forward (backspin)
-  or in space, for bodies that turn alike about every axis:
-    velocity_x [m/s], _y, _z, spin_x [rad/s], _y, _z, and the unit normal normal_x, _y, _z
-    from the surface to the body; 0, 0, 1 if left out. spin_x, _y, _z is the right-handed vector
-    of angular velocity: with x along and z up, a plane state has spin_y = -spin.
-The other body has the same columns with other_ in front. What is left out makes it simpler:
-  without a material      it is rigid
-  without a mass          (density, or mass and gyration) it is a wall of infinite mass, and has no
-                          state after; other_radius alone makes a wall round
-  without a velocity      it is at rest; of a velocity all components are needed
-  without a spin          it does not turn; in space all three components are needed
-Its velocities and spin have the directions of the first one's: positive other_spin turns the same
-way round. Its radius, mass, radius of gyration and Young's modulus may be inf.
-Columns of other names, such as id, are your own. They are carried over: from CSV and from words as
-text, cell by cell. A name that is nearly one of those above is refused, and so is one below.
-Restitution is 0.1 or more. Where the contact slides throughout it may be less; there the forces
-are NaN if it is below 0.022. With restitution 0 a plastic contact never slides throughout.
-The result has all these columns as they are, and then
-  the state after, named as before with _after; restitution and loss, where they are not given
-  contact_velocity_after [m/s]  of the contact point, in the direction of incidence
-  model, regime           which one solved the impact; the order of stick and slip
-  error_bound [m/s]       of the contact velocity, against the continuum: tested, not proved
-  model_form [m/s]        how far the contact velocity would move with the other loss, without a
-                          sign; it is 0 by accident where the two losses happen to agree
-  incidence               tangential over normal speed of the contact point, over friction
-  peak_normal_force [N], peak_friction_force [N], energy_lost [J]
-Example:
-  radius [m],density [kg/m^3],young_modulus [Pa],poisson_ratio,friction,restitution,loss,\
-velocity_tangential [m/s],velocity_normal [m/s],spin [rad/s]
-  0.01,7800,207e9,0.3,0.2,0.8,plastic,0.5,1,0
 """
 # Columns that are written and their units, by type of result; columns of text have no unit.
 UNITS: dict[type, dict[str, str]] = {
@@ -232,32 +188,28 @@ def _fit(options: argparse.Namespace) -> None:
 
 
 def _scene(options: argparse.Namespace) -> None:
+    """Solve a table, and say what became of its rows."""
     try:
         from planarimpact.scene import files as tables
-        from planarimpact.scene import places
     except ImportError as error:
         raise checks.InputError(str(error)) from None
-    target = places.target(options.output)
-    on_terminal = sys.stderr.isatty()
-    place = "\r{:<79}" if on_terminal else "{}"  # where the bar stands
     solver = tables.solve(
         options.input,
         options.output,
         options.tolerance,
         options.skip_bad,
-        progress=tables.Bar() if on_terminal else None,
-        loss=options.loss,
-        notice=lambda words: print(place.format(words), file=sys.stderr),
+        options.loss,
+        notice=lambda words: print(words, file=sys.stderr),
     )
     # Nothing else may stand in a table on standard output.
-    words = sys.stderr if target == places.target("-") else sys.stdout
-    print(f"{target.name}: {solver.rows - len(solver.bad)} impacts", file=words)
-    bad = places.beside(target)
-    if solver.bad and bad:
-        print(f"{bad.name}: {len(solver.bad)} bad rows left out", file=words)
-    elif solver.bad:
+    stream = options.output == tables.STREAM
+    words = sys.stderr if stream else sys.stdout
+    print(f"{options.output}: {solver.rows - len(solver.bad)} impacts", file=words)
+    if stream:
         for row, problem in solver.bad:
             print(f"row {row}, left out: {problem}", file=sys.stderr)
+    elif solver.bad:
+        print(f"{options.output}.bad.csv: {len(solver.bad)} bad rows left out", file=words)
     if options.explain:
         print(solver.explain(), file=words)
 
@@ -392,20 +344,19 @@ def _parser() -> argparse.ArgumentParser:
         _scene,
         "solve a table of impacts",
         "One impact a row, each by a formula, the table of spheres or the continuum. Where the "
-        "continuum takes long, standard error says why, how long, and which tolerance would avoid "
-        "it; a terminal has a bar.",
-        epilog=COLUMNS,
+        "continuum takes long, standard error says for how many.",
+        epilog=scene_columns.HELP,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     scene.add_argument(
         "input",
-        help="the table: a name that ends in .csv, .csv.gz or .parquet, a pipe, or - for standard "
-        "input; pipes are CSV",
+        help="the table: a name that ends in .csv, .csv.gz or .parquet, or - for standard input, "
+        "which is CSV",
     )
     scene.add_argument(
         "output",
-        help="the same table with the state after each impact: names as for the input, .json too, "
-        "or - for standard output",
+        help="the same table with the state after each impact: names as for the input, or - for "
+        "standard output",
     )
     scene.add_argument(
         "--tolerance",
@@ -427,7 +378,7 @@ def _parser() -> argparse.ArgumentParser:
         "--skip-bad",
         action="store_true",
         help="leave bad rows out, and list them by number in OUTPUT.bad.csv, or on standard error "
-        "where the output is a pipe",
+        "where OUTPUT is -",
     )
 
     fitted = command(

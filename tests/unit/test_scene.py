@@ -211,7 +211,7 @@ BAD_COLUMNS = [
     (without(STEEL, "radius [m]") | {"radius": 1} | PLANE, r"the unit of radius is \[m\]"),
     (
         without(STEEL, "friction") | {"mu": 1, "id": 2} | PLANE,
-        r"columns friction: missing; unknown is 'mu'; known are radius \[m\], .* in front$",
+        r"columns friction: missing; unknown is 'mu'$",
     ),
     (STEEL | {"regime": 1} | PLANE, "column 'regime': the result has a column of this name"),
     (STEEL | {"densty [kg/m^3]": 1} | PLANE, r"did you mean 'density \[kg/m\^3\]'"),
@@ -294,32 +294,6 @@ def test_a_bad_row_is_named_or_left_out(name, value, words):
 
 def of_material(**material):
     return table(without(STEEL, "restitution", "loss"), PLANE, material)
-
-
-@pytest.mark.parametrize(
-    ("header", "value", "law", "loss"),
-    [
-        ("relaxation_time [s]", 1e-6, bodies.viscous_restitution, "viscous"),
-        ("yield_pressure [Pa]", 2e9, bodies.plastic_restitution, "plastic"),
-    ],
-)
-def test_the_material_gives_restitution_at_the_speed_of_each_impact(header, value, law, loss):
-    speeds = np.array([0.05, 0.5, 5.0])
-    rows = of_material(**{header: value}).loc[[0] * 3]
-    values, _ = inputs(rows.assign(**{"velocity_normal [m/s]": speeds}))
-    found, peak_normal, _ = states.rows(values)
-    ball = bodies.solid_sphere(0.01, 7800.0)
-    contact = ball.mass, bodies.effective_modulus(bodies.Material(207e9, 0.3)), 0.01
-    e = law(speeds, value, *contact)
-    assert (np.diff(e) < 0).all() and e[2] < 0.9
-    np.testing.assert_allclose(found.restitution, e, rtol=1e-13)
-    assert found.plastic.tolist() == [loss == "plastic"] * 3
-    force = bodies.peak_force(ball.mass, speeds, *contact[1:], e, loss)
-    np.testing.assert_allclose(peak_normal, force, rtol=1e-9)
-    wanted = rows.assign(**{"velocity_normal [m/s]": speeds, "restitution": e, "loss": loss})
-    same, _ = inputs(wanted.drop(columns=header))
-    for one, other in zip(states.rows(same).impacts, found, strict=True):
-        np.testing.assert_allclose(np.stack(one), np.stack(other), rtol=1e-9, atol=1e-12)
 
 
 def inputs(rows):

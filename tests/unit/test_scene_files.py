@@ -1,55 +1,51 @@
-"""Files of scenes: Parquet beside CSV, text of numbers, and workers."""
+"""Scenes from file to file, and on the command line."""
 
-import contextlib
 import csv
-import io
-import json
-import multiprocessing
+import gzip
 import os
-import signal
+import shlex
 import subprocess
 import sys
-import time
-from decimal import Decimal
 
 import numpy as np
 import pandas as pd
-import psutil
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from planarimpact import InputError
+from planarimpact import ConvergenceError, InputError, scene
 from planarimpact.__main__ import main
-from planarimpact.scene import files, places, reading, workers, writing
+from planarimpact.collision import TOLERANCE
+from planarimpact.scene import columns, files, solver
 
 COUNT = 7
+ROW = {
+    "radius [m]": 0.01,
+    "density [kg/m^3]": 7800,
+    "young_modulus [Pa]": 207e9,
+    "poisson_ratio": 0.3,
+    "friction": 0.05,  # it slides throughout: its result is a formula, the same to the last digit
+    "restitution": 0.8,
+    "loss": "viscous",
+    "velocity_tangential [m/s]": 1.0,
+    "velocity_normal [m/s]": 2.5,
+    "spin [rad/s]": 0.0,
+}
+HEADER = ",".join(ROW)
+CELLS = [str(value) for value in ROW.values()]
+LINE = ",".join(CELLS)
+OTHER = {"other_radius [m]": 0.01, "other_gyration [m]": 0.005}
 
 
 def impacts(**more):
     """Spheres that slide throughout, but for one without friction: all of them are formulas."""
     rng = np.random.default_rng(4)
-    row = {
-        "radius [m]": 0.01,
-        "density [kg/m^3]": 7800,  # whole numbers
-        "young_modulus [Pa]": 207e9,
-        "poisson_ratio": 0.3,
+    varied = {
         "friction": [0.05] * 6 + [0.0],
         "restitution": [0.8, 0.8, 0.01, 0.8, 0.8, 0.8, 0.8],  # one without peak forces
-        "loss": "viscous",
         "velocity_tangential [m/s]": rng.uniform(1, 2, COUNT),
-        "velocity_normal [m/s]": np.float32(2.5),
-        "spin [rad/s]": 0.0,
     }
-    return pd.DataFrame(row | more)
-
-
-def same(found, wanted):
-    """Whether two tables have the same columns, words and bits, whatever they take for no value."""
-    pd.testing.assert_frame_equal(
-        found, wanted, check_dtype=False, check_exact=True, check_categorical=False
-    )
-    return True
+    return pd.DataFrame(ROW | varied | more)
 
 
 @pytest.fixture
@@ -59,70 +55,170 @@ def table(tmp_path):
     return path
 
 
-def test_the_same_table_in_parquet_has_the_same_answers(tmp_path):
+@pytest.fixture
+def small_parts(monkeypatch):
+    """Parts of some rows, which a table larger than the memory has by the thousand."""
+    monkeypatch.setattr(files, "BYTES", 200)
+    monkeypatch.setattr(files, "ROWS", 2)
+
+
+def cells_of(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+# One table, in all kinds of files.
+
+
+def test_every_kind_of_file_has_the_same_answers(tmp_path, table, small_parts):
     rows = impacts(id=["7", "a,b", 'say "c"', "", "two\nlines", "NA", "1.50"])
-    rows.to_csv(tmp_path / "in.csv", index=False)
+    rows.to_csv(table, index=False)
+    (tmp_path / "IN.CSV.GZ").write_bytes(gzip.compress(table.read_bytes()))
     # Parquet has whole numbers, short ones, text and dictionaries, CSV has text.
-    text = rows.assign(**{"radius [m]": "0.01", "id": rows["id"].astype("category")})
-    text.to_parquet(tmp_path / "in.parquet", row_group_size=3)
-    for source in ("in.csv", "in.parquet"):
-        for target in (f"{source}.csv", f"{source}.parquet"):
-            files.solve(tmp_path / source, tmp_path / target, rows=2)
+    short = {"velocity_normal [m/s]": "float32", "id": "category", "radius [m]": str}
+    rows.astype(short).to_parquet(tmp_path / "in.parquet", row_group_size=3)
+    for kind in files.KINDS:
+        for source in ("in.csv", "IN.CSV.GZ", "in.parquet"):
+            files.solve(tmp_path / source, tmp_path / f"{source}{kind}")
     plain = (tmp_path / "in.csv.csv").read_bytes()
-    assert (tmp_path / "in.parquet.csv").read_bytes() == plain
-    wanted = pd.read_csv(io.BytesIO(plain), keep_default_na=False, dtype={"id": str})
-    unknown = "model_form [m/s]", "peak_normal_force [N]", "peak_friction_force [N]"
-    for name in ("incidence", *unknown):
-        wanted[name] = pd.to_numeric(wanted[name], errors="coerce")
-    found = pd.read_parquet(tmp_path / "in.csv.parquet")
-    assert found["peak_normal_force [N]"].isna().tolist() == [i == 2 for i in range(COUNT)]
-    assert same(found, wanted) and same(pd.read_parquet(tmp_path / "in.parquet.parquet"), wanted)
+    for source in ("in.csv", "IN.CSV.GZ", "in.parquet"):
+        assert (tmp_path / f"{source}.csv").read_bytes() == plain
+        assert gzip.decompress((tmp_path / f"{source}.csv.gz").read_bytes()) == plain
+        found = pd.read_parquet(tmp_path / f"{source}.parquet")
+        wanted = scene.solve(rows)
+        pd.testing.assert_frame_equal(
+            found, wanted, check_dtype=False, check_exact=True, check_categorical=False
+        )
+    packed = [(tmp_path / f"{source}.csv.gz").read_bytes() for source in ("in.csv", "in.parquet")]
+    assert packed[0] == packed[1]  # no name of a file, no time
 
 
-def test_whole_numbers_are_an_id_in_parquet_and_some_may_be_missing(tmp_path):
-    source, target = tmp_path / "in.parquet", tmp_path / "out.parquet"
-    label = pa.array([2**53 + 1, None, 3, 4, 5, 6, 7])
-    pq.write_table(pa.Table.from_pandas(impacts()).append_column("id", label), source)
-    files.solve(source, target, rows=2)
-    assert pq.read_table(target)["id"].combine_chunks() == label
-    for kind, missing in ((".csv", ""), (".json", None)):
-        out = tmp_path / f"out{kind}"
-        files.solve(source, out)
-        text = out.read_text()
-        found = json.loads(text) if kind == ".json" else list(csv.DictReader(text.splitlines()))
-        assert [str(row["id"]) for row in found[:3:2]] == [str(2**53 + 1), "3"]
-        assert found[1]["id"] == missing
+def test_parts_do_not_show(table, monkeypatch):
+    """A part of whole numbers is written as one of others is, also after a row of words."""
+    spins = ["1", "2", "3", "0.5", "4", "fast", "-7"]
+    other = {**OTHER, "other_mass [kg]": [np.inf, np.inf, 1.0, 2.0, np.inf, 1, 1]}
+    impacts(**{"spin [rad/s]": spins, **other}).to_csv(table, index=False)
+    whole, parts = table.with_name("whole.csv"), table.with_name("parts.csv")
+    first = files.solve(table, whole, skip_bad=True)
+    monkeypatch.setattr(files, "BYTES", 200)
+    second = files.solve(table, parts, skip_bad=True)
+    assert whole.read_text() == parts.read_text() and first.explain() == second.explain()
+    assert pd.read_csv(whole)["spin [rad/s]"].tolist() == [1, 2, 3, 0.5, 4, -7]
+    assert first.rows == second.rows == COUNT and first.bad == second.bad
 
 
-def test_columns_of_the_user_alone_are_carried_over(tmp_path):
-    """As text from CSV, cell by cell; with their types from Parquet, also where some are missing"""
-    rows = impacts(colour=["red", "", "a,b", "NA", "1.50", "é", "1"], batch=[1, 2, 3] + [None] * 4)
-    rows = rows.astype({"batch": "Int64"}).assign(good=[True, False] * 3 + [None], age=0.1)
-    rows.to_csv(tmp_path / "in.csv", index=False)
+def test_numbers_are_read_and_written_to_the_last_place(tmp_path):
+    """From text, and as text: any float64, in a column of the user alone."""
+    bits = np.random.default_rng(1).integers(0, 2**64, 20_000, dtype=np.uint64).view(float)
+    special = [0.0, -0.0, 5e-324, -np.inf, np.inf, 1e10, 1e16, 2.0**53, 1e22, 207e9, 1e-5]
+    numbers = np.concatenate([special, bits[~np.isnan(bits)]])
+    spins = np.random.default_rng(8).normal(0, 50, numbers.size)
+    rows = pd.DataFrame(ROW | {"own": numbers, "spin [rad/s]": spins})
     rows.to_parquet(tmp_path / "in.parquet")
-    for source in ("in.csv", "in.parquet"):
-        said = []
-        files.solve(tmp_path / source, tmp_path / "out.json", rows=2, notice=said.append)
-        found = json.loads((tmp_path / "out.json").read_text())
-        is_csv = source == "in.csv"
-        assert [row["colour"] for row in found] == rows["colour"].tolist()
-        assert [row["batch"] for row in found[2:4]] == (["3", ""] if is_csv else [3, None])
-        assert [row["good"] for row in found[5:]] == (["False", ""] if is_csv else [False, None])
-        assert found[0]["age"] == ("0.1" if is_csv else 0.1)
-        words = "not known, and carried over as they are: columns 'colour', 'batch', 'good', 'age'"
-        assert said == [words]
+    files.solve(tmp_path / "in.parquet", tmp_path / "out.csv")
+    found = np.array([float(row["own"]) for row in cells_of(tmp_path / "out.csv")])
+    assert np.array_equal(found.view(np.uint64), numbers.view(np.uint64))
+    given = [row["spin [rad/s]"] for row in cells_of(tmp_path / "out.csv")]
+    assert list(map(float, given)) == spins.tolist()
+    text = rows[list(ROW)].assign(**{"spin [rad/s]": list(map(repr, spins.tolist()))})
+    text.to_csv(tmp_path / "in.csv", index=False)
+    files.solve(tmp_path / "in.csv", tmp_path / "out.parquet")
+    assert pd.read_parquet(tmp_path / "out.parquet")["spin [rad/s]"].tolist() == spins.tolist()
+
+
+def test_spaces_around_numbers_are_no_part_of_them(table, tmp_path):
+    plain, spaced = tmp_path / "plain.csv", tmp_path / "spaced.csv"
+    files.solve(table, plain)
+    text = table.read_text().split("\n", 1)
+    table.write_text("\n".join([text[0], text[1].replace(",", " , ").replace("\n", " \n \n")]))
+    files.solve(table, spaced)
+    assert spaced.read_text().replace(" viscous ", "viscous") == plain.read_text()
+
+
+# Columns of the user alone.
+
+OWN = "007", "1e5", "", "NA", "null", " x y ", 'a "b", c', "two\nlines", "1.50", "-0", "c\r\n", "é"
+
+
+def test_cells_of_csv_are_carried_over_as_text(table, small_parts):
+    given = [{"radius [m]": 0.01, "colour": name, **ROW} for name in OWN]
+    with open(table, "w", encoding="utf-8-sig", newline="") as file:  # as Excel writes it
+        writer = csv.DictWriter(file, list(given[0]))
+        writer.writeheader()
+        writer.writerows(given)
+    out, said = table.with_name("out.csv"), []
+    files.solve(table, out, notice=said.append)
+    assert [row["colour"] for row in cells_of(out)] == list(OWN)
+    assert list(cells_of(out)[0])[:11] == list(given[0])
+    assert said == ["not known, and carried over as they are: columns 'colour'"]
+
+
+def test_cells_of_parquet_keep_their_types_also_where_some_are_missing(tmp_path, small_parts):
+    source = tmp_path / "in.parquet"
+    own = {
+        "batch": pa.array([2**53 + 1, None, 3, 4, 5, 6, 7]),
+        "good": pa.array([True, False, None, True, True, True, None]),
+        "name": pa.array(["a", None, "", "b", "c", "d", "e"]),
+    }
+    rows = pa.Table.from_pandas(impacts())
+    for name, cells in own.items():
+        rows = rows.append_column(name, cells)
+    pq.write_table(rows, source)
+    files.solve(source, tmp_path / "out.parquet")
+    found = pq.read_table(tmp_path / "out.parquet")
+    for name, cells in own.items():
+        assert found[name].combine_chunks() == cells
+    files.solve(source, tmp_path / "out.csv")
+    found = cells_of(tmp_path / "out.csv")[:3]
+    assert [(row["batch"], row["good"], row["name"]) for row in found] == [
+        (str(2**53 + 1), "true", "a"),
+        ("", "false", ""),
+        ("3", "", ""),
+    ]
+
+
+# Refusals.
+
+NO_TABLES = [
+    ("", "columns radius [m], young_modulus [Pa], poisson_ratio, friction: missing"),
+    (f"{HEADER}\n", "Empty CSV file"),
+    (f"{HEADER}\n \n\n", "it has a header, but no rows"),
+    ("radius [m],radius [m]\n1,1\n", "column 'radius [m]' is there twice"),
+    (HEADER.replace(",", ";"), "friction: missing; unknown is 'radius [m];density [kg/m^3];"),
+    (f"{LINE}\n{LINE}\n", "missing; unknown is '0.01', '7800'"),
+    (f"{HEADER}\n{LINE}\n\n{LINE},8\n", "row 2: 11 cells where 10 belong; decimals have"),
+    (f"{HEADER}\n{LINE}\n{','.join(CELLS[:-1])}\n", "row 2: 9 cells where 10 belong\n"),
+    (f"{HEADER}\n{','.join(f'{c},0' for c in CELLS)}\n", "decimals have a point, not a comma"),
+    (f"{HEADER},id\n{LINE[:-1]}0,5,1,\n", "row 1: 13 cells where 11 belong"),
+    (f'id,{HEADER}\n"a\nb",{LINE}\n"c,d",{LINE},8\n', "row 2: 12 cells where 11 belong"),
+    (f'{HEADER}\n"0,01",{LINE[5:]}\n', "'0,01': allowed are finite numbers above 0; decimals"),
+    (f'id,{HEADER}\n"a,{LINE}\n{LINE}\n', "row 1: 1 cells where 11 belong"),
+    (f"{HEADER}\n{LINE[:-3]}NA\n", "row 1: spin [rad/s] = 'NA': allowed are finite numbers"),
+    (f"{HEADER}\n{LINE[:-3]}\n", "row 1: spin [rad/s] = '': allowed are finite numbers"),
+    (f"{HEADER}\n{LINE[:-3]}1_0\n", "row 1: spin [rad/s] = '1_0': allowed are finite numbers"),
+    (f"{HEADER}\n{LINE}\xe9\n".encode("latin-1"), "invalid UTF8 data"),
+    (f"{HEADER}\xe9\n{LINE}\n".encode("latin-1"), "invalid continuation byte"),
+]
+
+
+@pytest.mark.parametrize(("text", "words"), NO_TABLES, ids=[words for _, words in NO_TABLES])
+def test_what_is_no_table_is_named_for_what_it_is(table, text, words, capsys):
+    table.write_bytes(text if isinstance(text, bytes) else text.encode())
+    assert main(["scene", str(table), str(table.with_name("out.csv"))]) == 2
+    found = capsys.readouterr().err
+    assert "in.csv: " in found and words in found and found.count("\n") == 1
+    assert os.listdir(table.parent) == ["in.csv"]
 
 
 NO_PARQUET = [
     ({"friction": -1.0}, "row 1: friction = -1.0: allowed are"),
-    ({"friction": [0.1, None] * 3 + [1]}, "row 2: friction = nan: allowed are"),
+    ({"friction": [0.1, None] * 3 + [1]}, "row 2: friction = <NA>: allowed are"),
     ({"friction": "1_0"}, "row 1: friction = '1_0': allowed are"),
     ({"friction": True}, "row 1: friction = True: allowed are"),
-    ({"id": [["a"]] * COUNT}, "column 'id' has cells of type list<"),
     ({"Friction": "red"}, "column 'Friction': unknown; did you mean 'friction'?"),
     (impacts()[:0], "it has a header, but no rows"),
-    (b"radius [m]\n1\n", "it is no whole Parquet file: Parquet magic bytes not found"),
-    (b"", "it is no whole Parquet file"),
+    (b"radius [m]\n1\n", "Parquet magic bytes not found"),
+    (b"", "Parquet file size is 0 bytes"),
 ]
 
 
@@ -139,182 +235,174 @@ def test_parquet_is_refused_as_csv_is(tmp_path, given, words, capsys):
     assert os.listdir(tmp_path) == ["in.parquet"]
 
 
-def test_half_a_file_of_parquet_is_named(tmp_path):
+def test_cells_that_csv_has_no_text_for_are_refused(tmp_path):
     source = tmp_path / "in.parquet"
-    impacts().to_parquet(source)
-    whole = source.read_bytes()
-    source.write_bytes(whole[:4] + bytes(len(whole) // 2) + whole[4 + len(whole) // 2 :])
-    with pytest.raises(InputError, match="in.parquet: it is no whole Parquet file"):
+    impacts(own=[["a"]] * COUNT).to_parquet(source)
+    with pytest.raises(InputError, match="out.csv: Unsupported Type:list"):
         files.solve(source, tmp_path / "out.csv")
+    assert os.listdir(tmp_path) == ["in.parquet"]
 
 
-def test_text_reads_back_to_the_same_bits():
-    bits = np.random.default_rng(1).integers(0, 2**64, 20_000, dtype=np.uint64)
-    numbers = np.concatenate([bits.view(float), np.random.default_rng(2).normal(0, 50, 20_000)])
-    numbers = numbers[~np.isnan(numbers)]
-    special = [0.0, -0.0, 5e-324, -np.inf, np.inf]
-    special += [1e9, 1e10, 1e15, 1e16, 2.0**53, 1e22, 207e9, 1e-5]
-    numbers = np.concatenate([special, numbers])
-    table = pd.DataFrame({"x": numbers})
-    cells = writing.encoded(table, places.CSV, header=False).decode().splitlines()
-    found = np.array([float(cell) for cell in cells])
-    assert np.array_equal(found.view(np.uint64), numbers.view(np.uint64))
-    assert list(map(Decimal, cells)) == list(map(Decimal, map(repr, found.tolist())))  # shortest
-    objects = json.loads(f"[{writing.encoded(table, places.JSON, header=False).decode()}]")
-    kept = np.isfinite(numbers)
-    assert [row["x"] for row in objects] == np.where(kept, numbers, None).tolist()
+@pytest.mark.parametrize("kind", [".parquet", ".csv.gz"])
+def test_half_a_file_is_named(table, kind):
+    source, out = table.with_name(f"half{kind}"), table.with_name("out.csv")
+    files.solve(table, table.with_name(f"whole{kind}"))
+    whole = table.with_name(f"whole{kind}").read_bytes()
+    source.write_bytes(whole[:9] + whole[len(whole) // 2 :] if kind == ".parquet" else whole[:-9])
+    with pytest.raises(InputError, match=f"half{kind}: "):
+        files.solve(source, out)
+    assert not out.exists()
 
 
-def test_spaces_around_numbers_are_no_part_of_them(table, tmp_path):
-    plain, spaced = tmp_path / "plain.csv", tmp_path / "spaced.csv"
-    files.solve(table, plain)
-    text = table.read_text().split("\n", 1)
-    table.write_text("\n".join([text[0], text[1].replace(",", " , ").replace("\n", " \n \n")]))
-    files.solve(table, spaced, rows=3)
-    assert spaced.read_text().replace(" viscous ", "viscous") == plain.read_text()
+def test_a_number_too_large_is_not_infinite_in_a_file(table):
+    masses = ["1e99", "inf", "1e400"] + ["1"] * 4
+    impacts(**OTHER, **{"other_mass [kg]": masses}).to_csv(table, index=False)
+    out = table.with_name("out.csv")
+    with pytest.raises(InputError, match=r"row 3: other_mass \[kg\] = '1e400': allowed are"):
+        files.solve(table, out)
+    assert not out.exists()
+    files.solve(table, out, skip_bad=True)
+    assert pd.read_csv(out)["other_mass [kg]"].tolist() == [1e99, np.inf, 1, 1, 1, 1]
 
 
-def test_a_quotation_mark_without_a_second_one_does_not_read_the_whole_table(table, monkeypatch):
-    monkeypatch.setattr(reading, "MOST_LINES", 2)
-    lines = impacts(id="x").to_csv(index=False).splitlines(keepends=True)
-    source = io.BytesIO("".join([*lines[1:3], '"', *lines[3:]]).encode())
-    assert next(reading._cut(source, 3)).count(b"\n") == 3 + 2
-
-
-# Workers.
-
-
-def test_workers_do_not_show(table, tmp_path, capsys):
-    rows = impacts(id=[f'"{i}", ball' for i in range(COUNT)])
+@pytest.mark.parametrize("small", [False, True])
+def test_a_bad_row_leaves_nothing_behind_or_is_left_out(table, capsys, small, request):
+    """Also where parts before it are solved already. An earlier result survives."""
+    if small:
+        request.getfixturevalue("small_parts")
+    rows = impacts()
     rows.loc[4, "friction"] = -1
     rows.to_csv(table, index=False)
-    for kind, several in (("csv", 3), ("parquet", 2)):
-        shares, said, results = {}, {}, {}
-        for count in (1, several):
-            out, seen = tmp_path / f"{count}.{kind}", []
-            solver = files.solve(
-                table,
-                out,
-                skip_bad=True,
-                rows=2,
-                progress=lambda *done, seen=seen: seen.append(done),
-                workers=count,
-            )
-            shares[count], said[count] = seen, solver.explain()
-            results[count] = out.read_bytes()
-            assert solver.rows == COUNT and [row for row, _ in solver.bad] == [5]
-            assert pd.read_csv(f"{out}.bad.csv")["row"].tolist() == [5]
-        for found in (shares, said, results):
-            assert found[1] == found[several]
-    assert main(["scene", str(table), str(tmp_path / "1.csv"), "--workers", "2"]) == 2
-    assert "row 5: friction = -1.0: allowed are" in capsys.readouterr().err
+    out, bad = table.with_name("out.csv"), table.with_name("out.csv.bad.csv")
+    out.write_text("earlier")
+    assert main(["scene", str(table), str(out)]) == 2
+    assert "in.csv: row 5: friction = -1" in capsys.readouterr().err
+    assert out.read_text() == "earlier" and len(os.listdir(table.parent)) == 2
+    assert main(["scene", str(table), str(out), "--skip-bad"]) == 0
+    assert "6 impacts\n" in (said := capsys.readouterr().out) and "1 bad rows left out" in said
+    assert len(pd.read_csv(out)) == 6
+    assert pd.read_csv(bad)["row"].tolist() == [5]
+    assert pd.read_csv(bad)["problem"][0].startswith("friction = -1.0: allowed are")
+    impacts().to_csv(table, index=False)
+    files.solve(table, out, skip_bad=True)
+    assert bad.read_text() == "row,problem\n"  # of the result that is there
 
 
-@pytest.mark.parametrize("count", [1, 2])
-def test_what_takes_long_moves_on_and_is_told(table, tmp_path, monkeypatch, count):
-    """Rows for which the continuum is solved are cut into parts, and the first one tells how long.
+def test_a_contact_without_an_answer_leaves_nothing_behind(table):
+    needle = {"mass [kg]": 0.1, "gyration [m]": 1e-7, "friction": 0.3, "restitution": 1.0}
+    impacts(**needle).drop(columns="density [kg/m^3]").to_csv(table, index=False)
+    with pytest.raises(ConvergenceError, match="row 1: "):
+        files.solve(table, table.with_name("out.csv"))
+    assert os.listdir(table.parent) == ["in.csv"]
 
-    The result is the same. An elastic impact takes a twentieth of a viscous one.
-    """
+
+def test_a_table_is_not_replaced_by_its_result(table, capsys):
+    linked = table.with_name("linked.csv")
+    linked.hardlink_to(table)
+    for source, out in ((table, table), (table, linked)):
+        assert main(["scene", str(source), str(out)]) == 2
+        assert "it is the table that is read" in capsys.readouterr().err
+
+
+# The command line.
+
+
+def test_a_scene_on_the_command_line(table, capsys):
+    impacts(batch=7, id="a").to_csv(table, index=False)
+    out = table.with_name("out.csv")
+    assert main(["scene", str(table), str(out), "--explain"]) == 0
+    said = capsys.readouterr()
+    assert f"7 impacts, tolerance {TOLERANCE:g}\n" in said.out and "slip throughout" in said.out
+    assert said.err == "not known, and carried over as they are: columns 'batch'\n"
+    assert pd.read_csv(out)[["batch", "id"]].iloc[0].tolist() == [7, "a"]
+    assert sorted(os.listdir(table.parent)) == ["in.csv", "out.csv"]
+
+
+def test_what_takes_long_is_told_before(table, capsys, monkeypatch):
+    """How often the continuum is solved, and what tolerance avoids it, for each block."""
+    monkeypatch.setattr(solver, "MANY", 3)
+    monkeypatch.setattr(solver, "BLOCK", 8)
     e = np.tile([0.8, 1.0, 0.2, 0.8, 0.2, 0.8], 2)
-    rows = pd.DataFrame([impacts().iloc[0]] * e.size).assign(restitution=e, friction=0.4)
-    rows.loc[:, "velocity_tangential [m/s]"] = 1.0
-    rows.iloc[0, list(rows).index("friction")] = 0.0
+    rows = pd.DataFrame([ROW] * e.size).assign(restitution=e, friction=0.4)
+    rows.loc[0, "friction"] = 0.0
     rows.to_csv(table, index=False)
-    plain, parts = tmp_path / "plain.parquet", tmp_path / "parts.parquet"
-    files.solve(table, plain, 1e-4, rows=8)
-    monkeypatch.setattr(files, "PART", 2)
-    monkeypatch.setattr(files, "LONG", 0.0)
-    done, said = [], []
-    solver = files.solve(
-        *(table, parts, 1e-4),
-        rows=8,
-        progress=lambda *now: done.append(now),
-        workers=count,
-        notice=said.append,
+    out = str(table.with_name("out.csv"))
+    assert main(["scene", str(table), out, "--tolerance", "1e-4"]) == 0
+    assert capsys.readouterr().err.splitlines() == [
+        f"from row {row} on, the continuum is solved for {count} of {size} impacts, some "
+        f"milliseconds each; with tolerance 0.005 the table of spheres would take {tabled} of these"
+        for row, count, size, tabled in ((1, 7, 8, 5), (9, 4, 4, 2))
+    ]
+
+
+def test_the_help_lists_every_column(capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(["scene", "--help"])
+    said = capsys.readouterr().out
+    own = [columns.header(name) for name in columns.KNOWN if not name.startswith("other_")]
+    assert ended.value.code == 0
+    for text in [*own, *map(columns.header, columns.RESULT)]:
+        assert f"  {text} " in said or f"  {text}\n" in said
+
+
+@pytest.fixture
+def standard_input():
+    """A function that makes a file standard input."""
+    saved = os.dup(0)
+
+    def take(path):
+        with open(path, "rb") as file:
+            os.dup2(file.fileno(), 0)
+
+    yield take
+    os.dup2(saved, 0)
+    os.close(saved)
+
+
+def test_from_standard_input_to_standard_output(table, capfd, standard_input):
+    plain = table.with_name("plain.csv")
+    files.solve(table, plain)
+    standard_input(table)
+    assert main(["scene", "-", "-", "--explain"]) == 0
+    found = capfd.readouterr()
+    assert found.out == plain.read_text()
+    assert "7 impacts" in found.err and "slip throughout" in found.err
+
+
+def test_bad_rows_of_a_stream_are_listed_on_standard_error(table, capfd, standard_input):
+    table.write_text(f"{HEADER}\n{LINE}\n-{LINE}\n{LINE}\n")
+    standard_input(table)
+    assert main(["scene", "-", "-", "--skip-bad"]) == 0
+    found = capfd.readouterr()
+    assert len(found.out.splitlines()) == 3
+    assert "row 2, left out: radius [m] = -0.01: allowed are finite numbers above 0" in found.err
+    standard_input(table)
+    assert main(["scene", "-", "-"]) == 2
+    assert "standard input: row 2: radius [m] = -0.01" in capfd.readouterr().err
+    assert os.listdir(table.parent) == ["in.csv"]
+
+
+def test_an_interrupt_does_not_speak_of_what_may_be_written(table, monkeypatch, capsys):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(files, "solve", interrupted)
+    assert main(["scene", str(table), "-"]) == 130
+    assert capsys.readouterr().err == "planarimpact: interrupted\n"
+
+
+def test_a_reader_of_the_table_that_has_had_enough_is_no_error(table):
+    command = f"{shlex.quote(sys.executable)} -m planarimpact scene {table} - | :"
+    result = subprocess.run(
+        ["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True
     )
-    shares = [share for share, _ in done]
-    assert [count for _, count in done] == [4, 6, 8, 10, 12] and shares[-1] == 1
-    np.testing.assert_allclose(np.diff(shares[:3]), np.diff(shares[:2])[0])
-    assert shares == sorted(shares) and solver.rows == 12
-    (words,) = said
-    assert words.startswith(
-        "rows 1 to 8: the continuum is solved for 7 impacts, as the table of spheres is too coarse "
-        "for 5 (with tolerance 0.00016 it is not) and does not cover 2 at any tolerance; about "
-    )
-    assert words.endswith(" s from there to the end, at the speed of the first of them")
-    pd.testing.assert_frame_equal(pd.read_parquet(parts), pd.read_parquet(plain), rtol=1e-9)
-    assert pq.ParquetFile(parts).num_row_groups == 1
+    assert result.returncode == 0 and "Traceback" not in result.stderr
 
 
-def test_of_many_refusals_workers_find_the_first(table, tmp_path):
-    lines = table.read_text().splitlines()
-    lines[3] = lines[3].replace("0.05", "-1")  # row 3, in the second piece
-    lines[6] += ",8"  # row 6, in the third
-    table.write_text("\n".join([*lines, lines[1], '"']))
-    out = tmp_path / "out.csv"
-    for words in (
-        r"row 3: friction = -1.0",
-        "row 6: 11 cells where 10 belong",
-        "row 9: its quot",
-    ):
-        for count in (1, 2):
-            with pytest.raises(InputError, match=f"in.csv: {words}"):
-                files.solve(table, out, rows=2, workers=count)
-        assert os.listdir(tmp_path) == ["in.csv"]
-        lines = table.read_text().splitlines()
-        bad = 3 if "row 3" in words else 6
-        table.write_text("\n".join([*lines[:bad], lines[1], *lines[bad + 1 :]]))
-
-
-def killed(*_):
-    os.kill(os.getpid(), signal.SIGKILL)
-
-
-def ended(*_):
-    os._exit(3)
-
-
-@pytest.mark.parametrize("end", [killed, ended])
-def test_a_worker_that_ends_leaves_nothing_behind(table, tmp_path, monkeypatch, end):
-    monkeypatch.setattr(workers, "solved", end)
-    out = tmp_path / "out.csv"
-    words = "in.csv: a worker ended before its work was done: it may lack memory"
-    with pytest.raises(InputError, match=words):
-        files.solve(table, out, rows=2, workers=2, skip_bad=True)
-    assert os.listdir(tmp_path) == ["in.csv"]
-    assert not multiprocessing.active_children()
-
-
-ENDLESS = """
-import signal, sys
-from planarimpact.scene import files
-signal.signal(signal.SIGINT, signal.default_int_handler)
-files.solve(sys.argv[1], sys.argv[2], rows=1, workers=2)
-"""
-
-
-@pytest.mark.parametrize(
-    "number", [signal.SIGINT, pytest.param(signal.SIGKILL, marks=pytest.mark.long)]
-)
-def test_workers_end_with_their_master(table, tmp_path, number):
-    waiting, out = tmp_path / "waiting", tmp_path / "out.csv"
-    os.mkfifo(waiting)
-    held = os.open(waiting, os.O_RDWR)  # a table that never ends
-    command = [sys.executable, "-c", ENDLESS, str(waiting), str(out)]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    os.write(held, "".join(table.read_text().splitlines(keepends=True)[:6]).encode())
-    while len(found := psutil.Process(process.pid).children()) < 3:  # two, and Python's tracker
-        assert process.poll() is None
-        time.sleep(0.01)
-    # A signal that comes while a worker starts may go to another thread, and wake nobody who waits
-    # for a pipe: then it takes a second one.
-    said = None
-    while said is None:
-        process.send_signal(number)
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            said = process.communicate(timeout=2)[1]
-    os.close(held)
-    assert process.returncode == -number and "spawn" not in said
-    assert not psutil.wait_procs(found, timeout=30)[1]
-    assert number == signal.SIGKILL or sorted(os.listdir(tmp_path)) == ["in.csv", "waiting"]
+@pytest.mark.parametrize("package", ["pandas", "pyarrow"])
+def test_without_a_package_it_says_what_to_install(table, package):
+    code = f"import sys; sys.modules[{package!r}] = None; from planarimpact.__main__ import main; "
+    code += f"sys.exit(main(['scene', {str(table)!r}, 'out.csv']))"
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert result.returncode == 2
+    assert "needs pandas and pyarrow: pip install 'planarimpact[scene]'" in result.stderr

@@ -67,14 +67,6 @@ def test_the_loss_is_an_option_or_a_column(loss):
     assert option["model"].tolist() == ["head-on", *[continuous] * 3, "slip throughout"]
 
 
-def test_each_row_has_its_own_loss():
-    rows = table([2.0] * 3, restitution=0.6, loss=["viscous", "plastic", "viscous"])
-    after = scene.solve(rows)
-    assert after["model"].tolist() == [f"continuum.{loss}" for loss in rows["loss"]]
-    velocity = contact_velocity(after)
-    assert velocity[0] == velocity[2] and abs(velocity[1] - velocity[0]) > 0.1
-
-
 MATERIALS = [
     ("relaxation_time [s]", 2e-6, "viscous", bodies.viscous_restitution),
     ("yield_pressure [Pa]", 3e9, "plastic", bodies.plastic_restitution),
@@ -82,15 +74,17 @@ MATERIALS = [
 
 
 @pytest.mark.parametrize(("header", "value", "loss", "law"), MATERIALS)
-def test_a_material_says_restitution_and_loss(header, value, loss, law):
-    after = scene.solve(table(**{header: value}))
+def test_a_material_says_restitution_at_the_speed_of_each_impact_and_loss(header, value, loss, law):
+    speed = np.array([0.7, 0.8, 1.0, 2.0, 5.0])
+    moves = {"velocity_normal [m/s]": speed}
+    after = scene.solve(table(**{header: value}).assign(**moves))
     mass = bodies.solid_sphere(0.01, 7800.0).mass
     modulus = bodies.effective_modulus(bodies.Material(207e9, 0.3))
-    e = law(1.0, value, mass, modulus, 0.01)
-    assert 0.3 < e < 0.95
+    e = law(speed, value, mass, modulus, 0.01)
+    assert (np.diff(e) < 0).all() and 0.3 < e[-1] < 0.95
     np.testing.assert_allclose(after["restitution"], e, rtol=1e-12)
     assert set(after["loss"]) == {loss}
-    by_hand = scene.solve(table(restitution=float(e), loss=loss))
+    by_hand = scene.solve(table(restitution=e, loss=loss).assign(**moves))
     for name in by_hand.columns.difference(["restitution", "loss", "regime", "model"]):
         np.testing.assert_allclose(after[name], by_hand[name], rtol=1e-6, err_msg=name)
 
@@ -276,44 +270,16 @@ def test_head_on_stands_beside_others():
 # The command line.
 
 
-@pytest.fixture
-def source(tmp_path):
-    path = tmp_path / "in.csv"
-    table(restitution=0.6).to_csv(path, index=False)
-    return path
-
-
-def test_a_scene_on_the_command_line_refuses_a_missing_loss(source, capsys):
-    out = source.with_name("out.csv")
-    assert main(["scene", str(source), str(out)]) == 2 and not out.exists()
-    said = capsys.readouterr().err
-    assert "row 1: restitution = 0.6: allowed are numbers equal to 1, unless a column" in said
-    assert "(--loss) says what takes the energy: viscous, plastic; 4 more rows are bad" in said
-
-
 @pytest.mark.parametrize("loss", continuum.LOSSES)
-def test_a_scene_on_the_command_line_has_a_loss(source, loss, capsys):
-    out = source.with_name("out.csv")
+def test_a_scene_on_the_command_line_has_a_loss(tmp_path, loss, capsys):
+    source, out = tmp_path / "in.csv", tmp_path / "out.csv"
+    table(restitution=0.6).to_csv(source, index=False)
     assert main(["scene", str(source), str(out), "--loss", loss]) == 0
     assert capsys.readouterr().err == ""
     found = pd.read_csv(out)
     assert set(found["loss"]) == {loss}
     wanted = scene.solve(pd.read_csv(source), loss=loss)
     pd.testing.assert_series_equal(found[AFTER], wanted[AFTER])
-
-
-def test_the_command_line_refuses_a_wrong_loss(source, capsys):
-    out = source.with_name("out.csv")
-    with pytest.raises(SystemExit) as ended:
-        main(["scene", str(source), str(out), "--loss", "hysteretic"])
-    assert ended.value.code == 2
-    assert "argument --loss: invalid choice: 'hysteretic'" in capsys.readouterr().err
-    table(**{"yield_pressure [Pa]": 3e9}).to_csv(source, index=False)
-    assert main(["scene", str(source), str(out), "--loss", "plastic"]) == 2
-    said = capsys.readouterr().err
-    words = "loss = 'plastic': it does not apply, as the column 'yield_pressure [Pa]' says"
-    assert words in said and len(said.splitlines()) == 1
-    assert not out.exists()
 
 
 @pytest.fixture
@@ -393,5 +359,5 @@ def test_bodies_that_spread_differently_under_pressure_are_told():
     other = scene.Solver(loss="plastic")
     other.solve(alike)
     assert "spread" not in other.explain()
-    other.join(rigid)
+    other.solve(table(restitution=0.8))
     assert "3 impacts may" in other.explain()

@@ -93,15 +93,6 @@ def table_error(bound: Any, mass_ratio: Any, x: Any) -> Any:
     return (bound + ROUNDING * mass_ratio) * np.minimum(x, 1.0)
 
 
-def tolerance_of_table(impacts: Impacts, place: Integers) -> float:
-    """Smallest tolerance at which the table of spheres answers all impacts that it covers."""
-    rows = np.flatnonzero(np.isin(place, TOO_COARSE_RUNGS))
-    plastic = impacts.plastic[rows] & (impacts.restitution[rows] < 1)
-    x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
-    errors = _table_error(x, groups, plastic)
-    return float(np.max(errors, initial=0.0))
-
-
 class Answers(NamedTuple):
     """Answers to impacts, arrays of shape (n,), and messages for impacts without an answer."""
 

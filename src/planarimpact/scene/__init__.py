@@ -8,8 +8,7 @@ at rest unless it has a velocity or a spin. States have two dimensions. They
 may have three for bodies whose radius of gyration is the same about every axis: such bodies move in
 their plane of incidence.
 
-`states` makes impacts of columns and back, `solver` solves them, `files` goes from file to file, in
-pieces that `workers` share.
+`states` makes impacts of columns and back, `solver` solves them, `files` goes from file to file.
 """
 
 from typing import TYPE_CHECKING
@@ -64,13 +63,8 @@ def solve(
         For what is no DataFrame, columns that are missing, misspelt or do not go together, or a bad
         row, by its number from 1, such as one below restitution 1 whose loss nobody says.
     ConvergenceError
-        If the continuum does not reach the tolerance, by the row. An impact of a mass ratio above
-        100 may take seconds; above some 10 000 most of them end like this.
-
-    Notes
-    -----
-    Impacts that the table of spheres does not answer take some milliseconds each. `files.solve`
-    tells before how long that will be, and how far it is; this function tells nothing.
+        If the continuum does not reach the tolerance, by the row. It takes some milliseconds an
+        impact, above a mass ratio of 100 seconds; above some 10 000 most impacts end like this.
 
     Examples
     --------

@@ -21,57 +21,66 @@ HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
 
 
 class Column(NamedTuple):
-    """A column: its unit, the text of what is allowed, and the range of its numbers."""
+    """A column: unit, meaning, the text of what is allowed, and the range of its numbers."""
 
     unit: str
-    allowed: str
+    meaning: str = ""
+    allowed: str = "finite numbers"
     low: float = -np.inf
     high: float = np.inf
     open_low: bool = False
     infinite: bool = False
 
 
-_FINITE = "finite numbers"
 _above = partial(Column, allowed="finite numbers above 0", low=0, open_low=True)
-_large = partial(Column, allowed="numbers above 0, or inf", low=0, open_low=True, infinite=True)
-_ratio = partial(Column, allowed="numbers above -1, up to 0.5", low=-1, high=0.5, open_low=True)
+_from_0 = partial(Column, allowed="finite numbers from 0", low=0)
 AXES = "xyz"
 
 BODY = {
-    "radius": _above("m"),
-    "density": _above("kg/m^3"),
+    "radius": _above("m", "distance from centre to contact point"),
+    "density": _above("kg/m^3", "of a solid sphere; or else mass and gyration"),
     "mass": _above("kg"),
-    "gyration": _above("m"),
+    "gyration": _above("m", "radius of gyration"),
     "young_modulus": _above("Pa"),
-    "poisson_ratio": _ratio(""),
+    "poisson_ratio": Column("", "", "numbers above -1, up to 0.5", -1, 0.5, open_low=True),
 }
-OTHER = {
-    "other_radius": _large("m"),
-    "other_density": _above("kg/m^3"),
-    "other_mass": _large("kg"),
-    "other_gyration": _large("m"),
-    "other_young_modulus": _large("Pa"),
-    "other_poisson_ratio": _ratio(""),
+# Numbers of the other body may be infinite, but for its density and Poisson's ratio.
+OTHER = {f"other_{name}": column for name, column in BODY.items()} | {
+    f"other_{name}": Column(BODY[name].unit, "", "numbers above 0, or inf", 0, np.inf, True, True)
+    for name in ("radius", "mass", "gyration", "young_modulus")
 }
 PAIR = {
-    "friction": Column("", "finite numbers from 0", low=0),
-    "restitution": Column("", "numbers from 0 to 1", low=0, high=1),
-    "relaxation_time": Column("s", "finite numbers from 0", low=0),
-    "yield_pressure": _above("Pa"),
-    "loss": Column("", ", ".join(LOSSES)),
+    "friction": _from_0("", "coefficient of friction"),
+    "restitution": Column("", "or else one of the next two", "numbers from 0 to 1", 0, 1),
+    "relaxation_time": _from_0("s", "of viscous bodies: e by the speed"),
+    "yield_pressure": _above("Pa", "the largest in the contact: e by the speed"),
+    "loss": Column("", "what takes the energy; may be empty at e = 1", ", ".join(LOSSES)),
 }
 PLANE = {
-    "velocity_tangential": Column("m/s", _FINITE),
-    "velocity_normal": Column("m/s", _FINITE),
-    "spin": Column("rad/s", _FINITE),
+    "velocity_tangential": Column("m/s"),
+    "velocity_normal": Column("m/s", "positive towards the surface"),
+    "spin": Column("rad/s", "positive if it moves the contact point forward"),
 }
-SPACE = {f"velocity_{axis}": Column("m/s", _FINITE) for axis in AXES}
-SPACE |= {f"spin_{axis}": Column("rad/s", _FINITE) for axis in AXES}
-NORMAL = {f"normal_{axis}": Column("", _FINITE) for axis in AXES}  # of length 1
+SPACE = {f"velocity_{axis}": Column("m/s") for axis in AXES}
+SPACE |= {f"spin_{axis}": Column("rad/s") for axis in AXES}
+NORMAL = {f"normal_{axis}": Column("", "from the surface to the body") for axis in AXES}
 OTHER_PLANE = {f"other_{name}": column for name, column in PLANE.items()}
 OTHER_SPACE = {f"other_{name}": column for name, column in SPACE.items()}
 
 KNOWN = BODY | OTHER | PAIR | PLANE | SPACE | NORMAL | OTHER_PLANE | OTHER_SPACE
+# What the result adds to the table, beside the states after, restitution and loss.
+_result = partial(Column, allowed="")
+RESULT = {
+    "contact_velocity_after": _result("m/s", "of the contact point, in the direction of incidence"),
+    "model": _result("", "which one solved the impact"),
+    "error_bound": _result("m/s", "of that velocity, against the continuum: tested, not proved"),
+    "model_form": _result("m/s", "how far that velocity would move with the other loss"),
+    "regime": _result("", "the order of stick and slip"),
+    "incidence": _result("", "tangential over normal speed of the contact point, over friction"),
+    "peak_normal_force": _result("N", "NaN where restitution is below 0.022"),
+    "peak_friction_force": _result("N"),
+    "energy_lost": _result("J"),
+}
 # The column that is carried over without a word; others that are not known are told.
 LABEL = "id"
 # A name as similar as this to one that is known is a misspelling.
@@ -85,24 +94,46 @@ def header(name: str, ending: str = "") -> str:
     >>> header("radius"), header("friction")
     ('radius [m]', 'friction')
     """
-    unit = KNOWN[name].unit
+    unit = (KNOWN | RESULT)[name].unit
     return f"{name}{ending} [{unit}]" if unit else name + ending
 
 
-# What the result has besides the columns of the table, and restitution and loss.
-_STATES = [*PLANE, *SPACE, *OTHER_PLANE, *OTHER_SPACE]
-ADDED = {
-    *(header(name, "_after") for name in _STATES),
-    "contact_velocity_after [m/s]",
-    "model",
-    "error_bound [m/s]",
-    "model_form [m/s]",
-    "regime",
-    "incidence",
-    "peak_normal_force [N]",
-    "peak_friction_force [N]",
-    "energy_lost [J]",
-}
+_STATES = PLANE | SPACE | OTHER_PLANE | OTHER_SPACE
+ADDED = {header(name, "_after") for name in _STATES} | set(map(header, RESULT))
+
+
+def _lines(columns: dict[str, Column]) -> str:
+    """A line of help for each column: header, meaning, and what is allowed."""
+    meanings = {n: "; ".join(filter(None, [c.meaning, c.allowed])) for n, c in columns.items()}
+    lines = (f"  {header(name):<28}  {meaning}" for name, meaning in meanings.items())
+    return "\n".join(map(str.rstrip, lines))
+
+
+HELP = f"""\
+Columns, with units in the header, separated by commas; the order is free. Row 1 is the first one
+below the header; blank lines do not count. Needed are a body,
+{_lines(BODY)}
+the pair of bodies,
+{_lines(PAIR)}
+and the state before, in a plane,
+{_lines(PLANE)}
+or in space, for bodies that turn alike about every axis. The normal has the length 1; left out it
+is 0, 0, 1. Then, with x along the surface and z up, a plane state has spin_y = -spin.
+{_lines(SPACE | NORMAL)}
+The other body has the same columns with other_ in front, and velocities and spins in the same
+directions. Its radius, mass, gyration and Young's modulus may be inf. Without a material it is
+rigid; without a mass it is a wall, round if it has other_radius; without a velocity it is at rest.
+Columns of other names, such as id, are your own, and carried over: from CSV as text. A name that
+is nearly one of those above is refused, and so is one below. Contacts that stick at some time need
+a restitution of 0.1 or more; with restitution 0 a plastic contact always sticks at some time.
+The result has all these columns and then the state after, named as before with _after,
+restitution and loss, if they are not given, and
+{_lines(RESULT)}
+Example:
+  radius [m],density [kg/m^3],young_modulus [Pa],poisson_ratio,friction,restitution,loss,\
+velocity_tangential [m/s],velocity_normal [m/s],spin [rad/s]
+  0.01,7800,207e9,0.3,0.2,0.8,plastic,0.5,1,0
+"""
 
 
 def named(headers: Iterable[object]) -> dict[str, str]:
@@ -135,9 +166,7 @@ def named(headers: Iterable[object]) -> dict[str, str]:
         _refuse_incomplete(set(header_of))
     except InputError as error:
         unknown = ", ".join(repr(text) for text in others if text != LABEL)
-        raise InputError(
-            f"{error}; unknown is {unknown}; known are {_known()}" if unknown else str(error)
-        ) from None
+        raise InputError(f"{error}; unknown is {unknown}" if unknown else str(error)) from None
     return header_of
 
 
@@ -151,21 +180,8 @@ def _refuse_similar(text: str, name: str) -> None:
     if close:
         raise InputError(
             f"column {text!r}: unknown; did you mean '{header(close[0])}'? If it is your own, "
-            f"rename it; known are {_known()}"
+            "rename it"
         )
-
-
-def _known() -> str:
-    """All names in few words."""
-    own = BODY | PAIR | PLANE | SPACE | NORMAL
-    return f"{_listed(own)}, {LABEL}, and those of the body and its state with other_ in front"
-
-
-def carried(headers: Iterable[object]) -> list[str]:
-    """Headers of the columns that are not known: they are carried over as they are."""
-    texts = list(map(str, headers))
-    known = named(texts).values()
-    return [text for text in texts if text not in known]
 
 
 def _refuse_incomplete(names: set[str]) -> None:
@@ -249,19 +265,12 @@ def numbers(
             shown = repr(cell) if isinstance(cell, str) else str(cell)
             hint = DECIMALS if "," in shown else ""
             problems.setdefault(position, f"{text} = {shown}: allowed are {column.allowed}{hint}")
-    infinite = np.isinf(values.get("other_radius", 0.0)) & _moves(values)
-    for position in np.flatnonzero(infinite).tolist():
+    inertia = ("other_density", "other_mass", "other_gyration")
+    moves = np.any([np.isfinite(values[name]) for name in inertia if name in values], axis=0)
+    for position in np.flatnonzero(np.isinf(values.get("other_radius", 0.0)) & moves).tolist():
         allowed = "allowed are finite numbers where the other body can move or turn"
         problems.setdefault(position, f"{names['other_radius']} = inf: {allowed}")
     return values, problems
-
-
-def _moves(values: dict[str, Array]) -> Booleans:
-    """Whether the other body has a mass, or a radius of gyration, that is finite."""
-    if "other_density" in values:
-        return np.ones(values["other_density"].size, dtype=bool)
-    inertia = [values[name] for name in ("other_mass", "other_gyration") if name in values]
-    return np.any(np.isfinite(inertia), axis=0) if inertia else np.zeros((), dtype=bool)
 
 
 def _checked(series: "pd.Series", column: Column) -> tuple[Array, Booleans]:

@@ -1,39 +1,37 @@
-"""Scenes from file to file, piece by piece: CSV or Parquet, and JSON for the result."""
+"""Scenes from file to file, a part at a time: tables may be larger than the memory."""
 
-import os
-import sys
-import time
-from collections.abc import Callable, Generator, Iterator
-from contextlib import ExitStack, closing
+import csv
+import gzip
+import io
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import Any
 
 from planarimpact.collision import TOLERANCE
-from planarimpact.ground import checks
+from planarimpact.ground import files
 from planarimpact.ground.checks import InputError
-from planarimpact.scene import columns, places
-from planarimpact.scene.places import Place
-from planarimpact.scene.solver import Solver
+from planarimpact.scene import columns
+from planarimpact.scene.solver import BLOCK, Solver
 
 try:
     import pandas as pd
-
-    from planarimpact.scene import reading, writing
+    import pyarrow as pa
+    import pyarrow.compute
+    import pyarrow.csv
+    import pyarrow.parquet
 except ImportError as error:
     message = "planarimpact.scene.files needs pandas and pyarrow: pip install 'planarimpact[scene]'"
     raise ImportError(f"{message} ({error})", name=error.name) from None
 
-from planarimpact.scene.reading import Piece
-from planarimpact.scene.workers import Cut, Done, Task, solved_by_workers, solved_here
-
-# Rows that are read, solved and written at a time. Less would take longer, more would take memory.
-ROWS = 100_000
-# Each worker takes some 0.3 GB: a larger number is probably a typing error.
-MOST_WORKERS = 64
-# A piece for which the continuum is solved more often is cut into parts of about so many impacts.
-# They take some seconds each; less would take longer, as NumPy solves many at a time.
-PART = 1000
-# From this time on it is told why a table takes so long [s].
-LONG = 5.0
+# What readers raise where a file is no table, beside an OSError without a number.
+NO_TABLE = InputError, UnicodeError, csv.Error, EOFError, zlib.error, pa.ArrowException
+KINDS = CSV, GZIP, PARQUET = ".csv", ".csv.gz", ".parquet"
+# Standard input or output.
+STREAM = "-"
+# What is read at a time: bytes of CSV, rows of Parquet.
+BYTES, ROWS = 2**22, BLOCK
 
 
 def solve(
@@ -41,10 +39,7 @@ def solve(
     target: str | Path,
     tolerance: float = TOLERANCE,
     skip_bad: bool = False,
-    rows: int = ROWS,
-    progress: Callable[[float | None, int], None] | None = None,
     loss: str | None = None,
-    workers: int = 1,
     notice: Callable[[str], None] | None = None,
 ) -> Solver:
     """Solve the scene of one file into another, which appears whole or not at all.
@@ -53,32 +48,17 @@ def solve(
     ----------
     source, target : str or Path
         Tables as `solve` takes and returns them: `.csv`, `.csv.gz` or `.parquet` by the ending of
-        the name, the target also `.json`, an array of objects. `-` is standard input or output;
-        it, pipes and devices are CSV, and a target of this kind has each piece as soon as it is
-        solved. NaN is an empty cell in CSV, else null.
-    tolerance : float
+        the name, or `-`, standard input or output, which is CSV and has each part as soon as it is
+        solved. NaN is an empty cell in CSV. Cells of columns that are not known are carried over
+        as they are, from CSV as text.
+    tolerance, loss : float, str
         As in `solve`.
     skip_bad : bool
-        Leave bad rows out instead of refusing the table. They are listed in a file beside the
-        target, `<its name>.bad.csv`, unless that is no file, and in `bad` of the result; the list
-        is written also where no row is bad.
-    rows : int
-        How many a process holds at a time.
-    progress : callable, optional
-        Called with the share that is done, 0 to 1, or None where nobody knows it, and the rows so
-        far: every 1000 impacts or so where the continuum is solved, else with each piece.
-    loss : str, optional
-        As in `solve`.
-    workers : int
-        How many processes share the pieces, 1 to 64; with 1 it is this process alone. The result is
-        the same. This process reads and writes, which takes some 3 s for a million rows of CSV. A
-        script that calls this with more than one stands below `if __name__ == "__main__":`, as
-        each worker reads it too.
+        Leave bad rows out instead of refusing the table. They are in `bad` of the result, and in a
+        file beside the target, `<its name>.bad.csv`, which is written also if no row is bad.
     notice : callable, optional
-        Called with a line of text: which columns are not known and so are carried over, and, if
-        solving is expected to take more than some seconds, why, how long, and which tolerance would
-        avoid it. The time is that of the first 1000 impacts or so for which the continuum is
-        solved, times how many there would be if the rest were like this piece.
+        Called with a line of text: which columns are not known, and, as in `Solver`, what takes
+        long.
 
     Returns
     -------
@@ -88,134 +68,153 @@ def solve(
     Raises
     ------
     InputError
-        As `solve`, or if a file is no table, has no rows, or cannot be read or written, or a worker
-        ends before its work is done. Row 1 is the first one below the header; blank lines do not
-        count.
+        As `solve`, or if a file is no table or has no rows. Row 1 is the first one below the
+        header; blank lines do not count.
     ConvergenceError
         As `solve`.
+    OSError
+        If a file cannot be read or written.
     """
-    read, result = places.source(source), places.target(target)
-    bad = places.beside(result) if skip_bad else None
-    for place in (result, bad):
-        if place and not read.stream and _same(Path(place.name), Path(read.name)):
-            raise InputError(
-                f"{place.name}: it is the table that is read; the result needs another name"
-            )
-    if bad and os.path.realpath(bad.name) == os.path.realpath(result.name):
-        raise InputError(
-            f"{bad.name}: it is a link to the result; bad rows need a file of their own"
-        )
-    workers = checks.count("workers", workers, 1, MOST_WORKERS)
-    task, solver = Task(tolerance, loss, skip_bad, result.kind, PART), Solver(tolerance, loss)
-    notice, slow = notice or _silent, _Slow(workers)
+    source, target = _checked(source), _checked(target)
+    if STREAM not in (source, target) and Path(target).exists() and Path(target).samefile(source):
+        raise InputError(f"{target}: it is the table that is read; the result needs another name")
+    solver = Solver(tolerance, loss, notice)
     with ExitStack() as stack:
-        write_bad = stack.enter_context(writing.appended(bad)) if bad else None
-        with (
-            writing.appended(result) as write,
-            closing(_solved(task, read, rows, workers, notice)) as pieces,
-        ):
-            for piece in pieces:
-                if words := slow.words(piece):
-                    notice(words)
-                if isinstance(piece, Cut):
-                    continue
-                write(piece.content)
-                solver.join(piece.solver)
-                if progress:
-                    progress(piece.share, solver.rows)
-        if bad and write_bad:  # also without a bad row: an old list is not about the new result
-            table = pd.DataFrame(solver.bad, columns=["row", "problem"])
-            write_bad(writing.encoded(table, bad.kind, header=True))
+        bad = None
+        if skip_bad and target != STREAM:
+            bad = stack.enter_context(files.written(f"{target}.bad.csv"))
+        write = stack.enter_context(_writer(target))
+        for part in _solved(solver, source, skip_bad, notice):
+            write(part)
+        if bad:  # also without a bad row: an old list is not about the new result
+            pd.DataFrame(solver.bad, columns=["row", "problem"]).to_csv(bad, index=False)
     return solver
 
 
-def _same(path: Path, other: Path) -> bool:
-    return path.exists() and other.exists() and path.samefile(other)
-
-
-def _silent(words: str) -> None:
-    """Say nothing."""
+def _checked(path: str | Path) -> str:
+    """A name that says the kind of its table."""
+    name = str(path)
+    if name != STREAM and not name.lower().endswith(KINDS):
+        raise InputError(
+            f"{name}: allowed are names that end in {', '.join(KINDS)}, and {STREAM} for standard "
+            "input or output"
+        )
+    return name
 
 
 def _solved(
-    task: Task, source: Place, rows: int, workers: int, notice: Callable[[str], None]
-) -> Generator[Done | Cut, None, None]:
-    """Solved pieces, in order; a refusal names the source."""
+    solver: Solver, source: str, skip_bad: bool, notice: Callable[[str], None] | None
+) -> Iterator[pd.DataFrame]:
+    """Solved parts of a table; a refusal names the file."""
     try:
-        pieces = _with_notice(reading.pieces(source, rows), notice)
-        if workers == 1:
-            yield from solved_here(task, pieces)
+        for part in _parts(source):
+            table = part.to_pandas(types_mapper=pd.ArrowDtype, ignore_metadata=True)
+            names = columns.named(table)
+            own = [repr(name) for name in table if name not in {*names.values(), columns.LABEL}]
+            if notice and own and not solver.rows:
+                notice(f"not known, and carried over as they are: columns {', '.join(own)}")
+            after = solver.solve(table, skip_bad)
+            # A column has one type in all parts, whatever a part has in it.
+            yield after.astype({names[name]: float for name in names.keys() - {"loss"}})
+        if not solver.rows:
+            raise InputError("it has a header, but no rows")
+    except (*NO_TABLE, OSError) as error:
+        if isinstance(error, OSError) and error.errno:
+            raise
+        name = "standard input" if source == STREAM else source
+        words, *_ = str(error).splitlines() or [type(error).__name__]
+        raise InputError(f"{name}: {words}") from None
+
+
+def _parts(source: str) -> Iterator[pa.Table]:
+    """Parts of a table."""
+    opened = 0 if source == STREAM else source
+    with open(opened, "rb", closefd=source != STREAM) as raw:
+        if source.lower().endswith(PARQUET):
+            for batch in pa.parquet.ParquetFile(raw).iter_batches(ROWS, use_threads=False):
+                yield pa.Table.from_batches([batch])
+        elif source.lower().endswith(GZIP):
+            with gzip.open(raw) as unpacked:
+                yield from _of_csv(unpacked)
         else:
-            yield from solved_by_workers(task, pieces, workers)
-    except InputError as error:
-        raise InputError(f"{source.name}: {error}") from None
-    except OSError as error:
-        raise InputError(f"{source.name}: {error.strerror or error}") from None
+            yield from _of_csv(raw)
 
 
-def _with_notice(pieces: Iterator[Piece], notice: Callable[[str], None]) -> Iterator[Piece]:
-    """The pieces, and a notice of the columns that are carried over."""
-    told = False
-    for piece in pieces:
-        own = [name for name in columns.carried(piece.rows.column_names) if name != columns.LABEL]
-        if own and not told:
-            notice(f"not known, and carried over as they are: columns {', '.join(map(repr, own))}")
-        told = True
-        yield piece
+def _of_csv(file: Any) -> Iterator[pa.Table]:
+    """Parts of CSV: known columns as numbers if all cells are finite numbers, all else as text."""
+    (header,) = csv.reader([file.readline().decode("utf-8-sig")])
+    known = columns.named(header)
+    wrong: list[str] = []
+
+    def refused(row: pa.csv.InvalidRow) -> str:
+        """Skip a blank line; note a row with too many or too few cells."""
+        if row.text.isspace():
+            return "skip"
+        hint = columns.DECIMALS if row.actual_columns > row.expected_columns else ""
+        cells = f"{row.actual_columns} cells where {row.expected_columns} belong{hint}"
+        wrong.append(f"row {row.number}: {cells}")
+        return "error"
+
+    try:
+        # One thread numbers the rows. Empty cells and words such as NA stay as they are.
+        batches = pa.csv.open_csv(
+            file,
+            pa.csv.ReadOptions(use_threads=False, block_size=BYTES, column_names=header),
+            pa.csv.ParseOptions(newlines_in_values=True, invalid_row_handler=refused),
+            pa.csv.ConvertOptions(
+                column_types=dict.fromkeys(header, pa.string()),
+                null_values=[],
+                strings_can_be_null=False,
+            ),
+        )
+        for batch in batches:
+            numbers = {known[name] for name in known.keys() - {"loss"}}
+            cells = [
+                _numbers(column) if name in numbers else column
+                for name, column in zip(header, batch.columns, strict=True)
+            ]
+            yield pa.Table.from_arrays(cells, header)
+    except pa.ArrowInvalid as error:
+        raise InputError(wrong[0] if wrong else str(error)) from None
 
 
-class _Slow:
-    """Words about the first piece that takes long, once its first part is solved."""
-
-    def __init__(self, workers: int) -> None:
-        self.workers, self.start = workers, 0.0
-        self.cut: Cut | None = None
-
-    def words(self, result: Done | Cut) -> str:
-        """A line after the first part of the first piece that is cut, else nothing."""
-        if isinstance(result, Cut):
-            if not self.start:
-                self.cut, self.start = result, time.perf_counter()
-            return ""
-        cut, self.cut = self.cut, None
-        if not cut:
-            return ""
-        # A worker has one part, and at the same time the others have more.
-        taken = (time.perf_counter() - self.start) * (len(cut.cuts) + 1) / self.workers
-        reach = "for them"
-        if cut.since is not None and cut.share is not None:
-            taken *= (1 - cut.since) / (cut.share - cut.since)
-            reach = "from there to the end"
-        if taken < LONG:
-            return ""
-        return f"{cut.words}; about {_duration(taken)} {reach}, at the speed of the first of them"
+def _numbers(cells: pa.Array) -> pa.Array:
+    """Text as numbers if all are finite or NaN, else as it is, as text tells inf from 1e400."""
+    try:
+        numbers = pa.compute.ascii_trim_whitespace(cells).cast(pa.float64())
+    except pa.ArrowInvalid:
+        return cells
+    return cells if pa.compute.any(pa.compute.is_inf(numbers)).as_py() else numbers
 
 
-def _duration(seconds: float) -> str:
-    """A time in seconds, minutes or hours.
+@contextmanager
+def _writer(target: str) -> Iterator[Callable[[pd.DataFrame], None]]:
+    """A function that writes part after part of a table."""
+    with ExitStack() as stack:
+        opened: Any = 1 if target == STREAM else stack.enter_context(files.written(target))
+        file: Any = stack.enter_context(open(opened, "wb", closefd=target != STREAM))
+        if target.lower().endswith(GZIP):
+            # Without a name and a time: the same table is the same file.
+            file = stack.enter_context(gzip.GzipFile("", "wb", 6, file, mtime=0))
+        writer: Any = None
 
-    >>> _duration(12.3), _duration(2400), _duration(9000)
-    ('12 s', '40 min', '2.5 h')
-    """
-    if seconds < 100:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
+        def write(part: pd.DataFrame) -> None:
+            nonlocal writer
+            rows = pa.Table.from_pandas(part, preserve_index=False).replace_schema_metadata()
+            try:
+                writer = writer or stack.enter_context(_begun(file, target, rows.schema))
+                writer.write_table(rows)
+            except pa.ArrowException as error:  # a column of the user that CSV has no text for
+                raise InputError(f"{target}: {error}") from None
+
+        yield write
 
 
-class Bar:
-    """Draws progress on the terminal, in place, with the time that is left; a line if no share."""
-
-    def __init__(self) -> None:
-        self.start = time.perf_counter()
-
-    def __call__(self, share: float | None, rows: int) -> None:
-        """Show the share that is done, and the rows so far."""
-        if share is None:
-            print(f"{rows:,} impacts", file=sys.stderr, flush=True)
-            return
-        done, left = round(30 * share), ""
-        if 0 < share < 1:  # if the rest takes as long as what is done
-            taken = time.perf_counter() - self.start
-            left = f", about {_duration(taken * (1 - share) / share)} left"
-        line = f"[{'#' * done}{'.' * (30 - done)}] {100 * share:3.0f} %  {rows:,} impacts{left}"
-        print(f"\r{line:<79}", end="\n" if share >= 1 else "", file=sys.stderr, flush=True)
+def _begun(file: Any, target: str, schema: pa.Schema) -> Any:
+    """A writer of tables. CSV has a header without quotation marks, and text in them."""
+    if target.lower().endswith(PARQUET):
+        return pa.parquet.ParquetWriter(file, schema)
+    names = io.StringIO()
+    csv.writer(names, lineterminator="\n").writerow(schema.names)
+    file.write(names.getvalue().encode())
+    return pa.csv.CSVWriter(file, schema, write_options=pa.csv.WriteOptions(include_header=False))

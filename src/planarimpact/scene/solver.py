@@ -2,7 +2,8 @@
 
 import reprlib
 from collections import Counter
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,64 +18,10 @@ from planarimpact.scene import columns, states
 if TYPE_CHECKING:
     import pandas as pd
 
-# Rows that are solved together: this bounds the memory.
-BLOCK = 2**17
-# Time that it takes to solve an impact, by rung, over that below e = 1; others take next to none.
-_COSTS = np.array(
-    [
-        0.0 if rung.way != "solved" else 0.05 if rung.model == "continuum" else 1.0
-        for rung in rungs.RUNGS
-    ]
-)
-
-
-class Block(NamedTuple):
-    """Rows of a table that are read and checked, and not answered yet."""
-
-    table: "pd.DataFrame"
-    names: dict[str, str]
-    good: Booleans
-    problems: dict[int, str]
-    rows: states.Rows  # the good ones
-    of_rungs: tuple[Integers, Array]
-
-    def cuts(self, most: int) -> list[int]:
-        """Where to cut the table into parts that take about as long as `most` impacts, solved.
-
-        Parameters
-        ----------
-        most : int
-
-        Returns
-        -------
-        list of int
-            Positions of the first rows of all parts but the first one.
-        """
-        costs = np.zeros(len(self.table))
-        costs[self.good] = _COSTS[self.of_rungs[0]]
-        sums = np.cumsum(costs)
-        total = float(sums[-1]) if sums.size else 0.0
-        edges = np.linspace(0.0, total, int(np.ceil(total / most)) + 1)[1:-1]
-        return np.unique(np.searchsorted(sums, edges) + 1).tolist()
-
-    def leave_the_table(self) -> str:
-        """Text: how many impacts the table of spheres does not answer, and why.
-
-        Returns
-        -------
-        str
-        """
-        place, _ = self.of_rungs
-        too_coarse = int(np.isin(place, rungs.TOO_COARSE_RUNGS).sum())
-        count = int(np.count_nonzero(_COSTS[place]))
-        reasons = []
-        if too_coarse:
-            least = _rounded_up(rungs.tolerance_of_table(self.rows.impacts, place))
-            reasons.append(f"is too coarse for {too_coarse:,} (with tolerance {least} it is not)")
-        if count > too_coarse:
-            reasons.append(f"does not cover {count - too_coarse:,} at any tolerance")
-        why = " and ".join(reasons)
-        return f"the continuum is solved for {count:,} impacts, as the table of spheres {why}"
+# Rows that are solved together. More take more memory, and no less time for each.
+BLOCK = 2**15
+# It is told where the continuum is solved for more impacts of a block: they take a second or more.
+MANY = 1000
 
 
 class Solver:
@@ -85,6 +32,8 @@ class Solver:
     tolerance : float
     loss : str, optional
         Both as in `solve`.
+    notice : callable, optional
+        Called with a line of text before each block of rows that takes long: why it does.
 
     Attributes
     ----------
@@ -94,10 +43,16 @@ class Solver:
         Rows read so far.
     """
 
-    def __init__(self, tolerance: float = collision.TOLERANCE, loss: str | None = None) -> None:
+    def __init__(
+        self,
+        tolerance: float = collision.TOLERANCE,
+        loss: str | None = None,
+        notice: Callable[[str], None] | None = None,
+    ) -> None:
         allowed = "numbers from 1e-10 to 1"
         self.tolerance = checks.number("tolerance", tolerance, allowed, 1e-10, 1)
         self._loss = loss if loss is None else checks.loss(loss, columns.LOSSES)
+        self._notice = notice
         self.bad: list[tuple[int, str]] = []
         self.rows = 0
         self._count_by_rung: Counter[int] = Counter()  # by place in `rungs.RUNGS`
@@ -119,32 +74,18 @@ class Solver:
         -------
         DataFrame
         """
-        import pandas as pd  # here, as only who solves tables needs it
+        import pandas as pd
 
         if not isinstance(table, pd.DataFrame):
             raise InputError(
                 f"table = {' '.join(reprlib.repr(table).split())}: allowed is a pandas DataFrame; "
                 "`python -m planarimpact scene` reads files"
             )
-        blocks = [
-            self.answer(self.read(table.iloc[start : start + BLOCK], skip_bad), skip_bad)
-            for start in range(0, max(len(table), 1), BLOCK)
-        ]
+        names = columns.named(table.columns)
+        self._refuse_two_losses(names)
+        starts = range(0, max(len(table), 1), BLOCK)
+        blocks = [self._solved(table.iloc[k : k + BLOCK], names, skip_bad) for k in starts]
         return pd.concat(blocks) if len(blocks) > 1 else blocks[0]
-
-    def join(self, following: "Solver") -> None:
-        """Add the counts of a solver of the rows that follow.
-
-        Parameters
-        ----------
-        following : Solver
-        """
-        self.rows = following.rows
-        self.bad += following.bad
-        self._count_by_rung += following._count_by_rung
-        self._differences = self._differences.joined(following._differences)
-        self._coupled += following._coupled
-        self._largest_coupling = max(self._largest_coupling, following._largest_coupling)
 
     def explain(self) -> str:
         """Text that says how many impacts each model solved and why, a line for each.
@@ -165,65 +106,40 @@ class Solver:
             )
         return "\n".join(lines + self._differences.lines())
 
-    @checks.default_errors
-    def read(self, table: "pd.DataFrame", skip_bad: bool = False) -> Block:
-        """Rows of a table read and checked, for `answer`.
-
-        Parameters
-        ----------
-        table : DataFrame
-        skip_bad : bool
-            Both as in `solve`.
-
-        Returns
-        -------
-        Block
-        """
-        names = columns.named(table.columns)
-        self._refuse_two_losses(names)
+    def _solved(
+        self, table: "pd.DataFrame", names: dict[str, str], skip_bad: bool
+    ) -> "pd.DataFrame":
+        """State after each impact of a block."""
         values, problems = columns.numbers(table, names)
         if "restitution" in names and "loss" not in names:
             code = columns.LOSSES.index(self._loss) if self._loss else columns.NO_LOSS
             values["loss"] = np.full(len(table), float(code))
         columns.refuse_missing_loss(values, problems)
-        good = np.ones(len(table), dtype=bool)
-        good[list(problems)] = False
-        rows = _rows(values, good, problems)
-        bad_impacts = collision.problems(rows.impacts)
-        bad_impacts |= collision.problems_of_normals(rows.impacts.normal)
-        problems |= _by_position(good, bad_impacts)
+        rows, good = _good_rows(values, problems)
         self._refuse(problems, skip_bad, InputError)
-        if bad_impacts:
-            good[list(problems)] = False
-            rows = _rows(values, good, problems)
         of_rungs = rungs.of_each(rows.impacts, self.tolerance)
-        return Block(table, names, good, problems, rows, of_rungs)
-
-    @checks.default_errors
-    def answer(self, block: Block, skip_bad: bool = False) -> "pd.DataFrame":
-        """The result for rows that `read` has returned; it counts them.
-
-        Parameters
-        ----------
-        block : Block
-        skip_bad : bool
-            As in `solve`.
-
-        Returns
-        -------
-        DataFrame
-        """
-        table, names, good, problems, rows, of_rungs = block
+        self._tell_long(of_rungs[0])
         answers = collision.answers(rows.impacts, self.tolerance, peaks=True, of_rungs=of_rungs)
-        unsolved = _by_position(good, answers.unsolved)
+        unsolved = {int(good[i]): message for i, message in answers.unsolved.items()}
         self._refuse(unsolved, skip_bad, ConvergenceError)
         form = collision.model_forms(rows.impacts, answers)
         self._count(rows, answers, form)
-        problems = problems | unsolved
+        problems |= unsolved
         self.bad += [(self.rows + row + 1, problems[row]) for row in sorted(problems)]
         self.rows += len(table)
-        result = table[good].assign(**_result(rows, answers, form, names))
-        return result[_solved(answers)] if unsolved else result
+        result = table.iloc[good].assign(**_result(rows, answers, form, names))
+        return result[_has_answer(answers)] if unsolved else result
+
+    def _tell_long(self, place: Integers) -> None:
+        """Give a notice if the continuum is solved for many impacts of a block."""
+        count = int(np.isin(place, _SOLVED).sum())
+        if self._notice and count > MANY:
+            tabled = int(np.isin(place, rungs.TOO_COARSE_RUNGS).sum())
+            self._notice(
+                f"from row {self.rows + 1:,} on, the continuum is solved for {count:,} of "
+                f"{place.size:,} impacts, some milliseconds each; with tolerance "
+                f"{collision.TOLERANCE:g} the table of spheres would take {tabled:,} of these"
+            )
 
     def _refuse_two_losses(self, names: dict[str, str]) -> None:
         for name in names.keys() & {"loss", *collision.RESTITUTION_FROM} - {"restitution"}:
@@ -244,7 +160,7 @@ class Solver:
 
     def _count(self, rows: states.Rows, answers: rungs.Answers, form: Array) -> None:
         """Count the impacts of each rung, and what `explain` says of the models."""
-        place, solved = answers.place, _solved(answers)
+        place, solved = answers.place, _has_answer(answers)
         counts = np.bincount(place[solved], minlength=len(rungs.RUNGS)).tolist()
         self._count_by_rung += Counter(dict(enumerate(counts)))
         lossy = [rung.model.startswith("continuum.") for rung in rungs.RUNGS]
@@ -257,33 +173,25 @@ class Solver:
         self._largest_coupling = max(self._largest_coupling, float(np.max(large, initial=0.0)))
 
 
-def _rounded_up(number: float) -> str:
-    """A positive number with two digits.
-
-    >>> _rounded_up(4.0001e-3)
-    '0.0041'
-    """
-    unit = 10.0 ** (np.floor(np.log10(number)) - 1)
-    return f"{np.ceil(number / unit) * unit:.2g}"
+_SOLVED = [place for place, rung in enumerate(rungs.RUNGS) if rung.way == "solved"]
 
 
-def _rows(values: dict[str, Array], good: Booleans, problems: dict[int, str]) -> states.Rows:
-    """The good rows; those whose physical quantities are out of range become bad."""
+def _good_rows(values: dict[str, Array], problems: dict[int, str]) -> tuple[states.Rows, Integers]:
+    """Rows without problems, and their positions; problems of impacts are added to the others."""
     while True:
+        good = np.delete(np.arange(values["radius"].size), list(problems))
         try:
-            return states.rows({name: column[good] for name, column in values.items()})
+            rows = states.rows({name: column[good] for name, column in values.items()})
+            found = collision.problems(rows.impacts)
+            found |= collision.problems_of_normals(rows.impacts.normal)
         except bodies.OutOfRange as error:
-            for position in np.flatnonzero(good)[error.where].tolist():
-                problems[position], good[position] = str(error), False
+            found = dict.fromkeys(np.flatnonzero(error.where).tolist(), str(error))
+        if not found:
+            return rows, good
+        problems |= {int(good[i]): message for i, message in found.items()}
 
 
-def _by_position(good: Booleans, messages: dict[int, str]) -> dict[int, str]:
-    """Messages by the positions of rows in the table, from those by the index among good rows."""
-    positions = np.flatnonzero(good)
-    return {int(positions[i]): message for i, message in messages.items()}
-
-
-def _solved(answers: rungs.Answers) -> Booleans:
+def _has_answer(answers: rungs.Answers) -> Booleans:
     """Which impacts have an answer."""
     solved = np.ones(answers.place.size, dtype=bool)
     solved[list(answers.unsolved)] = False
@@ -311,17 +219,17 @@ def _result(
         result |= {"loss": pd.Categorical.from_codes(code, columns.LOSSES)}
     models = list(dict.fromkeys(rung.model for rung in rungs.RUNGS))
     model = np.array([models.index(rung.model) for rung in rungs.RUNGS])[answers.place]
-    return result | {
-        "contact_velocity_after [m/s]": answers.velocity,
-        "model": pd.Categorical.from_codes(model, models),
-        "error_bound [m/s]": answers.error,
-        "model_form [m/s]": form,
-        "regime": pd.Categorical.from_codes(answers.regime, list(Regime.__members__)),
-        "incidence": impacts.incidence_of(np.arange(model.size)),
-        "peak_normal_force [N]": rows.peak_normal,
-        # Without friction there is none, also where the normal force is not known.
-        "peak_friction_force [N]": np.where(
-            peak > 0, impacts.unit / impacts.v2 * peak * rows.peak_normal, 0.0
-        ),
-        "energy_lost [J]": collision.energy_lost(impacts, answers.change),
-    }
+    # Without friction there is no force of it, also where the normal force is not known.
+    friction = np.where(peak > 0, impacts.unit / impacts.v2 * peak * rows.peak_normal, 0.0)
+    added = [
+        answers.velocity,
+        pd.Categorical.from_codes(model, models),
+        answers.error,
+        form,
+        pd.Categorical.from_codes(answers.regime, list(Regime.__members__)),
+        impacts.incidence_of(np.arange(model.size)),
+        rows.peak_normal,
+        friction,
+        collision.energy_lost(impacts, answers.change),
+    ]
+    return result | dict(zip(map(columns.header, columns.RESULT), added, strict=True))

@@ -13,7 +13,7 @@ from planarimpact import bodies, collision
 from planarimpact.bodies import Body, Material
 from planarimpact.collision import LOSSES, Impacts, Pair, State
 from planarimpact.ground.arrays import Array
-from planarimpact.scene.columns import AXES
+from planarimpact.scene.columns import AXES, PLANE
 
 
 class Rows(NamedTuple):
@@ -82,11 +82,10 @@ def _body(values: dict[str, Array], prefix: str) -> Body:
     radius = values.get(f"{prefix}radius", np.zeros(count))
     if f"{prefix}density" in values:
         return bodies.solid_sphere(radius, values[f"{prefix}density"])
+    wall = np.full(count, np.inf)
+    mass, gyration = (values.get(f"{prefix}{name}", wall) for name in ("mass", "gyration"))
     # The radius of a body that can neither move nor turn may be infinite: it is flat.
-    flat = np.where(np.isinf(radius), 0.0, radius)
-    if f"{prefix}mass" not in values:
-        return Body(np.full(count, np.inf), np.full(count, np.inf), flat)
-    return Body(values[f"{prefix}mass"], values[f"{prefix}gyration"], flat)
+    return Body(mass, gyration, np.where(np.isinf(radius), 0.0, radius))
 
 
 def _materials(values: dict[str, Array]) -> tuple[Material, Material | None]:
@@ -107,22 +106,12 @@ def _normal(values: dict[str, Array]) -> Array:
 
 def _state(values: dict[str, Array], prefix: str) -> State:
     """A state; what is left out is 0."""
-    return State(_velocity(values, prefix), _spin(values, prefix))
-
-
-def _velocity(values: dict[str, Array], prefix: str) -> Array:
-    if f"{prefix}velocity_x" in values:
-        return np.stack([values[f"{prefix}velocity_{axis}"] for axis in AXES])
-    if f"{prefix}velocity_normal" not in values:
-        return np.zeros((3, 1))
-    along, towards = (values[f"{prefix}velocity_{name}"] for name in ("tangential", "normal"))
-    return np.stack([along, np.zeros(along.size), -towards])
-
-
-def _spin(values: dict[str, Array], prefix: str) -> Array:
-    if f"{prefix}spin_x" in values:
-        return np.stack([values[f"{prefix}spin_{axis}"] for axis in AXES])
-    if f"{prefix}spin" not in values:
-        return np.zeros((3, 1))
-    still = np.zeros(values[f"{prefix}spin"].size)
-    return np.stack([still, -values[f"{prefix}spin"], still])
+    zero = np.zeros(values["radius"].size)
+    if {f"{prefix}velocity_x", f"{prefix}spin_x"} & set(values):
+        vectors = [
+            np.stack([values.get(f"{prefix}{quantity}_{axis}", zero) for axis in AXES])
+            for quantity in ("velocity", "spin")
+        ]
+        return State(*vectors)
+    along, towards, spin = (values.get(f"{prefix}{name}", zero) for name in PLANE)
+    return State(np.stack([along, zero, -towards]), np.stack([zero, -spin, zero]))
