@@ -46,8 +46,8 @@ LARGEST_MASS_RATIO = 1e6
 LEAST_SHARE, LARGEST_SHARE = 1e-4, 1e6  # of the stiffness ratio in the mass ratio
 # A slip is short if its time, and that times tau, is below this: there the differences of which
 # its impulse and work consist lose digits, and Gauss's quadrature does not.
-SHORT = 1.0
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
+SHORT = 0.1
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 # Phases of one impact, in order, and when each ends.
 Trace: TypeAlias = list[tuple[Stick | Slip, Array]]
@@ -208,12 +208,12 @@ def _stick(which: Integers, stick: Stick, outcome: Outcome, trace: Trace | None)
     if trace is not None:
         trace.append((stick, end))
     # The first crest of |T| is the highest. Later |T| is less than N, which falls.
-    highest = np.maximum(
-        np.abs(stick.state(np.minimum(stick.first_crest(), end))[2]), stick.friction
-    )
-    _, v, friction, velocity, _ = stick.state(end)
-    highest = np.maximum(highest, np.abs(friction)) / elements.motion(elements.shifted_zero(1))[0]
-    outcome.peak_friction[which] = np.maximum(outcome.peak_friction[which], highest)
+    crest, _ = stick.tangential(np.minimum(stick.first_crest(), end))
+    friction, velocity = stick.tangential(end)
+    highest = np.maximum(np.maximum(np.abs(crest), np.abs(friction)), stick.friction)
+    largest_force, _ = elements.motion(elements.shifted_zero(1))
+    outcome.peak_friction[which] = np.maximum(outcome.peak_friction[which], highest / largest_force)
+    _, v = elements.motion(end)
     # From now on mirrored to direction +1.
     velocity = velocity * sign
     constant = velocity - elements.beta * v
@@ -253,8 +253,9 @@ def _by_quadrature(slip: Slip, span: Array) -> tuple[Array, Array]:
     """Normal impulse of short slips, and their work, which keep their digits."""
     impulse, work = np.zeros_like(span), np.zeros_like(span)
     for node, weight in zip(NODES, WEIGHTS, strict=True):
-        force, _, _, velocity, _ = slip.state(slip.start + span * (1 + node) / 2)
-        slip_velocity = slip.margin(span, slip.start + span * (1 + node) / 2)[0]
-        impulse += weight / 2 * span * force
-        work += weight / 2 * span * force * slip_velocity
+        time = slip.start + span * (1 + node) / 2
+        force, v = slip.elements.motion(time)
+        step = weight / 2 * span * force
+        impulse += step
+        work += step * slip.slip_velocity(v, time)
     return impulse, work

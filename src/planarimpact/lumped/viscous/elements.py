@@ -122,9 +122,13 @@ class Elements(NamedTuple):
 
     def motion(self, time: Array) -> tuple[Array, Array]:
         """Normal force N and rate of compression v."""
-        sine = np.sin if self.normal_under else np.sinh
-        share, phase = self.e * np.exp(-self.xi * time) / self.frequency, self.frequency * time
-        return -share * sine(phase), -share * sine(phase + self.angle)
+        share = self.e * np.exp(-self.xi * time)
+        if self.normal_under:
+            sine, cosine = sin_cos(self.frequency * time)
+            force = -share * sine / self.frequency
+            return force, self.xi * force - share * cosine
+        share, phase = share / self.frequency, self.frequency * time
+        return -share * np.sinh(phase), -share * np.sinh(phase + self.angle)
 
     def stick(self, friction: Array, velocity: Array, span: Array) -> tuple[Array, Array]:
         """Friction T and velocity w, a span of time after they were `friction` and `velocity`."""

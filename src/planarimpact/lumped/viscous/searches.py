@@ -44,6 +44,9 @@ ROUNDING = 1e-14
 _Phase = TypeVar("_Phase", "Stick", "Slip")
 # N, v, T, w and s of a phase at some times.
 State: TypeAlias = tuple[Array, Array, Array, Array, Array]
+# Margin, rate, descent and its rate.
+Course: TypeAlias = tuple[Array, Array, Array, Array]
+MARGIN, DESCENT = slice(0, 2), slice(2, 4)
 
 
 class Stick(NamedTuple):
@@ -58,12 +61,15 @@ class Stick(NamedTuple):
     friction: Array
     velocity: Array
 
+    def tangential(self, time: Array) -> tuple[Array, Array]:
+        """T and w at these times."""
+        return self.elements.stick(self.friction, self.velocity, time - self.start)
+
     def state(self, time: Array) -> State:
         """N, v, T, w and s at these times."""
-        elements = self.elements
-        friction, velocity = elements.stick(self.friction, self.velocity, time - self.start)
-        spring = elements.zeta2 * friction - 2 * elements.xi * velocity
-        return *elements.motion(time), friction, velocity, spring
+        friction, velocity = self.tangential(time)
+        spring = self.elements.zeta2 * friction - 2 * self.elements.xi * velocity
+        return *self.elements.motion(time), friction, velocity, spring
 
     def slope(self, friction: Array, velocity: Array) -> Array:
         """T'."""
@@ -82,24 +88,24 @@ class Stick(NamedTuple):
         sign = np.where(slope < 0, -1.0, 1.0)
         return self.start + elements.first_zero(sign * slope, sign * bend)
 
-    def margin(self, sign: Array, time: Array) -> tuple[Array, Array]:
-        """N - |T| where T has this sign, and its rate.
+    def course(self, sign: Array, time: Array) -> Course:
+        """The margin N - |T| where T has this sign, its rate, its descent W, and the rate of that.
 
         Friction is in units of mu, so Coulomb's limit is the normal force itself.
         """
-        force, v, friction, velocity, _ = self.state(time)
-        rate = v - 2 * self.elements.xi * force
-        margin_rate = (1 + ROUNDING) * rate - sign * self.slope(friction, velocity)
-        return (1 + ROUNDING) * force - sign * friction, margin_rate
-
-    def descent(self, sign: Array, time: Array) -> tuple[Array, Array]:
-        """W, positive where N/|T| falls, and its rate."""
         elements, tau = self.elements, 2 * self.elements.xi
-        force, v, friction, velocity, _ = self.state(time)
-        rate = v - tau * force
-        value = sign * (self.slope(friction, velocity) * force - friction * rate)
-        growth = (elements.b - 1) * sign * friction * (force + tau * rate)
-        return value, -2 * elements.gamma * value - growth
+        force, v = elements.motion(time)
+        friction, velocity = self.tangential(time)
+        force_rate, friction_rate = v - tau * force, self.slope(friction, velocity)
+        limit = 1 + ROUNDING
+        descent = sign * (friction_rate * force - friction * force_rate)
+        growth = sign * friction * (elements.b - 1) * (force + tau * force_rate)
+        return (
+            limit * force - sign * friction,
+            limit * force_rate - sign * friction_rate,
+            descent,
+            -2 * elements.gamma * descent - growth,
+        )
 
 
 class Slip(NamedTuple):
@@ -129,23 +135,21 @@ class Slip(NamedTuple):
         """Infinite: T does not vanish."""
         return np.full_like(self.start, np.inf)
 
-    def margin(self, _: Array, time: Array) -> tuple[Array, Array]:
-        """w_s, and its rate."""
-        elements = self.elements
+    def slip_velocity(self, v: Array, time: Array) -> Array:
+        """w_s, from the rate of compression."""
+        k = self.elements.beta - self.elements.zeta2
+        return self.constant + k * v + self.transient * self.decay(time)
+
+    def course(self, _: Array, time: Array) -> Course:
+        """The margin w_s, its rate, its descent -w_s', and the rate of that."""
+        elements, tau = self.elements, 2 * self.elements.xi
         k = elements.beta - elements.zeta2
         force, v = elements.motion(time)
         rest = self.transient * self.decay(time)
         rounding = ROUNDING * (elements.beta + elements.zeta2 + np.abs(self.constant))
-        value = self.constant + k * v + rest + rounding
-        return value, -k * force - rest / (2 * elements.xi)
-
-    def descent(self, _: Array, time: Array) -> tuple[Array, Array]:
-        """-w_s', and its rate."""
-        elements, tau = self.elements, 2 * self.elements.xi
-        k = elements.beta - elements.zeta2
-        force, v = elements.motion(time)
-        rest = self.transient * self.decay(time) / tau
-        return k * force + rest, k * (v - tau * force) - rest / tau
+        descent = k * force + rest / tau
+        growth = k * (v - tau * force) - rest / (tau * tau)
+        return self.constant + k * v + rest + rounding, -descent, descent, growth
 
 
 def take(phase: _Phase, which: Integers) -> _Phase:
@@ -160,19 +164,20 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
     turn, half_wave = phase.elements.shifted_zero(2), phase.elements.half_wave()
     end, end_sign = np.zeros_like(phase.start), np.ones_like(phase.start)
     which, low, sign, zero = np.arange(end.size), phase.start, end_sign, phase.first_zero()
-    falls = phase.descent(sign, low)[0] > 0
+    falls = phase.course(sign, low)[2] > 0
     while which.size:
         # The next piece, and where the margin is lowest in it.
         high = np.minimum(zero, 0.0)
         high = np.where(low < turn, np.minimum(high, turn), high)
         part = take(phase, which)
-        rises = part.descent(sign, high)[0] < 0
-        lowest = high.copy()
-        between = np.flatnonzero(falls & rises)
-        lowest[between] = _crossing(part, "descent", between, sign, low, high)
-        ends = part.margin(sign, lowest)[0] <= 0
+        margin, _, descent, _ = part.course(sign, high)
+        ends, rises, lowest = margin <= 0, descent < 0, high.copy()
+        between = np.flatnonzero(falls & rises & ~ends)
+        lowest[between] = _crossing(DESCENT, part, between, sign, low, high)
+        least = take(part, between).course(sign[between], lowest[between])[0]
+        ends[between] = least <= 0
         found = np.flatnonzero(ends)
-        end[which[found]] = _crossing(part, "margin", found, sign, low, lowest)
+        end[which[found]] = _crossing(MARGIN, part, found, sign, low, lowest)
         end_sign[which] = sign
         # T turns its sign at a zero, where the margin over N starts to fall.
         follows = np.flatnonzero(~ends & (high < 0))
@@ -186,13 +191,12 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
 
 
 def _crossing(
-    phase: Stick | Slip, name: str, which: Integers, sign: Array, low: Array, high: Array
+    what: slice, phase: Stick | Slip, which: Integers, sign: Array, low: Array, high: Array
 ) -> Array:
-    """Where the method of this name, of some of the impacts, passes zero between bounds."""
-    part, sign = take(phase, which), sign[which]
+    """Where MARGIN or DESCENT of some of the impacts passes zero between bounds."""
+    phase, sign = take(phase, which), sign[which]
 
-    def function(index: Integers, time: Array) -> tuple[Array, Array]:
-        value: tuple[Array, Array] = getattr(take(part, index), name)(sign[index], time)
-        return value
+    def function(index: Integers, time: Array) -> tuple[Array, ...]:
+        return take(phase, index).course(sign[index], time)[what]
 
     return roots.crossing(function, low[which], high[which])
