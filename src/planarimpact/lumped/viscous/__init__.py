@@ -178,7 +178,7 @@ def _sliding(which: Integers, x: Array, elements: Elements) -> Slip:
     """Slip from contact on."""
     part, start = elements.take(which), x[which]
     rest = np.zeros_like(start)
-    return Slip(part, part.contact(), np.ones_like(start), start - part.beta, rest)
+    return Slip(part, part.contact(), np.ones_like(start), start, start - part.beta, rest)
 
 
 def _alternate(which: Integers, stick: Stick, outcome: Outcome, trace: Trace | None) -> None:
@@ -216,8 +216,8 @@ def _stick(which: Integers, stick: Stick, outcome: Outcome, trace: Trace | None)
     _, v = elements.motion(end)
     # From now on mirrored to direction +1.
     velocity = velocity * sign
-    constant = velocity - elements.beta * v
-    return Slip(elements, end, stick.side * sign, constant, elements.zeta2 * v - velocity)
+    constant, transient = velocity - elements.beta * v, elements.zeta2 * v - velocity
+    return Slip(elements, end, stick.side * sign, velocity, constant, transient)
 
 
 def _slide(
@@ -228,9 +228,7 @@ def _slide(
     end, _ = phase_end(slip)
     if trace is not None and which.size:
         trace.append((slip, end))
-    (force, v, _, velocity, _), (force_end, v_end, *_) = (
-        slip.state(time) for time in (slip.start, end)
-    )
+    (force, v, *_), (force_end, v_end, *_) = (slip.state(time) for time in (slip.start, end))
     # The normal impulse, and the works of friction of A + k v and of B y.
     span, decay, impulse = end - slip.start, slip.decay(end), v - v_end
     short = np.flatnonzero(span * np.maximum(tau, 1.0) < SHORT)
@@ -240,7 +238,7 @@ def _slide(
     work = impulse * mean + slip.transient * weighted / (1 + 2 * tau * tau)
     work[short] = np.where(span[short] < tau[short], brief, work[short])
     outcome.dissipation[which] += work
-    velocity = velocity - elements.beta * impulse
+    velocity = slip.velocity - elements.beta * impulse
     outcome.velocity[which] = slip.side * velocity
     crest = elements.shifted_zero(1)
     outcome.peak_friction[which[(slip.start <= crest) & (crest <= end)]] = 1.0

@@ -70,7 +70,7 @@ def phase_angle(restitution: Array, under: bool) -> Array:
         return sign * (value - goal[which]), np.where(square < SMALL_SQUARE, -1 / 3, slope)
 
     largest = np.full_like(goal, HALF_PI**2) if under else goal * goal
-    square = roots.crossing(surplus, np.zeros_like(goal), largest)
+    square = roots.crossing(surplus, np.zeros_like(goal), largest, unguarded=4)
     return np.maximum(np.sqrt(square), LEAST_FREQUENCY)
 
 

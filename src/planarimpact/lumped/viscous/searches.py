@@ -35,7 +35,7 @@ from typing import NamedTuple, TypeAlias, TypeVar
 import numpy as np
 
 from planarimpact.ground import roots
-from planarimpact.ground.arrays import Array, Integers
+from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.lumped.viscous.elements import Elements
 
 # What rounding may take from a margin, as a share of its terms.
@@ -75,10 +75,12 @@ class Stick(NamedTuple):
         """T'."""
         return velocity / self.elements.zeta2 - 2 * self.elements.gamma * friction
 
-    def first_zero(self) -> Array:
-        """When T first vanishes; infinite if never."""
+    def first_piece(self) -> tuple[Array, Booleans]:
+        """When T first vanishes, infinite if never, and whether N/|T| falls at the start."""
+        elements = self.elements
         slope = self.slope(self.friction, self.velocity)
-        return self.start + self.elements.first_zero(self.friction, slope)
+        falls = (self.start <= elements.contact()) & (elements.b < 1)
+        return self.start + elements.first_zero(self.friction, slope), falls
 
     def first_crest(self) -> Array:
         """When T' first vanishes, so |T| is largest; infinite if never."""
@@ -117,6 +119,7 @@ class Slip(NamedTuple):
     elements: Elements
     start: Array
     side: Array
+    velocity: Array
     constant: Array
     transient: Array
 
@@ -131,9 +134,9 @@ class Slip(NamedTuple):
         spring = zeta2 * (force - tau * v) + tau * self.transient * self.decay(time)
         return force, v, force, self.constant + self.elements.beta * v, spring
 
-    def first_zero(self) -> Array:
-        """Infinite: T does not vanish."""
-        return np.full_like(self.start, np.inf)
+    def first_piece(self) -> tuple[Array, Booleans]:
+        """As in `Stick`: here T does not vanish, and w_s does not fall at first, or all along."""
+        return np.full_like(self.start, np.inf), np.zeros(self.start.size, bool)
 
     def slip_velocity(self, v: Array, time: Array) -> Array:
         """w_s, from the rate of compression."""
@@ -163,8 +166,8 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
     """When phases end, at separation if not before, and the sign of T in stick there."""
     turn, half_wave = phase.elements.shifted_zero(2), phase.elements.half_wave()
     end, end_sign = np.zeros_like(phase.start), np.ones_like(phase.start)
-    which, low, sign, zero = np.arange(end.size), phase.start, end_sign, phase.first_zero()
-    falls = phase.course(sign, low)[2] > 0
+    which, low, sign = np.arange(end.size), phase.start, end_sign
+    zero, falls = phase.first_piece()
     while which.size:
         # The next piece, and where the margin is lowest in it.
         high = np.minimum(zero, 0.0)
