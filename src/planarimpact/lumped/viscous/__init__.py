@@ -146,9 +146,10 @@ def _solve_alike(x: Array, elements: Elements, trace: Trace | None) -> Outcome:
     ends = x < sliding.limit_alike(beta, zeta2, e)
     early, late = np.flatnonzero(ends & (x <= zeta2)), np.flatnonzero(ends & (x > zeta2))
     outcome.velocity[early] = 0.0
-    for which, regime in ((early, Regime.STICK), (late, Regime.SLIP_STICK)):
+    for which, regime in ((early, Regime.STICK_SLIP), (late, Regime.SLIP_STICK_SLIP)):
         outcome.peak_friction[which] = outcome.dissipation[which] = 0.0
         outcome.regime[which] = regime
+    outcome.regime[x == 0] = Regime.STICK
     moves = early[x[early] > 0]
     sticks, slips = _sticking(moves, x, elements), _sliding(late, x, elements)
     if trace is not None:
@@ -190,7 +191,6 @@ def _alternate(which: Integers, stick: Stick, outcome: Outcome, trace: Trace | N
     if not which.size:
         return
     most = 8 + np.max(-stick.start / stick.elements.half_wave())
-    outcome.regime[which] += np.uint8(Regime.STICK_SLIP - Regime.STICK)
     count = 0
     while which.size:
         if count > most:
@@ -236,7 +236,7 @@ def _slide(
     weighted = tau * (force - force_end * decay) + tau * tau * (v - v_end * decay)
     mean = slip.constant + (elements.beta - elements.zeta2) * (v + v_end) / 2
     work = impulse * mean + slip.transient * weighted / (1 + 2 * tau * tau)
-    work[short] = np.where(span[short] < tau[short], brief, work[short])
+    work[short] = np.where(span[short] < SHORT * tau[short], brief, work[short])
     outcome.dissipation[which] += work
     velocity = slip.velocity - elements.beta * impulse
     outcome.velocity[which] = slip.side * velocity

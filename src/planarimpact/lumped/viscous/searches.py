@@ -39,13 +39,13 @@ from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.lumped.viscous.elements import Elements
 
 # What rounding may take from a margin, as a share of its terms.
-ROUNDING = 1e-14
+ROUNDING = 1e-15
 
 _Phase = TypeVar("_Phase", "Stick", "Slip")
 # N, v, T, w and s of a phase at some times.
 State: TypeAlias = tuple[Array, Array, Array, Array, Array]
 # Margin, rate, descent and its rate.
-Course: TypeAlias = tuple[Array, Array, Array, Array]
+Course: TypeAlias = tuple[Array, Array, Array, Array, Array]
 MARGIN, DESCENT = slice(0, 2), slice(2, 4)
 
 
@@ -99,14 +99,14 @@ class Stick(NamedTuple):
         force, v = elements.motion(time)
         friction, velocity = self.tangential(time)
         force_rate, friction_rate = v - tau * force, self.slope(friction, velocity)
-        limit = 1 + ROUNDING
         descent = sign * (friction_rate * force - friction * force_rate)
         growth = sign * friction * (elements.b - 1) * (force + tau * force_rate)
         return (
-            limit * force - sign * friction,
-            limit * force_rate - sign * friction_rate,
+            force - sign * friction,
+            force_rate - sign * friction_rate,
             descent,
             -2 * elements.gamma * descent - growth,
+            ROUNDING * force,
         )
 
 
@@ -152,7 +152,7 @@ class Slip(NamedTuple):
         rounding = ROUNDING * (elements.beta + elements.zeta2 + np.abs(self.constant))
         descent = k * force + rest / tau
         growth = k * (v - tau * force) - rest / (tau * tau)
-        return self.constant + k * v + rest + rounding, -descent, descent, growth
+        return self.constant + k * v + rest, -descent, descent, growth, rounding
 
 
 def take(phase: _Phase, which: Integers) -> _Phase:
@@ -173,12 +173,12 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
         high = np.minimum(zero, 0.0)
         high = np.where(low < turn, np.minimum(high, turn), high)
         part = take(phase, which)
-        margin, _, descent, _ = part.course(sign, high)
-        ends, rises, lowest = margin <= 0, descent < 0, high.copy()
+        margin, _, descent, _, rounding = part.course(sign, high)
+        ends, rises, lowest = margin <= -rounding, descent < 0, high.copy()
         between = np.flatnonzero(falls & rises & ~ends)
         lowest[between] = _crossing(DESCENT, part, between, sign, low, high)
-        least = take(part, between).course(sign[between], lowest[between])[0]
-        ends[between] = least <= 0
+        margin, *_, rounding = take(part, between).course(sign[between], lowest[between])
+        ends[between] = margin <= -rounding
         found = np.flatnonzero(ends)
         end[which[found]] = _crossing(MARGIN, part, found, sign, low, lowest)
         end_sign[which] = sign
