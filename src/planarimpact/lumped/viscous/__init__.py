@@ -88,12 +88,13 @@ def solve(impacts: Impacts) -> Outcome:
     The peak of friction is in mu times the largest normal force of the impact. The dissipation is
     the work of friction alone.
     """
-    results = (np.empty_like(impacts.x) for _ in range(3))
-    outcome = Outcome(*results, np.empty(impacts.x.size, np.uint8))
-    for which, elements in alike(*impacts[1:]):
+    velocity, peak, work = (np.empty_like(impacts.x) for _ in range(3))
+    outcome = Outcome(velocity, peak, work, np.empty(impacts.x.size, np.uint8))
+    x, *groups = impacts
+    for which, elements in alike(*groups):
         for first in range(0, which.size, CHUNK):
             part = np.arange(first, min(first + CHUNK, which.size))
-            solved = _solve_alike(impacts.x[which[part]], elements.take(part), None)
+            solved = _solve_alike(x[which[part]], elements.take(part), None)
             for field, values in zip(outcome, solved, strict=True):
                 field[which[part]] = values
     return outcome
@@ -109,21 +110,24 @@ def history(mirror: float, impacts: Impacts, samples: int) -> History:
     grid = np.linspace(-2.0, 0.0, samples) * half
 
     def column(phase: Stick | Slip, time: Array) -> Array:
-        normal, _, *tangential = phase.state(time)
+        normal, *tangential = phase.state(time)
         mirrored = (mirror * phase.side * values for values in tangential)
         return np.stack([2.0 + time / half, normal, *mirrored])
 
     def event(kind: EventKind, values: Array) -> Event:
         return Event(kind, *(float(value) for value in values))
 
-    columns, events = [], []
-    for phase, end in trace:
+    columns: list[Array] = []
+    events: list[Event] = []
+    for phase, end in trace or [(_slip_from_contact(elements, x), np.zeros(1))]:
+        if not (phase.start < end).any():
+            continue
         inside = grid[(grid > phase.start) & (grid < end)]
         compressed = phase.start <= -half < end
         middle = [-half] if compressed else []
         columns.append(column(phase, np.unique([*phase.start, *inside, *middle, *end])))
         kinds = [EventKind.STICK if isinstance(phase, Stick) else EventKind.SLIP]
-        if phase is trace[0][0]:
+        if not events:
             kinds.insert(0, EventKind.CONTACT)
         events += [event(kind, columns[-1][:, 0]) for kind in kinds]
         if compressed:
@@ -131,7 +135,8 @@ def history(mirror: float, impacts: Impacts, samples: int) -> History:
             events.append(event(EventKind.MAXIMUM_COMPRESSION, values))
     events.append(event(EventKind.SEPARATION, columns[-1][:, -1]))
     joined = [phase_columns[:, :-1] for phase_columns in columns[:-1]] + columns[-1:]
-    return History(*np.concatenate(joined, axis=1), tuple(events))
+    time, normal, friction, velocity, spring = np.concatenate(joined, axis=1)
+    return History(time, normal, friction, velocity, spring, tuple(events))
 
 
 def _solve_alike(x: Array, elements: Elements, trace: Trace | None) -> Outcome:
@@ -150,16 +155,11 @@ def _solve_alike(x: Array, elements: Elements, trace: Trace | None) -> Outcome:
         outcome.peak_friction[which] = outcome.dissipation[which] = 0.0
         outcome.regime[which] = regime
     outcome.regime[x == 0] = Regime.STICK
-    moves = early[x[early] > 0]
-    sticks, slips = _sticking(moves, x, elements), _sliding(late, x, elements)
-    if trace is not None:
-        if not ends[0]:
-            trace.append((_sliding(np.arange(1), x, elements), np.zeros(1)))
-        if x[0] == 0:
-            trace.append((_sticking(np.arange(1), x, elements), np.zeros(1)))
-    late, after = _slide(late, slips, outcome, trace)
-    which = np.concatenate([moves, late])
-    fields = (np.concatenate(both) for both in zip(sticks[1:], after[1:], strict=True))
+    stick = _stick_from_contact(elements.take(early), x[early])
+    slip = _slip_from_contact(elements.take(late), x[late])
+    stopped, after = _slide(late, slip, outcome, trace)
+    which = np.concatenate([early, stopped])
+    fields = (np.concatenate(both) for both in zip(stick[1:], after[1:], strict=True))
     _alternate(which, Stick(elements.take(which), *fields), outcome, trace)
     # Rounding must not create energy.
     np.minimum(np.maximum(outcome.velocity, -x), x, out=outcome.velocity)
@@ -168,18 +168,14 @@ def _solve_alike(x: Array, elements: Elements, trace: Trace | None) -> Outcome:
     return outcome
 
 
-def _sticking(which: Integers, x: Array, elements: Elements) -> Stick:
-    """Stick from contact on."""
-    part, start = elements.take(which), x[which]
-    friction = 2 * part.xi * start / part.zeta2
-    return Stick(part, part.contact(), np.ones_like(start), friction, start)
+def _stick_from_contact(elements: Elements, x: Array) -> Stick:
+    friction = 2 * elements.xi * x / elements.zeta2
+    return Stick(elements, elements.contact(), np.ones_like(x), friction, x)
 
 
-def _sliding(which: Integers, x: Array, elements: Elements) -> Slip:
-    """Slip from contact on."""
-    part, start = elements.take(which), x[which]
-    rest = np.zeros_like(start)
-    return Slip(part, part.contact(), np.ones_like(start), start, start - part.beta, rest)
+def _slip_from_contact(elements: Elements, x: Array) -> Slip:
+    constant, transient = x - elements.beta, np.zeros_like(x)
+    return Slip(elements, elements.contact(), np.ones_like(x), x, constant, transient)
 
 
 def _alternate(which: Integers, stick: Stick, outcome: Outcome, trace: Trace | None) -> None:
@@ -188,9 +184,7 @@ def _alternate(which: Integers, stick: Stick, outcome: Outcome, trace: Trace | N
     A stick that follows slip lasts at least to the next zero of T, or its slip to separation. So
     there are no more sticks than half-waves of T, and two: `most` is more than that.
     """
-    if not which.size:
-        return
-    most = 8 + np.max(-stick.start / stick.elements.half_wave())
+    most = 8 + np.max(-stick.start / stick.elements.half_wave(), initial=0.0)
     count = 0
     while which.size:
         if count > most:
@@ -226,9 +220,9 @@ def _slide(
     """The impacts whose slip stops, and their stick; adds to the outcome."""
     elements, tau = slip.elements, 2 * slip.elements.xi
     end, _ = phase_end(slip)
-    if trace is not None and which.size:
+    if trace is not None:
         trace.append((slip, end))
-    (force, v, *_), (force_end, v_end, *_) = (slip.state(time) for time in (slip.start, end))
+    (force, v), (force_end, v_end) = (elements.motion(time) for time in (slip.start, end))
     # The normal impulse, and the works of friction of A + k v and of B y.
     span, decay, impulse = end - slip.start, slip.decay(end), v - v_end
     short = np.flatnonzero(span * np.maximum(tau, 1.0) < SHORT)

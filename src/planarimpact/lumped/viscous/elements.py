@@ -55,7 +55,8 @@ def phase_angle(restitution: Array, under: bool) -> Array:
 
     Examples
     --------
-    >>> float(np.exp(-2 / np.tan(phase_angle(np.array([0.5]), True)) * phase_angle(np.array([0.5]), True))[0].round(14))
+    >>> angle = float(phase_angle(np.array([0.5]), True)[0])
+    >>> round(float(np.exp(-2 * angle / np.tan(angle))), 14)
     0.5
     """
     goal = -np.log(restitution) / 2
@@ -111,10 +112,10 @@ class Elements(NamedTuple):
         return -2 * self.angle / self.frequency
 
     def shifted_zero(self, shifts: int) -> Array:
-        """When the phase omega t, shifted by so many times -delta, is -pi; if ever, else at contact.
+        """When the phase omega t - `shifts` delta is -pi, or at contact if not after it.
 
-        With one shift N' vanishes, so the normal force is largest. With two N + tau N' vanishes.
-        From then on they are negative, and they are so throughout where the answer is the contact.
+        With one shift N' vanishes, so the normal force is largest, and with two N + tau N'. After
+        this time they are negative.
         """
         if not self.normal_under:
             return self.contact()

@@ -30,7 +30,7 @@ A phase starts where its margin is 0, but in the first instants of contact. Roun
 there, so a margin is enlarged by what rounding may take from it.
 """
 
-from typing import NamedTuple, TypeAlias, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -42,11 +42,20 @@ from planarimpact.lumped.viscous.elements import Elements
 ROUNDING = 1e-15
 
 _Phase = TypeVar("_Phase", "Stick", "Slip")
-# N, v, T, w and s of a phase at some times.
-State: TypeAlias = tuple[Array, Array, Array, Array, Array]
-# Margin, rate, descent and its rate.
-Course: TypeAlias = tuple[Array, Array, Array, Array, Array]
-MARGIN, DESCENT = slice(0, 2), slice(2, 4)
+
+
+class Course(NamedTuple):
+    """A margin with two derivatives, its descent with one, and what rounding may take from it."""
+
+    margin: Array
+    rate: Array
+    bend: Array
+    descent: Array
+    descent_rate: Array
+    rounding: Array
+
+
+MARGIN, DESCENT = slice(0, 3), slice(3, 5)
 
 
 class Stick(NamedTuple):
@@ -65,11 +74,12 @@ class Stick(NamedTuple):
         """T and w at these times."""
         return self.elements.stick(self.friction, self.velocity, time - self.start)
 
-    def state(self, time: Array) -> State:
-        """N, v, T, w and s at these times."""
+    def state(self, time: Array) -> tuple[Array, Array, Array, Array]:
+        """N, T, w and s at these times."""
+        force, _ = self.elements.motion(time)
         friction, velocity = self.tangential(time)
         spring = self.elements.zeta2 * friction - 2 * self.elements.xi * velocity
-        return *self.elements.motion(time), friction, velocity, spring
+        return force, friction, velocity, spring
 
     def slope(self, friction: Array, velocity: Array) -> Array:
         """T'."""
@@ -91,21 +101,22 @@ class Stick(NamedTuple):
         return self.start + elements.first_zero(sign * slope, sign * bend)
 
     def course(self, sign: Array, time: Array) -> Course:
-        """The margin N - |T| where T has this sign, its rate, its descent W, and the rate of that.
+        """The margin N - |T|, where T has this sign, with the descent W.
 
         Friction is in units of mu, so Coulomb's limit is the normal force itself.
         """
-        elements, tau = self.elements, 2 * self.elements.xi
+        elements, tau, decay = self.elements, 2 * self.elements.xi, 2 * self.elements.gamma
         force, v = elements.motion(time)
         friction, velocity = self.tangential(time)
-        force_rate, friction_rate = v - tau * force, self.slope(friction, velocity)
-        descent = sign * (friction_rate * force - friction * force_rate)
-        growth = sign * friction * (elements.b - 1) * (force + tau * force_rate)
-        return (
-            force - sign * friction,
-            force_rate - sign * friction_rate,
+        force_rate, friction_rate = v - tau * force, sign * self.slope(friction, velocity)
+        friction = sign * friction
+        descent = friction_rate * force - friction * force_rate
+        return Course(
+            force - friction,
+            force_rate - friction_rate,
+            decay * friction_rate + elements.b * friction - tau * force_rate - force,
             descent,
-            -2 * elements.gamma * descent - growth,
+            -decay * descent - (elements.b - 1) * friction * (force + tau * force_rate),
             ROUNDING * force,
         )
 
@@ -127,12 +138,12 @@ class Slip(NamedTuple):
         """y = exp(-t/tau), with t from the start."""
         return np.exp((self.start - time) / (2 * self.elements.xi))
 
-    def state(self, time: Array) -> State:
-        """N, v, T, w and s at these times."""
+    def state(self, time: Array) -> tuple[Array, Array, Array, Array]:
+        """As in `Stick`."""
         tau, zeta2 = 2 * self.elements.xi, self.elements.zeta2
         force, v = self.elements.motion(time)
         spring = zeta2 * (force - tau * v) + tau * self.transient * self.decay(time)
-        return force, v, force, self.constant + self.elements.beta * v, spring
+        return force, force, self.constant + self.elements.beta * v, spring
 
     def first_piece(self) -> tuple[Array, Booleans]:
         """As in `Stick`: here T does not vanish, and w_s does not fall at first, or all along."""
@@ -144,7 +155,7 @@ class Slip(NamedTuple):
         return self.constant + k * v + self.transient * self.decay(time)
 
     def course(self, _: Array, time: Array) -> Course:
-        """The margin w_s, its rate, its descent -w_s', and the rate of that."""
+        """The margin w_s, with the descent -w_s'."""
         elements, tau = self.elements, 2 * self.elements.xi
         k = elements.beta - elements.zeta2
         force, v = elements.motion(time)
@@ -152,7 +163,8 @@ class Slip(NamedTuple):
         rounding = ROUNDING * (elements.beta + elements.zeta2 + np.abs(self.constant))
         descent = k * force + rest / tau
         growth = k * (v - tau * force) - rest / (tau * tau)
-        return self.constant + k * v + rest, -descent, descent, growth, rounding
+        margin = self.constant + k * v + rest
+        return Course(margin, -descent, -growth, descent, growth, rounding)
 
 
 def take(phase: _Phase, which: Integers) -> _Phase:
@@ -173,12 +185,12 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
         high = np.minimum(zero, 0.0)
         high = np.where(low < turn, np.minimum(high, turn), high)
         part = take(phase, which)
-        margin, _, descent, _, rounding = part.course(sign, high)
-        ends, rises, lowest = margin <= -rounding, descent < 0, high.copy()
+        course, lowest = part.course(sign, high), high.copy()
+        ends, rises = course.margin <= -course.rounding, course.descent < 0
         between = np.flatnonzero(falls & rises & ~ends)
         lowest[between] = _crossing(DESCENT, part, between, sign, low, high)
-        margin, *_, rounding = take(part, between).course(sign[between], lowest[between])
-        ends[between] = margin <= -rounding
+        course = take(part, between).course(sign[between], lowest[between])
+        ends[between] = course.margin <= -course.rounding
         found = np.flatnonzero(ends)
         end[which[found]] = _crossing(MARGIN, part, found, sign, low, lowest)
         end_sign[which] = sign
