@@ -39,16 +39,17 @@ from planarimpact.lumped.viscous.searches import Slip, Stick, phase_end, take
 
 # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
 CHUNK = 65536
-# The range of the solver. A contact has at most some hundred half-waves of T, and all products
-# keep their digits.
+# The range of the solver. In it a contact has at most some hundred half-waves of T, and no more
+# than MOST_STICKS sticks; all products keep their digits.
 LEAST_RESTITUTION = 1e-3
 LARGEST_MASS_RATIO = 1e6
 LEAST_SHARE, LARGEST_SHARE = 1e-4, 1e6  # of the stiffness ratio in the mass ratio
-# A slip is short if its time, and that times tau, is below this: there the differences of which
-# its impulse and work consist lose digits, and Gauss's quadrature does not.
+MOST_STICKS = 1000
+# The impulse of a slip is a difference, which loses digits where its time, and that times tau, is
+# below SHORT. So does its work, where its time over tau is below SHORT too. Gauss's quadrature
+# keeps them.
 SHORT = 0.1
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)
-
 # Phases of one impact, in order, and when each ends.
 Trace: TypeAlias = list[tuple[Stick | Slip, Array]]
 
@@ -119,9 +120,8 @@ def history(mirror: float, impacts: Impacts, samples: int) -> History:
 
     columns: list[Array] = []
     events: list[Event] = []
-    for phase, end in trace or [(_slip_from_contact(elements, x), np.zeros(1))]:
-        if not (phase.start < end).any():
-            continue
+    lasting = [(phase, end) for phase, end in trace if (phase.start < end).any()]
+    for phase, end in lasting or [(_slip_from_contact(elements, x), np.zeros(1))]:
         inside = grid[(grid > phase.start) & (grid < end)]
         compressed = phase.start <= -half < end
         middle = [-half] if compressed else []
@@ -182,34 +182,32 @@ def _alternate(which: Integers, stick: Stick, outcome: Outcome, trace: Trace | N
     """Stick and slip in turn until every impact slides to separation; adds to the outcome.
 
     A stick that follows slip lasts at least to the next zero of T, or its slip to separation. So
-    there are no more sticks than half-waves of T, and two: `most` is more than that.
+    there are no more sticks than half-waves of T, and two.
     """
-    most = 8 + np.max(-stick.start / stick.elements.half_wave(), initial=0.0)
-    count = 0
-    while which.size:
-        if count > most:
-            raise ConvergenceError(f"{which.size} impacts stick more often than they can")
+    for _ in range(MOST_STICKS):
+        if not which.size:
+            return
         slip = _stick(which, stick, outcome, trace)
         which, stick = _slide(which, slip, outcome, trace)
         outcome.regime[which] = Regime.MULTIPLE
-        count += 1
+    raise ConvergenceError(f"{which.size} impacts stick more often than they can")
 
 
 def _stick(which: Integers, stick: Stick, outcome: Outcome, trace: Trace | None) -> Slip:
-    """The slip after a stick; raises the peak of friction."""
+    """The slip after a stick; raises the peak of friction to that of the stick."""
     elements = stick.elements
     end, sign = phase_end(stick)
     if trace is not None:
         trace.append((stick, end))
-    # The first crest of |T| is the highest. Later |T| is less than N, which falls.
-    crest, _ = stick.tangential(np.minimum(stick.first_crest(), end))
     friction, velocity = stick.tangential(end)
+    # The first crest of |T| is the highest.
+    crest, _ = stick.tangential(np.minimum(stick.first_crest(), end))
     highest = np.maximum(np.maximum(np.abs(crest), np.abs(friction)), stick.friction)
     largest_force, _ = elements.motion(elements.shifted_zero(1))
     outcome.peak_friction[which] = np.maximum(outcome.peak_friction[which], highest / largest_force)
-    _, v = elements.motion(end)
     # From now on mirrored to direction +1.
     velocity = velocity * sign
+    _, v = elements.motion(end)
     constant, transient = velocity - elements.beta * v, elements.zeta2 * v - velocity
     return Slip(elements, end, stick.side * sign, velocity, constant, transient)
 
@@ -217,13 +215,13 @@ def _stick(which: Integers, stick: Stick, outcome: Outcome, trace: Trace | None)
 def _slide(
     which: Integers, slip: Slip, outcome: Outcome, trace: Trace | None
 ) -> tuple[Integers, Stick]:
-    """The impacts whose slip stops, and their stick; adds to the outcome."""
+    """The impacts whose slip stops, and their stick; adds the slip to the outcome."""
     elements, tau = slip.elements, 2 * slip.elements.xi
     end, _ = phase_end(slip)
     if trace is not None:
         trace.append((slip, end))
     (force, v), (force_end, v_end) = (elements.motion(time) for time in (slip.start, end))
-    # The normal impulse, and the works of friction of A + k v and of B y.
+    # The normal impulse, and the work of friction as the head of this module has it.
     span, decay, impulse = end - slip.start, slip.decay(end), v - v_end
     short = np.flatnonzero(span * np.maximum(tau, 1.0) < SHORT)
     impulse[short], brief = _by_quadrature(take(slip, short), span[short])
@@ -242,7 +240,7 @@ def _slide(
 
 
 def _by_quadrature(slip: Slip, span: Array) -> tuple[Array, Array]:
-    """Normal impulse of short slips, and their work, which keep their digits."""
+    """Normal impulse and work of friction of short slips."""
     impulse, work = np.zeros_like(span), np.zeros_like(span)
     for node, weight in zip(NODES, WEIGHTS, strict=True):
         time = slip.start + span * (1 + node) / 2

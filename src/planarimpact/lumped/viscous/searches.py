@@ -30,7 +30,7 @@ A phase starts where its margin is 0, but in the first instants of contact. Roun
 there, so a margin is enlarged by what rounding may take from it.
 """
 
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -41,7 +41,7 @@ from planarimpact.lumped.viscous.elements import Elements
 # What rounding may take from a margin, as a share of its terms.
 ROUNDING = 1e-15
 
-_Phase = TypeVar("_Phase", "Stick", "Slip")
+_Phase = TypeVar("_Phase", bound="Stick | Slip")
 
 
 class Course(NamedTuple):
@@ -171,7 +171,8 @@ def take(phase: _Phase, which: Integers) -> _Phase:
     """The impacts with these indices, which are in order and different."""
     if which.size == phase.start.size:
         return phase
-    return type(phase)(phase.elements.take(which), *(field[which] for field in phase[1:]))
+    fields: Any = (field[which] for field in phase[1:])
+    return type(phase)(phase.elements.take(which), *fields)
 
 
 def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
@@ -212,6 +213,6 @@ def _crossing(
     phase, sign = take(phase, which), sign[which]
 
     def function(index: Integers, time: Array) -> tuple[Array, ...]:
-        return take(phase, index).course(sign[index], time)[what]
+        return tuple(take(phase, index).course(sign[index], time))[what]
 
     return roots.crossing(function, low[which], high[which])
