@@ -21,13 +21,18 @@ y = exp(-t/tau); see `planarimpact.lumped.viscous`. So
 In a piece that does not hold t_M, N/y only rises or only falls: w_s' has one zero at most.
 
 **The search** goes through these pieces in order. In each of them the margin, over N in stick, has
-one extremum at most. If it falls at the start of the piece and rises at the end, it is lowest
-between; else it is lowest at an end, and at the start it is known to be positive. If it is negative
-where it is lowest, it passes zero once before, and the phase ends there. Else the next piece
-follows. N = 0 at separation, so stick ends there if not before; slip may last.
+one extremum at most. If it falls where the piece starts and rises where it ends, it is lowest
+between; else it is lowest at the end, as it is known not to be negative at the start. If it is
+negative where it is lowest, it passes zero once before, and the phase ends there. Else the next
+piece follows. N = 0 at separation, so stick ends there if not before; slip may last.
 
-A phase starts where its margin is 0, but in the first instants of contact. Rounding must not end it
-there, so a margin is enlarged by what rounding may take from it.
+**The first piece.** Between slip and stick s' has no jump, so T' in stick is N' + tau w_s'/zeta^2
+with w_s' in slip. Where slip stops w_s' <= 0: the margin of stick starts from 0 and does not fall.
+Where stick breaks W >= 0, so w_s' >= 0: the same holds of slip. At contact W has the sign of 1 - b
+in stick, and w_s' = -k N in slip has one sign all along.
+
+No search needs the place where a phase starts with a margin of 0. But rounding may make it
+negative, so a phase ends only where its margin falls below what rounding takes from it.
 """
 
 from typing import Any, NamedTuple, TypeVar
@@ -86,7 +91,7 @@ class Stick(NamedTuple):
         return velocity / self.elements.zeta2 - 2 * self.elements.gamma * friction
 
     def first_piece(self) -> tuple[Array, Booleans]:
-        """When T first vanishes, infinite if never, and whether N/|T| falls at the start."""
+        """When T first vanishes, infinite if never, and whether the margin falls at the start."""
         elements = self.elements
         slope = self.slope(self.friction, self.velocity)
         falls = (self.start <= elements.contact()) & (elements.b < 1)
@@ -122,9 +127,9 @@ class Stick(NamedTuple):
 
 
 class Slip(NamedTuple):
-    """Slip of some impacts in direction `side`, with w_s = `constant` + k v + `transient` y.
+    """Slip of some impacts from velocity w on, with w_s = `constant` + k v + `transient` y.
 
-    Arrays of shape (n,). The margin does not depend on the sign of T.
+    Arrays of shape (n,). w is positive in the direction `side` of the incidence.
     """
 
     elements: Elements
@@ -146,7 +151,7 @@ class Slip(NamedTuple):
         return force, force, self.constant + self.elements.beta * v, spring
 
     def first_piece(self) -> tuple[Array, Booleans]:
-        """As in `Stick`: here T does not vanish, and w_s does not fall at first, or all along."""
+        """As in `Stick`. T does not vanish, and where w_s falls at first it falls all along."""
         return np.full_like(self.start, np.inf), np.zeros(self.start.size, bool)
 
     def slip_velocity(self, v: Array, time: Array) -> Array:
@@ -182,7 +187,7 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
     which, low, sign = np.arange(end.size), phase.start, end_sign
     zero, falls = phase.first_piece()
     while which.size:
-        # The next piece, and where the margin is lowest in it.
+        # The next piece, from `low` to `high`, and where the margin is lowest in it.
         high = np.minimum(zero, 0.0)
         high = np.where(low < turn, np.minimum(high, turn), high)
         part = take(phase, which)
@@ -195,7 +200,7 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
         found = np.flatnonzero(ends)
         end[which[found]] = _crossing(MARGIN, part, found, sign, low, lowest)
         end_sign[which] = sign
-        # T turns its sign at a zero, where the margin over N starts to fall.
+        # At a zero T turns its sign, and the margin over N starts to fall.
         follows = np.flatnonzero(~ends & (high < 0))
         at_zero = (high == zero)[follows]
         falls = at_zero | ~rises[follows]
