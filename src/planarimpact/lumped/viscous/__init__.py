@@ -39,8 +39,8 @@ from planarimpact.lumped.viscous.searches import Slip, Stick, phase_end, take
 
 # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
 CHUNK = 65536
-# The range of the solver. In it a contact has at most some hundred half-waves of T, and no more
-# than MOST_STICKS sticks; all products keep their digits.
+# The range of the solver: a viscous element stops no body for good. In this range a contact has
+# some hundred half-waves of T at most, fewer than MOST_STICKS, and all products keep their digits.
 LEAST_RESTITUTION = 1e-3
 LARGEST_MASS_RATIO = 1e6
 LEAST_SHARE, LARGEST_SHARE = 1e-4, 1e6  # of the stiffness ratio in the mass ratio
@@ -57,30 +57,18 @@ Trace: TypeAlias = list[tuple[Stick | Slip, Array]]
 def check_range(impacts: Impacts) -> None:
     """Refuse impacts beyond the range of this solver."""
     _, beta, zeta2, e = impacts
+    share = f"{LEAST_SHARE:g} to {LARGEST_SHARE:g} times the mass ratio"
+    beyond = (zeta2 < LEAST_SHARE * beta) | (zeta2 > LARGEST_SHARE * beta)
+    least = f"numbers from {LEAST_RESTITUTION:g} to 1"
     rules = [
-        (
-            "restitution",
-            e,
-            e < LEAST_RESTITUTION,
-            f"numbers from {LEAST_RESTITUTION:g} to 1 where loss='viscous' (a viscous element "
-            "stops no body at once)",
-        ),
-        (
-            "mass_ratio",
-            beta,
-            beta > LARGEST_MASS_RATIO,
-            f"numbers up to {LARGEST_MASS_RATIO:g} where loss='viscous'",
-        ),
-        (
-            "stiffness_ratio",
-            zeta2,
-            (zeta2 < LEAST_SHARE * beta) | (zeta2 > LARGEST_SHARE * beta),
-            f"{LEAST_SHARE:g} to {LARGEST_SHARE:g} times the mass ratio where loss='viscous'",
-        ),
+        ("restitution", e, e < LEAST_RESTITUTION, least),
+        ("mass_ratio", beta, beta > LARGEST_MASS_RATIO, f"numbers up to {LARGEST_MASS_RATIO:g}"),
+        ("stiffness_ratio", zeta2, beyond, share),
     ]
     for name, values, bad, rule in rules:
         if bad.any():
-            raise checks.InputError(f"{name} = {float(values[bad][0])!r}: allowed are {rule}")
+            found = float(values[bad][0])
+            raise checks.InputError(f"{name} = {found!r}: allowed are {rule} where loss='viscous'")
 
 
 def solve(impacts: Impacts) -> Outcome:

@@ -43,8 +43,6 @@ from planarimpact.ground.arrays import Array, Integers
 CRITICAL = np.exp(-2)
 # A frequency of 0 counts as this one: sin(omega t)/omega is then t to all digits.
 LEAST_FREQUENCY = 1e-150
-# Below this |delta|^2 the slope of delta cot(delta) is taken as its limit.
-SMALL_SQUARE = 1e-8
 
 
 def phase_angle(restitution: Array, under: bool) -> Array:
@@ -62,16 +60,12 @@ def phase_angle(restitution: Array, under: bool) -> Array:
     goal = -np.log(restitution) / 2
     tangent, sign = (np.tan, 1.0) if under else (np.tanh, -1.0)
 
-    def surplus(which: Integers, square: Array) -> tuple[Array, Array]:
+    def surplus(which: Integers, square: Array) -> tuple[Array]:
         angle = np.maximum(np.sqrt(square), LEAST_FREQUENCY)
-        value = angle / tangent(angle)
-        # delta^2/sin(delta)^2 is delta^2 + (delta cot(delta))^2.
-        large = np.maximum(square, SMALL_SQUARE)
-        slope = (value - value * value - sign * square) / (2 * large)
-        return sign * (value - goal[which]), np.where(square < SMALL_SQUARE, -1 / 3, slope)
+        return (sign * (angle / tangent(angle) - goal[which]),)
 
     largest = np.full_like(goal, HALF_PI**2) if under else goal * goal
-    square = roots.crossing(surplus, np.zeros_like(goal), largest, unguarded=4)
+    square = roots.crossing(surplus, np.zeros_like(goal), largest)
     return np.maximum(np.sqrt(square), LEAST_FREQUENCY)
 
 

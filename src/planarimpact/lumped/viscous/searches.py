@@ -194,9 +194,10 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
         course, lowest = part.course(sign, high), high.copy()
         ends, rises = course.margin <= -course.rounding, course.descent < 0
         between = np.flatnonzero(falls & rises & ~ends)
-        lowest[between] = _crossing(DESCENT, part, between, sign, low, high)
-        course = take(part, between).course(sign[between], lowest[between])
-        ends[between] = course.margin <= -course.rounding
+        if between.size:
+            lowest[between] = _crossing(DESCENT, part, between, sign, low, high)
+            course = take(part, between).course(sign[between], lowest[between])
+            ends[between] = course.margin <= -course.rounding
         found = np.flatnonzero(ends)
         end[which[found]] = _crossing(MARGIN, part, found, sign, low, lowest)
         end_sign[which] = sign
