@@ -85,7 +85,7 @@ def rebound(
     places: the limit of slip throughout (see `slip_throughout_limit`) and the direction of the last
     slip, which at small e is the incident one.
 
-    With viscous loss the errors are at most 1e-12: of the velocity beside max(1, x, beta), of the
+    With viscous loss the errors are at most 1e-9: of the velocity beside max(1, x, beta), of the
     peak beside 1, of the dissipation beside x^2/(2 beta) or, if that is smaller, (1 + e) x.
 
     Examples
