@@ -307,9 +307,16 @@ def _elastic(name: str, solve: Callable[..., Rebound]) -> Callable[..., Rebound]
     return rebound
 
 
-def _stepped(solve: Callable[..., Rebound], valid: str, source: str) -> Model:
-    name, steps = f"timestep.{solve.__name__}", timestep.STEPS
-    return Model(name, solve, {"steps": steps}, "steps", (0.0, 1.0), valid, source, "hysteretic")
+def _stepped(name: str, law: timestep.Law, valid: str, source: str) -> Model:
+    return Model(
+        f"timestep.{name}",
+        partial(timestep.rebound, law),
+        {"steps": timestep.STEPS},
+        "steps",
+        valid=valid,
+        source=source,
+        loss="hysteretic",
+    )
 
 
 def _lossy_continuum(loss: str, valid: str, source: str) -> Model:
@@ -400,17 +407,20 @@ MODELS = {
             loss="viscous",
         ),
         _stepped(
-            timestep.linear,
+            "linear",
+            timestep.LINEAR,
             f"linear spring and slider, {_STEPPED}; tends to the lumped model",
             "P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65",
         ),
         _stepped(
-            timestep.mindlin,
+            "mindlin",
+            timestep.MINDLIN,
             f"Hertz contact, friction in increments by Mindlin's stiffness, {_STEPPED}",
             "R. D. Mindlin, J. Appl. Mech. 16 (1949) 259-268; as in LAMMPS, mindlin/force",
         ),
         _stepped(
-            timestep.mindlin_rescaled,
+            "mindlin_rescaled",
+            timestep.MINDLIN_RESCALED,
             "as timestep.mindlin, the force rescaled with the radius of contact on unloading",
             "C. Thornton et al., Powder Technology 233 (2013) 30-46; LAMMPS, mindlin_rescale/force",
         ),
