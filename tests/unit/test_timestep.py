@@ -160,15 +160,6 @@ def test_unrescaled_friction_gains_energy():
 
 
 @pytest.mark.parametrize("law", LAWS, ids=NAMES)
-def test_mirror_image_is_exact(law):
-    x, beta, zeta2 = (a[:500] for a in random_impacts())
-    there, back = law(x, beta, zeta2, 0.7), law(-x, beta, zeta2, 0.7)
-    np.testing.assert_array_equal(back.velocity, -there.velocity)
-    for a, b in zip(there[1:4], back[1:4], strict=True):
-        np.testing.assert_array_equal(a, b)
-
-
-@pytest.mark.parametrize("law", LAWS, ids=NAMES)
 def test_parts_and_shared_normal_motion_change_nothing(law, monkeypatch):
     x = np.linspace(0, 8, 9)[:, None]
     e = np.array([0.0, 1e-9, 0.02, 0.5, 1.0])
@@ -185,12 +176,8 @@ def test_parts_and_shared_normal_motion_change_nothing(law, monkeypatch):
 
 
 @pytest.mark.parametrize("law", LAWS, ids=NAMES)
-def test_scalars_give_scalars_and_nothing_gives_nothing(law):
-    result = law(2.0)
-    assert np.ndim(result.velocity) == 0 and isinstance(result.regime, Regime)
-    assert result.reversals is None
-    assert law(0.0)[:4] == (0.0, 0.0, 0.0, Regime.STICK)
-    assert law(np.zeros((0, 3))).velocity.shape == (0, 3)
+def test_at_normal_incidence_nothing_happens(law):
+    assert law(0.0)[:4] == (0.0, 0.0, 0.0, Regime.STICK) and law(0.0).reversals is None
 
 
 @pytest.mark.parametrize("law", LAWS, ids=NAMES)

@@ -226,7 +226,7 @@ def normal_damping(hertzian: bool, told: float) -> float:
     >>> round(normal_damping(hertzian=False, told=math.exp(-math.pi)), 6)
     1.414214
     """
-    logarithm = -math.log(told)
+    logarithm = abs(math.log(told))
     return (math.sqrt(5) if hertzian else 2.0) * logarithm / math.hypot(math.pi, logarithm)
 
 
