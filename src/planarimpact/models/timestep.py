@@ -70,7 +70,6 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
-from scipy import integrate, optimize
 
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers, Numbers
@@ -252,6 +251,8 @@ def told_for(law: Law, restitution: float) -> float:
     >>> told_for(Law(), 0.8), round(told_for(Law(limited=True), 0.8), 3)
     (0.8, 0.791)
     """
+    from scipy import optimize  # here, as it takes longer to import than this package
+
     if not law.limited or restitution == 1:
         return restitution
 
@@ -263,6 +264,8 @@ def told_for(law: Law, restitution: float) -> float:
 
 def _limited_restitution(hertzian: bool, told: float) -> float:
     """Speed after a contact that ends where its force would become negative; in any unit of it."""
+    from scipy import integrate  # as above
+
     damping = normal_damping(hertzian, told)
 
     def force(state: Array) -> float:
