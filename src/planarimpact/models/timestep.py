@@ -6,21 +6,22 @@ have it. Friction is a spring that is carried from step to step, beside a dashpo
 cut back to mu times the normal force. Normal and tangential motion both have the error of the
 steps: events are not located within a step. A `Law` says how a code finds these forces.
 
-`rebound` loses energy for e < 1 in the paper's hysteretic spring (Walton & Braun's with latching):
-below the largest depth reached, the normal force follows a line, or a Hertz curve, that is steeper
-by 1/e^2. So restitution takes e times as long as compression, and has e/(1 + e) of the steps. If
-that is less than one step, the impulse of friction is wrong by up to 0.75 of what the largest force
-gives in a step. For e = 0 the contact ends with the step nearest to maximum compression. The
-evidence on this spring is divided, see `planarimpact.lumped`. `with_dashpots` has a dashpot beside
-the normal spring instead, as many codes do; `planarimpact.fit` fits its tangential spring and
-dashpot to the continuum.
+`rebound` loses energy for e < 1 in the paper's hysteretic spring (that of O. R. Walton and R. L.
+Braun, J. Rheol. 30 (1986) 949-980, with latching): below the largest depth reached, the normal
+force follows a line, or a Hertz curve, that is steeper by 1/e^2. So restitution takes e times as
+long as compression, and has e/(1 + e) of the steps. If that is less than one step, the impulse of
+friction is wrong by up to 0.75 of what the largest force gives in a step. For e = 0 the contact
+ends with the step nearest to maximum compression. The evidence on this spring is divided, see
+`planarimpact.lumped`. `with_dashpots` has a dashpot beside the normal spring instead, as many codes
+do; `planarimpact.fit` fits its tangential spring and dashpot to the continuum.
 
-Three laws are models by a name of their own:
+Three laws are models by a name of their own; `planarimpact.models.MODELS` has their sources:
 
-- `LINEAR` has linear springs with a slider, after Cundall & Strack: the lumped model in steps.
-- `MINDLIN` is a Hertz contact whose friction grows with Mindlin's full tangential stiffness
-  8 a G*; zeta^2 is the normal stiffness dF2/d(depth) of an elastic contact over it. It does not
-  conserve energy: friction that is kept while its spring softens creates some (Elata & Berryman).
+- `LINEAR` has linear springs with a slider: the lumped model in steps.
+- `MINDLIN` is a Hertz contact whose friction grows with Mindlin's full tangential stiffness 8 a G*
+  (A. Di Renzo, F. P. Di Maio, Chem. Eng. Sci. 59 (2004) 525-541); zeta^2 is the normal stiffness
+  dF2/d(depth) of an elastic contact over it. It does not conserve energy: friction that is kept
+  while its spring softens creates some (D. Elata, J. G. Berryman, Mech. Mater. 24 (1996) 229-240).
   Where beta/zeta^2 is so small that stick lasts, a solid sphere may leave up to 5 % faster than it
   came, however many steps there are.
 - `MINDLIN_RESCALED` is the same, but friction shrinks in proportion to the radius of contact: the
@@ -56,12 +57,6 @@ Units: m2 and |v2(0)|, times mu in tangential direction; the largest approach of
 loses nothing. So the normal spring has the force d where it is linear, and 1.25 d^(3/2) where it is
 Hertz's. A dashpot has its coefficient times (m2 F/d)^(1/2), where F is the force of the normal
 spring and d the approach.
-
-References: P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65. O. R. Walton, R. L. Braun,
-J. Rheol. 30 (1986) 949-980. A. Di Renzo, F. P. Di Maio, Chem. Eng. Sci. 59 (2004) 525-541. D.
-Elata, J. G. Berryman, Mech. Mater. 24 (1996) 229-240. C. Thornton, S. J. Cummins, P. W. Cleary,
-Powder Technol. 233 (2013) 30-46. LAMMPS, pair_style granular, tangential models mindlin/force and
-mindlin_rescale/force.
 """
 
 import functools
