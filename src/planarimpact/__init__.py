@@ -6,7 +6,7 @@
 - `continuum`: spheres with micro-slip, elastic or with a loss of energy, to a tolerance.
   `continuum.annuli` solves the elastic one by a second method that shares no code with the first.
 - `spheres`: the continuum from a table, for impacts that are each their own pair.
-- `models`: every model by its name, with those that others use (`models.laws`, `models.timestep`).
+- `models`: every model by its name. `models.laws` makes one of a velocity of your own.
 - `export`: writes collisions of spheres as C or JavaScript.
 - `fit`: laws of discrete-element codes, fitted to the continuum.
 - `collide`: velocities and spins of two bodies in space after their impact, by the pair of their

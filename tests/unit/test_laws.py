@@ -69,18 +69,14 @@ def test_what_every_law_has_in_common(law):
     assert slides[160:].all()
     np.testing.assert_array_equal(result.peak_friction == 1, slides)
     np.testing.assert_array_equal(np.isnan(result.peak_friction), ~slides)
-    mirrored = law(-x[:, None], 3.5, 1.21, [0.0, 0.5, 1.0])
-    np.testing.assert_array_equal(mirrored.velocity, -result.velocity)
-    np.testing.assert_array_equal(mirrored.dissipation, result.dissipation)
     softer = law(x[:, None], 3.5, 9.0, [0.0, 0.5, 1.0])
     np.testing.assert_array_equal(softer.velocity, result.velocity)
 
 
 def test_no_admissible_tangential_restitution_creates_energy():
-    b = np.linspace(0, 1, 21)[:, None]
-    result = laws.brach(X, 3.5, 1.21, 0.7, tangential_restitution=b)
-    assert result.velocity.shape == (21, 161)
-    assert (result.dissipation >= 0).all()
+    for b in np.linspace(0, 1, 21):
+        result = laws.brach(X, 3.5, 1.21, 0.7, tangential_restitution=b)
+        assert (result.dissipation >= 0).all()
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -107,8 +103,8 @@ def test_bad_groups_are_named(law):
 def test_bad_tangential_restitution_is_named():
     with pytest.raises(InputError, match="tangential_restitution = -0.1: allowed are numbers"):
         laws.brach(1.0, tangential_restitution=-0.1)
-    with pytest.raises(InputError, match="shapes do not broadcast"):
-        laws.brach([1.0, 2.0], tangential_restitution=[0.1, 0.2, 0.3])
+    with pytest.raises(InputError, match=r"tangential_restitution, shape \(2,\): allowed is one"):
+        laws.brach([1.0, 2.0], tangential_restitution=[0.1, 0.2])
 
 
 @pytest.mark.parametrize("law", [laws.brach, laws.smith])

@@ -5,7 +5,6 @@ import pytest
 
 from planarimpact import InputError, bodies, models, noncollinear
 from planarimpact.bodies import Body, Material
-from planarimpact.models import laws
 
 HALF = np.ma.array([0.5, -1.0], mask=[False, True])
 WHOLE = np.ma.array([0.5, 0.75], mask=[False, False])
@@ -15,7 +14,6 @@ TAKES = {
         lambda x, name=name: models.rebound(name, x) for name in ("lumped", "rigid", "annuli")
     ],
     "restitution": [lambda e: models.rebound("lumped.hysteretic", 1.0, restitution=e)],
-    "tangential_restitution": [lambda b: laws.brach(1.0, tangential_restitution=b)],
     "friction": [lambda mu: bodies.incidence(1.0, 1.0, mu)],
     "tangential": [lambda v: noncollinear.rebound(v, 1.0, ROD, 0.5)],
     "other": [lambda r: bodies.effective_radius(0.02, r)],

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from planarimpact import Regime
+from planarimpact import Regime, models
 from planarimpact.ground import checks
-from planarimpact.models import timestep
 
-LAWS = [timestep.linear, timestep.mindlin, timestep.mindlin_rescaled]
+NAMES = ["linear", "mindlin", "mindlin_rescaled"]
+LINEAR, MINDLIN, RESCALED = LAWS = [models.get(f"timestep.{name}").rebound for name in NAMES]
 BETA = 3.5
 # Time to maximum compression of a Hertz contact, in d_max/v2(0): (2/5) B(2/5, 1/2).
 HERTZ = 0.4 * math.gamma(0.4) * math.gamma(0.5) / math.gamma(0.9)
@@ -17,7 +17,7 @@ HERTZ = 0.4 * math.gamma(0.4) * math.gamma(0.5) / math.gamma(0.9)
 
 def leapfrog(law, x, beta, zeta2, e, steps):
     """Velocity, and whether slip was seen in one direction alone."""
-    hertzian = law is not timestep.linear
+    hertzian = law is not LINEAR
     step = (1 + e) * (HERTZ if hertzian else math.pi / 2) / steps
     depth = deepest = radius = friction = 0.0
     approach, w, one_way = 1.0, x, True
@@ -29,7 +29,7 @@ def leapfrog(law, x, beta, zeta2, e, steps):
             return w, one_way
         before, radius = radius, math.sqrt(elastic) if hertzian else 1.0
         normal = 1.25 * elastic**1.5 if hertzian else elastic
-        if law is timestep.mindlin_rescaled and radius < before:
+        if law is RESCALED and radius < before:
             friction *= radius / before
         friction += step * (1.875 if hertzian else 1.0) * radius * w / zeta2
         one_way &= friction > normal
@@ -64,7 +64,7 @@ def edges(law, zeta2, e, steps):
 
 @pytest.mark.parametrize("e", [1.0, 0.6])
 @pytest.mark.parametrize("steps", [3, 4, 5, 8, 96])
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("law", LAWS, ids=NAMES)
 def test_coarse_steps_are_the_leapfrog(law, steps, e):
     stiff = softest(law, steps, e)
     for zeta2 in (stiff, 2 * stiff) if steps == 96 else (stiff, max(stiff, 1.21)):

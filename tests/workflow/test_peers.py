@@ -43,7 +43,7 @@ def pretend(patch):
         zeta2 = (2 - poisson_ratio) / (2 * (1 - poisson_ratio))
         e = np.exp(-damping.number) if damping.style == peers.DEFAULT else damping.number
         e = np.sqrt(e) if damping.style == "tsuji" else e
-        velocity = timestep.mindlin(x, 3.5, zeta2, e, steps=steps).velocity
+        velocity = timestep.rebound(timestep.MINDLIN, x, 3.5, zeta2, e, steps=steps).velocity
         return peers.Impacts(velocity, float(e), 2e-3, 5e-3)
 
     def resolved(x, restitution, mass_ratio, stiffness_ratio):

@@ -86,8 +86,8 @@ def fit(
     For beads of steel (e = 0.8), glass (0.97) and polyurethane (0.6) a begin within a step moves
     velocities by up to 0.003 mu v2(0) with "lammps-hertz-mindlin", 0.03 with "lammps-hooke" and
     "mercurydpm", 0.05 with "yade"; 50 steps in place of 200 move them by up to 0.04, and 0.10 with
-    "yade". Beyond the range of the fit, `Fit.beyond`, "mercurydpm" and "yade" do not slide as they
-    should: they are off by up to 0.06 and 0.12 at e = 0.8, 0.23 and 0.5 at e = 0.6.
+    "yade". Beyond the range of the fit the last two do not slide as they should, see
+    `Fit.beyond`.
 
     Examples
     --------
@@ -134,7 +134,7 @@ def fit(
     numbers = law, style, stiffness, damping, told, beta, zeta2, e, loss
     curves = x, exact[:-1], before[0, :-1], after[0, :-1]
     errors = _error(before[:, :-1] - exact[:-1], x), _error(off[:, :-1], x)
-    return Fit(*numbers, *curves, *errors, float(max(off[:, -1], key=abs)))
+    return Fit(*numbers, *curves, *errors, float(np.abs(off[:, -1]).max()))
 
 
 def _error(off: Array, x: Array) -> Error:

@@ -7,8 +7,9 @@ not run.
 """
 
 import math
+import re
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,6 +20,89 @@ from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.models import timestep
 from planarimpact.models.timestep import Law
 from planarimpact.normal_impact import hertz
+
+# What `lines` prints: "#" begins a comment, most names are those of `_numbers`, and words in
+# capitals are filled in by `CODES`.
+ABOUT = """\
+# {found.law}, fitted to the {continuum} continuum of planarimpact; SI units
+# two equal solid spheres: e = {found.restitution:g}, zeta^2 = {found.stiffness_ratio:.4g}, \
+m2/m1 = {found.mass_ratio:g}, mu = {friction:g}
+# range of the fit: x = v1(0)/(mu v2(0)) from 0 to {end:.3g}; {steps} steps in an elastic contact \
+at {speed:g} m/s
+# error of v1(tf)/(mu v2(0)), root mean square and largest, where overlaps are small:
+#   before {found.error_before.rms:.3f}, {found.error_before.largest:.3f} at x = \
+{found.error_before.at:.2f} ({code.origin})
+#   after  {found.error.rms:.3f}, {found.error.largest:.3f} at x = {found.error.at:.2f}; beyond \
+the range, at x = {twice:.3g}, {found.beyond:.3f}
+# overlap of the spheres at this speed, over their radius: at most {overlap:.2g}
+#   while two spheres touch they pass each other: their normal turns, which no fit includes
+#   at mu = {measured:g} and without spin before, this adds to the largest error, as measured in \
+LAMMPS{alike}:
+#     at most {costs[0]:.2g} for x up to {up_to[0]:g}, where contacts mostly stick
+#     at most {costs[1]:.2g} for x up to {up_to[1]:g}, where they slide; beyond, more
+{larger}#   a spin against the motion can more than double it
+#   at a flat wall no normal turns: there the overlap adds nothing
+# The fit holds for this restitution and this material.
+"""
+LARGER = "#   at a larger mu it is more, and was not measured\n"
+LAMMPS = """\
+# limit_damping keeps contacts from pulling: with it {found.told:.4g} gives e = \
+{found.restitution:g}.
+# Behind {found.style}: tangential stiffness UNIT, tangential damping as a multiple of the normal \
+one, friction.
+# The rest is yours: units si, atom_style sphere, fix nve/sphere.
+# For a wall of this material give the words behind * * to fix wall/gran granular.
+# Other radii have the same pair_coeff, but the time step is for spheres of this radius: print it \
+for the smallest.
+timestep {step:g}
+pair_style granular
+pair_coeff * * SPRING {multiple:g} {friction:g} damping coeff_restitution limit_damping
+"""
+AT_WALLS = """\
+# Springs and dashpots of this code know no mass: spheres of other masses have another e.
+# A wall of this material would have e = {wall_e:.3f}, instead of {found.restitution:g}, with the \
+dashpots of two spheres.
+# So it has values of its own: dashpots of its contacts are sqrt(2) times as strong.
+"""
+MERCURYDPM = """\
+auto species = speciesHandler.copyAndAddObject(LinearViscoelasticSlidingFrictionSpecies());
+species->setDensity({density:g});
+species->setStiffness({kn:g});
+species->setDissipation({cn:g});
+species->setSlidingStiffness({kt:g});
+species->setSlidingDissipation({ct:g});
+species->setSlidingFrictionCoefficient({friction:g});
+WALLS
+# Give `wall` to the objects that are walls, by setSpecies(wall).
+auto wall = speciesHandler.copyAndAddObject(species);
+auto atWall = speciesHandler.getMixedObject(species, wall);
+atWall->setDissipation({wall_cn:g});
+atWall->setSlidingDissipation({wall_ct:g});
+setTimeStep({step:g});
+"""
+YADE = """\
+# O.interactions[i, j].phys.kn of a contact must be {kn:g}.
+# Give spheres material=of_spheres and walls material=of_walls: else Yade takes the last one.
+from math import atan
+of_spheres = O.materials.append(ViscElMat(density={density:g}, frictionAngle=atan({friction:g}), \
+kn={yade_kn:g}, ks={yade_kt:g}, cn={yade_cn:g}, cs={yade_ct:g}))
+WALLS
+# Dashpots of two bodies act in series: for this, its own are {strong:.3f} times those of \
+the sphere.
+of_walls = O.materials.append(ViscElMat(density={density:g}, frictionAngle=atan({friction:g}), \
+kn={yade_kn:g}, ks={yade_kt:g}, cn={yade_wall_cn:g}, cs={yade_wall_ct:g}))
+O.engines = [
+    ForceResetter(),
+    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),
+    InteractionLoop(
+        [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
+        [Ip2_ViscElMat_ViscElMat_ViscElPhys()],
+        [Law2_ScGeom_ViscElPhys_Basic()],
+    ),
+    NewtonIntegrator(damping=0),
+]
+O.dt = {step:g}
+"""
 
 
 class Code(NamedTuple):
@@ -36,6 +120,7 @@ class Code(NamedTuple):
     limited: bool
     by_normal: bool
     origin: str  # of the usual values
+    words: str  # of its input
 
 
 CODES = {
@@ -49,6 +134,10 @@ CODES = {
         limited=False,
         by_normal=True,
         origin="NULL 1.0, as in examples of its manual",
+        words=LAMMPS.replace("UNIT", "over contact radius [Pa]").replace(
+            "SPRING",
+            "hertz/material {young:g} {found.told:g} {nu:g} tangential {found.style} {gt:g}",
+        ),
     ),
     "lammps-hooke": Code(
         {"linear_history": Law(limited=True)},
@@ -57,6 +146,9 @@ CODES = {
         limited=False,
         by_normal=True,
         origin="2/7 of the stiffness and 1/2 of the damping, as its style gran/hooke/history has",
+        words=LAMMPS.replace("UNIT", "[N/m]").replace(
+            "SPRING", "hooke {kn:g} {found.told:g} tangential {found.style} {kt:g}"
+        ),
     ),
     "mercurydpm": Code(
         {"": Law()},
@@ -65,6 +157,7 @@ CODES = {
         limited=False,
         by_normal=False,
         origin="2/7 of stiffness and dissipation, as in its examples",
+        words=MERCURYDPM.replace("WALLS\n", AT_WALLS),
     ),
     "yade": Code(
         {"": Law(limited=True, spring_slides=True)},
@@ -73,6 +166,7 @@ CODES = {
         limited=True,
         by_normal=False,
         origin="2/7 of kn and cn, which tc and et = en give",
+        words=YADE.replace("WALLS\n", AT_WALLS),
     ),
 }
 
@@ -112,7 +206,7 @@ class Fit(NamedTuple):
         Error of the law as it is usually used, and error that remains. Contact begins within a
         step, where that is worst.
     beyond : float
-        Error that remains at twice the largest incidence, where nothing was fitted; it has a sign.
+        Error that remains at twice the largest incidence, where nothing was fitted.
     """
 
     law: str
@@ -133,20 +227,9 @@ class Fit(NamedTuple):
     beyond: float
 
 
-class _Contact(NamedTuple):
-    """Two equal solid spheres, in SI units."""
-
-    young_modulus: float
-    poisson_ratio: float
-    density: float
-    friction: float
-    speed: float
-    overlap: float  # in radii
-    step: float  # of time
-    normal: float  # stiffness and damping of linear springs, normal and tangential
-    tangential: float
-    normal_damping: float
-    tangential_damping: float
+# At a wall the mass of a contact is that of one sphere, twice that of two; a dashpot has a
+# coefficient times the root of it.
+WALL = 2**0.5
 
 
 def lines(
@@ -198,18 +281,18 @@ def lines(
     """
     if not isinstance(found, Fit):
         raise checks.InputError(f"found = {checks.brief(found)}: allowed is what fit.fit returns")
-    contact = _contact(found, material, radius, density, friction, speed)
-    write = {"mercurydpm": _mercurydpm, "yade": _yade}.get(found.law, _lammps)
-    comment = "//" if found.law == "mercurydpm" else "#"
-    about = [f"{comment} {words}\n" for words in _about(found, contact)]
-    return "".join(about) + write(found, contact)
+    numbers = _numbers(found, material, radius, density, friction, speed)
+    code = CODES[found.law]
+    text = (ABOUT + code.words).format(found=found, code=code, **numbers)
+    return re.sub("^#", "//", text, flags=re.M) if found.law == "mercurydpm" else text
 
 
-def _contact(found: Fit, material: bodies.Material, *given: ArrayLike) -> _Contact:
+def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[str, Any]:
+    """Numbers and words of what `lines` prints: of the comments, and of a contact in SI units."""
     radius, density, friction, speed = given
     size = overlaps.overlap(material, radius, density, speed)
     mu = checks.number("friction", friction, "finite numbers above 0", 0, open_low=True)
-    r, rho, v2 = (float(np.asarray(value)) for value in (radius, density, speed))
+    r, rho, v2, young, nu = (float(np.asarray(n)) for n in (radius, density, speed, *material))
     sphere = bodies.solid_sphere(r, rho)
     for name, value, own in (
         ("mass_ratio", found.mass_ratio, bodies.mass_ratio(sphere, sphere)),
@@ -222,156 +305,42 @@ def _contact(found: Fit, material: bodies.Material, *given: ArrayLike) -> _Conta
     m2, modulus, effective = bodies.contact(sphere, material, sphere, material)
     mass, force = float(m2), float(bodies.hertz_peak_force(m2, v2, modulus, effective))
     lasts = 2 * hertz.COMPRESSION * hertz.PEAK_FORCE * mass * v2 / force
-    stiffness = mass * (math.pi / lasts) ** 2
-    damping = (stiffness * mass) ** 0.5
-    return _Contact(
-        float(material.young_modulus),
-        float(material.poisson_ratio),
-        rho,
-        mu,
-        v2,
-        size,
-        lasts / timestep.DASHPOT_STEPS,
-        stiffness,
-        stiffness * found.stiffness,
-        damping * timestep.normal_damping(hertzian=False, told=found.told),
-        damping * found.damping,
-    )
-
-
-def _about(found: Fit, contact: _Contact) -> list[str]:
-    """What was fitted to what, and which error it has."""
-    error, before, end = found.error, found.error_before, float(found.incidence[-1])
-    measured = min(contact.friction, overlaps.FRICTIONS[-1])
-    sticking, sliding = overlaps.costs(contact.overlap, measured)
-    alike = "" if found.law.startswith("lammps") else f" ({found.law}: expected alike, not run)"
-    continuum = f"{found.loss} continuum" if found.restitution < 1 else "elastic continuum"
-    low, high = overlaps.INCIDENCES
-    return [
-        f"{found.law}, fitted to the {continuum} of planarimpact; SI units",
-        f"two equal solid spheres: e = {found.restitution:g}, zeta^2 = "
-        f"{found.stiffness_ratio:.4g}, m2/m1 = {found.mass_ratio:g}, mu = {contact.friction:g}",
-        f"range of the fit: x = v1(0)/(mu v2(0)) from 0 to {end:.3g}; "
-        f"{timestep.DASHPOT_STEPS} steps in an elastic contact at {contact.speed:g} m/s",
-        "error of v1(tf)/(mu v2(0)), root mean square and largest, where overlaps are small:",
-        f"  before {before.rms:.3f}, {before.largest:.3f} at x = {before.at:.2f} "
-        f"({CODES[found.law].origin})",
-        f"  after  {error.rms:.3f}, {error.largest:.3f} at x = {error.at:.2f}; "
-        f"beyond the range, at x = {2 * end:.3g}, {abs(found.beyond):.3f}",
-        f"overlap of the spheres at this speed, over their radius: at most {contact.overlap:.2g}",
-        "  while two spheres touch they pass each other: their normal turns, which no fit includes",
-        f"  at mu = {measured:g} and without spin before, this adds to the largest error, as "
-        f"measured in LAMMPS{alike}:",
-        f"    at most {sticking:.2g} for x up to {low:g}, where contacts mostly stick",
-        f"    at most {sliding:.2g} for x up to {high:g}, where they slide; beyond, more",
-        *["  at a larger mu it is more, and was not measured"] * (contact.friction > measured),
-        "  a spin against the motion can more than double it",
-        "  at a flat wall no normal turns: there the overlap adds nothing",
-        "The fit holds for this restitution and this material.",
-    ]
-
-
-def _lammps(found: Fit, contact: _Contact) -> str:
-    code = CODES[found.law]
-    normal = timestep.normal_damping(code.styles[found.style].hertzian, found.told)
-    multiple = found.damping / normal if normal else 0.0
-    if found.law == "lammps-hooke":
-        spring, stiffness = f"hooke {_short(contact.normal)} {found.told:.6g}", contact.tangential
-    else:
-        young, nu = contact.young_modulus, contact.poisson_ratio
-        spring = f"hertz/material {_short(young)} {found.told:.6g} {nu:g}"
-        stiffness = found.stiffness * young / (1 - nu**2)  # 2 E* times the share
-    words = (
-        f"{spring} tangential {found.style} {_short(stiffness)} {_short(multiple)} "
-        f"{contact.friction:g} damping coeff_restitution limit_damping"
-    )
-    return (
-        f"# limit_damping keeps contacts from pulling: with it {found.told:.4g} gives e = "
-        f"{found.restitution:g}.\n"
-        f"# Behind {found.style}: tangential stiffness "
-        f"{'[N/m]' if found.law == 'lammps-hooke' else 'over contact radius [Pa]'}, tangential "
-        "damping as a multiple of the normal one, friction.\n"
-        "# The rest is yours: units si, atom_style sphere, fix nve/sphere.\n"
-        "# For a wall of this material give the words behind * * to fix wall/gran granular.\n"
-        "# Other radii have the same pair_coeff, but the time step is for spheres of this radius: "
-        "print it for the smallest.\n"
-        f"timestep {_short(contact.step)}\n"
-        "pair_style granular\n"
-        f"pair_coeff * * {words}\n"
-    )
-
-
-# At a wall the mass of a contact is that of one sphere, twice that of two; a dashpot has a
-# coefficient times the root of it.
-WALL = 2**0.5
-
-
-def _walls(found: Fit, own: str) -> list[str]:
-    """What dashpots that know no mass do at a wall, and that it needs its own."""
-    damping = timestep.normal_damping(hertzian=False, told=found.told) / WALL
-    told = math.exp(-math.pi * damping / math.sqrt(4 - damping**2))
-    steps = round(WALL * timestep.DASHPOT_STEPS)
-    e = timestep.restitution(CODES[found.law].styles[found.style], told, steps)
-    return [
-        "Springs and dashpots of this code know no mass: spheres of other masses have another e.",
-        f"A wall of this material would have e = {e:.3f}, instead of {found.restitution:g}, "
-        "with the dashpots of two spheres.",
-        f"So it has {own}: dashpots of its contacts are sqrt(2) times as strong.",
-    ]
-
-
-def _mercurydpm(found: Fit, contact: _Contact) -> str:
-    return (
-        "auto species = speciesHandler.copyAndAddObject("
-        "LinearViscoelasticSlidingFrictionSpecies());\n"
-        f"species->setDensity({_short(contact.density)});\n"
-        f"species->setStiffness({_short(contact.normal)});\n"
-        f"species->setDissipation({_short(contact.normal_damping)});\n"
-        f"species->setSlidingStiffness({_short(contact.tangential)});\n"
-        f"species->setSlidingDissipation({_short(contact.tangential_damping)});\n"
-        f"species->setSlidingFrictionCoefficient({contact.friction:g});\n"
-        + "".join(f"// {words}\n" for words in _walls(found, "a species of its own, `wall`"))
-        + "// Give `wall` to the objects that are walls, by setSpecies(wall).\n"
-        "auto wall = speciesHandler.copyAndAddObject(species);\n"
-        "auto atWall = speciesHandler.getMixedObject(species, wall);\n"
-        f"atWall->setDissipation({_short(WALL * contact.normal_damping)});\n"
-        f"atWall->setSlidingDissipation({_short(WALL * contact.tangential_damping)});\n"
-        f"setTimeStep({_short(contact.step)});\n"
-    )
-
-
-def _yade(found: Fit, contact: _Contact) -> str:
+    # Stiffness and damping of linear springs, normal and tangential.
+    kn = mass * (math.pi / lasts) ** 2
+    damping = timestep.normal_damping(hertzian=False, told=found.told)
+    root = (kn * mass) ** 0.5
+    linear = {"kn": kn, "kt": kn * found.stiffness}
+    linear |= {"cn": root * damping, "ct": root * found.damping}
     # Yade puts the springs, and the dashpots, of two bodies in series.
-    kn, ks, cn, cs = (2 * value for value in contact[-4:])
-    common = (
-        f"O.materials.append(ViscElMat(density={_short(contact.density)}, "
-        f"frictionAngle=atan({contact.friction:g}), kn={_short(kn)}, ks={_short(ks)}, "
-    )
-    strong = 1 / (2 / WALL - 1)  # in series with that of a sphere
-    return (
-        f"# O.interactions[i, j].phys.kn of a contact must be {_short(contact.normal)}.\n"
-        "# Give spheres material=of_spheres and walls material=of_walls: else Yade takes the last "
-        "one.\n"
-        "from math import atan\n"
-        f"of_spheres = {common}cn={_short(cn)}, cs={_short(cs)}))\n"
-        + "".join(f"# {words}\n" for words in _walls(found, "a material of its own"))
-        + f"# Dashpots of two bodies act in series: for this, its own are {strong:.3f} times those "
-        "of the sphere.\n"
-        + f"of_walls = {common}cn={_short(strong * cn)}, cs={_short(strong * cs)}))\n"
-        "O.engines = [\n"
-        "    ForceResetter(),\n"
-        "    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),\n"
-        "    InteractionLoop(\n"
-        "        [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],\n"
-        "        [Ip2_ViscElMat_ViscElMat_ViscElPhys()],\n"
-        "        [Law2_ScGeom_ViscElPhys_Basic()],\n"
-        "    ),\n"
-        "    NewtonIntegrator(damping=0),\n"
-        "]\n"
-        f"O.dt = {_short(contact.step)}\n"
-    )
-
-
-def _short(value: float) -> str:
-    """A number with six digits."""
-    return f"{value + 0.0:.6g}"  # no -0
+    strong = 1 / (2 / WALL - 1)
+    factors = {"": 1.0, "wall_": WALL, "yade_": 2.0, "yade_wall_": 2 * strong}
+    law = CODES[found.law].styles[found.style]
+    own_damping = timestep.normal_damping(law.hertzian, found.told)
+    # A wall with the dashpots of spheres is as a contact that is told another restitution.
+    weaker = damping / WALL
+    at_wall = math.exp(-math.pi * weaker / math.sqrt(4 - weaker**2))
+    end, known = float(found.incidence[-1]), overlaps.FRICTIONS[-1]
+    ran = found.law.startswith("lammps")
+    return {
+        "continuum": found.loss if found.restitution < 1 else "elastic",
+        "steps": timestep.DASHPOT_STEPS,
+        "step": lasts / timestep.DASHPOT_STEPS,
+        "end": end,
+        "twice": 2 * end,
+        "overlap": size,
+        "up_to": overlaps.INCIDENCES,
+        "costs": overlaps.costs(size, min(mu, known)),
+        "measured": min(mu, known),
+        "larger": LARGER if mu > known else "",
+        "alike": "" if ran else f" ({found.law}: expected alike, not run)",
+        "friction": mu,
+        "density": rho,
+        "speed": v2,
+        "young": young,
+        "nu": nu,
+        "gt": found.stiffness * young / (1 - nu**2),  # 2 E* times the share
+        "multiple": found.damping / own_damping if own_damping else 0.0,
+        "strong": strong,
+        "wall_e": timestep.restitution(law, at_wall, round(WALL * timestep.DASHPOT_STEPS)),
+        **{at + name: factor * linear[name] for at, factor in factors.items() for name in linear},
+    }

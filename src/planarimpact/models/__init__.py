@@ -4,6 +4,10 @@ Each model is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitu
 the four groups by position or name and its own settings by name. It returns a `Rebound`. The
 workflow measures what each model costs and how large its error is (`results/trade.csv`).
 
+Arguments and errors: a `name` is one of `MODELS`, a `model` too or its entry there. `incidence`,
+`mass_ratio`, `stiffness_ratio` and `restitution` are those of `planarimpact.lumped.rebound`;
+`settings` are those of the model, and have its defaults. `InputError` says what is not allowed.
+
 A name says what takes the energy below e = 1, such as "lumped.hysteretic", the paper's model.
 "lumped" and "continuum" alone are elastic. A law of impulses takes any loss. `register` adds a
 model of your own.
@@ -65,7 +69,7 @@ class Model(NamedTuple):
 
 
 def get(name: str) -> Model:
-    """The model of a name; `InputError` if there is none.
+    """The entry of a model. Arguments and errors: `planarimpact.models`.
 
     Examples
     --------
@@ -85,25 +89,7 @@ def rebound(
     restitution: ArrayLike = 1.0,
     **settings: float,
 ) -> Rebound:
-    """State at separation by the model of a name.
-
-    Parameters
-    ----------
-    model : str
-        One of `MODELS`.
-    incidence, mass_ratio, stiffness_ratio, restitution : array_like
-        As in `planarimpact.lumped.rebound`.
-    **settings
-        Those of the model. Settings that are left out have their defaults.
-
-    Returns
-    -------
-    Rebound
-
-    Raises
-    ------
-    InputError
-        If there is no such model or setting, or as the model does.
+    """State at separation by the model of a name. Arguments and errors: `planarimpact.models`.
 
     Examples
     --------
@@ -115,10 +101,6 @@ def rebound(
     planarimpact.InputError: restitution = 0.8: allowed are numbers equal to 1, unless the model's \
 name says what takes the energy: lumped.hysteretic (the paper's), lumped.unloading-stiffness, \
 lumped.viscous
-    >>> rebound("lumped", 8.0, steps=4)
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: steps = 4: lumped has no settings
     """
     chosen = get(model)
     refuse_unknown(chosen, settings)
@@ -126,7 +108,17 @@ lumped.viscous
 
 
 def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
-    """Refuse settings that a model does not have; the message names the first one."""
+    """Refuse settings that a model does not have; the message names the first one.
+
+    Arguments and errors: `planarimpact.models`.
+
+    Examples
+    --------
+    >>> refuse_unknown(get("lumped"), {"steps": 4})
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: steps = 4: lumped has no settings
+    """
     for key, value in settings.items():
         if key not in model.settings:
             known = f"the settings {', '.join(model.settings)}" if model.settings else "no settings"
@@ -146,19 +138,11 @@ def input_spread(
     e is known to 0.02 and mu to 10 % (standard deviations): both errors are normal and independent.
     Values of e above 1 count as 1. A measurement of the same bodies cannot show an error of a model
     that is smaller than this. Nine answers are combined, at three restitutions and three
-    coefficients of friction (Gaussian quadrature).
+    coefficients of friction (Gaussian quadrature). If mu is r times as large, a velocity w(x)
+    becomes r w(x/r). A model for e = 1 alone has the change by friction alone.
 
-    Parameters
-    ----------
-    model, incidence, mass_ratio, stiffness_ratio, restitution, **settings
-        As in `rebound`; the incidence is x = v1(0)/(mu v2(0)) with mu as it is believed to be, and
-        the groups are numbers.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        In mu v2(0), with mu as it is believed to be; the shape of `incidence`. If mu is r times as
-        large, a velocity w(x) becomes r w(x/r). A model for e = 1 alone has that of friction alone.
+    Arguments and errors: `planarimpact.models`; but for the incidence, groups are numbers. The
+    incidence and the answer, of its shape, are in mu v2(0) with mu as it is believed to be.
 
     Examples
     --------
@@ -183,7 +167,7 @@ def input_spread(
 
 
 def admits(model: Model, mass_ratio: float, stiffness_ratio: float, restitution: float) -> bool:
-    """Whether a model has an answer for these groups, which are as in `rebound`.
+    """Whether a model has an answer for numbers. Arguments and errors: `planarimpact.models`.
 
     Examples
     --------
@@ -204,18 +188,11 @@ def register(model: Model) -> None:
     convention is tried with a few impacts of a solid sphere (mass ratio 3.5, stiffness ratio 1.21),
     at both ends of its range of restitution.
 
-    Parameters
-    ----------
-    model : Model
-        Its `rebound` takes the four groups by position or name and the settings by name, and gives
-        a `Rebound`; `laws.of_velocity` makes one of a velocity alone.
-
-    Raises
-    ------
-    InputError
-        If the name is taken, the restitution is no range within 0 to 1, or `rebound` fails, gives
-        no `Rebound`, another shape than that of the incidences, or a velocity that is no number,
-        not opposite at the opposite incidence or farther from it than friction can bring it.
+    Arguments and errors: `planarimpact.models`; `laws.of_velocity` makes a `rebound` of a velocity
+    alone. It is refused if the name is taken, the restitution is no range within 0 to 1, or
+    `rebound` fails, gives no `Rebound`, another shape than that of the incidences, or a velocity
+    that is no number, not opposite at the opposite incidence or farther from it than friction can
+    bring it.
 
     Examples
     --------
@@ -280,6 +257,8 @@ def _refuse_other_convention(model: Model, restitution: float) -> None:
 def losses(model: str) -> dict[str, str]:
     """Names of the models that are a model with a loss, by that loss.
 
+    Arguments and errors: `planarimpact.models`.
+
     Examples
     --------
     >>> losses("continuum")
@@ -307,9 +286,16 @@ def _elastic(name: str, solve: Callable[..., Rebound]) -> Callable[..., Rebound]
     return rebound
 
 
-def _stepped(solve: Callable[..., Rebound], valid: str, source: str) -> Model:
-    name, steps = f"timestep.{solve.__name__}", timestep.STEPS
-    return Model(name, solve, {"steps": steps}, "steps", (0.0, 1.0), valid, source, "hysteretic")
+def _stepped(name: str, law: timestep.Law, valid: str, source: str) -> Model:
+    return Model(
+        f"timestep.{name}",
+        partial(timestep.rebound, law),
+        {"steps": timestep.STEPS},
+        "steps",
+        valid=valid,
+        source=source,
+        loss="hysteretic",
+    )
 
 
 def _lossy_continuum(loss: str, valid: str, source: str) -> Model:
@@ -400,17 +386,20 @@ MODELS = {
             loss="viscous",
         ),
         _stepped(
-            timestep.linear,
+            "linear",
+            timestep.LINEAR,
             f"linear spring and slider, {_STEPPED}; tends to the lumped model",
             "P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65",
         ),
         _stepped(
-            timestep.mindlin,
+            "mindlin",
+            timestep.MINDLIN,
             f"Hertz contact, friction in increments by Mindlin's stiffness, {_STEPPED}",
             "R. D. Mindlin, J. Appl. Mech. 16 (1949) 259-268; as in LAMMPS, mindlin/force",
         ),
         _stepped(
-            timestep.mindlin_rescaled,
+            "mindlin_rescaled",
+            timestep.MINDLIN_RESCALED,
             "as timestep.mindlin, the force rescaled with the radius of contact on unloading",
             "C. Thornton et al., Powder Technology 233 (2013) 30-46; LAMMPS, mindlin_rescale/force",
         ),
@@ -456,7 +445,7 @@ def reference(restitution: float, loss: str | None = None) -> str:
 
     It is elastic for e = 1. Below, `loss` says which one, "viscous" or "plastic", and `InputError`
     that it is missing or another word. If the loss is not known, the error is up to the distance
-    between the two lossy ones.
+    between the two lossy ones. Arguments and errors: `planarimpact.models`.
 
     Examples
     --------

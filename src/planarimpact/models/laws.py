@@ -8,6 +8,11 @@ slip, except in slip throughout.
 
 `of_velocity` makes a law of a velocity of your own.
 
+Arguments and errors: `incidence`, `mass_ratio`, `stiffness_ratio` and `restitution` are those of
+`planarimpact.lumped.rebound`, and `InputError` says what it refuses. The answer is a `Rebound`. In
+slip throughout its regime is SLIP_THROUGHOUT and its peak_friction 1: friction is mu times the
+normal force at every instant. Below, peak_friction is NaN and regime UNRESOLVED; STICK for x = 0.
+
 Units as in `planarimpact.lumped`. Symbols: x incidence, w velocity at separation, e restitution,
 b tangential restitution; B = (1 + e) beta, the change of velocity in slip throughout.
 """
@@ -33,30 +38,13 @@ def brach(
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    tangential_restitution: ArrayLike = BRACH_TANGENTIAL_RESTITUTION,
+    tangential_restitution: float = BRACH_TANGENTIAL_RESTITUTION,
 ) -> Rebound:
-    """Two straight lines: constant tangential restitution, or sliding throughout.
+    """Two straight lines: w = -b x up to x = B/(1 + b), and slip throughout from there on.
 
-    Parameters
-    ----------
-    incidence, mass_ratio, stiffness_ratio, restitution : array_like
-        As in `planarimpact.lumped.rebound`. The stiffness ratio has no effect: all models have the
-        same arguments.
-    tangential_restitution : array_like
-        b, 0 to 1: the share of the tangential velocity that comes back, reversed. The default is
-        the best for solid elastic spheres of Poisson's ratio 0.3.
-
-    Returns
-    -------
-    Rebound
-        velocity is -b x up to x = B/(1 + b) and x - B from there on, where friction is mu times
-        the normal force at every instant: peak_friction 1, regime SLIP_THROUGHOUT. Below,
-        peak_friction is NaN and regime UNRESOLVED; STICK for x = 0.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a finite real number in its range, or shapes do not broadcast.
+    `tangential_restitution`, one number b from 0 to 1, is the share of the tangential velocity
+    that comes back, reversed. The default is the best for solid elastic spheres of Poisson's ratio
+    0.3. Other arguments and errors: `planarimpact.models.laws`.
 
     References
     ----------
@@ -68,13 +56,9 @@ def brach(
     >>> [float(w) for w in brach([1.0, 8.0], tangential_restitution=0.5).velocity]
     [-0.5, 1.0]
     """
-    given = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    share = checks.checked(
-        "tangential_restitution", tangential_restitution, "numbers from 0 to 1", 0, 1
-    )
-    groups = dict(zip(checks.RULES, given, strict=True)) | {"tangential_restitution": share}
-    signed, beta, _, e, b = checks.broadcast(**groups)
-    x, beta, e, b = (a.reshape(-1) for a in (np.abs(signed), beta, e, b))
+    b = checks.number("tangential_restitution", tangential_restitution, "numbers from 0 to 1", 0, 1)
+    signed, beta, _, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
+    x, beta, e = (a.reshape(-1) for a in (np.abs(signed), beta, e))
     change = sliding.change(beta, e)
     slides = x >= change / (1 + b)
     velocity = np.where(slides, x - change, -b * x)
@@ -90,20 +74,8 @@ def smith(
 ) -> Rebound:
     """Friction by a mean direction of slip, weighted by the speed before and after.
 
-    Parameters
-    ----------
-    incidence, mass_ratio, stiffness_ratio, restitution : array_like
-        As in `brach`.
-
-    Returns
-    -------
-    Rebound
-        As of `brach`, but velocity is x - B from x = B on, and negative below.
-
-    Raises
-    ------
-    InputError
-        As `brach`.
+    It slides throughout from x = B on; below, the velocity is negative. Arguments and errors:
+    `planarimpact.models.laws`.
 
     Notes
     -----
@@ -145,10 +117,9 @@ def of_velocity(velocity: Callable[..., ArrayLike]) -> Callable[..., Rebound]:
     Returns
     -------
     callable
-        A function `rebound` with the arguments of every model, which gives a `Rebound`. It refuses
-        arguments as `brach` does, and answers negative incidences by symmetry. The dissipation
-        follows from the velocity; peak_friction is NaN. The regime is SLIP_THROUGHOUT where the
-        velocity is x - (1 + e) m2/m1, STICK for x = 0, and UNRESOLVED elsewhere.
+        A function `rebound` with the arguments of every model, which gives a `Rebound`. It answers
+        negative incidences by symmetry. The dissipation follows from the velocity; peak_friction
+        is NaN. The contact slides throughout where the velocity is x - (1 + e) m2/m1.
 
     Raises
     ------

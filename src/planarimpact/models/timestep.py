@@ -6,14 +6,50 @@ have it. Friction is a spring that is carried from step to step, beside a dashpo
 cut back to mu times the normal force. Normal and tangential motion both have the error of the
 steps: events are not located within a step. A `Law` says how a code finds these forces.
 
-There are two normal motions. `linear`, `mindlin` and `mindlin_rescaled` lose energy for e < 1 in
-the paper's hysteretic spring (Walton & Braun's with latching): below the largest depth reached, the
-normal force follows a line, or a Hertz curve, that is steeper by 1/e^2. So restitution takes e
-times as long as compression, and has e/(1 + e) of the steps. If that is less than one step, the
-impulse of friction is wrong by up to 0.75 of what the largest force gives in a step. For e = 0 the
-contact ends with the step nearest to maximum compression. The evidence on this spring is divided,
-see `planarimpact.lumped`. `with_dashpots` has a dashpot beside the normal spring instead, as many
-codes do; `planarimpact.fit` fits its tangential spring and dashpot to the continuum.
+`rebound` loses energy for e < 1 in the paper's hysteretic spring (that of O. R. Walton and R. L.
+Braun, J. Rheol. 30 (1986) 949-980, with latching): below the largest depth reached, the normal
+force follows a line, or a Hertz curve, that is steeper by 1/e^2. So restitution takes e times as
+long as compression, and has e/(1 + e) of the steps. If that is less than one step, the impulse of
+friction is wrong by up to 0.75 of what the largest force gives in a step. For e = 0 the contact
+ends with the step nearest to maximum compression. The evidence on this spring is divided, see
+`planarimpact.lumped`. `with_dashpots` has a dashpot beside the normal spring instead, as many codes
+do; `planarimpact.fit` fits its tangential spring and dashpot to the continuum.
+
+Three laws are models by a name of their own; `planarimpact.models.MODELS` has their sources:
+
+- `LINEAR` has linear springs with a slider: the lumped model in steps.
+- `MINDLIN` is a Hertz contact whose friction grows with Mindlin's full tangential stiffness 8 a G*
+  (A. Di Renzo, F. P. Di Maio, Chem. Eng. Sci. 59 (2004) 525-541); zeta^2 is the normal stiffness
+  dF2/d(depth) of an elastic contact over it. It does not conserve energy: friction that is kept
+  while its spring softens creates some (D. Elata, J. G. Berryman, Mech. Mater. 24 (1996) 229-240).
+  Where beta/zeta^2 is so small that stick lasts, a solid sphere may leave up to 5 % faster than it
+  came, however many steps there are.
+- `MINDLIN_RESCALED` is the same, but friction shrinks in proportion to the radius of contact: the
+  elastic continuum without micro-slip. This favours stick in restitution: at e = 1 the contact
+  slides throughout from x = 2 beta - 2 zeta^2/3 on, where the continuum does from 2 beta - zeta^2.
+
+Hertz contacts start in slip from x = 2 zeta^2/3, not zeta^2, because the first step already has the
+stiffness of its end.
+
+What the steps cost:
+
+- The least number of steps is `factor` times (1 + e) (beta/zeta^2)^(1/2). With fewer the tangential
+  oscillation turns by more than 2 in a step and grows.
+- Steps near that number may create energy. `gain` is the largest |velocity|/|x| with the least
+  number, and with twice as many; for a Hertz contact it is the largest that a search found. With
+  four times as many, `MINDLIN_RESCALED` creates none.
+- The error of the steps falls with the power `order` of their number. That of 64 steps of `LINEAR`
+  is 0.0008, root mean square for a solid sphere of Poisson's ratio 0.3 at e = 1, x from 0 to 8.
+- `distance` is the root mean square distance from the elastic continuum for the same impacts. It
+  is not smaller with more steps.
+
+==================  ======  ================  =====  ========
+law                 factor  gain              order  distance
+==================  ======  ================  =====  ========
+`LINEAR`            pi/4    2 steps + 1; 1.2  2      0.08
+`MINDLIN`           1.0076  11; 1.8           1      0.29
+`MINDLIN_RESCALED`  1.0076  4.3; 1.01         1      0.31
+==================  ======  ================  =====  ========
 
 The overlap is taken to vanish beside the radius, so the normal does not turn.
 
@@ -29,7 +65,6 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
-from scipy import integrate, optimize
 
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers, Numbers
@@ -63,8 +98,14 @@ class Law(NamedTuple):
     spring_slides: bool = False
 
 
+LINEAR = Law()
+MINDLIN = Law(hertzian=True)
+MINDLIN_RESCALED = Law(hertzian=True, rescales=True)
+
+
 @checks.default_errors
-def linear(
+def rebound(
+    law: Law,
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
     stiffness_ratio: ArrayLike = 1.21,
@@ -72,17 +113,16 @@ def linear(
     *,
     steps: int = STEPS,
 ) -> Rebound:
-    """Linear springs with a slider, after Cundall & Strack: the lumped model in steps.
+    """State at separation by a law without dashpots.
 
     Parameters
     ----------
+    law : Law
+        `LINEAR`, `MINDLIN` or `MINDLIN_RESCALED`.
     incidence, mass_ratio, stiffness_ratio, restitution : array_like
         As in `planarimpact.lumped.rebound`.
     steps : int
-        Over the duration of contact; 3 to 10^7, and at least (1 + e) pi/4 times the root
-        of beta/zeta^2: with fewer the tangential oscillation turns by more than 2 in a step and
-        grows. With this least number it may still create energy: |velocity| up to
-        (2 steps + 1) |x|. With more it is at most |x|/sqrt(1 - r^2), r = least number/steps.
+        Over the duration of contact; 3 to 10^7, and at least the number of the table above.
 
     Returns
     -------
@@ -90,7 +130,8 @@ def linear(
         The same fields and units as `planarimpact.lumped.rebound`; peak_friction, at most 1, and
         regime are what the steps show. A slip or a stick that is shorter than a step is missed: if
         the last slip is so short, the regime ends in stick. But a contact whose slip changes its
-        direction counts as having stuck once, even if no step was in stick.
+        direction counts as having stuck once, even if no step was in stick. Where the steps or
+        `MINDLIN` create energy, dissipation is negative.
 
     Raises
     ------
@@ -98,114 +139,29 @@ def linear(
         If an argument is not a finite real number in its range, shapes do not broadcast, or there
         are too few steps for one of the impacts.
 
-    Notes
-    -----
-    The bound of velocity is that of a contact that sticks throughout, where each step is the same
-    linear map. A search showed that slip only lowers it; this is not proved.
-    The error of the steps falls with their square, unevenly, as events fall between them. For a
-    solid sphere at e = 1 and 64 steps it is 0.0008 (root mean square over x from 0 to 8) and 0.0026
-    at most, against the lumped model. It is not the error of that model.
-
-    References
-    ----------
-    P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65. O. R. Walton, R. L. Braun,
-    J. Rheol. 30 (1986) 949-980.
-
     Examples
     --------
-    >>> round(float(linear(2.0).velocity), 2)
-    -0.58
-    """
-    return _latching(Law(), incidence, mass_ratio, stiffness_ratio, restitution, steps)
-
-
-@checks.default_errors
-def mindlin(
-    incidence: ArrayLike,
-    mass_ratio: ArrayLike = 3.5,
-    stiffness_ratio: ArrayLike = 1.21,
-    restitution: ArrayLike = 1.0,
-    *,
-    steps: int = STEPS,
-) -> Rebound:
-    """Hertz contact; friction grows with the full tangential stiffness.
-
-    Arguments, answer and refusals are those of `linear`, but for these:
-
-    Parameters
-    ----------
-    stiffness_ratio : array_like
-        zeta^2 > 0, normal stiffness dF2/d(depth) of an elastic contact over Mindlin's tangential
-        stiffness 8 a G*; (2 - nu)/(2 (1 - nu)) for equal materials.
-    steps : int
-        3 to 10^7, and at least 1.0076 (1 + e) times the root of beta/zeta^2. Close to that number
-        it may still create energy: a search reached |velocity| = 11 |x| with the least number, many
-        steps and e near 0; 1.8 |x| with twice as many.
-
-    Returns
-    -------
-    Rebound
-        The contact starts in slip from x = 2 zeta^2/3, not zeta^2, however many steps there are,
-        because the first step already has the stiffness of its end.
-
-    Notes
-    -----
-    Its limit of many steps is not the elastic continuum: at beta = 3.5, zeta^2 = 17/14 the root
-    mean square of the difference in velocity is 0.29 over x from 0 to 8, with 16 steps as with
-    4096. The error of the steps falls with their first power, since friction grows with the
-    radius at the end of each step. Nor does the law conserve energy: a friction force that is kept
-    while its spring softens creates energy (Elata & Berryman 1996). Where beta/zeta^2 is so small
-    that stick lasts, a solid sphere may leave up to 5 % faster than it came: |velocity| <= |x|
-    and dissipation >= 0 do not hold for this law, however many steps there are.
-
-    References
-    ----------
-    A. Di Renzo, F. P. Di Maio, Chem. Eng. Sci. 59 (2004) 525-541. LAMMPS, pair_style granular,
-    tangential model mindlin/force. D. Elata, J. G. Berryman, Mech. Mater. 24 (1996) 229-240.
-
-    Examples
-    --------
-    >>> [round(float(w), 2) for w in mindlin([1.0, 2.0, 8.0], 3.5, 17 / 14).velocity]
+    >>> for law in (LINEAR, MINDLIN, MINDLIN_RESCALED):
+    ...     rebound(law, [1.0, 2.0, 8.0], 3.5, 17 / 14).velocity.round(2).tolist()
+    [0.2, -0.59, 1.0]
     [0.54, -0.18, 1.0]
-    """
-    law = Law(hertzian=True)
-    return _latching(law, incidence, mass_ratio, stiffness_ratio, restitution, steps)
-
-
-@checks.default_errors
-def mindlin_rescaled(
-    incidence: ArrayLike,
-    mass_ratio: ArrayLike = 3.5,
-    stiffness_ratio: ArrayLike = 1.21,
-    restitution: ArrayLike = 1.0,
-    *,
-    steps: int = STEPS,
-) -> Rebound:
-    """Hertz contact as `mindlin`, but friction shrinks in proportion to the radius of contact.
-
-    Notes
-    -----
-    The elastic continuum without micro-slip: a Hertz contact that sticks and slips as a whole. It
-    is no nearer to the continuum than `mindlin`: the root mean square of the difference is 0.31.
-    Close to the least number of steps it may create energy: a search for the worst case reached
-    |velocity| = 4.3 |x| with that number and 1.01 |x| with twice as many; no energy is created
-    with four times as many. Friction that shrinks with the radius favours stick in restitution: at
-    e = 1 the contact slides throughout from x = 2 beta - 2 zeta^2/3 on, where the continuum does
-    from 2 beta - zeta^2. The error of the steps falls with their first
-    power where the contact starts in stick.
-
-    References
-    ----------
-    C. Thornton, S. J. Cummins, P. W. Cleary, Powder Technol. 233 (2013) 30-46. LAMMPS, pair_style
-    granular, tangential model mindlin_rescale/force.
-
-    Examples
-    --------
-    >>> [round(float(w), 2) for w in mindlin_rescaled([1.0, 2.0, 8.0], 3.5, 17 / 14).velocity]
     [0.45, -0.19, 1.0]
     """
-    law = Law(hertzian=True, rescales=True)
-    return _latching(law, incidence, mass_ratio, stiffness_ratio, restitution, steps)
+    signed, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
+    beta, zeta2, e = (a.reshape(-1) for a in groups)
+    _, stiffest, _ = _spring(law, 1.0)
+    with np.errstate(over="ignore"):
+        frequency = math.sqrt(stiffest) * (np.sqrt(beta) / np.sqrt(zeta2))
+        angle = (1 + e) * (duration(law.hertzian) / 2) * frequency
+    steps = checks.explicit_steps(steps, angle / STABLE_ANGLE, 3, MOST_STEPS)
+    x = np.abs(signed).reshape(-1)
+    velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
+    regime = np.empty(x.size, np.uint8)
+    for start in range(0, x.size, CHUNK):
+        part = slice(start, start + CHUNK)
+        outcome = _impacts(law, x[part], beta[part], zeta2[part], e[part], steps)
+        velocity[part], impulse[part], peak[part], regime[part] = outcome
+    return Rebound.of(signed, velocity, impulse, peak, regime)
 
 
 def with_dashpots(
@@ -264,7 +220,7 @@ def normal_damping(hertzian: bool, told: float) -> float:
     >>> round(normal_damping(hertzian=False, told=math.exp(-math.pi)), 6)
     1.414214
     """
-    logarithm = -math.log(told)
+    logarithm = abs(math.log(told))
     return (math.sqrt(5) if hertzian else 2.0) * logarithm / math.hypot(math.pi, logarithm)
 
 
@@ -290,6 +246,8 @@ def told_for(law: Law, restitution: float) -> float:
     >>> told_for(Law(), 0.8), round(told_for(Law(limited=True), 0.8), 3)
     (0.8, 0.791)
     """
+    from scipy import optimize  # here, as it takes longer to import than this package
+
     if not law.limited or restitution == 1:
         return restitution
 
@@ -301,6 +259,8 @@ def told_for(law: Law, restitution: float) -> float:
 
 def _limited_restitution(hertzian: bool, told: float) -> float:
     """Speed after a contact that ends where its force would become negative; in any unit of it."""
+    from scipy import integrate  # as above
+
     damping = normal_damping(hertzian, told)
 
     def force(state: Array) -> float:
@@ -434,32 +394,6 @@ def _latching_motion(law: Law, e: Array, steps: int) -> Iterator[_Instant]:
         kept = _share_kept(law, before, radius)
         kick = np.where(ended, step / 2, step)
         yield _Instant(force, step * stiffness * touches, kept, kick)
-
-
-def _latching(
-    law: Law,
-    incidence: ArrayLike,
-    mass_ratio: ArrayLike,
-    stiffness_ratio: ArrayLike,
-    restitution: ArrayLike,
-    steps: int,
-) -> Rebound:
-    """Check arguments, and step through all contacts, `CHUNK` at a time."""
-    signed, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    beta, zeta2, e = (a.reshape(-1) for a in groups)
-    _, stiffest, _ = _spring(law, 1.0)
-    with np.errstate(over="ignore"):
-        frequency = math.sqrt(stiffest) * (np.sqrt(beta) / np.sqrt(zeta2))
-        angle = (1 + e) * (duration(law.hertzian) / 2) * frequency
-    steps = checks.explicit_steps(steps, angle / STABLE_ANGLE, 3, MOST_STEPS)
-    x = np.abs(signed).reshape(-1)
-    velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
-    regime = np.empty(x.size, np.uint8)
-    for start in range(0, x.size, CHUNK):
-        part = slice(start, start + CHUNK)
-        outcome = _impacts(law, x[part], beta[part], zeta2[part], e[part], steps)
-        velocity[part], impulse[part], peak[part], regime[part] = outcome
-    return Rebound.of(signed, velocity, impulse, peak, regime)
 
 
 def _impacts(

@@ -11,10 +11,9 @@ from typing import Any, TypeVar
 import numpy as np
 from scipy.integrate import cumulative_simpson
 
-from planarimpact import lumped
+from planarimpact import lumped, models
 from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 from planarimpact.ground.results import Event, EventKind, History, Rebound
-from planarimpact.models import timestep
 from stronge1994.printed import dynamics
 
 FRICTION, NORMAL_MASS, NORMAL_VELOCITY, STIFFNESS = 0.3, 1.7, -2.3, 5.9
@@ -223,7 +222,7 @@ class NormalMotion:
 
 def without_micro_slip(incidence: Array) -> Rebound:
     """Rebound of the paper's sphere, e = 1, by a Hertz contact that slips as a whole; to 1e-3."""
-    return once(timestep.mindlin_rescaled, incidence, *SPHERE, steps=4096)
+    return once(models.get("timestep.mindlin_rescaled").rebound, incidence, *SPHERE, steps=4096)
 
 
 def normal_motions() -> Iterator[tuple[float, NormalMotion]]:
