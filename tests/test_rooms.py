@@ -76,10 +76,8 @@ SIDE_DOORS = {
     "noncollinear.rigid",
     "scene.columns",
     "scene.files",
-    "collision.continua",  # the rungs, which scenes count
-    "collision.model_form",
     "collision.presets",
-    "collision.rungs",
+    "collision.rungs",  # which scenes count
     "spheres.table",  # which export writes in other languages, and which has one impact in floats
 }
 
