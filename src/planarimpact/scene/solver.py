@@ -108,11 +108,7 @@ class Solver:
         self, table: "pd.DataFrame", names: dict[str, str], skip_bad: bool
     ) -> "pd.DataFrame":
         """State after each impact of a block."""
-        values, problems = columns.numbers(table, names)
-        if "restitution" in names and "loss" not in names:
-            code = columns.LOSSES.index(self._loss) if self._loss else columns.NO_LOSS
-            values["loss"] = np.full(len(table), float(code))
-        columns.refuse_missing_loss(values, problems)
+        values, problems = columns.numbers(table, names, self._loss)
         rows, good = _good_rows(values, problems)
         self._refuse(problems, skip_bad, InputError)
         answers = collision.answers(rows.impacts, self.tolerance, peaks=True)
