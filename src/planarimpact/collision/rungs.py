@@ -13,7 +13,7 @@ import numpy as np
 from planarimpact import continuum, models, spheres
 from planarimpact.collision.mechanics import Impacts, slides_throughout
 from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.checks import ConvergenceError
 from planarimpact.ground.results import Rebound, Regime
 
@@ -72,7 +72,7 @@ def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
     elastic = groups[2] == 1
     kind = np.where(elastic, 0, np.where(impacts.plastic[rows], 2, 1))  # in `CONTINUA`
     x = impacts.incidence_of(rows)
-    of_table = _table_error(x, groups, kind == 2)
+    of_table = table_error(spheres.error_bound(*groups, kind == 2), groups[0], x)
     way = np.where(of_table <= tolerance, TABLED, TOO_COARSE)
     way = np.where(np.isfinite(of_table), way, NOT_COVERED)
     place[rows] = FIRST_OF_CONTINUA + len(CONTINUA) * way + kind
@@ -85,13 +85,8 @@ def _tolerance(x: Array, tolerance: float) -> Array:
     return np.minimum(tolerance, TOLERANCE * x)
 
 
-def _table_error(x: Array, groups: tuple[Array, Array, Array], plastic: Booleans) -> Array:
-    """Largest error of the table of spheres, mu v2(0); infinite where it does not cover impacts."""
-    return table_error(spheres.error_bound(*groups, plastic), groups[0], x)
-
-
 def table_error(bound: Any, mass_ratio: Any, x: Any) -> Any:
-    """Largest error from the bound of the table, arrays or floats, mu v2(0)."""
+    """Largest error of the table of spheres, arrays or floats, mu v2(0), from its bound."""
     return (bound + ROUNDING * mass_ratio) * np.minimum(x, 1.0)
 
 
