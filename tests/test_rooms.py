@@ -76,8 +76,10 @@ SIDE_DOORS = {
     "noncollinear.rigid",
     "scene.columns",
     "scene.files",
+    "collision.mechanics",  # these three solve scenes
+    "collision.model_form",
+    "collision.rungs",
     "collision.presets",
-    "collision.rungs",  # which scenes count
     "spheres.table",  # which export writes in other languages, and which has one impact in floats
 }
 

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from planarimpact import bodies, collision, continuum, lumped, rigid, scene, spheres
+from planarimpact import bodies, continuum, lumped, rigid, scene, spheres
 from planarimpact.collision import mechanics
 from stronge1994 import reference_data
 from stronge1994.figures.study import curves as study
@@ -120,7 +120,7 @@ FAULTS = {
         ),
     ),
     "the loss of energy": (
-        collision,
+        mechanics,
         "energy_lost",
         lambda right: lambda *args: 1.3 * right(*args),
     ),

@@ -22,22 +22,20 @@ from numpy.typing import NDArray
 from planarimpact import bodies
 from planarimpact.bodies import Body
 from planarimpact.collision import one_impact
-from planarimpact.collision.mechanics import Impacts as Impacts
-from planarimpact.collision.mechanics import State as State
-from planarimpact.collision.mechanics import after as after
-from planarimpact.collision.mechanics import effective_radius as effective_radius
-from planarimpact.collision.mechanics import energy_lost as energy_lost
-from planarimpact.collision.mechanics import impacts as impacts
-from planarimpact.collision.mechanics import problems as problems
-from planarimpact.collision.mechanics import problems_of_normals as problems_of_normals
-from planarimpact.collision.model_form import model_forms as model_forms
+from planarimpact.collision.mechanics import (
+    Impacts,
+    State,
+    after,
+    impacts,
+    problems,
+    problems_of_normals,
+)
+from planarimpact.collision.model_form import model_forms
 from planarimpact.collision.pairs import RESTITUTION_FROM as RESTITUTION_FROM
-from planarimpact.collision.pairs import Pair as Pair
-from planarimpact.collision.presets import Preset as Preset
-from planarimpact.collision.presets import presets as presets
+from planarimpact.collision.pairs import Pair
+from planarimpact.collision.presets import Preset, presets
 from planarimpact.collision.rungs import TOLERANCE as TOLERANCE
-from planarimpact.collision.rungs import Answers as Answers
-from planarimpact.collision.rungs import answers as answers
+from planarimpact.collision.rungs import Answers, answers
 from planarimpact.continuum import Unsolved
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from planarimpact import bodies, collision
-from planarimpact.collision import rungs
+from planarimpact.collision import mechanics, model_form, rungs
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.checks import ConvergenceError, InputError
@@ -111,10 +111,10 @@ class Solver:
         values, problems = columns.numbers(table, names, self._loss)
         rows, good = _good_rows(values, problems)
         self._refuse(problems, skip_bad, InputError)
-        answers = collision.answers(rows.impacts, self.tolerance, peaks=True)
+        answers = rungs.answers(rows.impacts, self.tolerance, peaks=True)
         unsolved = {int(good[i]): message for i, message in answers.unsolved.items()}
         self._refuse(unsolved, skip_bad, ConvergenceError)
-        form = collision.model_forms(rows.impacts, answers)
+        form = model_form.model_forms(rows.impacts, answers)
         self._count(rows, answers, form)
         problems |= unsolved
         self.bad += [(self.rows + row + 1, problems[row]) for row in sorted(problems)]
@@ -163,8 +163,8 @@ def _good_rows(values: dict[str, Array], problems: dict[int, str]) -> tuple[stat
         good = np.delete(np.arange(values["radius"].size), list(problems))
         try:
             rows = states.rows({name: column[good] for name, column in values.items()})
-            found = collision.problems(rows.impacts)
-            found |= collision.problems_of_normals(rows.impacts.normal)
+            found = mechanics.problems(rows.impacts)
+            found |= mechanics.problems_of_normals(rows.impacts.normal)
         except bodies.OutOfRange as error:
             found = dict.fromkeys(np.flatnonzero(error.where).tolist(), str(error))
         if not found:
@@ -186,7 +186,7 @@ def _result(
     import pandas as pd
 
     impacts, plane, peak = rows.impacts, "spin" in names, answers.peak_friction
-    body, other, _ = collision.after(impacts, answers.change)
+    body, other, _ = mechanics.after(impacts, answers.change)
     after = states.columns_of(body, plane)
     if {"other_density", "other_mass"} & set(names):
         after |= {f"other_{k}": v for k, v in states.columns_of(other, plane).items()}
@@ -211,6 +211,6 @@ def _result(
         impacts.incidence_of(np.arange(model.size)),
         rows.peak_normal,
         friction,
-        collision.energy_lost(impacts, answers.change),
+        mechanics.energy_lost(impacts, answers.change),
     ]
     return result | dict(zip(map(columns.header, columns.RESULT), added, strict=True))

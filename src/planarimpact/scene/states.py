@@ -9,9 +9,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact import bodies, collision
+from planarimpact import bodies
 from planarimpact.bodies import Body, Material
-from planarimpact.collision import LOSSES, RESTITUTION_FROM, Impacts, Pair, State
+from planarimpact.collision import LOSSES, RESTITUTION_FROM, Pair, mechanics
+from planarimpact.collision.mechanics import Impacts, State
 from planarimpact.ground.arrays import Array
 from planarimpact.scene.columns import AXES, PLANE
 
@@ -27,7 +28,7 @@ class Rows(NamedTuple):
 def rows(values: dict[str, Any]) -> Rows:
     """Rows of columns as `columns.numbers` returns them, without bad ones.
 
-    OutOfRange is that of `collision.impacts`.
+    OutOfRange is that of `mechanics.impacts`.
     """
     body, other = _body(values, ""), _body(values, "other_")
     before, other_before = _state(values, ""), _state(values, "other_")
@@ -35,10 +36,10 @@ def rows(values: dict[str, Any]) -> Rows:
     law = {name: values[name] for name in (*RESTITUTION_FROM, "loss") if name in values}
     both = (material,) if other_material is None else (material, other_material)
     pair = Pair(*both, friction=values["friction"], **law)
-    impacts = collision.impacts(pair, _normal(values), body, before, other, other_before)
+    impacts = mechanics.impacts(pair, _normal(values), body, before, other, other_before)
     with np.errstate(divide="ignore", invalid="ignore"):  # without friction nothing resists
         coupling = np.abs(bodies.dundurs(*materials)) / values["friction"]
-    radius = collision.effective_radius(body, other)
+    radius = mechanics.effective_radius(body, other)
     return Rows(impacts, _peak_normal(impacts, pair.effective_modulus, radius), coupling)
 
 
