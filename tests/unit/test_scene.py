@@ -95,31 +95,6 @@ def test_a_plane_state_is_one_in_space():
     assert velocity[1] == turning[0] == turning[2] == 0
 
 
-def rotation():
-    """A rotation about an axis that is none of the three."""
-    axis, angle = np.array([1.0, 2.0, 2.0]) / 3, 0.7
-    cross = np.cross(np.eye(3), -axis)
-    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-
-
-@pytest.mark.parametrize("restitution", [0.8, 1.0])
-def test_rotated_axes_rotate_the_result(restitution):
-    plain = table(STEEL, SPACE, OTHER, OTHER_SPACE, NORMAL, restitution=restitution)
-    turned = plain.copy()
-    turn = rotation()
-    for who in ("", "other_"):
-        for name, unit in (("velocity", "m/s"), ("spin", "rad/s")):
-            keys = [f"{who}{name}_{axis} [{unit}]" for axis in "xyz"]
-            turned[keys] = plain[keys].to_numpy() @ turn.T
-    keys = [f"normal_{axis}" for axis in "xyz"]
-    turned[keys] = plain[keys].to_numpy() @ turn.T
-    first, second = scene.solve(plain), scene.solve(turned)
-    for who in ("", "other_"):
-        pairs = zip(vectors(first, "_after", who), vectors(second, "_after", who), strict=True)
-        for before, after in pairs:
-            np.testing.assert_allclose(turn @ before, after, rtol=1e-9, atol=1e-9)
-
-
 @pytest.mark.parametrize(
     ("friction", "restitution"),
     # Only contacts that slide throughout may have e = 0.
