@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from planarimpact import bodies, collision
-from planarimpact.collision import mechanics, model_form, rungs
+from planarimpact import bodies
+from planarimpact.collision import RESTITUTION_FROM, TOLERANCE, mechanics, model_form, rungs
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.checks import ConvergenceError, InputError
@@ -37,7 +37,7 @@ class Solver:
         Rows read so far.
     """
 
-    def __init__(self, tolerance: float = collision.TOLERANCE, loss: str | None = None) -> None:
+    def __init__(self, tolerance: float = TOLERANCE, loss: str | None = None) -> None:
         allowed = "numbers from 1e-10 to 1"
         self.tolerance = checks.number("tolerance", tolerance, allowed, 1e-10, 1)
         self._loss = loss if loss is None else checks.loss(loss, columns.LOSSES)
@@ -123,7 +123,7 @@ class Solver:
         return result[_has_answer(answers)] if unsolved else result
 
     def _refuse_two_losses(self, names: dict[str, str]) -> None:
-        for name in names.keys() & {"loss", *collision.RESTITUTION_FROM} - {"restitution"}:
+        for name in names.keys() & {"loss", *RESTITUTION_FROM} - {"restitution"}:
             if self._loss is not None:
                 raise InputError(
                     f"loss = {self._loss!r}: it does not apply, as the column {names[name]!r} says "
