@@ -194,21 +194,16 @@ def _refuse_incomplete(names: set[str]) -> None:
         _need(names, ["other_radius"])
         _need_one_of(names, "other_density", ("other_mass", "other_gyration"))
     _all_or_none(names, ["other_young_modulus", "other_poisson_ratio"])
-    space = names & set(SPACE)
-    if space and names & set(PLANE):
+    plane, space = names & set(PLANE | OTHER_PLANE), names & set(SPACE | NORMAL | OTHER_SPACE)
+    if plane and space:
         raise InputError(
-            f"columns {_listed(names & set(PLANE))} and {_listed(space)}: a state has two "
-            "dimensions or three"
+            f"columns {_listed(plane)} and {_listed(space)}: states have two dimensions or three"
         )
-    _need(names, list(SPACE if space else PLANE))
-    _all_or_none(names, list(NORMAL))
-    states = (OTHER_SPACE, OTHER_PLANE) if space else (OTHER_PLANE, OTHER_SPACE)
+    _need(names, SPACE if space else PLANE)
+    _all_or_none(names, NORMAL)
     for quantity in ("velocity", "spin"):  # what is left out is 0
-        _all_or_none(names, [name for name in states[0] if quantity in name])
-    wrong = names & set(states[1]) | (set() if space else names & set(NORMAL))
-    if wrong:
-        dimensions = "three" if space else "two"
-        raise InputError(f"columns {_listed(wrong)}: the state has {dimensions} dimensions")
+        of_other = OTHER_SPACE if space else OTHER_PLANE
+        _all_or_none(names, [name for name in of_other if quantity in name])
 
 
 def _refuse_restitution(names: set[str]) -> None:
