@@ -76,10 +76,10 @@ SIDE_DOORS = {
     "noncollinear.rigid",
     "scene.columns",
     "scene.files",
-    "collision.continua",  # the rungs, which scenes count
+    "collision.mechanics",  # these three solve scenes
     "collision.model_form",
-    "collision.presets",
     "collision.rungs",
+    "collision.presets",
     "spheres.table",  # which export writes in other languages, and which has one impact in floats
 }
 

@@ -343,8 +343,8 @@ def _parser() -> argparse.ArgumentParser:
         "scene",
         _scene,
         "solve a table of impacts",
-        "One impact a row, each by a formula, the table of spheres or the continuum. Where the "
-        "continuum takes long, standard error says for how many.",
+        "One impact a row, each by a formula, the table of spheres or, some milliseconds each, the "
+        "continuum. --explain says how many impacts each of them solved.",
         epilog=scene_columns.HELP,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

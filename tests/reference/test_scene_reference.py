@@ -154,8 +154,8 @@ def test_a_wrong_table_breaks_the_tolerance(monkeypatch):
 @pytest.mark.parametrize("name", ["all", "viscous material"])
 def test_a_wrong_loss_breaks_the_tolerance(name, monkeypatch):
     """So does the continuum of the other loss."""
-    right, other = rungs._loss, {"viscous": "plastic", "plastic": "viscous", "": ""}
-    monkeypatch.setattr(rungs, "_loss", lambda rung: other[right(rung)])
+    right, other = rungs.Rung.loss.fget, {"viscous": "plastic", "plastic": "viscous", None: None}
+    monkeypatch.setattr(rungs.Rung, "loss", property(lambda rung: other[right(rung)]))
     known = solved(name)
     velocity, _, _ = errors(known, scene.solve(known.rows, 1e-2))
     assert velocity.max() > 5e-2

@@ -16,7 +16,7 @@ import pytest
 from planarimpact import ConvergenceError, InputError, scene
 from planarimpact.__main__ import main
 from planarimpact.collision import TOLERANCE
-from planarimpact.scene import columns, files, solver
+from planarimpact.scene import columns, files
 
 COUNT = 7
 ROW = {
@@ -316,23 +316,6 @@ def test_a_scene_on_the_command_line(table, capsys):
     assert said.err == "not known, and carried over as they are: columns 'batch'\n"
     assert pd.read_csv(out)[["batch", "id"]].iloc[0].tolist() == [7, "a"]
     assert sorted(os.listdir(table.parent)) == ["in.csv", "out.csv"]
-
-
-def test_what_takes_long_is_told_before(table, capsys, monkeypatch):
-    """How often the continuum is solved, and what tolerance avoids it, for each block."""
-    monkeypatch.setattr(solver, "MANY", 3)
-    monkeypatch.setattr(solver, "BLOCK", 8)
-    e = np.tile([0.8, 1.0, 0.2, 0.8, 0.2, 0.8], 2)
-    rows = pd.DataFrame([ROW] * e.size).assign(restitution=e, friction=0.4)
-    rows.loc[0, "friction"] = 0.0
-    rows.to_csv(table, index=False)
-    out = str(table.with_name("out.csv"))
-    assert main(["scene", str(table), out, "--tolerance", "1e-4"]) == 0
-    assert capsys.readouterr().err.splitlines() == [
-        f"from row {row} on, the continuum is solved for {count} of {size} impacts, some "
-        f"milliseconds each; with tolerance 0.005 the table of spheres would take {tabled} of these"
-        for row, count, size, tabled in ((1, 7, 8, 5), (9, 4, 4, 2))
-    ]
 
 
 def test_the_help_lists_every_column(capsys):

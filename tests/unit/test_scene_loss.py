@@ -188,13 +188,6 @@ def test_model_form_by_the_table(e):
     assert np.abs(form - wanted).max() <= 2 * (max(spheres.ERROR_BOUND.values()) + 1e-4)
 
 
-def test_both_losses_see_the_same_distance():
-    viscous, plastic = (scene.solve(table(restitution=0.7), loss=each) for each in continuum.LOSSES)
-    np.testing.assert_allclose(viscous[FORM], plastic[FORM], rtol=0, atol=1e-12)
-    known = contact_velocity(viscous) - contact_velocity(plastic)
-    np.testing.assert_allclose(viscous[FORM] / UNIT, np.abs(known), rtol=0, atol=1e-12)
-
-
 def test_where_both_losses_agree_there_is_no_model_form():
     """Sliding throughout, head-on, and without friction."""
     x = np.array([0.0, 10.0])

@@ -3,7 +3,7 @@
 `collide` takes vectors and returns vectors. A `Pair` says what the materials do: friction,
 stiffness, and what takes the energy. `scene` solves tables of impacts by the same functions, which
 also decide which model answers (`rungs`): a formula where it is exact, the table of spheres where
-it covers the impact, or the continuum, solved (`continua`). `mechanics` has the vectors, `pairs`
+it covers the impact, or the continuum, solved. `mechanics` has the vectors, `pairs`
 what materials do, `one_impact` one impact, `model_form` what the other loss would change.
 
 Bodies touch at one point, and the line of their centres of mass is the normal there. A body whose
@@ -22,22 +22,20 @@ from numpy.typing import NDArray
 from planarimpact import bodies
 from planarimpact.bodies import Body
 from planarimpact.collision import one_impact
-from planarimpact.collision.mechanics import Impacts as Impacts
-from planarimpact.collision.mechanics import State as State
-from planarimpact.collision.mechanics import after as after
-from planarimpact.collision.mechanics import effective_radius as effective_radius
-from planarimpact.collision.mechanics import energy_lost as energy_lost
-from planarimpact.collision.mechanics import impacts as impacts
-from planarimpact.collision.mechanics import problems as problems
-from planarimpact.collision.mechanics import problems_of_normals as problems_of_normals
+from planarimpact.collision.mechanics import (
+    Impacts,
+    State,
+    after,
+    impacts,
+    problems,
+    problems_of_normals,
+)
+from planarimpact.collision.model_form import model_forms
 from planarimpact.collision.pairs import RESTITUTION_FROM as RESTITUTION_FROM
-from planarimpact.collision.pairs import Pair as Pair
-from planarimpact.collision.presets import Preset as Preset
-from planarimpact.collision.presets import presets as presets
+from planarimpact.collision.pairs import Pair
+from planarimpact.collision.presets import Preset, presets
 from planarimpact.collision.rungs import TOLERANCE as TOLERANCE
-from planarimpact.collision.rungs import Answers as Answers
-from planarimpact.collision.rungs import answers as answers
-from planarimpact.collision.rungs import model_forms as model_forms
+from planarimpact.collision.rungs import Answers, answers
 from planarimpact.continuum import Unsolved
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers

@@ -215,7 +215,7 @@ def _loss_codes(loss: str | ArrayLike | None) -> Array:
     codes = np.full(names.shape, -1.0)
     for code, name in enumerate(LOSSES):
         codes[names == name] = code
-    unknown = names[(codes < 0) & (names != "")] if names.dtype.kind == "U" else names.ravel()
+    unknown = names[~np.isin(names, ["", *LOSSES])]
     if unknown.size:
         checks.loss(unknown.tolist()[0], LOSSES)
     return codes

@@ -6,17 +6,16 @@ below the tolerance. For all others the continuum is solved, elastic for e = 1, 
 of the impact. That takes up to some milliseconds an impact.
 """
 
-from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from planarimpact import continuum, models, spheres
-from planarimpact.collision import continua, model_form
 from planarimpact.collision.mechanics import Impacts, slides_throughout
 from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.ground.results import Regime
+from planarimpact.ground.arrays import Array, Integers
+from planarimpact.ground.checks import ConvergenceError
+from planarimpact.ground.results import Rebound, Regime
 
 # Default tolerance, mu v2(0): a little above the bounds of the whole table of spheres. An impact
 # that is solved has no larger error in v1(0) either, so that friction of any size has an effect.
@@ -37,6 +36,11 @@ class Rung(NamedTuple):
         """Model and way, in words."""
         return self.model if self.way == "formula" else f"{self.model}, {self.way}"
 
+    @property
+    def loss(self) -> str | None:
+        """What takes the energy; nothing by a formula, or where the continuum is elastic."""
+        return self.model.partition(".")[2] or None
+
 
 CONTINUUM_WAYS = (
     ("table", "the table of spheres covers them, and its error is below the tolerance"),
@@ -48,11 +52,9 @@ TABLED, TOO_COARSE, NOT_COVERED = range(len(CONTINUUM_WAYS))
 RUNGS = (
     Rung("slip throughout", "formula", "they slide from first to last, by Coulomb's law"),
     Rung("head-on", "formula", "they have no tangential motion"),
-    *(Rung(model, way, why) for (way, why), model in product(CONTINUUM_WAYS, CONTINUA)),
+    *(Rung(model, way, why) for way, why in CONTINUUM_WAYS for model in CONTINUA),
 )
 SLIDING, HEAD_ON, FIRST_OF_CONTINUA = 0, 1, 2
-# Places of the rungs of impacts that the table of spheres covers, but not within the tolerance.
-TOO_COARSE_RUNGS = [k for k, rung in enumerate(RUNGS) if rung.why == CONTINUUM_WAYS[TOO_COARSE][1]]
 
 
 def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
@@ -70,7 +72,7 @@ def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
     elastic = groups[2] == 1
     kind = np.where(elastic, 0, np.where(impacts.plastic[rows], 2, 1))  # in `CONTINUA`
     x = impacts.incidence_of(rows)
-    of_table = _table_error(x, groups, kind == 2)
+    of_table = table_error(spheres.error_bound(*groups, kind == 2), groups[0], x)
     way = np.where(of_table <= tolerance, TABLED, TOO_COARSE)
     way = np.where(np.isfinite(of_table), way, NOT_COVERED)
     place[rows] = FIRST_OF_CONTINUA + len(CONTINUA) * way + kind
@@ -83,13 +85,8 @@ def _tolerance(x: Array, tolerance: float) -> Array:
     return np.minimum(tolerance, TOLERANCE * x)
 
 
-def _table_error(x: Array, groups: tuple[Array, Array, Array], plastic: Booleans) -> Array:
-    """Largest error of the table of spheres, mu v2(0); infinite where it does not cover impacts."""
-    return table_error(spheres.error_bound(*groups, plastic), groups[0], x)
-
-
 def table_error(bound: Any, mass_ratio: Any, x: Any) -> Any:
-    """Largest error from the bound of the table, arrays or floats, mu v2(0)."""
+    """Largest error of the table of spheres, arrays or floats, mu v2(0), from its bound."""
     return (bound + ROUNDING * mass_ratio) * np.minimum(x, 1.0)
 
 
@@ -105,17 +102,9 @@ class Answers(NamedTuple):
     unsolved: dict[int, str]  # `{index: message}`
 
 
-def answers(
-    impacts: Impacts,
-    tolerance: float,
-    peaks: bool = False,
-    of_rungs: tuple[Integers, Array] | None = None,
-) -> Answers:
-    """Each impact answered by its rung, with its peak friction or, in less time, without.
-
-    `of_rungs` is what `of_each` has returned for these impacts, if it is known already.
-    """
-    place, error = of_rungs or of_each(impacts, tolerance)
+def answers(impacts: Impacts, tolerance: float, peaks: bool = False) -> Answers:
+    """Each impact answered by its rung, with its peak friction or, in less time, without."""
+    place, error = of_each(impacts, tolerance)
     slides = place == SLIDING
     with np.errstate(over="ignore"):
         fall = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit
@@ -133,47 +122,35 @@ def _add_continuum(
 ) -> None:
     """Write the answers of one rung into the result."""
     rung, rows = RUNGS[number], np.flatnonzero(result.place == number)
-    solved = _of_continuum(
-        rung, impacts.incidence_of(rows), impacts.groups_of(rows), tolerance, peaks
-    )
-    result.unsolved.update({int(rows[i]): message for i, message in solved.messages.items()})
-    rows, rebound = rows[solved.rows], solved.rebound
+    x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
+    if rung.way == "solved":
+        rebound, with_answer, messages = solved(rung.loss, x, groups, _tolerance(x, tolerance))
+        result.unsolved.update({int(rows[i]): message for i, message in messages.items()})
+        rows = rows[with_answer]
+    else:  # at e = 1 the table has the same answer for both losses
+        loss = rung.loss or continuum.LOSSES[0]
+        rebound = spheres.rebound(x, *groups, loss=loss, forces=peaks)
     result.velocity[rows] = rebound.velocity * impacts.unit[rows]
     result.change[rows] = result.velocity[rows] - impacts.v1[rows]
     result.peak_friction[rows] = rebound.peak_friction
     result.regime[rows] = rebound.regime
 
 
-def _of_continuum(
-    rung: Rung, incidence: Array, groups: tuple[Array, ...], tolerance: float, peaks: bool
-) -> continua.Solved:
-    """Impacts by the table of spheres, or solved."""
-    if rung.way == "solved":
-        return continua.rebound(rung.model, incidence, groups, _tolerance(incidence, tolerance))
-    # At e = 1 the table has the same answer for both losses.
-    loss = _loss(rung) or continuum.LOSSES[0]
-    rebound = spheres.rebound(incidence, *groups, loss=loss, forces=peaks)
-    return continua.Solved(rebound, np.arange(incidence.size), {})
+def solved(
+    loss: str | None, incidence: Array, groups: tuple[Array, ...], tolerance: Array
+) -> tuple[Rebound, Integers, dict[int, str]]:
+    """The continuum, solved to the tolerance of each impact, in mu v2(0).
 
-
-def _loss(rung: Rung) -> str:
-    """The loss of a rung's model, empty for the elastic continuum."""
-    return rung.model.partition(".")[2]
-
-
-def model_forms(impacts: Impacts, result: Answers) -> Array:
-    """How far the velocity would move with the other loss [m/s], NaN where that is not known."""
-    form = np.zeros(impacts.v1.size)
-    viscous = (result.place == SLIDING) & (impacts.restitution < 1) & ~impacts.plastic
-    form[viscous] = np.nan
-    rows = np.flatnonzero(viscous & (impacts.restitution >= continuum.LEAST_RESTITUTION))
-    difference = model_form.of_sliding(impacts.incidence_of(rows), impacts.groups_of(rows))
-    form[rows] = np.abs(difference) * impacts.unit[rows]
-    unit = impacts.unit
-    for number in np.unique(result.place[result.place >= FIRST_OF_CONTINUA]).tolist():
-        loss, rows = _loss(RUNGS[number]), np.flatnonzero(result.place == number)
-        if loss:
-            x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
-            other = model_form.velocity_with_other_loss(loss, x, groups)
-            form[rows] = np.abs(other * unit[rows] - result.velocity[rows])
-    return form
+    Answers, the indices of the impacts that have one, and `{index: message}` of the others.
+    """
+    rows, messages = np.arange(incidence.size), dict[int, str]()
+    while True:
+        try:
+            arguments = incidence[rows], *(group[rows] for group in groups)
+            rebound = continuum.rebound(*arguments, loss=loss, tolerance=tolerance[rows])
+            return rebound, rows, messages
+        except ConvergenceError as error:
+            # An error that names no impacts concerns all of them.
+            unsolved = error.impacts if isinstance(error, continuum.Unsolved) else slice(None)
+            messages |= dict.fromkeys(rows[unsolved].tolist(), str(error))
+            rows = np.delete(rows, unsolved)

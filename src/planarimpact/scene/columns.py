@@ -15,9 +15,12 @@ from planarimpact.ground.checks import InputError
 if TYPE_CHECKING:
     import pandas as pd
 
-# Position of a loss that is not said.
-NO_LOSS = -1
+# Texts of a loss that is not said.
+EMPTY = "", "None", "nan", "<NA>"
 HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
+
+
+MOST, ABOVE_0 = float(np.finfo(float).max), 5e-324
 
 
 class Column(NamedTuple):
@@ -26,13 +29,11 @@ class Column(NamedTuple):
     unit: str
     meaning: str = ""
     allowed: str = "finite numbers"
-    low: float = -np.inf
-    high: float = np.inf
-    open_low: bool = False
-    infinite: bool = False
+    low: float = -MOST
+    high: float = MOST
 
 
-_above = partial(Column, allowed="finite numbers above 0", low=0, open_low=True)
+_above = partial(Column, allowed="finite numbers above 0", low=ABOVE_0)
 _from_0 = partial(Column, allowed="finite numbers from 0", low=0)
 AXES = "xyz"
 
@@ -42,11 +43,11 @@ BODY = {
     "mass": _above("kg"),
     "gyration": _above("m", "radius of gyration"),
     "young_modulus": _above("Pa"),
-    "poisson_ratio": Column("", "", "numbers above -1, up to 0.5", -1, 0.5, open_low=True),
+    "poisson_ratio": Column("", "", "numbers above -1, up to 0.5", np.nextafter(-1, 0), 0.5),
 }
 # Numbers of the other body may be infinite, but for its density and Poisson's ratio.
 OTHER = {f"other_{name}": column for name, column in BODY.items()} | {
-    f"other_{name}": Column(BODY[name].unit, "", "numbers above 0, or inf", 0, np.inf, True, True)
+    f"other_{name}": Column(BODY[name].unit, "", "numbers above 0, or inf", ABOVE_0, np.inf)
     for name in ("radius", "mass", "gyration", "young_modulus")
 }
 PAIR = {
@@ -193,21 +194,16 @@ def _refuse_incomplete(names: set[str]) -> None:
         _need(names, ["other_radius"])
         _need_one_of(names, "other_density", ("other_mass", "other_gyration"))
     _all_or_none(names, ["other_young_modulus", "other_poisson_ratio"])
-    space = names & set(SPACE)
-    if space and names & set(PLANE):
+    plane, space = names & set(PLANE | OTHER_PLANE), names & set(SPACE | NORMAL | OTHER_SPACE)
+    if plane and space:
         raise InputError(
-            f"columns {_listed(names & set(PLANE))} and {_listed(space)}: a state has two "
-            "dimensions or three"
+            f"columns {_listed(plane)} and {_listed(space)}: states have two dimensions or three"
         )
-    _need(names, list(SPACE if space else PLANE))
-    _all_or_none(names, list(NORMAL))
-    states = (OTHER_SPACE, OTHER_PLANE) if space else (OTHER_PLANE, OTHER_SPACE)
+    _need(names, SPACE if space else PLANE)
+    _all_or_none(names, NORMAL)
     for quantity in ("velocity", "spin"):  # what is left out is 0
-        _all_or_none(names, [name for name in states[0] if quantity in name])
-    wrong = names & set(states[1]) | (set() if space else names & set(NORMAL))
-    if wrong:
-        dimensions = "three" if space else "two"
-        raise InputError(f"columns {_listed(wrong)}: the state has {dimensions} dimensions")
+        of_other = OTHER_SPACE if space else OTHER_PLANE
+        _all_or_none(names, [name for name in of_other if quantity in name])
 
 
 def _refuse_restitution(names: set[str]) -> None:
@@ -247,14 +243,14 @@ def _listed(names: Iterable[str]) -> str:
 
 
 def numbers(
-    table: "pd.DataFrame", names: dict[str, str]
-) -> tuple[dict[str, Array], dict[int, str]]:
+    table: "pd.DataFrame", names: dict[str, str], loss: str | None = None
+) -> tuple[dict[str, Any], dict[int, str]]:
     """Columns of a table as float64 by name, and `{position: message}` of its bad rows.
 
-    `names` is what `named` returns. The loss is its position in `LOSSES`. Of several
-    problems of a row the first one counts.
+    `names` is what `named` returns. Of several problems of a row the first one counts. Losses are
+    words, empty where a row says none; `loss` is that of all rows where no column says it.
     """
-    values: dict[str, Array] = {}
+    values: dict[str, Any] = {}
     problems: dict[int, str] = {}
     for name, text in names.items():
         column = KNOWN[name]
@@ -270,6 +266,16 @@ def numbers(
     for position in np.flatnonzero(np.isinf(values.get("other_radius", 0.0)) & moves).tolist():
         allowed = "allowed are finite numbers where the other body can move or turn"
         problems.setdefault(position, f"{names['other_radius']} = inf: {allowed}")
+    if "restitution" in names:
+        values.setdefault("loss", np.full(len(table), loss or ""))
+        missing = (values["restitution"] < 1) & (values["loss"] == "")
+        for position in np.flatnonzero(missing).tolist():
+            problems.setdefault(
+                position,
+                f"restitution = {values['restitution'][position]:g}: allowed are numbers equal to "
+                "1, unless a column loss or the argument loss (--loss) says what takes the energy: "
+                f"{', '.join(LOSSES)}",
+            )
     return values, problems
 
 
@@ -282,33 +288,15 @@ def _checked(series: "pd.Series", column: Column) -> tuple[Array, Booleans]:
         values = series.to_numpy(dtype=float, na_value=np.nan)
     else:  # words, numbers that float64 may not hold, or other objects: cell by cell
         values = np.array([_number(cell) for cell in series], dtype=float)
-    good = values > column.low if column.open_low else values >= column.low
-    good &= values <= column.high
-    if not column.infinite:
-        good &= np.isfinite(values)
-    return values, ~good
+    return values, ~((values >= column.low) & (values <= column.high))
 
 
-def _losses(series: "pd.Series") -> tuple[Array, Booleans]:
-    """Position in `LOSSES` of the loss in each cell, `NO_LOSS` of empty ones; and unknown ones."""
-    known = {loss: position for position, loss in enumerate(LOSSES)}
-    known |= dict.fromkeys(("", "None", "nan", "<NA>"), NO_LOSS)
+def _losses(series: "pd.Series") -> tuple[Any, Booleans]:
+    """The loss in each cell, empty where there is none; and which are unknown."""
+    known = dict.fromkeys(EMPTY, "") | {loss: loss for loss in LOSSES}
     cells = series.to_numpy(dtype=object)  # pandas' own loop over words takes ten times as long
-    values = np.array([known.get(str(cell).strip(), NO_LOSS - 1) for cell in cells], dtype=float)
-    return values, values < NO_LOSS
-
-
-def refuse_missing_loss(values: dict[str, Array], problems: dict[int, str]) -> None:
-    """Add rows below restitution 1 whose loss nobody says to the problems."""
-    if "loss" in values:
-        missing = (values["restitution"] < 1) & (values["loss"] == NO_LOSS)
-        for position in np.flatnonzero(missing).tolist():
-            problems.setdefault(
-                position,
-                f"restitution = {values['restitution'][position]:g}: allowed are numbers equal to "
-                "1, unless a column loss or the argument loss (--loss) says what takes the energy: "
-                f"{', '.join(LOSSES)}",
-            )
+    words = np.array([known.get(str(cell).strip(), "?") for cell in cells], dtype=str)
+    return words, words == "?"
 
 
 def _number(cell: Any) -> float:

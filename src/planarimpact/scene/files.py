@@ -57,8 +57,7 @@ def solve(
         Leave bad rows out instead of refusing the table. They are in `bad` of the result, and in a
         file beside the target, `<its name>.bad.csv`, which is written also if no row is bad.
     notice : callable, optional
-        Called with a line of text: which columns are not known, and, as in `Solver`, what takes
-        long.
+        Called with a line of text: which columns are not known.
 
     Returns
     -------
@@ -78,7 +77,7 @@ def solve(
     source, target = _checked(source), _checked(target)
     if STREAM not in (source, target) and Path(target).exists() and Path(target).samefile(source):
         raise InputError(f"{target}: it is the table that is read; the result needs another name")
-    solver = Solver(tolerance, loss, notice)
+    solver = Solver(tolerance, loss)
     with ExitStack() as stack:
         bad = None
         if skip_bad and target != STREAM:

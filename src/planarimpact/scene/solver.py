@@ -2,13 +2,12 @@
 
 import reprlib
 from collections import Counter
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from planarimpact import bodies, collision
-from planarimpact.collision import model_form, rungs
+from planarimpact import bodies
+from planarimpact.collision import RESTITUTION_FROM, TOLERANCE, mechanics, model_form, rungs
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.checks import ConvergenceError, InputError
@@ -20,8 +19,6 @@ if TYPE_CHECKING:
 
 # Rows that are solved together. More take more memory, and no less time for each.
 BLOCK = 2**15
-# It is told where the continuum is solved for more impacts of a block: they take a second or more.
-MANY = 1000
 
 
 class Solver:
@@ -29,11 +26,8 @@ class Solver:
 
     Parameters
     ----------
-    tolerance : float
-    loss : str, optional
-        Both as in `solve`.
-    notice : callable, optional
-        Called with a line of text before each block of rows that takes long: why it does.
+    tolerance, loss : float, str
+        As in the function `solve`.
 
     Attributes
     ----------
@@ -43,20 +37,16 @@ class Solver:
         Rows read so far.
     """
 
-    def __init__(
-        self,
-        tolerance: float = collision.TOLERANCE,
-        loss: str | None = None,
-        notice: Callable[[str], None] | None = None,
-    ) -> None:
+    def __init__(self, tolerance: float = TOLERANCE, loss: str | None = None) -> None:
         allowed = "numbers from 1e-10 to 1"
         self.tolerance = checks.number("tolerance", tolerance, allowed, 1e-10, 1)
         self._loss = loss if loss is None else checks.loss(loss, columns.LOSSES)
-        self._notice = notice
         self.bad: list[tuple[int, str]] = []
         self.rows = 0
         self._count_by_rung: Counter[int] = Counter()  # by place in `rungs.RUNGS`
-        self._differences = model_form.Summary()
+        # Differences to the other loss, mu v2(0): how many, known or not; and those that are known,
+        # their squares, and the largest.
+        self._lossy, self._known, self._squares, self._largest = 0, 0, 0.0, 0.0
         # Impacts of bodies that are too dissimilar, and the largest coupling.
         self._coupled, self._largest_coupling = 0, 0.0
 
@@ -104,25 +94,27 @@ class Solver:
                 f"{self._coupled} impacts may be off by more than 0.1 mu v2(0) (Dundurs' constant "
                 f"over friction up to {self._largest_coupling:.2g}, allowed is {bodies.COUPLING:g})"
             )
-        return "\n".join(lines + self._differences.lines())
+        if self._lossy:
+            typical = (self._squares / max(self._known, 1)) ** 0.5
+            unknown = self._lossy - self._known
+            more = f", not known for {unknown}" if unknown else ""
+            lines.append(
+                f"with the other loss the velocity would differ by {typical:.2g} mu v2(0) (root "
+                f"mean square), {self._largest:.2g} at most: {self._lossy} impacts{more}"
+            )
+        return "\n".join(lines)
 
     def _solved(
         self, table: "pd.DataFrame", names: dict[str, str], skip_bad: bool
     ) -> "pd.DataFrame":
         """State after each impact of a block."""
-        values, problems = columns.numbers(table, names)
-        if "restitution" in names and "loss" not in names:
-            code = columns.LOSSES.index(self._loss) if self._loss else columns.NO_LOSS
-            values["loss"] = np.full(len(table), float(code))
-        columns.refuse_missing_loss(values, problems)
+        values, problems = columns.numbers(table, names, self._loss)
         rows, good = _good_rows(values, problems)
         self._refuse(problems, skip_bad, InputError)
-        of_rungs = rungs.of_each(rows.impacts, self.tolerance)
-        self._tell_long(of_rungs[0])
-        answers = collision.answers(rows.impacts, self.tolerance, peaks=True, of_rungs=of_rungs)
+        answers = rungs.answers(rows.impacts, self.tolerance, peaks=True)
         unsolved = {int(good[i]): message for i, message in answers.unsolved.items()}
         self._refuse(unsolved, skip_bad, ConvergenceError)
-        form = collision.model_forms(rows.impacts, answers)
+        form = model_form.model_forms(rows.impacts, answers)
         self._count(rows, answers, form)
         problems |= unsolved
         self.bad += [(self.rows + row + 1, problems[row]) for row in sorted(problems)]
@@ -130,19 +122,8 @@ class Solver:
         result = table.iloc[good].assign(**_result(rows, answers, form, names))
         return result[_has_answer(answers)] if unsolved else result
 
-    def _tell_long(self, place: Integers) -> None:
-        """Give a notice if the continuum is solved for many impacts of a block."""
-        count = int(np.isin(place, _SOLVED).sum())
-        if self._notice and count > MANY:
-            tabled = int(np.isin(place, rungs.TOO_COARSE_RUNGS).sum())
-            self._notice(
-                f"from row {self.rows + 1:,} on, the continuum is solved for {count:,} of "
-                f"{place.size:,} impacts, some milliseconds each; with tolerance "
-                f"{collision.TOLERANCE:g} the table of spheres would take {tabled:,} of these"
-            )
-
     def _refuse_two_losses(self, names: dict[str, str]) -> None:
-        for name in names.keys() & {"loss", *collision.RESTITUTION_FROM} - {"restitution"}:
+        for name in names.keys() & {"loss", *RESTITUTION_FROM} - {"restitution"}:
             if self._loss is not None:
                 raise InputError(
                     f"loss = {self._loss!r}: it does not apply, as the column {names[name]!r} says "
@@ -163,17 +144,17 @@ class Solver:
         place, solved = answers.place, _has_answer(answers)
         counts = np.bincount(place[solved], minlength=len(rungs.RUNGS)).tolist()
         self._count_by_rung += Counter(dict(enumerate(counts)))
-        lossy = [rung.model.startswith("continuum.") for rung in rungs.RUNGS]
-        which = np.flatnonzero(np.array(lossy)[place] & solved)
-        differences = form[which] / rows.impacts.unit[which]
-        self._differences = self._differences.joined(model_form.summary(differences))
+        lossy = np.flatnonzero(np.array([bool(rung.loss) for rung in rungs.RUNGS])[place] & solved)
+        differences = form[lossy] / rows.impacts.unit[lossy]
+        known = differences[np.isfinite(differences)]
+        self._lossy += lossy.size
+        self._known += known.size
+        self._squares += float(np.sum(known**2))
+        self._largest = max(self._largest, float(np.max(known, initial=0.0)))
         coupling = rows.coupling[place >= rungs.FIRST_OF_CONTINUA]
         large = coupling[coupling > bodies.COUPLING]
         self._coupled += large.size
         self._largest_coupling = max(self._largest_coupling, float(np.max(large, initial=0.0)))
-
-
-_SOLVED = [place for place, rung in enumerate(rungs.RUNGS) if rung.way == "solved"]
 
 
 def _good_rows(values: dict[str, Array], problems: dict[int, str]) -> tuple[states.Rows, Integers]:
@@ -182,8 +163,8 @@ def _good_rows(values: dict[str, Array], problems: dict[int, str]) -> tuple[stat
         good = np.delete(np.arange(values["radius"].size), list(problems))
         try:
             rows = states.rows({name: column[good] for name, column in values.items()})
-            found = collision.problems(rows.impacts)
-            found |= collision.problems_of_normals(rows.impacts.normal)
+            found = mechanics.problems(rows.impacts)
+            found |= mechanics.problems_of_normals(rows.impacts.normal)
         except bodies.OutOfRange as error:
             found = dict.fromkeys(np.flatnonzero(error.where).tolist(), str(error))
         if not found:
@@ -205,7 +186,7 @@ def _result(
     import pandas as pd
 
     impacts, plane, peak = rows.impacts, "spin" in names, answers.peak_friction
-    body, other, _ = collision.after(impacts, answers.change)
+    body, other, _ = mechanics.after(impacts, answers.change)
     after = states.columns_of(body, plane)
     if {"other_density", "other_mass"} & set(names):
         after |= {f"other_{k}": v for k, v in states.columns_of(other, plane).items()}
@@ -230,6 +211,6 @@ def _result(
         impacts.incidence_of(np.arange(model.size)),
         rows.peak_normal,
         friction,
-        collision.energy_lost(impacts, answers.change),
+        mechanics.energy_lost(impacts, answers.change),
     ]
     return result | dict(zip(map(columns.header, columns.RESULT), added, strict=True))

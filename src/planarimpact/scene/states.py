@@ -5,13 +5,14 @@ towards the surface and its spin, positive where it moves the contact point in t
 direction, turns about -y. In space the spin is the right-handed vector of angular velocity.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact import bodies, collision
+from planarimpact import bodies
 from planarimpact.bodies import Body, Material
-from planarimpact.collision import LOSSES, Impacts, Pair, State
+from planarimpact.collision import LOSSES, RESTITUTION_FROM, Pair, mechanics
+from planarimpact.collision.mechanics import Impacts, State
 from planarimpact.ground.arrays import Array
 from planarimpact.scene.columns import AXES, PLANE
 
@@ -24,23 +25,21 @@ class Rows(NamedTuple):
     coupling: Array  # size of Dundurs' constant over friction, see `bodies.COUPLING`
 
 
-def rows(values: dict[str, Array]) -> Rows:
+def rows(values: dict[str, Any]) -> Rows:
     """Rows of columns as `columns.numbers` returns them, without bad ones.
 
-    `loss` stands beside `restitution`. OutOfRange is that of `collision.impacts`.
+    OutOfRange is that of `mechanics.impacts`.
     """
     body, other = _body(values, ""), _body(values, "other_")
     before, other_before = _state(values, ""), _state(values, "other_")
     material, other_material = materials = _materials(values)
-    law = {name: values[name] for name in collision.RESTITUTION_FROM if name in values}
-    if "loss" in values:
-        law |= {"loss": np.array([*LOSSES, ""])[values["loss"].astype(int)]}
+    law = {name: values[name] for name in (*RESTITUTION_FROM, "loss") if name in values}
     both = (material,) if other_material is None else (material, other_material)
     pair = Pair(*both, friction=values["friction"], **law)
-    impacts = collision.impacts(pair, _normal(values), body, before, other, other_before)
+    impacts = mechanics.impacts(pair, _normal(values), body, before, other, other_before)
     with np.errstate(divide="ignore", invalid="ignore"):  # without friction nothing resists
         coupling = np.abs(bodies.dundurs(*materials)) / values["friction"]
-    radius = collision.effective_radius(body, other)
+    radius = mechanics.effective_radius(body, other)
     return Rows(impacts, _peak_normal(impacts, pair.effective_modulus, radius), coupling)
 
 

@@ -142,12 +142,15 @@ table of spheres
     groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     if loss is None:
         checks.lossless(groups[-1], LOSSES)
-    is_plastic = _is_plastic(LOSSES[0] if loss is None else loss)
+    losses = np.asarray(LOSSES[0] if loss is None else loss)
+    unknown = losses[~np.isin(losses, LOSSES)]
+    if unknown.size:
+        checks.loss(unknown.tolist()[0], LOSSES)
     try:
-        signed, beta, zeta2, e, _ = np.broadcast_arrays(*groups, is_plastic)
-        plastic = np.broadcast_to(is_plastic, signed.shape).reshape(-1)
+        signed, beta, zeta2, e, _ = np.broadcast_arrays(*groups, losses)
+        plastic = np.broadcast_to(losses == LOSSES[1], signed.shape).reshape(-1)
     except ValueError:
-        shapes = f"groups {groups[0].shape}, loss {is_plastic.shape}"
+        shapes = f"groups {groups[0].shape}, loss {losses.shape}"
         raise checks.InputError(f"shapes do not broadcast: {shapes}") from None
     _refuse_uncovered(beta, zeta2, e)
     x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
@@ -159,16 +162,6 @@ table of spheres
             x[part], beta[part], zeta2[part], e[part], plastic[part], forces
         )
     return Rebound.shaped(signed, velocity, peak, work, regime)
-
-
-def _is_plastic(loss: str | ArrayLike) -> Booleans:
-    losses = np.asarray(loss)
-    plastic = np.asarray(losses == LOSSES[1])
-    not_plastic = losses[~plastic]
-    unknown = not_plastic[not_plastic != LOSSES[0]]
-    if unknown.size:
-        checks.loss(unknown.tolist()[0], LOSSES)
-    return plastic
 
 
 def _refuse_uncovered(beta: Array, zeta2: Array, e: Array) -> None:

@@ -183,7 +183,8 @@ def evaluate(
 
 def limits_at(table: Table, u: Array) -> Array:
     """Restitutions between the plastic panels at u, shape (2, n)."""
-    return np.stack([_between(limit, u) for limit in table.limits])
+    index, part = _places(u, table.limits.shape[1] - 1)
+    return np.stack([_between(limit, index, part) for limit in table.limits])
 
 
 def over_b(b: _Number) -> _Number:
@@ -335,9 +336,8 @@ def _weights(x: _Number) -> list[_Number]:
     ]
 
 
-def _between(values: Array, u: Array) -> Array:
-    """Linear interpolation between values that are spread evenly over u."""
-    index, part = _places(u, values.size - 1)
+def _between(values: Array, index: Integers, part: Array) -> Array:
+    """Linear interpolation between a value and the next one."""
     return (1 - part) * values.take(index) + part * values.take(index + 1)
 
 
@@ -349,10 +349,7 @@ def varying_edges(grids: Array, t: Array, u: Array) -> list[Array]:
     corner = i * columns + j
     values = []
     for grid in grids.reshape(len(grids), rows * columns):
-        before = (1 - across) * grid.take(corner) + across * grid.take(corner + 1)
-        after = (1 - across) * grid.take(corner + columns) + across * grid.take(
-            corner + columns + 1
-        )
+        before, after = (_between(grid, at, across) for at in (corner, corner + columns))
         values.append((1 - over) * before + over * after)
     return values
 
