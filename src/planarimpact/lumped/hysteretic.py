@@ -11,22 +11,8 @@ from planarimpact.lumped import normal, stick_slip
 from planarimpact.lumped.extremes import scaling
 from planarimpact.lumped.stick_slip import Impacts
 
-# Impacts solved together: few enough for the cache, enough to hide Python's overhead.
-CHUNK = 32768
 # Nodes and weights of Gauss on -1 to 1, for the work of friction within a phase.
 QUADRATURE = np.polynomial.legendre.leggauss(20)
-
-
-def solve(impacts: Impacts) -> stick_slip.Outcome:
-    """Outcome of impacts, arrays of shape (n,), chunk by chunk."""
-    x = impacts.x
-    velocity, peak, work = (np.empty(x.size) for _ in range(3))
-    regime = np.empty(x.size, np.uint8)
-    for start in range(0, x.size, CHUNK):
-        part = slice(start, start + CHUNK)
-        outcome = scaling.solve(Impacts(*(group[part] for group in impacts)))
-        velocity[part], peak[part], work[part], regime[part] = outcome
-    return stick_slip.Outcome(velocity, peak, work, regime)
 
 
 def history(mirror: float, impacts: Impacts, samples: int) -> History:

@@ -9,7 +9,11 @@ from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import History
 from planarimpact.lumped import hysteretic, viscous
+from planarimpact.lumped.extremes import scaling
 from planarimpact.lumped.stick_slip import Impacts, Outcome
+
+# Impacts solved together: few enough for the cache, enough to hide Python's overhead.
+CHUNK = 32768
 
 
 class Hysteretic:
@@ -24,8 +28,19 @@ class Hysteretic:
         return sliding.limit(beta, self.stiffness_ratio(zeta2, e), e)
 
     def solve(self, impacts: Impacts) -> Outcome:
-        """Outcome of impacts, arrays of shape (n,)."""
-        return hysteretic.solve(self._element(impacts))
+        """Outcome of impacts, arrays of shape (n,), chunk by chunk."""
+        size = impacts.x.size
+        outcome = Outcome(*(np.empty(size) for _ in range(3)), np.empty(size, np.uint8))
+        for start in range(0, size, CHUNK):
+            part = slice(start, start + CHUNK)
+            solved = self.solve_chunk(Impacts(*(group[part] for group in impacts)))
+            for field, values in zip(outcome, solved, strict=True):
+                field[part] = values
+        return outcome
+
+    def solve_chunk(self, impacts: Impacts) -> Outcome:
+        """As `solve`, at once."""
+        return scaling.solve(self._element(impacts))
 
     def history(self, mirror: float, impacts: Impacts, samples: int) -> History:
         """One contact, its arrays of shape (1,)."""
@@ -54,25 +69,22 @@ class Viscous(Hysteretic):
         """As in `Hysteretic`."""
         return sliding.limit_alike(beta, zeta2, e)
 
-    def solve(self, impacts: Impacts) -> Outcome:
+    def solve_chunk(self, impacts: Impacts) -> Outcome:
         """As in `Hysteretic`; where e = 1 the elements are the same."""
         damped = impacts.e < 1
-        if not damped.any():
-            return super().solve(impacts)
-        lossy = impacts if damped.all() else impacts.take(np.flatnonzero(damped))
-        viscous.check_range(lossy)
-        if lossy is impacts:
+        if damped.all():
             return viscous.solve(impacts)
-        outcome = super().solve(impacts)
-        for field, values in zip(outcome, viscous.solve(lossy), strict=True):
-            field[damped] = values
+        outcome = super().solve_chunk(impacts)
+        if damped.any():
+            solved = viscous.solve(impacts.take(np.flatnonzero(damped)))
+            for field, values in zip(outcome, solved, strict=True):
+                field[damped] = values
         return outcome
 
     def history(self, mirror: float, impacts: Impacts, samples: int) -> History:
         """As in `Hysteretic`."""
         if impacts.e[0] == 1:
             return super().history(mirror, impacts, samples)
-        viscous.check_range(impacts)
         return viscous.history(mirror, impacts, samples)
 
     def friction_work(self, impacts: Impacts) -> float:

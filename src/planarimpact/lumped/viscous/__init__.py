@@ -37,8 +37,6 @@ from planarimpact.lumped.stick_slip import Impacts, Outcome
 from planarimpact.lumped.viscous.elements import Elements, alike
 from planarimpact.lumped.viscous.searches import Slip, Stick, phase_end, take
 
-# Impacts solved together: few enough for the cache, enough to hide Python's overhead.
-CHUNK = 65536
 # The range of the solver: a viscous element stops no body for good. In this range a contact has
 # some hundred half-waves of T at most, fewer than MOST_STICKS, and all products keep their digits.
 LEAST_RESTITUTION = 1e-3
@@ -54,7 +52,7 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)
 Trace: TypeAlias = list[tuple[Stick | Slip, Array]]
 
 
-def check_range(impacts: Impacts) -> None:
+def _check_range(impacts: Impacts) -> None:
     """Refuse impacts beyond the range of this solver."""
     _, beta, zeta2, e = impacts
     share = f"{LEAST_SHARE:g} to {LARGEST_SHARE:g} times the mass ratio"
@@ -77,20 +75,19 @@ def solve(impacts: Impacts) -> Outcome:
     The peak of friction is in mu times the largest normal force of the impact. The dissipation is
     the work of friction alone.
     """
+    _check_range(impacts)
     velocity, peak, work = (np.empty_like(impacts.x) for _ in range(3))
     outcome = Outcome(velocity, peak, work, np.empty(impacts.x.size, np.uint8))
     x, *groups = impacts
     for which, elements in alike(*groups):
-        for first in range(0, which.size, CHUNK):
-            part = np.arange(first, min(first + CHUNK, which.size))
-            solved = _solve_alike(x[which[part]], elements.take(part), None)
-            for field, values in zip(outcome, solved, strict=True):
-                field[which[part]] = values
+        for field, values in zip(outcome, _solve_alike(x[which], elements, None), strict=True):
+            field[which] = values
     return outcome
 
 
 def history(mirror: float, impacts: Impacts, samples: int) -> History:
     """Forces, velocity and spring over one contact with e < 1; `mirror` is the sign of x."""
+    _check_range(impacts)
     x, *groups = impacts
     [(_, elements)] = alike(*groups)
     trace: Trace = []
