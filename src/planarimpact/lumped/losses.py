@@ -12,12 +12,12 @@ from planarimpact.lumped import hysteretic, viscous
 from planarimpact.lumped.extremes import scaling
 from planarimpact.lumped.stick_slip import Impacts, Outcome
 
-# Impacts solved together: few enough for the cache, enough to hide Python's overhead.
-CHUNK = 32768
-
 
 class Hysteretic:
     """The paper's element, of which only the normal direction loses energy."""
+
+    # Impacts solved together: few enough for the cache, enough to hide Python's overhead.
+    chunk = 32768
 
     def stiffness_ratio(self, zeta2: Array, e: Array) -> Array:
         """Stiffness ratio of the element of the paper that is solved."""
@@ -31,8 +31,8 @@ class Hysteretic:
         """Outcome of impacts, arrays of shape (n,), chunk by chunk."""
         size = impacts.x.size
         outcome = Outcome(*(np.empty(size) for _ in range(3)), np.empty(size, np.uint8))
-        for start in range(0, size, CHUNK):
-            part = slice(start, start + CHUNK)
+        for start in range(0, size, self.chunk):
+            part = slice(start, start + self.chunk)
             solved = self.solve_chunk(Impacts(*(group[part] for group in impacts)))
             for field, values in zip(outcome, solved, strict=True):
                 field[part] = values
@@ -64,6 +64,8 @@ class UnloadingStiffness(Hysteretic):
 
 class Viscous(Hysteretic):
     """Two Kelvin-Voigt elements with one relaxation time: a dashpot beside each spring."""
+
+    chunk = 131072  # of up to four kinds, each of them solved together
 
     def slides_from(self, beta: Array, zeta2: Array, e: Array) -> Array:
         """As in `Hysteretic`."""

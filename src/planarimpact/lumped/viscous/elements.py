@@ -43,6 +43,8 @@ from planarimpact.ground.arrays import Array, Integers
 CRITICAL = np.exp(-2)
 # A frequency of 0 counts as this one: sin(omega t)/omega is then t to all digits.
 LEAST_FREQUENCY = 1e-150
+# Below this square of an angle delta cot(delta) counts as 1 - delta^2/3 where its slope is taken.
+SMALL = 1e-5
 
 
 def phase_angle(restitution: Array, under: bool) -> Array:
@@ -60,9 +62,13 @@ def phase_angle(restitution: Array, under: bool) -> Array:
     goal = -np.log(restitution) / 2
     tangent, sign = (np.tan, 1.0) if under else (np.tanh, -1.0)
 
-    def surplus(which: Integers, square: Array) -> tuple[Array]:
+    def surplus(which: Integers, square: Array) -> tuple[Array, Array]:
         angle = np.maximum(np.sqrt(square), LEAST_FREQUENCY)
-        return (sign * (angle / tangent(angle) - goal[which]),)
+        value = angle / tangent(angle)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slope = sign * (value - value * value) / (2 * square) - 0.5
+        slope = np.where(square < SMALL, -1 / 3, slope)
+        return sign * (value - goal[which]), slope
 
     largest = np.full_like(goal, HALF_PI**2) if under else goal * goal
     square = roots.crossing(surplus, np.zeros_like(goal), largest)
