@@ -31,7 +31,7 @@ same for all, so that each formula is one expression.
 """
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -62,7 +62,7 @@ def phase_angle(restitution: Array, under: bool) -> Array:
     goal = -np.log(restitution) / 2
     tangent, sign = (np.tan, 1.0) if under else (np.tanh, -1.0)
 
-    def surplus(which: Integers, square: Array) -> tuple[Array, Array]:
+    def surplus(which: Any, square: Array) -> tuple[Array, Array]:
         angle = np.maximum(np.sqrt(square), LEAST_FREQUENCY)
         value = angle / tangent(angle)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -71,7 +71,8 @@ def phase_angle(restitution: Array, under: bool) -> Array:
         return sign * (value - goal[which]), slope
 
     largest = np.full_like(goal, HALF_PI**2) if under else goal * goal
-    square = roots.crossing(surplus, np.zeros_like(goal), largest)
+    start = np.abs(1 - goal) * (goal + 2)  # within a fifth
+    square = roots.crossing(surplus, np.zeros_like(goal), largest, start=start, unguarded=4)
     return np.maximum(np.sqrt(square), LEAST_FREQUENCY)
 
 
