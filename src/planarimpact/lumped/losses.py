@@ -30,7 +30,8 @@ class Hysteretic:
     def solve(self, impacts: Impacts) -> Outcome:
         """Outcome of impacts, arrays of shape (n,), chunk by chunk."""
         size = impacts.x.size
-        outcome = Outcome(*(np.empty(size) for _ in range(3)), np.empty(size, np.uint8))
+        velocity, peak, work = (np.empty(size) for _ in range(3))
+        outcome = Outcome(velocity, peak, work, np.empty(size, np.uint8))
         for start in range(0, size, self.chunk):
             part = slice(start, start + self.chunk)
             solved = self.solve_chunk(Impacts(*(group[part] for group in impacts)))

@@ -32,7 +32,7 @@ import numpy as np
 from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.checks import ConvergenceError
-from planarimpact.ground.results import Event, EventKind, History, Regime
+from planarimpact.ground.results import EventKind, History, Regime
 from planarimpact.lumped.stick_slip import Impacts, Outcome
 from planarimpact.lumped.viscous.elements import Elements, alike
 from planarimpact.lumped.viscous.searches import Slip, Stick, phase_end, take
@@ -100,28 +100,20 @@ def history(mirror: float, impacts: Impacts, samples: int) -> History:
         mirrored = (mirror * phase.side * values for values in tangential)
         return np.stack([2.0 + time / half, normal, *mirrored])
 
-    def event(kind: EventKind, values: Array) -> Event:
-        return Event(kind, *(float(value) for value in values))
-
     columns: list[Array] = []
-    events: list[Event] = []
+    events: list[tuple[EventKind, Array]] = []
     lasting = [(phase, end) for phase, end in trace if (phase.start < end).any()]
     for phase, end in lasting or [(_slip_from_contact(elements, x), np.zeros(1))]:
         inside = grid[(grid > phase.start) & (grid < end)]
         compressed = phase.start <= -half < end
         middle = [-half] if compressed else []
         columns.append(column(phase, np.unique([*phase.start, *inside, *middle, *end])))
-        kinds = [EventKind.STICK if isinstance(phase, Stick) else EventKind.SLIP]
-        if not events:
-            kinds.insert(0, EventKind.CONTACT)
-        events += [event(kind, columns[-1][:, 0]) for kind in kinds]
+        kind = EventKind.STICK if isinstance(phase, Stick) else EventKind.SLIP
+        events.append((kind, columns[-1][:, 0]))
         if compressed:
             values = column(phase, np.array([-half]))[:, 0]
-            events.append(event(EventKind.MAXIMUM_COMPRESSION, values))
-    events.append(event(EventKind.SEPARATION, columns[-1][:, -1]))
-    joined = [phase_columns[:, :-1] for phase_columns in columns[:-1]] + columns[-1:]
-    time, normal, friction, velocity, spring = np.concatenate(joined, axis=1)
-    return History(time, normal, friction, velocity, spring, tuple(events))
+            events.append((EventKind.MAXIMUM_COMPRESSION, values))
+    return History.joined(columns, events)
 
 
 def _solve_alike(x: Array, elements: Elements, trace: Trace | None) -> Outcome:
