@@ -47,7 +47,7 @@ MOST_STICKS = 1000
 # below SHORT. So does its work, where its time over tau is below SHORT too. Gauss's quadrature
 # keeps them.
 SHORT = 0.1
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)
+NODES, WEIGHTS = (numbers[:, None] for numbers in np.polynomial.legendre.leggauss(4))
 # Phases of one impact, in order, and when each ends.
 Trace: TypeAlias = list[tuple[Stick | Slip, Array]]
 
@@ -218,11 +218,7 @@ def _slide(
 
 def _by_quadrature(slip: Slip, span: Array) -> tuple[Array, Array]:
     """Normal impulse and work of friction of short slips."""
-    impulse, work = np.zeros_like(span), np.zeros_like(span)
-    for node, weight in zip(NODES, WEIGHTS, strict=True):
-        time = slip.start + span * (1 + node) / 2
-        force, v = slip.elements.motion(time)
-        step = weight / 2 * span * force
-        impulse += step
-        work += step * slip.slip_velocity(v, time)
-    return impulse, work
+    time = slip.start + span * (1 + NODES) / 2
+    force, v = slip.elements.motion(time)
+    steps = WEIGHTS / 2 * span * force
+    return steps.sum(axis=0), (steps * slip.slip_velocity(v, time)).sum(axis=0)

@@ -175,6 +175,8 @@ def alike(beta: Array, zeta2: Array, e: Array) -> Iterator[tuple[Integers, Eleme
     """
     for normal_under in (True, False):
         part = np.flatnonzero((e > CRITICAL) == normal_under)
+        if not part.size:
+            continue
         angle = phase_angle(e[part], normal_under)
         frequency = np.sin(angle) if normal_under else np.sinh(angle)
         # cos(delta), from the restitution: so it has all its digits near e = 1 too.
