@@ -43,8 +43,6 @@ from planarimpact.ground.arrays import Array, Integers
 CRITICAL = np.exp(-2)
 # A frequency of 0 counts as this one: sin(omega t)/omega is then t to all digits.
 LEAST_FREQUENCY = 1e-150
-# Below this square of an angle delta cot(delta) counts as 1 - delta^2/3 where its slope is taken.
-SMALL = 1e-5
 
 
 def phase_angle(restitution: Array, under: bool) -> Array:
@@ -65,13 +63,12 @@ def phase_angle(restitution: Array, under: bool) -> Array:
     def surplus(which: Any, square: Array) -> tuple[Array, Array]:
         angle = np.maximum(np.sqrt(square), LEAST_FREQUENCY)
         value = angle / tangent(angle)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            slope = sign * (value - value * value) / (2 * square) - 0.5
-        slope = np.where(square < SMALL, -1 / 3, slope)
+        slope = sign * (value - value * value) / (2 * angle * angle) - 0.5
         return sign * (value - goal[which]), slope
 
     largest = np.full_like(goal, HALF_PI**2) if under else goal * goal
-    start = np.abs(1 - goal) * (goal + 2)  # within a fifth
+    # Within a fifth, and exact next to 0, where rounding hides the slope.
+    start = np.abs(1 - goal) * (goal + 2)
     square = roots.crossing(surplus, np.zeros_like(goal), largest, start=start, unguarded=4)
     return np.maximum(np.sqrt(square), LEAST_FREQUENCY)
 
