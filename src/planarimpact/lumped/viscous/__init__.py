@@ -94,12 +94,6 @@ def history(mirror: float, impacts: Impacts, samples: int) -> History:
     _solve_alike(x, elements, trace)
     half = -elements.contact()[0] / 2
     grid = np.linspace(-2.0, 0.0, samples) * half
-
-    def column(phase: Stick | Slip, time: Array) -> Array:
-        normal, *tangential = phase.state(time)
-        mirrored = (mirror * phase.side * values for values in tangential)
-        return np.stack([2.0 + time / half, normal, *mirrored])
-
     columns: list[Array] = []
     events: list[tuple[EventKind, Array]] = []
     lasting = [(phase, end) for phase, end in trace if (phase.start < end).any()]
@@ -107,12 +101,15 @@ def history(mirror: float, impacts: Impacts, samples: int) -> History:
         inside = grid[(grid > phase.start) & (grid < end)]
         compressed = phase.start <= -half < end
         middle = [-half] if compressed else []
-        columns.append(column(phase, np.unique([*phase.start, *inside, *middle, *end])))
+        time = np.unique([*phase.start, *inside, *middle, *end])
+        normal, *tangential = phase.state(time)
+        mirrored = (mirror * phase.side * values for values in tangential)
+        columns.append(np.stack([2.0 + time / half, normal, *mirrored]))
         kind = EventKind.STICK if isinstance(phase, Stick) else EventKind.SLIP
         events.append((kind, columns[-1][:, 0]))
         if compressed:
-            values = column(phase, np.array([-half]))[:, 0]
-            events.append((EventKind.MAXIMUM_COMPRESSION, values))
+            place = np.searchsorted(time, -half)
+            events.append((EventKind.MAXIMUM_COMPRESSION, columns[-1][:, place]))
     return History.joined(columns, events)
 
 
