@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from planarimpact import ConvergenceError, EventKind, InputError, Regime, lumped, rigid
-from planarimpact.lumped import hysteretic, slip_onset, stick_slip
+from planarimpact.lumped import losses, slip_onset, stick_slip
 from tests.reference_solutions import high_precision
 
 EXTREMES = Path(__file__).parents[2] / "data/lumped_extremes/impacts.csv"
@@ -35,7 +35,7 @@ def test_arguments_broadcast_in_any_shape():
 
 
 def test_batches_do_not_depend_on_their_size():
-    x = np.linspace(0, 8, 2 * hysteretic.CHUNK + 3)
+    x = np.linspace(0, 8, 2 * losses.Hysteretic.chunk + 3)
     whole = lumped.rebound(x, restitution=0.7).velocity
     np.testing.assert_array_equal(whole[::977], lumped.rebound(x[::977], restitution=0.7).velocity)
 

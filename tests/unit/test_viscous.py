@@ -5,7 +5,7 @@ import pytest
 from mpmath import mp
 
 from planarimpact import EventKind, InputError, Regime, lumped, rigid
-from planarimpact.lumped import viscous
+from planarimpact.lumped import losses
 from planarimpact.lumped.viscous import elements
 from tests.reference_solutions import viscous_precision
 
@@ -167,7 +167,7 @@ def test_arguments_broadcast_in_any_shape():
 
 
 def test_one_and_many_agree(monkeypatch):
-    monkeypatch.setattr(viscous, "CHUNK", 1000)
+    monkeypatch.setattr(losses.Viscous, "chunk", 1000)
     groups = np.array(drawn(10_000))
     many = lumped.rebound(*groups, loss="viscous")
     some = slice(None, None, 601)

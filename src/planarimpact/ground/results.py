@@ -170,3 +170,16 @@ class History(NamedTuple):
     velocity: Array
     spring: Array
     events: tuple[Event, ...]
+
+    @classmethod
+    def joined(cls, phases: list[Array], events: list[tuple[EventKind, Array]]) -> Self:
+        """Of phases, arrays of shape (5, n), and of events, arrays of shape (5,).
+
+        A phase starts where the one before ends. Contact and separation come on top of the events.
+        """
+        columns = [phase[:, :-1] for phase in phases[:-1]] + phases[-1:]
+        time, normal, friction, velocity, spring = np.concatenate(columns, axis=1)
+        contact = EventKind.CONTACT, phases[0][:, 0]
+        separation = EventKind.SEPARATION, phases[-1][:, -1]
+        listed = (Event(kind, *map(float, at)) for kind, at in (contact, *events, separation))
+        return cls(time, normal, friction, velocity, spring, tuple(listed))

@@ -15,6 +15,10 @@ The keyword `loss` says what takes the normal energy where e < 1. At e = 1 all a
 - "viscous": a dashpot beside the spring in both directions, with one relaxation time. `viscous`
   holds it.
 
+All four functions take the arguments of `rebound`, which says their range. `history` and
+`friction_work` are of one contact: they take scalars alone, and a contact of 100 000 phases at
+most. An argument that is not allowed raises `InputError`.
+
 Errors that these functions state are those of the solution. The model itself is further off. For a
 solid sphere of Poisson's ratio 0.3 and e = 1 its velocity differs from the elastic continuum by up
 to 0.21 mu v2(0). On the hysteretic loss the evidence is divided: measured pairs of materials
@@ -125,22 +129,12 @@ def slip_throughout_limit(
     tangential element, viscous contact starts in stick up to zeta^2, and the other up to
     e^2 zeta^2 only; from beta on that slip lasts.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, restitution : array_like
-        As in `rebound`; with viscous loss of any size, and the limit at e = 0 is that of small e.
-    loss : str
-        As in `rebound`.
+    With viscous loss the arguments may have any size, and the limit at e = 0 is that of small e.
 
     Returns
     -------
     ndarray of float64 or float
         Incidence v1(0)/(mu v2(0)).
-
-    Raises
-    ------
-    InputError
-        As `rebound`.
 
     Examples
     --------
@@ -168,25 +162,15 @@ def history(
 
     Parameters
     ----------
-    incidence, mass_ratio, stiffness_ratio, restitution : float
-        As in `rebound`; scalars.
     samples : int
         At least 2: instants evenly spread over the contact. Events come on top, so that every
         one is a vertex.
-    loss : str
-        As in `rebound`.
 
     Returns
     -------
     History
         time in t_c, normal, friction, velocity, spring, events. With viscous loss t_c is half of
         the contact, and both forces jump at contact, as the dashpots act at once.
-
-    Raises
-    ------
-    InputError
-        As `rebound`; also if an argument is not scalar, `samples` is no integer above 1, or
-        the contact has more than 100 000 phases.
 
     Examples
     --------
@@ -217,23 +201,10 @@ def friction_work(
     by what the tangential spring loses when e = 0. With viscous loss and e < 1 both are the same
     closed integral.
 
-    Parameters
-    ----------
-    incidence, mass_ratio, stiffness_ratio, restitution : float
-        As in `rebound`; scalars.
-    loss : str
-        As in `rebound`.
-
     Returns
     -------
     float
         In mu^2 m2 v2(0)^2.
-
-    Raises
-    ------
-    InputError
-        As `rebound`; also if an argument is not scalar, or the contact has more than 100 000
-        phases.
 
     Examples
     --------

@@ -6,27 +6,13 @@ Functions of impacts x >= 0, which `stick_slip` solves, whatever the size of the
 import numpy as np
 
 from planarimpact.ground.arrays import Array, Numbers
-from planarimpact.ground.results import Event, EventKind, History
+from planarimpact.ground.results import EventKind, History
 from planarimpact.lumped import normal, stick_slip
 from planarimpact.lumped.extremes import scaling
 from planarimpact.lumped.stick_slip import Impacts
 
-# Impacts solved together: few enough for the cache, enough to hide Python's overhead.
-CHUNK = 32768
 # Nodes and weights of Gauss on -1 to 1, for the work of friction within a phase.
 QUADRATURE = np.polynomial.legendre.leggauss(20)
-
-
-def solve(impacts: Impacts) -> stick_slip.Outcome:
-    """Outcome of impacts, arrays of shape (n,), chunk by chunk."""
-    x = impacts.x
-    velocity, peak, work = (np.empty(x.size) for _ in range(3))
-    regime = np.empty(x.size, np.uint8)
-    for start in range(0, x.size, CHUNK):
-        part = slice(start, start + CHUNK)
-        outcome = scaling.solve(Impacts(*(group[part] for group in impacts)))
-        velocity[part], peak[part], work[part], regime[part] = outcome
-    return stick_slip.Outcome(velocity, peak, work, regime)
 
 
 def history(mirror: float, impacts: Impacts, samples: int) -> History:
@@ -34,23 +20,22 @@ def history(mirror: float, impacts: Impacts, samples: int) -> History:
     scale, groups, contact = phases(impacts)
     zeta2, e = groups[1] / scale, groups[2]
     grid = np.linspace(0.0, 1.0 + e, samples)
-    columns, events, before = [], [], None
+    columns: list[Array] = []
+    events: list[tuple[EventKind, Array]] = []
+    before = None
     for phase, eta_end in contact:
         start, end = (normal.time(eta, e, phase.in_restitution) for eta in (phase.eta, eta_end))
         inside = grid[(grid > start) & (grid < end)]
         time = np.concatenate([[start], inside, [end]])
         eta = np.concatenate([[phase.eta], _angle(inside, e, phase.in_restitution), [eta_end]])
         friction, velocity = stick_slip.state(phase, eta, *groups)
-        velocity = mirror * velocity / scale
-        columns.append(np.stack([time, normal.force(eta), mirror * friction, velocity]))
-        events += [_event(kind, columns[-1][:, 0], zeta2) for kind in _kinds(phase, before)]
+        friction, velocity = mirror * friction, mirror * velocity / scale
+        columns.append(np.stack([time, normal.force(eta), friction, velocity, zeta2 * friction]))
+        events += [(kind, columns[-1][:, 0]) for kind in _kinds(phase, before)]
         before = phase
     if e == 0:
-        events.append(_event(EventKind.MAXIMUM_COMPRESSION, columns[-1][:, -1], zeta2))
-    events.append(_event(EventKind.SEPARATION, columns[-1][:, -1], zeta2))
-    joined = [phase_columns[:, :-1] for phase_columns in columns[:-1]] + columns[-1:]
-    time, force, friction, velocity = np.concatenate(joined, axis=1)
-    return History(time, force, friction, velocity, zeta2 * friction, tuple(events))
+        events.append((EventKind.MAXIMUM_COMPRESSION, columns[-1][:, -1]))
+    return History.joined(columns, events)
 
 
 def friction_work(impacts: Impacts) -> float:
@@ -101,16 +86,9 @@ def _angle(time: Array, e: float, in_restitution: bool) -> Array:
     return np.pi / 2 * np.clip((1 + e - time) / e if in_restitution else time, 0.0, 1.0)
 
 
-def _event(kind: EventKind, column: Array, zeta2: float) -> Event:
-    time, force, friction, velocity = (float(value) for value in column)
-    return Event(kind, time, force, friction, velocity, float(zeta2 * friction))
-
-
 def _kinds(phase: stick_slip.Phase, before: stick_slip.Phase | None) -> list[EventKind]:
     """Events where a phase starts; one that goes on through maximum compression is not new."""
     kind = EventKind.STICK if phase.sticks else EventKind.SLIP
-    if before is None:
-        return [EventKind.CONTACT, kind]
-    if phase.in_restitution == before.in_restitution:
+    if before is None or phase.in_restitution == before.in_restitution:
         return [kind]
     return [EventKind.MAXIMUM_COMPRESSION, *([kind] if phase.sticks != before.sticks else [])]

@@ -32,13 +32,11 @@ import numpy as np
 from planarimpact.ground import checks, sliding
 from planarimpact.ground.arrays import Array, Integers
 from planarimpact.ground.checks import ConvergenceError
-from planarimpact.ground.results import Event, EventKind, History, Regime
+from planarimpact.ground.results import EventKind, History, Regime
 from planarimpact.lumped.stick_slip import Impacts, Outcome
 from planarimpact.lumped.viscous.elements import Elements, alike
 from planarimpact.lumped.viscous.searches import Slip, Stick, phase_end, take
 
-# Impacts solved together: few enough for the cache, enough to hide Python's overhead.
-CHUNK = 65536
 # The range of the solver: a viscous element stops no body for good. In this range a contact has
 # some hundred half-waves of T at most, fewer than MOST_STICKS, and all products keep their digits.
 LEAST_RESTITUTION = 1e-3
@@ -49,12 +47,12 @@ MOST_STICKS = 1000
 # below SHORT. So does its work, where its time over tau is below SHORT too. Gauss's quadrature
 # keeps them.
 SHORT = 0.1
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)
+NODES, WEIGHTS = (numbers[:, None] for numbers in np.polynomial.legendre.leggauss(4))
 # Phases of one impact, in order, and when each ends.
 Trace: TypeAlias = list[tuple[Stick | Slip, Array]]
 
 
-def check_range(impacts: Impacts) -> None:
+def _check_range(impacts: Impacts) -> None:
     """Refuse impacts beyond the range of this solver."""
     _, beta, zeta2, e = impacts
     share = f"{LEAST_SHARE:g} to {LARGEST_SHARE:g} times the mass ratio"
@@ -77,54 +75,42 @@ def solve(impacts: Impacts) -> Outcome:
     The peak of friction is in mu times the largest normal force of the impact. The dissipation is
     the work of friction alone.
     """
+    _check_range(impacts)
     velocity, peak, work = (np.empty_like(impacts.x) for _ in range(3))
     outcome = Outcome(velocity, peak, work, np.empty(impacts.x.size, np.uint8))
     x, *groups = impacts
     for which, elements in alike(*groups):
-        for first in range(0, which.size, CHUNK):
-            part = np.arange(first, min(first + CHUNK, which.size))
-            solved = _solve_alike(x[which[part]], elements.take(part), None)
-            for field, values in zip(outcome, solved, strict=True):
-                field[which[part]] = values
+        for field, values in zip(outcome, _solve_alike(x[which], elements, None), strict=True):
+            field[which] = values
     return outcome
 
 
 def history(mirror: float, impacts: Impacts, samples: int) -> History:
     """Forces, velocity and spring over one contact with e < 1; `mirror` is the sign of x."""
+    _check_range(impacts)
     x, *groups = impacts
     [(_, elements)] = alike(*groups)
     trace: Trace = []
     _solve_alike(x, elements, trace)
     half = -elements.contact()[0] / 2
     grid = np.linspace(-2.0, 0.0, samples) * half
-
-    def column(phase: Stick | Slip, time: Array) -> Array:
-        normal, *tangential = phase.state(time)
-        mirrored = (mirror * phase.side * values for values in tangential)
-        return np.stack([2.0 + time / half, normal, *mirrored])
-
-    def event(kind: EventKind, values: Array) -> Event:
-        return Event(kind, *(float(value) for value in values))
-
     columns: list[Array] = []
-    events: list[Event] = []
+    events: list[tuple[EventKind, Array]] = []
     lasting = [(phase, end) for phase, end in trace if (phase.start < end).any()]
     for phase, end in lasting or [(_slip_from_contact(elements, x), np.zeros(1))]:
         inside = grid[(grid > phase.start) & (grid < end)]
         compressed = phase.start <= -half < end
         middle = [-half] if compressed else []
-        columns.append(column(phase, np.unique([*phase.start, *inside, *middle, *end])))
-        kinds = [EventKind.STICK if isinstance(phase, Stick) else EventKind.SLIP]
-        if not events:
-            kinds.insert(0, EventKind.CONTACT)
-        events += [event(kind, columns[-1][:, 0]) for kind in kinds]
+        time = np.unique([*phase.start, *inside, *middle, *end])
+        normal, *tangential = phase.state(time)
+        mirrored = (mirror * phase.side * values for values in tangential)
+        columns.append(np.stack([2.0 + time / half, normal, *mirrored]))
+        kind = EventKind.STICK if isinstance(phase, Stick) else EventKind.SLIP
+        events.append((kind, columns[-1][:, 0]))
         if compressed:
-            values = column(phase, np.array([-half]))[:, 0]
-            events.append(event(EventKind.MAXIMUM_COMPRESSION, values))
-    events.append(event(EventKind.SEPARATION, columns[-1][:, -1]))
-    joined = [phase_columns[:, :-1] for phase_columns in columns[:-1]] + columns[-1:]
-    time, normal, friction, velocity, spring = np.concatenate(joined, axis=1)
-    return History(time, normal, friction, velocity, spring, tuple(events))
+            place = np.searchsorted(time, -half)
+            events.append((EventKind.MAXIMUM_COMPRESSION, columns[-1][:, place]))
+    return History.joined(columns, events)
 
 
 def _solve_alike(x: Array, elements: Elements, trace: Trace | None) -> Outcome:
@@ -229,11 +215,7 @@ def _slide(
 
 def _by_quadrature(slip: Slip, span: Array) -> tuple[Array, Array]:
     """Normal impulse and work of friction of short slips."""
-    impulse, work = np.zeros_like(span), np.zeros_like(span)
-    for node, weight in zip(NODES, WEIGHTS, strict=True):
-        time = slip.start + span * (1 + node) / 2
-        force, v = slip.elements.motion(time)
-        step = weight / 2 * span * force
-        impulse += step
-        work += step * slip.slip_velocity(v, time)
-    return impulse, work
+    time = slip.start + span * (1 + NODES) / 2
+    force, v = slip.elements.motion(time)
+    steps = WEIGHTS / 2 * span * force
+    return steps.sum(axis=0), (steps * slip.slip_velocity(v, time)).sum(axis=0)

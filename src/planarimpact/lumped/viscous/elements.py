@@ -31,7 +31,7 @@ same for all, so that each formula is one expression.
 """
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -60,12 +60,16 @@ def phase_angle(restitution: Array, under: bool) -> Array:
     goal = -np.log(restitution) / 2
     tangent, sign = (np.tan, 1.0) if under else (np.tanh, -1.0)
 
-    def surplus(which: Integers, square: Array) -> tuple[Array]:
+    def surplus(which: Any, square: Array) -> tuple[Array, Array]:
         angle = np.maximum(np.sqrt(square), LEAST_FREQUENCY)
-        return (sign * (angle / tangent(angle) - goal[which]),)
+        value = angle / tangent(angle)
+        slope = sign * (value - value * value) / (2 * angle * angle) - 0.5
+        return sign * (value - goal[which]), slope
 
     largest = np.full_like(goal, HALF_PI**2) if under else goal * goal
-    square = roots.crossing(surplus, np.zeros_like(goal), largest)
+    # Within a fifth, and exact next to 0, where rounding hides the slope.
+    start = np.abs(1 - goal) * (goal + 2)
+    square = roots.crossing(surplus, np.zeros_like(goal), largest, start=start, unguarded=4)
     return np.maximum(np.sqrt(square), LEAST_FREQUENCY)
 
 
@@ -168,6 +172,8 @@ def alike(beta: Array, zeta2: Array, e: Array) -> Iterator[tuple[Integers, Eleme
     """
     for normal_under in (True, False):
         part = np.flatnonzero((e > CRITICAL) == normal_under)
+        if not part.size:
+            continue
         angle = phase_angle(e[part], normal_under)
         frequency = np.sin(angle) if normal_under else np.sinh(angle)
         # cos(delta), from the restitution: so it has all its digits near e = 1 too.

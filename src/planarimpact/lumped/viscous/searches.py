@@ -24,7 +24,8 @@ In a piece that does not hold t_M, N/y only rises or only falls: w_s' has one ze
 one extremum at most. If it falls where the piece starts and rises where it ends, it is lowest
 between; else it is lowest at the end, as it is known not to be negative at the start. If it is
 negative where it is lowest, it passes zero once before, and the phase ends there. Else the next
-piece follows. N = 0 at separation, so stick ends there if not before; slip may last.
+piece follows. N = 0 at separation, so stick ends there if not before; slip may last. Few minima of
+stick need a search: T^2 + T'^2/b does not grow, so |T| often cannot reach N in a whole piece.
 
 **The first piece.** Between slip and stick s' has no jump, so T' in stick is N' + tau w_s'/zeta^2
 with w_s' in slip. Where slip stops w_s' <= 0: the margin of stick starts from 0 and does not fall.
@@ -45,12 +46,17 @@ from planarimpact.lumped.viscous.elements import Elements
 
 # What rounding may take from a margin, as a share of its terms.
 ROUNDING = 1e-15
+# The margin where it is lowest errs by the square of the error of the place, a share of the piece.
+LOWEST = 1e-6
 
 _Phase = TypeVar("_Phase", bound="Stick | Slip")
 
 
 class Course(NamedTuple):
-    """A margin with two derivatives, its descent with one, and what rounding may take from it."""
+    """A margin with two derivatives, its descent with one, and what rounding may take from it.
+
+    Besides, in stick, what |T| cannot exceed from there on.
+    """
 
     margin: Array
     rate: Array
@@ -58,6 +64,7 @@ class Course(NamedTuple):
     descent: Array
     descent_rate: Array
     rounding: Array
+    reach: Array
 
 
 MARGIN, DESCENT = slice(0, 3), slice(3, 5)
@@ -123,6 +130,7 @@ class Stick(NamedTuple):
             descent,
             -decay * descent - (elements.b - 1) * friction * (force + tau * force_rate),
             ROUNDING * force,
+            np.sqrt(friction * friction + friction_rate * friction_rate / elements.b),
         )
 
 
@@ -168,8 +176,8 @@ class Slip(NamedTuple):
         rounding = ROUNDING * (elements.beta + elements.zeta2 + np.abs(self.constant))
         descent = k * force + rest / tau
         growth = k * (v - tau * force) - rest / (tau * tau)
-        margin = self.constant + k * v + rest
-        return Course(margin, -descent, -growth, descent, growth, rounding)
+        margin, reach = self.constant + k * v + rest, np.full_like(force, np.inf)
+        return Course(margin, -descent, -growth, descent, growth, rounding, reach)
 
 
 def take(phase: _Phase, which: Integers) -> _Phase:
@@ -186,6 +194,7 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
     end, end_sign = np.zeros_like(phase.start), np.ones_like(phase.start)
     which, low, sign = np.arange(end.size), phase.start, end_sign
     zero, falls = phase.first_piece()
+    margin, reach = np.zeros_like(end), np.full_like(end, np.inf)
     while which.size:
         # The next piece, from `low` to `high`, and where the margin is lowest in it.
         high = np.minimum(zero, 0.0)
@@ -193,11 +202,13 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
         part = take(phase, which)
         course, lowest = part.course(sign, high), high.copy()
         ends, rises = course.margin <= -course.rounding, course.descent < 0
-        between = np.flatnonzero(falls & rises & ~ends)
+        # N is least at an end of a piece, and at least the margin.
+        may_end = np.minimum(margin, course.margin) < reach
+        between = np.flatnonzero(falls & rises & ~ends & may_end)
         if between.size:
             lowest[between] = _crossing(DESCENT, part, between, sign, low, high)
-            course = take(part, between).course(sign[between], lowest[between])
-            ends[between] = course.margin <= -course.rounding
+            dip = take(part, between).course(sign[between], lowest[between])
+            ends[between] = dip.margin <= -dip.rounding
         found = np.flatnonzero(ends)
         end[which[found]] = _crossing(MARGIN, part, found, sign, low, lowest)
         end_sign[which] = sign
@@ -209,6 +220,7 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
         turn, half_wave, zero = turn[follows], half_wave[follows], zero[follows]
         zero = zero + np.where(at_zero, half_wave, 0.0)
         which, low = which[follows], high[follows]
+        margin, reach = course.margin[follows], course.reach[follows]
     return end, end_sign
 
 
@@ -221,4 +233,5 @@ def _crossing(
     def function(index: Integers, time: Array) -> tuple[Array, ...]:
         return tuple(take(phase, index).course(sign[index], time))[what]
 
-    return roots.crossing(function, low[which], high[which])
+    resolution = roots.ROUNDING if what is MARGIN else LOWEST
+    return roots.crossing(function, low[which], high[which], resolution=resolution)
