@@ -7,20 +7,20 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 import numpy as np
 
 from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Numbers
+from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 from planarimpact.ground.checks import InputError, checked, finite, not_negative, positive
 
 
 class OutOfRange(InputError):
-    """A result beyond the range of numbers or of a law; `where` marks these entries."""
+    """A result beyond the range of numbers or of a law: `messages` of entries, by flat index."""
 
-    def __init__(self, message: str, where: Booleans) -> None:
-        super().__init__(message)
-        self.where = where
+    def __init__(self, messages: dict[int, str]) -> None:
+        super().__init__(next(iter(messages.values())))
+        self.messages = messages
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle it by its arguments, so that another process can raise it again."""
-        return type(self), (str(self), self.where)
+        return type(self), (self.messages,)
 
 
 positive_or_infinite = partial(
@@ -97,10 +97,10 @@ quietly = np.errstate(over="ignore", invalid="ignore", divide="ignore", under="i
 
 def in_range(name: str, values: Array, above: float = 0.0) -> Array:
     """Return the values unchanged, or refuse them where one is not finite or |value| <= above."""
-    beyond = np.atleast_1d(~(np.isfinite(values) & (np.abs(values) > above)))
-    if beyond.any():
-        first = np.atleast_1d(values)[beyond][0]
-        raise OutOfRange(f"{name} = {first:g}: it is beyond the range of numbers", beyond)
+    beyond = np.flatnonzero(~(np.isfinite(values) & (np.abs(values) > above)))
+    if beyond.size:
+        said = f"{name} = {{:g}}: it is beyond the range of numbers"
+        raise OutOfRange({i: said.format(np.ravel(values)[i]) for i in beyond.tolist()})
     return values
 
 

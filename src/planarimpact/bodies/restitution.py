@@ -64,14 +64,14 @@ def viscous_restitution(
     )
     time_unit = _time_unit(v2, m2, modulus, radius)
     longest = kelvin_voigt.relaxation_time(np.array(LEAST_RESTITUTION)) * time_unit
-    too_long = np.atleast_1d(tau > longest * (1 + ROUNDING))
-    if too_long.any():
-        value, allowed = (np.atleast_1d(a)[too_long][0] for a in (tau, longest))
-        raise OutOfRange(
-            f"relaxation_time = {value:g}: allowed are numbers up to {allowed:.4g} here, where "
-            f"restitution is {LEAST_RESTITUTION}",
-            too_long,
+    too_long = np.flatnonzero(tau > longest * (1 + ROUNDING))
+    if too_long.size:
+        said = (
+            "relaxation_time = {:g}: allowed are numbers up to {:.4g} here, where restitution is "
+            f"{LEAST_RESTITUTION}"
         )
+        given, most = np.ravel(tau), np.ravel(longest)
+        raise OutOfRange({i: said.format(given[i], most[i]) for i in too_long.tolist()})
     return np.maximum(kelvin_voigt.restitution(tau / time_unit), LEAST_RESTITUTION)[()]
 
 

@@ -195,7 +195,7 @@ def _collide_arrays(
     try:
         given = impacts(pair, vectors[0], body, before, other, other_before)
     except bodies.OutOfRange as error:
-        raise InputError(f"{_place(np.flatnonzero(error.where)[0], shape)}{error}") from None
+        raise InputError(f"{_place(min(error.messages), shape)}{error}") from None
     # Also where nothing approaches: a normal of two centres at one place is no number, or zero.
     for i, problem in problems_of_normals(given.normal).items():
         raise InputError(f"{_place(i, shape)}{problem}")

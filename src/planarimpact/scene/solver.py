@@ -166,7 +166,7 @@ def _good_rows(values: dict[str, Array], problems: dict[int, str]) -> tuple[stat
             found = mechanics.problems(rows.impacts)
             found |= mechanics.problems_of_normals(rows.impacts.normal)
         except bodies.OutOfRange as error:
-            found = dict.fromkeys(np.flatnonzero(error.where).tolist(), str(error))
+            found = error.messages
         if not found:
             return rows, good
         problems |= {int(good[i]): message for i, message in found.items()}
