@@ -15,7 +15,8 @@ The keyword `loss` says what takes the normal energy where e < 1. At e = 1 all a
 - "viscous": a dashpot beside the spring in both directions, with one relaxation time. `viscous`
   holds it.
 
-All four functions take the arguments of `rebound`, which says their range. `history` and
+All four functions take arguments of `rebound`, which says what they mean and their ranges:
+`incidence`, `mass_ratio`, `stiffness_ratio`, `restitution` and `loss`. `history` and
 `friction_work` are of one contact: they take scalars alone, and a contact of 100 000 phases at
 most. An argument that is not allowed raises `InputError`.
 
@@ -129,7 +130,8 @@ def slip_throughout_limit(
     tangential element, viscous contact starts in stick up to zeta^2, and the other up to
     e^2 zeta^2 only; from beta on that slip lasts.
 
-    With viscous loss the arguments may have any size, and the limit at e = 0 is that of small e.
+    Arguments and errors: `planarimpact.lumped`. With viscous loss the ratios may have any size
+    here, and the limit at e = 0 is that of small e.
 
     Returns
     -------
@@ -160,11 +162,9 @@ def history(
 ) -> History:
     """Forces and velocity over one contact (Figs 3 and 4).
 
-    Parameters
-    ----------
-    samples : int
-        At least 2: instants evenly spread over the contact. Events come on top, so that every
-        one is a vertex.
+    Arguments and errors: `planarimpact.lumped`. Besides, `samples`, an integer of at least 2, is
+    the number of instants, evenly spread over the contact. Events come on top, so that every one
+    is a vertex.
 
     Returns
     -------
@@ -199,7 +199,7 @@ def friction_work(
 
     This checks `rebound(...).dissipation`, which comes from the balance of energy. The two differ
     by what the tangential spring loses when e = 0. With viscous loss and e < 1 both are the same
-    closed integral.
+    closed integral. Arguments and errors: `planarimpact.lumped`.
 
     Returns
     -------
