@@ -25,7 +25,7 @@ one extremum at most. If it falls where the piece starts and rises where it ends
 between; else it is lowest at the end, as it is known not to be negative at the start. If it is
 negative where it is lowest, it passes zero once before, and the phase ends there. Else the next
 piece follows. N = 0 at separation, so stick ends there if not before; slip may last. Few minima of
-stick need a search: T^2 + T'^2/b does not grow, so |T| often cannot reach N in a whole piece.
+stick need a search: T^2 + T'^2/b does not grow, so |T| often cannot reach N after a zero of T.
 
 **The first piece.** Between slip and stick s' has no jump, so T' in stick is N' + tau w_s'/zeta^2
 with w_s' in slip. Where slip stops w_s' <= 0: the margin of stick starts from 0 and does not fall.
@@ -53,10 +53,7 @@ _Phase = TypeVar("_Phase", bound="Stick | Slip")
 
 
 class Course(NamedTuple):
-    """A margin with two derivatives, its descent with one, and what rounding may take from it.
-
-    Besides, in stick, what |T| cannot exceed from there on.
-    """
+    """A margin with two derivatives, its descent with one, and what rounding may take from it."""
 
     margin: Array
     rate: Array
@@ -64,7 +61,6 @@ class Course(NamedTuple):
     descent: Array
     descent_rate: Array
     rounding: Array
-    reach: Array
 
 
 MARGIN, DESCENT = slice(0, 3), slice(3, 5)
@@ -130,7 +126,6 @@ class Stick(NamedTuple):
             descent,
             -decay * descent - (elements.b - 1) * friction * (force + tau * force_rate),
             ROUNDING * force,
-            np.sqrt(friction * friction + friction_rate * friction_rate / elements.b),
         )
 
 
@@ -176,8 +171,8 @@ class Slip(NamedTuple):
         rounding = ROUNDING * (elements.beta + elements.zeta2 + np.abs(self.constant))
         descent = k * force + rest / tau
         growth = k * (v - tau * force) - rest / (tau * tau)
-        margin, reach = self.constant + k * v + rest, np.full_like(force, np.inf)
-        return Course(margin, -descent, -growth, descent, growth, rounding, reach)
+        margin = self.constant + k * v + rest
+        return Course(margin, -descent, -growth, descent, growth, rounding)
 
 
 def take(phase: _Phase, which: Integers) -> _Phase:
@@ -194,7 +189,7 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
     end, end_sign = np.zeros_like(phase.start), np.ones_like(phase.start)
     which, low, sign = np.arange(end.size), phase.start, end_sign
     zero, falls = phase.first_piece()
-    margin, reach = np.zeros_like(end), np.full_like(end, np.inf)
+    margin, rise = np.zeros_like(end), np.full_like(end, np.inf)
     while which.size:
         # The next piece, from `low` to `high`, and where the margin is lowest in it.
         high = np.minimum(zero, 0.0)
@@ -202,8 +197,9 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
         part = take(phase, which)
         course, lowest = part.course(sign, high), high.copy()
         ends, rises = course.margin <= -course.rounding, course.descent < 0
-        # N is least at an end of a piece, and at least the margin.
-        may_end = np.minimum(margin, course.margin) < reach
+        # N is least at an end of a piece. At a zero of T it is the margin, and W is |T|' N.
+        least = np.minimum(margin, course.margin)
+        may_end = least * margin * np.sqrt(part.elements.b) < rise
         between = np.flatnonzero(falls & rises & ~ends & may_end)
         if between.size:
             lowest[between] = _crossing(DESCENT, part, between, sign, low, high)
@@ -220,7 +216,7 @@ def phase_end(phase: Stick | Slip) -> tuple[Array, Array]:
         turn, half_wave, zero = turn[follows], half_wave[follows], zero[follows]
         zero = zero + np.where(at_zero, half_wave, 0.0)
         which, low = which[follows], high[follows]
-        margin, reach = course.margin[follows], course.reach[follows]
+        margin, rise = course.margin[follows], np.where(at_zero, -course.descent[follows], np.inf)
     return end, end_sign
 
 
