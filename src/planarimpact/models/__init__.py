@@ -380,7 +380,7 @@ MODELS = {
             partial(lumped.rebound, loss="viscous"),
             cost="phases",
             restitution=(lumped.viscous.LEAST_RESTITUTION, 1.0),
-            valid="two Kelvin-Voigt elements of one relaxation time; solved to 1e-12",
+            valid="two Kelvin-Voigt elements of one relaxation time; solved to 1e-9",
             source="T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469, for the normal "
             "element",
             loss="viscous",
