@@ -76,6 +76,8 @@ from planarimpact.bodies.restitution import (
     yield_pressure,
     yield_speed,
 )
+from planarimpact.bodies.restitution import time_unit as time_unit
+from planarimpact.bodies.restitution import unchecked_yield_speed as unchecked_yield_speed
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.checks import checked, finite, not_negative, positive

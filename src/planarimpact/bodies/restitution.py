@@ -9,6 +9,8 @@ Symbols beside those of `planarimpact.bodies`: v_y yield speed, and a_y the radi
 yield begins.
 """
 
+from typing import TypeVar
+
 import numpy as np
 
 from planarimpact.bodies.materials import hertz_peak_force
@@ -18,6 +20,7 @@ from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.checks import checked, not_negative, positive
 from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, LOSSES, kelvin_voigt, yielding
 
+_Number = TypeVar("_Number", float, Array)
 # Relative rounding error of a relaxation time that `relaxation_time` returns.
 ROUNDING = 1e-12
 
@@ -62,8 +65,8 @@ def viscous_restitution(
         effective_modulus=positive("effective_modulus", effective_modulus),
         effective_radius=positive("effective_radius", effective_radius),
     )
-    time_unit = _time_unit(v2, m2, modulus, radius)
-    longest = kelvin_voigt.relaxation_time(np.array(LEAST_RESTITUTION)) * time_unit
+    unit = in_range("unit of relaxation time", time_unit(v2, m2, modulus, radius))
+    longest = kelvin_voigt.relaxation_time(np.array(LEAST_RESTITUTION)) * unit
     too_long = np.flatnonzero(tau > longest * (1 + ROUNDING))
     if too_long.size:
         said = (
@@ -72,7 +75,7 @@ def viscous_restitution(
         )
         given, most = np.ravel(tau), np.ravel(longest)
         raise OutOfRange({i: said.format(given[i], most[i]) for i in too_long.tolist()})
-    return np.maximum(kelvin_voigt.restitution(tau / time_unit), LEAST_RESTITUTION)[()]
+    return np.maximum(kelvin_voigt.restitution(tau / unit), LEAST_RESTITUTION)[()]
 
 
 @quietly
@@ -97,7 +100,8 @@ def relaxation_time(
     e, v2, m2, modulus, radius = _checked_impact(
         restitution, speed, mass, effective_modulus, effective_radius
     )
-    tau = kelvin_voigt.relaxation_time(e) * _time_unit(v2, m2, modulus, radius)
+    unit = in_range("unit of relaxation time", time_unit(v2, m2, modulus, radius))
+    tau = kelvin_voigt.relaxation_time(e) * unit
     return in_range("relaxation time", np.where(e < 1, tau, 0.0), above=-1.0)[()]
 
 
@@ -134,7 +138,7 @@ def yield_speed(
         effective_modulus=effective_modulus,
         effective_radius=effective_radius,
     )
-    return in_range("yield speed", _yield_speed(pressure, m2, modulus, radius))[()]
+    return in_range("yield speed", unchecked_yield_speed(pressure, m2, modulus, radius))[()]
 
 
 @quietly
@@ -168,7 +172,7 @@ def plastic_restitution(
         effective_radius=effective_radius,
     )
     # A yield speed that overflows to inf is above any speed: the contact stays elastic.
-    yield_share = np.minimum(_yield_speed(pressure, m2, modulus, radius) / v2, 1.0)
+    yield_share = np.minimum(unchecked_yield_speed(pressure, m2, modulus, radius) / v2, 1.0)
     e = np.where(yield_share == 1, 1.0, np.minimum(yielding.restitution(yield_share), 1.0))
     return in_range("restitution", e)[()]
 
@@ -197,7 +201,7 @@ def yield_pressure(
         restitution, speed, mass, effective_modulus, effective_radius
     )
     v_y = v2 * np.where(e < 1, yielding.yield_velocity(e), 1.0)
-    # The inverse of `_yield_speed`: (a_y/R)^(5/2), then p_y.
+    # The inverse of `unchecked_yield_speed`: (a_y/R)^(5/2), then p_y.
     power = np.sqrt(15 / 16) * v_y * np.sqrt(m2 / modulus / radius) / radius
     return in_range("yield pressure", 2 / np.pi * modulus * power**0.4)[()]
 
@@ -253,13 +257,14 @@ def _checked_impact(
     )
 
 
-def _time_unit(v2: Array, m2: Array, modulus: Array, radius: Array) -> Array:
-    """L/v2 [s], of powers that do not overflow before it does."""
-    time_unit = m2**0.4 / modulus**0.4 / radius**0.2 / v2**0.2
-    return in_range("unit of relaxation time", time_unit)
+def time_unit(v2: _Number, m2: _Number, modulus: _Number, radius: _Number) -> _Number:
+    """L/v2 [s] of arrays or floats that are checked, of powers that do not overflow before it."""
+    return m2**0.4 / modulus**0.4 / radius**0.2 / v2**0.2
 
 
-def _yield_speed(pressure: Array, m2: Array, modulus: Array, radius: Array) -> Array:
-    """v_y [m/s] of checked arrays; it may overflow."""
+def unchecked_yield_speed(
+    pressure: _Number, m2: _Number, modulus: _Number, radius: _Number
+) -> _Number:
+    """v_y [m/s] of arrays or floats that are checked; it may overflow."""
     relative_radius = np.pi / 2 * (pressure / modulus)  # a_y/R
     return np.sqrt(16 / 15 * modulus / m2 * radius) * radius * relative_radius**2.5

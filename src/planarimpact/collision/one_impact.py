@@ -7,18 +7,17 @@ They answer what is left to them here: a bad argument, no approach, no friction,
 
 from collections.abc import Sequence
 from functools import lru_cache
-from math import inf, pi, sqrt
+from math import inf, sqrt
 from typing import Any
 
 import numpy as np
 
-from planarimpact import spheres
+from planarimpact import bodies, spheres
 from planarimpact.bodies import Body
 from planarimpact.collision.mechanics import cross, dot
 from planarimpact.collision.pairs import PLAIN_LEAST, PLAIN_MOST, Pair
 from planarimpact.collision.rungs import table_error
 from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Regime
 from planarimpact.normal_impact import kelvin_voigt, yielding
 from planarimpact.spheres import table
@@ -63,8 +62,15 @@ def collide(
         curvature = (1 / radius if radius else 0.0) + (1 / other_radius if other_radius else 0.0)
         if not curvature:
             return []
-        law, quantity = (_plastic, yield_pressure) if plastic else (_viscous, relaxation_time)
-        e = min(float(law(quantity, v2, m2, modulus, curvature)), 1.0)
+        quantities = m2, modulus, 1 / curvature
+        if plastic:
+            yields_at = bodies.unchecked_yield_speed(yield_pressure, *quantities)
+            found = yielding.restitution(np.array(min(yields_at / v2, 1.0)))
+        else:
+            tau = relaxation_time / bodies.time_unit(v2, *quantities)
+            # Beyond the law its slowest contact, whose restitution the table does not cover.
+            found = kelvin_voigt.restitution(np.array(min(tau, kelvin_voigt.SLOWEST)))
+        e = min(float(found), 1.0)
     b, unit = beta / zeta2, mu * v2
     x = v1 / unit
     y = x / zeta2
@@ -120,16 +126,3 @@ def floats(vector: Any) -> list[float]:
 def _sum(a: Sequence[float], factor: float, b: Sequence[float]) -> list[float]:
     """a + factor b of two vectors."""
     return [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]]
-
-
-def _viscous(tau: float, v2: float, m2: float, modulus: float, curvature: float) -> Array:
-    """As `bodies.viscous_restitution`; below the table's restitutions where that refuses."""
-    time_unit = m2**0.4 / modulus**0.4 * curvature**0.2 / v2**0.2
-    return kelvin_voigt.restitution(np.array(min(tau / time_unit, kelvin_voigt.SLOWEST)))
-
-
-def _plastic(pressure: float, v2: float, m2: float, modulus: float, curvature: float) -> Array:
-    """As `bodies.plastic_restitution`."""
-    radius_share = pi / 2 * (pressure / modulus)
-    yield_speed = sqrt(16 / 15 * modulus / m2 / curvature) / curvature * radius_share**2.5
-    return yielding.restitution(np.array(min(yield_speed / v2, 1.0)))

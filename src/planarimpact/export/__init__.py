@@ -22,6 +22,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from planarimpact import __version__, spheres
+from planarimpact.collision import RESTITUTION_FROM
 from planarimpact.collision.presets import Preset, presets
 from planarimpact.ground import checks, files
 from planarimpact.ground.arrays import Array, ArrayLike, Integers
@@ -43,10 +44,7 @@ BLOCK = re.compile(r"^[^\n]*<(\w+)>[^\n]*\n(.*?)^[^\n]*</\1>[^\n]*\n", re.MULTIL
 # Numbers in a line of a table, and letters in a line of a comment.
 NUMBERS, WIDTH = 12, 99
 # Numbers of a pair of materials.
-PAIR = (
-    *("friction", "stiffness_ratio", "restitution"),
-    *("relaxation_time", "yield_pressure", "effective_modulus"),
-)
+PAIR = ("friction", "stiffness_ratio", *RESTITUTION_FROM, "effective_modulus")
 # Blocks of comments, the sections of spheres.txt.
 WORDS = "about", "constants", "table"
 

@@ -202,10 +202,7 @@ def duration(hertzian: bool) -> float:
     >>> round(duration(hertzian=False), 6), round(duration(hertzian=True), 3)
     (3.141593, 2.943)
     """
-    if not hertzian:
-        return math.pi
-    # Twice the integral of dd/sqrt(1 - d^(5/2)) from 0 to 1.
-    return 2 * math.sqrt(math.pi) * math.gamma(1.4) / math.gamma(0.9)
+    return 2 * hertz.COMPRESSION if hertzian else math.pi
 
 
 def normal_damping(hertzian: bool, told: float) -> float:
