@@ -61,7 +61,7 @@ REPRODUCTION = {
     " run verdict_table figure_table jinja2",
 }
 # The figures have one folder each, and in it files that solve and files that draw.
-DRAWING = ("drawing", "draw_", "slide")
+DRAWING = ("drawing", "draw_")
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and
 # of the reproduction has a door of its own.
