@@ -13,7 +13,7 @@ MEASURED_FILES = [series["path"] for series in MEASURED.values()]
 rule key_numbers:
     """The numbers that several pages state, each computed once."""
     input:
-        plan=planned("key_numbers", "find_key_numbers", "pages", "figures/inelastic/drawing.py",
+        plan=planned("key_numbers", "find_key_numbers", "pages", "figures/inelastic/trials.py",
             "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
             "judging", settings=lambda _: MEASURED, reads=lambda _: MEASURED_FILES),
         tables=[
@@ -40,7 +40,7 @@ rule key_numbers:
 rule note:
     """A note on the replication of the paper, as a page and as a PDF."""
     input:
-        plan=planned("note", "write_note", "pages", "figures/inelastic/drawing.py",
+        plan=planned("note", "write_note", "pages", "figures/inelastic/trials.py",
             "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
             "judging"),
         template="workflow/report/note.html",

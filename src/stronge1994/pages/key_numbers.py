@@ -13,15 +13,14 @@ import numpy as np
 from planarimpact.ground.arrays import Array
 from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Columns, Curves, Row
-from stronge1994.figures.inelastic import drawing as inelastic
-from stronge1994.figures.shared.drawing.house_style import Series
+from stronge1994.figures.inelastic import trials as inelastic
+from stronge1994.figures.shared.drawing.lossy import MODELS
 from stronge1994.ledger import in_nature, outcome
 from stronge1994.ledger.in_nature import Values
 
 COLUMNS = ["name", "value", "what"]
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
-MODELS = tuple(inelastic.MODELS)
+E, BETA_0 = inelastic.E, inelastic.BETA_0
 SOFT, HARD = inelastic.SOFT, inelastic.HARD
 # Models are compared with the finite elements up to this friction, from this restitution on.
 LARGEST_FRICTION, LEAST_RESTITUTION = 0.1, 0.45
@@ -124,26 +123,20 @@ def _elastic(curves: Curves) -> _Numbers:
     yield "elastic.at", lumped[X][distance.argmax()], "incidence at which it is largest"
 
 
-def series_of(measured: Columns) -> Series:
-    """Measured pairs as the figure has them."""
-    sigma = tuple(measured[key.replace(" [1]", "_uncertainty [1]")] for key in (E, BETA_0))
-    return {"x": measured[E], "y": measured[BETA_0], "sigma": sigma, "columns": measured}
-
-
 def _pairs(curves: Curves, measured: Columns) -> _Numbers:
-    series = series_of(measured)
-    yield "pairs.number", len(series["x"]), "measured pairs of materials"
+    yield "pairs.number", len(measured["pair"]), "measured pairs of materials"
     trials = inelastic.trials(curves)
+    spreads = [trial for trial in trials.values() if not trial.without and trial.share == 1]
+    yield "pairs.spreads", len(spreads), "spreads of impacts that were tried"
     for model in MODELS:
-        fits = [inelastic.goodness(curves, model, series, trial) for trial in trials]
-        for trial, fit in zip(trials, fits, strict=True):
-            name = "" if trial is trials[0] else f".{trial.name}"
-            yield f"pairs.{model}{name}.chi2", fit.value, f"chi^2 of the pairs, {trial.name}"
-            yield f"pairs.{model}{name}.p", fit.p, f"its probability, {trial.name}"
-        spreads = [trial for trial in trials if not trial.without and trial.share == 1]
+        for name, trial in trials.items():
+            fit = inelastic.goodness(curves, model, measured, trial)
+            suffix = "" if trial is inelastic.AS_JUDGED else f".{name}"
+            yield f"pairs.{model}{suffix}.chi2", fit.value, f"chi^2 of the pairs, {name}"
+            yield f"pairs.{model}{suffix}.p", fit.p, f"its probability, {name}"
         for suffix, without in (("", ()), (f".{SOFT}", [SOFT]), (".both", [SOFT, HARD])):
             fits = [
-                inelastic.goodness(curves, model, series, trial._replace(without=without))
+                inelastic.goodness(curves, model, measured, trial._replace(without=without))
                 for trial in spreads
             ]
             failed = sum(fit.p <= inelastic.SIGNIFICANCE for fit in fits)
@@ -153,27 +146,27 @@ def _pairs(curves: Curves, measured: Columns) -> _Numbers:
                 for end, value in (("least", min), ("most", max)):
                     number = value(fit.value for fit in fits)
                     yield f"pairs.{model}.{end}", number, f"{end} chi^2 over all spreads"
-    yield "pairs.spreads", len(spreads), "spreads of impacts that were tried"
     others = [pair for pair in measured["pair"] if pair != SOFT]
-    alone = inelastic.Trial(SOFT, without=others)
-    share = inelastic.goodness(curves, "lumped.hysteretic", series, alone).value
+    alone = inelastic.goodness(
+        curves, "lumped.hysteretic", measured, inelastic.Trial(without=others)
+    )
     what = f"what {SOFT} adds to chi^2 of the paper's model"
-    yield f"pairs.lumped.hysteretic.{SOFT}.chi2", share, what
+    yield f"pairs.lumped.hysteretic.{SOFT}.chi2", alone.value, what
     for name, without in (("", []), (".without", [SOFT])):
-        slope, sigma = inelastic.slope(series, without)
+        slope, sigma = inelastic.slope(measured, without)
         what = f"slope of the measured beta_0 against e, without {without or 'none'}"
         yield f"pairs.slope{name}", slope, what
         yield f"pairs.slope{name}.sigma", sigma, "its standard deviation"
-    least, second = np.sort(series["x"])[:2]
+    least, second = np.sort(measured[E])[:2]
     yield "pairs.least_e", least, "smallest restitution of a pair"
     yield "pairs.second_e", second, "smallest restitution but one"
-    soft, hard = (int(np.flatnonzero(measured["pair"] == name)[0]) for name in (SOFT, HARD))
-    for name, place in (("soft", soft), ("hard", hard)):
-        yield f"pairs.{name}.measured", series["y"][place], f"beta_0 of {measured['pair'][place]}"
-        yield f"pairs.{name}.sigma", series["sigma"][1][place], "its uncertainty as stated"
+    for name, pair in (("soft", SOFT), ("hard", HARD)):
+        (place,) = np.flatnonzero(measured["pair"] == pair)
+        yield f"pairs.{name}.measured", measured[BETA_0][place], f"beta_0 of {pair}"
+        yield f"pairs.{name}.sigma", measured[inelastic.SIGMA][place], "its uncertainty as stated"
         for model in MODELS:
             own = curves[f"{model}, pairs"]
-            beta_0 = own[BETA_0][own["pair"] == measured["pair"][place]][0]
+            beta_0 = own[BETA_0][own["pair"] == pair][0]
             yield f"pairs.{name}.{model}", beta_0, "beta_0 computed for it"
 
 
