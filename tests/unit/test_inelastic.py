@@ -43,6 +43,12 @@ def lumped_alone(monkeypatch):
     monkeypatch.setattr(inelastic, "MODELS", ("lumped.hysteretic", "lumped.unloading-stiffness"))
 
 
+@pytest.fixture
+def one_spread(monkeypatch):
+    """Only the spread of impacts by which the pairs are judged."""
+    monkeypatch.setattr(inelastic, "SPREADS", {inelastic.WHOLE: inelastic.Spread()})
+
+
 def beta_0(settings, model="lumped.hysteretic"):
     return inelastic.curves(**settings)[f"{model}, pairs"][BETA_0]
 
@@ -90,7 +96,7 @@ def test_each_material_of_the_pairs_has_moduli(inventory, settings):
     assert ratios[row] == bodies.stiffness_ratio(glass, aluminium)
 
 
-def test_uncertainty_is_that_of_each_parameter_in_quadrature(lumped_alone, settings):
+def test_uncertainty_is_that_of_each_parameter_in_quadrature(lumped_alone, one_spread, settings):
     whole = sigma(settings)
     points, none = settings["points"], [0.0] * len(settings["points"]["pair"])
     exact = {key: [0.0] * len(column) for key, column in settings["uncertainty"].items()}
@@ -206,7 +212,7 @@ def judge(inventory, settings, tmp_path):
 
 
 @pytest.mark.parametrize("power", [1, 0, -2])
-def test_a_wrong_repair_trips_the_gate(power, lumped_alone, judge, monkeypatch):
+def test_a_wrong_repair_trips_the_gate(power, lumped_alone, one_spread, judge, monkeypatch):
     title = "inelastic-lumped.unloading-stiffness-pairs"
     assert judge(title)[title]["verdict"] == "agrees"
     monkeypatch.setattr(models, "rebound", wrong_repair(power))
@@ -214,7 +220,7 @@ def test_a_wrong_repair_trips_the_gate(power, lumped_alone, judge, monkeypatch):
 
 
 def test_a_repair_of_the_model_as_in_the_paper_is_no_silent_change(
-    lumped_alone, judge, monkeypatch
+    lumped_alone, one_spread, judge, monkeypatch
 ):
     """Its difference is known: if it goes away, the entry must go too."""
     title = "inelastic-lumped.hysteretic-pairs"
@@ -230,7 +236,9 @@ def test_a_repair_of_the_model_as_in_the_paper_is_no_silent_change(
     assert judge(title)[title]["verdict"] == "diverges"
 
 
-def test_the_trials_have_the_numbers_of_the_gate(lumped_alone, judge, settings, measured):
+def test_the_trials_have_the_numbers_of_the_gate(
+    lumped_alone, one_spread, judge, settings, measured
+):
     rows = judge("inelastic-lumped.hysteretic-pairs", "inelastic-lumped.unloading-stiffness-pairs")
     found = inelastic.curves(**settings)
     for row in rows.values():
