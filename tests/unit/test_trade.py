@@ -298,7 +298,7 @@ def test_the_picture_says_how_far_times_scatter(named):
     for columns in curves.values():
         columns["scatter_1 [1]"] = columns["scatter_100 [1]"] = np.array([0.06])
     curves["rigid, e = 1"]["scatter_1 [1]"] = np.array([0.42])
-    figure, _ = drawings.drawn(draw_trade, curves, SETTINGS, {})
+    figure = drawings.drawn(draw_trade, curves, SETTINGS, {})
     assert "times scatter by 6 % (median), 42 % at most" in figure.get_suptitle()
 
 

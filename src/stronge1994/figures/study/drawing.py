@@ -41,7 +41,7 @@ NAME = {
     "fontsize": house_style.NOTE,
     "linespacing": house_style.LINES,
 }
-NAME |= {"bbox": PLATE, "label": house_style.NO_DATA}
+NAME |= {"bbox": PLATE}
 LEADER = {"arrowstyle": "-|>", "mutation_scale": 6, "linewidth": 0.6, "color": house_style.BLACK}
 LEADER |= {"shrinkA": 0, "shrinkB": 0}
 

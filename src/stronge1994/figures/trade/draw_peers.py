@@ -51,9 +51,6 @@ LINE, FRAME = 0.22, 1.1
 RESTITUTION_SPACING = 0.27
 
 _Row: TypeAlias = dict[str, Any]
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = draw_trade.AXIS_MEANS | {"error, rms": r"^LAMMPS .*: rms_velocity \[mu v2\(0\)\]"}
-LEGEND_MEANS = draw_trade.LEGEND_MEANS | {"^LAMMPS: see": "^LAMMPS "}
 
 
 class _Line(NamedTuple):
