@@ -16,7 +16,8 @@ from markupsafe import Markup
 from planarimpact.ground.arrays import Array
 from stronge1994 import csv_tables, reference_data, verdict_table
 from stronge1994.csv_tables import Columns, Curves, Row
-from stronge1994.ledger import nature_models, outcome
+from stronge1994.ledger import outcome
+from stronge1994.ledger.finding import LOSSES, MODELS
 from stronge1994.pages import ledger_page, note, which_model
 
 Finding = dict[str, Any]
@@ -84,9 +85,9 @@ def restitution(
     grows = {
         model: numbers[f"nature.reversal_half.{model}"]
         - numbers[f"nature.reversal_elastic.{model}"]
-        for model in nature_models.MODELS
+        for model in MODELS
     }
-    _require(grows["paper"] > 0 > max(grows[loss] for loss in nature_models.LOSSES))
+    _require(grows["paper"] > 0 > max(grows[loss] for loss in LOSSES))
     lines = [
         (style, curves[name][E], curves[name][BETA_0])
         for style, model in (("theirs", "lumped.hysteretic"), ("ours", "continuum.viscous"))

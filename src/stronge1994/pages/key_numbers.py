@@ -15,8 +15,8 @@ from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Columns, Curves, Row
 from stronge1994.figures.inelastic import drawing as inelastic
 from stronge1994.figures.shared.drawing.house_style import Series
-from stronge1994.ledger import in_nature, outcome
-from stronge1994.ledger.in_nature import Values
+from stronge1994.ledger import checking, outcome
+from stronge1994.ledger.checking import Measured
 
 COLUMNS = ["name", "value", "what"]
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
@@ -33,7 +33,7 @@ class Tables(NamedTuple):
 
     verdicts: Sequence[Row]
     ledger: Sequence[Row]
-    nature: Mapping[str, Values]
+    nature: Measured
     fig5: Curves
     fig8: Curves
     inelastic: Curves
@@ -51,7 +51,7 @@ def read(paths: Mapping[str, str], series: Mapping[str, Mapping[str, Any]]) -> T
     return Tables(
         verdicts=rows(paths["verdicts"]),
         ledger=rows(paths["ledger"]),
-        nature=in_nature.read(rows(paths["in_nature"])),
+        nature=checking.read(rows(paths["in_nature"])),
         fig5=curves(paths["fig5"]),
         fig8=curves(paths["fig8"]),
         inelastic=curves(paths["inelastic"]),
@@ -222,7 +222,7 @@ def _others(tables: Tables) -> _Numbers:
     other = [error for name, error in lossy.items() if name.startswith("continuum.")]
     yield "loss.other", max(other), "viscous from plastic continuum, e = 0.8, largest"
     for name, values in tables.nature.items():
-        for model, value in values._asdict().items():
+        for model, value in values.items():
             yield f"nature.{name}.{model}", value, f"measure in nature: {name}, {model}"
 
 
