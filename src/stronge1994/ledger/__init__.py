@@ -18,9 +18,9 @@ import inspect
 from functools import cache
 from importlib import import_module
 
-from stronge1994.ledger.finding import Finding, Judgement, judge
+from stronge1994.ledger.finding import Finding
 
-__all__ = ["Finding", "Judgement", "checks", "judge", "run"]
+__all__ = ["Finding", "checks", "run"]
 
 # Each public function of these is a check.
 MODULES = ("dynamics", "slip", "rebound", "peak_force", "dissipation", "nature")

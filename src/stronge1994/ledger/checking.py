@@ -63,15 +63,15 @@ def _row(name: str, entry: Entry) -> Row:
     row["between"] = " to ".join(f"{bound:g}" for bound in entry.get("between", []))
     try:
         found = ledger.run(entry["check"])
-        judgement = ledger.judge(found, entry)
+        problem = finding.judge(found, entry)
     except Exception as error:
         traceback.print_exc()
         return row | {"holds": "no", "problem": f"{type(error).__name__}: {error}"}
     return row | {
-        "holds": "yes" if judgement.holds else "no",
+        "holds": "no" if problem else "yes",
         "found": f"{found.value:.6g}",
         "corrected": "" if found.corrected is None else f"{found.corrected:.2g}",
-        "problem": judgement.why,
+        "problem": problem,
     }
 
 
@@ -109,9 +109,8 @@ def judge(claim: Mapping[str, Any], measured: Measured) -> str:
         return f"in nature: {', '.join(crashed)} found no number"
     if "check" not in claim:
         return ""
-    values = measured[claim["check"]]
-    judgement = finding.judge_in_nature(values, claim)
-    return "" if judgement.holds else f"in nature: {judgement.why}"
+    problem = finding.judge_in_nature(measured[claim["check"]], claim)
+    return f"in nature: {problem}" if problem else ""
 
 
 def _criterion(confirms: Mapping[str, float]) -> str:
@@ -123,7 +122,7 @@ def _criterion(confirms: Mapping[str, float]) -> str:
 
 
 def table_of(measured: Measured) -> list[Row]:
-    """Rows of the table of what the checks of `nature` find, with the columns `outcome.OF_NATURE`."""
+    """Rows of the table of what the checks of `nature` find, by `outcome.OF_NATURE`."""
     return [
         {"measure": name, "what": ledger.checks()[f"nature.{name}"]}
         | {model: f"{value:.12g}" for model, value in values.items()}

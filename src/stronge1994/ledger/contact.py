@@ -7,6 +7,7 @@ Generators of contacts, `initial_stick` to `slip_throughout`, are the places at 
 equation is compared with the model.
 """
 
+import inspect
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple, TypeVar
 
@@ -59,11 +60,18 @@ class State(NamedTuple):
     u1: Array
 
 
+# Of a contact without such an event.
+NEVER = State(*5 * [np.array(np.nan)])
+
+
 class Contact:
-    """A solved contact: its parameters, its `path` (states at all samples), and its `events`.
+    """A solved contact: its symbols, its `path` (states at all samples), and its `events`.
+
+    The symbols are named as in `stronge1994.printed`. Instants are named as in the paper, t2 at the
+    start of stick, t1 or t3 at the onset of the last slip; they are nan where there is none.
 
     >>> impact = Contact(1.0)
-    >>> bool(impact.v1 < 0 and impact.start.t == 0)
+    >>> bool(impact.v1 < 0 and impact.t2 == 0)
     True
     """
 
@@ -91,10 +99,21 @@ class Contact:
         self.groups = incidence, mass_ratio, stiffness_ratio, restitution
         self.m1 = self.m2 / mass_ratio
         self.v1 = incidence * self.velocity_scale
+        self.slope = self.v1 / self.v2
         self.tangential_frequency = np.sqrt(self.stiffness / (stiffness_ratio * self.m1))
         history = once(lumped.history, *self.groups, samples=samples)
         self.path = self._state(history)
         self.events = [(event.kind, self._state(event)) for event in history.events]
+        first, last = dict(reversed(self.events)), dict(self.events)
+        self.top = first[EventKind.MAXIMUM_COMPRESSION]
+        self.end = last[EventKind.SEPARATION]
+        self.start = first.get(EventKind.STICK, NEVER)
+        self.onset = last.get(EventKind.SLIP, NEVER)
+        self.t2, self.v1_t2, self.u1_t2 = self.start.t, self.start.v1, self.start.u1
+        self.t1 = self.t3 = self.onset.t
+        self.v1_t1 = self.v1_t3 = self.onset.v1
+        # s of the last slip, from the force there: F1 = -mu s F2.
+        self.slip_direction = -float(np.sign(self.onset.force_1))
 
     def _state(self, event_or_history: Event | History) -> State:
         return State(
@@ -105,29 +124,16 @@ class Contact:
             np.asarray(event_or_history.spring) * -self.velocity_scale / self.normal_frequency,
         )
 
-    def first(self, kind: EventKind) -> State:
-        """State at the first event of a kind."""
-        return next(state for event_kind, state in self.events if event_kind == kind)
+    def printed(self, formula: Callable[..., Any], **others: Numbers | Sequence[int]) -> Any:
+        """A formula of `stronge1994.printed` with the symbols of this contact.
 
-    @property
-    def start(self) -> State:
-        """State where the first stick begins."""
-        return self.first(EventKind.STICK)
+        `others` are arguments that a contact does not have, or that take the place of its own.
 
-    @property
-    def top(self) -> State:
-        """State of maximum compression."""
-        return self.first(EventKind.MAXIMUM_COMPRESSION)
-
-    @property
-    def onset(self) -> State:
-        """State where the last slip begins."""
-        return [state for kind, state in self.events if kind == EventKind.SLIP][-1]
-
-    @property
-    def end(self) -> State:
-        """State at separation."""
-        return self.first(EventKind.SEPARATION)
+        >>> Contact(8.0).printed(slip.eq_27_rebound)
+        1.0
+        """
+        names = inspect.signature(formula).parameters
+        return formula(**{n: others[n] if n in others else getattr(self, n) for n in names})
 
     def between(self, start: Numbers, end: Numbers) -> State:
         """States of the path from one time to another, both included."""
@@ -135,38 +141,28 @@ class Contact:
         return State(*(column[inside] for column in self.path))
 
     @property
-    def stick(self) -> State:
-        """States of the path from the first stick to the last slip."""
-        return self.between(self.start.t, self.onset.t)
-
-    @property
-    def last_slip(self) -> State:
-        """States of the path in the last slip."""
-        return self.between(self.onset.t, self.end.t)
-
-    @property
-    def last_slip_direction(self) -> float:
-        """s of the last slip, from the force there: F1 = -mu s F2."""
-        return -float(np.sign(self.onset.force_1))
-
-    @property
     def rebound(self) -> Rebound:
         """The rebound by `lumped.rebound`, which is not computed from the path."""
         return once(lumped.rebound, *self.groups)
 
     @property
-    def final_velocity(self) -> float:
+    def final(self) -> float:
         """v1(tf), of `rebound`."""
         return float(self.rebound.velocity) * self.velocity_scale
 
     def impulse(self, t: Numbers) -> Array:
         """p(t) by Table 1."""
-        groups = self.v2, self.m2, self.normal_frequency, self.restitution
-        return dynamics.table_1_impulse(t, *groups)
+        return self.printed(dynamics.table_1_impulse, t=t)
 
-    def impulse_left(self, t: Numbers) -> Array:
-        """p(tf) - p(t), by Table 1."""
-        return -(1 + self.restitution) * self.m2 * self.v2 - self.impulse(t)
+    @property
+    def impulse_left(self) -> Array:
+        """p(tf) less p at the onset of the last slip, by Table 1."""
+        return -(1 + self.restitution) * self.m2 * self.v2 - self.impulse(self.t1)
+
+    @property
+    def g1(self) -> Array:
+        """Normal impulse after t1 over that of compression, by the formula after Eq. 14."""
+        return self.printed(slip.impulse_ratio)
 
     def integral(self, values: Array) -> Array:
         """Integral over time of values along the path, piece by piece between its kinks.
@@ -187,33 +183,25 @@ class Contact:
         return result
 
 
-class NormalMotion(NamedTuple):
-    """Normal impulse, velocity, displacement and work along one contact, by quadrature."""
+class NormalMotion(Contact):
+    """A contact with its normal motion by quadrature, all along the path.
 
-    impact: Contact
-    impulse: Array
-    velocity: Array
-    displacement: Array
-    work: Array
+    `brought` is the normal impulse; `at_top` is the index of maximum compression.
+    """
 
-    @property
-    def top(self) -> int:
-        """Index of maximum compression."""
-        return int(np.flatnonzero(self.impact.path.t == self.impact.compression_time)[0])
-
-
-def normal_motion(impact: Contact) -> NormalMotion:
-    """Normal motion of a contact; good to 1e-9 with 4001 samples."""
-    force = impact.path.force_2
-    impulse = impact.integral(force)
-    velocity = impact.v2 + impulse / impact.m2
-    displacement, work = impact.integral(velocity), impact.integral(force * velocity)
-    return NormalMotion(impact, impulse, velocity, displacement, work)
+    def __init__(self, *groups: Any, **settings: Any) -> None:
+        super().__init__(*groups, **settings)
+        force = self.path.force_2
+        self.brought = self.integral(force)
+        self.velocity = self.v2 + self.brought / self.m2
+        self.displacement = self.integral(self.velocity)
+        self.work = self.integral(force * self.velocity)
+        self.at_top = int(np.flatnonzero(self.path.t == self.compression_time)[0])
 
 
 def normal_motions(restitutions: Sequence[float] = RESTITUTIONS) -> Iterator[NormalMotion]:
-    """Normal motions of the paper's sphere."""
-    return (normal_motion(Contact(0.7, restitution=e, samples=4001)) for e in restitutions)
+    """Normal motions of the paper's sphere, good to 1e-9."""
+    return (NormalMotion(0.7, restitution=e, samples=4001) for e in restitutions)
 
 
 def of_sphere(*incidences: float, **settings: float) -> Callable[[], list[Contact]]:
@@ -252,12 +240,12 @@ def with_stick() -> Iterator[Contact]:
 
 def reversed_after_stick() -> Iterator[Contact]:
     """Contacts of initial stick whose last slip runs against the incident direction, s = +1."""
-    return (impact for impact in initial_stick() if impact.last_slip_direction > 0)
+    return (impact for impact in initial_stick() if impact.slip_direction > 0)
 
 
 def reversed_after_slip() -> Iterator[Contact]:
     """Contacts that slip, stick and slip back, s = +1."""
-    return (impact for impact in slip_stick_slip() if impact.last_slip_direction > 0)
+    return (impact for impact in slip_stick_slip() if impact.slip_direction > 0)
 
 
 def slip_throughout() -> Iterator[Contact]:

@@ -34,11 +34,10 @@ def kinetic_energy(clockwise: float) -> Gaps:
 @over(contact.normal_motions)
 def hysteresis(motion: NormalMotion) -> Gaps:
     """Eqs 36 and 37 against the normal kinetic energy that the exact contact loses."""
-    impact, e = motion.impact, motion.impact.restitution
-    kinetic = impact.m2 * impact.v2**2 / 2
-    lost = kinetic - impact.m2 * motion.velocity[-1] ** 2 / 2
-    yield (dissipation.eq_36_hysteresis(impact.m2, impact.v2, e) - lost) / kinetic
-    yield dissipation.eq_37_hysteresis_share(e) - lost / kinetic
+    kinetic = _normal(motion)
+    lost = kinetic - motion.m2 * motion.velocity[-1] ** 2 / 2
+    yield (motion.printed(dissipation.eq_36_hysteresis) - lost) / kinetic
+    yield motion.printed(dissipation.eq_37_hysteresis_share) - lost / kinetic
 
 
 def _tangential(impact: Contact) -> float:
@@ -73,11 +72,11 @@ def friction_after_stick(impact: Contact) -> tuple[ArrayLike, float]:
     Of the two signs before the impulse, minus and the plus of the scan, the nearer one counts.
     Corrected: the minus, with s, and the tangential strain energy at t1.
     """
-    onset, s = impact.onset, impact.last_slip_direction
-    left, groups = impact.impulse_left(onset.t), (impact.friction, impact.m1)
-    printed = [dissipation.eq_38_friction(onset.v1, left, *groups, sign) for sign in (-1, 1)]
-    lost = dissipation.eq_38_friction(onset.v1, s * left, *groups, -1) + _spring(impact, onset)
-    return [_gap(impact, reading) for reading in printed], _gap(impact, lost)
+    printed = [impact.printed(dissipation.eq_38_friction, sign=sign) for sign in (-1, 1)]
+    left = impact.slip_direction * impact.impulse_left
+    right = impact.printed(dissipation.eq_38_friction, impulse_left=left, sign=-1)
+    right += _spring(impact, impact.onset)
+    return [_gap(impact, lost) for lost in printed], _gap(impact, right)
 
 
 @corrected_over(contact.initial_stick)
@@ -87,14 +86,12 @@ def friction_after_stick_in_groups(impact: Contact) -> tuple[ArrayLike, float]:
     With the leading sign that comes nearer. In the corrected formula the sign is minus, s g1 takes
     the place of g1, and mu^2 zeta^2 sin^2(alpha) at t1 is added.
     """
-    onset, half = impact.onset, _normal(impact)
-    swing = np.cos(impact.tangential_frequency * onset.t)
-    g1 = slip.impulse_ratio(onset.t, impact.normal_frequency, impact.restitution)
-    groups = impact.mass_ratio, impact.friction
-    lost = dissipation.eq_39_friction(impact.incidence, swing, g1, *groups)
-    signed = impact.last_slip_direction * g1
-    right = dissipation.eq_39_friction(impact.incidence, swing, signed, *groups)
-    right += impact.stiffness_ratio * (impact.friction * onset.force_2 / impact.force_scale) ** 2
+    half, swing = _normal(impact), np.cos(impact.tangential_frequency * impact.t1)
+    lost = impact.printed(dissipation.eq_39_friction, swing=swing)
+    signed = impact.slip_direction * impact.g1
+    right = impact.printed(dissipation.eq_39_friction, swing=swing, g1=signed)
+    force = impact.friction * impact.onset.force_2 / impact.force_scale
+    right += impact.stiffness_ratio * force**2
     return [_gap(impact, sign * lost * half) for sign in (1, -1)], _gap(impact, right * half)
 
 
@@ -105,22 +102,27 @@ def friction_of_two_slips(impact: Contact) -> tuple[ArrayLike, float]:
     With the signs before v1(t2)^2, v1(t3)^2 and v1(tf)^2 that come nearest. Corrected: the signs
     are minus, plus and minus, strain energy at t3 comes in, and strain energy at t2 goes out.
     """
-    start, onset, scale = impact.start, impact.onset, impact.velocity_scale
-    velocities = start.v1 / scale, onset.v1 / scale, impact.final_velocity / scale
-    groups = impact.incidence, *velocities, impact.mass_ratio, impact.friction
-    readings = {
-        signs: dissipation.eq_40_friction(*groups, signs) * _normal(impact)
-        for signs in product((-1, 1), repeat=3)
-    }
-    right = readings[-1, 1, -1] + _spring(impact, onset) - _spring(impact, start)
-    return [_gap(impact, lost) for lost in readings.values()], _gap(impact, right)
+    scale = impact.velocity_scale
+
+    def printed(*signs: int) -> float:
+        lost = impact.printed(
+            dissipation.eq_40_friction,
+            v1_t2=impact.v1_t2 / scale,
+            v1_t3=impact.v1_t3 / scale,
+            final=impact.final / scale,
+            signs=signs,
+        )
+        return lost * _normal(impact)
+
+    right = printed(-1, 1, -1) + _spring(impact, impact.onset) - _spring(impact, impact.start)
+    readings = [printed(*signs) for signs in product((-1, 1), repeat=3)]
+    return [_gap(impact, lost) for lost in readings], _gap(impact, right)
 
 
 @over(contact.slip_throughout)
 def friction_of_slip_throughout(impact: Contact) -> Gaps:
     """Eq. 41 against the exact energy lost above x = (1 + e) beta."""
-    groups = impact.incidence, impact.mass_ratio, impact.friction, impact.restitution
-    yield _gap(impact, dissipation.eq_41_friction(*groups) * _normal(impact))
+    yield _gap(impact, impact.printed(dissipation.eq_41_friction) * _normal(impact))
 
 
 @corrected_over(contact.of_sphere(2.0, 3.0, 4.5))
@@ -130,15 +132,14 @@ def theorem(impact: Contact) -> tuple[ArrayLike, float]:
     Over m1 v1(0)^2/2, the work by quadrature along exact contacts. Corrected: less the tangential
     strain energy gained.
     """
-    start, path = impact.start, impact.path
-    first = path.t <= start.t
+    path, first = impact.path, impact.path.t <= impact.t2
     on_body = impact.integral(path.force_1 * path.v1)[first][-1]
     # F1 is proportional to u1, so the trapezoidal rule is exact.
     on_spring = np.trapezoid(path.force_1[first], path.u1[first])
-    impulse = impact.m1 * (start.v1 - impact.v1)
-    gap = dissipation.footnote_theorem(impact.v1, start.v1, impulse) + (on_body + on_spring)
+    impulse = impact.m1 * (impact.v1_t2 - impact.v1)
+    gap = dissipation.footnote_theorem(impact.v1, impact.v1_t2, impulse) + (on_body + on_spring)
     unit = _tangential(impact)
-    return gap / unit, float((gap - _spring(impact, start)) / unit)
+    return gap / unit, float((gap - _spring(impact, impact.start)) / unit)
 
 
 @over(contact.with_stick)
@@ -157,7 +158,7 @@ def body_velocity_alone() -> Finding:
     ratios = []
     for share in (0.02, 0.2, 0.4, 0.6, 0.8, 0.99):
         impact = Contact(share * contact.STIFFNESS_RATIO)
-        change = impact.m1 * (impact.onset.v1**2 - impact.final_velocity**2) / 2
+        change = impact.m1 * (impact.v1_t1**2 - impact.final**2) / 2
         ratios.append(change / _exact(impact))
     return Finding(float(min(ratios)))
 
@@ -175,7 +176,7 @@ def strain_decreases() -> Finding:
     """
     rises = []
     for impact in contact.slip_stick_slip():
-        path = impact.last_slip
+        path = impact.between(impact.t3, impact.end.t)
         # Energy of the normal element, with the stiffness kappa/e^2 of restitution.
         normal = impact.restitution**2 * path.force_2**2 / (2 * impact.stiffness)
         for energy in (_spring(impact, path), normal):
@@ -188,8 +189,8 @@ def losses_decoupled(e: float) -> Gaps:
     """Spread of the hysteresis over m2 v2(0)^2/2 with incidence and zeta^2, collinear impact."""
     shares = []
     for x, zeta2 in ((0.3, 1.21), (2.0, 1.21), (8.0, 1.21), (2.0, 0.5)):
-        motion = contact.normal_motion(Contact(x, contact.MASS_RATIO, zeta2, e, samples=2001))
-        shares.append(-motion.work[-1] / _normal(motion.impact))
+        motion = NormalMotion(x, contact.MASS_RATIO, zeta2, e, samples=2001)
+        shares.append(-motion.work[-1] / _normal(motion))
     yield np.ptp(shares)
 
 

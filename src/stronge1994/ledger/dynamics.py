@@ -63,9 +63,7 @@ def off_diagonal() -> Finding:
 @over(lambda: [Contact(zeta2 / 2, beta, zeta2, samples=2001) for beta, zeta2 in contact.PAIRS])
 def frequencies(impact: Contact) -> Gaps:
     """Eq. 4: compression takes up the normal momentum in t_c; stick swings with omega."""
-    normal, tangential = dynamics.eq_4_frequencies(
-        impact.m1, impact.m2, impact.stiffness, impact.stiffness_ratio
-    )
+    normal, tangential = impact.printed(dynamics.eq_4_frequencies)
     top = impact.top
     impulse = impact.integral(impact.path.force_2)[impact.path.t == top.t]
     yield impulse / impact.compression_impulse - 1
@@ -76,32 +74,31 @@ def frequencies(impact: Contact) -> Gaps:
 @over(contact.normal_motions)
 def restitution(motion: NormalMotion) -> Gaps:
     """Eq. 5: works of the normal force along exact contacts give e back."""
-    absorbed = motion.work[motion.top]
+    absorbed = motion.work[motion.at_top]
     e = dynamics.eq_5_restitution(absorbed, motion.work[-1] - absorbed)
-    yield e - motion.impact.restitution
+    yield e - motion.restitution
 
 
 @over(contact.normal_motions)
 def normal_velocity(motion: NormalMotion) -> Gaps:
     """Eqs 6a and 6b against the momentum that the exact normal force has brought."""
-    impact, t = motion.impact, motion.impact.path.t
-    early = dynamics.eq_6a_normal_velocity(t, impact.v2, impact.normal_frequency)
-    late = dynamics.eq_6b_normal_velocity(t, impact.v2, impact.normal_frequency, impact.restitution)
-    printed = np.where(t <= impact.compression_time, early, late)
-    yield (printed - motion.velocity) / impact.v2
+    t = motion.path.t
+    early = motion.printed(dynamics.eq_6a_normal_velocity, t=t)
+    late = motion.printed(dynamics.eq_6b_normal_velocity, t=t)
+    printed = np.where(t <= motion.compression_time, early, late)
+    yield (printed - motion.velocity) / motion.v2
 
 
 @over(contact.normal_motions)
 def table_1(motion: NormalMotion) -> Gaps:
     """All rows of Table 1 against the exact normal force and its integrals."""
-    impact, t = motion.impact, motion.impact.path.t
-    v2, m2, omega, e = impact.v2, impact.m2, impact.normal_frequency, impact.restitution
-    force = dynamics.table_1_force(t, v2, m2, omega, e)
-    yield (force - impact.path.force_2) / impact.force_scale
-    yield (dynamics.table_1_impulse(t, v2, m2, omega, e) - motion.impulse) / (m2 * v2)
-    yield (dynamics.table_1_velocity(t, v2, omega, e) - motion.velocity) / v2
-    displacement = dynamics.table_1_displacement(t, v2, omega, e)
-    yield (displacement - motion.displacement) * omega / v2
+    t = motion.path.t
+    force = motion.printed(dynamics.table_1_force, t=t)
+    displacement = motion.printed(dynamics.table_1_displacement, t=t)
+    yield (force - motion.path.force_2) / motion.force_scale
+    yield (motion.impulse(t) - motion.brought) / motion.compression_impulse
+    yield (motion.printed(dynamics.table_1_velocity, t=t) - motion.velocity) / motion.v2
+    yield (displacement - motion.displacement) * motion.normal_frequency / motion.v2
 
 
 @over(lambda: contact.RESTITUTIONS)
@@ -114,34 +111,31 @@ def duration(e: float) -> Gaps:
 @over(contact.normal_motions)
 def final_indentation(motion: NormalMotion) -> Gaps:
     """u2(tf) over u2(t_c) by quadrature of the exact force, against 1 - e^2."""
-    left = motion.displacement[-1] / motion.displacement[motion.top]
-    yield left - (1 - motion.impact.restitution**2)
+    left = motion.displacement[-1] / motion.displacement[motion.at_top]
+    yield left - (1 - motion.restitution**2)
 
 
 @over(contact.normal_motions)
 def stored_work(motion: NormalMotion) -> Gaps:
     """Work at t_c over F2(t_c) u2(t_c)/2, and slope of unloading over kappa/e^2, less 1."""
-    impact, top, depth = motion.impact, motion.top, motion.displacement
-    force = impact.path.force_2[top]
-    yield motion.work[top] / (force * depth[top] / 2) - 1
-    unloading = force / (depth[-1] - depth[top])
-    yield unloading / (impact.stiffness / impact.restitution**2) - 1
+    force, depth = motion.top.force_2, motion.displacement
+    yield motion.work[motion.at_top] / (force * depth[motion.at_top] / 2) - 1
+    unloading = force / (depth[-1] - depth[motion.at_top])
+    yield unloading / (motion.stiffness / motion.restitution**2) - 1
 
 
 @over(contact.normal_motions)
 def velocity_continuous(motion: NormalMotion) -> Gaps:
     """Eqs 6a and 6b at t_c, over v2(0), and the momentum brought till then."""
-    impact = motion.impact
-    groups = impact.compression_time, impact.v2, impact.normal_frequency
-    yield dynamics.eq_6a_normal_velocity(*groups) / impact.v2
-    yield dynamics.eq_6b_normal_velocity(*groups, impact.restitution) / impact.v2
-    yield motion.velocity[motion.top] / impact.v2
+    for formula in (dynamics.eq_6a_normal_velocity, dynamics.eq_6b_normal_velocity):
+        yield motion.printed(formula, t=motion.compression_time) / motion.v2
+    yield motion.velocity[motion.at_top] / motion.v2
 
 
 @corrected_over(lambda: contact.normal_motions((0.3, 0.6, 0.9)))
 def hysteresis_caption(motion: NormalMotion) -> tuple[ArrayLike, float]:
     """Share of the absorbed energy that is lost, less the ratio of areas, e^2 (Fig. 2)."""
-    lost, kept = motion.work[-1] / motion.work[motion.top], motion.impact.restitution**2
+    lost, kept = motion.work[-1] / motion.work[motion.at_top], motion.restitution**2
     return lost - kept, lost - (1 - kept)
 
 
@@ -157,11 +151,13 @@ def normal_independence(e: float) -> Gaps:
 
 @over(contact.with_stick)
 def _stick_of_contacts(impact: Contact) -> Gaps:
-    start, path, omega = impact.start, impact.stick, impact.tangential_frequency
-    elapsed, speed, initial = path.t - start.t, -impact.velocity_scale, (start.u1, start.v1)
-    force = dynamics.eq_7c_force(elapsed, *initial, impact.m1, omega)
-    yield (dynamics.eq_7a_deflection(elapsed, *initial, omega) - path.u1) * omega / speed
-    yield (dynamics.eq_7b_velocity(elapsed, *initial, omega) - path.v1) / speed
+    path, omega = impact.between(impact.t2, impact.t3), impact.tangential_frequency
+    initial = {"elapsed": path.t - impact.t2, "u1": impact.u1_t2, "v1": impact.v1_t2}
+    u1 = impact.printed(dynamics.eq_7a_deflection, **initial)
+    v1 = impact.printed(dynamics.eq_7b_velocity, **initial)
+    force = impact.printed(dynamics.eq_7c_force, **initial)
+    yield (u1 - path.u1) * omega / impact.velocity_scale
+    yield (v1 - path.v1) / impact.velocity_scale
     yield (force - path.force_1) / impact.friction_scale
 
 
@@ -214,21 +210,21 @@ def friction_cone(impact: Contact) -> Gaps:
 @over(contact.with_stick)
 def slip_force(impact: Contact) -> Gaps:
     """Eq. 8 along the last slip, with s from the velocity of the particle."""
-    path, direction = impact.last_slip, impact.last_slip_direction
-    tangential, normal = dynamics.eq_8_impulse(path.force_2, impact.friction, direction)
+    path = impact.between(impact.t3, impact.end.t)
+    tangential, normal = impact.printed(dynamics.eq_8_impulse, normal_impulse=path.force_2)
     yield (tangential - path.force_1) / impact.friction_scale
     yield normal / path.force_2.max() - path.force_2 / path.force_2.max()
     slipped = path.v1[:-1] * np.diff(path.t) + np.diff(path.u1)
-    yield np.minimum(direction * np.sum(slipped), 0.0)
+    yield np.minimum(impact.slip_direction * np.sum(slipped), 0.0)
 
 
 @over(contact.with_stick)
 def velocity_slope(impact: Contact) -> Gaps:
     """Eq. 9 along the last slip: dv1/dp, with p(t) of Table 1."""
-    path, inverse = impact.last_slip, np.diag([1 / impact.m1, 1 / impact.m2])
+    path = impact.between(impact.t3, impact.end.t)
     impulse = impact.impulse(path.t) - impact.impulse(path.t[0])
-    slope = dynamics.eq_9_velocity_slope(inverse, impact.friction, impact.last_slip_direction)
+    inverse = np.diag([1 / impact.m1, 1 / impact.m2])
+    slope = impact.printed(dynamics.eq_9_velocity_slope, inverse_mass=inverse)
     yield (path.v1[0] + slope[0] * impulse - path.v1) / impact.velocity_scale
-    groups = impact.v2, impact.normal_frequency, impact.restitution
-    v2 = dynamics.table_1_velocity(path.t, *groups)
+    v2 = impact.printed(dynamics.table_1_velocity, t=path.t)
     yield (slope[1] * impulse[-1] - (v2[-1] - v2[0])) / impact.v2

@@ -37,14 +37,6 @@ class Finding(NamedTuple):
     corrected: float | None = None
 
 
-class Judgement(NamedTuple):
-    """The verdict that a finding supports, whether the entry holds, and why if it does not."""
-
-    verdict: str
-    holds: bool
-    why: str
-
-
 def largest(values: Iterable[ArrayLike]) -> float:
     """Largest absolute value of numbers and arrays; nan stays nan.
 
@@ -121,27 +113,27 @@ def verdict(value: float, confirms: Mapping[str, float]) -> str:
     return CONFIRMED if good else WRONG
 
 
-def judge(finding: Finding, entry: Mapping[str, Any]) -> Judgement:
-    """Judge whether an entry of the ledger still holds.
+def judge(finding: Finding, entry: Mapping[str, Any]) -> str:
+    """Why an entry of the ledger no longer holds; empty if it does.
 
     The entry has `verdict`, `confirms`, and where the verdict is wrong `between`, bounds of
     `value` on both sides. Where there is a corrected formula it must be exact.
 
     >>> entry = {"verdict": "wrong", "confirms": {"at_most": 1e-9}, "between": [1.1, 1.3]}
-    >>> judge(Finding(1.2, 1e-14), entry).holds
-    True
-    >>> print(judge(Finding(0.0, 1e-14), entry).why)
-    recorded as wrong, found confirmed
+    >>> judge(Finding(1.2, 1e-14), entry)
+    ''
+    >>> judge(Finding(0.0, 1e-14), entry)
+    'recorded as wrong, found confirmed'
     """
     supported = verdict(finding.value, entry["confirms"])
     complaints = _complaints(entry, supported, {"": finding.value}, {"": entry.get("between")})
     if finding.corrected is not None and not finding.corrected <= EXACT:
         complaints.append(f"the corrected formula is off by {finding.corrected:.2g}")
-    return Judgement(supported, not complaints, "; ".join(complaints))
+    return "; ".join(complaints)
 
 
-def judge_in_nature(values: Mapping[str, float], claim: Mapping[str, Any]) -> Judgement:
-    """Judge whether the recorded verdict on a statement in nature still holds.
+def judge_in_nature(values: Mapping[str, float], claim: Mapping[str, Any]) -> str:
+    """Why the recorded verdict on a statement in nature no longer holds; empty if it does.
 
     It stands if it is true for both losses, fails if it is false for both, and otherwise depends
     on the loss. `values` has what the claim's check finds with each loss; where the statement does
@@ -149,16 +141,15 @@ def judge_in_nature(values: Mapping[str, float], claim: Mapping[str, Any]) -> Ju
 
     >>> claim = {"verdict": "fails", "confirms": {"at_most": 0.01},
     ...          "between": {"viscous": [0.1, 0.2], "plastic": [0.2, 0.3]}}
-    >>> judge_in_nature({"viscous": 0.15, "plastic": 0.25}, claim).holds
-    True
-    >>> print(judge_in_nature({"viscous": 0.0, "plastic": 0.25}, claim).why)
-    recorded as fails, found depends on the loss
+    >>> judge_in_nature({"viscous": 0.15, "plastic": 0.25}, claim)
+    ''
+    >>> judge_in_nature({"viscous": 0.0, "plastic": 0.25}, claim)
+    'recorded as fails, found depends on the loss'
     """
     of_losses = {loss: values[loss] for loss in LOSSES}
     truths = {verdict(value, claim["confirms"]) == CONFIRMED for value in of_losses.values()}
     supported = DEPENDS if len(truths) > 1 else STANDS if truths == {True} else FAILS
-    complaints = _complaints(claim, supported, of_losses, claim.get("between", {}))
-    return Judgement(supported, not complaints, "; ".join(complaints))
+    return "; ".join(_complaints(claim, supported, of_losses, claim.get("between", {})))
 
 
 def _complaints(

@@ -8,6 +8,7 @@ and the elastic normal stiffness of the paper's contact is that of unloading, ka
 """
 
 from collections.abc import Sequence
+from types import ModuleType
 
 import numpy as np
 from scipy.integrate import cumulative_simpson
@@ -21,8 +22,13 @@ from stronge1994.ledger.contact import MASS_RATIO, STIFFNESS_RATIO
 from stronge1994.ledger.finding import PAPER, PLASTIC, UNLOADING_STIFFNESS, VISCOUS, Finding
 from stronge1994.printed import dissipation, slip
 
-# The loss of each lumped model.
-LUMPED = {PAPER: "hysteretic", UNLOADING_STIFFNESS: "unloading-stiffness"}
+# Solver and loss of each model.
+SOLVERS: dict[str, tuple[ModuleType, str]] = {
+    PAPER: (lumped, "hysteretic"),
+    UNLOADING_STIFFNESS: (lumped, "unloading-stiffness"),
+    VISCOUS: (continuum, "viscous"),
+    PLASTIC: (continuum, "plastic"),
+}
 # Error of the continua. It is small compared with every bound of the ledger.
 TOLERANCE = 1e-3
 RESTITUTIONS = np.array([0.5, 0.6, 0.7, 0.8, 0.9, 1.0])
@@ -44,19 +50,16 @@ def _rebound(model: str, x: ArrayLike, e: ArrayLike) -> Rebound:
     >>> [round(float(_rebound(model, 3.0, 0.5).velocity), 1) for model in MODELS]
     [-2.0, -0.6, -0.6, -0.8]
     """
-    if model in LUMPED:
-        return contact.once(lumped.rebound, x, *contact.SPHERE, e, loss=LUMPED[model])
-    settings = {"loss": model, "tolerance": TOLERANCE}
-    return contact.once(continuum.rebound, x, *contact.SPHERE, e, **settings)
+    solver, loss = SOLVERS[model]
+    settings: dict[str, float | str] = {} if solver is lumped else {"tolerance": TOLERANCE}
+    return contact.once(solver.rebound, x, *contact.SPHERE, e, loss=loss, **settings)
 
 
 def _history(model: str, x: float, e: float) -> History | ContinuumHistory:
     """One contact of a model."""
-    if model in LUMPED:
-        settings = {"loss": LUMPED[model], "samples": 513}
-        return contact.once(lumped.history, x, *contact.SPHERE, e, **settings)
-    settings = {"loss": model, "tolerance": TOLERANCE}
-    return contact.once(continuum.history, x, *contact.SPHERE, e, **settings)
+    solver, loss = SOLVERS[model]
+    settings = {"samples": 513} if solver is lumped else {"tolerance": TOLERANCE}
+    return contact.once(solver.history, x, *contact.SPHERE, e, loss=loss, **settings)
 
 
 def _histories(model: str, incidences: Sequence[float]) -> list[list[History | ContinuumHistory]]:

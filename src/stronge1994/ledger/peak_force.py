@@ -41,11 +41,6 @@ def _forces(model: Model, friction: float) -> Array:
     return friction * np.cos(theta) * model(np.tan(theta) / friction).peak_friction
 
 
-def _slope(impact: Contact) -> float:
-    """v1(0)/v2(0)."""
-    return impact.v1 / impact.v2
-
-
 def _over_speed(impact: Contact) -> float:
     """m2 Omega S(0), the scale of printed forces."""
     return float(impact.m2 * impact.normal_frequency * np.hypot(impact.v1, impact.v2))
@@ -61,22 +56,20 @@ def normal(impact: Contact) -> Gaps:
     """Eq. 28 against the exact normal force, which is largest at t_c."""
     top = impact.top.force_2
     exact = top / _over_speed(impact) if top == impact.path.force_2.max() else np.nan
-    yield (peak_force.eq_28_normal(_slope(impact)) - exact) / impact.friction
+    yield (impact.printed(peak_force.eq_28_normal) - exact) / impact.friction
 
 
 @over(contact.initial_stick)
 def stick(impact: Contact) -> Gaps:
     """Eq. 29 against the exact peak of friction, initial stick."""
-    printed = peak_force.eq_29_friction(impact.v1, impact.m1, impact.tangential_frequency)
-    yield printed / _peak(impact) - 1
+    yield impact.printed(peak_force.eq_29_friction) / _peak(impact) - 1
 
 
 @over(contact.initial_stick)
 def stick_over_speed(impact: Contact) -> Gaps:
     """Eq. 30 against the exact peak of friction, initial stick."""
-    groups = _slope(impact), impact.mass_ratio, impact.stiffness_ratio
     exact = _peak(impact) / _over_speed(impact)
-    yield (peak_force.eq_30_friction(*groups) - exact) / impact.friction
+    yield (impact.printed(peak_force.eq_30_friction) - exact) / impact.friction
 
 
 @over(lambda: [Contact(zeta2 / 2, beta, zeta2, samples=2001) for beta, zeta2 in contact.PAIRS])
@@ -90,16 +83,19 @@ def stick_velocity(impact: Contact) -> Gaps:
 
 def _values_of_eq_32(impact: Contact) -> tuple[Array, Array]:
     """Both values of Eq. 32 at the exact start of stick."""
-    groups = impact.incidence, impact.mass_ratio, impact.stiffness_ratio
-    return peak_force.eq_32_start(impact.normal_frequency * impact.start.t, *groups)
+    return impact.printed(peak_force.eq_32_start, angle=impact.normal_frequency * impact.t2)
 
 
 def _eq_31(impact: Contact, stretch: Numbers, velocity: Numbers) -> tuple[State, Array]:
     """States of the stick after the first slip, and Eq. 31 there, in mu F2max."""
-    path, omega = impact.stick, impact.normal_frequency
-    ratio = impact.tangential_frequency / omega
-    groups = _slope(impact), impact.friction, impact.stiffness_ratio, ratio
-    force = peak_force.eq_31_friction(omega * (path.t - path.t[0]), stretch, velocity, *groups)
+    path, omega = impact.between(impact.t2, impact.t3), impact.normal_frequency
+    force = impact.printed(
+        peak_force.eq_31_friction,
+        elapsed=omega * (path.t - impact.t2),
+        stretch=stretch,
+        velocity=velocity,
+        frequency_ratio=impact.tangential_frequency / omega,
+    )
     return path, force * _over_speed(impact) / impact.friction_scale
 
 
@@ -120,7 +116,7 @@ def signs_of_deflection(impact: Contact) -> tuple[ArrayLike, float]:
     minus, as in Eq. 18, and a minus before sine and brace, as Eq. 7c asks.
     """
     stretch, velocity = _values_of_eq_32(impact)
-    exact = impact.normal_frequency * impact.start.u1 / impact.velocity_scale
+    exact = impact.normal_frequency * impact.u1_t2 / impact.velocity_scale
 
     def gap(stretch: Numbers, velocity: Numbers, leading: int) -> float:
         path, force = _eq_31(impact, stretch, velocity)
@@ -145,26 +141,26 @@ def peak_after_late_stick(impact: Contact) -> tuple[ArrayLike, float]:
 @over(lambda: [*contact.slip_throughout(), *contact.slip_stick_slip(late=True)])
 def slip_throughout(impact: Contact) -> Gaps:
     """Eq. 33 against the exact peak of friction above x = (1 + e) beta, and from beta on."""
-    printed = peak_force.eq_33_friction(_slope(impact), impact.friction)
-    yield (printed - _peak(impact) / _over_speed(impact)) / impact.friction
+    exact = _peak(impact) / _over_speed(impact)
+    yield (impact.printed(peak_force.eq_33_friction) - exact) / impact.friction
 
 
 def _rigid_gap(formula: Callable[[Array, float], Numbers], *shares: float) -> Finding:
     """Distance of a formula of the rigid limit from mu F2, in mu; x = shares of beta."""
-    motion = next(contact.normal_motions([1.0]))
-    impact, top = motion.impact, motion.top + 1
-    force = impact.path.force_2[:top] / impact.force_scale
+    (motion,) = contact.normal_motions([1.0])
+    compression = slice(motion.at_top + 1)
+    force = motion.path.force_2[compression] / motion.force_scale
+    impulse = motion.brought[compression] / motion.compression_impulse
     # Slip halts at a known impulse p. F2 rises with p in compression, and dp/dF2 is 0 at t_c, so
     # F2^2 is smooth there.
-    at_impulse = CubicSpline(motion.impulse[:top] / impact.compression_impulse, force**2)
-    halted = np.sqrt(at_impulse(np.minimum(shares, 1.0)))
+    halted = np.sqrt(CubicSpline(impulse, force**2)(np.minimum(shares, 1.0)))
     gaps = []
     for beta, _ in contact.PAIRS:
         x = beta * np.array(shares)
-        slope = impact.friction * x
+        slope = motion.friction * x
         for exact in (halted, rigid.rebound(x, beta).peak_friction):
             exact_over_speed = exact * peak_force.eq_28_normal(slope)
-            gaps.append(formula(slope, beta) / impact.friction - exact_over_speed)
+            gaps.append(formula(slope, beta) / motion.friction - exact_over_speed)
     return Finding(largest(gaps))
 
 
@@ -214,14 +210,14 @@ def _slip_stick_slip(number: int, samples: int) -> list[Contact]:
 
 def late_stick() -> Finding:
     """Share of the incidences of slip, stick, slip (e = 1) whose stick begins after t_c."""
-    late = [impact.start.t > impact.compression_time for impact in _slip_stick_slip(200, 2)]
+    late = [impact.t2 > impact.compression_time for impact in _slip_stick_slip(200, 2)]
     return Finding(float(np.mean(late)))
 
 
 def peak_after_stick() -> Finding:
     """Share of the incidences of slip, stick, slip (e = 1) with the peak before stick."""
     before = [
-        impact.path.t[np.argmax(np.abs(impact.path.force_1))] < impact.start.t
+        impact.path.t[np.argmax(np.abs(impact.path.force_1))] < impact.t2
         for impact in _slip_stick_slip(100, 401)
     ]
     return Finding(float(np.mean(before)))
@@ -234,7 +230,7 @@ def velocity_at_stick() -> Finding:
     """
     return Finding(
         min(
-            float(impact.start.v1) / impact.velocity_scale
+            float(impact.v1_t2) / impact.velocity_scale
             for impact in contact.slip_stick_slip((1.0,))
             if (impact.mass_ratio, impact.stiffness_ratio) == contact.SPHERE
         )

@@ -21,7 +21,7 @@ SPHERES = tuple((contact.MASS_RATIO, zeta2) for zeta2 in (1.0, contact.STIFFNESS
 
 def first_slip_in_restitution() -> Finding:
     """Earliest onset of slip after initial stick of those sampled, in t_c, where omega > Omega."""
-    onsets = [impact.onset.t / impact.compression_time for impact in contact.initial_stick()]
+    onsets = [impact.t1 / impact.compression_time for impact in contact.initial_stick()]
     return Finding(float(min(onsets)))
 
 
@@ -35,7 +35,7 @@ def _largest_restitution_of_kept_direction(*incidences: float) -> Finding:
     """Largest e at which the last slip runs in the incident direction, sphere of the paper."""
 
     def kept(e: float) -> bool:
-        return any(Contact(x, restitution=e, samples=2).last_slip_direction < 0 for x in incidences)
+        return any(Contact(x, restitution=e, samples=2).slip_direction < 0 for x in incidences)
 
     grid = np.linspace(0, 1, 51)[1:]
     last = max((e for e in grid if kept(e)), default=0.0)
@@ -133,7 +133,7 @@ def transition_at_compression(pair: tuple[float, float]) -> Gaps:
     """Time of stick over t_c, less 1, at incidence m2/m1, e = 0.9 and 1."""
     for e in (0.9, 1.0):
         impact = Contact(pair[0], *pair, e)
-        yield impact.start.t / impact.compression_time - 1
+        yield impact.t2 / impact.compression_time - 1
 
 
 def sliding_slows() -> Finding:
@@ -143,7 +143,7 @@ def sliding_slows() -> Finding:
     """
     gains = []
     for impact in contact.slip_throughout():
-        speed = np.append(impact.path.v1, impact.final_velocity) / impact.velocity_scale
+        speed = np.append(impact.path.v1, impact.final) / impact.velocity_scale
         gains.append(np.diff(np.abs(speed)).max())
     return Finding(float(max(gains)))
 
@@ -169,11 +169,10 @@ def rigid_rebound_limit(motion: contact.NormalMotion) -> Gaps:
     The impulse is m2/m1 times the exact normal impulse by quadrature, which Eq. 26 has as
     (1 + e) p(t_c).
     """
-    beta, e = contact.MASS_RATIO, motion.impact.restitution
-    limit = boundary(partial(_halts, e), 0.0, 20.0)
-    impulse = motion.impulse[-1] / motion.impact.compression_impulse
-    yield limit / (beta * impulse) - 1
-    yield limit / slip.slip_throughout_limit(beta, e) - 1
+    limit = boundary(partial(_halts, motion.restitution), 0.0, 20.0)
+    impulse = motion.brought[-1] / motion.compression_impulse
+    yield limit / (motion.mass_ratio * impulse) - 1
+    yield limit / motion.printed(slip.slip_throughout_limit) - 1
 
 
 def rigid_sequence() -> Finding:
@@ -238,7 +237,7 @@ def last_slip_prolonged() -> Finding:
     leads, incidences = [], (0.5, 1.0, 2.0, 3.0)
     for x, history in zip(incidences, _continuum_histories(*incidences), strict=True):
         whole = (history.stick_radius == 0) & (history.contact_radius > 0) & (history.time > 1)
-        leads.append(history.time[whole][0] - Contact(x).onset.t / Contact.compression_time)
+        leads.append(history.time[whole][0] - Contact(x).t1 / Contact.compression_time)
     return Finding(float(min(leads)))
 
 
