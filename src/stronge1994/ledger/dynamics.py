@@ -42,7 +42,7 @@ def effective_masses() -> Finding:
     return Finding(largest([masses / bodies.effective_masses(BODY) - 1, free - 1]))
 
 
-@over(lambda: [Contact(x, restitution=0.6, samples=2001) for x in (0.7, 2.0, 4.5, 9.0)])
+@over(contact.of_sphere(0.7, 2.0, 4.5, 9.0, restitution=0.6))
 def velocity_change(impact: Contact) -> Gaps:
     """Eq. 3 against a free rigid body, and along contacts: m1 dv1 is the impulse of friction."""
     impulse = np.array([0.3, 1.1])

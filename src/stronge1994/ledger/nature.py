@@ -73,11 +73,6 @@ def _impulse(history: History | ContinuumHistory) -> Array:
     return impulse / np.interp(1.0, history.time, impulse)
 
 
-def _at_compression(history: History | ContinuumHistory) -> float:
-    """v1(t_c)/(mu v2(0))."""
-    return float(np.interp(1.0, history.time, history.velocity))
-
-
 def peak_spread(model: str) -> Finding:
     """Largest change of the peak of friction with e, over mu times the largest normal force."""
     peak = _rebound(model, INCIDENCE, RESTITUTIONS[:, None]).peak_friction
@@ -112,18 +107,21 @@ def indentation(model: str) -> Finding:
 
 def compression_spread(model: str) -> Finding:
     """Largest change of v1(t_c)/(mu v2(0)) with e."""
-    ends = [list(map(_at_compression, of_x)) for of_x in _histories(model, STICK + SLIP)]
-    return Finding(float(np.ptp(ends, axis=1).max()))
+    at_compression, _ = _velocities(model)
+    return Finding(float(np.ptp(at_compression, axis=1).max()))
+
+
+def _velocities(model: str) -> tuple[Array, Array]:
+    """v1(t_c) and v1(tf) over mu v2(0), each by incidence and restitution."""
+    histories = _histories(model, STICK + SLIP)
+    at = [[np.interp(1.0, one.time, one.velocity) for one in of_x] for of_x in histories]
+    return np.array(at), np.array([[one.velocity[-1] for one in of_x] for of_x in histories])
 
 
 def restitution_change(model: str) -> Finding:
     """Largest gain of |v1(tf) - v1(t_c)|/(mu v2(0)) as e falls."""
-    change = np.abs(
-        [
-            [history.velocity[-1] - _at_compression(history) for history in of_x]
-            for of_x in _histories(model, STICK + SLIP)
-        ]
-    )
+    at_compression, at_separation = _velocities(model)
+    change = np.abs(at_separation - at_compression)
     return Finding(float(np.max(np.maximum.accumulate(change, axis=1) - change)))
 
 

@@ -30,11 +30,6 @@ def _rigid(x: Array) -> Rebound:
     return rigid.rebound(x, contact.MASS_RATIO)
 
 
-def _hertz(x: Array) -> Rebound:
-    """Rebound of a Hertz contact; beyond 8 it slides throughout, where the peak is the same."""
-    return contact.without_micro_slip(np.minimum(x, 8.0))
-
-
 def _forces(model: Model, friction: float) -> Array:
     """F1max/(m2 Omega S) at each of ANGLES; `model` takes incidences."""
     theta = np.radians(ANGLES)
@@ -46,9 +41,10 @@ def _over_speed(impact: Contact) -> float:
     return float(impact.m2 * impact.normal_frequency * np.hypot(impact.v1, impact.v2))
 
 
-def _peak(impact: Contact) -> Array:
-    """Exact peak of friction."""
-    return impact.rebound.peak_friction * impact.friction_scale
+def _gap(impact: Contact, formula: Callable[..., Array]) -> Array:
+    """Distance of a printed F1max/(m2 Omega S) from the exact peak of friction, in mu."""
+    peak = impact.rebound.peak_friction * impact.friction_scale
+    return (impact.printed(formula) - peak / _over_speed(impact)) / impact.friction
 
 
 @over(lambda: [*contact.initial_stick(), *contact.slip_throughout()])
@@ -62,14 +58,14 @@ def normal(impact: Contact) -> Gaps:
 @over(contact.initial_stick)
 def stick(impact: Contact) -> Gaps:
     """Eq. 29 against the exact peak of friction, initial stick."""
-    yield impact.printed(peak_force.eq_29_friction) / _peak(impact) - 1
+    peak = impact.rebound.peak_friction * impact.friction_scale
+    yield impact.printed(peak_force.eq_29_friction) / peak - 1
 
 
 @over(contact.initial_stick)
 def stick_over_speed(impact: Contact) -> Gaps:
     """Eq. 30 against the exact peak of friction, initial stick."""
-    exact = _peak(impact) / _over_speed(impact)
-    yield (impact.printed(peak_force.eq_30_friction) - exact) / impact.friction
+    yield _gap(impact, peak_force.eq_30_friction)
 
 
 @over(lambda: [Contact(zeta2 / 2, beta, zeta2, samples=2001) for beta, zeta2 in contact.PAIRS])
@@ -141,8 +137,7 @@ def peak_after_late_stick(impact: Contact) -> tuple[ArrayLike, float]:
 @over(lambda: [*contact.slip_throughout(), *contact.slip_stick_slip(late=True)])
 def slip_throughout(impact: Contact) -> Gaps:
     """Eq. 33 against the exact peak of friction above x = (1 + e) beta, and from beta on."""
-    exact = _peak(impact) / _over_speed(impact)
-    yield (impact.printed(peak_force.eq_33_friction) - exact) / impact.friction
+    yield _gap(impact, peak_force.eq_33_friction)
 
 
 def _rigid_gap(formula: Callable[[Array, float], Numbers], *shares: float) -> Finding:
@@ -333,7 +328,7 @@ def _effect(model: Model, friction: float, base: Model = _lumped) -> float:
 
 def normal_details() -> Finding:
     """Largest relative change of the largest peak of a mu, Hertz' normal compliance for linear."""
-    return Finding(max(_effect(_hertz, mu) for mu in (0.1, 0.4, 1.0)))
+    return Finding(max(_effect(contact.without_micro_slip, mu) for mu in (0.1, 0.4, 1.0)))
 
 
 def stiffness_matters_more() -> Finding:
@@ -347,5 +342,8 @@ def stiffness_matters_more() -> Finding:
         return lambda x: lumped.rebound(x, contact.MASS_RATIO, zeta2)
 
     frictions = (0.1, 0.4, 1.0)
-    ratios = [_effect(sphere(0.5), mu, sphere(0.0)) / _effect(_hertz, mu) for mu in frictions]
+    ratios = [
+        _effect(sphere(0.5), mu, sphere(0.0)) / _effect(contact.without_micro_slip, mu)
+        for mu in frictions
+    ]
     return Finding(min(ratios))

@@ -190,14 +190,16 @@ def unaffected_velocity(rebounds: tuple[Rebound, Rebound]) -> Gaps:
     yield soft.velocity - hard.velocity
 
 
-def _continuum(tolerance: float) -> Rebound:
-    """Rebound of the elastic continuum at the incidences of Fig. 5."""
-    return contact.once(continuum.rebound, INCIDENCE, *contact.SPHERE, tolerance=tolerance)
+def _velocities() -> list[Array]:
+    """Rebound velocities of lumped model and continuum at the incidences of Fig. 5."""
+    exact = contact.once(continuum.rebound, INCIDENCE, *contact.SPHERE, tolerance=1e-5)
+    return [lumped.rebound(INCIDENCE, *contact.SPHERE).velocity, exact.velocity]
 
 
 def _models_apart() -> Array:
     """Distance of lumped model and continuum at the incidences of Fig. 5."""
-    return np.abs(lumped.rebound(INCIDENCE, *contact.SPHERE).velocity - _continuum(1e-5).velocity)
+    ours, exact = _velocities()
+    return np.abs(ours - exact)
 
 
 def models_differ_most() -> Finding:
@@ -241,23 +243,18 @@ def last_slip_prolonged() -> Finding:
     return Finding(float(min(leads)))
 
 
-def _reversals() -> list[Array]:
-    """Velocities of lumped model and continuum at the incidences of Fig. 5."""
-    return [lumped.rebound(INCIDENCE, *contact.SPHERE).velocity, _continuum(1e-4).velocity]
-
-
 def mostly_reversed() -> Finding:
     """Share of small and intermediate incidence with reversed velocity, the smaller of both models.
 
     Up to the limit of slip throughout, 2 beta - zeta^2.
     """
-    shares = [np.mean(velocity[INCIDENCE <= ELASTIC_LIMIT] < 0) for velocity in _reversals()]
+    shares = [np.mean(velocity[INCIDENCE <= ELASTIC_LIMIT] < 0) for velocity in _velocities()]
     return Finding(float(min(shares)))
 
 
 def continuum_reverses() -> Finding:
     """Lowest rebound velocity of the continuum and the lumped model, the higher of the two."""
-    return Finding(float(max(velocity.min() for velocity in _reversals())))
+    return Finding(float(max(velocity.min() for velocity in _velocities())))
 
 
 def _annulus_slips(until: float) -> list[float]:
