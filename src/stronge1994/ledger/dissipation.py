@@ -21,7 +21,7 @@ ANGLES = np.linspace(0.0, 89.95, 17991)[1:]  # degrees
 
 
 def kinetic_energy() -> Finding:
-    """K0 over the kinetic energy of a rigid body, less 1, without spin and with it."""
+    """$K_0$ over the kinetic energy of a rigid body, less 1, without spin and with it."""
     mass, gyration, x2 = PLATE["mass"], PLATE["gyration"], PLATE["x2"]
     v1, v2 = -0.8, -1.3
     ratios = []
@@ -61,10 +61,10 @@ def _spring(impact: Contact, state: State) -> Array:
 
 
 def friction_after_stick() -> Finding:
-    """Distance of Eq. 38 from the exact energy lost, over m1 v1(0)^2/2, after initial stick.
+    """Distance of Eq. 38 from the exact energy lost, over $m_1 v_1(0)^2/2$, after initial stick.
 
     Of the two signs before the impulse, minus and the plus of the scan, the nearer one counts.
-    Corrected: the minus, with s, and the tangential strain energy at t1.
+    Corrected: the minus, with $s$, and the tangential strain energy at $t_1$.
     """
     printed: dict[int, list[Numbers]] = {-1: [], 1: []}
     corrected = []
@@ -85,10 +85,10 @@ def _of_best_reading(gaps_of_readings: Mapping[Any, Iterable[Numbers]]) -> float
 
 
 def friction_after_stick_in_groups() -> Finding:
-    """Distance of Eq. 39 from the exact energy lost, over m1 v1(0)^2/2, after initial stick.
+    r"""Distance of Eq. 39 from the exact energy lost, over $m_1 v_1(0)^2/2$, after initial stick.
 
-    With the leading sign that comes nearer. In the corrected formula the sign is minus, s g1 takes
-    the place of g1, and mu^2 zeta^2 sin^2(alpha) at t1 is added.
+    With the leading sign that comes nearer. In the corrected formula the sign is minus, $s g_1$
+    takes the place of $g_1$, and $\mu^2 \zeta^2 \sin^2(\alpha)$ at $t_1$ is added.
     """
     printed: dict[int, list[Numbers]] = {-1: [], 1: []}
     corrected = []
@@ -110,10 +110,11 @@ def friction_after_stick_in_groups() -> Finding:
 
 
 def friction_of_two_slips() -> Finding:
-    """Distance of Eq. 40 from the exact energy lost, over m1 v1(0)^2/2, slip, stick, slip.
+    """Distance of Eq. 40 from the exact energy lost, over $m_1 v_1(0)^2/2$, slip, stick, slip.
 
-    With the signs before v1(t2)^2, v1(t3)^2 and v1(tf)^2 that come nearest. Corrected: the signs
-    are minus, plus and minus, strain energy at t3 comes in, and strain energy at t2 goes out.
+    With the signs before $v_1(t_2)^2$, $v_1(t_3)^2$ and $v_1(t_f)^2$ that come nearest. Corrected:
+    the signs are minus, plus and minus, strain energy at $t_3$ comes in, and strain energy at $t_2$
+    goes out.
     """
     printed: dict[tuple[int, ...], list[Numbers]] = {
         signs: [] for signs in product((-1, 1), repeat=3)
@@ -133,7 +134,7 @@ def friction_of_two_slips() -> Finding:
 
 
 def friction_of_slip_throughout() -> Finding:
-    """Eq. 41 against the exact energy lost above x = (1 + e) beta."""
+    r"""Eq. 41 against the exact energy lost above $x = (1 + e) \beta$."""
     gaps = []
     for impact in contact.slip_throughout():
         groups = impact.incidence, impact.mass_ratio, impact.friction, impact.restitution
@@ -143,10 +144,10 @@ def friction_of_slip_throughout() -> Finding:
 
 
 def theorem() -> Finding:
-    """The footnote's D1 of the first slip less the work of friction on the particle.
+    """The footnote's $D_1$ of the first slip less the work of friction on the particle.
 
-    Over m1 v1(0)^2/2, the work by quadrature along exact contacts. Corrected: less the tangential
-    strain energy gained.
+    Over $m_1 v_1(0)^2/2$, the work by quadrature along exact contacts. Corrected: less the
+    tangential strain energy gained.
     """
     printed, corrected = [], []
     for x in (2.0, 3.0, 4.5):
@@ -175,9 +176,9 @@ def only_in_slip() -> Finding:
 
 
 def body_velocity_alone() -> Finding:
-    """Work of friction with v1 alone over the last slip, over that with v1 + du1/dt.
+    """Work of friction with $v_1$ alone over the last slip, over that with $v_1 + du_1/dt$.
 
-    The lowest ratio of those sampled over initial stick, sphere of the paper, e = 1; the sentence
+    The lowest ratio of those sampled over initial stick, sphere of the paper, $e = 1$; the sentence
     has it 1.
     """
     ratios = []
@@ -190,7 +191,7 @@ def body_velocity_alone() -> Finding:
 
 
 def strain_recovered() -> Finding:
-    """Tangential strain energy at separation over that at the onset of the last slip, e > 0."""
+    """Tangential strain energy at separation over that at the onset of the last slip, $e > 0$."""
     shares = []
     for impact in contact.with_stick():
         onset, end = impact.last(EventKind.SLIP), impact.last(EventKind.SEPARATION)
@@ -201,7 +202,7 @@ def strain_recovered() -> Finding:
 def strain_decreases() -> Finding:
     """Largest rise of either element's strain energy during the last slip, or what is left of it.
 
-    Over its value at the onset; the largest of those sampled that slip, stick and slip, e > 0.
+    Over its value at the onset; the largest of those sampled that slip, stick and slip, $e > 0$.
     """
     rises = []
     for impact in contact.slip_stick_slip():
@@ -215,7 +216,10 @@ def strain_decreases() -> Finding:
 
 
 def losses_decoupled() -> Finding:
-    """Spread of the hysteresis over m2 v2(0)^2/2 with incidence and zeta^2, collinear impact."""
+    r"""Spread of the hysteresis over $m_2 v_2(0)^2/2$ with incidence and $\zeta^2$.
+
+    Collinear impact.
+    """
     spreads = []
     for e in contact.RESTITUTIONS:
         shares = []
@@ -229,14 +233,14 @@ def losses_decoupled() -> Finding:
 
 
 def small_incidence() -> Finding:
-    """Largest share of m2 S^2/2 that friction takes up to 10 degrees: the axes of Fig. 9."""
+    """Largest share of $m_2 S^2/2$ that friction takes up to 10 degrees: the axes of Fig. 9."""
     small = ANGLES <= 10.0
     shares = [_dissipated(mu, e)[small].max() for mu in FRICTIONS for e in RESTITUTIONS]
     return Finding(float(max(shares)))
 
 
 def compliance_immaterial() -> Finding:
-    """Difference that tangential compliance makes to the dissipation above x = (1 + e) beta."""
+    r"""Difference that tangential compliance makes to the dissipation above $x = (1 + e) \beta$."""
     gaps = []
     for e in contact.RESTITUTIONS:
         x = slip.slip_throughout_limit(contact.MASS_RATIO, e) * np.array([1.0, 1.1, 3.0])
@@ -253,7 +257,7 @@ def _dissipated(friction: float, restitution: float) -> Array:
 
 
 def angle_of_largest() -> Finding:
-    """Largest angle between most dissipation and the printed limit, (1 + e) beta, in degrees.
+    r"""Largest angle between most dissipation and the printed limit, $(1 + e) \beta$, in degrees.
 
     Over both frictions and restitutions of Fig. 9.
     """
@@ -266,7 +270,7 @@ def angle_of_largest() -> Finding:
 
 
 def limited_by_restitution() -> Finding:
-    """Smallest gain of the largest share dissipated from one e to the next larger."""
+    """Smallest gain of the largest share dissipated from one $e$ to the next larger."""
     shares = [
         [_dissipated(mu, e).max() for e in np.linspace(0, 1, 11)] for mu in (0.1, 0.3, 0.5, 1.0)
     ]
@@ -274,9 +278,10 @@ def limited_by_restitution() -> Finding:
 
 
 def rigid_independence() -> Finding:
-    """Slip halted: dissipation over x^2 mu^2 m2 v2(0)^2/(2 beta), less 1, for all e.
+    r"""Slip halted: dissipation over $x^2 \mu^2 m_2 v_2(0)^2/(2 \beta)$, less 1, for all $e$.
 
-    Of the rigid limit and of the lumped model with zeta^2 = 1e-4, in units where mu cancels.
+    Of the rigid limit and of the lumped model with $\zeta^2 = 10^{-4}$, in units where $\mu$
+    cancels.
     """
     gaps, beta = [], contact.MASS_RATIO
     for e in contact.RESTITUTIONS:

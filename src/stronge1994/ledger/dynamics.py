@@ -44,7 +44,7 @@ def effective_masses() -> Finding:
 
 
 def velocity_change() -> Finding:
-    """Eq. 3 against a free rigid body, and along contacts: m1 dv1 is the impulse of friction."""
+    """Eq. 3 against a free rigid body, and along contacts: $m_1 dv_1$ is the friction impulse."""
     impulse = np.array([0.3, 1.1])
     inverse = dynamics.eq_1_inverse_mass(**PLATE)
     gap = dynamics.eq_3_velocity_change(inverse, impulse) - _change_of_velocity(impulse, **PLATE)
@@ -58,14 +58,14 @@ def velocity_change() -> Finding:
 
 
 def off_diagonal() -> Finding:
-    """The coupling of Eq. 1 over its diagonal for x1 = 0."""
+    """The coupling of Eq. 1 over its diagonal for $x_1 = 0$."""
     inverse = dynamics.eq_1_inverse_mass(2.3, 0.7, 0.0, -0.9)
     beta = float(bodies.mass_ratio(bodies.Body(2.3, 0.7, 0.9)))
     return Finding(largest([inverse[0, 1], inverse[0, 0] / inverse[1, 1] / beta - 1]))
 
 
 def frequencies() -> Finding:
-    """Eq. 4: compression takes up the normal momentum in t_c; stick swings with omega."""
+    r"""Eq. 4: compression takes up the normal momentum in $t_c$; stick swings with $\omega$."""
     gaps = []
     for beta, zeta2 in contact.PAIRS:
         impact = contact.contact(zeta2 / 2, beta, zeta2, 1.0, samples=2001)
@@ -82,7 +82,7 @@ def frequencies() -> Finding:
 
 
 def restitution() -> Finding:
-    """Eq. 5: works of the normal force along exact contacts give e back."""
+    """Eq. 5: works of the normal force along exact contacts give $e$ back."""
     gaps = []
     for e, motion in contact.normal_motions():
         absorbed = motion.work[motion.top]
@@ -120,7 +120,7 @@ def table_1() -> Finding:
 
 
 def duration() -> Finding:
-    """tf/t_c of the solver against 1 + e."""
+    """$t_f/t_c$ of the solver against $1 + e$."""
     gaps = [
         lumped.history(x, restitution=e, samples=2).time[-1] - (1 + e)
         for e in contact.RESTITUTIONS
@@ -130,7 +130,7 @@ def duration() -> Finding:
 
 
 def final_indentation() -> Finding:
-    """u2(tf) over u2(t_c) by quadrature of the exact force, against 1 - e^2."""
+    """$u_2(t_f)$ over $u_2(t_c)$ by quadrature of the exact force, against $1 - e^2$."""
     gaps = []
     for e, motion in contact.normal_motions():
         left = motion.displacement[-1] / motion.displacement[motion.top]
@@ -139,7 +139,7 @@ def final_indentation() -> Finding:
 
 
 def stored_work() -> Finding:
-    """Work at t_c over F2(t_c) u2(t_c)/2, and slope of unloading over kappa/e^2, less 1."""
+    r"""Work at $t_c$ over $F_2(t_c) u_2(t_c)/2$, slope of unloading over $\kappa/e^2$, less 1."""
     gaps = []
     for e, motion in contact.normal_motions():
         impact, force = motion.impact, motion.impact.path.force_2
@@ -151,7 +151,7 @@ def stored_work() -> Finding:
 
 
 def velocity_continuous() -> Finding:
-    """Eqs 6a and 6b at t_c, over v2(0), and the momentum brought till then."""
+    """Eqs 6a and 6b at $t_c$, over $v_2(0)$, and the momentum brought till then."""
     gaps = []
     for e, motion in contact.normal_motions():
         impact = motion.impact
@@ -165,7 +165,7 @@ def velocity_continuous() -> Finding:
 
 
 def hysteresis_caption() -> Finding:
-    """Share of the absorbed energy that is lost, less the ratio of areas, e^2 (Fig. 2)."""
+    """Share of the absorbed energy that is lost, less the ratio of areas, $e^2$ (Fig. 2)."""
     printed, corrected = [], []
     for e in (0.3, 0.6, 0.9):
         motion = contact.normal_motion(e)
@@ -205,10 +205,10 @@ def stick() -> Finding:
 
 
 def noncollinear_stick() -> Finding:
-    """Part of the second derivative of F2 that no single frequency explains, root mean square.
+    """Part of the second derivative of $F_2$ that no single frequency explains, root mean square.
 
-    Over compression of a slender rod that sticks with its tip, v1/v2 = -0.5: tilted by 25 deg, less
-    upright.
+    Over compression of a slender rod that sticks with its tip, $v_1/v_2 = -0.5$: tilted by 25°,
+    less upright.
     """
     return Finding(_not_harmonic(25.0) - _not_harmonic(0.0))
 
@@ -248,7 +248,7 @@ def _integrated_stick() -> list[Array]:
 
 
 def friction_cone() -> Finding:
-    """Largest excess of |F1| over mu F2 along exact contacts, over the largest mu F2."""
+    r"""Largest excess of $|F_1|$ over $\mu F_2$ along exact contacts, over its largest value."""
     excess = [
         np.max(np.abs(impact.path.force_1) - impact.friction * impact.path.force_2)
         / impact.friction_scale
@@ -264,7 +264,7 @@ def _last_slips() -> Iterator[tuple[Contact, State, float]]:
 
 
 def slip_force() -> Finding:
-    """Eq. 8 along the last slip, with s from the velocity of the particle."""
+    """Eq. 8 along the last slip, with $s$ from the velocity of the particle."""
     gaps = []
     for impact, path, direction in _last_slips():
         tangential, normal = dynamics.eq_8_impulse(path.force_2, impact.friction, direction)
@@ -276,7 +276,7 @@ def slip_force() -> Finding:
 
 
 def velocity_slope() -> Finding:
-    """Eq. 9 along the last slip: dv1/dp, with p(t) of Table 1."""
+    """Eq. 9 along the last slip: $dv_1/dp$, with $p(t)$ of Table 1."""
     gaps = []
     for impact, path, direction in _last_slips():
         impulse = impact.impulse(path.t)

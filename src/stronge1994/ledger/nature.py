@@ -32,13 +32,13 @@ WITH_STICK = 2 * contact.MASS_RATIO
 
 
 def peak_spread(model: Model) -> float:
-    """Largest change of the peak of friction with e, over mu times the largest normal force."""
+    r"""Largest change of the peak of friction with $e$, over $\mu$ times the peak normal force."""
     peak = model.rebound(INCIDENCE, RESTITUTIONS[:, None]).peak_friction
     return float(np.ptp(peak, axis=0).max())
 
 
 def peak_time(model: Model) -> float:
-    """Latest time at which friction is largest, in t_c."""
+    """Latest time at which friction is largest, in $t_c$."""
     times = []
     for history in _histories(model, (*STICK, *SLIP)):
         size = np.abs(history.friction)
@@ -48,13 +48,13 @@ def peak_time(model: Model) -> float:
 
 
 def duration(model: Model) -> float:
-    """Largest distance of tf/t_c from 1 + e."""
+    """Largest distance of $t_f/t_c$ from $1 + e$."""
     ends = np.array([model.history(1.0, e).time[-1] for e in HISTORY_RESTITUTIONS])
     return float(np.abs(ends - 1 - HISTORY_RESTITUTIONS).max())
 
 
 def indentation(model: Model) -> float:
-    """Largest distance of u2(tf)/u2(t_c) from 1 - e^2."""
+    """Largest distance of $u_2(t_f)/u_2(t_c)$ from $1 - e^2$."""
     return float(
         max(abs(_indentation(model.history(1.0, e)) - (1 - e**2)) for e in HISTORY_RESTITUTIONS)
     )
@@ -73,7 +73,7 @@ def _impulse(history: History | ContinuumHistory) -> Array:
 
 
 def compression_spread(model: Model) -> float:
-    """Largest change of v1(t_c)/(mu v2(0)) with e."""
+    r"""Largest change of $v_1(t_c)/(\mu v_2(0))$ with $e$."""
     ends = [
         [_at_compression(model.history(x, e)) for e in HISTORY_RESTITUTIONS]
         for x in (*STICK, *SLIP)
@@ -86,7 +86,7 @@ def _at_compression(history: History | ContinuumHistory) -> float:
 
 
 def restitution_change(model: Model) -> float:
-    """Largest gain of |v1(tf) - v1(t_c)|/(mu v2(0)) as e falls."""
+    r"""Largest gain of $|v_1(t_f) - v_1(t_c)|/(\mu v_2(0))$ as $e$ falls."""
     change = np.abs(
         [
             [history.velocity[-1] - _at_compression(history) for history in _histories(model, [x])]
@@ -97,12 +97,12 @@ def restitution_change(model: Model) -> float:
 
 
 def reversal_elastic(model: Model) -> float:
-    """Largest reversed velocity over mu v2(0) at e = 1."""
+    r"""Largest reversed velocity over $\mu v_2(0)$ at $e = 1$."""
     return _reversal(model, 1.0)
 
 
 def reversal_half(model: Model) -> float:
-    """Largest reversed velocity over mu v2(0) at e = 0.5."""
+    r"""Largest reversed velocity over $\mu v_2(0)$ at $e = 0.5$."""
     return _reversal(model, 0.5)
 
 
@@ -112,7 +112,7 @@ def _reversal(model: Model, e: float) -> float:
 
 
 def limit_gap(model: Model) -> float:
-    """Largest distance of the limit of slip throughout from (1 + e) m2/m1."""
+    """Largest distance of the limit of slip throughout from $(1 + e) m_2/m_1$."""
     gaps = slip.slip_throughout_limit(contact.MASS_RATIO, np.array(HISTORY_RESTITUTIONS)) - _limits(
         model
     )
@@ -120,17 +120,17 @@ def limit_gap(model: Model) -> float:
 
 
 def limit_half(model: Model) -> float:
-    """Limit of slip throughout at e = 0.5."""
+    """Limit of slip throughout at $e = 0.5$."""
     return float(_limits(model)[0])
 
 
 def limit_fall(model: Model) -> float:
-    """Smallest fall of the limit of slip throughout from one e to the next smaller."""
+    """Smallest fall of the limit of slip throughout from one $e$ to the next smaller."""
     return float(np.diff(_limits(model)).min())
 
 
 def limit_rise(model: Model) -> float:
-    """Largest rise of the limit of slip throughout from one e to the next smaller."""
+    """Largest rise of the limit of slip throughout from one $e$ to the next smaller."""
     return -limit_fall(model)
 
 
@@ -165,7 +165,7 @@ def _kept(model: Model, incidences: tuple[float, ...]) -> float:
 
 
 def dissipation_gain(model: Model) -> float:
-    """Smallest gain of the largest share that friction takes from one e to the next larger."""
+    """Smallest gain of the largest share that friction takes from one $e$ to the next larger."""
     tangent = np.tan(np.radians(np.linspace(2.0, 88.0, 44)))
     gains = []
     for mu in (0.1, 0.5):
@@ -176,9 +176,9 @@ def dissipation_gain(model: Model) -> float:
 
 
 def slip_velocity(model: Model) -> float:
-    """Distance of v1(0) - (mu/m1) p(tf) from the rebound above (1 + e) m2/m1, over mu v2(0).
+    r"""Distance of $v_1(0) - (\mu/m_1) p(t_f)$ from the rebound above $(1 + e) m_2/m_1$.
 
-    The largest, with the normal impulse p(tf) by quadrature.
+    The largest, over $\mu v_2(0)$, with the normal impulse $p(t_f)$ by quadrature.
     """
     x = slip.slip_throughout_limit(contact.MASS_RATIO, np.array(HISTORY_RESTITUTIONS)) * 1.1
     impulse = np.array([_impulse(model.history(STICK[-1], e))[-1] for e in HISTORY_RESTITUTIONS])
@@ -187,34 +187,34 @@ def slip_velocity(model: Model) -> float:
 
 
 def slip_work(model: Model) -> float:
-    """Largest relative distance of Eq. 41 from the work of friction above (1 + e) m2/m1."""
+    """Largest relative distance of Eq. 41 from the work of friction above $(1 + e) m_2/m_1$."""
     x = slip.slip_throughout_limit(contact.MASS_RATIO, RESTITUTIONS) * 1.1
     stated = dissipation.eq_41_friction(x, contact.MASS_RATIO, 1.0, RESTITUTIONS) / 2
     return float(np.abs(model.rebound(x, RESTITUTIONS).dissipation / stated - 1).max())
 
 
 def from_elastic(model: Model) -> float:
-    """Distance of the rebounds from the elastic continuum at e = 1, root mean square."""
+    """Distance of the rebounds from the elastic continuum at $e = 1$, root mean square."""
     return _from(model, LOSSES[0], 1.0)
 
 
 def from_viscous(model: Model) -> float:
-    """Distance of the rebounds from the viscous continuum at e = 0.6, root mean square."""
+    """Distance of the rebounds from the viscous continuum at $e = 0.6$, root mean square."""
     return _from(model, LOSSES[0], LEAST_MEASURED)
 
 
 def from_plastic(model: Model) -> float:
-    """Distance of the rebounds from the continuum that yields at e = 0.6, root mean square."""
+    """Distance of the rebounds from the continuum that yields at $e = 0.6$, root mean square."""
     return _from(model, LOSSES[1], LEAST_MEASURED)
 
 
 def stick_from_viscous(model: Model) -> float:
-    """The same from the viscous continuum, where the contact sticks at first, at e = 0.8."""
+    """The same from the viscous continuum, where the contact sticks at first, at $e = 0.8$."""
     return _from(model, LOSSES[0], 0.8, contact.STIFFNESS_RATIO)
 
 
 def stick_from_plastic(model: Model) -> float:
-    """The same from the continuum that yields, where the contact sticks at first, at e = 0.8."""
+    """The same from the continuum that yields, where the contact sticks at first, at $e = 0.8$."""
     return _from(model, LOSSES[1], 0.8, contact.STIFFNESS_RATIO)
 
 

@@ -54,7 +54,7 @@ def _against(
 
 
 def normal() -> Finding:
-    """Eq. 28 against the exact normal force, which is largest at t_c."""
+    """Eq. 28 against the exact normal force, which is largest at $t_c$."""
 
     def at_compression(impact: Contact) -> Numbers:
         top = impact.first(EventKind.MAXIMUM_COMPRESSION).force_2
@@ -94,7 +94,7 @@ def stick_over_speed() -> Finding:
 
 
 def stick_velocity() -> Finding:
-    """v1 at t = pi/(2 omega), where friction is largest in initial stick, over v1(0)."""
+    r"""$v_1$ at $t = \pi/(2 \omega)$, where friction is largest in initial stick, over $v_1(0)$."""
     gaps = []
     for beta, zeta2 in contact.PAIRS:
         impact = contact.contact(zeta2 / 2, beta, zeta2, samples=2001)
@@ -129,7 +129,7 @@ def _along_stick(
 
 
 def stick_after_slip() -> Finding:
-    """Eq. 31 with Eq. 32 along the stick that begins in compression, over mu F2max."""
+    r"""Eq. 31 with Eq. 32 in the stick that begins in compression, over $\mu F_{2\mathrm{max}}$."""
     gaps = []
     for impact in contact.slip_stick_slip(late=False):
         path, printed = _along_stick(impact)
@@ -138,12 +138,12 @@ def stick_after_slip() -> Finding:
 
 
 def signs_of_deflection() -> Finding:
-    """How far the legible plus in Eq. 31 and one sign of u1(t2) in Eqs 18 and 32 are apart.
+    r"""How far the legible plus in Eq. 31 and one sign of $u_1(t_2)$ in Eqs 18 and 32 are apart.
 
-    In units of mu: the largest distance of Eq. 31 from the exact force, or of Eq. 32 from the
-    exact u1(t2), whichever is larger, under the best choice of the signs that the scan may have
-    lost: before the u1(t2) of Eq. 32, and before the brace of Eq. 31. Corrected: u1(t2) with a
-    minus, as in Eq. 18, and a minus before sine and brace, as Eq. 7c asks.
+    In units of $\mu$: the largest distance of Eq. 31 from the exact force, or of Eq. 32 from the
+    exact $u_1(t_2)$, whichever is larger, under the best choice of the signs that the scan may have
+    lost: before the $u_1(t_2)$ of Eq. 32, and before the brace of Eq. 31. Corrected: $u_1(t_2)$
+    with a minus, as in Eq. 18, and a minus before sine and brace, as Eq. 7c asks.
     """
     printed: dict[tuple[int, int], list[Numbers]] = {
         signs: [] for signs in product((-1, 1), (-1, 1))
@@ -162,9 +162,10 @@ def signs_of_deflection() -> Finding:
 
 
 def peak_after_late_stick() -> Finding:
-    """Largest value of Eq. 31 over the stick that begins in restitution, less the exact peak.
+    r"""Largest value of Eq. 31 over the stick that begins in restitution, less the exact peak.
 
-    In mu F2max, at e = 1, where both formulas of Table 1 coincide; corrected by Eq. 33.
+    In $\mu F_{2\mathrm{max}}$, at $e = 1$, where both formulas of Table 1 coincide; corrected by
+    Eq. 33.
     """
     printed, corrected = [], []
     for impact in contact.slip_stick_slip((1.0,), late=True):
@@ -176,7 +177,7 @@ def peak_after_late_stick() -> Finding:
 
 
 def slip_throughout() -> Finding:
-    """Eq. 33 against the exact peak of friction above x = (1 + e) beta, and from beta on."""
+    r"""Eq. 33 against the exact peak of friction above $x = (1 + e) \beta$, and from $\beta$ on."""
     contacts = [*contact.slip_throughout(), *contact.slip_stick_slip(late=True)]
     return Finding(
         _against(
@@ -223,13 +224,13 @@ def rigid_sliding() -> Finding:
 
 
 def compliance_reduces() -> Finding:
-    """Smallest excess of the peak without tangential compliance over the compliant one, in mu."""
+    r"""Smallest excess of the peak without tangential compliance over that with it, in $\mu$."""
     x = np.linspace(0, 8, 2001)
     return Finding(float(np.min(_rigid(x).peak_friction - _lumped(x).peak_friction)))
 
 
 def restitution_immaterial() -> Finding:
-    """Change of the peak of friction with e, omega > Omega."""
+    r"""Change of the peak of friction with $e$, $\omega > \Omega$."""
     x = np.linspace(0, 8, 401)
     e = np.linspace(0, 1, 21)[:, None]
     gaps = [np.ptp(lumped.rebound(x, *pair, e).peak_friction, axis=0) for pair in contact.PAIRS]
@@ -237,7 +238,7 @@ def restitution_immaterial() -> Finding:
 
 
 def in_compression() -> Finding:
-    """Largest excess of the peak of friction over that of compression alone, e = 0."""
+    """Largest excess of the peak of friction over that of compression alone, $e = 0$."""
     x = np.linspace(0, 8, 401)
     e = np.linspace(0, 1, 21)[:, None]
     gaps = [
@@ -248,7 +249,7 @@ def in_compression() -> Finding:
 
 
 def late_stick() -> Finding:
-    """Share of the incidences of slip, stick, slip (e = 1) whose stick begins after t_c."""
+    """Share of the incidences of slip, stick, slip ($e = 1$) whose stick begins after $t_c$."""
     beta, zeta2 = contact.SPHERE
     limit = float(lumped.slip_throughout_limit(beta, zeta2, 1.0))
     x = np.linspace(zeta2, limit, 202)[1:-1]
@@ -258,7 +259,7 @@ def late_stick() -> Finding:
 
 
 def velocity_at_stick() -> Finding:
-    """Lowest v1(t2)/(mu v2(0)) over slip, stick, slip, e = 1, of those sampled.
+    r"""Lowest $v_1(t_2)/(\mu v_2(0))$ over slip, stick, slip, $e = 1$, of those sampled.
 
     Negative means that the body has turned round.
     """
@@ -271,7 +272,7 @@ def velocity_at_stick() -> Finding:
 
 
 def peak_after_stick() -> Finding:
-    """Share of the incidences of slip, stick, slip (e = 1) with the peak before stick."""
+    """Share of the incidences of slip, stick, slip ($e = 1$) with the peak before stick."""
     beta, zeta2 = contact.SPHERE
     limit = float(lumped.slip_throughout_limit(beta, zeta2, 1.0))
     shares = []
@@ -283,7 +284,7 @@ def peak_after_stick() -> Finding:
 
 
 def simultaneous() -> Finding:
-    """Distance of the instants of both peaks in slip throughout, in t_c."""
+    """Distance of the instants of both peaks in slip throughout, in $t_c$."""
     gaps = []
     for impact in contact.slip_throughout():
         path = impact.path
@@ -297,27 +298,30 @@ def _angle_of_peak(friction: float, model: Callable[[Array], Rebound] = _lumped)
 
 
 def peak_angle_small_friction() -> Finding:
-    """Angle of the largest peak of friction, mu = 0.1, in degrees."""
+    r"""Angle of the largest peak of friction, $\mu = 0.1$, in degrees."""
     return Finding(_angle_of_peak(0.1))
 
 
 def peak_angle_large_friction() -> Finding:
-    """Angle of the largest peak of friction, mu = 1, in degrees."""
+    r"""Angle of the largest peak of friction, $\mu = 1$, in degrees."""
     return Finding(_angle_of_peak(1.0))
 
 
 def peak_angle_lewis_rogers() -> Finding:
-    """Angle of the largest peak of friction, mu = 0.18, in degrees."""
+    r"""Angle of the largest peak of friction, $\mu = 0.18$, in degrees."""
     return Finding(_angle_of_peak(0.18))
 
 
 def peak_angle_rises() -> Finding:
-    """Smallest rise of the angle of the largest peak from one mu of Fig. 7 to the next, degrees."""
+    r"""Smallest rise of the angle of the largest peak from one $\mu$ of Fig. 7 to the next.
+
+    In degrees.
+    """
     return Finding(float(np.min(np.diff([_angle_of_peak(mu) for mu in FRICTIONS]))))
 
 
 def peak_at_intermediate_incidence() -> Finding:
-    """Smallest distance of the incidence of the largest peak from zeta^2 and (1 + e) beta."""
+    r"""Least distance of the incidence of the largest peak from $\zeta^2$ and $(1 + e) \beta$."""
     beta, zeta2 = contact.SPHERE
     x = np.array([np.tan(np.radians(_angle_of_peak(mu))) / mu for mu in FRICTIONS])
     return Finding(float(min((x - zeta2).min(), (2 * beta - x).min())))
@@ -356,13 +360,13 @@ def peak_below_gross_slip() -> Finding:
 
 
 def compliance_immaterial() -> Finding:
-    """Difference of both peaks from x = beta on, in mu."""
+    r"""Difference of both peaks from $x = \beta$ on, in $\mu$."""
     x = np.linspace(contact.MASS_RATIO, 20, 200)
     return Finding(largest([_lumped(x).peak_friction - _rigid(x).peak_friction]))
 
 
 def full_friction_angle() -> Finding:
-    """Angle from which peak friction is mu times the peak normal force, mu = 0.18, degrees."""
+    r"""Angle from which peak friction is $\mu$ times the largest normal force; $\mu = 0.18$."""
 
     def below(angle: float) -> bool:
         return bool(_lumped(np.tan(np.radians(angle)) / 0.18).peak_friction < 1 - 1e-15)
@@ -390,14 +394,14 @@ def _hertz(x: Array) -> Rebound:
 
 
 def normal_details() -> Finding:
-    """Largest relative change of the largest peak of a mu, Hertz' normal compliance for linear."""
+    r"""Largest relative change of the largest peak, Hertz' normal compliance for linear."""
     return Finding(float(max(_effect(_hertz, mu) for mu in (0.1, 0.4, 1.0))))
 
 
 def stiffness_matters_more() -> Finding:
-    """Change of the largest peak from nu = 0 to 0.5, over that by Hertz' compliance.
+    r"""Change of the largest peak from $\nu = 0$ to 0.5, over that by Hertz' compliance.
 
-    zeta^2 is 1 for nu = 0 and 1.5 for 0.5. The smallest ratio for mu = 0.1, 0.4 and 1.
+    $\zeta^2$ is 1 for $\nu = 0$ and 1.5 for 0.5. The smallest ratio for $\mu = 0.1$, 0.4 and 1.
     """
 
     def sphere(poisson_ratio: float) -> Callable[[Array], Rebound]:

@@ -21,7 +21,10 @@ SPHERES = tuple((contact.MASS_RATIO, zeta2) for zeta2 in (1.0, contact.STIFFNESS
 
 
 def first_slip_in_restitution() -> Finding:
-    """Earliest onset of slip after initial stick of those sampled, in t_c, where omega > Omega."""
+    r"""Earliest onset of slip after initial stick of those sampled, in $t_c$.
+
+    Where $\omega > \Omega$.
+    """
     return Finding(
         float(
             min(
@@ -33,7 +36,7 @@ def first_slip_in_restitution() -> Finding:
 
 
 def deflection_when_slip_reverses() -> Finding:
-    """Share of contacts with reversed last slip, s = +1, whose u1 is positive as it begins."""
+    """Share of contacts with reversed last slip, $s = +1$, whose $u_1$ is positive as it begins."""
     impacts = [impact for impact in contact.initial_stick() if impact.last_slip_direction > 0]
     return Finding(float(np.mean([impact.last(EventKind.SLIP).u1 > 0 for impact in impacts])))
 
@@ -53,7 +56,7 @@ def _largest_restitution_of_kept_direction(incidences: Sequence[float]) -> float
 
 
 def reversal_after_stick() -> Finding:
-    """Largest e at which slip after initial stick does not reverse, sphere of the paper.
+    """Largest $e$ at which slip after initial stick does not reverse, sphere of the paper.
 
     The largest of those sampled, incidences 0.1, 0.6 and 1.2.
     """
@@ -61,7 +64,7 @@ def reversal_after_stick() -> Finding:
 
 
 def reversal_after_slip() -> Finding:
-    """Largest e at which the second slip does not reverse, sphere of the paper.
+    """Largest $e$ at which the second slip does not reverse, sphere of the paper.
 
     The largest of those sampled, incidences 1.3, 2, 3 and just below 3.5.
     """
@@ -69,9 +72,9 @@ def reversal_after_slip() -> Finding:
 
 
 def three_sequences() -> Finding:
-    """Share of the impacts sampled whose second slip does not last: they stick and slip again.
+    r"""Share of the impacts sampled whose second slip does not last: they stick and slip again.
 
-    Over omega/Omega from 1 to 6 and incidence up to 2 m2/m1, at e = 1.
+    Over $\omega/\Omega$ from 1 to 6 and incidence up to $2 m_2/m_1$, at $e = 1$.
     """
     ratio = np.linspace(1.02, 6, 60)[:, None]
     x = np.linspace(0.01, 1, 60)
@@ -89,17 +92,17 @@ def three_sequences_of_spheres() -> Finding:
 
 
 def sphere_mass_ratio() -> Finding:
-    """m2/m1 of a solid sphere."""
+    """$m_2/m_1$ of a solid sphere."""
     return Finding(float(bodies.mass_ratio(bodies.solid_sphere(0.01, 7800.0))))
 
 
 def sphere_stiffness_ratio() -> Finding:
-    """zeta^2 for nu = 0.3."""
+    r"""$\zeta^2$ for $\nu = 0.3$."""
     return Finding(float(bodies.stiffness_ratio(bodies.Material(2e11, 0.3))))
 
 
 def rubber_stiffness_ratio() -> Finding:
-    """zeta^2 for nu = 0.5."""
+    r"""$\zeta^2$ for $\nu = 0.5$."""
     return Finding(float(bodies.stiffness_ratio(bodies.Material(1e6, 0.5))))
 
 
@@ -109,17 +112,17 @@ def _frequency_ratio(poisson_ratio: float) -> float:
 
 
 def sphere_frequency_ratio() -> Finding:
-    """omega/Omega of a solid sphere, nu = 0.3."""
+    r"""$\omega/\Omega$ of a solid sphere, $\nu = 0.3$."""
     return Finding(_frequency_ratio(0.3))
 
 
 def rubber_frequency_ratio() -> Finding:
-    """omega/Omega of a solid sphere, nu = 0.5."""
+    r"""$\omega/\Omega$ of a solid sphere, $\nu = 0.5$."""
     return Finding(_frequency_ratio(0.5))
 
 
 def smallest_frequency_ratio() -> Finding:
-    """Smallest omega/Omega of solid spheres, thin shells and discs, nu from 0 to 0.5."""
+    r"""Smallest $\omega/\Omega$ of solid spheres, thin shells and discs, $\nu$ from 0 to 0.5."""
     shapes = bodies.solid_sphere(0.01, 7800.0), bodies.thin_shell(1.0, 1.0), bodies.disc(1.0, 1.0)
     beta = min(float(bodies.mass_ratio(body)) for body in shapes)
     nu = np.linspace(0, 0.5, 51)
@@ -128,7 +131,7 @@ def smallest_frequency_ratio() -> Finding:
 
 
 def vanishing_compliance() -> Finding:
-    """Distance of velocity and peak friction at zeta^2 = 1e-4 from the rigid limit."""
+    r"""Distance of velocity and peak friction at $\zeta^2 = 10^{-4}$ from the rigid limit."""
     x = INCIDENCE[::50]
     soft, hard = lumped.rebound(x, contact.MASS_RATIO, 1e-4), rigid.rebound(x, contact.MASS_RATIO)
     gaps = soft.velocity - hard.velocity, soft.peak_friction - hard.peak_friction
@@ -136,7 +139,7 @@ def vanishing_compliance() -> Finding:
 
 
 def transition_at_compression() -> Finding:
-    """Time of stick over t_c, less 1, at incidence m2/m1, e = 0.9 and 1."""
+    """Time of stick over $t_c$, less 1, at incidence $m_2/m_1$, $e = 0.9$ and 1."""
     gaps = []
     for beta, zeta2 in contact.PAIRS:
         for e in (0.9, 1.0):
@@ -146,9 +149,10 @@ def transition_at_compression() -> Finding:
 
 
 def sliding_slows() -> Finding:
-    """Largest gain of the body's tangential speed from one instant to a later one, in mu |v2(0)|.
+    r"""Largest gain of the body's tangential speed from one instant to a later one.
 
-    Slip throughout above (1 + e) beta, up to the separation that `lumped.rebound` finds.
+    In $\mu |v_2(0)|$. Slip throughout above $(1 + e) \beta$, up to the separation that
+    `lumped.rebound` finds.
     """
     gains = []
     for impact in contact.slip_throughout():
@@ -158,9 +162,9 @@ def sliding_slows() -> Finding:
 
 
 def reversal_without_compliance() -> Finding:
-    """Lowest velocity at separation without tangential compliance; reversed is negative.
+    r"""Lowest velocity at separation without tangential compliance; reversed is negative.
 
-    The lower one of the rigid limit and of the lumped model with zeta^2 = 1e-4.
+    The lower one of the rigid limit and of the lumped model with $\zeta^2 = 10^{-4}$.
     """
     x, e = INCIDENCE[::10], np.linspace(0, 1, 6)[:, None]
     models = (
@@ -177,8 +181,8 @@ def _halts(e: float, x: float) -> bool:
 def rigid_rebound_limit() -> Finding:
     """Incidence above which the rigid limit leaves with velocity, over the impulse it takes.
 
-    The impulse is m2/m1 times the exact normal impulse by quadrature, which Eq. 26 has as
-    (1 + e) p(t_c).
+    The impulse is $m_2/m_1$ times the exact normal impulse by quadrature, which Eq. 26 has as
+    $(1 + e) p(t_c)$.
     """
     gaps, beta = [], contact.MASS_RATIO
     for e in contact.RESTITUTIONS:
@@ -193,7 +197,7 @@ def rigid_rebound_limit() -> Finding:
 
 
 def rigid_sequence() -> Finding:
-    """Share of rigid contacts below (1 + e) beta that do not slip first and then stick."""
+    r"""Share of rigid contacts below $(1 + e) \beta$ that do not slip first and then stick."""
     e, beta = np.linspace(0, 1, 11)[:, None], contact.MASS_RATIO
     x = slip.slip_throughout_limit(beta, e) * np.linspace(0.001, 0.999, 50)
     return Finding(
@@ -202,7 +206,7 @@ def rigid_sequence() -> Finding:
 
 
 def unaffected_velocity() -> Finding:
-    """Difference that tangential compliance makes to the velocity above x = (1 + e) beta."""
+    r"""Difference that tangential compliance makes to the velocity above $x = (1 + e) \beta$."""
     gaps, beta = [], contact.MASS_RATIO
     for e in (0.0, *contact.RESTITUTIONS):
         x = slip.slip_throughout_limit(beta, e) * np.array([1.0, 1.1, 3.0])
@@ -228,12 +232,12 @@ def models_differ_most() -> Finding:
 
 
 def practically_identical() -> Finding:
-    """Largest distance of lumped model and continuum in v1(tf)/(mu v2(0))."""
+    r"""Largest distance of lumped model and continuum in $v_1(t_f)/(\mu v_2(0))$."""
     return Finding(float(_models_apart()[1].max()))
 
 
 def identical_at_almost_all() -> Finding:
-    """Share of the angles 0 to 90 deg at which the models are within 0.05.
+    """Share of the angles 0 to 90° at which the models are within 0.05.
 
     The smallest over the frictions of Fig. 7.
     """
@@ -248,7 +252,7 @@ def identical_at_almost_all() -> Finding:
 
 
 def last_slip_prolonged() -> Finding:
-    """How much earlier the last slip begins in the lumped model than in the continuum, in t_c.
+    """How much earlier the last slip begins in the lumped model than in the continuum, in $t_c$.
 
     The smallest lead at incidences 0.5, 1, 2 and 3; gross slip is meant.
     """
@@ -270,9 +274,9 @@ def _both_models() -> tuple[Rebound, Rebound]:
 
 
 def mostly_reversed() -> Finding:
-    """Share of small and intermediate incidence with reversed velocity, the smaller of both models.
+    r"""Share of small and intermediate incidence with reversed velocity.
 
-    Up to the limit of slip throughout, 2 beta - zeta^2.
+    The smaller of both models. Up to the limit of slip throughout, $2 \beta - \zeta^2$.
     """
     limit = 2 * contact.MASS_RATIO - contact.STIFFNESS_RATIO
     return Finding(
@@ -315,14 +319,14 @@ def continuum_reverses() -> Finding:
 
 
 def limit_falls_with_losses() -> Finding:
-    """Largest e below which more internal dissipation leaves the limit of slip throughout."""
+    """Largest $e$ below which more internal dissipation leaves the limit of slip throughout."""
     e = np.linspace(0, 1, 2001)
     limit = lumped.slip_throughout_limit(*contact.SPHERE, e)
     return Finding(float(e[np.flatnonzero(np.diff(limit) > 0)[0]]))
 
 
 def compression_unaffected() -> Finding:
-    """Change of the velocity at t_c with e."""
+    """Change of the velocity at $t_c$ with $e$."""
     gaps = []
     for x in (0.3, 1.0, 2.0, 3.3, 5.0, 9.0):
         ends = [
@@ -334,7 +338,7 @@ def compression_unaffected() -> Finding:
 
 
 def restitution_change_falls() -> Finding:
-    """Largest gain of |v1(tf) - v1(t_c)|/(mu v2(0)) as e falls, sphere of the paper."""
+    r"""Largest gain of $|v_1(t_f) - v_1(t_c)|/(\mu v_2(0))$ as $e$ falls, sphere of the paper."""
     e = np.linspace(0, 1, 101)[:, None]
     velocity = lumped.rebound(INCIDENCE, *contact.SPHERE, e).velocity
     change = np.abs(velocity - velocity[0])
@@ -343,7 +347,7 @@ def restitution_change_falls() -> Finding:
 
 
 def other_laws() -> Finding:
-    """Largest part of full friction that the laws of Bilbao, Smith and Brach lack at x = 1e4."""
+    """Largest part of full friction that the laws of Bilbao, Smith and Brach lack, $x = 10^4$."""
     gaps = []
     for e in contact.RESTITUTIONS:
         others = [law(1e4, *contact.SPHERE, e).velocity for law in (laws.smith, laws.brach)]

@@ -41,7 +41,7 @@ def slips_throughout_from(mass_ratio: float, stiffness_ratio: float, restitution
 
 
 def force_ratio() -> Finding:
-    """Eqs 10a and 10b at the exact onset of slip: |F1| = mu F2, and less before."""
+    r"""Eqs 10a and 10b at the exact onset of slip: $|F_1| = \mu F_2$, and less before."""
     gaps = []
     for impact in contact.initial_stick():
         onset = impact.last(EventKind.SLIP)
@@ -83,7 +83,7 @@ def velocity_at_slip() -> Finding:
 
 
 def final_velocity() -> Finding:
-    """Eq. 13 after initial stick, with s as it is at the onset of slip."""
+    """Eq. 13 after initial stick, with $s$ as it is at the onset of slip."""
     gaps = []
     for impact in contact.initial_stick():
         onset = impact.last(EventKind.SLIP)
@@ -99,7 +99,7 @@ def _share_left(impact: Contact, t: Numbers) -> Array:
 
 
 def impulse_left() -> Finding:
-    """Eq. 14 and g1: the impulse after t1 from the momentum at separation."""
+    """Eq. 14 and $g_1$: the impulse after $t_1$ from the momentum at separation."""
     gaps = []
     for impact in contact.initial_stick():
         onset = impact.last(EventKind.SLIP)
@@ -110,7 +110,7 @@ def impulse_left() -> Finding:
 
 
 def rebound_after_stick() -> Finding:
-    """Eq. 15 against the exact rebound, where the last slip reverses (s = +1)."""
+    """Eq. 15 against the exact rebound, where the last slip reverses ($s = +1$)."""
     gaps = []
     for impact in reversed_last_slip(contact.initial_stick()):
         onset, scale = impact.last(EventKind.SLIP), impact.velocity_scale
@@ -251,7 +251,7 @@ def second_stick() -> Finding:
 
 
 def onset_of_second_slip() -> Finding:
-    """Eq. 23 at the exact onset of the last slip, where that reverses (s = +1)."""
+    """Eq. 23 at the exact onset of the last slip, where that reverses ($s = +1$)."""
     gaps = []
     for impact in reversed_last_slip(contact.slip_stick_slip()):
         start, onset = impact.first(EventKind.STICK), impact.last(EventKind.SLIP)
@@ -272,7 +272,7 @@ def onset_of_second_slip() -> Finding:
 
 
 def final_velocity_after_second_slip() -> Finding:
-    """Eq. 24 against the exact rebound, where the last slip reverses (s = +1)."""
+    """Eq. 24 against the exact rebound, where the last slip reverses ($s = +1$)."""
     gaps = []
     for impact in reversed_last_slip(contact.slip_stick_slip()):
         onset = impact.last(EventKind.SLIP)
@@ -283,7 +283,7 @@ def final_velocity_after_second_slip() -> Finding:
 
 
 def rebound_after_second_slip() -> Finding:
-    """Eq. 25 against the exact rebound, where the last slip reverses (s = +1)."""
+    """Eq. 25 against the exact rebound, where the last slip reverses ($s = +1$)."""
     gaps = []
     for impact in reversed_last_slip(contact.slip_stick_slip()):
         onset, scale = impact.last(EventKind.SLIP), impact.velocity_scale
@@ -294,9 +294,10 @@ def rebound_after_second_slip() -> Finding:
 
 
 def slid_after_first_slip() -> Finding:
-    """Largest way that the particle slides in the phase that begins at t2, over its deflection.
+    """Largest way that the particle slides in the phase that begins at $t_2$, over its deflection.
 
-    The particle moves with v1 + du1/dt; by quadrature along sampled contacts of slip, stick, slip.
+    The particle moves with $v_1 + du_1/dt$; by quadrature along sampled contacts of slip, stick,
+    slip.
     """
     shares = []
     for x in (1.3, 2.0, 3.0, 4.5):
@@ -309,7 +310,7 @@ def slid_after_first_slip() -> Finding:
 
 
 def rebound_after_slip_throughout() -> Finding:
-    """Eqs 26 and 27 against the exact rebound above x = (1 + e) beta."""
+    r"""Eqs 26 and 27 against the exact rebound above $x = (1 + e) \beta$."""
     gaps = []
     for impact in contact.slip_throughout():
         scale, e = impact.velocity_scale, impact.restitution
@@ -323,9 +324,9 @@ def rebound_after_slip_throughout() -> Finding:
 
 
 def slip_throughout_limit() -> Finding:
-    """The printed limit (1 + e) beta less the one found by bisection of regimes, as incidences x.
+    r"""The printed limit $(1 + e) \beta$ less the one found by bisection of regimes, by incidence.
 
-    Corrected, by Eqs 17 to 20: beta + max(0, e beta - zeta^2/e).
+    Corrected, by Eqs 17 to 20: $\beta + \max(0, e \beta - \zeta^2/e)$.
     """
     printed, corrected = [], []
     for beta, zeta2 in contact.PAIRS:

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from stronge1994 import csv_tables, figure_table, verdict_table
 from stronge1994.csv_tables import Row
-from stronge1994.pages import key_numbers, names, pdf, templates
-from stronge1994.pages.formulas import mathematical, number
+from stronge1994.formulas import mathematical, number
+from stronge1994.pages import headers, key_numbers, names, pdf, templates
 
 TITLE = "Planar impact of rough compliant bodies: a replication"
 # Models below e = 1, in the order of the note.
@@ -60,6 +60,7 @@ def page(
         "sentence": names.sentence,
         "source_name": names.source,
         "title_of": templates.title,
+        "unit": headers.unit,
     }
     judged = [verdict for verdict in verdict_table.ORDER if verdict != "as before"]
     return environment.get_template(Path(template).name).render(

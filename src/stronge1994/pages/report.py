@@ -20,6 +20,7 @@ from stronge1994 import csv_tables, figure_table, verdict_table
 from stronge1994.csv_tables import Curves, Row
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
+from stronge1994.formulas import mathematical, number, plain
 from stronge1994.judging.verdicts import VISIBLE_SHIFT
 from stronge1994.ledger import outcome
 from stronge1994.pages import (
@@ -35,7 +36,6 @@ from stronge1994.pages import (
     templates,
     which_model,
 )
-from stronge1994.pages.formulas import mathematical, number
 from stronge1994.run import gate, record
 
 MARKS = {
@@ -148,6 +148,7 @@ def page(
         "short": run_facts.short,
         "sentence": names.sentence,
         "title_of": templates.title,
+        "unit": headers.unit,
     }
     environment.tests["in_paper"] = figure_table.is_of_paper
     return environment.get_template(Path(template).name).render(
@@ -210,7 +211,7 @@ def figure(
         "title": templates.title(name),
         "picture": templates.embedded(svg),
         "caption": caption,
-        "alt": re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip("."),
+        "alt": plain(re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip(".")),
         "rows": rows,
         "has_residuals": bool(residuals),
         "has_slide": name in config["slides"],
@@ -226,6 +227,14 @@ def _entry_of(names: Collection[str]) -> Callable[[Row], str | None]:
         return name if name in names else None
 
     return entry_of
+
+
+def _with_formulas(row: Row, config: Mapping[str, Any]) -> Row:
+    """A row with reason and note as the figure's folder has them, not plain as in the table."""
+    entry = config["comparisons"].get(row["comparison"], {})
+    written = [entry.get("reason", ""), entry.get("documented", {}).get("note", "")]
+    latex = {plain(text): text for text in written}
+    return row | {key: latex.get(row[key], row[key]) for key in ("reason", "note")}
 
 
 def copy_tables(folder: str | Path, paths: Iterable[str]) -> None:
@@ -268,7 +277,7 @@ def write(
     rows = salvage("verdicts", [], read, paths["verdicts"], verdict_table.COLUMNS)
     ledger = salvage("ledger", [], read, paths["ledger"], outcome.COLUMNS)
     faults = record.errors(records) + gate.faults_of_tables(rows, ledger, *expected)
-    rows = [row for row in rows if row["verdict"] in MARKS]
+    rows = [_with_formulas(row, config) for row in rows if row["verdict"] in MARKS]
     ledger = [row for row in ledger if row["verdict"] in ledger_page.STYLE]
 
     def section(name: str) -> TemplateValues:
