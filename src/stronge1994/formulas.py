@@ -46,7 +46,7 @@ def plain(text: str) -> str:
     """
 
     def letters(found: re.Match[str]) -> str:
-        formula = found[1].replace(r"\le", "<=").replace(r"\ge", ">=")
+        formula = found[1].replace(r"\le", "<=").replace(r"\ge", ">=").replace(r"\cdot", "*")
         formula = re.sub(r"_(?=\{?\d)|\\mathrm", "", formula)
         return re.sub(r"[\\{}]", "", formula)
 
