@@ -17,7 +17,7 @@ def mathematical(text: str) -> Markup:
     `alttext`.
 
     >>> print(mathematical(r"$\mu^2$ < 2e-05"))
-    <math alttext="mu^2"><msup><mi>μ</mi><mn>2</mn></msup></math> &lt; 2·10<sup>−5</sup>
+    <math alttext="mu^2"><msup><mi>μ</mi><mn>2</mn></msup></math> &lt; 2×10<sup>−5</sup>
     """
     html, done = [], 0
     for found in SET.finditer(text):
@@ -30,11 +30,12 @@ def _set(formula: str, mark: str, code: str, digits: str, power: str) -> Markup:
     """One part of a text, by the groups of `SET`; those of other parts are None."""
     if formula:
         mathml = re.sub(r"\s*\n\s*|^<math[^>]*>", "", tex2mathml(formula))
+        mathml = mathml.replace('<mo stretchy="false">/', '<mo lspace="0" rspace="0">/')
         html = Markup('<math alttext="{}">').format(plain(f"${formula}$")) + Markup(mathml)
         return Markup('<span class="joined">{}{}</span>').format(html, mark) if mark else html
     if code:
         return Markup("<code>{}</code>").format(code)
-    times = "" if digits == "1" else f"{digits}·"
+    times = "" if digits == "1" else f"{digits}×"
     return Markup("{}10<sup>{}</sup>").format(times, f"{int(power)}".replace("-", "−"))
 
 
@@ -46,7 +47,7 @@ def plain(text: str) -> str:
     """
 
     def letters(found: re.Match[str]) -> str:
-        formula = found[1].replace(r"\le", "<=").replace(r"\ge", ">=").replace(r"\cdot", "*")
+        formula = found[1].replace(r"\le", "<=").replace(r"\ge", ">=").replace(r"\,", " ")
         formula = re.sub(r"_(?=\{?\d)|\\mathrm", "", formula)
         return re.sub(r"[\\{}]", "", formula)
 

@@ -88,7 +88,7 @@ def friction_after_stick_in_groups() -> Finding:
     r"""Distance of Eq. 39 from the exact energy lost, over $m_1 v_1(0)^2/2$, after initial stick.
 
     With the leading sign that comes nearer. In the corrected formula the sign is minus, $s g_1$
-    takes the place of $g_1$, and $\mu^2 \zeta^2 \sin^2(\alpha)$ at $t_1$ is added.
+    takes the place of $g_1$, and $\mu^2 \zeta^2\,\sin^2(\alpha)$ at $t_1$ is added.
     """
     printed: dict[int, list[Numbers]] = {-1: [], 1: []}
     corrected = []

@@ -326,7 +326,7 @@ def rebound_after_slip_throughout() -> Finding:
 def slip_throughout_limit() -> Finding:
     r"""The printed limit $(1 + e) \beta$ less the one found by bisection of regimes, by incidence.
 
-    Corrected, by Eqs 17 to 20: $\beta + \max(0, e \beta - \zeta^2/e)$.
+    Corrected, by Eqs 17 to 20: $\beta + \mathrm{max}(0, e \beta - \zeta^2/e)$.
     """
     printed, corrected = [], []
     for beta, zeta2 in contact.PAIRS:
