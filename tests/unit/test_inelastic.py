@@ -238,10 +238,7 @@ def test_a_repair_of_the_model_as_in_the_paper_is_no_silent_change(
 def series_of(inventory):
     """The measured pairs as a drawing gets them."""
     sheet = inventory["cornell1999"]["series"]["pairs"]
-    columns = {
-        name: np.array(column)
-        for name, column in reference_data.read_series("pairs", sheet).items()
-    }
+    columns = {name: np.array(column) for name, column in reference_data.read_series(sheet).items()}
     x, y = "restitution [1]", BETA_0
     errors = (
         columns["restitution_uncertainty [1]"],

@@ -150,7 +150,7 @@ def test_what_the_note_says_in_words_is_so(numbers, first_run, inventory):
     assert round(float(continuum.slip_throughout_limit()), 2) == 5.79
     curves = csv_tables.read(first_run[0] / "results/curves/inelastic.csv")
     series = key_numbers.series_of(
-        reference_data.arrays("pairs", inventory["cornell1999"]["series"]["pairs"])
+        reference_data.arrays(inventory["cornell1999"]["series"]["pairs"])
     )
     own = [curves[f"continuum.{loss}, pairs"] for loss in ("viscous", "plastic")]
     off = {

@@ -54,7 +54,7 @@ def question(entry: Entry, reference: Reference | None) -> str:
 
 def points(entry: Entry, reference: Reference) -> Columns:
     """Columns of the reference in the regime and with the labels of the comparison."""
-    series = reference_data.arrays(entry["reference"].split("/")[1], reference)
+    series = reference_data.arrays(reference)
     if entry.get("as_printed"):
         series["curve"] = np.char.replace(series["curve"], f"{AS_PRINTED}, ", "")
     x = series[reference_data.column_name(reference["x"])]

@@ -46,7 +46,7 @@ def compare(
         reference = references.get(entry.get("reference", ""))
         cells = {key: entry.get(key, "") for key in ("reference", "curve", "reason")}
         cells["question"] = question(entry, reference)
-        if reference is not None and kind(reference) == "awaited" and not reference["path"]:
+        if reference is not None and kind(reference) == "awaited":
             rows.append(_row(name, title, Verdict.AWAITED, note=reference["figure"], **cells))
             continue
         try:

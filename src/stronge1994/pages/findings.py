@@ -184,7 +184,7 @@ def all_of(
     rows = {row["comparison"]: row for row in verdicts}
 
     def measured() -> Columns:
-        return reference_data.arrays("pairs", pairs)
+        return reference_data.arrays(pairs)
 
     def curves(figure: str) -> Callable[[], Curves]:
         return lambda: csv_tables.read(paths[figure])

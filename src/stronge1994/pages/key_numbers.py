@@ -59,8 +59,8 @@ def read(paths: Mapping[str, str], series: Mapping[str, Mapping[str, Any]]) -> T
         rubber=curves(paths["rubber_sphere"]),
         rod=curves(paths["rod"]),
         trade=rows(paths["trade"]),
-        pairs=reference_data.arrays("pairs", series["pairs"]),
-        runs=reference_data.arrays("spheres", series["runs"]),
+        pairs=reference_data.arrays(series["pairs"]),
+        runs=reference_data.arrays(series["runs"]),
     )
 
 
