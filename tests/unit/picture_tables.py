@@ -22,7 +22,7 @@ INVENTORY = reference_data.load_all(
 )
 COARSE = {"samples": 41, "tolerance": 1e-2, "loss_tolerance": 1e-2, "uncertainty": {}}
 PAPER = tuple(f"fig{number}" for number in range(2, 10))
-SOLVED = (*PAPER, "micro_slip", "rod", "study")
+SOLVED = (*PAPER, "micro_slip", "rod")
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 RNG = np.random.default_rng(1994)
 

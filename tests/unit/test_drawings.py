@@ -142,9 +142,6 @@ FAULTS = [
     ("peers", "at = time, row", "at = 2 * time, row"),
     ("peers_errors", "axes.plot(error, height", "axes.plot(error / 2, height"),
     ("peers_errors", 'f"$e = {e:g}$", line', 'f"$e = {1.4 - e:g}$", line'),
-    ("study", "*grid, values, shading", "*grid, -values, shading"),
-    ("study", "xlabel=house_style.INCIDENCE, ylabel", 'xlabel="restitution $e$", ylabel'),
-    ("study", "panel.set_title(title)", "panel.set_title(title.replace('1.21', '3'))"),
     ("residuals", 'axes.plot(x, y, linestyle="none"', 'axes.plot(x, y / 10, linestyle="none"'),
     ("residuals", "plot(x[i : i + 2], y[i : i + 2]", "plot(x[i : i + 2], y[i : i + 2] / 2"),
 ]  # fmt: skip
