@@ -16,35 +16,25 @@ import numpy as np
 from planarimpact.ground.arrays import Array, ArrayLike
 
 
-class Distance(NamedTuple):
-    """Distances of some points in sigmas; those called `plain` are in units of the y axis."""
-
-    rms: float
-    max: float
-    plain_rms: float
-    plain_max: float
-    points: int
-
-
 class Residuals(NamedTuple):
     """A distance for each point: positive where the reference lies above what was computed.
 
     `x` holds the abscissae of the points, `sigmas` the distances in sigmas of the reference, and
     `plain` the vertical distances in units of the y axis.
-
-    >>> Residuals(np.zeros(2), np.array([3.0, -4.0]), np.array([0.3, -0.4])).summary().max
-    4.0
     """
 
     x: Array
     sigmas: Array
     plain: Array
 
-    def summary(self) -> Distance:
-        """Root mean squares, the largest distance, and the number of points."""
-        rms, plain_rms = (float(np.sqrt(np.mean(a**2))) for a in (self.sigmas, self.plain))
-        largest, plain_max = (float(np.abs(a).max()) for a in (self.sigmas, self.plain))
-        return Distance(rms, largest, plain_rms, plain_max, len(self.sigmas))
+
+def rms_and_max(distances: Array) -> tuple[float, float]:
+    """Root mean square and the largest size of some distances.
+
+    >>> rms_and_max(np.array([3.0, -3.0]))
+    (3.0, 3.0)
+    """
+    return float(np.sqrt(np.mean(distances**2))), float(np.abs(distances).max())
 
 
 def curve_residuals(

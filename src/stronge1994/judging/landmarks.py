@@ -3,17 +3,19 @@
 In every curve x ascends. A landmark that a curve does not have is a `ValueError`.
 """
 
+from typing import Any
+
 import numpy as np
 
 from planarimpact.ground.arrays import ArrayLike
 
 
-def find(kind: str, x: ArrayLike, y: ArrayLike, at: float | str | None = None) -> float:
+def find(kind: str, x: ArrayLike, y: ArrayLike, at: Any = None) -> float:
     """A landmark of a curve, by its kind.
 
-    `peak` is the place of the largest inner value; `value` is the value of the polyline at x =
-    `at`. `first` and `last` are the first and the last x where y is the word `at`, or has reached
-    the number `at`, to rounding.
+    `peak` is the place of the largest inner value; `value` is that of the polyline at x = `at`.
+    `first` and `last` are the first and the last x where y is the word `at`, or has reached the
+    number `at` up to rounding.
 
     >>> find("first", [0.0, 1.0, 2.0], [0.2, 1.0, 0.9], 1.0)
     1.0
@@ -22,9 +24,9 @@ def find(kind: str, x: ArrayLike, y: ArrayLike, at: float | str | None = None) -
     >>> find("value", [0.0, 2.0], [0.0, 1.0], 1.0)
     0.5
     """
-    x, y = np.asarray(x, float), np.asarray(y)
     if kind == "peak":
         return peak(x, y)
+    x, y = np.asarray(x, float), np.asarray(y)
     if kind == "value":
         if not x.min() <= at <= x.max():
             raise ValueError(f"{at} lies outside the curve, {x.min():g} to {x.max():g}")
