@@ -149,7 +149,7 @@ def test_what_the_note_says_in_words_is_so(numbers, first_run, inventory):
         assert round((1 + e) * (3.5 - 1.21 / 2), 2) == quoted
     assert round(float(continuum.slip_throughout_limit()), 2) == 5.79
     curves = csv_tables.read(first_run[0] / "results/curves/inelastic.csv")
-    pairs = reference_data.arrays("pairs", inventory["cornell1999"]["series"]["pairs"])
+    pairs = reference_data.arrays(inventory["cornell1999"]["series"]["pairs"])
     values = [pairs[column] for column in ("pair", inelastic.BETA_0, inelastic.SIGMA)]
     own = [curves[f"continuum.{loss}, pairs"] for loss in ("viscous", "plastic")]
     off = {
