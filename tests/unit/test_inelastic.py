@@ -263,7 +263,7 @@ def test_the_picture_has_the_numbers_of_the_gate(lumped_alone, judge, settings, 
 def test_no_words_of_the_picture_overlap(inventory, settings):
     config = configuration.load(ROOT)["figures"]["inelastic"]
     points = {PAIRS: series_of(inventory)}
-    figure, _ = drawings.drawn(draw_inelastic, inelastic.curves(**settings), config, points)
+    figure = drawings.drawn(draw_inelastic, inelastic.curves(**settings), config, points)
     figure.draw_without_rendering()
     for axes in figure.axes:
         boxes = [text.get_window_extent() for text in axes.texts]

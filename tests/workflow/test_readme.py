@@ -1,6 +1,5 @@
 """What the READMEs say is so."""
 
-import csv
 import re
 import shlex
 import subprocess
@@ -150,9 +149,3 @@ def test_stability_is_as_printed(first_run):
     assert count == impacts["phases [1]"].size
     assert phases == round(impacts["phases [1]"].max(), -2)
     assert lost - 1 < impacts["digits_lost [1]"].max() <= lost
-
-
-def test_points_of_the_study_are_counted():
-    with open(ROOT / "data/study_solved/grid.csv", newline="") as file:
-        points = len(list(csv.DictReader(file)))
-    assert f"| {points} points of the figure `study` |" in TEXTS["data/README.md"]
