@@ -60,8 +60,9 @@ REPRODUCTION = {
     "pages": "ground bodies export csv_tables reference_data figures goodness judging ledger plan"
     " run verdict_table figure_table jinja2",
 }
-# The figures have one folder each, and in it files that solve and files that draw.
-DRAWING = ("drawing", "draw_", "slide")
+# The figures have one folder each, and in it files that solve and files that draw, or that judge
+# what is drawn.
+DRAWING = ("drawing", "draw_", "slide", "trials")
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and
 # of the reproduction has a door of its own.

@@ -8,7 +8,7 @@ import planarimpact
 from planarimpact import continuum, lumped
 from planarimpact.models import timestep
 from stronge1994 import csv_tables, reference_data, verdict_table
-from stronge1994.figures.inelastic import drawing as inelastic
+from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.pages import key_numbers, note
 from tests.workflow.project import ROOT
 
@@ -149,15 +149,12 @@ def test_what_the_note_says_in_words_is_so(numbers, first_run, inventory):
         assert round((1 + e) * (3.5 - 1.21 / 2), 2) == quoted
     assert round(float(continuum.slip_throughout_limit()), 2) == 5.79
     curves = csv_tables.read(first_run[0] / "results/curves/inelastic.csv")
-    series = key_numbers.series_of(
-        reference_data.arrays("pairs", inventory["cornell1999"]["series"]["pairs"])
-    )
+    pairs = reference_data.arrays("pairs", inventory["cornell1999"]["series"]["pairs"])
+    values = [pairs[column] for column in ("pair", inelastic.BETA_0, inelastic.SIGMA)]
     own = [curves[f"continuum.{loss}, pairs"] for loss in ("viscous", "plastic")]
     off = {
         pair: min(abs(y - c[inelastic.BETA_0][c["pair"] == pair][0]) / sigma for c in own)
-        for pair, y, sigma in zip(
-            series["columns"]["pair"], series["y"], series["sigma"][1], strict=True
-        )
+        for pair, y, sigma in zip(*values, strict=True)
     }
     assert max(off, key=off.get) == inelastic.HARD
-    assert min(zip(series["x"], series["columns"]["pair"], strict=True))[1] == inelastic.SOFT
+    assert pairs["pair"][pairs[inelastic.E].argmin()] == inelastic.SOFT
