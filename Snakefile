@@ -90,6 +90,7 @@ include: "workflow/rules/stability.smk"
 include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/explorer.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/peers.smk"
 include: "workflow/rules/spheres.smk"
 
 
