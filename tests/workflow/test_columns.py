@@ -111,7 +111,6 @@ def test_no_column_can_be_scaled_or_flipped(name, factor, tables, monkeypatch):
         ("fig5", "lumped", slice(703, 704)),
         ("fig6", "e = 0", [300]),
         ("inelastic", "continuum.viscous, e = 0.6", [37]),
-        ("study", "zeta^2 = 1.21", range(1010, 1150)),
     ],
 )
 def test_a_fault_between_the_points_of_reference_is_seen(name, curve, rows, tables, monkeypatch):

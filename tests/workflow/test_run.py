@@ -205,7 +205,7 @@ def test_a_change_of_the_config_reruns_what_it_concerns(finished):
     finished.edit(
         "workflow/config.yaml", "superball: {tolerance: 1.0e-4", "superball: {tolerance: 0.1"
     )
-    _, counts = finished.planned("--config", "figures={study: {samples: 100}}")
+    _, counts = finished.planned("--config", "figures={fig2: {restitution: 0.4}}")
     once = [
         "scene",
         "gather",

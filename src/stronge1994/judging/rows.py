@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from stronge1994 import csv_tables, reference_data
+from stronge1994.formulas import plain
 from stronge1994.judging import judged_tables
 from stronge1994.judging.metrics import Measured, measure
 from stronge1994.judging.points import Entry, Reference, is_published, kind, question, sigma
@@ -139,7 +140,8 @@ def _allowed(entry: Entry, reference: Reference | None, significance: float) -> 
 
 def _row(figure: str, name: str, verdict: Verdict, **cells: Any) -> VerdictRow:
     row = dict.fromkeys(COLUMNS, "")
-    return row | {"figure": figure, "comparison": name, "verdict": str(verdict)} | cells
+    row |= {"figure": figure, "comparison": name, "verdict": str(verdict)} | cells
+    return row | {key: plain(row[key]) for key in ("note", "reason")}
 
 
 def write(rows: Sequence[VerdictRow], verdicts: str, residuals: str) -> None:
