@@ -106,7 +106,7 @@ MAKERS = [
     rules.trade_tables,
     rules.stability_table,
     rules.scene,
-    rules.lectures,
+    rules.lecture,
     rules.explorer,
     rules.start_page,
     rules.report,

@@ -48,6 +48,7 @@ VALUES = {
     "figure": list(FIGURES),
     "judged": list(JUDGED),
     "scene": list(config["scenes"]),
+    "notebook": NOTEBOOKS,
     "table": ["fine", "coarse"],
 }
 
@@ -56,6 +57,7 @@ wildcard_constraints:
     figure="|".join(FIGURES),
     judged="|".join(JUDGED),
     scene="|".join(config["scenes"]) or "none",
+    notebook="|".join(NOTEBOOKS) or "none",
 
 
 PLANNED = []  # names of jobs
