@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stronge1994 import csv_tables, reference_data
-from stronge1994.figures.inelastic import drawing as inelastic
+from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.pages import key_numbers, note
 from tests.workflow import browser
 from tests.workflow.project import ROOT
@@ -84,14 +84,13 @@ def test_what_it_says_in_words_is_so(numbers, first_run, inventory):
         far = [n[f"nature.from_{loss}.{model}"] for model in ("unloading_stiffness", "paper")]
         assert far[0] < far[1]
     curves = csv_tables.read(first_run[0] / "results/curves/inelastic.csv")
-    pairs = reference_data.arrays("pairs", inventory["cornell1999"]["series"]["pairs"])
-    names, beta_0 = pairs["pair"], inelastic.BETA_0
-    sigma = pairs[beta_0.replace(" [1]", "_uncertainty [1]")]
+    pairs = reference_data.arrays(inventory["cornell1999"]["series"]["pairs"])
+    names, beta_0, sigma = (pairs[key] for key in ("pair", inelastic.BETA_0, inelastic.SIGMA))
     off = {}
     for loss in ("viscous", "plastic"):
         own = curves[f"continuum.{loss}, pairs"]
-        computed = [own[beta_0][own["pair"] == name][0] for name in names]
-        off[loss] = abs(pairs[beta_0] - computed) / sigma
+        computed = [own[inelastic.BETA_0][own["pair"] == name][0] for name in names]
+        off[loss] = abs(beta_0 - computed) / sigma
     farthest = np.minimum(off["viscous"], off["plastic"]).argmax()
     assert names[farthest] == inelastic.HARD
     assert names[pairs[inelastic.E].argmin()] == inelastic.SOFT
