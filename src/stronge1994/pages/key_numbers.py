@@ -14,7 +14,7 @@ from planarimpact.ground.arrays import Array
 from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Columns, Curves, Row
 from stronge1994.figures.inelastic import trials as inelastic
-from stronge1994.figures.shared.drawing.lossy import MODELS
+from stronge1994.figures.shared.drawing.beside import MODELS
 from stronge1994.ledger import in_nature, outcome
 from stronge1994.ledger.in_nature import Values
 

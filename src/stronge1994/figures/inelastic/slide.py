@@ -21,7 +21,7 @@ def draw(curves: Curves, settings: Settings, points: Points, ground: slide.Groun
     data = f"solved here, bands: Poisson's ratio {low:g} to {high:g}"
     if series:
         data += "; measured: Cornell 1999, Joseph & Hunt 2004"
-        least = int(series["restitution"].argmin())
+        least = int(series["x"].argmin())
         pair = series["columns"]["pair"][least]
         model = curves[f"{PAPER}, pairs"]
         ratio = float(model[BETA_0][model["pair"] == pair][0] / series["y"][least])
