@@ -41,10 +41,8 @@ def test_a_good_run_passes_and_leaves_everything(first_run):
         ):
             assert (project / path).stat().st_size > 100
         assert (project / f"results/records/draw_{figure}.json").exists()
-    folders = figures.FOLDER.glob("*/slide.py")
-    slides = {
-        f"{path.parent.name}_{ground}.png" for path in folders for ground in ("light", "dark")
-    }
+    named = figures.with_trait("slide")
+    slides = {f"{figure}_{ground}.png" for figure in named for ground in ("light", "dark")}
     assert slides == {path.name for path in (project / "figures/slides").iterdir()}
     for table in ("trade", "which_model", "stability"):
         assert (project / f"results/{table}.csv").stat().st_size > 100
@@ -130,7 +128,7 @@ def test_dry_run_is_clean(fresh):
     result = fresh.run("--dry-run", "--quiet", "host")
     assert result.returncode == 0
     assert "warning" not in result.stdout.lower()
-    slides = len(list(figures.FOLDER.glob("*/slide.py")))
+    slides = len(figures.with_trait("slide"))
     for rule, number in (("draw", len(FIGURES) - slides), ("draw_with_slide", slides)):
         assert re.search(rf"^{rule} +{number}$", result.stdout, flags=re.M)
     assert "peers" not in result.stdout, "they are for those who ask"

@@ -49,8 +49,10 @@ def side_by_side(x: Array) -> Array:
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Draw (a) beta_0 against e, (b) one contact at all incidences, (c) chi-squared by trial."""
     figure = house_style.new(9.9)
-    parts = figure.subfigures(3, height_ratios=[3.4, 2.1, 3.6])
-    bands, contact, judged = (part.subplots() for part in parts)
+    grid = figure.add_gridspec(3, height_ratios=[3.4, 2.1, 3.6])
+    # Each panel is as wide as its own labels allow.
+    parts = [grid[row].subgridspec(1, 1) for row in range(3)]
+    bands, contact, judged = (figure.add_subplot(part[0]) for part in parts)
     low, high = settings["poisson_ratio"]
     for nu in (low, high):
         beside.lines(bands, curves, name("nu", nu), E, BETA_0)
@@ -73,12 +75,13 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
 def _draw_pairs(axes: Axes, series: Series) -> Entries:
     """Draw the measured pairs with their numbers, and return the entries of the legend."""
     x, y = side_by_side(series["x"]), series["y"]
-    house_style.measured(axes, series | {"x": x}, **POINT)
     entries = []
-    place = {"textcoords": "offset points", "fontsize": house_style.NOTE}
-    for number, pair in enumerate(series["columns"]["pair"]):
-        axes.annotate(f"{number + 1}", (x[number], y[number]), (3, 2), **place)
-        entries.append(house_style.key(f"{number + 1}  {pair}", **POINT))
+    for row, pair in enumerate(series["columns"]["pair"]):
+        sigma = [errors[[row]] for errors in series["sigma"]]
+        one = series | {"x": x[[row]], "y": y[[row]], "sigma": sigma}
+        entries.append(house_style.measured(axes, one, label=f"{row + 1}  {pair}", **POINT))
+        place = {"textcoords": "offset points", "fontsize": house_style.NOTE}
+        axes.annotate(f"{row + 1}", (x[row], y[row]), (3, 2), **place)
     return entries
 
 

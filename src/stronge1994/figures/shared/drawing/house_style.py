@@ -23,7 +23,6 @@ several restitutions, `of_restitution` gives their lines; where it shows one, a 
 
 import itertools
 import re
-import textwrap
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import IO, Any, TypeAlias, TypeVar
@@ -73,7 +72,6 @@ DASHES: tuple[Dashes, ...] = (
     (0, (7, 1.5, 1.5, 1.5, 1.5, 1.5)),
 )
 COLOURS: tuple[str, ...] = (BLACK, BLUE, VERMILLION, GREEN, PURPLE)
-CYCLE = tuple(zip(COLOURS, DASHES, strict=True))
 
 LUMPED: Style = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
 CONTINUUM: Style = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
@@ -104,6 +102,8 @@ LABELS = {
     "incidence [mu v2(0)]": INCIDENCE,
     "velocity [mu v2(0)]": REBOUND,
     "restitution [1]": "restitution $e$",
+    "deflection [v2(0)/Omega]": r"deflection over $v_2(0)/\Omega$",
+    "force [m2 Omega v2(0)]": r"force over $m_2\Omega v_2(0)$",
     "time [t_c]": "$t/t_c$",
     "time [1/Omega]": r"$\Omega t$",
     "tilt [deg]": r"tilt $\alpha$",
@@ -171,16 +171,6 @@ def save(figure: Figure, svg: File, png: File | None = None) -> None:
     if png:
         figure.dpi = 200
         FigureCanvasAgg(figure).print_png(png)
-
-
-def failure(message: str) -> Figure:
-    """Figure of one sentence, drawn instead of curves that are missing."""
-    figure = new(1.6)
-    # A dollar sign in an error message is not mathematics.
-    style = {"ha": "center", "va": "center", "color": VERMILLION, "parse_math": False}
-    style["linespacing"] = LINES
-    figure.text(0.5, 0.5, textwrap.fill(message, 64), **style)
-    return figure
 
 
 def symbols(name: str) -> str:
@@ -279,10 +269,18 @@ def legend_below(
             text.set_style("italic")
 
 
-def rigid(axes: Axes, curves: Curves, name: str, x: str, y: str, compliant: str) -> Line2D:
+def rigid(
+    axes: Axes,
+    curves: Curves,
+    name: str,
+    x: str,
+    y: str,
+    compliant: str,
+    label: str = "no tangential compliance",
+) -> Line2D:
     """Line without tangential compliance, left out where the compliant curve is the same."""
     rows = ~np.isclose(curves[name][y], curves[compliant][y])
-    return line(axes, curves, name, x, y, rows, label="no tangential compliance", **RIGID)
+    return line(axes, curves, name, x, y, rows, label=label, **RIGID)
 
 
 def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> Entries:
@@ -347,43 +345,32 @@ def references(axes: Axes, points: Points, wanted: Mapping[str, tuple[str, Style
     ]
 
 
-def let_in(axes: Axes, series: Series) -> None:
-    """Widen axes, whose limits are set, to points digitised up to three sigmas outside them."""
-    for name, get, set_ in (
-        ("x", axes.get_xlim, axes.set_xlim),
-        ("y", axes.get_ylim, axes.set_ylim),
-    ):
-        (low, high), sigma = get(), series["sigma"]["xy".index(name)]
-        values = series[name]
-        near = values[(values >= low - 3 * sigma) & (values <= high + 3 * sigma)]
-        set_(min([low, *near]), max([high, *near]))
+def letter(panels: Sequence[Axes]) -> None:
+    """Name panels above each other (a), (b) and so on; only the last keeps its label below."""
+    for name, axes in zip("abcdef", panels, strict=False):
+        axes.set_ylabel(f"({name}) {axes.get_ylabel()}")
+        axes.xaxis.label.set_visible(axes is panels[-1])
 
 
-def angle_axes(axes: Axes, span: Sequence[float]) -> None:
-    """Axis of angles of incidence below, and above it the ratios of velocities that they mean."""
-    axes.set(xlim=span, xlabel=r"angle of incidence $\theta$")
+def angle_axes(panels: Sequence[Axes], span: Sequence[float]) -> None:
+    """Angles of incidence below panels, and above the first the ratios of velocities they mean."""
     degrees = [angle for angle in range(0, 91, 30) if span[0] <= angle <= span[1]]
-    axes.set_xticks(degrees, [rf"${angle}\degree$" for angle in degrees])
+    for axes in panels:
+        axes.set(xlim=span, xlabel=r"angle of incidence $\theta$")
+        axes.set_xticks(degrees, [rf"${angle}\degree$" for angle in degrees])
     ratios = np.array([0, 0.2, 0.4, 0.6, 1, 2, 4])
     angles = np.degrees(np.arctan(ratios))
     inside = (angles >= span[0]) & (angles <= span[1])
-    top = axes.secondary_xaxis("top")
+    top = panels[0].secondary_xaxis("top")
     top.set_xticks(angles[inside], [f"{ratio:g}" for ratio in ratios[inside]])
     top.set_xlabel(r"$v_1(0)/v_2(0)$")
 
 
-def brackets(axes: Axes, spans: Iterable[tuple[float, float, str]]) -> None:
-    """Draw brackets over the axes: `spans` holds (start, end, label) on the x axis."""
-    across = axes.get_xaxis_transform()
-    left, right = axes.get_xlim()
-    foot, top = 1.02, 1.045
-    for start, end, label in spans:
-        frame = [start, start, end, end], [foot, top, top, foot]
-        axes.plot(*frame, transform=across, clip_on=False, color=BLACK, linewidth=0.7)
-        # Letters that fit: 20 to an inch in this size. The axes are narrower than the figure.
-        letters = int((end - start) / (right - left) * WIDTH * 17)
-        if letters < max(map(len, label.split())):
-            continue
-        wrapped = textwrap.fill(label, letters)
-        place = {"ha": "center", "va": "bottom", "transform": across, "linespacing": LINES}
-        axes.text((start + end) / 2, top + 0.012, wrapped, fontsize=NOTE, **place)
+def name_spans(axes: Axes, spans: Sequence[tuple[float, float, str]]) -> None:
+    """Names of parts of the x axis above the axes, and lines between them: (start, end, name)."""
+    top = axes.secondary_xaxis("top")
+    middles, names = zip(*(((start + end) / 2, name) for start, end, name in spans), strict=True)
+    top.set_xticks(middles, names, fontsize=NOTE)
+    top.tick_params(length=0)
+    for start, _, _ in spans[1:]:
+        axes.axvline(start, **GUIDE)
