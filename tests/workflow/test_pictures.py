@@ -21,7 +21,7 @@ from stronge1994.run import plans
 NOT_DRAWN = {
     "fig5": "finite elements",
     "fig9": "no tangential compliance, (mu = 0.1|.*, e = 0.5)",
-    "rubber_sphere": "impacts|stated",
+    "rubber_sphere": "impacts|stated|rms",
     "stability": "contacts",
     "trade": "steps|e = 0.8",
     "yielding": "continuum, nu",

@@ -14,7 +14,7 @@ import numpy as np
 from stronge1994 import csv_tables, reference_data, verdict_table
 from stronge1994.csv_tables import Columns, Curves, Row
 from stronge1994.figures.inelastic import trials as inelastic
-from stronge1994.figures.shared.drawing.lossy import MODELS
+from stronge1994.figures.shared.drawing.beside import MODELS
 from stronge1994.ledger import finding, outcome
 from stronge1994.pages import ledger_page
 
