@@ -93,7 +93,7 @@ MAKERS = [
     rules.note,
     rules.trade_tables,
     rules.scene,
-    rules.lectures,
+    rules.lecture,
     rules.explorer,
     rules.start_page,
     rules.report,

@@ -12,7 +12,7 @@ MEASURED = {
 rule note:
     """A note on the replication of the paper, and the table of the numbers that it states."""
     input:
-        plan=planned("note", "write_note", "pages", "figures/inelastic/drawing.py",
+        plan=planned("note", "write_note", "pages", "figures/inelastic/trials.py",
             "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
             "judging", settings=lambda _: MEASURED,
             reads=lambda _: [series["path"] for series in MEASURED.values()]),

@@ -13,15 +13,14 @@ import numpy as np
 
 from stronge1994 import csv_tables, reference_data, verdict_table
 from stronge1994.csv_tables import Columns, Curves, Row
-from stronge1994.figures.inelastic import drawing as inelastic
-from stronge1994.figures.shared.drawing.house_style import Series
-from stronge1994.ledger import in_nature, outcome
+from stronge1994.figures.inelastic import trials as inelastic
+from stronge1994.figures.shared.drawing.lossy import MODELS
+from stronge1994.ledger import finding, outcome
 from stronge1994.pages import ledger_page
 
 Numbers = dict[str, float]
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
-MODELS = tuple(inelastic.MODELS)
+E, BETA_0 = inelastic.E, inelastic.BETA_0
 # The pairs of materials that decide most.
 SOFT, HARD = inelastic.SOFT, inelastic.HARD
 # Models are compared with the finite elements up to this friction, from this restitution on.
@@ -39,8 +38,8 @@ def of_run(paths: Mapping[str, str], series: Mapping[str, Mapping[str, Any]]) ->
     numbers = (
         _counts(rows(paths["verdicts"]), rows(paths["ledger"]))
         | _elastic(curves(paths["fig5"]))
-        | _pairs(curves(paths["inelastic"]), reference_data.arrays("pairs", series["pairs"]))
-        | _yielding(curves(paths["yielding"]), reference_data.arrays("spheres", series["runs"]))
+        | _pairs(curves(paths["inelastic"]), reference_data.arrays(series["pairs"]))
+        | _yielding(curves(paths["yielding"]), reference_data.arrays(series["runs"]))
         | _rubber(curves(paths["rubber_sphere"]))
         | _nature(rows(paths["in_nature"]))
     )
@@ -83,28 +82,21 @@ def _elastic(curves: Curves) -> Numbers:
     return {"elastic.largest": distance.max(), "elastic.at": lumped[X][distance.argmax()]}
 
 
-def series_of(measured: Columns) -> Series:
-    """Measured pairs as the figure has them."""
-    sigma = tuple(measured[key.replace(" [1]", "_uncertainty [1]")] for key in (E, BETA_0))
-    return {"x": measured[E], "y": measured[BETA_0], "sigma": sigma, "columns": measured}
-
-
 def _pairs(curves: Curves, measured: Columns) -> Numbers:
     """The measured pairs of materials, and chi-squared of each model in each trial of the figure.
 
     `failed` is the number of spreads of impacts with which a model fails; `least` and `most` are
     its smallest and largest chi-squared over them. `soft` and `hard` are beta_0 of two pairs.
     """
-    series = series_of(measured)
     trials = inelastic.trials(curves)
-    spreads = [trial for trial in trials if not trial.without and trial.share == 1]
-    least, second = np.sort(series["x"])[:2]
-    numbers: Numbers = {"pairs.number": len(series["x"]), "pairs.spreads": len(spreads)}
+    spreads = [trial for trial in trials.values() if not trial.without and trial.share == 1]
+    least, second = np.sort(measured[E])[:2]
+    numbers: Numbers = {"pairs.number": len(measured["pair"]), "pairs.spreads": len(spreads)}
     numbers |= {"pairs.least_e": least, "pairs.second_e": second}
     for model in MODELS:
-        fit, name = partial(inelastic.goodness, curves, model, series), f"pairs.{model}"
-        for trial in trials:
-            of_trial = name if trial is trials[0] else f"{name}.{trial.name}"
+        fit, name = partial(inelastic.goodness, curves, model, measured), f"pairs.{model}"
+        for title, trial in trials.items():
+            of_trial = name if trial is inelastic.AS_JUDGED else f"{name}.{title}"
             found = fit(trial)
             numbers |= {f"{of_trial}.chi2": found.value, f"{of_trial}.p": found.p}
         values = [fit(trial).value for trial in spreads]
@@ -112,16 +104,16 @@ def _pairs(curves: Curves, measured: Columns) -> Numbers:
         for part, without in (("", []), (f".{SOFT}", [SOFT]), (".both", [SOFT, HARD])):
             p = [fit(trial._replace(without=without)).p for trial in spreads]
             numbers[f"{name}{part}.failed"] = sum(value <= inelastic.SIGNIFICANCE for value in p)
-    alone = inelastic.Trial(SOFT, without=[pair for pair in measured["pair"] if pair != SOFT])
-    share = inelastic.goodness(curves, "lumped.hysteretic", series, alone)
+    alone = inelastic.Trial(without=[pair for pair in measured["pair"] if pair != SOFT])
+    share = inelastic.goodness(curves, "lumped.hysteretic", measured, alone)
     numbers[f"pairs.lumped.hysteretic.{SOFT}.chi2"] = share.value
     for part, without in (("", []), (".without", [SOFT])):
-        slope, sigma = inelastic.slope(series, without)
+        slope, sigma = inelastic.slope(measured, without)
         numbers |= {f"pairs.slope{part}": slope, f"pairs.slope{part}.sigma": sigma}
     for name, pair in (("soft", SOFT), ("hard", HARD)):
         row = int(np.flatnonzero(measured["pair"] == pair)[0])
-        numbers[f"pairs.{name}.measured"] = series["y"][row]
-        numbers[f"pairs.{name}.sigma"] = series["sigma"][1][row]
+        numbers[f"pairs.{name}.measured"] = measured[BETA_0][row]
+        numbers[f"pairs.{name}.sigma"] = measured[inelastic.SIGMA][row]
         for model in MODELS:
             own = curves[f"{model}, pairs"]
             numbers[f"pairs.{name}.{model}"] = own[BETA_0][own["pair"] == pair][0]
@@ -158,9 +150,9 @@ def _rubber(curves: Curves) -> Numbers:
 
 
 def _nature(measures: Sequence[Row]) -> Numbers:
-    """Measures of the ledger's sentences in nature, by model."""
+    """What the ledger's checks of restitution find, by model."""
     return {
-        f"nature.{name}.{model}": value
-        for name, values in in_nature.read(measures).items()
-        for model, value in values._asdict().items()
+        f"nature.{row['measure']}.{model}": float(row[model])
+        for row in measures
+        for model in finding.MODELS
     }
