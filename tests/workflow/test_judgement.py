@@ -143,6 +143,7 @@ def test_entries_that_do_not_hold_do_not_pass(expected, holds):
 
 
 TABLES = ("verdicts", "ledger", "trade", "which_model", "key_numbers")
+OTHER_CODES = str(ROOT / "data/other_codes/impacts.csv")
 
 
 @pytest.fixture
@@ -175,7 +176,7 @@ def report(first_run, expected, inventory, tmp_path, monkeypatch):
         write_report.write(
             "figures/report.html",
             "results/problems.csv",
-            {name: f"results/{name}.csv" for name in TABLES},
+            {name: f"results/{name}.csv" for name in TABLES} | {"impacts": OTHER_CODES},
             {name: f"results/residuals/{name}.csv" for name in names},
             {name: f"figures/{name}.svg" for name in names},
             [],
