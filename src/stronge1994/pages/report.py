@@ -64,8 +64,7 @@ MEANING = {
 }
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure, or of the page
 # Tables with a section of the report; their captions stand in files of the same names.
-SECTIONS = ("which_model", "trade", "stability")
-NO_TIMES: TemplateValues = {"rows": [], "absent": []}
+SECTIONS = ("which_model", "trade")
 
 
 class Salvage:
@@ -203,7 +202,7 @@ def write(
     """Read the tables and pictures of a run; write the report, its sources, and its own problems.
 
     `paths` are the files of the tables: `verdicts`, `ledger`, `key_numbers`, those of `SECTIONS`,
-    and `peers` where other codes were measured. `records` are those of the jobs that made all this.
+    and `impacts`, the series of other codes. `records` are those of the jobs that made all this.
     Captions of tables stand in files beside the template. `settings` are those of the rule:
     `captions` of the figures, `config`, the contents of data/*/source.yaml as `sources`, and the
     rows that `gate.faults_of_tables` asks for. A page that cannot be made is not written.
@@ -224,9 +223,8 @@ def write(
         return Path(template).with_name(f"{name}.rst").read_text(encoding="utf-8").strip()
 
     figures = {name: salvage(templates.title(name), None, section, name) for name in svgs}
-    which, trade, peers = (
-        salvage(name, [], read, paths[name]) if name in paths else []
-        for name in ("which_model", "trade", "peers")
+    which, trade, others = (
+        salvage(name, [], read, paths[name]) for name in ("which_model", "trade", "impacts")
     )
     run = run_facts.of_run()
     values = {
@@ -235,7 +233,7 @@ def write(
         "figures": {name: part for name, part in figures.items() if part},
         "captions": {name: caption(name) for name in SECTIONS},
         "cases": salvage("which_model", [], which_model.cases, which),
-        "times": salvage("times", NO_TIMES, impact_times.section, trade, peers),
+        "times": salvage("times", [], impact_times.ratios, trade, others),
         "n": salvage("key numbers", {}, key_numbers.read, paths["key_numbers"]),
         "significance": config["significance"],
         "run": run,
