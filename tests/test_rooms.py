@@ -41,8 +41,7 @@ REPRODUCTION = {
     "__init__": "",
     "one_thread": "",
     "csv_tables": "",
-    "verdict_table": "csv_tables",
-    "figure_table": "csv_tables verdict_table",
+    "verdict_tables": "csv_tables curve_names",
     "curve_names": "",
     "goodness": "ground",
     "reference_data": "csv_tables",
@@ -54,11 +53,11 @@ REPRODUCTION = {
     " matplotlib",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
-    "judging": "ground csv_tables curve_names goodness reference_data verdict_table",
-    "run": "csv_tables verdict_table figure_table ledger matplotlib",
-    "plan": "reference_data",
+    "judging": "ground csv_tables curve_names goodness reference_data verdict_tables",
+    "run": "csv_tables verdict_tables ledger matplotlib",
+    "plan": "reference_data curve_names",
     "pages": "ground bodies export csv_tables reference_data figures goodness judging ledger plan"
-    " run verdict_table figure_table jinja2",
+    " run curve_names verdict_tables jinja2",
 }
 # The figures have one folder each, and in it files that solve and files that draw.
 DRAWING = ("drawing", "draw_", "slide")

@@ -18,13 +18,14 @@ import pytest
 import yaml
 
 import planarimpact
-from stronge1994 import reference_data, verdict_table
+from stronge1994 import reference_data
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.ledger import outcome
 from stronge1994.pages import findings, key_numbers, ledger_page, names, run_facts
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
+from stronge1994.verdict_tables import verdict_table
 from tests.workflow import browser
 
 ROOT = Path(__file__).parents[2]

@@ -7,9 +7,10 @@ import pytest
 import planarimpact
 from planarimpact import continuum, lumped
 from planarimpact.models import timestep
-from stronge1994 import csv_tables, reference_data, verdict_table
+from stronge1994 import csv_tables, reference_data
 from stronge1994.figures.inelastic import drawing as inelastic
 from stronge1994.pages import key_numbers, note
+from stronge1994.verdict_tables import verdict_table
 from tests.workflow.project import ROOT
 
 

@@ -15,7 +15,7 @@ rule key_numbers:
     input:
         plan=planned("key_numbers", "find_key_numbers", "pages", "figures/inelastic/drawing.py",
             "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
-            "judging", settings=lambda _: MEASURED, reads=lambda _: MEASURED_FILES),
+            "judging", "verdict_tables", settings=lambda _: MEASURED, reads=lambda _: MEASURED_FILES),
         tables=[
             "results/verdicts.csv",
             "results/ledger.csv",
@@ -42,7 +42,7 @@ rule note:
     input:
         plan=planned("note", "write_note", "pages", "figures/inelastic/drawing.py",
             "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
-            "judging"),
+            "judging", "verdict_tables"),
         template="workflow/report/note.html",
         parts=expand("workflow/report/{part}", part=["page.css", "note.css", "figure_table.html"]),
         shared=EVERY_PAGE,

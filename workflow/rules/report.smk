@@ -94,7 +94,7 @@ rule report:
     """The run as one page, its sources and settings as another; written after failures, too."""
     input:
         plan=planned("report", "write_report", "pages", "figures/inelastic/drawing.py",
-            "figures/shared/drawing", "judging", "ledger", "printed", "plan",
+            "figures/shared/drawing", "judging", "verdict_tables", "ledger", "printed", "plan",
             "reference_data", "run", settings=lambda _: REPORT_SETTINGS,
             reads=lambda _: FIGURES["inelastic"]["tables"]),
         template="workflow/report/report.html",

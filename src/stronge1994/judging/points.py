@@ -9,7 +9,7 @@ from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994 import reference_data
 from stronge1994.csv_tables import Columns
 from stronge1994.curve_names import AS_PRINTED
-from stronge1994.verdict_table import QUESTIONS
+from stronge1994.verdict_tables.verdict_table import QUESTIONS
 
 # A comparison of the config, and what it names: a series or a fact of source.yaml, with the
 # parameters of its source. What a law is compared with is empty.

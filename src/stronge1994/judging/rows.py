@@ -15,7 +15,7 @@ from stronge1994.judging.distances import rms_and_max
 from stronge1994.judging.metrics import Measured, measure
 from stronge1994.judging.points import Entry, Reference, is_published, kind, question, sigma
 from stronge1994.judging.verdicts import Verdict, chi_squared_of, failed, judge
-from stronge1994.verdict_table import COLUMNS, FAILS, LEDGER, QUESTIONS
+from stronge1994.verdict_tables.verdict_table import COLUMNS, FAILS, LEDGER, QUESTIONS
 
 RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
 # The cells of a row by `COLUMNS`. `residuals` holds rows of the table of residuals.

@@ -5,44 +5,16 @@ verdict is computed again with all of them moved by `VISIBLE_SHIFT` sigmas.
 """
 
 from collections.abc import Mapping
-from enum import StrEnum
 
 from stronge1994.goodness import ChiSquared, chi_squared
 from stronge1994.judging.distances import rms_and_max
 from stronge1994.judging.metrics import Measured
 from stronge1994.judging.points import Entry, Reference, is_published, question
-from stronge1994.verdict_table import QUESTIONS
+from stronge1994.verdict_tables.verdict_table import QUESTIONS, Verdict
 
 # If all points lie this many sigmas on one side of a curve, a reader of the picture sees that the
 # curve is wrong. A comparison that does not notice it says less than the picture.
 VISIBLE_SHIFT = 2.0
-
-
-class Verdict(StrEnum):
-    """The outcome of one comparison; only DIVERGES and WRONG fail a run.
-
-    RIGHT and WRONG answer the question whether our curve is solved right, which our own second
-    codes and laws decide; AGREES and DIVERGES are kept for the paper and for others. UNCHANGED is
-    the verdict of a check against an earlier result of this repository, or against points that the
-    curve was fitted to. It guards against accidents and is evidence of nothing. INCONCLUSIVE does
-    not count as evidence either: published points agree with the curve, but would also agree if
-    they lay `VISIBLE_SHIFT` sigmas beside it. A known difference is EXPLAINED; or its cause is not
-    known; or it is UNTESTED, because the reference does not state how much its values scatter.
-
-    >>> print(Verdict.EXPLAINED)
-    explained difference
-    """
-
-    AGREES = "agrees"
-    INCONCLUSIVE = "inconclusive"
-    EXPLAINED = "explained difference"
-    UNTESTED = "untested difference"
-    UNEXPLAINED = "unexplained difference"
-    DIVERGES = "diverges"
-    RIGHT = "right"
-    WRONG = "wrong"
-    AWAITED = "awaited"
-    UNCHANGED = "as before"
 
 
 def chi_squared_of(reference: Reference, measured: Measured) -> ChiSquared:

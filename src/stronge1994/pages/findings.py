@@ -14,10 +14,11 @@ import numpy as np
 from markupsafe import Markup
 
 from planarimpact.ground.arrays import Array
-from stronge1994 import csv_tables, reference_data, verdict_table
+from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Columns, Curves, Row
 from stronge1994.ledger import nature_models, outcome
 from stronge1994.pages import ledger_page, note, which_model
+from stronge1994.verdict_tables import verdict_table
 
 Finding = dict[str, Any]
 INCIDENCE, VELOCITY = "incidence [mu v2(0)]", "velocity [mu v2(0)]"

@@ -6,10 +6,12 @@ Every number that a run computes is read from the table of key numbers.
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from stronge1994 import csv_tables, figure_table, verdict_table
+from stronge1994 import csv_tables
 from stronge1994.csv_tables import Row
+from stronge1994.curve_names import is_of_paper
 from stronge1994.pages import key_numbers, names, pdf, templates
 from stronge1994.pages.formulas import mathematical, number
+from stronge1994.verdict_tables import figure_table, verdict_table
 
 TITLE = "Planar impact of rough compliant bodies: a replication"
 # Models below e = 1, in the order of the note.
@@ -67,9 +69,7 @@ def page(
         n=numbers,
         judged=sum(numbers.get(f"rows.{verdict}", 0) for verdict in judged),
         models=MODELS,
-        figures=[
-            row for row in figure_table.of_run(verdicts) if figure_table.is_of_paper(row.figure)
-        ],
+        figures=[row for row in figure_table.of_run(verdicts) if is_of_paper(row.figure)],
         pictures={name: templates.embedded(svg) for name, svg in pictures.items()},
     )
 

@@ -16,8 +16,9 @@ from typing import Any, TypeAlias
 
 from markupsafe import Markup, escape
 
-from stronge1994 import csv_tables, figure_table, verdict_table
+from stronge1994 import csv_tables
 from stronge1994.csv_tables import Curves, Row
+from stronge1994.curve_names import is_of_paper
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.judging.verdicts import VISIBLE_SHIFT
@@ -37,6 +38,7 @@ from stronge1994.pages import (
 )
 from stronge1994.pages.formulas import mathematical, number
 from stronge1994.run import gate, record
+from stronge1994.verdict_tables import figure_table, verdict_table
 
 MARKS = {
     "wrong": "fails",
@@ -149,7 +151,7 @@ def page(
         "sentence": names.sentence,
         "title_of": templates.title,
     }
-    environment.tests["in_paper"] = figure_table.is_of_paper
+    environment.tests["in_paper"] = is_of_paper
     return environment.get_template(Path(template).name).render(
         ledger_page.template_values(ledger, symbols),
         verdicts=verdicts,
