@@ -16,7 +16,7 @@ from stronge1994.judging.distances import (
 )
 from stronge1994.judging.metrics import Measured, measure
 from stronge1994.judging.points import limits_of_regimes
-from stronge1994.judging.verdicts import VISIBLE_SHIFT, judge, verdict
+from stronge1994.judging.verdicts import VISIBLE_SHIFT, judge
 from stronge1994.verdict_tables.verdict_table import Verdict
 
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
@@ -105,7 +105,11 @@ def test_facts(found, fact, expected):
     ],
 )
 def test_verdicts(good, known, unchanged, expected):
-    assert verdict(good, known, unchanged) == expected
+    entry = {"reference": "maw1976/limit", "regression": {"max": [0, 9.0 if unchanged else 0.1]}}
+    entry |= {"documented": {"as": known}} if known else {}
+    residuals = fact_residuals(0.5 if good else 2.0, {"value": 0.0, "tolerance": 1.0})
+    found = judge(entry, {"value": 0.0}, Measured("x", residuals, ["y"]), 0.01)
+    assert found == expected
 
 
 @pytest.mark.parametrize("sigma_values", [None, 4, 7, 40])

@@ -144,7 +144,7 @@ def test_a_bound_is_refused_before_it_says_nothing(inventory, ledger, monkeypatc
                 assert refused(name, "allowance", entry["allowance"] | {part: factor * size})
         for limit in (0.02, 3.0, 1e9):
             if "limit" in entry:
-                assert refused(name, "limit", limit) == (entry["metric"] != "largest" or limit > 2)
+                assert refused(name, "limit", limit) == (entry["metric"] != "small" or limit > 2)
 
 
 NO_TEXT = [

@@ -5,7 +5,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.arrays import Array, ArrayLike, Booleans
 from stronge1994 import reference_data
 from stronge1994.csv_tables import Columns
 from stronge1994.curve_names import AS_PRINTED
@@ -66,6 +66,11 @@ def points(entry: Entry, reference: Reference) -> Columns:
         chosen &= series["curve"] == entry["curve"]
     if not chosen.any():
         raise ValueError("the reference has no such points")
+    return rows_of(series, chosen)
+
+
+def rows_of(series: Columns, chosen: Booleans) -> Columns:
+    """The chosen rows of a series."""
     return {column: values[chosen] for column, values in series.items()}
 
 

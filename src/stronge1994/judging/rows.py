@@ -13,7 +13,7 @@ from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Curves
 from stronge1994.judging.distances import rms_and_max
 from stronge1994.judging.metrics import Measured, measure
-from stronge1994.judging.points import Entry, Reference, is_published, kind, question, sigma
+from stronge1994.judging.points import Entry, Reference, is_published, kind, question
 from stronge1994.judging.verdicts import Verdict, chi_squared_of, failed, judge
 from stronge1994.verdict_tables.verdict_table import COLUMNS, FAILS, LEDGER, QUESTIONS
 
@@ -145,17 +145,11 @@ def _allowed(entry: Entry, reference: Reference, significance: float) -> str:
     criterion = f"p > {significance:g}"
     if "allowance" not in entry:
         return criterion
-    axes = reference["x"], reference["y"]
-    if any(isinstance(axis["sigma"], str) for axis in axes):
-        sizes = entry["allowance"]["x"], entry["allowance"]["y"]
-        words = "allowance for the model beside the sigma of each point: {}"
-    else:
-        sizes, words = sigma(entry, axes, {}), "1 is {}: allowance for the model and sigma together"
-    unit = ", ".join(
-        f"{axis['column']} {size:.3g} {axis['unit']}"
-        for axis, size in zip(axes, sizes, strict=True)
+    sizes = (
+        f"{reference[key]['column']} {size:g} {reference[key]['unit']}"
+        for key, size in entry["allowance"].items()
     )
-    return f"{criterion}; {words.format(unit)}".replace("_", " ")
+    return f"{criterion}; the model may be off by {', '.join(sizes)}".replace("_", " ")
 
 
 def _row(figure: str, name: str, verdict: Verdict, **cells: Any) -> VerdictRow:

@@ -24,19 +24,20 @@ def chi_squared_of(reference: Reference, measured: Measured) -> ChiSquared:
 
 def judge(entry: Entry, reference: Reference, measured: Measured, significance: float) -> Verdict:
     """Verdict on measured distances; published points agree if p is above `significance`."""
-    outcome = _outcome(entry, reference, measured, significance)
-    if outcome == Verdict.AGREES and entry.get("fitted"):
-        return Verdict.UNCHANGED
+    outcome, asked = _outcome(entry, reference, measured, significance), question(entry, reference)
     if outcome == Verdict.DIVERGES:
-        return failed(question(entry, reference))
-    if outcome == Verdict.AGREES and question(entry, reference) == QUESTIONS[0]:
+        return failed(asked)
+    if outcome != Verdict.AGREES:
+        return outcome
+    if entry.get("fitted"):
+        return Verdict.UNCHANGED
+    if asked == QUESTIONS[0]:
         return Verdict.RIGHT
-    if outcome == Verdict.AGREES and is_published(reference):
-        for off in (VISIBLE_SHIFT, -VISIBLE_SHIFT):
-            residuals = measured.residuals._replace(sigmas=measured.residuals.sigmas + off)
-            moved = measured._replace(residuals=residuals)
-            if _outcome(entry, reference, moved, significance) != Verdict.DIVERGES:
-                return Verdict.INCONCLUSIVE
+    for off in (VISIBLE_SHIFT, -VISIBLE_SHIFT) if is_published(reference) else ():
+        residuals = measured.residuals._replace(sigmas=measured.residuals.sigmas + off)
+        moved = measured._replace(residuals=residuals)
+        if _outcome(entry, reference, moved, significance) != Verdict.DIVERGES:
+            return Verdict.INCONCLUSIVE
     return outcome
 
 
@@ -52,6 +53,11 @@ def failed(asked: str) -> Verdict:
 def _outcome(
     entry: Entry, reference: Reference, measured: Measured, significance: float
 ) -> Verdict:
+    """AGREES or DIVERGES; or the known difference that the comparison documents.
+
+    It diverges too if there is no difference any more, or if the difference has left the bounds of
+    its regression test.
+    """
     rms, largest = rms_and_max(measured.residuals.sigmas)
     # The difference of a landmark is its value minus the stated one.
     difference = -float(measured.residuals.plain[0])
@@ -63,22 +69,7 @@ def _outcome(
         good = largest <= entry.get("limit", 1.0)
     bounds: Mapping[str, tuple[float, float]] = entry.get("regression", {})
     unchanged = all(low <= numbers[key] <= high for key, (low, high) in bounds.items())
-    return verdict(good, entry.get("documented", {}).get("as", ""), unchanged)
-
-
-def verdict(good: bool, known: str = "", unchanged: bool = True) -> Verdict:
-    """Verdict on a comparison.
-
-    `good` says that the curve meets its reference: p is large enough, or the distance is within the
-    tolerance. `known` is empty, or says of a known difference `explained`, `unexplained` or
-    `untested`; if there is no difference any more, that is a fault too. `unchanged` says that the
-    measured distances lie within the bounds of the regression test, if there is one.
-
-    >>> print(verdict(True), verdict(False), verdict(False, "explained"), sep="; ")
-    agrees; diverges; explained difference
-    >>> print(verdict(True, "explained"), verdict(True, unchanged=False), sep="; ")
-    diverges; diverges
-    """
+    known = entry.get("documented", {}).get("as")
     if not unchanged or good == bool(known):
         return Verdict.DIVERGES
     return Verdict.AGREES if good else Verdict(f"{known} difference")
