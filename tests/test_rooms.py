@@ -50,7 +50,7 @@ REPRODUCTION = {
     "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
     " fit scene pandas printed csv_tables curve_names figures plan",
     "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"
-    " matplotlib",
+    " verdict_tables matplotlib",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
     "judging": "ground csv_tables curve_names goodness reference_data verdict_tables",

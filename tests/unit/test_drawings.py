@@ -13,27 +13,9 @@ from matplotlib.transforms import Affine2D
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.curves import measured as models_beside
 from stronge1994.figures.shared.drawing import checked, house_style, measured, slide
-from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.figures.shared.drawing import words as meanings
 from stronge1994.figures.shared.drawing.checked import NotInTable
 from tests.unit import picture_tables
-
-STRIPS = {"curve": "lumped", "reference": "a/b", "metric": "distance"}
-STRIPS |= {"documented": {}, "regression": {"rms": [2.0, 4.0], "max": [0.0, 5.0]}}
-
-
-def residuals(module, factor=1):
-    rows = [
-        {
-            "comparison": "one",
-            "quantity": "time [t_c]",
-            "at": f"{at}",
-            "distance [sigma]": f"{factor * far}",
-        }
-        for at, far in enumerate((2.5, -3.0, 3.0))
-    ]
-    strips = module.strips(rows, {"one": STRIPS}, {"one": {"verdict": "agrees", "p": ""}})
-    return module.draw(strips), module.tables_of_strips(strips)
 
 
 def peers(module, below=False):
@@ -51,13 +33,11 @@ def peers(module, below=False):
 
 
 OTHERS = {
-    "residuals": residuals,
     "peers": peers,
     "peers_errors": lambda module: peers(module, below=True),
 }
 PLACES = {
     "fig3": "shared.drawing.histories",
-    "residuals": "shared.drawing.residuals",
     "peers": "trade.draw_peers",
 }
 FIGURES = (*picture_tables.SOLVED, *picture_tables.MADE_UP, *OTHERS)
@@ -82,11 +62,6 @@ def drawn(figure, *fault):
 def test_a_picture_shows_numbers_of_its_tables(figure):
     picture, tables, own = drawn(figure)
     checked.check(picture, tables, figure, own)
-
-
-def test_a_factor_beside_an_axis_is_no_fault():
-    """A wrong curve may be so many sigmas off: the report must show it."""
-    checked.check(*residuals(draw_residuals, factor=1e9), "residuals")
 
 
 PLOT = "axes.plot(curve[X], curve[Y]"
@@ -142,8 +117,6 @@ FAULTS = [
     ("peers", "at = time, row", "at = 2 * time, row"),
     ("peers_errors", "axes.plot(error, height", "axes.plot(error / 2, height"),
     ("peers_errors", 'f"$e = {e:g}$", line', 'f"$e = {1.4 - e:g}$", line'),
-    ("residuals", 'axes.plot(x, y, linestyle="none"', 'axes.plot(x, y / 10, linestyle="none"'),
-    ("residuals", "plot(x[i : i + 2], y[i : i + 2]", "plot(x[i : i + 2], y[i : i + 2] / 2"),
 ]  # fmt: skip
 
 

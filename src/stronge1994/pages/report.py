@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 from markupsafe import Markup, escape
 
 from stronge1994 import csv_tables
-from stronge1994.csv_tables import Curves, Row
+from stronge1994.csv_tables import Row
 from stronge1994.curve_names import is_of_paper
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
@@ -206,8 +206,7 @@ def figure(
 ) -> TemplateValues:
     """Values of the template for one figure."""
     rows = [row for row in verdicts if row["figure"] == name]
-    entries = {c: e for c, e in config["comparisons"].items() if e["figure"] == name}
-    strips = draw_residuals.strips(residuals, entries, {row["comparison"]: row for row in rows})
+    strips = draw_residuals.strips(residuals, {row["comparison"]: row for row in rows})
     return {
         "title": templates.title(name),
         "picture": templates.embedded(svg),
@@ -238,7 +237,7 @@ def copy_tables(folder: str | Path, paths: Iterable[str]) -> None:
         shutil.copyfile(path, copy)
 
 
-def _svg(strips: Mapping[draw_residuals.Strip, Curves]) -> bytes:
+def _svg(strips: Mapping[draw_residuals.Strip, draw_residuals.Points]) -> bytes:
     file = io.BytesIO()
     house_style.save(draw_residuals.draw(strips), file)
     return file.getvalue()
