@@ -11,6 +11,7 @@ import numpy as np
 
 from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Curves
+from stronge1994.formulas import plain
 from stronge1994.judging.distances import rms_and_max
 from stronge1994.judging.metrics import Measured, measure
 from stronge1994.judging.points import Entry, Reference, is_published, kind, question
@@ -154,7 +155,8 @@ def _allowed(entry: Entry, reference: Reference, significance: float) -> str:
 
 def _row(figure: str, name: str, verdict: Verdict, **cells: Any) -> VerdictRow:
     row = dict.fromkeys(COLUMNS, "")
-    return row | {"figure": figure, "comparison": name, "verdict": str(verdict)} | cells
+    row |= {"figure": figure, "comparison": name, "verdict": str(verdict)} | cells
+    return row | {key: plain(row[key]) for key in ("note", "reason")}
 
 
 def write(rows: Sequence[VerdictRow], verdicts: str, residuals: str) -> None:

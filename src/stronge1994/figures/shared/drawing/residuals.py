@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 from matplotlib.figure import Figure
 
 from stronge1994.csv_tables import Row
-from stronge1994.figures.shared.drawing import house_style, words
+from stronge1994.figures.shared.drawing import house_style
 from stronge1994.verdict_tables.verdict_table import FAILS, QUESTIONS, Verdict
 
 # Inches: height of a strip with its title, and of the label of its x axis.
@@ -72,11 +72,11 @@ def draw(strips: Mapping[Strip, Points]) -> Figure:
         axes.set_title(f"{strip[0]}  -  {strip[1]}", loc="left", pad=3, **note)
         axes.margins(x=0.02, y=0.25)
         axes.tick_params(labelsize=house_style.NOTE, labelbottom=last)
-        axes.set_xlabel(words.of_column(strip[2]), visible=last, **note)
+        axes.set_xlabel(house_style.of_column(strip[2]), visible=last, **note)
     for axes, quantity in zip(rows, axis, strict=True):
         same = [a for a, q in zip(rows, axis, strict=True) if q == quantity]
         axes.set_xlim(min(a.get_xlim()[0] for a in same), max(a.get_xlim()[1] for a in same))
-    figure.supylabel(words.of_column(DISTANCE), fontsize=house_style.NOTE + 1)
+    figure.supylabel(house_style.of_column(DISTANCE), fontsize=house_style.NOTE + 1)
     drawn = {verdict for points in strips.values() for verdict in points}
     keys = [
         house_style.key(verdict, linestyle="none", **mark)
