@@ -298,7 +298,7 @@ def test_a_failed_run_looks_like_one():
     table = page[page.index("<details open><summary>2 comparisons:") :].split("</table>")[0]
     first = table.split("<tr")[2]
     assert 'id="fig6-rebound" class="wrong"' in first and 'class="mark fails">wrong<' in first
-    assert "rms 7, largest 9" in first
+    assert "rms 7, max 9 sigma" in first
     assert "No curves: ArithmeticError: &lt;oh&gt;" in page
 
 

@@ -110,6 +110,7 @@ def page(values: TemplateValues, template: str | Path) -> str:
     environment.filters |= {
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
         "bounds": bounds,
+        "measured": measured,
         "comparison_name": names.comparison,
         "series_name": names.series,
         "source_name": names.source,
@@ -135,6 +136,13 @@ def page(values: TemplateValues, template: str | Path) -> str:
         verdict_meaning=MEANING,
         entry_of=entry_of,
     )
+
+
+def measured(row: Row) -> Markup:
+    """How large the distance of a row of the verdict table is, its unit as a formula."""
+    value, _, unit = row["stated"].partition(" ")
+    shown = {"stated": f"{value}{headers.unit(unit)}", "unit": headers.unit(row["unit"]).strip()}
+    return mathematical(verdict_table.measured(row | shown).replace("chi^2", "χ²"))
 
 
 def bounds(text: str) -> Markup:

@@ -50,7 +50,7 @@ class Verdict(StrEnum):
 
 ORDER: list[str] = [*Verdict]
 FAILS = (Verdict.WRONG, Verdict.DIVERGES)
-DIFFERENCES = (Verdict.UNEXPLAINED, Verdict.UNTESTED, Verdict.EXPLAINED)
+DIFFERENCES = [Verdict.UNEXPLAINED, Verdict.UNTESTED, Verdict.EXPLAINED]
 
 
 def gather(paths: Iterable[str]) -> list[Row]:
