@@ -15,8 +15,15 @@ from stronge1994.formulas import plain
 from stronge1994.judging.distances import rms_and_max
 from stronge1994.judging.metrics import Measured, measure
 from stronge1994.judging.points import Entry, Reference, is_published, kind, question
-from stronge1994.judging.verdicts import Verdict, chi_squared_of, failed, judge
-from stronge1994.verdict_tables.verdict_table import COLUMNS, FAILS, LEDGER, QUESTIONS
+from stronge1994.judging.verdicts import chi_squared_of, judge
+from stronge1994.verdict_tables.verdict_table import (
+    COLUMNS,
+    FAILED,
+    FAILS,
+    LEDGER,
+    QUESTIONS,
+    Verdict,
+)
 
 RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
 # The cells of a row by `COLUMNS`. `residuals` holds rows of the table of residuals.
@@ -63,7 +70,7 @@ def compare(
             cells["residuals"] = [[title, measured.quantity, *point] for point in points]
             note = _note(entry, measured, verdict)
         except Exception as error:
-            verdict, note = failed(cells["question"]), f"{error}"
+            verdict, note = FAILED[cells["question"]], f"{error}"
         rows.append(_row(name, title, verdict, note=note, **cells))
     return rows
 

@@ -10,7 +10,7 @@ from stronge1994.goodness import ChiSquared, chi_squared
 from stronge1994.judging.distances import rms_and_max
 from stronge1994.judging.metrics import Measured
 from stronge1994.judging.points import Entry, Reference, is_published, question
-from stronge1994.verdict_tables.verdict_table import QUESTIONS, Verdict
+from stronge1994.verdict_tables.verdict_table import FAILED, QUESTIONS, Verdict
 
 # If all points lie this many sigmas on one side of a curve, a reader of the picture sees that the
 # curve is wrong. A comparison that does not notice it says less than the picture.
@@ -26,7 +26,7 @@ def judge(entry: Entry, reference: Reference, measured: Measured, significance: 
     """Verdict on measured distances; published points agree if p is above `significance`."""
     outcome, asked = _outcome(entry, reference, measured, significance), question(entry, reference)
     if outcome == Verdict.DIVERGES:
-        return failed(asked)
+        return FAILED[asked]
     if outcome != Verdict.AGREES:
         return outcome
     if entry.get("fitted"):
@@ -39,15 +39,6 @@ def judge(entry: Entry, reference: Reference, measured: Measured, significance: 
         if _outcome(entry, reference, moved, significance) != Verdict.DIVERGES:
             return Verdict.INCONCLUSIVE
     return outcome
-
-
-def failed(asked: str) -> Verdict:
-    """The verdict that fails a run, by the question that a comparison answers.
-
-    >>> print(failed("solved right"), failed("as printed"), sep="; ")
-    wrong; diverges
-    """
-    return Verdict.WRONG if asked == QUESTIONS[0] else Verdict.DIVERGES
 
 
 def _outcome(

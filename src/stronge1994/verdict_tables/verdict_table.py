@@ -49,6 +49,8 @@ class Verdict(StrEnum):
 
 
 ORDER: list[str] = [*Verdict]
+# The verdict that fails a run, by the question that a comparison answers.
+FAILED = dict.fromkeys(QUESTIONS, Verdict.DIVERGES) | {QUESTIONS[0]: Verdict.WRONG}
 FAILS = (Verdict.WRONG, Verdict.DIVERGES)
 DIFFERENCES = [Verdict.UNEXPLAINED, Verdict.UNTESTED, Verdict.EXPLAINED]
 
