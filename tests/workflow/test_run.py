@@ -16,7 +16,7 @@ from stronge1994 import csv_tables
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
 from stronge1994.run import last_words, record
-from stronge1994.verdict_table import FAILS, QUESTIONS
+from stronge1994.verdict_tables.verdict_table import FAILS, QUESTIONS
 from tests.workflow.project import ROOT, copy_of
 from tests.workflow.test_awaited_series import JOHNSON, RUBBER, filled, made_up, written
 from tests.workflow.test_troubleshooting import explained

@@ -77,7 +77,7 @@ rule report:
     """The run as one page, its sources and settings as another; written after failures, too."""
     input:
         plan=planned("report", "write_report", "pages", "figures/inelastic/trials.py",
-            "figures/shared/drawing", "judging", "ledger", "printed", "plan",
+            "figures/shared/drawing", "judging", "verdict_tables", "ledger", "printed", "plan",
             "reference_data", "run", settings=lambda _: REPORT_SETTINGS),
         template="workflow/report/report.html",
         parts=REPORT_PARTS,

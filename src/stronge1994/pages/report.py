@@ -15,8 +15,9 @@ from typing import Any, TypeAlias
 
 from markupsafe import Markup
 
-from stronge1994 import csv_tables, figure_table, verdict_table
-from stronge1994.csv_tables import Curves, Row
+from stronge1994 import csv_tables
+from stronge1994.csv_tables import Row
+from stronge1994.curve_names import is_of_paper
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, number, plain
@@ -34,6 +35,7 @@ from stronge1994.pages import (
     which_model,
 )
 from stronge1994.run import gate, record
+from stronge1994.verdict_tables import figure_table, verdict_table
 
 MARKS = {
     "wrong": "fails",
@@ -107,6 +109,7 @@ def page(values: TemplateValues, template: str | Path) -> str:
     environment.filters |= {
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
         "bounds": bounds,
+        "measured": measured,
         "comparison_name": names.comparison,
         "series_name": names.series,
         "source_name": names.source,
@@ -118,7 +121,7 @@ def page(values: TemplateValues, template: str | Path) -> str:
         "title_of": templates.title,
         "unit": headers.unit,
     }
-    environment.tests["in_paper"] = figure_table.is_of_paper
+    environment.tests["in_paper"] = is_of_paper
     return environment.get_template(Path(template).name).render(
         values,
         lapsed=outcome.failing(values["ledger"]),
@@ -132,6 +135,13 @@ def page(values: TemplateValues, template: str | Path) -> str:
         verdict_meaning=MEANING,
         entry_of=entry_of,
     )
+
+
+def measured(row: Row) -> Markup:
+    """How large the distance of a row of the verdict table is, its unit as a formula."""
+    value, _, unit = row["stated"].partition(" ")
+    shown = {"stated": f"{value}{headers.unit(unit)}", "unit": headers.unit(row["unit"]).strip()}
+    return mathematical(verdict_table.measured(row | shown).replace("chi^2", "χ²"))
 
 
 def bounds(text: str) -> Markup:
@@ -153,8 +163,7 @@ def figure(
 ) -> TemplateValues:
     """Values of the template for one figure."""
     rows = [row for row in verdicts if row["figure"] == name]
-    entries = {c: e for c, e in config["comparisons"].items() if e["figure"] == name}
-    strips = draw_residuals.strips(residuals, entries, {row["comparison"]: row for row in rows})
+    strips = draw_residuals.strips(residuals, {row["comparison"]: row for row in rows})
     return {
         "title": templates.title(name),
         "picture": templates.embedded(svg),
@@ -167,7 +176,7 @@ def figure(
     }
 
 
-def _svg(strips: Mapping[draw_residuals.Strip, Curves]) -> bytes:
+def _svg(strips: Mapping[draw_residuals.Strip, draw_residuals.Points]) -> bytes:
     file = io.BytesIO()
     house_style.save(draw_residuals.draw(strips), file)
     return file.getvalue()
