@@ -34,7 +34,7 @@ def settings(inventory):
 
 @pytest.fixture(scope="module")
 def measured(inventory):
-    return reference_data.arrays("pairs", inventory["cornell1999"]["series"]["pairs"])
+    return reference_data.arrays(inventory["cornell1999"]["series"]["pairs"])
 
 
 @pytest.fixture

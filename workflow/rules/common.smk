@@ -1,5 +1,6 @@
 # Check config and data before any work, and plan every job.
 from stronge1994.figure_table import is_of_paper
+from stronge1994.formulas import plain
 from stronge1994.ledger import entries
 
 LEDGER = "data/stronge1994/ledger.yaml"
@@ -47,6 +48,7 @@ VALUES = {
     "figure": list(FIGURES),
     "judged": list(JUDGED),
     "scene": list(config["scenes"]),
+    "notebook": NOTEBOOKS,
     "table": ["fine", "coarse"],
 }
 
@@ -55,6 +57,7 @@ wildcard_constraints:
     figure="|".join(FIGURES),
     judged="|".join(JUDGED),
     scene="|".join(config["scenes"]) or "none",
+    notebook="|".join(NOTEBOOKS) or "none",
 
 
 PLANNED = []  # names of jobs

@@ -4,40 +4,35 @@
 TABLES_OF_LECTURES = {"choosing_a_model": ["results/trade.csv"]}
 
 
-rule lectures:
-    """Run every notebook: a lecture that checks the numbers that it states."""
+rule lecture:
+    """Run one notebook: a lecture that checks the numbers that it states."""
     input:
         # Cells import the solver alone, so that a notebook runs where only that is installed.
-        plan=planned("lectures", "run_lectures", "pages",
-            settings=lambda _: TABLES_OF_LECTURES),
-        notebooks=expand("workflow/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS),
-        tables=[table for notebook in NOTEBOOKS for table in TABLES_OF_LECTURES.get(notebook, [])],
+        plan=planned("lecture_{notebook}", "run_lecture", "pages/__init__.py", "pages/lectures.py"),
+        notebook="workflow/notebooks/{notebook}.ipynb",
+        tables=lambda wildcards: TABLES_OF_LECTURES.get(wildcards.notebook, []),
         style="workflow/notebooks/lecture.mplstyle",
         page="workflow/report/notebook.html",
         slides="workflow/report/slides.html",
-        cells="workflow/report/cells.html",
         drawing="workflow/report/model.svg",
         shared=EVERY_PAGE,
     output:
-        executed=expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS),
-        page=[
-            report(
-                f"figures/{notebook}.html",
-                caption="../report/notebooks.rst",
-                category="Teaching",
-                labels={"lecture": notebook},
-            )
-            for notebook in NOTEBOOKS
-        ],
-        slides=expand("figures/slides_{notebook}.html", notebook=NOTEBOOKS),
-        answers=expand("figures/answers_{notebook}.html", notebook=NOTEBOOKS),
-        record="results/records/lectures.json",
+        executed="results/notebooks/{notebook}.ipynb",
+        page=report(
+            "figures/{notebook}.html",
+            caption="../report/notebooks.rst",
+            category="Teaching",
+            labels={"lecture": "{notebook}"},
+        ),
+        slides="figures/slides_{notebook}.html",
+        answers="figures/answers_{notebook}.html",
+        record="results/records/lecture_{notebook}.json",
     log:
-        "results/logs/lectures.log",
+        "results/logs/lecture_{notebook}.log",
     priority: 1  # as it is long
     message:
-        "Running the lectures"
+        "Running the lecture {wildcards.notebook}"
     conda:
         "../envs/planarimpact.yaml"
     script:
-        "../scripts/run_lectures.py"
+        "../scripts/run_lecture.py"

@@ -23,7 +23,7 @@ ANGLES = np.linspace(0.0, 89.95, 17991)[1:]  # degrees
 
 @over(lambda: (0.0, 1.9, -0.4))
 def kinetic_energy(clockwise: float) -> Gaps:
-    """K0 over the kinetic energy of a rigid body, less 1, without spin and with it."""
+    """$K_0$ over the kinetic energy of a rigid body, less 1, without spin and with it."""
     mass, gyration, x2, v1, v2 = PLATE["mass"], PLATE["gyration"], PLATE["x2"], -0.8, -1.3
     # Velocity of the centre: that of C less that from rotation, v = V + spin x r.
     centre = v1 - clockwise * x2, v2
@@ -67,10 +67,10 @@ def _spring(impact: Contact, state: State) -> Array:
 
 @corrected_over(contact.initial_stick)
 def friction_after_stick(impact: Contact) -> tuple[ArrayLike, float]:
-    """Distance of Eq. 38 from the exact energy lost, over m1 v1(0)^2/2, after initial stick.
+    """Distance of Eq. 38 from the exact energy lost, over $m_1 v_1(0)^2/2$, after initial stick.
 
     Of the two signs before the impulse, minus and the plus of the scan, the nearer one counts.
-    Corrected: the minus, with s, and the tangential strain energy at t1.
+    Corrected: the minus, with $s$, and the tangential strain energy at $t_1$.
     """
     printed = [impact.printed(dissipation.eq_38_friction, sign=sign) for sign in (-1, 1)]
     left = impact.slip_direction * impact.impulse_left
@@ -81,10 +81,10 @@ def friction_after_stick(impact: Contact) -> tuple[ArrayLike, float]:
 
 @corrected_over(contact.initial_stick)
 def friction_after_stick_in_groups(impact: Contact) -> tuple[ArrayLike, float]:
-    """Distance of Eq. 39 from the exact energy lost, over m1 v1(0)^2/2, after initial stick.
+    r"""Distance of Eq. 39 from the exact energy lost, over $m_1 v_1(0)^2/2$, after initial stick.
 
-    With the leading sign that comes nearer. In the corrected formula the sign is minus, s g1 takes
-    the place of g1, and mu^2 zeta^2 sin^2(alpha) at t1 is added.
+    With the leading sign that comes nearer. In the corrected formula the sign is minus, $s g_1$
+    takes the place of $g_1$, and $\mu^2 \zeta^2 \sin^2(\alpha)$ at $t_1$ is added.
     """
     half, swing = _normal(impact), np.cos(impact.tangential_frequency * impact.t1)
     lost = impact.printed(dissipation.eq_39_friction, swing=swing)
@@ -97,10 +97,11 @@ def friction_after_stick_in_groups(impact: Contact) -> tuple[ArrayLike, float]:
 
 @corrected_over(contact.slip_stick_slip)
 def friction_of_two_slips(impact: Contact) -> tuple[ArrayLike, float]:
-    """Distance of Eq. 40 from the exact energy lost, over m1 v1(0)^2/2, slip, stick, slip.
+    """Distance of Eq. 40 from the exact energy lost, over $m_1 v_1(0)^2/2$, slip, stick, slip.
 
-    With the signs before v1(t2)^2, v1(t3)^2 and v1(tf)^2 that come nearest. Corrected: the signs
-    are minus, plus and minus, strain energy at t3 comes in, and strain energy at t2 goes out.
+    With the signs before $v_1(t_2)^2$, $v_1(t_3)^2$ and $v_1(t_f)^2$ that come nearest. Corrected:
+    the signs are minus, plus and minus, strain energy at $t_3$ comes in, and strain energy at $t_2$
+    goes out.
     """
     scale = impact.velocity_scale
 
@@ -121,16 +122,16 @@ def friction_of_two_slips(impact: Contact) -> tuple[ArrayLike, float]:
 
 @over(contact.slip_throughout)
 def friction_of_slip_throughout(impact: Contact) -> Gaps:
-    """Eq. 41 against the exact energy lost above x = (1 + e) beta."""
+    r"""Eq. 41 against the exact energy lost above $x = (1 + e) \beta$."""
     yield _gap(impact, impact.printed(dissipation.eq_41_friction) * _normal(impact))
 
 
 @corrected_over(contact.of_sphere(2.0, 3.0, 4.5))
 def theorem(impact: Contact) -> tuple[ArrayLike, float]:
-    """The footnote's D1 of the first slip less the work of friction on the particle.
+    """The footnote's $D_1$ of the first slip less the work of friction on the particle.
 
-    Over m1 v1(0)^2/2, the work by quadrature along exact contacts. Corrected: less the tangential
-    strain energy gained.
+    Over $m_1 v_1(0)^2/2$, the work by quadrature along exact contacts. Corrected: less the
+    tangential strain energy gained.
     """
     path, first = impact.path, impact.path.t <= impact.t2
     on_body = impact.integral(path.force_1 * path.v1)[first][-1]
@@ -150,9 +151,9 @@ def only_in_slip(impact: Contact) -> Gaps:
 
 
 def body_velocity_alone() -> Finding:
-    """Work of friction with v1 alone over the last slip, over that with v1 + du1/dt.
+    """Work of friction with $v_1$ alone over the last slip, over that with $v_1 + du_1/dt$.
 
-    The lowest ratio of those sampled over initial stick, sphere of the paper, e = 1; the sentence
+    The lowest ratio of those sampled over initial stick, sphere of the paper, $e = 1$; the sentence
     has it 1.
     """
     ratios = []
@@ -165,14 +166,14 @@ def body_velocity_alone() -> Finding:
 
 @over(contact.with_stick)
 def strain_recovered(impact: Contact) -> Gaps:
-    """Tangential strain energy at separation over that at the onset of the last slip, e > 0."""
+    """Tangential strain energy at separation over that at the onset of the last slip, $e > 0$."""
     yield _spring(impact, impact.end) / _spring(impact, impact.onset)
 
 
 def strain_decreases() -> Finding:
     """Largest rise of either element's strain energy during the last slip, or what is left of it.
 
-    Over its value at the onset; the largest of those sampled that slip, stick and slip, e > 0.
+    Over its value at the onset; the largest of those sampled that slip, stick and slip, $e > 0$.
     """
     rises = []
     for impact in contact.slip_stick_slip():
@@ -186,7 +187,7 @@ def strain_decreases() -> Finding:
 
 @over(lambda: contact.RESTITUTIONS)
 def losses_decoupled(e: float) -> Gaps:
-    """Spread of the hysteresis over m2 v2(0)^2/2 with incidence and zeta^2, collinear impact."""
+    r"""Spread of the hysteresis over $m_2 v_2(0)^2/2$ with incidence and $\zeta^2$."""
     shares = []
     for x, zeta2 in ((0.3, 1.21), (2.0, 1.21), (8.0, 1.21), (2.0, 0.5)):
         motion = NormalMotion(x, contact.MASS_RATIO, zeta2, e, samples=2001)
@@ -196,7 +197,7 @@ def losses_decoupled(e: float) -> Gaps:
 
 @over(lambda: contact.with_and_without_compliance(contact.RESTITUTIONS))
 def compliance_immaterial(rebounds: tuple[Rebound, Rebound]) -> Gaps:
-    """Difference that tangential compliance makes to the dissipation above x = (1 + e) beta."""
+    r"""Difference that tangential compliance makes to the dissipation above $x = (1 + e) \beta$."""
     soft, hard = rebounds
     yield soft.dissipation / hard.dissipation - 1
 
@@ -209,12 +210,12 @@ def _dissipated(friction: float, restitution: float) -> Array:
 
 
 def small_incidence() -> Finding:
-    """Largest share of m2 S^2/2 that friction takes up to 10 degrees: the axes of Fig. 9."""
+    """Largest share of $m_2 S^2/2$ that friction takes up to 10 degrees: the axes of Fig. 9."""
     return Finding(float(max(_dissipated(*groups)[ANGLES <= 10.0].max() for groups in OF_FIG_9)))
 
 
 def angle_of_largest() -> Finding:
-    """Largest angle between most dissipation and the printed limit, (1 + e) beta, in degrees.
+    r"""Largest angle between most dissipation and the printed limit, $(1 + e) \beta$, in degrees.
 
     Over both frictions and restitutions of Fig. 9.
     """
@@ -226,7 +227,7 @@ def angle_of_largest() -> Finding:
 
 
 def limited_by_restitution() -> Finding:
-    """Smallest gain of the largest share dissipated from one e to the next larger."""
+    """Smallest gain of the largest share dissipated from one $e$ to the next larger."""
     shares = [
         [_dissipated(mu, e).max() for e in np.linspace(0, 1, 11)] for mu in (0.1, 0.3, 0.5, 1.0)
     ]
@@ -235,9 +236,10 @@ def limited_by_restitution() -> Finding:
 
 @over(lambda: contact.RESTITUTIONS)
 def rigid_independence(e: float) -> Gaps:
-    """Slip halted: dissipation over x^2 mu^2 m2 v2(0)^2/(2 beta), less 1, for all e.
+    r"""Slip halted: dissipation over $x^2 \mu^2 m_2 v_2(0)^2/(2 \beta)$, less 1, for all $e$.
 
-    Of the rigid limit and of the lumped model with zeta^2 = 1e-4, in units where mu cancels.
+    Of the rigid limit and of the lumped model with $\zeta^2 = 10^{-4}$, in units where $\mu$
+    cancels.
     """
     beta = contact.MASS_RATIO
     x = (1 + e) * beta * np.array([0.1, 0.5, 0.98])

@@ -44,7 +44,7 @@ def effective_masses() -> Finding:
 
 @over(contact.of_sphere(0.7, 2.0, 4.5, 9.0, restitution=0.6))
 def velocity_change(impact: Contact) -> Gaps:
-    """Eq. 3 against a free rigid body, and along contacts: m1 dv1 is the impulse of friction."""
+    """Eq. 3 against a free rigid body; along contacts $m_1 dv_1$ is the impulse of friction."""
     impulse = np.array([0.3, 1.1])
     inverse = dynamics.eq_1_inverse_mass(**PLATE)
     yield dynamics.eq_3_velocity_change(inverse, impulse) - _change_of_velocity(impulse, **PLATE)
@@ -54,7 +54,7 @@ def velocity_change(impact: Contact) -> Gaps:
 
 
 def off_diagonal() -> Finding:
-    """The coupling of Eq. 1 over its diagonal for x1 = 0."""
+    """The coupling of Eq. 1 over its diagonal for $x_1 = 0$."""
     inverse = dynamics.eq_1_inverse_mass(**COLLINEAR)
     ratio = inverse[0, 0] / inverse[1, 1] / float(bodies.mass_ratio(BODY))
     return Finding(largest([inverse[0, 1], ratio - 1]))
@@ -62,7 +62,7 @@ def off_diagonal() -> Finding:
 
 @over(lambda: [Contact(zeta2 / 2, beta, zeta2, samples=2001) for beta, zeta2 in contact.PAIRS])
 def frequencies(impact: Contact) -> Gaps:
-    """Eq. 4: compression takes up the normal momentum in t_c; stick swings with omega."""
+    r"""Eq. 4: compression takes up the normal momentum in $t_c$; stick swings with $\omega$."""
     normal, tangential = impact.printed(dynamics.eq_4_frequencies)
     top = impact.top
     impulse = impact.integral(impact.path.force_2)[impact.path.t == top.t]
@@ -73,7 +73,7 @@ def frequencies(impact: Contact) -> Gaps:
 
 @over(contact.normal_motions)
 def restitution(motion: NormalMotion) -> Gaps:
-    """Eq. 5: works of the normal force along exact contacts give e back."""
+    """Eq. 5: works of the normal force along exact contacts give $e$ back."""
     absorbed = motion.work[motion.at_top]
     e = dynamics.eq_5_restitution(absorbed, motion.work[-1] - absorbed)
     yield e - motion.restitution
@@ -103,21 +103,21 @@ def table_1(motion: NormalMotion) -> Gaps:
 
 @over(lambda: contact.RESTITUTIONS)
 def duration(e: float) -> Gaps:
-    """tf/t_c of the solver against 1 + e."""
+    """$t_f/t_c$ of the solver against $1 + e$."""
     for x in (0.5, 2.0, 8.0):
         yield lumped.history(x, restitution=e, samples=2).time[-1] - (1 + e)
 
 
 @over(contact.normal_motions)
 def final_indentation(motion: NormalMotion) -> Gaps:
-    """u2(tf) over u2(t_c) by quadrature of the exact force, against 1 - e^2."""
+    """$u_2(t_f)$ over $u_2(t_c)$ by quadrature of the exact force, against $1 - e^2$."""
     left = motion.displacement[-1] / motion.displacement[motion.at_top]
     yield left - (1 - motion.restitution**2)
 
 
 @over(contact.normal_motions)
 def stored_work(motion: NormalMotion) -> Gaps:
-    """Work at t_c over F2(t_c) u2(t_c)/2, and slope of unloading over kappa/e^2, less 1."""
+    r"""Work at $t_c$ over $F_2(t_c) u_2(t_c)/2$, slope of unloading over $\kappa/e^2$, less 1."""
     force, depth = motion.top.force_2, motion.displacement
     yield motion.work[motion.at_top] / (force * depth[motion.at_top] / 2) - 1
     unloading = force / (depth[-1] - depth[motion.at_top])
@@ -126,7 +126,7 @@ def stored_work(motion: NormalMotion) -> Gaps:
 
 @over(contact.normal_motions)
 def velocity_continuous(motion: NormalMotion) -> Gaps:
-    """Eqs 6a and 6b at t_c, over v2(0), and the momentum brought till then."""
+    """Eqs 6a and 6b at $t_c$, over $v_2(0)$, and the momentum brought till then."""
     for formula in (dynamics.eq_6a_normal_velocity, dynamics.eq_6b_normal_velocity):
         yield motion.printed(formula, t=motion.compression_time) / motion.v2
     yield motion.velocity[motion.at_top] / motion.v2
@@ -134,7 +134,7 @@ def velocity_continuous(motion: NormalMotion) -> Gaps:
 
 @corrected_over(lambda: contact.normal_motions((0.3, 0.6, 0.9)))
 def hysteresis_caption(motion: NormalMotion) -> tuple[ArrayLike, float]:
-    """Share of the absorbed energy that is lost, less the ratio of areas, e^2 (Fig. 2)."""
+    """Share of the absorbed energy that is lost, less the ratio of areas, $e^2$ (Fig. 2)."""
     lost, kept = motion.work[-1] / motion.work[motion.at_top], motion.restitution**2
     return lost - kept, lost - (1 - kept)
 
@@ -179,10 +179,10 @@ def stick() -> Finding:
 
 
 def noncollinear_stick() -> Finding:
-    """Part of the second derivative of F2 that no single frequency explains, root mean square.
+    """Part of the second derivative of $F_2$ that no single frequency explains, root mean square.
 
-    Over compression of a slender rod that sticks with its tip, v1/v2 = -0.5: tilted by 25 deg, less
-    upright.
+    Over compression of a slender rod that sticks with its tip, $v_1/v_2 = -0.5$: tilted by 25°,
+    less upright.
     """
     return Finding(_not_harmonic(25.0) - _not_harmonic(0.0))
 
@@ -202,14 +202,14 @@ def _not_harmonic(tilt: float) -> float:
 
 @over(contact.with_stick)
 def friction_cone(impact: Contact) -> Gaps:
-    """Largest excess of |F1| over mu F2 along exact contacts, over the largest mu F2."""
+    r"""Largest excess of $|F_1|$ over $\mu F_2$ along exact contacts, in the largest $\mu F_2$."""
     excess = np.abs(impact.path.force_1) - impact.friction * impact.path.force_2
     yield np.maximum(excess, 0.0) / impact.friction_scale
 
 
 @over(contact.with_stick)
 def slip_force(impact: Contact) -> Gaps:
-    """Eq. 8 along the last slip, with s from the velocity of the particle."""
+    """Eq. 8 along the last slip, with $s$ from the velocity of the particle."""
     path = impact.between(impact.t3, impact.end.t)
     tangential, normal = impact.printed(dynamics.eq_8_impulse, normal_impulse=path.force_2)
     yield (tangential - path.force_1) / impact.friction_scale
@@ -220,7 +220,7 @@ def slip_force(impact: Contact) -> Gaps:
 
 @over(contact.with_stick)
 def velocity_slope(impact: Contact) -> Gaps:
-    """Eq. 9 along the last slip: dv1/dp, with p(t) of Table 1."""
+    """Eq. 9 along the last slip: $dv_1/dp$, with $p(t)$ of Table 1."""
     path = impact.between(impact.t3, impact.end.t)
     impulse = impact.impulse(path.t) - impact.impulse(path.t[0])
     inverse = np.diag([1 / impact.m1, 1 / impact.m2])

@@ -74,13 +74,13 @@ def _impulse(history: History | ContinuumHistory) -> Array:
 
 
 def peak_spread(model: str) -> Finding:
-    """Largest change of the peak of friction with e, over mu times the largest normal force."""
+    r"""Largest change of peak friction with $e$, over $\mu$ times the largest normal force."""
     peak = _rebound(model, INCIDENCE, RESTITUTIONS[:, None]).peak_friction
     return Finding(float(np.ptp(peak, axis=0).max()))
 
 
 def peak_time(model: str) -> Finding:
-    """Latest time at which friction is largest, in t_c."""
+    """Latest time at which friction is largest, in $t_c$."""
     times = []
     for history in sum(_histories(model, STICK + SLIP), []):
         size = np.abs(history.friction)
@@ -90,14 +90,14 @@ def peak_time(model: str) -> Finding:
 
 
 def duration(model: str) -> Finding:
-    """Largest distance of tf/t_c from 1 + e."""
+    """Largest distance of $t_f/t_c$ from $1 + e$."""
     (histories,) = _histories(model, [1.0])
     ends = np.array([history.time[-1] for history in histories])
     return Finding(float(np.abs(ends - 1 - FEW).max()))
 
 
 def indentation(model: str) -> Finding:
-    """Largest distance of u2(tf)/u2(t_c) from 1 - e^2."""
+    """Largest distance of $u_2(t_f)/u_2(t_c)$ from $1 - e^2$."""
     left = []
     for history in _histories(model, [1.0])[0]:
         deflection = cumulative_simpson(1 - _impulse(history), x=history.time, initial=0)
@@ -106,7 +106,7 @@ def indentation(model: str) -> Finding:
 
 
 def compression_spread(model: str) -> Finding:
-    """Largest change of v1(t_c)/(mu v2(0)) with e."""
+    r"""Largest change of $v_1(t_c)/(\mu v_2(0))$ with $e$."""
     at_compression, _ = _velocities(model)
     return Finding(float(np.ptp(at_compression, axis=1).max()))
 
@@ -119,19 +119,19 @@ def _velocities(model: str) -> tuple[Array, Array]:
 
 
 def restitution_change(model: str) -> Finding:
-    """Largest gain of |v1(tf) - v1(t_c)|/(mu v2(0)) as e falls."""
+    r"""Largest gain of $|v_1(t_f) - v_1(t_c)|/(\mu v_2(0))$ as $e$ falls."""
     at_compression, at_separation = _velocities(model)
     change = np.abs(at_separation - at_compression)
     return Finding(float(np.max(np.maximum.accumulate(change, axis=1) - change)))
 
 
 def reversal_elastic(model: str) -> Finding:
-    """Largest reversed velocity over mu v2(0) at e = 1."""
+    r"""Largest reversed velocity over $\mu v_2(0)$ at $e = 1$."""
     return Finding(float(_reversals(model)[-1]))
 
 
 def reversal_half(model: str) -> Finding:
-    """Largest reversed velocity over mu v2(0) at e = 0.5."""
+    r"""Largest reversed velocity over $\mu v_2(0)$ at $e = 0.5$."""
     return Finding(float(_reversals(model)[0]))
 
 
@@ -141,23 +141,23 @@ def _reversals(model: str) -> Array:
 
 
 def limit_gap(model: str) -> Finding:
-    """Largest distance of the limit of slip throughout from (1 + e) m2/m1."""
+    """Largest distance of the limit of slip throughout from $(1 + e) m_2/m_1$."""
     gaps = slip.slip_throughout_limit(MASS_RATIO, FEW) - _limits(model)
     return Finding(float(np.abs(gaps).max()))
 
 
 def limit_half(model: str) -> Finding:
-    """Limit of slip throughout at e = 0.5."""
+    """Limit of slip throughout at $e = 0.5$."""
     return Finding(float(_limits(model)[0]))
 
 
 def limit_fall(model: str) -> Finding:
-    """Smallest fall of the limit of slip throughout from one e to the next smaller."""
+    """Smallest fall of the limit of slip throughout from one $e$ to the next smaller."""
     return Finding(float(np.diff(_limits(model)).min()))
 
 
 def limit_rise(model: str) -> Finding:
-    """Largest rise of the limit of slip throughout from one e to the next smaller."""
+    """Largest rise of the limit of slip throughout from one $e$ to the next smaller."""
     return Finding(-limit_fall(model).value)
 
 
@@ -192,7 +192,7 @@ def _kept(model: str, incidences: Sequence[float]) -> Finding:
 
 
 def dissipation_gain(model: str) -> Finding:
-    """Smallest gain of the largest share that friction takes from one e to the next larger."""
+    """Smallest gain of the largest share that friction takes from one $e$ to the next larger."""
     tangent = np.tan(np.radians(np.linspace(2.0, 88.0, 44)))
     gains = []
     for mu in (0.1, 0.5):
@@ -203,9 +203,9 @@ def dissipation_gain(model: str) -> Finding:
 
 
 def slip_velocity(model: str) -> Finding:
-    """Distance of v1(0) - (mu/m1) p(tf) from the rebound above (1 + e) m2/m1, over mu v2(0).
+    r"""Largest distance of $v_1(0) - (\mu/m_1) p(t_f)$ from the rebound, in $\mu v_2(0)$.
 
-    The largest, with the normal impulse p(tf) by quadrature.
+    Above $(1 + e) m_2/m_1$, with the normal impulse $p(t_f)$ by quadrature.
     """
     x = slip.slip_throughout_limit(MASS_RATIO, FEW) * 1.1
     impulse = np.array([_impulse(history)[-1] for history in _histories(model, STICK)[-1]])
@@ -214,34 +214,34 @@ def slip_velocity(model: str) -> Finding:
 
 
 def slip_work(model: str) -> Finding:
-    """Largest relative distance of Eq. 41 from the work of friction above (1 + e) m2/m1."""
+    """Largest relative distance of Eq. 41 from the work of friction above $(1 + e) m_2/m_1$."""
     x = slip.slip_throughout_limit(MASS_RATIO, RESTITUTIONS) * 1.1
     stated = dissipation.eq_41_friction(x, MASS_RATIO, 1.0, RESTITUTIONS) / 2
     return Finding(float(np.abs(_rebound(model, x, RESTITUTIONS).dissipation / stated - 1).max()))
 
 
 def from_elastic(model: str) -> Finding:
-    """Distance of the rebounds from the elastic continuum at e = 1, root mean square."""
+    """Distance of the rebounds from the elastic continuum at $e = 1$, root mean square."""
     return _apart(model, VISCOUS, 1.0)
 
 
 def from_viscous(model: str) -> Finding:
-    """Distance of the rebounds from the viscous continuum at e = 0.6, root mean square."""
+    """Distance of the rebounds from the viscous continuum at $e = 0.6$, root mean square."""
     return _apart(model, VISCOUS, LEAST_MEASURED)
 
 
 def from_plastic(model: str) -> Finding:
-    """Distance of the rebounds from the continuum that yields at e = 0.6, root mean square."""
+    """Distance of the rebounds from the continuum that yields at $e = 0.6$, root mean square."""
     return _apart(model, PLASTIC, LEAST_MEASURED)
 
 
 def stick_from_viscous(model: str) -> Finding:
-    """The same from the viscous continuum, where the contact sticks at first, at e = 0.8."""
+    """The same from the viscous continuum, where the contact sticks at first, at $e = 0.8$."""
     return _apart(model, VISCOUS, 0.8, STIFFNESS_RATIO)
 
 
 def stick_from_plastic(model: str) -> Finding:
-    """The same from the continuum that yields, where the contact sticks at first, at e = 0.8."""
+    """The same from the continuum that yields, where the contact sticks at first, at $e = 0.8$."""
     return _apart(model, PLASTIC, 0.8, STIFFNESS_RATIO)
 
 

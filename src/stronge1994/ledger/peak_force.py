@@ -49,7 +49,7 @@ def _gap(impact: Contact, formula: Callable[..., Array]) -> Array:
 
 @over(lambda: [*contact.initial_stick(), *contact.slip_throughout()])
 def normal(impact: Contact) -> Gaps:
-    """Eq. 28 against the exact normal force, which is largest at t_c."""
+    """Eq. 28 against the exact normal force, which is largest at $t_c$."""
     top = impact.top.force_2
     exact = top / _over_speed(impact) if top == impact.path.force_2.max() else np.nan
     yield (impact.printed(peak_force.eq_28_normal) - exact) / impact.friction
@@ -70,7 +70,7 @@ def stick_over_speed(impact: Contact) -> Gaps:
 
 @over(lambda: [Contact(zeta2 / 2, beta, zeta2, samples=2001) for beta, zeta2 in contact.PAIRS])
 def stick_velocity(impact: Contact) -> Gaps:
-    """v1 at t = pi/(2 omega), where friction is largest in initial stick, over v1(0)."""
+    r"""$v_1$ at $t = \pi/(2 \omega)$, where friction is largest in initial stick, over $v_1(0)$."""
     path = impact.path
     # dv1/dt is known at the samples too: F1/m1.
     velocity = CubicHermiteSpline(path.t, path.v1, path.force_1 / impact.m1)
@@ -97,19 +97,19 @@ def _eq_31(impact: Contact, stretch: Numbers, velocity: Numbers) -> tuple[State,
 
 @over(lambda: contact.slip_stick_slip(late=False))
 def stick_after_slip(impact: Contact) -> Gaps:
-    """Eq. 31 with Eq. 32 along the stick that begins in compression, over mu F2max."""
+    r"""Eq. 31 with Eq. 32 along stick that begins in compression, over $\mu F_{2\mathrm{max}}$."""
     path, printed = _eq_31(impact, *_values_of_eq_32(impact))
     yield printed - path.force_1 / impact.friction_scale
 
 
 @corrected_over(lambda: contact.slip_stick_slip(late=False))
 def signs_of_deflection(impact: Contact) -> tuple[ArrayLike, float]:
-    """How far the legible plus in Eq. 31 and one sign of u1(t2) in Eqs 18 and 32 are apart.
+    r"""How far the legible plus in Eq. 31 and one sign of $u_1(t_2)$ in Eqs 18 and 32 are apart.
 
-    In units of mu: the largest distance of Eq. 31 from the exact force, or of Eq. 32 from the
-    exact u1(t2), whichever is larger, under the best choice of the signs that the scan may have
-    lost: before the u1(t2) of Eq. 32, and before the brace of Eq. 31. Corrected: u1(t2) with a
-    minus, as in Eq. 18, and a minus before sine and brace, as Eq. 7c asks.
+    In units of $\mu$: the largest distance of Eq. 31 from the exact force, or of Eq. 32 from the
+    exact $u_1(t_2)$, whichever is larger, under the best choice of the signs that the scan may have
+    lost: before the $u_1(t_2)$ of Eq. 32, and before the brace of Eq. 31. Corrected: $u_1(t_2)$
+    with a minus, as in Eq. 18, and a minus before sine and brace, as Eq. 7c asks.
     """
     stretch, velocity = _values_of_eq_32(impact)
     exact = impact.normal_frequency * impact.u1_t2 / impact.velocity_scale
@@ -125,9 +125,10 @@ def signs_of_deflection(impact: Contact) -> tuple[ArrayLike, float]:
 
 @corrected_over(lambda: contact.slip_stick_slip((1.0,), late=True))
 def peak_after_late_stick(impact: Contact) -> tuple[ArrayLike, float]:
-    """Largest value of Eq. 31 over the stick that begins in restitution, less the exact peak.
+    r"""Largest value of Eq. 31 over the stick that begins in restitution, less the exact peak.
 
-    In mu F2max, at e = 1, where both formulas of Table 1 coincide; corrected by Eq. 33.
+    In $\mu F_{2\mathrm{max}}$, at $e = 1$, where both formulas of Table 1 coincide; corrected by
+    Eq. 33.
     """
     _, force = _eq_31(impact, *_values_of_eq_32(impact))
     exact = float(impact.rebound.peak_friction)
@@ -136,7 +137,7 @@ def peak_after_late_stick(impact: Contact) -> tuple[ArrayLike, float]:
 
 @over(lambda: [*contact.slip_throughout(), *contact.slip_stick_slip(late=True)])
 def slip_throughout(impact: Contact) -> Gaps:
-    """Eq. 33 against the exact peak of friction above x = (1 + e) beta, and from beta on."""
+    r"""Eq. 33 against the exact peak of friction above $x = (1 + e) \beta$, and from $\beta$ on."""
     yield _gap(impact, peak_force.eq_33_friction)
 
 
@@ -175,19 +176,19 @@ def rigid_sliding() -> Finding:
 
 
 def compliance_reduces() -> Finding:
-    """Smallest excess of the peak without tangential compliance over the compliant one, in mu."""
+    r"""Smallest excess of the peak without tangential compliance over that with it, in $\mu$."""
     x = np.linspace(0, 8, 2001)
     return Finding(float(np.min(_rigid(x).peak_friction - _lumped(x).peak_friction)))
 
 
 @over(lambda: contact.PAIRS)
 def restitution_immaterial(pair: tuple[float, float]) -> Gaps:
-    """Change of the peak of friction with e, omega > Omega."""
+    r"""Change of the peak of friction with $e$, $\omega > \Omega$."""
     yield np.ptp(lumped.rebound(INCIDENCE, *pair, RESTITUTIONS).peak_friction, axis=0)
 
 
 def in_compression() -> Finding:
-    """Largest excess of the peak of friction over that of compression alone, e = 0."""
+    """Largest excess of the peak of friction over that of compression alone, $e = 0$."""
     excess = [
         lumped.rebound(INCIDENCE, *pair, RESTITUTIONS).peak_friction
         - lumped.rebound(INCIDENCE, *pair, 0.0).peak_friction
@@ -204,13 +205,13 @@ def _slip_stick_slip(number: int, samples: int) -> list[Contact]:
 
 
 def late_stick() -> Finding:
-    """Share of the incidences of slip, stick, slip (e = 1) whose stick begins after t_c."""
+    """Share of the incidences of slip, stick, slip ($e = 1$) whose stick begins after $t_c$."""
     late = [impact.t2 > impact.compression_time for impact in _slip_stick_slip(200, 2)]
     return Finding(float(np.mean(late)))
 
 
 def peak_after_stick() -> Finding:
-    """Share of the incidences of slip, stick, slip (e = 1) with the peak before stick."""
+    """Share of the incidences of slip, stick, slip ($e = 1$) with the peak before stick."""
     before = [
         impact.path.t[np.argmax(np.abs(impact.path.force_1))] < impact.t2
         for impact in _slip_stick_slip(100, 401)
@@ -219,7 +220,7 @@ def peak_after_stick() -> Finding:
 
 
 def velocity_at_stick() -> Finding:
-    """Lowest v1(t2)/(mu v2(0)) over slip, stick, slip, e = 1, of those sampled.
+    r"""Lowest $v_1(t_2)/(\mu v_2(0))$ over slip, stick, slip, $e = 1$, of those sampled.
 
     Negative means that the body has turned round.
     """
@@ -234,7 +235,7 @@ def velocity_at_stick() -> Finding:
 
 @over(contact.slip_throughout)
 def simultaneous(impact: Contact) -> Gaps:
-    """Distance of the instants of both peaks in slip throughout, in t_c."""
+    """Distance of the instants of both peaks in slip throughout, in $t_c$."""
     path = impact.path
     gap = path.t[path.force_2.argmax()] - path.t[path.force_1.argmax()]
     yield gap / impact.compression_time
@@ -245,22 +246,22 @@ def _angle_of_peak(friction: float, model: Model = _lumped) -> float:
 
 
 def peak_angle_small_friction() -> Finding:
-    """Angle of the largest peak of friction, mu = 0.1, in degrees."""
+    r"""Angle of the largest peak of friction, $\mu = 0.1$, in degrees."""
     return Finding(_angle_of_peak(0.1))
 
 
 def peak_angle_large_friction() -> Finding:
-    """Angle of the largest peak of friction, mu = 1, in degrees."""
+    r"""Angle of the largest peak of friction, $\mu = 1$, in degrees."""
     return Finding(_angle_of_peak(1.0))
 
 
 def peak_angle_lewis_rogers() -> Finding:
-    """Angle of the largest peak of friction, mu = 0.18, in degrees."""
+    r"""Angle of the largest peak of friction, $\mu = 0.18$, in degrees."""
     return Finding(_angle_of_peak(0.18))
 
 
 def peak_angle_rises() -> Finding:
-    """Smallest rise of the angle of the largest peak from one mu of Fig. 7 to the next, degrees."""
+    r"""Smallest rise in degrees of the angle of the largest peak between $\mu$ of Fig. 7."""
     return Finding(float(np.min(np.diff([_angle_of_peak(mu) for mu in FRICTIONS]))))
 
 
@@ -270,7 +271,7 @@ def _incidence_of_peak(model: Model) -> Array:
 
 
 def peak_at_intermediate_incidence() -> Finding:
-    """Smallest distance of the incidence of the largest peak from zeta^2 and (1 + e) beta."""
+    r"""Distance of the incidence of the largest peak from $\zeta^2$ and $(1 + e) \beta$."""
     (beta, zeta2), x = contact.SPHERE, _incidence_of_peak(_lumped)
     return Finding(float(min((x - zeta2).min(), (2 * beta - x).min())))
 
@@ -302,13 +303,13 @@ def smallest_reduction() -> Finding:
 
 
 def compliance_immaterial() -> Finding:
-    """Difference of both peaks from x = beta on, in mu."""
+    r"""Difference of both peaks from $x = \beta$ on, in $\mu$."""
     x = np.linspace(contact.MASS_RATIO, 20, 200)
     return Finding(largest([_lumped(x).peak_friction - _rigid(x).peak_friction]))
 
 
 def full_friction_angle() -> Finding:
-    """Angle from which peak friction is mu times the peak normal force, mu = 0.18, degrees."""
+    r"""Degrees from which peak friction is $\mu$ times the peak normal force, $\mu = 0.18$."""
 
     def below(angle: float) -> bool:
         return bool(_lumped(np.tan(np.radians(angle)) / 0.18).peak_friction < 1 - 1e-15)
@@ -327,14 +328,14 @@ def _effect(model: Model, friction: float, base: Model = _lumped) -> float:
 
 
 def normal_details() -> Finding:
-    """Largest relative change of the largest peak of a mu, Hertz' normal compliance for linear."""
+    r"""Largest relative change of the largest peak of a $\mu$, Hertz' compliance for linear."""
     return Finding(max(_effect(contact.without_micro_slip, mu) for mu in (0.1, 0.4, 1.0)))
 
 
 def stiffness_matters_more() -> Finding:
-    """Change of the largest peak from nu = 0 to 0.5, over that by Hertz' compliance.
+    r"""Change of the largest peak from $\nu = 0$ to 0.5, over that by Hertz' compliance.
 
-    zeta^2 is 1 for nu = 0 and 1.5 for 0.5. The smallest ratio for mu = 0.1, 0.4 and 1.
+    $\zeta^2$ is 1 for $\nu = 0$ and 1.5 for 0.5. The smallest ratio for $\mu = 0.1$, 0.4 and 1.
     """
 
     def sphere(poisson_ratio: float) -> Model:

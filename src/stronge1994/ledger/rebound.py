@@ -20,13 +20,13 @@ SPHERES = tuple((contact.MASS_RATIO, zeta2) for zeta2 in (1.0, contact.STIFFNESS
 
 
 def first_slip_in_restitution() -> Finding:
-    """Earliest onset of slip after initial stick of those sampled, in t_c, where omega > Omega."""
+    r"""Earliest onset of slip after initial stick, in $t_c$, where $\omega > \Omega$."""
     onsets = [impact.t1 / impact.compression_time for impact in contact.initial_stick()]
     return Finding(float(min(onsets)))
 
 
 def deflection_when_slip_reverses() -> Finding:
-    """Share of contacts with reversed last slip, s = +1, whose u1 is positive as it begins."""
+    """Share of contacts with reversed last slip, $s = +1$, whose $u_1$ is positive as it begins."""
     positive = [impact.onset.u1 > 0 for impact in contact.reversed_after_stick()]
     return Finding(float(np.mean(positive)))
 
@@ -43,7 +43,7 @@ def _largest_restitution_of_kept_direction(*incidences: float) -> Finding:
 
 
 def reversal_after_stick() -> Finding:
-    """Largest e at which slip after initial stick does not reverse, sphere of the paper.
+    """Largest $e$ at which slip after initial stick does not reverse, sphere of the paper.
 
     The largest of those sampled, incidences 0.1, 0.6 and 1.2.
     """
@@ -51,7 +51,7 @@ def reversal_after_stick() -> Finding:
 
 
 def reversal_after_slip() -> Finding:
-    """Largest e at which the second slip does not reverse, sphere of the paper.
+    """Largest $e$ at which the second slip does not reverse, sphere of the paper.
 
     The largest of those sampled, incidences 1.3, 2, 3 and just below 3.5.
     """
@@ -59,9 +59,9 @@ def reversal_after_slip() -> Finding:
 
 
 def three_sequences() -> Finding:
-    """Share of the impacts sampled whose second slip does not last: they stick and slip again.
+    r"""Share of the impacts sampled whose second slip does not last: they stick and slip again.
 
-    Over omega/Omega from 1 to 6 and incidence up to 2 m2/m1, at e = 1.
+    Over $\omega/\Omega$ from 1 to 6 and incidence up to $2 m_2/m_1$, at $e = 1$.
     """
     ratio = np.linspace(1.02, 6, 60)[:, None]
     x = np.linspace(0.01, 1, 60)
@@ -87,32 +87,32 @@ def _stiffness_ratio(poisson_ratio: float) -> float:
 
 
 def sphere_mass_ratio() -> Finding:
-    """m2/m1 of a solid sphere."""
+    """$m_2/m_1$ of a solid sphere."""
     return Finding(_mass_ratio())
 
 
 def sphere_stiffness_ratio() -> Finding:
-    """zeta^2 for nu = 0.3."""
+    r"""$\zeta^2$ for $\nu = 0.3$."""
     return Finding(_stiffness_ratio(0.3))
 
 
 def rubber_stiffness_ratio() -> Finding:
-    """zeta^2 for nu = 0.5."""
+    r"""$\zeta^2$ for $\nu = 0.5$."""
     return Finding(_stiffness_ratio(0.5))
 
 
 def sphere_frequency_ratio() -> Finding:
-    """omega/Omega of a solid sphere, nu = 0.3."""
+    r"""$\omega/\Omega$ of a solid sphere, $\nu = 0.3$."""
     return Finding(float(np.sqrt(_mass_ratio() / _stiffness_ratio(0.3))))
 
 
 def rubber_frequency_ratio() -> Finding:
-    """omega/Omega of a solid sphere, nu = 0.5."""
+    r"""$\omega/\Omega$ of a solid sphere, $\nu = 0.5$."""
     return Finding(float(np.sqrt(_mass_ratio() / _stiffness_ratio(0.5))))
 
 
 def smallest_frequency_ratio() -> Finding:
-    """Smallest omega/Omega of solid spheres, thin shells and discs, nu from 0 to 0.5."""
+    r"""Smallest $\omega/\Omega$ of solid spheres, thin shells and discs, $\nu$ from 0 to 0.5."""
     shapes = bodies.solid_sphere(0.01, 7800.0), bodies.thin_shell(1.0, 1.0), bodies.disc(1.0, 1.0)
     beta = min(float(bodies.mass_ratio(body)) for body in shapes)
     zeta2 = bodies.stiffness_ratio(bodies.Material(2e11, np.linspace(0, 0.5, 51)))
@@ -120,7 +120,7 @@ def smallest_frequency_ratio() -> Finding:
 
 
 def vanishing_compliance() -> Finding:
-    """Distance of velocity and peak friction at zeta^2 = 1e-4 from the rigid limit."""
+    r"""Distance of velocity and peak friction at $\zeta^2 = 10^{-4}$ from the rigid limit."""
     x, beta = INCIDENCE[::50], contact.MASS_RATIO
     soft, hard = lumped.rebound(x, beta, HARD), rigid.rebound(x, beta)
     return Finding(
@@ -130,16 +130,16 @@ def vanishing_compliance() -> Finding:
 
 @over(lambda: contact.PAIRS)
 def transition_at_compression(pair: tuple[float, float]) -> Gaps:
-    """Time of stick over t_c, less 1, at incidence m2/m1, e = 0.9 and 1."""
+    """Time of stick over $t_c$, less 1, at incidence $m_2/m_1$, $e = 0.9$ and 1."""
     for e in (0.9, 1.0):
         impact = Contact(pair[0], *pair, e)
         yield impact.t2 / impact.compression_time - 1
 
 
 def sliding_slows() -> Finding:
-    """Largest gain of the body's tangential speed from one instant to a later one, in mu |v2(0)|.
+    r"""Largest later gain of the body's tangential speed, in $\mu |v_2(0)|$.
 
-    Slip throughout above (1 + e) beta, up to the separation that `lumped.rebound` finds.
+    Slip throughout above $(1 + e) \beta$, up to the separation that `lumped.rebound` finds.
     """
     gains = []
     for impact in contact.slip_throughout():
@@ -149,9 +149,9 @@ def sliding_slows() -> Finding:
 
 
 def reversal_without_compliance() -> Finding:
-    """Lowest velocity at separation without tangential compliance; reversed is negative.
+    r"""Lowest velocity at separation without tangential compliance; reversed is negative.
 
-    The lower one of the rigid limit and of the lumped model with zeta^2 = 1e-4.
+    The lower one of the rigid limit and of the lumped model with $\zeta^2 = 10^{-4}$.
     """
     x, e, beta = INCIDENCE[::10], np.linspace(0, 1, 6)[:, None], contact.MASS_RATIO
     rebounds = rigid.rebound(x, beta, restitution=e), lumped.rebound(x, beta, HARD, e)
@@ -166,8 +166,8 @@ def _halts(e: float, x: float) -> bool:
 def rigid_rebound_limit(motion: contact.NormalMotion) -> Gaps:
     """Incidence above which the rigid limit leaves with velocity, over the impulse it takes.
 
-    The impulse is m2/m1 times the exact normal impulse by quadrature, which Eq. 26 has as
-    (1 + e) p(t_c).
+    The impulse is $m_2/m_1$ times the exact normal impulse by quadrature, which Eq. 26 has as
+    $(1 + e) p(t_c)$.
     """
     limit = boundary(partial(_halts, motion.restitution), 0.0, 20.0)
     impulse = motion.brought[-1] / motion.compression_impulse
@@ -176,7 +176,7 @@ def rigid_rebound_limit(motion: contact.NormalMotion) -> Gaps:
 
 
 def rigid_sequence() -> Finding:
-    """Share of rigid contacts below (1 + e) beta that do not slip first and then stick."""
+    r"""Share of rigid contacts below $(1 + e) \beta$ that do not slip first and then stick."""
     e, beta = np.linspace(0, 1, 11)[:, None], contact.MASS_RATIO
     x = slip.slip_throughout_limit(beta, e) * np.linspace(0.001, 0.999, 50)
     regime = rigid.rebound(x, beta, restitution=e).regime
@@ -185,7 +185,7 @@ def rigid_sequence() -> Finding:
 
 @over(lambda: contact.with_and_without_compliance((0.0, *contact.RESTITUTIONS)))
 def unaffected_velocity(rebounds: tuple[Rebound, Rebound]) -> Gaps:
-    """Difference that tangential compliance makes to the velocity above x = (1 + e) beta."""
+    r"""Difference that tangential compliance makes to the velocity above $x = (1 + e) \beta$."""
     soft, hard = rebounds
     yield soft.velocity - hard.velocity
 
@@ -209,12 +209,12 @@ def models_differ_most() -> Finding:
 
 
 def practically_identical() -> Finding:
-    """Largest distance of lumped model and continuum in v1(tf)/(mu v2(0))."""
+    r"""Largest distance of lumped model and continuum in $v_1(t_f)/(\mu v_2(0))$."""
     return Finding(float(_models_apart().max()))
 
 
 def identical_at_almost_all() -> Finding:
-    """Share of the angles 0 to 90 deg at which the models are within 0.05.
+    """Share of the angles 0 to 90° at which the models are within 0.05.
 
     The smallest over the frictions of Fig. 7.
     """
@@ -232,7 +232,7 @@ def _continuum_histories(*incidences: float) -> Iterator[ContinuumHistory]:
 
 
 def last_slip_prolonged() -> Finding:
-    """How much earlier the last slip begins in the lumped model than in the continuum, in t_c.
+    """How much earlier the last slip begins in the lumped model than in the continuum, in $t_c$.
 
     The smallest lead at incidences 0.5, 1, 2 and 3; gross slip is meant.
     """
@@ -244,9 +244,9 @@ def last_slip_prolonged() -> Finding:
 
 
 def mostly_reversed() -> Finding:
-    """Share of small and intermediate incidence with reversed velocity, the smaller of both models.
+    r"""Share of small and intermediate incidence with reversed velocity, of the smaller model.
 
-    Up to the limit of slip throughout, 2 beta - zeta^2.
+    Up to the limit of slip throughout, $2 \beta - \zeta^2$.
     """
     shares = [np.mean(velocity[INCIDENCE <= ELASTIC_LIMIT] < 0) for velocity in _velocities()]
     return Finding(float(min(shares)))
@@ -284,7 +284,7 @@ def micro_slip() -> Finding:
 
 
 def limit_falls_with_losses() -> Finding:
-    """Largest e below which more internal dissipation leaves the limit of slip throughout."""
+    """Largest $e$ below which more internal dissipation leaves the limit of slip throughout."""
     e = np.linspace(0, 1, 2001)
     limit = lumped.slip_throughout_limit(*contact.SPHERE, e)
     return Finding(float(e[np.flatnonzero(np.diff(limit) > 0)[0]]))
@@ -292,13 +292,13 @@ def limit_falls_with_losses() -> Finding:
 
 @over(lambda: (0.3, 1.0, 2.0, 3.3, 5.0, 9.0))
 def compression_unaffected(x: float) -> Gaps:
-    """Change of the velocity at t_c with e."""
+    """Change of the velocity at $t_c$ with $e$."""
     ends = [Contact(x, restitution=e).top.v1 for e in contact.RESTITUTIONS]
     yield np.ptp(ends) / Contact.velocity_scale
 
 
 def restitution_change_falls() -> Finding:
-    """Largest gain of |v1(tf) - v1(t_c)|/(mu v2(0)) as e falls, sphere of the paper."""
+    r"""Largest gain of $|v_1(t_f) - v_1(t_c)|/(\mu v_2(0))$ as $e$ falls, sphere of the paper."""
     e = np.linspace(0, 1, 101)[:, None]
     velocity = lumped.rebound(INCIDENCE, *contact.SPHERE, e).velocity
     change = np.abs(velocity - velocity[0])
@@ -308,7 +308,7 @@ def restitution_change_falls() -> Finding:
 
 @over(lambda: contact.RESTITUTIONS)
 def other_laws(e: float) -> Gaps:
-    """Largest part of full friction that the laws of Bilbao, Smith and Brach lack at x = 1e4."""
+    """Largest part of full friction that Bilbao's, Smith's and Brach's laws lack at $x = 10^4$."""
     others = [law(1e4, *contact.SPHERE, e).velocity for law in (laws.smith, laws.brach)]
     for velocity in (_bilbao(1e4, contact.MASS_RATIO, e), *others):
         yield (1e4 - velocity) / contact.MASS_RATIO / (1 + e) - 1

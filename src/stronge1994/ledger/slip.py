@@ -16,7 +16,7 @@ from stronge1994.printed import slip
 
 @over(contact.initial_stick)
 def force_ratio(impact: Contact) -> Gaps:
-    """Eqs 10a and 10b at the exact onset of slip: |F1| = mu F2, and less before."""
+    r"""Eqs 10a and 10b at the exact onset of slip: $|F_1| = \mu F_2$, and less before."""
     t = impact.between(0.0, impact.t1).t[1:-1]
     early = t <= impact.compression_time
     yield np.maximum(impact.printed(slip.eq_10a_force_ratio, t1=t[early]) - 1, 0)
@@ -45,20 +45,20 @@ def velocity_at_slip(impact: Contact) -> Gaps:
 
 @over(contact.initial_stick)
 def final_velocity(impact: Contact) -> Gaps:
-    """Eq. 13 after initial stick, with s as it is at the onset of slip."""
+    """Eq. 13 after initial stick, with $s$ as it is at the onset of slip."""
     yield (impact.printed(slip.eq_13_final_velocity) - impact.final) / impact.velocity_scale
 
 
 @over(contact.initial_stick)
 def impulse_left(impact: Contact) -> Gaps:
-    """Eq. 14 and g1: the impulse after t1 from the momentum at separation."""
+    """Eq. 14 and $g_1$: the impulse after $t_1$ from the momentum at separation."""
     change = abs(impact.final - impact.v1_t1) * impact.m1 / impact.friction
     yield (impact.printed(slip.eq_14_impulse_left) - change) / impact.compression_impulse
 
 
 @over(contact.reversed_after_stick)
 def rebound_after_stick(impact: Contact) -> Gaps:
-    """Eq. 15 against the exact rebound, where the last slip reverses (s = +1)."""
+    """Eq. 15 against the exact rebound, where the last slip reverses ($s = +1$)."""
     scale = impact.velocity_scale
     yield impact.printed(slip.eq_15_rebound, v1_t1=impact.v1_t1 / scale) - impact.final / scale
 
@@ -142,20 +142,20 @@ def second_stick(impact: Contact) -> Gaps:
 
 @over(contact.reversed_after_slip)
 def onset_of_second_slip(impact: Contact) -> Gaps:
-    """Eq. 23 at the exact onset of the last slip, where that reverses (s = +1)."""
+    """Eq. 23 at the exact onset of the last slip, where that reverses ($s = +1$)."""
     left, right = impact.printed(slip.eq_23_sides)
     yield left - right
 
 
 @over(contact.reversed_after_slip)
 def final_velocity_after_second_slip(impact: Contact) -> Gaps:
-    """Eq. 24 against the exact rebound, where the last slip reverses (s = +1)."""
+    """Eq. 24 against the exact rebound, where the last slip reverses ($s = +1$)."""
     yield (impact.printed(slip.eq_24_final_velocity) - impact.final) / impact.velocity_scale
 
 
 @over(contact.reversed_after_slip)
 def rebound_after_second_slip(impact: Contact) -> Gaps:
-    """Eq. 25 against the exact rebound, where the last slip reverses (s = +1)."""
+    """Eq. 25 against the exact rebound, where the last slip reverses ($s = +1$)."""
     scale, share = impact.velocity_scale, impact.impulse(impact.t3) / impact.compression_impulse
     printed = impact.printed(slip.eq_25_rebound, v1_t3=impact.v1_t3 / scale, impulse_share=share)
     yield printed - impact.final / scale
@@ -163,9 +163,10 @@ def rebound_after_second_slip(impact: Contact) -> Gaps:
 
 @over(contact.of_sphere(1.3, 2.0, 3.0, 4.5))
 def slid_after_first_slip(impact: Contact) -> Gaps:
-    """Largest way that the particle slides in the phase that begins at t2, over its deflection.
+    """Largest way that the particle slides in the phase that begins at $t_2$, over its deflection.
 
-    The particle moves with v1 + du1/dt; by quadrature along sampled contacts of slip, stick, slip.
+    The particle moves with $v_1 + du_1/dt$; by quadrature along sampled contacts of slip, stick,
+    slip.
     """
     way = impact.integral(impact.path.v1) + impact.path.u1
     inside = (impact.path.t >= impact.t2) & (impact.path.t <= impact.t3)
@@ -174,7 +175,7 @@ def slid_after_first_slip(impact: Contact) -> Gaps:
 
 @over(contact.slip_throughout)
 def rebound_after_slip_throughout(impact: Contact) -> Gaps:
-    """Eqs 26 and 27 against the exact rebound above x = (1 + e) beta."""
+    r"""Eqs 26 and 27 against the exact rebound above $x = (1 + e) \beta$."""
     scale = impact.velocity_scale
     yield (impact.printed(slip.eq_26_final_velocity) - impact.final) / scale
     yield impact.printed(slip.eq_27_rebound) - impact.final / scale
@@ -196,9 +197,9 @@ def _slips_throughout_from(mass_ratio: float, stiffness_ratio: float, restitutio
 
 @corrected_over(lambda: product(contact.PAIRS, (0.0, *contact.RESTITUTIONS)))
 def slip_throughout_limit(place: tuple[tuple[float, float], float]) -> tuple[ArrayLike, float]:
-    """The printed limit (1 + e) beta less the one found by bisection of regimes, as incidences x.
+    r"""The printed limit $(1 + e) \beta$ less the one found by bisection of regimes, in $x$.
 
-    Corrected, by Eqs 17 to 20: beta + max(0, e beta - zeta^2/e).
+    Corrected, by Eqs 17 to 20: $\beta + \max(0, e \beta - \zeta^2/e)$.
     """
     (beta, zeta2), e = place
     exact = _slips_throughout_from(beta, zeta2, e)

@@ -14,7 +14,7 @@ from markupsafe import Markup
 
 from planarimpact.ground import arrays
 from stronge1994 import csv_tables
-from stronge1994.pages import formulas, templates
+from stronge1994.pages import templates
 
 # Packages for users: the solver and the paper's formulas.
 PACKAGES = ("planarimpact", "stronge1994.printed")
@@ -27,8 +27,6 @@ NAMED_TYPES = {
     "Integers": arrays.Integers,
     "Booleans": arrays.Booleans,
 }
-# What is no formula: parts of a page from tag to end tag, any other tag, and the unit of time.
-NO_FORMULA = re.compile(r"<(pre|code|a|strong|h[1-6])\b.*?</\1>|<[^>]+>|\[(?:N )?s\]|\d s\b", re.S)
 
 
 def write(folder: str, replaced_templates: str | Path) -> None:
@@ -54,9 +52,7 @@ def write(folder: str, replaced_templates: str | Path) -> None:
     )
     # The bar and the theme of all pages; the theme takes the place of that of pdoc.
     pdoc.render.env.loader.searchpath.insert(1, templates.SHARED)  # type: ignore[union-attr]
-    pdoc.render.env.filters |= {
-        "runnable": runnable, "mathematical": mathematical, "short_names": short_names,
-    }  # fmt: skip
+    pdoc.render.env.filters |= {"runnable": runnable, "short_names": short_names}
     dark = HtmlFormatter(style="github-dark").get_style_defs(".pdoc-code")
     pdoc.render.env.globals["dark_code"] = dark
     # pdoc has no option for the names of types.
@@ -130,22 +126,6 @@ def _imports(names: set[str], page: str, defined_in: ModuleType) -> list[str]:
         by_place.setdefault(place, []).append(name)
     lines += [f"from {place} import {', '.join(by_place[place])}" for place in sorted(by_place)]
     return lines
-
-
-def mathematical(html: str) -> Markup:
-    """A docstring's HTML with its plain formulas as MathML; code, names and headings stay.
-
-    >>> print(mathematical("Not <code>mu</code>, but mu <b>is</b>."))
-    Not <code>mu</code>, but <math alttext="mu"><mi>μ</mi></math> <b>is</b>.
-    """
-    done, marked_up = 0, Markup()
-    for match in [*NO_FORMULA.finditer(html), None]:
-        text = html[done : match.start() if match else None]
-        # A formula may be broken over two lines of a docstring.
-        marked_up += formulas.mathematical(Markup(text).unescape().replace("\n", " "))
-        marked_up += Markup(match[0] if match else "")
-        done = match.end() if match else done
-    return marked_up
 
 
 def short_names(signature: str) -> Markup:

@@ -38,8 +38,8 @@ def of_run(paths: Mapping[str, str], series: Mapping[str, Mapping[str, Any]]) ->
     numbers = (
         _counts(rows(paths["verdicts"]), rows(paths["ledger"]))
         | _elastic(curves(paths["fig5"]))
-        | _pairs(curves(paths["inelastic"]), reference_data.arrays("pairs", series["pairs"]))
-        | _yielding(curves(paths["yielding"]), reference_data.arrays("spheres", series["runs"]))
+        | _pairs(curves(paths["inelastic"]), reference_data.arrays(series["pairs"]))
+        | _yielding(curves(paths["yielding"]), reference_data.arrays(series["runs"]))
         | _rubber(curves(paths["rubber_sphere"]))
         | _nature(rows(paths["in_nature"]))
     )

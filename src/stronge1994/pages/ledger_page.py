@@ -10,9 +10,9 @@ from typing import Any
 from markupsafe import Markup
 
 from stronge1994.csv_tables import Row
+from stronge1994.formulas import mathematical
 from stronge1994.ledger import finding, outcome
 from stronge1994.pages import names, templates
-from stronge1994.pages.formulas import mathematical
 
 STYLE = {
     "confirmed": "confirmed",

@@ -9,8 +9,8 @@ from typing import Any
 
 from stronge1994 import csv_tables, figure_table, verdict_table
 from stronge1994.csv_tables import Row
-from stronge1994.pages import key_numbers, names, templates
-from stronge1994.pages.formulas import mathematical, number
+from stronge1994.formulas import mathematical, number
+from stronge1994.pages import headers, key_numbers, names, templates
 
 # Models below e = 1, in the order of the note.
 MODELS = (
@@ -60,6 +60,7 @@ def page(
         "sentence": names.sentence,
         "source_name": names.source,
         "title_of": templates.title,
+        "unit": headers.unit,
     }
     return environment.get_template(Path(template).name).render(
         n=numbers,

@@ -19,6 +19,7 @@ from stronge1994 import csv_tables, figure_table, verdict_table
 from stronge1994.csv_tables import Curves, Row
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
+from stronge1994.formulas import mathematical, number, plain
 from stronge1994.judging.verdicts import VISIBLE_SHIFT
 from stronge1994.ledger import outcome
 from stronge1994.pages import (
@@ -32,7 +33,6 @@ from stronge1994.pages import (
     templates,
     which_model,
 )
-from stronge1994.pages.formulas import mathematical, number
 from stronge1994.run import gate, record
 
 MARKS = {
@@ -117,6 +117,7 @@ def page(values: TemplateValues, template: str | Path) -> str:
         "header": headers.header,
         "sentence": names.sentence,
         "title_of": templates.title,
+        "unit": headers.unit,
     }
     environment.tests["in_paper"] = figure_table.is_of_paper
     return environment.get_template(Path(template).name).render(
@@ -159,7 +160,7 @@ def figure(
         "title": templates.title(name),
         "picture": templates.embedded(svg),
         "caption": caption,
-        "alt": re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip("."),
+        "alt": plain(re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip(".")),
         "rows": rows,
         "has_residuals": bool(residuals),
         "has_slide": name in config["slides"],
@@ -171,6 +172,14 @@ def _svg(strips: Mapping[draw_residuals.Strip, Curves]) -> bytes:
     file = io.BytesIO()
     house_style.save(draw_residuals.draw(strips), file)
     return file.getvalue()
+
+
+def _with_formulas(row: Row, config: Mapping[str, Any]) -> Row:
+    """A row with reason and note as the figure's folder has them, not plain as in the table."""
+    entry = config["comparisons"].get(row["comparison"], {})
+    written = [entry.get("reason", ""), entry.get("documented", {}).get("note", "")]
+    latex = {plain(text): text for text in written}
+    return row | {key: latex.get(row[key], row[key]) for key in ("reason", "note")}
 
 
 def copy_tables(folder: str | Path, paths: Iterable[str]) -> None:
@@ -204,7 +213,7 @@ def write(
     ledger = salvage("ledger", [], read, paths["ledger"], outcome.COLUMNS)
     faults = record.errors(records)
     faults += gate.faults_of_tables(rows, ledger, settings["comparisons"], settings["entries"])
-    rows = [row for row in rows if row["verdict"] in MARKS]
+    rows = [_with_formulas(row, config) for row in rows if row["verdict"] in MARKS]
 
     def section(name: str) -> TemplateValues:
         picture, caption = Path(svgs[name]).read_bytes(), settings["captions"][name]

@@ -77,7 +77,7 @@ def series(overlays: Mapping[str, Mapping[str, Any]]) -> Points:
 
 
 def _points(name: str, entry: Mapping[str, Any]) -> Series:
-    columns = reference_data.arrays(name.split("/")[1], entry)
+    columns = reference_data.arrays(entry)
     printed = [reference_data.sigma_column(entry[axis]) for axis in "xy"]
     return {
         "x": columns[reference_data.column_name(entry["x"])],
