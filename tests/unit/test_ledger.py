@@ -170,7 +170,7 @@ def test_readings_quote_what_a_kept_direction_costs():
             for e in restitutions
         )
 
-    for check in ("slip.rebound_after_stick", "slip.final_velocity_after_second_slip"):
+    for check in ("slip.rebound_after_stick", "slip.rebound_after_second_slip"):
         assert ledger.run(check).value < 1e-9
     largest = {zeta2: over(zeta2) for zeta2 in (1.0, 1.21, 1.35, 1.5)}
     costs = [found[0] for found in largest.values()]

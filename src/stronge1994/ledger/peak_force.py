@@ -57,14 +57,9 @@ def normal(impact: Contact) -> Gaps:
 
 @over(contact.initial_stick)
 def stick(impact: Contact) -> Gaps:
-    """Eq. 29 against the exact peak of friction, initial stick."""
+    """Eqs 29 and 30 against the exact peak of friction, initial stick."""
     peak = impact.rebound.peak_friction * impact.friction_scale
     yield impact.printed(peak_force.eq_29_friction) / peak - 1
-
-
-@over(contact.initial_stick)
-def stick_over_speed(impact: Contact) -> Gaps:
-    """Eq. 30 against the exact peak of friction, initial stick."""
     yield _gap(impact, peak_force.eq_30_friction)
 
 
