@@ -178,18 +178,11 @@ def compliance_reduces() -> Finding:
 
 @over(lambda: contact.PAIRS)
 def restitution_immaterial(pair: tuple[float, float]) -> Gaps:
-    r"""Change of the peak of friction with $e$, $\omega > \Omega$."""
+    r"""Change of the peak of friction with $e$, $\omega > \Omega$.
+
+    From $e = 0$ on, where there is compression alone.
+    """
     yield np.ptp(lumped.rebound(INCIDENCE, *pair, RESTITUTIONS).peak_friction, axis=0)
-
-
-def in_compression() -> Finding:
-    """Largest excess of the peak of friction over that of compression alone, $e = 0$."""
-    excess = [
-        lumped.rebound(INCIDENCE, *pair, RESTITUTIONS).peak_friction
-        - lumped.rebound(INCIDENCE, *pair, 0.0).peak_friction
-        for pair in contact.PAIRS
-    ]
-    return Finding(float(np.max(excess)))
 
 
 def _slip_stick_slip(number: int, samples: int) -> list[Contact]:
