@@ -23,7 +23,6 @@ from stronge1994.formulas import mathematical, number, plain
 from stronge1994.judging.verdicts import VISIBLE_SHIFT
 from stronge1994.ledger import outcome
 from stronge1994.pages import (
-    headers,
     impact_times,
     key_numbers,
     ledger_page,
@@ -108,16 +107,7 @@ def page(values: TemplateValues, template: str | Path) -> str:
     environment.filters |= {
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
         "bounds": bounds,
-        "comparison_name": names.comparison,
-        "series_name": names.series,
-        "source_name": names.source,
-        "entry_name": names.entry,
-        "number": number,
         "microseconds": lambda seconds: number(f"{1e6 * float(seconds)}"),
-        "header": headers.header,
-        "sentence": names.sentence,
-        "title_of": templates.title,
-        "unit": headers.unit,
     }
     environment.tests["in_paper"] = figure_table.is_of_paper
     return environment.get_template(Path(template).name).render(
@@ -157,7 +147,7 @@ def figure(
     entries = {c: e for c, e in config["comparisons"].items() if e["figure"] == name}
     strips = draw_residuals.strips(residuals, entries, {row["comparison"]: row for row in rows})
     return {
-        "title": templates.title(name),
+        "title": names.figure(name),
         "picture": templates.embedded(svg),
         "caption": caption,
         "alt": plain(re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip(".")),
@@ -223,7 +213,7 @@ def write(
     def caption(name: str) -> str:
         return Path(template).with_name(f"{name}.rst").read_text(encoding="utf-8").strip()
 
-    figures = {name: salvage(templates.title(name), None, section, name) for name in svgs}
+    figures = {name: salvage(names.figure(name), None, section, name) for name in svgs}
     which, trade, peers = (
         salvage(name, [], read, paths[name]) if name in paths else []
         for name in ("which_model", "trade", "peers")
