@@ -374,19 +374,6 @@ def test_an_overlap_costs_no_more_with_other_materials():
                 assert np.all(up_to <= np.array(overlaps.costs(size, friction))), (law, size)
 
 
-def test_readme_has_the_errors_before_and_after():
-    text = (ROOT / "src/README.md").read_text(encoding="utf-8")
-    table = re.search(r"\| pair \|(.*)\n\|[-|]*\n((?:\|.*\n)+)", text)
-    codes = re.findall(r"`([a-z-]+)`", table[1])
-    assert codes == list(fit.CODES)
-    for row in table[2].splitlines():
-        pair, *cells = (cell.strip() for cell in row.strip("|").split("|"))
-        for law, cell in zip(codes, cells, strict=True):
-            one = found(law, pair.split(",")[0])
-            wanted = [one.error_before.rms, one.error.rms, one.error.largest]
-            assert re.findall(r"\d\.\d+", cell) == [f"{error:.2f}" for error in wanted], (pair, law)
-
-
 def test_the_nearest_is_the_nearest():
     one = found("lammps-hooke", "steel")
     law = LAWS["lammps-hooke", "linear_history"]

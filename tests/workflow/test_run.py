@@ -213,7 +213,6 @@ def test_a_change_of_the_config_reruns_what_it_concerns(finished):
         "all",
         "curves",
         "draw",
-        "key_numbers",
         "note",
     ]
     assert counts == dict.fromkeys(once, 1) | {"judge": 3}

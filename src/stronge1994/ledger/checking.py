@@ -4,7 +4,7 @@ This never fails: an entry whose check crashes no longer holds, with the reason 
 """
 
 import traceback
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from types import SimpleNamespace
 from typing import Any, TypeAlias
 
@@ -128,8 +128,3 @@ def table_of(measured: Measured) -> list[Row]:
         | {model: f"{value:.12g}" for model, value in values.items()}
         for name, values in measured.items()
     ]
-
-
-def read(table: Sequence[Row]) -> Measured:
-    """What the checks of `nature` have found, from the rows of their table."""
-    return {row["measure"]: {model: float(row[model]) for model in MODELS} for row in table}

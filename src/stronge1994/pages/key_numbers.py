@@ -15,7 +15,7 @@ from stronge1994 import csv_tables, reference_data, verdict_table
 from stronge1994.csv_tables import Columns, Curves, Row
 from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.figures.shared.drawing.lossy import MODELS
-from stronge1994.ledger import checking, outcome
+from stronge1994.ledger import finding, outcome
 from stronge1994.pages import ledger_page
 
 Numbers = dict[str, float]
@@ -150,9 +150,9 @@ def _rubber(curves: Curves) -> Numbers:
 
 
 def _nature(measures: Sequence[Row]) -> Numbers:
-    """Measures of the ledger's sentences in nature, by model."""
+    """What the ledger's checks of restitution find, by model."""
     return {
-        f"nature.{name}.{model}": value
-        for name, values in checking.read(measures).items()
-        for model, value in values.items()
+        f"nature.{row['measure']}.{model}": float(row[model])
+        for row in measures
+        for model in finding.MODELS
     }
