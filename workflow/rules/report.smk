@@ -31,8 +31,8 @@ REPORT_SETTINGS = {
 rule start_page:
     """The page to begin with: for whom teaches, verifies, or chooses a model."""
     input:
-        plan=planned("start_page", "write_start_page", "pages/__init__.py", "pages/templates.py",
-            "plan", "reference_data"),
+        plan=planned("start_page", "write_start_page", "pages/__init__.py", "pages/names.py",
+            "pages/templates.py", "plan", "reference_data"),
         template="workflow/report/index.html",
         parts="workflow/report/page.css",
         shared=EVERY_PAGE,

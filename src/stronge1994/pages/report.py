@@ -24,7 +24,6 @@ from stronge1994.formulas import mathematical, number, plain
 from stronge1994.judging.verdicts import VISIBLE_SHIFT
 from stronge1994.ledger import outcome
 from stronge1994.pages import (
-    headers,
     impact_times,
     key_numbers,
     ledger_page,
@@ -110,16 +109,7 @@ def page(values: TemplateValues, template: str | Path) -> str:
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
         "bounds": bounds,
         "measured": measured,
-        "comparison_name": names.comparison,
-        "series_name": names.series,
-        "source_name": names.source,
-        "entry_name": names.entry,
-        "number": number,
         "microseconds": lambda seconds: number(f"{1e6 * float(seconds)}"),
-        "header": headers.header,
-        "sentence": names.sentence,
-        "title_of": templates.title,
-        "unit": headers.unit,
     }
     environment.tests["in_paper"] = is_of_paper
     return environment.get_template(Path(template).name).render(
@@ -140,7 +130,7 @@ def page(values: TemplateValues, template: str | Path) -> str:
 def measured(row: Row) -> Markup:
     """How large the distance of a row of the verdict table is, its unit as a formula."""
     value, _, unit = row["stated"].partition(" ")
-    shown = {"stated": f"{value}{headers.unit(unit)}", "unit": headers.unit(row["unit"]).strip()}
+    shown = {"stated": f"{value}{names.unit(unit)}", "unit": names.unit(row["unit"]).strip()}
     return mathematical(verdict_table.measured(row | shown).replace("chi^2", "χ²"))
 
 
@@ -165,7 +155,7 @@ def figure(
     rows = [row for row in verdicts if row["figure"] == name]
     strips = draw_residuals.strips(residuals, {row["comparison"]: row for row in rows})
     return {
-        "title": templates.title(name),
+        "title": names.figure(name),
         "picture": templates.embedded(svg),
         "caption": caption,
         "alt": plain(re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip(".")),
@@ -231,7 +221,7 @@ def write(
     def caption(name: str) -> str:
         return Path(template).with_name(f"{name}.rst").read_text(encoding="utf-8").strip()
 
-    figures = {name: salvage(templates.title(name), None, section, name) for name in svgs}
+    figures = {name: salvage(names.figure(name), None, section, name) for name in svgs}
     which, trade, others = (
         salvage(name, [], read, paths[name]) for name in ("which_model", "trade", "impacts")
     )
