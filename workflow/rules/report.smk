@@ -10,10 +10,6 @@ REPORT_PARTS = [
 ]
 
 
-# Times of LAMMPS and pooltool, once `snakemake peers` has measured them.
-PEERS = ["results/peers.csv"] if Path("results/peers.csv").exists() else []
-
-
 # Changes to the templates of pdoc.
 INTERFACE_PARTS = [
     *expand("workflow/report/interface/{part}", part=["module.html.jinja2", "index.html.jinja2", "custom.css"]),
@@ -90,7 +86,7 @@ rule report:
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
         numbers=rules.note.output.numbers,
-        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers, *PEERS],
+        answers=rules.trade_tables.output.answers,
         linked=[
             "results/verdicts.csv",
             "results/stability.csv",

@@ -1,17 +1,7 @@
-"""Headers of the report's tables: a description of each column, with its unit."""
+"""Headers of tables: a description of each column, with its unit."""
 
 # Descriptions of columns whose names a reader would not understand.
 HEADERS = {
-    "rms_velocity": "root mean square error of the velocity at separation",
-    "max_velocity": "largest error of the velocity at separation",
-    "rms_peak_friction": "root mean square error of the largest friction",
-    "max_peak_friction": "largest error of the largest friction",
-    "rms_dissipation": "root mean square error of the work of friction",
-    "max_dissipation": "largest error of the work of friction",
-    "time": "time of an impact in the batch",
-    "batch": "impacts in the batch",
-    "time_alone": "time of an impact alone",
-    "times_spheres": "over the time of the table of spheres",
     "restitution": "restitution $e$",
     "incidence": r"incidence $v_1(0)/(\mu v_2(0))$",
     "mass_ratio": r"mass ratio $m_2/m_1$",
@@ -46,8 +36,8 @@ UNITS = {
 def header(column: str) -> str:
     r"""Description of a column, with its unit after a comma.
 
-    >>> header("max_velocity [mu v2(0)]")
-    'largest error of the velocity at separation, $\\mu v_2(0)$'
+    >>> header("velocity [mu v2(0)]")
+    'velocity, $\\mu v_2(0)$'
     >>> header("incidence [mu v2(0)]"), header("young_modulus [Pa]")
     ('incidence $v_1(0)/(\\mu v_2(0))$', 'young modulus, Pa')
     """
