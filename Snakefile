@@ -31,7 +31,6 @@ localrules:
     ledger_page,
     note,
     trade_tables,
-    stability_table,
     explorer,
     start_page,
     interface,
@@ -77,7 +76,6 @@ include: "workflow/rules/judging.smk"
 include: "workflow/rules/ledger.smk"
 include: "workflow/rules/note.smk"
 include: "workflow/rules/trade.smk"
-include: "workflow/rules/stability.smk"
 include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/explorer.smk"
 include: "workflow/rules/report.smk"
@@ -94,7 +92,6 @@ MAKERS = [
     rules.ledger_page,
     rules.note,
     rules.trade_tables,
-    rules.stability_table,
     rules.scene,
     rules.lecture,
     rules.explorer,

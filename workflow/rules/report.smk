@@ -6,7 +6,7 @@ REPORT_PARTS = [
     "workflow/report/unfold.js",
     "workflow/report/model.svg",
     *expand("workflow/report/{part}.css", part=["page", "report"]),
-    *expand("workflow/report/{part}.rst", part=["trade", "which_model", "stability"]),
+    *expand("workflow/report/{part}.rst", part=["trade", "which_model"]),
 ]
 
 
@@ -89,14 +89,12 @@ rule report:
         answers=rules.trade_tables.output.answers,
         linked=[
             "results/verdicts.csv",
-            "results/stability.csv",
             "results/trade.csv",
             "results/which_model.csv",
             *expand("results/{kind}/{figure}.csv", kind=["curves", "residuals"], figure=FIGURES),
         ],
         records=[expand(rule.output.record, **VALUES) for rule in (rules.curves, rules.draw,
-            rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables,
-            rules.stability_table, rules.note)],
+            rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables, rules.note)],
     output:
         page="figures/report.html",
         sources=report(
