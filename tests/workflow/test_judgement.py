@@ -143,8 +143,7 @@ def test_entries_that_do_not_hold_do_not_pass(expected, holds):
     assert len(found) == 1 and "eq-41" in found[0]
 
 
-TABLES = ("verdicts", "ledger", "trade", "which_model", "key_numbers")
-OTHER_CODES = str(ROOT / "data/other_codes/impacts.csv")
+TABLES = ("verdicts", "ledger", "which_model", "key_numbers")
 
 
 @pytest.fixture
@@ -205,7 +204,7 @@ DAMAGE = [
     ),
     ("results/ledger.csv", "", "results/ledger.csv"),
     ("results/ledger.csv", ",".join(outcome.COLUMNS[1:]) + "\n", "column 'kind' is missing"),
-    ("results/trade.csv", "a,b\n1\n", "results/trade.csv, line 2"),
+    ("results/which_model.csv", "a,b\n1\n", "results/which_model.csv, line 2"),
     ("results/residuals/fig5.csv", "comparison\nfig5-lumped-exact\n", "Fig. 5: "),
     ("results/residuals/fig5.csv", None, "residuals/fig5.csv"),
     ("figures/fig6.svg", None, "fig6.svg"),

@@ -277,7 +277,6 @@ def doctored(*lapsed):
         },
         "captions": dict.fromkeys(write_report.SECTIONS, "Words."),
         "cases": [],
-        "times": write_report.NO_TIMES,
         "n": {},
         "significance": CONFIG["significance"],
         "run": {"date": "Today", "commit": "abc"},

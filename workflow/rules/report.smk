@@ -87,7 +87,7 @@ rule report:
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
         numbers=rules.note.output.numbers,
-        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers, OTHER_CODES],
+        answers=rules.trade_tables.output.answers,
         linked=[
             "results/verdicts.csv",
             "results/trade.csv",
@@ -95,8 +95,7 @@ rule report:
             *expand("results/{kind}/{figure}.csv", kind=["curves", "residuals"], figure=FIGURES),
         ],
         records=[expand(rule.output.record, **VALUES) for rule in (rules.curves, rules.draw,
-            rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables,
-            rules.note)],
+            rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables, rules.note)],
     output:
         page="figures/report.html",
         sources=report(

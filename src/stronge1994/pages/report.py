@@ -24,7 +24,6 @@ from stronge1994.formulas import mathematical, number, plain
 from stronge1994.judging.verdicts import VISIBLE_SHIFT
 from stronge1994.ledger import outcome
 from stronge1994.pages import (
-    impact_times,
     key_numbers,
     ledger_page,
     names,
@@ -200,11 +199,11 @@ def write(
 ) -> None:
     """Read the tables and pictures of a run; write the report, its sources, and its own problems.
 
-    `paths` are the files of the tables: `verdicts`, `ledger`, `key_numbers`, those of `SECTIONS`,
-    and `impacts`, the series of other codes. `records` are those of the jobs that made all this.
-    Captions of tables stand in files beside the template. `settings` are those of the rule:
-    `captions` of the figures, `config`, the contents of data/*/source.yaml as `sources`, and the
-    rows that `gate.faults_of_tables` asks for. A page that cannot be made is not written.
+    `paths` are the files of the tables `verdicts`, `ledger`, `key_numbers` and `which_model`;
+    captions of tables stand in files beside the template. `records` are those of the jobs that made
+    all this. `settings` are those of the rule: `captions` of the figures, `config`, the contents of
+    data/*/source.yaml as `sources`, and the rows that `gate.faults_of_tables` asks for. A page that
+    cannot be made is not written.
     """
     salvage, read, config = Salvage(), csv_tables.read_rows, settings["config"]
     rows = salvage("verdicts", [], read, paths["verdicts"], verdict_table.COLUMNS)
@@ -222,17 +221,14 @@ def write(
         return Path(template).with_name(f"{name}.rst").read_text(encoding="utf-8").strip()
 
     figures = {name: salvage(names.figure(name), None, section, name) for name in svgs}
-    which, trade, others = (
-        salvage(name, [], read, paths[name]) for name in ("which_model", "trade", "impacts")
-    )
+    answers = salvage("which_model", [], read, paths["which_model"])
     run = run_facts.of_run()
     values = {
         "verdicts": rows,
         "ledger": [row for row in ledger if row["verdict"] in ledger_page.STYLE],
         "figures": {name: part for name, part in figures.items() if part},
         "captions": {name: caption(name) for name in SECTIONS},
-        "cases": salvage("which_model", [], which_model.cases, which),
-        "times": salvage("times", [], impact_times.ratios, trade, others),
+        "cases": salvage("which_model", [], which_model.cases, answers),
         "n": salvage("key numbers", {}, key_numbers.read, paths["key_numbers"]),
         "significance": config["significance"],
         "run": run,
