@@ -9,7 +9,7 @@ rule explorer:
     """A page to throw balls and explore impacts; it solves both models itself."""
     input:
         plan=planned("explorer", "write_explorer", "explorer", "pages/__init__.py",
-            "pages/templates.py", "plan", "reference_data",
+            "pages/names.py", "pages/templates.py", "plan", "reference_data",
             settings=lambda _: plan.settings_of_explorer(config)),
         sources=expand("workflow/explorer/{file}", file=EXPLORER_PARTS),
         shared=EVERY_PAGE,

@@ -13,7 +13,7 @@ rule site:
     """All pages in one folder and as a zip file, for a web server or a stick."""
     input:
         plan=planned("site", "write_site", "pages/__init__.py", "pages/run_facts.py", "pages/site.py",
-            "pages/templates.py", "plan", "reference_data"),
+            "pages/names.py", "pages/templates.py", "plan", "reference_data"),
         pages=sorted(set(PAGES)),
         notebooks=expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS)
         + ["workflow/notebooks/lecture.mplstyle"],

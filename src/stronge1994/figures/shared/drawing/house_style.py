@@ -109,6 +109,9 @@ LABELS = {
     "tangential_velocity [v2(0)]": "$v_1(t_f)/v_2(0)$",
     "normal_velocity [v2(0)]": "$v_2(t_f)/v_2(0)$",
     "kinetic_energy [K0]": "$K(t_f)/K(0)$",
+    "approach [delta_max]": r"$\delta/\delta_\mathrm{max}$",
+    "rms_distance [mu v2(0)]": r"rms distance $[\mu v_2(0)]$",
+    "place [m]": "distance from the first impact [m]",
 }
 
 STYLE = {
