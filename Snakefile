@@ -31,7 +31,6 @@ localrules:
     ledger_page,
     note,
     trade_tables,
-    stability_table,
     explorer,
     start_page,
     interface,
@@ -77,7 +76,6 @@ include: "workflow/rules/judging.smk"
 include: "workflow/rules/ledger.smk"
 include: "workflow/rules/note.smk"
 include: "workflow/rules/trade.smk"
-include: "workflow/rules/stability.smk"
 include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/explorer.smk"
 include: "workflow/rules/report.smk"
@@ -94,7 +92,6 @@ MAKERS = [
     rules.ledger_page,
     rules.note,
     rules.trade_tables,
-    rules.stability_table,
     rules.scene,
     rules.lecture,
     rules.explorer,
@@ -113,7 +110,7 @@ for name in JUDGED:
         name:
             name
         input:
-            plan=planned(f"judged_{name}", "gate", "run", "judging", "ledger", "reference_data",
+            plan=planned(f"judged_{name}", "gate", "run", "judging", "verdict_tables", "ledger", "reference_data",
                 settings=lambda _: plan.expected_alone(EXPECTED["comparisons"], config, name)),
             made=files_of_one(name),
         params:
@@ -138,7 +135,7 @@ rule all:
     """
     default_target: True
     input:
-        plan=planned("all", "gate", "run", "judging", "ledger", "reference_data",
+        plan=planned("all", "gate", "run", "judging", "verdict_tables", "ledger", "reference_data",
             settings=lambda _: EXPECTED),
         made=expand([f"{path}" for maker in MAKERS for path in maker.output], **VALUES)
         + slides_of(FIGURES),

@@ -7,16 +7,17 @@ from pathlib import Path
 
 import pytest
 
-from stronge1994 import csv_tables, plan, reference_data, verdict_table
+from stronge1994 import csv_tables, plan, reference_data
 from stronge1994.ledger import entries as ledger_entries
 from stronge1994.ledger import outcome
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 from stronge1994.run import gate, record
+from stronge1994.verdict_tables import verdict_table
 from tests.workflow.project import ROOT
 
 # Not part of a run, but asked for.
-OTHERS = {"measure_peers", "draw_peers", "make_spheres", "site", "interface"}
+OTHERS = {"make_spheres", "site", "interface"}
 
 
 def test_every_file_of_a_run_is_asked_for(first_run):
@@ -25,7 +26,7 @@ def test_every_file_of_a_run_is_asked_for(first_run):
     makers = re.split(r"^rule ", rules, flags=re.M)[1:]
     names = {text.split(":")[0] for text in makers if "output:" in text}
     asked = set(re.findall(r"rules\.(\w+)", (ROOT / "Snakefile").read_text()))
-    assert names - asked == OTHERS - {"measure_peers"}
+    assert names - asked == OTHERS
     project, _ = first_run
     wrote = {path for record in project.records().values() for path in record["wrote"]}
     files = [
@@ -143,6 +144,7 @@ def test_entries_that_do_not_hold_do_not_pass(expected, holds):
 
 
 TABLES = ("verdicts", "ledger", "trade", "which_model", "key_numbers")
+OTHER_CODES = str(ROOT / "data/other_codes/impacts.csv")
 
 
 @pytest.fixture
@@ -175,7 +177,7 @@ def report(first_run, expected, inventory, tmp_path, monkeypatch):
         write_report.write(
             "figures/report.html",
             "results/problems.csv",
-            {name: f"results/{name}.csv" for name in TABLES},
+            {name: f"results/{name}.csv" for name in TABLES} | {"impacts": OTHER_CODES},
             {name: f"results/residuals/{name}.csv" for name in names},
             {name: f"figures/{name}.svg" for name in names},
             [],

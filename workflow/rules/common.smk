@@ -1,5 +1,5 @@
 # Check config and data before any work, and plan every job.
-from stronge1994.figure_table import is_of_paper
+from stronge1994.curve_names import SCENE, is_of_paper
 from stronge1994.formulas import plain
 from stronge1994.ledger import entries
 
@@ -104,7 +104,7 @@ def files_of_one(name):
     """Files of the jobs that make, draw and judge one figure or scene."""
     makers = [rules.judge, *([rules.curves, rules.draw] if name in FIGURES else [rules.scene])]
     made = [path for maker in makers for path in maker.output]
-    chosen = dict.fromkeys(["figure", "judged"], name) | {"scene": name.removeprefix(configuration.SCENE)}
+    chosen = dict.fromkeys(["figure", "judged"], name) | {"scene": name.removeprefix(SCENE)}
     return expand(made, **chosen) + slides_of([name])
 
 

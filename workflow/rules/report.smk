@@ -6,12 +6,8 @@ REPORT_PARTS = [
     "workflow/report/unfold.js",
     "workflow/report/model.svg",
     *expand("workflow/report/{part}.css", part=["page", "report"]),
-    *expand("workflow/report/{part}.rst", part=["trade", "which_model", "stability"]),
+    *expand("workflow/report/{part}.rst", part=["trade", "which_model"]),
 ]
-
-
-# Times of LAMMPS and pooltool, once `snakemake peers` has measured them.
-PEERS = ["results/peers.csv"] if Path("results/peers.csv").exists() else []
 
 
 # Changes to the templates of pdoc.
@@ -20,6 +16,7 @@ INTERFACE_PARTS = [
 ]
 
 
+OTHER_CODES = SOURCES["other_codes"]["series"]["impacts"]["path"]
 REPORT_SETTINGS = {
     "captions": CAPTIONS,
     "config": {
@@ -80,7 +77,7 @@ rule report:
     """The run as one page, its sources and settings as another; written after failures, too."""
     input:
         plan=planned("report", "write_report", "pages", "figures/inelastic/trials.py",
-            "figures/shared/drawing", "judging", "ledger", "printed", "plan",
+            "figures/shared/drawing", "judging", "verdict_tables", "ledger", "printed", "plan",
             "reference_data", "run", settings=lambda _: REPORT_SETTINGS),
         template="workflow/report/report.html",
         parts=REPORT_PARTS,
@@ -90,17 +87,16 @@ rule report:
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
         numbers=rules.note.output.numbers,
-        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers, *PEERS],
+        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers, OTHER_CODES],
         linked=[
             "results/verdicts.csv",
-            "results/stability.csv",
             "results/trade.csv",
             "results/which_model.csv",
             *expand("results/{kind}/{figure}.csv", kind=["curves", "residuals"], figure=FIGURES),
         ],
         records=[expand(rule.output.record, **VALUES) for rule in (rules.curves, rules.draw,
             rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables,
-            rules.stability_table, rules.note)],
+            rules.note)],
     output:
         page="figures/report.html",
         sources=report(

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import jinja2
 
-from stronge1994.figure_table import is_of_paper
-from stronge1994.plan.config import SCENE
+from stronge1994.curve_names import SCENE, is_of_paper
 
 # Folder of the theme and the bar of pages, which all pages share.
 SHARED = Path(__file__).parents[3] / "workflow/report"

@@ -57,6 +57,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
             style = house_style.PRINTED | {"linestyle": dashes, "label": where}
             paper.append(enlarged.axvline(points[name]["value"], **style))
     axes.set_ylabel("largest normal force, N")
+    enlarged.set_xlabel("")
     enlarged.set_ylabel("largest tangential force, N", color=house_style.BLUE)
     enlarged.tick_params(axis="y", colors=house_style.BLUE)
     highest = max(axes.get_ylim()[1], ENLARGED * enlarged.get_ylim()[1])

@@ -35,13 +35,14 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     added += [house_style.line(below, curves, pair, X, Y, **PALE) for pair in strokes][:1]
     for pair, style in strokes.items():
         own = [f"{kind}, {pair}" for kind in (AS_PRINTED, NO_SOLUTION)]
-        differs = np.concatenate([[], *(curves[part][X] for part in own if part in curves)])
-        if own[0] in curves:
-            label = house_style.symbols(pair)
-            house_style.line(below, curves, own[0], X, Y, label=label, **style)
+        if own[0] not in curves:
+            continue
+        label = house_style.symbols(pair)
+        house_style.line(below, curves, own[0], X, Y, label=label, **style)
         # Elsewhere, as in slip throughout, the printed equations agree with the balance.
         x = curves[pair][X]
-        same = (x <= differs.min(initial=90)) | (x >= differs.max(initial=0))
+        differs = np.concatenate([curves[part][X] for part in own if part in curves])
+        same = (x <= differs.min()) | (x >= differs.max())
         house_style.line(below, curves, pair, X, Y, same, **style)
     unsolved = {key: curve for key, curve in curves.items() if key.startswith(NO_SOLUTION)}
     added += house_style.as_printed(below, unsolved, X, Y, "")

@@ -17,7 +17,7 @@ ROWS = ("tangential_velocity [v2(0)]", "normal_velocity [v2(0)]", ENERGY)
 NORMAL, OVER_MU = "normal_force [m2 Omega v2(0)]", "friction_over_mu [m2 Omega v2(0)]"
 COMPLIANT: Style = house_style.LUMPED | {"label": "compliant"}
 NEWTON: Style = {"color": house_style.VERMILLION, "linestyle": house_style.DASHES[2]}
-NEWTON |= {"linewidth": 1.1, "label": "rigid, Newton's coefficient"}
+NEWTON |= {"linewidth": 1.1, "label": "rigid, Newton"}
 CREATED: Style = {"facecolor": house_style.VERMILLION, "alpha": 0.25, "linewidth": 0}
 CREATED |= {"label": "creates energy"}
 JAM: Style = {"facecolor": "white", "hatch": "//////", "edgecolor": "0.4", "linewidth": 0.6}
@@ -101,7 +101,7 @@ def _draw_contact(axes: Axes, curves: Curves, friction: float) -> Entries:
             (
                 "contact, mu = 0",
                 NORMAL,
-                "$F_2$ without friction",
+                r"$F_2$, $\mu = 0$",
                 {"color": house_style.GREY, "linestyle": house_style.DASHES[1]},
             ),
         )

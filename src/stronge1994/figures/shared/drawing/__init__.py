@@ -63,7 +63,6 @@ def _points(name: str, entry: Mapping[str, Any]) -> Series:
             entry[axis]["sigma"] if column is None else columns[column]
             for axis, column in zip("xy", printed, strict=True)
         ),
-        "line": entry.get("line", False),
         "axes": (reference_data.column_name(entry["x"]), reference_data.column_name(entry["y"])),
         "columns": columns,
         "parameters": entry["parameters"],

@@ -9,8 +9,9 @@ A figure is a folder with figure.yaml, curves.py and drawing.py. Its drawing.py 
 - `settings`, as curves.py gets them, from which labels take their numbers; only of a reference
   table they have no more than the name;
 - `points`, the series of data/ that are at hand, `{"source/series": {...}}` with arrays `x` and
-  `y`, their `sigma`, `line`, all `columns` and the source's `parameters`, of those that were
-  computed only what figure.yaml `draws`; and stated facts, as in source.yaml.
+  `y`, their `sigma`, the names of both columns as `axes`, all `columns` and the source's
+  `parameters`, of those that were computed only what figure.yaml `draws`; and stated facts, as in
+  source.yaml. `measured` draws such points.
 
 A drawing.py may also have `drawn_series`, which converts such a series.
 
@@ -50,14 +51,10 @@ Points: TypeAlias = dict[str, Series]
 Entries: TypeAlias = list[Any]  # of a legend: artists, and containers of them
 _Item = TypeVar("_Item")
 
-# The typefaces that come with matplotlib.
-FONTS = Path(matplotlib.get_data_path(), "fonts/ttf")
 # Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
 WIDTH = 5.0
-# Size in points of notes, of labels over brackets and of labels at lines.
+# Size in points of notes, and of names above the axes.
 NOTE = 8.5
-# Distance of lines of text, over that of the typeface, which leaves room for tall mathematics.
-LINES = 1.0
 
 BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
 SKY, ORANGE = "#56B4E9", "#E69F00"
@@ -144,7 +141,7 @@ STYLE = {
 }
 # These fonts come with matplotlib. Its cached list of fonts may be older than this installation and
 # lack them: then it would use another font, whose letters are too wide for their places.
-for _font in sorted(FONTS.glob("STIX*.ttf")):
+for _font in sorted(Path(matplotlib.get_data_path(), "fonts/ttf").glob("STIX*.ttf")):
     font_manager.fontManager.addfont(_font)
 matplotlib.rcdefaults()
 matplotlib.rcParams.update(STYLE)
@@ -167,10 +164,10 @@ def save(figure: Figure, svg: File, png: File | None = None) -> None:
         axes.apply_aspect(locator(axes, None) if locator else None)
         axes.set_position(np.round(axes.get_position().bounds, 6))
     # `Figure.savefig` would draw once more to solve the layout again.
-    FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
+    figure.dpi = 200  # of the PNG, and of pixels inside the SVG
     if png:
-        figure.dpi = 200
         FigureCanvasAgg(figure).print_png(png)
+    FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
 
 
 def symbols(name: str) -> str:
@@ -322,14 +319,9 @@ def draw_lossy_continua(
 
 
 def measured(axes: Axes, series: Series, **style: Any) -> Artist:
-    """Draw points with error bars, or a line if the reference is one; its entry of the legend.
-
-    The labels of the axes are those of the columns of the series.
-    """
+    """Draw points with error bars, label the axes by their columns; the entry of the legend."""
     x_label, y_label = map(of_column, series["axes"])
     axes.set(xlabel=x_label, ylabel=y_label)
-    if series["line"]:
-        return axes.plot(series["x"], series["y"], **style)[0]
     x_error, y_error = series["sigma"]
     bars = {"linestyle": "none", "elinewidth": 0.7, "markeredgewidth": 0.9, "zorder": 3}
     return axes.errorbar(series["x"], series["y"], yerr=y_error, xerr=x_error, **(bars | style))
