@@ -59,15 +59,11 @@ def trials(curves: Curves) -> dict[str, Trial]:
 
 
 def goodness(curves: Curves, model: str, measured: Columns, trial: Trial = AS_JUDGED) -> ChiSquared:
-    """Chi-squared of a model over the measured pairs."""
+    """Chi-squared of a model over the measured pairs, whose order is that of the curves."""
     name = f"{model}, pairs" + (f", {trial.spread}" if trial.spread else "")
     sigma = measured[SIGMA] * trial.share
-    place = {pair: row for row, pair in enumerate(curves[name]["pair"])}
-    rows = [place[pair] for pair in measured["pair"]]
-    up, down = (
-        curves[curve_names.shifted(name, PARAMETERS, sign)][BETA_0][rows] for sign in (1, -1)
-    )
-    distance = (measured[BETA_0] - curves[name][BETA_0][rows]) / sigma
+    up, down = (curves[curve_names.shifted(name, PARAMETERS, sign)][BETA_0] for sign in (1, -1))
+    distance = (measured[BETA_0] - curves[name][BETA_0]) / sigma
     moved = trial.share * (up - down) / 2 / sigma
     kept = ~np.isin(measured["pair"], list(trial.without))
     return chi_squared(distance[kept], np.diag(moved[kept]))
