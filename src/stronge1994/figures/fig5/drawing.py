@@ -41,7 +41,7 @@ SHOTS = {
 }
 
 
-def drawn_series(name: str, series: Series) -> Series:
+def _converted(name: str, series: Series) -> Series:
     """Measurements against the angle, converted to the axes of the figure with their errors."""
     if name == LOSSY_RUBBER:
         return series | _turned_round(series)
@@ -85,6 +85,7 @@ def contact_velocities(
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Draw (a) the paper's curves and series, and additions; (b) an experiment with its models."""
+    points = {name: _converted(name, series) for name, series in points.items()}
     figure = house_style.new(7.0)
     axes, shots = figure.subplots(2, 1, sharex=True, height_ratios=[5, 3.4])
     printed = (1 + settings["restitution"]) * settings["mass_ratio"]
