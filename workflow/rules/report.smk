@@ -25,12 +25,6 @@ FINDING_TABLES = [
 PEERS = ["results/peers.csv"] if Path("results/peers.csv").exists() else []
 
 
-# Changes to the templates of pdoc.
-INTERFACE_PARTS = [
-    *expand("workflow/report/interface/{part}", part=["module.html.jinja2", "index.html.jinja2", "custom.css"]),
-]
-
-
 REPORT_SETTINGS = {
     "figures": list(FIGURES),
     "captions": CAPTIONS,
@@ -74,8 +68,9 @@ rule start_page:
 rule interface:
     """What the functions of the solver take and return, as pages made from their docstrings."""
     input:
-        plan=planned("interface", "write_interface", "pages", "plan", "printed", "reference_data"),
-        parts=INTERFACE_PARTS,
+        plan=planned("interface", "write_interface", "pages/__init__.py", "pages/interface.py",
+            "pages/templates.py", "plan", "printed", "reference_data"),
+        parts=expand("workflow/report/interface/{part}", part=["frame.html.jinja2", "custom.css"]),
         shared=EVERY_PAGE,
     output:
         pages=directory("figures/interface"),
