@@ -23,14 +23,12 @@ localrules:
     figures,
     measurements,
     notebooks,
-    peers,
     sphere_tables,
     draw,
     draw_with_slide,
     judge,
     gather,
     ledger_page,
-    key_numbers,
     note,
     trade_tables,
     stability_table,
@@ -66,14 +64,6 @@ rule notebooks:
         expand("figures/{notebook}.html", notebook=NOTEBOOKS),
 
 
-rule peers:
-    """Error against time with LAMMPS and pooltool, where they are installed."""
-    input:
-        "results/curves/trade.csv",
-        "results/peers.csv",
-        expand("figures/{figure}.{kind}", figure=["trade_with_peers", "peers"], kind=["svg", "png"]),
-
-
 rule sphere_tables:
     """The tables of spheres that the package brings along, made anew."""
     input:
@@ -91,7 +81,6 @@ include: "workflow/rules/stability.smk"
 include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/explorer.smk"
 include: "workflow/rules/report.smk"
-include: "workflow/rules/peers.smk"
 include: "workflow/rules/spheres.smk"
 
 
@@ -103,7 +92,6 @@ MAKERS = [
     rules.gather,
     rules.ledger,
     rules.ledger_page,
-    rules.key_numbers,
     rules.note,
     rules.trade_tables,
     rules.stability_table,
@@ -112,7 +100,6 @@ MAKERS = [
     rules.explorer,
     rules.start_page,
     rules.report,
-    *([rules.measure_peers] if PEERS else []),
 ]
 
 
@@ -168,7 +155,7 @@ rule all:
         "workflow/scripts/gate.py"
 
 
-TARGETS = ["all", *JUDGED, "figures", "measurements", "notebooks", "peers", "site", "sphere_tables"]
+TARGETS = ["all", *JUDGED, "figures", "measurements", "notebooks", "site", "sphere_tables"]
 if workflow.is_main_process:
     logger.addFilter(last_words.Help(TARGETS))
 

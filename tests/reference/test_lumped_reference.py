@@ -1,14 +1,17 @@
 """The lumped model against independent answers: 40 digits, and small steps."""
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
 
-from planarimpact import bodies, lumped
+from planarimpact import Regime, bodies, lumped
 from tests.reference_solutions import exact_tables, high_precision
 
 PROMISED = 1e-12
+# At limits of regimes, and between: zeta^2, beta, and slip throughout at e = 1.
+INCIDENCES = (0.0, 0.025, 0.8, 24 * 0.05, 1.225, 3.0, 3.5, 4.0, 5.775, 116 * 0.05, 8.0)
 
 
 def worst_error(x, beta, zeta2, e):
@@ -32,6 +35,23 @@ def thresholds(beta, zeta2, e):
         for f in (lambda v: v, lambda v: np.nextafter(v, -1), lambda v: np.nextafter(v, 99))
     ]
     return [float(x) for x in near if 0 <= x <= 20]
+
+
+ORDERS = {
+    ("stick",): Regime.STICK,
+    ("slip", "stick"): Regime.SLIP_STICK,
+    ("stick", "slip"): Regime.STICK_SLIP,
+    ("slip", "stick", "slip"): Regime.SLIP_STICK_SLIP,
+    ("slip",): Regime.SLIP_THROUGHOUT,
+}
+
+
+def test_regimes_are_the_order_of_stick_and_slip_in_the_reference():
+    for e, zeta2, x in product((0.0, 0.01, 0.15, 0.5, 0.59, 0.9, 1.0), (1.21, 3.0), INCIDENCES):
+        events = high_precision.rebound(x, 3.5, zeta2, e).events
+        phases = tuple(event.kind for event in events if event.kind in ("stick", "slip"))
+        wanted = ORDERS.get(phases, Regime.MULTIPLE) if x else Regime.STICK
+        assert lumped.rebound(x, 3.5, zeta2, e).regime == wanted, (x, zeta2, e)
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Scenes and the figure `study` against independent tables, and which faults these would show."""
+"""Scenes against independent tables, and which faults these would show."""
 
 import csv
 from pathlib import Path
@@ -10,17 +10,12 @@ import pytest
 from planarimpact import bodies, continuum, lumped, rigid, scene, spheres
 from planarimpact.collision import mechanics
 from stronge1994 import reference_data
-from stronge1994.figures.study import curves as study
-from stronge1994.plan import figures
 from tests.reference_solutions import solved_tables
 
 ROOT = Path(__file__).parents[2]
 CONFIG = reference_data.load_yaml(ROOT / "workflow/config.yaml")
-SOURCE = {
-    name: reference_data.load_yaml(ROOT / f"data/{name}_solved/source.yaml")["series"]
-    for name in ("scenes", "study")
-}
-NAMES = [*solved_tables.SCENES, "grid"]
+SERIES = reference_data.load_yaml(ROOT / "data/scenes_solved/source.yaml")["series"]
+NAMES = solved_tables.SCENES
 # Zero throughout, as the ball stays in its plane: a factor or sign cannot show.
 ZERO = {"superball": {"velocity_y_after [m/s]", "spin_x_after [rad/s]", "spin_z_after [rad/s]"}}
 ZERO["billiard_cushion"] = {"model_form [m/s]"}  # all slide throughout
@@ -28,27 +23,16 @@ ZERO["billiard_cushion"] = {"model_form [m/s]"}  # all slide throughout
 
 def stated(name):
     """Entry of a series in its source.yaml, and its table as text."""
-    source = "study" if name == "grid" else "scenes"
-    with open(ROOT / f"data/{source}_solved/{name}.csv", newline="", encoding="utf-8") as file:
-        return SOURCE[source][name], pd.DataFrame(csv.DictReader(file))
+    with open(ROOT / f"data/scenes_solved/{name}.csv", newline="", encoding="utf-8") as file:
+        return SERIES[name], pd.DataFrame(csv.DictReader(file))
 
 
 def solved(name, **changes):
     """What the package answers at the points of a series; of a scene with some columns changed."""
     _, table = stated(name)
-    if name != "grid":
-        tolerance = CONFIG["scenes"][name]["tolerance"]
-        before = pd.read_csv(ROOT / f"data/scenes/{name}.csv").assign(**changes)
-        after = scene.solve(before, tolerance)
-        return after.iloc[table["row [1]"].astype(int) - 1].reset_index(drop=True)
-    settings = figures.values(figures.stated()["study"]["settings"])
-    nodes = {"incidence": table["incidence [mu v2(0)]"].astype(float)}
-    grids = study.curves(mass_ratio=CONFIG["mass_ratio"], nodes=nodes, **settings)
-    points = pd.concat([pd.DataFrame(grid).assign(curve=name) for name, grid in grids.items()])
-    # Columns that say which point it is, without the regime: to the last digit, as text.
-    where = [table.columns[0], table.columns[1], table.columns[3]]
-    points = points.set_index([points[column].astype(str) for column in where])
-    return points.loc[[*table[where].itertuples(index=False, name=None)]].reset_index(drop=True)
+    before = pd.read_csv(ROOT / f"data/scenes/{name}.csv").assign(**changes)
+    after = scene.solve(before, CONFIG["scenes"][name]["tolerance"])
+    return after.iloc[table["row [1]"].astype(int) - 1].reset_index(drop=True)
 
 
 def differing(name, found):
@@ -76,9 +60,7 @@ def test_the_package_answers_as_the_table(name):
 def test_the_table_is_what_the_mechanics_gives(name):
     series, table = stated(name)
     step = 1 if len(table) < 100 else 23
-    header, rows = (
-        solved_tables.study_table(step) if name == "grid" else solved_tables.scene_table(name, step)
-    )
+    header, rows = solved_tables.scene_table(name, step)
     assert header == [*table]
     anew, table = pd.DataFrame(rows, columns=header), table.iloc[::step].reset_index(drop=True)
     labels = [*series["labels"], header[len(series["labels"])]]
@@ -128,7 +110,7 @@ FAULTS = {
 }
 
 
-@pytest.mark.parametrize("name", solved_tables.SCENES)
+@pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_in_the_code_leaves_the_table(name, fault, monkeypatch):
     module, function, wrong = FAULTS[fault]
@@ -159,7 +141,7 @@ def test_a_cheaper_model_leaves_the_table(name, model, monkeypatch):
     assert f"{column} [m/s]" in differing(name, solved(name))
 
 
-@pytest.mark.parametrize("name", solved_tables.SCENES)
+@pytest.mark.parametrize("name", NAMES)
 def test_the_other_loss_leaves_the_table(name):
     """Where contacts slide throughout, it still changes the forces."""
     (loss,) = set(pd.read_csv(ROOT / f"data/scenes/{name}.csv")["loss"])

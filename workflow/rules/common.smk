@@ -1,5 +1,6 @@
 # Check config and data before any work, and plan every job.
 from stronge1994.figure_table import is_of_paper
+from stronge1994.formulas import plain
 from stronge1994.ledger import entries
 
 LEDGER = "data/stronge1994/ledger.yaml"

@@ -18,7 +18,7 @@ rule draw:
     wildcard_constraints:
         figure="|".join(figure for figure in FIGURES if figure not in SLIDES) or "none",
     params:
-        caption=lambda wildcards: CAPTIONS[wildcards.figure],
+        caption=lambda wildcards: plain(CAPTIONS[wildcards.figure]),
     log:
         "results/logs/draw_{figure}.log",
     priority: priority

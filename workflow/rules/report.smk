@@ -1,23 +1,12 @@
-# Lectures by file, with their names.
-LECTURES = {f"{notebook}.html": notebook.replace("_", " ").capitalize() for notebook in NOTEBOOKS}
-
-
 # Templates of both pages, what they include, and captions.
 REPORT_PARTS = [
     "workflow/report/sources.html",
     "workflow/report/figure_table.html",
+    "workflow/report/summary.html",
     "workflow/report/unfold.js",
     "workflow/report/model.svg",
     *expand("workflow/report/{part}.css", part=["page", "report"]),
     *expand("workflow/report/{part}.rst", part=["trade", "which_model", "stability"]),
-]
-
-
-# Tables that only the findings need: key numbers, curves, and the measured pairs of materials.
-FINDING_TABLES = [
-    "results/key_numbers.csv",
-    "results/curves/fig5.csv",
-    "results/curves/inelastic.csv",
 ]
 
 
@@ -26,15 +15,12 @@ PEERS = ["results/peers.csv"] if Path("results/peers.csv").exists() else []
 
 
 REPORT_SETTINGS = {
-    "figures": list(FIGURES),
     "captions": CAPTIONS,
     "config": {
         key: config[key]
         for key in ("mass_ratio", "stiffness_ratio", "figures", "significance", "comparisons")
     } | {"slides": SLIDES},
     "sources": SOURCES,
-    "symbols": SYMBOLS,
-    "links": LECTURES,
     **EXPECTED,
 }
 
@@ -88,10 +74,9 @@ rule interface:
 rule report:
     """The run as one page, its sources and settings as another; written after failures, too."""
     input:
-        plan=planned("report", "write_report", "pages", "figures/inelastic/drawing.py",
+        plan=planned("report", "write_report", "pages", "figures/inelastic/trials.py",
             "figures/shared/drawing", "judging", "ledger", "printed", "plan",
-            "reference_data", "run", settings=lambda _: REPORT_SETTINGS,
-            reads=lambda _: FIGURES["inelastic"]["tables"]),
+            "reference_data", "run", settings=lambda _: REPORT_SETTINGS),
         template="workflow/report/report.html",
         parts=REPORT_PARTS,
         shared=EVERY_PAGE,
@@ -99,7 +84,8 @@ rule report:
         residuals=expand("results/residuals/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
-        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers, rules.stability_table.output.table, *FINDING_TABLES, *PEERS],
+        numbers=rules.note.output.numbers,
+        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers, *PEERS],
         linked=[
             "results/verdicts.csv",
             "results/stability.csv",
@@ -109,7 +95,7 @@ rule report:
         ],
         records=[expand(rule.output.record, **VALUES) for rule in (rules.curves, rules.draw,
             rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables,
-            rules.stability_table, rules.key_numbers)],
+            rules.stability_table, rules.note)],
     output:
         page="figures/report.html",
         sources=report(

@@ -4,11 +4,12 @@ from stronge1994.run import record
 
 with record.recorded(snakemake) as schema:
     from stronge1994 import csv_tables
-    from stronge1994.ledger import checking, entries, in_nature, outcome
+    from stronge1994.ledger import checking, entries, outcome
 
     every = entries.load(snakemake.input.entries, schema)
     measured = checking.measure(every)
     rows = checking.check(every, measured)
     csv_tables.write_table(snakemake.output.table, rows, outcome.COLUMNS)
-    csv_tables.write_table(snakemake.output.measures, in_nature.rows(measured), in_nature.COLUMNS)
+    measures = checking.table_of(measured)
+    csv_tables.write_table(snakemake.output.measures, measures, outcome.OF_NATURE)
     print(outcome.summary(rows))

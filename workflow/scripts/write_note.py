@@ -1,18 +1,18 @@
-"""Write the note on the replication, as a page and as a PDF."""
+"""Write the note on the replication, and the numbers that it states."""
 
 from pathlib import Path
 
 from stronge1994.run import record
 
-with record.recorded(snakemake):
+with record.recorded(snakemake) as series:
     from stronge1994.pages import note
 
     files = snakemake.input
     note.write(
         snakemake.output.page,
-        snakemake.output.pdf,
-        files.numbers,
-        files.verdicts,
+        snakemake.output.numbers,
+        {Path(path).stem: path for path in files.tables},
+        series,
         {Path(path).stem: path for path in files.pictures},
         files.template,
     )

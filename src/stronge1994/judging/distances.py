@@ -16,109 +16,51 @@ import numpy as np
 from planarimpact.ground.arrays import Array, ArrayLike
 
 
-class Distance(NamedTuple):
-    """Distances of some points in sigmas; those called `plain` are in units of the y axis."""
-
-    rms: float
-    max: float
-    plain_rms: float
-    plain_max: float
-    points: int
-
-
 class Residuals(NamedTuple):
     """A distance for each point: positive where the reference lies above what was computed.
 
     `x` holds the abscissae of the points, `sigmas` the distances in sigmas of the reference, and
     `plain` the vertical distances in units of the y axis.
-
-    >>> Residuals(np.zeros(2), np.array([3.0, -4.0]), np.array([0.3, -0.4])).summary().max
-    4.0
     """
 
     x: Array
     sigmas: Array
     plain: Array
 
-    def summary(self) -> Distance:
-        """Root mean squares, the largest distance, and the number of points."""
-        rms, plain_rms = (float(np.sqrt(np.mean(a**2))) for a in (self.sigmas, self.plain))
-        largest, plain_max = (float(np.abs(a).max()) for a in (self.sigmas, self.plain))
-        return Distance(rms, largest, plain_rms, plain_max, len(self.sigmas))
 
+def rms_and_max(distances: Array) -> tuple[float, float]:
+    """Root mean square and the largest size of some distances.
 
-def distances_to_polyline(
-    x: ArrayLike,
-    y: ArrayLike,
-    line_x: ArrayLike,
-    line_y: ArrayLike,
-    sigma_x: ArrayLike,
-    sigma_y: ArrayLike,
-) -> Array:
-    """Shortest distance from each point to a polyline, in sigmas.
-
-    The vertices stand in order. The sigmas scale the axes.
-
-    >>> distances_to_polyline([1.0], [1.0], [0.0, 2.0], [0.0, 0.0], 1.0, 0.5).tolist()
-    [2.0]
+    >>> rms_and_max(np.array([3.0, -3.0]))
+    (3.0, 3.0)
     """
-    points, line = (
-        np.stack([np.asarray(a, float), np.asarray(b, float)], 1)
-        for a, b in ((x, y), (line_x, line_y))
-    )
-    scales = np.stack(np.broadcast_arrays(sigma_x, sigma_y, points[:, 0])[:2], 1)
-    if len(line) < 2:
-        raise ValueError(f"a polyline needs two vertices, here {len(line)}")
-    if not (np.isfinite(points).all() and np.isfinite(line).all()):
-        raise ValueError("a coordinate is not finite")
-    nearest = np.empty(len(points))
-    for i, (point, scale) in enumerate(zip(points / scales, scales, strict=True)):
-        start, step = line[:-1] / scale, np.diff(line / scale, axis=0)
-        squared = np.maximum((step**2).sum(axis=1), np.finfo(float).tiny)
-        share = np.clip(((point - start) * step).sum(axis=1) / squared, 0.0, 1.0)
-        nearest[i] = np.hypot(*(point - start - share[:, None] * step).T).min()
-    return nearest
+    return float(np.sqrt(np.mean(distances**2))), float(np.abs(distances).max())
 
 
 def curve_residuals(
-    points: Sequence[ArrayLike],
-    curve: Sequence[ArrayLike],
-    sigma: tuple[ArrayLike, ArrayLike],
-    both_ways: bool = False,
+    points: Sequence[ArrayLike], curve: Sequence[ArrayLike], sigma: tuple[ArrayLike, ArrayLike]
 ) -> Residuals:
-    """Distances of points from a curve; with `both_ways` also of the curve from the points' line.
-
-    With `both_ways` the points are a dense line, and each vertex of the curve within their span
-    must lie near it too, so that a spike of the curve between two points is noticed. The residuals
-    of these vertices follow those of the points.
+    """Shortest distance of each point from the polyline of a curve, whose vertices stand in order.
 
     >>> line = ([0.0, 1.0, 2.0], [0.0, 5.0, 0.0])
     >>> curve_residuals(([0.0, 2.0], [-1.0, 0.0]), line, (1.0, 1.0)).sigmas.tolist()
     [-1.0, 0.0]
-    >>> curve_residuals(([0.0, 2.0], [0.0, 0.0]), line, (1.0, 1.0), both_ways=True).summary().max
-    5.0
     """
-    x, y = (np.asarray(axis, float) for axis in points)
-    line_x, line_y = (np.asarray(axis, float) for axis in curve)
-    _refuse_no_points(x)
-    of_points = _from_polyline(x, y, line_x, line_y, sigma)
-    if not both_ways:
-        return of_points
-    order = np.argsort(x)
-    inside = (line_x >= x.min()) & (line_x <= x.max())
-    of_vertices = _from_polyline(line_x[inside], line_y[inside], x[order], y[order], sigma)
-    # These distances are those of the curve from the points, so their sign is reversed.
-    return Residuals(
-        np.concatenate([of_points.x, of_vertices.x]),
-        np.concatenate([of_points.sigmas, -of_vertices.sigmas]),
-        np.concatenate([of_points.plain, -of_vertices.plain]),
+    (x, y), (line_x, line_y) = (
+        [np.asarray(axis, float) for axis in axes] for axes in (points, curve)
     )
-
-
-def _from_polyline(
-    x: Array, y: Array, line_x: Array, line_y: Array, sigma: tuple[ArrayLike, ArrayLike]
-) -> Residuals:
-    nearest = distances_to_polyline(x, y, line_x, line_y, *sigma)
+    if len(line_x) < 2:
+        raise ValueError(f"a polyline needs two vertices, here {len(line_x)}")
+    places, line = np.stack([x, y], 1), np.stack([line_x, line_y], 1)
+    if not (np.isfinite(places).all() and np.isfinite(line).all()):
+        raise ValueError("a coordinate is not finite")
+    scales = np.stack(np.broadcast_arrays(*sigma, x)[:2], 1)
+    nearest = np.empty(len(x))
+    for i, (point, scale) in enumerate(zip(places / scales, scales, strict=True)):
+        start, step = line[:-1] / scale, np.diff(line / scale, axis=0)
+        squared = np.maximum((step**2).sum(axis=1), np.finfo(float).tiny)
+        share = np.clip(((point - start) * step).sum(axis=1) / squared, 0.0, 1.0)
+        nearest[i] = np.hypot(*(point - start - share[:, None] * step).T).min()
     order = np.argsort(line_x, kind="stable")
     above = y - np.interp(x, line_x[order], line_y[order])
     return Residuals(x, np.copysign(nearest, above), above)
@@ -139,7 +81,6 @@ def vertex_residuals(
     """
     x, y = (np.asarray(axis, float) for axis in points[:2])
     vertex_x, vertex_y = (np.asarray(axis, float) for axis in vertices[:2])
-    _refuse_no_points(x)
     of_label: dict[Any, list[int]] = {}
     for index, label in enumerate(vertices[2]):
         of_label.setdefault(label, []).append(index)
@@ -153,19 +94,6 @@ def vertex_residuals(
         above[i] = dy[distance.argmin()]
         sigmas[i] = np.copysign(distance.min(), above[i])
     return Residuals(x, sigmas, above)
-
-
-def difference_residuals(
-    x: ArrayLike, left: ArrayLike, right: ArrayLike, sigma: float
-) -> Residuals:
-    """Difference of two columns that must be equal, `left` minus `right`, in units of `sigma`.
-
-    >>> difference_residuals([0.0, 1.0], [1.0, 2.0], [1.0, 2.5], 0.5).sigmas.tolist()
-    [0.0, -1.0]
-    """
-    gap = np.asarray(left, float) - np.asarray(right, float)
-    _refuse_no_points(gap)
-    return Residuals(np.asarray(x, float), gap / sigma, gap)
 
 
 def fact_residuals(value: float, fact: Mapping[str, Any]) -> Residuals:
@@ -187,8 +115,3 @@ def fact_residuals(value: float, fact: Mapping[str, Any]) -> Residuals:
         holds = gap > 0 if "less_than" in fact else gap < 0
         sigmas = 0.0 if holds else math.copysign(math.inf, gap)
     return Residuals(np.array([value]), np.array([sigmas]), np.array([gap]))
-
-
-def _refuse_no_points(points: Array) -> None:
-    if not len(points):
-        raise ValueError("no points")

@@ -1,11 +1,40 @@
-"""Single numbers that characterise a curve: peaks, limits of regimes, levels reached.
+"""Single numbers that characterise a curve: its peak, where it first reaches something, its value.
 
 In every curve x ascends. A landmark that a curve does not have is a `ValueError`.
 """
 
+from typing import Any
+
 import numpy as np
 
-from planarimpact.ground.arrays import ArrayLike, Integers
+from planarimpact.ground.arrays import ArrayLike
+
+
+def find(kind: str, x: ArrayLike, y: ArrayLike, at: Any = None) -> float:
+    """A landmark of a curve, by its kind.
+
+    `peak` is the place of the largest inner value; `value` is that of the polyline at x = `at`.
+    `first` and `last` are the first and the last x where y is the word `at`, or has reached the
+    number `at` up to rounding.
+
+    >>> find("first", [0.0, 1.0, 2.0], [0.2, 1.0, 0.9], 1.0)
+    1.0
+    >>> find("last", [0.0, 1.0, 2.0], ["STICK", "STICK", "SLIP"], "STICK")
+    1.0
+    >>> find("value", [0.0, 2.0], [0.0, 1.0], 1.0)
+    0.5
+    """
+    if kind == "peak":
+        return peak(x, y)
+    x, y = np.asarray(x, float), np.asarray(y)
+    if kind == "value":
+        if not x.min() <= at <= x.max():
+            raise ValueError(f"{at} lies outside the curve, {x.min():g} to {x.max():g}")
+        return float(np.interp(at, x, y))
+    there = np.flatnonzero(y == at if isinstance(at, str) else y >= at * (1 - 1e-14))
+    if not there.size:
+        raise ValueError(f"the curve never reaches {at}")
+    return float(x[there[0 if kind == "first" else -1]])
 
 
 def peak(x: ArrayLike, y: ArrayLike) -> float:
@@ -24,52 +53,3 @@ def peak(x: ArrayLike, y: ArrayLike) -> float:
         return float(x[top])
     # Slope of the parabola falls linearly from `rise` to `fall` between the two midpoints.
     return float(x[top] - left / 2 + (left + right) / 2 * rise / (rise - fall))
-
-
-def regime_start(x: ArrayLike, regimes: ArrayLike, regime: str) -> float:
-    """First x at which the curve is in `regime`.
-
-    >>> regime_start([0.0, 1.0, 2.0], ["STICK", "STICK_SLIP", "STICK_SLIP"], "STICK_SLIP")
-    1.0
-    """
-    return float(np.asarray(x, float)[_in_regime(regimes, regime)[0]])
-
-
-def regime_end(x: ArrayLike, regimes: ArrayLike, regime: str) -> float:
-    """Last x at which the curve is in `regime`.
-
-    >>> regime_end([0.0, 1.0, 2.0], ["STICK", "STICK_SLIP", "STICK_SLIP"], "STICK")
-    0.0
-    """
-    return float(np.asarray(x, float)[_in_regime(regimes, regime)[-1]])
-
-
-def _in_regime(regimes: ArrayLike, regime: str) -> Integers:
-    inside = np.flatnonzero(np.asarray(regimes) == regime)
-    if not inside.size:
-        raise ValueError(f"the curve is nowhere in the regime {regime}")
-    return inside
-
-
-def first_reaching(x: ArrayLike, y: ArrayLike, level: float) -> float:
-    """First x at which y reaches `level`, to rounding.
-
-    >>> first_reaching([0.0, 1.0, 2.0], [0.2, 0.9, 1.0], 1.0)
-    2.0
-    """
-    reached = np.flatnonzero(np.asarray(y, float) >= level * (1 - 1e-14))
-    if not reached.size:
-        raise ValueError(f"the curve never reaches {level:g}")
-    return float(np.asarray(x, float)[reached[0]])
-
-
-def value_at(x: ArrayLike, y: ArrayLike, at: float) -> float:
-    """Value of the polyline at x = `at`.
-
-    >>> value_at([0.0, 2.0], [0.0, 1.0], 1.0)
-    0.5
-    """
-    x = np.asarray(x, float)
-    if not x.min() <= at <= x.max():
-        raise ValueError(f"{at:g} lies outside the curve, {x.min():g} to {x.max():g}")
-    return float(np.interp(at, x, np.asarray(y, float)))

@@ -1,9 +1,9 @@
 """The kinds of metric: what a comparison measures, and against what.
 
 Against a series of points: `distance` from a curve, or from its `vertices`. Against a stated fact:
-a `landmark` of a curve. Against a law, without a reference: two columns that must be equal
-(`balance`), one that must be small (`largest`), columns whose values have a `range`, or neighbours
-that must not leave further apart than they arrive (`contraction`).
+a `landmark` of a curve. Against a law, without a reference: a column that must be `small`, or two
+that must be equal; columns whose values have a `range`; or neighbours that must not leave further
+apart than they arrive (`contraction`).
 """
 
 from collections.abc import Callable, Iterable
@@ -30,30 +30,23 @@ class Measured(NamedTuple):
 
     `quantity` is the column of the points' positions; `columns` names the column of each residual.
     `shifts` has a row for each uncertain parameter: the change of all residuals if it is off by one
-    sigma. Only a landmark has a `gap`, its value minus the stated one, and `texts`, both values as
-    a page shows them.
+    sigma.
     """
 
     quantity: str
     residuals: Residuals
     columns: list[str]
     shifts: Array = np.zeros((0, 0))
-    gap: float | None = None
-    texts: dict[str, str] = {}
 
 
-def measure(entry: Entry, reference: Reference | None, curves: Curves) -> Measured:
+def measure(entry: Entry, reference: Reference, curves: Curves) -> Measured:
     """Distances of one comparison; a `ValueError` says what is missing."""
     if entry["metric"] in _LAWS:
         return _LAWS[entry["metric"]](entry, curves)
-    if reference is None:
-        raise ValueError("the reference is not there")
     if entry["metric"] == "landmark":
         return _landmark(entry, reference, curves)
     find = _from_curve if entry["metric"] == "distance" else _from_vertices
     series = points(entry, reference)
-    if "curve" in reference.get("labels", []):
-        _refuse_other_curves(series["curve"].tolist(), curves, "reference")
     residuals, columns = find(entry, reference, curves, series)
     # The curve is solved again with each uncertain parameter off by one sigma, up and down.
     shifts = []
@@ -76,24 +69,18 @@ def _from_curve(
 ) -> _ResidualsAndColumns:
     """Distances from the polyline of the named curve, or of the curve that each point names."""
     x = reference_data.column_name(reference["x"])
+    owners = np.full(len(series[x]), entry["curve"]) if "curve" in entry else series["curve"]
     parts: list[Residuals] = []
     columns: list[str] = []
-    names = [entry["curve"]] if "curve" in entry else dict.fromkeys(series["curve"])
-    for name in names:
-        own = np.ones(len(series[x]), bool) if "curve" in entry else series["curve"] == name
+    for name in dict.fromkeys(owners.tolist()):
         for axis in reference_data.ordinates(reference):
             y = reference_data.column_name(axis)
-            chosen = _rows(series, own & ~np.isnan(series[y]))
+            chosen = _rows(series, (owners == name) & ~np.isnan(series[y]))
             if len(chosen[y]):
                 polyline = _columns_of(curves, name, x, y)
-                part = distances.curve_residuals(
-                    (chosen[x], chosen[y]),
-                    polyline,
-                    sigma(entry, (reference["x"], axis), chosen),
-                    both_ways=reference.get("line", False),
-                )
-                parts.append(part)
-                columns += [f"{y} of {name}"] * len(part.x)
+                scale = sigma(entry, (reference["x"], axis), chosen)
+                parts.append(distances.curve_residuals((chosen[x], chosen[y]), polyline, scale))
+                columns += [f"{y} of {name}"] * len(chosen[y])
     return _joined(parts), columns
 
 
@@ -101,26 +88,31 @@ def _from_vertices(
     entry: Entry, reference: Reference, curves: Curves, series: Columns
 ) -> _ResidualsAndColumns:
     """Distances from the vertices with the same labels."""
-    x, label_columns = reference_data.column_name(reference["x"]), reference.get("labels", [])
-    needed = {x, *label_columns} - {"curve"}
-    labelled = [
-        (columns, _labels(columns | {"curve": np.full(len(columns[x]), name)}, label_columns))
-        for name, columns in _selected_curves(entry, curves).items()
-        if needed <= set(columns)
+    x, names = reference_data.column_name(reference["x"]), reference.get("labels", [])
+    named = [
+        own | {"curve": np.full(len(own[x]), name)}
+        for name, own in _selected_curves(entry, curves).items()
+        if x in own
     ]
-    labels = _labels(series, label_columns)
     parts: list[Residuals] = []
     columns: list[str] = []
     for axis in reference_data.ordinates(reference):
         y = reference_data.column_name(axis)
-        present = ~np.isnan(series[y])
-        if present.any():
-            own = [label for label, inside in zip(labels, present, strict=True) if inside]
-            chosen = _rows(series, present)
-            labelled_points, vertices = (chosen[x], chosen[y], own), _vertices(labelled, x, y)
+        chosen = _rows(series, ~np.isnan(series[y]))
+        if len(chosen[y]):
+            holders = [own for own in named if {y, *names} <= set(own)]
+            if not holders:
+                raise ValueError(f"no curve has the columns '{x}' and '{y}'")
+            labels = _labels(chosen, names)
+            vertices = (
+                np.concatenate([own[x] for own in holders]),
+                np.concatenate([own[y] for own in holders]),
+                [label for own in holders for label in _labels(own, names)],
+            )
             scale = sigma(entry, (reference["x"], axis), chosen)
-            parts.append(distances.vertex_residuals(labelled_points, vertices, scale))
-            columns += [f"{y} of {label}" if label else y for label in own]
+            points_there = chosen[x], chosen[y], labels
+            parts.append(distances.vertex_residuals(points_there, vertices, scale))
+            columns += [f"{y} of {label}" if label else y for label in labels]
     return _joined(parts), columns
 
 
@@ -130,20 +122,6 @@ def _rows(series: Columns, chosen: Booleans) -> Columns:
 
 def _joined(parts: Iterable[Residuals]) -> Residuals:
     return Residuals(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
-
-
-def _vertices(
-    labelled: Iterable[tuple[Columns, list[str]]], x: str, y: str
-) -> tuple[Array, Array, list[str]]:
-    """Vertices of all curves that have both columns: x, y, labels."""
-    holders = [(columns, labels) for columns, labels in labelled if y in columns]
-    if not holders:
-        raise ValueError(f"no curve has the columns '{x}' and '{y}'")
-    return (
-        np.concatenate([columns[x] for columns, _ in holders]),
-        np.concatenate([columns[y] for columns, _ in holders]),
-        [label for _, labels in holders for label in labels],
-    )
 
 
 def _labels(columns: Columns, label_columns: Iterable[str]) -> list[str]:
@@ -156,30 +134,19 @@ def _labels(columns: Columns, label_columns: Iterable[str]) -> list[str]:
 
 def _landmark(entry: Entry, fact: Reference, curves: Curves) -> Measured:
     """A landmark against a stated fact."""
-    landmark = entry["landmark"]
-    options = [landmark[key] for key in ("regime", "level", "at") if key in landmark]
-    names = [landmark["x"], "regime" if "regime" in landmark else landmark["y"]]
-    find = getattr(landmarks, landmark["kind"])
-    value = find(*_columns_of(curves, entry["curve"], *names), *options)
-    unit = "" if fact["unit"] == "1" else f" {fact['unit']}"
-    signs = {"value": "", "less_than": "< ", "greater_than": "> "}
-    stated = "".join(f"{sign}{fact[key]:g}{unit}" for key, sign in signs.items() if key in fact)
-    gap = value - fact["value"] if "value" in fact else None
-    quantity = names[1] if landmark["kind"] == "value_at" else names[0]
-    texts = {"found": f"{value:.4g}", "stated": stated}
-    residuals = distances.fact_residuals(value, fact)
-    return Measured(quantity, residuals, [quantity], gap=gap, texts=texts)
+    kind, x, y = (entry["landmark"][key] for key in ("kind", "x", "y"))
+    places, values = _columns_of(curves, entry["curve"], x, y)
+    value = landmarks.find(kind, places, values, entry["landmark"].get("at"))
+    quantity = y if kind == "value" else x
+    return Measured(quantity, distances.fact_residuals(value, fact), [quantity])
 
 
-class _Table(NamedTuple):
-    """The same columns of all curves that have them, one curve after the other."""
+def _of_all_curves(entry: Entry, curves: Curves) -> tuple[str, Array, Array]:
+    """The columns of a law, one curve that has them after the other.
 
-    first: str  # the first column of numbers, which says where the points lie
-    x: Array  # its values
-    values: list[Array]  # of the columns asked for
-
-
-def _concatenated(entry: Entry, curves: Curves, names: list[str]) -> _Table:
+    First come name and values of the first column of numbers, which says where the points lie.
+    """
+    names = entry["columns"]
     holders = [
         columns
         for columns in _selected_curves(entry, curves).values()
@@ -187,82 +154,62 @@ def _concatenated(entry: Entry, curves: Curves, names: list[str]) -> _Table:
     ]
     if not holders:
         raise ValueError(f"no curve has the columns {names}")
-    places = [_first_of_numbers(columns) for columns in holders]
+    places = [
+        next(name for name, values in columns.items() if values.dtype.kind == "f")
+        for columns in holders
+    ]
     x = np.concatenate([columns[name] for columns, name in zip(holders, places, strict=True)])
     values = [np.concatenate([columns[name] for columns in holders]) for name in names]
-    return _Table(places[0], x, values)
+    return places[0], x, np.array(values)
 
 
-def _balance(entry: Entry, curves: Curves) -> Measured:
-    """Two columns that must be equal."""
-    names = entry["columns"]
-    first, x, (left, right) = _concatenated(entry, curves, names)
-    residuals = distances.difference_residuals(x, left, right, BALANCE_SIGMA)
-    return Measured(first, residuals, [names[0]] * len(x))
-
-
-def _largest(entry: Entry, curves: Curves) -> Measured:
-    """A column that must be small."""
-    name = entry["largest"]
-    first, x, (values,) = _concatenated(entry, curves, [name])
-    residuals = distances.difference_residuals(x, values, np.zeros(len(x)), 1.0)
-    return Measured(first, residuals, [name] * len(x))
+def _small(entry: Entry, curves: Curves) -> Measured:
+    """A column that must be small, or two that must be equal up to `BALANCE_SIGMA`."""
+    first, x, values = _of_all_curves(entry, curves)
+    gap, scale = (values[0] - values[1], BALANCE_SIGMA) if len(values) == 2 else (values[0], 1.0)
+    return Measured(first, Residuals(x, gap / scale, gap), [entry["columns"][0]] * len(x))
 
 
 def _range(entry: Entry, curves: Curves) -> Measured:
     """Columns that must lie in a range: distances from its middle, in half its width."""
     names, (low, high) = entry["columns"], entry["range"]
-    first, x, values = _concatenated(entry, curves, names)
-    joined = np.concatenate(values)
-    most = LARGEST_RANGE_RATIO * np.abs(joined).max()
+    first, x, values = _of_all_curves(entry, curves)
+    most = LARGEST_RANGE_RATIO * np.abs(values).max()
     if max(abs(low), abs(high)) >= most:
         raise ValueError(
             f"range {low:g} to {high:g}: allowed are ends nearer to 0 than {most:g}, "
             f"{LARGEST_RANGE_RATIO} times the largest value; a wider range tests nothing"
         )
-    middle = np.full(len(joined), (low + high) / 2)
-    at = np.tile(x, len(names))
-    residuals = distances.difference_residuals(at, joined, middle, (high - low) / 2)
+    gap = values.ravel() - (low + high) / 2
+    residuals = Residuals(np.tile(x, len(names)), gap / ((high - low) / 2), gap)
     return Measured(first, residuals, np.repeat(names, len(x)).tolist())
 
 
 def _contraction(entry: Entry, curves: Curves) -> Measured:
     """Largest excess of the distance of neighbours at departure over that at arrival, by place."""
     x, y = entry["columns"]
-    beginning = entry.get("beginning", "")
     parts = []
     for name, columns in curves.items():
         # The printed equations need not obey this law.
-        drawn = not (curve_names.is_printed(name) or curve_names.is_shifted(name))
-        drawn &= name.startswith(beginning)
-        if drawn and x in columns and y in columns:
-            keys = [columns[label] for label in reversed(entry.get("labels", []))]
-            order = np.lexsort([columns[x], *keys])
-            # Only rows with the same labels are neighbours.
-            same = np.ones(len(order) - 1, bool)
-            for key in keys:
-                same &= key[order][1:] == key[order][:-1]
-            arrive, leave = (np.abs(np.diff(columns[axis][order]))[same] for axis in (x, y))
-            excess = np.maximum(leave - arrive, 0.0)
-            parts.append(Residuals(columns[x][order][1:][same], excess, excess))
+        obeys = not (curve_names.is_printed(name) or curve_names.is_shifted(name))
+        if obeys and name.startswith(entry.get("beginning", "")) and {x, y} <= set(columns):
+            order = np.argsort(columns[x], kind="stable")
+            arrive, leave = (np.abs(np.diff(columns[axis][order])) for axis in (x, y))
+            parts.append((columns[x][order][1:], np.maximum(leave - arrive, 0.0)))
     if not parts:
         raise ValueError(f"no curve has the columns {entry['columns']}")
-    places, place_of = np.unique(np.concatenate([part.x for part in parts]), return_inverse=True)
+    at, excesses = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
+    places, place_of = np.unique(at, return_inverse=True)
     excess = np.zeros(len(places))
-    np.maximum.at(excess, place_of, np.concatenate([part.plain for part in parts]))
+    np.maximum.at(excess, place_of, excesses)
     return Measured(x, Residuals(places, excess, excess), [y] * len(places))
 
 
 _LAWS: dict[str, Callable[[Entry, Curves], Measured]] = {
-    "balance": _balance,
-    "largest": _largest,
+    "small": _small,
     "range": _range,
     "contraction": _contraction,
 }
-
-
-def _first_of_numbers(columns: Columns) -> str:
-    return next(name for name, values in columns.items() if values.dtype.kind == "f")
 
 
 def _selected_curves(entry: Entry, curves: Curves) -> Curves:
@@ -272,22 +219,9 @@ def _selected_curves(entry: Entry, curves: Curves) -> Curves:
     return {entry["curve"]: _named(curves, entry["curve"])}
 
 
-def _refuse_other_curves(asked: Iterable[str], curves: Curves, of: str) -> None:
-    """Refuse curves that lack one of those that are `asked` for, and say which values both have."""
-    asked = list(asked)
-    missing = [name for name in asked if name not in curves]
-    if missing:
-        own = curve_names.values(curves)
-        for symbol, values in curve_names.values(asked).items():
-            known = own.get(symbol, [])
-            if known and not set(values) <= set(known):
-                both = f"{symbol} = {', '.join(values)}; the figure has {', '.join(known)}"
-                raise ValueError(f"the {of} has {both}")
-        raise ValueError(f"no curve '{missing[0]}'; the figure has {', '.join(curves)}")
-
-
 def _named(curves: Curves, name: str) -> Columns:
-    _refuse_other_curves([name], curves, "comparison")
+    if name not in curves:
+        raise ValueError(f"no curve '{name}'; the figure has {', '.join(curves)}")
     return curves[name]
 
 

@@ -12,7 +12,7 @@ from stronge1994.curve_names import AS_PRINTED
 from stronge1994.verdict_table import QUESTIONS
 
 # A comparison of the config, and what it names: a series or a fact of source.yaml, with the
-# parameters of its source.
+# parameters of its source. What a law is compared with is empty.
 Entry: TypeAlias = Mapping[str, Any]
 Reference: TypeAlias = Mapping[str, Any]
 PAPER = "stronge1994"  # the source that holds what the paper states
@@ -20,17 +20,17 @@ PAPER = "stronge1994"  # the source that holds what the paper states
 PARTS = ("initial stick", "slip and stick", "slip throughout")
 
 
-def kind(reference: Reference | None) -> str:
+def kind(reference: Reference) -> str:
     """Kind of a reference: a series has its own; else `fact`, or `law` without a reference."""
-    return "law" if reference is None else reference.get("kind", "fact")
+    return reference.get("kind", "fact") if reference else "law"
 
 
-def is_published(reference: Reference | None) -> bool:
+def is_published(reference: Reference) -> bool:
     """Whether a reference holds points of nature: published ones, or measured by their owner."""
     return kind(reference) in ("measured", "digitised", "stated", "awaited")
 
 
-def question(entry: Entry, reference: Reference | None) -> str:
+def question(entry: Entry, reference: Reference) -> str:
     """Which of three questions a comparison answers, of `verdict_table.QUESTIONS`.
 
     Beside others stand published and measured points, what other codes compute, and what others
@@ -46,7 +46,7 @@ def question(entry: Entry, reference: Reference | None) -> str:
     """
     solved, printed, others = QUESTIONS
     theirs = kind(reference) == "fact" and not entry["reference"].startswith(f"{PAPER}/")
-    if theirs or is_published(reference) or (reference or {}).get("others"):
+    if theirs or is_published(reference) or reference.get("others"):
         return others
     stated = kind(reference) == "fact" or "entry" in entry.get("documented", {})
     return printed if stated else solved
@@ -54,7 +54,7 @@ def question(entry: Entry, reference: Reference | None) -> str:
 
 def points(entry: Entry, reference: Reference) -> Columns:
     """Columns of the reference in the regime and with the labels of the comparison."""
-    series = reference_data.arrays(entry["reference"].split("/")[1], reference)
+    series = reference_data.arrays(reference)
     if entry.get("as_printed"):
         series["curve"] = np.char.replace(series["curve"], f"{AS_PRINTED}, ", "")
     x = series[reference_data.column_name(reference["x"])]

@@ -4,12 +4,15 @@ Comparing never fails: what cannot be compared diverges, with the reason in `not
 """
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from stronge1994 import csv_tables, reference_data
-from stronge1994.judging import judged_tables
+from stronge1994.csv_tables import Curves
+from stronge1994.formulas import plain
+from stronge1994.judging.distances import rms_and_max
 from stronge1994.judging.metrics import Measured, measure
 from stronge1994.judging.points import Entry, Reference, is_published, kind, question, sigma
 from stronge1994.judging.verdicts import Verdict, chi_squared_of, failed, judge
@@ -36,17 +39,17 @@ def compare(
     """
     problem, curves = "", {}
     try:
-        curves = judged_tables.read(path)
+        curves = read(path)
     except Exception as error:
         problem = f"no curves: {error}"
     solved = Verdict.WRONG if problem else Verdict.UNCHANGED
     cells: VerdictRow = {"question": QUESTIONS[0], "reason": "it must run"}
     rows = [_row(name, f"{name}-solved", solved, note=problem, **cells)]
     for title, entry in comparisons.items():
-        reference = references.get(entry.get("reference", ""))
+        reference = references.get(entry.get("reference", ""), {})
         cells = {key: entry.get(key, "") for key in ("reference", "curve", "reason")}
         cells["question"] = question(entry, reference)
-        if reference is not None and kind(reference) == "awaited" and not reference["path"]:
+        if kind(reference) == "awaited":
             rows.append(_row(name, title, Verdict.AWAITED, note=reference["figure"], **cells))
             continue
         try:
@@ -54,16 +57,31 @@ def compare(
                 raise ValueError(problem)
             measured = measure(entry, reference, curves)
             verdict = judge(entry, reference, measured, significance)
-            cells |= _numbers(entry, reference, measured, significance) | measured.texts
-            points = zip(
-                measured.residuals.x.tolist(), measured.residuals.sigmas.tolist(), strict=True
-            )
+            cells |= _numbers(entry, reference, measured, significance)
+            x, sigmas, _ = (column.tolist() for column in measured.residuals)
+            points = zip(x, sigmas, strict=True)
             cells["residuals"] = [[title, measured.quantity, *point] for point in points]
             note = _note(entry, measured, verdict)
         except Exception as error:
             verdict, note = failed(cells["question"]), f"{error}"
         rows.append(_row(name, title, verdict, note=note, **cells))
     return rows
+
+
+def read(path: str) -> Curves:
+    """Curves that are judged. A number that is not finite is an error.
+
+    The table of a figure has its own curves. That of a scene becomes one curve `impacts`, whose
+    rows are numbered. `csv_tables.Failed` says that the solver left an error instead.
+    """
+    if Path(path).parent.name == "scenes":
+        rows = csv_tables.read_rows(path)
+        columns = {name: csv_tables.values([row[name] for row in rows]) for name in rows[0]}
+        curves = {"impacts": {"row [1]": np.arange(1.0, len(rows) + 1)} | columns}
+    else:
+        curves = csv_tables.read(path)
+    csv_tables.refuse_not_finite(curves)
+    return curves
 
 
 def _note(entry: Entry, measured: Measured, verdict: Verdict) -> str:
@@ -82,23 +100,22 @@ def _note(entry: Entry, measured: Measured, verdict: Verdict) -> str:
 
 
 def _numbers(
-    entry: Entry, reference: Reference | None, measured: Measured, significance: float
+    entry: Entry, reference: Reference, measured: Measured, significance: float
 ) -> VerdictRow:
-    distance = measured.residuals.summary()
+    x, sigmas, plain = measured.residuals
+    bounds = entry.get("regression", {}).items()
     cells: VerdictRow = {
-        "points": distance.points,
-        "rms [sigma]": f"{distance.rms:.3g}",
-        "max [sigma]": f"{distance.max:.3g}",
-        "rms [axis units]": f"{distance.plain_rms:.3g}",
-        "max [axis units]": f"{distance.plain_max:.3g}",
+        "points": len(x),
         "unit": _unit(reference),
         "allowed": _allowed(entry, reference, significance),
-        "regression": ", ".join(
-            f"{low:g} <= {key} <= {high:g}"
-            for key, (low, high) in entry.get("regression", {}).items()
-        ),
+        "regression": ", ".join(f"{low:g} <= {key} <= {high:g}" for key, (low, high) in bounds),
     }
-    if reference is not None and is_published(reference):
+    for unit, distances in {"sigma": sigmas, "axis units": plain}.items():
+        rms, largest = rms_and_max(distances)
+        cells |= {f"rms [{unit}]": f"{rms:.3g}", f"max [{unit}]": f"{largest:.3g}"}
+    if kind(reference) == "fact":
+        cells |= {"found": f"{x[0]:.4g}", "stated": _stated(reference)}
+    if is_published(reference):
         chi2 = chi_squared_of(reference, measured)
         cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
         cells["degrees of sigma"] = chi2.of_sigma or ""
@@ -106,20 +123,25 @@ def _numbers(
     return cells
 
 
-def _unit(reference: Reference | None) -> str:
+def _stated(fact: Reference) -> str:
+    """A stated value or inequality with its unit."""
+    unit = "" if fact["unit"] == "1" else f" {fact['unit']}"
+    signs = {"value": "", "less_than": "< ", "greater_than": "> "}
+    return "".join(f"{sign}{fact[key]:g}{unit}" for key, sign in signs.items() if key in fact)
+
+
+def _unit(reference: Reference) -> str:
     """Unit of the distances in axis units; empty for a law, and for several axes of other units."""
-    if reference is None:
-        return ""
-    if kind(reference) == "fact":
-        return f"{reference['unit']}"
+    if kind(reference) in ("law", "fact"):
+        return f"{reference.get('unit', '')}"
     units = {axis["unit"] for axis in reference_data.ordinates(reference)}
     return units.pop() if len(units) == 1 else ""
 
 
-def _allowed(entry: Entry, reference: Reference | None, significance: float) -> str:
+def _allowed(entry: Entry, reference: Reference, significance: float) -> str:
     if "range" in entry:
         return "{:g} to {:g}".format(*entry["range"])
-    if reference is None or not is_published(reference):
+    if not is_published(reference):
         return f"max <= {entry.get('limit', 1.0):g}"
     criterion = f"p > {significance:g}"
     if "allowance" not in entry:
@@ -139,7 +161,8 @@ def _allowed(entry: Entry, reference: Reference | None, significance: float) -> 
 
 def _row(figure: str, name: str, verdict: Verdict, **cells: Any) -> VerdictRow:
     row = dict.fromkeys(COLUMNS, "")
-    return row | {"figure": figure, "comparison": name, "verdict": str(verdict)} | cells
+    row |= {"figure": figure, "comparison": name, "verdict": str(verdict)} | cells
+    return row | {key: plain(row[key]) for key in ("note", "reason")}
 
 
 def write(rows: Sequence[VerdictRow], verdicts: str, residuals: str) -> None:

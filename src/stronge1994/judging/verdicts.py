@@ -6,9 +6,9 @@ verdict is computed again with all of them moved by `VISIBLE_SHIFT` sigmas.
 
 from collections.abc import Mapping
 from enum import StrEnum
-from typing import Any
 
 from stronge1994.goodness import ChiSquared, chi_squared
+from stronge1994.judging.distances import rms_and_max
 from stronge1994.judging.metrics import Measured
 from stronge1994.judging.points import Entry, Reference, is_published, question
 from stronge1994.verdict_table import QUESTIONS
@@ -50,9 +50,7 @@ def chi_squared_of(reference: Reference, measured: Measured) -> ChiSquared:
     return chi_squared(measured.residuals.sigmas, measured.shifts, reference.get("sigma_values"))
 
 
-def judge(
-    entry: Entry, reference: Reference | None, measured: Measured, significance: float
-) -> Verdict:
+def judge(entry: Entry, reference: Reference, measured: Measured, significance: float) -> Verdict:
     """Verdict on measured distances; published points agree if p is above `significance`."""
     outcome = _outcome(entry, reference, measured, significance)
     if outcome == Verdict.AGREES and entry.get("fitted"):
@@ -62,8 +60,11 @@ def judge(
     if outcome == Verdict.AGREES and question(entry, reference) == QUESTIONS[0]:
         return Verdict.RIGHT
     if outcome == Verdict.AGREES and is_published(reference):
-        noticed = notices(entry, reference, measured, significance, VISIBLE_SHIFT)
-        return outcome if noticed else Verdict.INCONCLUSIVE
+        for off in (VISIBLE_SHIFT, -VISIBLE_SHIFT):
+            residuals = measured.residuals._replace(sigmas=measured.residuals.sigmas + off)
+            moved = measured._replace(residuals=residuals)
+            if _outcome(entry, reference, moved, significance) != Verdict.DIVERGES:
+                return Verdict.INCONCLUSIVE
     return outcome
 
 
@@ -76,35 +77,18 @@ def failed(asked: str) -> Verdict:
     return Verdict.WRONG if asked == QUESTIONS[0] else Verdict.DIVERGES
 
 
-def notices(
-    entry: Entry,
-    reference: Reference | None,
-    measured: Measured,
-    significance: float,
-    sigmas: float,
-) -> bool:
-    """Whether a comparison diverges if all points lay this many sigmas higher, and if lower."""
-    ways = (
-        measured.residuals._replace(sigmas=measured.residuals.sigmas + off)
-        for off in (sigmas, -sigmas)
-    )
-    return all(
-        _outcome(entry, reference, measured._replace(residuals=moved), significance)
-        == Verdict.DIVERGES
-        for moved in ways
-    )
-
-
 def _outcome(
-    entry: Entry, reference: Reference | None, measured: Measured, significance: float
+    entry: Entry, reference: Reference, measured: Measured, significance: float
 ) -> Verdict:
-    distance = measured.residuals.summary()
-    numbers: dict[str, Any] = {"rms": distance.rms, "max": distance.max, "difference": measured.gap}
-    if reference is not None and is_published(reference):
+    rms, largest = rms_and_max(measured.residuals.sigmas)
+    # The difference of a landmark is its value minus the stated one.
+    difference = -float(measured.residuals.plain[0])
+    numbers = {"rms": rms, "max": largest, "difference": difference}
+    if is_published(reference):
         chi2 = chi_squared_of(reference, measured)
         good, numbers["chi2"] = chi2.p > significance, chi2.value
     else:
-        good = distance.max <= entry.get("limit", 1.0)
+        good = largest <= entry.get("limit", 1.0)
     bounds: Mapping[str, tuple[float, float]] = entry.get("regression", {})
     unchanged = all(low <= numbers[key] <= high for key, (low, high) in bounds.items())
     return verdict(good, entry.get("documented", {}).get("as", ""), unchanged)

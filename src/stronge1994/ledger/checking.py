@@ -1,88 +1,130 @@
-"""Run every entry of the ledger against the paper's model: one row for each entry.
+"""Run every entry of the ledger: one row for each entry, and the numbers in nature.
 
 This never fails: an entry whose check crashes no longer holds, with the reason in `problem`.
 """
 
 import traceback
 from collections.abc import Mapping
+from types import SimpleNamespace
+from typing import Any, TypeAlias
+
+import numpy as np
 
 from stronge1994 import ledger
 from stronge1994.csv_tables import Row
-from stronge1994.ledger import entries, in_nature, outcome
-from stronge1994.ledger.entries import Entry
-from stronge1994.ledger.in_nature import Values
+from stronge1994.ledger import finding, outcome
+from stronge1994.ledger.entries import Entry, numbers_in
+from stronge1994.ledger.finding import MODELS
+
+# What the checks of `nature` find, by check and model.
+Measured: TypeAlias = dict[str, dict[str, float]]
 
 
-def check(every: Mapping[str, Entry], measured: Mapping[str, Values] | None = None) -> list[Row]:
+def measure(every: Mapping[str, Entry]) -> Measured:
+    """What the checks find that the claims in nature need; nan where one crashes."""
+    names = [name for entry in every.values() for name in needed(entry.get("in_nature"))]
+    return {name: _of_models(name) for name in dict.fromkeys(names)}
+
+
+def needed(claim: Mapping[str, Any] | None) -> list[str]:
+    """Checks of `nature` that decide a claim, or whose numbers its text quotes."""
+    if claim is None:
+        return []
+    decides = [claim["check"]] if "check" in claim else []
+    return decides + [name for name, _ in numbers_in(claim["says"])]
+
+
+def _of_models(name: str) -> dict[str, float]:
+    try:
+        return {model: ledger.run(f"nature.{name}", model).value for model in MODELS}
+    except Exception:
+        traceback.print_exc()
+        return dict.fromkeys(MODELS, np.nan)
+
+
+def check(every: Mapping[str, Entry], measured: Measured | None = None) -> list[Row]:
     """Rows of the ledger's table, one for each entry, in the order of the ledger.
 
-    `measured` is what `measure` returns; without it the measures are taken here.
+    `measured` is what `measure` returns; without it the checks of `nature` are run here.
     """
-    tests = entries.checks()
     measured = measure(every) if measured is None else measured
-    return [
-        _with_nature(_row(name, entry, tests.get(entry.get("check", ""), "")), entry, measured)
-        for name, entry in every.items()
-    ]
+    return [_with_nature(_row(name, entry), entry, measured) for name, entry in every.items()]
 
 
-def measure(every: Mapping[str, Entry]) -> dict[str, Values]:
-    """Values of the measures that the claims in nature need; nan where a measure crashes."""
-    claims = [entry["in_nature"] for entry in every.values() if "in_nature" in entry]
-    values = {}
-    for name in in_nature.needed(claims):
-        try:
-            values[name] = in_nature.measure(name)
-        except Exception:
-            traceback.print_exc()
-            values[name] = in_nature.NOTHING
-    return values
-
-
-def _row(name: str, entry: Entry, test: str) -> Row:
+def _row(name: str, entry: Entry) -> Row:
     row = dict.fromkeys(outcome.COLUMNS, "")
     same = set(entry) - {"confirms", "holds", "between", "in_nature"}
     row |= {key: entry[key] for key in row if key in same}
-    row |= {"entry": name, "test": test, "range": entry.get("holds", "")}
+    row |= {"entry": name, "range": entry.get("holds", "")}
     if "check" not in entry:
         return row
+    row["test"] = ledger.checks()[entry["check"]]
     row["confirms"] = _criterion(entry["confirms"])
     row["between"] = " to ".join(f"{bound:g}" for bound in entry.get("between", []))
     try:
-        finding = ledger.run(entry["check"])
-        judgement = ledger.judge(finding, entry)
+        found = ledger.run(entry["check"])
+        problem = finding.judge(found, entry)
     except Exception as error:
         traceback.print_exc()
         return row | {"holds": "no", "problem": f"{type(error).__name__}: {error}"}
-    corrected = "" if finding.corrected is None else f"{finding.corrected:.2g}"
     return row | {
-        "holds": "yes" if judgement.holds else "no",
-        "found": f"{finding.value:.6g}",
-        "corrected": corrected,
-        "problem": judgement.why,
+        "holds": "no" if problem else "yes",
+        "found": f"{found.value:.6g}",
+        "corrected": "" if found.corrected is None else f"{found.corrected:.2g}",
+        "problem": problem,
     }
 
 
-def _with_nature(row: Row, entry: Entry, measured: Mapping[str, Values]) -> Row:
+def _with_nature(row: Row, entry: Entry, measured: Measured) -> Row:
     """A row with the verdict in nature; the entry holds if each of its verdicts holds."""
     if "in_nature" not in entry:
         return row
     claim = entry["in_nature"]
-    row = row | in_nature.cells(claim, _criterion(claim.get("confirms", {})), measured)
-    judgement = in_nature.judge(claim, measured)
-    if "check" in claim and judgement.holds:
-        return row | {"holds": row["holds"] or "yes"}
-    if judgement.holds:
-        return row
-    problems = [row["problem"], judgement.why]
-    return row | {"holds": "no", "problem": "; ".join(filter(None, problems))}
+    numbers = {name: SimpleNamespace(**values) for name, values in measured.items()}
+    row |= {"in_nature": claim["verdict"], "nature": claim["says"].format_map(numbers)}
+    problem = judge(claim, measured)
+    if "check" in claim:
+        values = measured[claim["check"]]
+        row |= {
+            "holds": row["holds"] or "yes",
+            "nature_test": ledger.checks()[f"nature.{claim['check']}"],
+            "nature_true_if": _criterion(claim["confirms"]),
+            "nature_found": ", ".join(
+                f"{model.replace('_', ' ')} {value:.3g}" for model, value in values.items()
+            ),
+        }
+    if problem:
+        row |= {"holds": "no", "problem": "; ".join(filter(None, [row["problem"], problem]))}
+    return row
+
+
+def judge(claim: Mapping[str, Any], measured: Measured) -> str:
+    """Why the recorded verdict on a claim in nature no longer holds; empty if it does."""
+    crashed = [
+        name
+        for name in dict.fromkeys(needed(claim))
+        if not np.all(np.isfinite(list(measured[name].values())))
+    ]
+    if crashed:
+        return f"in nature: {', '.join(crashed)} found no number"
+    if "check" not in claim:
+        return ""
+    problem = finding.judge_in_nature(measured[claim["check"]], claim)
+    return f"in nature: {problem}" if problem else ""
 
 
 def _criterion(confirms: Mapping[str, float]) -> str:
     """When a statement counts as true, as a text."""
     if "value" in confirms:
         return f"{confirms['value']:g} within {confirms['rounding']:g}"
-    if not confirms:
-        return ""
     (bound_kind, bound), *_ = confirms.items()
     return f"{bound_kind.replace('_', ' ')} {bound:g}"
+
+
+def table_of(measured: Measured) -> list[Row]:
+    """Rows of the table of what the checks of `nature` find, by `outcome.OF_NATURE`."""
+    return [
+        {"measure": name, "what": ledger.checks()[f"nature.{name}"]}
+        | {model: f"{value:.12g}" for model, value in values.items()}
+        for name, values in measured.items()
+    ]

@@ -2,26 +2,34 @@
 
 v1(0), v2(0) < 0, F2 > 0, F1 = (kappa/zeta^2) u1 and du1/dt = -v1 in stick. The scales have no
 common factor, so that a formula with a wrong factor cannot agree by accident.
+
+Generators of contacts, `initial_stick` to `slip_throughout`, are the places at which a printed
+equation is compared with the model.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any, TypeVar
+import inspect
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from scipy.integrate import cumulative_simpson
 
-from planarimpact import lumped, models
+from planarimpact import lumped, models, rigid
 from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 from planarimpact.ground.results import Event, EventKind, History, Rebound
-from stronge1994.printed import dynamics
+from stronge1994.printed import dynamics, slip
 
-FRICTION, NORMAL_MASS, NORMAL_VELOCITY, STIFFNESS = 0.3, 1.7, -2.3, 5.9
 # The sphere of the paper's examples (p. 444), and others, all with omega > Omega as it assumes,
 # and omega < 2 Omega, beyond which stick can come back (`rebound.three_sequences`).
 SPHERE = MASS_RATIO, STIFFNESS_RATIO = 3.5, 1.21
 PAIRS = (SPHERE, (MASS_RATIO, 1.5), (2.5, 1.1), (4.0, 1.2))
 RESTITUTIONS = (0.05, 0.15, 0.3, 0.6, 0.9, 1.0)
+# Stiffness ratio of a contact that is all but without tangential compliance.
+HARD = 1e-4
+# Incidences of Figs 5 and 6, 0 left out.
+INCIDENCE = np.linspace(0, 8, 2001)[1:]
+# Where slip throughout begins on the paper's sphere at e = 1: 2 m2/m1 - zeta^2.
+ELASTIC_LIMIT = 2 * MASS_RATIO - STIFFNESS_RATIO
 
 _Answer = TypeVar("_Answer")
 _KNOWN: dict[tuple[Any, ...], Any] = {}
@@ -42,8 +50,7 @@ def once(solver: Callable[..., _Answer], *groups: ArrayLike, **settings: float |
     return _KNOWN[key]
 
 
-@dataclass(frozen=True)
-class State:
+class State(NamedTuple):
     """Time, forces, tangential velocity and deflection at one instant, or at many."""
 
     t: Array
@@ -53,110 +60,60 @@ class State:
     u1: Array
 
 
-@dataclass(frozen=True)
+# Of a contact without such an event.
+NEVER = State(*5 * [np.array(np.nan)])
+
+
 class Contact:
-    """A contact of the paper's model: its parameters, and states along it."""
+    """A solved contact: its symbols, its `path` (states at all samples), and its `events`.
 
-    incidence: float
-    mass_ratio: float
-    stiffness_ratio: float
-    restitution: float
-    history: History
+    The symbols are named as in `stronge1994.printed`. Instants are named as in the paper, t2 at the
+    start of stick, t1 or t3 at the onset of the last slip; they are nan where there is none.
 
-    friction = FRICTION
-    m2 = NORMAL_MASS
-    v2 = NORMAL_VELOCITY
-    stiffness = STIFFNESS
+    >>> impact = Contact(1.0)
+    >>> bool(impact.v1 < 0 and impact.t2 == 0)
+    True
+    """
 
-    @property
-    def m1(self) -> float:
-        """Tangential effective mass."""
-        return self.m2 / self.mass_ratio
+    friction = 0.3
+    m2 = 1.7
+    v2 = -2.3
+    stiffness = 5.9
+    compression_impulse = -m2 * v2
+    normal_frequency = np.sqrt(stiffness / m2)
+    compression_time = np.pi / 2 / normal_frequency
+    force_scale = -m2 * normal_frequency * v2
+    friction_scale = friction * force_scale
+    velocity_scale = friction * v2  # negative
 
-    @property
-    def v1(self) -> float:
-        """Tangential velocity at t = 0."""
-        return self.incidence * self.velocity_scale
-
-    @property
-    def normal_frequency(self) -> float:
-        """Omega."""
-        return np.sqrt(self.stiffness / self.m2)
-
-    @property
-    def tangential_frequency(self) -> float:
-        """omega."""
-        return np.sqrt(self.stiffness / (self.stiffness_ratio * self.m1))
-
-    @property
-    def compression_time(self) -> float:
-        """t_c."""
-        return np.pi / 2 / self.normal_frequency
-
-    @property
-    def force_scale(self) -> float:
-        """m2 Omega |v2(0)|."""
-        return -self.m2 * self.normal_frequency * self.v2
-
-    @property
-    def friction_scale(self) -> float:
-        """mu times the scale of normal forces."""
-        return self.friction * self.force_scale
-
-    @property
-    def velocity_scale(self) -> float:
-        """mu v2(0), negative."""
-        return self.friction * self.v2
-
-    @property
-    def path(self) -> State:
-        """States at all samples and events."""
-        return self._state(self.history)
-
-    @property
-    def events(self) -> list[tuple[EventKind, State]]:
-        """States at the events, `(kind, State)` in order."""
-        return [(event.kind, self._state(event)) for event in self.history.events]
-
-    def first(self, kind: EventKind) -> State:
-        """State at the first event of a kind."""
-        return next(state for event_kind, state in self.events if event_kind == kind)
-
-    def last(self, kind: EventKind) -> State:
-        """State at the last event of a kind."""
-        return [state for event_kind, state in self.events if event_kind == kind][-1]
-
-    def between(self, start: Numbers, end: Numbers) -> State:
-        """States of the path from one time to another, both included."""
-        path = self.path
-        inside = (path.t >= start) & (path.t <= end)
-        columns = (path.t, path.force_2, path.force_1, path.v1, path.u1)
-        return State(*(column[inside] for column in columns))
-
-    @property
-    def rebound(self) -> Rebound:
-        """The rebound by `lumped.rebound`, which is not computed from the path."""
-        groups = self.mass_ratio, self.stiffness_ratio, self.restitution
-        return once(lumped.rebound, self.incidence, *groups)
-
-    @property
-    def final_velocity(self) -> float:
-        """v1(tf), of `rebound`."""
-        return float(self.rebound.velocity) * self.velocity_scale
-
-    def impulse(self, t: Numbers) -> Array:
-        """p(t) by Table 1."""
-        groups = self.v2, self.m2, self.normal_frequency, self.restitution
-        return dynamics.table_1_impulse(t, *groups)
-
-    def impulse_left(self, t: Numbers) -> Array:
-        """p(tf) - p(t), by Table 1."""
-        return -(1 + self.restitution) * self.m2 * self.v2 - self.impulse(t)
-
-    @property
-    def last_slip_direction(self) -> float:
-        """s of the last slip, from the force there: F1 = -mu s F2."""
-        return -float(np.sign(self.last(EventKind.SLIP).force_1))
+    def __init__(
+        self,
+        incidence: float,
+        mass_ratio: float = MASS_RATIO,
+        stiffness_ratio: float = STIFFNESS_RATIO,
+        restitution: float = 1.0,
+        samples: int = 65,
+    ) -> None:
+        self.incidence, self.restitution = incidence, restitution
+        self.mass_ratio, self.stiffness_ratio = mass_ratio, stiffness_ratio
+        self.groups = incidence, mass_ratio, stiffness_ratio, restitution
+        self.m1 = self.m2 / mass_ratio
+        self.v1 = incidence * self.velocity_scale
+        self.slope = self.v1 / self.v2
+        self.tangential_frequency = np.sqrt(self.stiffness / (stiffness_ratio * self.m1))
+        history = once(lumped.history, *self.groups, samples=samples)
+        self.path = self._state(history)
+        self.events = [(event.kind, self._state(event)) for event in history.events]
+        first, last = dict(reversed(self.events)), dict(self.events)
+        self.top = first[EventKind.MAXIMUM_COMPRESSION]
+        self.end = last[EventKind.SEPARATION]
+        self.start = first.get(EventKind.STICK, NEVER)
+        self.onset = last.get(EventKind.SLIP, NEVER)
+        self.t2, self.v1_t2, self.u1_t2 = self.start.t, self.start.v1, self.start.u1
+        self.t1 = self.t3 = self.onset.t
+        self.v1_t1 = self.v1_t3 = self.onset.v1
+        # s of the last slip, from the force there: F1 = -mu s F2.
+        self.slip_direction = -float(np.sign(self.onset.force_1))
 
     def _state(self, event_or_history: Event | History) -> State:
         return State(
@@ -167,78 +124,89 @@ class Contact:
             np.asarray(event_or_history.spring) * -self.velocity_scale / self.normal_frequency,
         )
 
+    def printed(self, formula: Callable[..., Any], **others: Numbers | Sequence[int]) -> Any:
+        """A formula of `stronge1994.printed` with the symbols of this contact.
 
-def contact(
-    incidence: float,
-    mass_ratio: float = MASS_RATIO,
-    stiffness_ratio: float = STIFFNESS_RATIO,
-    restitution: float = 1.0,
-    samples: int = 65,
-) -> Contact:
-    """Solve one contact.
+        `others` are arguments that a contact does not have, or that take the place of its own.
 
-    >>> impact = contact(1.0)
-    >>> bool(impact.v1 < 0 and impact.first(EventKind.STICK).t == 0)
-    True
-    """
-    groups = incidence, mass_ratio, stiffness_ratio, restitution
-    return Contact(*groups, once(lumped.history, *groups, samples=samples))
+        >>> Contact(8.0).printed(slip.eq_27_rebound)
+        1.0
+        """
+        names = inspect.signature(formula).parameters
+        return formula(**{n: others[n] if n in others else getattr(self, n) for n in names})
 
-
-def integral(impact: Contact, values: Array) -> Array:
-    """Integral over time of values along a path, piece by piece between its kinks.
-
-    >>> impact = contact(1.0, samples=2001)
-    >>> gained = integral(impact, impact.path.force_2)[-1] / (-impact.m2 * impact.v2)
-    >>> round(float(gained), 9)  # 1 + e
-    2.0
-    """
-    t = impact.path.t
-    result, total = np.zeros_like(t), 0.0
-    kinks = [state.t for _, state in impact.events]
-    for start, end in zip(kinks, kinks[1:], strict=False):
-        inside = (t >= start) & (t <= end)
-        if inside.sum() > 1:
-            result[inside] = total + cumulative_simpson(values[inside], x=t[inside], initial=0)
-            total = result[inside][-1]
-    return result
-
-
-@dataclass(frozen=True)
-class NormalMotion:
-    """Normal impulse, velocity, displacement and work along one contact, by quadrature."""
-
-    impact: Contact
-    impulse: Array
-    velocity: Array
-    displacement: Array
-    work: Array
+    def between(self, start: Numbers, end: Numbers) -> State:
+        """States of the path from one time to another, both included."""
+        inside = (self.path.t >= start) & (self.path.t <= end)
+        return State(*(column[inside] for column in self.path))
 
     @property
-    def top(self) -> int:
-        """Index of maximum compression."""
-        return int(np.flatnonzero(self.impact.path.t == self.impact.compression_time)[0])
+    def rebound(self) -> Rebound:
+        """The rebound by `lumped.rebound`, which is not computed from the path."""
+        return once(lumped.rebound, *self.groups)
+
+    @property
+    def final(self) -> float:
+        """v1(tf), of `rebound`."""
+        return float(self.rebound.velocity) * self.velocity_scale
+
+    def impulse(self, t: Numbers) -> Array:
+        """p(t) by Table 1."""
+        return self.printed(dynamics.table_1_impulse, t=t)
+
+    @property
+    def impulse_left(self) -> Array:
+        """p(tf) less p at the onset of the last slip, by Table 1."""
+        return -(1 + self.restitution) * self.m2 * self.v2 - self.impulse(self.t1)
+
+    @property
+    def g1(self) -> Array:
+        """Normal impulse after t1 over that of compression, by the formula after Eq. 14."""
+        return self.printed(slip.impulse_ratio)
+
+    def integral(self, values: Array) -> Array:
+        """Integral over time of values along the path, piece by piece between its kinks.
+
+        >>> impact = Contact(1.0, samples=2001)
+        >>> gained = impact.integral(impact.path.force_2)[-1] / impact.compression_impulse
+        >>> round(float(gained), 9)  # 1 + e
+        2.0
+        """
+        t = self.path.t
+        result, total = np.zeros_like(t), 0.0
+        kinks = [state.t for _, state in self.events]
+        for start, end in zip(kinks, kinks[1:], strict=False):
+            inside = (t >= start) & (t <= end)
+            if inside.sum() > 1:
+                result[inside] = total + cumulative_simpson(values[inside], x=t[inside], initial=0)
+                total = result[inside][-1]
+        return result
 
 
-def without_micro_slip(incidence: Array) -> Rebound:
-    """Rebound of the paper's sphere, e = 1, by a Hertz contact that slips as a whole; to 1e-3."""
-    return once(models.get("timestep.mindlin_rescaled").rebound, incidence, *SPHERE, steps=4096)
+class NormalMotion(Contact):
+    """A contact with its normal motion by quadrature, all along the path.
+
+    `brought` is the normal impulse; `at_top` is the index of maximum compression.
+    """
+
+    def __init__(self, *groups: Any, **settings: Any) -> None:
+        super().__init__(*groups, **settings)
+        force = self.path.force_2
+        self.brought = self.integral(force)
+        self.velocity = self.v2 + self.brought / self.m2
+        self.displacement = self.integral(self.velocity)
+        self.work = self.integral(force * self.velocity)
+        self.at_top = int(np.flatnonzero(self.path.t == self.compression_time)[0])
 
 
-def normal_motions() -> Iterator[tuple[float, NormalMotion]]:
-    """Normal motions for all restitutions of the checks: (e, NormalMotion)."""
-    for e in RESTITUTIONS:
-        yield e, normal_motion(e)
+def normal_motions(restitutions: Sequence[float] = RESTITUTIONS) -> Iterator[NormalMotion]:
+    """Normal motions of the paper's sphere, good to 1e-9."""
+    return (NormalMotion(0.7, restitution=e, samples=4001) for e in restitutions)
 
 
-def normal_motion(restitution: float) -> NormalMotion:
-    """Normal motion of a contact of the paper's sphere, good to 1e-9."""
-    impact = contact(0.7, restitution=restitution, samples=4001)
-    force = impact.path.force_2
-    impulse = integral(impact, force)
-    velocity = impact.v2 + impulse / impact.m2
-    work = integral(impact, force * velocity)
-    return NormalMotion(impact, impulse, velocity, integral(impact, velocity), work)
+def of_sphere(*incidences: float, **settings: float) -> Callable[[], list[Contact]]:
+    """Finely sampled contacts of the paper's sphere, as a function that solves them."""
+    return lambda: [Contact(x, samples=2001, **settings) for x in incidences]
 
 
 def initial_stick() -> Iterator[Contact]:
@@ -246,7 +214,7 @@ def initial_stick() -> Iterator[Contact]:
     for beta, zeta2 in PAIRS:
         for e in RESTITUTIONS:
             for share in (0.02, 0.4, 0.8, 0.99):
-                yield contact(share * zeta2, beta, zeta2, e)
+                yield Contact(share * zeta2, beta, zeta2, e)
 
 
 def slip_stick_slip(
@@ -259,9 +227,9 @@ def slip_stick_slip(
             early = [zeta2 + share * (beta - zeta2) for share in (0.02, 0.4, 0.8, 0.99)]
             later = [beta + share * (limit - beta) for share in (0.1, 0.5, 0.9)]
             if late is not True:
-                yield from (contact(x, beta, zeta2, e) for x in early)
+                yield from (Contact(x, beta, zeta2, e) for x in early)
             if late is not False and limit > beta:
-                yield from (contact(x, beta, zeta2, e) for x in later)
+                yield from (Contact(x, beta, zeta2, e) for x in later)
 
 
 def with_stick() -> Iterator[Contact]:
@@ -270,9 +238,14 @@ def with_stick() -> Iterator[Contact]:
     yield from slip_stick_slip()
 
 
-def reversed_last_slip(contacts: Iterable[Contact]) -> Iterator[Contact]:
-    """Those contacts whose last slip runs against the incident direction, s = +1."""
-    return (impact for impact in contacts if impact.last_slip_direction > 0)
+def reversed_after_stick() -> Iterator[Contact]:
+    """Contacts of initial stick whose last slip runs against the incident direction, s = +1."""
+    return (impact for impact in initial_stick() if impact.slip_direction > 0)
+
+
+def reversed_after_slip() -> Iterator[Contact]:
+    """Contacts that slip, stick and slip back, s = +1."""
+    return (impact for impact in slip_stick_slip() if impact.slip_direction > 0)
 
 
 def slip_throughout() -> Iterator[Contact]:
@@ -280,4 +253,32 @@ def slip_throughout() -> Iterator[Contact]:
     for beta, zeta2 in PAIRS:
         for e in RESTITUTIONS:
             for factor in (1.001, 1.3, 4.0):
-                yield contact(factor * (1 + e) * beta, beta, zeta2, e)
+                yield Contact(factor * (1 + e) * beta, beta, zeta2, e)
+
+
+def with_and_without_compliance(restitutions: Sequence[float]) -> Iterator[tuple[Rebound, Rebound]]:
+    """Rebounds of the paper's sphere from x = (1 + e) beta on, and those of the rigid limit."""
+    for e in restitutions:
+        x = slip.slip_throughout_limit(MASS_RATIO, e) * np.array([1.0, 1.1, 3.0])
+        yield lumped.rebound(x, *SPHERE, e), rigid.rebound(x, MASS_RATIO, restitution=e)
+
+
+def without_micro_slip(incidence: Array) -> Rebound:
+    """Rebound of the paper's sphere, e = 1, by a Hertz contact that slips as a whole; to 1e-3.
+
+    An incidence above 8 is taken as 8, where it slides throughout with the same peak.
+    """
+    solver = models.get("timestep.mindlin_rescaled").rebound
+    return once(solver, np.minimum(incidence, 8.0), *SPHERE, steps=4096)
+
+
+def boundary(holds: Callable[[float], bool], low: float, high: float) -> float:
+    """Where a property that holds at `low` and not at `high` is lost, by bisection.
+
+    >>> round(boundary(lambda x: x < 2, 0.0, 8.0), 12)
+    2.0
+    """
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return low

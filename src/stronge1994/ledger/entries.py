@@ -1,19 +1,16 @@
 """The entries of the ledger; those that cannot be run are refused before any work."""
 
-import ast
 import re
-from collections.abc import Collection, Mapping
+import string
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from stronge1994 import reference_data
-from stronge1994.ledger import in_nature
+from stronge1994 import ledger, reference_data
+from stronge1994.ledger.finding import MODELS, ROUNDED
 
 Entry: TypeAlias = dict[str, Any]
 
-PACKAGE = Path(__file__).parent
-# These modules hold the checks.
-MODULES = ("dynamics", "slip", "rebound", "peak_force", "dissipation")
 KINDS = ({"at_most"}, {"at_least"}, {"value", "rounding"}, {"fact"})
 REFERENCE = re.compile(r"\bsee ([a-z0-9]+(?:-[a-z0-9.]*[a-z0-9])+)")
 
@@ -25,18 +22,23 @@ def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
     cause. A `fact` of the source.yaml beside the ledger is replaced by its value and tolerance. A
     `SourceError` names file, field, value and what is allowed.
     """
-    ledger = reference_data.load_yaml(path)
-    reference_data.refuse_invalid(ledger, schema, path)
-    entries, known, facts = {}, checks(), _facts(path)
+    read = reference_data.load_yaml(path)
+    reference_data.refuse_invalid(read, schema, path)
+    entries: dict[str, Entry] = {}
+    facts = _facts(path)
     for kind in ("equations", "sentences"):
-        for name, entry in ledger[kind].items():
+        for name, entry in read[kind].items():
             where = f"{path}: {kind}.{name}"
             if name in entries:
                 raise reference_data.SourceError(f"{where}: the name is taken by an equation")
-            _refuse_contradiction(where, entry, known)
-            _refuse_unmeasured(f"{where}.in_nature", entry.get("in_nature"))
+            _refuse_contradiction(where, entry, "", [entry.get("between", (0, 0))])
+            if "in_nature" in entry:
+                claim, of_claim = entry["in_nature"], f"{where}.in_nature"
+                bounds = claim.get("between", {}).values()
+                _refuse_contradiction(of_claim, claim, "nature.", bounds)
+                _refuse_unmeasured(of_claim, claim["says"])
             entries[name] = {"kind": kind[:-1], **_with_fact(where, entry, facts)}
-    _explain(path, entries, ledger["causes"])
+    _explain(path, entries, read["causes"])
     for name, entry in entries.items():
         texts = entry | {"in_nature": entry.get("in_nature", {}).get("says")}
         for key, text in texts.items():
@@ -81,46 +83,44 @@ def _explain(path: str | Path, entries: dict[str, Entry], causes: Mapping[str, s
         raise reference_data.SourceError(f"{path}: causes.{cause}: no entry has this cause")
 
 
-def _refuse_contradiction(where: str, entry: Entry, known: Collection[str]) -> None:
-    """Refuse an entry whose fields do not go together."""
-    problem = None
-    if entry["verdict"] == "not testable":
-        if {"check", "confirms", "between"} & set(entry):
-            problem = ".verdict = 'not testable' goes with a `why` alone, without check or bounds"
-    elif entry["check"] not in known:
-        problem = f".check: '{entry['check']}' is no function of stronge1994.ledger"
-    elif set(entry["confirms"]) not in KINDS:
+def _refuse_contradiction(
+    where: str, judged: Entry, module: str, bounds: Iterable[Sequence[float]]
+) -> None:
+    """Refuse an entry, or its claim in nature, whose fields do not go together."""
+    problem, confirms = None, judged.get("confirms", {"at_most": 0})
+    if "check" in judged and module + judged["check"] not in ledger.checks():
+        problem = f".check: '{module}{judged['check']}' is no function of stronge1994.ledger"
+    elif set(confirms) not in KINDS:
         problem = (
-            f".confirms = {entry['confirms']}: allowed are at_most, or at_least, or value with "
-            "rounding, or fact"
+            f".confirms = {confirms}: allowed are at_most, or at_least, or value with rounding, or "
+            "fact"
         )
-    elif entry["verdict"] == "confirmed within rounding" and not (
-        {"value", "fact"} & set(entry["confirms"])
-    ):
-        problem = f".confirms = {entry['confirms']}: rounding is that of a `value`"
-    elif "between" in entry and entry["between"][0] > entry["between"][1]:
-        problem = f".between = {entry['between']}: the first number must be the smaller"
-    if problem:
-        raise reference_data.SourceError(where + problem)
-
-
-def _refuse_unmeasured(where: str, claim: Mapping[str, Any] | None) -> None:
-    """Refuse a verdict in nature without a measure, or with bounds that cannot be met."""
-    if claim is None:
-        return
-    problem = None
-    unknown = in_nature.unknown_numbers(claim["says"])
-    if unknown:
-        problem = f".says: '{unknown[0]}' is no measure of stronge1994.ledger.nature with a model"
-    elif "check" in claim and claim["check"] not in in_nature.measures():
-        problem = f".check: '{claim['check']}' is no measure of stronge1994.ledger.nature"
-    elif len(claim.get("confirms", {"": 0})) != 1:
-        problem = f".confirms = {claim['confirms']}: allowed are at_most, or at_least"
-    for loss, (low, high) in claim.get("between", {}).items():
+    elif judged["verdict"] == ROUNDED and not ({"value", "fact"} & set(confirms)):
+        problem = f".confirms = {confirms}: rounding is that of a `value`"
+    for low, high in bounds:
         if low > high:
-            problem = f".between.{loss} = [{low}, {high}]: the first number must be the smaller"
+            problem = f".between = [{low}, {high}]: the first number must be the smaller"
     if problem:
         raise reference_data.SourceError(where + problem)
+
+
+def _refuse_unmeasured(where: str, text: str) -> None:
+    for name, model in numbers_in(text):
+        if f"nature.{name}" not in ledger.checks() or model not in MODELS:
+            raise reference_data.SourceError(
+                f"{where}.says: '{name}.{model}' is no check of stronge1994.ledger.nature with a "
+                "model"
+            )
+
+
+def numbers_in(text: str) -> list[tuple[str, str]]:
+    """Checks of `nature`, each with its model, of which a text asks for the number.
+
+    >>> numbers_in("{peak_spread.viscous:.2f} mu v2(0)")
+    [('peak_spread', 'viscous')]
+    """
+    fields = [name for _, name, _, _ in string.Formatter().parse(text) if name is not None]
+    return [(name, model) for name, _, model in (field.partition(".") for field in fields)]
 
 
 def is_run(entry: Entry) -> bool:
@@ -132,19 +132,3 @@ def _refuse_dangling(where: str, text: Any, entries: dict[str, Entry]) -> None:
     for name in REFERENCE.findall(text) if isinstance(text, str) else ():
         if name not in entries:
             raise reference_data.SourceError(f"{where}: 'see {name}': there is no such entry")
-
-
-def checks() -> dict[str, str]:
-    """All checks of this room: `{module.function: its docstring in one line}`."""
-    docstrings = {}
-    for module in MODULES:
-        for node in ast.parse((PACKAGE / f"{module}.py").read_text(encoding="utf-8")).body:
-            if isinstance(node, ast.FunctionDef) and _is_check(node):
-                docstring = " ".join((ast.get_docstring(node) or "").split())
-                docstrings[f"{module}.{node.name}"] = docstring
-    return docstrings
-
-
-def _is_check(node: ast.FunctionDef) -> bool:
-    arguments = node.args
-    return not node.name.startswith("_") and not (arguments.args or arguments.kwonlyargs)

@@ -1,15 +1,27 @@
-"""What a check of the ledger returns, and the judgement of an entry on it."""
+"""What a check of the ledger returns, how it is made of comparisons, and the judgement of it."""
 
-from collections.abc import Iterable, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import wraps
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
+
+from planarimpact.ground.arrays import Array, ArrayLike
 
 # Numbers nearer than this are equal. It leaves room for the rounding of a few hundred operations,
 # and for the error of quadrature.
 EXACT = 1e-9
 
 CONFIRMED, ROUNDED, WRONG = "confirmed", "confirmed within rounding", "wrong"
+# The models of which a statement on restitution is also asked, and the verdicts in nature.
+LOSSES = VISCOUS, PLASTIC = "viscous", "plastic"
+PAPER, UNLOADING_STIFFNESS = "paper", "unloading_stiffness"
+MODELS = (PAPER, UNLOADING_STIFFNESS, *LOSSES)
+STANDS, FAILS, DEPENDS, OPEN = "stands", "fails", "depends on the loss", "open"
+
+# What a comparison yields at one place.
+Gaps = Iterator[ArrayLike]
+_Place = TypeVar("_Place")
 
 
 class Finding(NamedTuple):
@@ -25,21 +37,61 @@ class Finding(NamedTuple):
     corrected: float | None = None
 
 
-class Judgement(NamedTuple):
-    """The verdict that a finding supports, whether the entry holds, and why if it does not."""
-
-    verdict: str
-    holds: bool
-    why: str
-
-
-def largest(values: Iterable) -> float:
+def largest(values: Iterable[ArrayLike]) -> float:
     """Largest absolute value of numbers and arrays; nan stays nan.
 
     >>> largest([np.array([1.0, -3.0]), 2.0])
     3.0
     """
     return float(np.max([np.max(np.abs(value), initial=0) for value in values]))
+
+
+def over(
+    places: Callable[[], Iterable[_Place]],
+) -> Callable[[Callable[[_Place], Gaps]], Callable[[], Finding]]:
+    """Make a check of a function that yields its distances at one place: the largest counts.
+
+    >>> @over(lambda: [1.0, 2.0])
+    ... def square_root(place):
+    ...     yield place**0.5 - 1
+    >>> round(square_root().value, 3)
+    0.414
+    """
+
+    def check_of(gaps: Callable[[_Place], Gaps]) -> Callable[[], Finding]:
+        @wraps(gaps)
+        def check() -> Finding:
+            return Finding(largest(gap for place in places() for gap in gaps(place)))
+
+        return check
+
+    return check_of
+
+
+def corrected_over(
+    places: Callable[[], Iterable[_Place]],
+) -> Callable[[Callable[[_Place], tuple[ArrayLike, float]]], Callable[[], Finding]]:
+    """Make a check of a function that returns its distances at one place, printed and corrected.
+
+    The printed formula may have several readings; the one that comes nearest counts.
+
+    >>> @corrected_over(lambda: [1.0, 2.0])
+    ... def twice(place):
+    ...     return [place - 3, place + 3], 0.0
+    >>> twice()
+    Finding(value=2.0, corrected=0.0)
+    """
+
+    def check_of(gaps: Callable[[_Place], tuple[ArrayLike, float]]) -> Callable[[], Finding]:
+        @wraps(gaps)
+        def check() -> Finding:
+            printed, corrected = zip(*map(gaps, places()), strict=True)
+            readings: Array = np.max(np.abs(printed), axis=0)
+            return Finding(float(np.min(readings)), largest(corrected))
+
+        return check
+
+    return check_of
 
 
 def verdict(value: float, confirms: Mapping[str, float]) -> str:
@@ -61,25 +113,58 @@ def verdict(value: float, confirms: Mapping[str, float]) -> str:
     return CONFIRMED if good else WRONG
 
 
-def judge(finding: Finding, entry: Mapping[str, Any]) -> Judgement:
-    """Judge whether an entry of the ledger still holds.
+def judge(finding: Finding, entry: Mapping[str, Any]) -> str:
+    """Why an entry of the ledger no longer holds; empty if it does.
 
     The entry has `verdict`, `confirms`, and where the verdict is wrong `between`, bounds of
     `value` on both sides. Where there is a corrected formula it must be exact.
 
     >>> entry = {"verdict": "wrong", "confirms": {"at_most": 1e-9}, "between": [1.1, 1.3]}
-    >>> judge(Finding(1.2, 1e-14), entry).holds
-    True
-    >>> print(judge(Finding(0.0, 1e-14), entry).why)
-    recorded as wrong, found confirmed
+    >>> judge(Finding(1.2, 1e-14), entry)
+    ''
+    >>> judge(Finding(0.0, 1e-14), entry)
+    'recorded as wrong, found confirmed'
     """
     supported = verdict(finding.value, entry["confirms"])
-    complaints = []
-    if supported != entry["verdict"]:
-        complaints.append(f"recorded as {entry['verdict']}, found {supported}")
-    low, high = entry.get("between", (-np.inf, np.inf))
-    if not complaints and not low <= finding.value <= high:
-        complaints.append(f"{finding.value:.4g} lies outside {low:g} to {high:g}")
+    complaints = _complaints(entry, supported, {"": finding.value}, {"": entry.get("between")})
     if finding.corrected is not None and not finding.corrected <= EXACT:
         complaints.append(f"the corrected formula is off by {finding.corrected:.2g}")
-    return Judgement(supported, not complaints, "; ".join(complaints))
+    return "; ".join(complaints)
+
+
+def judge_in_nature(values: Mapping[str, float], claim: Mapping[str, Any]) -> str:
+    """Why the recorded verdict on a statement in nature no longer holds; empty if it does.
+
+    It stands if it is true for both losses, fails if it is false for both, and otherwise depends
+    on the loss. `values` has what the claim's check finds with each loss; where the statement does
+    not stand the claim has `between`, bounds for each loss.
+
+    >>> claim = {"verdict": "fails", "confirms": {"at_most": 0.01},
+    ...          "between": {"viscous": [0.1, 0.2], "plastic": [0.2, 0.3]}}
+    >>> judge_in_nature({"viscous": 0.15, "plastic": 0.25}, claim)
+    ''
+    >>> judge_in_nature({"viscous": 0.0, "plastic": 0.25}, claim)
+    'recorded as fails, found depends on the loss'
+    """
+    of_losses = {loss: values[loss] for loss in LOSSES}
+    truths = {verdict(value, claim["confirms"]) == CONFIRMED for value in of_losses.values()}
+    supported = DEPENDS if len(truths) > 1 else STANDS if truths == {True} else FAILS
+    return "; ".join(_complaints(claim, supported, of_losses, claim.get("between", {})))
+
+
+def _complaints(
+    recorded: Mapping[str, Any],
+    supported: str,
+    values: Mapping[str, float],
+    between: Mapping[str, Any],
+) -> list[str]:
+    """Why a recorded verdict does not hold: it is another one, or a value is out of its bounds."""
+    if supported != recorded["verdict"]:
+        return [f"recorded as {recorded['verdict']}, found {supported}"]
+    complaints = []
+    for name, value in values.items():
+        low, high = between.get(name) or (-np.inf, np.inf)
+        if not low <= value <= high:
+            label = f"{name}: " if name else ""
+            complaints.append(f"{label}{value:.4g} lies outside {low:g} to {high:g}")
+    return complaints

@@ -5,12 +5,15 @@ from collections import Counter
 from collections.abc import Sequence
 
 from stronge1994.csv_tables import Row
+from stronge1994.ledger.finding import MODELS
 
 COLUMNS = [
     "kind", "entry", "holds", "verdict", "grade", "cause", "where", "says", "test", "found",
     "confirms", "between", "corrected", "problem", "reading", "range", "correction", "derivation",
     "because", "why", "in_nature", "nature", "nature_test", "nature_found", "nature_true_if",
 ]  # fmt: skip
+# Columns of the table of what the checks of `nature` find.
+OF_NATURE = ["measure", "what", *MODELS]
 # Grades of wrong entries, the gravest first, each with a text to stand after its number.
 GRADES = {
     "changes a result": "change a result",

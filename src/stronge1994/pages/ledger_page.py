@@ -10,9 +10,9 @@ from typing import Any
 from markupsafe import Markup
 
 from stronge1994.csv_tables import Row
-from stronge1994.ledger import in_nature, outcome
+from stronge1994.formulas import mathematical
+from stronge1994.ledger import finding, outcome
 from stronge1994.pages import names, templates
-from stronge1994.pages.formulas import mathematical
 
 STYLE = {
     "confirmed": "confirmed",
@@ -41,16 +41,16 @@ GRADE_MEANING = {
     "reading, which the entry names",
 }
 NATURE_STYLE = {
-    in_nature.STANDS: "stands",
-    in_nature.FAILS: "contradicted",
-    in_nature.DEPENDS: "depends",
-    in_nature.OPEN: "unknown",
+    finding.STANDS: "stands",
+    finding.FAILS: "contradicted",
+    finding.DEPENDS: "depends",
+    finding.OPEN: "unknown",
 }
 NATURE_MEANING = {
-    in_nature.STANDS: "true with either loss",
-    in_nature.FAILS: "false with either loss",
-    in_nature.DEPENDS: "true with one loss, false with the other",
-    in_nature.OPEN: "neither contact can tell",
+    finding.STANDS: "true with either loss",
+    finding.FAILS: "false with either loss",
+    finding.DEPENDS: "true with one loss, false with the other",
+    finding.OPEN: "neither contact can tell",
 }
 # Impacts of the paper's sphere to which an entry refers: incidence, friction, restitution, and the
 # view of the explorer.

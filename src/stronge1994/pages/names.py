@@ -2,11 +2,9 @@
 
 import re
 
-from stronge1994.pages.formulas import mathematical
-
 # Models and references in the names of comparisons; longer ones come before those that begin them.
 WORDS = {
-    "lumped.unloading-stiffness": "the paper's model with e^2 zeta^2",
+    "lumped.unloading-stiffness": r"the paper's model with $e^2 \zeta^2$",
     "lumped.viscous": "two Kelvin-Voigt elements",
     "lumped.hysteretic": "the paper's model",
     "lumped": "the paper's model",
@@ -35,20 +33,24 @@ WORDS = {
     "pairs": "pairs of materials",
 }
 PARTS = re.compile(rf"(?:^|(?<=-))({'|'.join(map(re.escape, WORDS))}|(?:nu|mu|e)-\d[\d.]*)(?=-|$)")
-SYMBOL = re.compile(r"(?:^|[-_])(nu|mu|e)[-_](?=\d)")
+SYMBOL = re.compile(r"(?:^|[-_])(nu|mu|e)[-_](\d[\d.]*)")
 YEAR = re.compile(r"(?<=[a-z])(?=(?:19|20)\d\d$)")
 
 
+def _equation(found: re.Match[str]) -> str:
+    return f"${found[1] if found[1] == 'e' else chr(92) + found[1]} = {found[2]}$"
+
+
 def comparison(name: str) -> str:
-    """Name of a comparison, without the figure that its identifier begins with.
+    r"""Name of a comparison, without the figure that its identifier begins with.
 
     >>> comparison("fig5-continuum.viscous-experiment-initial-stick")
     'viscous continuum, experiment, initial stick'
     >>> comparison("yielding-dissimilar-nu-0.45"), comparison("scene-shot-peening")
-    ('unlike bodies, nu = 0.45', 'shot peening')
+    ('unlike bodies, $\\nu = 0.45$', 'shot peening')
     """
     parts = [part.strip("-") for part in PARTS.split(name.partition("-")[2])]
-    words = [WORDS.get(part) or SYMBOL.sub(r"\1 = ", part).replace("-", " ") for part in parts]
+    words = [WORDS.get(part) or SYMBOL.sub(_equation, part).replace("-", " ") for part in parts]
     return ", ".join(filter(None, words))
 
 
@@ -65,13 +67,15 @@ def source(name: str) -> str:
 
 
 def series(name: str) -> str:
-    """Name of a series or a fact of a source.
+    r"""Name of a series or a fact of a source.
 
     >>> series("maw1976/rebound_nu_0.3"), series("closed_forms/fig7_peak_force")
-    ('Maw 1976: rebound, nu = 0.3', 'Closed forms: Fig. 7, peak force')
+    ('Maw 1976: rebound, $\\nu = 0.3$', 'Closed forms: Fig. 7, peak force')
     """
     folder, _, part = name.partition("/")
-    part = re.sub(r"^fig(\d)_", r"Fig. \1, ", SYMBOL.sub(r", \1 = ", part))
+    part = re.sub(
+        r"^fig(\d)_", r"Fig. \1, ", SYMBOL.sub(lambda found: f", {_equation(found)}", part)
+    )
     return f"{source(folder)}: {part.replace('_', ' ')}"
 
 
@@ -87,7 +91,7 @@ def entry(name: str) -> str:
 def sentence(text: str) -> str:
     """A text with a capital letter at its head, unless it begins with a formula.
 
-    >>> sentence("it must run"), sentence("e^2 zeta^2 is small")
-    ('It must run', 'e^2 zeta^2 is small')
+    >>> sentence("it must run"), sentence("$e^2$ is small")
+    ('It must run', '$e^2$ is small')
     """
-    return text if mathematical(text).startswith("<math") else text[:1].upper() + text[1:]
+    return text[:1].upper() + text[1:]

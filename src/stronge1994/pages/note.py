@@ -1,17 +1,17 @@
-"""Write the note on the replication of the paper, as a page and as a PDF of the same text.
+"""Write the note on the replication of the paper as a page, with a style for print.
 
-Every number that a run computes is read from the table of key numbers.
+Every number that a run computes is one of the key numbers.
 """
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from stronge1994 import csv_tables, figure_table, verdict_table
 from stronge1994.csv_tables import Row
-from stronge1994.pages import key_numbers, names, pdf, templates
-from stronge1994.pages.formulas import mathematical, number
+from stronge1994.formulas import mathematical, number
+from stronge1994.pages import headers, key_numbers, names, templates
 
-TITLE = "Planar impact of rough compliant bodies: a replication"
 # Models below e = 1, in the order of the note.
 MODELS = (
     "lumped.hysteretic",
@@ -60,12 +60,10 @@ def page(
         "sentence": names.sentence,
         "source_name": names.source,
         "title_of": templates.title,
+        "unit": headers.unit,
     }
-    judged = [verdict for verdict in verdict_table.ORDER if verdict != "as before"]
     return environment.get_template(Path(template).name).render(
-        title=TITLE,
         n=numbers,
-        judged=sum(numbers.get(f"rows.{verdict}", 0) for verdict in judged),
         models=MODELS,
         figures=[
             row for row in figure_table.of_run(verdicts) if figure_table.is_of_paper(row.figure)
@@ -76,16 +74,15 @@ def page(
 
 def write(
     output: str,
-    output_pdf: str,
     table: str,
-    verdicts: str,
+    paths: Mapping[str, str],
+    series: Mapping[str, Mapping[str, Any]],
     pictures: Mapping[str, str],
     template: str,
 ) -> None:
-    """Write both files, from key numbers, verdicts and pictures (PNG, with SVG beside them)."""
-    numbers = key_numbers.by_name(csv_tables.read_rows(table))
-    svgs = {name: Path(path).with_suffix(".svg").read_bytes() for name, path in pictures.items()}
-    rows = csv_tables.read_rows(verdicts, verdict_table.COLUMNS)
-    text = page(numbers, rows, svgs, template)
-    Path(output).write_text(text, encoding="utf-8")
-    pdf.write(output_pdf, text, pictures, TITLE)
+    """Write the table of key numbers, as `key_numbers.of_run` finds them, and the note."""
+    numbers = key_numbers.of_run(paths, series)
+    key_numbers.write(table, numbers)
+    verdicts = csv_tables.read_rows(paths["verdicts"], verdict_table.COLUMNS)
+    svgs = {name: Path(path).read_bytes() for name, path in pictures.items()}
+    Path(output).write_text(page(numbers, verdicts, svgs, template), encoding="utf-8")

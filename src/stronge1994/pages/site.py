@@ -38,8 +38,8 @@ def write(
     for notebook in notebooks:
         shutil.copy2(notebook, site / "notebooks")
     pattern = Path(readme).read_text(encoding="utf-8")
-    commit = run_facts.short(run_facts.commit("."))
-    text = pattern.format(version=run_facts.versions()["planarimpact"], commit=commit)
+    version = run_facts.versions()["planarimpact"]
+    text = pattern.format(version=version, commit=run_facts.commit("."))
     (site / "README.txt").write_text(text, encoding="utf-8")
 
 

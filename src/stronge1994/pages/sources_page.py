@@ -6,8 +6,8 @@ from typing import Any
 
 import yaml
 
-from stronge1994.pages import headers, ledger_page, names, templates
-from stronge1994.pages.formulas import number
+from stronge1994.formulas import mathematical, number
+from stronge1994.pages import headers, names, templates
 
 # Settings that all figures share.
 SHARED = ("mass_ratio", "stiffness_ratio", "significance")
@@ -28,8 +28,9 @@ def page(
     }
     environment = templates.environment(Path(template).parent)
     environment.filters |= {
-        "maths": ledger_page.mathematical,
+        "maths": mathematical,
         "header": headers.header,
+        "unit": headers.unit,
         "number": number,
         "title_of": templates.title,
         "source_name": names.source,

@@ -77,13 +77,13 @@ def comparisons(config: Config, name: str) -> dict[str, Entry]:
 
 
 def expected_rows(config: Config, inventory: Inventory) -> dict[str, bool]:
-    """Rows that the table of verdicts must have: `{comparison: may it be awaited}`."""
+    """Rows that the table of verdicts must have: `{comparison: is it awaited}`."""
     rows = {f"{name}-solved": False for name in judged(config)}
     for name in judged(config):
         known = references(config, inventory, name)
         for title, entry in comparisons(config, name).items():
             series = known.get(entry.get("reference", ""), {})
-            rows[title] = series.get("kind") == "awaited" and not series["path"]
+            rows[title] = series.get("kind") == "awaited"
     return rows
 
 

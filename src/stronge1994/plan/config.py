@@ -129,7 +129,7 @@ def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) ->
     for scene in config["scenes"]:
         if not Path(f"data/scenes/{scene}.csv").is_file():
             raise ConfigError(f"config: scenes.{scene}: there is no data/scenes/{scene}.csv")
-        reference_data.refuse_no_text(f"data/scenes/{scene}.csv")
+        reference_data.text_of(f"data/scenes/{scene}.csv")
     for name, comparison in config["comparisons"].items():
         if comparison["figure"] not in judged(config):
             raise ConfigError(

@@ -128,7 +128,7 @@ def comparisons() -> dict[str, dict[str, Any]]:
         for pattern, common in content["comparisons"].items():
             where = f"{_file(figure)}: comparisons.{pattern}"
             for name, entry in expanded(pattern, common):
-                if placeholder := re.search(r"\{\w*\}", f"{name} {entry}"):
+                if placeholder := re.search(r"(?<!mathrm)\{\w*\}", f"{name} {entry}"):
                     raise reference_data.SourceError(f"{where}: `each` has no {placeholder[0]}")
                 whole = {"figure": figure} | entry
                 reference_data.refuse_invalid(whole, own, where)

@@ -1,16 +1,15 @@
 """The reference data in data/: loaded and checked, or refused with one clear message.
 
 A source is a folder with `source.yaml` (schema: workflow/schemas/source.schema.yaml) and one CSV
-for each series. An awaited series becomes digitised when WebPlotDigitizer's export is put into the
-folder as `<series>.wpd.csv`, and `digitised_by` in source.yaml says whose work it is.
+for each series that is not awaited.
 """
 
-import codecs
 import copy
 import csv
 import functools
+import io
 import math
-import unicodedata
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -18,8 +17,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from stronge1994.csv_tables import Columns
-from stronge1994.reference_data import digitiser_export, strict_yaml
-from stronge1994.reference_data.digitiser_export import NumberedRow
+from stronge1994.reference_data import strict_yaml
 
 # Contents of a source.yaml; a loaded series also has its `path`.
 Source: TypeAlias = dict[str, Any]
@@ -27,8 +25,8 @@ Series: TypeAlias = Mapping[str, Any]
 Axis: TypeAlias = Mapping[str, Any]
 Schema: TypeAlias = Mapping[str, Any]
 
-# Largest number of lines of a series.
-MOST_LINES = 10_000
+# float() would also take `1_000`, `nan` and digits of other scripts.
+NUMBER = re.compile(r"[+-]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][+-]?[0-9]+)?")
 # Sigmas by which a value may lie outside the range of its axis.
 MOST_SIGMAS_OUTSIDE = 3
 # Largest sigma, as a share of the range of its axis. The series here have a tenth to a half of it.
@@ -70,22 +68,26 @@ def load(folder: Path, schema: Schema) -> Source:
     for name, series in source.get("series", {}).items():
         for where, axis in _named_axes(series):
             _refuse_axis(f"{path}: series.{name}.{where}", axis, series["kind"])
-        series["path"] = _file_of(folder, name, series)
-        if series["path"]:
-            _refuse_other_number(f"{path}: series.{name}", series, read_series(name, series))
-    known = {"source.yaml", *(Path(s["path"]).name for s in _series_at_hand(source))}
+        series["path"] = None
+        if series["kind"] != "awaited":
+            series["path"] = str(folder / f"{name}.csv")
+            _refuse_other_number(f"{path}: series.{name}", series)
+    own = {Path(s["path"]).name for s in source.get("series", {}).values() if s["path"]}
+    known = {"source.yaml", *own, *source.get("made_with", [])}
     for name in source.get("made_with", []):
         if not (folder / name).is_file():
             raise SourceError(f"{folder / name}: missing, and {path} says it is there")
-        known.add(name)
     # A ledger or the program that computes a series may lie there. Any other file that is not in
     # `made_with` is refused: it may be a table with a wrong name, which would silently be ignored.
     strays = sorted(
         name for name in _visible(folder) - known if not name.endswith((".yaml", ".py"))
     )
     if strays:
-        names = ", ".join(_file_name(*item) for item in source.get("series", {}).items()) or "none"
-        raise SourceError(f"{folder / strays[0]}: no series of that name; allowed are {names}")
+        allowed = ", ".join(sorted(own)) or "none"
+        raise SourceError(
+            f"{folder / strays[0]}: no series of that name is at hand; allowed are {allowed}. A "
+            "series that was awaited becomes `kind: digitised`"
+        )
     return source
 
 
@@ -94,10 +96,10 @@ def _visible(folder: Path) -> set[str]:
     return {path.name for path in folder.iterdir() if not path.name.startswith((".", "README"))}
 
 
-def _refuse_other_number(where: str, series: Series, columns: Mapping[str, list[Any]]) -> None:
+def _refuse_other_number(where: str, series: Series) -> None:
     """Refuse a file that has more or fewer points than source.yaml says."""
-    count = len(next(iter(columns.values())))
-    if series["kind"] != "awaited" and count != series.get("points"):
+    count = len(next(iter(read_series(series).values())))
+    if count != series.get("points"):
         raise SourceError(
             f"{where}.points = {series.get('points')}: {series['path']} has {count} points"
         )
@@ -121,7 +123,7 @@ def _refuse_axis(where: str, axis: Axis, kind: str) -> None:
 def load_yaml(path: str | Path) -> dict[str, Any]:
     """Read a YAML file: a mapping whose keys are texts; a `SourceError` names file and line."""
     try:
-        return copy.deepcopy(_parsed("".join(_lines(path))))
+        return copy.deepcopy(_parsed(text_of(path)))
     except ValueError as error:
         raise SourceError(f"{path}, {error}") from None
 
@@ -129,38 +131,17 @@ def load_yaml(path: str | Path) -> dict[str, Any]:
 _parsed = functools.cache(strict_yaml.load)  # a start reads some files twice
 
 
-def refuse_no_text(path: str | Path) -> None:
-    """Refuse a file that is no text in UTF-8, naming the line."""
-    for _ in _lines(path):
-        pass
-
-
-def _lines(path: str | Path, most: float = math.inf) -> Iterator[str]:
-    """Lines of a text file in UTF-8, read one by one."""
+def text_of(path: str | Path) -> str:
+    """Text of a file in UTF-8; of one that is none a `SourceError` names the line."""
     try:
-        with open(path, "rb") as file:
-            for number, line in enumerate(file, start=1):
-                if number > most:
-                    raise SourceError(f"{path}: more than {most} lines; allowed are up to {most}")
-                yield _decoded(line, number, path)
+        content = Path(path).read_bytes()
+        return content.decode("utf-8-sig")
     except OSError as error:
         raise SourceError(f"{path}: {error.strerror}") from None
-
-
-def _decoded(line: bytes, number: int, path: str | Path) -> str:
-    where, advice = f"{path}, line {number}", "save the file as UTF-8"
-    if number == 1:
-        if line.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-            raise SourceError(f"{where}: the file is UTF-16; {advice}")
-        line = line.removeprefix(codecs.BOM_UTF8)
-    if b"\0" in line:
-        raise SourceError(f"{where}: a NUL byte; {advice}")
-    try:
-        return line.decode("utf-8")
     except UnicodeDecodeError as error:
-        raise SourceError(
-            f"{where}: byte 0x{line[error.start]:02x} is no UTF-8; {advice}"
-        ) from None
+        line = content[: error.start].count(b"\n") + 1
+        problem = f"byte 0x{content[error.start]:02x} is no UTF-8; save the file as UTF-8"
+        raise SourceError(f"{path}, line {line}: {problem}") from None
 
 
 def load_all(data: str | Path, schema: Schema) -> dict[str, Source]:
@@ -229,7 +210,7 @@ def sigma_column(axis: Axis) -> str | None:
     return column_name({"column": axis["sigma"], "unit": axis["unit"]})
 
 
-def read_series(name: str, series: Series) -> dict[str, list[Any]]:
+def read_series(series: Series) -> dict[str, list[Any]]:
     """Read and check one series: `{column: list}`, numbers for its axes and texts for its labels.
 
     `series` is its entry in source.yaml, with its `path`. If there are several y axes, some of
@@ -244,7 +225,7 @@ def read_series(name: str, series: Series) -> dict[str, list[Any]]:
         printed = sigma_column(axis)
         if printed:
             axes[printed] = {"range": [0.0, high - low], "sigma": 0.0}
-    header, mark, rows = _table(path, name, series)
+    header, *rows = _rows(path)
     for column in [*labels, *axes]:
         if header.count(column) != 1:
             problem = "is missing" if column not in header else "stands twice"
@@ -252,7 +233,7 @@ def read_series(name: str, series: Series) -> dict[str, list[Any]]:
     if not rows:
         raise SourceError(f"{path}: no points")
     columns: dict[str, list[Any]] = {column: [] for column in [*labels, *axes]}
-    for line, row in rows:
+    for line, row in enumerate(rows, 2):
         if len(row) != len(header):
             raise SourceError(f"{path}, line {line}: {len(row)} cells where {len(header)} belong")
         for column in columns:
@@ -260,49 +241,31 @@ def read_series(name: str, series: Series) -> dict[str, list[Any]]:
             where = f"{path}, line {line}, column '{column}'"
             if column in axes:
                 empty = column in may_be_empty and not cell
-                columns[column].append(
-                    math.nan if empty else _number(cell, mark, axes[column], where)
-                )
+                columns[column].append(math.nan if empty else _number(cell, axes[column], where))
             else:
                 columns[column].append(cell)
     return columns
 
 
-def arrays(name: str, series: Series) -> Columns:
+def arrays(series: Series) -> Columns:
     """The columns of `read_series` as arrays: numbers as float64, labels as text."""
-    return {column: np.array(cells) for column, cells in read_series(name, series).items()}
+    return {column: np.array(cells) for column, cells in read_series(series).items()}
 
 
-def _table(path: str | Path, name: str, series: Series) -> tuple[list[str], str, list[NumberedRow]]:
-    """Header of a series, its decimal mark, and its rows with the numbers of their lines."""
-    lines, exported = [], series["kind"] == "awaited"
-    for number, line in enumerate(_lines(path, MOST_LINES), start=1):
-        if "\t" in line:
-            allowed = "commas or semicolons" if exported else "commas"
-            raise SourceError(f"{path}, line {number}: a tab; cells are separated by {allowed}")
-        lines.append(line)
-    reader = csv.reader(lines, strict=True)
+def _rows(path: str | Path) -> list[list[str]]:
+    """Header and rows of a file."""
     try:
-        if exported:
-            header = [column_name(series[axis]) for axis in ("x", "y")]
-            return header, *digitiser_export.points(lines, name)
-        rows = [(reader.line_num, row) for row in reader]
+        return list(csv.reader(io.StringIO(text_of(path), newline=""), strict=True)) or [[]]
     except csv.Error as error:
         raise SourceError(f"{path}: {error}") from None
-    except ValueError as error:
-        raise SourceError(f"{path}, {error}") from None
-    return (rows[0][1] if rows else []), ".", rows[1:]
 
 
-def _number(cell: str, mark: str, axis: Axis, where: str) -> float:
+def _number(cell: str, axis: Axis, where: str) -> float:
     """A decimal number, at most a little outside the range of its axis."""
     text = cell.strip(" ")
-    # float() would also take `1_000`, `nan` and digits of other scripts.
-    if not digitiser_export.NUMBERS[mark].fullmatch(text):
-        strange = [unicodedata.name(letter, "unnamed") for letter in text if not letter.isascii()]
-        named = f" ({strange[0].lower()})" if strange else ""
-        raise SourceError(f"{where}: {text!r}{named} is not a decimal number such as -0{mark}05")
-    value = float(text.replace(",", "."))
+    if not NUMBER.fullmatch(text):
+        raise SourceError(f"{where}: {ascii(text)} is not a decimal number such as -0.05")
+    value = float(text)
     low, high = axis["range"]
     # Values with an uncertainty of their own lie in the range: no axis of a picture was read.
     beyond = 0.0 if isinstance(axis["sigma"], str) else MOST_SIGMAS_OUTSIDE * axis["sigma"]
@@ -312,28 +275,3 @@ def _number(cell: str, mark: str, axis: Axis, where: str) -> float:
             f"sigmas, {beyond:g}"
         )
     return value
-
-
-def _series_at_hand(source: Source) -> list[Series]:
-    return [series for series in source.get("series", {}).values() if series["path"]]
-
-
-def _file_name(name: str, series: Series) -> str:
-    return f"{name}.wpd.csv" if series["kind"] == "awaited" else f"{name}.csv"
-
-
-def _file_of(folder: Path, name: str, series: Series) -> str | None:
-    """Path of a series; None for an awaited one whose export is not there."""
-    path = folder / _file_name(name, series)
-    if series["kind"] != "awaited":
-        if not path.is_file():
-            raise SourceError(f"{path}: missing, and {folder / 'source.yaml'} says it is there")
-        return str(path)
-    if not path.is_file():
-        return None
-    if (series["digitised_by"] or "").strip().lower() in ("", "null", "none", "nobody"):
-        raise SourceError(
-            f"{path}: whose work? Fill series.{name}.digitised_by in {folder / 'source.yaml'} "
-            "(who, when, with what)"
-        )
-    return str(path)

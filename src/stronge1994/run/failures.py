@@ -19,7 +19,7 @@ def write(path: str, why: str) -> None:
     kind = Path(path).suffix
     if kind == ".csv":
         csv_tables.write_rows(path, ["error"], [[why]])
-    elif kind in (".svg", ".png", ".pdf"):
+    elif kind in (".svg", ".png"):
         _draw(path, why)
     elif kind == ".ipynb":
         cell = {"cell_type": "markdown", "id": "failed", "metadata": {}, "source": why}

@@ -15,16 +15,6 @@ Point: TypeAlias = tuple[float, float]
 DEFLECTION, FORCE = "deflection [v2(0)/Omega]", "force [m2 Omega v2(0)]"
 # End of the axes, over the largest value: to the right of the lines there is room for a label.
 REACH = 1.4
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    "normal deflection $u_2$": r"^normal.*: deflection",
-    "normal force $F_2$": r"^normal.*: force",
-    "tangential deflection $u_1$": r"^tangential: deflection",
-    "tangential force $F_1$": r"^tangential: force",
-}
-LEGEND_MEANS = {
-    "without friction": "mu = 0",
-}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:

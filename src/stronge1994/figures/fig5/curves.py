@@ -4,12 +4,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from planarimpact import continuum, lumped, models, rigid
+from planarimpact import continuum, lumped, rigid
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound, Regime
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.figures.shared.curves import as_printed as printed_curves
-from stronge1994.figures.shared.curves import continua, shots
+from stronge1994.figures.shared.curves import continua, measured
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
@@ -55,12 +55,11 @@ def curves(
     groups = mass_ratio, stiffness_ratio
     exact = lumped.rebound(x, *groups, restitution)
     angles = nodes.get("angle", ())
-    every = shots.shots("experiment", samples, angles, experiment, uncertainty or {})
     elastic = _elastic(
         {
             "sphere": (x, *groups),
             "rubber": (x, mass_ratio, spring),
-            "finite elements": (x, *shots.groups(finite_elements)[:2]),
+            "finite elements": (x, *measured.groups(finite_elements)[:2]),
         },
         tolerance,
     )
@@ -73,15 +72,13 @@ def curves(
         "lumped, rubber": _velocity(x, lumped.rebound(x, mass_ratio, spring, restitution)),
         "continuum, rubber": _velocity(x, elastic["rubber"]),
     }
-    whole = lumped.rebound(x, *shots.groups(finite_elements))
+    whole = lumped.rebound(x, *measured.groups(finite_elements))
     for model, sphere_rebound in (("lumped", whole), ("continuum", elastic["finite elements"])):
         elements = _sphere(x, sphere_rebound, finite_elements["mass_ratio"])
         named[f"{model}, finite elements"] = elements
     for model in ("lumped.hysteretic", *continua.MODELS):
-        own = {"tolerance": loss_tolerance} if model in continua.MODELS else {}
-        for name, shot in every.items():
-            rebound = models.rebound(model, shot.x, *shots.groups(shot.sphere), **own)
-            named[f"{model}, {name}"] = shots.measured(shot, rebound)
+        sphere = experiment, uncertainty or {}, samples, loss_tolerance, angles
+        named |= measured.shots(model, f"{model}, experiment", *sphere)
     if as_printed:
         velocity, _, _ = impact.rebound(x, *groups, restitution)
         named |= printed_curves.beside("", named["lumped"], velocity)

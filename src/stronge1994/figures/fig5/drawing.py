@@ -26,13 +26,6 @@ ELEMENT_POINTS: Style = {"color": house_style.VERMILLION, "marker": "s", "marker
 GLASS_POINTS: Style = {"color": house_style.BLUE, "marker": "o", "markersize": 3}
 # These points are measured against the angle: they must be converted to the axes of the figure.
 MEASURED_ANGLES = "kharaz2001/tangential_restitution"
-# Meanings of labels, see `shared.drawing.words`.
-LEGEND_MEANS = {
-    "rubber": "rubber|cross2014",
-    "Cross": "cross2014",
-    "finite elements": "chung_ooi2011|finite elements",
-    "Kharaz": "kharaz2001",
-}
 
 
 def drawn_series(name: str, series: Series) -> Series:

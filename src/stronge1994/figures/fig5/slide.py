@@ -11,8 +11,6 @@ TO = 8.0  # incidence, as in the paper
 ELEMENTS = "chung_ooi2011/rebound"
 BEFORE = r"tangential velocity before the impact, $v_1(0)/\mu v_2(0)$"
 AFTER = r"tangential velocity after the impact, $v_1(t_f)/\mu v_2(0)$"
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {BEFORE: r": incidence \[mu v2\(0\)\]", AFTER: r": velocity \[mu v2\(0\)\]"}
 
 
 def draw(curves: Curves, settings: Settings, points: Points, ground: slide.Ground) -> Figure:

@@ -19,14 +19,6 @@ Lines: TypeAlias = Sequence[tuple[str, Columns]]  # label and curve of each fric
 X, Y = "angle [deg]", "peak_force [m2 Omega S]"
 TANGENTIAL = {"color": house_style.BLUE, "linestyle": house_style.DASHES[1]}
 SLIDING = {"facecolor": "none", "edgecolor": "0.75", "linewidth": 0, "hatch": "////"}
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    r"largest force over $m_2\Omega S$": r": peak_force \[m2 Omega S\]",
-    rf"${house_style.F1MAX}$ over $m_2\Omega S$": r"mu = .*: peak_force \[m2 Omega S\]",
-}
-LEGEND_MEANS = {
-    "^slip throughout$": "^slip throughout",
-}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -42,8 +34,8 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     lines = []
     for mu in settings["friction"]:
         curve = curves[name("mu", mu)]
-        rough = curves[f"no tangential compliance, {name('mu', mu)}"]
-        house_style.rigid(axes, rough[X], rough[Y], curve[Y])
+        rough = f"no tangential compliance, {name('mu', mu)}"
+        house_style.rigid(axes, curves, rough, X, Y, name("mu", mu))
         _draw_curve(axes, curve, TANGENTIAL)
         lines.append((f"{mu:g}", curve))
     house_style.angle_axes(axes, settings["angle"])

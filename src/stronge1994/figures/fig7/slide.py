@@ -10,8 +10,6 @@ from stronge1994.figures.shared.drawing import house_style, slide
 from stronge1994.figures.shared.drawing.house_style import Points, Settings
 
 ANGLE, FORCE = "angle of incidence, degrees", r"largest friction force over $m_2\Omega S$"
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {ANGLE: r": angle \[deg\]", FORCE: r"mu = .*: peak_force \[m2 Omega S\]"}
 
 
 def draw(curves: Curves, settings: Settings, points: Points, ground: slide.Ground) -> Figure:

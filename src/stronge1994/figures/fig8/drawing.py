@@ -22,15 +22,6 @@ STATED = {
     "stronge1994/peak_angle_mu_0.18": (r"{:g}$\degree$, stated in the paper", 1.45),
     "lewis_rogers1988/peak_angle": (r"$\approx {:g}\degree$, measured", 1.2),
 }
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    "largest normal force, N": r"normal.*: peak_force \[N\]",
-    "largest tangential force, N": r"friction.*: peak_force \[N\]",
-}
-LEGEND_MEANS = {
-    "Lewis": "lewis_rogers1988",
-    r"of the model$": "^friction",
-}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -101,12 +92,11 @@ def _draw_largest(axes: Axes, curve: Columns) -> Artist:
 def _draw_statements(axes: Axes, curve: Columns, points: Points) -> Artist:
     """Draw thin lines at the stated angles, from the axis to above the curve."""
     place = {"textcoords": "offset points", "va": "center", "fontsize": house_style.NOTE}
-    place["label"] = house_style.NO_DATA
     left, right = axes.get_xlim()
     for name, (text, height) in STATED.items():
         if name in points and left < (angle := points[name]["value"]) < right:
             top = height * curve[Y].max()
-            axes.vlines(angle, 0, top, **house_style.PRINTED, label=house_style.NO_DATA)
+            axes.vlines(angle, 0, top, **house_style.PRINTED)
             axes.annotate(text.format(angle), (angle, top), (4, -2), **place)
     return house_style.key(rf"stated angle of largest ${house_style.F1MAX}$", **house_style.PRINTED)
 

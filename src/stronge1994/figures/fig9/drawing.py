@@ -14,10 +14,6 @@ from stronge1994.figures.shared.drawing.house_style import Entries, Points, Sett
 X, Y = "angle [deg]", "friction_dissipation [m2 S^2/2]"
 LABEL = r"dissipated by friction, $2D_1/m_2S^2$"
 PRINTED = "Eqs 39 to 41 as printed"
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    r"dissipated by friction, $2D_1/m_2S^2$": r": friction_dissipation \[m2 S\^2/2\]",
-}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -83,8 +79,7 @@ def _strokes(friction: Sequence[float]) -> Iterator[tuple[float, Style]]:
 def _draw_rigid(axes: Axes, curves: Curves, settings: Settings) -> None:
     """Draw no tangential compliance. Where slip stops, it is one line for all mu and e."""
     pair = f"{name('mu', max(settings['friction']))}, {name('e', max(settings['restitution']))}"
-    rough = curves[f"no tangential compliance, {pair}"]
-    house_style.rigid(axes, rough[X], rough[Y], curves[pair][Y])
+    house_style.rigid(axes, curves, f"no tangential compliance, {pair}", X, Y, pair)
 
 
 def _legend(settings: Settings, added: Entries) -> tuple[Entries, Entries, Entries]:

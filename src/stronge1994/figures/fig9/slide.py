@@ -10,8 +10,6 @@ from stronge1994.figures.shared.drawing import house_style, slide
 from stronge1994.figures.shared.drawing.house_style import Points, Settings
 
 ANGLE, SHARE = "angle of incidence, degrees", "share of the kinetic energy that friction takes"
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {ANGLE: r": angle \[deg\]", SHARE: r": friction_dissipation \[m2 S\^2/2\]"}
 
 
 def draw(curves: Curves, settings: Settings, points: Points, ground: slide.Ground) -> Figure:

@@ -7,7 +7,7 @@ import numpy as np
 
 from planarimpact import fit
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.curves import materials
+from stronge1994.figures.shared.curves import beside
 
 MASS_RATIO = 3.5
 LAWS = ("lammps-hertz-mindlin", "lammps-hooke")
@@ -49,7 +49,7 @@ def fitted(
             law: fit.fit(
                 law,
                 MASS_RATIO,
-                materials.stiffness_ratio(about["poisson_ratio"]),
+                beside.stiffness_ratio(about["poisson_ratio"]),
                 about["restitution"],
                 loss=about["loss"],
                 incidence_max=incidence_max,

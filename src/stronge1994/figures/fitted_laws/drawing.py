@@ -22,15 +22,6 @@ LINES: dict[str, Style] = {
 WORDS = {"before": "usual values", "after": "fitted"}
 CONTINUUM: Style = {"color": "0.75", "linestyle": "-", "linewidth": 4.0, "zorder": 1.5}
 DOTS: Style = {"color": house_style.BLACK, "marker": "o", "markersize": 1.8, "linestyle": "none"}
-# Meanings of labels, see `shared.drawing.words`.
-LEGEND_MEANS = {
-    "continuum of the pair": ", continuum",
-    "Hertz and Mindlin": "lammps-hertz-mindlin",
-    "linear springs": "lammps-hooke",
-    "usual values": ", before",
-    "fitted": ", after",
-    "LAMMPS": "^lammps/",
-}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:

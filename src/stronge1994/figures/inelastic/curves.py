@@ -15,19 +15,19 @@ from planarimpact import bodies
 from planarimpact.bodies import Material
 from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.results import Rebound
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import EACH, name
-from stronge1994.figures.shared.curves import lossy
-from stronge1994.figures.shared.curves import materials as of_material
-from stronge1994.figures.shared.curves.lossy import MODELS
+from stronge1994.curve_names import name
+from stronge1994.figures.shared.curves import beside
+from stronge1994.figures.shared.curves.beside import MODELS
 from stronge1994.figures.shared.curves.sampling import vertices
 
 # Slopes from which the fit starts. Friction never accelerates the body, so |w| is at most x.
 TRIAL_SLOPES = np.linspace(-1.0, 1.0, 201)
 # Number of impacts in a fit, so large that beta_0 does not depend on it.
 FIT_SIZE = 2000
+X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
-PARAMETERS = f"{EACH}pair's parameters"
 
 
 class Spread(NamedTuple):
@@ -68,103 +68,74 @@ def curves(
     samples: int,
     solved: int,
     tolerance: float,
-    uncertainty: Mapping[str, Sequence[float]] | None = None,
+    uncertainty: Mapping[str, Sequence[float]],
 ) -> Curves:
     """What each model says of the measured pairs, of every restitution, and of every incidence.
 
-    `points` has the columns of data/cornell1999/pairs.csv; the moduli of `materials` are in Pa. For
-    each of `MODELS` there are `<model>, pairs`; `<model>, pairs, <spread>` for all other `SPREADS`;
-    `<model>, nu = ...` for both edges of the band; and `<model>, e = ...`. With `uncertainty`, one
-    sigma of the materials' properties, there are also `<model>, pairs; each pair's parameters +- 1
-    sigma`: beta_0 with the standard deviation that it has from restitution, friction and moduli,
-    which are each pair's own. A smooth curve joins `solved` incidences of each contact.
+    `points` has the columns of data/cornell1999/pairs.csv; the moduli of `materials` are in Pa, and
+    `uncertainty` is one sigma of each. For each of `MODELS` there are `<model>, pairs`; `<model>,
+    pairs, <spread>` for all other `SPREADS`; `<model>, nu = ...` for both edges of the band; and
+    `<model>, e = ...`. Each of the pairs has two more, `...; each pair's parameters +- 1 sigma`:
+    beta_0 with the standard deviation that it has from restitution, friction and moduli, which are
+    each pair's own. A smooth curve joins `solved` incidences of each contact.
 
     >>> pairs = {"pair": ["glass"], "body": ["glass"], "other": ["glass"], "restitution": [0.97],
-    ...          "friction": [0.1]}
+    ...          "restitution_uncertainty": [0.01], "friction": [0.1],
+    ...          "friction_uncertainty": [0.01]}
     >>> glass = {"material": ["glass"], "young_modulus": [7e10], "poisson_ratio": [0.2]}
+    >>> sigmas = {"young_modulus": [1e9], "poisson_ratio": [0.01]}
     >>> named = curves(3.5, pairs, glass, [0.8, 1.0], [0.2, 0.5], {"restitution": 0.6,
-    ...                "poisson_ratio": 0.3}, (0, 8), 11, 24, 1e-3)
+    ...                "poisson_ratio": 0.3}, (0, 8), 11, 24, 1e-3, sigmas)
     >>> round(float(named["lumped.hysteretic, pairs"]["tangential_restitution [1]"][0]), 2)
     0.37
     """
-    pairs = _Contacts.of_pairs(points, materials)
-    bands = [_Contacts.of_band(restitution, nu) for nu in poisson_ratio]
+    zeta2, zeta2_sigma = _stiffness_ratios(points, materials, uncertainty)
+    parameters = "restitution", "friction"
+    stated = [*(points[key] for key in parameters), zeta2]
+    sigmas = [*(points[f"{key}_uncertainty"] for key in parameters), zeta2_sigma]
     # Each parameter is lowered by its sigma, because e cannot exceed 1.
-    lowered = [] if uncertainty is None else pairs.lowered(points, materials, uncertainty)
-    zeta2 = of_material.stiffness_ratio(contact["poisson_ratio"])
-    x = vertices(incidence, samples)
+    e, friction, ratios = beside.each_lowered(stated, sigmas)
+    own: Columns = {key: np.array(points[key]) for key in ("pair", "body", "other")} | {E: e[0]}
+    band, x = np.array(restitution, float), vertices(incidence, samples)
+    of_contact = beside.stiffness_ratio(contact["poisson_ratio"]), contact["restitution"]
     named: Curves = {}
     for model in MODELS:
-        solve = partial(lossy.velocity, model, tolerance)
-        fitted = _fitted(solve, mass_ratio, [pairs, *bands, *lowered], solved)
-        labels = {key: np.array(points[key]) for key in ("pair", "body", "other")}
-        own: Columns = labels | {E: pairs.restitution}
-        for spread, (beta_0, *others) in fitted.items():
+        solve = partial(beside.rebound, model, tolerance)
+        fitted = partial(_fitted, solve, solved, mass_ratio)
+        for spread, cases in fitted(ratios, e, friction, list(SPREADS)).items():
             title = f"{model}, pairs" + (f", {spread}" if spread != WHOLE else "")
-            named[title] = own | {BETA_0: beta_0}
-            if lowered:
-                off = others[-len(lowered) :]
-                named |= lossy.each_off(title, PARAMETERS, own, BETA_0, beta_0, off)
-        for nu, band, beta_0 in zip(poisson_ratio, bands, fitted[WHOLE][1:], strict=False):
-            named[f"{model}, {name('nu', nu)}"] = {E: band.restitution, BETA_0: beta_0}
-        named[f"{model}, {name('e', contact['restitution'])}"] = {
-            "incidence [mu v2(0)]": x,
-            "velocity [mu v2(0)]": solve(x, mass_ratio, zeta2, contact["restitution"]),
-        }
+            named |= beside.with_sigma(title, "pair", own, BETA_0, cases)
+        for nu in poisson_ratio:
+            one = np.full_like(band, beside.stiffness_ratio(nu))
+            # Friction has no influence on the whole range.
+            beta_0 = fitted(one, band, one, [WHOLE])[WHOLE]
+            named[f"{model}, {name('nu', nu)}"] = {E: band, BETA_0: beta_0}
+        w = solve(x, mass_ratio, *of_contact).velocity
+        named[f"{model}, {name('e', contact['restitution'])}"] = {X: x, W: w}
     return named
 
 
-class _Contacts(NamedTuple):
-    """Several contacts. Friction turns angles into incidences; a band has none."""
+def _stiffness_ratios(
+    points: Mapping[str, Sequence[Any]],
+    materials: Mapping[str, Sequence[Any]],
+    uncertainty: Mapping[str, Sequence[float]],
+) -> tuple[Array, Array]:
+    """zeta^2 of every pair, and its sigma from those of the moduli."""
 
-    stiffness_ratio: Array
-    restitution: Array
-    friction: Array
-
-    @classmethod
-    def of_band(cls, restitution: Sequence[float], nu: float) -> "_Contacts":
-        e = np.array(restitution, float)
-        return cls(np.full_like(e, of_material.stiffness_ratio(nu)), e, np.full_like(e, np.nan))
-
-    @classmethod
-    def of_pairs(
-        cls, points: Mapping[str, Sequence[Any]], materials: Mapping[str, Sequence[Any]]
-    ) -> "_Contacts":
-        known = {
-            material: Material(young, nu)
-            for material, young, nu in zip(
-                *(materials[key] for key in ("material", "young_modulus", "poisson_ratio")),
-                strict=True,
-            )
-        }
+    def ratios(known: Mapping[str, Sequence[Any]]) -> Array:
+        properties = (known[key] for key in ("young_modulus", "poisson_ratio"))
+        material = dict(zip(known["material"], map(Material, *properties), strict=True))
         couples = zip(points["body"], points["other"], strict=True)
-        ratios = [
-            bodies.stiffness_ratio(known[_key(body)], known[_key(other)]) for body, other in couples
-        ]
-        e, friction = (np.array(points[key], float) for key in ("restitution", "friction"))
-        return cls(np.array(ratios, float), e, friction)
+        pairs = [[material[_key(body)] for body in couple] for couple in couples]
+        return np.array([bodies.stiffness_ratio(*pair) for pair in pairs], float)
 
-    def lowered(
-        self,
-        points: Mapping[str, Sequence[Any]],
-        materials: Mapping[str, Sequence[Any]],
-        uncertainty: Mapping[str, Sequence[float]],
-    ) -> list["_Contacts"]:
-        """The same pairs with one group lowered by its sigma: e, mu, zeta^2."""
-        changes = []
-        for key, sigmas in uncertainty.items():
-            for place, sigma in enumerate(sigmas):
-                other = list(materials[key])
-                other[place] += sigma
-                changed = _Contacts.of_pairs(points, {**materials, key: other})
-                changes.append(changed.stiffness_ratio - self.stiffness_ratio)
-        sigma = np.sqrt(np.sum(np.square(changes), axis=0))
-        e, friction = (np.array(points[f"{key}_uncertainty"]) for key in self._fields[1:])
-        return [
-            self._replace(restitution=self.restitution - e),
-            self._replace(friction=self.friction - friction),
-            self._replace(stiffness_ratio=self.stiffness_ratio - sigma),
-        ]
+    stated = ratios(materials)
+    changes = [
+        ratios({**materials, key: changed}) - stated
+        for key, sigmas in uncertainty.items()
+        for changed in np.add(materials[key], np.diag(sigmas))
+    ]
+    return stated, np.sqrt(np.sum(np.square(changes), axis=0))
 
 
 def _key(material: str) -> str:
@@ -173,30 +144,29 @@ def _key(material: str) -> str:
 
 
 def _fitted(
-    solve: Callable[..., Array], beta: float, groups: Sequence[_Contacts], solved: int
-) -> dict[str, list[Array]]:
-    """beta_0 of several groups of contacts by spread; all are solved together, up to `FARTHEST`."""
-    whole = _Contacts(*map(np.concatenate, zip(*groups, strict=True)))
-    e = whole.restitution
+    solve: Callable[..., Rebound],
+    solved: int,
+    beta: float,
+    zeta2: Array,
+    e: Array,
+    friction: Array,
+    spreads: Sequence[str],
+) -> dict[str, Array]:
+    """beta_0 of contacts by spread; `zeta2`, `e` and `friction` have one shape."""
     ends = sliding.change(np.full_like(e, beta), e)
-    x = LARGEST_REACH * ends[:, None] * np.linspace(0.0, 1.0, solved)
-    # Contacts that differ by friction alone have the same rebounds.
-    groups_of_rebound = np.stack([whole.stiffness_ratio, e], axis=1)
-    _, first, same = np.unique(groups_of_rebound, axis=0, return_index=True, return_inverse=True)
-    w = solve(x[first], beta, whole.stiffness_ratio[first, None], e[first, None])[same.ravel()]
-    splits = np.cumsum([len(group.restitution) for group in groups])[:-1]
-    beta_0 = {spread: np.full(len(ends), np.nan) for spread in SPREADS}
-    for i, end in enumerate(ends):
-        rebound, friction = CubicSpline(x[i], w[i]), float(whole.friction[i])
-        for spread_name, spread in SPREADS.items():
-            if spread_name == WHOLE or not np.isnan(friction):
-                at = _impacts(end, friction, spread)
-                beta_0[spread_name][i] = tangential_restitution(at, rebound(at), beta, float(e[i]))
-    return {spread_name: np.split(values, splits) for spread_name, values in beta_0.items()}
+    x = LARGEST_REACH * ends[..., None] * np.linspace(0.0, 1.0, solved)
+    w = solve(x, beta, zeta2[..., None], e[..., None]).velocity
+    fitted = {spread: np.empty_like(e) for spread in spreads}
+    for place in np.ndindex(e.shape):
+        rebound = CubicSpline(x[place], w[place])
+        for spread, beta_0 in fitted.items():
+            at = _impacts(ends[place], friction[place], SPREADS[spread])
+            beta_0[place] = tangential_restitution(at, rebound(at), beta, e[place])
+    return fitted
 
 
 def _impacts(end: float, friction: float, spread: Spread) -> Array:
-    """Incidences of the impacts of one fit, up to `FARTHEST` times the end of the sliding line."""
+    """Incidences of the impacts of one fit, up to `LARGEST_REACH` times the end of sticking."""
     reach = spread.reach * end
     if spread.angle is not None:
         reach = min(np.tan(np.radians(spread.angle)) / friction, LARGEST_REACH * end)

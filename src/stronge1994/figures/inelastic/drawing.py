@@ -33,11 +33,6 @@ SOFT, HARD = "polyurethane", "chrome steel"
 PAIR_SPACING = 0.0055
 # Pairs agree with a model if chance gives their chi-squared with at least this probability.
 SIGNIFICANCE = 0.01
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    r"tangential restitution $\beta_0$": r": tangential_restitution \[1\]",
-    rf"$\chi^2$ over its value at $p = {SIGNIFICANCE:g}$": r": chi_squared_over_limit \[1\]",
-}
 
 
 def drawn_series(name: str, series: Series) -> Series:
@@ -237,7 +232,6 @@ def _draw_pairs(axes: Axes, series: house_style.Series) -> None:
             linewidth=0.3,
             clip_on=False,
             zorder=2.5,
-            label=house_style.NO_DATA,
         )
         text = axes.text(bend, height, f" {name}", fontsize=house_style.NOTE, va="center")
         text.set_in_layout(False)

@@ -20,14 +20,6 @@ NORMAL_LINE: Style = {"color": house_style.GREY, "linewidth": 0.8}
 FRICTION_LINE: Style = {"linewidth": 1.4}
 # Radii between which a curve has its number, if it has any there: one that always slips stays at 0.
 LABELLED = 0.15, 0.9
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    r"radius over $a_\mathrm{max}$": r": (contact|stick)_radius \[a_max\]",
-}
-LEGEND_MEANS = {
-    "^contact$": ": contact_radius ",
-    "^stick$": ": stick_radius ",
-}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:

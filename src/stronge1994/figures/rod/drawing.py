@@ -27,21 +27,6 @@ CREATED = {"facecolor": house_style.VERMILLION, "alpha": 0.25, "linewidth": 0}
 JAM = {"facecolor": "white", "hatch": "//////", "edgecolor": "0.4", "linewidth": 0.6}
 SHADES = {"STICK_SLIP": "white", "SLIP_STICK_SLIP": "0.93", "SLIP_THROUGHOUT": "0.8"}
 RIBBONS = {"regime": "", "jams": "", "rigid: jams": "rigid, "}  # beginnings of the curves' names
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    r"tilt $\alpha$": r": tilt \[deg\]",
-    r"$v_1(t_f)/v_2(0)$": r": tangential_velocity \[v2\(0\)\]",
-    r"$v_2(t_f)/v_2(0)$": r": normal_velocity \[v2\(0\)\]",
-    "$K(t_f)/K(0)$": r": kinetic_energy \[K0\]",
-    r"$\Omega t$": r": time \[1/Omega\]",
-    r"force$/m_2\Omega v_2(0)$": r": (normal_force|friction_over_mu) ",
-}
-LEGEND_MEANS = {
-    "^compliant$": "^v1/v2",
-    "^rigid impulse$": "^rigid, v1/v2",
-    "Newton|creates energy": "^rigid, Newton",
-    "^jams": "jam",
-}
 
 
 def ribbon(row: str, ratio: str) -> str:
@@ -115,7 +100,7 @@ def _draw_over_tilt(panels: Sequence[Axes], curves: Curves, name: str, letters: 
         axes.axhline(1 if column == ENERGY else 0, **house_style.GUIDE)
         axes.axvline(0, **house_style.GUIDE)
         axes.plot(compliant[TILT], compliant[column], **house_style.LUMPED)
-        house_style.rigid(axes, rigid[TILT], rigid[column], compliant[column])
+        house_style.rigid(axes, curves, f"rigid, {name}", TILT, column, name)
     energy = newton[ENERGY]
     panels[-1].plot(
         newton[TILT], np.where(np.isclose(energy, rigid[ENERGY]), np.nan, energy), **NEWTON
@@ -194,7 +179,7 @@ def _draw_rod(axes: Axes, contact: Mapping[str, float]) -> None:
     """Sketch the rod on the surface, its tilt, and the direction in which its tip moves."""
     tilt, ratio = contact["tilt"], contact["velocity_ratio"]
     axes.set(xlim=(-0.8, 0.8), ylim=(-0.2, 1.1), aspect="equal", anchor="N")
-    axes.set(xticks=[], yticks=[], label=house_style.NO_DATA)
+    axes.set(xticks=[], yticks=[])
     axes.spines[:].set_visible(False)
     axes.fill_between([-0.8, 0.8], -0.2, 0, **house_style.SURFACE)
     axes.axhline(0, color=house_style.BLACK, linewidth=0.8)

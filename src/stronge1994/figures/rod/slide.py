@@ -12,9 +12,6 @@ from stronge1994.figures.shared.drawing.house_style import Points, Settings
 LEAN = "tilt of the rod, degrees; positive: the tip is ahead of the centre"
 KEPT = "kinetic energy that the contact can change, after over before"
 ENERGETIC = "rigid, energetic\ncoefficient"
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {LEAN: r": tilt \[deg\]", KEPT: r": kinetic_energy \[K0\]"}
-LEGEND_MEANS = {f"^{ENERGETIC}$": "^rigid, v1/v2"}
 
 
 def draw(curves: Curves, settings: Settings, points: Points, ground: slide.Ground) -> Figure:

@@ -18,17 +18,6 @@ ALONE = "velocity alone", "spin alone"
 # Curves that `drawn_curves` adds: e_t from one half of a measurement to the other, and the range
 # that an unknown friction leaves.
 HALVES, OPEN = "halves of the measurement", "friction 0.4 to 0.9"
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    "tangential restitution $e_t$": r": tangential_restitution \[1\]",
-    "rms distance of $e_t$": r": rms_distance \[1\]",
-}
-LEGEND_MEANS = {
-    "Cross 2014": f"^{IMPACTS}",
-    "stated, 2010": f"^({STATED}|{OPEN})",
-    "velocity alone": f"^{HALVES}",
-    "e\\^2": r"^lumped\.unloading-stiffness",
-}
 
 
 # The model without loss is green and has no marker.

@@ -41,13 +41,6 @@ INCIDENCES = {5e-324: ""}
 INCIDENCES |= {10.0**k: f"$10^{{{k}}}$" for k in (-16, -8, -4, -2, 0, 2, 4, 8)}
 INCIDENCES[1.0] = "1"
 UPRIGHT = {"restitution [1]": RESTITUTIONS, "incidence [mu v2(0)]": INCIDENCES}
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    r"$\omega/\Omega$": r": omega \[cell\]",
-    "digits found": r": digits \[1\]",
-    "digits allowed by the condition": r": digits_allowed \[1\]",
-    "digits of the worst output, median of a cell": r": median \[1\]",
-}
 
 
 def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:

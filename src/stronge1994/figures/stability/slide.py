@@ -10,8 +10,6 @@ from stronge1994.figures.stability.drawing import LINES, MOST_DIGITS, OUTPUTS
 ALLOWED, DIGITS = "digits_allowed [1]", "digits [1]"
 ACROSS = "digits that the condition number allows"
 UPRIGHT = "correct digits of the solution, a mark for each answer"
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {ACROSS: r": digits_allowed \[1\]", UPRIGHT: r": digits \[1\]"}
 
 
 def draw(curves: Curves, settings: Settings, points: Points, ground: slide.Ground) -> Figure:

@@ -17,11 +17,6 @@ Place: TypeAlias = tuple[float, float]
 PLACE, HEIGHT, SPIN = "place [m]", "height [m]", "spin_y [rad/s]"
 # Place of the number of a flight, as a share of the flight, and its size as a share of the gap.
 NUMBER_PLACE, NUMBER_SIZE = 0.36, 0.065
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    "distance from the first impact (m)": r": place \[m\]",
-    "height (m)": r": height \[m\]",
-}
 
 
 def sense(flight: int) -> str:
@@ -112,7 +107,6 @@ def _draw_number(axes: Axes, number: int, centre: Place, radius: float) -> None:
             facecolor="white",
             linewidth=0,
             zorder=2,
-            label=house_style.NO_DATA,
         )
     )
     note = {"ha": "center", "va": "center_baseline", "fontsize": house_style.NOTE, "zorder": 3}

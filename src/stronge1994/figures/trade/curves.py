@@ -70,7 +70,7 @@ def curves(
         accuracy, wanted = float(own["tolerance"]), list(own["tolerances"])
         tried = {"steps": steps, "circles": circles, "tolerance": wanted}
         solved = [(model, model.rebound(x)) for model in _contenders(groups, tried, incidence[1])]
-        watches = [_stopwatch(contender.rebound) for contender, _ in solved]
+        watches = [stopwatch(contender.rebound) for contender, _ in solved]
         seconds_of = times(watches, incidence, batches, budget)
         for loss in continuum.LOSSES if e < 1 else ("",):
             exact = reference(x, groups, accuracy, loss)
@@ -284,7 +284,7 @@ def _seconds(watch: Callable[[Array], float], incidence: Sequence[float], batch:
     return float(np.mean(taken))
 
 
-def _stopwatch(rebound: _Solver) -> Callable[[Array], float]:
+def stopwatch(rebound: _Solver) -> Callable[[Array], float]:
     def seconds(x: Array) -> float:
         start = time.process_time()
         rebound(x)

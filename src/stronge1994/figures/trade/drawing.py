@@ -37,23 +37,6 @@ UPPER_RIGHT = ("left", 4, 2.5)
 OTHER_LOSS, OF_OTHER_LOSS = "other loss", ("right", 5, 5)
 FLOOR = 1e-12  # smaller errors are rounding
 IMPACTS, TIME = "impacts [1]", "time [us]"
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    TIME_LABEL: r": time_?\d* \[us\]",
-    ERROR_LABEL: r": rms_velocity \[mu v2\(0\)\]",
-    "impacts together": r": impacts \[1\]",
-}
-LEGEND_MEANS = {
-    "^table$": r"^spheres,",
-    "table, viscous": r"spheres\.viscous",
-    "table, plastic": r"spheres\.plastic",
-    "linear spring": "timestep.linear",
-    "^Mindlin$": r"timestep\.mindlin[,:]",
-    "Mindlin, rescaled": "mindlin_rescaled",
-    "^annuli$": "^annuli",
-    "^formula$": "^(rigid|laws)",
-    "^spline": "^spline",
-}
 
 
 def over_batches(name: str) -> str:
@@ -314,7 +297,7 @@ def _draw_front(
     best = front(time, error)
     x = [time[best[0]], *(time[i] for i in best), right]
     y = [top, *(error[i] for i in best), error[best[-1]]]
-    axes.step(x, y, where="post", label=house_style.NO_DATA, **FRONT)
+    axes.step(x, y, where="post", **FRONT)
 
 
 def _draw_growth(axes: Axes, rows: Curves, curves: Curves) -> None:

@@ -10,8 +10,6 @@ from stronge1994.figures.trade.drawing import ERROR, MODEL, RESTITUTION, shown_b
 
 DURATION = "time of an impact, microseconds"
 DISTANCE = r"error of $v_1(t_f)/\mu v_2(0)$ against the elastic continuum, rms"
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {DURATION: r": time_?\d* \[us\]", DISTANCE: r": rms_velocity \[mu v2\(0\)\]"}
 TABLE, CONTINUUM = "spheres", "continuum"
 # Models that are drawn: text, colour, marker, offset of the text.
 SHOWN = {

@@ -1,28 +1,21 @@
 """Beyond the paper: spheres that yield, six models beside finite elements of our own."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
 
 import numpy as np
 
-from planarimpact import continuum, lumped
+from planarimpact import continuum
 from planarimpact.continuum.inelastic.plastic import PlasticMotion
-from planarimpact.ground.arrays import Array
-from planarimpact.ground.results import Rebound
+from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import name
-from stronge1994.figures.shared.curves import materials
+from stronge1994.figures.shared.curves import beside
 from stronge1994.figures.shared.curves.sampling import vertices
 
-MODELS: dict[str, Callable[..., Rebound]] = {
-    "continuum.plastic": partial(continuum.rebound, loss="plastic"),
-    "continuum.plastic-elastic-shear": partial(continuum.rebound, loss="plastic-elastic-shear"),
-    "continuum.viscous": partial(continuum.rebound, loss="viscous"),
-    "lumped.hysteretic": partial(lumped.rebound, loss="hysteretic"),
-    "lumped.viscous": partial(lumped.rebound, loss="viscous"),
-    "lumped.unloading-stiffness": partial(lumped.rebound, loss="unloading-stiffness"),
-}
+ELASTIC_IN_SHEAR = "continuum.plastic-elastic-shear"  # no model of the registry
+MODELS = (*beside.MODELS, ELASTIC_IN_SHEAR)
 # Columns of data/finite_elements/spheres.csv that tell its rows apart.
 LABELS = ("set", "contact", "run")
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
@@ -57,28 +50,31 @@ def curves(
     """
     x = vertices(incidence, samples)
     at, e = (np.array(points[key], float) for key in ("incidence", "restitution"))
-    ratios = np.array([materials.stiffness_ratio(nu) for nu in points["poisson_ratio"]])
+    ratios = np.array([beside.stiffness_ratio(nu) for nu in points["poisson_ratio"]])
     labels: Columns = {key: np.array(points[key]) for key in LABELS}
+    of_contact = mass_ratio, beside.stiffness_ratio(contact["poisson_ratio"])
     named: Curves = {}
-    for model, rebound in MODELS.items():
-        solve = partial(rebound, tolerance=tolerance) if "continuum" in model else rebound
-        runs = solve(at, mass_ratio, ratios, e).velocity
-        named[f"{model}, runs"] = labels | {X: at, W: runs}
+    for model in MODELS:
+        solve = partial(_velocity, model, tolerance)
+        named[f"{model}, runs"] = labels | {X: at, W: solve(at, mass_ratio, ratios, e)}
         for one in contact["restitution"]:
-            velocity = solve(
-                x, mass_ratio, materials.stiffness_ratio(contact["poisson_ratio"]), one
-            ).velocity
-            named[f"{model}, {name('e', one)}"] = {X: x, W: velocity}
+            named[f"{model}, {name('e', one)}"] = {X: x, W: solve(x, *of_contact, one)}
     for nu in elastic["poisson_ratio"]:
-        velocity = continuum.rebound(
-            x, mass_ratio, materials.stiffness_ratio(nu), tolerance=tolerance
-        ).velocity
+        velocity = _velocity("continuum", tolerance, x, mass_ratio, beside.stiffness_ratio(nu))
         named[f"continuum, {name('nu', nu)}"] = {X: x, W: velocity}
     for one in pushed:
         approach, share = share_of_elastic(one)
         columns = {"approach [delta_max]": approach, "share_of_elastic_force [1]": share}
         named[f"pushed, {name('e', one)}"] = columns
     return named
+
+
+def _velocity(model: str, tolerance: float, *groups: ArrayLike) -> Array:
+    if model == ELASTIC_IN_SHEAR:
+        return continuum.rebound(
+            *groups, tolerance=tolerance, loss="plastic-elastic-shear"
+        ).velocity
+    return beside.rebound(model, tolerance, *groups).velocity
 
 
 def share_of_elastic(restitution: float) -> tuple[Array, Array]:

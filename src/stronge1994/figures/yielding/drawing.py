@@ -17,17 +17,6 @@ RMS = "rms_distance [mu v2(0)]"
 SPHERES, PUSHED = "finite_elements/spheres", "finite_elements/pushed"
 # Sets of runs that differ by restitution alone.
 SETS = ("calibration", "other restitutions")
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    r"$\delta/\delta_\mathrm{max}$": r": approach \[delta_max\]",
-    "share of elastic force": r": share_of_elastic_force \[1\]",
-    r"rms distance $[\mu v_2(0)]$": r": rms_distance \[mu v2\(0\)\]",
-}
-LEGEND_MEANS = {
-    "finite elements": "^finite_elements/",
-    "flows in shear": r"^(continuum\.plastic|pushed)(,| )|of continuum\.plastic:",
-    "elastic in shear": r"continuum\.plastic-elastic-shear",
-}
 
 
 class Model(NamedTuple):

@@ -1,10 +1,24 @@
-"""Models beside a measured series: what workflow/your_model_your_data.md needs of a figure."""
+"""Models beside what is measured of a free sphere without spin, shot at a plane.
+
+A figure of measured series needs no other curves.py, see workflow/your_model_your_data.md.
+"""
 
 from collections.abc import Mapping, Sequence
 
-from planarimpact.models import get
-from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.curves import shots
+import numpy as np
+
+from planarimpact import lumped
+from planarimpact.ground import sliding
+from planarimpact.ground.arrays import ArrayLike
+from stronge1994 import curve_names
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.figures.shared.curves import beside
+from stronge1994.figures.shared.curves.sampling import vertices
+
+# Curves with a parameter off by one sigma serve only for its effect. They have this many times
+# fewer vertices.
+COARSER = 4
+X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 
 
 def curves(
@@ -14,10 +28,7 @@ def curves(
     tolerance: float,
     uncertainty: Mapping[str, float] | None = None,
 ) -> Curves:
-    """A curve of each model, with the parameters of an experiment: a sphere shot without spin.
-
-    Beside each stand curves with one parameter off by one sigma. `tolerance` is that of a
-    continuum.
+    """A curve of each model, with the parameters of an experiment; see `shots`.
 
     >>> sphere = {"mass_ratio": 3.5, "stiffness_ratio": 1.2, "restitution": 0.9, "friction": 0.1}
     >>> named = curves(sphere, ["rigid"], 9, 1e-3)
@@ -25,12 +36,65 @@ def curves(
     -0.0
     """
     named: Curves = {}
-    for name in models:
-        model = get(name)
-        own = {"tolerance": tolerance} if "tolerance" in model.settings else {}
-        every = shots.shots(name, samples, (), experiment, uncertainty or {})
-        for curve, shot in every.items():
-            rebound = model.rebound(shot.x, *shots.groups(shot.sphere), **own)
-            share = -rebound.velocity / shot.x
-            named[curve] = shots.measured(shot, rebound) | {"tangential_restitution [1]": share}
+    for model in models:
+        named |= shots(model, model, experiment, uncertainty or {}, samples, tolerance)
+    for columns in named.values():
+        columns["tangential_restitution [1]"] = -columns[W] / columns[X]
     return named
+
+
+def groups(parameters: Mapping[str, float]) -> tuple[float, float, float]:
+    """Mass ratio, stiffness ratio and restitution of an experiment."""
+    return parameters["mass_ratio"], parameters["stiffness_ratio"], parameters["restitution"]
+
+
+def shots(
+    model: str,
+    curve: str,
+    sphere: Mapping[str, float],
+    uncertainty: Mapping[str, float],
+    samples: int,
+    tolerance: float,
+    nodes: ArrayLike = (),
+) -> Curves:
+    """What is measured of a sphere, by one model, and with each uncertain parameter off by a sigma.
+
+    The angles from the normal reach from 0 to 90 deg; `nodes` are further ones. A restitution above
+    1 counts as 1. `tolerance` is that of a continuum.
+
+    >>> sphere = {"mass_ratio": 3.5, "stiffness_ratio": 1.2, "restitution": 0.9, "friction": 0.1}
+    >>> list(shots("rigid", "ball", sphere, {"friction": 0.01}, 9, 1e-3))
+    ['ball', 'ball; friction + 1 sigma', 'ball; friction - 1 sigma']
+    """
+    named = {curve: _measured(model, sphere, samples, tolerance, nodes)}
+    for parameter, sigma in uncertainty.items():
+        for sign in curve_names.SIGNS:
+            changed = {**sphere, parameter: sphere[parameter] + sign * sigma}
+            changed["restitution"] = min(changed["restitution"], 1.0)
+            shifted = curve_names.shifted(curve, parameter, sign)
+            named[shifted] = _measured(model, changed, samples // COARSER, tolerance, ())
+    return named
+
+
+def _measured(
+    model: str, sphere: Mapping[str, float], samples: int, tolerance: float, nodes: ArrayLike
+) -> Columns:
+    """Quantities against the angle of incidence; spin only if the sphere has a speed."""
+    beta, zeta2, e = groups(sphere)
+    friction = sphere["friction"]
+    limits = [zeta2, beta, lumped.slip_throughout_limit(beta, zeta2, e)]
+    limits.append(sliding.limit_alike(beta, zeta2, e))
+    thresholds = np.degrees(np.arctan(friction * np.array(limits)))
+    # The ratio of velocities has no value at normal incidence.
+    angle = vertices((0.01, 89.9), samples, thresholds, nodes)
+    x = np.tan(np.radians(angle)) / friction
+    w = beside.rebound(model, tolerance, x, beta, zeta2, e).velocity
+    centre = 1 - (x - w) / (beta * x)
+    columns = {X: x, W: w, "angle [deg]": angle, "centre_restitution [1]": centre}
+    if "speed" in sphere:
+        unit = friction * sphere["speed"] * np.cos(np.radians(angle))
+        columns["spin [rad/s]"] = (beta - 1) / beta * (x - w) * unit / sphere["radius"]
+    return columns | {
+        "centre_rebound_angle [deg]": np.degrees(np.arctan(centre * friction * x / e)),
+        "contact_rebound_angle [deg]": np.degrees(np.arctan(friction * w / e)),
+    }

@@ -26,23 +26,12 @@ LIMIT_LINE = {"color": house_style.GREY, "linewidth": 0.6, "label": r"added here
 
 CROSS = {"color": house_style.BLACK, "markersize": 6, "clip_on": False}
 NORMAL, LIMIT = "normal_force [m2 Omega v2(0)]", "friction_limit [mu m2 Omega v2(0)]"
-# Meanings of labels, see `shared.drawing.words`.
-AXIS_MEANS = {
-    r"velocity $v_1(t)/\mu v_2(0)$": r": velocity \[mu v2\(0\)\]",
-}
-LEGEND_MEANS = {
-    r"limit \$-": ": friction_limit ",
-    "separation": ": velocity ",
-}
-
-
-def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
-    """Beside the friction its limit, where it acts backward."""
-    return {name: curve | {LIMIT: -curve[NORMAL]} for name, curve in curves.items()}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Draw bars of stick and slip, (a) both forces and (b) velocity of each restitution."""
+    # Beside the friction its limit, where it acts backward.
+    curves = {name: curve | {LIMIT: -curve[NORMAL]} for name, curve in curves.items()}
     figure = house_style.new(5.8)
     heights = [0.5 * len(curves), 5, 4.4]
     bars, forces, velocity = figure.subplots(3, 1, sharex=True, height_ratios=heights)

@@ -4,15 +4,15 @@ A figure is a folder with figure.yaml, curves.py and drawing.py. Its drawing.py 
 `draw(curves, settings, points)`, which returns a Figure:
 
 - `curves`, `{curve: {column: array}}`: the result of curves.py beside it, and the curves that a
-  function `drawn_curves` of drawing.py adds; nothing else may be drawn, see `checked`;
+  function `drawn_curves` of drawing.py adds. `line` draws two columns of a curve and takes the
+  labels of the axes and of the legend from their names;
 - `settings`, as curves.py gets them, from which labels take their numbers; only of a reference
   table they have no more than the name;
 - `points`, the series of data/ that are at hand, `{"source/series": {...}}` with arrays `x` and
   `y`, their `sigma`, `line`, all `columns` and the source's `parameters`, of those that were
   computed only what figure.yaml `draws`; and stated facts, as in source.yaml.
 
-A drawing.py may also have `drawn_series`, which converts such a series, and AXIS_MEANS and
-LEGEND_MEANS, see `words`.
+A drawing.py may also have `drawn_series`, which converts such a series.
 
 Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
 figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
@@ -22,6 +22,7 @@ several restitutions, `of_restitution` gives their lines; where it shows one, a 
 """
 
 import itertools
+import re
 import textwrap
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -37,7 +38,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from planarimpact.ground.arrays import Array
+from planarimpact.ground.arrays import Booleans
 from stronge1994 import curve_names
 from stronge1994.csv_tables import Curves
 
@@ -77,11 +78,8 @@ CYCLE = tuple(zip(COLOURS, DASHES, strict=True))
 LUMPED: Style = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
 CONTINUUM: Style = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
 RIGID: Style = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zorder": 1.8}
-# Label of artists that show no number of a table, see `checked`, and of axes that hold a sketch.
-NO_DATA = "_no data"
-GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9, "label": NO_DATA}
+GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9}
 SURFACE: Style = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
-SURFACE |= {"label": NO_DATA}
 PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
 AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
 # Light and thin: continua that lose energy, beside the curves of a figure of the paper.
@@ -101,6 +99,20 @@ INCIDENCE = r"$v_1(0)/\mu v_2(0)$"
 REBOUND = r"$v_1(t_f)/\mu v_2(0)$"
 # Largest forces of an impact, to be put between dollar signs.
 F1MAX, F2MAX = r"F_{1\mathrm{max}}", r"F_{2\mathrm{max}}"
+# Labels of columns in mathematical letters; others are written as they are named.
+LABELS = {
+    "incidence [mu v2(0)]": INCIDENCE,
+    "velocity [mu v2(0)]": REBOUND,
+    "restitution [1]": "restitution $e$",
+    "time [t_c]": "$t/t_c$",
+    "time [1/Omega]": r"$\Omega t$",
+    "tilt [deg]": r"tilt $\alpha$",
+    "peak_force [m2 Omega S]": r"largest force over $m_2\Omega S$",
+    "friction_dissipation [m2 S^2/2]": r"dissipated by friction, $2D_1/m_2S^2$",
+    "tangential_velocity [v2(0)]": "$v_1(t_f)/v_2(0)$",
+    "normal_velocity [v2(0)]": "$v_2(t_f)/v_2(0)$",
+    "kinetic_energy [K0]": "$K(t_f)/K(0)$",
+}
 
 STYLE = {
     "axes.linewidth": 0.7,
@@ -169,12 +181,46 @@ def failure(message: str) -> Figure:
 
 
 def symbols(name: str) -> str:
-    """Name of a curve in mathematical letters.
+    """Name of a curve, with its equations in mathematical letters.
 
-    >>> symbols("mu = 0.1")
-    '$\\\\mu = 0.1$'
+    >>> symbols("continuum, mu = 0.1")
+    'continuum, $\\\\mu = 0.1$'
     """
-    return "$" + name.replace("mu", r"\mu") + "$"
+    return re.sub(
+        r"\w+ = [-\d.]+",
+        lambda found: f"${found[0]}$".replace("mu", r"\mu").replace("nu", r"\nu"),
+        name,
+    )
+
+
+def of_column(column: str) -> str:
+    """Label of a column for a reader.
+
+    >>> of_column("rebound_angle [deg]"), of_column("time [t_c]"), of_column("digits [1]")
+    ('rebound angle [deg]', '$t/t_c$', 'digits')
+    """
+    name, _, unit = column.rstrip("]").partition(" [")
+    words = name.replace("_", " ") + ("" if unit == "1" else f" [{unit}]")
+    return LABELS.get(column, words)
+
+
+def line(
+    axes: Axes,
+    curves: Curves,
+    name: str,
+    x: str,
+    y: str,
+    rows: Booleans | None = None,
+    **style: Any,
+) -> Line2D:
+    """Draw column `y` of a curve against its column `x`, and label both axes.
+
+    Where `rows` is false there is a gap. `style` may have a label other than the curve's name.
+    """
+    curve = curves[name]
+    height = curve[y] if rows is None else np.where(rows, curve[y], np.nan)
+    axes.set(xlabel=of_column(x), ylabel=of_column(y))
+    return axes.plot(curve[x], height, **{"label": symbols(name)} | style)[0]
 
 
 def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
@@ -230,9 +276,10 @@ def legend_below(
             text.set_style("italic")
 
 
-def rigid(axes: Axes, x: Array, y: Array, compliant: Array) -> None:
+def rigid(axes: Axes, curves: Curves, name: str, x: str, y: str, compliant: str) -> Line2D:
     """Line without tangential compliance, left out where the compliant curve is the same."""
-    axes.plot(x, np.where(np.isclose(y, compliant), np.nan, y), **RIGID)
+    rows = ~np.isclose(curves[name][y], curves[compliant][y])
+    return line(axes, curves, name, x, y, rows, label="no tangential compliance", **RIGID)
 
 
 def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> Entries:
@@ -242,7 +289,7 @@ def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> En
     pattern, and an entry that names it. `equations` are the numbers of the equations.
     """
     entries = {}
-    for name, curve in curves.items():
+    for name in curves:
         kind, _, pair = name.partition(", ")
         label, style = f"{equations} as printed", AS_PRINTED
         if kind == curve_names.NO_SOLUTION:
@@ -252,8 +299,7 @@ def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> En
         elif pair.startswith("e = "):
             label += f", {symbols(pair)}"
             style = style | {"linestyle": of_restitution(float(pair.removeprefix("e = ")))}
-        axes.plot(curve[x], curve[y], **style)
-        entries[label] = key(label, **style)
+        entries[label] = line(axes, curves, name, x, y, label=label, **style)
     return list(entries.values())
 
 
@@ -267,20 +313,20 @@ def draw_lossy_continua(
     """
     entries = []
     for model, (label, style) in LOSSY_CONTINUA.items():
-        own = [
-            curve
-            for name, curve in curves.items()
-            if name.startswith(f"{model}, ") and name.endswith(end)
-        ]
-        for curve in own:
-            axes.plot(curve[x], curve[y], **style)
-        if own:
-            entries.append(key(f"{label}, {condition}", **style))
+        own = [name for name in curves if name.startswith(f"{model}, ") and name.endswith(end)]
+        label = f"{label}, {condition}"
+        lines = [line(axes, curves, name, x, y, label=label, **style) for name in own]
+        entries += lines[:1]
     return entries
 
 
 def measured(axes: Axes, series: Series, **style: Any) -> Artist:
-    """Draw points with error bars, or a line if the reference is one; its entry of the legend."""
+    """Draw points with error bars, or a line if the reference is one; its entry of the legend.
+
+    The labels of the axes are those of the columns of the series.
+    """
+    x_label, y_label = map(of_column, series["axes"])
+    axes.set(xlabel=x_label, ylabel=y_label)
     if series["line"]:
         return axes.plot(series["x"], series["y"], **style)[0]
     x_error, y_error = series["sigma"]

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from planarimpact.ground.arrays import Array
 from stronge1994 import curve_names
 from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.drawing import house_style, words
+from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import (
     COLOURS,
     DASHES,
@@ -40,7 +40,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
 def _draw_models(axes: Axes, curves: Curves, series: Series) -> Entries:
     """Draw the models over the span of a series, and return entries of the legend."""
     x, y = series["axes"]
-    axes.set(xlabel=words.of_column(x), ylabel=words.of_column(y))
+    axes.set(xlabel=house_style.of_column(x), ylabel=house_style.of_column(y))
     low, high = _span(series["x"], series["sigma"][0])
     lines, heights = [], [*_span(series["y"], series["sigma"][1])]
     for place, (name, curve) in enumerate(curves.items()):

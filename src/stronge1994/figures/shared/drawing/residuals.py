@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from stronge1994.csv_tables import Column, Columns, Curves, Row
-from stronge1994.figures.shared.drawing import house_style, words
+from stronge1994.figures.shared.drawing import house_style
 
 # Inches: height of a strip with its title, and of the label of its x axis.
 STRIP, LABEL = 0.56, 0.42
@@ -145,12 +145,12 @@ def draw(strips: Mapping[Strip, Curves]) -> Figure:
         axes.set_title(title(strip), loc="left", pad=3, **note)
         axes.margins(x=0.02, y=0.25)
         axes.tick_params(labelsize=house_style.NOTE, labelbottom=last)
-        axes.set_xlabel(words.of_column(strip[2]), visible=last, **note)
-        axes.set_ylabel(words.of_column(DISTANCE), visible=False)
+        axes.set_xlabel(house_style.of_column(strip[2]), visible=last, **note)
+        axes.set_ylabel(house_style.of_column(DISTANCE), visible=False)
     for axes, quantity in zip(rows, axis, strict=True):
         same = [a for a, q in zip(rows, axis, strict=True) if q == quantity]
         axes.set_xlim(min(a.get_xlim()[0] for a in same), max(a.get_xlim()[1] for a in same))
-    figure.supylabel(words.of_column(DISTANCE), fontsize=house_style.NOTE + 1)
+    figure.supylabel(house_style.of_column(DISTANCE), fontsize=house_style.NOTE + 1)
     _add_legend(figure, {name.rpartition(", ")[2] for part in strips.values() for name in part})
     return figure
 

@@ -1,0 +1,78 @@
+"""Models of an impact that loses energy, solved at measured points with uncertain parameters."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from planarimpact import bodies, models
+from planarimpact.bodies import Material
+from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.results import Rebound
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.curve_names import EACH, SIGNS, shifted
+
+MODELS = (
+    "continuum.viscous",
+    "continuum.plastic",
+    "lumped.viscous",
+    "lumped.unloading-stiffness",
+    "lumped.hysteretic",
+)
+
+
+def rebound(model: str, tolerance: float, *groups: ArrayLike) -> Rebound:
+    """State at separation; `groups` as for `models.rebound`, `tolerance` of a continuum.
+
+    >>> float(rebound("lumped.hysteretic", 1e-3, 8.0, 3.5, 1.21, 1.0).velocity)
+    1.0
+    """
+    settings = {"tolerance": tolerance} if "tolerance" in models.get(model).settings else {}
+    return models.rebound(model, *groups, **settings)
+
+
+def stiffness_ratio(nu: float) -> float:
+    """zeta^2 of two bodies of one material, by its Poisson's ratio.
+
+    >>> round(stiffness_ratio(0.3), 4)
+    1.2143
+    """
+    return float(bodies.stiffness_ratio(Material(1.0, nu)))
+
+
+def each_lowered(parameters: ArrayLike, sigmas: ArrayLike) -> Array:
+    """Parameters of points: as stated, and with one parameter after the other lowered by its sigma.
+
+    Both arguments have a row for each parameter and a column for each point. The result is [a, b,
+    c] for parameter a of point c; b = 0 is as stated, and b = 1 + i has parameter i lowered.
+
+    >>> each_lowered([[0.9, 0.8], [0.5, 0.25]], [[0.1, 0.2], [0.25, 0.125]])[1].tolist()
+    [[0.5, 0.25], [0.5, 0.25], [0.25, 0.125]]
+    """
+    values, sigma = np.asarray(parameters, float), np.asarray(sigmas, float)
+    cases = np.repeat(values[:, None], 1 + len(values), axis=1)
+    for i in range(len(values)):
+        cases[i, 1 + i] -= sigma[i]
+    return cases
+
+
+def with_sigma(
+    curve: str, point: str, labels: Columns, column: str, cases: Sequence[Array]
+) -> Curves:
+    """A curve, and the same with its standard deviation added and taken away.
+
+    `cases` has the values as stated, then those with one parameter off by a sigma, as
+    `each_lowered` has them. These parameters are each point's own; `point` says what a point is.
+
+    >>> for name, columns in with_sigma("a", "pair", {}, "y", np.array([[1.0], [1.3]])).items():
+    ...     print(name, columns["y"].round(1))
+    a [1.]
+    a; each pair's parameters + 1 sigma [1.3]
+    a; each pair's parameters - 1 sigma [0.7]
+    """
+    stated, *others = cases
+    sigma = np.sqrt(np.sum(np.square([other - stated for other in others]), axis=0))
+    named = {curve: labels | {column: stated}}
+    for sign in SIGNS:
+        name = shifted(curve, f"{EACH}{point}'s parameters", sign)
+        named[name] = labels | {column: stated + sign * sigma}
+    return named
