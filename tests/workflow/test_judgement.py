@@ -16,7 +16,7 @@ from stronge1994.run import gate, record
 from tests.workflow.project import ROOT
 
 # Not part of a run, but asked for.
-OTHERS = {"measure_peers", "draw_peers", "make_spheres", "site", "interface"}
+OTHERS = {"site", "interface"}
 
 
 def test_every_file_of_a_run_is_asked_for(first_run):
@@ -25,7 +25,7 @@ def test_every_file_of_a_run_is_asked_for(first_run):
     makers = re.split(r"^rule ", rules, flags=re.M)[1:]
     names = {text.split(":")[0] for text in makers if "output:" in text}
     asked = set(re.findall(r"rules\.(\w+)", (ROOT / "Snakefile").read_text()))
-    assert names - asked == OTHERS - {"measure_peers"}
+    assert names - asked == OTHERS
     project, _ = first_run
     wrote = {path for record in project.records().values() for path in record["wrote"]}
     files = [

@@ -6,12 +6,8 @@ REPORT_PARTS = [
     "workflow/report/unfold.js",
     "workflow/report/model.svg",
     *expand("workflow/report/{part}.css", part=["page", "report"]),
-    *expand("workflow/report/{part}.rst", part=["trade", "which_model", "stability"]),
+    *expand("workflow/report/{part}.rst", part=["trade", "which_model"]),
 ]
-
-
-# Times of LAMMPS and pooltool, once `snakemake peers` has measured them.
-PEERS = ["results/peers.csv"] if Path("results/peers.csv").exists() else []
 
 
 REPORT_SETTINGS = {
@@ -23,32 +19,6 @@ REPORT_SETTINGS = {
     "sources": SOURCES,
     **EXPECTED,
 }
-
-
-rule start_page:
-    """The page to begin with: for whom teaches, verifies, or chooses a model."""
-    input:
-        plan=planned("start_page", "write_start_page", "pages/__init__.py", "pages/templates.py",
-            "plan", "reference_data"),
-        template="workflow/report/index.html",
-        parts="workflow/report/page.css",
-        shared=EVERY_PAGE,
-    output:
-        page=report(
-            "figures/index.html",
-            caption="../report/index.rst",
-            category="Start",
-            labels={"page": "where to begin"},
-        ),
-        record="results/records/start_page.json",
-    log:
-        "results/logs/start_page.log",
-    message:
-        "Writing the page to begin with"
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/write_start_page.py"
 
 
 rule interface:
@@ -85,25 +55,19 @@ rule report:
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
         numbers=rules.note.output.numbers,
-        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers, *PEERS],
+        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers],
         linked=[
             "results/verdicts.csv",
-            "results/stability.csv",
             "results/trade.csv",
             "results/which_model.csv",
             *expand("results/{kind}/{figure}.csv", kind=["curves", "residuals"], figure=FIGURES),
         ],
         records=[expand(rule.output.record, **VALUES) for rule in (rules.curves, rules.draw,
             rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables,
-            rules.stability_table, rules.note)],
+            rules.note)],
     output:
         page="figures/report.html",
-        sources=report(
-            "figures/sources.html",
-            caption="../report/sources.rst",
-            category="Sources",
-            labels={"page": "sources of data, settings, versions"},
-        ),
+        sources="figures/sources.html",
         tables=directory("figures/tables"),  # copies, so that figures/ can be sent alone
         problems="results/problems.csv",
         record="results/records/report.json",

@@ -64,7 +64,7 @@ MEANING = {
 }
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure, or of the page
 # Tables with a section of the report; their captions stand in files of the same names.
-SECTIONS = ("which_model", "trade", "stability")
+SECTIONS = ("which_model", "trade")
 NO_TIMES: TemplateValues = {"rows": [], "absent": []}
 
 
